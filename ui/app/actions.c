@@ -72,6 +72,7 @@ static bool has_history(const WrApp *app)
         wr_dialog_open(app, dialog);                                                               \
     }
 DIALOG(search, WR_DIALOG_SEARCH)
+DIALOG(preferences, WR_DIALOG_PREFERENCES)
 DIALOG(fill, WR_DIALOG_FILL)
 DIALOG(grid, WR_DIALOG_GRID)
 DIALOG(import, WR_DIALOG_IMPORT)
@@ -312,6 +313,7 @@ const WrAction wr_actions[] = {
     ROW(copy_shown, "Copy what is shown", wr_act_copy_shown, NULL, NULL),
     ROW(paste, "Paste", wr_act_paste, NULL, NULL),
     ROW(search, "Search actions...", search, NULL, NULL),
+    ROW(preferences, "Preferences...", preferences, NULL, NULL),
     ROW(brush, "Brush", tool_brush, NULL, NULL),
     ROW(smooth, "Smooth", tool_smooth, NULL, NULL),
     ROW(smear, "Smear", tool_smear, NULL, NULL),

@@ -12,6 +12,7 @@
 #include "ui/desk/roster.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
+#include "ui/panels/panel_preferences.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_objects.h"
 #include "ui/patch/patch_paint.h"
@@ -422,6 +423,7 @@ static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
 
 static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
 {
+    if (wr_preferences_take_key(app, event)) return;
     if (blocked(app) || wr_gui_wants_text(app->gui) || wr_gui_popup_open_now(app->gui)) return;
     int mods = wr_key_mods((SDL_Keymod)event->keysym.mod);
     if (event->keysym.sym == SDLK_SPACE && mods == 0) {

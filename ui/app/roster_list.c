@@ -15,6 +15,7 @@
 #include "ui/help/panel_help.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_layers.h"
+#include "ui/panels/panel_preferences.h"
 #include "ui/panels/panel_search.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panel_objects.h"
@@ -48,6 +49,7 @@ static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_ADJUST)] = { wr_dialog_adjust, true },
     [WR_ROW(WR_DIALOG_SELECT)] = { wr_dialog_select, true },
     [WR_ROW(WR_DIALOG_SEARCH)] = { wr_dialog_search, false },
+    [WR_ROW(WR_DIALOG_PREFERENCES)] = { wr_dialog_preferences, false },
     [WR_ROW(WR_DIALOG_RECOVER)] = { wr_dialog_recover, false },
     [WR_ROW(WR_DIALOG_PRESET)] = { wr_dialog_preset, false },
     [WR_ROW(WR_DIALOG_REPLACE)] = { wr_dialog_replace, false },

@@ -18,6 +18,7 @@
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_objects.h"
 #include "ui/panels/panel_scene.h"
+#include "ui/panels/panel_preferences.h"
 #include "ui/panels/panel_search.h"
 #include "ui/panels/panel_status.h"
 #include "ui/patch/patch.h"
@@ -57,6 +58,7 @@ typedef struct Store {
     WrAdjust adjust;
     WrOutlineAsk selecting;
     WrFinder finder;
+    WrPreferences preferences;
     WrSeam seam;
     WrCertificate certificate;
     WrMeter meter;
@@ -97,6 +99,7 @@ WrApp *wr_store_new(void)
     app->adjust = &store->adjust;
     app->selecting = &store->selecting;
     app->finder = &store->finder;
+    app->preferences = &store->preferences;
     app->seam = &store->seam;
     app->certificate = &store->certificate;
     app->meter = &store->meter;

@@ -20,6 +20,7 @@
     X(copy, "Ctrl+C")                                                                              \
     X(copy_shown, "Ctrl+Shift+C")                                                                  \
     X(paste, "Ctrl+V")                                                                             \
+    X(preferences, "Ctrl+,")                                                                       \
     X(search, "Ctrl+Return")                                                                       \
     X(brush, "B")                                                                                  \
     X(smooth, "Shift+U")                                                                           \

@@ -24,6 +24,7 @@ typedef struct WrDocumentHand WrDocumentHand;
 typedef struct WrDrawHand WrDrawHand;
 typedef struct WrFiles WrFiles;
 typedef struct WrFinder WrFinder;
+typedef struct WrPreferences WrPreferences;
 typedef struct WrForms WrForms;
 typedef struct WrGenerateHand WrGenerateHand;
 typedef struct WrGui WrGui;
@@ -141,6 +142,7 @@ struct WrApp {
     WrAdjust *adjust;
     WrOutlineAsk *selecting; /* of the dialogs that change the selection */
     WrFinder *finder;
+    WrPreferences *preferences;
     WrSeam *seam;
     WrCertificate *certificate;
     uint64_t seam_key; /* of the table and the scheme that both were measured on */

@@ -20,6 +20,7 @@ typedef enum WrDialog {
     WR_DIALOG_ADJUST,
     WR_DIALOG_SELECT,
     WR_DIALOG_SEARCH,
+    WR_DIALOG_PREFERENCES,
     WR_DIALOG_RECOVER,
     WR_DIALOG_PRESET,  /* the name of a preset to be saved */
     WR_DIALOG_REPLACE, /* a file that stands where one is to be written */

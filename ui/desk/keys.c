@@ -14,6 +14,8 @@
 static const char built_in[] = WR_ACTIONS(LINE) WR_HELD_ACTIONS(LINE) WR_FAMILY_ACTIONS(LINE);
 #undef LINE
 
+#define HASH "Hash" /* '#' begins a comment */
+
 typedef struct Binding {
     char *action; /* owned */
     WrKey key;
@@ -73,7 +75,8 @@ bool wr_key_parse(const char *text, size_t length, WrKey *key, WrError *err)
     name[end - at] = '\0';
     for (char *c = name; *c; c++)
         if (*c == '_' && c != name) *c = ' ';
-    if (strncmp(name, "Keypad", 6) != 0 && name[1] == '\0' && name[0] >= 'A' && name[0] <= 'Z')
+    if (strcmp(name, HASH) == 0) out.code = SDLK_HASH;
+    else if (strncmp(name, "Keypad", 6) != 0 && name[1] == '\0' && name[0] >= 'A' && name[0] <= 'Z')
         out.code = name[0] - 'A' + 'a';
     else out.code = SDL_GetKeyFromName(name);
     if (out.code == SDLK_UNKNOWN)
@@ -203,7 +206,9 @@ static void print_key(WrKey key, char *buffer, size_t size)
     bool only = key.code == SDLK_UNKNOWN;
     snprintf(buffer, size, "%s%s%s%s", key.mods & WR_MOD_CTRL ? "Ctrl+" : "",
              key.mods & WR_MOD_SHIFT ? "Shift+" : "", key.mods & WR_MOD_ALT ? "Alt+" : "",
-             only ? "" : SDL_GetKeyName(key.code));
+             only                    ? ""
+             : key.code == SDLK_HASH ? HASH
+                                     : SDL_GetKeyName(key.code));
     size_t length = strlen(buffer);
     if (only && length > 0) buffer[length - 1] = '\0'; /* the last plus */
 }
@@ -229,4 +234,85 @@ void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out)
         wr_text_addf(out, "%s%s", any ? "  " : "", name);
         any = true;
     }
+}
+
+/* ---- changing them ---- */
+
+const char *wr_keys_owner(const WrKeyMap *map, WrKey key)
+{
+    return find(map, key.code, key.mods);
+}
+
+void wr_keys_take(WrKeyMap *map, const char *action)
+{
+    drop_action(&map->bindings, action);
+}
+
+void wr_keys_give(WrKeyMap *map, const char *action, WrKey key)
+{
+    Bindings *bindings = &map->bindings;
+    int kept = 0;
+    drop_action(bindings, action);
+    for (int i = 0; i < bindings->count; i++) {
+        const WrKey has = bindings->data[i].key;
+        if (has.code == key.code && has.mods == key.mods) wr_free(bindings->data[i].action);
+        else bindings->data[kept++] = bindings->data[i];
+    }
+    bindings->count = kept;
+    wr_array_push(bindings, ((Binding){ wr_strdup(action), key }));
+}
+
+/* As one word. */
+static char *join(char *name)
+{
+    for (char *c = name; *c; c++)
+        if (*c == ' ') *c = '_';
+    return name;
+}
+
+/* "action: Ctrl+S Keypad_+\n" */
+static void print_line(const WrKeyMap *map, const char *action, WrText *out)
+{
+    char name[32];
+    wr_text_addf(out, "%s:", action);
+    for (int i = 0; i < map->bindings.count; i++) {
+        if (strcmp(map->bindings.data[i].action, action) != 0) continue;
+        print_key(map->bindings.data[i].key, name, sizeof name);
+        wr_text_addf(out, " %s", join(name));
+    }
+    wr_text_add(out, "\n");
+}
+
+/* Is the line about the action? */
+static bool is_of(const char *line, const char *action)
+{
+    const size_t length = strlen(action);
+    return strncmp(line, action, length) == 0 && line[length] == ':';
+}
+
+void wr_keys_edit(const WrKeyMap *map, const char *action, const char *text, WrText *out)
+{
+    for (const char *at = text; *at;) {
+        const size_t length = strcspn(at, "\n");
+        if (!is_of(at, action)) wr_text_addf(out, "%.*s\n", (int)length, at);
+        at += length + (at[length] == '\n');
+    }
+    print_line(map, action, out);
+}
+
+bool wr_key_can_be_given(SDL_Keycode code)
+{
+    static const SDL_Keycode never[] = { SDLK_UNKNOWN, SDLK_ESCAPE,     SDLK_LCTRL,
+                                         SDLK_RCTRL,   SDLK_LSHIFT,     SDLK_RSHIFT,
+                                         SDLK_LALT,    SDLK_RALT,       SDLK_LGUI,
+                                         SDLK_RGUI,    SDLK_MODE,       SDLK_CAPSLOCK,
+                                         SDLK_SPACE,   SDLK_SCROLLLOCK, SDLK_NUMLOCKCLEAR,
+                                         SDLK_MENU,    SDLK_APPLICATION };
+    for (size_t i = 0; i < sizeof never / sizeof *never; i++)
+        if (code == never[i]) return false;
+    char name[32];
+    WrKey key;
+    print_key((WrKey){ code, 0 }, name,
+              sizeof name); /* what a file would say of it is read as it */
+    return wr_key_parse(join(name), strlen(name), &key, NULL) && key.code == code && key.mods == 0;
 }

@@ -40,6 +40,19 @@ char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32]);
 /* All keys of an action, separated by two spaces. */
 void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out);
 
+/* ---- changing them ---- */
+
+/* The action that has a key, or NULL. */
+const char *wr_keys_owner(const WrKeyMap *map, WrKey key);
+/* The key is the action's, its only one, and nobody else's. */
+void wr_keys_give(WrKeyMap *map, const char *action, WrKey key);
+void wr_keys_take(WrKeyMap *map, const char *action); /* it has none any more */
+/* The text of a file of such lines, changed so that it says of the action what the map does; its other lines and its
+   comments stay. */
+void wr_keys_edit(const WrKeyMap *map, const char *action, const char *text, WrText *out);
+/* Can it be pressed for an action by itself: no key that is held, locks, or closes dialogs? */
+bool wr_key_can_be_given(SDL_Keycode code);
+
 /* ---- key_maps.c ---- */
 
 /* A whole map: what it changes of the built-in keys, as text. */

@@ -1,0 +1,85 @@
+/* Keys that are given anew: taken from whoever had them, and written so that a file of them, with its comments, says the
+   same when it is read. */
+#include "test.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "ui/desk/keys.h"
+
+#include <string.h>
+
+static WrKey key_of(const char *text)
+{
+    WrKey key;
+    WrError err;
+    if (!wr_key_parse(text, strlen(text), &key, &err)) fail_msg("%s", err.text);
+    return key;
+}
+
+static void a_key_is_taken_from_its_owner(void **state)
+{
+    (void)state;
+    char label[32];
+    WrKeyMap *map = wr_keys_new();
+    assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Y")), "redo");
+    wr_keys_give(map, "fill", key_of("Ctrl+Y"));
+    assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Y")), "fill");
+    assert_string_equal(wr_keys_label(map, "fill", label), "Ctrl+Y");
+    assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Shift+Z")), "redo"); /* its others stay */
+    wr_keys_give(map, "fill", key_of("Shift+F11")); /* and its own old ones go */
+    assert_null(wr_keys_owner(map, key_of("Ctrl+Y")));
+    wr_keys_take(map, "fill");
+    assert_null(wr_keys_owner(map, key_of("Shift+F11")));
+    assert_string_equal(wr_keys_label(map, "fill", label), "");
+    wr_keys_free(map);
+}
+
+/* What a file says after the edit is what the map says, and what was in it of others stays. */
+static void a_file_says_what_the_map_does(void **state)
+{
+    (void)state;
+    static const char *const keys[] = { "Ctrl+#", "Keypad_+", "Alt+Shift+PageUp",   "_",
+                                        ":",      ",",        "Ctrl+Shift+Alt+F12", "Left" };
+    static const char old[] = "# mine\n\nundo: F5 # both\nfill: F3\nredo:F6";
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        WrError err;
+        WrText out = { 0 };
+        WrKey key =
+            strcmp(keys[i], "Ctrl+#") == 0 ? (WrKey){ SDLK_HASH, WR_MOD_CTRL } : key_of(keys[i]);
+        WrKeyMap *map = wr_keys_new(), *read = wr_keys_new();
+        assert_true(wr_keys_read(map, old, &err));
+        wr_keys_give(map, "fill", key);
+        wr_keys_edit(map, "fill", old, &out);
+        const char *text = wr_text_get(&out);
+        assert_non_null(strstr(text, "# mine\n\nundo: F5 # both\nredo:F6\nfill: "));
+        assert_null(strstr(text, "F3"));
+        if (!wr_keys_read(read, text, &err)) fail_msg("%s: %s", text, err.text);
+        assert_string_equal(wr_keys_owner(read, key), "fill");
+        wr_text_fini(&out);
+        wr_keys_free(map);
+        wr_keys_free(read);
+    }
+}
+
+static void what_may_be_given_is_read_back(void **state)
+{
+    (void)state;
+    static const SDL_Keycode not [] = { SDLK_ESCAPE, SDLK_LSHIFT, SDLK_RALT, SDLK_UNKNOWN,
+                                        SDLK_SPACE };
+    static const SDL_Keycode may[] = { SDLK_a,        SDLK_z,      SDLK_HASH,     SDLK_UNDERSCORE,
+                                       SDLK_KP_PLUS,  SDLK_PAGEUP, SDLK_F12,      SDLK_LEFT,
+                                       SDLK_DELETE,   0xe4,        SDLK_KP_ENTER, SDLK_COLON,
+                                       SDLK_BACKQUOTE };
+    for (size_t i = 0; i < sizeof not / sizeof *not ; i++)
+        assert_false(wr_key_can_be_given(not [i]));
+    for (size_t i = 0; i < sizeof may / sizeof *may; i++)
+        if (!wr_key_can_be_given(may[i])) fail_msg("%s", SDL_GetKeyName(may[i]));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(a_key_is_taken_from_its_owner),
+                                        cmocka_unit_test(a_file_says_what_the_map_does),
+                                        cmocka_unit_test(what_may_be_given_is_read_back) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
