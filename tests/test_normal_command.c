@@ -366,6 +366,19 @@ static void a_map_along_the_axes_gives_the_bumped_picture(void **state)
     }
 }
 
+/* Some of so many numbers stand half way between two codes, as near as floats tell. */
+static void numbers_between_two_codes_are_written_too(void **state)
+{
+    (void)state;
+    Said said = { "" };
+    WrSession *s = told_session(&said);
+    must_run(s, "table 300x300");
+    must_run(s, "noise gradient cells=8 octaves=6");
+    must_run(s, "surface mesh");
+    must_run(s, "export normal-baked half.png");
+    wr_session_free(s);
+}
+
 /* Of a mesh, by MikkTSpace: shaded by those frames it is the bumped picture. */
 static void a_baked_map_gives_the_bumped_picture(void **state)
 {
@@ -405,6 +418,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_was_taken_is_told),
+        cmocka_unit_test(numbers_between_two_codes_are_written_too),
         cmocka_unit_test(settings_change_without_the_file),
         cmocka_unit_test(the_space_changes_without_the_file),
         cmocka_unit_test(what_makes_no_sense_is_refused),

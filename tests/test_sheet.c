@@ -44,6 +44,29 @@ static void pictures_are_the_codes_of_their_files(void **state)
     wr_session_free(session);
 }
 
+/* Of floats the largest, by its size, is white or black, and 0 the middle. */
+static void pictures_of_floats_go_to_the_ends(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(lines);
+    const WrExportOptions options = wr_export_default();
+    WrExportPicture picture;
+    WrError err = { "" };
+    int low = 255, high = 0;
+    if (!wr_export_picture(wr_export_find("slopes"), doc(session), &options, NULL, &picture, &err))
+        fail_msg("%s", err.text);
+    for (int i = 0; i < 31 * 27; i++) {
+        for (int c = 0; c < 2; c++) {
+            const int code = picture.rgb[3 * i + c];
+            low = code < low ? code : low, high = code > high ? code : high;
+        }
+        assert_in_range(picture.rgb[3 * i + 2], 127, 128);
+    }
+    assert_true(low == 0 || high == 255);
+    wr_export_picture_fini(&picture);
+    wr_session_free(session);
+}
+
 static void drawings_have_no_picture(void **state)
 {
     (void)state;
@@ -110,6 +133,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_are_the_codes_of_their_files),
+        cmocka_unit_test(pictures_of_floats_go_to_the_ends),
         cmocka_unit_test(drawings_have_no_picture),
         cmocka_unit_test(every_height_is_counted_once),
         cmocka_unit_test(a_document_keeps_what_the_sheet_was_told),

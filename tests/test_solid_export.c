@@ -197,6 +197,31 @@ static void a_flat_plane_is_a_box(void **state)
     wr_document_free(document);
 }
 
+/* HC155: the smallest tables; as thick under the lowest sample as was asked, however low that lies. */
+static void hc155_the_smallest_tables_are_closed_too(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = { { 1, 1 }, { 2, 2 }, { 1, 3 }, { 3, 2 } };
+    for (int k = 0; k < 4; k++) {
+        const int w = sizes[k][0], h = sizes[k][1];
+        WrExportReport report;
+        WrDocument *document = document_of(w, h, 0, WR_WRAP_PERIODIC);
+        WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+        for (int i = 0; i < w * h; i++)
+            wr_field_set(field, i % w, i / w, -7.3f + (float)(i * i % 5) * 0.61f);
+        wr_field_free(document->layers[0].heights);
+        document->layers[0].heights = field;
+        Body body = export_body(document, "stl", "size=41.3 error=0.01 thickness=1.7", &report);
+        const double area = report.solid_size[0] * report.solid_size[1];
+        assert_int_equal(check_closed(&body.mesh, "small"), 2);
+        assert_true(body.volume > area * 1.7 * (1 - 1e-6));
+        assert_true(body.volume < area * report.solid_size[2] * (1 + 1e-6));
+        if (w * h == 1) assert_near(report.solid_size[2], 1.7, 1e-5);
+        wr_mesh_fini(&body.mesh);
+        wr_document_free(document);
+    }
+}
+
 /* Corners lie on the surface, so a convex body is smaller, by no more than its error all over. */
 static void smooth_bodies_have_the_volumes_of_their_formulas(void **state)
 {
@@ -410,6 +435,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_plane_is_a_box),
+        cmocka_unit_test(hc155_the_smallest_tables_are_closed_too),
         cmocka_unit_test(smooth_bodies_have_the_volumes_of_their_formulas),
         cmocka_unit_test(every_surface_is_closed),
         cmocka_unit_test(no_texel_is_farther_off_than_was_asked),

@@ -83,7 +83,8 @@ static double degrees(double turned)
 static double normal_error(const WrExportJob *job, const float *have, const float *want, bool *bad)
 {
     const bool codes = job->options.depth != 32;
-    const double bound = codes               ? code_bound(job) / wr_export_last_code(job)
+    /* 2^-24: both are floats of up to 1. */
+    const double bound = codes               ? code_bound(job) / wr_export_last_code(job) + 0x1p-24
                          : job->options.half ? 0x1p-12
                                              : 0.0;
     bool same = true;

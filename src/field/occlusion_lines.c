@@ -342,8 +342,7 @@ static void open_lines(Lines *l)
               more = l->turns_across || drift > 0 ? 0 : -drift;
     l->first = -less - (less > 0 ? LANES : 0);
     l->stripes = (l->across + more + (more > 0 ? LANES : 0) - l->first + LANES - 1) / LANES;
-    l->closes = l->turns_along && l->ahead == l->along && l->along % l->course.q == 0 &&
-                drift % l->across == 0 && (drift == 0 || l->turns_across);
+    l->closes = l->ahead == l->along; /* no other line has that period */
     l->texels = l->sky->part->pitch * (size_t)l->sky->part->h;
 }
 
