@@ -244,4 +244,43 @@ settle
 xdotool key ctrl+q
 ends 0
 
+# ---- strokes go to the mask; what is selected is moved by hand, copied and pasted ----
+cat >masked.wrinkle <<'END'
+table 512x512
+bump height=1
+fill 1
+layer add top
+fill 1
+layer mask 2 from=black
+select rect from=0.25,0.25 to=0.75,0.75
+END
+configure 'mode 0'
+start masked.wrinkle
+key alt+m
+becomes 'layer use 2 part=mask' "the mask is painted on"
+drag $((cx - 50)) $((cy - 60)) 5 0 20
+becomes 'stroke *mode=raise*' "a stroke on the mask"
+key alt+m
+key ctrl+t
+drag $cx $cy 5 0 8
+rest
+key Return
+becomes 'transform move=*,0' "a piece moved by a drag"
+moved=$(newest | sed -E 's/.*move=([0-9]+),0/\1/')
+[[ ${moved:-0} -gt 10 ]] || complain "a drag of 40 pixels moves by ${moved:-nothing}"
+key b
+key ctrl+c
+has_copied() { compgen -G 'state/wrinkle/clipboard/copy-*.exr' >/dev/null; }
+until_true 120 "the copy" has_copied
+rest
+key ctrl+v
+rest
+key Return
+becomes 'picture paste *clipboard/copy-*' "what was copied is pasted"
+home
+save_as pasted.exr
+near "$(height pasted.exr 0.1 0.1)" 1 || complain "a mask that hides all shows $(height pasted.exr 0.1 0.1)"
+xdotool key ctrl+q
+ends 0
+
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }

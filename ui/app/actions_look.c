@@ -106,3 +106,33 @@ bool wr_is_theme_contrast(const WrApp *app)
 {
     return app->settings->theme == WR_THEME_CONTRAST;
 }
+
+/* ---- the grid ---- */
+
+void wr_act_grid(WrApp *app)
+{
+    app->settings->grid = !app->settings->grid;
+    wr_app_redraw(app);
+}
+
+bool wr_is_grid(const WrApp *app)
+{
+    return app->settings->grid;
+}
+
+static void parts(WrApp *app, int count)
+{
+    app->settings->grid = true;
+    app->settings->grid_parts = count < 1 ? 1 : count > 256 ? 256 : count;
+    wr_app_redraw(app);
+}
+
+void wr_act_grid_finer(WrApp *app)
+{
+    parts(app, app->settings->grid_parts * 2);
+}
+
+void wr_act_grid_coarser(WrApp *app)
+{
+    parts(app, app->settings->grid_parts / 2);
+}

@@ -4,6 +4,10 @@
 
 typedef struct WrApp WrApp;
 
+void wr_act_grid(WrApp *app);
+void wr_act_grid_finer(WrApp *app);
+void wr_act_grid_coarser(WrApp *app);
+bool wr_is_grid(const WrApp *app);
 void wr_act_look_grey(WrApp *app);
 void wr_act_look_signed(WrApp *app);
 bool wr_is_grey(const WrApp *app);

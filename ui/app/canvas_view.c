@@ -17,6 +17,7 @@
 #include "ui/tools/stroke_hand.h"
 #include "ui/tools/symmetry.h"
 #include "ui/tools/tool.h"
+#include "ui/views/grid.h"
 #include "ui/views/marks.h"
 #include "ui/views/panel_seam.h"
 
@@ -282,6 +283,7 @@ void wr_canvas_view_overlay(WrApp *app)
     if (room->w <= 0) return;
     wr_gui_draw_clip(*room);
     pixel_grid(app);
+    wr_grid_draw(app);
     cell_outline(app);
     patch_mark(app);
     const WrTool *tool = wr_tool_now(app);

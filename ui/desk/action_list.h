@@ -138,6 +138,9 @@
     X(range_auto, "Alt+R")                                                                         \
     X(range_unit, "")                                                                              \
     X(range_marks, "")                                                                             \
+    X(view_grid, "Alt+G")                                                                          \
+    X(grid_finer, "")                                                                              \
+    X(grid_coarser, "")                                                                            \
     X(ants, "")                                                                                    \
     X(accuracy, "F6")                                                                              \
     X(accuracy_measure, "")                                                                        \

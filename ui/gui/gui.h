@@ -108,7 +108,7 @@ int wr_gui_px(double units); /* units as whole pixels */
 #define WR_ICON_DOTS "\xef\x87\x98"      /* f1d8 dots-horizontal */
 #define WR_ICON_WAND "\xef\x81\xa8"      /* f068 auto-fix */
 #define WR_ICON_DICE "\xef\x87\x8e"      /* f1ce dice-5 */
-#define WR_ICON_TRANSFORM "\xef\x99\x95" /* f655 move-resize */
+#define WR_ICON_TRANSFORM "\xef\x97\x86" /* f5c6 vector-rectangle */
 #define WR_ICON_GRID "\xef\x95\xb3"      /* f573 view-module */
 
 /* ---- areas: fixed rectangles that hold widgets ---- */

@@ -204,7 +204,8 @@ void wr_dialog_adjust(WrApp *app)
     if (help[0] >= 'a' && help[0] <= 'z') help[0] = (char)(help[0] - 'a' + 'A');
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, help);
     wr_gui_space(4);
-    bool changed = parameters(app);
+    bool changed = strcmp(op->name, "levels") == 0 && wr_levels_pad(app);
+    changed |= parameters(app);
     changed |= half_cell(app);
     changed |= which_layers(app);
     if (wr_app_document(app)->selection)

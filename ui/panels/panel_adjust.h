@@ -8,17 +8,31 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* How often heights are there, from the lowest to the highest. */
+#define WR_HEIGHT_BINS 160
+typedef struct WrHeightCounts {
+    uint64_t key; /* of the table that was counted; 0: none */
+    double low, high;
+    unsigned most, count[WR_HEIGHT_BINS];
+} WrHeightCounts;
+
 /* What the dialog of an operation holds. */
 typedef struct WrAdjust {
     const WrOpInfo *op; /* NULL: none */
     double param[WR_OP_PARAMS];
-    int layers;        /* 0 the active one, 1 all */
-    uint64_t asked_at; /* the document's revision when it was tried last */
-    WrCanvasView view; /* as it was before */
+    int layers;               /* 0 the active one, 1 all */
+    uint64_t asked_at;        /* the document's revision when it was tried last */
+    WrCanvasView view;        /* as it was before */
+    WrHeightCounts histogram; /* of levels */
+    int held;                 /* on it: 1 the low end, 2 the high one; 0: neither */
+    struct {
+        double low, high;
+    } held_span; /* what it showed then */
 } WrAdjust;
 
 /* The operation of an action "adjust_NAME", or NULL. */
 const WrOpInfo *wr_action_op(const char *name);
 void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op);
 void wr_dialog_adjust(WrApp *app);
+bool wr_levels_pad(WrApp *app); /* levels_pad.c; true if a value was dragged */
 bool wr_adjust_by_name(WrApp *app, const char *name); /* "adjust_NAME"; see WrActionFamily */

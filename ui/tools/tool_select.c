@@ -15,6 +15,7 @@
 #include "ui/gui/theme.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
+#include "ui/views/grid.h"
 #include "ui/views/marks.h"
 
 #include "base/array.h"
@@ -79,10 +80,10 @@ static void corners(const WrApp *app, const WrPointer *at, double box[4])
 {
     double x, y;
     texel_at(app, at, &x, &y);
-    box[0] = rint(app->select->x);
-    box[1] = rint(app->select->y);
-    box[2] = rint(x);
-    box[3] = rint(y);
+    box[0] = rint(wr_grid_snap(app, 0, app->select->x));
+    box[1] = rint(wr_grid_snap(app, 1, app->select->y));
+    box[2] = rint(wr_grid_snap(app, 0, x));
+    box[3] = rint(wr_grid_snap(app, 1, y));
 }
 
 static void follow(WrApp *app, const WrPointer *at)

@@ -14,6 +14,7 @@
 #include "ui/tools/option.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
+#include "ui/views/grid.h"
 #include "ui/views/overlay.h"
 
 #include "base/text.h"
@@ -207,18 +208,18 @@ static void press(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-/* One of the piece's edges or its middle onto one of the cell's, where they are near. */
-static double snapped(double move, double from, double count, double cell, double near)
+/* One of the piece's edges or its middle onto one of the cell's, or onto the grid, where they are near. */
+static double snapped(const WrApp *app, int axis, double move, double from, double count)
 {
-    double best = move, least = near;
-    for (int k = 0; k < 3; k++)
-        for (int edge = 0; edge < 2; edge++) {
-            double at = from + 0.5 * k * count + move, line = edge ? 0.5 * cell : 0.0;
-            double way = line + cell * rint((at - line) / cell) - at;
-            if (fabs(way) >= least) continue;
-            least = fabs(way);
-            best = move + way;
-        }
+    const double cell = axis ? app->view->table_h : app->view->table_w;
+    double grid = wr_grid_step(app, axis), step = grid > 0.0 ? grid : 0.5 * cell;
+    double best = move, least = texels(app, SNAP_UNITS);
+    for (int k = 0; k < 3; k++) {
+        double at = from + 0.5 * k * count + move, way = step * rint(at / step) - at;
+        if (fabs(way) >= least) continue;
+        least = fabs(way);
+        best = move + way;
+    }
     return best;
 }
 
@@ -230,9 +231,8 @@ static void move(WrApp *app, const WrPointer *at, const double way[2])
     m[0] += hand->first.move[0];
     m[1] -= hand->first.move[1];
     if (!(at->mods & WR_MOD_ALT)) {
-        double near = texels(app, SNAP_UNITS);
-        m[0] = rint(snapped(m[0], hand->box.i, hand->box.count_i, app->view->table_w, near));
-        m[1] = rint(snapped(m[1], hand->box.j, hand->box.count_j, app->view->table_h, near));
+        m[0] = rint(snapped(app, 0, m[0], hand->box.i, hand->box.count_i));
+        m[1] = rint(snapped(app, 1, m[1], hand->box.j, hand->box.count_j));
     }
     hand->now.move[0] = m[0];
     hand->now.move[1] = -m[1];
