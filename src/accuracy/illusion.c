@@ -159,7 +159,7 @@ static double squares(const float *a, const float *b, float *most)
 
 static void compare(const Pictures *p, WrIllusion *out)
 {
-    const size_t count = (size_t)out->width * (size_t)out->height_px;
+    const size_t count = (size_t)out->width * (size_t)out->height;
     double shading = 0, shadow = 0, all = 0;
     for (size_t i = 0; i < count; i++) {
         const float *b = p->rgba[BUMPED] + 4 * i, *d0 = p->rgba[RAISED] + 4 * i;
@@ -243,8 +243,8 @@ bool wr_illusion_measure(const WrIllusionRequest *request, WrIllusion *out, WrEr
                        request->width, request->height, WR_ILLUSION_MOST);
     if (!any_to_move(request, err)) return false;
     WrIllusion made = { .width = request->width,
-                        .height_px = request->height,
-                        .height = request->scene->height,
+                        .height = request->height,
+                        .bump_height = request->scene->height,
                         .rise = -1 };
     Pictures p = { .request = request, .pool = wr_pool_new(request->threads) };
     const bool good =

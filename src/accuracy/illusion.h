@@ -19,7 +19,7 @@ typedef struct WrScene WrScene;
 typedef struct WrText WrText;
 
 typedef struct WrIllusion {
-    int width, height_px;
+    int width, height;   /* pixels */
     int64_t common;      /* pixels that all three cover whole: what rms is over */
     double outline;      /* square pixels: the integral of |coverage of B - that of D| */
     double perimeter;    /* pixels: of B's outline */
@@ -31,9 +31,9 @@ typedef struct WrIllusion {
     double all;          /* rms of D - B */
     double way_mean,
         way; /* pixels between where a place is seen and where bump shows it: mean and largest */
-    double rise;   /* pixels that F could move a point, at most; -1: not known */
-    double height; /* of the object at hand: `bump height=` */
-    float *map;    /* [height][width][3]: outline, shading, shadow of each pixel; owned */
+    double rise;        /* pixels that F could move a point, at most; -1: not known */
+    double bump_height; /* of the object at hand: `bump height=` */
+    float *map;         /* [height][width][3]: outline, shading, shadow of each pixel; owned */
 } WrIllusion;
 
 typedef struct WrIllusionRequest {

@@ -18,7 +18,7 @@ static void add_outline(const WrIllusion *it, WrText *text)
         wr_text_addf(text, "The outline is up to %.3g pixels off. ", moved);
         if (it->rise > 0)
             wr_text_addf(text, "Below height %.3g no point moves by half a pixel. ",
-                         fabs(it->height) * SEEN / it->rise);
+                         fabs(it->bump_height) * SEEN / it->rise);
     }
 }
 
@@ -32,7 +32,7 @@ static void add_inside(const WrIllusion *it, WrText *text)
             text,
             "Places are %.2g pixels from where bump shows them, %.2g at most: below height "
             "%.3g not half a pixel. ",
-            it->way_mean, it->way, fabs(it->height) * SEEN / it->way);
+            it->way_mean, it->way, fabs(it->bump_height) * SEEN / it->way);
     if (it->shadow < CODE) wr_text_add(text, "Shadows of the relief make no difference.");
     else if (it->shadow > it->shading)
         wr_text_add(text, "Most of it is shadow: material shadow=on brings that to bump mapping.");
@@ -74,7 +74,7 @@ void wr_illusion_text(const WrIllusion *illusion, const char *name, WrText *text
     Number numbers[NUMBERS];
     numbers_of(illusion, numbers);
     wr_text_addf(text, "%s%s%d x %d pixels: bump mapping beside displacement\n\n", name,
-                 name[0] ? ", " : "", illusion->width, illusion->height_px);
+                 name[0] ? ", " : "", illusion->width, illusion->height);
     for (int i = 0; i < NUMBERS; i++)
         wr_text_addf(text, "%-32s %10.4g\n", numbers[i].words, numbers[i].value);
     wr_text_add(text, "\n");
@@ -90,7 +90,7 @@ void wr_illusion_json(const WrIllusion *illusion, const char *name, WrText *text
     wr_illusion_advice(illusion, &advice);
     wr_text_add(text, "{\"document\":");
     wr_text_add_json_string(text, name);
-    wr_text_addf(text, ",\"width\":%d,\"height\":%d", illusion->width, illusion->height_px);
+    wr_text_addf(text, ",\"width\":%d,\"height\":%d", illusion->width, illusion->height);
     for (int i = 0; i < NUMBERS; i++) {
         wr_text_addf(text, ",\"%s\":", numbers[i].name);
         wr_text_add_json_number(text, numbers[i].value);

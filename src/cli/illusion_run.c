@@ -28,13 +28,13 @@ static uint8_t code_of(double value)
 /* Red outline, green shading, blue shadow. */
 static bool write_map(const WrIllusion *it, const char *path, WrError *err)
 {
-    const size_t pixels = (size_t)it->width * (size_t)it->height_px;
+    const size_t pixels = (size_t)it->width * (size_t)it->height;
     uint8_t *rgb = wr_try_alloc(pixels, 3, "the map", err);
     if (!rgb) return false;
     for (size_t i = 0; i < 3 * pixels; i++)
         rgb[i] = code_of((double)it->map[i] / (i % 3 == 0 ? 1 : FULL_SCALE));
     const bool good =
-        wr_image_write_pixels(path, it->width, it->height_px, 3, WR_PIXEL_U8, true, rgb, err);
+        wr_image_write_pixels(path, it->width, it->height, 3, WR_PIXEL_U8, true, rgb, err);
     wr_free(rgb);
     return good;
 }

@@ -6,7 +6,6 @@
 #include "field/analytic.h"
 #include "field/ground.h"
 #include "scene/scene.h"
-#include "system/thread.h"
 
 #include <math.h>
 
@@ -84,38 +83,32 @@ static int64_t derive_row(const WrExportJob *job, const Rows *rows, int y, Deriv
 
 /* ---- the range ---- */
 
-typedef struct Extent {
-    WrMutex lock;
+typedef struct Deriving {
+    WrExtent extent;
     Derive *derive;
-    double low, high;
-} Extent;
+} Deriving;
 
 static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
 {
-    Extent *extent = ctx;
+    Deriving *deriving = ctx;
     double low = INFINITY, high = -INFINITY;
     double *row = wr_alloc((size_t)job->width, sizeof *row);
     Rows stretch = open_rows(job, y, rows);
     for (int j = 0; j < rows; j++) {
-        derive_row(job, &stretch, y + j, extent->derive, row);
+        derive_row(job, &stretch, y + j, deriving->derive, row);
         for (int i = 0; i < job->width; i++) low = fmin(low, row[i]), high = fmax(high, row[i]);
     }
     close_rows(&stretch);
     wr_free(row);
-    wr_mutex_lock(&extent->lock);
-    extent->low = fmin(extent->low, low);
-    extent->high = fmax(extent->high, high);
-    wr_mutex_unlock(&extent->lock);
+    wr_export_extent_add(&deriving->extent, low, high);
 }
 
 static void find_range(WrExportJob *job, Derive *derive, const char *quantity)
 {
-    Extent extent = { .derive = derive, .low = INFINITY, .high = -INFINITY };
-    wr_mutex_init(&extent.lock);
-    wr_export_run(job, 0, job->height, find_extent, &extent);
-    wr_mutex_fini(&extent.lock);
-    job->report.low = extent.low;
-    job->report.high = extent.high;
+    Deriving deriving = { .derive = derive };
+    wr_export_extent_init(&deriving.extent);
+    wr_export_run(job, 0, job->height, find_extent, &deriving);
+    wr_export_extent_take(&deriving.extent, &job->report);
     job->report.quantity = quantity;
 }
 

@@ -6,7 +6,6 @@
 #include "field/scheme.h"
 #include "image/image.h"
 #include "scene/scene.h"
-#include "system/thread.h"
 
 #include <math.h>
 
@@ -51,14 +50,9 @@ int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out)
 
 /* ---- the range of a formula: sampled like the file itself ---- */
 
-typedef struct Extent {
-    WrMutex lock;
-    double low, high;
-} Extent;
-
 static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
 {
-    Extent *extent = ctx;
+    WrExtent *extent = ctx;
     float *row = wr_alloc((size_t)job->width, sizeof *row);
     double low = INFINITY, high = -INFINITY;
     for (int j = 0; j < rows; j++) {
@@ -69,25 +63,20 @@ static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
         }
     }
     wr_free(row);
-    wr_mutex_lock(&extent->lock);
-    extent->low = low < extent->low ? low : extent->low;
-    extent->high = high > extent->high ? high : extent->high;
-    wr_mutex_unlock(&extent->lock);
+    wr_export_extent_add(extent, low, high);
 }
 
 /* Smallest and largest F into the report. */
 static void find_range(WrExportJob *job)
 {
     if (job->analytic || job->options.border) {
-        Extent extent = { .low = INFINITY, .high = -INFINITY };
-        wr_mutex_init(&extent.lock);
+        WrExtent extent;
+        wr_export_extent_init(&extent);
         for (int y = 0; y < job->height; y += WR_IMAGE_STRIP) {
             int rows = job->height - y < WR_IMAGE_STRIP ? job->height - y : WR_IMAGE_STRIP;
             wr_export_run(job, y, rows, find_extent, &extent);
         }
-        wr_mutex_fini(&extent.lock);
-        job->report.low = extent.low;
-        job->report.high = extent.high;
+        wr_export_extent_take(&extent, &job->report);
     } else {
         float low, high;
         wr_field_range(job->field, &low, &high);

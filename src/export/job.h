@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "export/export.h"
 #include "image/image.h"
+#include "system/thread.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -66,6 +67,17 @@ struct WrExportPicture;
 bool wr_export_picture_like(const WrExportJob *job, const WrExportKind *kind,
                             struct WrExportPicture *picture, WrError *err);
 bool wr_export_contact_write(WrExportJob *job, const char *path, WrError *err);
+
+/* Smallest and largest number of all pieces, found on several threads. */
+typedef struct WrExtent {
+    WrMutex lock;
+    double low, high;
+} WrExtent;
+void wr_export_extent_init(WrExtent *extent);
+/* What one piece has. */
+void wr_export_extent_add(WrExtent *extent, double low, double high);
+/* Into the report; the extent is done with. */
+void wr_export_extent_take(WrExtent *extent, WrExportReport *report);
 
 /* A new attribute's text, to be filled. */
 WrText *wr_export_attribute(WrExportJob *job, const char *name);

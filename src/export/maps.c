@@ -8,7 +8,6 @@
 #include "field/occlusion.h"
 #include "scene/scene.h"
 #include "shade/reflect.h"
-#include "system/thread.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -52,14 +51,9 @@ static WrField *sampled(WrExportJob *job, WrError *err)
     return field;
 }
 
-typedef struct Extent {
-    WrMutex lock;
-    double low, high;
-} Extent;
-
 static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
 {
-    Extent *extent = ctx;
+    WrExtent *extent = ctx;
     const size_t row = (size_t)job->width * (size_t)job->channels;
     const float *at = job->map + (size_t)y * row;
     float low = at[0], high = at[0];
@@ -67,20 +61,15 @@ static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
         low = at[i] < low ? at[i] : low;
         high = at[i] > high ? at[i] : high;
     }
-    wr_mutex_lock(&extent->lock);
-    extent->low = fmin(extent->low, (double)low);
-    extent->high = fmax(extent->high, (double)high);
-    wr_mutex_unlock(&extent->lock);
+    wr_export_extent_add(extent, (double)low, (double)high);
 }
 
 void wr_export_map_range(WrExportJob *job, const char *quantity)
 {
-    Extent extent = { .low = INFINITY, .high = -INFINITY };
-    wr_mutex_init(&extent.lock);
+    WrExtent extent;
+    wr_export_extent_init(&extent);
     wr_export_run(job, 0, job->height, find_extent, &extent);
-    wr_mutex_fini(&extent.lock);
-    job->report.low = extent.low;
-    job->report.high = extent.high;
+    wr_export_extent_take(&extent, &job->report);
     job->report.quantity = quantity;
 }
 

@@ -67,6 +67,27 @@ void wr_export_picture_fini(WrExportPicture *picture)
 
 /* ---- numbers ---- */
 
+void wr_export_extent_init(WrExtent *extent)
+{
+    extent->low = INFINITY, extent->high = -INFINITY;
+    wr_mutex_init(&extent->lock);
+}
+
+void wr_export_extent_add(WrExtent *extent, double low, double high)
+{
+    wr_mutex_lock(&extent->lock);
+    extent->low = fmin(extent->low, low);
+    extent->high = fmax(extent->high, high);
+    wr_mutex_unlock(&extent->lock);
+}
+
+void wr_export_extent_take(WrExtent *extent, WrExportReport *report)
+{
+    wr_mutex_fini(&extent->lock);
+    report->low = extent->low;
+    report->high = extent->high;
+}
+
 static void count_row(const float *row, int width, WrHistogram *out)
 {
     const double scale = out->high > out->low ? WR_HISTOGRAM / (out->high - out->low) : 0;
