@@ -107,6 +107,8 @@ static const char *const lines[] = {
     "colour big.exr",
     "colouring ramp",
     "normalmap big.exr",
+    "roughness big.exr",
+    "metalness big.exr",
     "environment big.exr",
     "save new.exr",
     "save new.ora",

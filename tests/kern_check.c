@@ -151,8 +151,8 @@ static void bench_init(Bench *b, TestRandom *random)
                         .scale_u = 0.3f,
                         .scale_v = 0.2f };
     b->colour = (WrColourLook){ b->rgba, SIDE + 2, SIDE, SIDE, 3, 2, true, true };
-    b->light[0] = (WrKernLight){ false, { 0.6f, 0, 0.8f }, { 1, 0.9f, 0.8f }, 0 };
-    b->light[1] = (WrKernLight){ true, { 1, 3, 5 }, { 0.5f, 0.9f, 1 }, 0 };
+    b->light[0] = (WrKernLight){ false, { 0.6f, 0, 0.8f }, { 1, 0.9f, 0.8f }, 0, false };
+    b->light[1] = (WrKernLight){ true, { 1, 3, 5 }, { 0.5f, 0.9f, 1 }, 0, false };
 }
 
 static void bench_fini(Bench *b)
@@ -356,6 +356,80 @@ static bool run_surround(const WrKernels *k, Bench *b, int member, int count)
     return member < 8;
 }
 
+/* Smooth in roughness and in n.v, as shares of light are. */
+static void fill_shares(float (*of)[WR_VARY_TERMS], float first)
+{
+    for (int i = 0; i < WR_VARY_STEPS * WR_ALBEDO_TERMS; i++) {
+        const int step = i / WR_ALBEDO_TERMS, term = i % WR_ALBEDO_TERMS;
+        of[step][term] = (first - 0.043f * (float)term) * (1 - 0.021f * (float)step);
+    }
+}
+
+/* Roughness and metalness by sample: models of reflection, surroundings' diffuse light, what is mirrored. */
+static bool run_vary(const WrKernels *k, Bench *b, int member, int count)
+{
+    static const WrReflect models[] = { WR_REFLECT_TORRANCE_SPARROW, WR_REFLECT_OREN_NAYAR,
+                                        WR_REFLECT_GGX };
+    const WrKernMatter matter = { .kd = 0.7f,
+                                  .ks = 0.4f,
+                                  .colour = { 0.8f, 0.7f, 0.6f },
+                                  .scale = 0.25f,
+                                  .ior = 1.5f,
+                                  .f0 = 0.04f };
+    float texels[2][4 * 8 * 6];
+    WrKernSurround how = { .kd = 0.7f, .colour = { 0.8f, 0.7f, 0.6f } };
+    WrKernMirror mirror = { .axes = { 0.6f, 0, 0.8f, 0, 1, 0, -0.8f, 0, 0.6f }, .strength = 1.3f };
+    WrKernVary vary = { .metals = true, .again_twice = member & 1, .alike = member & 2 };
+    WrStrip *s = &b->strip;
+    s->count = count;
+    memcpy(s->rough, s->cr, sizeof s->rough);
+    memcpy(s->metal, s->cg, sizeof s->metal);
+    s->rough[2] = -0.5f, s->rough[4] = 0, s->rough[6] = 1, s->rough[8] = 1.5f, s->metal[1] = 2;
+    for (int i = 0; i < 4 * 8 * 6; i++) {
+        texels[0][i] = 0.1f + 0.037f * (float)(i * 5 % 23);
+        texels[1][i] = 0.2f + 0.029f * (float)(i * 7 % 19);
+    }
+    for (int i = 0; i < 3 * WR_FORM_TERMS; i++)
+        how.form[i / WR_FORM_TERMS][i % WR_FORM_TERMS] = 0.9f - 0.057f * (float)i;
+    for (int i = 0; i < WR_VARY_STEPS; i++)
+        vary.mean[i] = 0.9f - 0.01f * (float)i, vary.again[i] = 0.3f + 0.2f * (float)i;
+    fill_shares(vary.albedo, 0.4f), fill_shares(vary.matt, 0.6f), fill_shares(vary.twice, 0.1f);
+    for (int i = 0; i < 2; i++)
+        fill_shares(vary.own[i], 0.2f + 0.3f * (float)i), fill_shares(vary.white[i], 0.37f);
+    for (int i = 0; i < WR_VARY_RUNGS; i++)
+        vary.rung[i] = (WrKernRung){ texels[i % 2] + 4 * 9, 8, 6 - i % 2, 4 };
+    if (member < 18)
+        k->reflect_vary(&b->light[0], &matter, &vary, models[member / 6], member % 2,
+                        (WrReflectSpread)(member % 6 / 2), s);
+    else if (member < 20) k->surround_vary(&how, &vary, s);
+    else if (member < 24) k->mirror_vary(&mirror, &vary, member & 1, s);
+    return member < 24;
+}
+
+/* Lamps of either kind, hard and round, over a table's horizons; how open it is; what is kept. Shares are compared in the
+   strip. */
+static bool run_shadow(const WrKernels *k, Bench *b, int member, int count)
+{
+    enum { WIDE = 7, HIGH = 5, WAYS = 8 };
+    float slope[WAYS * (WIDE + 1) * (HIGH + 1)], share[WR_SPAN] = { 0 };
+    WrKernHorizon horizon = { slope, slope, WIDE, HIGH, WAYS, 3.3f, -2.7f, 0.31f, 0 };
+    WrKernLight light = b->light[member & 1];
+    WrStrip *s = &b->strip;
+    s->count = count;
+    for (int i = 0; i < WAYS * (WIDE + 1) * (HIGH + 1); i++) {
+        slope[i] = 0.05f * (float)(i * 7 % 13);
+        horizon.steepest = fmaxf(horizon.steepest, slope[i]);
+    }
+    light.radius = member & 2 ? 0.3 : 0;
+    for (int i = 0; i < count; i += 3) /* faces the viewer, whatever n' is */
+        s->bx[i] = s->nx[i], s->by[i] = s->ny[i], s->bz[i] = s->nz[i];
+    if (member < 4) s->count += 100 * (int)k->shadow(&light, &horizon, s, share);
+    else if (member == 4) k->open(&horizon, s, share);
+    else if (member < 7) k->veil(s->cr, member == 5 ? NULL : s->cb, count, s->cg);
+    if (member < 5) memcpy(s->cr, share, (size_t)count * sizeof *share);
+    return member < 7;
+}
+
 static bool run_hit_at(const WrKernels *k, Bench *b, int member, int count)
 {
     const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
@@ -432,7 +506,7 @@ static const struct {
     { "look", run_look },         { "bump", run_bump },           { "light", run_light },
     { "shade", run_shade },       { "hit at", run_hit_at },       { "filter", run_filter },
     { "bound", run_bound },       { "bend", run_bend },           { "reflect", run_reflect },
-    { "surround", run_surround },
+    { "surround", run_surround }, { "vary", run_vary },           { "shadow", run_shadow },
 };
 #define FAMILIES (int)(sizeof families / sizeof *families)
 

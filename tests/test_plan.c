@@ -456,6 +456,20 @@ static void roughened(Stage *stage)
     stage->scene->grain.drives = WR_GRAIN_ROUGHENS;
 }
 
+static void worn(Stage *stage)
+{
+    WrImage *image = wr_image_new(7, 5, 1, NULL);
+    of_facets(stage);
+    for (int i = 0; i < 35; i++) image->data[i] = 0.3f + 0.01f * (float)(i * 7 % 35);
+    stage->scene->facets[WR_FACET_ROUGHNESS].image = image;
+}
+
+static void worn_dull(Stage *stage)
+{
+    worn(stage);
+    stage->scene->material.model = WR_REFLECT_BLINN_PHONG;
+}
+
 static void roughened_dull(Stage *stage)
 {
     roughened(stage);
@@ -620,6 +634,10 @@ static const Case cases[WR_EFFECT_COUNT] = {
                               { wooden_even, NOTHING },
                               { keep_all, NOTHING } } },
     [WR_EFFECT_FADED] = { wooden_far, { { wooden, NOTHING }, { filtered, NOTHING } } },
+    [WR_EFFECT_FACETS] = { worn,
+                           { { worn_dull, NOTHING },
+                             { of_facets, NOTHING },
+                             { keep_all, NOTHING } } },
     [WR_EFFECT_VARIED] = { roughened,
                            { { roughened_dull, NOTHING },
                              { wooden, NOTHING },

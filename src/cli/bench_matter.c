@@ -1,8 +1,11 @@
 #include "cli/bench_matter.h"
 
+#include "image/image.h"
 #include "scene/scene.h"
 
-void wr_bench_of_facets(WrScene *scene)
+#include <math.h>
+
+void wr_bench_facets(WrScene *scene)
 {
     scene->material.model = WR_REFLECT_GGX;
 }
@@ -18,11 +21,25 @@ void wr_bench_wooden_filtered(WrScene *scene)
     scene->dials.aa = WR_AA_FILTER;
 }
 
-void wr_bench_roughened(WrScene *scene)
+void wr_bench_rough(WrScene *scene)
 {
-    wr_bench_of_facets(scene);
+    wr_bench_facets(scene);
     wr_bench_wooden(scene);
     scene->grain.drives = WR_GRAIN_ROUGHENS;
+}
+
+/* Pictures of roughness and metalness: waves of both. */
+void wr_bench_worn(WrScene *scene)
+{
+    wr_bench_facets(scene);
+    for (int k = 0; k < WR_FACET_KINDS; k++) {
+        WrImage *image = wr_image_new(256, 256, 1, NULL);
+        for (int i = 0; i < 256 * 256 && image; i++) {
+            const int phase = k ? i / 256 : i % 256;
+            image->data[i] = (float)(0.4 + 0.3 * sin(phase * 0.39269908169872414));
+        }
+        scene->facets[k].image = image;
+    }
 }
 
 void wr_bench_embossed(WrScene *scene)

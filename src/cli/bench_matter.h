@@ -4,9 +4,10 @@
 
 typedef struct WrScene WrScene;
 
-void wr_bench_of_facets(WrScene *scene);
+void wr_bench_facets(WrScene *scene);
 void wr_bench_wooden(WrScene *scene);
 void wr_bench_wooden_filtered(WrScene *scene);
-void wr_bench_roughened(WrScene *scene);
+void wr_bench_rough(WrScene *scene);
 void wr_bench_objects_hide(WrScene *scene);
+void wr_bench_worn(WrScene *scene);
 void wr_bench_embossed(WrScene *scene);

@@ -258,6 +258,7 @@ bool wr_rotate_as_edit(const WrCall *call, WrText *text);
 /* named: with the file's name; else by its content alone. */
 void wr_print_colour(const WrScene *scene, bool named, WrText *text);
 void wr_print_normals(const WrScene *scene, bool named, WrText *text);
+void wr_print_facets(const WrScene *scene, int kind, bool named, WrText *text); /* WrFacetKind */
 void wr_print_environment(const WrScene *scene, bool named, WrText *text);
 void wr_print_object(const WrScene *scene, int i,
                      WrText *text);                       /* of several: adds it, with its place */

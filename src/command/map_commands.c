@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/laid_args.h"
 #include "command/scene_args.h"
 #include "document/document.h"
 #include "document/document_file.h"
@@ -17,96 +18,6 @@
 #include <string.h>
 
 #define LOOK 16384 /* pixels between two looks at whether it should stop */
-
-/* ---- what both have ---- */
-
-/* Where a picture is from and how often it is laid: " FILE channel=... part=... sha256=... repeat=...". */
-static void print_laid(const WrLaid *laid, bool named, WrText *text)
-{
-    const double ru = laid->ru, rv = laid->rv;
-    if (named) wr_text_add(text, " "), wr_text_add_word(text, laid->path);
-    wr_print_word("channel", laid->channel, text);
-    wr_print_word("part", laid->part, text);
-    if (*laid->sha256) wr_text_addf(text, " sha256=%s", laid->sha256);
-    if (laid->own && ru == 1 && rv == 1) {
-        wr_text_add(text, " repeat=once");
-    } else if (laid->own) {
-        wr_text_add(text, " repeat=");
-        wr_text_add_number(text, ru);
-        wr_text_add(text, ",");
-        wr_text_add_number(text, rv);
-    }
-}
-
-/* How often a picture is laid: as the table, once, or so often. */
-static bool repeat_parse(const char *text, WrLaid *repeat)
-{
-    const char *comma = strchr(text, ',');
-    repeat->own = strcmp(text, "table") != 0;
-    repeat->ru = repeat->rv = repeat->own ? 1 : 0;
-    if (!repeat->own || strcmp(text, "once") == 0) return true;
-    return comma && wr_number_parse(text, (size_t)(comma - text), &repeat->ru) &&
-           wr_number_parse(comma + 1, strlen(comma + 1), &repeat->rv) && fabs(repeat->ru) <= 1e9 &&
-           fabs(repeat->rv) <= 1e9;
-}
-
-static bool check_repeat(const void *ctx, const char *name, const char *value, WrError *err)
-{
-    WrLaid repeat;
-    (void)ctx;
-    if (repeat_parse(value, &repeat)) return true;
-    return wr_fail(err, "%s=%.40s: must be table, once, or two numbers ru,rv, -1e9..1e9", name,
-                   value);
-}
-
-/* What the line says of it; the words borrow nothing. */
-static void take_repeat(const WrCall *call, WrLaid *laid)
-{
-    if (wr_call_given(call, "repeat")) repeat_parse(wr_call_arg(call, "repeat")->text, laid);
-}
-
-/* Another file's picture: laid as the table is, unless the line says otherwise. */
-static void take_laid(WrCall *call, const char *name, WrLaid *laid)
-{
-    const char *hex = wr_call_arg(call, "sha256")->text;
-    const WrImageWish wish = wr_call_wish(call);
-    wr_laid_fini(laid);
-    if (!name) return;
-    laid->path = wr_strdup(name);
-    laid->channel = wr_strdup(wish.channel);
-    laid->part = wr_strdup(wish.part);
-    if (hex) memcpy(laid->sha256, hex, 64);
-    take_repeat(call, laid);
-}
-
-/* The picture that a line names: inside a document the one that it carries, else the file's. The caller frees it. */
-static WrImage *find_picture(WrSession *session, WrCall *call, const char *name, int which,
-                             WrError *err)
-{
-    if (session->loading) {
-        const int object = session->state.document->scene->chosen;
-        const WrImage *held = session->embedded ? session->embedded[object][which] : NULL;
-        if (held) return wr_image_share(held);
-        wr_fail(err, "the document names the picture %s but does not hold it", name);
-        return NULL;
-    }
-    char *path = wr_session_input_path(session, name);
-    WrImage *image = NULL;
-    const WrImageWish wish = wr_call_wish(call);
-    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
-    if (image) wr_session_note_read(session, path, image);
-    wr_free(path);
-    return image;
-}
-
-/* What belongs to a file stands in a line that names none. */
-static bool refuse_without(const WrCall *call, const char *const *names, const char *why,
-                           WrError *err)
-{
-    for (; *names; names++)
-        if (wr_call_given(call, *names)) return wr_fail(err, "%s %s=", why, *names);
-    return true;
-}
 
 /* ---- colour ---- */
 
@@ -138,7 +49,7 @@ void wr_print_colour(const WrScene *scene, bool named, WrText *text)
 {
     if (!scene->colour || scene->colouring.count > 0) return;
     wr_text_add(text, "colour");
-    print_laid(&scene->colour_laid, named, text);
+    wr_print_laid(&scene->colour_laid, named, text);
     wr_text_add(text, "\n");
 }
 
@@ -154,9 +65,9 @@ static bool change_colour(WrSession *session, const WrCall *call, WrError *err)
     const WrScene *now = session->state.document->scene;
     if (!now->colour || now->colouring.count > 0)
         return wr_fail(err, "the object has no colour picture: name a file");
-    if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
+    if (!wr_refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
     WrScene *scene = wr_scene_clone(now);
-    take_repeat(call, &scene->colour_laid);
+    wr_take_repeat(call, &scene->colour_laid);
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -168,15 +79,15 @@ static bool run_colour(WrSession *session, WrCall *call, WrError *err)
     const char *name = file->given ? file->text : NULL;
     const bool off = name && strcmp(name, "off") == 0;
     if (!name) return change_colour(session, call, err);
-    if (off && !refuse_without(call, of_colour, "off takes no", err)) return false;
-    WrImage *image = off ? NULL : find_picture(session, call, name, WR_OBJECT_COLOUR, err);
+    if (off && !wr_refuse_without(call, of_colour, "off takes no", err)) return false;
+    WrImage *image = off ? NULL : wr_find_laid(session, call, name, WR_OBJECT_COLOUR, err);
     WrImage *colour = image ? linear_colour(image, err) : NULL;
     wr_image_free(image);
     if (!off && !colour) return false;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     wr_scene_drop_colour(scene);
     scene->colour = colour;
-    take_laid(call, off ? NULL : name, &scene->colour_laid);
+    wr_take_laid(call, off ? NULL : name, &scene->colour_laid);
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -192,7 +103,7 @@ void wr_print_normals(const WrScene *scene, bool named, WrText *text)
     const WrNormalMap *map = &scene->normals;
     if (!map->image) return;
     wr_text_add(text, "normalmap");
-    print_laid(&map->laid, named, text);
+    wr_print_laid(&map->laid, named, text);
     wr_text_addf(text, " space=%s green=%s", spaces[map->object],
                  greens[map->green_down ? WR_GREEN_DOWN : WR_GREEN_UP]);
     if (!map->object)
@@ -269,7 +180,7 @@ static bool take_normals(WrSession *session, WrCall *call, const char *name, WrN
         return wr_fail(err, "channels= is of space=tangent: the object's axes take all three");
     if (object && wr_call_given(call, "frame"))
         return wr_fail(err, "frame= is of space=tangent: the object's axes are their own");
-    WrImage *file = find_picture(session, call, name, WR_OBJECT_NORMALS, err), *image = NULL;
+    WrImage *file = wr_find_laid(session, call, name, WR_OBJECT_NORMALS, err), *image = NULL;
     map->object = object;
     map->frame = WR_FRAME_AUTO;
     map->strength = 1;
@@ -284,7 +195,7 @@ static bool take_normals(WrSession *session, WrCall *call, const char *name, WrN
     if (!image) return false;
     wr_image_free(map->image);
     map->image = image;
-    take_laid(call, name, &map->laid);
+    wr_take_laid(call, name, &map->laid);
     return true;
 }
 
@@ -328,11 +239,11 @@ static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *
 {
     static const char *const of_file[] = { "channels", "channel", "part", "sha256", NULL };
     if (!map->image) return wr_fail(err, "the object has no normal map: name a file");
-    if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
+    if (!wr_refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
     if (!change_green(call, map, err) || !change_space(session, call, map, err)) return false;
     if (map->object && wr_call_given(call, "frame"))
         return wr_fail(err, "frame=: this map is of the object's axes");
-    take_repeat(call, &map->laid);
+    wr_take_repeat(call, &map->laid);
     return true;
 }
 
@@ -343,7 +254,7 @@ static bool run_normals(WrSession *session, WrCall *call, WrError *err)
     const WrArg *file = wr_call_arg(call, "FILE|off");
     const char *name = file->given ? file->text : NULL;
     const bool off = name && (strcmp(name, "off") == 0 || strcmp(name, "none") == 0);
-    if (off && !refuse_without(call, of_map, "off takes no", err)) return false;
+    if (off && !wr_refuse_without(call, of_map, "off takes no", err)) return false;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     WrNormalMap *map = &scene->normals;
     bool good = true;
@@ -365,18 +276,6 @@ static bool run_normals(WrSession *session, WrCall *call, WrError *err)
 
 /* ---- rows ---- */
 
-#define ARG_REPEAT                                                                                 \
-    {                                                                                              \
-        .name = "repeat", .type = WR_ARG_TEXT, .shape = "table|once|ru,rv", .check = check_repeat, \
-        .help = "how often it is laid along u and v: as often as replicate says, like the table; " \
-                "once; or so often. Left out: table"                                               \
-    }
-#define ARG_SHA256                                                                                 \
-    {                                                                                              \
-        .name = "sha256", .type = WR_ARG_SHA256,                                                   \
-        .help = "of the file: another content is then an error"                                    \
-    }
-
 static const char *const off_words[] = { "off", NULL }, *const none_words[] = { "off", "none",
                                                                                 NULL };
 
@@ -387,9 +286,9 @@ static const WrArgSpec args_colour[] = {
       .words = off_words,
       .help = "a picture that is laid over u and v, or off (a file of that name is ./off). Left "
               "out: the one that is there, of which repeat may change" },
-    ARG_REPEAT,
+    WR_ARGS_REPEAT,
     WR_ARGS_OF_FILE,
-    ARG_SHA256,
+    WR_ARGS_SHA256,
     { 0 }
 };
 
@@ -431,9 +330,9 @@ static const WrArgSpec args_normals[] = {
       .low = -100,
       .high = 100,
       .help = "its slopes times this. Of a new map: 1" },
-    ARG_REPEAT,
+    WR_ARGS_REPEAT,
     WR_ARGS_OF_FILE,
-    ARG_SHA256,
+    WR_ARGS_SHA256,
     { 0 }
 };
 

@@ -22,6 +22,12 @@ static void print_content(const WrCommand *command, const WrScene *scene, WrText
     if (command == &wr_command_colour) wr_print_colour(scene, !*scene->colour_laid.sha256, text);
     else if (command == &wr_command_normalmap)
         wr_print_normals(scene, !*scene->normals.laid.sha256, text);
+    else if (command == &wr_command_roughness)
+        wr_print_facets(scene, WR_FACET_ROUGHNESS, !*scene->facets[WR_FACET_ROUGHNESS].laid.sha256,
+                        text);
+    else if (command == &wr_command_metalness)
+        wr_print_facets(scene, WR_FACET_METALNESS, !*scene->facets[WR_FACET_METALNESS].laid.sha256,
+                        text);
     else if (command == &wr_command_environment)
         wr_print_environment(scene, !*scene->environment.sha256, text);
     else if (command == &wr_command_surface) wr_print_surface_content(scene, text);

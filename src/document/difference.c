@@ -75,7 +75,7 @@ static size_t bytes_of(const WrField *field)
 }
 
 /* Pictures and the mesh of one object. */
-#define OWN 3
+#define OWN (3 + WR_FACET_KINDS)
 typedef struct Own {
     const void *of[OWN];
     size_t bytes[OWN];
@@ -90,8 +90,11 @@ static size_t image_bytes(const WrImage *image)
 static Own own_of(const WrScene *object)
 {
     const WrTriangles *mesh = object->triangles;
-    return (Own){ .of = { object->colour, object->normals.image, mesh },
+    const WrImage *const rough = object->facets[WR_FACET_ROUGHNESS].image;
+    const WrImage *const metal = object->facets[WR_FACET_METALNESS].image;
+    return (Own){ .of = { object->colour, object->normals.image, rough, metal, mesh },
                   .bytes = { image_bytes(object->colour), image_bytes(object->normals.image),
+                             image_bytes(rough), image_bytes(metal),
                              mesh ? wr_scene_mesh_bytes(mesh) : 0 } };
 }
 

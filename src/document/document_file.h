@@ -19,7 +19,9 @@
 
    Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
    several is still written as version 2; version 3 no mesh, version 4 no normal map and
-   no objects with different meshes, version 5 no surroundings, version 6 no size of the cell. All are read. */
+   no objects with different meshes, version 5 no surroundings, version 6 no size of the cell,
+   solid textures, tone, relief shadows and displaced surfaces, version 7 no pictures of roughness and metalness, occlusion,
+   round lamps, colours of hollows and sheets. All are read. */
 #pragma once
 #include "scene/objects.h"
 #include "field/wrap.h"
@@ -35,12 +37,14 @@ typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
-#define WR_DOCUMENT_VERSION 7
-#define WR_DOCUMENT_VERSION_SURROUND 6 /* of a file without a size of its cell */
-#define WR_DOCUMENT_VERSION_OBJECTS 5  /* of a file without surroundings */
-#define WR_DOCUMENT_VERSION_MESH 4     /* of a file with one mesh and no normal map */
-#define WR_DOCUMENT_VERSION_ALONE 3    /* of a file of one part */
-#define WR_DOCUMENT_VERSION_PARTS 2    /* of a file of several parts without a mesh */
+#define WR_DOCUMENT_VERSION 8
+#define WR_DOCUMENT_VERSION_CELL 7 /* of a file without what came after (age.h) */
+#define WR_DOCUMENT_VERSION_SURROUND                                                               \
+    6 /* of a file without a size of its cell, and what came with it */
+#define WR_DOCUMENT_VERSION_OBJECTS 5 /* of a file without surroundings */
+#define WR_DOCUMENT_VERSION_MESH 4    /* of a file with one mesh and no normal map */
+#define WR_DOCUMENT_VERSION_ALONE 3   /* of a file of one part */
+#define WR_DOCUMENT_VERSION_PARTS 2   /* of a file of several parts without a mesh */
 
 /* Names of parts. */
 #define WR_DOCUMENT_LAYER "layer:"
@@ -53,6 +57,8 @@ typedef struct WrImageRows WrImageRows;
 typedef enum WrObjectPicture {
     WR_OBJECT_COLOUR,
     WR_OBJECT_NORMALS,
+    WR_OBJECT_ROUGHNESS,
+    WR_OBJECT_METALNESS,
     WR_OBJECT_SURROUND, /* of the scene: the first object stands for all */
     WR_OBJECT_PICTURES
 } WrObjectPicture;

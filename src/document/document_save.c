@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/rows.h"
 #include "base/text.h"
+#include "document/age.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "document/image_rows.h"
@@ -147,7 +148,9 @@ static const char *range_of(Saving *to, const WrField *field)
 static int version_of(const Saving *to)
 {
     const WrScene *scene = to->document->scene;
-    if (wr_cell_size_given(&scene->cell)) return WR_DOCUMENT_VERSION;
+    const WrSceneAge age = wr_scene_age(scene);
+    if (age == WR_SCENE_OF_FACETS) return WR_DOCUMENT_VERSION;
+    if (age == WR_SCENE_OF_CELL) return WR_DOCUMENT_VERSION_CELL;
     if (scene->environment.kind != WR_SURROUND_OFF) return WR_DOCUMENT_VERSION_SURROUND;
     if (wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene))
         return WR_DOCUMENT_VERSION_OBJECTS;
@@ -240,6 +243,8 @@ static bool same_bits(const WrField *a, const WrField *b)
 const WrObjectPictureInfo wr_object_pictures[WR_OBJECT_PICTURES] = {
     [WR_OBJECT_COLOUR] = { "colour", "colour picture", false },
     [WR_OBJECT_NORMALS] = { "normals", "normal map", true },
+    [WR_OBJECT_ROUGHNESS] = { "roughness", "roughness picture", true },
+    [WR_OBJECT_METALNESS] = { "metalness", "metalness picture", true },
     [WR_OBJECT_SURROUND] = { "environment", "picture of the surroundings", false },
 };
 
@@ -253,7 +258,9 @@ WrImage *wr_object_picture(const WrScene *scene, int object, int which)
 {
     const WrScene *own = wr_scene_object(scene, object);
     if (which == WR_OBJECT_SURROUND) return object == 0 ? surroundings(scene) : NULL;
-    if (which != WR_OBJECT_COLOUR) return own->normals.image;
+    if (which == WR_OBJECT_ROUGHNESS) return own->facets[WR_FACET_ROUGHNESS].image;
+    if (which == WR_OBJECT_METALNESS) return own->facets[WR_FACET_METALNESS].image;
+    if (which == WR_OBJECT_NORMALS) return own->normals.image;
     return own->colouring.count > 0 ? NULL : own->colour; /* made again of the heights */
 }
 

@@ -27,8 +27,9 @@
 typedef struct WrText WrText;
 
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
-#define WR_ORA_VERSION 3
-#define WR_ORA_VERSION_OBJECTS 2 /* of a file without a size of its cell */
+#define WR_ORA_VERSION 4
+#define WR_ORA_VERSION_CELL 3    /* of a file without what came after (age.h) */
+#define WR_ORA_VERSION_OBJECTS 2 /* of a file without a size of its cell, and what came with it */
 #define WR_ORA_VERSION_PLAIN 1   /* of a file without normal maps or different meshes */
 
 /* Save as a whole replacement (base/file.h). scene_text: one canonical command a line. */

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/rows.h"
 #include "base/text.h"
+#include "document/age.h"
 #include "document/document.h"
 #include "document/ora.h"
 
@@ -197,7 +198,9 @@ int wr_ora_version(const WrScene *scene)
 {
     const bool new =
         wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
-    if (wr_cell_size_given(&scene->cell)) return WR_ORA_VERSION;
+    const WrSceneAge age = wr_scene_age(scene);
+    if (age == WR_SCENE_OF_FACETS) return WR_ORA_VERSION;
+    if (age == WR_SCENE_OF_CELL) return WR_ORA_VERSION_CELL;
     return new ? WR_ORA_VERSION_OBJECTS : WR_ORA_VERSION_PLAIN;
 }
 

@@ -8,6 +8,7 @@
 #include <limits.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 #define PI 3.14159265358979323846
 #define FINEST 256 /* steps of a line once round the table, at least */
@@ -141,11 +142,20 @@ static void run_line(const Making *m, const Course *c, int first, int64_t period
     }
 }
 
+/* The first column and row once more. */
+static void close_plane(float *of, int width, int height)
+{
+    const size_t pitch = (size_t)width + 1;
+    for (size_t j = 0; j < (size_t)height; j++) of[j * pitch + (size_t)width] = of[j * pitch];
+    memcpy(of + (size_t)height * pitch, of, pitch * sizeof *of);
+}
+
 /* The slopes at the texels, between the two lines beside each. */
 static void unshear(Making *m, const Course *c, int direction, const float *sheared)
 {
     const WrHorizon *h = m->horizon;
     const double rate = (double)c->drift / ((double)c->turns * c->along);
+    float *to = h->slope + (size_t)direction * wr_horizon_plane(h);
     for (int along = 0; along < c->along; along++)
         for (int across = 0; across < c->across; across++) {
             const double at = across - along * rate, low = floor(at);
@@ -157,10 +167,10 @@ static void unshear(Making *m, const Course *c, int direction, const float *shea
             const int own = c->back ? c->along - 1 - along : along;
             const size_t i = (size_t)(c->upright ? across : own);
             const size_t j = (size_t)(c->upright ? own : across);
-            h->slope[(j * (size_t)h->width + i) * (size_t)h->directions + (size_t)direction] =
-                slope;
+            to[j * ((size_t)h->width + 1) + i] = slope;
             m->steepest[direction] = fmaxf(m->steepest[direction], slope);
         }
+    close_plane(to, h->width, h->height);
 }
 
 static bool hold_line(Line *line, const Course *c, int ahead)
@@ -214,8 +224,8 @@ bool wr_horizon_make(WrHorizon *horizon, const WrField *field, int directions, d
     wr_horizon_drop(horizon);
     *horizon = (WrHorizon){ w, h, directions, NULL, 0 };
     if (heights)
-        horizon->slope =
-            wr_try_alloc(texels * (size_t)directions, sizeof(float), "horizons of the table", err);
+        horizon->slope = wr_try_alloc(wr_horizon_plane(horizon) * (size_t)directions, sizeof(float),
+                                      "horizons of the table", err);
     bool good = horizon->slope != NULL;
     if (good) {
         Making making = { .horizon = horizon, .heights = heights, .sign = sign };
@@ -298,13 +308,13 @@ static void open_row(int j, int worker, void *ctx)
     const float *row = job->heights + (size_t)j * (size_t)w;
     const float *above = job->heights + (size_t)((j + h - 1) % h) * (size_t)w;
     const float *below = job->heights + (size_t)((j + 1) % h) * (size_t)w;
+    float *out = job->out + (size_t)j * ((size_t)w + 1), slope[WR_HORIZON_MOST];
     for (int i = 0; i < w; i++) {
-        const size_t at = (size_t)j * (size_t)w + (size_t)i;
+        for (int k = 0; k < job->horizon->directions; k++)
+            slope[k] = wr_horizon_at(job->horizon, i, j, k);
         const double x = (double)row[(i + 1) % w] - (double)row[(i + w - 1) % w];
         const double y = (double)below[i] - (double)above[i];
-        job->out[at] = (float)wr_opening_sky(
-            job->opening, job->horizon->slope + at * (size_t)job->horizon->directions,
-            job->sign * x / 2, job->sign * y / 2);
+        out[i] = (float)wr_opening_sky(job->opening, slope, job->sign * x / 2, job->sign * y / 2);
     }
 }
 
@@ -316,5 +326,6 @@ void wr_opening_table(const WrOpening *opening, const WrHorizon *horizon, const 
     wr_field_read(field, 0, 0, w, h, heights, (size_t)w);
     OpeningJob job = { opening, horizon, heights, sign, out };
     wr_pool_run(pool, h, open_row, &job);
+    close_plane(out, w, h);
     wr_free(heights);
 }

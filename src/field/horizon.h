@@ -31,13 +31,26 @@ static inline void wr_horizon_direction(int k, int directions, double *x, double
     *y = side == 0 ? t : side == 1 ? 1 : side == 2 ? -t : -1;
 }
 
-/* The horizon of a table that repeats on both axes: slope[(j * width + i) * directions + k] at the centre of texel (i, j)
- * in direction k. Zero-initialise; drop frees. */
+/* The horizon of a table that repeats on both axes, at the centres of its texels: a picture a direction, so that who looks
+ * one way reads little memory, each with its first column and row again after the last. Zero-initialise; drop frees. */
 typedef struct WrHorizon {
     int width, height, directions;
-    float *slope; /* owned */
+    float *slope; /* [directions][height + 1][width + 1], owned */
     float steepest;
 } WrHorizon;
+
+/* From one direction's picture to the next. */
+static inline size_t wr_horizon_plane(const WrHorizon *h)
+{
+    return ((size_t)h->width + 1) * ((size_t)h->height + 1);
+}
+
+/* Of texel (i, j), also one past the last, in direction k. */
+static inline float wr_horizon_at(const WrHorizon *h, int i, int j, int k)
+{
+    return h
+        ->slope[(size_t)k * wr_horizon_plane(h) + (size_t)j * ((size_t)h->width + 1) + (size_t)i];
+}
 
 /* Heights are times `sign`, 1 or -1, first: what looks up where the relief stands inside out.
  * Lines close in themselves: their directions are off by up to 1/512 radian, and of sides of whole
@@ -76,6 +89,7 @@ typedef struct WrOpening {
 void wr_opening_make(WrOpening *opening, int directions, double across, double down);
 /* As wr_horizon_sky, of one texel's slopes: n by the slopes of F along i and j, heights over texels. */
 double wr_opening_sky(const WrOpening *opening, const float *slope, double along_i, double along_j);
-/* The same of each texel of the table that the horizon is of: out[height][width]. */
+/* The same of each texel of the table that the horizon is of, its first column and row again after the last:
+   out[height + 1][width + 1]. */
 void wr_opening_table(const WrOpening *opening, const WrHorizon *horizon, const WrField *field,
                       double sign, WrPool *pool, float *out);

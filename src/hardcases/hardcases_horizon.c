@@ -31,7 +31,7 @@ static bool table_of(WrHardGauge *g, int w, int h, int kind, WrError *err)
         wr_field_set(field, k % w, k / w, kind ? 0.37f * (float)(k % w) : -2.7f);
     const bool good = wr_horizon_make(&made, field, 4, 1, g->pool, err);
     for (int k = 0; k < 4 * w * h && good; k++)
-        wr_hard_near(g, WR_HARD_FLOAT, (double)made.slope[k],
+        wr_hard_near(g, WR_HARD_FLOAT, (double)wr_horizon_at(&made, k / 4 % w, k / 4 / w, k % 4),
                      looked_at(field, k / 4 % w, k / 4 / w, k % 4));
     wr_horizon_drop(&made);
     wr_field_free(field);

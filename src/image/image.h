@@ -60,7 +60,7 @@ typedef struct WrImage {
 } WrImage;
 
 #define WR_IMAGE_MAX 16384        /* pixels along a side */
-#define WR_IMAGE_PARTS_MAX 1024   /* parts in a file */
+#define WR_IMAGE_PARTS_MAX 1280   /* parts in a file */
 #define WR_IMAGE_TILE 64          /* pixels along a side of the tiles that levels are kept in */
 #define WR_IMAGE_CHANNELS_MAX 256 /* channels in a part */
 #define WR_IMAGE_STRIP 64         /* rows that a WrRowSource is asked for at a time, at most */

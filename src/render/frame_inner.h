@@ -37,7 +37,7 @@ struct WrRenderer {
     WrViewTriangles triangles; /* of a mesh out of a file */
     WrTriangles *square; /* what is shown of a scene whose mesh is not there; owned; or NULL */
     WrDice dice;         /* of a displaced surface: what `triangles` has */
-    WrTint tint;
+    WrTint tint, facets[WR_FACET_KINDS];
     WrRelief relief;
     WrMirror mirror;
     WrGrades grades;   /* the same by rungs */

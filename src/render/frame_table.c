@@ -5,6 +5,7 @@
 #include "image/image.h"
 #include "render/frame_inner.h"
 #include "render/grain_fill.h"
+#include "render/grain_texels.h"
 #include "render/plan_inner.h"
 #include "scene/scene.h"
 #include "shade/slope.h"
@@ -20,6 +21,7 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_pyramid_drop(&renderer->range);
     wr_rounded_drop(&renderer->rounded);
     wr_tint_drop(&renderer->tint);
+    for (int k = 0; k < WR_FACET_KINDS; k++) wr_tint_drop(&renderer->facets[k]);
     wr_relief_drop(&renderer->relief);
     wr_mirror_drop(&renderer->mirror);
     wr_grades_drop(&renderer->grades);
@@ -139,7 +141,7 @@ static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, Wr
     const WrSurround *light = request->scene->environment.light;
     const bool blurred = wr_plan_runs(plan, WR_EFFECT_BLUR);
     WrGloss gloss;
-    if (!plan->graded && !request->hold) wr_grades_drop(&renderer->grades);
+    if (!plan->graded && !request->hold) wr_grades_drop_rungs(&renderer->grades);
     if (plan->graded || wr_plan_runs(plan, WR_EFFECT_VARIED)) {
         if (!wr_grades_bring(&renderer->grades, request->scene, plan, renderer->pool, err))
             return false;
@@ -181,6 +183,33 @@ static bool bring_opening(WrRenderer *renderer, const WrFrameRequest *request, W
     return true;
 }
 
+/* Do light's roughness and metalness come from a picture of that kind? */
+static bool wants_facets(const WrPlan *plan, const WrScene *scene, int kind)
+{
+    return wr_plan_runs(plan, WR_EFFECT_FACETS) && scene->facets[kind].image &&
+           (kind == WR_FACET_ROUGHNESS ? wr_reflects[scene->material.model].roughness
+                                       : scene->material.model == WR_REFLECT_GGX);
+}
+
+static bool bring_facets(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    const WrField *field = request->field;
+    const WrPlan *plan = &renderer->plan;
+    for (int k = 0; k < WR_FACET_KINDS; k++) {
+        WrTint *tint = &renderer->facets[k];
+        if (!wants_facets(plan, request->scene, k)) {
+            wr_tint_drop(tint);
+            continue;
+        }
+        if (!wr_tint_bring(tint, request->scene->facets[k].image, wr_field_wrap_u(field),
+                           wr_field_wrap_v(field), err))
+            return false;
+        if (plan->facets_filtered && !wr_tint_bring_pyramid(tint, renderer->pool, err))
+            return false;
+    }
+    return true;
+}
+
 bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -190,6 +219,7 @@ bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, 
     if (!bring_mirror(renderer, request, err)) return false;
     if (!bring_horizon(renderer, request, err)) return false;
     if (!bring_opening(renderer, request, err)) return false;
+    if (!bring_facets(renderer, request, err)) return false;
     if (!wr_plan_runs(plan, WR_EFFECT_COLOUR)) {
         wr_tint_drop(tint);
         return true;
@@ -290,42 +320,6 @@ static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request
         }
 }
 
-/* The colour picture, and where its footprints are measured. */
-static void fill_colour(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
-{
-    const WrTint *tint = &renderer->tint;
-    const WrPyramid *pyramid =
-        wr_plan_runs(&renderer->plan, WR_EFFECT_TINT) ? &tint->pyramid : NULL;
-    double ru, rv;
-    wr_scene_repeat(request->scene, &request->scene->colour_laid, &ru, &rv);
-    const WrColourLook look = { .rgba = tint->rgba,
-                                .pitch = tint->pitch,
-                                .width = tint->source->width,
-                                .height = tint->source->height,
-                                .ru = ru,
-                                .rv = rv,
-                                .periodic_u = tint->wrap_u == WR_WRAP_PERIODIC,
-                                .periodic_v = tint->wrap_v == WR_WRAP_PERIODIC };
-    const double reach = reach_of(request->scene, look.width * ru, look.height * rv);
-    job->colour = look;
-    job->tint = (WrLook){ .width = look.width,
-                          .height = look.height,
-                          .ru = ru,
-                          .rv = rv,
-                          .periodic_u = look.periodic_u,
-                          .periodic_v = look.periodic_v,
-                          .reach = (float)reach,
-                          .pyramid = pyramid };
-    job->tint_double = (WrLookd){ .width = look.width,
-                                  .height = look.height,
-                                  .ru = ru,
-                                  .rv = rv,
-                                  .periodic_u = look.periodic_u,
-                                  .periodic_v = look.periodic_v,
-                                  .reach = reach,
-                                  .pyramid = pyramid };
-}
-
 /* The same for single precision, with the copies that it reads. */
 static WrLook narrowed(const WrLookd *look, const float *heights, const float *gradient)
 {
@@ -345,6 +339,41 @@ static WrLook narrowed(const WrLookd *look, const float *heights, const float *g
                      .reach = (float)look->reach,
                      .pyramid = look->pyramid,
                      .range = look->range };
+}
+
+/* A picture that is laid over u and v, and where its footprints are measured. */
+static void fill_picture(const WrFrameRequest *request, const WrTint *tint, const WrLaid *laid,
+                         bool filtered, WrPictureLook *to)
+{
+    double ru, rv;
+    wr_scene_repeat(request->scene, laid, &ru, &rv);
+    const WrColourLook look = { .rgba = tint->rgba,
+                                .pitch = tint->pitch,
+                                .width = tint->source->width,
+                                .height = tint->source->height,
+                                .ru = ru,
+                                .rv = rv,
+                                .periodic_u = tint->wrap_u == WR_WRAP_PERIODIC,
+                                .periodic_v = tint->wrap_v == WR_WRAP_PERIODIC };
+    const double reach = reach_of(request->scene, look.width * ru, look.height * rv);
+    to->near = look;
+    to->far_double = (WrLookd){ .width = look.width,
+                                .height = look.height,
+                                .ru = ru,
+                                .rv = rv,
+                                .periodic_u = look.periodic_u,
+                                .periodic_v = look.periodic_v,
+                                .reach = reach,
+                                .pyramid = filtered ? &tint->pyramid : NULL };
+    to->far = narrowed(&to->far_double, NULL, NULL);
+}
+
+static void fill_facets(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
+{
+    for (int k = 0; k < WR_FACET_KINDS; k++)
+        if (wants_facets(&renderer->plan, request->scene, k))
+            fill_picture(request, &renderer->facets[k], &request->scene->facets[k].laid,
+                         renderer->plan.facets_filtered, &job->facets[k]);
 }
 
 /* Slopes of heights are those of the patch's parameters; in a frame they are their own, the other way round where the map is. */
@@ -413,7 +442,7 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     job->look_double = look;
     job->look = narrowed(&look, heights->data, gradient->data);
     job->looks = looks_of(request, renderer, &look);
-    job->horizon = wr_plan_runs(&renderer->plan, WR_EFFECT_SHADOW) ? &renderer->horizon : NULL;
+    job->horizon = &renderer->horizon;
     job->opening = &renderer->opening;
     job->relief_height = fabs(request->scene->height) * scale;
     fill_level(renderer, request, job);
@@ -426,8 +455,14 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
         wr_plan_runs(&renderer->plan, WR_EFFECT_MIRROR))
         wr_surround_look(request->scene, &renderer->plan, renderer->view.rotation,
                          &renderer->mirror, &job->surround);
+    fill_facets(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_VARIED) || renderer->plan.graded)
         wr_grades_fill(&renderer->grades, request->scene, job);
-    if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) fill_colour(renderer, request, job);
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR))
+        fill_picture(request, &renderer->tint, &request->scene->colour_laid,
+                     wr_plan_runs(&renderer->plan, WR_EFFECT_TINT), &job->colour);
+    if (renderer->plan.grain != WR_GRAIN_OFF) wr_grain_texels(request->scene, job->grain_texels);
+    job->grain_roughens = request->scene->grain.drives & WR_GRAIN_ROUGHENS &&
+                          request->scene->grain.kind != WR_GRAIN_OFF;
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_NORMALS)) fill_map(renderer, request, scale, job);
 }

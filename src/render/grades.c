@@ -7,9 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-void wr_grades_drop(WrGrades *grades)
+void wr_grades_drop_rungs(WrGrades *grades)
 {
     for (int i = 0; i < WR_VARY_RUNGS; i++) wr_mirror_drop(&grades->rung[i]);
+}
+
+void wr_grades_drop(WrGrades *grades)
+{
+    wr_grades_drop_rungs(grades);
     grades->there = false;
 }
 
@@ -59,39 +64,61 @@ bool wr_grades_bring(WrGrades *grades, const WrScene *scene, const WrPlan *plan,
     return true;
 }
 
-static void narrow(const double *from, float *to, size_t count)
+/* A step's terms, and 0 after them. */
+static void put_terms(const double *terms, double *to, float *single)
 {
-    for (size_t i = 0; i < count; i++) to[i] = (float)from[i];
+    for (int k = 0; k < WR_VARY_TERMS; k++)
+        to[k] = k < WR_ALBEDO_TERMS ? terms[k] : 0, single[k] = (float)to[k];
+}
+
+static void put_step(const WrVary *vary, int i, WrKernVaryd *wide, WrKernVary *single)
+{
+    wide->mean[i] = vary->mean[i], single->mean[i] = (float)vary->mean[i];
+    wide->again[i] = vary->again[i], single->again[i] = (float)vary->again[i];
+    put_terms(vary->albedo[i], wide->albedo[i], single->albedo[i]);
+    put_terms(vary->matt[i], wide->matt[i], single->matt[i]);
+    put_terms(vary->twice[i], wide->twice[i], single->twice[i]);
+}
+
+/* Shares of what is mirrored: of no metal and of metal, or of that metalness alone. */
+static void put_shares(const WrVary *vary, bool alike, double metal, int i, WrKernVaryd *wide,
+                       WrKernVary *single)
+{
+    double own[2][WR_ALBEDO_TERMS], white[2][WR_ALBEDO_TERMS];
+    for (int k = 0; k < 2 * WR_ALBEDO_TERMS; k++) {
+        const int at = k / WR_ALBEDO_TERMS, term = k % WR_ALBEDO_TERMS;
+        const double to = alike ? metal : at;
+        const double o = vary->own[0][i][term], w = vary->white[0][i][term];
+        own[at][term] = o + to * (vary->own[1][i][term] - o);
+        white[at][term] = w + to * (vary->white[1][i][term] - w);
+    }
+    for (int at = 0; at < 2; at++) {
+        put_terms(own[at], wide->own[at][i], single->own[at][i]);
+        put_terms(white[at], wide->white[at][i], single->white[at][i]);
+    }
 }
 
 void wr_grades_fill(const WrGrades *grades, const WrScene *scene, WrTileJob *job)
 {
-    enum { TERMS = WR_VARY_STEPS * WR_ALBEDO_TERMS };
     const WrVary *vary = &grades->vary;
+    const WrMaterial *m = &scene->material;
     WrKernVaryd *wide = &job->vary_double;
     WrKernVary *single = &job->vary;
     WrGloss gloss;
-    wr_scene_gloss(&scene->material, &gloss);
+    wr_scene_gloss(m, &gloss);
     job->rough = sqrt(gloss.alpha);
-    wide->metals = single->metals = scene->material.model == WR_REFLECT_GGX;
-    memcpy(wide->mean, vary->mean, sizeof wide->mean);
-    memcpy(wide->again, vary->again, sizeof wide->again);
-    memcpy(wide->albedo, vary->albedo, sizeof wide->albedo);
-    memcpy(wide->matt, vary->matt, sizeof wide->matt);
-    memcpy(wide->twice, vary->twice, sizeof wide->twice);
-    memcpy(wide->own, vary->own, sizeof wide->own);
-    memcpy(wide->white, vary->white, sizeof wide->white);
-    narrow(vary->mean, single->mean, WR_VARY_STEPS);
-    narrow(vary->again, single->again, WR_VARY_STEPS);
-    narrow(vary->albedo[0], single->albedo[0], TERMS);
-    narrow(vary->matt[0], single->matt[0], TERMS);
-    narrow(vary->twice[0], single->twice[0], TERMS);
-    narrow(vary->own[0][0], single->own[0][0], 2 * TERMS);
-    narrow(vary->white[0][0], single->white[0][0], 2 * TERMS);
+    wide->metals = single->metals = m->model == WR_REFLECT_GGX;
+    wide->again_twice = single->again_twice =
+        m->model == WR_REFLECT_OREN_NAYAR && m->energy == WR_ENERGY_KEPT;
+    wide->alike = single->alike = !job->facets[WR_FACET_METALNESS].near.rgba;
+    for (int i = 0; i < WR_VARY_STEPS; i++) {
+        put_step(vary, i, wide, single);
+        put_shares(vary, wide->alike, fmin(fmax(m->metalness, 0), 1), i, wide, single);
+    }
     for (int i = 0; i < WR_VARY_RUNGS; i++) {
-        const WrMirror *m = &grades->rung[i];
-        const WrKernRung rung = { m->rgba ? m->rgba + 4 * ((ptrdiff_t)m->pitch + 1) : NULL,
-                                  m->pitch, m->width, m->height };
+        const WrMirror *of = &grades->rung[i];
+        const WrKernRung rung = { of->rgba ? of->rgba + 4 * ((ptrdiff_t)of->pitch + 1) : NULL,
+                                  of->pitch, of->width, of->height };
         wide->rung[i] = single->rung[i] = rung;
     }
 }

@@ -21,3 +21,4 @@ bool wr_grades_bring(WrGrades *grades, const WrScene *scene, const WrPlan *plan,
                      WrError *err);
 void wr_grades_fill(const WrGrades *grades, const WrScene *scene, WrTileJob *job);
 void wr_grades_drop(WrGrades *grades);
+void wr_grades_drop_rungs(WrGrades *grades); /* the shares of light, which take some time, stay */

@@ -81,6 +81,17 @@ typedef enum WrReflectSpread {
     WR_REFLECT_ROUND
 } WrReflectSpread;
 
+/* What a strip's samples see of a lamp. */
+typedef enum WrSeen {
+    WR_SEEN_WHOLE, /* all of it, everywhere */
+    WR_SEEN_PART,
+    WR_SEEN_NOT /* nothing, anywhere */
+} WrSeen;
+
+/* Terms of an albedo, and 0 after them: whole vectors. */
+#define WR_VARY_TERMS 12
+_Static_assert(WR_VARY_TERMS >= WR_ALBEDO_TERMS, "all terms");
+
 /* Surroundings blurred by one width, as WrKernMirror has them. */
 typedef struct WrKernRung {
     const float *rgba;

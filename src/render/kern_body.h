@@ -52,6 +52,7 @@
 #define MIRROR WrKernMirrord
 #define GRAIN WrKernGraind
 #define VARY WrKernVaryd
+#define SKYLINE WrKernHorizond
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
 #define WR_FORMULA_FLOAT /* the formulas alone, without the surfaces' rows */
@@ -75,6 +76,7 @@
 #define MIRROR WrKernMirror
 #define GRAIN WrKernGrain
 #define VARY WrKernVary
+#define SKYLINE WrKernHorizon
 #define NEWTON WrNewton
 #define KERNELS WrKernels
 #endif
@@ -173,6 +175,13 @@ ALWAYS REAL smaller(REAL a, REAL b)
     return a < b ? a : b;
 }
 
+/* Of n things, also of what was no number. */
+ALWAYS int among(int i, int n)
+{
+    i = i < n ? i : n - 1;
+    return i < 0 ? 0 : i;
+}
+
 ALWAYS VEC choose(bool condition, VEC a, VEC b)
 {
     return (VEC){ condition ? a.x : b.x, condition ? a.y : b.y, condition ? a.z : b.z };
@@ -209,6 +218,7 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "shade/surround_body.h"
 #include "render/kern_surround_body.h"
 #include "render/kern_vary_body.h"
+#include "render/kern_shadow_body.h"
 #include "render/kern_dark_body.h"
 #include "render/kern_filter_body.h"
 #include "shade/grain_body.h"
@@ -309,6 +319,9 @@ const KERNELS WR_KERN_TABLE = {
     .mirror = kern_mirror,
     .mirror_even = kern_mirror_even,
     .tint = kern_tint,
+    .shadow = kern_shadow,
+    .open = kern_open,
+    .veil = kern_veil,
 #ifndef WR_KERN_DOUBLE
     .shade = { { SHADE_ROWS(0, 0), SHADE_ROWS(0, 1) }, { SHADE_ROWS(1, 0), SHADE_ROWS(1, 1) } },
     .smooth = kern_smooth,

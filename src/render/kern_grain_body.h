@@ -116,7 +116,7 @@ typedef struct GrainStrip {
     REAL lost[WR_SPAN];                         /* the variance of what has faded */
     REAL ax[WR_SPAN], ay[WR_SPAN], az[WR_SPAN]; /* P's step to the right */
     REAL wx[WR_SPAN], wy[WR_SPAN], wz[WR_SPAN]; /* and down */
-    REAL size[WR_SPAN];                         /* the longer of both */
+    REAL size[WR_SPAN];                         /* the sum of their squares */
     REAL value[WR_SPAN];                        /* the pattern, 0..1 */
     REAL least;                                 /* of size */
 } GrainStrip;
@@ -128,7 +128,7 @@ ALWAYS void grain_octave(const GRAIN *g, const bool soft, const bool faded, int 
     const uint32_t start = g->start[octave];
     const REAL f = g->frequency[octave], amplitude = g->amplitude[octave];
     const REAL ox = g->offset[octave][0], oy = g->offset[octave][1], oz = g->offset[octave][2];
-    const REAL mean = g->mean, variance = g->variance;
+    const REAL mean = g->mean, variance = g->variance, fading = g->fading * f * f;
     const REAL *restrict const px = strip->px, *restrict const py = strip->py,
                                *restrict const pz = strip->pz;
     const int count = strip->count;
@@ -142,11 +142,11 @@ ALWAYS void grain_octave(const GRAIN *g, const bool soft, const bool faded, int 
         if (!faded) {
             to->sum[i] += amplitude * value;
         } else {
-            const REAL left = grain_left(f * to->size[i]), gone = K_(1) - left;
+            const REAL held = fading * to->size[i], left = grain_left(held), gone = K_(1) - left;
             const REAL way = !soft ? K_(1) : n.f < K_(0) ? K_(-1) : n.f > K_(0) ? K_(1) : K_(0);
-            const REAL by = amplitude * left * f * way;
+            const REAL by = amplitude * grain_left_slope(held) * f * way;
             to->sum[i] += amplitude * (left * value + gone * mean);
-            to->lost[i] += amplitude * amplitude * gone * gone * variance;
+            to->lost[i] += amplitude * amplitude * grain_within(held) * variance;
             to->gx[i] += by * n.x, to->gy[i] += by * n.y, to->gz[i] += by * n.z;
         }
     }
@@ -198,7 +198,7 @@ FLAT static void grain_steps(const RAYS *rays, const STRIP *strip, GrainStrip *t
     SIMD for (int i = 0; i < count; i++)
     {
         const VEC a = LOAD3(to, a, i), w = LOAD3(to, w, i);
-        to->size[i] = r_sqrt(larger(v_dot(a, a), v_dot(w, w)));
+        to->size[i] = v_dot(a, a) + v_dot(w, w);
     }
     for (int i = 0; i < count; i++) least = smaller(least, to->size[i]);
     to->least = least;
@@ -437,7 +437,8 @@ static void grain_sums(const RAYS *rays, const GRAIN *g, bool wide, const STRIP 
     to->least = K_(0);
     if (g->faded) grain_steps(rays, strip, to);
     for (int i = 0; i < g->octaves; i++) {
-        if (wide && g->frequency[i] * to->least >= K_(0.5)) grain_gone(g, i, strip->count, to);
+        const REAL least = g->fading * g->frequency[i] * g->frequency[i] * to->least;
+        if (wide && least >= GRAIN_GONE) grain_gone(g, i, strip->count, to);
         else octave[g->noise][wide](g, i, strip, to);
     }
 }
@@ -463,11 +464,20 @@ static void kern_grain(const RAYS *rays, const GRAIN *g, bool over, STRIP *strip
     (over ? grain_over : grain_alone)(g, at.value, strip);
 }
 
+FLAT static void rough_by(const REAL *restrict value, REAL low, REAL high, STRIP *strip)
+{
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        strip->rough[i] = low + value[i] * (high - low);
+    }
+}
+
 static void kern_grain_rough(const RAYS *rays, const GRAIN *g, REAL low, REAL high, STRIP *strip)
 {
     GrainStrip at;
     grain_pattern(rays, g, strip, &at);
-    for (int i = 0; i < strip->count; i++) strip->rough[i] = low + at.value[i] * (high - low);
+    rough_by(at.value, low, high, strip);
 }
 
 static void kern_grain_bump(const RAYS *rays, const GRAIN *g, STRIP *strip)

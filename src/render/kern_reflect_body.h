@@ -9,8 +9,10 @@ ALWAYS Facets facets_of(const STRIP *strip, int i, bool spread, bool round, REAL
                           a2);
 }
 
+/* told: what highlights leave to diffuse light is `left`. */
 ALWAYS Reflected reflect_at(const STRIP *strip, int i, const WrReflect model, const bool kept,
-                            const bool spread, const bool round, const MATTER *m)
+                            const bool spread, const bool round, const bool told, REAL left,
+                            const MATTER *m)
 {
     const VEC n = LOAD3(strip, b, i), l = LOAD3(strip, l, i), v = LOAD3(strip, v, i);
     const Facets wide = facets_of(strip, i, spread, round, m->alpha * m->alpha);
@@ -19,7 +21,7 @@ ALWAYS Reflected reflect_at(const STRIP *strip, int i, const WrReflect model, co
     if (model == WR_REFLECT_TORRANCE_SPARROW)
         return reflect_torrance_sparrow(n, l, v, wide, spread, m);
     if (model == WR_REFLECT_OREN_NAYAR) return reflect_oren_nayar(n, l, v, kept, m);
-    return reflect_ggx(n, l, v, wide, spread, kept, m);
+    return reflect_ggx(n, l, v, wide, spread, kept, told, left, m);
 }
 
 ALWAYS void reflect_strip(const LIGHT *light, const MATTER *matter, const WrReflect model,
@@ -32,7 +34,7 @@ ALWAYS void reflect_strip(const LIGHT *light, const MATTER *matter, const WrRefl
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
-        const Reflected got = reflect_at(strip, i, model, kept, spread, round, &m);
+        const Reflected got = reflect_at(strip, i, model, kept, spread, round, false, K_(0), &m);
         REAL again_r = K_(0), again_g = K_(0), again_b = K_(0);
         if (twice) {
             again_r = got.again * reflect_kept(own_r * strip->cr[i], m.mean);

@@ -113,13 +113,13 @@ typedef struct WR_T(WrKernMatter) {
 } WR_T(WrKernMatter);
 
 /* A solid texture as kernels want it: frequencies and rings a kernel unit; octaves 0: no noise. faded: over what pixels
-   hold. height: of bumps, kernel units. mean, variance: of an octave. */
+   hold. height: of bumps, kernel units. mean, variance, fading: of an octave. */
 typedef struct WR_T(WrKernGrain) {
     WrGrainKind kind;
     WrGrainAxis axis;
     WrGrainNoise noise;
     bool faded;
-    REAL light[3], dark[3], rings, share, amount, edge, height, mean, variance;
+    REAL light[3], dark[3], rings, share, amount, edge, height, mean, variance, fading;
     int octaves;
     uint32_t start[WR_GRAIN_OCTAVES]; /* of the chain of hashes */
     REAL frequency[WR_GRAIN_OCTAVES], amplitude[WR_GRAIN_OCTAVES], offset[WR_GRAIN_OCTAVES][3];
@@ -145,13 +145,23 @@ typedef struct WR_T(WrKernMirror) {
 } WR_T(WrKernMirror);
 /* WrVary's numbers (shade/vary.h), and what is mirrored, rung by rung. */
 typedef struct WR_T(WrKernVary) {
-    bool metals; /* metal has no diffuse light */
+    bool metals;      /* metal has no diffuse light */
+    bool again_twice; /* `twice` and `mean` are not 0 */
+    bool alike;       /* metalness is the same everywhere: own[0], white[0] are of it */
     REAL mean[WR_VARY_STEPS], again[WR_VARY_STEPS];
-    REAL albedo[WR_VARY_STEPS][WR_ALBEDO_TERMS], matt[WR_VARY_STEPS][WR_ALBEDO_TERMS];
-    REAL twice[WR_VARY_STEPS][WR_ALBEDO_TERMS];
-    REAL own[2][WR_VARY_STEPS][WR_ALBEDO_TERMS], white[2][WR_VARY_STEPS][WR_ALBEDO_TERMS];
+    REAL albedo[WR_VARY_STEPS][WR_VARY_TERMS], matt[WR_VARY_STEPS][WR_VARY_TERMS];
+    REAL twice[WR_VARY_STEPS][WR_VARY_TERMS];
+    REAL own[2][WR_VARY_STEPS][WR_VARY_TERMS], white[2][WR_VARY_STEPS][WR_VARY_TERMS];
     WrKernRung rung[WR_VARY_RUNGS];
 } WR_T(WrKernVary);
+/* The table's horizons (field/horizon.h) as kernels look them up, and how open it is (render/opening.h). */
+typedef struct WR_T(WrKernHorizon) {
+    const float *slope, *open; /* pictures of width + 1 by height + 1 */
+    int width, height, directions;
+    REAL ru, rv;   /* replication */
+    REAL relief;   /* of a table unit, kernel units */
+    REAL steepest; /* of all directions, table units a texel */
+} WR_T(WrKernHorizon);
 typedef void (*WR_T(WrSurroundKernel))(const WR_T(WrKernSurround) * how, WR_T(WrStrip) * strip);
 
 typedef void (*WR_T(WrShadeKernel))(const WR_T(WrRays) * rays, const WR_T(WrKernLight) * light,
@@ -278,6 +288,14 @@ typedef struct WR_T(WrKernels) {
     /* What is reflected of them about the mirrored direction: out of the picture, or of one colour. */
     void (*mirror)(const WR_T(WrKernMirror) * how, WR_T(WrStrip) * strip);
     void (*mirror_even)(const WR_T(WrKernMirror) * how, WR_T(WrStrip) * strip);
+    /* What each sample sees of a lamp over the relief's horizon, 0..1, by u, v, P, Pu, Pv, n and n'. */
+    WrSeen (*shadow)(const WR_T(WrKernLight) * light, const WR_T(WrKernHorizon) * horizon,
+                     const WR_T(WrStrip) * strip, REAL share[WR_SPAN]);
+    /* How open the table is at u and v. */
+    void (*open)(const WR_T(WrKernHorizon) * horizon, const WR_T(WrStrip) * strip,
+                 REAL share[WR_SPAN]);
+    /* Of what came to `to` since it was `before`, NULL: 0, those shares are kept. */
+    void (*veil)(const REAL share[WR_SPAN], const REAL *before, int count, REAL *to);
     /* Highlights so far in the surface's colour, to the share t; after all lights. */
     void (*tint)(REAL t, WR_T(WrStrip) * strip);
     /* begin, view, light, diffuse, specular and finish of a single light in one pass, from n' and P: [the light is near]

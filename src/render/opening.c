@@ -41,8 +41,8 @@ bool wr_opening_table_bring(WrOpeningTable *table, const WrScene *scene, const W
         table->across == sign * across && table->down == sign * down)
         return true;
     wr_opening_table_drop(table);
-    const size_t texels = (size_t)horizon->width * (size_t)horizon->height;
-    float *open = wr_try_alloc(texels, sizeof *open, "how open the relief is", err);
+    float *open =
+        wr_try_alloc(wr_horizon_plane(horizon), sizeof *open, "how open the relief is", err);
     if (!open) return false;
     wr_opening_make(&opening, horizon->directions, across, down);
     wr_opening_table(&opening, horizon, field, sign, pool, open);

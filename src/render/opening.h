@@ -9,7 +9,7 @@ typedef struct WrScene WrScene;
 
 /* Zero-initialise; drop frees. */
 typedef struct WrOpeningTable {
-    float *open; /* [height][width], owned; NULL: none */
+    float *open; /* wr_opening_table's, owned; NULL: none */
     int width, height;
     uint64_t key; /* of the table ... */
     int directions;

@@ -29,7 +29,7 @@
 #define SURROUND_OF(look) (&(look)->single)
 #define MIRROR_OF(look) (&(look)->mirror)
 #define MAP_OF(job) (&(job)->relief)
-#define TINT_OF(job) (&(job)->tint)
+#define FAR_LOOK(picture) (&(picture)->far)
 #define GRAIN_OF(job) (&(job)->grain)
 #define VARY_OF(job) (&(job)->vary)
 #define VIEWED(view, member) ((view)->member)

@@ -103,7 +103,8 @@ static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
     return job->plan->bump == WR_BUMP_BLINN && KERNELS_OF(job)->bend[job->plan->inversion] &&
            !runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) &&
            !runs(job, WR_EFFECT_SPREAD) && !runs(job, WR_EFFECT_SHADOW) &&
-           !job->plan->map_filtered && job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
+           !job->plan->map_filtered && !job->plan->facets_filtered &&
+           job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
 }
 
 /* P, n, and what else of the surface's frame the plan asks for. */
@@ -344,7 +345,8 @@ static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
 static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL gy, Strip *strip)
 {
     if (!runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) && !job->plan->map_filtered &&
-        !sink->bound && !job->map && !runs(job, WR_EFFECT_HORIZON) && !runs(job, WR_EFFECT_FADED))
+        !job->plan->facets_filtered && !sink->bound && !job->map && !runs(job, WR_EFFECT_HORIZON) &&
+        !runs(job, WR_EFFECT_FADED))
         return;
     for (int i = 0; i < strip->count; i++) {
         strip->x[i] = gx + (REAL)strip->index[i];

@@ -29,7 +29,7 @@
 #define SURROUND_OF(look) (&(look)->wide)
 #define MIRROR_OF(look) (&(look)->mirror_wide)
 #define MAP_OF(job) (&(job)->relief_double)
-#define TINT_OF(job) (&(job)->tint_double)
+#define FAR_LOOK(picture) (&(picture)->far_double)
 #define GRAIN_OF(job) (&(job)->grain_double)
 #define VARY_OF(job) (&(job)->vary_double)
 #define VIEWED(view, member) ((view)->member##_d)

@@ -151,7 +151,7 @@ static void mirror_strip(const WrTileJob *job, Strip *strip, Watch *watch)
 static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, const WrSink *sink)
 {
     const bool shines = runs(job, WR_EFFECT_SPECULAR);
-    if (runs(job, WR_EFFECT_MODEL) || runs(job, WR_EFFECT_OCCLUSION)) return NULL;
+    if (runs(job, WR_EFFECT_MODEL)) return NULL;
     if (runs(job, WR_EFFECT_SURROUND) || runs(job, WR_EFFECT_MIRROR)) return NULL;
     if (runs(job, WR_EFFECT_CAST)) return NULL;
     if (job->view->light_count != 1 || sink->bound || runs(job, WR_EFFECT_HALF)) return NULL;
@@ -162,13 +162,13 @@ static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, c
 }
 
 static void light_at_once(const WrTileJob *job, const Rays *rays, WR_T(WrShadeKernel) shade,
-                          Strip *strip, Watch *watch)
+                          bool ambient, Strip *strip, Watch *watch)
 {
     const WrMaterial *m = &job->scene->material;
     const bool diffuse = runs(job, WR_EFFECT_DIFFUSE), shines = runs(job, WR_EFFECT_SPECULAR);
     const WR_T(WrKernShine) shine = { (REAL)m->specular, (REAL)m->shininess, m->gate };
     const WR_T(WrKernMaterial)
-        material = { (REAL)m->ambient,
+        material = { ambient ? (REAL)m->ambient : (REAL)0,
                      diffuse ? (REAL)m->diffuse : (REAL)0,
                      { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z } };
     shade(rays, VIEWED(job->view, lights), &shine, &material, strip);
@@ -228,41 +228,71 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
 }
 
-/* Where no light comes. */
-static void ambient_strip(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
+/* The ambient light alone. */
+static void ambient_alone(const WrTileJob *job, Strip *strip)
 {
     const WrMaterial *m = &job->scene->material;
     const WR_T(WrKernMaterial) material = {
         (REAL)m->ambient, (REAL)0, { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z }
     };
-    bring_colour(job, rays, strip, watch->scratch, watch);
     KERNELS_OF(job)->ambient(&material, pictured(job), strip);
+}
+
+/* Where no light comes. */
+static void ambient_strip(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
+{
+    bring_colour(job, rays, strip, watch->scratch, watch);
+    ambient_alone(job, strip);
     watch_lap(watch, WR_STAGE_LIGHT);
     open_strip(job, NULL, (REAL *const[3]){ strip->cr, strip->cg, strip->cb }, strip, watch);
 }
 
-/* One light in one pass; where it is hidden, the ambient light alone. */
-static void shadowed_at_once(const WrTileJob *job, WR_T(WrShadeKernel) shade, Strip *strip,
-                             Watch *watch)
+typedef struct Colours {
+    REAL of[3][WR_SPAN];
+} Colours;
+
+static void keep_colours(const Strip *strip, Colours *to)
 {
-    const WrMaterial *m = &job->scene->material;
-    const WR_T(WrKernMaterial) material = {
-        (REAL)m->ambient, (REAL)0, { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z }
-    };
-    REAL share[WR_SPAN], lit[3][WR_SPAN], *const c[3] = { strip->cr, strip->cg, strip->cb };
-    const size_t size = (size_t)strip->count * sizeof(REAL);
-    const bool any = seen_of(job, &VIEWED(job->view, lights)[0], strip, share);
-    did(watch, WR_EFFECT_SHADOW);
-    watch_lap(watch, WR_STAGE_SHADOW);
-    REAL own[3][WR_SPAN]; /* the picture's colours */
-    for (int k = 0; any && k < 3; k++) memcpy(own[k], c[k], size);
-    light_at_once(job, &VIEWED(&job->view->lit, rays), shade, strip, watch);
-    if (!any) return;
-    for (int k = 0; k < 3; k++) memcpy(lit[k], c[k], size), memcpy(c[k], own[k], size);
-    KERNELS_OF(job)->ambient(&material, pictured(job), strip);
-    for (int i = 0; i < strip->count; i++)
-        for (int k = 0; k < 3; k++)
-            c[k][i] = share[i] < 1 ? c[k][i] + share[i] * (lit[k][i] - c[k][i]) : lit[k][i];
+    const REAL *const c[3] = { strip->cr, strip->cg, strip->cb };
+    for (int k = 0; k < 3; k++) memcpy(to->of[k], c[k], (size_t)strip->count * sizeof(REAL));
+}
+
+static void put_colours(const Colours *from, Strip *strip)
+{
+    REAL *const c[3] = { strip->cr, strip->cg, strip->cb };
+    for (int k = 0; k < 3; k++) memcpy(c[k], from->of[k], (size_t)strip->count * sizeof(REAL));
+}
+
+/* One light in one pass, as far as it is seen, over the ambient light, as far as the sky is. */
+static void veiled_at_once(const WrTileJob *job, WR_T(WrShadeKernel) shade, Strip *strip,
+                           Watch *watch)
+{
+    const Kernels *kernels = KERNELS_OF(job);
+    REAL share[WR_SPAN], *const c[3] = { strip->cr, strip->cg, strip->cb };
+    WrSeen seen = WR_SEEN_WHOLE;
+    Colours own, dark; /* the picture's, if there is one; of ambient light */
+    if (runs(job, WR_EFFECT_SHADOW)) {
+        seen = seen_of(job, &VIEWED(job->view, lights)[0], strip, share);
+        did(watch, WR_EFFECT_SHADOW);
+        watch_lap(watch, WR_STAGE_SHADOW);
+    }
+    const bool open = runs(job, WR_EFFECT_OCCLUSION);
+    if (seen == WR_SEEN_WHOLE && !open) {
+        light_at_once(job, &VIEWED(&job->view->lit, rays), shade, true, strip, watch);
+        return;
+    }
+    if (pictured(job)) keep_colours(strip, &own);
+    ambient_alone(job, strip);
+    watch_lap(watch, WR_STAGE_LIGHT);
+    open_strip(job, NULL, c, strip, watch);
+    keep_colours(strip, &dark);
+    if (seen == WR_SEEN_NOT) return;
+    if (pictured(job)) put_colours(&own, strip);
+    light_at_once(job, &VIEWED(&job->view->lit, rays), shade, !open, strip, watch);
+    for (int k = 0; k < 3 && open; k++)
+        for (int i = 0; i < strip->count; i++) c[k][i] += dark.of[k][i];
+    for (int k = 0; k < 3 && seen == WR_SEEN_PART; k++)
+        kernels->veil(share, dark.of[k], strip->count, c[k]);
     watch_lap(watch, WR_STAGE_SHADOW);
 }
 
@@ -277,6 +307,7 @@ static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *si
     }
     bring_colour(job, rays, strip, watch->scratch, watch);
     stretch_strip(job->view, strip);
-    if (runs(job, WR_EFFECT_SHADOW)) shadowed_at_once(job, shade, strip, watch);
-    else light_at_once(job, &VIEWED(&job->view->lit, rays), shade, strip, watch);
+    if (runs(job, WR_EFFECT_SHADOW) || runs(job, WR_EFFECT_OCCLUSION))
+        veiled_at_once(job, shade, strip, watch);
+    else light_at_once(job, &VIEWED(&job->view->lit, rays), shade, true, strip, watch);
 }

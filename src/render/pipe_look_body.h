@@ -83,6 +83,7 @@ static Sum sum_mix(Sum a, Sum b, REAL r)
 typedef struct Batch {
     int count;
     int sample[WR_SPAN], tap[WR_SPAN];
+    const WrPictureLook *picture; /* that is looked up; NULL: none of those */
 } Batch;
 
 /* What makes sums of a batch's look-ups; it leaves near and far empty. */
@@ -154,11 +155,12 @@ static int count_wide(const Strip *strip, unsigned char *wide)
 }
 
 /* Look up all along each sample's footprint. */
-static void look_along(const WrTileJob *job, Flush *flush, Strip *strip, WrTileScratch *scratch,
-                       Watch *watch)
+static void look_along(const WrTileJob *job, Flush *flush, const WrPictureLook *picture,
+                       Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
     Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
     Batch batch;
+    batch.picture = picture;
     batch.count = near->count = far->count = 0;
     for (int i = 0; i < strip->count; i++)
         for (int tap = 0; tap < strip->taps[i]; tap++) {
@@ -187,7 +189,7 @@ static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
     watch_lap(watch, WR_STAGE_FOOTPRINT);
     scratch->wide_samples += wide;
     if (wide > 0) {
-        look_along(job, flush_slopes, strip, scratch, watch);
+        look_along(job, flush_slopes, NULL, strip, scratch, watch);
         return;
     }
     look_level0(job, strip, scratch);
@@ -232,9 +234,10 @@ static void flush_colours(const WrTileJob *job, const Batch *batch, Strip *strip
                           WrTileScratch *scratch, Watch *watch)
 {
     Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
-    if (near->count > 0) KERNELS_OF(job)->colour(&job->colour, near);
-    watch_lap(watch, WR_STAGE_COLOUR);
-    if (far->count > 0) KERNELS_OF(job)->colour_pyramid(TINT_OF(job), far);
+    const bool facets = batch->picture != &job->colour;
+    if (near->count > 0) KERNELS_OF(job)->colour(&batch->picture->near, near);
+    watch_lap(watch, facets ? WR_STAGE_FACETS : WR_STAGE_COLOUR);
+    if (far->count > 0) KERNELS_OF(job)->colour_pyramid(FAR_LOOK(batch->picture), far);
     int a = 0, b = 0;
     for (int k = 0; k < batch->count; k++) {
         const int i = batch->sample[k], tap = batch->tap[k];
@@ -249,24 +252,34 @@ static void flush_colours(const WrTileJob *job, const Batch *batch, Strip *strip
         strip->cr[i] = at.r, strip->cg[i] = at.g, strip->cb[i] = at.b;
     }
     near->count = far->count = 0;
-    watch_lap(watch, WR_STAGE_TINT);
+    watch_lap(watch, facets ? WR_STAGE_FACETS : WR_STAGE_TINT);
 }
 
-/* C over the footprint, in the picture's own texels; where no sample is larger than one: the picture's own (E64). After
-   the table's look-ups, which it takes the places of. */
+/* A picture over the footprint, in its own texels, into cr, cg, cb; where no sample is larger than one: its own numbers. After
+   the table's look-ups, which it takes the places of. How many look above level 0, each noted in `wide`. */
+static int look_wide(const WrTileJob *job, const Rays *rays, const WrPictureLook *picture,
+                     bool anisotropic, unsigned char *wide, Strip *strip, WrTileScratch *scratch,
+                     Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const bool facets = picture != &job->colour;
+    (met_whole(job) ? k->footprint_met : k->footprint)(rays, FAR_LOOK(picture), 1, strip);
+    k->spread(FAR_LOOK(picture), anisotropic, strip);
+    const int count = count_wide(strip, wide);
+    watch_lap(watch, facets ? WR_STAGE_FACETS : WR_STAGE_TINT);
+    if (count > 0) look_along(job, flush_colours, picture, strip, scratch, watch);
+    else k->colour(&picture->near, strip);
+    watch_lap(watch, facets ? WR_STAGE_FACETS : WR_STAGE_COLOUR);
+    return count;
+}
+
+/* C over the footprint (E64). */
 static void look_tint(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
                       Watch *watch)
 {
-    const Kernels *k = KERNELS_OF(job);
     did(watch, WR_EFFECT_TINT);
-    (met_whole(job) ? k->footprint_met : k->footprint)(rays, TINT_OF(job), 1, strip);
-    k->spread(TINT_OF(job), job->plan->tint_anisotropic, strip);
-    const int wide = count_wide(strip, scratch->tint_of);
-    watch_lap(watch, WR_STAGE_TINT);
-    scratch->wide_tints += wide;
-    if (wide > 0) look_along(job, flush_colours, strip, scratch, watch);
-    else k->colour(&job->colour, strip);
-    watch_lap(watch, WR_STAGE_COLOUR);
+    scratch->wide_tints += look_wide(job, rays, &job->colour, job->plan->tint_anisotropic,
+                                     scratch->tint_of, strip, scratch, watch);
 }
 
 /* C of the colour picture. */
@@ -278,7 +291,7 @@ static void look_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
         look_tint(job, rays, strip, scratch, watch);
         return;
     }
-    KERNELS_OF(job)->colour(&job->colour, strip);
+    KERNELS_OF(job)->colour(&job->colour.near, strip);
     watch_lap(watch, WR_STAGE_COLOUR);
 }
 
@@ -307,6 +320,29 @@ static void bring_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
     note_grain(job, watch);
 }
 
+/* Roughness and metalness where pictures tell them. Look-ups go through the colours' places. */
+static void look_facets(const WrTileJob *job, const Rays *rays, Strip *strip,
+                        WrTileScratch *scratch, Watch *watch)
+{
+    REAL own[3][WR_SPAN], *const c[3] = { strip->cr, strip->cg, strip->cb };
+    REAL *const to[WR_FACET_KINDS] = { strip->rough, strip->metal };
+    const size_t size = (size_t)strip->count * sizeof(REAL);
+    unsigned char wide[WR_SPAN];
+    for (int k = 0; k < 3; k++) memcpy(own[k], c[k], size);
+    for (int k = 0; k < WR_FACET_KINDS; k++) {
+        const WrPictureLook *picture = &job->facets[k];
+        if (!picture->near.rgba) continue;
+        if (job->plan->facets_filtered)
+            look_wide(job, rays, picture, job->plan->facets_anisotropic, wide, strip, scratch,
+                      watch);
+        else KERNELS_OF(job)->colour(&picture->near, strip);
+        memcpy(to[k], strip->cr, size);
+    }
+    for (int k = 0; k < 3; k++) memcpy(c[k], own[k], size);
+    did(watch, WR_EFFECT_FACETS);
+    watch_lap(watch, WR_STAGE_FACETS);
+}
+
 /* Roughness and metalness of each sample. */
 static void bring_roughness(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
@@ -316,8 +352,10 @@ static void bring_roughness(const WrTileJob *job, const Rays *rays, Strip *strip
         strip->metal[i] = (REAL)job->scene->material.metalness;
     }
     if (!runs(job, WR_EFFECT_VARIED)) return;
-    KERNELS_OF(job)->grain_rough(rays, GRAIN_OF(job), (REAL)by[0], (REAL)by[1], strip);
     did(watch, WR_EFFECT_VARIED);
+    if (runs(job, WR_EFFECT_FACETS)) look_facets(job, rays, strip, watch->scratch, watch);
+    if (job->facets[WR_FACET_ROUGHNESS].near.rgba || !job->grain_roughens) return;
+    KERNELS_OF(job)->grain_rough(rays, GRAIN_OF(job), (REAL)by[0], (REAL)by[1], strip);
     note_grain(job, watch);
 }
 

@@ -27,7 +27,8 @@ static void meet(const WrTileJob *job, const Rays *rays, bool mapped, Strip *str
     watch_lap(watch, WR_STAGE_VISIBILITY);
     if (strip->count == 0) return;
     const bool smooth = runs(job, WR_EFFECT_SMOOTH);
-    const bool sloped = runs(job, WR_EFFECT_TANGENTS) || runs(job, WR_EFFECT_TINT);
+    const bool sloped =
+        runs(job, WR_EFFECT_TANGENTS) || runs(job, WR_EFFECT_TINT) || job->plan->facets_filtered;
     for (int i = 0; i < strip->count && (job->dice || turns_map(job) || runs(job, WR_EFFECT_CAST));
          i++)
         strip->triangle[i] = (int)strip->u[i];

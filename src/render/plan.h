@@ -35,6 +35,7 @@ typedef enum WrEffect {
     WR_EFFECT_BLUR,
     WR_EFFECT_COLOUR,
     WR_EFFECT_TINT,
+    WR_EFFECT_FACETS,
     WR_EFFECT_VARIED,
     WR_EFFECT_EMBOSSED,
     WR_EFFECT_GRAIN,
@@ -96,8 +97,9 @@ typedef enum WrStage {
     WR_STAGE_BUMP,
     WR_STAGE_SPREAD,
     WR_STAGE_COLOUR,
-    WR_STAGE_TINT,  /* the colour picture over footprints */
-    WR_STAGE_GRAIN, /* solid textures */
+    WR_STAGE_TINT,   /* the colour picture over footprints */
+    WR_STAGE_FACETS, /* pictures of roughness and metalness */
+    WR_STAGE_GRAIN,  /* solid textures */
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
     WR_STAGE_SURROUND,  /* diffuse light of surroundings */
@@ -178,6 +180,7 @@ typedef enum WrPrecision {
      tint        share of highlights that has the surface's colour
      grain       the solid texture's pattern; off: none is worked out, of colours the first is all
      map_filtered, map_anisotropic    the normal map's slopes over footprints
+     facets_filtered, facets_anisotropic    likewise roughness and metalness
      map_frame   what its vectors are turned by; gradient where there are none
      bump        as simplified: BLINN for exact on a flat base, ...
      scheme      how the table is looked up
@@ -198,6 +201,8 @@ typedef enum WrPrecision {
     X(HARMONICS, int, harmonics)                                                                   \
     X(BLUR, double, gloss)                                                                         \
     X(TINT, bool, tint_anisotropic)                                                                \
+    X(FACETS, bool, facets_filtered)                                                               \
+    X(FACETS, bool, facets_anisotropic)                                                            \
     X(GRAIN, WrGrainKind, grain)                                                                   \
     X(NORMALS, bool, map_filtered)                                                                 \
     X(NORMALS, bool, map_anisotropic)                                                              \

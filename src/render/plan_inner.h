@@ -34,11 +34,30 @@ static inline bool wants_filter(const WrDials *dials)
     return dials->aa == WR_AA_FILTER || dials->aa == WR_AA_MOMENTS;
 }
 
+/* Does the solid texture drive roughness? Where a picture tells it, that does. */
+static inline bool grain_roughens(const WrScene *scene)
+{
+    return scene->grain.kind != WR_GRAIN_OFF && scene->grain.drives & WR_GRAIN_ROUGHENS &&
+           !scene->facets[WR_FACET_ROUGHNESS].image && wr_reflects[scene->material.model].roughness;
+}
+
 /* Does the material's roughness change from place to place? */
 static inline bool roughens(const WrScene *scene)
 {
-    return scene->grain.kind != WR_GRAIN_OFF && scene->grain.drives & WR_GRAIN_ROUGHENS &&
-           wr_reflects[scene->material.model].roughness;
+    return grain_roughens(scene) || (scene->facets[WR_FACET_ROUGHNESS].image &&
+                                     wr_reflects[scene->material.model].roughness);
+}
+
+static inline bool metal_varies(const WrScene *scene)
+{
+    return scene->material.model == WR_REFLECT_GGX && scene->facets[WR_FACET_METALNESS].image;
+}
+
+/* Is it of metal everywhere, which has no diffuse reflection? */
+static inline bool all_metal(const WrScene *scene)
+{
+    return scene->material.model == WR_REFLECT_GGX && scene->material.metalness == 1 &&
+           !metal_varies(scene);
 }
 
 /* Does light of surroundings depend on n'? */
@@ -69,10 +88,12 @@ WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspectiv
     wr_decide_specular, wr_decide_model, wr_decide_shadow, wr_decide_cast, wr_decide_occlusion,
     wr_decide_filter, wr_decide_surround, wr_decide_harmonics, wr_decide_mirror, wr_decide_blur,
     wr_decide_displaced, wr_decide_exact, wr_decide_curvature, wr_decide_grain, wr_decide_octaves,
-    wr_decide_faded, wr_decide_embossed, wr_decide_varied, wr_decide_samples, wr_decide_bound;
+    wr_decide_faded, wr_decide_embossed, wr_decide_facets, wr_decide_varied, wr_decide_samples,
+    wr_decide_bound;
 WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr_settle_normals,
-    wr_settle_model, wr_settle_cast, wr_settle_occlusion, wr_settle_harmonics, wr_settle_blur,
-    wr_settle_displaced, wr_settle_exact, wr_settle_curvature, wr_settle_grain, wr_settle_samples;
+    wr_settle_facets, wr_settle_facets, wr_settle_model, wr_settle_cast, wr_settle_occlusion,
+    wr_settle_harmonics, wr_settle_blur, wr_settle_displaced, wr_settle_exact, wr_settle_curvature,
+    wr_settle_grain, wr_settle_samples;
 
 /* Which formula turns the normal: the scene's, or, of a displaced surface, its own normal's. */
 WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanAsk *ask);

@@ -18,7 +18,7 @@ WrVerdict wr_decide_diffuse(const WrPlan *plan, const WrPlanAsk *ask, const char
     (void)plan;
     if (!any_light(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light shines");
     if (m->diffuse == 0) return say(WR_VERDICT_SPARED, why, "diffuse is 0");
-    if (m->model == WR_REFLECT_GGX && m->metalness == 1)
+    if (all_metal(ask->scene))
         return say(WR_VERDICT_SPARED, why, "a metal has no diffuse reflection");
     if (m->colour.x == 0 && m->colour.y == 0 && m->colour.z == 0)
         return say(WR_VERDICT_SPARED, why, "the material's colour is black");
@@ -72,15 +72,44 @@ void wr_settle_model(WrPlan *plan, const WrPlanAsk *ask)
     plan->tint = run && runs(plan, WR_EFFECT_SPECULAR) ? m->tint : 0;
 }
 
-WrVerdict wr_decide_varied(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+/* Is light worked out that goes by roughness? */
+static bool goes_by_facets(const WrPlan *plan)
+{
+    return runs(plan, WR_EFFECT_MODEL) || runs(plan, WR_EFFECT_SURROUND) ||
+           runs(plan, WR_EFFECT_MIRROR);
+}
+
+WrVerdict wr_decide_facets(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
-    if (scene->grain.kind == WR_GRAIN_OFF || !(scene->grain.drives & WR_GRAIN_ROUGHENS))
-        return say(WR_VERDICT_NONE, why, "roughness is the same everywhere");
-    if (!roughens(scene))
+    const bool rough = scene->facets[WR_FACET_ROUGHNESS].image;
+    if (!rough && !scene->facets[WR_FACET_METALNESS].image)
+        return say(WR_VERDICT_NONE, why, "the object has no picture of roughness or metalness");
+    if (!(rough && roughens(scene)) && !metal_varies(scene))
+        return say(WR_VERDICT_NONE, why, "the reflection model does not go by them");
+    if (!goes_by_facets(plan))
+        return say(WR_VERDICT_NONE, why, "no light is worked out that goes by them");
+    return say(WR_VERDICT_RUN, why,
+               wants_filter(ask->dials) ? "light goes by them: by their means over footprints"
+                                        : "light goes by them");
+}
+
+void wr_settle_facets(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->facets_filtered = runs(plan, WR_EFFECT_FACETS) && wants_filter(ask->dials);
+    plan->facets_anisotropic =
+        plan->facets_filtered && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
+}
+
+WrVerdict wr_decide_varied(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrGrain *grain = &ask->scene->grain;
+    const bool driven = grain->kind != WR_GRAIN_OFF && grain->drives & WR_GRAIN_ROUGHENS;
+    if (runs(plan, WR_EFFECT_FACETS)) return say(WR_VERDICT_RUN, why, "pictures tell it");
+    if (!driven) return say(WR_VERDICT_NONE, why, "roughness is the same everywhere");
+    if (!grain_roughens(ask->scene))
         return say(WR_VERDICT_NONE, why, "the reflection model goes by no roughness");
-    if (!runs(plan, WR_EFFECT_MODEL) && !runs(plan, WR_EFFECT_SURROUND) &&
-        !runs(plan, WR_EFFECT_MIRROR))
+    if (!goes_by_facets(plan))
         return say(WR_VERDICT_NONE, why, "no light is worked out that goes by roughness");
     return say(WR_VERDICT_RUN, why, "the solid texture drives roughness");
 }

@@ -115,7 +115,8 @@ void wr_settle_grain(WrPlan *plan, const WrPlanAsk *ask)
 {
     const WrGrain *grain = &ask->scene->grain;
     const bool coloured = runs(plan, WR_EFFECT_GRAIN) && !one_colour(grain);
-    plan->grain = coloured || runs(plan, WR_EFFECT_EMBOSSED) || runs(plan, WR_EFFECT_VARIED)
+    plan->grain = coloured || runs(plan, WR_EFFECT_EMBOSSED) ||
+                          (runs(plan, WR_EFFECT_VARIED) && grain_roughens(ask->scene))
                       ? grain->kind
                       : WR_GRAIN_OFF;
 }

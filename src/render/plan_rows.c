@@ -206,8 +206,16 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "or it is of one colour; footprints up to one of its texels look "
                                  "up the picture itself",
                                  STAGE(TINT), .decide = wr_decide_tint, .settle = wr_settle_tint },
+    [WR_ROW(WR_EFFECT_FACETS)] = { "E75", "pictures of roughness and metalness", WR_PROOF_IDENTICAL,
+                                   NULL,
+                                   "there is none, the reflection model goes by neither, or no "
+                                   "light is worked out that does; footprints up to one of their "
+                                   "texels look up the pictures themselves",
+                                   STAGE(FACETS), .only_way = true, .decide = wr_decide_facets,
+                                   .settle = wr_settle_facets },
     [WR_ROW(WR_EFFECT_VARIED)] = { "E72", "roughness by place", WR_PROOF_IDENTICAL, NULL,
-                                   "no solid texture drives it, the reflection model goes by no "
+                                   "neither a picture nor a solid texture drives it, the "
+                                   "reflection model goes by no "
                                    "roughness, or no light is worked out",
                                    0, .only_way = true, .decide = wr_decide_varied },
     [WR_ROW(WR_EFFECT_EMBOSSED)] = { "E71", "bump of the solid texture", WR_PROOF_BOUNDED,

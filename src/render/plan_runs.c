@@ -25,6 +25,7 @@ static const char *no_ground(const WrPlan *plan)
         return "this scheme's coefficients each reach over the whole table";
     if (runs(plan, WR_EFFECT_FILTER)) return "a footprint may reach over any of the table";
     if (runs(plan, WR_EFFECT_TINT)) return "the colour picture's footprints go by tangents";
+    if (plan->facets_filtered) return "footprints of pictures of roughness go by tangents";
     if (plan->precision != WR_PRECISION_SINGLE)
         return "slopes of single precision say nothing of those in double";
     return NULL;

@@ -1,6 +1,7 @@
 /* What the plan decides about samples: how many a pixel takes, and by what bound they are spared. */
 #include "render/plan_inner.h"
 
+#include "render/grain_texels.h"
 #include "scene/scene.h"
 
 static bool takes_grid(const WrDials *dials)
@@ -40,7 +41,7 @@ void wr_settle_samples(WrPlan *plan, const WrPlanAsk *ask)
     const bool run = runs(plan, WR_EFFECT_SAMPLES);
     plan->samples = run ? dials->samples : 1;
     const bool adaptive = dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively && !unbounded(ask) &&
-                          plan->grain == WR_GRAIN_OFF; /* which may change within any pixel */
+                          (plan->grain == WR_GRAIN_OFF || wr_grain_bounded(ask->scene));
     plan->sampling = !run ? WR_SAMPLING_ONE : adaptive ? WR_SAMPLING_ADAPTIVE : WR_SAMPLING_ALL;
     if (!run) return;
     plan->spread = dials->spread;

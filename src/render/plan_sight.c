@@ -109,8 +109,11 @@ WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const c
     if (!is_round(ask) && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
     if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR) ||
-        runs(plan, WR_EFFECT_NORMALS) || runs(plan, WR_EFFECT_OCCLUSION))
+        runs(plan, WR_EFFECT_NORMALS) || runs(plan, WR_EFFECT_OCCLUSION) ||
+        runs(plan, WR_EFFECT_FACETS))
         return say(WR_VERDICT_RUN, why, "table, formula or a picture is looked up there");
+    if (plan->grain != WR_GRAIN_OFF && plan->sampling == WR_SAMPLING_ADAPTIVE)
+        return say(WR_VERDICT_RUN, why, "how fine the solid texture is in a pixel goes by them");
     if (runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_BOUND))
         return say(WR_VERDICT_RUN, why, "second derivatives or bounds go by them");
     return say(WR_VERDICT_SPARED, why, "nothing is looked up at u and v");
@@ -125,6 +128,8 @@ WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const cha
         return say(WR_VERDICT_RUN, why, "slopes turn the normal along them");
     if (runs(plan, WR_EFFECT_TINT))
         return say(WR_VERDICT_RUN, why, "the colour picture's footprints go by them");
+    if (plan->facets_filtered)
+        return say(WR_VERDICT_RUN, why, "footprints of pictures of roughness go by them");
     if (runs(plan, WR_EFFECT_BOUND)) return say(WR_VERDICT_RUN, why, "bounds go by them");
     return say(WR_VERDICT_SPARED, why, "no slope turns the normal");
 }

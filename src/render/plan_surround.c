@@ -21,7 +21,7 @@ WrVerdict wr_decide_surround(const WrPlan *plan, const WrPlanAsk *ask, const cha
         return say(WR_VERDICT_NONE, why, "the scene has no surroundings");
     if (!shine(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light comes from them");
     if (m->diffuse == 0) return say(WR_VERDICT_SPARED, why, "diffuse is 0");
-    if (m->model == WR_REFLECT_GGX && m->metalness == 1)
+    if (all_metal(ask->scene))
         return say(WR_VERDICT_SPARED, why, "a metal has no diffuse reflection");
     if (m->colour.x == 0 && m->colour.y == 0 && m->colour.z == 0)
         return say(WR_VERDICT_SPARED, why, "the material's colour is black");

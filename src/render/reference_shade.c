@@ -60,30 +60,54 @@ static void note_shadow(WrReferenceStage *stage, const WrField *field)
 static void note_roughness(WrReferenceStage *stage)
 {
     const WrGrain *grain = &stage->scene->grain;
+    const bool pictured = stage->scene->facets[WR_FACET_ROUGHNESS].image;
+    const bool driven = grain->kind != WR_GRAIN_OFF && grain->drives & WR_GRAIN_ROUGHENS;
     WrMaterial m = stage->scene->material;
-    if (grain->kind == WR_GRAIN_OFF || !(grain->drives & WR_GRAIN_ROUGHENS)) return;
-    if (!wr_reflects[m.model].roughness) return;
+    if (!wr_reflects[m.model].roughness || (!pictured && !driven)) return;
     stage->rough = wr_alloc(ROUGHS, sizeof *stage->rough);
-    const double low = fmin(grain->roughness[0], grain->roughness[1]);
-    const double high = fmax(grain->roughness[0], grain->roughness[1]);
+    const double low = pictured ? 0 : fmin(grain->roughness[0], grain->roughness[1]);
+    const double high = pictured ? 1 : fmax(grain->roughness[0], grain->roughness[1]);
     for (int i = (int)floor(low * (ROUGHS - 1)); i <= (int)ceil(high * (ROUGHS - 1)); i++) {
         m.roughness = (double)i / (ROUGHS - 1);
         wr_scene_matter(&m, &stage->rough[i]);
     }
 }
 
-/* The material's numbers at a place: alpha is its own, albedos between two 256ths. */
-static WrMatter matter_at(const WrReferenceStage *stage, WrVec3 object)
+/* What a picture of facets says there, bilinear. */
+static double facet_at(const WrReferenceStage *stage, WrFacetKind kind, double u, double v)
+{
+    const WrFacetMap *map = &stage->scene->facets[kind];
+    const WrTexels at = wr_laid_texels(stage->scene, map->image, &map->laid, stage->periodic_u,
+                                       stage->periodic_v, u, v);
+    double sum = 0;
+    for (int k = 0; k < 4; k++) sum += at.weight[k] * (double)at.texel[k][0];
+    return sum;
+}
+
+static double roughness_at(const WrReferenceStage *stage, WrVec3 object, double u, double v)
 {
     const WrGrain *grain = &stage->scene->grain;
-    if (!stage->rough) return stage->matter;
+    if (stage->scene->facets[WR_FACET_ROUGHNESS].image)
+        return facet_at(stage, WR_FACET_ROUGHNESS, u, v);
     const double g = wr_reference_grain(grain, &stage->grain, object, NULL);
-    WrMaterial m = stage->scene->material;
-    m.roughness = (1 - g) * grain->roughness[0] + g * grain->roughness[1];
-    const double x = fmin(m.roughness * (ROUGHS - 1), ROUGHS - 1), t = x - floor(x);
+    return (1 - g) * grain->roughness[0] + g * grain->roughness[1];
+}
+
+/* The material's numbers at a place: alpha is its own, albedos between two 256ths. */
+static WrMatter matter_at(const WrReferenceStage *stage, WrVec3 object, double u, double v)
+{
+    const bool metals = stage->scene->material.model == WR_REFLECT_GGX &&
+                        stage->scene->facets[WR_FACET_METALNESS].image;
+    WrMatter out = stage->matter;
+    if (metals) out.metal = facet_at(stage, WR_FACET_METALNESS, u, v);
+    if (!stage->rough) return out;
+    const double roughness = roughness_at(stage, object, u, v);
+    const double x = fmin(roughness * (ROUGHS - 1), ROUGHS - 1), t = x - floor(x);
     const WrMatter *low = &stage->rough[(int)floor(x)], *high = &stage->rough[(int)ceil(x)];
-    WrMatter out = *low;
-    out.alpha = fmax(m.roughness * m.roughness, WR_ALPHA_LEAST), out.sigma = m.roughness;
+    const double metal = out.metal;
+    out = *low;
+    out.metal = metal;
+    out.alpha = fmax(roughness * roughness, WR_ALPHA_LEAST), out.sigma = roughness;
     out.a += t * (high->a - low->a), out.b += t * (high->b - low->b);
     out.scale += t * (high->scale - low->scale), out.mean += t * (high->mean - low->mean);
     out.again += t * (high->again - low->again);
@@ -304,7 +328,7 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
     double diffuse[3] = { ambient, ambient, ambient }, shine[3] = { 0, 0, 0 };
     double colour[3];
     place_colour(stage, at->p, u, v, colour);
-    const WrMatter matter = matter_at(stage, at->p);
+    const WrMatter matter = matter_at(stage, at->p, u, v);
     double has[3] = { m->colour.x * colour[0], m->colour.y * colour[1], m->colour.z * colour[2] };
     const bool kept = m->model == WR_REFLECT_GGX && m->energy == WR_ENERGY_KEPT;
     for (int c = 0; c < 3 && kept; c++) has[c] = fmin(fmax(has[c], 0), 1);

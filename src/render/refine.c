@@ -18,7 +18,14 @@
 /* The mean of one place anywhere in each of K x K cells is off by about 0.29 / K^2 of the slope; four times that. */
 #define JITTER 1.16
 
-/* Texels along u and v, of the table or of the colour picture, whichever are finer; 0: none is looked up. */
+static void finer_texels(const WrColourLook *look, double *w, double *h)
+{
+    if (!look->rgba) return;
+    *w = fmax(*w, fabs(look->ru) * look->width);
+    *h = fmax(*h, fabs(look->rv) * look->height);
+}
+
+/* Texels along u and v, of the table or of the pictures, whichever are finer; 0: none is looked up. */
 static void count_texels(const WrTileJob *job, float texels[2])
 {
     const bool colour = wr_plan_calls(job->plan, WR_EFFECT_COLOUR);
@@ -26,8 +33,11 @@ static void count_texels(const WrTileJob *job, float texels[2])
         wr_plan_calls(job->plan, WR_EFFECT_BUMP) && job->plan->source == WR_SOURCE_TABLE;
     const double w = table ? fabs(job->look.ru) * job->look.width : 0;
     const double h = table ? fabs(job->look.rv) * job->look.height : 0;
-    const double cw = colour ? fabs(job->colour.ru) * job->colour.width : 0;
-    const double ch = colour ? fabs(job->colour.rv) * job->colour.height : 0;
+    double cw = 0, ch = 0;
+    if (colour) finer_texels(&job->colour.near, &cw, &ch);
+    for (int k = 0; k < WR_FACET_KINDS && wr_plan_calls(job->plan, WR_EFFECT_FACETS); k++)
+        finer_texels(&job->facets[k].near, &cw, &ch);
+    cw = fmax(cw, job->grain_texels[0]), ch = fmax(ch, job->grain_texels[1]);
     const bool map = wr_plan_calls(job->plan, WR_EFFECT_NORMALS);
     const double mw = map ? fabs(job->relief.ru) * job->relief.width : 0;
     const double mh = map ? fabs(job->relief.rv) * job->relief.height : 0;
@@ -45,7 +55,7 @@ static bool slopes_jump(const WrPlan *plan)
 
 static WrRefineRule rule_of(const WrTileJob *job, float contrast, bool rooks)
 {
-    const bool jumps = slopes_jump(job->plan);
+    const bool jumps = slopes_jump(job->plan) || job->plan->grain != WR_GRAIN_OFF;
     WrRefineRule rule = { .most = jumps ? contrast / 2 : contrast,
                           .some = rooks && !jumps,
                           .all = job->plan->sampling == WR_SAMPLING_ALL };

@@ -28,6 +28,13 @@ typedef struct WrFrames WrFrames;
 typedef struct WrHorizon WrHorizon;
 typedef struct WrPipe WrPipe;
 
+/* A picture that is laid over u and v, as kernels look it up. */
+typedef struct WrPictureLook {
+    WrColourLook near; /* rgba NULL: none */
+    WrLook far;        /* its means over footprints; pyramid NULL: not wanted */
+    WrLookd far_double;
+} WrPictureLook;
+
 /* What all tiles of a frame share; read only while they run. */
 typedef struct WrTileJob {
     const WrView *view;
@@ -48,7 +55,7 @@ typedef struct WrTileJob {
     WrLook look;
     WrLookd look_double;           /* where kernels_double looks */
     WrEffects looks;               /* what a look-up in the table does, by what it was given */
-    const WrHorizon *horizon;      /* of the table, for shadows; NULL: none */
+    const WrHorizon *horizon;      /* of the table, for shadows and occlusion */
     const WrOpeningTable *opening; /* how open the relief is */
     double relief_height;          /* of a table unit, kernel units, above 0 */
     const WrCast *cast;            /* what can hide lamps from it; read where the plan runs that */
@@ -59,13 +66,13 @@ typedef struct WrTileJob {
         dark; /* runs of samples are asked: is the table level there? Are all lights behind? */
     WrMatter matter; /* what the plan's model goes by; kd and ks of what runs */
     WrSurroundLook surround;
-    WrColourLook colour; /* rgba NULL: none */
-    WrLook tint;         /* the colour picture's means over footprints; pyramid NULL: not wanted */
-    WrLookd tint_double;
+    WrPictureLook colour, facets[WR_FACET_KINDS];
     WrKernGrain grain; /* the solid texture */
     WrKernGraind grain_double;
-    double rough;    /* where no place has its own */
-    WrKernVary vary; /* only where some has, or lobes widen */
+    bool grain_roughens;    /* it drives roughness */
+    double grain_texels[2]; /* of it along u and v, at most; 0: not known, or there is none */
+    double rough;           /* where no place has its own */
+    WrKernVary vary;        /* only where some has, or lobes widen */
     WrKernVaryd vary_double;
     WrLook relief; /* the normal map's slopes (relief.h); pyramid NULL: none */
     WrLookd relief_double;

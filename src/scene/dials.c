@@ -246,12 +246,13 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
     [WR_ROW(WR_DIAL_HORIZONS)] = { "horizons", "dials", WR_AXIS_LIGHT, "Horizons",
                                    "directions in which it is known how high the relief stands, a "
                                    "multiple of 4",
-                                   .low = 4, .high = 64, .whole = true, MEMBERS(horizons),
-                                   .matters = with_horizons, .rungs = horizon_rungs },
+                                   .low = 4, .high = 64, .whole = true, .sparse = true,
+                                   MEMBERS(horizons), .matters = with_horizons,
+                                   .rungs = horizon_rungs },
     [WR_ROW(WR_DIAL_RAYS)] = { "rays", "dials", WR_AXIS_LIGHT, "Shadow rays",
                                "to a round lamp that objects may hide; 1: to its middle, 0: "
                                "objects hide none",
-                               .low = 0, .high = 256, .whole = true, MEMBERS(rays),
+                               .low = 0, .high = 256, .whole = true, .sparse = true, MEMBERS(rays),
                                .matters = with_rays, .rungs = ray_rungs },
     [WR_ROW(WR_DIAL_DICE)] = { "dice", "dials", WR_AXIS_VISIBILITY, "Facets",
                                "pixels; so near are a displaced surface's facets to it",
@@ -280,8 +281,8 @@ void wr_dials_print(const WrScene *scene, const char *command, bool all, WrText 
     for (int i = 0; i < WR_DIAL_COUNT; i++) {
         const WrDial *dial = &wr_dials[i];
         const double value = dial->get(scene);
-        if (strcmp(dial->command, command) != 0 || (!all && value == dial->get(&fallback)))
-            continue;
+        const bool given = (all && !dial->sparse) || value != dial->get(&fallback);
+        if (strcmp(dial->command, command) != 0 || !given) continue;
         if (text->length > 0) wr_text_add(text, " ");
         wr_text_addf(text, "%s=", dial->name);
         if (dial->choices > 0) wr_text_add(text, dial->choice((int)value));

@@ -165,6 +165,7 @@ typedef struct WrDial {
     const char *(*choice)(int rung);
     double low, high; /* of a number */
     bool whole;
+    bool sparse; /* printed only where it is not the default: older programs do not know it */
     double (*get)(const WrScene *scene); /* the rung's index, or the number */
     void (*set)(WrScene *scene, double value);
     /* Whether the dial can change the scene's picture as its other dials stand (footprint: only with filter

@@ -229,10 +229,10 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                      .help =
                                          "on: stand so far from the target, towards the eye, that "
                                          "the object just fits; eye= turns it off" },
-    [WR_ROW(WR_SCENE_PARAM_FRAME)] = { "camera", NULL, "frame", IN_SCENE(camera.frame),
-                                       .components = 1, .high = 1e4, .fallback = { 0 },
-                                       .help =
-                                           "width by height of what must be seen: a narrower "
+    [WR_ROW(
+        WR_SCENE_PARAM_FRAME)] = { "camera", NULL, "frame", IN_SCENE(camera.frame), .components = 1,
+                                   .sparse = true, .high = 1e4, .fallback = { 0 },
+                                   .help = "width by height of what must be seen: a narrower "
                                            "picture sees as much across, and more from bottom to "
                                            "top; 0: nothing must; without fit=on" },
     [WR_ROW(WR_SCENE_PARAM_FOV)] = { "camera", "perspective", "fov", IN_SCENE(camera.fov_deg),

@@ -100,6 +100,11 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->normals = scene->normals;
     if (scene->normals.image) wr_image_share(scene->normals.image);
     clone->normals.laid = laid_copy(&scene->normals.laid);
+    for (int k = 0; k < WR_FACET_KINDS; k++) {
+        const WrFacetMap *map = &scene->facets[k];
+        clone->facets[k] =
+            (WrFacetMap){ map->image ? wr_image_share(map->image) : NULL, laid_copy(&map->laid) };
+    }
     if (scene->triangles) clone->triangles = wr_triangles_share(scene->triangles);
     clone->triangles_path = wr_strdup(scene->triangles_path);
     memcpy(clone->triangles_sha256, scene->triangles_sha256, sizeof clone->triangles_sha256);
@@ -177,6 +182,10 @@ void wr_scene_free(WrScene *scene)
     wr_laid_fini(&scene->colour_laid);
     if (scene->normals.image) wr_image_free(scene->normals.image);
     wr_laid_fini(&scene->normals.laid);
+    for (int k = 0; k < WR_FACET_KINDS; k++) {
+        wr_image_free(scene->facets[k].image);
+        wr_laid_fini(&scene->facets[k].laid);
+    }
     wr_free(scene->name);
     wr_free(scene->layer);
     for (int i = 0; i < scene->other_count; i++) wr_scene_free(scene->others[i]);

@@ -97,6 +97,13 @@ typedef struct WrNormalMap {
     double strength;     /* -100..100: its slopes' factor */
 } WrNormalMap;
 
+/* Pictures of what facets are like from place to place. */
+typedef enum WrFacetKind { WR_FACET_ROUGHNESS, WR_FACET_METALNESS, WR_FACET_KINDS } WrFacetKind;
+typedef struct WrFacetMap {
+    WrImage *image; /* shared; one channel, 0..1; NULL: the material's number holds everywhere */
+    WrLaid laid;
+} WrFacetMap;
+
 /* How large the unit cell is for other programs: what exports, solids and labels go by. Pictures do not. */
 typedef struct WrCellSize {
     double w, h; /* above 0: scene units, or millimetres */
@@ -121,6 +128,7 @@ struct WrScene {
     WrLaid colour_laid;
     WrColouring colouring; /* what that is made by, if by any (its path is NULL then) */
     WrNormalMap normals;
+    WrFacetMap facets[WR_FACET_KINDS];
     /* Of a shape that is a mesh (wr_scene_set_triangles): */
     WrTriangles *triangles; /* shared; NULL: the square of two (wr_triangles_square) */
     char *triangles_path;   /* as WrLaid's */

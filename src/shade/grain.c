@@ -20,6 +20,7 @@ const char *const wr_grain_drives[WR_GRAIN_DRIVES] = {
 /* Quintic noise in space: value noise has the variance (181/231)^3 / 3; that of |Perlin's| is measured at 2e7 places. */
 const double wr_grain_means[WR_GRAIN_NOISES] = { 0, 0.1797 };
 const double wr_grain_variances[WR_GRAIN_NOISES] = { 0.16035, 0.01629 };
+const double wr_grain_fadings[WR_GRAIN_NOISES] = { 0.154, 0.76 };
 
 #define RGB(r, g, b)                                                                               \
     {                                                                                              \

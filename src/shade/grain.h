@@ -53,6 +53,8 @@ typedef enum WrGrainNoise {
 } WrGrainNoise;
 /* Of one octave: over all of space. */
 extern const double wr_grain_means[WR_GRAIN_NOISES], wr_grain_variances[WR_GRAIN_NOISES];
+/* Of c x^2 (shade/grain_body.h). */
+extern const double wr_grain_fadings[WR_GRAIN_NOISES];
 
 typedef struct WrGrain {
     WrGrainKind kind;

@@ -76,9 +76,28 @@ R_INLINE REAL grain_ramp_mean(REAL t, REAL w)
     return w > K_(1e-3) ? grain_clamp(mean) : grain_clamp(t);
 }
 
-/* How much is left of an octave of which a pixel holds x cells: all up to a quarter, none from a half on. */
-R_INLINE REAL grain_left(REAL x)
+#define GRAIN_GONE K_(10) /* of y: nothing is left from there on */
+
+/* What of an octave's value at its middle a pixel shows on the mean: the part with which the square of the error is least, so
+   that no pixel is worse than one sample, nor busier than the truth. y = c x^2 by how many cells x it holds and what the noise's
+   correlation makes of them; 1 / (1 + y) is within 0.03 of that part up to 3 cells of value noise, 2 of |Perlin|'s, measured.
+   0 from GRAIN_GONE on. */
+R_INLINE REAL grain_left(REAL y)
 {
-    const REAL t = grain_clamp((x - K_(0.25)) * K_(4));
-    return K_(1) - t * t * (K_(3) - K_(2) * t);
+    const REAL left = K_(1.1) / (K_(1) + y) - K_(0.1);
+    return left > K_(0) ? left : K_(0);
+}
+
+/* The same of its slopes, which are as finely grained as if it held the square root of 3 times as much. */
+R_INLINE REAL grain_left_slope(REAL y)
+{
+    return grain_left(K_(3) * y);
+}
+
+/* Which part of an octave's variance lies within the pixel, and is not in its slope there. */
+R_INLINE REAL grain_within(REAL y)
+{
+    const REAL slope = grain_left_slope(y);
+    const REAL all = K_(2) * y / (K_(1) + K_(2) * y), rest = all - K_(2) * y * slope * slope;
+    return y < GRAIN_GONE ? rest > K_(0) ? rest : K_(0) : K_(1);
 }

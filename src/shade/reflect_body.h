@@ -184,14 +184,20 @@ R_INLINE REAL reflect_terms(const REAL *a, REAL x)
     return low + (mid + high * x4) * x4;
 }
 
-R_INLINE REAL reflect_albedo(REAL mu, const MATTER *m)
+/* What an albedo's polynomial goes by. */
+R_INLINE REAL reflect_root(REAL mu)
 {
-    const REAL x = r_sqrt(reflect_least(reflect_positive(mu), K_(1)));
-    return reflect_least(reflect_terms(m->albedo, x), K_(1));
+    return r_sqrt(reflect_least(reflect_positive(mu), K_(1)));
 }
 
-R_INLINE Reflected reflect_ggx(VEC n, VEC l, VEC v, Facets wide, bool spread, bool kept,
-                               const MATTER *m)
+R_INLINE REAL reflect_albedo(REAL mu, const MATTER *m)
+{
+    return reflect_least(reflect_terms(m->albedo, reflect_root(mu)), K_(1));
+}
+
+/* told: what highlights leave to diffuse light is `told_left`; else, kept, it follows from the material's albedo. */
+R_INLINE Reflected reflect_ggx(VEC n, VEC l, VEC v, Facets wide, bool spread, bool kept, bool told,
+                               REAL told_left, const MATTER *m)
 {
     const VEC seen = reflect_seen(n, v), sum = v_add(l, v);
     const REAL hh = v_dot(sum, sum), a2 = m->alpha * m->alpha;
@@ -209,8 +215,9 @@ R_INLINE Reflected reflect_ggx(VEC n, VEC l, VEC v, Facets wide, bool spread, bo
     const REAL shown = there && nl > K_(0) && lit > K_(0) ? lobe : K_(0);
     const REAL f = m->f0 + (K_(1) - m->f0) * p, matt = m->kd * (K_(1) - m->metal);
     const REAL left =
-        kept ? (K_(1) - reflect_albedo(lit, m)) * (K_(1) - reflect_albedo(nv, m)) * m->again
-             : K_(1) - f;
+        told   ? told_left
+        : kept ? (K_(1) - reflect_albedo(lit, m)) * (K_(1) - reflect_albedo(nv, m)) * m->again
+               : K_(1) - f;
     /* metal: f0 is the colour, c + (1 - c) p = c (1 - p) + p */
     return (Reflected){ matt * reflect_positive(lit) * left + m->metal * (K_(1) - p) * shown,
                         (f * (K_(1) - m->metal) + m->metal * p) * shown, K_(0) };

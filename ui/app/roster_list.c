@@ -90,6 +90,8 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_TABLE)] = wr_object_table_take,
     [WR_ROW(WR_FILE_COLOUR)] = wr_map_take_colour,
     [WR_ROW(WR_FILE_NORMALS)] = wr_map_take_normals,
+    [WR_ROW(WR_FILE_ROUGHNESS)] = wr_map_take_roughness,
+    [WR_ROW(WR_FILE_METALNESS)] = wr_map_take_metalness,
     [WR_ROW(WR_FILE_SURROUND)] = wr_light_take_surround,
     [WR_ROW(WR_FILE_PRESET)] = wr_shelf_take,
 };

@@ -63,6 +63,8 @@ static const struct {
     [WR_ROW(WR_FILE_TABLE)] = { "A table for the object", "Choose", NULL },
     [WR_ROW(WR_FILE_COLOUR)] = { "Choose a picture of colours", "Choose", NULL },
     [WR_ROW(WR_FILE_NORMALS)] = { "Choose a normal map", "Choose", NULL },
+    [WR_ROW(WR_FILE_ROUGHNESS)] = { "Choose a picture of roughness", "Choose", NULL },
+    [WR_ROW(WR_FILE_METALNESS)] = { "Choose a picture of metalness", "Choose", NULL },
     [WR_ROW(WR_FILE_SURROUND)] = { "Choose a picture of surroundings", "Choose", NULL },
     [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* its name is typed */
 };

@@ -17,6 +17,8 @@ typedef enum WrFilePurpose {
     WR_FILE_TABLE, /* of the chosen object */
     WR_FILE_COLOUR,
     WR_FILE_NORMALS,
+    WR_FILE_ROUGHNESS,
+    WR_FILE_METALNESS,
     WR_FILE_SURROUND,
     WR_FILE_PRESET, /* never asked for by itself: a preset's name is typed */
     WR_FILE_PURPOSES

@@ -1,4 +1,4 @@
-/* Pictures on the object at hand: its colours, its normals. Every act is a command line. */
+/* Pictures on the object at hand: its colours, its normals, its roughness and metalness. Every act is a command line. */
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
@@ -21,15 +21,48 @@
 
 #define GLYPH 24
 
-/* One of the two. */
+/* One of them. */
 typedef struct Map {
     const char *verb, *label, *choose, *remove, *none;
     WrFilePurpose purpose;
+    WrLaid *(*laid)(WrScene *scene);
 } Map;
 
+static WrLaid *colour_laid(WrScene *scene)
+{
+    return &scene->colour_laid;
+}
+
+static WrLaid *normals_laid(WrScene *scene)
+{
+    return &scene->normals.laid;
+}
+
+static WrLaid *roughness_laid(WrScene *scene)
+{
+    return &scene->facets[WR_FACET_ROUGHNESS].laid;
+}
+
+static WrLaid *metalness_laid(WrScene *scene)
+{
+    return &scene->facets[WR_FACET_METALNESS].laid;
+}
+
 static const Map colour = {
-    "colour", "Colours",     "Choose a picture of colours", "Take the colours off",
-    "none",   WR_FILE_COLOUR
+    "colour",       "Colours",  "Choose a picture of colours", "Take the colours off", "none",
+    WR_FILE_COLOUR, colour_laid
+};
+static const Map facets[WR_FACET_KINDS] = {
+    [WR_FACET_ROUGHNESS] = { "roughness", "Roughness",
+                             "Choose a picture of how rough the surface is where; of three "
+                             "channels G is taken, as glTF packs it",
+                             "The material's own roughness again", "as set above",
+                             WR_FILE_ROUGHNESS, roughness_laid },
+    [WR_FACET_METALNESS] = { "metalness", "Metalness",
+                             "Choose a picture of where the surface is of metal; of three "
+                             "channels B is taken, as glTF packs it",
+                             "The material's own metalness again", "as set above",
+                             WR_FILE_METALNESS, metalness_laid },
 };
 static const Map normals = { "normalmap",
                              "Normals",
@@ -37,7 +70,8 @@ static const Map normals = { "normalmap",
                              "normal` writes it",
                              "Take the normal map off",
                              "none",
-                             WR_FILE_NORMALS };
+                             WR_FILE_NORMALS,
+                             normals_laid };
 
 /* "VERB FILE", "VERB name=value". */
 static void run(WrApp *app, const char *verb, const char *name, const char *value)
@@ -57,6 +91,16 @@ void wr_map_take_colour(WrApp *app, const char *path)
 void wr_map_take_normals(WrApp *app, const char *path)
 {
     run(app, normals.verb, NULL, path);
+}
+
+void wr_map_take_roughness(WrApp *app, const char *path)
+{
+    run(app, facets[WR_FACET_ROUGHNESS].verb, NULL, path);
+}
+
+void wr_map_take_metalness(WrApp *app, const char *path)
+{
+    run(app, facets[WR_FACET_METALNESS].verb, NULL, path);
 }
 
 static const char *name_of(const char *path)
@@ -117,8 +161,7 @@ static void repeat_row(WrApp *app, const Map *map, const WrLaid *laid)
     wr_gui_same_line(8);
     const WrEdit edit_v = wr_gui_number("rv", half, &spec, &rv);
     if (edit_u == WR_EDIT_NONE && edit_v == WR_EDIT_NONE) return;
-    WrScene *live = wr_app_live(app);
-    WrLaid *own = map == &colour ? &live->colour_laid : &live->normals.laid;
+    WrLaid *own = map->laid(wr_app_live(app));
     own->ru = ru, own->rv = rv;
     if (edit_u != WR_EDIT_DONE && edit_v != WR_EDIT_DONE) return;
     WrText value = { 0 };
@@ -180,6 +223,22 @@ static void normal_rows(WrApp *app)
     wr_scene_run(app, &line);
 }
 
+/* Pictures of what the reflection model goes by, and those that are there whatever it is. */
+static void facet_rows(WrApp *app)
+{
+    const WrReflect model = wr_app_scene(app)->material.model;
+    const bool asked[WR_FACET_KINDS] = { wr_reflects[model].roughness, model == WR_REFLECT_GGX };
+    for (int k = 0; k < WR_FACET_KINDS; k++) {
+        const WrFacetMap *map = &wr_app_scene(app)->facets[k];
+        if (!asked[k] && !map->image) continue;
+        wr_gui_push_id(3 + k);
+        file_row(app, &facets[k], map->image, &map->laid);
+        if (wr_app_scene(app)->facets[k].image)
+            repeat_row(app, &facets[k], &wr_app_scene(app)->facets[k].laid);
+        wr_gui_pop_id();
+    }
+}
+
 void wr_panel_maps(WrApp *app)
 {
     wr_gui_space(8);
@@ -196,5 +255,6 @@ void wr_panel_maps(WrApp *app)
     if (wr_app_scene(app)->normals.image)
         repeat_row(app, &normals, &wr_app_scene(app)->normals.laid);
     wr_gui_pop_id();
+    facet_rows(app);
     wr_panel_colouring(app);
 }

@@ -20,6 +20,8 @@ void wr_panel_colouring(WrApp *app);                       /* a part of that */
 void wr_map_take_colour(WrApp *app, const char *path);     /* of a file that was chosen */
 void wr_light_take_surround(WrApp *app, const char *path); /* likewise */
 void wr_map_take_normals(WrApp *app, const char *path);
+void wr_map_take_roughness(WrApp *app, const char *path);
+void wr_map_take_metalness(WrApp *app, const char *path);
 void wr_panel_lights(WrApp *app);
 void wr_panel_camera(WrApp *app);
 void wr_panel_cell(WrApp *app);

@@ -119,7 +119,8 @@ static bool is_seen_only(const char *line, size_t length)
     static const char *const verbs[] = { "camera",      "rotate",     "material",  "light",
                                          "environment", "background", "tone",      "colour",
                                          "colouring",   "grain",      "dials",     "tolerance",
-                                         "view",        "normalmap",  "replicate", "sheet" };
+                                         "view",        "normalmap",  "replicate", "sheet",
+                                         "roughness",   "metalness" };
     for (size_t i = 0; i < sizeof verbs / sizeof *verbs; i++) {
         const size_t n = strlen(verbs[i]);
         if (length > n && strncmp(line, verbs[i], n) == 0 && line[n] == ' ') return true;
