@@ -20,7 +20,7 @@ ALWAYS bool any(const int32_t *restrict lane)
 }
 
 #ifdef __AVX512DQ__
-#include "field/occlusion_wide.h"
+#include "field/occlusion_wide_body.h"
 #else
 /* What the lanes of row s look at, so far: the row, and how much higher it is. */
 typedef struct Sight {
