@@ -253,8 +253,11 @@ static void move(WrApp *app, const WrPointer *at)
 
 void wr_hand_look(WrApp *app)
 {
-    const WrHand *hand = app->hand;
+    WrHand *hand = app->hand;
     bool canvas = hand->on_canvas, patch = hand->on_patch;
+    /* The view may have come, or moved, since the pointer did. */
+    if (hand->grab == WR_GRAB_NONE)
+        wr_view_to_uv(app->view, hand->at.x, hand->at.y, &hand->at.u, &hand->at.v);
     if (hand->grab != WR_GRAB_NONE || SDL_GetMouseFocus() != app->window) return;
     look(app, (int)hand->at.x, (int)hand->at.y);
     if (canvas != hand->on_canvas || patch != hand->on_patch) wr_app_redraw(app);

@@ -24,8 +24,9 @@ typedef struct WrForms { /* what the dialogs hold while they are open */
     double width, height, picture_width, picture_height, fill, cells_u, cells_v, line_width, low,
         high;
     double solid_size, solid_error, solid_thickness; /* mm; thickness 0: as the export thinks fit */
-    int film_kind;                                   /* of wr_film_kinds */
-    int wrap, kind, range;                           /* range: a WR_RANGE_ */
+    char export_more[200]; /* further options of the line, as they are typed */
+    int film_kind;         /* of wr_film_kinds */
+    int wrap, kind, range; /* range: a WR_RANGE_ */
     bool fit;
 } WrForms;
 

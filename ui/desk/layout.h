@@ -5,6 +5,11 @@
 
 typedef enum WrShownViews { WR_VIEWS_BOTH, WR_VIEWS_CANVAS, WR_VIEWS_PATCH } WrShownViews;
 
+/* From one tool of the strip to the next, pixels at scale 1: where all have room, and where they just fit into one
+   column. */
+#define WR_TOOL_MOST 38
+#define WR_TOOL_LEAST 32
+
 typedef struct WrLayoutInput {
     int width, height; /* of the window, pixels */
     int menu_height;   /* pixels */
@@ -13,7 +18,7 @@ typedef struct WrLayoutInput {
     WrShownViews views;
     bool panels;  /* false: the views fill the window */
     double lower; /* share of the panel on the right that its lower part gets, 0..1 */
-    int tools;    /* in the strip, which has two columns where one is too short for them */
+    int tools; /* in the strip, which has two columns where one is too short for them at their least */
 } WrLayoutInput;
 
 /* Rectangles in pixels; w = 0 where there is none. They cover the window without gaps or overlaps. */

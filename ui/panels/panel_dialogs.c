@@ -157,10 +157,12 @@ static void add_export_line(const WrApp *app, const char *path, WrText *line)
     wr_text_addf(line, "export %s ", kind->name);
     wr_text_add_word(line, path);
     if (strcmp(kind->name, "height") == 0) wr_text_addf(line, " range=%s", ranges[f->range]);
-    if (kind->channels > 0) return; /* no body */
-    wr_line_number(line, "size", f->solid_size);
-    wr_line_number(line, "error", f->solid_error);
-    if (f->solid_thickness > 0) wr_line_number(line, "thickness", f->solid_thickness);
+    if (kind->channels == 0) { /* a body */
+        wr_line_number(line, "size", f->solid_size);
+        wr_line_number(line, "error", f->solid_error);
+        if (f->solid_thickness > 0) wr_line_number(line, "thickness", f->solid_thickness);
+    }
+    if (f->export_more[0]) wr_text_addf(line, " %s", f->export_more);
 }
 
 void wr_file_take_export(WrApp *app, const char *path)
@@ -214,6 +216,12 @@ void wr_dialog_export(WrApp *app)
             WR_FONT_SMALL, WR_COLOUR_LABEL,
             "The format goes by the file's ending: png and tif with 16 bits, exr with "
             "float, jpg with 8.");
+    wr_gui_label("More");
+    wr_gui_hint_field("##more", "repeat=2x2 resize=pot border=on", 0, f->export_more,
+                      sizeof f->export_more);
+    wr_gui_tip(
+        "Options as the command `export` takes them; F1 lists them.\nExport maps (Ctrl+Alt+M) "
+        "writes whole sets, with a picture of each map.");
     WrText line = { 0 };
     add_export_line(app, "x.png", &line);
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
