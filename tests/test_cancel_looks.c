@@ -2,6 +2,7 @@
    it left half made is never taken for whole afterwards. Pictures, films and generators of every kind of table the
    renderer keeps. The test stands in for the looks (tests/CMakeLists.txt). */
 #include "test.h"
+#include "looks.h"
 #include "test_folder.h"
 #include "test_session_help.h"
 #include "cancel_lines.h"
@@ -21,52 +22,20 @@
 static struct {
     int64_t at, seen;
     volatile int cancel;
-} looks;
+} stop;
 
-static void look(void)
+static void count_look(void)
 {
-    const int64_t seen = __atomic_add_fetch(&looks.seen, 1, __ATOMIC_RELAXED);
-    if (looks.at > 0 && seen >= looks.at) __atomic_store_n(&looks.cancel, 1, __ATOMIC_RELAXED);
-}
-
-bool __real_wr_progress_cancelled(const WrProgress *progress);
-bool __wrap_wr_progress_cancelled(const WrProgress *progress);
-bool __wrap_wr_progress_cancelled(const WrProgress *progress)
-{
-    look();
-    return __real_wr_progress_cancelled(progress);
-}
-
-bool __real_wr_progress_step(const WrProgress *progress, double fraction);
-bool __wrap_wr_progress_step(const WrProgress *progress, double fraction);
-bool __wrap_wr_progress_step(const WrProgress *progress, double fraction)
-{
-    look();
-    return __real_wr_progress_step(progress, fraction);
-}
-
-bool __real_wr_progress_stopped(void);
-bool __wrap_wr_progress_stopped(void);
-bool __wrap_wr_progress_stopped(void)
-{
-    look();
-    return __real_wr_progress_stopped();
-}
-
-bool __real_wr_progress_tell(double fraction);
-bool __wrap_wr_progress_tell(double fraction);
-bool __wrap_wr_progress_tell(double fraction)
-{
-    look();
-    return __real_wr_progress_tell(fraction);
+    const int64_t seen = __atomic_add_fetch(&stop.seen, 1, __ATOMIC_RELAXED);
+    if (stop.at > 0 && seen >= stop.at) __atomic_store_n(&stop.cancel, 1, __ATOMIC_RELAXED);
 }
 
 static bool run_until(WrSession *session, const char *line, int64_t at, WrError *err)
 {
-    looks.at = at;
-    __atomic_store_n(&looks.seen, 0, __ATOMIC_RELAXED);
-    looks.cancel = 0;
-    const WrProgress progress = { .cancel = &looks.cancel };
+    stop.at = at;
+    __atomic_store_n(&stop.seen, 0, __ATOMIC_RELAXED);
+    stop.cancel = 0;
+    const WrProgress progress = { .cancel = &stop.cancel };
     wr_progress_set(&progress);
     const bool good = wr_session_run(session, line, err);
     wr_progress_set(NULL);
@@ -107,7 +76,7 @@ static void try_scene(WrPool *pool, const char *const *scene, const char *line, 
     WrError err = { "" };
     WrSession *whole = session_with(pool, scene);
     if (!run_until(whole, line, 0, &err)) fail_msg("%s\n  %s", line, err.text);
-    const int64_t all = looks.seen;
+    const int64_t all = stop.seen;
     const WrHash right = hash_of(path);
     wr_session_free(whole);
     assert_true(all > 4);
@@ -175,7 +144,7 @@ static void a_line_stops_at_any_look(void **state)
             if (run_until(session, lines[i], at, &err)) {
                 take_back_line(session, lines[i]);
                 folder = look_at_folder();
-                all = looks.seen;
+                all = stop.seen;
             } else if (!strstr(err.text, "cancelled")) {
                 fail_msg("%s: stopped at look %d it said %s", lines[i], (int)at, err.text);
             }
@@ -190,6 +159,7 @@ static void a_line_stops_at_any_look(void **state)
 
 int main(void)
 {
+    looks.hook = count_look;
     const struct CMUnitTest tests[] = { cmocka_unit_test(a_picture_stops_at_any_look),
                                         cmocka_unit_test(a_line_stops_at_any_look) };
     return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
