@@ -268,7 +268,8 @@ static void chips(WrApp *app)
     wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
     if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
     wr_gui_tip("What is shown, and which numbers are black and white");
-    if (room->w > wr_gui_px(300)) {
+    /* Beside it, as long as the square at the right end has its place. */
+    if (room->w > wr_gui_text_width(WR_FONT_TEXT, text) + wr_gui_px(180)) {
         wr_gui_same_line(6);
         ramp(app, "narrow", wr_gui_px(64), wr_gui_line_height(WR_FONT_TEXT));
         ramp_tip(app);
