@@ -188,7 +188,7 @@ static bool any_hides(const WrCast *cast, const int *near, int count, WrVec3 p, 
 double wr_cast_share(const WrCast *cast, int count, WrVec3 p, WrVec3 n, WrVec3 l, double away,
                      double radius)
 {
-    int near[WR_CAST_OBJECTS], nearby = 0, seen = 0;
+    int near[WR_OBJECTS_MAX], nearby = 0, seen = 0;
     const WrVec3 from = v3_mad(p, n, cast->lift);
     const bool round = radius > 0 && cast->rays > 1;
     double sine = 0, cosine = 1;

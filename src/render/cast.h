@@ -9,6 +9,7 @@
    Where the lamp is below the surface's own horizon, as it may be for what bumps lean towards it, the ray to the own body
    runs along the horizon: so no convex body hides a lamp from itself. */
 #pragma once
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 
@@ -19,7 +20,6 @@ typedef struct WrError WrError;
 typedef struct WrTriangles WrTriangles;
 
 #define WR_CAST_RAYS 256 /* to a round lamp, at most */
-#define WR_CAST_OBJECTS 64
 
 /* A parallelogram. */
 typedef struct WrCastQuad {
@@ -53,7 +53,7 @@ typedef struct WrCastTo {
 
 /* What can hide lamps from one object. */
 typedef struct WrCast {
-    WrCastTo to[WR_CAST_OBJECTS]; /* `count` that can, then the others of `all` */
+    WrCastTo to[WR_OBJECTS_MAX]; /* `count` that can, then the others of `all` */
     int count, all;
     double lift;                  /* where its rays start, its units, stretched */
     double disc[WR_CAST_RAYS][2]; /* places on a round lamp of radius 1, of as many as `rays` */

@@ -117,7 +117,7 @@ static void fill_disc(WrCast *cast, int rays)
 bool wr_cast_prepare(WrCast *cast, const WrCastAsk *ask, WrError *err)
 {
     Standing own, other;
-    const int count = ask->count < WR_CAST_OBJECTS ? ask->count : WR_CAST_OBJECTS;
+    const int count = ask->count < WR_OBJECTS_MAX ? ask->count : WR_OBJECTS_MAX;
     cast->count = cast->all = 0;
     fill_disc(cast, ask->rays);
     if (!stand(ask, ask->at, &own, err)) return false;

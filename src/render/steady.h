@@ -1,6 +1,6 @@
 /* steady.h - n' and P of the samples of a resting view, so that a change of light or material alone works out light
    alone (E76). They are noted when such a change comes for the first time: a view that turns, or that an edit reaches,
-   never pays for it.
+   never pays for it. n' is unit, P in kernel units (view.h): both as light finds them, before an object is stretched.
    Layer 5, private to the renderer. */
 #pragma once
 #include "render/plan.h"
