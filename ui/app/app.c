@@ -30,6 +30,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/help/guide.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_status.h"
@@ -71,6 +72,7 @@
 bool wr_app_begin(WrApp *app, WrError *err)
 {
     wr_settings_begin(app);
+    wr_words_choose(app->settings->language);
     if (!wr_window_open(app)) return wr_fail(err, "no window: %s", SDL_GetError());
     app->gui = wr_gui_new(app->renderer, wr_app_wanted_scale(app), err);
     if (!app->gui) return false;

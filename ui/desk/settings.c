@@ -73,6 +73,7 @@ static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
         { "maximized", NULL, NULL, &s->maximized, 0, 1 },
         { "scale", &s->scale, NULL, NULL, 0, 3 },
         { "theme", NULL, (int *)&s->theme, NULL, 0, WR_THEME_KINDS - 1 },
+        { "language", NULL, &s->language, NULL, 0, 63 },
         { "divider", &s->divider, NULL, NULL, 0.05, 0.95 },
         { "views", NULL, (int *)&s->views, NULL, 0, 2 },
         { "panels", NULL, NULL, &s->panels, 0, 1 },

@@ -36,6 +36,7 @@ typedef struct WrSettings {
     bool maximized;
     double scale; /* 0.75..3; 0: from the display */
     WrThemeKind theme;
+    int language;   /* of wr_languages */
     double divider; /* the canvas's share of the views, 0..1 */
     WrShownViews views;
     bool panels;    /* shown */

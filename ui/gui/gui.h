@@ -136,7 +136,16 @@ void wr_gui_pop_id(void);
 void wr_gui_disable(bool disabled); /* grey out what follows; ends with wr_gui_enable */
 void wr_gui_enable(void);
 
-/* ---- text ---- */
+/* ---- text ----
+   Every text that a widget is given is shown in the user's language (words.h), by what stands before ##, and known by the
+   English one. Names that the user gave, and files, are no words: they stand between true and false. */
+void wr_gui_as_it_is(bool on);
+/* Told of each text that is wider than its place, in pixels, while it is set; for tests. */
+extern void (*wr_gui_cut)(const char *text, double width, double room);
+/* While it is set menus, lists, popups and folds are open, tips are looked up, and no picture is drawn: all that the
+   panels can say is said in a frame or two. For tests. */
+extern bool wr_gui_tells_all;
+
 typedef enum WrFont {
     WR_FONT_TEXT,
     WR_FONT_BOLD,

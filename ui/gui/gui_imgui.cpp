@@ -333,6 +333,7 @@ try {
     double sizes = fitted_sizes(*ImGui::GetCurrentContext());
     gui->fits = sizes != gui->fitted;
     gui->fitted = sizes;
+    if (wr_gui_tells_all) return;
     ImDrawData *data = ImGui::GetDrawData();
     ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
     for (int n = 0; n < data->CmdListsCount; n++) {

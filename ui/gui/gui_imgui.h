@@ -1,6 +1,7 @@
 /* gui_imgui.h - what the gui_imgui*.cpp files share; nobody else includes it. */
 #pragma once
 #include "ui/gui/gui.h"
+#include "ui/gui/words.h"
 
 extern "C" {
 #include "base/error.h"
@@ -50,6 +51,7 @@ struct WrGui {
     float row_left, row_right, row_top, row_height;
     ImGuiID row_drag;
     ImDrawList *pad; /* that drawing goes to; NULL: to the views */
+    bool as_it_is;   /* texts are the user's own and are not looked up */
 };
 
 /* The one whose frame is open. */
@@ -65,6 +67,14 @@ bool wr_gui_keys_seen(WrGui *gui);
 bool wr_gui_went_down(SDL_Scancode key);
 bool wr_gui_key_repeats(SDL_Scancode key);
 bool wr_gui_return_for_list(); /* as wr_gui_return_pressed, for the list that is open */
+/* gui_imgui_words.cpp. A text in the user's language, without what follows ##; and for the library, what is seen in that
+   language and an identity by the English one. */
+const char *wr_gui_said(const char *text);
+bool wr_gui_stands_in(const char *name);
+const char *wr_gui_labelled(const char *label, char (&buffer)[320]);
+/* A text so wide stands where there is that much room; the last item's text so wide, where its window is seen. */
+void wr_gui_fits(const char *text, float width, float room);
+void wr_gui_fits_window(const char *text);
 /* The icon, or the word for it where there is no font of icons. */
 const char *wr_gui_icon(const char *icon);
 /* Draw the faces at the present scale and hand them to the renderer. */

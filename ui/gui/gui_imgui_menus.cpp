@@ -33,20 +33,25 @@ WR_CAUGHT()
 extern "C" bool wr_gui_menu_begin(const char *label)
 try {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
-    bool open = ImGui::BeginMenu(label);
+    char said[320];
+    bool open = !wr_gui_tells_all && ImGui::BeginMenu(wr_gui_labelled(label, said));
+    if (wr_gui_tells_all) ImGui::MenuItem(wr_gui_labelled(label, said));
+    if (!wr_gui_tells_all) wr_gui_fits_window(label);
     ImGui::PopStyleVar();
-    return open;
+    return open || wr_gui_stands_in(label);
 }
 WR_CAUGHT(false)
 
 extern "C" void wr_gui_menu_end(void)
 {
-    ImGui::EndMenu();
+    if (wr_gui_tells_all) ImGui::End();
+    else ImGui::EndMenu();
 }
 
 extern "C" bool wr_gui_menu_item(const char *label, const char *keys, bool checked, bool enabled)
 try {
-    return ImGui::MenuItem(label, keys, checked, enabled);
+    char said[320];
+    return ImGui::MenuItem(wr_gui_labelled(label, said), keys, checked, enabled);
 }
 WR_CAUGHT(false)
 
@@ -63,7 +68,7 @@ extern "C" void wr_gui_popup_open(const char *id)
 extern "C" bool wr_gui_popup_begin(const char *id)
 try {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(12), px(10)));
-    bool open = ImGui::BeginPopup(id);
+    bool open = wr_gui_tells_all ? wr_gui_stands_in(id) : ImGui::BeginPopup(id);
     ImGui::PopStyleVar();
     return open;
 }
@@ -71,12 +76,13 @@ WR_CAUGHT(false)
 
 extern "C" void wr_gui_popup_close(void)
 {
-    ImGui::CloseCurrentPopup();
+    if (!wr_gui_tells_all) ImGui::CloseCurrentPopup();
 }
 
 extern "C" void wr_gui_popup_end(void)
 {
-    ImGui::EndPopup();
+    if (wr_gui_tells_all) ImGui::End();
+    else ImGui::EndPopup();
 }
 
 /* title up to ## is its heading. */
@@ -195,7 +201,9 @@ WR_CAUGHT(false)
 extern "C" int wr_gui_list_row(const char *icon, const char *label, bool selected)
 try {
     char text[1100];
-    snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "", icon ? "  " : "", label);
+    char said[320];
+    snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "", icon ? "  " : "",
+             strlen(label) < 250 ? wr_gui_labelled(label, said) : label);
     if (!ImGui::Selectable(text, selected, ImGuiSelectableFlags_AllowDoubleClick)) return 0;
     return ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
 }

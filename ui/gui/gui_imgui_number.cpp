@@ -105,9 +105,10 @@ static void draw_field(const WrNumber *spec, ImVec2 at, ImVec2 end, double value
     print_value(spec, value, text, sizeof text - 24);
     if (spec->unit) {
         size_t used = strlen(text);
-        snprintf(text + used, sizeof text - used, " %s", spec->unit);
+        snprintf(text + used, sizeof text - used, " %s", wr_gui_said(spec->unit));
     }
     ImVec2 size = ImGui::CalcTextSize(text);
+    wr_gui_fits(text, size.x, end.x - at.x - pad);
     list->PushClipRect(at, end, true);
     list->AddText(ImVec2(end.x - pad - size.x, at.y + floorf((end.y - at.y - size.y) / 2)),
                   ImGui::GetColorU32(ImGuiCol_Text), text);
@@ -278,5 +279,6 @@ extern "C" void wr_gui_draw_arc(double x, double y, double radius, double turns,
 extern "C" void wr_gui_draw_text(double x, double y, WrFont font, WrColour colour, const char *text)
 {
     ImFont *face = wr_gui_current()->fonts[font];
-    views()->AddText(face, wr_gui_size_of(face), at(x, y), wr_gui_colour_of(colour), text);
+    views()->AddText(face, wr_gui_size_of(face), at(x, y), wr_gui_colour_of(colour),
+                     wr_gui_said(text));
 }

@@ -93,7 +93,8 @@ try {
     ImFont *face = wr_gui_current()->fonts[font];
     float size = wr_gui_size_of(face);
     char cut[300];
-    snprintf(cut, sizeof cut, "%s", text);
+    snprintf(cut, sizeof cut, "%s", wr_gui_said(text));
+    wr_gui_fits(text, face->CalcTextSizeA(size, FLT_MAX, 0, cut).x, (float)width);
     if ((double)face->CalcTextSizeA(size, FLT_MAX, 0, cut).x > width) {
         const char *rest = cut;
         float room = (float)width - face->CalcTextSizeA(size, FLT_MAX, 0, "...").x;
@@ -102,7 +103,11 @@ try {
         if (length > sizeof cut - 4) length = sizeof cut - 4;
         memcpy(cut + length, "...", 4);
     }
+    WrGui *gui = wr_gui_current();
+    const bool was = gui->as_it_is;
+    gui->as_it_is = true; /* it is said already */
     wr_gui_text(font, colour, cut);
+    gui->as_it_is = was;
 }
 WR_CAUGHT()
 
@@ -143,6 +148,7 @@ try {
     ImVec2 at(ImGui::GetCursorScreenPos().x, where.y + roundf((bar.y - h) / 2));
     ImGui::SetCursorScreenPos(at);
     bool pressed = ImGui::InvisibleButton(label, ImVec2((float)width, h));
+    label = wr_gui_said(label);
     ImVec2 end(at.x + (float)width, at.y + h);
     ImDrawList *list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
@@ -150,6 +156,8 @@ try {
     ImU32 ink = wr_gui_colour_of(ImGui::IsItemHovered() ? WR_COLOUR_TEXT : WR_COLOUR_LABEL);
     ImVec2 size = small->CalcTextSizeA(wr_gui_size_of(small), FLT_MAX, 0, keys);
     float y = at.y + floorf((h - wr_gui_size_of(small)) / 2);
+    wr_gui_fits(label, small->CalcTextSizeA(wr_gui_size_of(small), FLT_MAX, 0, label).x + size.x,
+                (float)width - 3 * pad);
     list->AddText(small, wr_gui_size_of(small), ImVec2(at.x + pad, y), ink, label);
     list->AddText(small, wr_gui_size_of(small), ImVec2(end.x - pad - size.x, y),
                   wr_gui_colour_of(WR_COLOUR_FAINT), keys);

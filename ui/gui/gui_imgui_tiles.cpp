@@ -73,7 +73,7 @@ try {
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     float wide = ImGui::CalcItemWidth();
-    bool changed = ImGui::InputTextWithHint(id, hint, text, size);
+    bool changed = ImGui::InputTextWithHint(id, wr_gui_said(hint), text, size);
     wr_gui_edge(ImGui::GetWindowDrawList(), at,
                 ImVec2(at.x + wide, at.y + ImGui::GetFrameHeight()));
     return changed;
@@ -87,7 +87,10 @@ try {
     ImGui::PushStyleColor(ImGuiCol_HeaderActive, wr_gui_colour_of(WR_COLOUR_BUTTON));
     ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(WR_COLOUR_LABEL));
     ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
-    bool shown = ImGui::CollapsingHeader(label, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    char said[320];
+    if (wr_gui_tells_all) ImGui::SetNextItemOpen(true);
+    bool shown = ImGui::CollapsingHeader(wr_gui_labelled(label, said),
+                                         open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     ImGui::PopFont();
     ImGui::PopStyleColor(4);
     return shown;

@@ -132,8 +132,9 @@ static void text_in(WrFont font, WrColour colour, const char *text, bool wrapped
     ImGui::PushFont(wr_gui_current()->fonts[font]);
     ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(colour));
     if (wrapped) ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(wr_gui_icon(text));
+    ImGui::TextUnformatted(wr_gui_icon(wr_gui_said(text)));
     if (wrapped) ImGui::PopTextWrapPos();
+    else wr_gui_fits_window(text);
     ImGui::PopStyleColor();
     ImGui::PopFont();
 }
@@ -161,7 +162,7 @@ extern "C" void wr_gui_label(const char *text)
 try {
     ImGui::AlignTextToFramePadding();
     float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.41f);
-    bool fits = ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x < column - px(4);
+    bool fits = ImGui::GetCursorPosX() + ImGui::CalcTextSize(wr_gui_said(text)).x < column - px(4);
     if (!fits)
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(1)); /* onto the line of the others */
     double room = (double)(column - ImGui::GetCursorPosX() - px(4));
@@ -174,7 +175,7 @@ WR_CAUGHT()
 extern "C" double wr_gui_text_width(WrFont font, const char *text)
 {
     ImFont *face = wr_gui_current()->fonts[font];
-    return (double)face->CalcTextSizeA(wr_gui_size_of(face), FLT_MAX, 0.0f, text).x;
+    return (double)face->CalcTextSizeA(wr_gui_size_of(face), FLT_MAX, 0.0f, wr_gui_said(text)).x;
 }
 
 extern "C" double wr_gui_line_height(WrFont font)
@@ -197,6 +198,7 @@ static double rested()
 
 extern "C" void wr_gui_tip(const char *text)
 try {
+    if (text && wr_gui_tells_all) wr_gui_said(text);
     if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     if (ImGui::IsMouseDown(0)) return;
     if (rested() < (double)TIP_SECONDS) {
@@ -206,7 +208,7 @@ try {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(px(300));
-    ImGui::TextUnformatted(text);
+    ImGui::TextUnformatted(wr_gui_said(text));
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
     ImGui::PopStyleVar();
@@ -244,15 +246,22 @@ try {
     ImVec2 at = ImGui::GetCursorScreenPos();
     float right = at.x + ImGui::CalcItemWidth() - px(13), arrow = px(4);
     float middle = roundf(at.y + ImGui::GetFrameHeight() / 2 - arrow / 2);
-    bool open = ImGui::BeginCombo("##choice", *index >= 0 && *index < count ? items[*index] : "",
+    const char *now = *index >= 0 && *index < count ? wr_gui_said(items[*index]) : "";
+    wr_gui_fits(now, ImGui::CalcTextSize(now).x,
+                ImGui::CalcItemWidth() - 2 * ImGui::GetStyle().FramePadding.x);
+    bool open = ImGui::BeginCombo("##choice", now,
                                   ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
     wr_gui_edge(list, at, ImVec2(right + px(13), at.y + ImGui::GetFrameHeight()));
     list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
                             ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
+    if (wr_gui_tells_all)
+        for (int i = 0; i < count; i++) wr_gui_said(items[i]);
     if (open) {
         int chosen = choose_by_key(ImGui::GetID("rows"), count, *index);
         for (int i = 0; i < count; i++) {
-            if (ImGui::Selectable(items[i], i == wr_gui_current()->chooser_row)) chosen = i;
+            char label[320];
+            const char *row = wr_gui_labelled(items[i], label);
+            if (ImGui::Selectable(row, i == wr_gui_current()->chooser_row)) chosen = i;
             if (i == wr_gui_current()->chooser_row && chooser_moved()) ImGui::SetScrollHereY();
         }
         if (chosen >= 0) {
@@ -276,11 +285,12 @@ try {
     float h = ImGui::GetFrameHeight(), pad = px(10);
     ImVec2 start = ImGui::GetCursorScreenPos();
     float width = 0;
-    for (int i = 0; i < count; i++) width += ImGui::CalcTextSize(items[i]).x + 2 * pad;
+    for (int i = 0; i < count; i++) width += ImGui::CalcTextSize(wr_gui_said(items[i])).x + 2 * pad;
     ImVec2 end(start.x + width, start.y + h);
     list->AddRectFilled(start, end, wr_gui_colour_of(WR_COLOUR_FIELD));
     for (int i = 0; i < count; i++) {
-        ImVec2 text = ImGui::CalcTextSize(items[i]);
+        const char *said = wr_gui_said(items[i]);
+        ImVec2 text = ImGui::CalcTextSize(said);
         if (i) ImGui::SameLine(0.0f, 0.0f);
         ImVec2 at = ImGui::GetCursorScreenPos();
         float w = text.x + 2 * pad;
@@ -296,7 +306,8 @@ try {
                        : ImGui::IsItemHovered() ? WR_COLOUR_TEXT
                                                 : WR_COLOUR_LABEL;
         list->AddText(ImVec2(at.x + pad, at.y + roundf((h - text.y) / 2)), wr_gui_colour_of(ink),
-                      items[i]);
+                      said);
+        wr_gui_fits_window(said);
     }
     wr_gui_edge(list, start, end);
     ImGui::PopID();
@@ -307,7 +318,7 @@ WR_CAUGHT(false)
 static float tabs_wide(const char *const *items, int count)
 {
     float wide = 0;
-    for (int i = 0; i < count; i++) wide += ImGui::CalcTextSize(items[i]).x;
+    for (int i = 0; i < count; i++) wide += ImGui::CalcTextSize(wr_gui_said(items[i])).x;
     return wide;
 }
 
@@ -332,11 +343,13 @@ static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
         list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_PANEL));
         list->AddRectFilled(at, ImVec2(end.x, at.y + px(2)), wr_gui_colour_of(WR_COLOUR_ACCENT));
     }
-    ImVec2 text = ImGui::CalcTextSize(label);
+    const char *said = wr_gui_said(label);
+    ImVec2 text = ImGui::CalcTextSize(said);
+    wr_gui_fits(said, text.x, size.x);
     bool bright = on || ImGui::IsItemHovered();
     list->AddText(
         ImVec2(at.x + roundf((size.x - text.x) / 2), at.y + roundf((size.y - text.y) / 2)),
-        wr_gui_colour_of(bright ? WR_COLOUR_STRONG : WR_COLOUR_LABEL), label);
+        wr_gui_colour_of(bright ? WR_COLOUR_STRONG : WR_COLOUR_LABEL), said);
     return pressed;
 }
 
@@ -358,7 +371,7 @@ try {
         float gap = (width - tabs_wide(first, n)) / (float)n, end = 0;
         for (int i = 0; i < n; i++) {
             float x0 = roundf(end);
-            end += ImGui::CalcTextSize(first[i]).x + gap;
+            end += ImGui::CalcTextSize(wr_gui_said(first[i])).x + gap;
             ImVec2 place(x0, h * (float)row), size(roundf(end) - x0, h);
             if (!tab(first[i], place, size, row * each + i == *index)) continue;
             changed = row * each + i != *index;
@@ -377,7 +390,9 @@ extern "C" bool wr_gui_check(const char *label, bool *value)
 try {
     ImVec2 at = ImGui::GetCursorScreenPos();
     float side = ImGui::GetFrameHeight();
-    bool changed = ImGui::Checkbox(label, value);
+    char said[320];
+    bool changed = ImGui::Checkbox(wr_gui_labelled(label, said), value);
+    wr_gui_fits_window(label);
     wr_gui_edge(ImGui::GetWindowDrawList(), at, ImVec2(at.x + side, at.y + side));
     return changed;
 }
@@ -391,7 +406,9 @@ try {
     }
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(14), px(5)));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
-    bool pressed = ImGui::Button(label);
+    char said[320];
+    bool pressed = ImGui::Button(wr_gui_labelled(label, said));
+    wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     if (primary) ImGui::PopStyleColor(2);
     return pressed;
@@ -420,14 +437,15 @@ WR_CAUGHT(false)
 
 extern "C" bool wr_gui_chip(const char *icon, const char *label)
 try {
-    char text[160];
+    char text[400], said[320];
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "",
-             icon && label[0] ? "  " : "", label);
+             icon && label[0] ? "  " : "", wr_gui_labelled(label, said));
     ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_CHIP));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(WR_COLOUR_CHIP_HOT));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(3)));
     bool pressed = ImGui::Button(text);
+    wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     ImGui::PopStyleColor(2);
     return pressed;

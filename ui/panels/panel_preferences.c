@@ -10,6 +10,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/gui_icons.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -28,6 +29,16 @@
 
 /* ---- the window ---- */
 
+static void language_row(WrApp *app)
+{
+    const char *names[16];
+    const int count = wr_language_count < 16 ? wr_language_count : 16;
+    for (int i = 0; i < count; i++) names[i] = wr_languages[i].name;
+    wr_gui_label("Language");
+    if (wr_gui_choice("language", 0, names, count, &app->settings->language))
+        wr_words_choose(app->settings->language);
+}
+
 static void window_rows(WrApp *app)
 {
     static const char *const themes[] = { "Dark", "Light", "High contrast" };
@@ -45,6 +56,7 @@ static void window_rows(WrApp *app)
     wr_gui_label("Size");
     if (wr_gui_choice("size", 0, sizes, WR_LENGTH(sizes), &size))
         wr_app_set_scale(app, scales[size]);
+    language_row(app);
 }
 
 static void map_row(WrApp *app)

@@ -1,0 +1,163 @@
+/* Files of words, whole and damaged, and which language an environment asks for. */
+#include "test.h"
+
+#include "base/memory.h"
+
+#include "ui/gui/words.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TEXTS 5
+
+/* Sorted as the file wants them; the empty one is the head. */
+static const char *const from[TEXTS] = { "", "%d of %s", "Brush", "Height", "Layer" };
+static const char *const to[TEXTS] = { "Language: xx\n", "%d von %s", "Pinsel", "H\xc3\xb6he", "" };
+
+static void put(char *bytes, size_t at, uint32_t word)
+{
+    memcpy(bytes + at, &word, sizeof word);
+}
+
+/* A file of the texts above, written as GNU gettext's manual says; returns its size. */
+static size_t written(char bytes[512])
+{
+    size_t end = 28 + 2 * 8 * TEXTS;
+    memset(bytes, 0, 512);
+    put(bytes, 0, 0x950412deu);
+    put(bytes, 8, TEXTS);
+    put(bytes, 12, 28);
+    put(bytes, 16, 28 + 8 * TEXTS);
+    for (int table = 0; table < 2; table++)
+        for (int i = 0; i < TEXTS; i++) {
+            const char *text = table ? to[i] : from[i];
+            const size_t row = 28 + 8 * (size_t)(table * TEXTS + i), length = strlen(text);
+            put(bytes, row, (uint32_t)length);
+            put(bytes, row + 4, (uint32_t)end);
+            memcpy(bytes + end, text, length + 1);
+            end += length + 1;
+        }
+    return end;
+}
+
+static void texts_of_a_file_are_found_and_no_others(void **state)
+{
+    (void)state;
+    char bytes[512];
+    WrCatalogue *c = wr_catalogue_new(bytes, written(bytes));
+    assert_non_null(c);
+    memset(bytes, 'x', sizeof bytes); /* it has them for itself */
+    assert_string_equal(wr_catalogue_find(c, "Height"), "H\xc3\xb6he");
+    assert_string_equal(wr_catalogue_find(c, "Brush"), "Pinsel");
+    assert_string_equal(wr_catalogue_find(c, "%d of %s"), "%d von %s");
+    assert_null(wr_catalogue_find(c, "Layer")); /* not translated */
+    assert_null(wr_catalogue_find(c, ""));
+    assert_null(wr_catalogue_find(c, "Brushes"));
+    assert_null(wr_catalogue_find(c, "A"));
+    assert_null(wr_catalogue_find(c, "Zoom"));
+    wr_catalogue_free(c);
+}
+
+/* Looked up in whatever is taken: sanitizers see a step outside. */
+static bool survives(const char *bytes, size_t size)
+{
+    char *exact = malloc(size ? size : 1);
+    memcpy(exact, bytes, size);
+    WrCatalogue *c = wr_catalogue_new(exact, size);
+    free(exact);
+    for (int i = 0; c && i < TEXTS; i++) {
+        const char *found = wr_catalogue_find(c, from[i]);
+        if (found) assert_true(strlen(found) < 512);
+    }
+    wr_catalogue_free(c);
+    return c != NULL;
+}
+
+static void a_file_that_ends_early_is_refused(void **state)
+{
+    (void)state;
+    char bytes[512];
+    const size_t size = written(bytes);
+    assert_true(survives(bytes, size));
+    for (size_t n = 0; n < size; n++) assert_false(survives(bytes, n));
+}
+
+static void a_file_with_any_byte_changed_is_refused_or_read_within_itself(void **state)
+{
+    (void)state;
+    char bytes[512];
+    const size_t size = written(bytes);
+    int refused = 0;
+    for (size_t at = 0; at < size; at++)
+        for (int bit = 0; bit < 8; bit++) {
+            bytes[at] = (char)(bytes[at] ^ 1 << bit);
+            refused += !survives(bytes, size);
+            bytes[at] = (char)(bytes[at] ^ 1 << bit);
+        }
+    assert_true(refused > 8 * 4); /* the number that it begins with at least */
+}
+
+static void lengths_that_run_over_the_end_of_numbers_are_refused(void **state)
+{
+    (void)state;
+    static const uint32_t wrong[] = { 0xffffffffu, 0x7fffffffu, 0x20000001u, 0xfffffff8u, 512 };
+    static const size_t places[] = { 8, 12, 16, 28, 32, 68, 72 };
+    char bytes[512];
+    for (size_t p = 0; p < 7; p++)
+        for (size_t w = 0; w < 5; w++) {
+            const size_t size = written(bytes);
+            put(bytes, places[p], wrong[w]);
+            assert_false(survives(bytes, size));
+        }
+}
+
+static void the_environment_chooses_as_gettext_does(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *language, *all, *messages, *lang, *wanted;
+    } rows[] = {
+        { NULL, NULL, NULL, NULL, "en" },
+        { NULL, NULL, NULL, "de_DE.UTF-8", "de" },
+        { NULL, NULL, "de_AT", "fr_FR", "de" },
+        { NULL, "en_GB.UTF-8", "de_DE", "de_DE", "en" },
+        { "de", NULL, NULL, NULL, "de" },
+        { "fr:de:en", NULL, NULL, "fr_FR.UTF-8", "de" },
+        { "en:de", NULL, NULL, "de_DE.UTF-8", "en" },
+        { "", NULL, NULL, "de_CH@euro", "de" },
+        { "de", "C", NULL, "de_DE", "en" }, /* the plain locale is English whatever LANGUAGE says */
+        { "de", "", "POSIX", "de_DE", "en" },
+        { "de", "C.UTF-8", NULL, NULL, "de" },
+        { "fr", NULL, NULL, "it_IT", "en" },     /* none that we have */
+        { "deutsch::", NULL, NULL, NULL, "en" }, /* a word that only begins so */
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        assert_string_equal(
+            wr_words_of(rows[i].language, rows[i].all, rows[i].messages, rows[i].lang),
+            rows[i].wanted);
+}
+
+static void english_is_itself(void **state)
+{
+    (void)state;
+    const char *text = "Brush";
+    wr_words_choose(1);
+    assert_string_equal(wr_words_language(), "en");
+    assert_ptr_equal(wr_words(text), text);
+    wr_words_choose(-7); /* no row: the environment's */
+    wr_words_choose(1000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(texts_of_a_file_are_found_and_no_others),
+        cmocka_unit_test(a_file_that_ends_early_is_refused),
+        cmocka_unit_test(a_file_with_any_byte_changed_is_refused_or_read_within_itself),
+        cmocka_unit_test(lengths_that_run_over_the_end_of_numbers_are_refused),
+        cmocka_unit_test(the_environment_chooses_as_gettext_does),
+        cmocka_unit_test(english_is_itself),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
