@@ -1,5 +1,6 @@
 #include "ui/app/actions_look.h"
 #include "ui/canvas/canvas.h"
+#include "ui/canvas/view.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/settings.h"
 
@@ -136,3 +137,49 @@ void wr_act_grid_coarser(WrApp *app)
 {
     parts(app, app->settings->grid_parts / 2);
 }
+
+/* ---- how the table stands ---- */
+
+#define TURN_DEG 15.0
+
+static void turn_to(WrApp *app, double degrees)
+{
+    WrCanvasView *view = app->view;
+    wr_view_turn_at(view, view->x + view->w / 2.0, view->y + view->h / 2.0, degrees);
+    wr_app_redraw(app);
+}
+
+void wr_act_turn_left(WrApp *app)
+{
+    turn_to(app, app->view->turn - TURN_DEG);
+}
+
+void wr_act_turn_right(WrApp *app)
+{
+    turn_to(app, app->view->turn + TURN_DEG);
+}
+
+void wr_act_turn_none(WrApp *app)
+{
+    turn_to(app, 0.0);
+}
+
+bool wr_is_turned(const WrApp *app)
+{
+    return app->view->turn != 0.0;
+}
+
+#define TILING(name, value)                                                                        \
+    void wr_act_tiling_##name(WrApp *app)                                                          \
+    {                                                                                              \
+        app->settings->tiling = value;                                                             \
+        wr_app_redraw(app);                                                                        \
+    }                                                                                              \
+    bool wr_is_tiling_##name(const WrApp *app)                                                     \
+    {                                                                                              \
+        return app->settings->tiling == value;                                                     \
+    }
+TILING(straight, WR_TILING_STRAIGHT)
+TILING(half_drop, WR_TILING_HALF_DROP)
+TILING(brick, WR_TILING_BRICK)
+#undef TILING

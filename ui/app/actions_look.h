@@ -4,6 +4,16 @@
 
 typedef struct WrApp WrApp;
 
+void wr_act_turn_left(WrApp *app);
+void wr_act_turn_right(WrApp *app);
+void wr_act_turn_none(WrApp *app);
+bool wr_is_turned(const WrApp *app);
+void wr_act_tiling_straight(WrApp *app);
+bool wr_is_tiling_straight(const WrApp *app);
+void wr_act_tiling_half_drop(WrApp *app);
+bool wr_is_tiling_half_drop(const WrApp *app);
+void wr_act_tiling_brick(WrApp *app);
+bool wr_is_tiling_brick(const WrApp *app);
 void wr_act_grid(WrApp *app);
 void wr_act_grid_finer(WrApp *app);
 void wr_act_grid_coarser(WrApp *app);

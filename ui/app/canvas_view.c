@@ -101,30 +101,30 @@ void wr_canvas_view_draw(WrApp *app)
 static void pixel_grid(const WrApp *app)
 {
     const WrCanvasView *v = app->view;
+    double low[2], high[2];
     if (v->zoom < GRID_FROM) return;
-    double x0, y0, x1, y1, px, py;
-    wr_view_to_texel(v, v->x, v->y, &x0, &y0);
-    wr_view_to_texel(v, v->x + v->w, v->y + v->h, &x1, &y1);
-    for (double x = ceil(fmin(x0, x1)); x <= fmax(x0, x1); x += 1.0) {
-        wr_view_to_pixel(v, x, y0, &px, &py);
-        wr_gui_draw_fill(rint(px), v->y, 1, v->h, 0x30808080u, 0);
-    }
-    for (double y = ceil(y0); y <= y1; y += 1.0) {
-        wr_view_to_pixel(v, x0, y, &px, &py);
-        wr_gui_draw_fill(v->x, rint(py), v->w, 1, 0x30808080u, 0);
-    }
+    wr_view_bounds(v, low, high);
+    for (int axis = 0; axis < 2; axis++)
+        for (double at = ceil(low[axis]); at <= high[axis]; at += 1.0)
+            wr_grid_line(v, axis, at, low, high, 0x30808080u);
 }
 
 /* The real cell. */
 static void cell_outline(const WrApp *app)
 {
     const WrCanvasView *v = app->view;
-    double x0, y0, x1, y1, line = wr_gui_px(1);
-    wr_view_to_pixel(v, 0, 0, &x0, &y0);
-    wr_view_to_pixel(v, v->table_w, v->table_h, &x1, &y1);
-    double x = rint(fmin(x0, x1)), y = rint(y0), w = rint(fmax(x0, x1)) - x, h = rint(y1) - y;
-    wr_gui_draw_rect(x, y, w, h, 0x90000000u, 3.0 * line);
-    wr_gui_draw_rect(x, y, w, h, WR_COLOUR_CELL, line);
+    double x[4], y[4], line = wr_gui_px(1);
+    for (int k = 0; k < 4; k++)
+        wr_view_place(v, k == 1 || k == 2 ? v->table_w : 0, k >= 2 ? v->table_h : 0, &x[k], &y[k]);
+    for (int pass = 0; pass < 2; pass++) {
+        WrColour colour = pass ? WR_COLOUR_CELL : 0x90000000u;
+        double wide = pass ? line : 3.0 * line, left = rint(fmin(x[0], x[2])), top = rint(y[0]);
+        if (v->turn == 0.0)
+            wr_gui_draw_rect(left, top, rint(fmax(x[0], x[2])) - left, rint(y[2]) - top, colour,
+                             wide);
+        for (int k = 0; k < 4 && v->turn != 0.0; k++)
+            wr_gui_draw_line(x[k], y[k], x[(k + 1) % 4], y[(k + 1) % 4], colour, wide * 1.2);
+    }
 }
 
 /* Where the pointer on the patch is in the table. */
@@ -314,6 +314,9 @@ void wr_app_place_view(WrApp *app)
     view->h = room->h > 0 ? room->h : 1;
     view->table_w = w;
     view->table_h = h;
+    bool wraps =
+        wr_field_wrap_u(field) == WR_WRAP_PERIODIC && wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
+    view->tiling = wraps ? app->settings->tiling : WR_TILING_STRAIGHT;
     if (app->view_placed || room->w == 0) return;
     wr_view_fit(view, 0.36); /* with enough of the copies around it that seams are seen */
     app->view_placed = true;

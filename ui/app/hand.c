@@ -33,6 +33,7 @@
 #include <string.h>
 
 #define MOUSE (-1) /* in place of a pen's device */
+#define WHEEL_DEG 5.0
 
 static WrPointer pointer_at(const WrApp *app, double x, double y, int button)
 {
@@ -80,7 +81,8 @@ static void press_canvas(WrApp *app, const WrPointer *at)
     WrHand *hand = app->hand;
     const WrTool *tool = wr_tool_now(app);
     if (at->button == SDL_BUTTON_MIDDLE || (at->button == SDL_BUTTON_LEFT && hand->space)) {
-        hand->grab = WR_GRAB_PAN;
+        hand->grab = at->mods & WR_MOD_SHIFT ? WR_GRAB_TURN : WR_GRAB_PAN;
+        hand->turn_from = app->view->turn;
         hand->space_used = true;
         return;
     }
@@ -216,6 +218,7 @@ static void drag(WrApp *app, const WrPointer *at)
     case WR_GRAB_SYMMETRY: wr_symmetry_drag(app, at); break;
     case WR_GRAB_PICK: pick(app, at); break;
     case WR_GRAB_PAN: wr_tool_pan_drag(app, at); break;
+    case WR_GRAB_TURN: wr_tool_turn_drag(app, at); break;
     case WR_GRAB_RESIZE: wr_brush_resize(app, at); break;
     case WR_GRAB_DIVIDER:
         app->settings->divider = wr_layout_divider_at(app->layout, (int)at->x, (int)at->y);
@@ -301,7 +304,9 @@ static void wheel(WrApp *app, const SDL_MouseWheelEvent *event)
     const WrTool *tool = wr_tool_now(app);
     if (wr_layout_inside(&app->layout->canvas, x, y)) {
         if (!blocked(app) && tool->wheel && tool->wheel(app, steps)) return;
-        wr_view_zoom_at(app->view, x, y, app->view->zoom * exp2(steps / 3.0));
+        if (SDL_GetModState() & KMOD_SHIFT)
+            wr_view_turn_at(app->view, x, y, app->view->turn + WHEEL_DEG * steps);
+        else wr_view_zoom_at(app->view, x, y, app->view->zoom * exp2(steps / 3.0));
         app->hand->at = pointer_at(app, x + 0.5, y + 0.5, app->hand->button);
     } else if (!blocked(app) && wr_layout_inside(&app->layout->patch, x, y)) {
         if (SDL_GetModState() & KMOD_CTRL) wr_patch_wheel_angle(app, steps);
@@ -429,7 +434,8 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
     if (wr_preferences_take_key(app, event)) return;
     if (blocked(app) || wr_gui_wants_text(app->gui) || wr_gui_popup_open_now(app->gui)) return;
     int mods = wr_key_mods((SDL_Keymod)event->keysym.mod);
-    if (event->keysym.sym == SDLK_SPACE && mods == 0) {
+    if (event->keysym.sym == SDLK_SPACE &&
+        (mods == 0 || (mods == WR_MOD_SHIFT && app->hand->on_canvas))) {
         if (!event->repeat) space(app, true);
         return;
     }

@@ -64,7 +64,7 @@ static void to_pixels(const WrSelectPoint *points, int count, int wind_u, int wi
         double u = points[i % count].u + (i == count ? wind_u : 0);
         double v = points[i % count].v + (i == count ? wind_v : 0);
         Spot spot = { 0 };
-        wr_view_to_pixel(view, u * w, (1.0 - v) * h, &spot.x, &spot.y);
+        wr_view_place(view, u * w, (1.0 - v) * h, &spot.x, &spot.y);
         if (spots->count > 0) {
             const Spot *last = &spots->data[spots->count - 1];
             double step = hypot(spot.x - last->x, spot.y - last->y);
@@ -75,15 +75,45 @@ static void to_pixels(const WrSelectPoint *points, int count, int wind_u, int wi
     }
 }
 
-/* Copies first..last along one axis put [low, high] into [from, to]. */
-static void copies(double low, double high, double from, double to, double period, bool wraps,
-                   int *first, int *last)
+/* The copies to try along one axis: those that are seen, moved by the line's own reach in cells. */
+static void copies(int from, int to, double low, double high, bool wraps, int *first, int *last)
 {
     *first = *last = 0;
     if (!wraps) return;
-    double a = ceil((from - high) / period), b = floor((to - low) / period);
-    *first = (int)fmax(-1e6, a);
-    *last = (int)fmin(1e6, b);
+    *first = from - (int)floor(high);
+    *last = to - (int)floor(low);
+}
+
+/* The line's box in pixels. */
+static void box_of(const Spots *spots, double box[4])
+{
+    box[0] = box[2] = INFINITY;
+    box[1] = box[3] = -INFINITY;
+    for (int i = 0; i < spots->count; i++) {
+        box[0] = fmin(box[0], spots->data[i].x);
+        box[1] = fmax(box[1], spots->data[i].x);
+        box[2] = fmin(box[2], spots->data[i].y);
+        box[3] = fmax(box[3], spots->data[i].y);
+    }
+}
+
+static bool sees(const WrCanvasView *view, const double box[4], double dx, double dy)
+{
+    return box[0] + dx <= view->x + view->w && box[1] + dx >= view->x &&
+           box[2] + dy <= view->y + view->h && box[3] + dy >= view->y;
+}
+
+static void add_copy(WrAnts *ants, const WrCanvasView *view, const Spots *spots, double dx,
+                     double dy)
+{
+    for (int k = 0; k + 1 < spots->count && !ants->cut; k++) {
+        Spot a = spots->data[k], b = spots->data[k + 1];
+        a.x += dx;
+        b.x += dx;
+        a.y += dy;
+        b.y += dy;
+        add_segment(ants, view, a, b);
+    }
 }
 
 void wr_ants_add(WrAnts *ants, const WrSelectPoint *points, int count, int wind_u, int wind_v,
@@ -92,27 +122,27 @@ void wr_ants_add(WrAnts *ants, const WrSelectPoint *points, int count, int wind_
     Spots spots = { 0 };
     if (count < 1) return; /* one is enough for a straight line round the table */
     to_pixels(points, count, wind_u, wind_v, view, &spots);
-    double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
-    for (int i = 0; i < spots.count; i++) {
-        x0 = fmin(x0, spots.data[i].x);
-        x1 = fmax(x1, spots.data[i].x);
-        y0 = fmin(y0, spots.data[i].y);
-        y1 = fmax(y1, spots.data[i].y);
+    double box[4], low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
+    box_of(&spots, box);
+    for (int i = 0; i <= count; i++) { /* in cells, to the right and down */
+        double u = points[i % count].u + (i == count ? wind_u : 0);
+        double v = points[i % count].v + (i == count ? wind_v : 0);
+        low[0] = fmin(low[0], u), high[0] = fmax(high[0], u);
+        low[1] = fmin(low[1], 1.0 - v), high[1] = fmax(high[1], 1.0 - v);
     }
-    double period_x = view->table_w * view->zoom, period_y = view->table_h * view->zoom;
+    WrCellRange cells = wr_view_cells(view);
     int i0, i1, j0, j1, made = 0;
-    copies(x0, x1, view->x, view->x + view->w, period_x, wraps_u, &i0, &i1);
-    copies(y0, y1, view->y, view->y + view->h, period_y, wraps_v, &j0, &j1);
+    copies(cells.i0, cells.i1, low[0], high[0], wraps_u, &i0, &i1);
+    copies(cells.j0, cells.j1, low[1], high[1], wraps_v, &j0, &j1);
     for (int j = j0; j <= j1; j++) {
-        for (int i = i0; i <= i1 && made < COPIES_MAX && !ants->cut; i++, made++) {
-            for (int k = 0; k + 1 < spots.count && !ants->cut; k++) {
-                Spot a = spots.data[k], b = spots.data[k + 1];
-                a.x += i * period_x;
-                b.x += i * period_x;
-                a.y += j * period_y;
-                b.y += j * period_y;
-                add_segment(ants, view, a, b);
-            }
+        for (int i = i0; i <= i1 && made < COPIES_MAX && !ants->cut; i++) {
+            double dx, dy, px, py;
+            wr_view_tiling_shift(view, i, j, &dx, &dy);
+            wr_view_step(view, i * (double)view->table_w + dx, j * (double)view->table_h + dy, &px,
+                         &py);
+            if (!sees(view, box, px, py)) continue;
+            add_copy(ants, view, &spots, px, py);
+            made++;
         }
     }
     wr_array_free(&spots);

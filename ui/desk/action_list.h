@@ -120,6 +120,12 @@
     X(zoom_100, "1")                                                                               \
     X(fit, "2 Ctrl+0")                                                                             \
     X(mirror_view, "M")                                                                            \
+    X(turn_left, "4 Ctrl+[")                                                                       \
+    X(turn_right, "6 Ctrl+]")                                                                      \
+    X(turn_none, "5")                                                                              \
+    X(tiling_straight, "")                                                                         \
+    X(tiling_half_drop, "")                                                                        \
+    X(tiling_brick, "")                                                                            \
     X(pan_left, "Left")                                                                            \
     X(pan_right, "Right")                                                                          \
     X(pan_up, "Up")                                                                                \

@@ -23,6 +23,7 @@ typedef enum WrGrab {
     WR_GRAB_PATCH_PAINT, /* the brush, on the patch */
     WR_GRAB_PICK,        /* a height, by a pen's second button */
     WR_GRAB_PAN,
+    WR_GRAB_TURN,   /* the canvas */
     WR_GRAB_RESIZE, /* the brush, by Shift and dragging */
     WR_GRAB_DIVIDER,
     WR_GRAB_SPLIT,    /* the line between two pictures of the patch */
@@ -48,6 +49,7 @@ typedef struct WrHand {
     int button; /* that the grab began with */
     bool space; /* held over the canvas: the next drag pans */
     bool space_used;
+    double turn_from;         /* of the canvas, degrees, when its turning began */
     bool on_canvas, on_patch; /* the pointer is there and over no widget */
     bool line;                /* the key for straight lines is held */
     SDL_Keycode line_key, quick_key;

@@ -21,7 +21,7 @@
 
 #define FIND_UNITS 190 /* width of what opens the search */
 
-/* Names of actions; "-" is a line, "recent", "scale", "theme" and "operations" are made below. */
+/* Names of actions; "-" is a line, "recent", "scale", "theme", "tiling" and "operations" are made below. */
 static const char *const file_menu[] = { WR_ACT(new),
                                          WR_ACT(open),
                                          "recent",
@@ -167,6 +167,10 @@ static const char *const view_menu[] = { WR_ACT(look_grey),
                                          WR_ACT(zoom_100),
                                          WR_ACT(fit),
                                          WR_ACT(mirror_view),
+                                         WR_ACT(turn_left),
+                                         WR_ACT(turn_right),
+                                         WR_ACT(turn_none),
+                                         "tiling",
                                          WR_ACT(view_grid),
                                          WR_ACT(grid_finer),
                                          WR_ACT(grid_coarser),
@@ -309,6 +313,13 @@ static void compare(WrApp *app)
     submenu(app, "Patch shows", names, WR_LENGTH(names));
 }
 
+static void tiling(WrApp *app)
+{
+    static const char *const names[] = { WR_ACT(tiling_straight), WR_ACT(tiling_half_drop),
+                                         WR_ACT(tiling_brick) };
+    submenu(app, "Copies beside it", names, WR_LENGTH(names));
+}
+
 static void camera(WrApp *app)
 {
     static const char *const names[] = { WR_ACT(camera_fill),
@@ -347,6 +358,7 @@ static void menu(WrApp *app, const char *label, const char *const *names)
         else if (strcmp(*names, "recent") == 0) recent(app);
         else if (strcmp(*names, "scale") == 0) scale(app);
         else if (strcmp(*names, "theme") == 0) theme(app);
+        else if (strcmp(*names, "tiling") == 0) tiling(app);
         else if (strcmp(*names, "operations") == 0) operations(app);
         else if (strcmp(*names, "compare") == 0) compare(app);
         else if (strcmp(*names, "camera") == 0) camera(app);

@@ -306,6 +306,10 @@ void wr_panel_status(WrApp *app)
         snprintf(text, sizeof text, app->view->zoom < 0.1 ? "%.1f %%" : "%.0f %%",
                  app->view->zoom * 100.0);
         pair(app->view->mirrored ? "mirror" : "zoom", text);
+        if (app->view->turn != 0.0) {
+            snprintf(text, sizeof text, "%.0f\xc2\xb0", app->view->turn);
+            pair("turn", text);
+        }
         right_side(app);
     }
     wr_gui_area_end();

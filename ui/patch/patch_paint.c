@@ -19,7 +19,6 @@
 #include "ui/preview/patch_pick.h"
 #include "ui/tools/brush_outline.h"
 #include "ui/tools/stroke_hand.h"
-#include "ui/tools/tool.h"
 #include "ui/tools/tool_brush.h"
 
 #include "brush/brush.h"
@@ -267,7 +266,7 @@ static void overlay_clipped(WrApp *app)
     bool painting = hand->grab == WR_GRAB_PATCH_PAINT;
     bool over = painting || (hand->on_patch && hand->grab == WR_GRAB_NONE && wr_patch_paints(app));
     bool resting = !app->settings->turning || wr_patch_paints(app);
-    bool marks = hand->on_canvas && resting && wr_tool_now(app)->press == wr_brush_press;
+    bool marks = hand->on_canvas && resting;
     WrPatchSpot spot;
     if (!over && !marks) return;
     const WrPatchPick *pick = picker(app);

@@ -77,8 +77,8 @@ static void outline(const WrBrushMark *mark, const WrCanvasView *view, double x,
                     const WrCopy *copy, WrColour dark, WrColour light)
 {
     bool round = !mark->square && mark->aspect == 1.0;
-    const double zoom = view->zoom, wide = wr_view_across(view);
-    double points[SIDES][2];
+    const double zoom = view->zoom;
+    double points[SIDES][2], x0, y0, x1, y1;
     if (round && !mark->erases) {
         wr_gui_draw_circle(x, y, mark->radius * zoom + 1.0, dark, 1.5);
         wr_gui_draw_circle(x, y, mark->radius * zoom, light, 1.2);
@@ -91,16 +91,30 @@ static void outline(const WrBrushMark *mark, const WrCanvasView *view, double x,
             if (mark->erases && pass == 1 && !mark->square && i % 4 >= 2) continue; /* dashes */
             double a = 1, b = 0, c = 0, d = 1;
             if (copy) a = copy->a, b = copy->b, c = copy->c, d = copy->d;
-            wr_gui_draw_line(x + wide * (a * p[0] + b * p[1]), y + zoom * (c * p[0] + d * p[1]),
-                             x + wide * (a * q[0] + b * q[1]), y + zoom * (c * q[0] + d * q[1]),
-                             pass ? light : dark, pass ? 1.2 : 2.6);
+            wr_view_step(view, a * p[0] + b * p[1], c * p[0] + d * p[1], &x0, &y0);
+            wr_view_step(view, a * q[0] + b * q[1], c * q[0] + d * q[1], &x1, &y1);
+            wr_gui_draw_line(x + x0, y + y0, x + x1, y + y1, pass ? light : dark, pass ? 1.2 : 2.6);
         }
     }
     if (mark->erases && mark->square) {
-        for (int i = 0; i < 2; i++)
-            wr_gui_draw_line(x + wide * points[i][0], y + zoom * points[i][1],
-                             x + wide * points[i + 2][0], y + zoom * points[i + 2][1], light, 1.0);
+        for (int i = 0; i < 2; i++) {
+            wr_view_step(view, points[i][0], points[i][1], &x0, &y0);
+            wr_view_step(view, points[i + 2][0], points[i + 2][1], &x1, &y1);
+            wr_gui_draw_line(x + x0, y + y0, x + x1, y + y1, light, 1.0);
+        }
     }
+}
+
+/* The real cell, or what holds it where it is turned. */
+static SDL_Rect cell_box(const WrCanvasView *view)
+{
+    double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY, x, y;
+    for (int k = 0; k < 4; k++) {
+        wr_view_place(view, k & 1 ? view->table_w : 0, k & 2 ? view->table_h : 0, &x, &y);
+        x0 = fmin(x0, x), x1 = fmax(x1, x);
+        y0 = fmin(y0, y), y1 = fmax(y1, y);
+    }
+    return (SDL_Rect){ (int)x0, (int)y0, (int)(x1 - x0), (int)(y1 - y0) };
 }
 
 /* Inside the real cell: what the stroke touches there from the other side of an edge, or from a copy. */
@@ -111,11 +125,7 @@ static void outline_in_cell(const WrApp *app, const WrBrushMark *mark, double x,
     int count = wr_view_outline_copies(app->view, wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
                                        wr_field_wrap_v(field) == WR_WRAP_PERIODIC, x, y,
                                        mark->radius, copies);
-    double x0, y0, x1, y1;
-    wr_view_to_pixel(app->view, 0, 0, &x0, &y0);
-    wr_view_to_pixel(app->view, app->view->table_w, app->view->table_h, &x1, &y1);
-    SDL_Rect cell = { (int)fmin(x0, x1), (int)y0, (int)fabs(x1 - x0), (int)(y1 - y0) };
-    wr_gui_draw_clip(cell);
+    wr_gui_draw_clip(cell_box(app->view));
     for (int i = 0; i < count; i++) {
         if (copies[i].dx == 0.0 && copies[i].dy == 0.0) continue;
         double px, py;

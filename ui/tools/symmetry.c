@@ -38,20 +38,14 @@ static bool is_shown(const WrApp *app)
 
 /* ---- on the canvas ---- */
 
-static void upright(const WrApp *app, double u, WrColour colour)
+/* Across all that is seen: upright at u, or level at v. */
+static void axis_line(const WrApp *app, int axis, double texel)
 {
-    const WrCanvasView *view = app->view;
-    double x, y;
-    wr_view_to_pixel(view, u * view->table_w, 0, &x, &y);
-    wr_gui_draw_line(x, view->y, x, view->y + view->h, colour, wr_gui_scale());
-}
-
-static void level(const WrApp *app, double v, WrColour colour)
-{
-    const WrCanvasView *view = app->view;
-    double x, y;
-    wr_view_to_pixel(view, 0, (1.0 - v) * view->table_h, &x, &y);
-    wr_gui_draw_line(view->x, y, view->x + view->w, y, colour, wr_gui_scale());
+    double low[2], high[2], x0, y0, x1, y1;
+    wr_view_bounds(app->view, low, high);
+    wr_view_place(app->view, axis ? low[0] : texel, axis ? texel : low[1], &x0, &y0);
+    wr_view_place(app->view, axis ? high[0] : texel, axis ? texel : high[1], &x1, &y1);
+    wr_gui_draw_line(x0, y0, x1, y1, AXIS, wr_gui_scale());
 }
 
 /* Spokes half a cell long: a turn is about the centre, in every cell. */
@@ -90,8 +84,10 @@ void wr_symmetry_marks(WrApp *app)
 {
     const WrSymmetry *s = &app->settings->symmetry;
     if (!is_shown(app)) return;
-    if (app->settings->symmetric && s->mirror_u) upright(app, s->centre_u, AXIS);
-    if (app->settings->symmetric && s->mirror_v) level(app, s->centre_v, AXIS);
+    if (app->settings->symmetric && s->mirror_u)
+        axis_line(app, 0, s->centre_u * app->view->table_w);
+    if (app->settings->symmetric && s->mirror_v)
+        axis_line(app, 1, (1.0 - s->centre_v) * app->view->table_h);
     if (app->settings->symmetric && s->radial > 1) spokes(app, s);
     if (app->settings->symmetric && s->repeat_u * s->repeat_v > 1) lattice(app, s);
     if (!app->settings->symmetry_panel) return;

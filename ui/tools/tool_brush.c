@@ -29,11 +29,14 @@ static WrSteadyPoint steady_point(const WrPointer *at)
     return (WrSteadyPoint){ at->x, at->y, at->pressure, at->tilt_x, at->tilt_y, at->seconds };
 }
 
-/* As the table sees the hand: in a mirror the pen leans to the other side. */
+/* As the table sees the hand: in a mirror the pen leans to the other side, and a turned table turns beneath it. */
 static void sample(WrApp *app, const WrPointer *at, double u, double v)
 {
     WrPointer seen = *at;
-    if (app->view->mirrored) seen.tilt_x = -seen.tilt_x;
+    double zoom = app->view->zoom, x, y;
+    wr_view_step_back(app->view, at->tilt_x * zoom, at->tilt_y * zoom, &x, &y);
+    seen.tilt_x = fmax(-1.0, fmin(1.0, x));
+    seen.tilt_y = fmax(-1.0, fmin(1.0, y));
     wr_strokes_sample(app, &seen, u, v);
 }
 
@@ -66,8 +69,7 @@ void wr_brush_steady_move(WrApp *app, const WrPointer *at,
     int count = wr_steady_move(&hand->steady, &p, out);
     double dx = at->x - app->hand->at.x, dy = at->y - app->hand->at.y;
     if (hypot(dx, dy) > 0.5) {
-        hand->way_x = dx;
-        hand->way_y = dy;
+        wr_view_step_back(app->view, dx, dy, &hand->way_x, &hand->way_y);
     }
     for (int i = 0; i < count; i++) {
         WrPointer to = pointer_of(at, &out[i]);
@@ -170,8 +172,29 @@ void wr_brush_press(WrApp *app, const WrPointer *at)
     }
 }
 
+/* Between copies that the tiling moves the table jumps under the pointer: another stroke begins there. */
+static bool crosses(const WrApp *app, const WrPointer *at)
+{
+    const WrPointer *before = &app->hand->at;
+    double u0, v0, u1, v1;
+    if (app->view->tiling == WR_TILING_STRAIGHT) return false;
+    wr_view_to_uv(app->view, before->x, before->y, &u0, &v0);
+    wr_view_to_uv(app->view, at->x, at->y, &u1, &v1);
+    if (app->view->tiling == WR_TILING_BRICK) return fmod(floor(v1) - floor(v0), 2.0) != 0.0;
+    return fmod(floor(u1) - floor(u0), 2.0) != 0.0;
+}
+
 void wr_brush_drag(WrApp *app, const WrPointer *at)
 {
+    bool pulls = app->brush->steady.kind != WR_STEADY_OFF;
+    if (app->brush->drawing && !app->brush->straight && !pulls && crosses(app, at)) {
+        WrBrush brush = wr_strokes_brush(app, at);
+        wr_strokes_end(app);
+        if (!wr_strokes_begin(app, &brush, at)) return;
+        wr_brush_steady_begin(app, at);
+        draw_at(app, at);
+        return;
+    }
     if (app->brush->straight) aim(app, at);
     else if (app->brush->drawing) wr_brush_steady_move(app, at, draw_at);
     else if (wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods)) wr_brush_pick(app, at);

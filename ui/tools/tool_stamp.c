@@ -191,7 +191,9 @@ static void drag(WrApp *app, const WrPointer *at)
     double dx = at->x - app->hand->start.x, dy = at->y - app->hand->start.y, way = hypot(dx, dy);
     if (!draw->placed || (!draw->dragged && way < DRAG_PIXELS * wr_gui_scale())) return;
     draw->dragged = true;
-    double turn = atan2(-dy, dx) * 57.29577951308232;
+    double to_x, to_y;
+    wr_view_step_back(app->view, dx, dy, &to_x, &to_y);
+    double turn = atan2(-to_y, to_x) * 57.29577951308232;
     if (at->mods & WR_MOD_SHIFT) turn = rint(turn / 15.0) * 15.0;
     draw->angle_deg = wr_line_round(turn, 1);
     draw->radius = wr_line_round(fmax(way / app->view->zoom, 0.5), 1);

@@ -17,6 +17,20 @@ void wr_tool_pan_drag(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
+#define SNAP_DEG 15.0
+
+void wr_tool_turn_drag(WrApp *app, const WrPointer *at)
+{
+    WrCanvasView *view = app->view;
+    double x = view->x + view->w / 2.0, y = view->y + view->h / 2.0;
+    const WrPointer *from = &app->hand->start;
+    double turn = atan2(at->y - y, at->x - x) - atan2(from->y - y, from->x - x);
+    double degrees = app->hand->turn_from + turn * 57.29577951308232;
+    if (at->mods & WR_MOD_CTRL) degrees = SNAP_DEG * rint(degrees / SNAP_DEG);
+    wr_view_turn_at(view, x, y, degrees);
+    wr_app_redraw(app);
+}
+
 static void zoom_press(WrApp *app, const WrPointer *at)
 {
     double factor = at->mods & WR_MOD_CTRL ? 0.5 : 2.0;

@@ -2,4 +2,6 @@
 #pragma once
 #include "ui/desk/desk.h"
 
+/* Turn the canvas about its middle, by as much as the pointer goes round it. */
+void wr_tool_turn_drag(WrApp *app, const WrPointer *at);
 void wr_tool_pan_drag(WrApp *app, const WrPointer *at);

@@ -23,13 +23,6 @@
 #define IDLE_SECONDS 20  /* without the user's doing anything, after which it stands */
 #define DASH 4           /* pixels at scale 1, of each colour */
 
-static bool same_view(const WrCanvasView *a, const WrCanvasView *b)
-{
-    return a->x == b->x && a->y == b->y && a->w == b->w && a->h == b->h &&
-           a->table_w == b->table_w && a->table_h == b->table_h && a->zoom == b->zoom &&
-           a->centre_x == b->centre_x && a->centre_y == b->centre_y && a->mirrored == b->mirrored;
-}
-
 void wr_marks_update(WrApp *app)
 {
     WrMarks *marks = app->marks;
@@ -85,7 +78,7 @@ void wr_marks_draw(WrApp *app)
     const WrOutline *outline = wr_outliner_get(marks->outliner, &serial);
     int phase = (int)fmod(marks->stepped_at / STEP_SECONDS, 8.0);
     if (outline) {
-        if (serial != marks->traced || !same_view(app->view, &marks->traced_view))
+        if (serial != marks->traced || !wr_view_same(app->view, &marks->traced_view))
             wr_ants_trace(&marks->ants, outline, app->view, wraps_u, wraps_v);
         marks->traced = serial;
         marks->traced_view = *app->view;

@@ -25,10 +25,13 @@ WrSelectPoint wr_overlay_home(const WrApp *app, double u, double v)
                             wr_field_wrap_v(field) == WR_WRAP_PERIODIC ? -floor(v) : 0.0 };
 }
 
-static void pixel_of(const WrApp *app, WrSelectPoint p, double du, double dv, double *x, double *y)
+/* Of a point of what stands in the copy i cells to the right and j up. */
+static void pixel_of(const WrApp *app, WrSelectPoint p, int i, int j, double *x, double *y)
 {
-    wr_view_to_pixel(app->view, (p.u + du) * app->view->table_w,
-                     (1.0 - p.v - dv) * app->view->table_h, x, y);
+    const WrCanvasView *view = app->view;
+    double dx, dy;
+    wr_view_tiling_shift(view, i, -j, &dx, &dy);
+    wr_view_place(view, (p.u + i) * view->table_w + dx, (1.0 - p.v - j) * view->table_h + dy, x, y);
 }
 
 /* Whole cells by which what lies in low..high (u and v) must be moved to be seen: *from .. *to. */
@@ -40,29 +43,26 @@ static Shifts shifts_of(const WrApp *app, WrSelectPoint low, WrSelectPoint high)
 {
     const WrCanvasView *view = app->view;
     const WrField *field = wr_app_field(app);
-    double u0, v0, u1, v1;
-    wr_view_to_uv(view, view->x, view->y + view->h, &u0, &v0);
-    wr_view_to_uv(view, view->x + view->w, view->y, &u1, &v1);
-    if (view->mirrored) {
-        const double left = u1;
-        u1 = u0, u0 = left;
-    }
+    double from[2], to[2];
+    wr_view_bounds(view, from, to);
+    if (view->tiling == WR_TILING_BRICK) from[0] -= view->table_w / 2.0;
+    if (view->tiling == WR_TILING_HALF_DROP) from[1] -= view->table_h / 2.0;
     Shifts s = { 0, 0, 0, 0 };
     if (wr_field_wrap_u(field) == WR_WRAP_PERIODIC) {
-        s.from_u = (int)ceil(u0 - high.u);
-        s.to_u = (int)floor(u1 - low.u);
+        s.from_u = (int)ceil(from[0] / view->table_w - high.u);
+        s.to_u = (int)floor(to[0] / view->table_w - low.u);
     }
     if (wr_field_wrap_v(field) == WR_WRAP_PERIODIC) {
-        s.from_v = (int)ceil(v0 - high.v);
-        s.to_v = (int)floor(v1 - low.v);
+        s.from_v = (int)ceil(1.0 - to[1] / view->table_h - high.v);
+        s.to_v = (int)floor(1.0 - from[1] / view->table_h - low.v);
     }
     int64_t count = (int64_t)(s.to_u - s.from_u + 1) * (s.to_v - s.from_v + 1);
     if (count > COPIES_MAX) s = (Shifts){ -1, 1, -1, 1 };
     return s;
 }
 
-static void lines(const WrApp *app, const WrSelectPoint *points, int count, bool closed, double du,
-                  double dv, WrColour colour, double width)
+static void lines(const WrApp *app, const WrSelectPoint *points, int count, bool closed, int du,
+                  int dv, WrColour colour, double width)
 {
     double x0, y0, x1, y1;
     for (int i = closed ? 0 : 1; i < count; i++) {

@@ -1,0 +1,263 @@
+/* The table on the canvas: turned, mirrored, its copies moved by half a cell; drawn as the geometry says. */
+#include "test.h"
+
+#include "field/field.h"
+
+#include "ui/canvas/ants.h"
+#include "ui/canvas/canvas.h"
+#include "ui/canvas/view.h"
+
+#include <SDL.h>
+
+#define WIDE 211
+#define TALL 149
+
+static WrCanvasView random_view(TestRandom *r, int w, int h)
+{
+    WrCanvasView view = { .x = 0, .y = 0, .w = WIDE, .h = TALL, .table_w = w, .table_h = h };
+    view.zoom = exp2(6 * test_random(r) - 1);
+    view.centre_x = w * test_random(r);
+    view.centre_y = h * test_random(r);
+    view.mirrored = test_random(r) < 0.5;
+    view.turn = 360 * test_random(r) - 180;
+    view.tiling = (WrTiling)(3 * test_random(r));
+    return view;
+}
+
+/* By hand: a view turned by a quarter clockwise shows what was right of its middle below it. */
+static void a_quarter_turn_puts_right_below(void **state)
+{
+    (void)state;
+    WrCanvasView view = { .x = 17, .y = 5, .w = 200, .h = 100, .table_w = 64, .table_h = 32 };
+    double px, py;
+    view.zoom = 3;
+    view.centre_x = 20;
+    view.centre_y = 10;
+    view.turn = 90;
+    wr_view_to_pixel(&view, 24, 10, &px, &py);
+    assert_near(px, 17 + 100, 1e-12);
+    assert_near(py, 5 + 50 + 3 * 4, 1e-12);
+    wr_view_to_pixel(&view, 20, 12, &px, &py); /* and what was below, to the left */
+    assert_near(px, 17 + 100 - 3 * 2, 1e-12);
+    assert_near(py, 5 + 50, 1e-12);
+}
+
+/* By hand: the copies beside the cell stand half a cell lower, those beyond them do not. */
+static void copies_are_moved_by_half_a_cell(void **state)
+{
+    (void)state;
+    WrCanvasView view = { .w = 200, .h = 100, .table_w = 30, .table_h = 22, .zoom = 2 };
+    double px, py, x, y;
+    view.centre_x = 15;
+    view.centre_y = 11;
+    view.tiling = WR_TILING_HALF_DROP;
+    static const double drops[] = { 11, 0, 11, 0 };
+    for (int i = -1; i <= 2; i++) {
+        wr_view_to_pixel(&view, 30 * i + 7, 3, &px, &py);
+        assert_near(px, 100 + 2 * (30 * i + 7 - 15), 1e-12);
+        assert_near(py, 50 + 2 * (3 + drops[i + 1] - 11), 1e-12);
+        wr_view_to_texel(&view, px, py, &x, &y);
+        assert_near(x, 30 * i + 7, 1e-12);
+        assert_near(y, 3, 1e-12);
+    }
+    view.tiling = WR_TILING_BRICK;
+    wr_view_to_pixel(&view, 7, 3 + 22, &px, &py);
+    assert_near(px, 100 + 2 * (7 + 15 - 15), 1e-12);
+    assert_near(py, 50 + 2 * (3 + 22 - 11), 1e-12);
+}
+
+static void pixels_and_texels_stay_each_others_inverse(void **state)
+{
+    (void)state;
+    TestRandom r = { 41 };
+    for (int i = 0; i < 500; i++) {
+        WrCanvasView view = random_view(&r, 37, 53);
+        double px = 3 * WIDE * test_random(&r) - WIDE, py = 3 * TALL * test_random(&r) - TALL;
+        double x, y, qx, qy;
+        wr_view_to_texel(&view, px, py, &x, &y);
+        wr_view_to_pixel(&view, x, y, &qx, &qy);
+        assert_near(qx, px, 1e-8);
+        assert_near(qy, py, 1e-8);
+        wr_view_step_back(&view, px, py, &x, &y);
+        wr_view_step(&view, x, y, &qx, &qy);
+        assert_near(qx, px, 1e-9);
+        assert_near(qy, py, 1e-9);
+    }
+}
+
+/* Turning, zooming and panning: the place under the pointer is the same, by whole cells; also for centres that were
+   brought home across copies that are moved. */
+static void what_is_under_the_pointer_stays_there(void **state)
+{
+    (void)state;
+    TestRandom r = { 42 };
+    for (int i = 0; i < 300; i++) {
+        WrCanvasView view = random_view(&r, 37, 53);
+        double px = WIDE * test_random(&r), py = TALL * test_random(&r), x0, y0, x1, y1;
+        wr_view_to_texel(&view, px, py, &x0, &y0);
+        double dx = 0, dy = 0;
+        if (i % 3 == 0) wr_view_turn_at(&view, px, py, 1000 * test_random(&r) - 500);
+        if (i % 3 == 1) wr_view_zoom_at(&view, px, py, exp2(6 * test_random(&r) - 1));
+        if (i % 3 == 2) {
+            dx = 900 * test_random(&r) - 450;
+            dy = 900 * test_random(&r) - 450;
+            wr_view_pan(&view, dx, dy);
+        }
+        wr_view_to_texel(&view, px + dx, py + dy, &x1, &y1);
+        assert_near((x1 - x0) / 37 - rint((x1 - x0) / 37), 0, 1e-9);
+        assert_near((y1 - y0) / 53 - rint((y1 - y0) / 53), 0, 1e-9);
+        assert_true(fabs(view.turn) <= 180 && fabs(view.centre_x) <= 74 &&
+                    fabs(view.centre_y) <= 106);
+    }
+}
+
+/* ---- the picture ---- */
+
+typedef struct Shown {
+    SDL_Surface *surface;
+    SDL_Renderer *renderer;
+    WrCanvas *canvas;
+} Shown;
+
+static Shown show_new(void)
+{
+    Shown s = { .surface =
+                    SDL_CreateRGBSurfaceWithFormat(0, WIDE, TALL, 32, SDL_PIXELFORMAT_ARGB8888),
+                .canvas = wr_canvas_new() };
+    s.renderer = SDL_CreateSoftwareRenderer(s.surface);
+    assert_non_null(s.renderer);
+    return s;
+}
+
+static void show_free(Shown *s)
+{
+    wr_canvas_free(s->canvas);
+    SDL_DestroyRenderer(s->renderer);
+    SDL_FreeSurface(s->surface);
+}
+
+static void show(Shown *s, const WrCanvasView *view, const WrField *field)
+{
+    const WrCanvasLook look = { .colours = WR_CANVAS_SIGNED, .low = -1, .high = 1 };
+    WrCanvasRange range;
+    while (wr_canvas_draw(s->canvas, s->renderer, view, field, &look, false, 1.0, &range)) {
+    }
+    SDL_RenderFlush(s->renderer);
+}
+
+static uint32_t pixel(const Shown *s, int i, int j)
+{
+    const uint32_t *row = (const uint32_t *)((const char *)s->surface->pixels +
+                                             (size_t)j * (size_t)s->surface->pitch);
+    return 0xff000000u | row[i];
+}
+
+static WrField *random_field(TestRandom *r, int w, int h)
+{
+    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < h; j++)
+        for (int i = 0; i < w; i++) wr_field_set(field, i, j, (float)(1.9 * test_random(r) - 0.95));
+    return field;
+}
+
+/* The texel under a place of the window, or false if another one is nearer to it than `reach` pixels. */
+static bool texel_at(const WrCanvasView *view, const WrField *field, double px, double py,
+                     double reach, float *height)
+{
+    const int w = view->table_w, h = view->table_h;
+    for (int k = 0; k < 9; k++) {
+        double x, y;
+        wr_view_to_texel(view, px + reach * (k % 3 - 1), py + reach * (k / 3 - 1), &x, &y);
+        float f = wr_field_get(field, (int)(x - floor(x / w) * w), (int)(y - floor(y / h) * h));
+        if (k > 0 && f != *height) return false;
+        *height = f;
+    }
+    return true;
+}
+
+static void assert_shown(const Shown *s, const WrCanvasView *view, const WrField *field,
+                         double reach)
+{
+    int seen = 0;
+    for (int j = 0; j < TALL; j++) {
+        for (int i = 0; i < WIDE; i++) {
+            float height = 0;
+            if (!texel_at(view, field, i + 0.5, j + 0.5, reach, &height)) continue;
+            seen++;
+            /* a height between two codes may be either's */
+            if (pixel(s, i, j) != wr_canvas_colour(s->canvas, (double)height - 1e-6) &&
+                pixel(s, i, j) != wr_canvas_colour(s->canvas, (double)height + 1e-6))
+                fail_msg("pixel %d, %d at %g degrees, zoom %g, tiling %d: %08x, not %08x", i, j,
+                         view->turn, view->zoom, (int)view->tiling, pixel(s, i, j),
+                         wr_canvas_colour(s->canvas, (double)height));
+        }
+    }
+    assert_true(seen > 500);
+}
+
+/* Where one texel fills all that a pixel can have a share in, the pixel is its colour. */
+static void every_pixel_shows_the_texel_under_it(void **state)
+{
+    (void)state;
+    TestRandom r = { 43 };
+    static const double quarters[] = { 0, 90, 180, -90 };
+    for (int k = 0; k < 24; k++) {
+        WrField *field = random_field(&r, 37 + 112 * (k % 2), 53 + 96 * (k % 2));
+        Shown s = show_new();
+        WrCanvasView view = random_view(&r, wr_field_width(field), wr_field_height(field));
+        view.zoom = 12 + 8 * test_random(&r);
+        if (k < 12) view.turn = quarters[k % 4], view.zoom = 3 + 2 * test_random(&r);
+        view.tiling = (WrTiling)(k % 3);
+        show(&s, &view, field);
+        assert_shown(&s, &view, field, k < 12 ? 0.51 : 2.2);
+        /* what is painted is put into the same picture, on all its copies */
+        wr_field_set(field, 5, 7, 0.9F);
+        wr_field_set(field, 36, 52, -0.8F);
+        if (k % 2) wr_field_set(field, 118, 131, 0.7F);
+        show(&s, &view, field);
+        assert_shown(&s, &view, field, k < 12 ? 0.51 : 2.2);
+        show_free(&s);
+        wr_field_free(field);
+    }
+}
+
+/* Every pixel of an outline lies on a line of the table that it outlines, whichever copy it is on. */
+static void outlines_follow_the_copies(void **state)
+{
+    (void)state;
+    TestRandom r = { 44 };
+    const WrSelectPoint corners[4] = { { 0.2, 0.3 }, { 0.7, 0.3 }, { 0.7, 0.6 }, { 0.2, 0.6 } };
+    for (int k = 0; k < 60; k++) {
+        WrCanvasView view = random_view(&r, 37, 53);
+        view.zoom = 1 + test_random(&r);
+        WrAnts ants = { 0 };
+
+        wr_ants_add(&ants, corners, 4, 0, 0, &view, true, true);
+        assert_true(ants.pixels.count > 50);
+        for (int i = 0; i < ants.pixels.count; i++) {
+            const SDL_Point *at = &ants.pixels.data[i].at;
+            double u, v, off;
+            wr_view_to_uv(&view, at->x + 0.5, at->y + 0.5, &u, &v);
+            u -= floor(u);
+            v -= floor(v);
+            off = fmin(fmin(fabs(u - 0.2), fabs(u - 0.7)) * 37,
+                       fmin(fabs(v - 0.3), fabs(v - 0.6)) * 53);
+            if (off * view.zoom > 1.0) fail_msg("an ant is %g pixels off", off * view.zoom);
+        }
+
+        wr_ants_free(&ants);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_quarter_turn_puts_right_below),
+        cmocka_unit_test(copies_are_moved_by_half_a_cell),
+        cmocka_unit_test(pixels_and_texels_stay_each_others_inverse),
+        cmocka_unit_test(what_is_under_the_pointer_stays_there),
+        cmocka_unit_test(every_pixel_shows_the_texel_under_it),
+        cmocka_unit_test(outlines_follow_the_copies),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
