@@ -208,6 +208,10 @@ static void every_pixel_shows_the_texel_under_it(void **state)
         view.zoom = 12 + 8 * test_random(&r);
         if (k < 12) view.turn = quarters[k % 4], view.zoom = 3 + 2 * test_random(&r);
         view.tiling = (WrTiling)(k % 3);
+        if (k % 2 && k % 3) { /* a copy that is moved, and the edge where it begins */
+            view.centre_x = k % 3 == 1 ? 149 + 9 : 149 / 2.0 + 9;
+            view.centre_y = k % 3 == 1 ? 149 / 2.0 + 9 : 149 + 9;
+        }
         show(&s, &view, field);
         assert_shown(&s, &view, field, k < 12 ? 0.51 : 2.2);
         /* what is painted is put into the same picture, on all its copies */
