@@ -5,6 +5,7 @@
 
 #include "ui/canvas/ants.h"
 #include "ui/canvas/canvas.h"
+#include "ui/canvas/canvas_ink.h"
 #include "ui/canvas/view.h"
 
 #include <SDL.h>
@@ -140,7 +141,7 @@ static void show(Shown *s, const WrCanvasView *view, const WrField *field)
 {
     const WrCanvasLook look = { .colours = WR_CANVAS_SIGNED, .low = -1, .high = 1 };
     WrCanvasRange range;
-    while (wr_canvas_draw(s->canvas, s->renderer, view, field, &look, false, 1.0, &range)) {
+    while (wr_canvas_draw(s->canvas, s->renderer, view, field, NULL, &look, false, 1.0, &range)) {
     }
     SDL_RenderFlush(s->renderer);
 }
@@ -252,6 +253,99 @@ static void outlines_follow_the_copies(void **state)
     }
 }
 
+/* ---- what pixels are made of ---- */
+
+static void contours_are_few_and_at_round_heights(void **state)
+{
+    (void)state;
+    TestRandom r = { 45 };
+    for (int i = 0; i < 500; i++) {
+        double low = 10 * test_random(&r) - 5, range = pow(10, 12 * test_random(&r) - 6);
+        double step = wr_ink_step(low, low + range), lines = range / step;
+        double digit = step / pow(10, floor(log10(step) + 1e-9));
+        if (lines < 6 || lines > 18) fail_msg("%g lines over %g by %g", lines, range, step);
+        assert_true(fabs(digit - 1) < 1e-9 || fabs(digit - 2) < 1e-9 || fabs(digit - 5) < 1e-9);
+    }
+    assert_near(wr_ink_step(0, 1), 0.1, 1e-12);
+    assert_true(wr_ink_step(3, 3) > 0);
+}
+
+/* A slant: a pixel is a line where its height and its left or upper neighbour's are not between the same two multiples. */
+static void contours_lie_between_two_pixels_that_differ(void **state)
+{
+    (void)state;
+    const WrCanvasLook look = { .colours = WR_CANVAS_CONTOURS };
+    WrInk ink;
+    wr_ink_make(&ink, &look, -0.31, 0.83);
+    double step = ink.step;
+    float rows[2][97];
+    uint32_t out[97];
+    int lines = 0;
+    for (int i = 0; i < 97; i++) {
+        rows[0][i] = (float)(0.0113 * i - 0.31);
+        rows[1][i] = rows[0][i] + 0.0071F;
+    }
+    wr_ink_heights(&ink, rows[1] + 1, rows[1][0], rows[0] + 1, 96, out);
+    for (int i = 1; i < 97; i++) {
+        double here = (double)rows[1][i], left = (double)rows[1][i - 1], over = (double)rows[0][i];
+        bool line = false;
+        for (int k = -5; k < 10; k++) {
+            line = line || (left < k * step && here >= k * step);
+            line = line || (over < k * step && here >= k * step);
+        }
+        lines += line;
+        if (line != (out[i - 1] != wr_ink_colour(&ink, here))) fail_msg("pixel %d", i);
+    }
+    assert_true(lines >= 8);
+}
+
+static void reliefs_are_lit_by_the_cosine_and_level_ground_is_grey(void **state)
+{
+    (void)state;
+    TestRandom r = { 46 };
+    for (int i = 0; i < 100; i++) {
+        double a = 6.283 * test_random(&r), reach = 0.4 + 0.55 * test_random(&r);
+        const WrCanvasLook look = { .colours = WR_CANVAS_RELIEF,
+                                    .light_x = reach * cos(a),
+                                    .light_y = reach * sin(a) };
+        double up = sqrt(1 - reach * reach), gamma = log(0.55) / log(up);
+        float p[3] = { 0, (float)(6 * test_random(&r) - 3), 0 },
+              q[3] = { 0, (float)(6 * test_random(&r) - 3), 0 };
+        uint32_t out[3];
+        WrInk ink;
+        p[2] = (float)(-look.light_x / up); /* faces the light */
+        q[2] = (float)(-look.light_y / up);
+        wr_ink_make(&ink, &look, 0, 1);
+        wr_ink_slopes(&ink, p, q, 3, out);
+        double lit = (up - (double)p[1] * look.light_x - (double)q[1] * look.light_y) /
+                     sqrt(1 + (double)p[1] * (double)p[1] + (double)q[1] * (double)q[1]);
+        assert_near(out[0] & 0xff, 0.55 * 255, 1.0);
+        assert_near(out[1] & 0xff, 255 * pow(fmax(lit, 0), gamma), 1.0 + 255 * gamma / 1024);
+        assert_int_equal(out[2] & 0xff, 255);
+    }
+}
+
+/* Of a slope of 45 degrees to the right the normal leans to the left; in the window too, where a slope up leans down. */
+static void normals_have_the_colours_of_a_map(void **state)
+{
+    (void)state;
+    const WrCanvasLook look = { .colours = WR_CANVAS_NORMALS, .high = 1 };
+    WrCanvasView view = { .w = WIDE, .h = TALL, .table_w = 8, .table_h = 8, .zoom = 9 };
+    WrCanvasRange range;
+    Shown s = show_new();
+    WrField *p = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 1, NULL);
+    WrField *q = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    wr_canvas_draw(s.canvas, s.renderer, &view, p, q, &look, false, 1, &range);
+    SDL_RenderFlush(s.renderer);
+    assert_int_equal(pixel(&s, 100, 100), 0xff2580da); /* 127.5 (1 - 1/sqrt 2, 1, 1 + 1/sqrt 2) */
+    wr_canvas_draw(s.canvas, s.renderer, &view, q, p, &look, false, 1, &range);
+    SDL_RenderFlush(s.renderer);
+    assert_int_equal(pixel(&s, 100, 100), 0xff8025da);
+    wr_field_free(p);
+    wr_field_free(q);
+    show_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -261,6 +355,10 @@ int main(void)
         cmocka_unit_test(what_is_under_the_pointer_stays_there),
         cmocka_unit_test(every_pixel_shows_the_texel_under_it),
         cmocka_unit_test(outlines_follow_the_copies),
+        cmocka_unit_test(contours_are_few_and_at_round_heights),
+        cmocka_unit_test(contours_lie_between_two_pixels_that_differ),
+        cmocka_unit_test(reliefs_are_lit_by_the_cosine_and_level_ground_is_grey),
+        cmocka_unit_test(normals_have_the_colours_of_a_map),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

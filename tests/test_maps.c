@@ -100,6 +100,14 @@ static void slopes_and_bends_are_the_schemes_own(void **state)
             slopes_at(&made, k % 23 + 1e-7, k / 23 + 1e-7, &p, &q);
             assert_near(made.out[k], atan(hypot(p, q)) * 180 / PI, 1e-3);
         }
+        for (int axis = 0; axis < 2; axis++) {
+            make(&made, axis ? WR_FIELD_MAP_SLOPE_V : WR_FIELD_MAP_SLOPE_U, NULL);
+            for (int k = 0; k < 23 * 17; k++) {
+                double s[2];
+                slopes_at(&made, k % 23 + 1e-7, k / 23 + 1e-7, &s[0], &s[1]);
+                assert_near(made.out[k], s[axis], 1e-5 * (1 + fabs(s[axis])));
+            }
+        }
         make(&made, WR_FIELD_MAP_DIRECTION, NULL);
         for (int k = 0; k < 23 * 17; k++) {
             double p, q;

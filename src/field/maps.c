@@ -104,6 +104,32 @@ static void direction(const WrMapJob *job, const WrGroundRow *row, int count, do
     }
 }
 
+static void slope_u(const WrMapJob *job, const WrGroundRow *row, int count, double *out)
+{
+    (void)job;
+    memcpy(out, row->p, (size_t)count * sizeof *out);
+}
+
+static void slope_v(const WrMapJob *job, const WrGroundRow *row, int count, double *out)
+{
+    (void)job;
+    memcpy(out, row->q, (size_t)count * sizeof *out);
+}
+
+static bool make_slope_u(const WrMapJob *job, const WrMapPart *part, WrPool *pool, float *out,
+                         int64_t *replaced, WrError *err)
+{
+    Making m = { .job = job, .part = part, .out = out, .derive = slope_u };
+    return run_rows(&m, pool, replaced, err);
+}
+
+static bool make_slope_v(const WrMapJob *job, const WrMapPart *part, WrPool *pool, float *out,
+                         int64_t *replaced, WrError *err)
+{
+    Making m = { .job = job, .part = part, .out = out, .derive = slope_v };
+    return run_rows(&m, pool, replaced, err);
+}
+
 static bool make_curvature(const WrMapJob *job, const WrMapPart *part, WrPool *pool, float *out,
                            int64_t *replaced, WrError *err)
 {
@@ -323,6 +349,8 @@ const WrFieldMap wr_field_maps[WR_FIELD_MAP_COUNT] = {
     [WR_FIELD_MAP_SLOPE] = { "slope", make_slope, of_slopes },
     [WR_FIELD_MAP_DIRECTION] = { "direction", make_direction, of_slopes },
     [WR_FIELD_MAP_ROUGHNESS] = { "roughness", make_roughness, of_box },
+    [WR_FIELD_MAP_SLOPE_U] = { "slope_u", make_slope_u, of_slopes },
+    [WR_FIELD_MAP_SLOPE_V] = { "slope_v", make_slope_v, of_slopes },
 };
 
 bool wr_map_make(WrFieldMapKind kind, const WrMapJob *job, const WrMapPart *part, WrPool *pool,

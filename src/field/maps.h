@@ -10,6 +10,8 @@
    | roughness | root of alpha, at most 1: alpha^2 = base^2 + the sum of the variances of both slopes over a box about it, |
    |           | which is the mean of Beckmann's alpha^2 over the principal axes, each twice its variance               |
 
+   | slope_u, slope_v | dz/dx along u, dz/dy along v: scene units over scene units                       |
+
    A table that is moved by whole texels over its periodic axes gives the moved map, to the bit, on any number of threads. */
 #pragma once
 #include "field/ground.h"
@@ -48,6 +50,8 @@ typedef enum WrFieldMapKind {
     WR_FIELD_MAP_SLOPE,
     WR_FIELD_MAP_DIRECTION,
     WR_FIELD_MAP_ROUGHNESS,
+    WR_FIELD_MAP_SLOPE_U,
+    WR_FIELD_MAP_SLOPE_V,
     WR_FIELD_MAP_COUNT
 } WrFieldMapKind;
 

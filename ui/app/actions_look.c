@@ -28,6 +28,38 @@ bool wr_is_signed(const WrApp *app)
     return look->shown == WR_CANVAS_HEIGHTS && look->colours == WR_CANVAS_SIGNED;
 }
 
+void wr_act_look_contours(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_HEIGHTS;
+    app->settings->look.colours = WR_CANVAS_CONTOURS;
+}
+
+bool wr_is_contours(const WrApp *app)
+{
+    const WrCanvasLook *look = &app->settings->look;
+    return look->shown == WR_CANVAS_HEIGHTS && look->colours == WR_CANVAS_CONTOURS;
+}
+
+void wr_act_look_relief(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_LIT;
+}
+
+bool wr_is_relief(const WrApp *app)
+{
+    return app->settings->look.shown == WR_CANVAS_LIT;
+}
+
+void wr_act_look_normals(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_BENT;
+}
+
+bool wr_is_normals(const WrApp *app)
+{
+    return app->settings->look.shown == WR_CANVAS_BENT;
+}
+
 void wr_act_look_occlusion(WrApp *app)
 {
     app->settings->look.shown = WR_CANVAS_OCCLUSION;

@@ -85,6 +85,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->layers->dragged = app->layers->renamed = -1;
     app->canvas = wr_canvas_new();
     app->canvas_map = wr_canvas_map_new(app->options->threads, app->job_event);
+    app->canvas_second = wr_canvas_map_new(app->options->threads, app->job_event);
     app->preview = wr_preview_new(app->options->threads, app->options->isa, app->ready_event);
     app->files = wr_files_new(app->file_event);
     app->pen = wr_pen_new(app->window);
@@ -143,6 +144,7 @@ void wr_app_end(WrApp *app)
     if (app->renderer) wr_panel_layers_forget(app);
     wr_canvas_free(app->canvas);
     wr_canvas_map_free(app->canvas_map);
+    wr_canvas_map_free(app->canvas_second);
     wr_gui_free(app->gui);
     wr_files_free(app->files);
     wr_pen_free(app->pen);

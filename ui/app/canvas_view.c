@@ -1,5 +1,6 @@
 /* The table's view: its picture, and what lies on it. */
 #include "ui/app/canvas_view.h"
+#include "ui/app/canvas_chip.h"
 #include "base/rows.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/canvas_map.h"
@@ -39,26 +40,10 @@ static bool is_held(const WrApp *app)
     return app->hand->grab != WR_GRAB_NONE || app->brush->jobs.count > 0;
 }
 
-/* Maps that can be shown: which, in which colours, and over which range. */
-typedef struct Shown {
-    const char *name;
-    WrFieldMapKind kind;
-    WrCanvasColours colours;
-    double low, high; /* low 0 and high 0: from the lowest number of the map to 0 */
-} Shown;
-
-static const Shown shown[WR_CANVAS_SHOWN] = {
-    [WR_CANVAS_HEIGHTS] = { .name = "Heights" },
-    [WR_CANVAS_OCCLUSION] = { "Occlusion", WR_FIELD_MAP_OCCLUSION, WR_CANVAS_GREY, 0, 1 },
-    [WR_CANVAS_CAVITY] = { "Cavity", WR_FIELD_MAP_CAVITY, WR_CANVAS_GREY, 0, 0 },
-    [WR_CANVAS_CURVATURE] = { "Curvature", WR_FIELD_MAP_CURVATURE, WR_CANVAS_SIGNED, -0.2, 0.2 },
-    [WR_CANVAS_SLOPE] = { "Steepness", WR_FIELD_MAP_SLOPE, WR_CANVAS_GREY, 0, 90 },
-    [WR_CANVAS_ROUGHNESS] = { "Roughness", WR_FIELD_MAP_ROUGHNESS, WR_CANVAS_GREY, 0, 1 },
-};
-
-/* The map that is wanted in the table's place; NULL: none, or none yet. */
-static const WrField *map_of(WrApp *app, const WrField *field)
+/* The map that is wanted in the table's place; NULL: none, or none yet. second: what goes with it, or NULL. */
+static const WrField *map_of(WrApp *app, const WrField *field, const WrField **second)
 {
+    *second = NULL;
     const WrScene *scene = wr_app_document(app)->scene;
     const WrCanvasShown now = app->settings->look.shown;
     if (now == WR_CANVAS_HEIGHTS || wr_app_shows_mask(app)) return NULL;
@@ -67,16 +52,20 @@ static const WrField *map_of(WrApp *app, const WrField *field)
     WrMapJob job = wr_map_default(&ground);
     job.directions = 8; /* near things only, so that little is made anew while it is painted */
     job.reach = 48;
-    return wr_canvas_map_bring(app->canvas_map, field, shown[now].kind, &job);
+    const WrField *map =
+        wr_canvas_map_bring(app->canvas_map, field, wr_canvas_maps[now].kind, &job);
+    if (!wr_canvas_maps[now].two) return map;
+    *second = wr_canvas_map_bring(app->canvas_second, field, WR_FIELD_MAP_SLOPE_V, &job);
+    return *second ? map : NULL;
 }
 
 void wr_canvas_view_draw(WrApp *app)
 {
     if (app->layout->canvas.w <= 0) return;
-    const WrField *field = wr_app_canvas_field(app), *map = map_of(app, field);
+    const WrField *second, *field = wr_app_canvas_field(app), *map = map_of(app, field, &second);
     WrCanvasLook look = app->settings->look;
     if (map) {
-        const Shown *now = &shown[look.shown];
+        const WrCanvasMapRow *now = &wr_canvas_maps[look.shown];
         look.colours = now->colours;
         const double lowest = app->map_range->table_low;
         look.automatic = look.marks = false;
@@ -85,10 +74,15 @@ void wr_canvas_view_draw(WrApp *app)
     }
     if (wr_app_shows_mask(app))
         look = (WrCanvasLook){ .colours = WR_CANVAS_GREY, .low = 0.0, .high = 1.0 };
+    double x, y,
+        zoom = app->view->zoom; /* the light stays where it is, whatever is turned beneath it */
+    wr_view_step_back(app->view, look.light_x * zoom, -look.light_y * zoom, &x, &y);
+    look.light_x = x;
+    look.light_y = -y;
     WrCanvasRange range;
     app->canvas_unfinished =
-        wr_canvas_draw(app->canvas, app->renderer, app->view, map ? map : field, &look,
-                       is_held(app), MEANS_BUDGET, &range);
+        wr_canvas_draw(app->canvas, app->renderer, app->view, map ? map : field,
+                       map ? second : NULL, &look, is_held(app), MEANS_BUDGET, &range);
     app->map_shown = map != NULL;
     if (map && range.table_low != app->map_range->table_low) wr_app_redraw(app);
     if (map) *app->map_range = range;
@@ -155,129 +149,6 @@ static void hints(WrApp *app)
         wr_gui_draw_text(x + pad, y + pad + i * (h + gap), WR_FONT_TEXT, WR_COLOUR_TEXT, lines[i]);
 }
 
-/* ---- the range, in a popup of the chip ---- */
-
-/* All heights that there are or that are shown, lowest first, in the colours that they have on the canvas: so
-   what lies beyond the range is seen at its ends. */
-static void ramp(const WrApp *app, const char *id, double wide, double tall)
-{
-    const WrCanvasRange *r = app->map_shown ? app->map_range : app->range;
-    double low = fmin(r->low, r->table_low), high = fmax(r->high, r->table_high);
-    WrPad pad = wr_gui_pad_begin(id, wide, tall);
-    for (int x = 0; x < (int)pad.w; x++) {
-        double height = low + (high - low) * (x + 0.5) / pad.w;
-        wr_gui_draw_fill(pad.x + x, pad.y, 1, pad.h, wr_canvas_colour(app->canvas, height), 0);
-    }
-    wr_gui_pad_end();
-}
-
-static void ramp_tip(const WrApp *app)
-{
-    const WrCanvasRange *r = app->map_shown ? app->map_range : app->range;
-    char tip[160];
-    bool beyond = r->table_low < r->low || r->table_high > r->high;
-    snprintf(tip, sizeof tip, "The %s goes from %.4g to %.4g%s", app->map_shown ? "map" : "table",
-             r->table_low, r->table_high,
-             beyond ? ": some of it lies beyond the range that is shown" : "");
-    wr_gui_tip(tip);
-}
-
-static bool is_unit(const WrCanvasLook *look)
-{
-    return !look->automatic && look->low == 0.0 && look->high == 1.0;
-}
-
-static void choose_way(WrApp *app, int way)
-{
-    WrCanvasLook *look = &app->settings->look;
-    look->automatic = way == 0;
-    if (way == 0) return;
-    look->low = way == 1 ? 0.0 : app->range->low;
-    look->high = way == 1 ? 1.0 : app->range->high;
-}
-
-static void range_popup(WrApp *app)
-{
-    WR_ROWS(looks);
-    static const char *const looks[] = { [WR_ROW(WR_CANVAS_GREY)] = "Grey",
-                                         [WR_ROW(WR_CANVAS_SIGNED)] = "Signed" };
-    WR_ROWS_END(looks, WR_CANVAS_COLOURS);
-    static const char *const ways[] = { "As the table", "0 to 1", "As it is now" };
-    const char *maps[WR_CANVAS_SHOWN];
-    WrCanvasLook *look = &app->settings->look;
-    int chosen = (int)look->colours, now = (int)look->shown,
-        way = look->automatic ? 0
-              : is_unit(look) ? 1
-                              : 2;
-    if (!wr_gui_popup_begin("range")) return;
-    for (int i = 0; i < WR_CANVAS_SHOWN; i++) maps[i] = shown[i].name;
-    if (wr_gui_segments("shown", maps, NULL, WR_CANVAS_SHOWN, &now))
-        look->shown = (WrCanvasShown)now;
-    wr_gui_tip("The table itself, or a map of it that follows the brush");
-    if (look->shown != WR_CANVAS_HEIGHTS) {
-        ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
-        ramp_tip(app);
-        wr_gui_popup_end();
-        return;
-    }
-    if (wr_gui_segments("look", looks, NULL, WR_CANVAS_COLOURS, &chosen))
-        look->colours = (WrCanvasColours)chosen;
-    if (wr_gui_segments("way", ways, NULL, 3, &way)) choose_way(app, way);
-    ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
-    ramp_tip(app);
-    wr_gui_check("Mark what lies beyond", &look->marks);
-    wr_gui_tip("Warm above the range, cool below it");
-    double field = 120 * wr_gui_scale();
-    WrNumber low = { .low = -1,
-                     .high = 1,
-                     .hard_low = -1e30,
-                     .hard_high = look->high - 1e-6,
-                     .reset = 0,
-                     .decimals = 3,
-                     .tip = "Height shown as black" };
-    WrNumber high = { .low = 0,
-                      .high = 2,
-                      .hard_low = look->low + 1e-6,
-                      .hard_high = 1e30,
-                      .reset = 1,
-                      .decimals = 3,
-                      .tip = "Height shown as white" };
-    wr_gui_disable(look->automatic);
-    double l = app->range->low, h = app->range->high;
-    wr_gui_label("Black");
-    if (wr_gui_number("low", field, &low, &l) && l < look->high) look->low = l;
-    wr_gui_label("White");
-    if (wr_gui_number("high", field, &high, &h) && h > look->low) look->high = h;
-    wr_gui_enable();
-    wr_gui_popup_end();
-}
-
-static void chips(WrApp *app)
-{
-    const SDL_Rect *room = &app->layout->canvas;
-    int gap = wr_gui_px(12);
-    char text[96];
-    const WrCanvasLook *look = &app->settings->look;
-    const WrCanvasRange *range = app->map_shown ? app->map_range : app->range;
-    snprintf(text, sizeof text, "%s %.3g \xe2\x80\x93 %.3g",
-             wr_app_shows_mask(app)            ? "Mask"
-             : app->map_shown                  ? shown[look->shown].name
-             : look->colours == WR_CANVAS_GREY ? "Grey"
-                                               : "Signed",
-             range->low, range->high);
-    wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
-    if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
-    wr_gui_tip("What is shown, and which numbers are black and white");
-    /* Beside it, as long as the square at the right end has its place. */
-    if (room->w > wr_gui_text_width(WR_FONT_TEXT, text) + wr_gui_px(180)) {
-        wr_gui_same_line(6);
-        ramp(app, "narrow", wr_gui_px(64), wr_gui_line_height(WR_FONT_TEXT));
-        ramp_tip(app);
-    }
-    range_popup(app);
-    wr_gui_overlay_end();
-}
-
 void wr_canvas_view_overlay(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->canvas;
@@ -294,7 +165,7 @@ void wr_canvas_view_overlay(WrApp *app)
     if (tool->marks) tool->marks(app);
     if (app->hints && app->file->starter) hints(app);
     wr_gui_draw_unclip();
-    if (room->w > wr_gui_px(140)) chips(app);
+    if (room->w > wr_gui_px(140)) wr_canvas_chip(app);
     wr_panel_symmetry(app);
     if (room->w > wr_gui_px(240)) wr_panel_seam(app);
 }
@@ -337,7 +208,7 @@ static void forget(WrApp *app)
 
 static bool works(WrApp *app)
 {
-    return wr_canvas_map_busy(app->canvas_map);
+    return wr_canvas_map_busy(app->canvas_map) || wr_canvas_map_busy(app->canvas_second);
 }
 
 const WrPart wr_part_canvas = { .draw = draw, .works = works, .forget = forget };

@@ -1,5 +1,6 @@
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/canvas_cells.h"
+#include "ui/canvas/canvas_ink.h"
 #include "ui/canvas/canvas_range.h"
 #include "ui/canvas/canvas_turn.h"
 #include "ui/canvas/view.h"
@@ -14,12 +15,11 @@
 #include <math.h>
 #include <string.h>
 
-#define CODES 256      /* of a picture; two more mark what lies beyond its range */
-#define BEYOND 0.01f   /* of a code: so far off it counts as beyond */
 #define DIRTY_MAX 4096 /* tiles; more than that and the whole picture is made anew */
 
 struct WrCanvas {
-    WrCanvasCells *cells;
+    WrCanvasCells *cells[2]; /* of the second: slopes along v */
+    int fields;              /* that are shown together */
     SDL_Texture *texture;
     int width, height;          /* of pixels */
     uint32_t *pixels;           /* [height][width], ARGB, not turned */
@@ -27,10 +27,11 @@ struct WrCanvas {
     WrCellTaps *columns, *rows; /* [2][width], [2][height]: the second where copies are moved */
     bool *moved_column,
         *moved_row; /* [width], [height]: a copy that the tiling moves down, to the right */
-    float *line;    /* one row of cells: [tiles_u * side] */
-    bool *needed;   /* [tiles_u] tile columns that a rectangle looks at */
-    uint32_t palette[CODES + 2]; /* the last two: below, above */
-    WrCanvasView view, flat;     /* of the picture held, and not turned */
+    float *line[2]; /* one row of cells: [tiles_u * side] */
+    float *value[2], *above; /* [width]: what a row's pixels hold, and that row before */
+    bool *needed;            /* [tiles_u] tile columns that a rectangle looks at */
+    WrInk ink;
+    WrCanvasView view, flat; /* of the picture held, and not turned */
     WrCanvasLook look;
     double low, high;
     float table_low, table_high;
@@ -41,7 +42,7 @@ struct WrCanvas {
 WrCanvas *wr_canvas_new(void)
 {
     WrCanvas *canvas = wr_alloc(1, sizeof *canvas);
-    canvas->cells = wr_cells_new();
+    for (int k = 0; k < 2; k++) canvas->cells[k] = wr_cells_new();
     return canvas;
 }
 
@@ -60,12 +61,17 @@ static void free_buffers(WrCanvas *canvas)
     wr_free(canvas->rows);
     wr_free(canvas->moved_column);
     wr_free(canvas->moved_row);
-    wr_free(canvas->line);
+    for (int k = 0; k < 2; k++) {
+        wr_free(canvas->line[k]);
+        wr_free(canvas->value[k]);
+        canvas->line[k] = canvas->value[k] = NULL;
+    }
+    wr_free(canvas->above);
+    canvas->above = NULL;
     wr_free(canvas->needed);
     canvas->pixels = canvas->turned = NULL;
     canvas->columns = canvas->rows = NULL;
     canvas->moved_column = canvas->moved_row = NULL;
-    canvas->line = NULL;
     canvas->needed = NULL;
 }
 
@@ -75,59 +81,18 @@ void wr_canvas_free(WrCanvas *canvas)
     wr_canvas_forget(canvas);
     free_buffers(canvas);
     wr_array_free(&canvas->dirty);
-    wr_cells_free(canvas->cells);
+    for (int k = 0; k < 2; k++) wr_cells_free(canvas->cells[k]);
     wr_free(canvas);
-}
-
-/* ---- colours ---- */
-
-static uint32_t mix(const double a[3], const double b[3], double t)
-{
-    uint32_t out = 0xff;
-    for (int k = 0; k < 3; k++) out = out << 8 | (uint32_t)lrint(a[k] + t * (b[k] - a[k]));
-    return out;
-}
-
-static void make_marks(WrCanvas *canvas)
-{
-    bool grey = canvas->look.colours == WR_CANVAS_GREY, marks = canvas->look.marks;
-    uint32_t *palette = canvas->palette;
-    palette[CODES] = !marks ? palette[0] : grey ? 0xff1d4a78u : 0xff101f4au;
-    palette[CODES + 1] = !marks ? palette[CODES - 1] : grey ? 0xfff0b070u : 0xff6b2f05u;
-}
-
-static void make_palette(WrCanvas *canvas)
-{
-    static const double blue[3] = { 38, 92, 190 }, white[3] = { 245, 245, 245 },
-                        orange[3] = { 214, 112, 24 };
-    for (int i = 0; i < 256; i++) {
-        uint32_t g = (uint32_t)i;
-        if (canvas->look.colours == WR_CANVAS_GREY) {
-            canvas->palette[i] = 0xff000000u | g << 16 | g << 8 | g;
-            continue;
-        }
-        double f = canvas->low + (canvas->high - canvas->low) * i / 255.0;
-        double reach = fmax(fabs(canvas->low), fabs(canvas->high));
-        double t = reach > 0.0 ? f / reach : 0.0;
-        canvas->palette[i] = t < 0.0 ? mix(white, blue, -t) : mix(white, orange, t);
-    }
-    make_marks(canvas);
-}
-
-/* scaled: 0 black, 255 white. */
-static int code_of(float scaled)
-{
-    if (scaled < -BEYOND) return CODES;
-    if (scaled > CODES - 1 + BEYOND) return CODES + 1;
-    float code = scaled + 0.5f;
-    code = code > 0.0f ? code : 0.0f; /* NaN too */
-    return (int)(code < CODES - 1 ? code : CODES - 1);
 }
 
 uint32_t wr_canvas_colour(const WrCanvas *canvas, double height)
 {
-    return canvas->palette[code_of(
-        (float)((height - canvas->low) * (CODES - 1) / (canvas->high - canvas->low)))];
+    return wr_ink_colour(&canvas->ink, height);
+}
+
+double wr_canvas_contour_step(const WrCanvas *canvas)
+{
+    return canvas->ink.step;
 }
 
 /* ---- the picture ---- */
@@ -159,37 +124,55 @@ static void make_taps(WrCanvas *canvas, const WrField *field, int level)
 }
 
 /* Add up the cell rows that one pixel row weighs, over the tile columns that are needed. */
-static void make_line(WrCanvas *canvas, const WrCellTaps *row, int tiles_u, int level,
+static void make_line(WrCanvas *canvas, int field, const WrCellTaps *row, int tiles_u, int level,
                       double deadline)
 {
     int side = WR_TILE >> level, shift = 6 - level;
     for (int tx = 0; tx < tiles_u; tx++) {
         if (!canvas->needed[tx]) continue;
-        float *line = canvas->line + (size_t)tx * (size_t)side;
+        float *line = canvas->line[field] + (size_t)tx * (size_t)side;
         memset(line, 0, (size_t)side * sizeof *line);
         for (int k = 0; k < WR_TAPS; k++) {
             float weight = row->weight[k], flat = 0.0f;
             if (weight == 0.0f) continue;
             const float *block =
-                wr_cells_block(canvas->cells, tx, row->cell[k] >> shift, deadline, &flat);
+                wr_cells_block(canvas->cells[field], tx, row->cell[k] >> shift, deadline, &flat);
             const float *from = block ? block + (row->cell[k] & (side - 1)) * side : NULL;
             for (int i = 0; i < side; i++) line[i] += weight * (from ? from[i] : flat);
         }
     }
 }
 
-static void paint_line(const WrCanvas *canvas, const WrCellTaps *columns, int x0, int x1,
+/* What pixels x0 to x1 of a row hold. */
+static void make_values(WrCanvas *canvas, const WrCellTaps *row, const WrCellTaps *columns, int x0,
+                        int x1, int tiles_u, int level, double deadline)
+{
+    for (int k = 0; k < canvas->fields; k++) {
+        make_line(canvas, k, row, tiles_u, level, deadline);
+        const float *line = canvas->line[k];
+        float *value = canvas->value[k];
+        for (int x = x0; x < x1; x++) {
+            const WrCellTaps *t = &columns[x];
+            value[x] = t->weight[0] * line[t->cell[0]] + t->weight[1] * line[t->cell[1]] +
+                       t->weight[2] * line[t->cell[2]] + t->weight[3] * line[t->cell[3]];
+        }
+    }
+}
+
+/* above: canvas->above holds the row before. */
+static void paint_line(WrCanvas *canvas, const WrCellTaps *columns, int x0, int x1, bool above,
                        uint32_t *out)
 {
-    float low = (float)canvas->low;
-    float scale = (float)((CODES - 1) / (canvas->high - canvas->low));
-    const float *line = canvas->line;
-    for (int x = x0; x < x1; x++) {
-        const WrCellTaps *t = &columns[x];
-        float f = t->weight[0] * line[t->cell[0]] + t->weight[1] * line[t->cell[1]] +
-                  t->weight[2] * line[t->cell[2]] + t->weight[3] * line[t->cell[3]];
-        out[x] = t->outside ? WR_COLOUR_SURROUND : canvas->palette[code_of((f - low) * scale)];
-    }
+    float *value = canvas->value[0];
+    if (canvas->fields == 2)
+        wr_ink_slopes(&canvas->ink, value + x0, canvas->value[1] + x0, x1 - x0, out + x0);
+    else
+        wr_ink_heights(&canvas->ink, value + x0, value[x0 > 0 ? x0 - 1 : 0],
+                       above ? canvas->above + x0 : NULL, x1 - x0, out + x0);
+    for (int x = x0; x < x1; x++)
+        if (columns[x].outside) out[x] = WR_COLOUR_SURROUND;
+    canvas->value[0] = canvas->above;
+    canvas->above = value;
 }
 
 /* The tile columns that columns x0 to x1 look at. */
@@ -203,25 +186,28 @@ static void need(WrCanvas *canvas, const WrCellTaps *columns, int x0, int x1, in
 static void paint_run(WrCanvas *canvas, SDL_Rect rect, int x0, int x1, const WrCellTaps *rows,
                       const WrField *field, int level, double deadline)
 {
-    int tiles_u = wr_field_tiles_u(field), shift = 6 - level;
+    int tiles_u = wr_field_tiles_u(field), shift = 6 - level, left = x0 > 0 ? x0 - 1 : 0;
     bool brick = canvas->flat.tiling == WR_TILING_BRICK;
+    bool lined = canvas->look.colours == WR_CANVAS_CONTOURS;
+    int first = lined && rect.y > 0 ? rect.y - 1 : rect.y; /* lines look at the row above */
     size_t bytes = (size_t)(x1 - x0) * sizeof *canvas->pixels;
     memset(canvas->needed, 0, (size_t)tiles_u * sizeof *canvas->needed);
-    need(canvas, canvas->columns, x0, x1, shift);
-    if (brick) need(canvas, canvas->columns + canvas->width, x0, x1, shift);
-    for (int y = rect.y; y < rect.y + rect.h; y++) {
+    need(canvas, canvas->columns, left, x1, shift);
+    if (brick) need(canvas, canvas->columns + canvas->width, left, x1, shift);
+    for (int y = first; y < rect.y + rect.h; y++) {
         const WrCellTaps *row = &rows[y];
         bool moved = brick && canvas->moved_row[y];
-        bool again = y > rect.y && memcmp(row, row - 1, sizeof *row) == 0 &&
+        bool again = !lined && y > rect.y && memcmp(row, row - 1, sizeof *row) == 0 &&
                      moved == (brick && canvas->moved_row[y - 1]);
         uint32_t *out = canvas->pixels + (size_t)y * (size_t)canvas->width;
+        const WrCellTaps *columns = canvas->columns + (moved ? canvas->width : 0);
         if (row->outside) {
             for (int x = x0; x < x1; x++) out[x] = WR_COLOUR_SURROUND;
         } else if (again) {
             memcpy(out + x0, out - canvas->width + x0, bytes);
         } else {
-            make_line(canvas, row, tiles_u, level, deadline);
-            paint_line(canvas, canvas->columns + (moved ? canvas->width : 0), x0, x1, out);
+            make_values(canvas, row, columns, left, x1, tiles_u, level, deadline);
+            paint_line(canvas, columns, x0, x1, lined && y > first, out);
         }
     }
 }
@@ -285,9 +271,9 @@ static void paint_tile(WrCanvas *canvas, SDL_Point tile, const WrField *field, i
             wr_view_tiling_shift(v, i, j, &dx, &dy);
             double x = i * w + tile.x * WR_TILE + dx - left,
                    y = j * h + tile.y * WR_TILE + dy - top;
-            /* a pixel more on each side: footprints overlap the tile's edge */
-            int x0 = (int)floor(x * z) - 1, x1 = (int)ceil((x + tw) * z) + 1;
-            int y0 = (int)floor(y * z) - 1, y1 = (int)ceil((y + th) * z) + 1;
+            /* two pixels more on each side: footprints overlap the tile's edge, and lines look at their neighbours */
+            int x0 = (int)floor(x * z) - 2, x1 = (int)ceil((x + tw) * z) + 2;
+            int y0 = (int)floor(y * z) - 2, y1 = (int)ceil((y + th) * z) + 2;
             const int width = x1 - x0;
             if (v->mirrored) x0 = v->w - x1, x1 = x0 + width;
             SDL_Rect rect = { x0, y0, x1 - x0, y1 - y0 }, whole = { 0, 0, v->w, v->h };
@@ -320,7 +306,11 @@ static bool make_buffers(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanva
     canvas->rows = wr_alloc(2 * h, sizeof *canvas->rows);
     canvas->moved_column = wr_alloc(w, sizeof *canvas->moved_column);
     canvas->moved_row = wr_alloc(h, sizeof *canvas->moved_row);
-    canvas->line = wr_alloc((size_t)cells, sizeof *canvas->line);
+    for (int k = 0; k < 2; k++) {
+        canvas->line[k] = wr_alloc((size_t)cells, sizeof *canvas->line[k]);
+        canvas->value[k] = wr_alloc(w, sizeof *canvas->value[k]);
+    }
+    canvas->above = wr_alloc(w, sizeof *canvas->above);
     canvas->needed = wr_alloc((size_t)cells, sizeof *canvas->needed);
     canvas->valid = false;
     return true;
@@ -338,7 +328,7 @@ static bool has_buffers(const WrCanvas *canvas, const WrCanvasView *view)
 static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, bool held)
 {
     double shown[2] = { look->low, look->high };
-    wr_cells_range(canvas->cells, &canvas->table_low, &canvas->table_high);
+    wr_cells_range(canvas->cells[0], &canvas->table_low, &canvas->table_high);
     if (look->automatic) {
         bool follows = held && canvas->look.automatic && canvas->texture;
         shown[0] = follows ? canvas->low : 0.0;
@@ -348,46 +338,66 @@ static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, bool held)
     double low = shown[0], high = shown[1];
     if (!(high - low > 1e-30)) high = low + 1e-30; /* never divide by nothing */
     if (low != canvas->low || high != canvas->high || look->colours != canvas->look.colours ||
-        look->marks != canvas->look.marks)
+        look->marks != canvas->look.marks || look->light_x != canvas->look.light_x ||
+        look->light_y != canvas->look.light_y)
         canvas->valid = false;
     canvas->look = *look;
     canvas->low = low;
     canvas->high = high;
-    if (!canvas->valid) make_palette(canvas);
+    if (!canvas->valid) wr_ink_make(&canvas->ink, look, low, high);
+}
+
+/* Bring the cells of both fields up to date. True: all may be different. */
+static bool look_at(WrCanvas *canvas, const WrField *field, const WrField *second, int level)
+{
+    const WrField *fields[2] = { field, second };
+    bool whole = canvas->fields != (second ? 2 : 1);
+    canvas->fields = second ? 2 : 1;
+    canvas->dirty.count = 0;
+    canvas->flooded = false;
+    for (int k = 0; k < canvas->fields; k++)
+        if (!wr_cells_look(canvas->cells[k], fields[k], level, note_dirty, canvas)) whole = true;
+    return whole || canvas->flooded;
+}
+
+static bool is_rough(const WrCanvas *canvas)
+{
+    return wr_cells_rough(canvas->cells[0]) ||
+           (canvas->fields == 2 && wr_cells_rough(canvas->cells[1]));
+}
+
+static void paint(WrCanvas *canvas, const WrField *field, int level, double deadline)
+{
+    if (!canvas->valid) {
+        make_taps(canvas, field, level);
+        paint_rect(canvas, (SDL_Rect){ 0, 0, canvas->width, canvas->height }, field, level,
+                   deadline);
+    } else {
+        for (int i = 0; i < canvas->dirty.count; i++)
+            paint_tile(canvas, canvas->dirty.data[i], field, level, deadline);
+    }
+    canvas->valid = true;
 }
 
 bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView *view,
-                    const WrField *field, const WrCanvasLook *look, bool held, double budget,
-                    WrCanvasRange *range)
+                    const WrField *field, const WrField *second, const WrCanvasLook *look,
+                    bool held, double budget, WrCanvasRange *range)
 {
     int level = wr_cells_level(view->zoom);
-    canvas->dirty.count = 0;
-    canvas->flooded = false;
-    bool whole = !wr_cells_look(canvas->cells, field, level, note_dirty, canvas) || canvas->flooded;
+    bool whole = look_at(canvas, field, second, level);
     if (!has_buffers(canvas, view) &&
         !make_buffers(canvas, renderer, view, wr_field_tiles_u(field) * WR_TILE))
         return false;
-    if (whole || wr_cells_rough(canvas->cells) || !wr_view_same(&canvas->view, view))
-        canvas->valid = false;
+    if (whole || is_rough(canvas) || !wr_view_same(&canvas->view, view)) canvas->valid = false;
     canvas->view = *view;
     canvas->flat = wr_view_flat(view);
     choose_range(canvas, look, held);
-    double deadline = wr_clock_seconds() + budget;
-    wr_cells_forget_rough(canvas->cells);
-    if (!canvas->valid || canvas->dirty.count > 0) {
-        if (!canvas->valid) {
-            make_taps(canvas, field, level);
-            paint_rect(canvas, (SDL_Rect){ 0, 0, canvas->width, canvas->height }, field, level,
-                       deadline);
-        } else {
-            for (int i = 0; i < canvas->dirty.count; i++)
-                paint_tile(canvas, canvas->dirty.data[i], field, level, deadline);
-        }
-        canvas->valid = true;
-    }
+    for (int k = 0; k < 2; k++) wr_cells_forget_rough(canvas->cells[k]);
+    if (!canvas->valid || canvas->dirty.count > 0)
+        paint(canvas, field, level, wr_clock_seconds() + budget);
     *range = (WrCanvasRange){ canvas->low, canvas->high, (double)canvas->table_low,
                               (double)canvas->table_high };
     SDL_RenderCopy(renderer, canvas->texture, NULL,
                    &(SDL_Rect){ view->x, view->y, view->w, view->h });
-    return wr_cells_rough(canvas->cells);
+    return is_rough(canvas);
 }

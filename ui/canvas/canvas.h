@@ -14,6 +14,9 @@ typedef struct WrCanvas WrCanvas;
 typedef enum WrCanvasColours {
     WR_CANVAS_GREY,
     WR_CANVAS_SIGNED,
+    WR_CANVAS_CONTOURS, /* lines of equal height */
+    WR_CANVAS_RELIEF,   /* slopes, lit */
+    WR_CANVAS_NORMALS,  /* slopes, as a normal map has them */
     WR_CANVAS_COLOURS
 } WrCanvasColours;
 
@@ -25,6 +28,8 @@ typedef enum WrCanvasShown {
     WR_CANVAS_CURVATURE,
     WR_CANVAS_SLOPE,
     WR_CANVAS_ROUGHNESS,
+    WR_CANVAS_LIT,  /* its slopes along u and v */
+    WR_CANVAS_BENT, /* the same, as normals */
     WR_CANVAS_SHOWN
 } WrCanvasShown;
 
@@ -34,6 +39,7 @@ typedef struct WrCanvasLook {
     bool automatic;          /* low and high follow the table (canvas_range.h) */
     bool marks;              /* what lies beyond them is tinted: warm above, cool below */
     double low, high;        /* heights shown as black and white; low < high */
+    double light_x, light_y; /* of a relief: to the right and up, of a unit vector towards it */
 } WrCanvasLook;
 
 typedef struct WrCanvasRange {
@@ -44,12 +50,15 @@ typedef struct WrCanvasRange {
 WrCanvas *wr_canvas_new(void);
 void wr_canvas_free(WrCanvas *canvas); /* before the renderer; NULL is fine */
 
+/* Heights between two of its lines. */
+double wr_canvas_contour_step(const WrCanvas *canvas);
+
 /* Bring the picture up to date and draw it into the view's rectangle. Takes at most about `budget`
- * seconds for the means of large tables; true if it would be better with another call. held: it is being
- * painted, so that a range that follows it only widens. */
+ * seconds for the means of large tables; true if it would be better with another call. second: slopes along v, where `field`
+ * holds those along u; else NULL. held: it is being painted, so that a range that follows it only widens. */
 bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView *view,
-                    const WrField *field, const WrCanvasLook *look, bool held, double budget,
-                    WrCanvasRange *range);
+                    const WrField *field, const WrField *second, const WrCanvasLook *look,
+                    bool held, double budget, WrCanvasRange *range);
 /* The colour of a height, 0xffRRGGBB, as in the last picture. */
 uint32_t wr_canvas_colour(const WrCanvas *canvas, double height);
 /* The renderer lost its textures: make them anew. */

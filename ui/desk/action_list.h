@@ -141,6 +141,9 @@
     X(look_cavity, "Alt+Shift+3")                                                                  \
     X(look_slope, "Alt+Shift+4")                                                                   \
     X(look_roughness, "")                                                                          \
+    X(look_contours, "Alt+Shift+2")                                                                \
+    X(look_relief, "Alt+Shift+1")                                                                  \
+    X(look_normals, "Alt+Shift+5")                                                                 \
     X(range_auto, "Alt+R")                                                                         \
     X(range_unit, "")                                                                              \
     X(range_marks, "")                                                                             \

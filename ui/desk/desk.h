@@ -76,7 +76,8 @@ struct WrApp {
     SDL_Renderer *renderer;
     WrGui *gui;
     WrCanvas *canvas;
-    WrCanvasMap *canvas_map; /* shown in the table's place */
+    WrCanvasMap *canvas_map;    /* shown in the table's place */
+    WrCanvasMap *canvas_second; /* with it, where it takes two: slopes along v */
     WrPreview *preview;
     WrKeyMap *keys;
     WrPen *pen;
