@@ -266,10 +266,16 @@ static void maps_hold_what_probes_say(void **state)
             for (int k = 0; k < 40; k++) {
                 const int x = k * 37 % 120, y = k * 11 % 90;
                 const WrProbe p = probe(scene, field, x + 0.5, y + 0.5);
-                const double want[] = { p.dropped_deg, p.tilt_deg, p.level };
+                const double want[] = { p.dropped_deg, p.tilt_deg, p.level, p.f, 0 };
                 const double got = (double)map[y * 120 + x];
                 assert_true(p.hit == !isnan(got));
-                if (p.hit) assert_near(got, want[kind], 1e-4 * (1 + want[kind]));
+                if (p.hit && kind != WR_MAP_NORMAL)
+                    assert_near(got, want[kind], 1e-4 * (1 + fabs(want[kind])));
+                if (!p.hit || kind != WR_MAP_NORMAL) continue;
+                const int code = (int)got;
+                const double n[3] = { p.perturbed.x, p.perturbed.y, p.perturbed.z };
+                for (int c = 0; c < 3; c++)
+                    assert_near((code >> (16 - 8 * c) & 255) / 127.5 - 1, n[c], 1 / 255.0 + 1e-4);
             }
         }
     const int stop = 1;

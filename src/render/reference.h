@@ -91,6 +91,8 @@ typedef enum WrProbeMap {
     WR_MAP_DROPPED, /* dropped_deg: what the small-F approximation leaves out */
     WR_MAP_TILT,    /* tilt_deg */
     WR_MAP_LEVEL,   /* level */
+    WR_MAP_HEIGHT,  /* f */
+    WR_MAP_NORMAL, /* perturbed, as 65536 r + 256 g + b of the codes 127.5 + 127.5 c of its x, y and z */
     WR_MAP_COUNT
 } WrProbeMap;
 bool wr_reference_map(const WrField *field, const WrScene *scene, int width, int height,

@@ -168,12 +168,22 @@ static void look_up(const Looker *looker, double u, double v, double *f, double 
     else wr_scene_height(looker->stage.scene, looker->field, u, v, f, fu, fv);
 }
 
+/* Of a unit vector's coordinate. */
+static int code_of(double c)
+{
+    return (int)rint(127.5 + 127.5 * c);
+}
+
 static float quantity(const MapJob *job, const WrSurfacePoint *at, double f, double fu, double fv)
 {
     WrVec3 exact;
     if (job->map == WR_MAP_DROPPED) return (float)dropped_deg(&job->looker, at, f, fu, fv, &exact);
+    if (job->map == WR_MAP_HEIGHT) return (float)f;
     const WrBumpMode mode = mode_of(&job->looker, job->looker.stage.scene->bump);
-    return (float)wr_bump_tilt_deg(at->n_unit, wr_reference_normal(mode, at, f, fu, fv));
+    const WrVec3 n = wr_reference_normal(mode, at, f, fu, fv);
+    if (job->map == WR_MAP_NORMAL)
+        return (float)(65536 * code_of(n.x) + 256 * code_of(n.y) + code_of(n.z));
+    return (float)wr_bump_tilt_deg(at->n_unit, n);
 }
 
 static float level_at(const Looker *looker, const WrSurfacePoint *base, const WrReferenceHit *hit,

@@ -31,6 +31,8 @@ typedef enum WrPatchLook {
     WR_PATCH_DROPPED, /* what the small-F approximation leaves out, degrees */
     WR_PATCH_TILT,    /* between n and n', degrees */
     WR_PATCH_LEVEL,   /* mip level */
+    WR_PATCH_HEIGHT,  /* F */
+    WR_PATCH_NORMAL,  /* n', as colours */
     WR_PATCH_RAN,     /* where each effect ran: the preview's own picture, live as that is */
     WR_PATCH_LOOKS
 } WrPatchLook;
@@ -42,7 +44,7 @@ typedef struct WrPatchLayer {
     int width, height;    /* pixels of it; 0: none */
     uint64_t of;          /* the state that it shows */
     int look;             /* and of maps: which */
-    double full;          /* the value at the end of its scale */
+    double low, full;     /* the values at the ends of its scale */
 } WrPatchLayer;
 
 typedef struct WrInspector {
@@ -118,6 +120,9 @@ struct WrAccuracy {
     WrCases cases;
 };
 
+/* Which map it takes, of those that are measured by the reference. */
+WrProbeMap wr_accuracy_map_of(WrPatchLook look);
+
 /* ---- accuracy_hand.c ---- */
 void wr_accuracy_new(WrApp *app);
 void wr_accuracy_free(WrApp *app);
@@ -183,6 +188,8 @@ void wr_act_look_error(WrApp *app);
 void wr_act_look_dropped(WrApp *app);
 void wr_act_look_tilt(WrApp *app);
 void wr_act_look_level(WrApp *app);
+void wr_act_look_height(WrApp *app);
+void wr_act_look_normal(WrApp *app);
 void wr_act_look_ran(WrApp *app);
 void wr_act_accuracy_measure(WrApp *app);
 void wr_act_compare_take(WrApp *app);
@@ -199,6 +206,8 @@ bool wr_is_look_error(const WrApp *app);
 bool wr_is_look_dropped(const WrApp *app);
 bool wr_is_look_tilt(const WrApp *app);
 bool wr_is_look_level(const WrApp *app);
+bool wr_is_look_height(const WrApp *app);
+bool wr_is_look_normal(const WrApp *app);
 bool wr_is_look_ran(const WrApp *app);
 bool wr_is_compare_hold(const WrApp *app);
 

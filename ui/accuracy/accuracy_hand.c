@@ -290,9 +290,7 @@ static void begin_looking(WrApp *app)
         return;
     bool pair = compares(a);
     WrWork *work = new_work(app, pair ? WR_WORK_PAIR : WR_WORK_MAP, &a->look_tools);
-    work->map = a->look == WR_PATCH_DROPPED ? WR_MAP_DROPPED
-                : a->look == WR_PATCH_TILT  ? WR_MAP_TILT
-                                            : WR_MAP_LEVEL;
+    work->map = wr_accuracy_map_of(a->look);
     if (pair) work->other = wr_accuracy_scene(app, 1);
     a->look_of = a->state;
     a->look_kind = pair ? WR_PATCH_SPLIT : (int)a->look;

@@ -30,8 +30,9 @@ WR_ROWS(wr_patch_look_names);
 const char *const wr_patch_look_names[WR_PATCH_LOOKS] = {
     [WR_ROW(WR_PATCH_PLAIN)] = "Picture",        [WR_ROW(WR_PATCH_SPLIT)] = "Split A | B",
     [WR_ROW(WR_PATCH_FLICKER)] = "Flicker A, B", [WR_ROW(WR_PATCH_ERROR)] = "Error",
-    [WR_ROW(WR_PATCH_DROPPED)] = "Dropped term", [WR_ROW(WR_PATCH_TILT)] = "Tilt",
-    [WR_ROW(WR_PATCH_LEVEL)] = "Mip level",      [WR_ROW(WR_PATCH_RAN)] = "What ran",
+    [WR_ROW(WR_PATCH_DROPPED)] = "Dropped term", [WR_ROW(WR_PATCH_TILT)] = "Slope of the bump",
+    [WR_ROW(WR_PATCH_LEVEL)] = "Mip level",      [WR_ROW(WR_PATCH_HEIGHT)] = "Heights",
+    [WR_ROW(WR_PATCH_NORMAL)] = "Normals",       [WR_ROW(WR_PATCH_RAN)] = "What ran",
 };
 WR_ROWS_END(wr_patch_look_names, WR_PATCH_LOOKS);
 
@@ -68,16 +69,46 @@ static void put(WrApp *app, WrPatchLayer *layer, const uint8_t *bgra, int width,
     if (app->redraw < 1) app->redraw = 1;
 }
 
-/* Values as colours, 0 .. full; where there is none, the ground. */
+static const WrProbeMap map_kinds[WR_PATCH_LOOKS] = {
+    [WR_PATCH_DROPPED] = WR_MAP_DROPPED, [WR_PATCH_TILT] = WR_MAP_TILT,
+    [WR_PATCH_LEVEL] = WR_MAP_LEVEL,     [WR_PATCH_HEIGHT] = WR_MAP_HEIGHT,
+    [WR_PATCH_NORMAL] = WR_MAP_NORMAL,
+};
+
+WrProbeMap wr_accuracy_map_of(WrPatchLook look)
+{
+    return map_kinds[look];
+}
+
+static WrPatchLook look_of(WrProbeMap map)
+{
+    for (int i = WR_PATCH_DROPPED; i < WR_PATCH_RAN; i++)
+        if (map_kinds[i] == map) return (WrPatchLook)i;
+    return WR_PATCH_PLAIN;
+}
+
+static void colour_of(int look, double value, double low, double full, uint8_t rgb[3])
+{
+    if (look != WR_PATCH_NORMAL) {
+        wr_heat_colour((value - low) / (full - low), rgb);
+        return;
+    }
+    for (int c = 0; c < 3; c++) rgb[c] = (uint8_t)((int)value >> (16 - 8 * c) & 255);
+}
+
+/* Values as colours, low .. full; where there is none, the ground. */
 static void lay_map(WrApp *app, const WrWork *work, int look)
 {
     WrPatchLayer *layer = &app->accuracy->map;
     const size_t count = (size_t)work->measured_w * (size_t)work->measured_h;
     uint8_t *bgra = wr_alloc(count, 4);
-    const double full = wr_plot_round_up(work->high);
+    const bool range = look == WR_PATCH_HEIGHT;
+    const double low = range ? work->low : 0, full = !range ? wr_plot_round_up(work->high)
+                                                     : work->high > work->low ? work->high
+                                                                              : work->low + 1;
     for (size_t i = 0; i < count; i++) {
         uint8_t rgb[3] = { 0x2e, 0x2f, 0x30 };
-        if (!isnan(work->values[i])) wr_heat_colour((double)work->values[i] / full, rgb);
+        if (!isnan(work->values[i])) colour_of(look, (double)work->values[i], low, full, rgb);
         bgra[4 * i] = rgb[2];
         bgra[4 * i + 1] = rgb[1];
         bgra[4 * i + 2] = rgb[0];
@@ -85,6 +116,7 @@ static void lay_map(WrApp *app, const WrWork *work, int look)
     }
     put(app, layer, bgra, work->measured_w, work->measured_h, work->of);
     layer->look = look;
+    layer->low = low;
     layer->full = full;
     wr_free(bgra);
 }
@@ -99,10 +131,7 @@ void wr_accuracy_lay(WrApp *app, const WrWork *work)
     } else if (work->kind == WR_WORK_ERROR) {
         lay_map(app, work, WR_PATCH_ERROR);
     } else {
-        lay_map(app, work,
-                work->map == WR_MAP_DROPPED ? WR_PATCH_DROPPED
-                : work->map == WR_MAP_TILT  ? WR_PATCH_TILT
-                                            : WR_PATCH_LEVEL);
+        lay_map(app, work, look_of(work->map));
     }
 }
 
@@ -241,6 +270,7 @@ static const struct {
     [WR_PATCH_DROPPED] = { "Left out by the small-F approximation", "\xc2\xb0" },
     [WR_PATCH_TILT] = { "Angle between n and n'", "\xc2\xb0" },
     [WR_PATCH_LEVEL] = { "Mip level, log2 of texels a pixel", "" },
+    [WR_PATCH_HEIGHT] = { "F, height of the bump included", "" },
 };
 
 static void draw_scale(const WrApp *app)
@@ -266,7 +296,8 @@ static void draw_scale(const WrApp *app)
     }
     wr_gui_draw_rect(left + pad, y, bar, 10 * s, WR_COLOUR_OFF, 1);
     for (int i = 0; i <= 2; i++) {
-        snprintf(text, sizeof text, "%s%s%s", wr_plot_number(map->full * i / 2, number),
+        snprintf(text, sizeof text, "%s%s%s",
+                 wr_plot_number(map->low + (map->full - map->low) * i / 2, number),
                  scales[map->look].unit, i == 2 ? " and up" : "");
         const double w = wr_gui_text_width(WR_FONT_SMALL, text);
         wr_gui_draw_text(left + pad + (bar - w) * i / 2, y + 14 * s, WR_FONT_SMALL, WR_COLOUR_LABEL,
@@ -353,7 +384,7 @@ void wr_accuracy_overlay(WrApp *app)
         split_labels(app);
     } else if (pair) {
         side_label(app, a->flicker_shown, room->x + 12 * s, 0, room->w - 56 * s);
-    } else {
+    } else if (a->look != WR_PATCH_NORMAL) {
         draw_scale(app);
     }
     wr_gui_draw_unclip();

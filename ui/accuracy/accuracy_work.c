@@ -232,6 +232,7 @@ static void find_high(WrWork *work)
     for (size_t i = 0; i < count; i++)
         if (isfinite(work->values[i])) sorted[n++] = work->values[i];
     qsort(sorted, n, sizeof *sorted, ascending);
+    if (n > 0) work->low = (double)sorted[(size_t)(0.005 * (double)(n - 1))];
     if (n > 0) work->high = (double)sorted[(size_t)(0.995 * (double)(n - 1))];
     wr_free(sorted);
 }

@@ -64,7 +64,7 @@ typedef struct WrWork {
     double
         change; /* what the last doubling of them changed, RMS: smaller errors are the reference's own */
     float *values;        /* error, map: [measured_h][measured_w], NAN where nothing is; owned */
-    double high;          /* 99.5 percentile of them; 0 without any */
+    double low, high;     /* 0.5 and 99.5 percentiles of them; 0 without any */
     WrLadder ladder;      /* owned */
     WrHardReport *report; /* owned */
     WrIllusion illusion;  /* owned */

@@ -167,6 +167,8 @@
     X(look_dropped, "Alt+9")                                                                       \
     X(look_tilt, "")                                                                               \
     X(look_level, "")                                                                              \
+    X(look_height, "Alt+Shift+8")                                                                  \
+    X(look_normal, "Alt+Shift+9")                                                                  \
     X(look_ran, "Alt+0")                                                                           \
     X(turn, "Ctrl+Space")                                                                          \
     X(view_back, "Alt+Left")                                                                       \

@@ -308,9 +308,12 @@ static void compare(WrApp *app)
                                          WR_ACT(compare_take),
                                          WR_ACT(compare_swap),
                                          "-",
+                                         WR_ACT(look_height),
+                                         WR_ACT(look_tilt),
+                                         WR_ACT(look_normal),
+                                         "-",
                                          WR_ACT(look_error),
                                          WR_ACT(look_dropped),
-                                         WR_ACT(look_tilt),
                                          WR_ACT(look_level),
                                          WR_ACT(look_ran) };
     submenu(app, "Patch shows", names, WR_LENGTH(names));
