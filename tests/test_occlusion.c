@@ -336,37 +336,99 @@ static void a_part_is_that_of_the_whole(void **state)
     wr_field_free(field);
 }
 
+enum { ROWS = 70, COUNT = ROWS * WR_SKY_LANES, SHARED = 77 };
+
+/* What a set of instructions makes of the same numbers. */
+typedef struct Made {
+    float slope[COUNT], loss[SHARED], best[SHARED];
+    int32_t highest[WR_SKY_LANES], found;
+} Made;
+
+static void work_of(const WrSkyKernels *k, int turn, const int32_t *h, float (*in)[SHARED],
+                    Made *made)
+{
+    static int64_t seen[COUNT];
+    int rows[ROWS];
+    for (int i = 0; i < ROWS; i++) rows[i] = turn ? ROWS - 1 - i : i;
+    const WrSkySweep sweep = { h, seen, rows, ROWS, 0 };
+    k->sweep(&sweep, 0.37, made->slope);
+    for (int l = 0; l < WR_SKY_LANES; l++) made->highest[l] = 0x19000000;
+    made->found =
+        k->higher(turn ? h : h + COUNT - WR_SKY_LANES, turn ? 1 : -1, 1, ROWS, made->highest);
+    const WrSkyRun runs[] = {
+        { in[0], in[1], in[2], in[3], made->loss, 40 },
+        { in[0] + 40, in[1] + 40, in[2] + 40, in[3] + 40, made->loss + 40, WR_SKY_LANES },
+        { in[0] + 56, in[1] + 56, in[2] + 56, in[3] + 56, made->loss + 56, SHARED - 56 }
+    };
+    for (int pass = 0; pass < 3; pass++) {
+        const WrSkyShare share = { 0.1f, 0.6f, 0.8f, 0.0625f, pass == 0, pass == 2 && turn };
+        k->share(&share, runs, 3);
+    }
+    memset(made->best, 0, sizeof made->best);
+    k->look(in[2], in[0], in[1], 0.25f, 0.7f, SHARED, made->best);
+}
+
 /* All sets of instructions give the same bits. */
 static void kernels_agree_to_the_bit(void **state)
 {
     (void)state;
-    enum { ROWS = 70, COUNT = ROWS * WR_SKY_LANES, SHARED = 77 };
     static int32_t h[COUNT];
-    static int64_t seen[COUNT];
-    static float slope[2][COUNT], in[4][SHARED], loss[2][SHARED], best[2][SHARED];
-    int rows[ROWS];
+    static float in[4][SHARED];
+    static Made plain[2], other;
     for (int i = 0; i < COUNT; i++) h[i] = (int32_t)random_between(-0x1p29, 0x1p29);
-    for (int i = 0; i < ROWS; i++) rows[i] = ROWS - 1 - i;
     for (int i = 0; i < 4 * SHARED; i++)
         in[i / SHARED][i % SHARED] = (float)random_between(i / SHARED < 2 ? 0 : -2, 2);
-    const WrSkySweep sweep = { h, seen, rows, ROWS, 0 };
-    const WrSkyShare share = { 0.1f, 0.6f, 0.8f, 0.0625f };
-    for (int n = 0; n < 3; n++) {
-        const WrSkyKernels *k = wr_sky_kernels_at(n);
-        const int to = n > 0;
-        if (!k) continue;
-        k->sweep(&sweep, 0.37, slope[to]);
-        for (int i = 0; i < SHARED; i++) loss[to][i] = 0.01f * (float)i, best[to][i] = 0;
-        const WrSkyRun runs[] = {
-            { in[0], in[1], in[2], in[3], loss[to], 40 },
-            { in[0] + 40, in[1] + 40, in[2] + 40, in[3] + 40, loss[to] + 40, WR_SKY_LANES },
-            { in[0] + 56, in[1] + 56, in[2] + 56, in[3] + 56, loss[to] + 56, SHARED - 56 }
-        };
-        k->share(&share, runs, 3);
-        k->look(in[2], in[0], in[1], 0.25f, 0.7f, SHARED, best[to]);
-        assert_memory_equal(slope[to], slope[0], sizeof slope[0]);
-        assert_memory_equal(loss[to], loss[0], sizeof loss[0]);
-        assert_memory_equal(best[to], best[0], sizeof best[0]);
+    in[0][3] = 1e12f, in[1][70] = 3e9f, in[2][41] = 1e8f;
+    for (int turn = 0; turn < 2; turn++) work_of(wr_sky_kernels_at(0), turn, h, in, &plain[turn]);
+    for (int n = 2; n < 6; n++) {
+        if (!wr_sky_kernels_at(n / 2)) continue;
+        work_of(wr_sky_kernels_at(n / 2), n % 2, h, in, &other);
+        assert_memory_equal(&other, &plain[n % 2], sizeof other);
+    }
+}
+
+/* The next row in which a lane is higher: beside looking at all of them, from every start, both ways. */
+static void the_next_higher_row_is_found(void **state)
+{
+    (void)state;
+    int32_t h[ROWS * WR_SKY_LANES], highest[WR_SKY_LANES];
+    for (int n = 0; n < 200; n++) {
+        const int sign = n % 2 ? 1 : -1, from = n % ROWS, lane = n % WR_SKY_LANES;
+        const int32_t *first = sign > 0 ? h : h + (ROWS - 1) * WR_SKY_LANES;
+        for (int i = 0; i < ROWS * WR_SKY_LANES; i++) h[i] = (int32_t)random_between(0, 1000);
+        for (int l = 0; l < WR_SKY_LANES; l++) highest[l] = l == lane ? 900 + n % 100 : 2000;
+        int want = from;
+        while (want < ROWS && first[sign * want * WR_SKY_LANES + lane] <= highest[lane]) want++;
+        const int32_t top = want < ROWS ? first[sign * want * WR_SKY_LANES + lane] : highest[lane];
+        assert_int_equal(wr_sky_kernels()->higher(first, sign, from, ROWS, highest), want);
+        assert_int_equal(highest[lane], top);
+        assert_int_equal(highest[(lane + 1) % WR_SKY_LANES], 2000);
+    }
+}
+
+/* Cliffs and planes that are all but upright: beside the formula in double. */
+static void walls_are_walls(void **state)
+{
+    (void)state;
+    const float steep[][4] = { { 1e12f, 0, 0.3f, 0 },  { 0, 3e30f, 0, -0.2f },
+                               { 5e6f, 5e6f, 0, 0 },   { 2e5f, 1, 1e8f, 0 },
+                               { 1, 1e30f, -1e7f, 3 }, { 1e6f, 0, 1e4f, -1e4f } };
+    for (int n = 0; n < 6; n++) {
+        const float *in = steep[n];
+        float seen = 0;
+        const WrSkyRun run = { in, in + 1, in + 2, in + 3, &seen, 1 };
+        for (int pair = 0; pair < 2; pair++) {
+            const WrSkyShare share = { 0, 0.6f, pair ? -0.8f : 0.8f, 0.25f, pair == 0, pair == 1 };
+            wr_sky_kernels()->share(&share, &run, 1);
+        }
+        const double p = (double)in[2], q = (double)in[3], z = 1 / sqrt(1 + p * p + q * q);
+        double want = 0;
+        for (int k = 0; k < 4; k++) {
+            const double way = k % 2 ? -1 : 1, s = way * (0.6 * p + (k < 2 ? 0.8 : -0.8) * q);
+            const double h = fmax((double)in[k % 2], s);
+            want += z * 0.25 * (1 / (1 + h * h) - s * (atan2(1, h) - h / (1 + h * h)));
+        }
+        assert_near(seen, fmin(fmax(want, 0), 1), 2e-6);
     }
 }
 
@@ -383,6 +445,8 @@ int main(void)
         cmocka_unit_test(a_moved_table_gives_the_moved_map),
         cmocka_unit_test(a_part_is_that_of_the_whole),
         cmocka_unit_test(kernels_agree_to_the_bit),
+        cmocka_unit_test(the_next_higher_row_is_found),
+        cmocka_unit_test(walls_are_walls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

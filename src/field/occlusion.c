@@ -11,7 +11,6 @@
 #include "field/occlusion_lines.h"
 
 #include <math.h>
-#include <string.h>
 
 #define ROWS 64 /* of the table that a thread takes at once */
 
@@ -75,19 +74,12 @@ WrSkyCourse wr_sky_course(const WrOcclusion *occlusion, int pair)
     vector_of(o, c.k, &x, &y);
     c.step = sqrt(x * x + y * y);
     const double before = turns_of(o, c.k - 1), after = turns_of(o, c.k + 1);
-    c.share = (WrSkyShare){ 0, (float)(x / c.step), (float)(y / c.step),
-                            (float)(between(before, after) / 2) };
+    c.share = (WrSkyShare){ .ux = (float)(x / c.step),
+                            .uy = (float)(y / c.step),
+                            .weight = (float)(between(before, after) / 2),
+                            .first = pair == 0,
+                            .last = pair == half - 1 };
     return c;
-}
-
-void wr_sky_finish(const WrMapPart *part, int row, const float *p, const float *q, float *out)
-{
-    const size_t at = (size_t)row * part->pitch;
-    for (int i = 0; i < part->w; i++) {
-        const float x = p[at + (size_t)i], y = q[at + (size_t)i];
-        const float seen = (1 - out[at + (size_t)i]) / sqrtf(1 + x * x + y * y);
-        out[at + (size_t)i] = seen < 0 ? 0 : seen < 1 ? seen : 1;
-    }
 }
 
 /* ---- a table ------------------------------------------------------------------------------------- */
@@ -134,22 +126,12 @@ static bool fill_steps(WrSky *sky, WrPool *pool, WrError *err)
     return sky->steps != NULL;
 }
 
-static void finish_rows(int index, int worker, void *ctx)
-{
-    const WrSky *sky = ctx;
-    const int end = (index + 1) * ROWS;
-    (void)worker;
-    for (int j = index * ROWS; j < end && j < sky->part->h; j++)
-        wr_sky_finish(sky->part, j, sky->p, sky->q, sky->out);
-}
-
 static bool run_table(WrSky *sky, WrPool *pool, WrError *err)
 {
     const int pairs = sky->occlusion->directions / 2;
     for (int pair = 0; pair < pairs; pair++)
         if (!wr_sky_run_pair(sky, pair, pool) || !wr_progress_tell((pair + 1.0) / pairs))
             return wr_fail(err, "occlusion: cancelled");
-    if (sky->k < 0) wr_pool_run(pool, pieces_of(sky), finish_rows, sky);
     return true;
 }
 
@@ -158,8 +140,6 @@ static bool make(const WrOcclusion *occlusion, const WrMapPart *part, int k, con
 {
     if (occlusion->reach > 0) return wr_sky_near(occlusion, part, k, p, q, pool, out, err);
     WrSky sky = { occlusion, part, NULL, 0, 0, 0, k, p, q, out, wr_sky_kernels() };
-    for (int j = 0; j < part->h; j++)
-        memset(out + (size_t)j * part->pitch, 0, (size_t)part->w * sizeof *out);
     const bool good = fill_steps(&sky, pool, err) && run_table(&sky, pool, err);
     wr_free(sky.steps);
     return good;

@@ -25,8 +25,8 @@ typedef struct WrOcclusion {
     double height;           /* of F = 1, scene units; finite */
     double texel_w, texel_h; /* scene units, > 0 */
     int directions;          /* 4, 8, 16 or 32 */
-    /* Texels that are looked at, along the axis that a line is nearer to: 1..FARTHEST. 0: all. Then horizons are exact for
-     * heights to 2^-28 of the largest, where a line closes in itself within WR_OCCLUSION_ROUND of the table; else slopes
+    /* Texels that are looked at, along the axis that a line is nearer to: 1..FARTHEST. 0: all. Then horizons are exact but for
+     * their rounding to single precision, of heights to 2^-28 of the largest, where a line closes in itself within WR_OCCLUSION_ROUND of the table; else slopes
      * up to `range / that way` are 0, and from twice it on exact. On a clamped axis the edge goes on. */
     int reach;
 } WrOcclusion;

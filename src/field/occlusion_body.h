@@ -2,12 +2,15 @@
    WR_SKY_TABLE and WR_SKY_NAME. A header without a guard, by intention. */
 #include "field/occlusion_kern.h"
 
+#include <math.h>
 #include <string.h>
 #ifdef __AVX512DQ__
 #include <immintrin.h>
 #endif
 
 #define LANES WR_SKY_LANES
+#define AHEAD 8 /* rows that are looked at together */
+#define STEEPEST 0x1p20f
 #define ALWAYS static inline __attribute__((always_inline))
 
 /* Is one of them not 0? A reduction in the loops that make them would not be one of vectors. */
@@ -22,50 +25,56 @@ ALWAYS bool any(const int32_t *restrict lane)
 #ifdef __AVX512DQ__
 #include "field/occlusion_wide_body.h"
 #else
-/* What the lanes of row s look at, so far: the row, and how much higher it is. */
+/* What the lanes of row s look at, so far: the row, how much higher it is, and what may be seen over it: a row and in the
+ * lower half its height. */
 typedef struct Sight {
     int32_t at[LANES];
     double rise[LANES];
+    int64_t next[LANES];
 } Sight;
 
-/* One step along the hulls that are seen from row s; whether any lane went on. sign: 1 where rows ahead have larger
- * numbers, else -1. */
-ALWAYS bool step_on(const int32_t *restrict low, const int64_t *restrict seen, int32_t s,
-                    int32_t sign, Sight *restrict sight)
+/* Whether what `seen` holds is steeper than what lane l looks at; if so, it looks there. */
+#define STEEPER(l)                                                                                 \
+    const int32_t c = sight->at[l], n = (int32_t)(seen >> 32);                                     \
+    const double farther = (double)((int32_t)seen - low[l]);                                       \
+    const int go = farther * (double)(sign * (c - s)) > sight->rise[l] * (double)(sign * (n - s)); \
+    sight->at[l] = go ? n : c;                                                                     \
+    sight->rise[l] = go ? farther : sight->rise[l]
+
+/* One step of the lanes that go on; whether any lane went. In lanes that have stopped `next` is known. */
+ALWAYS bool step_on(const int32_t *restrict low, const int64_t *restrict memory, int32_t s,
+                    int32_t sign, Sight *restrict sight, int32_t *restrict on)
 {
-    int32_t went[LANES];
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        const int32_t c = sight->at[l];
-        const int64_t at = seen[c * LANES + l];
-        const int32_t n = (int32_t)(at >> 32), top = (int32_t)at;
-        const double farther = (double)(top - low[l]);
-        const double here = (double)(sign * (c - s)), there = (double)(sign * (n - s));
-        const int go = farther * here > sight->rise[l] * there;
-        sight->at[l] = go ? n : c;
-        sight->rise[l] = go ? farther : sight->rise[l];
-        went[l] = go;
+        const int64_t seen = on[l] ? memory[sight->at[l] * LANES + l] : sight->next[l];
+        STEEPER(l);
+        sight->next[l] = seen;
+        on[l] &= go;
     }
-    return any(went);
+    return any(on);
 }
 
-/* The first one, whose row is the same in all lanes; what that row looks at was noted last. */
-ALWAYS bool step_first(const int32_t *restrict low, const int32_t *restrict high,
-                       const int64_t *restrict seen, int32_t first, int32_t s, int32_t sign,
-                       Sight *restrict sight)
+/* The first two, of which the row before knew all: what it saw at last, and what is to be seen over that. */
+ALWAYS bool step_known(const int32_t *restrict low, const int64_t *restrict last, int32_t s,
+                       int32_t sign, Sight *restrict sight, int32_t *restrict on)
 {
-    const double here = (double)(sign * (first - s));
     int32_t went[LANES];
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        const int32_t n = (int32_t)(seen[l] >> 32), top = (int32_t)seen[l];
-        const double rise = (double)(high[l] - low[l]), farther = (double)(top - low[l]);
-        const int go = farther * here > rise * (double)(sign * (n - s));
-        sight->at[l] = go ? n : first;
-        sight->rise[l] = go ? farther : rise;
+        const int64_t seen = last[l];
+        STEEPER(l);
+        sight->next[l] = go ? sight->next[l] : seen;
         went[l] = go;
     }
-    return any(went);
+    if (!any(went)) return false;
+#pragma omp simd
+    for (int l = 0; l < LANES; l++) {
+        const int64_t seen = sight->next[l];
+        STEEPER(l);
+        on[l] = went[l] & go;
+    }
+    return any(on);
 }
 
 ALWAYS void note(const int32_t *restrict low, const Sight *restrict sight, int64_t *restrict seen)
@@ -76,54 +85,90 @@ ALWAYS void note(const int32_t *restrict low, const Sight *restrict sight, int64
     }
 }
 
-ALWAYS void put_slopes(const Sight *restrict sight, int32_t s, int32_t sign, double scale,
+ALWAYS void put_slopes(const Sight *restrict sight, int32_t s, int32_t sign, float scale,
                        float *restrict slope)
 {
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
         const int32_t away = sign * (sight->at[l] - s);
-        const double best = scale * (sight->rise[l] / (double)(away ? away : 1));
-        slope[l] = (float)(best > 0 ? best : 0);
+        const float best = scale * ((float)(int32_t)sight->rise[l] / (float)(away ? away : 1));
+        slope[l] = best > 0 ? best : 0;
     }
+}
+
+/* Row rows[i], when `last` of the row before is known. */
+ALWAYS void sweep_row(const WrSkySweep *w, int i, int32_t sign, float scale, Sight *restrict sight,
+                      float *restrict slope)
+{
+    const int32_t s = w->rows[i], first = w->rows[i > 0 ? i - 1 : 0];
+    const int32_t *low = w->h + s * LANES, *high = w->h + first * LANES;
+    int32_t on[LANES];
+    for (int l = 0; l < LANES; l++)
+        sight->at[l] = first, sight->rise[l] = (double)(high[l] - low[l]);
+    if (i == 0) {
+        for (int l = 0; l < LANES; l++) sight->next[l] = (int64_t)s << 32 | (uint32_t)low[l];
+    } else if (step_known(low, w->seen + first * LANES, s, sign, sight, on)) {
+        while (step_on(low, w->seen, s, sign, sight, on)) {
+        }
+    }
+    note(low, sight, w->seen + s * LANES);
+    if (i >= w->from) put_slopes(sight, s, sign, scale, slope + s * LANES);
 }
 
 static void sweep(const WrSkySweep *given, double scale, float *restrict slope)
 {
     const WrSkySweep w = *given;
     const int32_t sign = w.rows[0] > w.rows[w.count - 1] ? 1 : -1;
-    for (int i = 0; i < w.count; i++) {
-        const int32_t s = w.rows[i], first = i > 0 ? w.rows[i - 1] : s;
-        const int32_t *low = w.h + s * LANES, *high = w.h + first * LANES;
-        Sight sight;
-        if (i == 0)
-            for (int l = 0; l < LANES; l++) sight.at[l] = s, sight.rise[l] = 0;
-        else if (step_first(low, high, w.seen + first * LANES, first, s, sign, &sight))
-            while (step_on(low, w.seen, s, sign, &sight)) {
-            }
-        note(low, &sight, w.seen + s * LANES);
-        if (i >= w.from) put_slopes(&sight, s, sign, scale, slope + s * LANES);
-    }
+    Sight sight;
+    for (int i = 0; i < w.count; i++) sweep_row(&w, i, sign, (float)scale, &sight, slope);
 }
+#undef STEEPER
 
 #endif
 
-static bool higher(const int32_t *restrict row, int32_t *restrict highest)
+ALWAYS bool passes(const int32_t *restrict row, const int32_t *restrict highest)
 {
-    int32_t went[LANES];
+    int32_t over[LANES];
 #pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        went[l] = row[l] > highest[l];
-        highest[l] = row[l] > highest[l] ? row[l] : highest[l];
-    }
-    return any(went);
+    for (int l = 0; l < LANES; l++) over[l] = row[l] > highest[l];
+    return any(over);
 }
 
-/* The angle whose cotangent is x >= 0: the arc tangent of 0..1 by the first terms of its series in Chebyshev's polynomials,
- * right to 4e-8. */
-ALWAYS float acot(float x)
+/* The highest of AHEAD rows. */
+ALWAYS void crest(const int32_t *restrict h, ptrdiff_t step, int32_t *restrict top)
 {
-    const int steep = x > 1.0f;
-    const float t = steep ? 1.0f / x : x, y = t * t;
+    int32_t most[LANES];
+    memcpy(most, h, sizeof most);
+    for (int k = 1; k < AHEAD; k++) {
+#pragma omp simd
+        for (int l = 0; l < LANES; l++)
+            most[l] = h[k * step + l] > most[l] ? h[k * step + l] : most[l];
+    }
+    memcpy(top, most, sizeof most);
+}
+
+static int higher(const int32_t *h, int sign, int from, int count, int32_t *restrict highest)
+{
+    const ptrdiff_t step = sign * LANES;
+    int32_t top[LANES];
+    int k = from;
+    while (k + AHEAD <= count) {
+        crest(h + k * step, step, top);
+        if (passes(top, highest)) break;
+        k += AHEAD;
+    }
+    while (k < count && !passes(h + k * step, highest)) k++;
+    if (k == count) return count;
+    const int32_t *restrict row = h + k * step;
+#pragma omp simd
+    for (int l = 0; l < LANES; l++) highest[l] = row[l] > highest[l] ? row[l] : highest[l];
+    return k;
+}
+
+/* The arc tangent of 0..1 by the first terms of its series in Chebyshev's polynomials, right to 4e-8. */
+ALWAYS float atan_small(float t)
+{
+    const float y = t * t;
     float sum = -0.00396025723f;
     sum = sum * y + 0.0215092542f;
     sum = sum * y - 0.0553816979f;
@@ -132,19 +177,34 @@ ALWAYS float acot(float x)
     sum = sum * y + 0.199430812f;
     sum = sum * y - 0.33329538f;
     sum = sum * y + 0.999999249f;
-    sum *= t;
-    return steep ? sum : 1.57079637f - sum;
+    return sum * t;
 }
 
-/* 1 - (1/(1 + H^2) - s (acot H - H/(1 + H^2))), H = max(horizon, s): what the formula of wr_horizon_sky makes of one
- * direction in which the plane rises by s, over n_z; without what cancels over all directions. */
-ALWAYS float taken(float level, float horizon, float s)
+/* The slope that counts in a direction in which the plane rises by s. Beyond STEEPEST all are alike: a wall. */
+ALWAYS float horizon_of(float level, float horizon, float s)
 {
     float h = horizon > level ? horizon : level;
     h = 2 * (h - level) < horizon ? 2 * (h - level) : horizon;
     h = h > s ? h : s;
-    const float c = 1.0f / (1.0f + h * h);
-    return h * h * c + s * (acot(h) - h * c);
+    return h < STEEPEST ? h : STEEPEST;
+}
+
+/* What the formula of wr_horizon_sky makes of a direction, in which the plane rises by s, and of its opposite, over n_z;
+ * without what cancels over all directions. With a = 1 + h^2 and b = 1 + k^2 of both horizons it is
+ *   h (h - s) / a + k (k + s) / b + s (acot h - acot k),
+ * whose last bracket is the arc tangent of (k - h) / (1 + h k). One division has them all. */
+ALWAYS float taken(float level, float ahead, float behind, float s)
+{
+    const float h = horizon_of(level, ahead, s), k = horizon_of(level, behind, -s);
+    const float a = 1 + h * h, b = 1 + k * k, ab = a * b;
+    const float num = h * (h - s) * b + k * (k + s) * a;
+    const float over = k > h ? k - h : h - k, under = 1 + h * k;
+    const int wide = over > under;
+    const float x = wide ? under : over, y = wide ? over : under;
+    const float inverse = 1.0f / (ab * y);
+    const float small = atan_small(x * ab * inverse);
+    const float angle = wide ? 1.57079637f - small : small;
+    return num * y * inverse + s * (k > h ? angle : -angle);
 }
 
 /* Of `count` texels side by side. */
@@ -155,14 +215,29 @@ ALWAYS void share_run(const WrSkyShare k, const WrSkyRun *run, int count, float 
 #pragma omp simd
     for (int i = 0; i < count; i++) {
         const float s = p[i] * k.ux + q[i] * k.uy;
-        loss[i] = k.weight * (taken(k.level, ahead[i], s) + taken(k.level, behind[i], -s));
+        loss[i] = k.weight * taken(k.level, ahead[i], behind[i], s);
     }
 }
 
-ALWAYS void add_run(const float *restrict loss, int count, float *restrict out)
+ALWAYS void add_run(const WrSkyShare *k, const float *restrict loss, int count, float *restrict out)
 {
+    if (k->first)
+        for (int i = 0; i < count; i++) out[i] = loss[i];
+    else
 #pragma omp simd
-    for (int i = 0; i < count; i++) out[i] += loss[i];
+        for (int i = 0; i < count; i++) out[i] += loss[i];
+}
+
+/* What is left of the sky in the end. */
+ALWAYS void finish_run(const WrSkyRun *run, int count, float *restrict out)
+{
+    const float *restrict p = run->p, *restrict q = run->q;
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        const float seen = (1.0f - out[i]) / sqrtf(1.0f + p[i] * p[i] + q[i] * q[i]);
+        const float more = seen > 0 ? seen : 0;
+        out[i] = more < 1.0f ? more : 1.0f;
+    }
 }
 
 /* All is read before anything is written: rows of large tables lie a multiple of 4096 bytes apart, where a load waits
@@ -176,8 +251,9 @@ static void share(const WrSkyShare *given, const WrSkyRun *runs, int count)
         else share_run(k, &runs[r], runs[r].count, loss + at);
     }
     for (int r = 0, at = 0; r < count; at += runs[r++].count) {
-        if (runs[r].count == LANES) add_run(loss + at, LANES, runs[r].loss);
-        else add_run(loss + at, runs[r].count, runs[r].loss);
+        if (runs[r].count == LANES) add_run(&k, loss + at, LANES, runs[r].loss);
+        else add_run(&k, loss + at, runs[r].count, runs[r].loss);
+        if (k.last) finish_run(&runs[r], runs[r].count, runs[r].loss);
     }
 }
 

@@ -18,9 +18,6 @@ typedef struct WrSkyCourse {
 /* Of pair 0 .. directions / 2 - 1. */
 WrSkyCourse wr_sky_course(const WrOcclusion *occlusion, int pair);
 
-/* loss becomes 1 - loss times the plane's n_z, within 0..1. */
-void wr_sky_finish(const WrMapPart *part, int row, const float *p, const float *q, float *out);
-
 /* occlusion_near.c: with a reach. kinds as in occlusion.h; k < 0: occlusion. */
 bool wr_sky_near(const WrOcclusion *occlusion, const WrMapPart *part, int k, const float *p,
                  const float *q, WrPool *pool, float *out, WrError *err);

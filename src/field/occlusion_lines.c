@@ -11,6 +11,7 @@
 #include <string.h>
 
 #define LANES WR_SKY_LANES
+#define BUNDLE 4 /* stripes that a thread takes at once */
 #define AHEAD 16 /* rows; prefetching waits for the memory of a table that no cache holds */
 
 /* All lines of one course. */
@@ -27,11 +28,17 @@ typedef struct Lines {
     struct Work **worker; /* [threads] */
 } Lines;
 
-typedef struct Work {
+/* Of the lines that stand side by side in a stripe. */
+typedef struct Stripe {
     int32_t *h;      /* [ahead + along + ahead][LANES] */
-    int64_t *seen;   /* the same */
-    int *rows;       /* [along + ahead] */
     float *slope[2]; /* [along][LANES] */
+} Stripe;
+
+/* Stripes beside one another are put down row by row, so that more than a line of the cache is used of each row. */
+typedef struct Work {
+    Stripe stripe[BUNDLE];
+    int64_t *seen; /* [ahead + along + ahead][LANES] */
+    int *rows;     /* [along + ahead] */
 } Work;
 
 /* Lines are a few tables long: most of them need no division. */
@@ -89,20 +96,28 @@ static void sample(const Lines *l, int64_t s, int64_t base, int phase, int32_t *
     for (int i = 0; i < LANES; i++) out[i] = (q - part) * out[i] + part * beside[i];
 }
 
+/* Row k beyond the table on one side. */
+static int64_t outside(const Lines *l, int sign, int k)
+{
+    return sign > 0 ? l->along + k : -1 - k;
+}
+
 /* Of what lies beyond the table only rows count that are higher than all before them, in some lane. */
 static int beyond(const Lines *l, int sign, int64_t base, int phase, int32_t *h, int *rows)
 {
+    const WrSkyKernels *kernels = l->sky->kernels;
+    const int32_t *near = h + (size_t)(l->ahead + (sign > 0 ? 0 : l->along - 1)) * LANES;
     int32_t highest[LANES], row[LANES];
     int count = 0;
     for (int i = 0; i < LANES; i++) highest[i] = INT32_MIN;
     for (int k = 0; k < l->ahead; k++) {
-        const int64_t s = sign > 0 ? l->along + k : -1 - k;
-        const int32_t *from = row;
-        if (l->closes) from = h + (size_t)(l->ahead + (sign > 0 ? k : l->along - 1 - k)) * LANES;
+        const int64_t s = outside(l, sign, k);
+        if (l->closes) k = kernels->higher(near, sign, k, l->ahead, highest);
         else sample(l, s, base, phase, row);
-        if (!l->sky->kernels->higher(from, highest)) continue;
-        memcpy(h + (s + l->ahead) * LANES, from, sizeof row);
-        rows[count++] = (int)(s + l->ahead);
+        if (l->closes ? k == l->ahead : kernels->higher(row, 1, 0, 1, highest) == 1) continue;
+        const int64_t at = outside(l, sign, k) + l->ahead;
+        memcpy(h + at * LANES, l->closes ? near + (ptrdiff_t)sign * k * LANES : row, sizeof row);
+        rows[count++] = (int)at;
     }
     for (int i = 0; i < count / 2; i++) {
         const int far = rows[count - 1 - i];
@@ -119,19 +134,19 @@ static int opposite_of(const Lines *l)
 }
 
 /* Horizons ahead, and behind, of lanes from `base` on. */
-static void sweep_both(const Lines *l, int64_t base, int phase, Work *work)
+static void sweep_both(const Lines *l, int64_t base, int phase, const Work *work,
+                       const Stripe *stripe)
 {
     const int opposite = opposite_of(l);
-    int32_t *h = work->h;
-    for (int s = 0; s < l->along; s++)
-        sample(l, s, base, phase, h + (size_t)(s + l->ahead) * LANES);
+    int32_t *h = stripe->h;
     for (int side = 0; side < 2; side++) {
         if (l->sky->k >= 0 && l->sky->k != (side ? opposite : l->course.k)) continue;
         const int count = beyond(l, side ? -1 : 1, base, phase, h, work->rows);
         for (int i = 0; i < l->along; i++)
             work->rows[count + i] = l->ahead + (side ? i : l->along - 1 - i);
         const WrSkySweep sweep = { h, work->seen, work->rows, count + l->along, count };
-        l->sky->kernels->sweep(&sweep, l->scale, work->slope[side] - (ptrdiff_t)l->ahead * LANES);
+        float *slope = stripe->slope[side] - (ptrdiff_t)l->ahead * LANES;
+        l->sky->kernels->sweep(&sweep, l->scale, slope);
     }
 }
 
@@ -182,10 +197,11 @@ static inline void add_run(const Lines *l, Batch *batch, size_t at, const float 
 }
 
 /* The lanes of row s, whose other axis is that of the table's rows. */
-static void put_row(const Lines *l, int64_t start, int lanes, int s, const Work *work, Batch *batch)
+static void put_row(const Lines *l, int64_t start, int lanes, int s, const Stripe *stripe,
+                    Batch *batch)
 {
     const size_t from = (size_t)s * LANES, row = (size_t)s * l->sky->part->pitch;
-    const float *ahead = work->slope[0] + from, *behind = work->slope[1] + from;
+    const float *ahead = stripe->slope[0] + from, *behind = stripe->slope[1] + from;
     for (int i = 0, more; i < lanes; i += more) {
         const int64_t at = start + i;
         const int across = place(at, l->across, l->turns_across);
@@ -198,7 +214,7 @@ static void put_row(const Lines *l, int64_t start, int lanes, int s, const Work 
 
 /* Rows s to s + LANES - 1 of lines that go along the table's rows: lane by lane, since it is there that texels lie side by
  * side. */
-static int put_block(const Lines *l, int64_t start, int lanes, int s, const Work *work,
+static int put_block(const Lines *l, int64_t start, int lanes, int s, const Stripe *stripe,
                      Batch *batch)
 {
     float turned[2][LANES][LANES];
@@ -206,7 +222,7 @@ static int put_block(const Lines *l, int64_t start, int lanes, int s, const Work
     for (int side = 0; side < 2; side++)
         for (int k = 0; k < rows; k++)
             for (int i = 0; i < LANES; i++)
-                turned[side][i][k] = work->slope[side][(size_t)(s + k) * LANES + (size_t)i];
+                turned[side][i][k] = stripe->slope[side][(size_t)(s + k) * LANES + (size_t)i];
     for (int i = 0; i < lanes; i++) {
         if (!l->turns_across && (start + i < 0 || start + i >= l->across)) continue;
         const size_t row = (size_t)place(start + i, l->across, l->turns_across);
@@ -232,7 +248,7 @@ static void put_loose(const Lines *l, Loose *loose, Batch *batch)
 }
 
 /* The lanes of row s of lines that go along the table's rows and lean. */
-static void take_leaning(const Lines *l, int64_t start, int lanes, int s, const Work *work,
+static void take_leaning(const Lines *l, int64_t start, int lanes, int s, const Stripe *stripe,
                          Loose *loose, Batch *batch)
 {
     const WrSky *sky = l->sky;
@@ -249,24 +265,34 @@ static void take_leaning(const Lines *l, int64_t start, int lanes, int s, const 
     }
     const size_t first = (size_t)s * LANES;
     batch->run[batch->count++] =
-        (WrSkyRun){ work->slope[0] + first, work->slope[1] + first, loose->p + from,
-                    loose->q + from,        loose->out + from,      lanes };
+        (WrSkyRun){ stripe->slope[0] + first, stripe->slope[1] + first, loose->p + from,
+                    loose->q + from,          loose->out + from,        lanes };
     loose->count += lanes;
     if (batch->count == LANES) put_loose(l, loose, batch);
 }
 
-static void put_lines(const Lines *l, int64_t base, int phase, const Work *work)
+static int lanes_from(const Lines *l, int64_t base)
 {
     const int64_t left = l->turns_across ? l->across - base : LANES;
-    const int lanes = left < LANES ? (int)left : LANES, q = l->course.q, p = l->course.p;
+    return left < LANES ? (int)left : LANES;
+}
+
+static void put_lines(const Lines *l, int64_t base, int stripes, int phase, const Work *work)
+{
+    const int q = l->course.q, p = l->course.p;
     Batch batch;
     Loose loose;
     batch.count = loose.count = 0;
     for (int s = phase, more = q; s < l->along; s += more) {
-        const int64_t start = base + whole_of((int64_t)p * (s - phase), q);
-        if (l->course.upright) put_row(l, start, lanes, s, work, &batch);
-        else if (p == 0) more = put_block(l, start, lanes, s, work, &batch);
-        else take_leaning(l, start, lanes, s, work, &loose, &batch);
+        for (int k = 0; k < stripes; k++) {
+            const int64_t from = base + k * LANES;
+            const int64_t start = from + whole_of((int64_t)p * (s - phase), q);
+            const int lanes = lanes_from(l, from);
+            const Stripe *stripe = &work->stripe[k];
+            if (l->course.upright) put_row(l, start, lanes, s, stripe, &batch);
+            else if (p == 0) more = put_block(l, start, lanes, s, stripe, &batch);
+            else take_leaning(l, start, lanes, s, stripe, &loose, &batch);
+        }
     }
     put_loose(l, &loose, &batch);
 }
@@ -274,8 +300,11 @@ static void put_lines(const Lines *l, int64_t base, int phase, const Work *work)
 static void free_work(Work *work)
 {
     if (!work) return;
-    wr_free(work->h), wr_free(work->seen), wr_free(work->rows);
-    wr_free(work->slope[0]), wr_free(work->slope[1]);
+    for (int k = 0; k < BUNDLE; k++) {
+        wr_free(work->stripe[k].h);
+        wr_free(work->stripe[k].slope[0]), wr_free(work->stripe[k].slope[1]);
+    }
+    wr_free(work->seen), wr_free(work->rows);
     wr_free(work);
 }
 
@@ -283,20 +312,37 @@ static Work *new_work(const Lines *l)
 {
     const size_t rows = (size_t)l->along + 2 * (size_t)l->ahead, main = (size_t)l->along;
     Work *work = wr_alloc(1, sizeof *work);
-    work->h = wr_alloc_unset(rows * LANES, sizeof(int32_t));
+    for (int k = 0; k < BUNDLE && k < l->stripes; k++) {
+        Stripe *stripe = &work->stripe[k];
+        stripe->h = wr_alloc_unset(rows * LANES, sizeof(int32_t));
+        for (int side = 0; side < 2; side++)
+            stripe->slope[side] = wr_alloc(main * LANES, sizeof(float));
+    }
     work->seen = wr_alloc_unset(rows * LANES, sizeof(int64_t));
     work->rows = wr_alloc_unset(rows, sizeof(int));
-    for (int side = 0; side < 2; side++) work->slope[side] = wr_alloc(main * LANES, sizeof(float));
     return work;
+}
+
+static int bundles_of(const Lines *l)
+{
+    return (l->stripes + BUNDLE - 1) / BUNDLE;
 }
 
 static void piece(int index, int worker, void *ctx)
 {
     const Lines *l = ctx;
-    const int64_t base = l->first + (int64_t)(index % l->stripes) * LANES;
+    const int bundles = bundles_of(l), first = index % bundles * BUNDLE, phase = index / bundles;
+    const int left = l->stripes - first, stripes = left < BUNDLE ? left : BUNDLE;
+    const int64_t base = l->first + (int64_t)first * LANES;
     if (!l->worker[worker]) l->worker[worker] = new_work(l);
-    sweep_both(l, base, index / l->stripes, l->worker[worker]);
-    put_lines(l, base, index / l->stripes, l->worker[worker]);
+    const Work *work = l->worker[worker];
+    for (int s = 0; s < l->along; s++)
+        for (int k = 0; k < stripes; k++)
+            sample(l, s, base + k * LANES, phase,
+                   work->stripe[k].h + (size_t)(s + l->ahead) * LANES);
+    for (int k = 0; k < stripes; k++)
+        sweep_both(l, base + k * LANES, phase, work, &work->stripe[k]);
+    put_lines(l, base, stripes, phase, work);
 }
 
 /* ---- a course ------------------------------------------------------------------------------------ */
@@ -354,7 +400,7 @@ bool wr_sky_run_pair(const WrSky *sky, int pair, WrPool *pool)
     if (sky->k >= 0 && sky->k != l.course.k && sky->k != opposite) return true;
     open_lines(&l);
     l.worker = wr_alloc((size_t)threads, sizeof *l.worker);
-    const bool good = wr_pool_run(pool, l.stripes * l.course.q, piece, &l);
+    const bool good = wr_pool_run(pool, bundles_of(&l) * l.course.q, piece, &l);
     for (int i = 0; i < threads; i++) free_work(l.worker[i]);
     wr_free(l.worker);
     return good;

@@ -93,14 +93,10 @@ static void piece(int index, int worker, void *ctx)
     Ground g = open_ground(near, y, rows);
     (void)worker;
     for (int j = y; j < y + rows; j++) {
-        if (near->k < 0)
-            memset(near->out + (size_t)j * near->part->pitch, 0,
-                   (size_t)near->part->w * sizeof(float));
         for (int x = 0; x < near->part->w; x += WR_SKY_STRIP) {
             const int more = near->part->w - x;
             strip(near, &g, x, j, y, more < WR_SKY_STRIP ? more : WR_SKY_STRIP);
         }
-        if (near->k < 0) wr_sky_finish(near->part, j, near->p, near->q, near->out);
     }
     wr_free(g.heights);
 }

@@ -3,13 +3,14 @@
    one number, and the two halves of the lanes stop by themselves.
    Layer 1, private to this room. A header without a guard, by intention. */
 
-/* Half of the lanes: row * LANES + lane of what is looked at, and in the lower halves how much higher it is. */
+/* Half of the lanes: row * LANES + lane of what is looked at, in the lower halves how much higher it is, and what may be
+ * seen over it. */
 typedef struct Half {
-    __m512i at, rise;
+    __m512i at, rise, next;
 } Half;
 
-/* As step_on of what was seen from there; which lanes went on. here: row * LANES + lane of the row that looks. Distances
- * are LANES times too long on both sides, and below 2^25. */
+/* As STEEPER of the plain text; which lanes went on. here: row * LANES + lane of the row that looks. Distances are LANES
+ * times too long on both sides, and below 2^25. */
 ALWAYS __mmask8 half_step(Half *half, __m512i seen, __m512i low, __m512i here, int sign)
 {
     const __m512i next = _mm512_srai_epi64(seen, 32), farther = _mm512_sub_epi32(seen, low);
@@ -21,6 +22,23 @@ ALWAYS __mmask8 half_step(Half *half, __m512i seen, __m512i low, __m512i here, i
     return go;
 }
 
+/* The first two steps, by what is known; the lanes that went both times. */
+ALWAYS __mmask8 half_known(Half *half, __m512i last, __m512i low, __m512i here, int sign)
+{
+    const __mmask8 went = half_step(half, last, low, here, sign);
+    half->next = _mm512_mask_mov_epi64(last, went, half->next);
+    if (!went) return 0;
+    return went & half_step(half, half->next, low, here, sign);
+}
+
+/* The next one of those lanes. */
+ALWAYS __mmask8 half_on(Half *half, __mmask8 on, const int64_t *seen, __m512i low, __m512i here,
+                        int sign)
+{
+    half->next = _mm512_mask_i64gather_epi64(half->next, on, half->at, seen, 8);
+    return on & half_step(half, half->next, low, here, sign);
+}
+
 ALWAYS void half_note(const Half *half, __m512i low, int64_t *seen)
 {
     const __m512i top =
@@ -28,15 +46,20 @@ ALWAYS void half_note(const Half *half, __m512i low, int64_t *seen)
     _mm512_storeu_si512(seen, _mm512_or_si512(_mm512_slli_epi64(half->at, 32), top));
 }
 
-ALWAYS void half_put(const Half *half, __m512i here, int sign, double scale, float *slope)
+ALWAYS __m512i both(__m512i a, __m512i b)
 {
-    const __m512i from = sign > 0 ? here : half->at, to = sign > 0 ? half->at : here;
-    const __m512d rows =
-        _mm512_mul_pd(_mm512_set1_pd(1.0 / LANES), _mm512_cvtepi64_pd(_mm512_sub_epi64(to, from)));
-    const __m512d rise = _mm512_cvtepi32_pd(_mm512_cvtepi64_epi32(half->rise));
-    const __m512d best = _mm512_mul_pd(
-        _mm512_set1_pd(scale), _mm512_div_pd(rise, _mm512_max_pd(rows, _mm512_set1_pd(1.0))));
-    _mm256_storeu_ps(slope, _mm512_cvtpd_ps(_mm512_max_pd(best, _mm512_setzero_pd())));
+    return _mm512_inserti64x4(_mm512_castsi256_si512(_mm512_cvtepi64_epi32(a)),
+                              _mm512_cvtepi64_epi32(b), 1);
+}
+
+ALWAYS void put_halves(const Half *a, const Half *b, int32_t s, int sign, float scale, float *slope)
+{
+    const __m512i at = _mm512_srai_epi32(both(a->at, b->at), 4), row = _mm512_set1_epi32(s);
+    const __m512i away = sign > 0 ? _mm512_sub_epi32(at, row) : _mm512_sub_epi32(row, at);
+    const __m512 rows = _mm512_max_ps(_mm512_cvtepi32_ps(away), _mm512_set1_ps(1));
+    const __m512 rise = _mm512_cvtepi32_ps(both(a->rise, b->rise));
+    const __m512 best = _mm512_mul_ps(_mm512_set1_ps(scale), _mm512_div_ps(rise, rows));
+    _mm512_storeu_ps(slope, _mm512_max_ps(best, _mm512_setzero_ps()));
 }
 
 ALWAYS __m512i half_row(const int32_t *h)
@@ -50,38 +73,38 @@ ALWAYS __m512i half_place(int32_t row, int half)
                             _mm512_set1_epi64((int64_t)row * LANES + half * 8));
 }
 
-ALWAYS void sweep_row(const WrSkySweep *w, int i, int sign, double scale, float *restrict slope)
+ALWAYS void sweep_row(const WrSkySweep *w, int i, int sign, float scale, Half *a, Half *b,
+                      float *restrict slope)
 {
-    const int32_t s = w->rows[i], first = i > 0 ? w->rows[i - 1] : s;
+    const int32_t s = w->rows[i], first = w->rows[i > 0 ? i - 1 : 0];
     const int32_t *h = w->h + s * LANES, *high = w->h + first * LANES;
     const __m512i low[2] = { half_row(h), half_row(h + 8) };
     const __m512i here[2] = { half_place(s, 0), half_place(s, 1) };
-    Half a = { half_place(first, 0), _mm512_sub_epi64(half_row(high), low[0]) };
-    Half b = { half_place(first, 1), _mm512_sub_epi64(half_row(high + 8), low[1]) };
     const int64_t *seen = w->seen + first * LANES;
-    __mmask8 on_a = 0, on_b = 0;
+    a->at = half_place(first, 0), a->rise = _mm512_sub_epi64(half_row(high), low[0]);
+    b->at = half_place(first, 1), b->rise = _mm512_sub_epi64(half_row(high + 8), low[1]);
     if (i > 0) {
-        on_a = half_step(&a, _mm512_loadu_si512(seen), low[0], here[0], sign);
-        on_b = half_step(&b, _mm512_loadu_si512(seen + 8), low[1], here[1], sign);
+        __mmask8 on_a = half_known(a, _mm512_loadu_si512(seen), low[0], here[0], sign);
+        __mmask8 on_b = half_known(b, _mm512_loadu_si512(seen + 8), low[1], here[1], sign);
+        while (on_a | on_b) {
+            if (on_a) on_a = half_on(a, on_a, w->seen, low[0], here[0], sign);
+            if (on_b) on_b = half_on(b, on_b, w->seen, low[1], here[1], sign);
+        }
     }
-    while (on_a | on_b) {
-        if (on_a)
-            on_a = half_step(&a, _mm512_i64gather_epi64(a.at, w->seen, 8), low[0], here[0], sign);
-        if (on_b)
-            on_b = half_step(&b, _mm512_i64gather_epi64(b.at, w->seen, 8), low[1], here[1], sign);
-    }
-    half_note(&a, low[0], w->seen + s * LANES);
-    half_note(&b, low[1], w->seen + s * LANES + 8);
-    if (i < w->from) return;
-    half_put(&a, here[0], sign, scale, slope + s * LANES);
-    half_put(&b, here[1], sign, scale, slope + s * LANES + 8);
+    half_note(a, low[0], w->seen + s * LANES);
+    half_note(b, low[1], w->seen + s * LANES + 8);
+    if (i == 0) a->next = _mm512_loadu_si512(w->seen + s * LANES);
+    if (i == 0) b->next = _mm512_loadu_si512(w->seen + s * LANES + 8);
+    if (i >= w->from) put_halves(a, b, s, sign, scale, slope + s * LANES);
 }
 
 static void sweep(const WrSkySweep *given, double scale, float *restrict slope)
 {
     const WrSkySweep w = *given;
+    const float times = (float)scale;
+    Half a, b;
     if (w.rows[0] > w.rows[w.count - 1])
-        for (int i = 0; i < w.count; i++) sweep_row(&w, i, 1, scale, slope);
+        for (int i = 0; i < w.count; i++) sweep_row(&w, i, 1, times, &a, &b, slope);
     else
-        for (int i = 0; i < w.count; i++) sweep_row(&w, i, -1, scale, slope);
+        for (int i = 0; i < w.count; i++) sweep_row(&w, i, -1, times, &a, &b, slope);
 }
