@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/exactmath.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "document/document.h"
 #include "export/export.h"
@@ -304,6 +305,56 @@ static void shifted_tables_give_shifted_maps(void **state)
     }
 }
 
+/* ---- the file ---- */
+
+static uint64_t number_at(const unsigned char *bytes, int count)
+{
+    uint64_t value = 0;
+    for (int i = 0; i < count; i++) value |= (uint64_t)bytes[i] << 8 * i;
+    return value;
+}
+
+/* Behind the attributes: name, kind, length and bytes each, and a 0. */
+static const unsigned char *behind_header(const unsigned char *at)
+{
+    at += 8;
+    while (*at) {
+        at += strlen((const char *)at) + 1;
+        at += strlen((const char *)at) + 1;
+        at += 4 + number_at(at, 4);
+    }
+    return at + 1;
+}
+
+/* Readers that do not search a file need the table of its tiles, which the library writes last. */
+static void every_tile_lies_where_the_table_says(void **state)
+{
+    (void)state;
+    enum { W = 150, H = 70 };
+    WrDocument *document = document_of(random_field(W, H, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 8));
+    Read read = exported(document, NULL, 0, NULL);
+    size_t size;
+    char *file;
+    WrError err;
+    if (!wr_file_read("b.exr", 1 << 24, &file, &size, &err)) fail_msg("%s", err.text);
+    const unsigned char *bytes = (unsigned char *)file, *table = behind_header(bytes);
+    int count = 0;
+    for (int k = 0; k < read.count; k++)
+        for (int y = 0; y < read.height[k]; y += 64)
+            for (int x = 0; x < read.width[k]; x += 64, count++) {
+                const uint64_t place = number_at(table + 8 * count, 8);
+                assert_in_range(place, 1, size - 20);
+                assert_int_equal(number_at(bytes + place, 4), x / 64);
+                assert_int_equal(number_at(bytes + place + 4, 4), y / 64);
+                assert_int_equal(number_at(bytes + place + 8, 4), k);
+                assert_int_equal(number_at(bytes + place + 12, 4), k);
+            }
+    assert_int_equal(number_at(table, 8), table + 8 * count - bytes);
+    wr_free(file);
+    drop(&read);
+    wr_document_free(document);
+}
+
 /* ---- hard ones (HC142) ---- */
 
 static void cliffs_stay_finite(void **state)
@@ -426,6 +477,7 @@ int main(void)
         cmocka_unit_test(fitted_splines_come_near_the_wave),
         cmocka_unit_test(levels_are_means_down_to_one_texel),
         cmocka_unit_test(shifted_tables_give_shifted_maps),
+        cmocka_unit_test(every_tile_lies_where_the_table_says),
         cmocka_unit_test(cliffs_stay_finite),
         cmocka_unit_test(halves_are_rounded_or_refused),
         cmocka_unit_test(a_full_disk_leaves_nothing_half_written),

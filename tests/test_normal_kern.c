@@ -121,11 +121,58 @@ static void one_slope_beyond_all_bounds_is_told(void **state)
             }
 }
 
+/* The six numbers of bump slopes, and means of four, by every instruction set; what is too large is told. */
+static void moments_are_products_and_their_means(void **state)
+{
+    (void)state;
+    TestRandom random = { 154 };
+    float f[COUNT], six[6 * COUNT + 1], below[6 * COUNT], mean[6 * COUNT / 2 + 1];
+    double s[COUNT], t[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        f[i] = (float)(test_random(&random) * 9 - 4);
+        s[i] = test_random(&random) * 3 - 2, t[i] = test_random(&random) * 5 - 2;
+    }
+    for (int i = 0; i < 6 * COUNT; i++) below[i] = (float)(test_random(&random) * 7 - 3);
+    for (int n = 0; n < 3; n++) {
+        const WrNormalKernels *kern = wr_normal_kernels_at(n);
+        for (int count = 2; kern && count <= COUNT; count += 2 + count / 3 * 2) {
+            six[6 * count] = mean[3 * count] = 77;
+            assert_true(kern->moments(f, s, t, count, 3e38f, 0x1p63, six));
+            kern->halve(six, below, count / 2, mean);
+            assert_true(six[6 * count] == 77 && mean[3 * count] == 77);
+            for (int i = 0; i < count; i++) {
+                const double want[6] = { (double)f[i], s[i],        t[i],
+                                         s[i] * s[i],  t[i] * t[i], s[i] * t[i] };
+                for (int c = 0; c < 6; c++) assert_true(six[6 * i + c] == (float)want[c]);
+            }
+            for (int i = 0; i < 3 * count; i++) {
+                const int at = i / 6 * 12 + i % 6;
+                const long double sum = (long double)six[at] + (long double)six[at + 6] +
+                                        (long double)below[at] + (long double)below[at + 6];
+                assert_true(mean[i] == (float)(double)(sum / 4));
+            }
+        }
+        if (!kern) continue;
+        const double wild[] = { NAN, INFINITY, 0x1.8p63, -0x1.8p63 };
+        for (int k = 0; k < 12; k++) {
+            const int at = 5 * k;
+            const float kept = f[at];
+            const double kept_s = s[at], kept_t = t[at];
+            if (k % 3 == 0) f[at] = k < 6 ? (float)wild[k / 3] : 3.2e38f;
+            if (k % 3 == 1) s[at] = wild[k / 3];
+            if (k % 3 == 2) t[at] = wild[k / 3];
+            assert_false(kern->moments(f, s, t, 61, 3e38f, 0x1p63, six));
+            f[at] = kept, s[at] = kept_s, t[at] = kept_t;
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tilts_and_codes_are_their_formulas_for_any_count),
         cmocka_unit_test(one_slope_beyond_all_bounds_is_told),
+        cmocka_unit_test(moments_are_products_and_their_means),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

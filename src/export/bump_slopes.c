@@ -15,6 +15,7 @@
 
 #define CHANNELS WR_LEVEL_CHANNELS
 #define APRON 1
+#define HIGHEST 3e38f
 #define STEEPEST                                                                                   \
     0x1p63 /* of a slope: its square is still a float, and so is a sum of them (HC142) */
 
@@ -38,11 +39,11 @@ static double limited(double slope, bool *bad)
 }
 
 /* One texel's channels; 1 where a number had to be replaced. */
-static inline int64_t put(Factors factors, double f, double s, double t, float *restrict out)
+static inline int64_t put(double f, double s, double t, float *restrict out)
 {
-    bool bad = !(fabs(f) <= 3e38);
-    s = limited(s * factors.s, &bad), t = limited(t * factors.t, &bad);
-    out[0] = fabs(f) <= 3e38 ? (float)f : 0.0f;
+    bool bad = !(fabs(f) <= (double)HIGHEST);
+    s = limited(s, &bad), t = limited(t, &bad);
+    out[0] = fabs(f) <= (double)HIGHEST ? (float)f : 0.0f;
     out[1] = (float)s, out[2] = (float)t;
     out[3] = (float)(s * s), out[4] = (float)(t * t), out[5] = (float)(s * t);
     return bad;
@@ -73,12 +74,17 @@ static double spline_at(const double *at, ptrdiff_t pitch)
 static void put_run(Piece *piece, int x, int count, int j, const double *at, ptrdiff_t pitch,
                     const float *heights)
 {
+    const double right = piece->factors.s, down = -piece->factors.t; /* t comes upwards */
     double s[WR_NORMAL_STRIP], t[WR_NORMAL_STRIP];
+    float spline[WR_NORMAL_STRIP];
     float *out = piece->out + ((size_t)j * (size_t)piece->job->width + (size_t)x) * CHANNELS;
-    piece->kernels->tilts(&piece->slopes, at, pitch, count, s, t); /* t comes upwards */
+    piece->kernels->tilts(&piece->slopes, at, pitch, count, s, t);
+    for (int i = 0; i < count; i++) s[i] *= right, t[i] *= down;
+    for (int i = 0; i < count && !heights; i++) spline[i] = (float)spline_at(at + i, pitch);
+    const float *f = heights ? heights : spline;
+    if (piece->kernels->moments(f, s, t, count, HIGHEST, STEEPEST, out)) return;
     for (int i = 0; i < count; i++)
-        piece->replaced += put(piece->factors, heights ? heights[i] : spline_at(at + i, pitch),
-                               s[i], -t[i], out + (size_t)i * CHANNELS);
+        piece->replaced += put((double)f[i], s[i], t[i], out + (size_t)i * CHANNELS);
 }
 
 static int run_length(const Piece *piece, int x)
@@ -135,7 +141,8 @@ static void formula_rows(Piece *piece)
             double f, fu, fv;
             wr_analytic_sample(&job->scene->analytic, job->u[i], wr_export_row_v(job, piece->y + j),
                                &f, &fu, &fv);
-            piece->replaced += put(piece->factors, f, fu / job->width, -fv / job->height, out);
+            piece->replaced += put(f, piece->factors.s * (fu / job->width),
+                                   piece->factors.t * (-fv / job->height), out);
         }
 }
 

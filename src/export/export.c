@@ -413,13 +413,8 @@ bool wr_export_levels(const WrExportKind *kind, const WrDocument *document,
         return false;
     job.analytic = job.scene->analytic.kind != WR_ANALYTIC_OFF;
     set_grid(&job);
-    float *first = wr_try_alloc((size_t)job.width * (size_t)job.height * WR_LEVEL_CHANNELS,
-                                sizeof *first, "levels of a picture", err);
-    bool good = first != NULL;
-    if (good) kind->rows(&job, 0, job.height, first);
-    levels->level[0].data = first;
-    good = good && wr_levels_make(levels, job.width, job.height, wr_export_bump_slopes_level, &job,
-                                  pool, err);
+    const bool good =
+        wr_levels_make(levels, job.width, job.height, wr_export_bump_slopes_level, &job, pool, err);
     wr_free(job.u);
     return good;
 }

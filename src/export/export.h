@@ -266,8 +266,8 @@ bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const 
 bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExportOptions *options,
                WrPool *pool, const char *path, WrExportReport *report, WrError *err);
 
-/* The levels of a kind that has such, the first too, in memory, without a file. levels: the caller's, wr_levels_free
- * (levels.h); borrowed is nothing. Errors: options out of range, no memory, "cancelled" */
+/* The levels of a kind that has such without a file; the first is made, as the others are made of it, but not kept, as where
+ * one is written. levels: the caller's, wr_levels_free (levels.h); borrowed is nothing. Errors: options out of range, no memory, "cancelled" */
 typedef struct WrLevels WrLevels;
 bool wr_export_levels(const WrExportKind *kind, const WrDocument *document,
                       const WrExportOptions *options, WrPool *pool, WrLevels *levels, WrError *err);

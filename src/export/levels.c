@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "export/normal_kern.h"
 
 #include <stddef.h>
 
@@ -84,7 +85,9 @@ static void make_stripe(int index, int worker, void *ctx)
     const int end = y + STRIPE < to->height ? y + STRIPE : to->height;
     const size_t row = (size_t)from->width * (size_t)CHANNELS;
     const size_t out_row = (size_t)to->width * (size_t)CHANNELS;
-    double *sum = wr_alloc_unset(row, sizeof *sum);
+    const WrNormalKernels *kernels = wr_normal_kernels();
+    const bool even = from->width % 2 == 0 && from->height % 2 == 0;
+    double *sum = even ? NULL : wr_alloc_unset(row, sizeof *sum);
     float *scratch = from->data ? NULL : wr_alloc_unset(row * (2 * STRIPE + 1), sizeof *scratch);
     int first;
     const float *in = covered(m, y, end, &first, scratch);
@@ -92,8 +95,13 @@ static void make_stripe(int index, int worker, void *ctx)
         const Cover cover = cover_of(from->height, to->height, j);
         const float *rows[3];
         for (int k = 0; k < 3; k++) rows[k] = in + (size_t)(cover.tap[k] - first) * row;
+        float *out = to->data + (size_t)j * out_row;
+        if (even) {
+            kernels->halve(rows[0], rows[1], to->width, out);
+            continue;
+        }
         sum_rows(rows, cover.part, row, sum);
-        sum_columns(m->columns, to->width, sum, to->data + (size_t)j * out_row);
+        sum_columns(m->columns, to->width, sum, out);
     }
     wr_free(scratch);
     wr_free(sum);

@@ -1,5 +1,5 @@
-/* normal_kern.h - the inner loops of normal maps, compiled once per instruction set. All sets give the same
-   bits: only + - * / sqrt, comparisons and conversions, without contraction.
+/* normal_kern.h - the inner loops of normal maps and bump slopes, compiled once per instruction set. All sets give the
+   same bits: only + - * / sqrt, comparisons and conversions, without contraction.
    Layer 6. Private to this room. */
 #pragma once
 #include <stdbool.h>
@@ -43,6 +43,12 @@ typedef struct WrNormalKernels {
     void (*codes16)(const WrNormalJob *job, const double *x, const double *y, int count,
                     uint16_t *out);
     void (*floats)(const WrNormalJob *job, const double *x, const double *y, int count, float *out);
+    /* The six numbers of bump slopes, texel after texel: f, s, t, s s, t t, s t. False, and nothing is said of `out`, where
+     * a height is beyond `most`, a slope beyond `steepest`, or either is no number. STRIP texels at most. */
+    bool (*moments)(const float *f, const double *s, const double *t, int count, float most,
+                    double steepest, float *out);
+    /* Of two rows of 2 count texels of six numbers each, `count` means of four. */
+    void (*halve)(const float *a, const float *b, int count, float *out);
 } WrNormalKernels;
 
 extern const WrNormalKernels wr_normal_kernels_v1, wr_normal_kernels_v3, wr_normal_kernels_v4;

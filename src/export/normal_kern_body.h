@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#define HALVED 64 /* texels that are halved at once */
 #define ALWAYS static inline __attribute__((always_inline))
 
 static void widen(const float *restrict in, int count, double *restrict out)
@@ -129,6 +130,49 @@ static void floats(const WrNormalJob *job, const double *restrict x, const doubl
         for (int c = 0; c < 3; c++) out[3 * i + c] = plane[c][i];
 }
 
+/* Two floats side by side, the first in the lower half: what a store of 64 bits writes. */
+ALWAYS uint64_t pair_of(float low, float high)
+{
+    uint32_t a, b;
+    memcpy(&a, &low, sizeof a);
+    memcpy(&b, &high, sizeof b);
+    return (uint64_t)b << 32 | a;
+}
+
+static bool moments(const float *restrict f, const double *restrict s, const double *restrict t,
+                    int count, float most, double steepest, float *restrict out)
+{
+    uint64_t pair[3][WR_NORMAL_STRIP];
+    int wild = 0;
+#pragma omp simd reduction(+ : wild)
+    for (int i = 0; i < count; i++) {
+        const double x = s[i], y = t[i];
+        const float right = (float)x, down = (float)y;
+        pair[0][i] = pair_of(f[i], right);
+        pair[1][i] = pair_of(down, (float)(x * x));
+        pair[2][i] = pair_of((float)(y * y), (float)(x * y));
+        wild += (fabsf(f[i]) <= most) & (fabs(x) <= steepest) & (fabs(y) <= steepest) ? 0 : 1;
+    }
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) memcpy(out + 6 * i + 2 * c, &pair[c][i], sizeof pair[c][i]);
+    return wild == 0;
+}
+
+static void halve(const float *restrict a, const float *restrict b, int count, float *restrict out)
+{
+    double sum[12 * HALVED];
+    for (int x = 0; x < count; x += HALVED) {
+        const int now = count - x < HALVED ? count - x : HALVED;
+        const float *restrict p = a + 12 * (ptrdiff_t)x, *restrict q = b + 12 * (ptrdiff_t)x;
+#pragma omp simd
+        for (int i = 0; i < 12 * now; i++) sum[i] = 0.5 * (double)p[i] + 0.5 * (double)q[i];
+        for (int i = 0; i < now; i++)
+#pragma omp simd
+            for (int c = 0; c < 6; c++)
+                out[6 * (x + i) + c] = (float)(0.5 * sum[12 * i + c] + 0.5 * sum[12 * i + 6 + c]);
+    }
+}
+
 const WrNormalKernels WR_NORMAL_TABLE = {
     .name = WR_NORMAL_NAME,
     .widen = widen,
@@ -136,4 +180,6 @@ const WrNormalKernels WR_NORMAL_TABLE = {
     .codes8 = codes8,
     .codes16 = codes16,
     .floats = floats,
+    .moments = moments,
+    .halve = halve,
 };

@@ -1,4 +1,4 @@
-/* Source: OpenEXR File Layout, "Multi-Part and Deep Data". All numbers are little-endian. */
+/* Source: OpenEXR File Layout, "Multi-Part and Deep Data", and for tiles "Regular tile image file". All numbers are little-endian. */
 #include "image/exr_chunks.h"
 
 #include "base/error.h"
@@ -8,6 +8,8 @@
 #include <string.h>
 
 #define MULTIPART 0x10 /* in the file's sixth byte */
+#define TILED 0x02     /* of one part */
+#define TILE_NUMBERS 4 /* that stand before a tile's length: its place and its level */
 #define NAME_MAX_BYTES 255
 
 typedef struct Walk {
@@ -93,6 +95,39 @@ static bool check(Walk *walk)
     return end == walk->size;
 }
 
+/* The attributes of the only part. */
+static bool skip_header(Walk *walk)
+{
+    for (;;) {
+        uint64_t length;
+        if (!take_name(walk)) return false;
+        if (!walk->text[0]) return true;
+        if (!take_name(walk) || !take_number(walk, 4, &length)) return false;
+        if (length > (uint64_t)(walk->size - walk->at)) return false;
+        walk->at += (int64_t)length;
+    }
+}
+
+/* The table ends where the first tile begins. */
+static bool check_tiles(Walk *walk)
+{
+    uint64_t first, place, skipped, length;
+    if (!skip_header(walk)) return false;
+    int64_t table = walk->at, end;
+    if (!take_number(walk, 8, &first) || first > (uint64_t)walk->size) return false;
+    for (end = (int64_t)first; table < (int64_t)first; table += 8) {
+        walk->at = table;
+        if (!take_number(walk, 8, &place) || place != (uint64_t)end) return false;
+        walk->at = end;
+        for (int i = 0; i < TILE_NUMBERS; i++)
+            if (!take_number(walk, 4, &skipped)) return false;
+        if (!take_number(walk, 4, &length) || length > (uint64_t)(walk->size - walk->at))
+            return false;
+        end = walk->at + (int64_t)length;
+    }
+    return table == (int64_t)first && end == walk->size;
+}
+
 bool wr_exr_check_chunks(int fd, WrError *err)
 {
     WrFileInfo info;
@@ -100,7 +135,8 @@ bool wr_exr_check_chunks(int fd, WrError *err)
     if (!wr_fd_info(fd, &info) ||
         wr_fd_read_at(fd, start, sizeof start, 0) != (int64_t)sizeof start)
         return wr_fail(err, "it is truncated");
-    if (!(start[5] & MULTIPART)) return true;
+    if (!(start[5] & (MULTIPART | TILED))) return true;
     Walk walk = { .fd = fd, .at = sizeof start, .size = info.bytes };
-    return check(&walk) || wr_fail(err, "its tables are not whole");
+    return (start[5] & MULTIPART ? check(&walk) : check_tiles(&walk)) ||
+           wr_fail(err, "its tables are not whole");
 }

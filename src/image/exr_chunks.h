@@ -1,4 +1,4 @@
-/* exr_chunks.h - whether an OpenEXR file of several parts, just written downwards part by part, is whole.
+/* exr_chunks.h - whether an OpenEXR file of several parts, or of tiles, just written in their order, is whole.
    Private to this room.
 
    The library writes the tables of where its chunks lie when it closes a file, and is silent if it cannot;
@@ -9,5 +9,5 @@
 
 typedef struct WrError WrError;
 
-/* Files of one part are not looked at: their failures are told. Errors do not name the file. */
+/* Files of one part in rows are not looked at: their failures are told. Errors do not name the file. */
 bool wr_exr_check_chunks(int fd, WrError *err);

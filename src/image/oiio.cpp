@@ -380,7 +380,8 @@ static void set_attributes(ImageSpec &spec, const WrImageOut &part, const char *
     if (!description.empty()) spec.attribute("ImageDescription", description);
 }
 
-/* What texture systems look for in a tiled file of levels. */
+/* What texture systems look for in a tiled file of levels. Mantissas of slopes hardly repeat: zip saves 3 to 15 % of such a
+ * file and takes half a minute of 4096 x 4096, runs of equal bytes save two thirds of that in a tenth of the time. */
 static void set_levels(ImageSpec &spec, const WrImageOut &part)
 {
     spec.tile_width = spec.tile_height = WR_IMAGE_TILE;
@@ -388,6 +389,7 @@ static void set_levels(ImageSpec &spec, const WrImageOut &part)
     spec.full_width = part.width;
     spec.full_height = part.height;
     spec.attribute("textureformat", "Plain Texture");
+    spec.attribute("compression", "rle");
     spec.attribute("openexr:roundingmode", 0); /* down */
     if (part.uvslopes) spec.attribute("uvslopes_scale", float(part.uvslopes_scale));
 }
@@ -479,9 +481,11 @@ static bool writer_finish(WrCodecWriter *writer, bool, char *reason)
 {
     bool ok = guarded(reason, [&] {
         errno = 0;
-        bool closed = writer->out->close();
+        bool closed = check_write(*writer, writer->out->close(), reason);
+        writer->out.reset(); /* of levels it is only now that the library says where they lie */
         if (writer->disk) writer->disk->empty();
-        return check_write(*writer, closed, reason);
+        if (!closed || !writer->disk || !writer->disk->error) return closed;
+        return fail(reason, std::strerror(writer->disk->error));
     });
     char ignored[WR_CODEC_REASON];
     guarded(ignored, [&] {
