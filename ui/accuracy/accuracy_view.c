@@ -8,6 +8,7 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/patch/patch.h"
 #include "ui/preview/preview.h"
 
@@ -298,7 +299,7 @@ static void draw_scale(const WrApp *app)
     for (int i = 0; i <= 2; i++) {
         snprintf(text, sizeof text, "%s%s%s",
                  wr_plot_number(map->low + (map->full - map->low) * i / 2, number),
-                 scales[map->look].unit, i == 2 ? " and up" : "");
+                 scales[map->look].unit, i == 2 ? wr_words(" and up") : "");
         const double w = wr_gui_text_width(WR_FONT_SMALL, text);
         wr_gui_draw_text(left + pad + (bar - w) * i / 2, y + 14 * s, WR_FONT_SMALL, WR_COLOUR_LABEL,
                          text);
@@ -378,7 +379,8 @@ void wr_accuracy_overlay(WrApp *app)
         const char *name = wr_patch_look_names[a->hold_b ? WR_PATCH_FLICKER : a->look];
         bool failed =
             !pair && a->look == WR_PATCH_ERROR && a->error_of == a->state && a->error_why.text[0];
-        snprintf(text, sizeof text, "%s: %s", name, failed ? "cannot be measured" : waiting(app));
+        snprintf(text, sizeof text, "%s: %s", wr_words(name),
+                 failed ? wr_words("cannot be measured") : waiting(app));
         chip(room->x + 12 * s, room->y + room->h - 12 * s, 0, room->w - 56 * s, "", text);
     } else if (shows_split(a)) {
         split_labels(app);

@@ -10,6 +10,7 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/preview/preview.h"
 #include "base/rows.h"
 
@@ -92,14 +93,14 @@ static void caption(const WrWork *error, bool old)
     if (old)
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_CELL,
                             "Of the view before; measured anew when it rests.");
-    snprintf(text, sizeof text, "%d \xc3\x97 %d pixels, a reference of %d \xc3\x97 %d",
+    snprintf(text, sizeof text, wr_words("%d \xc3\x97 %d pixels, a reference of %d \xc3\x97 %d"),
              error->measured_w, error->measured_h, error->samples, error->samples);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
     wr_gui_tip(
         "The view is measured scaled down to at most 256 pixels along its longer side. The "
         "reference "
         "is rendered in double precision, by code of its own, with so many samples a pixel.");
-    snprintf(text, sizeof text, "samples, itself off by about %s",
+    snprintf(text, sizeof text, wr_words("samples, itself off by about %s"),
              wr_plot_number(error->change, number));
     wr_gui_space(-6);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, text);

@@ -10,6 +10,7 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/preview/accuracy_choice.h"
 
 #include "base/rows.h"
@@ -157,9 +158,9 @@ static void axis_dials(WrApp *app, int side, WrAxis axis, const WrScene *scene,
         if (dial->choices > 0) choose(app, side, d);
         else number(app, side, d, dial->get(plain));
         wr_gui_enable();
-        snprintf(tip, sizeof tip, "%s=: %s%s", dial->name, dial->help,
-                 chooses    ? ". The tolerance sets it."
-                 : !matters ? ". As the other dials stand it changes nothing."
+        snprintf(tip, sizeof tip, "%s=: %s%s", dial->name, wr_words(dial->help),
+                 chooses    ? wr_words(". The tolerance sets it.")
+                 : !matters ? wr_words(". As the other dials stand it changes nothing.")
                             : "");
         wr_gui_tip(tip);
     }

@@ -9,6 +9,7 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/job.h"
 
 #include "accuracy/ladder.h"
@@ -183,8 +184,9 @@ static void tell_rung(const WrLadder *ladder, int index, bool present)
     if (present) wr_text_add(&text, "ringed: ");
     if (rung->current) wr_text_add(&text, "as the scene stood");
     else wr_setting_print(&rung->setting, &text);
-    wr_text_addf(&text, "\n%s ms, rms %s, max %s", wr_plot_number(1e3 * rung->seconds, time),
-                 wr_plot_number(rung->errors.rms, rms), wr_plot_number(rung->errors.max, max));
+    wr_text_addf(&text, wr_words("\n%s ms, rms %s, max %s"),
+                 wr_plot_number(1e3 * rung->seconds, time), wr_plot_number(rung->errors.rms, rms),
+                 wr_plot_number(rung->errors.max, max));
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_TEXT, wr_text_get(&text));
     wr_text_fini(&text);
 }
@@ -240,7 +242,8 @@ static void foot(WrApp *app)
                "each with the reference. It also begins by itself, when the view rests.");
     if (!a->plot) return;
     const WrLadder *ladder = &a->plot->ladder;
-    snprintf(text, sizeof text, "%d \xc3\x97 %d, one thread", ladder->width, ladder->height);
+    snprintf(text, sizeof text, wr_words("%d \xc3\x97 %d, one thread"), ladder->width,
+             ladder->height);
     wr_gui_same_line(10);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
 }

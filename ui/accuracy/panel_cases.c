@@ -9,6 +9,7 @@
 #include "ui/desk/search.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 
 #include "hardcases/hardcases.h"
 #include "base/text.h"
@@ -116,15 +117,23 @@ static WrRow row_of(const WrCases *cases, int index)
                  line = wr_gui_line_height(WR_FONT_TEXT);
     const double text = x + wr_gui_px(52), room = (END_FLOAT - 0.09) * wide - text;
     wr_gui_row_at(x, 2.3 * line);
+    wr_gui_as_it_is(true);
     wr_gui_text(WR_FONT_SMALL, row->scene ? WR_COLOUR_ACCENT : WR_COLOUR_LABEL, row->id);
+    wr_gui_as_it_is(false);
     wr_gui_row_at(text, 2.3 * line);
+    wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, row->what, room);
+    wr_gui_as_it_is(false);
     wr_gui_row_at(text, 0.2 * line);
+    wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, row->holds, room);
+    wr_gui_as_it_is(false);
     worst(END_FLOAT * wide, row, result, WR_HARD_FLOAT);
     worst(END_DOUBLE * wide, row, result, WR_HARD_DOUBLE);
     wr_gui_row_at(END_UNIT * wide, 0);
+    wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_MUTED, row->unit, 0.1 * wide);
+    wr_gui_as_it_is(false);
     right(END_VERDICT * wide, verdict_of(row, result), verdict_colour(result));
     wr_gui_row_end();
     return r;
@@ -157,13 +166,19 @@ static void detail(const WrCases *cases)
     wr_text_addf(&text, "%s%s%s", wr_text_get(&bound), row->waits ? " Waits for: " : "",
                  row->waits ? row->waits : "");
     wr_gui_list_begin("detail", wr_gui_px(112));
+    wr_gui_as_it_is(true);
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, row->holds);
+    wr_gui_as_it_is(false);
+    wr_gui_as_it_is(true);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&text));
+    wr_gui_as_it_is(false);
     wr_text_clear(&text);
     for (const char *c = row->scene ? row->scene : "Nothing of it is to be seen on a patch."; *c;
          c++)
         wr_text_add_n(&text, *c == '\n' ? "  \xc2\xb7  " : c, *c == '\n' ? 6 : 1);
+    wr_gui_as_it_is(true);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, wr_text_get(&text));
+    wr_gui_as_it_is(false);
     wr_gui_list_end();
     wr_text_fini(&bound);
     wr_text_fini(&text);
@@ -172,7 +187,7 @@ static void detail(const WrCases *cases)
 static void counts(const WrCases *cases, int shown)
 {
     char text[160];
-    int used = snprintf(text, sizeof text, "%d of %d", shown, WR_HARDCASES);
+    int used = snprintf(text, sizeof text, wr_words("%d of %d"), shown, WR_HARDCASES);
     if (cases->report)
         for (int v = 0; v < WR_HARD_VERDICTS; v++)
             if (cases->report->count[v] > 0)

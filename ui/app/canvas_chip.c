@@ -49,9 +49,9 @@ static void ramp_tip(const WrApp *app)
     const WrCanvasRange *r = app->map_shown ? app->map_range : app->range;
     char tip[160];
     bool beyond = r->table_low < r->low || r->table_high > r->high;
-    snprintf(tip, sizeof tip, "The %s goes from %.4g to %.4g%s", app->map_shown ? "map" : "table",
-             r->table_low, r->table_high,
-             beyond ? ": some of it lies beyond the range that is shown" : "");
+    snprintf(tip, sizeof tip, wr_words("The %s goes from %.4g to %.4g%s"),
+             wr_words(app->map_shown ? "map" : "table"), r->table_low, r->table_high,
+             beyond ? wr_words(": some of it lies beyond the range that is shown") : "");
     wr_gui_tip(tip);
 }
 

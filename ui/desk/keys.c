@@ -1,4 +1,5 @@
 #include "ui/desk/keys.h"
+#include "ui/gui/words.h"
 #include "ui/desk/action_list.h"
 
 #include "base/array.h"
@@ -213,12 +214,25 @@ static void print_key(WrKey key, char *buffer, size_t size)
     if (only && length > 0) buffer[length - 1] = '\0'; /* the last plus */
 }
 
+/* The same in the user's language: "Strg+Umschalt+Entf". Keys have words of their own, "key: Delete", since a key and what
+   one does are not called alike everywhere. */
+static void say_key(WrKey key, char *buffer, size_t size)
+{
+    char bare[32], id[40];
+    print_key((WrKey){ key.code, 0 }, bare, sizeof bare);
+    snprintf(id, sizeof id, "key: %s", bare);
+    const char *said = wr_words(id);
+    snprintf(buffer, size, "%s%s%s%s", key.mods & WR_MOD_CTRL ? wr_words("Ctrl+") : "",
+             key.mods & WR_MOD_SHIFT ? wr_words("Shift+") : "",
+             key.mods & WR_MOD_ALT ? wr_words("Alt+") : "", said == id ? bare : said);
+}
+
 char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32])
 {
     buffer[0] = '\0';
     for (int i = 0; i < map->bindings.count; i++) {
         if (strcmp(map->bindings.data[i].action, action) != 0) continue;
-        print_key(map->bindings.data[i].key, buffer, 32);
+        say_key(map->bindings.data[i].key, buffer, 32);
         break;
     }
     return buffer;
@@ -226,11 +240,11 @@ char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32])
 
 void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out)
 {
-    char name[32];
+    char name[64];
     bool any = false;
     for (int i = 0; i < map->bindings.count; i++) {
         if (strcmp(map->bindings.data[i].action, action) != 0) continue;
-        print_key(map->bindings.data[i].key, name, sizeof name);
+        say_key(map->bindings.data[i].key, name, sizeof name);
         wr_text_addf(out, "%s%s", any ? "  " : "", name);
         any = true;
     }

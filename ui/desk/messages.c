@@ -2,6 +2,7 @@
 #include "ui/desk/messages.h"
 #include "ui/desk/app_options.h"
 #include "ui/desk/desk.h"
+#include "ui/gui/words.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -34,7 +35,7 @@ void wr_app_say(WrApp *app, const char *format, ...)
     char text[512];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    vsnprintf(text, sizeof text, wr_words(format), args);
     va_end(args);
     add(app, text, false);
 }
@@ -50,7 +51,7 @@ void wr_app_say_lines(WrApp *app, const char *text)
 
 void wr_app_fail(WrApp *app, const WrError *err)
 {
-    add(app, err->text, true);
+    add(app, wr_words(err->text), true);
 }
 
 void wr_app_take_notes(WrApp *app)

@@ -10,6 +10,7 @@
 #include "ui/desk/roster.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/files.h"
 
 #include "base/array.h"
@@ -50,7 +51,8 @@ static void describe(const WrReplace *replace, char *text, size_t size)
     double bytes = (double)stamp.bytes, unit = bytes < 1e3 ? 1.0 : bytes < 1e6 ? 1e3 : 1e6;
     const char *word = bytes < 1e3 ? "bytes" : bytes < 1e6 ? "kB" : "MB";
     if (wr_clock_local(t, &parts)) strftime(when, sizeof when, "%e %B %Y, %H:%M:%S", &parts);
-    snprintf(text, size, "%.3g %s, written %s", bytes / unit, word, when + strspn(when, " "));
+    snprintf(text, size, wr_words("%.3g %s, written %s"), bytes / unit, word,
+             when + strspn(when, " "));
 }
 
 /* Back to where the name was chosen, with the name. */
@@ -91,9 +93,10 @@ void wr_dialog_replace(WrApp *app)
     char text[400], facts[160];
     if (!wr_gui_dialog_begin(titles[replace->kind], 440)) return;
     snprintf(text, sizeof text,
-             changed ? "Another program has changed %.200s since it was opened or saved here. "
-                       "Saving would lose what that program wrote."
-                     : "There is already a file %.200s.",
+             changed
+                 ? wr_words("Another program has changed %.200s since it was opened or saved here. "
+                            "Saving would lose what that program wrote.")
+                 : wr_words("There is already a file %.200s."),
              name_of(replace->path));
     describe(replace, facts, sizeof facts);
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);

@@ -104,8 +104,9 @@ static bool dialog(const char *title, ImVec2 at, ImVec2 pivot, float width, floa
     ImGui::PopStyleVar();
     if (!open) return false;
     char heading[128];
-    snprintf(heading, sizeof heading, "%.*s", (int)strcspn(title, "#"), title);
-    wr_gui_text_wrapped(WR_FONT_BOLD, WR_COLOUR_STRONG, heading);
+    const bool named = strchr(title, '#') != nullptr;
+    if (named) snprintf(heading, sizeof heading, "%.*s", (int)strcspn(title, "#"), title);
+    wr_gui_text_wrapped(WR_FONT_BOLD, WR_COLOUR_STRONG, named ? heading : title);
     wr_gui_space(4);
     return true;
 }

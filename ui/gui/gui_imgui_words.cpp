@@ -36,8 +36,8 @@ const char *wr_gui_labelled(const char *label, char (&buffer)[320])
     if (length == 0 || length >= sizeof seen) return label;
     memcpy(seen, label, length);
     seen[length] = '\0';
-    const char *said = wr_gui_said(seen);
-    if (said == seen) return label;
+    const char *looked = id ? seen : label, *said = wr_gui_said(looked);
+    if (said == looked) return label;
     if (id && id[2] == '#') snprintf(buffer, sizeof buffer, "%.250s%.60s", said, id);
     else snprintf(buffer, sizeof buffer, "%.250s###%.60s", said, label);
     return buffer;

@@ -218,10 +218,14 @@ static void list_found(WrApp *app, WrGuide *guide)
         WrRow row = wr_gui_row_begin(i, 46, i == guide->chosen);
         wr_gui_row_at(wr_gui_px(8), wr_gui_px(40));
         wr_gui_group_begin();
+        wr_gui_as_it_is(true);
         wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, words, wr_gui_row_width() - wr_gui_px(12));
+        wr_gui_as_it_is(false);
         wr_gui_space(-10);
+        wr_gui_as_it_is(true);
         wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, page->title,
                         wr_gui_row_width() - wr_gui_px(12));
+        wr_gui_as_it_is(false);
         wr_gui_group_end();
         wr_gui_row_end();
         if (row.clicked) choose(app, guide, i);
@@ -233,8 +237,10 @@ static void list_pages(WrApp *app, WrGuide *guide)
     for (int i = 0; i < guide->pages.count; i++) {
         WrRow row = wr_gui_row_begin(i, 26, i == guide->page);
         wr_gui_row_at(wr_gui_px(8), 0);
+        wr_gui_as_it_is(true);
         wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, guide->pages.data[i].title,
                         wr_gui_row_width() - wr_gui_px(12));
+        wr_gui_as_it_is(false);
         wr_gui_row_end();
         if (row.clicked) open_page(app, guide, i, -1);
     }
@@ -263,9 +269,11 @@ static void show_page(WrApp *app, WrGuide *guide, double tall)
     int length;
     WrGuiPage field = wr_gui_page_begin("page", 0, tall);
     const WrGuidePage *page = &guide->pages.data[guide->page];
+    wr_gui_as_it_is(true); /* the pages are English */
     if (wr_guide_layout(&guide->layout, page, field.w, guide->pictures)) wr_app_redraw(app);
     const char *link =
         wr_guide_draw(&guide->layout, &field, guide->marked, guide->pictures, &length);
+    wr_gui_as_it_is(false);
     double to = scroll_to(guide, &field);
     guide->scrolls.data[guide->page] = to >= 0 ? to : field.scroll;
     guide->opened = false;

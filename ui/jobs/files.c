@@ -340,8 +340,10 @@ static void show_entries(WrFiles *files, bool *done)
     for (int i = 0; i < files->entries.count; i++) {
         const Entry *e = &files->entries.data[i];
         wr_gui_push_id(i);
+        wr_gui_as_it_is(true);
         int clicked = wr_gui_list_row(e->folder ? WR_ICON_FOLDER : WR_ICON_FILE, e->name,
                                       strcmp(files->field, e->name) == 0);
+        wr_gui_as_it_is(false);
         wr_gui_pop_id();
         if (!clicked) continue;
         if (e->folder) {

@@ -8,6 +8,7 @@
 #include "ui/desk/messages.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/words.h"
 #include "ui/gui/theme.h"
 #include "ui/jobs/trial.h"
 
@@ -198,9 +199,9 @@ void wr_dialog_adjust(WrApp *app)
     const WrOpInfo *op = app->adjust->op;
     char title[64], help[200];
     WrError err;
-    snprintf(title, sizeof title, "%.40s##adjust", op->label);
+    snprintf(title, sizeof title, "%.40s###adjust", wr_words(op->label));
     if (!wr_gui_dialog_begin_at(title, wr_dialog_side(app))) return;
-    snprintf(help, sizeof help, "%.190s.", op->help);
+    snprintf(help, sizeof help, "%.190s.", wr_words(op->help));
     if (help[0] >= 'a' && help[0] <= 'z') help[0] = (char)(help[0] - 'a' + 'A');
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, help);
     wr_gui_space(4);

@@ -6,6 +6,7 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panels.h"
 #include "ui/tools/option.h"
 #include "ui/tools/shelf.h"
@@ -200,16 +201,16 @@ static void setting(WrApp *app, int index)
     bool changed = wr_tuning_get(app->brush_files->set, info->name, &value);
     bool curve = !wr_preset_is_constant(app->shelf->preset, index);
     char tip[512];
-    snprintf(tip, sizeof tip, "%.300s\n%.60s%s%s", info->meaning, info->name,
-             curve ? "; the pen or the motion turns it too" : "",
-             changed ? ". Changed: a double click gives the preset's own back" : "");
+    snprintf(tip, sizeof tip, "%.300s\n%.60s%s%s", wr_words(info->meaning), info->name,
+             curve ? wr_words("; the pen or the motion turns it too") : "",
+             changed ? wr_words(". Changed: a double click gives the preset's own back") : "");
     WrNumber spec = { .low = info->low,
                       .high = info->high > info->low ? info->high : info->low + 1,
                       .reset = own,
                       .decimals = 2,
                       .tip = tip };
     char label[64];
-    snprintf(label, sizeof label, "%s%.40s", changed ? "\xe2\x80\xa2 " : "", info->label);
+    snprintf(label, sizeof label, "%s%.40s", changed ? "\xe2\x80\xa2 " : "", wr_words(info->label));
     wr_gui_push_id(index);
     wr_gui_label(label);
     WrEdit edit = wr_gui_number(info->name, 0, &spec, &value);
@@ -225,7 +226,9 @@ static void preset_settings(WrApp *app)
     wr_gui_heading("THE PRESET'S OWN SETTINGS");
     if (changed > 0) {
         char text[64];
-        snprintf(text, sizeof text, "Take back %d change%s", changed, changed > 1 ? "s" : "");
+        snprintf(text, sizeof text,
+                 changed > 1 ? wr_words("Take back %d changes") : wr_words("Take back %d change"),
+                 changed);
         if (wr_gui_chip(WR_ICON_BACK, text)) wr_shelf_tune_all(app, NULL);
     }
     for (int g = 0; g < GROUPS; g++) {

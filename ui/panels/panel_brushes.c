@@ -134,7 +134,9 @@ static void tile(WrApp *app, Flow *flow, int index, const char *id, const char *
     char tip[300];
     snprintf(tip, sizeof tip, "%.200s%s%.60s", name, entry && entry->group ? "\n" : "",
              entry && entry->group ? entry->group : "");
+    wr_gui_as_it_is(index >= 0);
     wr_gui_tip(tip);
+    wr_gui_as_it_is(false);
     wr_gui_pop_id();
     if (pressed == 1) wr_shelf_choose(app, id);
     if (pressed != 2) return;

@@ -8,6 +8,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/patch/patch.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
@@ -107,7 +108,9 @@ static bool view_row(WrApp *app, int i)
     const WrRow r = wr_gui_row_begin(i, ROW_UNITS, wr_scene_view_equal(&now, &view->view));
     const double right = wr_gui_row_width() - wr_gui_px(28);
     wr_gui_row_at(wr_gui_px(8), 0);
+    wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, view->name, right - wr_gui_px(16));
+    wr_gui_as_it_is(false);
     wr_gui_row_at(right, wr_gui_px(20));
     const bool forget = wr_gui_glyph("forget", WR_ICON_DELETE, 20, WR_COLOUR_MUTED);
     wr_gui_tip("Forget this view");
@@ -184,7 +187,7 @@ static void tone(WrApp *app)
                "form. Here and in 8-bit pictures; EXR and TIFF keep light as it is.");
     wr_gui_check("Mark what is clipped", &app->patch->look.marked);
     wr_gui_tip("Stripes where a colour is full, so that more light would not show");
-    wr_text_addf(&line, "%.1f %% of the picture is clipped", 100 * app->patch->clipped);
+    wr_text_addf(&line, wr_words("%.1f %% of the picture is clipped"), 100 * app->patch->clipped);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&line));
     wr_text_fini(&line);
 }

@@ -4,6 +4,7 @@
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
@@ -62,8 +63,8 @@ static WrEdit rows(WrCellSize *cell)
 static void tell_texel(const WrCellSize *cell, const WrField *field)
 {
     WrText text = { 0 };
-    wr_text_addf(&text, "%.4g x %.4g %s a texel", cell->w / wr_field_width(field),
-                 cell->h / wr_field_height(field), cell->mm ? "mm" : "scene units");
+    wr_text_addf(&text, wr_words("%.4g x %.4g %s a texel"), cell->w / wr_field_width(field),
+                 cell->h / wr_field_height(field), wr_words(cell->mm ? "mm" : "scene units"));
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&text));
     wr_text_fini(&text);
 }

@@ -3,6 +3,7 @@
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panels.h"
 
 #include "base/text.h"
@@ -73,7 +74,7 @@ static WrEdit more(WrEdit a, WrEdit b)
 static WrEdit stop_row(WrColouring *own, int i)
 {
     char label[24];
-    snprintf(label, sizeof label, "Stop %d", i + 1);
+    snprintf(label, sizeof label, wr_words("Stop %d"), i + 1);
     wr_gui_push_id(100 + i);
     wr_gui_label(label);
     const double third = (wr_gui_available() - wr_gui_px(8)) / 2;

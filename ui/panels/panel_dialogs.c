@@ -10,6 +10,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
 #include "ui/jobs/files.h"
@@ -30,7 +31,8 @@ void wr_dialog_unsaved(WrApp *app)
 {
     char text[400];
     if (!wr_gui_dialog_begin("Save the changes?", 420)) return;
-    snprintf(text, sizeof text, "%.200s has changes that are not saved. They are lost otherwise.",
+    snprintf(text, sizeof text,
+             wr_words("%.200s has changes that are not saved. They are lost otherwise."),
              wr_app_name(app));
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
     wr_gui_space(8);
@@ -300,8 +302,8 @@ static void film_numbers(WrForms *f)
     number("Width", 16, 1920, 1, 8192, 640, 0, "pixels", &f->film_width);
     number("Height", 16, 1920, 1, 8192, 640, 0, "pixels", &f->film_height);
     if (f->film_fps > most) f->film_fps = most;
-    snprintf(text, sizeof text, "%.4g seconds, %.3g degrees a frame.", f->film_frames / f->film_fps,
-             360.0 / f->film_frames);
+    snprintf(text, sizeof text, wr_words("%.4g seconds, %.3g degrees a frame."),
+             f->film_frames / f->film_fps, 360.0 / f->film_frames);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 

@@ -5,6 +5,7 @@
 #include "ui/desk/desk.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panels.h"
 
 #include "command/session.h"
@@ -28,8 +29,10 @@ static void tip_of(const WrApp *app, int step, bool kept)
     const char *line = wr_session_history_line(app->session, step);
     print_bytes((double)wr_session_history_step_bytes(app->session, step), bytes, sizeof bytes);
     snprintf(text, sizeof text, "%.640s%s\n%s", line, strlen(line) > 640 ? " ..." : "",
-             kept ? bytes : "The state after it was given up to keep within the budget");
+             kept ? bytes : wr_words("The state after it was given up to keep within the budget"));
+    wr_gui_as_it_is(true);
     wr_gui_tip(text);
+    wr_gui_as_it_is(false);
 }
 
 /* Go to the state after `position` steps. */
@@ -56,9 +59,11 @@ static bool row(const WrApp *app, int position)
     if (position == now) wr_gui_text(WR_FONT_SMALL, WR_COLOUR_ACCENT, "\xe2\x80\xa2");
     wr_gui_row_at(x + wr_gui_px(12), 0);
     const char *begin = wr_session_path(app->session)[0] ? "as opened" : "the beginning";
+    wr_gui_as_it_is(position > 0);
     wr_gui_text_cut(WR_FONT_SMALL, colour,
                     position > 0 ? wr_session_history_line(app->session, position - 1) : begin,
                     wr_gui_row_width() - x - wr_gui_px(24));
+    wr_gui_as_it_is(false);
     wr_gui_row_end();
     return r.clicked && kept && position != now;
 }
@@ -69,7 +74,7 @@ void wr_panel_history(WrApp *app)
     int count = wr_session_history_count(app->session), goal = -1;
     print_bytes((double)wr_session_history_bytes(app->session), used, sizeof used);
     print_bytes((double)wr_session_history_budget(app->session), budget, sizeof budget);
-    snprintf(text, sizeof text, "%s of %s", used, budget);
+    snprintf(text, sizeof text, wr_words("%s of %s"), used, budget);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
     wr_gui_tip(
         "Memory that the states on the way take, and how much they may: the oldest are given "

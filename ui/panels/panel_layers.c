@@ -199,12 +199,16 @@ static void row_name(const WrLayer *layer, double x, double right, bool shown, b
         wr_gui_row_at(right - wide, 0);
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
         wr_gui_row_at(x, 0);
+        wr_gui_as_it_is(true);
         wr_gui_text(WR_FONT_TEXT, ink, layer->name);
+        wr_gui_as_it_is(false);
         return;
     }
     double line = wr_gui_line_height(WR_FONT_TEXT);
     wr_gui_row_at(x, 2.35 * line);
+    wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT, ink, layer->name, right - x);
+    wr_gui_as_it_is(false);
     wr_gui_row_at(x, 0.15 * line);
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, right - x);
 }

@@ -7,6 +7,7 @@
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/files.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
@@ -49,7 +50,7 @@ static bool one_light(WrApp *app, int i)
     char label[24];
     int kind = (int)light.kind;
     double rgb[3] = { light.colour.x, light.colour.y, light.colour.z };
-    snprintf(label, sizeof label, "Light %d", i + 1);
+    snprintf(label, sizeof label, wr_words("Light %d"), i + 1);
     wr_gui_label(label);
     bool chosen = wr_gui_choice("kind", 0, kinds, WR_LIGHT_KINDS, &kind);
     wr_gui_tip("Drag the small sun on the patch to move the light");

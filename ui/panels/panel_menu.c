@@ -8,6 +8,7 @@
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panels.h"
 
 #include "base/array.h"
@@ -206,8 +207,10 @@ static void recent(WrApp *app)
     const char *chosen = NULL;
     for (int i = 0; i < WR_RECENT_MAX && app->settings->recent[i]; i++) {
         wr_gui_push_id(i);
+        wr_gui_as_it_is(true);
         if (wr_gui_menu_item(app->settings->recent[i], NULL, false, true))
             chosen = app->settings->recent[i];
+        wr_gui_as_it_is(false);
         wr_gui_pop_id();
     }
     if (!app->settings->recent[0]) wr_gui_menu_item("No files yet", NULL, false, false);
@@ -251,7 +254,7 @@ static void operations(WrApp *app)
     for (const WrOpInfo *op = wr_ops; op->name; op++) {
         char name[64], label[80], keys[32];
         snprintf(name, sizeof name, "adjust_%.50s", op->name);
-        snprintf(label, sizeof label, "%.60s...", op->label);
+        snprintf(label, sizeof label, "%.60s...", wr_words(op->label));
         if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys), false, true))
             wr_action_run(app, name);
         wr_gui_tip(op->help);
@@ -262,7 +265,7 @@ static void generator_item(WrApp *app, const WrGenerator *generator)
 {
     char name[WR_GENERATE_ACTION], label[80], keys[32];
     wr_generate_action(generator, name);
-    snprintf(label, sizeof label, "%.60s...", generator->label);
+    snprintf(label, sizeof label, "%.60s...", wr_words(generator->label));
     if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys),
                          app->generate->generator == generator, true))
         wr_action_run(app, name);

@@ -10,6 +10,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/files.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
@@ -52,11 +53,13 @@ static bool row(WrApp *app, int i)
     wr_gui_tip(object->hidden ? "Show it" : "Hide it");
     const double wide = wr_gui_text_width(WR_FONT_SMALL, kind), x = wr_gui_px(32);
     wr_gui_row_at(x, 0);
+    wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT,
                     object->hidden ? WR_COLOUR_MUTED
                     : chosen       ? WR_COLOUR_STRONG
                                    : WR_COLOUR_TEXT,
                     wr_scene_object_label(scene, i, buffer), right - x - wide - wr_gui_px(8));
+    wr_gui_as_it_is(false);
     wr_gui_row_at(right - wide, 0);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, kind);
     wr_gui_row_end();
@@ -222,17 +225,20 @@ static void table(WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
     const WrScene *scene = wr_app_scene(app);
-    const char *labels[WR_LAYERS_MAX + 2] = { "All layers" };
+    const char *labels[WR_LAYERS_MAX + 2] = { wr_words("All layers") };
     const int file = document->layer_count + 1;
     int now = 0;
     for (int i = 0; i < document->layer_count; i++) {
         labels[i + 1] = document->layers[i].name;
         if (scene->layer && strcmp(scene->layer, labels[i + 1]) == 0) now = i + 1;
     }
-    labels[file] = "A file\xe2\x80\xa6";
+    labels[file] = wr_words("A file\xe2\x80\xa6");
     const int before = now;
     wr_gui_label("Table");
-    if (wr_gui_choice("table", 0, labels, file + 1, &now) && now != before) {
+    wr_gui_as_it_is(true); /* names of layers */
+    const bool changed = wr_gui_choice("table", 0, labels, file + 1, &now);
+    wr_gui_as_it_is(false);
+    if (changed && now != before) {
         if (now == file) wr_files_ask(app->files, WR_FILE_TABLE, NULL, "");
         else if (now > 0) wr_app_run_linef(app, "object set layer=%d", now);
         else wr_app_run_linef(app, "object set layer=all");

@@ -2,6 +2,7 @@
 #include "ui/desk/desk.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
 #include "ui/preview/preview.h"
@@ -52,8 +53,10 @@ static void effect(WrApp *app, int i, const WrPlanRow *e)
         wr_gui_tip("Nanoseconds a pixel, measured in the last picture");
     }
     wr_gui_space(-6);
-    if (e->run) snprintf(text, sizeof text, "%s: %s", e->rule, e->reason);
-    else snprintf(text, sizeof text, "%s, %s: %s", e->rule, proofs[e->proof], e->reason);
+    if (e->run) snprintf(text, sizeof text, "%s: %s", wr_words(e->rule), wr_words(e->reason));
+    else
+        snprintf(text, sizeof text, "%s, %s: %s", wr_words(e->rule), wr_words(proofs[e->proof]),
+                 wr_words(e->reason));
     wr_gui_text_wrapped(WR_FONT_SMALL, e->run ? WR_COLOUR_LABEL : WR_COLOUR_FAINT, text);
     wr_gui_space(4);
 }

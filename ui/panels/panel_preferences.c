@@ -116,9 +116,10 @@ static void settle(WrApp *app, const char *action, const char *other, const char
     const bool good = write_keys(app, action, other, &err);
     wr_app_read_keys(app);
     if (!good) tell(p, &err, "", "", "", "");
-    else if (!key) tell(p, NULL, "%s%s has no key now%s", "", label_of(app, action), "");
+    else if (!key) tell(p, NULL, wr_words("%s%s has no key now%s"), "", label_of(app, action), "");
     else if (other)
-        tell(p, NULL, "%s: %s; taken from %s", key, label_of(app, action), label_of(app, other));
+        tell(p, NULL, wr_words("%s: %s; taken from %s"), key, label_of(app, action),
+             label_of(app, other));
     else tell(p, NULL, "%s: %s%s", key, label_of(app, action), "");
 }
 
@@ -166,7 +167,7 @@ static void key_row(WrApp *app, int i, const WrAction *action)
     const bool waits = strcmp(p->waits, action->name) == 0;
     const WrRow row = wr_gui_row_begin(i, ROW, waits);
     wr_keys_list(app->keys, action->name, &keys);
-    const char *right = waits ? "press a key; Delete: none" : wr_text_get(&keys);
+    const char *right = waits ? wr_words("press a key; Delete: none") : wr_text_get(&keys);
     const double wide = wr_gui_text_width(WR_FONT_SMALL, right), room = wr_gui_row_width();
     wr_gui_row_at(wr_gui_px(14), 0);
     wr_gui_text_cut(WR_FONT_TEXT, waits ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, action->label,

@@ -7,6 +7,7 @@
 #include "ui/desk/messages.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panels.h"
 
 #include "base/array.h"
@@ -75,13 +76,16 @@ static void describe(const WrRecoverable *r, char *name, size_t name_size, char 
     const char *slash = strrchr(r->document, '/');
     if (wr_clock_local(t, &parts)) strftime(when, sizeof when, "%e %B %Y, %H:%M", &parts);
     snprintf(name, name_size, "%.120s",
-             r->document[0] == '\0' ? "never saved"
+             r->document[0] == '\0' ? wr_words("never saved")
              : slash                ? slash + 1
                                     : r->document);
-    if (r->error) snprintf(what, size, "%s   \xc2\xb7   cannot be read: %.160s", when, r->error);
+    if (r->error)
+        snprintf(what, size, wr_words("%s   \xc2\xb7   cannot be read: %.160s"), when, r->error);
     else
-        snprintf(what, size, "%s   \xc2\xb7   %d step%s%s", when, r->commands,
-                 r->commands == 1 ? "" : "s", r->damaged ? "   \xc2\xb7   damaged" : "");
+        snprintf(what, size,
+                 r->commands == 1 ? wr_words("%s   \xc2\xb7   %d step%s")
+                                  : wr_words("%s   \xc2\xb7   %d steps%s"),
+                 when, r->commands, r->damaged ? wr_words("   \xc2\xb7   damaged") : "");
 }
 
 typedef struct Call {
@@ -144,10 +148,14 @@ static void rows(WrRecovery *recovery)
         char name[128], what[256];
         describe(&recovery->list[i], name, sizeof name, what, sizeof what);
         WrRow r = wr_gui_row_begin(i, 46, i == recovery->chosen);
+        wr_gui_as_it_is(true);
         wr_gui_tip(recovery->list[i].document);
+        wr_gui_as_it_is(false);
         double x = wr_gui_px(12), line = wr_gui_line_height(WR_FONT_TEXT);
         wr_gui_row_at(x, 2.4 * line);
+        wr_gui_as_it_is(true);
         wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, name, wr_gui_row_width() - 2 * x);
+        wr_gui_as_it_is(false);
         wr_gui_row_at(x, 0.2 * line);
         wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, what, wr_gui_row_width() - 2 * x);
         wr_gui_row_end();
@@ -184,16 +192,22 @@ static void tell(const WrRecovery *recovery)
     }
     rows((WrRecovery *)recovery);
     char text[200];
-    if (r->error) snprintf(text, sizeof text, "It cannot be read; a newer program may be able to.");
+    if (r->error)
+        snprintf(text, sizeof text, wr_words("It cannot be read; a newer program may be able to."));
     else if (r->headless)
-        snprintf(text, sizeof text, "Its beginning is damaged: what it began with is a guess.");
+        snprintf(text, sizeof text,
+                 wr_words("Its beginning is damaged: what it began with is a guess."));
     else if (r->beyond > 0)
         snprintf(text, sizeof text,
-                 "It is damaged after step %d; %d step%s behind that can be read.", r->commands,
-                 r->beyond, r->beyond == 1 ? "" : "s");
+                 r->beyond == 1
+                     ? wr_words("It is damaged after step %d; %d step behind that can be read.")
+                     : wr_words("It is damaged after step %d; %d steps behind that can be read."),
+                 r->commands, r->beyond);
     else
         snprintf(text, sizeof text, "%s",
-                 r->unfinished ? "Its last command had not ended. It is tried apart first." : "");
+                 r->unfinished
+                     ? wr_words("Its last command had not ended. It is tried apart first.")
+                     : "");
     if (*text) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 

@@ -4,6 +4,7 @@
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panel_scene.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
@@ -82,14 +83,16 @@ static void form_layer(WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);
     const WrDocument *document = wr_app_document(app);
-    const char *labels[1 + WR_LAYERS_MAX] = { "None" };
+    const char *labels[1 + WR_LAYERS_MAX] = { wr_words("None") };
     int which = 0;
     for (int i = 0; i < document->layer_count; i++) {
         labels[1 + i] = document->layers[i].name;
         if (scene->form_layer && strcmp(scene->form_layer, labels[1 + i]) == 0) which = 1 + i;
     }
     wr_gui_label("Layer");
+    wr_gui_as_it_is(true); /* names of layers */
     const bool chosen = wr_gui_choice("form layer", 0, labels, 1 + document->layer_count, &which);
+    wr_gui_as_it_is(false);
     wr_gui_tip(
         "The layer that the ground has its form of: painting there raises hills, painting in "
         "others wrinkles them");
@@ -200,7 +203,8 @@ static void surface_params(WrApp *app)
                               .decimals = 3,
                               .tip = p->help };
             char label[64];
-            snprintf(label, sizeof label, "%.48s%s", p->help, p->components == 3 ? parts[i] : "");
+            snprintf(label, sizeof label, "%.48s%s", wr_words(p->help),
+                     p->components == 3 ? parts[i] : "");
             if (label[0] >= 'a' && label[0] <= 'z') label[0] = (char)(label[0] - 'a' + 'A');
             wr_gui_label(p->ends[0] ? "Table" : label);
             if (p->ends[0]) {

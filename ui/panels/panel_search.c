@@ -10,6 +10,7 @@
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 
 #include "field/ops.h"
 #include "generate/generator.h"
@@ -30,7 +31,8 @@ typedef struct Found {
 static void offer(Found found[FOUND_MAX], int *count, const char *name, const char *label,
                   const char *also, const char *query)
 {
-    int score = wr_search_score(label, query), at = *count;
+    int score = wr_search_score(wr_words(label), query), at = *count;
+    if (score == 0) score = wr_search_score(label, query); /* in English too */
     if (score == 0 && also && wr_search_score(also, query) > 0) score = 1;
     if (score == 0) return;
     while (at > 0 && found[at - 1].score < score) at--;
@@ -51,18 +53,20 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
         if (strcmp(a->name, WR_ACT(search)) != 0)
             offer(found, &count, a->name, a->label, NULL, query);
     for (const WrOpInfo *op = wr_ops; op->name; op++) {
-        char name[64], label[80];
+        char name[64], label[80], also[120];
         snprintf(name, sizeof name, "adjust_%.50s", op->name);
-        snprintf(label, sizeof label, "%.60s...", op->label);
-        offer(found, &count, name, label, op->name, query);
+        snprintf(label, sizeof label, "%.60s...", wr_words(op->label));
+        snprintf(also, sizeof also, "%.60s %.40s", op->label, op->name);
+        offer(found, &count, name, label, also, query);
     }
     for (const WrFamily *f = wr_families; f->name; f++)
         for (const WrGenerator *g = f->rows; g->family; g++) {
-            char name[WR_GENERATE_ACTION], label[80], also[200];
+            char name[WR_GENERATE_ACTION], label[80], also[300];
             wr_generate_action(g, name);
-            snprintf(label, sizeof label, g->name ? "%.30s: %.40s" : "%.30s", f->label, g->label);
-            snprintf(also, sizeof also, "%.30s %.30s %.130s", f->name, g->name ? g->name : "",
-                     g->help);
+            snprintf(label, sizeof label, g->name ? "%.30s: %.40s" : "%.30s", wr_words(f->label),
+                     wr_words(g->label));
+            snprintf(also, sizeof also, "%.30s %.30s %.30s %.130s", f->name, g->name ? g->name : "",
+                     g->label, g->help);
             offer(found, &count, name, label, also, query);
         }
     return count;

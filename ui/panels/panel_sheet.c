@@ -1,4 +1,5 @@
 /* The export sheet. */
+#include "ui/gui/words.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
@@ -86,7 +87,7 @@ static void choose_how(const WrApp *app, WrSheetState *sheet)
         int w = wr_field_width(field), h = wr_field_height(field);
         wr_sheet_size(i, &w, &h);
         snprintf(texts[i], sizeof texts[i], "%d \xc3\x97 %d%s", w, h,
-                 i == WR_SHEET_POWER ? " (power of 2)" : "");
+                 i == WR_SHEET_POWER ? wr_words(" (power of 2)") : "");
         sizes[i] = texts[i];
     }
     label("As");
@@ -144,22 +145,23 @@ static void facts_of(const WrSheetLook *look, int i, char *text, size_t size)
     char bytes[24];
     size_t used = 0;
     if (map->kind->write) {
-        snprintf(text, size, "%s", map->kind->label);
+        snprintf(text, size, "%s", wr_words(map->kind->label));
         return;
     }
     add_bytes(wr_export_bytes(map->kind, look->width, look->height, depth), bytes, sizeof bytes);
     used += (size_t)snprintf(text, size, "%d \xc3\x97 %d, %s", look->width, look->height,
-                             depth == 8    ? "8 bits"
-                             : depth == 16 ? "16 bits"
-                                           : "floats");
+                             depth == 8    ? wr_words("8 bits")
+                             : depth == 16 ? wr_words("16 bits")
+                                           : wr_words("floats"));
     if (depth != 32 && strcmp(map->kind->name, "height") == 0) {
         double low, high;
         code_range(look, i, &low, &high);
-        used += (size_t)snprintf(text + used, size - used, ", codes are %.3g to %.3g", low, high);
+        used += (size_t)snprintf(text + used, size - used, wr_words(", codes are %.3g to %.3g"),
+                                 low, high);
     }
     if (report->convention)
         used += (size_t)snprintf(text + used, size - used, ", %s", report->convention);
-    snprintf(text + used, size - used, "; up to %s", bytes);
+    snprintf(text + used, size - used, wr_words("; up to %s"), bytes);
 }
 
 static void map_row(const WrSheetState *sheet, int i)

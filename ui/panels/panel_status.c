@@ -1,4 +1,5 @@
 /* The status line: what is under the pointer, what the last picture cost, what there is to say. */
+#include "ui/gui/words.h"
 #include "ui/panels/panel_status.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
@@ -84,8 +85,10 @@ static void all_messages(const WrApp *app)
     for (int i = m->list.count - 1; i >= 0 && i >= m->list.count - 12; i--) {
         char line[128];
         snprintf(line, sizeof line, "%.124s", m->list.data[i].text);
+        wr_gui_as_it_is(true); /* said already */
         wr_gui_text(WR_FONT_TEXT, m->list.data[i].bad ? WR_COLOUR_BAD : WR_COLOUR_TEXT, line);
         wr_gui_tip(m->list.data[i].text);
+        wr_gui_as_it_is(false);
     }
     wr_gui_popup_end();
 }
@@ -94,8 +97,9 @@ static void all_messages(const WrApp *app)
 static void unread_errors(WrApp *app)
 {
     char count[32];
-    snprintf(count, sizeof count, "%d error%s", app->messages->unread,
-             app->messages->unread == 1 ? "" : "s");
+    snprintf(count, sizeof count,
+             app->messages->unread == 1 ? wr_words("%d error") : wr_words("%d errors"),
+             app->messages->unread);
     if (wr_gui_chip(WR_ICON_ALERT, count)) {
         wr_gui_popup_open("messages");
         dismiss(app);
@@ -122,8 +126,10 @@ static bool message(WrApp *app)
     }
     all_messages(app);
     if (!show) return false;
+    wr_gui_as_it_is(true);
     wr_gui_text(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text);
     wr_gui_tip(show->text);
+    wr_gui_as_it_is(false);
     return true;
 }
 
@@ -131,8 +137,9 @@ static bool message(WrApp *app)
 static int stages(const double ms[WR_PICTURE_STAGES], double all, char *text, size_t size, int used)
 {
     for (int i = 1; i < WR_PICTURE_STAGES && all > 0.0; i++)
-        used += snprintf(text + used, size - (size_t)used, "%s %.0f %%%s", wr_picture_stages[i],
-                         100.0 * ms[i] / all, i + 1 < WR_PICTURE_STAGES ? "  " : "     ");
+        used += snprintf(text + used, size - (size_t)used, "%s %.0f %%%s",
+                         wr_words(wr_picture_stages[i]), 100.0 * ms[i] / all,
+                         i + 1 < WR_PICTURE_STAGES ? "  " : "     ");
     return used;
 }
 
@@ -168,10 +175,12 @@ static void memory(WrApp *app)
     snprintf(text, sizeof text, "%.3g MB", m->all / 1e6);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
     double rest = m->all - m->tiles - m->undo;
-    snprintf(tip, sizeof tip,
-             "Memory\nlayers and selection %.3g MB\nundo %.3g MB\npictures, caches and the program "
-             "%.3g MB",
-             m->tiles / 1e6, m->undo / 1e6, rest > 0.0 ? rest / 1e6 : 0.0);
+    snprintf(
+        tip, sizeof tip,
+        wr_words(
+            "Memory\nlayers and selection %.3g MB\nundo %.3g MB\npictures, caches and the program "
+            "%.3g MB"),
+        m->tiles / 1e6, m->undo / 1e6, rest > 0.0 ? rest / 1e6 : 0.0);
     wr_gui_tip(tip);
 }
 
@@ -186,10 +195,10 @@ static void picture(const WrApp *app, bool with_stages, char *text, size_t size)
     char moving[WR_PICTURE_MOVING];
     wr_picture_moving(p, moving);
     int used = snprintf(text, size, "%s  \xc2\xb7  %.1f ms%s%s",
-                        wr_surfaces[wr_app_scene(app)->shape.kind]->label, all,
+                        wr_words(wr_surfaces[wr_app_scene(app)->shape.kind]->label), all,
                         !moving[0]               ? ""
-                        : app->settings->turning ? "  \xc2\xb7  turning: "
-                                                 : "  \xc2\xb7  moving: ",
+                        : app->settings->turning ? wr_words("  \xc2\xb7  turning: ")
+                                                 : wr_words("  \xc2\xb7  moving: "),
                         moving);
     if (!with_stages) return;
     used += snprintf(text + used, size - (size_t)used, "   ");
@@ -206,22 +215,23 @@ static void picture_tip(const WrApp *app)
     size_t used = strlen(tip);
     for (int i = 0; i < WR_PICTURE_STAGES; i++)
         used += (size_t)snprintf(tip + used, sizeof tip - used, "\n%s %.2f ms",
-                                 wr_picture_stages[i], ms[i]);
+                                 wr_words(wr_picture_stages[i]), ms[i]);
     wr_gui_tip(tip);
 }
 
 static const char *saved_word(const WrApp *app)
 {
-    return wr_app_unsaved(app)                ? "not saved"
-           : wr_session_path(app->session)[0] ? "saved"
-                                              : "no changes";
+    return wr_app_unsaved(app)                ? wr_words("not saved")
+           : wr_session_path(app->session)[0] ? wr_words("saved")
+                                              : wr_words("no changes");
 }
 
 /* What the left end may take: the same whatever it says, so that the right one does not change with the pointer. */
 static double left_width(void)
 {
-    return wr_gui_text_width(WR_FONT_TEXT,
-                             "u 0.000 v 0.000 F -0.00000 slope 00.0\xc2\xb0 zoom 0000 %") +
+    return wr_gui_text_width(
+               WR_FONT_TEXT,
+               wr_words("u 0.000 v 0.000 F -0.00000 slope 00.0\xc2\xb0 zoom 0000 %")) +
            wr_gui_px(5 * 14 + 12);
 }
 
@@ -231,7 +241,7 @@ static void right_side(WrApp *app)
     const char *reason = "", *saved = saved_word(app);
     char render[300], size[64];
     bool safe = wr_session_journal_safe(app->session, &reason);
-    const char *journal = safe ? "journal safe" : "journal not safe";
+    const char *journal = safe ? wr_words("journal safe") : wr_words("journal not safe");
     const bool live = app->sheet && app->sheet->live;
     picture(app, true, render, sizeof render);
     snprintf(size, sizeof size, "%d \xc3\x97 %d", wr_field_width(field), wr_field_height(field));
@@ -273,7 +283,7 @@ static bool work(WrApp *app)
     const char *as;
     if (wr_sheet_writing(app, &fraction, &seconds, &as) && seconds > MOMENT_SECONDS) {
         char what[80];
-        snprintf(what, sizeof what, "Writing %.40s", as);
+        snprintf(what, sizeof what, wr_words("Writing %.40s"), as);
         wr_gui_text(WR_FONT_TEXT, WR_COLOUR_STRONG, what);
         wr_gui_same_line(12);
         wr_gui_progress(wr_gui_px(220), fraction);

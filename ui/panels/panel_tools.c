@@ -6,6 +6,7 @@
 #include "ui/desk/roster.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panels.h"
 #include "ui/tools/tool.h"
 
@@ -35,8 +36,8 @@ void wr_panel_tools(WrApp *app)
             wr_action_run(app, app->roster->tools[i]->action);
         WrText tip = { 0 }, keys = { 0 };
         wr_keys_list(app->keys, app->roster->tools[i]->action, &keys);
-        wr_text_addf(&tip, "%s   %s\n%s", action->label, wr_text_get(&keys),
-                     app->roster->tools[i]->help);
+        wr_text_addf(&tip, "%s   %s\n%s", wr_words(action->label), wr_text_get(&keys),
+                     wr_words(app->roster->tools[i]->help));
         wr_gui_tip(wr_text_get(&tip));
         wr_text_fini(&tip);
         wr_text_fini(&keys);

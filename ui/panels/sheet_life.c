@@ -5,6 +5,7 @@
 #include "ui/desk/hand.h"
 #include "ui/desk/messages.h"
 #include "ui/desk/session_view.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panel_sheet.h"
 
 #include "base/hash.h"
@@ -220,9 +221,11 @@ static void take_write(WrApp *app)
     if (!write) return;
     if (write->ok) {
         if (sheet->loud) wr_app_say_lines(app, wr_text_get(&write->told));
-        wr_app_say(app, "%s: wrote %d file%s to %s in %.2g s%s", write->ask.as, write->files,
-                   write->files == 1 ? "" : "s", write->ask.folder, write->seconds,
-                   sheet->live ? "; follows the hand" : "");
+        wr_app_say(app,
+                   write->files == 1 ? "%s: wrote %d file to %s in %.2g s%s"
+                                     : "%s: wrote %d files to %s in %.2g s%s",
+                   write->ask.as, write->files, write->ask.folder, write->seconds,
+                   sheet->live ? wr_words("; follows the hand") : "");
     } else {
         if (sheet->live) wr_error_prefix(&write->err, "live export stopped: ");
         sheet->live = false;

@@ -12,6 +12,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/preview/preview.h"
 #include "ui/preview/rotation.h"
@@ -296,8 +297,8 @@ static void draw_look(const WrApp *app)
     const SDL_Rect *room = &app->layout->patch;
     WrText text = { 0 };
     if (!look->force) return;
-    wr_text_addf(&text, "%s: %s", look->force == WR_FORCE_OFF ? "without" : "with",
-                 wr_effects[look->effect].name);
+    wr_text_addf(&text, "%s: %s", wr_words(look->force == WR_FORCE_OFF ? "without" : "with"),
+                 wr_words(wr_effects[look->effect].name));
     wr_overlay_label(room->x + room->w / 2.0, room->y + room->h - 24.0 * wr_gui_scale(),
                      wr_text_get(&text));
     wr_text_fini(&text);

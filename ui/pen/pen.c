@@ -1,5 +1,6 @@
 /* The queue of pen events, and what becomes of a device's numbers. Where they come from is pen_x11.c,
    pen_finger.c and pen_record.c. */
+#include "ui/gui/words.h"
 #include "ui/pen/pen.h"
 #include "ui/pen/pen_curve.h"
 #include "ui/pen/pen_inner.h"
@@ -369,34 +370,40 @@ static void diagnose(const WrPenUnit *unit, WrText *words)
 {
     const WrPenDevice *d = &unit->shown;
     if (!d->there) {
-        wr_text_add(words, "It is unplugged or switched off. Plug it in again, or switch it on.");
+        wr_text_add(
+            words, wr_words("It is unplugged or switched off. Plug it in again, or switch it on."));
     } else if (!d->has_place) {
-        wr_text_add(words,
-                    "It moves like a mouse, by steps, so that nobody knows where it is on the "
-                    "tablet: it paints as a mouse does, without pressure. Set its mode to "
-                    "absolute in the tablet's settings.");
+        wr_text_add(
+            words,
+            wr_words("It moves like a mouse, by steps, so that nobody knows where it is on the "
+                     "tablet: it paints as a mouse does, without pressure. Set its mode to "
+                     "absolute in the tablet's settings."));
     } else if (d->events == 0) {
-        wr_text_add(words, "Nothing has come from it yet. Move it over the tablet.");
+        wr_text_add(words, wr_words("Nothing has come from it yet. Move it over the tablet."));
     } else if (!d->has_pressure) {
-        wr_text_add(words, d->finger ? "This screen does not tell how hard a finger presses: it "
-                                       "counts as 1."
-                                     : "It has no pressure: every touch counts as 1. If it should "
-                                       "have one, another driver may know it better.");
+        wr_text_add(
+            words, wr_words(d->finger ? "This screen does not tell how hard a finger presses: it "
+                                        "counts as 1."
+                                      : "It has no pressure: every touch counts as 1. If it should "
+                                        "have one, another driver may know it better."));
     } else if (is_mute(unit)) {
-        wr_text_addf(words,
-                     "It promises pressure, but sends %.3g whatever the hand does: every touch "
-                     "counts as 1. Look at the tablet's settings, or try another driver.",
-                     unit->raw);
+        wr_text_addf(
+            words,
+            wr_words("It promises pressure, but sends %.3g whatever the hand does: every touch "
+                     "counts as 1. Look at the tablet's settings, or try another driver."),
+            unit->raw);
     } else if (d->bad_values > 0) {
-        wr_text_addf(words,
-                     "%lld of its values were no numbers or out of range. The nearest were taken; "
-                     "if strokes jump, the driver is wrong.",
-                     (long long)d->bad_values);
+        wr_text_addf(
+            words,
+            wr_words("%lld of its values were no numbers or out of range. The nearest were taken; "
+                     "if strokes jump, the driver is wrong."),
+            (long long)d->bad_values);
     } else if (d->presses >= 3 && d->raw_most < 0.6) {
-        wr_text_addf(words,
-                     "The hardest press so far was %.2f of its range. Bring the curve's maximum "
-                     "down to about that.",
-                     d->raw_most);
+        wr_text_addf(
+            words,
+            wr_words("The hardest press so far was %.2f of its range. Bring the curve's maximum "
+                     "down to about that."),
+            d->raw_most);
     }
 }
 

@@ -1,4 +1,5 @@
 /* How long the newest picture of the patch took: one figure, the same wherever it is shown. */
+#include "ui/gui/words.h"
 #include "ui/preview/preview.h"
 
 #include "base/rows.h"
@@ -28,9 +29,10 @@ void wr_picture_moving(const WrPreviewPicture *picture, char text[WR_PICTURE_MOV
 {
     text[0] = '\0';
     if (picture->level != WR_PREVIEW_MOVING) return;
-    const int used = snprintf(text, WR_PICTURE_MOVING, "%s", wr_moving_names[picture->way]);
+    const int used =
+        snprintf(text, WR_PICTURE_MOVING, "%s", wr_words(wr_moving_names[picture->way]));
     if (picture->scale < 1)
-        snprintf(text + used, WR_PICTURE_MOVING - (size_t)used, " at %.0f %%",
+        snprintf(text + used, WR_PICTURE_MOVING - (size_t)used, wr_words(" at %.0f %%"),
                  100 * picture->scale);
 }
 
@@ -49,8 +51,10 @@ void wr_picture_words(const WrPreviewPicture *picture, char text[WR_PICTURE_WORD
     double ms[WR_PICTURE_STAGES], total = wr_picture_time(picture, ms);
     wr_picture_moving(picture, way);
     if (way[0]) snprintf(moving, sizeof moving, ": %s", way);
-    snprintf(text, WR_PICTURE_WORDS,
-             "%.1f ms by the clock for the newest picture of the patch, conversion for the screen "
-             "included: %d \xc3\x97 %d pixels%s%s.",
-             total, picture->width, picture->height, how[picture->level], moving);
+    snprintf(
+        text, WR_PICTURE_WORDS,
+        wr_words(
+            "%.1f ms by the clock for the newest picture of the patch, conversion for the screen "
+            "included: %d \xc3\x97 %d pixels%s%s."),
+        total, picture->width, picture->height, wr_words(how[picture->level]), moving);
 }

@@ -1,5 +1,6 @@
 /* The option row: values of the brush that several tools show, and how many of a tool's options find room. What does
    not fit is behind the button at its end. */
+#include "ui/gui/words.h"
 #include "ui/tools/option.h"
 
 #include "base/rows.h"
@@ -263,8 +264,11 @@ static void thumbnail(WrApp *app)
         wr_action_run(app, WR_ACT(brushes));
     wr_gui_centre_end(side);
     char tip[200];
-    snprintf(tip, sizeof tip, "%.160s\nClick for the brushes", slash ? slash + 1 : "Round brush");
+    snprintf(tip, sizeof tip, wr_words("%.160s\nClick for the brushes"),
+             slash ? slash + 1 : wr_words("Round brush"));
+    wr_gui_as_it_is(true);
     wr_gui_tip(tip);
+    wr_gui_as_it_is(false);
 }
 
 void wr_option_brush_row(WrApp *app, const WrOption *first, int first_count)

@@ -54,7 +54,9 @@ static void all(WrApp *app)
                                : i < 0                ? wr_thumb_of(app, -1, wr_gui_px(52))
                                                       : wr_thumb_of_stamp(app, i, wr_gui_px(52));
         bool pressed = wr_gui_tile("stamp", picture, side, i == chosen, false) == 1;
+        wr_gui_as_it_is(i >= 0);
         wr_gui_tip(i < 0 ? "The round brush" : name_of(app->stamp->stamps.data[i]));
+        wr_gui_as_it_is(false);
         wr_gui_pop_id();
         if (pressed) wr_stamp_choose(app, i < 0 ? NULL : app->stamp->stamps.data[i]);
     }

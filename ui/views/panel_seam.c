@@ -1,5 +1,6 @@
 /* The seam meter: a square on the canvas, one side an edge of the cell; quiet where the table goes on
    smoothly, orange where it jumps. */
+#include "ui/gui/words.h"
 #include "ui/views/panel_seam.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/layout.h"
@@ -30,18 +31,18 @@ static WrColour colour_of(const WrSeamEdge *edge)
 
 static const char *word_of(const WrSeamEdge *edge)
 {
-    return !edge->wraps    ? "the table ends there"
-           : edge->jumps   ? "the height jumps"
-           : edge->creases ? "the slope breaks"
-                           : "smooth";
+    return !edge->wraps    ? wr_words("the table ends there")
+           : edge->jumps   ? wr_words("the height jumps")
+           : edge->creases ? wr_words("the slope breaks")
+                           : wr_words("smooth");
 }
 
 static void add_numbers(WrText *tip, const WrSeamEdge *edge)
 {
     if (!edge->wraps) return;
     wr_text_addf(tip,
-                 "\n   step %.3g, at most %.3g; inside up to %.3g\n"
-                 "   change of slope %.3g a texel; inside up to %.3g",
+                 wr_words("\n   step %.3g, at most %.3g; inside up to %.3g\n"
+                          "   change of slope %.3g a texel; inside up to %.3g"),
                  edge->jump, edge->jump_most, edge->jump_inside, edge->crease, edge->crease_inside);
 }
 
@@ -70,14 +71,14 @@ void wr_panel_seam(WrApp *app)
     wr_gui_overlay_begin("##seam", room->x + room->w - wr_gui_px(12), room->y + wr_gui_px(12), 1,
                          0);
     wr_gui_square("seam", 26, sides);
-    wr_text_addf(&tip, "Left and right edge: %s", word_of(&seam->u));
+    wr_text_addf(&tip, wr_words("Left and right edge: %s"), word_of(&seam->u));
     add_numbers(&tip, &seam->u);
-    wr_text_addf(&tip, "\nTop and bottom edge: %s", word_of(&seam->v));
+    wr_text_addf(&tip, wr_words("\nTop and bottom edge: %s"), word_of(&seam->v));
     add_numbers(&tip, &seam->v);
-    wr_text_addf(&tip, "\nBy the scheme at hand (%s): ",
+    wr_text_addf(&tip, wr_words("\nBy the scheme at hand (%s): "),
                  wr_app_scene(app)->analytic.kind != WR_ANALYTIC_OFF
-                     ? "a formula"
-                     : wr_schemes[wr_app_scene(app)->scheme].title);
+                     ? wr_words("a formula")
+                     : wr_words(wr_schemes[wr_app_scene(app)->scheme].title));
     wr_certificate_text(app->certificate, &tip);
     wr_gui_tip(wr_text_get(&tip));
     wr_gui_overlay_end();
