@@ -106,7 +106,7 @@ static void range_popup(WrApp *app)
         wr_gui_popup_end();
         return;
     }
-    if (wr_gui_segments("look", looks, NULL, WR_CANVAS_COLOURS, &chosen))
+    if (wr_gui_segments("look", looks, NULL, LOOKS, &chosen))
         look->colours = (WrCanvasColours)chosen;
     if (wr_gui_segments("way", ways, NULL, 3, &way)) choose_way(app, way);
     ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
