@@ -117,6 +117,11 @@ static void displaced(Stage *stage)
     stage->scene->displaced = true;
 }
 
+static void parallaxed(Stage *stage)
+{
+    stage->scene->parallax = true;
+}
+
 static void exact(Stage *stage)
 {
     stage->scene->bump = WR_BUMP_EXACT;
@@ -653,6 +658,7 @@ static const Case cases[WR_EFFECT_COUNT] = {
                            { coloured, NOTHING },
                            { filtered, NOTHING } } },
     [WR_EFFECT_DISPLACED] = { displaced, { { keep_all, NOTHING } } },
+    [WR_EFFECT_PARALLAX] = { parallaxed, { { keep_all, NOTHING } } },
     [WR_EFFECT_BUMP] = { keep_all,
                          { { no_height, 0 },
                            { no_replication, 0 },

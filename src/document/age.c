@@ -20,7 +20,7 @@ static WrSceneAge age_of_object(const WrScene *object)
         object->facets[WR_FACET_ROUGHNESS].image || object->facets[WR_FACET_METALNESS].image;
     const bool driving =
         object->grain.kind != WR_GRAIN_OFF && object->grain.drives != WR_GRAIN_COLOURS;
-    if (pictured || driving || object->material.occlusion ||
+    if (pictured || driving || object->material.occlusion || object->parallax ||
         (object->colouring.count > 0 && object->colouring.hollow))
         return WR_SCENE_OF_FACETS;
     if (object->grain.kind != WR_GRAIN_OFF || object->material.shadow || object->displaced)
@@ -36,7 +36,8 @@ WrSceneAge wr_scene_age(const WrScene *scene)
         age = own > age ? own : age;
     }
     if (any_new_lamp(scene) || scene->dials.horizons != wr_dials_default().horizons ||
-        scene->dials.rays != wr_dials_default().rays || scene->camera.frame != 0 ||
+        scene->dials.rays != wr_dials_default().rays ||
+        scene->dials.steps != wr_dials_default().steps || scene->camera.frame != 0 ||
         *scene->sheet.as)
         return WR_SCENE_OF_FACETS;
     if (wr_cell_size_given(&scene->cell) || !wr_tone_curve(&scene->tone).plain)

@@ -20,7 +20,7 @@
    Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
    several is still written as version 2; version 3 no mesh, version 4 no normal map and
    no objects with different meshes, version 5 no surroundings, version 6 no size of the cell,
-   solid textures, tone, relief shadows and displaced surfaces, version 7 no pictures of roughness and metalness, occlusion,
+   solid textures, tone, relief shadows and displaced surfaces, version 7 no pictures of roughness and metalness, occlusion, parallax,
    round lamps, colours of hollows and sheets. All are read. */
 #pragma once
 #include "scene/objects.h"

@@ -226,8 +226,14 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
 WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
 {
     WrTileJob job = wr_frame_canvas(renderer, request);
-    if (!request) return job;
+    if (!request) {
+        job.look = renderer->look, job.look_double = renderer->look_double;
+        job.parallax = renderer->parallax;
+        return job;
+    }
     wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
+    renderer->look = job.look, renderer->look_double = job.look_double;
+    renderer->parallax = job.parallax;
     wr_frame_fill_sight(renderer, &job);
     job.cast = &renderer->cast;
     job.cast_count =
@@ -262,25 +268,25 @@ static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bo
                            request->turn_deg, request->width, request->height, outside, err);
 }
 
-/* Pixels that F could move a point of a surface that is displaced. */
+/* Pixels that F could move a point, where it moves any. */
 static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, double *rise,
                       WrError *err)
 {
     *rise = -1;
-    return !request->scene->displaced ||
+    return (!request->scene->displaced && !request->scene->parallax) ||
            wr_view_rise(request->scene, request->field, radius_of(renderer, &request->scene->shape),
                         request->turn_deg, request->width, request->height, rise, err);
 }
 
-/* Does any object's relief throw shadows or, among several, move the surface? An edit reaches farther then than what a tile
-   looks at. */
+/* Does any object's relief throw shadows, hide itself or, among several, move the surface? An edit reaches farther then than
+   what a tile looks at. */
 static bool reaches_far(const WrScene *scene)
 {
-    bool any = scene->material.shadow || scene->material.occlusion ||
+    bool any = scene->material.shadow || scene->material.occlusion || scene->parallax ||
                (scene->other_count > 0 && scene->displaced);
     for (int i = 0; i < scene->other_count; i++)
         any |= scene->others[i]->material.shadow || scene->others[i]->material.occlusion ||
-               scene->others[i]->displaced;
+               scene->others[i]->displaced || scene->others[i]->parallax;
     return any;
 }
 

@@ -31,6 +31,10 @@ struct WrRenderer {
     WrTable table;
     WrPyramid pyramid, range; /* of slopes; of their least and largest values */
     WrRounded rounded;
+    WrReliefBounds bounds; /* of what parallax looks up ... */
+    WrParallax parallax;   /* ... and how the last frame did, for picking */
+    WrLook look;
+    WrLookd look_double;
     const WrField *looked; /* what this frame looks up: the request's field, or its rounded form */
     WrViewMesh meshes[WR_HELD_MESHES],
         *mesh;                 /* mesh: of the last frame; the others, of frames that hold */

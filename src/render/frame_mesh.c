@@ -112,6 +112,18 @@ static bool prepare_dice(WrRenderer *renderer, const WrFrameRequest *request, Wr
     return true;
 }
 
+/* What the relief reaches beyond its base. */
+static void prepare_parallax(WrRenderer *renderer, const WrScene *scene)
+{
+    double range[2];
+    WrView *view = &renderer->view;
+    if (!wr_plan_runs(&renderer->plan, WR_EFFECT_PARALLAX)) return;
+    wr_parallax_range(scene, &renderer->bounds, &renderer->plan, scene->height, range);
+    view->nearest -= fmax(fabs(range[0]), fabs(range[1])) * scene->size;
+    if (wr_surfaces[scene->shape.kind]->inversion == WR_INVERT_PLANE)
+        wr_view_widen(view, range[0] * view->scale, range[1] * view->scale);
+}
+
 static bool prepare_triangles(WrRenderer *renderer, const WrScene *scene, WrError *err)
 {
     if (renderer->plan.inversion == WR_INVERT_TRIANGLES)
@@ -140,6 +152,7 @@ bool wr_frame_prepare_meshes(WrRenderer *renderer, const WrFrameRequest *request
                              const WrKernels *kernels, WrError *err)
 {
     prepare_mesh(renderer, request, kernels);
+    prepare_parallax(renderer, request->scene);
     return prepare_dice(renderer, request, err) && prepare_triangles(renderer, request->scene, err);
 }
 

@@ -41,7 +41,8 @@ static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bo
     const bool gradient = wr_plan_runs(plan, WR_EFFECT_GRADIENT);
     const bool looked = plan->source == WR_SOURCE_TABLE;
     const bool fitted = looked && wr_schemes[plan->scheme].taps == WR_TAPS_FITTED;
-    const bool heights = looked && !fitted && (!gradient || wr_plan_runs(plan, WR_EFFECT_EXACT));
+    const bool read = wr_plan_runs(plan, WR_EFFECT_EXACT) || wr_plan_runs(plan, WR_EFFECT_PARALLAX);
+    const bool heights = looked && !fitted && (!gradient || read);
     if (!gradient && !slope_free && !hold) wr_table_drop(table, WR_COPY_GRADIENT);
     if (!fitted && !hold) wr_table_drop(table, WR_COPY_FITTED);
     if (!heights && !hold) wr_table_drop(table, WR_COPY_HEIGHTS);
@@ -115,6 +116,8 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     renderer->pyramid_seconds = wr_clock_seconds() - started;
     const bool looked = plan->source == WR_SOURCE_TABLE && plan->precision == WR_PRECISION_SINGLE;
     facts->sloped = looked ? sloped_share(renderer, field) : -1;
+    if (wr_plan_runs(plan, WR_EFFECT_PARALLAX) && plan->source == WR_SOURCE_TABLE)
+        wr_relief_bounds_bring(&renderer->bounds, table, plan->scheme, renderer->looked);
     return true;
 }
 
@@ -445,6 +448,9 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     job->horizon = &renderer->horizon;
     job->opening = &renderer->opening;
     job->relief_height = fabs(request->scene->height) * scale;
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_PARALLAX))
+        wr_parallax_fill(&job->parallax, request->scene, request->field, &renderer->bounds,
+                         &renderer->plan, scale);
     fill_level(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_GRAIN) ||
         wr_plan_runs(&renderer->plan, WR_EFFECT_EMBOSSED) ||

@@ -58,6 +58,7 @@ static bool lit(const WrSink *sink)
 #include "render/pipe_light_body.h"
 #include "render/pipe_dark_body.h"
 #include "render/pipe_depth_body.h"
+#include "render/pipe_parallax_body.h"
 #include "render/pipe_displaced_body.h"
 
 /* Where on the surface each pixel lies, and how far its normal turns there. */
@@ -103,8 +104,8 @@ static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
     return job->plan->bump == WR_BUMP_BLINN && KERNELS_OF(job)->bend[job->plan->inversion] &&
            !runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) &&
            !runs(job, WR_EFFECT_SPREAD) && !runs(job, WR_EFFECT_SHADOW) &&
-           !job->plan->map_filtered && !job->plan->facets_filtered &&
-           job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
+           !runs(job, WR_EFFECT_PARALLAX) && !job->plan->map_filtered &&
+           !job->plan->facets_filtered && job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
 }
 
 /* P, n, and what else of the surface's frame the plan asks for. */
@@ -112,8 +113,9 @@ static void surface_strip(const WrTileJob *job, int face, bool level, const WrSi
                           Strip *strip, Watch *watch)
 {
     const WR_T(WrRound) *round = round_of(job);
-    if (job->dice) base_strip(job, face, strip, watch);
-    if (job->triangles) return; /* all of it came with the hit, or has come now */
+    const bool parallax = runs(job, WR_EFFECT_PARALLAX);
+    if (job->dice || parallax) base_strip(job, face, strip, watch);
+    if (job->triangles || parallax) return; /* all of it came with the hit, or has come now */
     if (round && runs(job, WR_EFFECT_TANGENTS) && !level && !bends_at_once(job, sink)) {
         round->tangents(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
@@ -131,6 +133,8 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
 {
     const Kernels *k = KERNELS_OF(job);
     const WrBumpMode bump = level ? WR_BUMP_NONE : job->plan->bump;
+    REAL side[WR_SPAN];
+    memcpy(side, strip->s, (size_t)strip->count * sizeof *side); /* footprints take its place */
     if (bump != WR_BUMP_NONE && job->plan->source != WR_SOURCE_NONE)
         look(job, rays, strip, scratch, watch);
     if (bump != WR_BUMP_NONE && runs(job, WR_EFFECT_NORMALS))
@@ -141,6 +145,7 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
         did(watch, WR_EFFECT_TANGENTS);
     } else k->bump[bump](rays, strip);
     if (job->dice) face_viewer(job, rays, strip);
+    if (runs(job, WR_EFFECT_PARALLAX)) face_ray(rays, side, strip);
     scratch->ran |= normal_effects[bump] &
                     (runs(job, WR_EFFECT_BUMP) ? ~(WrEffects)0 : ~WR_EFFECT_BIT(WR_EFFECT_BUMP));
     watch_lap(watch, WR_STAGE_BUMP);
@@ -190,10 +195,11 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
         did(watch, WR_EFFECT_PARAMETERS);
         watch_lap(watch, WR_STAGE_PARAMETERS);
     }
+    if (runs(job, WR_EFFECT_PARALLAX)) meet_relief(job, rays, face, strip, scratch, watch);
     if (sink->uv && !sink->nearest) store_parameters(sink, strip);
-    if (job->plan->normals) {
+    if (job->plan->normals && strip->count > 0) {
         spared = normal_strip(job, rays, face, sink, strip, scratch, watch);
-    } else if (sink->nearest) {
+    } else if (sink->nearest && strip->count > 0) {
         surface_strip(job, face, true, sink, strip, watch);
         keep_near(job, sink, strip, watch);
     }
@@ -346,7 +352,7 @@ static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL 
 {
     if (!runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) && !job->plan->map_filtered &&
         !job->plan->facets_filtered && !sink->bound && !job->map && !runs(job, WR_EFFECT_HORIZON) &&
-        !runs(job, WR_EFFECT_FADED))
+        !runs(job, WR_EFFECT_FADED) && !runs(job, WR_EFFECT_PARALLAX))
         return;
     for (int i = 0; i < strip->count; i++) {
         strip->x[i] = gx + (REAL)strip->index[i];
@@ -436,6 +442,7 @@ static bool pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, d
         KERNELS_OF(job)->hit_quad_at(rays, &VIEWED(job->view, quads)[i], 1, strip);
         *face = job->view->quad_face[i];
     }
+    if (runs(job, WR_EFFECT_PARALLAX)) meet_relief(job, rays, *face, strip, scratch, &watch);
     if (strip->count == 0) return false;
     *u = (double)strip->u[0];
     *v = (double)strip->v[0];

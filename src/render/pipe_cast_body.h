@@ -34,6 +34,14 @@ static WrVec3 seen_normal(const WrTileJob *job, const Strip *s, int i, WrVec3 p)
     return v3_dot(n, at) < 0 ? v3_neg(n) : n;
 }
 
+/* Where shadow rays start: what parallax shows stands on its base, which is what throws shadows. */
+static WrVec3 foot_of(const WrTileJob *job, const Strip *s, int i)
+{
+    const WrVec3 n = { (double)s->nx[i], (double)s->ny[i], (double)s->nz[i] };
+    const WrVec3 p = { (double)s->px[i], (double)s->py[i], (double)s->pz[i] };
+    return runs(job, WR_EFFECT_PARALLAX) ? v3_mad(p, n, -(double)s->f[i]) : p;
+}
+
 /* The lamp, which the strip has added, as far as no object hides it. */
 static void cast_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, const Sums *before,
                        Strip *s, Watch *watch)
@@ -45,7 +53,7 @@ static void cast_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, co
         bool adds = false;
         for (int k = 0; k < 6; k++) adds |= to[k][i] != before->of[k][i];
         if (!adds) continue;
-        const WrVec3 p = { (double)s->px[i], (double)s->py[i], (double)s->pz[i] };
+        const WrVec3 p = foot_of(job, s, i);
         const WrVec3 way = v3_sub(where, p);
         const double away = lamp->point ? v3_len(way) * job->cast_unit : INFINITY;
         const WrVec3 l = lamp->point ? v3_unit(way, (WrVec3){ 0, 0, 1 }) : where;

@@ -1,6 +1,6 @@
-/* pipe_displaced_body.h - the frame of a displaced surface where rays met its facets. A part of pipe_body.h. */
+/* pipe_displaced_body.h - the frame of a displaced surface where rays met its facets, or the relief. A part of pipe_body.h. */
 
-/* Of a displaced surface: the base's frame at u and v; P stays where the ray met the facet. */
+/* The base's frame at u and v; P stays where the ray met the facet or the relief. */
 static void base_strip(const WrTileJob *job, int face, Strip *strip, Watch *watch)
 {
     const size_t size = (size_t)strip->count * sizeof(REAL);
@@ -8,10 +8,11 @@ static void base_strip(const WrTileJob *job, int face, Strip *strip, Watch *watc
     memcpy(strip->by, strip->py, size);
     memcpy(strip->bz, strip->pz, size);
     KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
+    if (runs(job, WR_EFFECT_PARALLAX)) keep_lift(strip);
     memcpy(strip->px, strip->bx, size);
     memcpy(strip->py, strip->by, size);
     memcpy(strip->pz, strip->bz, size);
-    did(watch, WR_EFFECT_DISPLACED);
+    if (job->dice) did(watch, WR_EFFECT_DISPLACED);
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
 

@@ -16,7 +16,8 @@ static void look_analytic(const WrTileJob *job, Strip *strip)
 
 #ifndef WR_PIPE_DOUBLE
 /* Heights in double under shading in single precision: the look-up alone is done by the other set. */
-static void look_in_double(const WrTileJob *job, Strip *strip, WrTileScratch *scratch)
+static void look_in_double(const WrTileJob *job, WrScheme scheme, Strip *strip,
+                           WrTileScratch *scratch)
 {
     WrStripd *wide = &scratch->wide[0];
     wide->count = strip->count;
@@ -24,7 +25,7 @@ static void look_in_double(const WrTileJob *job, Strip *strip, WrTileScratch *sc
         wide->u[i] = (double)strip->u[i];
         wide->v[i] = (double)strip->v[i];
     }
-    job->kernels_double->look[job->plan->scheme](&job->look_double, wide);
+    job->kernels_double->look[scheme](&job->look_double, wide);
     for (int i = 0; i < strip->count; i++) {
         strip->tu[i] = (float)wide->tu[i];
         strip->tv[i] = (float)wide->tv[i];
@@ -35,16 +36,28 @@ static void look_in_double(const WrTileJob *job, Strip *strip, WrTileScratch *sc
 }
 #endif
 
-static void look_level0(const WrTileJob *job, Strip *strip, WrTileScratch *scratch)
+static void look_by(const WrTileJob *job, WrScheme scheme, Strip *strip, WrTileScratch *scratch)
 {
     scratch->ran |= job->looks;
 #ifndef WR_PIPE_DOUBLE
     if (job->plan->precision != WR_PRECISION_SINGLE) {
-        look_in_double(job, strip, scratch);
+        look_in_double(job, scheme, strip, scratch);
         return;
     }
 #endif
-    KERNELS_OF(job)->look[job->plan->scheme](LOOK_OF(job), strip);
+    KERNELS_OF(job)->look[scheme](LOOK_OF(job), strip);
+}
+
+static void look_level0(const WrTileJob *job, Strip *strip, WrTileScratch *scratch)
+{
+    look_by(job, job->plan->scheme, strip, scratch);
+}
+
+/* F alone: `central` has that of `bilinear`. */
+static void look_heights(const WrTileJob *job, Strip *strip, WrTileScratch *scratch)
+{
+    const WrScheme scheme = job->plan->scheme;
+    look_by(job, scheme == WR_SCHEME_CENTRAL ? WR_SCHEME_BILINEAR : scheme, strip, scratch);
 }
 
 /* The k-th look-up of a sample lies this far along its longer side, -1/2 .. 1/2. */

@@ -43,6 +43,7 @@ typedef enum WrEffect {
     WR_EFFECT_FADED,
     WR_EFFECT_NORMALS,
     WR_EFFECT_DISPLACED,
+    WR_EFFECT_PARALLAX,
     WR_EFFECT_BUMP,
     WR_EFFECT_GRADIENT,
     WR_EFFECT_WIDE,
@@ -89,6 +90,7 @@ typedef enum WrStage {
     WR_STAGE_NEWTON,
     WR_STAGE_PARAMETERS, /* u and v of the points that rays met */
     WR_STAGE_GEOMETRY,
+    WR_STAGE_PARALLAX, /* rays from the base on to the relief */
     WR_STAGE_CURVATURE,
     WR_STAGE_FOOTPRINT,
     WR_STAGE_LOOK,    /* F, Fu, Fv */
@@ -192,7 +194,7 @@ typedef enum WrPrecision {
      lean        by the whole covariance; else by its trace
      graded      what is mirrored is blurred as widely as each sample calls for
      inversion   how rays meet the surface
-     mesh, newton, texels, dice, spread, refine, contrast    as the dials of that name
+     mesh, newton, texels, dice, steps, spread, refine, contrast    as the dials of that name
      heights     what they are rounded to
      harmonics, gloss    as the dials of that name */
 #define WR_PLAN_SETTINGS(X)                                                                        \
@@ -208,6 +210,7 @@ typedef enum WrPrecision {
     X(NORMALS, bool, map_anisotropic)                                                              \
     X(NORMALS, WrNormalFrame, map_frame)                                                           \
     X(DISPLACED, double, dice)                                                                     \
+    X(PARALLAX, int, steps)                                                                        \
     X(BUMP, WrBumpMode, bump)                                                                      \
     X(BUMP, WrSource, source)                                                                      \
     X(BUMP, WrScheme, scheme)                                                                      \

@@ -87,13 +87,13 @@ WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspectiv
     wr_decide_smooth, wr_decide_blocks, wr_decide_horizon, wr_decide_normals, wr_decide_diffuse,
     wr_decide_specular, wr_decide_model, wr_decide_shadow, wr_decide_cast, wr_decide_occlusion,
     wr_decide_filter, wr_decide_surround, wr_decide_harmonics, wr_decide_mirror, wr_decide_blur,
-    wr_decide_displaced, wr_decide_exact, wr_decide_curvature, wr_decide_grain, wr_decide_octaves,
-    wr_decide_faded, wr_decide_embossed, wr_decide_facets, wr_decide_varied, wr_decide_samples,
-    wr_decide_bound;
+    wr_decide_displaced, wr_decide_parallax, wr_decide_exact, wr_decide_curvature, wr_decide_grain,
+    wr_decide_octaves, wr_decide_faded, wr_decide_embossed, wr_decide_facets, wr_decide_varied,
+    wr_decide_samples, wr_decide_bound;
 WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr_settle_normals,
     wr_settle_facets, wr_settle_facets, wr_settle_model, wr_settle_cast, wr_settle_occlusion,
-    wr_settle_harmonics, wr_settle_blur, wr_settle_displaced, wr_settle_exact, wr_settle_curvature,
-    wr_settle_grain, wr_settle_samples;
+    wr_settle_harmonics, wr_settle_blur, wr_settle_displaced, wr_settle_parallax, wr_settle_exact,
+    wr_settle_curvature, wr_settle_grain, wr_settle_samples;
 
 /* Which formula turns the normal: the scene's, or, of a displaced surface, its own normal's. */
 WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanAsk *ask);

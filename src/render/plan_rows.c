@@ -43,7 +43,7 @@ static void settle_bump(WrPlan *plan, const WrPlanAsk *ask)
     const bool run = runs(plan, WR_EFFECT_BUMP);
     plan->bump = run || runs(plan, WR_EFFECT_NORMALS) ? WR_BUMP_BLINN : WR_BUMP_NONE;
     plan->scheme = ask->scene->scheme;
-    plan->source = !run                                           ? WR_SOURCE_NONE
+    plan->source = !run && !runs(plan, WR_EFFECT_PARALLAX)        ? WR_SOURCE_NONE
                    : ask->scene->analytic.kind == WR_ANALYTIC_OFF ? WR_SOURCE_TABLE
                                                                   : WR_SOURCE_FORMULA;
 }
@@ -249,6 +249,13 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                       "half a pixel: bump suffices",
                                       0, .finer = true, .decide = wr_decide_displaced,
                                       .settle = wr_settle_displaced },
+    [WR_ROW(WR_EFFECT_PARALLAX)] = { "E85", "parallax", WR_PROOF_BOUNDED,
+                                     "half a pixel, of where a point of the surface is seen",
+                                     "it is not asked for, the surface is displaced, or F moves no "
+                                     "point of it by half a pixel: bump suffices; meshes, bodies "
+                                     "of several faces and planes without end have none",
+                                     STAGE(PARALLAX), .finer = true, .decide = wr_decide_parallax,
+                                     .settle = wr_settle_parallax },
     [WR_ROW(WR_EFFECT_BUMP)] = { "E6", "bump", WR_PROOF_IDENTICAL, NULL,
                                  "the mode is none; height or replication is 0; all texels are "
                                  "equal; the "

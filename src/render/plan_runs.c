@@ -49,6 +49,7 @@ WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanAsk *ask, const char 
 static const char *no_cone(const WrPlan *plan)
 {
     if (runs(plan, WR_EFFECT_DISPLACED)) return "facets of a displaced surface face anywhere";
+    if (runs(plan, WR_EFFECT_PARALLAX)) return "what parallax shows may stand on either side";
     if (runs(plan, WR_EFFECT_EMBOSSED)) return "no bound is known of a solid texture's slopes";
     if (plan->bump == WR_BUMP_NONE) return NULL;
     if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";

@@ -65,6 +65,7 @@ static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
     const WrInversion how = surface_of(ask)->inversion;
     if (runs(plan, WR_EFFECT_DISPLACED))
         return "no bound is known of a displaced surface: K x K everywhere";
+    if (runs(plan, WR_EFFECT_PARALLAX)) return "no bound is known of parallax: K x K everywhere";
     if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
         return "no bound is known on this surface: K x K everywhere";
     if (runs(plan, WR_EFFECT_COLOUR))

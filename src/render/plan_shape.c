@@ -30,6 +30,39 @@ void wr_settle_displaced(WrPlan *plan, const WrPlanAsk *ask)
     if (runs(plan, WR_EFFECT_DISPLACED)) plan->dice = ask->dials->dice;
 }
 
+/* Why rays end at the base whatever the table says, or NULL. */
+static const char *no_parallax(const WrPlanAsk *ask)
+{
+    int columns, rows;
+    wr_surface_cells(&ask->scene->shape, &columns, &rows);
+    if (surface_of(ask)->held) return "meshes and patches out of files have none";
+    if (columns * rows != 1 || surface_of(ask)->faces != 1)
+        return "faces that meet at edges have none";
+    if (wr_shape_endless(&ask->scene->shape)) return "a plane without end has none";
+    return NULL;
+}
+
+WrVerdict wr_decide_parallax(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrScene *scene = ask->scene;
+    if (!scene->parallax) return say(WR_VERDICT_NONE, why, "rays end at the base");
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_NONE, why, "the surface itself is displaced: rays meet its facets");
+    const char *reason = no_parallax(ask);
+    if (reason) return say(WR_VERDICT_NONE, why, reason);
+    if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
+    if (scene->analytic.kind == WR_ANALYTIC_OFF && ask->facts.zero)
+        return say(WR_VERDICT_SPARED, why, "the table is 0 everywhere");
+    if (ask->facts.rise >= 0 && ask->facts.rise < SEEN)
+        return say(WR_VERDICT_SPARED, why, "F moves no point by half a pixel: bump looks the same");
+    return say(WR_VERDICT_RUN, why, "rays go on from the base to the relief");
+}
+
+void wr_settle_parallax(WrPlan *plan, const WrPlanAsk *ask)
+{
+    if (runs(plan, WR_EFFECT_PARALLAX)) plan->steps = ask->dials->steps;
+}
+
 WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanAsk *ask)
 {
     return runs(plan, WR_EFFECT_DISPLACED) ? WR_BUMP_EXACT : ask->scene->bump;

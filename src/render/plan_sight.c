@@ -106,6 +106,8 @@ WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const c
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
         return say(WR_VERDICT_RUN, why, "the displaced surface's frame goes by them");
+    if (runs(plan, WR_EFFECT_PARALLAX) && is_round(ask))
+        return say(WR_VERDICT_RUN, why, "rays go on from there to the relief");
     if (!is_round(ask) && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
     if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR) ||
@@ -121,7 +123,8 @@ WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const c
 
 WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    if (runs(plan, WR_EFFECT_DISPLACED) || (!is_round(ask) && !is_held(ask)))
+    if (runs(plan, WR_EFFECT_DISPLACED) || runs(plan, WR_EFFECT_PARALLAX) ||
+        (!is_round(ask) && !is_held(ask)))
         return say(WR_VERDICT_NONE, why, "the surface's formula gives them with the point");
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
     if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))

@@ -5,6 +5,7 @@
 #include "base/pool.h"
 #include "render/frame.h"
 #include "render/reference_cast.h"
+#include "render/reference_parallax.h"
 #include "scene/objects.h"
 #include "system/clock.h"
 
@@ -187,12 +188,13 @@ static bool render_pass(const Set *set, const WrReferenceRequest *request, int k
     return true;
 }
 
-/* Without a limit of the caller's: a ray takes ten times as long where the surface is displaced. */
+/* Without a limit of the caller's: a ray takes ten times as long where the surface is displaced, or has parallax. */
 static int most_of(const WrReferenceRequest *request)
 {
     bool displaced = false;
     for (int i = 0; i < wr_scene_object_count(request->scene); i++)
-        displaced = displaced || wr_reference_displaced(wr_scene_object(request->scene, i));
+        displaced = displaced || wr_reference_displaced(wr_scene_object(request->scene, i)) ||
+                    wr_reference_has_parallax(wr_scene_object(request->scene, i));
     const int own = displaced ? 16 : 32;
     return request->most > 0 ? request->most : request->first > own ? 64 : own;
 }

@@ -10,7 +10,7 @@
 void wr_reference_caster(WrReferenceCaster *caster, const WrReferenceStage *stage)
 {
     *caster = (WrReferenceCaster){ stage->view, stage };
-    caster->view.cull = false;
+    caster->view.cull = caster->view.beyond = false;
     for (int k = 0; k < 6; k++) caster->view.hidden[k] = false;
 }
 
@@ -77,7 +77,9 @@ double wr_reference_cast_share(const WrReferenceStage *stage, const WrSurfacePoi
     const WrReferenceView *view = &stage->view;
     const WrVec3 n = to_world(view, outward(stage, at, hit, perturbed)), to = to_world(view, l);
     const double far = away * view->size;
-    const WrVec3 p = wr_place_world(&view->place, at->p);
+    WrSurfacePoint foot = *at; /* what parallax shows stands on its base, which throws shadows */
+    if (stage->parallax) wr_reference_view_at(view, hit, &foot);
+    const WrVec3 p = wr_place_world(&view->place, foot.p);
     const WrVec3 from = v3_mad(p, n, ABOVE * view->place.radius * view->size);
     if (!(radius > 0)) return is_hidden(stage, from, n, to, far) ? 0 : 1;
     const WrVec3 least = fabs(to.x) < 0.6 ? (WrVec3){ 1, 0, 0 } : (WrVec3){ 0, 1, 0 };

@@ -5,6 +5,7 @@
 #include "base/pool.h"
 #include "field/field.h"
 #include "render/reference_cast.h"
+#include "render/reference_parallax.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 
@@ -28,8 +29,8 @@ static bool looker_init(Looker *looker, const WrField *field, const WrScene *sce
         return wr_fail(err, "picture size %dx%d: each side must be 1..%d", width, height,
                        PICTURE_MAX);
     *looker = (Looker){ .field = field };
-    /* Rays meet a displaced surface as the reference has it, which goes by the spline of the table. */
-    const bool displaced = wr_reference_displaced(scene);
+    /* Rays meet a displaced surface, or a relief, as the reference has it, which goes by the spline of the table. */
+    const bool displaced = wr_reference_displaced(scene) || wr_reference_has_parallax(scene);
     if (!wr_reference_stage_init(&looker->stage, field, scene, turn_deg, width, height,
                                  table || displaced, pool, err) ||
         !wr_reference_stage_raise(&looker->stage, field, pool, err))
@@ -67,8 +68,14 @@ static bool is_raised(const Looker *looker)
 
 static bool hit_surface(const Looker *looker, const WrReferenceRay *ray, WrReferenceHit *hit)
 {
-    return is_raised(looker) ? wr_reference_raised_hit(&looker->stage.raised, ray, hit)
-                             : wr_reference_view_hit(&looker->stage.view, ray, hit);
+    const WrReferenceStage *stage = &looker->stage;
+    WrSurfacePoint at;
+    double side;
+    if (is_raised(looker)) return wr_reference_raised_hit(&stage->raised, ray, hit);
+    if (!wr_reference_view_hit(&stage->view, ray, hit)) return false;
+    if (!stage->parallax) return true;
+    wr_reference_view_at(&stage->view, hit, &at);
+    return wr_reference_parallax(stage, ray, hit, &at, &side);
 }
 
 /* The surface that is seen, to first order: of a displaced one P + F n, and what u and v do to it. */

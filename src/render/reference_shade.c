@@ -8,6 +8,7 @@
 #include "render/reference_grain.h"
 #include "render/reference_cast.h"
 #include "render/reference_open.h"
+#include "render/reference_parallax.h"
 #include "render/reference_reflect.h"
 #include "scene/laid.h"
 #include "scene/scene.h"
@@ -168,9 +169,10 @@ bool wr_reference_stage_raise(WrReferenceStage *stage, const WrField *field, WrP
                               WrError *err)
 {
     double cells[2];
+    cells_of(stage->scene, field, cells);
+    if (wr_reference_has_parallax(stage->scene)) wr_reference_parallax_init(stage, field, cells);
     if (!wr_reference_displaced(stage->scene)) return true;
     stage->bump = WR_BUMP_EXACT;
-    cells_of(stage->scene, field, cells);
     return wr_reference_raised_init(&stage->raised, &stage->scene->shape, height_of, stage, cells,
                                     pool, err);
 }
@@ -409,14 +411,15 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     WrReferenceHit hit;
     if (!hit_stage(stage, &ray, &hit)) return false;
     WrSurfacePoint at;
-    double f = 0, fu = 0, fv = 0;
+    double f = 0, fu = 0, fv = 0, side;
     wr_reference_view_at(view, &hit, &at);
+    if (!stage->parallax) side = wr_reference_side(view, &at);
+    else if (!wr_reference_parallax(stage, &ray, &hit, &at, &side)) return false;
     if (stage->scene->height != 0) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
     wr_reference_add_map(stage, &hit, &at, &fu, &fv);
     const double eased = eased_at(stage, &ray, &hit, &at, &out->cover);
     fu *= eased, fv *= eased;
     const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
-    const double side = wr_reference_side(view, &at);
     WrVec3 seen = v3_scale(perturbed, side);
     if (stage->raised.count > 0) {
         at.p = v3_mad(ray.q, ray.d, hit.s); /* which of an edge is not P + F n */

@@ -33,8 +33,10 @@ struct WrReferenceStage {
     bool periodic_u, periodic_v; /* of the colour picture, as of the table */
     double
         shadow; /* scene units from the lowest to the highest of a relief that throws shadows; else 0 */
-    double relief;    /* the same whether it throws shadows or occludes */
-    double texels[2]; /* of the table along u and v of the patch */
+    double relief;                    /* the same whether it throws shadows or occludes */
+    double texels[2];                 /* of the table along u and v of the patch */
+    bool parallax;                    /* rays go on to the relief, which lies between these two: */
+    double lowest, highest, cells[2]; /* and has one bend in each of so many cells */
     const WrReferenceCaster
         *casters; /* [caster_count], borrowed: all objects of the picture; or NULL */
     int caster_count;

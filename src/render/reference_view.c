@@ -260,7 +260,7 @@ static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, Wr
         const double x = v3_dot(w, at.pu) / v3_dot(at.pu, at.pu) / wide;
         const double y = v3_dot(w, at.pv) / v3_dot(at.pv, at.pv) / high;
         const double edge = 0x1p-48; /* a ray along the edge of two faces meets one */
-        if (wr_shape_endless(view->shape)) {
+        if (wr_shape_endless(view->shape) || view->beyond) {
             if (!(fmax(fabs(x), fabs(y)) <= WR_ENDLESS)) continue;
             *hit = (WrReferenceHit){ .s = s, .u = x, .v = y, .face = face };
             return true;

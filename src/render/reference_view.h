@@ -39,6 +39,7 @@ typedef struct WrReferenceView {
     bool perspective;
     bool cull; /* a closed surface seen from outside hides its back */
     bool hidden[6];
+    bool beyond; /* a plane is met beyond its edges too: rays go on to a relief that stands on it */
     WrReferenceLight *lights; /* [light_count], owned */
     int light_count;
     WrReferenceMesh mesh;       /* of triangles out of a file */

@@ -9,6 +9,7 @@
 #include "render/level.h"
 #include "render/mesh.h"
 #include "render/opening.h"
+#include "render/parallax.h"
 #include "render/plan.h"
 #include "render/sight.h"
 #include "render/steady.h"
@@ -61,6 +62,7 @@ typedef struct WrTileJob {
     const WrCast *cast;            /* what can hide lamps from it; read where the plan runs that */
     int cast_count;                /* of cast->to */
     double cast_unit;              /* kernel units -> those of the object */
+    WrParallax parallax;           /* read where the plan runs that */
     WrLevel level;                 /* how steep the table is where; only for one of the next two */
     bool ground,
         dark; /* runs of samples are asked: is the table level there? Are all lights behind? */

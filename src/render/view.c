@@ -170,6 +170,51 @@ static void find_bounds(WrView *view, WrVec3 centre, int width, int height)
     view->y1 = pixel_at((1 - e.y0 / view->half_h) / 2 * height + 3, height);
 }
 
+/* Where the ray through a point h above the plane meets it. false: nowhere that is known. */
+static bool onto_plane(const WrView *view, const WrQuadd *quad, WrVec3 foot, double h, WrVec3 *out)
+{
+    const WrVec3 n = { quad->normal[0], quad->normal[1], quad->normal[2] };
+    const WrVec3 p = v3_mad(foot, n, h), way = v3_sub(p, view->eye);
+    const double eye = v3_dot(v3_sub(view->eye, foot), n), down = v3_dot(view->ahead, n);
+    if (!view->perspective) {
+        *out = v3_mad(p, view->ahead, -h / down);
+        return fabs(down) > 1e-6;
+    }
+    const double part = eye / (eye - h);
+    *out = v3_mad(view->eye, way, part);
+    return part > 0 && part < 1e4;
+}
+
+#define WIDE 1024 /* of u and v, where nothing better is known */
+
+void wr_view_widen(WrView *view, double low, double high)
+{
+    WrQuadd *quad = &view->quads_d[0];
+    WrQuad *single = &view->quads[0];
+    const WrVec3 eu = { quad->eu[0], quad->eu[1], quad->eu[2] };
+    const WrVec3 ev = { quad->ev[0], quad->ev[1], quad->ev[2] };
+    const WrVec3 origin = { quad->origin[0], quad->origin[1], quad->origin[2] };
+    double least[2] = { 0, 0 }, most[2] = { 1, 1 };
+    for (int i = 0; i < 8; i++) {
+        WrVec3 foot = v3_mad(origin, eu, (i & 1) / v3_dot(eu, eu)), at;
+        foot = v3_mad(foot, ev, (i >> 1 & 1) / v3_dot(ev, ev));
+        const bool known = onto_plane(view, quad, foot, i >> 2 ? high : low, &at);
+        for (int k = 0; k < 2; k++) {
+            const double x = v3_dot(v3_sub(at, origin), k ? ev : eu);
+            least[k] = known ? fmin(least[k], x - 1e-6) : -WIDE;
+            most[k] = known ? fmax(most[k], x + 1e-6) : WIDE;
+        }
+        if (!known) break;
+    }
+    quad->u0 = least[0], quad->u1 = most[0], quad->v0 = least[1], quad->v1 = most[1];
+    quad->least = fmin(least[0], least[1]), quad->most = fmax(most[0], most[1]);
+    single->u0 = (float)quad->u0, single->u1 = (float)quad->u1;
+    single->v0 = (float)quad->v0, single->v1 = (float)quad->v1;
+    single->least = (float)quad->least, single->most = (float)quad->most;
+    find_bounds(view, (WrVec3){ 0, 0, 0 }, view->grid_w / view->samples,
+                view->grid_h / view->samples);
+}
+
 static bool planar(const WrSurfaceInfo *info)
 {
     return info->inversion == WR_INVERT_PLANE || info->inversion == WR_INVERT_CUBE;

@@ -27,6 +27,7 @@ WrDials wr_dials_default(void)
                       .horizons = 32,
                       .rays = 32,
                       .dice = 0.5,
+                      .steps = 128,
                       .heights = WR_HEIGHTS_FLOAT,
                       .harmonics = 2,
                       .gloss = 32 };
@@ -102,6 +103,7 @@ MEMBER(energy, WrEnergy, material.energy)
 MEMBER(horizons, int, dials.horizons)
 MEMBER(rays, int, dials.rays)
 MEMBER(dice, double, dials.dice)
+MEMBER(steps, int, dials.steps)
 MEMBER(heights, WrHeights, dials.heights)
 MEMBER(shading, WrShading, dials.shading)
 MEMBER(arithmetic, WrArithmetic, dials.arithmetic)
@@ -165,6 +167,12 @@ static bool with_dice(const WrScene *scene)
     return scene->displaced && !wr_surfaces[scene->shape.kind]->held;
 }
 
+static bool with_steps(const WrScene *scene)
+{
+    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
+    return scene->parallax && !scene->displaced && info->faces == 1 && !info->held;
+}
+
 /* ---- the table ---- */
 
 static const double sample_rungs[] = { 2, 3, 4, 8, 16, NAN };
@@ -177,6 +185,7 @@ static const double texel_rungs[] = { 0.1, 0.01, 0.0009765625, NAN };
 static const double horizon_rungs[] = { 8, 16, 32, 64, NAN };
 static const double ray_rungs[] = { 0, 1, 8, 32, 128, NAN };
 static const double dice_rungs[] = { 1, 0.5, 0.25, NAN };
+static const double step_rungs[] = { 8, 16, 32, 128, 512, NAN };
 
 #define CHOICES(name, count_) .choices = (count_), .choice = name##_name
 #define MEMBERS(name) .get = get_##name, .set = set_##name
@@ -258,6 +267,10 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
                                "pixels; so near are a displaced surface's facets to it",
                                .low = 0.0625, .high = 16, MEMBERS(dice), .matters = with_dice,
                                .rungs = dice_rungs },
+    [WR_ROW(WR_DIAL_STEPS)] = { "steps", "dials", WR_AXIS_VISIBILITY, "Steps to the relief",
+                                "most of a ray that parallax takes there", .low = 4, .high = 1024,
+                                .whole = true, .sparse = true, MEMBERS(steps),
+                                .matters = with_steps, .rungs = step_rungs },
     [WR_ROW(WR_DIAL_HEIGHTS)] = { "heights", "dials", WR_AXIS_ARITHMETIC, "Heights",
                                   "what a height is stored as when it is looked up",
                                   CHOICES(heights, WR_HEIGHTS_COUNT), MEMBERS(heights),

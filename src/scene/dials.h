@@ -108,6 +108,7 @@ typedef struct WrDials {
     int horizons;  /* directions in which the relief's horizons are kept: 4..64 */
     int rays;      /* to a round lamp that objects may hide; 0: they hide none; 0..256 */
     double dice;   /* pixels: so near are a displaced surface's facets to it; 1/16..16 */
+    int steps;     /* parallax: most of a ray on its way to the relief; 4..1024 */
     WrHeights heights;
     WrShading shading;
     WrArithmetic arithmetic;
@@ -138,6 +139,7 @@ typedef enum WrDialId {
     WR_DIAL_HORIZONS,
     WR_DIAL_RAYS,
     WR_DIAL_DICE,
+    WR_DIAL_STEPS,
     WR_DIAL_HEIGHTS,
     WR_DIAL_SHADING,
     WR_DIAL_ARITHMETIC,

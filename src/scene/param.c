@@ -33,6 +33,10 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                            .planned = true, .sparse = true,
                                            .help = "F moves the surface itself, with outlines; "
                                                    "off: it turns the normal alone" },
+    [WR_ROW(WR_SCENE_PARAM_PARALLAX)] = { "bump", NULL, "parallax", IN_SCENE(parallax),
+                                          .planned = true, .sparse = true,
+                                          .help = "the eye's rays go on from the base to F over "
+                                                  "it: parts hide others, within its outline" },
     [WR_ROW(WR_SCENE_PARAM_REPLICATE)] = { "replicate", NULL, "ru,rv", .positional = true,
                                            .required = true, IN_SCENE(replicate_u), .components = 2,
                                            .low = -1e9, .high = 1e9, .fallback = { 1, 1 },

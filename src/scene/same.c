@@ -39,7 +39,7 @@ bool wr_scene_same_normals(const WrScene *a, const WrScene *b)
     if (a == b) return true;
     return memcmp(&a->shape, &b->shape, sizeof a->shape) == 0 && a->posed == b->posed &&
            same_vec(a->rotate_deg, b->rotate_deg) && a->bump == b->bump && a->scheme == b->scheme &&
-           a->height == b->height && a->displaced == b->displaced &&
+           a->height == b->height && a->displaced == b->displaced && a->parallax == b->parallax &&
            a->replicate_u == b->replicate_u && a->replicate_v == b->replicate_v &&
            same_formula(&a->analytic, &b->analytic) && same_map(&a->normals, &b->normals) &&
            a->triangles == b->triangles && same_vec(a->at, b->at) && a->size == b->size &&

@@ -87,6 +87,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->scheme = scene->scheme;
     clone->height = scene->height;
     clone->displaced = scene->displaced;
+    clone->parallax = scene->parallax;
     clone->replicate_u = scene->replicate_u;
     clone->replicate_v = scene->replicate_v;
     clone->analytic = scene->analytic;

@@ -120,6 +120,7 @@ struct WrScene {
     WrScheme scheme;
     double height;  /* scene units per table unit; any finite value */
     bool displaced; /* F moves the surface itself, P + F n; else its normal alone */
+    bool parallax;  /* rays go on from the base to F over it; where it is displaced they need not */
     double replicate_u, replicate_v;
     WrAnalytic analytic; /* replaces the table while its kind is not OFF; terms owned */
     WrMaterial material;

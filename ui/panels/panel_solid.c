@@ -33,6 +33,9 @@ static void relief(WrApp *app)
          "By how high the relief stands about each texel, seen from there; lamps only");
     flag(app, WR_SCENE_PARAM_OCCLUSION, "Keeps the sky from its hollows",
          "Ambient occlusion: ambient light and that of surroundings, as much as each texel sees");
+    flag(app, WR_SCENE_PARAM_PARALLAX, "Hides what stands behind it",
+         "Parallax: rays go on from the base to the relief, a rung between bump mapping and true "
+         "displacement. On a plane outlines are true, on curved bases they stay the base's");
     flag(app, WR_SCENE_PARAM_DISPLACED, "Moves the surface itself",
          "True displacement, outline included, in place of bump mapping that imitates it. Slower; "
          "each edit cuts the surface anew");

@@ -1,0 +1,15 @@
+/* reference_parallax.h - parallax for the reference: a ray that has met the base goes on to the relief over its tangent plane
+   (parallax.h), by short even steps that are bisected, in double.
+   Layer 5, private to the reference. */
+#pragma once
+#include "render/reference_shade.h"
+
+/* Does the scene ask for it, and is it known there? */
+bool wr_reference_has_parallax(const WrScene *scene);
+/* Lowest and highest F, object units, and cells that hold one bend each; field may be NULL where F is a formula. */
+void wr_reference_parallax_init(WrReferenceStage *stage, const WrField *field,
+                                const double cells[2]);
+/* at: the base's point at the hit. Both move to where the ray meets the relief, P to the ray; side: 1, or -1 of what is seen
+   from behind. false: it meets nothing. */
+bool wr_reference_parallax(const WrReferenceStage *stage, const WrReferenceRay *ray,
+                           WrReferenceHit *hit, WrSurfacePoint *at, double *side);
