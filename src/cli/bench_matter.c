@@ -52,3 +52,13 @@ void wr_bench_objects_hide(WrScene *scene)
 {
     scene->lights[0].shadow = true;
 }
+
+void wr_bench_displaced(WrScene *scene)
+{
+    scene->displaced = true;
+}
+
+void wr_bench_parallax(WrScene *scene)
+{
+    scene->parallax = true;
+}

@@ -9,5 +9,7 @@ void wr_bench_wooden(WrScene *scene);
 void wr_bench_wooden_filtered(WrScene *scene);
 void wr_bench_rough(WrScene *scene);
 void wr_bench_objects_hide(WrScene *scene);
+void wr_bench_displaced(WrScene *scene);
+void wr_bench_parallax(WrScene *scene);
 void wr_bench_worn(WrScene *scene);
 void wr_bench_embossed(WrScene *scene);

@@ -198,16 +198,6 @@ static void occluded(WrScene *scene)
     scene->material.occlusion = true;
 }
 
-static void displaced(WrScene *scene)
-{
-    scene->displaced = true;
-}
-
-static void parallaxed(WrScene *scene)
-{
-    scene->parallax = true;
-}
-
 static void smooth(WrScene *scene)
 {
     scene->bump = WR_BUMP_NONE;
@@ -310,8 +300,10 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_OCTAVES)] = { BUMPED, .with = wr_bench_wooden },
     [WR_ROW(WR_EFFECT_FADED)] = { BUMPED, .with = wr_bench_wooden_filtered },
     [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },
-    [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = displaced, .without = exact, .forced = true },
-    [WR_ROW(WR_EFFECT_PARALLAX)] = { BUMPED, .with = parallaxed, .without = same, .forced = true },
+    [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = wr_bench_displaced, .without = exact,
+                                      .forced = true },
+    [WR_ROW(WR_EFFECT_PARALLAX)] = { BUMPED, .with = wr_bench_parallax, .without = same,
+                                     .forced = true },
     [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_GRADIENT)] = { BUMPED, .with = same, .without = bilinear },
     [WR_ROW(WR_EFFECT_WIDE)] = { BUMPED, .with = far_replicated },

@@ -278,23 +278,6 @@ static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, doubl
                         request->turn_deg, request->width, request->height, rise, err);
 }
 
-/* Does any object's relief throw shadows, hide itself or, among several, move the surface? An edit reaches farther then than
-   what a tile looks at. */
-static bool reaches_far(const WrScene *scene)
-{
-    bool any = scene->material.shadow || scene->material.occlusion || scene->parallax ||
-               (scene->other_count > 0 && scene->displaced);
-    for (int i = 0; i < scene->other_count; i++)
-        any |= scene->others[i]->material.shadow || scene->others[i]->material.occlusion ||
-               scene->others[i]->displaced || scene->others[i]->parallax;
-    return any;
-}
-
-bool wr_frame_may_keep(const WrFrameRequest *request)
-{
-    return request->keep && !request->only && !request->rows && !reaches_far(request->scene);
-}
-
 bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)
 {
     return a->wanted == b->wanted &&

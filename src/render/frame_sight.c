@@ -7,6 +7,26 @@
 #define SIGHT_MOST (1 << 24)  /* pixels; 8 bytes each */
 #define STEADY_MOST (1 << 22) /* likewise; 25 bytes each, and 24 more while they are noted */
 
+/* Does its relief throw shadows, or hide itself? */
+static bool hides(const WrScene *object)
+{
+    return object->material.shadow || object->material.occlusion || object->parallax;
+}
+
+/* So of any object, or among several, is a surface moved? An edit reaches farther then than what a tile looks at. */
+static bool reaches_far(const WrScene *scene)
+{
+    bool any = hides(scene) || (scene->other_count > 0 && scene->displaced);
+    for (int i = 0; i < scene->other_count; i++)
+        any |= hides(scene->others[i]) || scene->others[i]->displaced;
+    return any;
+}
+
+bool wr_frame_may_keep(const WrFrameRequest *request)
+{
+    return request->keep && !request->only && !request->rows && !reaches_far(request->scene);
+}
+
 /* Against the planner nothing is noted: what is drawn is not what it would be. */
 static bool is_forced(const WrFrameRequest *request)
 {
