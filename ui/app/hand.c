@@ -105,7 +105,8 @@ static void press_patch(WrApp *app, const WrPointer *at)
 {
     if (at->button == SDL_BUTTON_LEFT && wr_accuracy_on_line(app, at->x, at->y)) {
         app->hand->grab = WR_GRAB_SPLIT;
-    } else if (at->button == SDL_BUTTON_LEFT && wr_patch_paints(app)) {
+    } else if (at->button == SDL_BUTTON_LEFT && wr_patch_paints(app) &&
+               !wr_patch_cube_under(app, at)) {
         if (!wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods))
             wr_patch_choose(app, at); /* a command, which ends what is held */
         app->hand->grab = WR_GRAB_PATCH_PAINT;

@@ -299,6 +299,8 @@ void wr_gui_draw_unclip(void);
 void wr_gui_draw_line(double x0, double y0, double x1, double y1, WrColour colour, double width);
 void wr_gui_draw_rect(double x, double y, double w, double h, WrColour colour, double width);
 void wr_gui_draw_fill(double x, double y, double w, double h, WrColour colour, double rounding);
+/* Four corners, in their order round it. */
+void wr_gui_draw_quad(const double x[4], const double y[4], WrColour colour);
 void wr_gui_draw_circle(double x, double y, double radius, WrColour colour, double width);
 void wr_gui_draw_disc(double x, double y, double radius, WrColour colour);
 /* Part of a circle, clockwise from the top; turns 0..1. */

@@ -262,6 +262,12 @@ extern "C" void wr_gui_draw_circle(double x, double y, double radius, WrColour c
     views()->AddCircle(at(x, y), (float)radius, wr_gui_colour_of(colour), 0, (float)width);
 }
 
+extern "C" void wr_gui_draw_quad(const double x[4], const double y[4], WrColour colour)
+{
+    views()->AddQuadFilled(at(x[0], y[0]), at(x[1], y[1]), at(x[2], y[2]), at(x[3], y[3]),
+                           wr_gui_colour_of(colour));
+}
+
 extern "C" void wr_gui_draw_disc(double x, double y, double radius, WrColour colour)
 {
     views()->AddCircleFilled(at(x, y), (float)radius, wr_gui_colour_of(colour));

@@ -211,6 +211,7 @@ void wr_patch_update(WrApp *app)
     WrPatch *p = app->patch;
     double now = wr_clock_seconds();
     take_picture(app);
+    wr_patch_cube_update(app, false);
     hold_still(app);
     if (p->zoom_commit_at > 0.0 && now >= p->zoom_commit_at) wr_patch_commit_zoom(app, true);
     if (app->layout->patch.w <= 0 || !app->visible || app->drawn_at == 0.0) return;
@@ -238,7 +239,7 @@ void wr_patch_update(WrApp *app)
 double wr_patch_next_time(const WrApp *app)
 {
     const WrPatch *p = app->patch;
-    double next = p->zoom_commit_at;
+    double next = p->cube.began > 0.0 ? p->turned_at : p->zoom_commit_at;
     if (app->layout->patch.w <= 0 || !app->visible) return next;
     double due = 0.0;
     if ((turns(app) || differs(app)) && !p->outstanding)
@@ -311,6 +312,7 @@ void wr_patch_overlay(WrApp *app)
     wr_gui_draw_clip(*room);
     wr_patch_draw_lights(app);
     wr_patch_handles_draw(app);
+    wr_patch_cube_draw(app);
     draw_ring(app, wr_preview_picture(app->preview));
     draw_look(app);
     wr_gui_draw_unclip();
@@ -342,6 +344,7 @@ void wr_patch_overlay(WrApp *app)
 
 static void settle(WrApp *app)
 {
+    wr_patch_cube_update(app, true);
     wr_patch_commit_zoom(app, true);
 }
 

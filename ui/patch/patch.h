@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"
+#include "ui/patch/patch_cube.h"
 #include "ui/patch/patch_objects.h"
 #include "ui/preview/preview.h"
 #include "ui/preview/rotation.h"
@@ -55,6 +56,7 @@ typedef struct WrPatch {
     double from_turn;      /* of the surroundings, when they were taken */
     double zoom_commit_at; /* clock at which a zoom by the wheel becomes a command; 0: none */
     bool zoom_angle;       /* it is of the angle of view */
+    WrPatchCube cube;
 } WrPatch;
 
 void wr_patch_update(WrApp *app); /* wish for what is wanted; take what is ready */
@@ -69,6 +71,9 @@ void wr_patch_wheel(WrApp *app, double steps);
 void wr_patch_wheel_angle(WrApp *app, double steps); /* the camera's, in place of its distance */
 /* A zoom by the wheel that waits becomes a command; now false: it is forgotten. */
 void wr_patch_commit_zoom(WrApp *app, bool now);
+/* The camera, or the object's turn, as it stands in the live scene, becomes a command. */
+void wr_patch_commit_camera(WrApp *app);
+void wr_patch_commit_turn(WrApp *app);
 void wr_patch_free(WrApp *app);
 double wr_patch_next_time(const WrApp *app); /* clock at which update must run; 0: only on events */
 bool wr_patch_paints(const WrApp *app);      /* the pointer over the patch would paint */

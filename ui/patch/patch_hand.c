@@ -180,7 +180,7 @@ static void orbit(WrApp *app, const WrPointer *p)
     const double dx = p->x - app->hand->start.x, dy = p->y - app->hand->start.y;
     if (!place(app, &at) || (!app->live && hypot(dx, dy) < CLICK)) return;
     const SDL_Rect *r = &app->layout->patch;
-    const double span = r->w < r->h ? r->w : r->h;
+    const double span = app->patch->cube.pressed ? wr_patch_cube_span() : r->w < r->h ? r->w : r->h;
     if (app->patch->pans) pan_camera(app, &at, dx, dy);
     else if (app->patch->rounds) orbit_camera(app, dx, dy, span);
     if (app->patch->pans || app->patch->rounds) return;
@@ -193,14 +193,14 @@ static void orbit(WrApp *app, const WrPointer *p)
 }
 
 /* Eye, target and size of the camera as it was dragged. */
-static void commit_camera(WrApp *app)
+void wr_patch_commit_camera(WrApp *app)
 {
     const WrCamera *camera = &app->live->camera;
     WrText line = { 0 };
     wr_text_addf(&line, "camera %s", wr_camera_names[camera->orthographic]);
     wr_line_vec(&line, "eye", wr_line_round_vec(camera->eye, 4));
     wr_line_vec(&line, "target", wr_line_round_vec(camera->target, 4));
-    wr_line_vec(&line, "up", camera->up);
+    wr_line_vec(&line, "up", wr_line_round_vec(camera->up, 4));
     if (camera->orthographic) wr_line_number(&line, "size", wr_line_round(camera->size, 4));
     if (camera->fit) wr_text_add(&line, " fit=on");
     wr_app_live_end(app);
@@ -210,16 +210,25 @@ static void commit_camera(WrApp *app)
 
 static void commit_orbit(WrApp *app)
 {
+    app->hand->grab = WR_GRAB_NONE; /* a command would end what is held, once more */
     if (!app->live) {
-        app->hand->grab = WR_GRAB_NONE; /* a command would end what is held */
+        if (app->patch->cube.pressed) {
+            wr_patch_cube_click(app, &app->hand->start);
+            return;
+        }
         if (!app->patch->pans && several(app)) wr_patch_choose(app, &app->hand->start);
         return;
     }
     if (app->patch->pans || app->patch->rounds) {
-        commit_camera(app);
+        wr_patch_commit_camera(app);
         return;
     }
-    WrVec3 deg = app->live->rotate_deg;
+    wr_patch_commit_turn(app);
+}
+
+void wr_patch_commit_turn(WrApp *app)
+{
+    WrVec3 deg = wr_line_round_vec(app->live->rotate_deg, 2);
     WrText line = { 0 };
     wr_text_add(&line, "rotate ");
     wr_line_plain_vec(&line, deg);
@@ -232,6 +241,15 @@ bool wr_patch_press(WrApp *app, const WrPointer *at)
 {
     WrPatch *p = app->patch;
     wr_patch_commit_zoom(app, true);
+    wr_patch_cube_update(app, true);
+    p->cube.pressed = at->button == SDL_BUTTON_LEFT && wr_patch_cube_under(app, at);
+    if (p->cube.pressed) {
+        app->hand->grab = WR_GRAB_ORBIT;
+        p->pans = false;
+        p->rounds = several(app);
+        start_orbit(app);
+        return true;
+    }
     int light = light_under(app, at);
     bool right = at->button == SDL_BUTTON_RIGHT;
     if (right && (at->mods & WR_MOD_SHIFT) && wr_app_scene(app)->environment.light) {
