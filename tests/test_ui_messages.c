@@ -42,6 +42,14 @@ static void the_newest_message_is_what_is_seen(void **state)
     fail_with(app, "no such file");
     assert_string_equal(shown(app, LATER), "no such file");
     assert_int_equal(app->messages->unread, 2);
+    wr_messages_overtake(app->messages,
+                         now - 1); /* what began before the error tells nothing of it */
+    assert_string_equal(shown(app, LATER), "no such file");
+    wr_messages_overtake(app->messages, LATER);
+    assert_int_equal(app->messages->unread, 0);
+    assert_string_equal(shown(app, LATER), "");
+    fail_with(app, "no such font");
+    assert_int_equal(app->messages->unread, 1); /* only what is new is counted */
     app->messages->unread = 0;
     assert_string_equal(shown(app, now), "");
     wr_messages_free(app->messages);

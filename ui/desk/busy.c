@@ -399,8 +399,10 @@ static bool run_command(WrApp *app, const char *line, const WrDocument *made)
     WrEstimate estimate;
     if (!made && wr_session_estimate(app->session, line, &estimate, NULL))
         app->expected = estimate.seconds;
+    double since = wr_clock_seconds();
     bool ok = wr_busy_run(app, what, run_line, &call, &err);
     app->expected = 0.0;
+    if (ok) wr_messages_overtake(app->messages, since);
     if (!ok) wr_busy_fail(app, what, &err);
     wr_app_try_end(app);
     wr_app_take_notes(app);

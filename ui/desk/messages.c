@@ -68,6 +68,16 @@ void wr_app_take_notes(WrApp *app)
     wr_text_clear(notes);
 }
 
+void wr_messages_overtake(WrMessages *messages, double since)
+{
+    for (int i = messages->list.count - 1; i >= 0; i--) {
+        const WrMessage *m = &messages->list.data[i];
+        if (!m->bad) continue;
+        if (m->since < since) messages->unread = 0;
+        return; /* the newest error tells */
+    }
+}
+
 const WrMessage *wr_messages_shown(const WrMessages *messages, double now)
 {
     if (messages->list.count == 0) return NULL;

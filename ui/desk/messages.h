@@ -24,6 +24,8 @@ void wr_app_say(WrApp *app, const char *format, ...) __attribute__((format(print
 void wr_app_say_lines(WrApp *app, const char *text); /* each line by itself */
 void wr_app_fail(WrApp *app, const WrError *err);
 void wr_app_take_notes(WrApp *app);
+/* Something that began at `since` (clock) succeeded: errors from before it were overtaken. */
+void wr_messages_overtake(WrMessages *messages, double since);
 /* What the status line says: the newest message, an error until it is read, a note while it is young; or
    NULL. */
 const WrMessage *wr_messages_shown(const WrMessages *messages, double now);

@@ -28,6 +28,8 @@
 #include "system/clock.h"
 #include "system/process.h"
 
+#include "base/rows.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -77,18 +79,36 @@ static void dismiss(WrApp *app)
     wr_app_redraw(app);
 }
 
+/* A text in lines that are not much longer than so many letters. */
+#define LINE_LETTERS 96
+
+static void in_lines(WrColour colour, const char *text)
+{
+    while (*text) {
+        char line[LINE_LETTERS + 64];
+        size_t length = strcspn(text, "\n");
+        if (length > LINE_LETTERS) {
+            length = LINE_LETTERS;
+            while (length > LINE_LETTERS / 2 && text[length] != ' ') length--;
+            while ((text[length] & 0xc0) == 0x80) length--; /* never within a letter */
+        }
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        wr_gui_text(WR_FONT_TEXT, colour, line);
+        text += length;
+        while (*text == ' ' || *text == '\n') text++;
+    }
+}
+
 static void all_messages(const WrApp *app)
 {
     const WrMessages *m = app->messages;
     if (!wr_gui_popup_begin("messages")) return;
     wr_gui_heading("MESSAGES");
     for (int i = m->list.count - 1; i >= 0 && i >= m->list.count - 12; i--) {
-        char line[128];
-        snprintf(line, sizeof line, "%.124s", m->list.data[i].text);
         wr_gui_as_it_is(true); /* said already */
-        wr_gui_text(WR_FONT_TEXT, m->list.data[i].bad ? WR_COLOUR_BAD : WR_COLOUR_TEXT, line);
-        wr_gui_tip(m->list.data[i].text);
+        in_lines(m->list.data[i].bad ? WR_COLOUR_BAD : WR_COLOUR_TEXT, m->list.data[i].text);
         wr_gui_as_it_is(false);
+        wr_gui_space(2);
     }
     wr_gui_popup_end();
 }
@@ -108,28 +128,35 @@ static void unread_errors(WrApp *app)
     wr_gui_same_line(8);
 }
 
-/* The newest message is what is seen: an error until it is read, a note while it is young. Errors before it
-   are counted. False if the rest of the line is free. */
-static bool message(WrApp *app)
+/* The newest message, beside what is under the pointer: an error until it is read or something newer succeeds, a note
+   while it is young. A click tells all of it. Errors before it are counted. False if the rest of the line is free. */
+static bool message(WrApp *app, double from)
 {
     const WrMessage *show = wr_messages_shown(app->messages, wr_clock_seconds());
     bool error = show && show->bad;
+    if (!show && app->messages->unread == 0) {
+        all_messages(app); /* they may be open */
+        return false;
+    }
+    wr_gui_move_to(from);
     if (error) {
         wr_gui_text(WR_FONT_TEXT, WR_COLOUR_BAD, WR_ICON_ALERT);
         wr_gui_same_line(6);
-        if (wr_gui_chip(NULL, "Dismiss")) dismiss(app);
-        wr_gui_same_line(6);
-        if (wr_gui_chip(NULL, "All")) wr_gui_popup_open("messages");
-        wr_gui_same_line(8);
     } else if (app->messages->unread > 0) {
         unread_errors(app);
     }
     all_messages(app);
     if (!show) return false;
+    double room = wr_gui_width() - wr_gui_place() - wr_gui_px(error ? 190 : 12);
     wr_gui_as_it_is(true);
-    wr_gui_text(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text);
+    wr_gui_text_cut(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text, room);
     wr_gui_tip(show->text);
     wr_gui_as_it_is(false);
+    if (!error) return true;
+    wr_gui_same_line(8);
+    if (wr_gui_chip(NULL, "Details")) wr_gui_popup_open("messages");
+    wr_gui_same_line(6);
+    if (wr_gui_chip(NULL, "Dismiss")) dismiss(app);
     return true;
 }
 
@@ -227,53 +254,90 @@ static const char *saved_word(const WrApp *app)
 }
 
 /* What the left end may take: the same whatever it says, so that the right one does not change with the pointer. */
-static double left_width(void)
+static double left_width(const WrApp *app)
 {
-    return wr_gui_text_width(
-               WR_FONT_TEXT,
-               wr_words("u 0.000 v 0.000 F -0.00000 slope 00.0\xc2\xb0 zoom 0000 %")) +
-           wr_gui_px(5 * 14 + 12);
+    double wide =
+        wr_gui_text_width(WR_FONT_TEXT,
+                          wr_words("u 0.000 v 0.000 F -0.00000 slope 00.0\xc2\xb0 zoom 0000 %")) +
+        wr_gui_px(5 * 14 + 12);
+    if (app->view->turn != 0.0)
+        wide += wr_gui_text_width(WR_FONT_TEXT, wr_words("turn -000\xc2\xb0")) + wr_gui_px(18);
+    return wide;
+}
+
+/* The right end, in the order of its places; what has no room is left out, beginning with the least. */
+typedef enum Part {
+    PART_PICTURE,
+    PART_SIZE,
+    PART_MEMORY,
+    PART_SAVED,
+    PART_LIVE,
+    PART_JOURNAL,
+    PARTS
+} Part;
+
+typedef struct RightEnd {
+    char picture[300], size[64];
+    const char *text[PARTS]; /* NULL: not shown */
+    const char *reason;      /* that the journal is not safe */
+    bool safe;
+} RightEnd;
+
+static double width_of(const RightEnd *end)
+{
+    double wide = wr_gui_px(12);
+    for (int i = 0; i < PARTS; i++)
+        if (end->text[i]) wide += wr_gui_text_width(WR_FONT_TEXT, end->text[i]) + wr_gui_px(18);
+    return wide;
+}
+
+static void make_end(const WrApp *app, RightEnd *end)
+{
+    static const Part least[] = { PART_SIZE, PART_PICTURE, PART_MEMORY, PART_JOURNAL, PART_LIVE };
+    const WrField *field = wr_app_field(app);
+    double room = wr_gui_width() - left_width(app);
+    *end = (RightEnd){ .reason = "" };
+    end->safe = wr_session_journal_safe(app->session, &end->reason);
+    picture(app, true, end->picture, sizeof end->picture);
+    snprintf(end->size, sizeof end->size, "%d \xc3\x97 %d", wr_field_width(field),
+             wr_field_height(field));
+    end->text[PART_PICTURE] = end->picture;
+    end->text[PART_SIZE] = end->size;
+    end->text[PART_MEMORY] = "8888 MB"; /* as wide as it gets */
+    end->text[PART_SAVED] = wr_words(saved_word(app));
+    end->text[PART_LIVE] = app->sheet && app->sheet->live ? wr_words("live") : NULL;
+    end->text[PART_JOURNAL] = end->safe ? wr_words("journal safe") : wr_words("journal not safe");
+    if (width_of(end) > room) picture(app, false, end->picture, sizeof end->picture);
+    for (size_t i = 0; i < WR_LENGTH(least) && width_of(end) > room; i++)
+        if (least[i] != PART_JOURNAL || end->safe) end->text[least[i]] = NULL;
 }
 
 static void right_side(WrApp *app)
 {
-    const WrField *field = wr_app_field(app);
-    const char *reason = "", *saved = saved_word(app);
-    char render[300], size[64];
-    bool safe = wr_session_journal_safe(app->session, &reason);
-    const char *journal = safe ? wr_words("journal safe") : wr_words("journal not safe");
-    const bool live = app->sheet && app->sheet->live;
-    picture(app, true, render, sizeof render);
-    snprintf(size, sizeof size, "%d \xc3\x97 %d", wr_field_width(field), wr_field_height(field));
-    double gap = wr_gui_px(18), memory_width = wr_gui_text_width(WR_FONT_TEXT, "8888 MB");
-    double others = memory_width + 4 * gap + wr_gui_px(12);
-    const char *const parts[] = { size, saved, journal, "live" };
-    if (live) others += gap;
-    for (int i = 0; i < (live ? 4 : 3); i++) others += wr_gui_text_width(WR_FONT_TEXT, parts[i]);
-    double width = others + wr_gui_text_width(WR_FONT_TEXT, render);
-    if (width + left_width() > wr_gui_width()) {
-        picture(app, false, render, sizeof render);
-        width = others + wr_gui_text_width(WR_FONT_TEXT, render);
-    }
-    wr_gui_move_to(wr_gui_width() - width);
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, render);
-    if (render[0]) picture_tip(app);
-    wr_gui_same_line(18);
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, size);
-    wr_gui_same_line(18);
-    memory(app);
-    wr_gui_same_line(18);
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, saved);
-    if (live) {
+    RightEnd end;
+    make_end(app, &end);
+    wr_gui_move_to(wr_gui_width() - width_of(&end));
+    for (int i = 0; i < PARTS; i++) {
+        if (!end.text[i]) continue;
+        wr_gui_as_it_is(true); /* said already, so that it is as wide as it was thought */
+        if (i == PART_MEMORY) memory(app);
+        else
+            wr_gui_text(WR_FONT_TEXT,
+                        i == PART_LIVE                   ? WR_COLOUR_CELL
+                        : i == PART_JOURNAL && !end.safe ? WR_COLOUR_RAISE
+                                                         : WR_COLOUR_LABEL,
+                        end.text[i]);
+        wr_gui_as_it_is(false);
+        if (i == PART_PICTURE && end.picture[0]) picture_tip(app);
+        if (i == PART_LIVE)
+            wr_gui_tip("Maps are written again after each pause of the hand: File, Export maps...");
+        if (i == PART_JOURNAL)
+            wr_gui_tip(end.safe
+                           ? "Should the program or the computer stop, every change so far can "
+                             "be brought back."
+                           : end.reason);
         wr_gui_same_line(18);
-        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_CELL, "live");
-        wr_gui_tip("Maps are written again after each pause of the hand: File, Export maps...");
     }
-    wr_gui_same_line(18);
-    wr_gui_text(WR_FONT_TEXT, safe ? WR_COLOUR_LABEL : WR_COLOUR_RAISE, journal);
-    wr_gui_tip(safe ? "Should the program or the computer stop, every change so far can be brought "
-                      "back."
-                    : reason);
 }
 
 /* What is being computed for a dialog, if it takes longer than a moment. */
@@ -310,17 +374,22 @@ void wr_panel_status(WrApp *app)
 {
     if (app->layout->status.w <= 0) return;
     wr_gui_area_begin("##status", WR_AREA_BAR, app->layout->status, WR_COLOUR_BAR);
-    if (!work(app) && !message(app)) {
+    if (!work(app)) {
         char text[32];
-        under_pointer(app);
-        snprintf(text, sizeof text, app->view->zoom < 0.1 ? "%.1f %%" : "%.0f %%",
-                 app->view->zoom * 100.0);
-        pair(app->view->mirrored ? "mirror" : "zoom", text);
-        if (app->view->turn != 0.0) {
-            snprintf(text, sizeof text, "%.0f\xc2\xb0", app->view->turn);
-            pair("turn", text);
+        double left = left_width(app), wide = wr_gui_width();
+        const WrMessage *show = wr_messages_shown(app->messages, wr_clock_seconds());
+        bool narrow = show && wide - left < wr_gui_px(360); /* then it takes the whole line */
+        if (!narrow) {
+            under_pointer(app);
+            snprintf(text, sizeof text, app->view->zoom < 0.1 ? "%.1f %%" : "%.0f %%",
+                     app->view->zoom * 100.0);
+            pair(app->view->mirrored ? "mirror" : "zoom", text);
+            if (app->view->turn != 0.0) {
+                snprintf(text, sizeof text, "%.0f\xc2\xb0", app->view->turn);
+                pair("turn", text);
+            }
         }
-        right_side(app);
+        if (!message(app, narrow ? wr_gui_place() : left)) right_side(app);
     }
     wr_gui_area_end();
 }
