@@ -304,7 +304,7 @@ static void make_end(const WrApp *app, RightEnd *end)
     end->text[PART_PICTURE] = end->picture;
     end->text[PART_SIZE] = end->size;
     end->text[PART_MEMORY] = "8888 MB"; /* as wide as it gets */
-    end->text[PART_SAVED] = wr_words(saved_word(app));
+    end->text[PART_SAVED] = saved_word(app);
     end->text[PART_LIVE] = app->sheet && app->sheet->live ? wr_words("live") : NULL;
     end->text[PART_JOURNAL] = end->safe ? wr_words("journal safe") : wr_words("journal not safe");
     if (width_of(end) > room) picture(app, false, end->picture, sizeof end->picture);
@@ -319,9 +319,9 @@ static void right_side(WrApp *app)
     wr_gui_move_to(wr_gui_width() - width_of(&end));
     for (int i = 0; i < PARTS; i++) {
         if (!end.text[i]) continue;
-        wr_gui_as_it_is(true); /* said already, so that it is as wide as it was thought */
         if (i == PART_MEMORY) memory(app);
-        else
+        wr_gui_as_it_is(true); /* said already, so that it is as wide as it was thought */
+        if (i != PART_MEMORY)
             wr_gui_text(WR_FONT_TEXT,
                         i == PART_LIVE                   ? WR_COLOUR_CELL
                         : i == PART_JOURNAL && !end.safe ? WR_COLOUR_RAISE
