@@ -1,5 +1,5 @@
-/* A view that rests but for its light (E76): n' and P are noted at the second change and used from the third on, and each
-   picture has the bits of a whole new one, whatever commands came between. */
+/* A view that rests but for its light (E76): n', P, u and v are noted at the second change and used from the third on, and
+   each picture has the bits of a whole new one, whatever commands came between, of one object and of several. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -63,9 +63,13 @@ static const char *const other_lines[] = {
     "light directional to=0.9,0.1,0.4 shadow=on index=1",
     "light directional to=0.8,0.3,0.4 index=1",
     "grain wood",
+    "grain marble amount=0.%d",
     "grain off",
     "colouring ramp",
     "colouring off",
+    "colour spots.ppm",
+    "colour spots.ppm repeat=2,1.%d",
+    "colour off",
     "analytic fourier terms=2,3,0.0%d",
     "analytic off",
     "object set size=0.%d",
@@ -73,23 +77,48 @@ static const char *const other_lines[] = {
 
 #define COUNT(lines) (int)(sizeof(lines) / sizeof *(lines))
 
+/* Of several objects, besides. */
+static const char *const group_lines[] = {
+    "object choose first",
+    "object choose ring",
+    "object choose box",
+    "object set at=0.%d,0.2,-0.3",
+    "object set at=-0.%d,0.1,0.4",
+    "object hide ring",
+    "object show ring",
+    "object hide box",
+    "object show box",
+};
+
+/* A ring before and behind the first, and a box that cuts it. */
+static const char *const group_made[] = {
+    "object set name=first",
+    "object add ring at=0.3,0.2,0.1 size=0.8",
+    "surface torus",
+    "bump height=0.05",
+    "object add box at=-0.5,-0.2,0.6",
+    "surface cube",
+    "rotate 20,30,10",
+    "object choose first",
+};
+
 typedef struct Rig {
     WrSession *session;
-    WrRenderer *renderer;
+    WrRenderer *renderer, *other; /* other: of pictures of which nothing is kept */
     WrPool *pool;
     int width;
     bool codes;
-    int known; /* pictures that worked out light alone */
+    int known;   /* pictures that worked out light alone */
+    int painted; /* of those, that looked a picture up */
 } Rig;
 
 static WrFrameRequest request_of(const Rig *rig, bool keep)
 {
     const WrScene *scene = doc(rig->session)->scene;
-    WrFrameRequest request = { .field = wr_document_field(doc(rig->session)),
-                               .scene = scene,
-                               .width = rig->width,
-                               .height = 93,
-                               .keep = keep };
+    const WrField *field = wr_document_field(doc(rig->session));
+    WrFrameRequest request = {
+        .field = field, .scene = scene, .width = rig->width, .height = 93, .keep = keep
+    };
     request.codes = wr_frame_codes_of(scene, true);
     request.codes.wanted = rig->codes;
     return request;
@@ -100,22 +129,23 @@ static const void *bytes_of(const WrFrame *frame)
     return frame->codes ? (const void *)frame->codes : (const void *)frame->rgba;
 }
 
-/* The picture that rests has the bits of one by a renderer that saw nothing before. */
+/* The picture that rests has the bits of a whole new one. */
 static void compare(Rig *rig, const char *line)
 {
     WrError err = { "" };
     WrFrame rests, fresh;
     const WrFrameRequest request = request_of(rig, true), anew = request_of(rig, false);
     if (!wr_renderer_frame(rig->renderer, &request, &rests, &err)) fail_msg("%s", err.text);
-    rig->known += rests.plan->rows[WR_EFFECT_STEADY].verdict == WR_VERDICT_SPARED;
-    WrRenderer *other = wr_renderer_new(rig->pool, NULL, &err);
-    if (!wr_renderer_frame(other, &anew, &fresh, &err)) fail_msg("%s", err.text);
+    const bool known = rests.plan->rows[WR_EFFECT_STEADY].verdict == WR_VERDICT_SPARED;
+    rig->known += known;
+    rig->painted +=
+        known && (rests.plan->rows[WR_EFFECT_COLOUR].run || rests.plan->rows[WR_EFFECT_FACETS].run);
+    if (!wr_renderer_frame(rig->other, &anew, &fresh, &err)) fail_msg("%s", err.text);
     const size_t pixel = rig->codes ? sizeof(uint32_t) : 4 * sizeof(float);
     const size_t count = (size_t)rig->width * 93 * pixel;
     if (memcmp(bytes_of(&rests), bytes_of(&fresh), count) != 0)
         fail_msg("%s: the resting picture is another", line);
     assert_int_equal(rests.covered, fresh.covered);
-    wr_renderer_free(other);
 }
 
 static void step(Rig *rig, const char *format, int digit)
@@ -129,30 +159,67 @@ static void step(Rig *rig, const char *format, int digit)
     compare(rig, line);
 }
 
-static void try_surface(const char *surface, int number, int *known)
+/* Pictures that random numbers make, small ones. */
+static void write_pictures(void)
 {
-    char line[100];
+    unsigned seed = 5;
+    FILE *rough = fopen("rough.pgm", "w"), *spots = fopen("spots.ppm", "w");
+    assert_true(rough && spots);
+    fprintf(rough, "P2 7 5 255\n");
+    fprintf(spots, "P3 7 5 255\n");
+    for (int i = 0; i < 4 * 7 * 5; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        fprintf(i % 4 ? spots : rough, "%u\n", seed >> 24);
+    }
+    assert_int_equal(fclose(rough) | fclose(spots), 0);
+}
+
+static Rig rig_of(int width, bool codes)
+{
     WrError err = { "" };
-    Rig rig = { .session = wr_session_new(NULL), .pool = wr_pool_new(2) };
-    rig.width = number % 2 ? WIDTH : 300;
-    rig.codes = number % 3 != 0;
+    Rig rig = {
+        .session = wr_session_new(NULL), .pool = wr_pool_new(2), .width = width, .codes = codes
+    };
     rig.renderer = wr_renderer_new(rig.pool, NULL, &err);
+    rig.other = wr_renderer_new(rig.pool, NULL, &err);
     must_run(rig.session, "table 75x52");
     must_run(rig.session, "noise perlin");
-    snprintf(line, sizeof line, "surface %s", surface);
-    must_run(rig.session, line);
-    unsigned seed = 977u + (unsigned)number;
+    return rig;
+}
+
+static void free_rig(Rig *rig)
+{
+    wr_renderer_free(rig->renderer);
+    wr_renderer_free(rig->other);
+    wr_session_free(rig->session);
+    wr_pool_free(rig->pool);
+}
+
+/* Random lines, four of five of them of light; others: what else may be told, in two lists. */
+static void wander(Rig *rig, unsigned seed, const char *const *others, int count)
+{
     for (int i = 0; i < STEPS; i++) {
         seed = seed * 1664525u + 1013904223u;
         const bool light = (seed >> 24) % 5 != 0;
-        const int count = light ? COUNT(light_lines) : COUNT(other_lines);
-        const int which = (int)((seed >> 12) % (unsigned)count);
-        step(&rig, light ? light_lines[which] : other_lines[which], 1 + (int)(seed >> 28) % 9);
+        const int lines = light ? COUNT(light_lines) : COUNT(other_lines) + count;
+        const int which = (int)((seed >> 12) % (unsigned)lines);
+        const char *line = light                        ? light_lines[which]
+                           : which < COUNT(other_lines) ? other_lines[which]
+                                                        : others[which - COUNT(other_lines)];
+        step(rig, line, 1 + (int)(seed >> 28) % 9);
     }
-    *known += rig.known;
-    wr_renderer_free(rig.renderer);
-    wr_session_free(rig.session);
-    wr_pool_free(rig.pool);
+}
+
+static void try_surface(const char *surface, int number, int *known, int *painted)
+{
+    char line[100];
+    Rig rig = rig_of(number % 2 ? WIDTH : 300, number % 3 != 0);
+    snprintf(line, sizeof line, "surface %s", surface);
+    must_run(rig.session, line);
+    if (number % 3 == 1) must_run(rig.session, "colour spots.ppm repeat=1.3,2");
+    wander(&rig, 977u + (unsigned)number, NULL, 0);
+    *known += rig.known, *painted += rig.painted;
+    free_rig(&rig);
 }
 
 static void light_alone_gives_the_same_bits(void **state)
@@ -160,58 +227,147 @@ static void light_alone_gives_the_same_bits(void **state)
     (void)state;
     static const char *const surfaces[] = { "sphere",   "torus", "plane", "bezier",
                                             "cylinder", "cube",  "cone",  "disc" };
-    int known = 0;
-    for (int i = 0; i < COUNT(surfaces); i++) try_surface(surfaces[i], i, &known);
-    if (known < STEPS) fail_msg("only %d pictures of %d worked out light alone", known, 8 * STEPS);
+    int known = 0, painted = 0;
+    write_pictures();
+    for (int i = 0; i < COUNT(surfaces); i++) try_surface(surfaces[i], i, &known, &painted);
+    if (known < STEPS || painted < STEPS / 4)
+        fail_msg("only %d pictures of %d worked out light alone, %d of those with a picture", known,
+                 8 * STEPS, painted);
+}
+
+/* Of several objects, in front of one another, one of them painted. */
+static void light_alone_of_several_gives_the_same_bits(void **state)
+{
+    (void)state;
+    static const char *const first[] = { "sphere", "bezier", "torus", "cylinder" };
+    int known = 0, painted = 0;
+    write_pictures();
+    for (int i = 0; i < COUNT(first); i++) {
+        char line[100];
+        Rig rig = rig_of(i % 2 ? WIDTH : 300, i % 3 != 0);
+        snprintf(line, sizeof line, "surface %s", first[i]);
+        must_run(rig.session, line);
+        for (int k = 0; k < COUNT(group_made); k++) must_run(rig.session, group_made[k]);
+        if (i % 2) must_run(rig.session, "colour spots.ppm");
+        wander(&rig, 1977u + (unsigned)i, group_lines, COUNT(group_lines));
+        known += rig.known, painted += rig.painted;
+        free_rig(&rig);
+    }
+    if (known < STEPS || painted < STEPS / 4)
+        fail_msg("only %d pictures of %d worked out light alone, %d of those with a picture", known,
+                 4 * STEPS, painted);
+}
+
+/* A line, or "width N" of pictures from now on, and how many pictures so far worked out light alone. */
+typedef struct Step {
+    const char *line;
+    int known;
+} Step;
+
+static void walk(Rig *rig, const Step *steps, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (sscanf(steps[i].line, "width %d", &rig->width) != 1)
+            must_run(rig->session, steps[i].line);
+        compare(rig, steps[i].line);
+        if (rig->known != steps[i].known)
+            fail_msg("step %d, %s: %d pictures worked out light alone, not %d", i, steps[i].line,
+                     rig->known, steps[i].known);
+    }
+    free_rig(rig);
 }
 
 /* The second change of light notes, the third uses it; an edit of the table, or of the view, forgets it. */
 static void light_alone_is_worked_out(void **state)
 {
     (void)state;
-    static const struct {
-        const char *line;
-        int known; /* pictures so far that were */
-    } steps[] = { { "light directional to=0.3,0.1,-1 index=1",
-                    0 }, /* from behind: dark runs are noted too */
-                  { "material diffuse=0.6", 0 },
-                  { "material diffuse=0.7", 1 },
-                  { "light directional to=1,1,2 index=1", 2 },
-                  { "dab 0.5,0.5 radius=9", 2 },
-                  { "material diffuse=0.6", 2 },
-                  { "material specular=0.5", 3 },
-                  { "camera perspective fov=31", 3 },
-                  { "material specular=0.25", 3 },
-                  { "material specular=0.75", 4 },
-                  { "bump height=0.07", 4 },
-                  { "material specular=0.3", 4 },
-                  { "environment studio turn=12", 5 },
-                  { "environment turn=31", 6 } };
-    WrError err = { "" };
-    Rig rig = {
-        .session = wr_session_new(NULL), .pool = wr_pool_new(2), .width = 257, .codes = true
-    };
-    rig.renderer = wr_renderer_new(rig.pool, NULL, &err);
-    must_run(rig.session, "table 75x52");
-    must_run(rig.session, "noise perlin");
+    static const Step steps[] = { { "light directional to=0.3,0.1,-1 index=1",
+                                    0 }, /* from behind: dark runs are noted too */
+                                  { "material diffuse=0.6", 0 },
+                                  { "material diffuse=0.7", 1 },
+                                  { "light directional to=1,1,2 index=1", 2 },
+                                  { "dab 0.5,0.5 radius=9", 2 },
+                                  { "material diffuse=0.6", 2 },
+                                  { "material specular=0.5", 3 },
+                                  { "camera perspective fov=31", 3 },
+                                  { "material specular=0.25", 3 },
+                                  { "material specular=0.75", 4 },
+                                  { "bump height=0.07", 4 },
+                                  { "material specular=0.3", 4 },
+                                  { "environment studio turn=12", 5 },
+                                  { "environment turn=31", 6 },
+                                  { "width 120", 6 },
+                                  { "environment turn=33", 6 },
+                                  { "environment turn=34", 7 },
+                                  { "dials arithmetic=fast", 7 } };
+    Rig rig = rig_of(257, true);
     must_run(rig.session, "surface torus");
-    for (int i = 0; i < COUNT(steps); i++) {
-        must_run(rig.session, steps[i].line);
-        compare(&rig, steps[i].line);
-        if (rig.known != steps[i].known)
-            fail_msg("step %d, %s: %d pictures worked out light alone, not %d", i, steps[i].line,
-                     rig.known, steps[i].known);
-    }
-    wr_renderer_free(rig.renderer);
-    wr_session_free(rig.session);
-    wr_pool_free(rig.pool);
+    walk(&rig, steps, COUNT(steps));
+}
+
+/* Of several: all of them are noted at once, and one whose place among the scene's changes is new. */
+static void light_alone_of_several_is_worked_out(void **state)
+{
+    (void)state;
+    static const Step steps[] = { { "object hide ring", 0 },
+                                  { "material diffuse=0.6", 0 },
+                                  { "material diffuse=0.7", 1 },
+                                  { "object choose box", 2 },
+                                  { "material colour=0.2,0.4,0.9", 3 },
+                                  { "light directional to=1,1,2 index=1", 4 },
+                                  { "object remove ring", 4 },
+                                  { "material specular=0.5", 4 },
+                                  { "material specular=0.1", 5 },
+                                  { "object set at=-0.1,0.05,0.2", 5 },
+                                  { "material specular=0.4", 5 },
+                                  { "material specular=0.6", 6 },
+                                  { "object hide box", 6 },
+                                  { "material specular=0.2", 6 },
+                                  { "material specular=0.3", 7 },
+                                  { "object show box", 7 } };
+    Rig rig = rig_of(257, true);
+    must_run(rig.session, "surface sphere");
+    must_run(rig.session, "camera perspective eye=0,0.3,6 fov=40");
+    for (int k = 0; k < COUNT(group_made); k++) must_run(rig.session, group_made[k]);
+    walk(&rig, steps, COUNT(steps));
+}
+
+/* Pictures are looked up anew, and so is grain, whatever there was before: a change of them is one of light; that there is
+   a picture is not. */
+static void pictures_and_roughness_are_light(void **state)
+{
+    (void)state;
+    static const Step steps[] = { { "roughness rough.pgm", 0 },
+                                  { "material metalness=0.6", 0 },
+                                  { "environment studio turn=40", 1 },
+                                  { "colour spots.ppm", 1 },
+                                  { "material metalness=0.3", 1 },
+                                  { "colour spots.ppm repeat=3,1.5", 2 },
+                                  { "roughness rough.pgm repeat=0.7,2", 3 },
+                                  { "grain marble drives=colour", 4 },
+                                  { "grain marble amount=0.3", 5 },
+                                  { "environment off", 6 },
+                                  { "roughness off", 6 },
+                                  { "grain wood drives=colour+roughness", 6 },
+                                  { "grain granite rough_light=0.9 amount=3", 7 },
+                                  { "grain checker drives=roughness", 8 },
+                                  { "grain off", 9 } };
+    Rig rig = rig_of(400, false);
+    write_pictures();
+    must_run(rig.session, "surface sphere");
+    must_run(rig.session, "material model=ggx");
+    must_run(rig.session, "camera orthographic");
+    walk(&rig, steps, COUNT(steps));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_alone_gives_the_same_bits),
+        cmocka_unit_test(light_alone_of_several_gives_the_same_bits),
         cmocka_unit_test(light_alone_is_worked_out),
+        cmocka_unit_test(light_alone_of_several_is_worked_out),
+        cmocka_unit_test(pictures_and_roughness_are_light),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

@@ -3,6 +3,13 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "system/clock.h"
+#include "system/path.h"
+#include "system/process.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #ifdef WR_HAVE_UI
 #include "ui/app/app.h"
@@ -57,6 +64,47 @@ static void print(WrText *text, const char *what, const WrAppDelays *ms)
                  ms->nearly_all, ms->all);
 }
 
+#define STARTS 15 /* odd: the middle one is told */
+
+/* Milliseconds from the command to the window's first picture, of a window that nobody sees, with settings of its own in the
+   folder; negative: it told none. */
+static double time_start(const char *program, const char *folder)
+{
+    WrText line = { 0 };
+    double ms = -1;
+    wr_text_addf(&line,
+                 "cd '%s' && XDG_CONFIG_HOME='%s' WRINKLE_STATE='%s' SDL_VIDEODRIVER=dummy "
+                 "WRINKLE_RENDERER=software WRINKLE_TIMING=%.6f '%s' paint >out 2>told </dev/null",
+                 folder, folder, folder, wr_clock_seconds(), program);
+    const bool ran = system(wr_text_get(&line)) == 0;
+    wr_text_clear(&line);
+    wr_text_addf(&line, "%s/told", folder);
+    FILE *told = ran ? fopen(wr_text_get(&line), "r") : NULL;
+    if (!told || fscanf(told, "first picture after %lf", &ms) != 1) ms = -1;
+    if (told) fclose(told);
+    wr_text_fini(&line);
+    return ms;
+}
+
+static void add_start(bool quick, WrText *text)
+{
+    char program[4096], folder[] = "/tmp/wrinkle-bench-XXXXXX";
+    double ms[STARTS];
+    const int count = quick ? 3 : STARTS;
+    if (!wr_process_program(program, sizeof program) || strchr(program, '\'') ||
+        !wr_folder_make_temporary(folder))
+        return;
+    bool told = time_start(program, folder) > 0; /* the first brings files into memory */
+    for (int i = 0; i < count && told; i++) told = (ms[i] = time_start(program, folder)) > 0;
+    if (told)
+        wr_text_addf(
+            text, "\nfrom the command to the window's first picture, without a display: %.0f ms\n",
+            wr_bench_median(ms, count));
+    else wr_text_add(text, "\nthe window's first picture: it did not tell\n");
+    snprintf(program, sizeof program, "rm -r '%s'", folder); /* what the window keeps there */
+    if (system(program) != 0) wr_text_addf(text, "%s: cannot be removed\n", folder);
+}
+
 bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err)
 {
     static const struct {
@@ -71,6 +119,7 @@ bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err)
         { "three objects, brush of 32 texels, the patch rests", three_objects, 16, 20, false },
         { "three objects, brush of 32 texels, the patch turns", three_objects, 16, 20, true },
     };
+    add_start(quick, text);
     wr_text_addf(
         text,
         "\npainting in the window: ms from an event until it is seen\n%-30s %9s %9s %9s %9s\n", "",

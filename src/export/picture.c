@@ -40,9 +40,13 @@ bool wr_export_fill_picture(WrExportJob *job, WrError *err)
     const size_t count = (size_t)job->width * (size_t)job->height;
     const int channels = job->channels;
     const size_t each = job->options.depth == 32 ? sizeof(float) : 1;
-    char *values = wr_try_alloc(count * (size_t)channels, each, "a picture of a map", err);
-    picture->rgb = values ? wr_try_alloc(count, 3, "a picture of a map", err) : NULL;
-    const bool made = picture->rgb && (!job->kind->make || job->kind->make(job, err));
+    const bool as_they_are = each == 1 && channels == 3;
+    picture->rgb = wr_try_alloc(count, 3, "a picture of a map", err);
+    char *values = as_they_are ? (char *)picture->rgb
+                   : picture->rgb
+                       ? wr_try_alloc(count * (size_t)channels, each, "a picture of a map", err)
+                       : NULL;
+    const bool made = values && (!job->kind->make || job->kind->make(job, err));
     if (made) {
         if (job->kind->prepare) job->kind->prepare(job);
         for (int y = 0; y < job->height; y += STRIP) {
@@ -50,12 +54,14 @@ bool wr_export_fill_picture(WrExportJob *job, WrError *err)
             job->kind->rows(job, y, rows,
                             values + (size_t)y * (size_t)job->width * (size_t)channels * each);
         }
-        if (each == 1) put_codes((const uint8_t *)values, channels, count, picture->rgb);
-        else put_floats((const float *)(const void *)values, channels, count, picture->rgb);
+        if (each == 1 && !as_they_are)
+            put_codes((const uint8_t *)values, channels, count, picture->rgb);
+        else if (each != 1)
+            put_floats((const float *)(const void *)values, channels, count, picture->rgb);
         picture->width = job->width;
         picture->height = job->height;
     }
-    wr_free(values);
+    if (!as_they_are) wr_free(values);
     return made;
 }
 

@@ -23,6 +23,7 @@ WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err)
     wr_code_bins_fill(renderer->bins);
     snprintf(renderer->isa, sizeof renderer->isa, "%s", isa ? isa : "auto");
     wr_table_init(&renderer->table);
+    renderer->steady = &renderer->own_steady;
     return renderer;
 }
 
@@ -56,7 +57,7 @@ void wr_renderer_forget(WrRenderer *renderer)
     renderer->square = NULL;
     wr_sight_fini(&renderer->sight);
     wr_cast_body_fini(&renderer->body);
-    wr_steady_fini(&renderer->steady);
+    wr_steady_fini(&renderer->own_steady);
 }
 
 void wr_renderer_free(WrRenderer *renderer)
@@ -369,7 +370,7 @@ bool wr_frame_run(WrRenderer *renderer, FrameJob *job)
     return whole && (!job->cancel || !*job->cancel);
 }
 
-bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
     const WrKernels *kernels =
@@ -386,7 +387,7 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
     if (!find_rise(renderer, request, &ask.facts.rise, err)) return false;
     if (!wr_frame_prepare_table(renderer, request, &ask, err)) return false;
     if (!wr_frame_prepare_maps(renderer, request, err)) return false;
-    const bool stands = view_stands(renderer, request, &before, &ask);
+    const bool stands = renderer->stands = view_stands(renderer, request, &before, &ask);
     renderer->sighting = renderer->sighted = false; /* not yet known */
     ask.facts.rests = false;
     const WrKernels *last = renderer->kernels;
@@ -394,15 +395,27 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
     if (stands) look_for_life(renderer, request, &ask);
     ask.facts.rests = rests(renderer, request, &before, last);
     wr_plan_again(&renderer->plan, &ask);
-    wr_frame_choose_steady(renderer, request, &ask);
-    if (wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) {
-        wr_keep_fini(&renderer->keep);
-        renderer->outside = ask.facts.outside;
-        if (!prepare_view(renderer, request, kernels, err)) return false;
-        if (!stands) look_for_life(renderer, request, &ask);
-    }
     renderer->ask = ask;
     return true;
+}
+
+bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    if (!wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) return true;
+    wr_keep_fini(&renderer->keep);
+    renderer->outside = renderer->ask.facts.outside;
+    if (!prepare_view(renderer, request, renderer->kernels, err)) return false;
+    if (!renderer->stands) look_for_life(renderer, request, &renderer->ask);
+    return true;
+}
+
+/* Of a picture of one object. */
+static void choose_steady(WrRenderer *renderer, const WrFrameRequest *request)
+{
+    const WrSteadyPart part = { .scene = request->scene,
+                                .plan = &renderer->plan,
+                                .field = wr_field_key(request->field) };
+    wr_frame_choose_steady(renderer, request, &part, &renderer, 1);
 }
 
 /* The tiles of a resting view that its edits reach, or all; then what those look at is noted. */
@@ -415,7 +428,7 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
     }
     wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
     job->cancel = request->cancel;
-    if (renderer->steady.use == WR_STEADY_KNOWN) return; /* no tile tells what it looks at */
+    if (renderer->steady->use == WR_STEADY_KNOWN) return; /* no tile tells what it looks at */
     if (!wr_frame_may_keep(request)) return;
     wr_keep_start(&renderer->keep, wr_frame_tiles(&job->tile));
     job->tile.seen = renderer->keep.seen;
@@ -437,6 +450,8 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     if (!wr_frame_resize(renderer, request, err)) return false;
     const WrScene *scene = request->scene;
     if (!wr_frame_casts(&renderer, &scene, 1, request, err)) return false;
+    if (!wr_frame_decide(renderer, request, err)) return false;
+    choose_steady(renderer, request);
     if (!wr_frame_prepare(renderer, request, err)) return false;
     wr_frame_bring_sight(renderer, request, (WrHash){ 0 },
                          wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN));
@@ -452,7 +467,7 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     }
     wr_frame_shown(renderer);
     wr_frame_account(renderer, prepared, started, frame);
-    if (renderer->steady.use == WR_STEADY_NOTE) wr_steady_noted(&renderer->steady, frame->shaded);
+    if (renderer->steady->use == WR_STEADY_NOTE) wr_steady_noted(renderer->steady, frame->shaded);
     return true;
 }
 

@@ -104,8 +104,9 @@ void wr_renderer_free(WrRenderer *renderer);
 int wr_renderer_threads(const WrRenderer *renderer);
 const char *wr_renderer_isa(const WrRenderer *renderer); /* as it was asked for */
 
-/* Render. The bits depend on the request alone: not on threads, nor (arithmetic exact) on the isa, nor
-   on what was rendered before. */
+/* Render. The bits depend on the request alone: not on threads, nor (arithmetic exact) on the isa or
+   on what was rendered before: fast arithmetic rounds within its bound, and a light that is worked out alone (steady.h)
+   stands otherwise in its strips. */
 bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                        WrError *err);
 

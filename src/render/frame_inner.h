@@ -52,9 +52,9 @@ struct WrRenderer {
     WrCastBody body; /* of the object, as it throws shadows */
     WrCast cast;     /* what can hide lamps from it */
     WrFrames frames;
-    WrSight sight;           /* of the last view that rested */
-    WrSteady steady;         /* of one that rests but for its light */
-    WrTileScratch **scratch; /* [threads], made on first use */
+    WrSight sight;                /* of the last view that rested */
+    WrSteady own_steady, *steady; /* of one that rests but for its light: its own, or its group's */
+    WrTileScratch **scratch;      /* [threads], made on first use */
     int threads;
     float *rgba;         /* the last picture, or the last band of it ... */
     uint32_t *codes;     /* ... or the same as codes; each made when it is first wanted */
@@ -75,6 +75,7 @@ struct WrRenderer {
     bool sighted;  /* `sight` knows what it looks at */
     bool sighting; /* this frame uses or fills `sight` */
     bool outside;  /* the eye of that view is outside the surface */
+    bool stands;   /* the view that this frame was decided for is the last one's */
     WrKeep keep;
     WrPlanAsk ask;            /* what this frame's plan was asked */
     WrFrameRequest last;      /* of the last whole or refreshed picture; for its numbers only */
@@ -108,15 +109,18 @@ void wr_group_free(WrRenderer *renderer);
 
 /* Memory for the picture that is asked for, or, of a part, its numbers alone. */
 bool wr_frame_resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
-/* All that a frame of one object needs before its tiles; false where it cannot be. */
+/* The plan of a frame of one object, and the tables that it goes by; then wr_frame_choose_steady, then all else that it
+   needs before its tiles. False where it cannot be. */
+bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 /* Then, what its samples look at: known from the last frame, or noted where every tile is anew. beside: of the other
    objects of the picture, 0: there are none. */
 void wr_frame_bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
                           bool anew);
-/* Is what a resting view shows, but for its light, of use to this frame (steady.h)? The rows that go by it are decided once
-   more. */
-void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask);
+/* Is what a resting view shows, but for its light, of use to this frame of `count` objects (steady.h)? The rows that go by it
+   are decided once more, in each of the objects' renderers. */
+void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
+                            const WrSteadyPart *parts, WrRenderer *const *owners, int count);
 /* Both, as the frame's tiles find or fill them. */
 void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job);
 /* Where its tiles go, and of what size they are; request NULL: for picking. */

@@ -1,11 +1,11 @@
-/* What the samples of a resting view look at (sight.h), and n' and P of them (steady.h): when it is known, and when it is
+/* What the samples of a resting view look at (sight.h), and n', P, u and v of them (steady.h): when it is known, and when it is
    noted. */
 #include "field/field.h"
 #include "render/frame_inner.h"
 #include "scene/objects.h"
 
 #define SIGHT_MOST (1 << 24)  /* pixels; 8 bytes each */
-#define STEADY_MOST (1 << 22) /* likewise; 25 bytes each, and 24 more while they are noted */
+#define STEADY_MOST (1 << 22) /* likewise; 33 bytes each, and 32 more while they are noted */
 
 /* Does its relief throw shadows, or hide itself? */
 static bool hides(const WrScene *object)
@@ -48,7 +48,7 @@ static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrH
     renderer->sighting = small && wr_frame_may_keep(request) && renderer->mesh &&
                          plan->newton != 0 && plan->sampling == WR_SAMPLING_ONE &&
                          !plan->shading_double && !is_forced(request);
-    if (!renderer->sighting || renderer->steady.use == WR_STEADY_KNOWN) {
+    if (!renderer->sighting || renderer->steady->use == WR_STEADY_KNOWN) {
         renderer->sighting = false;
         return false;
     }
@@ -75,38 +75,46 @@ static bool is_any_forced(const WrForce *force)
     return any;
 }
 
-/* One object in one piece, as the planner would have it, and nothing wanted of it but its light. */
-static bool may_be_steady(const WrRenderer *renderer, const WrFrameRequest *request)
+/* As the planner would have it, and nothing wanted of it but its light. */
+static bool may_be_steady(const WrFrameRequest *request)
 {
-    return wr_frame_may_keep(request) && !renderer->among && !request->normals && !request->map &&
-           !is_any_forced(request->force) && !request->full && request->scene->other_count == 0 &&
-           (int64_t)request->width * request->height <= STEADY_MOST &&
-           wr_steady_suits(request->scene, &renderer->plan);
+    return wr_frame_may_keep(request) && !request->normals && !request->map &&
+           !is_any_forced(request->force) && !request->full &&
+           (int64_t)request->width * request->height <= STEADY_MOST;
 }
 
-void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask)
+void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
+                            const WrSteadyPart *parts, WrRenderer *const *owners, int count)
 {
-    const WrSteadyView view = { .scene = request->scene,
-                                .plan = &renderer->plan,
+    const WrSteadyView view = { .parts = parts,
+                                .count = count,
                                 .kernels = renderer->kernels,
                                 .turn_deg = request->turn_deg,
                                 .width = request->width,
-                                .height = request->height,
-                                .field = wr_field_key(request->field) };
-    const bool suits = may_be_steady(renderer, request);
-    const bool all = wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN);
-    WrSteady *steady = &renderer->steady;
-    steady->use = suits && all ? wr_steady_bring(steady, &view) : WR_STEADY_NONE;
-    ask->facts.steady = steady->use == WR_STEADY_KNOWN;
-    ask->facts.normals |= steady->use == WR_STEADY_NOTE; /* also where it is dark */
-    wr_plan_again(&renderer->plan, ask);
+                                .height = request->height };
+    WrSteady *steady = renderer->steady;
+    bool may = may_be_steady(request) && count > 0, anew = false;
+    for (int i = 0; i < count; i++) {
+        may = may && wr_steady_suits(parts[i].scene, parts[i].plan);
+        anew |= wr_plan_runs(parts[i].plan, WR_EFFECT_AGAIN);
+    }
+    steady->use = may && anew ? wr_steady_bring(steady, &view) : WR_STEADY_NONE;
+    for (int i = 0; i < count; i++) {
+        WrPlanAsk *ask = &owners[i]->ask;
+        ask->facts.steady = steady->use == WR_STEADY_KNOWN;
+        ask->facts.normals |= steady->use == WR_STEADY_NOTE; /* also where it is dark */
+        wr_plan_again(&owners[i]->plan, ask);
+    }
 }
 
 void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job)
 {
-    WrSteady *steady = &renderer->steady;
+    WrSteady *steady = renderer->steady;
     job->sight = renderer->sighting ? &renderer->sight : NULL;
     job->seen_before = renderer->sighted;
     if (steady->use == WR_STEADY_KNOWN) job->steady = steady;
-    if (steady->use == WR_STEADY_NOTE) job->normals = steady->normals, job->points = steady->points;
+    if (steady->use != WR_STEADY_NOTE) return;
+    job->normals = steady->normals;
+    job->points = steady->points;
+    job->uv = steady->uv;
 }

@@ -1,6 +1,7 @@
 /* A picture of several objects: each is prepared as a picture of its own, then all are drawn tile by tile. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "render/frame_inner.h"
 #include "scene/objects.h"
 #include "system/clock.h"
@@ -44,7 +45,7 @@ void wr_group_free(WrRenderer *renderer)
 }
 
 /* A renderer that draws with the group's threads and memory. */
-static WrRenderer *new_part(const WrRenderer *group)
+static WrRenderer *new_part(WrRenderer *group)
 {
     WrRenderer *part = wr_alloc(1, sizeof *part);
     part->pool = group->pool;
@@ -53,11 +54,12 @@ static WrRenderer *new_part(const WrRenderer *group)
     memcpy(part->bins, group->bins, sizeof part->bins);
     memcpy(part->isa, group->isa, sizeof part->isa);
     wr_table_init(&part->table);
+    part->steady = &group->own_steady;
     return part;
 }
 
 /* Which of the old scenes' parts has this object? Its renderer holds copies of the object's table. */
-static void take_renderer(WrGroup *group, int i, int object, const WrRenderer *renderer)
+static void take_renderer(WrGroup *group, int i, int object, WrRenderer *renderer)
 {
     for (int k = i; k < group->made; k++) {
         if (group->parts[k].object != object) continue;
@@ -109,6 +111,23 @@ static WrFrameRequest request_of(const Part *part, const WrFrameRequest *request
     return own;
 }
 
+/* Light alone, if that is all that has changed. */
+static void choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
+                          WrRenderer *const *owners)
+{
+    const WrGroup *group = renderer->group;
+    WrSteadyPart parts[WR_OBJECTS_MAX];
+    for (int i = 0; i < group->count; i++) {
+        const WrFrameRequest own = request_of(&group->parts[i], request);
+        parts[i] = (WrSteadyPart){ .scene = own.scene,
+                                   .plan = &owners[i]->plan,
+                                   .field = wr_field_key(own.field),
+                                   .object = group->parts[i].object };
+    }
+    if (group->count > 0) renderer->kernels = owners[0]->kernels;
+    wr_frame_choose_steady(renderer, request, parts, owners, group->count);
+}
+
 static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     WrGroup *group = renderer->group;
@@ -124,7 +143,12 @@ static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, W
         const WrFrameRequest own = request_of(part, request);
         part->renderer->among = group->count;
         if (!wr_frame_resize(part->renderer, &own, err)) return false;
-        if (!wr_frame_prepare(part->renderer, &own, err)) return false;
+        if (!wr_frame_decide(part->renderer, &own, err)) return false;
+    }
+    choose_steady(renderer, request, own_renderers);
+    for (int i = 0; i < group->count; i++) {
+        const WrFrameRequest own = request_of(&group->parts[i], request);
+        if (!wr_frame_prepare(own_renderers[i], &own, err)) return false;
     }
     return true;
 }
@@ -202,6 +226,12 @@ static void bring_sights(WrRenderer *renderer, const WrFrameRequest *request, bo
     }
 }
 
+/* Are tiles' looks at the tables noted? */
+static bool notes_tiles(const WrRenderer *renderer, const WrFrameRequest *request, bool rests)
+{
+    return wr_frame_may_keep(request) && !rests && renderer->steady->use != WR_STEADY_KNOWN;
+}
+
 /* Where the group's pixels go. */
 static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request)
 {
@@ -210,7 +240,9 @@ static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request
     renderer->samples = group->count > 0 ? group->parts[0].renderer->samples : 1;
     renderer->kernels =
         wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, NULL);
-    return wr_frame_canvas(renderer, request);
+    WrTileJob canvas = wr_frame_canvas(renderer, request);
+    if (renderer->steady->use == WR_STEADY_NOTE) canvas.owner = renderer->steady->owner;
+    return canvas;
 }
 
 /* The parts' jobs, the nearest first. */
@@ -223,8 +255,10 @@ static int make_jobs(WrRenderer *renderer, const WrFrameRequest *request, bool r
         WrRenderer *own = part->renderer;
         const WrFrameRequest asked = request_of(part, request);
         WrTileJob job = wr_frame_job(own, &asked);
-        if (wr_frame_may_keep(request) && !rests) wr_keep_start(&own->keep, tiles);
-        job.seen = wr_frame_may_keep(request) && !rests ? own->keep.seen : NULL;
+        const bool noted = notes_tiles(renderer, request, rests);
+        if (noted) wr_keep_start(&own->keep, tiles);
+        else if (!rests) wr_keep_fini(&own->keep);
+        job.seen = noted ? own->keep.seen : NULL;
         job.object = part->object;
         keeps[i] = &own->keep;
         int k = i;
@@ -281,6 +315,7 @@ bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame
     group->last = *request;
     group->whole = true;
     wr_frame_account(renderer, prepared, started, frame);
+    if (renderer->steady->use == WR_STEADY_NOTE) wr_steady_noted(renderer->steady, -1);
     return true;
 }
 

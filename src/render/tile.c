@@ -122,10 +122,11 @@ static uint32_t *code_at(const WrTileJob *job, int x, int y)
 
 static WrSink row_sink(const WrTileRows *rows, int y)
 {
-    const size_t row = (size_t)y;
+    const size_t row = (size_t)y, samples = row * rows->wide;
     return (WrSink){ .rgba = rows->rgba ? rows->rgba + row * rows->rgba_step : NULL,
-                     .normals = rows->normals ? rows->normals + row * rows->normals_step : NULL,
-                     .points = rows->points ? rows->points + row * rows->normals_step : NULL,
+                     .normals = rows->normals ? rows->normals + 3 * samples : NULL,
+                     .points = rows->points ? rows->points + 3 * samples : NULL,
+                     .uv = rows->uv ? rows->uv + 2 * samples : NULL,
                      .codes = rows->codes ? rows->codes + row * rows->codes_step : NULL,
                      .nearest = rows->nearest ? rows->nearest + row * rows->nearest_step : NULL };
 }
@@ -151,16 +152,62 @@ static void fill_codes(const WrTileJob *job, int x, int y, int count, uint32_t m
     for (int i = 0; i < count; i++) to[i] = code;
 }
 
-/* What other objects have left there, for rows that are packed. */
-static void bring_packed(const WrTileRows *out, int top, int rows, int width, float rgba[][4],
-                         float normals[][3], WrNearest *nearest)
+/* Several short rows, one after the other. */
+typedef struct Packed {
+    float rgba[WR_SPAN][4], normals[WR_SPAN][3], points[WR_SPAN][3], uv[WR_SPAN][2];
+    uint32_t codes[WR_SPAN];
+    WrNearest nearest[WR_SPAN];
+} Packed;
+
+/* Floats of samples that are wanted: as they are packed, and where they go. */
+typedef struct Plane {
+    float *packed, *to; /* to NULL: not wanted */
+    size_t each, step;  /* floats a sample, and a row of `to` */
+} Plane;
+#define PLANES 4
+
+static void find_planes(const WrTileRows *out, Packed *packed, Plane planes[PLANES])
 {
-    for (int y = 0; y < rows; y++) {
-        const size_t to = (size_t)(y * width), w = (size_t)width, from = (size_t)(top + y);
-        memcpy(nearest + to, out->nearest + from * out->nearest_step, w * sizeof *nearest);
-        if (out->rgba) memcpy(rgba[to], out->rgba + from * out->rgba_step, w * sizeof rgba[0]);
-        if (out->normals)
-            memcpy(normals[to], out->normals + from * out->normals_step, w * sizeof normals[0]);
+    planes[0] = (Plane){ packed->rgba[0], out->rgba, 4, out->rgba_step };
+    planes[1] = (Plane){ packed->normals[0], out->normals, 3, 3 * out->wide };
+    planes[2] = (Plane){ packed->points[0], out->points, 3, 3 * out->wide };
+    planes[3] = (Plane){ packed->uv[0], out->uv, 2, 2 * out->wide };
+}
+
+/* Nothing, or what other objects have left there. */
+static void bring_packed(const WrTileRows *out, int top, int rows, int width, Packed *packed,
+                         const Plane planes[PLANES])
+{
+    const size_t w = (size_t)width, from = (size_t)top;
+    for (int i = 0; i < PLANES; i++) {
+        const Plane *p = &planes[i];
+        const size_t row = w * p->each;
+        if (p->to && !out->over) memset(p->packed, 0, (size_t)rows * row * sizeof(float));
+        for (size_t y = 0; y < (size_t)rows && p->to && out->over; y++)
+            memcpy(p->packed + y * row, p->to + (from + y) * p->step, row * sizeof(float));
+    }
+    for (size_t y = 0; y < (size_t)rows && out->nearest; y++)
+        memcpy(packed->nearest + y * w, out->nearest + (from + y) * out->nearest_step,
+               w * sizeof *packed->nearest);
+}
+
+/* All of it to its places. */
+static void put_packed(const WrTileRows *out, int top, int rows, int width, const Packed *packed,
+                       const Plane planes[PLANES])
+{
+    const size_t w = (size_t)width, to = (size_t)top;
+    for (int i = 0; i < PLANES; i++) {
+        const Plane *p = &planes[i];
+        const size_t row = w * p->each;
+        for (size_t y = 0; y < (size_t)rows && p->to; y++)
+            memcpy(p->to + (to + y) * p->step, p->packed + y * row, row * sizeof(float));
+    }
+    for (size_t y = 0; y < (size_t)rows; y++) {
+        if (out->codes)
+            put_codes(packed->codes + y * w, width, out->codes + (to + y) * out->codes_step);
+        if (out->nearest)
+            memcpy(out->nearest + (to + y) * out->nearest_step, packed->nearest + y * w,
+                   w * sizeof *packed->nearest);
     }
 }
 
@@ -172,51 +219,45 @@ static void fill_packed(const WrTileJob *job, const WrDepthTile *tile, int top, 
         fill_codes(job, tile->x, tile->y + top + y, tile->w, 0xffffffU, codes + y * tile->w);
 }
 
+/* Where they are. */
+static void place_packed(const WrDepthTile *tile, int top, int rows, WrScatter *places)
+{
+    places->count = 0;
+    for (int i = 0; i < rows * tile->w; i++) {
+        const int x = i % tile->w, y = top + i / tile->w;
+        const signed char *shift = tile->shift ? tile->shift + 2 * (y * tile->w + x) : NULL;
+        places->x[places->count] = tile->x + x + (shift ? shift[0] / 256.0 : 0);
+        places->y[places->count] = tile->y + y + (shift ? shift[1] / 256.0 : 0);
+        places->cell[places->count++] = y * tile->w + x;
+    }
+}
+
 /* Several short rows in one strip. */
 static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
                        WrTileScratch *scratch)
 {
-    WrScatter *places = &scratch->scatter;
     const int many = WR_SPAN / tile->w;
-    float rgba[WR_SPAN][4], normals[WR_SPAN][3], points[WR_SPAN][3];
-    uint32_t codes[WR_SPAN];
-    WrNearest nearest[WR_SPAN];
+    Packed packed;
+    Plane planes[PLANES];
+    find_planes(out, &packed, planes);
     for (int top = 0; top < tile->h; top += many) {
         const double start = wr_clock_seconds();
         const int rows = tile->h - top < many ? tile->h - top : many;
-        places->count = 0;
-        for (int i = 0; i < rows * tile->w; i++) {
-            const int x = i % tile->w, y = top + i / tile->w;
-            const signed char *shift = tile->shift ? tile->shift + 2 * (y * tile->w + x) : NULL;
-            places->x[places->count] = tile->x + x + (shift ? shift[0] / 256.0 : 0);
-            places->y[places->count] = tile->y + y + (shift ? shift[1] / 256.0 : 0);
-            places->cell[places->count++] = y * tile->w + x;
-        }
-        if (out->nearest) bring_packed(out, top, rows, tile->w, rgba, normals, nearest);
-        else if (out->rgba) memset(rgba, 0, sizeof rgba);
-        if (!out->nearest && out->normals) memset(normals, 0, sizeof normals);
-        if (out->codes) fill_packed(job, tile, top, rows, codes);
-        WrSink sink = { .rgba = out->rgba ? rgba[0] : NULL,
-                        .normals = out->normals ? normals[0] : NULL,
-                        .points = out->points ? points[0] : NULL,
-                        .codes = out->codes ? codes : NULL,
-                        .nearest = out->nearest ? nearest : NULL };
-        const double packed = wr_clock_seconds();
-        job->pipe->points(job, k, tile, &sink, scratch);
+        place_packed(tile, top, rows, &scratch->scatter);
+        bring_packed(out, top, rows, tile->w, &packed, planes);
+        if (out->codes) fill_packed(job, tile, top, rows, packed.codes);
+        WrSink sink = { .rgba = out->rgba ? packed.rgba[0] : NULL,
+                        .normals = out->normals ? packed.normals[0] : NULL,
+                        .points = out->points ? packed.points[0] : NULL,
+                        .uv = out->uv ? packed.uv[0] : NULL,
+                        .codes = out->codes ? packed.codes : NULL,
+                        .nearest = out->nearest ? packed.nearest : NULL };
         const double ready = wr_clock_seconds();
-        scratch->all_strips += ready - packed;
-        for (int y = 0; y < rows; y++) {
-            const size_t from = (size_t)(y * tile->w), w = (size_t)tile->w, to = (size_t)(top + y);
-            if (out->rgba) memcpy(out->rgba + to * out->rgba_step, rgba[from], w * sizeof rgba[0]);
-            if (out->normals)
-                memcpy(out->normals + to * out->normals_step, normals[from], w * sizeof normals[0]);
-            if (out->points)
-                memcpy(out->points + to * out->normals_step, points[from], w * sizeof points[0]);
-            if (out->codes) put_codes(codes + from, tile->w, out->codes + to * out->codes_step);
-            if (out->nearest)
-                memcpy(out->nearest + to * out->nearest_step, nearest + from, w * sizeof *nearest);
-        }
-        scratch->whole[WR_STAGE_STORE] += wr_clock_seconds() - ready + packed - start;
+        job->pipe->points(job, k, tile, &sink, scratch);
+        const double done = wr_clock_seconds();
+        scratch->all_strips += done - ready;
+        put_packed(out, top, rows, tile->w, &packed, planes);
+        scratch->whole[WR_STAGE_STORE] += wr_clock_seconds() - done + ready - start;
     }
 }
 
@@ -246,13 +287,12 @@ static void render_point(const WrTileJob *job, WrTilePart part, bool light, WrTi
 {
     WrDepthTile tile = wr_tile_depth(job, 1, part.x, part.y, part.w, part.h, scratch);
     const size_t wide = (size_t)job->width;
-    WrTileRows out = { .rgba_step = 4 * job->rgba_pitch,
-                       .normals_step = 3 * wide,
-                       .codes_step = wide };
+    WrTileRows out = { .rgba_step = 4 * job->rgba_pitch, .wide = wide, .codes_step = wide };
     if (light && job->codes) out.codes = code_at(job, part.x, part.y);
     else if (light) out.rgba = wr_tile_pixel(job, part.x, part.y);
     if (job->normals) out.normals = job->normals + wr_tile_place(job, part.x, part.y) * 3;
     if (job->points) out.points = job->points + wr_tile_place(job, part.x, part.y) * 3;
+    if (job->uv) out.uv = job->uv + wr_tile_place(job, part.x, part.y) * 2;
     wr_tile_samples(job, 1, &tile, &out, scratch);
 }
 

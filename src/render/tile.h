@@ -51,7 +51,7 @@ typedef struct WrTileJob {
     WrTriangleLook triangle_look;
     const WrDice *dice;     /* of a displaced surface, what the triangles are; or NULL */
     bool seen_before;       /* it is known */
-    const WrSteady *steady; /* n' and P of the view's samples, which are known; or NULL */
+    const WrSteady *steady; /* n', P, u and v of the view's samples, which are known; or NULL */
     bool newton;            /* the mesh's parameters are made exact */
     WrLook look;
     WrLookd look_double;           /* where kernels_double looks */
@@ -92,7 +92,8 @@ typedef struct WrTileJob {
     WrCoder coder;
     const WrBackdrop *backdrop; /* of the band */
     float *normals;             /* WrFrameRequest's, or the renderer's own; or NULL */
-    float *points;              /* of those, where they lie; or NULL */
+    float *points, *uv;         /* of those, where they lie; or NULL */
+    unsigned char *owner;       /* which object each shows (WrSteady), of several; or NULL */
     uint8_t *map;               /* likewise */
     WrBlocks *seen;             /* [tiles] to fill with what each tile looks at; NULL: not wanted */
     int object;                 /* which of the scene's it draws */
@@ -114,7 +115,7 @@ typedef struct WrSink {
     WrNearest *nearest; /* one a sample; what lies behind it is not stored */
     float *bound;       /* how far the intensity may change over the pixel */
     double pixel;       /* of the bound, samples a side */
-    float *uv;          /* 2 a sample: u and v, where table or colour picture are looked up */
+    float *uv;          /* 2 a sample: u and v, where table or pictures are looked up */
     float *
         texels; /* how many of table and colour picture lie along a pixel, at most; only those that are not 0 */
 } WrSink;

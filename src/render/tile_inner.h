@@ -9,12 +9,14 @@
 
 /* Where the rows of a tile go. */
 typedef struct WrTileRows {
-    float *rgba, *normals, *points; /* of the first row; NULL: not wanted */
-    size_t rgba_step, normals_step; /* floats a row; of points as of normals */
+    float *rgba, *normals, *points, *uv; /* of the first row; NULL: not wanted */
+    size_t rgba_step;                    /* floats a row */
+    size_t wide;                         /* samples a row, of the others */
     uint32_t *codes;
     size_t codes_step;
     WrNearest *nearest;
     size_t nearest_step;
+    bool over; /* other objects have been drawn there, or will be */
 } WrTileRows;
 
 /* What lies behind a pixel of the picture; only where codes are wanted. */

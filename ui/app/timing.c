@@ -3,19 +3,31 @@
 #include "ui/desk/desk.h"
 #include "ui/preview/preview.h"
 
+#include "base/text.h"
 #include "image/image.h"
 #include "system/clock.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* WRINKLE_TIMING: milliseconds to the first picture at once, the rest at the end. */
+/* WRINKLE_TIMING: milliseconds to the first picture at once, the rest at the end; where that is a time of the clock above
+   1, when the command was given, they are counted from there, and the window closes. */
+static void tell_first(WrApp *app)
+{
+    const char *asked = getenv("WRINKLE_TIMING");
+    double from;
+    if (!asked) return;
+    const bool timed = wr_number_parse(asked, strlen(asked), &from) && from > 1;
+    fprintf(stderr, "first picture after %.1f ms\n",
+            (wr_clock_seconds() - (timed ? from : app->started_at)) * 1e3);
+    if (timed) app->quit = true;
+}
+
 void wr_timing_note(WrApp *app, double seconds)
 {
     WrTiming *t = app->timing;
-    if (t->pictures++ == 0 && getenv("WRINKLE_TIMING"))
-        fprintf(stderr, "first picture after %.0f ms\n",
-                (wr_clock_seconds() - app->started_at) * 1e3);
+    if (t->pictures++ == 0) tell_first(app);
     /* The first picture file is read at once then; its reader starts beside the window, not before it. */
     if (t->pictures == 2 && !app->latency) wr_image_warm();
     t->seconds += seconds;
