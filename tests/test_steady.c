@@ -356,7 +356,7 @@ static void pictures_and_roughness_are_light(void **state)
     write_pictures();
     must_run(rig.session, "surface sphere");
     must_run(rig.session, "material model=ggx");
-    must_run(rig.session, "camera orthographic");
+    must_run(rig.session, "camera orthographic size=0.7"); /* rows of whole tiles */
     walk(&rig, steps, COUNT(steps));
 }
 
