@@ -6,6 +6,7 @@
 #include "render/cast.h"
 #include "render/pyramid.h"
 #include "render/relief.h"
+#include "render/tile_inner.h"
 #include "scene/normal_map.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"

@@ -35,8 +35,12 @@ static void store_codes(const WrTileJob *job, const Strip *strip, bool run, cons
 {
     uint32_t codes[WR_SPAN], *restrict out = sink->codes;
     const bool direct = sink->once && run;
-    uint32_t *to = direct ? out + strip->index[0] : codes;
+    const int first = strip->index[0];
+    uint32_t *to = direct ? out + first : codes;
     int fresh = 0;
+    if (sink->once && !scratch->behind)
+        wr_tile_behind_strip(job, sink, direct ? first : 0, direct ? first + strip->count : 0,
+                             scratch);
     scratch->not_finite += make_codes(job, strip, to);
     for (int i = 0; i < strip->count && !direct; i++) {
         fresh += out[strip->index[i]] >> 24 == 0;

@@ -152,6 +152,15 @@ static void fill_codes(const WrTileJob *job, int x, int y, int count, uint32_t m
     for (int i = 0; i < count; i++) to[i] = code;
 }
 
+void wr_tile_behind_strip(const WrTileJob *job, const WrSink *sink, int from, int to,
+                          WrTileScratch *scratch)
+{
+    const uint32_t opaque = 0xffffffffU;
+    fill_codes(job, sink->x, sink->y, from, opaque, sink->codes);
+    fill_codes(job, sink->x + to, sink->y, sink->wide - to, opaque, sink->codes + to);
+    scratch->behind = true;
+}
+
 /* Several short rows, one after the other. */
 typedef struct Packed {
     float rgba[WR_SPAN][4], normals[WR_SPAN][3], points[WR_SPAN][3], uv[WR_SPAN][2];
@@ -274,9 +283,12 @@ void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const
         WrSink sink = row_sink(out, y);
         uint32_t *to = sink.codes;
         sink.once = to && !sink.nearest && job->view->quad_count < 2;
-        if (sink.once) fill_codes(job, tile->x, tile->y + y, tile->w, 0xffffffffU, to);
-        else if (to) fill_codes(job, tile->x, tile->y + y, tile->w, 0xffffffU, sink.codes = codes);
+        sink.x = tile->x, sink.y = tile->y + y, sink.wide = tile->w;
+        scratch->behind = !sink.once;
+        if (to && !sink.once)
+            fill_codes(job, tile->x, tile->y + y, tile->w, 0xffffffU, sink.codes = codes);
         job->pipe->row(job, k, tile, y, &sink, scratch);
+        if (!scratch->behind) wr_tile_behind_strip(job, &sink, 0, 0, scratch);
         if (to && !sink.once) put_codes(codes, tile->w, to);
     }
     scratch->all_strips += wr_clock_seconds() - start;

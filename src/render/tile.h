@@ -109,7 +109,10 @@ typedef struct WrNearest {
 typedef struct WrSink {
     float *rgba;     /* 4 a sample */
     uint32_t *codes; /* one a sample: rgba as 8-bit codes; with neither, no light is worked out */
-    bool once;       /* no sample is met twice: codes are the picture's own, opaque everywhere */
+    /* No sample of the row of `wide` from (x, y) on is met twice: codes are the picture's own, opaque everywhere. What
+       lies behind it is not there yet: the first strip that is stored brings it to where the strip is not. */
+    bool once;
+    int x, y, wide;
     float *normals;  /* 3 a sample: n' */
     float *points;   /* 3 a sample: P, kernel units */
     WrNearest *nearest; /* one a sample; what lies behind it is not stored */
@@ -162,6 +165,7 @@ typedef struct WrTileScratch {
     double all;                     /* of all its tiles */
     int64_t covered, shaded;        /* pixels, samples */
     int face;                       /* of a displaced surface: that the strip's samples lie on */
+    bool behind;                    /* what lies behind the row at hand is there */
     int64_t met;   /* samples of the last tile that was refined that met something, however often */
     int64_t tiles; /* that held anything */
     int64_t not_finite;           /* numbers that were not finite, among codes */

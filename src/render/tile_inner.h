@@ -28,6 +28,9 @@ static inline const WrBehind *wr_tile_behind(const WrTileJob *job, int x, int y)
 void wr_tile_code_row(const WrTileJob *job, int x, int y, int width, const float *rgba,
                       WrTileScratch *scratch);
 
+/* What lies behind a row that is stored once, but for its samples [from, to). */
+void wr_tile_behind_strip(const WrTileJob *job, const WrSink *sink, int from, int to,
+                          WrTileScratch *scratch);
 /* All samples of a tile of the grid of k a pixel. */
 void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
                      WrTileScratch *scratch);
