@@ -279,13 +279,6 @@ static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, doubl
                         request->turn_deg, request->width, request->height, rise, err);
 }
 
-bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)
-{
-    return a->wanted == b->wanted &&
-           (!a->wanted || (wr_background_equal(&a->background, &b->background) &&
-                           wr_tone_equal(&a->tone, &b->tone)));
-}
-
 /* Does the last picture show what this request asks for, but for edits of the table? */
 static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
                   const WrKernels *kernels)

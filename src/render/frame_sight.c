@@ -27,6 +27,13 @@ bool wr_frame_may_keep(const WrFrameRequest *request)
     return request->keep && !request->only && !request->rows && !reaches_far(request->scene);
 }
 
+bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)
+{
+    return a->wanted == b->wanted &&
+           (!a->wanted || (wr_background_equal(&a->background, &b->background) &&
+                           wr_tone_equal(&a->tone, &b->tone)));
+}
+
 /* Against the planner nothing is noted: what is drawn is not what it would be. */
 static bool is_forced(const WrFrameRequest *request)
 {
