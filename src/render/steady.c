@@ -48,8 +48,8 @@ void wr_steady_fini(WrSteady *steady)
 /* What light looks at besides n', P, u and v, or what gives a pixel more than one of them. */
 static const WrEffect more[] = { WR_EFFECT_TINT,      WR_EFFECT_FADED,     WR_EFFECT_EMBOSSED,
                                  WR_EFFECT_SHADOW,    WR_EFFECT_CAST,      WR_EFFECT_BOUND,
-                                 WR_EFFECT_OCCLUSION, WR_EFFECT_DISPLACED, WR_EFFECT_SPREAD,
-                                 WR_EFFECT_HORIZON,   WR_EFFECT_HALF };
+                                 WR_EFFECT_OCCLUSION, WR_EFFECT_DISPLACED, WR_EFFECT_PARALLAX,
+                                 WR_EFFECT_SPREAD,    WR_EFFECT_HORIZON,   WR_EFFECT_HALF };
 
 bool wr_steady_suits(const WrScene *scene, const WrPlan *plan)
 {
