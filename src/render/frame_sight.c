@@ -51,7 +51,8 @@ static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrH
     const int64_t objects = renderer->among ? renderer->among : 1;
     WrSightKey key;
     if (!renderer->mesh && renderer->steady->use != WR_STEADY_KNOWN)
-        wr_sight_fini(&renderer->sight); /* where light alone is new it is of use to the next edit */
+        wr_sight_fini(
+            &renderer->sight); /* where light alone is new it is of use to the next edit */
     const bool small = objects * request->width * request->height <= SIGHT_MOST;
     renderer->sighting = small && wr_frame_may_keep(request) && renderer->mesh &&
                          plan->newton != 0 && plan->sampling == WR_SAMPLING_ONE &&

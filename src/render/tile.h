@@ -113,8 +113,8 @@ typedef struct WrSink {
        lies behind it is not there yet: the first strip that is stored brings it to where the strip is not. */
     bool once;
     int x, y, wide;
-    float *normals;  /* 3 a sample: n' */
-    float *points;   /* 3 a sample: P, kernel units */
+    float *normals;     /* 3 a sample: n' */
+    float *points;      /* 3 a sample: P, kernel units */
     WrNearest *nearest; /* one a sample; what lies behind it is not stored */
     float *bound;       /* how far the intensity may change over the pixel */
     double pixel;       /* of the bound, samples a side */
