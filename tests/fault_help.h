@@ -2,8 +2,14 @@
 #pragma once
 #include "fault.h"
 
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <dirent.h>
 #include <signal.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -73,4 +79,32 @@ static inline int fault_wait(pid_t child)
     int status;
     assert_int_equal(waitpid(child, &status, 0), child);
     return status;
+}
+
+/* The caller's, wr_free. */
+static inline void fault_read_whole(const char *path, char **bytes, size_t *length)
+{
+    WrError err;
+    if (!wr_file_read(path, 1 << 28, bytes, length, &err)) fail_msg("%s", err.text);
+}
+
+static inline bool fault_holds(const char *path, const char *bytes, size_t length)
+{
+    char *have;
+    size_t own;
+    fault_read_whole(path, &have, &own);
+    const bool same = own == length && memcmp(have, bytes, length) == 0;
+    wr_free(have);
+    return same;
+}
+
+/* Of the current folder. */
+static inline int fault_hidden_files(void)
+{
+    DIR *dir = opendir(".");
+    int hidden = -2; /* . and .. */
+    assert_non_null(dir);
+    for (struct dirent *entry; (entry = readdir(dir));) hidden += entry->d_name[0] == '.';
+    closedir(dir);
+    return hidden;
 }

@@ -1,5 +1,5 @@
 """blender -b --factory-startup -P maps_blender.py -- SIDE CASE...: our maps by Cycles, beside our own pictures. A case is
-NAME,SHAPE,MAP,FILE,HEIGHT,LIGHT,OURS,SMOOTH,MOST,RMS: plane or sphere; normal or bump; the map's file; the bump's height; x:y:z
+NAME,SHAPE,MAP,FILE,HEIGHT,LIGHT,OURS,SMOOTH,MOST,RMS: plane, or a sphere of those below; normal or bump; the map's file; the bump's height; x:y:z
 towards the light; what the names of our pictures with and without bumps begin with; how far the pictures may be apart.
 Orthographic, one sun, diffuse and nothing else, one sample in the middle of each of SIDE x SIDE pixels."""
 import math
@@ -8,8 +8,8 @@ import sys
 import bpy
 from mathutils import Matrix, Vector
 
-WIDE, TALL = 512, 256  # of the sphere, quads
-ACROSS, DOWN = 4, 2    # how often the cell goes round it, and from pole to pole
+# Of a shape: quads each way, and how often the map goes round it and from pole to pole.
+SPHERES = {"sphere": (512, 256, 4, 2), "ball": (256, 128, 1, 1)}
 
 
 def plane():
@@ -21,21 +21,21 @@ def plane():
     return mesh
 
 
-def sphere():
+def sphere(wide, tall, across, down):
     """u is the longitude from +x eastwards, v the latitude from the south pole, as in ours."""
-    at = lambda i, j: (math.cos(math.tau * i / WIDE) * math.sin(math.pi * j / TALL),
-                       math.sin(math.tau * i / WIDE) * math.sin(math.pi * j / TALL),
-                       -math.cos(math.pi * j / TALL))
-    number = lambda i, j: (j * WIDE + i % WIDE)
+    at = lambda i, j: (math.cos(math.tau * i / wide) * math.sin(math.pi * j / tall),
+                       math.sin(math.tau * i / wide) * math.sin(math.pi * j / tall),
+                       -math.cos(math.pi * j / tall))
+    number = lambda i, j: (j * wide + i % wide)
     mesh = bpy.data.meshes.new("sphere")
-    faces = [(number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)) for j in range(1, TALL - 1) for i in range(WIDE)]
-    mesh.from_pydata([at(i, j) for j in range(TALL + 1) for i in range(WIDE)], [], faces)
+    faces = [(number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)) for j in range(1, tall - 1) for i in range(wide)]
+    mesh.from_pydata([at(i, j) for j in range(tall + 1) for i in range(wide)], [], faces)
     layer = mesh.uv_layers.new(name="uv")
     k = 0
-    for j in range(1, TALL - 1):
-        for i in range(WIDE):
+    for j in range(1, tall - 1):
+        for i in range(wide):
             for (di, dj) in ((0, 0), (1, 0), (1, 1), (0, 1)):
-                layer.data[k].uv = (ACROSS * (i + di) / WIDE, DOWN * (j + dj) / TALL)
+                layer.data[k].uv = (across * (i + di) / wide, down * (j + dj) / tall)
                 k += 1
     mesh.use_auto_smooth = True
     for face in mesh.polygons:
@@ -81,7 +81,7 @@ def render(shape, kind, path, height, light, out, side):
     scene.world = bpy.data.worlds.new("w")
     scene.world.use_nodes = True
     scene.world.node_tree.nodes["Background"].inputs[0].default_value = (0, 0, 0, 1)
-    mesh = plane() if shape == "plane" else sphere()
+    mesh = plane() if shape == "plane" else sphere(*SPHERES[shape])
     mesh.materials.append(material(kind, path, height))
     scene.collection.objects.link(bpy.data.objects.new("o", mesh))
     sun = bpy.data.lights.new("s", "SUN")

@@ -5,31 +5,14 @@
 # It fails where bumps are dents or brightness is farther off than is said: POV-Ray takes differences between pixels where we
 # take derivatives.
 set -uo pipefail
-build=$(cd "$1" && pwd) || exit 1
-pictures=${2:-}
-[[ -z $pictures ]] || pictures=$(cd "$pictures" && pwd) || exit 1
-for tool in povray oiiotool; do
-    command -v $tool >/dev/null || { echo "maps_povray: there is no $tool here"; exit 77; }
-done
-folder=$(mktemp -d) || exit 1
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-program=$build/wrinkle failures=0
-cat >cell.wrinkle <<'X'
-table 256x256
-text "F" at=0.35,0.62 size=150
-dab 0.75,0.3 radius=40 strength=0.8
-dab 0.25,0.2 radius=30 strength=-0.8
-adjust blur sigma=3
-bump mode=blinn scheme=catmull height=0.02
-surface plane
-rotate 0,0,0
-camera orthographic eye=0,0,3 target=0,0,0 up=0,1,0 size=1
-material ambient=0 diffuse=1 specular=0 colour=1,1,1
-background plain colour=0,0,0
-dials aa=point
-light directional to=-0.6,0.5,1
-X
+here=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
+# shellcheck source=tests/maps_help.sh
+source "$here/maps_help.sh"
+needs povray oiiotool
+failures=0
+printf '%s\n' "$cell" 'surface plane' 'rotate 0,0,0' 'camera orthographic eye=0,0,3 target=0,0,0 up=0,1,0 size=1' \
+    'material ambient=0 diffuse=1 specular=0 colour=1,1,1' 'background plain colour=0,0,0' 'dials aa=point' \
+    'light directional to=-0.6,0.5,1' >cell.wrinkle
 "$program" render cell.wrinkle --size 256x256 -o ours.exr && "$program" export cell.wrinkle --as povray -o . >told || exit 1
 # The range that the codes hold, as the report says it.
 read -r low high < <(sed -nE 's/.*codes are ([^ ]+) to ([^ ,;]+).*/\1 \2/p' told)

@@ -14,13 +14,6 @@
 static const char size_line[] = "cell 123.25,80.5 mm=on height=2.375";
 static const char table[] = "noise perlin cells=3 octaves=4 amplitude=2.3 level=-1.1 seed=5";
 
-static WrSession *listening(Said *said)
-{
-    const WrSessionOptions options = { .note = hear_note, .note_ctx = said, .outputs = true };
-    said->text[0] = '\0';
-    return wr_session_new(&options);
-}
-
 static WrSession *sized(Said *said, const char *first)
 {
     WrSession *s = listening(said);

@@ -125,20 +125,9 @@ static int run_clean(const Job *job)
     return fault_wait(child);
 }
 
-static void read_whole(const char *path, char **bytes, size_t *length)
-{
-    WrError err;
-    if (!wr_file_read(path, 1 << 28, bytes, length, &err)) fail_msg("%s", err.text);
-}
-
 static bool is_old(const char *path)
 {
-    char *bytes;
-    size_t length;
-    read_whole(path, &bytes, &length);
-    bool old = length == sizeof OLD - 1 && memcmp(bytes, OLD, length) == 0;
-    wr_free(bytes);
-    return old;
+    return fault_holds(path, OLD, sizeof OLD - 1);
 }
 
 /* The bytes of a run without trouble. */
@@ -149,22 +138,7 @@ typedef struct Good {
 
 static bool is_new(const char *path, const Good *good)
 {
-    char *bytes;
-    size_t length;
-    read_whole(path, &bytes, &length);
-    bool same = length == good->length && memcmp(bytes, good->bytes, length) == 0;
-    wr_free(bytes);
-    return same;
-}
-
-static int hidden_files(void)
-{
-    DIR *dir = opendir(".");
-    int count = -2; /* . and .. */
-    assert_non_null(dir);
-    for (struct dirent *entry; (entry = readdir(dir));) count += entry->d_name[0] == '.';
-    closedir(dir);
-    return count;
+    return fault_holds(path, good->bytes, good->length);
 }
 
 static void make_old(const Job *job)
@@ -178,7 +152,7 @@ static Good make_good(const Job *job)
     Good good;
     *world.said[0] = '\0';
     if (run_clean(job) != 0) fail_msg("%s: %s", job->line, *world.said);
-    read_whole(job->file, &good.bytes, &good.length);
+    fault_read_whole(job->file, &good.bytes, &good.length);
     return good;
 }
 
@@ -209,7 +183,7 @@ static void check_end(const Job *job, const Good *good, int status, FaultTally *
         if (!strstr(*world.said, "cannot be written"))
             fail_msg("%s: %s: the error is '%s'", job->line, what, *world.said);
     }
-    if (hidden_files() != 0) fail_msg("%s: %s: something stays", job->line, what);
+    if (fault_hidden_files() != 0) fail_msg("%s: %s: something stays", job->line, what);
     if (!is_old(job->file)) make_old(job);
 }
 
@@ -341,7 +315,7 @@ static void a_save_that_fails_keeps_the_journal(void **state)
     pid_t child = fault_fork();
     if (child == 0) save_journaled(FAULT_WRITE, 0, FAULT_COUNT);
     assert_int_equal(fault_wait(child), 0);
-    assert_int_equal(hidden_files(), 0);
+    assert_int_equal(fault_hidden_files(), 0);
     unsetenv("WRINKLE_STATE");
     unlink("work.exr");
     assert_int_equal(system("rm -rf state"), 0);

@@ -49,32 +49,6 @@ static void put(const char *path, const char *text)
     fclose(file);
 }
 
-static void read_whole(const char *path, char **bytes, size_t *length)
-{
-    WrError err;
-    if (!wr_file_read(path, 1 << 24, bytes, length, &err)) fail_msg("%s", err.text);
-}
-
-static bool holds(const char *path, const char *bytes, size_t length)
-{
-    char *have;
-    size_t own;
-    read_whole(path, &have, &own);
-    const bool same = own == length && memcmp(have, bytes, length) == 0;
-    wr_free(have);
-    return same;
-}
-
-static int count_hidden(void)
-{
-    DIR *dir = opendir(".");
-    int hidden = -2; /* . and .. */
-    assert_non_null(dir);
-    for (struct dirent *entry; (entry = readdir(dir));) hidden += entry->d_name[0] == '.';
-    closedir(dir);
-    return hidden;
-}
-
 static void run_set(void)
 {
     WrError err = { "" };
@@ -117,12 +91,13 @@ static void make_old(bool there)
 static bool is_old(int i, bool there)
 {
     if (!there) return access(now->files[i], F_OK) != 0;
-    return holds(now->files[i], OLD, sizeof OLD - 1);
+    return fault_holds(now->files[i], OLD, sizeof OLD - 1);
 }
 
 static bool is_new(int i)
 {
-    return access(now->files[i], F_OK) == 0 && holds(now->files[i], fresh[i], fresh_length[i]);
+    return access(now->files[i], F_OK) == 0 &&
+           fault_holds(now->files[i], fresh[i], fresh_length[i]);
 }
 
 static bool all_are(bool fresh_ones, bool there)
@@ -158,7 +133,7 @@ static void run_fault(FaultKind kind, int64_t n, FaultMode mode, bool old, Fault
         fail_msg("%s %lld, %s: status %x, and the files are the %s ones (%s)", wr_fault_kinds[kind],
                  (long long)n, wr_fault_modes[mode], status, all_new ? "new" : "old", *said);
     if (WIFEXITED(status)) WEXITSTATUS(status) ? tally->errors++ : tally->successes++;
-    if (count_hidden() != 0)
+    if (fault_hidden_files() != 0)
         fail_msg("%s %lld, %s: something stays", wr_fault_kinds[kind], (long long)n,
                  wr_fault_modes[mode]);
 }
@@ -200,7 +175,7 @@ static void try_group(const Together *group)
     for (count = 0; group->files[count];) count++;
     make_old(true);
     const FaultState counted = count_calls();
-    for (int i = 0; i < count; i++) read_whole(group->files[i], &fresh[i], &fresh_length[i]);
+    for (int i = 0; i < count; i++) fault_read_whole(group->files[i], &fresh[i], &fresh_length[i]);
     assert_int_equal(counted.counts[FAULT_RENAME], count);
     assert_int_equal(counted.careless, 0);
     assert_int_equal(counted.counts[FAULT_SYNC],
@@ -265,11 +240,11 @@ static void a_list_is_followed_only_where_it_is_whole_and_of_its_folder(void **s
         put("kept", "kept");
         plant(dead_process(), lists[i].list, lists[i].temporary);
         wr_file_sweep(".");
-        if (holds("x.png", "fresh", 5) != lists[i].taken) fail_msg("list %zu", i);
-        assert_true(holds("kept", "kept", 4));
+        if (fault_holds("x.png", "fresh", 5) != lists[i].taken) fail_msg("list %zu", i);
+        assert_true(fault_holds("kept", "kept", 4));
         assert_int_equal(access("../x.png", F_OK), -1);
         assert_int_equal(access("sub/x.png", F_OK), -1);
-        if (count_hidden() != 0) fail_msg("list %zu: something stays", i);
+        if (fault_hidden_files() != 0) fail_msg("list %zu: something stays", i);
     }
 }
 
@@ -279,8 +254,8 @@ static void a_list_of_a_process_that_lives_is_left_alone(void **state)
     put("x.png", OLD);
     plant((long)wr_process_id(), FIRST "%s/x.png\n/\n", NULL);
     wr_file_sweep(".");
-    assert_true(holds("x.png", OLD, sizeof OLD - 1));
-    assert_int_equal(count_hidden(), 2);
+    assert_true(fault_holds("x.png", OLD, sizeof OLD - 1));
+    assert_int_equal(fault_hidden_files(), 2);
 }
 
 int main(void)

@@ -9,13 +9,6 @@
 #include "command/session.h"
 #include "image/image.h"
 
-static WrSession *listening(Said *said)
-{
-    const WrSessionOptions options = { .note = hear_note, .note_ctx = said, .outputs = true };
-    said->text[0] = '\0';
-    return wr_session_new(&options);
-}
-
 static const char table[] = "noise perlin cells=3 octaves=4 amplitude=2.3 level=-1.1 seed=5";
 
 /* A table of random slopes of odd and unequal sides, about -3..1. */
@@ -62,6 +55,30 @@ static void heights_come_back_from_every_range(void **state)
         must_run(back, line);
         assert_true(farthest(s, back) > 0.5);
         assert_string_equal(other.text, "");
+        wr_session_free(s);
+        wr_session_free(back);
+    }
+}
+
+/* Of floats the range in the label is only told: the numbers are the heights. */
+static void floats_are_heights_whatever_their_range(void **state)
+{
+    (void)state;
+    static const char *const lines[][3] = {
+        { "export height h.exr", "image h.exr", "terrain elevation h.exr" },
+        { "export height h.tif depth=32", "image h.tif", "terrain elevation h.tif" },
+        { "export height h.r32 endian=big", "image h.r32", "picture paste h.r32 at=0.5,0.5" },
+        { "export height h.exr depth=16", "image h.exr", "terrain elevation h.exr" },
+    };
+    for (int k = 0; k < 4; k++) {
+        Said said, other;
+        WrSession *s = rough_table(&said), *back = listening(&other);
+        must_run(s, lines[k][0]);
+        for (int door = 1; door < 3; door++) {
+            if (door == 2) must_run(back, "table 45x62");
+            must_run(back, lines[k][door]);
+            assert_near(farthest(s, back), 0, k == 3 ? 0x1p-10 : 0);
+        }
         wr_session_free(s);
         wr_session_free(back);
     }
@@ -186,6 +203,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(heights_come_back_from_every_range),
+        cmocka_unit_test(floats_are_heights_whatever_their_range),
         cmocka_unit_test(elevations_and_photographs_go_by_labels_too),
         cmocka_unit_test(signed_zero_comes_back_as_zero),
         cmocka_unit_test(normal_maps_come_back_as_their_heights),

@@ -273,7 +273,7 @@ static void scales_of_20_decades_give_the_same_picture(void **state)
 static void poles_are_finite_whatever_the_table(void **state)
 {
     (void)state;
-    /* HC03: look straight down on the pole of a sphere with a rough table. */
+    /* HC03, HC148: look straight down on the pole of a sphere with a rough table. */
     WrField *field = bumpy_field(64, 64);
     TestRandom random = { 3 };
     for (int i = 0; i < 64; i++)

@@ -54,3 +54,11 @@ static inline void hear_note(void *ctx, const char *text)
     Said *said = ctx;
     snprintf(said->text + strlen(said->text), sizeof said->text - strlen(said->text), "%s\n", text);
 }
+
+/* A session that notes to `said` and may write files. */
+static inline WrSession *listening(Said *said)
+{
+    const WrSessionOptions options = { .note = hear_note, .note_ctx = said, .outputs = true };
+    said->text[0] = '\0';
+    return wr_session_new(&options);
+}

@@ -11,13 +11,6 @@
 
 enum { W = 45, H = 63 }; /* odd: central differences then lose nothing but the level */
 
-static WrSession *listening(Said *said)
-{
-    const WrSessionOptions options = { .note = hear_note, .note_ctx = said, .outputs = true };
-    said->text[0] = '\0';
-    return wr_session_new(&options);
-}
-
 static WrSession *rough_table(Said *said)
 {
     WrSession *s = listening(said);

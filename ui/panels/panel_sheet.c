@@ -285,17 +285,18 @@ static void numbers(const WrApp *app, WrSheetState *sheet)
     if (!look || !look->set) return;
     histogram(look, wr_gui_available() - 2 * (high + wr_gui_px(48)), high);
     greens(app, sheet, high);
-    char bytes[24], line[300];
+    char bytes[24], line[128];
     WrText seam = { 0 };
     add_bytes(look->bytes, bytes, sizeof bytes);
     wr_certificate_text(&look->seam, &seam);
     const double texels =
         (double)wr_field_width(wr_app_field(app)) * wr_field_height(wr_app_field(app));
-    snprintf(line, sizeof line, "Heights %.4g to %.4g, %.3g %% clipped; all files up to %s; %s",
-             look->histogram.low, look->histogram.high,
-             100.0 * (double)look->histogram.outside / texels, bytes, wr_text_get(&seam));
+    snprintf(
+        line, sizeof line, "Heights %.4g to %.4g, %.3g %% clipped; all files up to %s; seam %s",
+        look->histogram.low, look->histogram.high, 100.0 * (double)look->histogram.outside / texels,
+        bytes, wr_certificate_word(wr_certificate_order(&look->seam)));
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_TEXT, line, wr_gui_available());
-    wr_gui_tip(line);
+    wr_gui_tip(wr_text_get(&seam));
     wr_text_fini(&seam);
 }
 
