@@ -22,6 +22,8 @@
 #include "ui/desk/app_options.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
+#include "ui/desk/document.h"
+#include "ui/desk/hand.h"
 #include "ui/desk/layout.h"
 #include "ui/desk/replace.h"
 #include "ui/desk/roster.h"
@@ -76,6 +78,8 @@ static inline void walk_open(Walk *walk, const char *language)
     walk->app->session = walk->session;
     if (!wr_app_begin(walk->app, &err)) fail_msg("%s", err.text);
     wr_gui_tells_all = true;
+    walk->app->hints = walk->app->file->starter = true; /* as in the first window */
+    walk->app->hand->on_canvas = true;
 }
 
 static inline void walk_close(Walk *walk)
@@ -115,7 +119,6 @@ static inline void walk_show(Walk *walk, const char *format, const char *what)
 {
     snprintf(walk->where, sizeof walk->where, format, what);
     walk_frame(walk);
-    walk_frame(walk);
 }
 
 static inline void walk_tabs(Walk *walk)
@@ -154,6 +157,7 @@ static inline void walk_dialogs(Walk *walk)
     for (const char *const *a = actions; *a; a++) {
         wr_action_run(app, *a);
         walk_show(walk, "dialog of %s", *a);
+        walk_frame(walk);
         if (app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(app);
     }
     for (const WrOpInfo *op = wr_ops; op->name; op++) {
@@ -161,6 +165,7 @@ static inline void walk_dialogs(Walk *walk)
         snprintf(name, sizeof name, "adjust_%.50s", op->name);
         wr_action_run(app, name);
         walk_show(walk, "dialog of %s", name);
+        walk_frame(walk); /* it has measured itself */
         if (app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(app);
     }
     wr_dialog_open(app, WR_DIALOG_UNSAVED);

@@ -5,6 +5,7 @@
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/job.h"
 #include "ui/jobs/trial_generate.h"
 
@@ -225,7 +226,8 @@ static bool answers(const WrGenerator *generator, const char *query)
     char label[320];
     snprintf(label, sizeof label, "%.40s %.40s %.200s", generator->family, generator->label,
              generator->help);
-    return wr_search_score(label, query) > 0;
+    return wr_search_score(label, query) > 0 ||
+           wr_search_score(wr_words(generator->label), query) > 0;
 }
 
 /* A tile and its name below it: true if it was pressed. */
@@ -238,8 +240,8 @@ static bool tile(const WrApp *app, const Tile *tile, int id)
     bool pressed = wr_gui_tile("tile", tile->texture, side, chosen, false) == 1;
     wr_gui_tip(tile->generator->help);
     wr_gui_space(-4);
-    wr_gui_text_cut(WR_FONT_SMALL, chosen ? WR_COLOUR_TEXT : WR_COLOUR_LABEL,
-                    tile->generator->label, side);
+    wr_gui_text_within(WR_FONT_SMALL, chosen ? WR_COLOUR_TEXT : WR_COLOUR_LABEL,
+                       tile->generator->label, side);
     wr_gui_group_end();
     wr_gui_pop_id();
     return pressed;

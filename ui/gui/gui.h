@@ -248,6 +248,8 @@ void wr_gui_row_end(void);
 void wr_gui_drop_line(double y);
 /* Text cut off with dots where it is wider than `width` pixels. */
 void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width);
+/* In as many lines as it takes. */
+void wr_gui_text_within(WrFont font, WrColour colour, const char *text, double width);
 /* A picture of w x h pixels, with a thin edge. */
 void wr_gui_image(SDL_Texture *texture, double w, double h);
 /* The same as a button; chosen: with a frame around it. */

@@ -75,6 +75,8 @@ const char *wr_gui_labelled(const char *label, char (&buffer)[320]);
 /* A text so wide stands where there is that much room; the last item's text so wide, where its window is seen. */
 void wr_gui_fits(const char *text, float width, float room);
 void wr_gui_fits_window(const char *text);
+/* Room in the row for what is so wide; where that is too little a new row is begun, but in bars. */
+float wr_gui_row_room(float width);
 /* The icon, or the word for it where there is no font of icons. */
 const char *wr_gui_icon(const char *icon);
 /* Draw the faces at the present scale and hand them to the renderer. */

@@ -108,11 +108,18 @@ static void draw_field(const WrNumber *spec, ImVec2 at, ImVec2 end, double value
         snprintf(text + used, sizeof text - used, " %s", wr_gui_said(spec->unit));
     }
     ImVec2 size = ImGui::CalcTextSize(text);
+    const bool tight = size.x > end.x - at.x - 2 * pad;
+    if (tight) {
+        ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+        size = ImGui::CalcTextSize(text);
+        pad = floorf(pad / 2);
+    }
     wr_gui_fits(text, size.x, end.x - at.x - pad);
     list->PushClipRect(at, end, true);
     list->AddText(ImVec2(end.x - pad - size.x, at.y + floorf((end.y - at.y - size.y) / 2)),
                   ImGui::GetColorU32(ImGuiCol_Text), text);
     list->PopClipRect();
+    if (tight) ImGui::PopFont();
 }
 
 /* The field while it is not being typed into. */

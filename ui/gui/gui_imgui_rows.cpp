@@ -111,6 +111,28 @@ try {
 }
 WR_CAUGHT()
 
+/* The longest word is what must have room. */
+extern "C" void wr_gui_text_within(WrFont font, WrColour colour, const char *text, double width)
+try {
+    ImFont *face = wr_gui_current()->fonts[font];
+    const char *said = wr_gui_said(text);
+    for (const char *at = said; *at;) {
+        const char *end = at + strcspn(at, " -");
+        if (*end == '-') end++;
+        wr_gui_fits(text, face->CalcTextSizeA(wr_gui_size_of(face), FLT_MAX, 0, at, end).x,
+                    (float)width);
+        at = end + strspn(end, " ");
+    }
+    ImGui::PushFont(face);
+    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(colour));
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + (float)width);
+    ImGui::TextUnformatted(said);
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+WR_CAUGHT()
+
 extern "C" void wr_gui_image(SDL_Texture *texture, double w, double h)
 try {
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);

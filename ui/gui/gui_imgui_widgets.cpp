@@ -139,8 +139,29 @@ static void text_in(WrFont font, WrColour colour, const char *text, bool wrapped
     ImGui::PopFont();
 }
 
+/* In a bar that has no room for it: small, in two lines. */
+static bool text_in_lines(WrColour colour, const char *text, float room)
+{
+    ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
+    const char *said = wr_gui_said(text);
+    const float size = wr_gui_size_of(small);
+    const float tall = small->CalcTextSizeA(size, FLT_MAX, room, said).y;
+    if (room < px(60) || tall > ImGui::GetFrameHeight() + px(12)) return false;
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float top = at.y + floorf((ImGui::GetFrameHeight() - tall) / 2);
+    ImGui::Dummy(ImVec2(room, ImGui::GetFrameHeight()));
+    ImGui::GetWindowDrawList()->AddText(small, size, ImVec2(at.x, top), wr_gui_colour_of(colour),
+                                        said, nullptr, room);
+    return true;
+}
+
 extern "C" void wr_gui_text(WrFont font, WrColour colour, const char *text)
 try {
+    const bool bar = (ImGui::GetCurrentWindow()->Flags & ImGuiWindowFlags_NoScrollWithMouse) != 0;
+    const float room = ImGui::GetContentRegionAvail().x;
+    if (bar && strchr(text, ' ') && wr_gui_text_width(font, text) > (double)room &&
+        text_in_lines(colour, text, room))
+        return;
     ImGui::AlignTextToFramePadding();
     text_in(font, colour, text, false);
 }
@@ -158,16 +179,20 @@ try {
 }
 WR_CAUGHT()
 
+/* What is too long for its column in the small face too stands above its field. */
 extern "C" void wr_gui_label(const char *text)
 try {
     ImGui::AlignTextToFramePadding();
     float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.41f);
-    bool fits = ImGui::GetCursorPosX() + ImGui::CalcTextSize(wr_gui_said(text)).x < column - px(4);
-    if (!fits)
+    float room = column - ImGui::GetCursorPosX() - px(4);
+    if (wr_gui_text_width(WR_FONT_TEXT, text) < (double)room) {
+        text_in(WR_FONT_TEXT, WR_COLOUR_LABEL, text, false);
+    } else {
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(1)); /* onto the line of the others */
-    double room = (double)(column - ImGui::GetCursorPosX() - px(4));
-    if (fits) text_in(WR_FONT_TEXT, WR_COLOUR_LABEL, text, false);
-    else wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, room > 0 ? room : 1);
+        bool fits = wr_gui_text_width(WR_FONT_SMALL, text) <= (double)room;
+        text_in(WR_FONT_SMALL, WR_COLOUR_LABEL, text, !fits);
+        if (!fits) return;
+    }
     ImGui::SameLine(column);
 }
 WR_CAUGHT()
@@ -247,10 +272,20 @@ try {
     float right = at.x + ImGui::CalcItemWidth() - px(13), arrow = px(4);
     float middle = roundf(at.y + ImGui::GetFrameHeight() / 2 - arrow / 2);
     const char *now = *index >= 0 && *index < count ? wr_gui_said(items[*index]) : "";
-    wr_gui_fits(now, ImGui::CalcTextSize(now).x,
-                ImGui::CalcItemWidth() - 2 * ImGui::GetStyle().FramePadding.x);
+    const float room = ImGui::CalcItemWidth() - 2 * ImGui::GetStyle().FramePadding.x;
+    const bool tight =
+        ImGui::CalcTextSize(now).x > room; /* the small face has the fields' height all the same */
+    const ImVec2 padding = ImGui::GetStyle().FramePadding;
+    const float lines = ImGui::GetFontSize();
+    if (tight) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                        ImVec2(tight ? padding.x * 0.5f : padding.x,
+                               padding.y + (lines - ImGui::GetFontSize()) / 2));
+    wr_gui_fits(now, ImGui::CalcTextSize(now).x, tight ? room + padding.x : room);
     bool open = ImGui::BeginCombo("##choice", now,
                                   ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
+    ImGui::PopStyleVar();
+    if (tight) ImGui::PopFont();
     wr_gui_edge(list, at, ImVec2(right + px(13), at.y + ImGui::GetFrameHeight()));
     list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
                             ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
@@ -276,40 +311,53 @@ try {
 }
 WR_CAUGHT(false)
 
+static bool segment(const char *id, const char *said, ImVec2 size, WrColour ground, bool on)
+{
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + size.x, at.y + size.y);
+    const ImVec2 text = ImGui::CalcTextSize(said);
+    bool pressed = ImGui::InvisibleButton(id, size);
+    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    if (on)
+        list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(end.x - 1, end.y - 1),
+                            wr_gui_colour_of(ground));
+    WrColour ink = on                       ? WR_COLOUR_STRONG
+                   : ImGui::IsItemHovered() ? WR_COLOUR_TEXT
+                                            : WR_COLOUR_LABEL;
+    list->AddText(
+        ImVec2(at.x + roundf((size.x - text.x) / 2), at.y + roundf((size.y - text.y) / 2)),
+        wr_gui_colour_of(ink), said);
+    wr_gui_fits_window(said);
+    return pressed;
+}
+
+/* In a row; closer to one another where there is little room, and in several rows where there is less. */
 extern "C" bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours,
                                 int count, int *index)
 try {
     bool changed = false;
     ImGui::PushID(id);
-    ImDrawList *list = ImGui::GetWindowDrawList();
-    float h = ImGui::GetFrameHeight(), pad = px(10);
-    ImVec2 start = ImGui::GetCursorScreenPos();
-    float width = 0;
-    for (int i = 0; i < count; i++) width += ImGui::CalcTextSize(wr_gui_said(items[i])).x + 2 * pad;
-    ImVec2 end(start.x + width, start.y + h);
-    list->AddRectFilled(start, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    float h = ImGui::GetFrameHeight(), pad = px(10), width = 0;
+    for (int i = 0; i < count; i++) width += ImGui::CalcTextSize(wr_gui_said(items[i])).x;
+    float room = wr_gui_row_room(width + 2 * pad * (float)count);
+    if (width + 2 * pad * (float)count > room) pad = floorf((room - width) / (2 * (float)count));
+    if (pad < px(4)) pad = px(4);
+    ImVec2 start = ImGui::GetCursorScreenPos(), end = start;
     for (int i = 0; i < count; i++) {
         const char *said = wr_gui_said(items[i]);
-        ImVec2 text = ImGui::CalcTextSize(said);
-        if (i) ImGui::SameLine(0.0f, 0.0f);
-        ImVec2 at = ImGui::GetCursorScreenPos();
-        float w = text.x + 2 * pad;
-        if (ImGui::InvisibleButton(items[i], ImVec2(w, h))) {
+        float w = ImGui::CalcTextSize(said).x + 2 * pad;
+        bool next = i > 0 && end.x + w > start.x + room + 1;
+        if (next) wr_gui_edge(ImGui::GetWindowDrawList(), start, end);
+        if (next) start = end = ImGui::GetCursorScreenPos();
+        else if (i) ImGui::SameLine(0.0f, 0.0f);
+        if (segment(items[i], said, ImVec2(w, h), colours ? colours[i] : WR_COLOUR_SELECTED,
+                    i == *index)) {
             changed = i != *index;
             *index = i;
         }
-        bool on = i == *index;
-        if (on)
-            list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(at.x + w - 1, at.y + h - 1),
-                                wr_gui_colour_of(colours ? colours[i] : WR_COLOUR_SELECTED));
-        WrColour ink = on                       ? WR_COLOUR_STRONG
-                       : ImGui::IsItemHovered() ? WR_COLOUR_TEXT
-                                                : WR_COLOUR_LABEL;
-        list->AddText(ImVec2(at.x + pad, at.y + roundf((h - text.y) / 2)), wr_gui_colour_of(ink),
-                      said);
-        wr_gui_fits_window(said);
+        end = ImVec2(end.x + w, start.y + h);
     }
-    wr_gui_edge(list, start, end);
+    wr_gui_edge(ImGui::GetWindowDrawList(), start, end);
     ImGui::PopID();
     return changed;
 }
@@ -386,14 +434,27 @@ try {
 }
 WR_CAUGHT(false)
 
+/* Its words go on below where the line ends. */
 extern "C" bool wr_gui_check(const char *label, bool *value)
 try {
+    char said[320], box[340];
+    float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const char *shown = wr_gui_labelled(label, said), *id = strstr(shown, "##");
+    float wide = ImGui::CalcTextSize(shown, nullptr, true).x + side + gap;
+    bool wraps = wide > wr_gui_row_room(wide);
     ImVec2 at = ImGui::GetCursorScreenPos();
-    float side = ImGui::GetFrameHeight();
-    char said[320];
-    bool changed = ImGui::Checkbox(wr_gui_labelled(label, said), value);
-    wr_gui_fits_window(label);
+    snprintf(box, sizeof box, "##box%s", id ? id : label);
+    bool changed = ImGui::Checkbox(wraps ? box : shown, value);
     wr_gui_edge(ImGui::GetWindowDrawList(), at, ImVec2(at.x + side, at.y + side));
+    if (!wraps) {
+        wr_gui_fits_window(label);
+        return changed;
+    }
+    ImGui::SameLine(0.0f, gap);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(shown, id);
+    ImGui::PopTextWrapPos();
+    if (ImGui::IsItemClicked()) *value = !*value, changed = true;
     return changed;
 }
 WR_CAUGHT(false)
@@ -407,7 +468,9 @@ try {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(14), px(5)));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
     char said[320];
-    bool pressed = ImGui::Button(wr_gui_labelled(label, said));
+    const char *shown = wr_gui_labelled(label, said);
+    wr_gui_row_room(ImGui::CalcTextSize(shown, nullptr, true).x + px(28));
+    bool pressed = ImGui::Button(shown);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     if (primary) ImGui::PopStyleColor(2);
@@ -444,6 +507,7 @@ try {
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(WR_COLOUR_CHIP_HOT));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(3)));
+    wr_gui_row_room(ImGui::CalcTextSize(text, nullptr, true).x + px(16));
     bool pressed = ImGui::Button(text);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);

@@ -3,6 +3,7 @@
 
 #include <imgui_internal.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -58,4 +59,16 @@ void wr_gui_fits_window(const char *text)
     if (window->Flags & ImGuiWindowFlags_AlwaysAutoResize) return; /* it grows */
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     wr_gui_fits(text, high.x - low.x, window->ClipRect.Max.x - low.x);
+}
+
+float wr_gui_row_room(float width)
+{
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    const float room = ImGui::GetContentRegionAvail().x;
+    const ImGuiWindowFlags grows = ImGuiWindowFlags_AlwaysAutoResize;
+    if (window->Flags & (ImGuiWindowFlags_NoScrollWithMouse | grows)) return FLT_MAX; /* a bar */
+    const bool begun = fabsf(window->DC.CursorPos.y - window->DC.CursorPosPrevLine.y) < 0.5f;
+    if (width <= room || !begun) return room;
+    ImGui::NewLine();
+    return ImGui::GetContentRegionAvail().x;
 }

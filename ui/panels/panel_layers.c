@@ -11,6 +11,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/trial.h"
 #include "ui/panels/panels.h"
 
@@ -184,7 +185,7 @@ static void name_field(WrApp *app, double width)
 
 static void describe(const WrLayer *layer, char *text, size_t size)
 {
-    snprintf(text, size, "%s %.4g %%", wr_blends[layer->blend].name,
+    snprintf(text, size, "%s %.4g %%", wr_words(wr_blends[layer->blend].name),
              rint((double)layer->opacity * 1000.0) / 10.0);
 }
 

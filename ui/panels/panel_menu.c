@@ -14,6 +14,7 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "field/ops.h"
 #include "generate/generator.h"
 
@@ -376,20 +377,56 @@ static void menu(WrApp *app, const char *label, const char *const *names)
     wr_gui_menu_end();
 }
 
-/* At the right end: what opens the search. */
-static void find_field(WrApp *app)
+/* Of what opens the search, at the right end; 0: there is no room for it. */
+static double find_width(const WrApp *app)
 {
-    double wide = wr_gui_px(FIND_UNITS);
-    if (app->width < wr_gui_px(900)) return;
-    wr_gui_move_to(app->width - wide - wr_gui_px(12));
     char keys[32];
+    wr_keys_label(app->keys, WR_ACT(search), keys);
+    const double words = wr_gui_text_width(WR_FONT_SMALL, "Search actions") +
+                         wr_gui_text_width(WR_FONT_SMALL, keys) + wr_gui_px(26);
+    const double least = wr_gui_px(FIND_UNITS);
+    return app->width < wr_gui_px(900) ? 0.0 : words > least ? words : least;
+}
+
+static void find_field(WrApp *app, double wide)
+{
+    char keys[32];
+    if (wide <= 0.0) return;
+    wr_gui_move_to(app->width - wide - wr_gui_px(12));
     if (wr_gui_find_button("Search actions", wr_keys_label(app->keys, WR_ACT(search), keys), wide))
         wr_action_run(app, WR_ACT(search));
 }
 
+/* The document's name, in the middle where there is room, or where room is left; the window's title has it too. */
+static void title(const WrApp *app, double from, double to)
+{
+    char text[300];
+    snprintf(text, sizeof text, "%.200s%s", wr_app_name(app),
+             wr_app_unsaved(app) ? "  \xe2\x80\xa2" : "");
+    double wide = wr_gui_text_width(WR_FONT_BOLD, text), at = (app->width - wide) / 2.0;
+    at = at + wide < to ? at : to - wide;
+    at = at > from ? at : from;
+    if (to - at < wr_gui_px(60) && to - at < wide) return;
+    wr_gui_move_to(at);
+    wr_gui_as_it_is(true);
+    wr_gui_text_cut(WR_FONT_BOLD, WR_COLOUR_TEXT, text, to - at);
+    wr_gui_as_it_is(false);
+}
+
+/* Whether the menus' titles would leave no room beside them. */
+static bool is_tight(const WrApp *app)
+{
+    static const char *const titles[] = { "File",   "Edit",  "Brush",    "Tools", "Layer",
+                                          "Select", "Table", "Generate", "View",  "Help" };
+    double wide = find_width(app) + wr_gui_px(160);
+    for (int i = 0; i < WR_LENGTH(titles); i++)
+        wide += wr_gui_text_width(WR_FONT_TEXT, titles[i]) + wr_gui_px(14);
+    return wide > app->width;
+}
+
 void wr_panel_menu(WrApp *app)
 {
-    app->menu_height = (int)wr_gui_menu_bar_begin(app->width < wr_gui_px(860));
+    app->menu_height = (int)wr_gui_menu_bar_begin(is_tight(app));
     menu(app, "File", file_menu);
     menu(app, "Edit", edit_menu);
     menu(app, "Brush", brush_menu);
@@ -400,16 +437,8 @@ void wr_panel_menu(WrApp *app)
     generators(app);
     menu(app, "View", view_menu);
     menu(app, "Help", help_menu);
-    char title[300];
-    snprintf(title, sizeof title, "%.200s%s", wr_app_name(app),
-             wr_app_unsaved(app) ? "  \xe2\x80\xa2" : "");
-    double wide = wr_gui_text_width(WR_FONT_BOLD, title), at = (app->width - wide) / 2.0;
-    double from = wr_gui_place() + wr_gui_px(16); /* after the menus */
-    double to = app->width - wr_gui_px(app->width < wr_gui_px(900) ? 12 : FIND_UNITS + 28);
-    at = at + wide < to ? at : to - wide;
-    at = at > from ? at : from;
-    wr_gui_move_to(at);
-    wr_gui_text_cut(WR_FONT_BOLD, WR_COLOUR_TEXT, title, to - at);
-    find_field(app);
+    const double find = find_width(app), from = wr_gui_place() + wr_gui_px(16);
+    title(app, from, app->width - wr_gui_px(find > 0.0 ? 28 : 12) - find);
+    find_field(app, find);
     wr_gui_menu_bar_end();
 }

@@ -202,8 +202,8 @@ static void surface_params(WrApp *app)
                               .reset = p->fallback[i],
                               .decimals = 3,
                               .tip = p->help };
-            char label[64];
-            snprintf(label, sizeof label, "%.48s%s", wr_words(p->help),
+            char label[128];
+            snprintf(label, sizeof label, "%.96s%s", wr_words(p->help),
                      p->components == 3 ? parts[i] : "");
             if (label[0] >= 'a' && label[0] <= 'z') label[0] = (char)(label[0] - 'a' + 'A');
             wr_gui_label(p->ends[0] ? "Table" : label);
