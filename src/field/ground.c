@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define APRON 2
+#define STRIP 512 /* texels of a row that are worked on at once */
 #define TAPS (2 * APRON + 1)
 
 /* A scheme along one axis, in texels, of the taps -2 .. 2 about a centre: value and slope there, and how much each grows
@@ -101,13 +102,13 @@ static void read_taps(WrGroundBand *band)
                                     band->pitch);
         return;
     }
-    float *row = wr_alloc_unset(band->pitch, sizeof *row);
-    for (int j = 0; j < tall; j++) {
-        wr_field_read(field, band->x - APRON, band->y - APRON + j, wide, 1, row, band->pitch);
-        for (int i = 0; i < wide; i++)
-            band->taps[(size_t)j * band->pitch + (size_t)i] = (double)row[i];
-    }
-    wr_free(row);
+    const size_t count = band->pitch * (size_t)tall;
+    float *texels = wr_alloc_unset(count, sizeof *texels);
+    double *taps = band->taps;
+    wr_field_read(field, band->x - APRON, band->y - APRON, wide, tall, texels, band->pitch);
+#pragma omp simd
+    for (size_t k = 0; k < count; k++) taps[k] = (double)texels[k];
+    wr_free(texels);
 }
 
 WrGroundBand *wr_ground_open(const WrGround *ground, int x, int y, int w, int rows)
@@ -134,8 +135,10 @@ static void weigh(const double weight[TAPS], const double *in, ptrdiff_t step, i
         const double *at = in + (k - APRON) * step, w = weight[k];
         if (w == 0) continue;
         if (first)
+#pragma omp simd
             for (int i = 0; i < count; i++) out[i] = w * at[i];
         else
+#pragma omp simd
             for (int i = 0; i < count; i++) out[i] += w * at[i];
         first = false;
     }
@@ -143,16 +146,16 @@ static void weigh(const double weight[TAPS], const double *in, ptrdiff_t step, i
 
 static void scale(double by, int count, double *x)
 {
+#pragma omp simd
     for (int i = 0; i < count; i++) x[i] *= by;
 }
 
 /* s is the mean of how q grows along x and of how p grows along y; rows go down, y up. */
-static void bends(const WrGroundBand *band, const Stencil *st, const double *at, double *line,
+static void bends(const Stencil *st, const double *at, ptrdiff_t down, int w,
                   const WrGroundRow *out)
 {
-    const int w = band->w, wide = (int)band->pitch;
-    const ptrdiff_t down = (ptrdiff_t)band->pitch;
-    double *inner = line + APRON, *more = line + band->pitch;
+    double line[STRIP + 2 * APRON], more[STRIP], *inner = line + APRON;
+    const int wide = w + 2 * APRON;
     weigh(st->value, at - APRON, down, wide, line);
     weigh(st->slope_grows, inner, 1, w, out->r);
     weigh(st->slope_grows, at - APRON, down, wide, line);
@@ -164,28 +167,38 @@ static void bends(const WrGroundBand *band, const Stencil *st, const double *at,
     for (int i = 0; i < w; i++) out->s[i] += more[i];
 }
 
-static void row_of_table(const WrGroundBand *band, int j, const WrGroundRow *out)
+/* at: the first one's tap; the rows beside it are `down` away. */
+static void strip_of_table(const WrGround *g, const double *at, ptrdiff_t down, int w,
+                           const WrGroundRow *out)
 {
-    const WrGround *g = &band->ground;
     const Stencil *st = stencil_of(g->scheme);
-    const ptrdiff_t down = (ptrdiff_t)band->pitch;
-    const double *at = band->taps + (j + APRON) * down + APRON;
     const double x = g->cell_w / wr_field_width(g->field);
     const double y = g->cell_h / wr_field_height(g->field);
-    double *line = wr_alloc_unset(2 * band->pitch, sizeof *line);
-    weigh(st->value, at - APRON, down, (int)band->pitch, line);
-    weigh(st->slope, line + APRON, 1, band->w, out->p);
-    weigh(st->slope, at - APRON, down, (int)band->pitch, line);
-    weigh(st->value, line + APRON, 1, band->w, out->q);
-    scale(g->height / x, band->w, out->p);
-    scale(-g->height / y, band->w, out->q);
-    if (out->r) {
-        bends(band, st, at, line, out);
-        scale(g->height / (x * x), band->w, out->r);
-        scale(-0.5 * g->height / (x * y), band->w, out->s);
-        scale(g->height / (y * y), band->w, out->t);
+    double line[STRIP + 2 * APRON];
+    weigh(st->value, at - APRON, down, w + 2 * APRON, line);
+    weigh(st->slope, line + APRON, 1, w, out->p);
+    weigh(st->slope, at - APRON, down, w + 2 * APRON, line);
+    weigh(st->value, line + APRON, 1, w, out->q);
+    scale(g->height / x, w, out->p);
+    scale(-g->height / y, w, out->q);
+    if (!out->r) return;
+    bends(st, at, down, w, out);
+    scale(g->height / (x * x), w, out->r);
+    scale(-0.5 * g->height / (x * y), w, out->s);
+    scale(g->height / (y * y), w, out->t);
+}
+
+/* By strips that stay in the nearest cache. */
+static void row_of_table(const WrGroundBand *band, int j, const WrGroundRow *out)
+{
+    const ptrdiff_t down = (ptrdiff_t)band->pitch;
+    const double *at = band->taps + (j + APRON) * down + APRON;
+    for (int x = 0; x < band->w; x += STRIP) {
+        const int left = band->w - x;
+        WrGroundRow part = { .p = out->p + x, .q = out->q + x };
+        if (out->r) part.r = out->r + x, part.s = out->s + x, part.t = out->t + x;
+        strip_of_table(&band->ground, at + x, down, left < STRIP ? left : STRIP, &part);
     }
-    wr_free(line);
 }
 
 /* Slopes of the formula there, over u and v. */

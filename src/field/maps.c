@@ -8,6 +8,7 @@
 #include "field/occlusion.h"
 #include "field/ops.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -37,10 +38,12 @@ typedef struct Making {
 static int put(const double *row, int count, float *out)
 {
     int replaced = 0;
+#pragma omp simd reduction(+ : replaced)
     for (int i = 0; i < count; i++) {
         const float x = (float)row[i];
-        out[i] = isfinite(x) ? x : 0.0f;
-        replaced += !isfinite(x);
+        const int good = fabsf(x) <= FLT_MAX;
+        out[i] = good ? x : 0.0f;
+        replaced += 1 - good;
     }
     return replaced;
 }
