@@ -46,16 +46,22 @@ static WrScene *above_ground(const char *surface, WrVec3 at, double size)
     return both;
 }
 
-static Shot shot_of(const WrScene *scene, const WrForce *force)
+static Shot shot_on(const WrScene *scene, const WrField *field, const WrForce *force)
 {
     WrError err = { "" };
-    WrField *field = bumpy_field(17, 11);
     Shot shot = { .pool = wr_pool_new(2) };
     shot.renderer = wr_renderer_new(shot.pool, "auto", &err);
     const WrFrameRequest request = {
         .field = field, .scene = scene, .width = SIDE, .height = SIDE, .force = force
     };
     if (!wr_renderer_frame(shot.renderer, &request, &shot.frame, &err)) fail_msg("%s", err.text);
+    return shot;
+}
+
+static Shot shot_of(const WrScene *scene, const WrForce *force)
+{
+    WrField *field = bumpy_field(17, 11);
+    const Shot shot = shot_on(scene, field, force);
     wr_field_free(field);
     return shot;
 }
@@ -151,7 +157,8 @@ static void compare(const WrScene *scene, double *dark, double *off)
 {
     WrField *field = bumpy_field(17, 11);
     WrScene *without = wr_scene_clone(scene);
-    without->lights[0].shadow = false;
+    without->lights[0].shadow = without->material.shadow = false;
+    for (int i = 0; i < without->other_count; i++) without->others[i]->material.shadow = false;
     Shot shot = shot_of(scene, NULL), plain = shot_of(without, NULL);
     WrReference truth = { 0 };
     WrError err = { "" };
@@ -278,6 +285,64 @@ static void dark_lamps_change_no_other(void **state)
     wr_scene_free(scene);
 }
 
+/* ---- displaced ---- */
+
+/* Of heights that are all c a ball throws the shadow of one whose radius is larger by c, or smaller. */
+static void a_raised_ball_throws_its_own_shadow(void **state)
+{
+    (void)state;
+    static const double rise[] = { 0.213, -0.317 };
+    for (int k = 0; k < 2; k++) {
+        const WrVec3 at = { -0.371, 0.213, 0.93 };
+        WrScene *scene = above_ground("sphere", at, 0.437);
+        WrField *field =
+            wr_field_new(5, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, (float)rise[k], NULL);
+        scene->displaced = true, scene->height = 1;
+        scene->lights[0].where = (WrVec3){ -0.717, -0.293, 0.519 };
+        Shot shot = shot_on(scene, field, NULL);
+        const double radius = 0.437 * (1 + rise[k]);
+        int dark = 0;
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            const WrVec3 off = v3_sub(at, ground_at(i));
+            if (hypot(off.x, off.y) < radius + 0.05) continue; /* the ball itself is seen */
+            const WrVec3 l = v3_unit(scene->lights[0].where, (WrVec3){ 0, 0, 1 });
+            const double along = v3_dot(off, l), by = sqrt(v3_dot(off, off) - along * along);
+            if (fabs(by - radius) < 2e-3) continue;
+            if ((shot.frame.rgba[4 * i] == 0) != (by < radius))
+                fail_msg("%g: %g from the middle of the shadow", rise[k], by);
+            dark += by < radius;
+        }
+        assert_true(dark > 120);
+        put_away(&shot);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
+/* On the ground, on themselves; where the relief's own shadow is asked for too, rays tell of both. */
+static void raised_objects_shadow_as_the_reference_has_it(void **state)
+{
+    static const char *const surfaces[] = { "torus", "sphere" };
+    (void)state;
+    for (int s = 0; s < 2; s++) {
+        double dark, off;
+        WrScene *scene =
+            s ? bare(surfaces[s]) : above_ground(surfaces[s], (WrVec3){ 0.17, -0.31, 0.9 }, 0.53);
+        scene->posed = true, scene->rotate_deg = (WrVec3){ 33, -21, 57 };
+        scene->displaced = true, scene->height = 0.13;
+        scene->bump = WR_BUMP_EXACT, scene->scheme = WR_SCHEME_BSPLINE_FIT;
+        scene->material.shadow = true;
+        scene->lights[0].where = (WrVec3){ -0.5, 0.31, 0.37 };
+        scene->dials.dice = 0.125;
+        if (!s) scene->camera.eye = (WrVec3){ 1, -3, 6 };
+        compare(scene, &dark, &off);
+        print_message("displaced %s: %g hidden, %g off\n", surfaces[s], dark, off);
+        assert_true(dark > 0.03);
+        assert_true(off < 0.012);
+        wr_scene_free(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -289,6 +354,8 @@ int main(void)
         cmocka_unit_test(facets_throw_no_steps_on_a_round_body),
         cmocka_unit_test(what_cannot_reach_is_left_out),
         cmocka_unit_test(dark_lamps_change_no_other),
+        cmocka_unit_test(a_raised_ball_throws_its_own_shadow),
+        cmocka_unit_test(raised_objects_shadow_as_the_reference_has_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,10 @@
 /* Bodies that throw shadows: closed forms and facets, and how much of a lamp they leave. */
 #include "render/cast.h"
+#include "render/raised.h"
 
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "surface/triangles.h"
 
 #include <math.h>
@@ -19,9 +21,10 @@ bool wr_cast_asked(const WrScene *scene)
     return false;
 }
 
-bool wr_cast_spares_itself(const WrShape *shape)
+bool wr_cast_spares_itself(const WrScene *scene)
 {
-    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
+    if (wr_is_raised(scene)) return false;
     return info->convex_closed || (info->flat && !info->held);
 }
 
@@ -91,6 +94,7 @@ static bool meets_tube(double r, double k, double H, WrVec3 o, WrVec3 d, double 
 bool wr_cast_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most)
 {
     const double *value = body->shape.value;
+    if (body->triangles) return wr_cast_tree_meets(body, o, d, most);
     switch (wr_surfaces[body->shape.kind]->inversion) {
     case WR_INVERT_PLANE:
     case WR_INVERT_CUBE: return meets_quads(body, o, d, most);
@@ -101,7 +105,7 @@ bool wr_cast_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most)
     case WR_INVERT_MESH:
     case WR_INVERT_TRIANGLES: break;
     }
-    return wr_cast_tree_meets(body, o, d, most);
+    return false;
 }
 
 /* ---- bodies ---- */
@@ -114,15 +118,39 @@ void wr_cast_body_fini(WrCastBody *body)
     *body = (WrCastBody){ 0 };
 }
 
-void wr_cast_body_size(WrCastBody *body, const WrScene *scene)
+/* What F is, of a displaced surface; of another 0. */
+static WrHash relief_of(const WrScene *scene, const WrField *field)
+{
+    const WrAnalytic *formula = &scene->analytic;
+    WrHash hash = { 0, 0 };
+    if (!wr_is_raised(scene)) return hash;
+    const bool table = formula->kind == WR_ANALYTIC_OFF;
+    const uint64_t key = table ? wr_field_key(field) : 0;
+    const double by[3] = { scene->height, scene->replicate_u, scene->replicate_v };
+    const int how[2] = { (int)scene->scheme, (int)formula->kind };
+    hash = wr_hash_bytes(&key, sizeof key, (WrHash){ 1, 1 });
+    hash = wr_hash_bytes(by, sizeof by, hash);
+    hash = wr_hash_bytes(how, sizeof how, hash);
+    for (int k = 0; k < formula->count && !table; k++) {
+        const WrAnalyticTerm *term = &formula->terms[k];
+        const double terms[5] = { term->i, term->j, term->a, term->phase_u_deg, term->phase_v_deg };
+        hash = wr_hash_bytes(terms, sizeof terms, hash);
+    }
+    return hash;
+}
+
+void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *field)
 {
     const WrTriangles *held = scene->triangles;
-    const bool same =
-        body->radius > 0 && memcmp(&body->shape, &scene->shape, sizeof body->shape) == 0;
+    const WrHash raised = relief_of(scene, field);
+    const bool same = body->radius > 0 && wr_hash_equal(body->raised, raised) &&
+                      memcmp(&body->shape, &scene->shape, sizeof body->shape) == 0;
     if (same && (!body->triangles || !held || held->key == body->triangles->key)) return;
     wr_cast_body_fini(body);
     body->shape = scene->shape;
     body->radius = wr_shape_radius(&scene->shape);
+    body->raised = raised;
+    if (wr_is_raised(scene)) body->rise = wr_raised_most(scene, field);
 }
 
 #define ROUNDING                                                                                   \
@@ -130,19 +158,20 @@ void wr_cast_body_size(WrCastBody *body, const WrScene *scene)
 #define PATCHY                                                                                     \
     0x1p-10 /* the same of what is shown by patches and cast by the triangles that they were cut to */
 
-bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, WrError *err)
+bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err)
 {
-    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
-    wr_cast_body_size(body, scene);
+    const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
+    wr_cast_body_size(body, scene, field);
     if (body->made) return true;
     body->lift = ROUNDING * body->radius;
-    if (info->inversion == WR_INVERT_PLANE || info->inversion == WR_INVERT_CUBE) take_quads(body);
-    if (info->held) {
+    if (wr_surfaces[scene->shape.kind]->held) {
         body->triangles =
             scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
         if (body->triangles->patches) body->lift = PATCHY * body->radius;
-    } else if (info->inversion == WR_INVERT_MESH && !wr_cast_facets(body, err)) {
-        return false;
+    } else if (how == WR_INVERT_MESH || wr_is_raised(scene)) {
+        if (!wr_cast_facets(body, scene, field, err)) return false;
+    } else if (how == WR_INVERT_PLANE || how == WR_INVERT_CUBE) {
+        take_quads(body);
     }
     if (body->triangles && !wr_cast_tree_bring(body, err)) return false;
     return body->made = true;

@@ -3,12 +3,14 @@
    Layer 5, private to the renderer.
 
    A body is the shape itself where rays meet it in closed form (plane, cube, sphere, cylinder, cone); else triangles, those
-   of a mesh or facets of the surface, in a tree of boxes. Facets are off by no more than the body's `lift`.
+   of a mesh or facets of the surface, in a tree of boxes. Facets are off by no more than the body's `lift`. A displaced
+   surface throws the shadow of facets of P + F n.
 
    Rays start that far above the surface, on the side that is seen, so that no facet darkens the place that it stands for.
    Where the lamp is below the surface's own horizon, as it may be for what bumps lean towards it, the ray to the own body
    runs along the horizon: so no convex body hides a lamp from itself. */
 #pragma once
+#include "base/hash.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
@@ -17,6 +19,7 @@
 #include <stdint.h>
 
 typedef struct WrError WrError;
+typedef struct WrField WrField;
 typedef struct WrTriangles WrTriangles;
 
 #define WR_CAST_RAYS 256 /* to a round lamp, at most */
@@ -30,6 +33,8 @@ typedef struct WrCastQuad {
 typedef struct WrCastBody {
     WrShape shape; /* that all else was made for; kept while the scene's is the same */
     double radius; /* about the object's centre */
+    WrHash raised; /* what F is, of a displaced surface; else 0 */
+    double rise;   /* so far its points may be from the base; else 0 */
     bool made;     /* what rays meet is there */
     WrCastQuad quads[6];
     int quad_count;
@@ -62,25 +67,26 @@ typedef struct WrCast {
 
 /* Does the scene ask for such shadows, of a light that shines? */
 bool wr_cast_asked(const WrScene *scene);
-/* Is the shape such that it never hides a lamp from itself? */
-bool wr_cast_spares_itself(const WrShape *shape);
-/* The body's size alone. */
-void wr_cast_body_size(WrCastBody *body, const WrScene *scene);
+/* Is the object such that it never hides a lamp from itself? */
+bool wr_cast_spares_itself(const WrScene *scene);
+/* The body's size alone. field: NULL with a formula. */
+void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *field);
 /* All of it. Errors: no memory. */
-bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, WrError *err);
+bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err);
 void wr_cast_body_fini(WrCastBody *body);
 /* Does the ray o + t d meet it for 0 < t < most? */
 bool wr_cast_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most);
 /* The same of its tree. */
 bool wr_cast_tree_bring(WrCastBody *body, WrError *err);
 bool wr_cast_tree_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most);
-/* Facets of a surface without a closed form into body->triangles, and what they are off by into its lift. */
-bool wr_cast_facets(WrCastBody *body, WrError *err);
+/* Facets of a surface without a closed form, or displaced, into body->triangles, and what they are off by into its lift. */
+bool wr_cast_facets(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err);
 
 /* Which of `count` objects (scenes of one each, and their bodies) can hide a lamp from object `at`: those come first. Bodies
    that can, or, if so wanted, all of them are made. rays: to a round lamp. Errors: no memory; a camera that cannot look. */
 typedef struct WrCastAsk {
     const WrScene *const *scenes;
+    const WrField *const *fields; /* their tables */
     WrCastBody *const *bodies;
     int count, at, rays;
     bool all;

@@ -1,8 +1,10 @@
-/* Facets of a surface that rays meet in no closed form, so fine that they are off by a few hundred-thousandths of its
-   radius. */
+/* Facets of a surface that rays meet in no closed form, or that is displaced, so fine that they are off by a few
+   hundred-thousandths of its radius. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "render/cast.h"
+#include "render/raised.h"
+#include "field/field.h"
 #include "surface/triangles.h"
 
 #include <math.h>
@@ -15,6 +17,7 @@
 
 typedef struct Cut {
     const WrShape *shape;
+    const WrRaised *raised; /* P + F n; NULL: P */
     int face;
     WrSurfaceCell cell;
     double corner[CORNERS];
@@ -27,8 +30,10 @@ typedef struct Cut {
 static WrVec3 at(const Cut *cut, double u, double v)
 {
     WrSurfacePoint p;
+    double f = 0;
     wr_surface_at(cut->shape, cut->face, u, v, &p);
-    return p.p;
+    if (cut->raised) wr_scene_height(cut->raised->scene, cut->raised->field, u, v, &f, NULL, NULL);
+    return v3_mad(p.p, p.n_unit, f);
 }
 
 static double between(double a, double b, double part)
@@ -82,11 +87,23 @@ static double off_across(const Cut *cut, int across, int down)
     return most;
 }
 
+/* As many as a table has texels there, before it is asked how far they are off. */
+static int least_steps(const Cut *cut, bool along_u)
+{
+    if (!cut->raised) return LEAST;
+    const WrScene *scene = cut->raised->scene;
+    const WrField *field = cut->raised->field;
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
+    const double of = fabs(along_u ? scene->replicate_u : scene->replicate_v);
+    const int texels = !table ? LEAST : along_u ? wr_field_width(field) : wr_field_height(field);
+    return (int)fmin(fmax(LEAST, of * texels), MOST);
+}
+
 static int steps_of(const Cut *cut, bool along_u, double enough)
 {
-    int n = LEAST;
+    int n = least_steps(cut, along_u);
     while (n < MOST && off_by(cut, along_u, n) > enough) n *= 2;
-    return n;
+    return n < MOST ? n : MOST;
 }
 
 /* Steps each way; what they are off by. */
@@ -94,8 +111,8 @@ static int choose_steps(Cut *cut, double enough)
 {
     int across = steps_of(cut, true, enough), down = steps_of(cut, false, enough);
     while ((across < MOST || down < MOST) && off_across(cut, across, down) > 2 * enough) {
-        across = across < MOST ? 2 * across : MOST;
-        down = down < MOST ? 2 * down : MOST;
+        across = 2 * across < MOST ? 2 * across : MOST;
+        down = 2 * down < MOST ? 2 * down : MOST;
     }
     cut->across = across;
     cut->off =
@@ -148,7 +165,7 @@ static void add_cut(const Cut *cut, Facets *to)
         }
 }
 
-bool wr_cast_facets(WrCastBody *body, WrError *err)
+static bool facets_of(WrCastBody *body, const WrRaised *raised, WrError *err)
 {
     const int faces = wr_surfaces[body->shape.kind]->faces;
     Cut *cuts = wr_alloc((size_t)faces, sizeof *cuts);
@@ -156,7 +173,7 @@ bool wr_cast_facets(WrCastBody *body, WrError *err)
     double off = 0;
     for (int face = 0; face < faces; face++) {
         Cut *cut = &cuts[face];
-        cut->shape = &body->shape, cut->face = face;
+        cut->shape = &body->shape, cut->raised = raised, cut->face = face;
         cut->cell = wr_surface_cell(&body->shape, face);
         find_corners(cut);
         place_rows(cut, choose_steps(cut, OFF * body->radius));
@@ -178,4 +195,13 @@ bool wr_cast_facets(WrCastBody *body, WrError *err)
     wr_free(facets.corners);
     wr_free(cuts);
     return body->triangles != NULL;
+}
+
+bool wr_cast_facets(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err)
+{
+    WrRaised raised = { 0 };
+    if (!wr_is_raised(scene)) return facets_of(body, NULL, err);
+    const bool good = wr_raised_init(&raised, scene, field, err) && facets_of(body, &raised, err);
+    wr_raised_fini(&raised);
+    return good;
 }

@@ -442,7 +442,7 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     wr_group_free(renderer);
     if (!wr_frame_resize(renderer, request, err)) return false;
     const WrScene *scene = request->scene;
-    if (!wr_frame_casts(&renderer, &scene, 1, request, err)) return false;
+    if (!wr_frame_casts(&renderer, &scene, &request->field, 1, request, err)) return false;
     if (!wr_frame_decide(renderer, request, err)) return false;
     choose_steady(renderer, request);
     if (!wr_frame_prepare(renderer, request, err)) return false;

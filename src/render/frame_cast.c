@@ -8,8 +8,9 @@ static bool wants_all(const WrFrameRequest *request)
     return request->full || (request->force && request->force[WR_EFFECT_CAST] == WR_FORCE_ON);
 }
 
-bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes, int count,
-                    const WrFrameRequest *request, WrError *err)
+bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
+                    const WrField *const *fields, int count, const WrFrameRequest *request,
+                    WrError *err)
 {
     const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
     WrCastBody *bodies[WR_OBJECTS_MAX];
@@ -20,6 +21,7 @@ bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes, 
     if (dials->rays == 0 || !wr_cast_asked(request->scene)) return true;
     for (int i = 0; i < count; i++) {
         const WrCastAsk ask = { .scenes = scenes,
+                                .fields = fields,
                                 .bodies = bodies,
                                 .count = count,
                                 .at = i,

@@ -154,8 +154,9 @@ void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but);
 /* The triangles that the scene shows; the renderer's, or the scene's. */
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene);
 /* What can hide lamps from each of `count` objects, those of a picture, each with its renderer. Errors: as wr_cast_prepare. */
-bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes, int count,
-                    const WrFrameRequest *request, WrError *err);
+bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
+                    const WrField *const *fields, int count, const WrFrameRequest *request,
+                    WrError *err);
 /* As kernels look them up. */
 WrTriangleLook wr_frame_look_up(const WrViewTriangles *triangles, double scale);
 /* Bring what the surface is rasterised from up to the view. Errors: no memory. */

@@ -5,6 +5,7 @@
 #include "field/field.h"
 #include "field/scheme.h"
 #include "render/frame_inner.h"
+#include "render/raised.h"
 #include "scene/scene.h"
 #include "surface/patches.h"
 
@@ -62,36 +63,13 @@ const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene
     return renderer->square;
 }
 
-/* The table whose entries are the coefficients of the spline through that one's, which repeats; NULL: no memory. */
-static WrField *coefficients_of(const WrField *field, WrError *err)
-{
-    const int w = wr_field_width(field), h = wr_field_height(field);
-    float *values = wr_try_alloc((size_t)w * (size_t)h, sizeof *values, "heights", err);
-    WrField *made = values ? wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, err) : NULL;
-    if (made) {
-        wr_field_read_fitted(field, 0, 0, w, h, values, (size_t)w);
-        wr_field_write(made, 0, 0, w, h, values, (size_t)w);
-    }
-    wr_free(values);
-    return made;
-}
-
-/* With a fitted spline each look-up would find the coefficients about it anew: they are found once for all. */
 static bool make_dice(WrRenderer *renderer, const WrScene *scene, WrError *err)
 {
-    const WrField *field = renderer->looked;
-    const double epsilon = renderer->plan.dice;
-    if (scene->analytic.kind != WR_ANALYTIC_OFF || scene->scheme != WR_SCHEME_BSPLINE_FIT ||
-        wr_field_wrap_u(field) != WR_WRAP_PERIODIC || wr_field_wrap_v(field) != WR_WRAP_PERIODIC)
-        return wr_dice_make(&renderer->dice, scene, field, &renderer->view, epsilon, renderer->pool,
-                            err);
-    WrField *fitted = coefficients_of(field, err);
-    WrScene *with = wr_scene_clone(scene);
-    with->scheme = WR_SCHEME_BSPLINE;
-    const bool good = fitted && wr_dice_make(&renderer->dice, with, fitted, &renderer->view,
-                                             epsilon, renderer->pool, err);
-    wr_scene_free(with);
-    wr_field_free(fitted);
+    WrRaised raised;
+    const bool good = wr_raised_init(&raised, scene, renderer->looked, err) &&
+                      wr_dice_make(&renderer->dice, raised.scene, raised.field, &renderer->view,
+                                   renderer->plan.dice, renderer->pool, err);
+    wr_raised_fini(&raised);
     return good;
 }
 

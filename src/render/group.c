@@ -133,11 +133,14 @@ static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, W
     WrGroup *group = renderer->group;
     WrRenderer *own_renderers[WR_OBJECTS_MAX];
     const WrScene *own_scenes[WR_OBJECTS_MAX];
+    const WrField *own_fields[WR_OBJECTS_MAX];
     for (int i = 0; i < group->count; i++) {
         own_renderers[i] = group->parts[i].renderer;
         own_scenes[i] = group->parts[i].scene;
+        own_fields[i] = request_of(&group->parts[i], request).field;
     }
-    if (!wr_frame_casts(own_renderers, own_scenes, group->count, request, err)) return false;
+    if (!wr_frame_casts(own_renderers, own_scenes, own_fields, group->count, request, err))
+        return false;
     for (int i = 0; i < group->count; i++) {
         Part *part = &group->parts[i];
         const WrFrameRequest own = request_of(part, request);

@@ -20,6 +20,7 @@ static WrVec3 seen_normal(const WrTileJob *job, const Strip *s, int i, WrVec3 p)
     const WrView *view = job->view;
     const WrRaysd *rays = &view->lit.rays_d;
     WrVec3 n = { (double)s->nx[i], (double)s->ny[i], (double)s->nz[i] };
+    if (job->dice) n = (WrVec3){ (double)s->bx[i], (double)s->by[i], (double)s->bz[i] };
     if (met_whole(job) && !job->scene->triangles->patches) {
         REAL facet[3];
         facet_of(&job->triangle_look, s->triangle[i], facet);
@@ -34,12 +35,17 @@ static WrVec3 seen_normal(const WrTileJob *job, const Strip *s, int i, WrVec3 p)
     return v3_dot(n, at) < 0 ? v3_neg(n) : n;
 }
 
-/* Where shadow rays start: what parallax shows stands on its base, which is what throws shadows. */
-static WrVec3 foot_of(const WrTileJob *job, const Strip *s, int i)
+/* Where shadow rays start: of a displaced surface at P + F n, not on a facet of the view's; what parallax shows stands on its
+   base, which is what throws shadows. */
+static WrVec3 start_of(const WrTileJob *job, int face, const Strip *s, int i)
 {
     const WrVec3 n = { (double)s->nx[i], (double)s->ny[i], (double)s->nz[i] };
     const WrVec3 p = { (double)s->px[i], (double)s->py[i], (double)s->pz[i] };
-    return runs(job, WR_EFFECT_PARALLAX) ? v3_mad(p, n, -(double)s->f[i]) : p;
+    if (runs(job, WR_EFFECT_PARALLAX)) return v3_mad(p, n, -(double)s->f[i]);
+    if (!job->dice) return p;
+    WrSurfacePoint at;
+    wr_surface_at(&job->view->shape_d, face, (double)s->u[i], (double)s->v[i], &at);
+    return v3_mad(at.p, at.n_unit, (double)s->f[i]);
 }
 
 /* The lamp, which the strip has added, as far as no object hides it. */
@@ -53,7 +59,7 @@ static void cast_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, co
         bool adds = false;
         for (int k = 0; k < 6; k++) adds |= to[k][i] != before->of[k][i];
         if (!adds) continue;
-        const WrVec3 p = foot_of(job, s, i);
+        const WrVec3 p = start_of(job, watch->scratch->face, s, i);
         const WrVec3 way = v3_sub(where, p);
         const double away = lamp->point ? v3_len(way) * job->cast_unit : INFINITY;
         const WrVec3 l = lamp->point ? v3_unit(way, (WrVec3){ 0, 0, 1 }) : where;

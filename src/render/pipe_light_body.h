@@ -114,7 +114,9 @@ static void shadowed_lamp(const WrTileJob *job, const Rays *rays, const WR_T(WrK
     const bool shadows = runs(job, WR_EFFECT_SHADOW), casts = runs(job, WR_EFFECT_CAST);
     if (shadows || casts) keep_sums(strip, &before);
     lamp_strip(job, rays, light, sink, strip, watch);
-    if (shadows) shadow_strip(job, light, &before, strip, watch);
+    /* Of a displaced surface the rays meet its own relief: what horizons say of that is told by them. */
+    const bool told = casts && job->dice && light->shadow;
+    if (shadows && !told) shadow_strip(job, light, &before, strip, watch);
     if (casts) cast_strip(job, light, &before, strip, watch);
 }
 

@@ -131,6 +131,15 @@ static const char *no_horizon(const WrPlan *plan, const WrPlanAsk *ask)
     return NULL;
 }
 
+/* Does every lamp that shines let rays meet a displaced surface's own relief? */
+static bool rays_tell(const WrPlan *plan, const WrPlanAsk *ask)
+{
+    bool all = runs(plan, WR_EFFECT_DISPLACED) && ask->dials->rays > 0;
+    for (int i = 0; i < ask->scene->light_count; i++)
+        all = all && (ask->scene->lights[i].shadow || !light_shines(&ask->scene->lights[i]));
+    return all;
+}
+
 WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     if (!ask->scene->material.shadow)
@@ -141,6 +150,8 @@ WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanAsk *ask, const char 
         return say(WR_VERDICT_NONE, why, "no light is worked out");
     if (!runs(plan, WR_EFFECT_BUMP) || plan->source != WR_SOURCE_TABLE)
         return say(WR_VERDICT_NONE, why, "there is no relief to throw any");
+    if (rays_tell(plan, ask))
+        return say(WR_VERDICT_NONE, why, "rays to the lamps meet the displaced surface itself");
     return say(WR_VERDICT_RUN, why, "lamps below the relief's horizon are hidden");
 }
 
@@ -149,8 +160,6 @@ WrVerdict wr_decide_cast(const WrPlan *plan, const WrPlanAsk *ask, const char **
     if (!wr_cast_asked(ask->scene)) return say(WR_VERDICT_NONE, why, "no light asks for them");
     if (ask->dials->rays == 0)
         return say(WR_VERDICT_NONE, why, "the dial lets no ray go to a lamp");
-    if (runs(plan, WR_EFFECT_DISPLACED))
-        return say(WR_VERDICT_NONE, why, "displaced surfaces have none yet");
     if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
         return say(WR_VERDICT_NONE, why, "no light is worked out");
     if (ask->facts.hiders > 0)

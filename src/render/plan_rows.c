@@ -294,16 +294,17 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                    "no relief; of "
                                    "formulas, tables that end, meshes, faces with tables of their "
                                    "own and stretched "
-                                   "objects it is not known. Lamps above the steepest horizon of "
+                                   "objects it is not known; of a displaced one all lights let "
+                                   "objects hide them. Lamps above the steepest horizon of "
                                    "all look none up",
                                    STAGE(SHADOW), .only_way = true, .decide = wr_decide_shadow },
-    [WR_ROW(
-        WR_EFFECT_CAST)] = { "E49", "object shadow", WR_PROOF_IDENTICAL, NULL,
-                             "no light that shines asks for any, `dials rays=0`, no light is "
-                             "worked out, the surface is displaced; one convex or flat object "
-                             "alone, or no ball about another stands between its own and a lamp",
-                             STAGE(CAST), .spared = WR_RUN_DARK, .decide = wr_decide_cast,
-                             .settle = wr_settle_cast },
+    [WR_ROW(WR_EFFECT_CAST)] = { "E49", "object shadow", WR_PROOF_IDENTICAL, NULL,
+                                 "no light that shines asks for any, `dials rays=0`, no light is "
+                                 "worked out; one convex or flat object "
+                                 "alone that is not displaced, or no ball about another stands "
+                                 "between its own and a lamp",
+                                 STAGE(CAST), .spared = WR_RUN_DARK, .decide = wr_decide_cast,
+                                 .settle = wr_settle_cast },
     [WR_ROW(WR_EFFECT_OCCLUSION)] = { "E48", "ambient occlusion", WR_PROOF_IDENTICAL, NULL,
                                       "the material asks for none, there is neither ambient light "
                                       "nor surroundings, there is no relief; of what has no relief "
