@@ -12,7 +12,7 @@
 
 #define LANES WR_SKY_LANES
 #define BUNDLE 4 /* stripes that a thread takes at once */
-#define AHEAD 16 /* rows; prefetching waits for the memory of a table that no cache holds */
+#define AHEAD 8 /* rows; prefetching waits for the memory of a table that no cache holds */
 
 /* All lines of one course. */
 typedef struct Lines {
@@ -188,9 +188,9 @@ static inline void add_run(const Lines *l, Batch *batch, size_t at, const float 
         const size_t later = AHEAD * sky->part->pitch;
         run->p = sky->p + at, run->q = sky->q + at;
         if (at + later < l->texels) {
-            __builtin_prefetch(run->p + later);
-            __builtin_prefetch(run->q + later);
-            __builtin_prefetch(run->loss + later, 1);
+            __builtin_prefetch(run->p + later, 0, 2);
+            __builtin_prefetch(run->q + later, 0, 2);
+            __builtin_prefetch(run->loss + later, 0, 2);
         }
     }
     if (batch->count == LANES) put_batch(l, batch);
