@@ -12,7 +12,7 @@
 
 #define LANES WR_SKY_LANES
 #define BUNDLE 4 /* stripes that a thread takes at once */
-#define AHEAD 8 /* rows; prefetching waits for the memory of a table that no cache holds */
+#define AHEAD 8  /* rows; prefetching waits for the memory of a table that no cache holds */
 
 /* All lines of one course. */
 typedef struct Lines {
