@@ -1,5 +1,6 @@
 #include "cli/bench_matter.h"
 
+#include "base/memory.h"
 #include "image/image.h"
 #include "scene/scene.h"
 
@@ -61,4 +62,16 @@ void wr_bench_displaced(WrScene *scene)
 void wr_bench_parallax(WrScene *scene)
 {
     scene->parallax = true;
+}
+
+void wr_bench_three(WrScene *scene)
+{
+    WrScene **others = wr_alloc(2, sizeof *others);
+    for (int i = 0; i < 2; i++) {
+        others[i] = wr_scene_clone(scene);
+        others[i]->at = (WrVec3){ i ? 0.7 : -0.7, 0.2, i ? 0.4 : -0.4 };
+        others[i]->size = 0.5;
+    }
+    scene->others = others;
+    scene->other_count = 2;
 }

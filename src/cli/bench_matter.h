@@ -13,3 +13,5 @@ void wr_bench_displaced(WrScene *scene);
 void wr_bench_parallax(WrScene *scene);
 void wr_bench_worn(WrScene *scene);
 void wr_bench_embossed(WrScene *scene);
+/* Two more like it, smaller, before and behind its sides. */
+void wr_bench_three(WrScene *scene);

@@ -427,15 +427,17 @@ static bool fill_views(WrBenchSections *all, const WrBenchView *views, const cha
 
 static bool fill_relit(WrBenchSections *all, WrError *err)
 {
-    for (int s = 1; s < 3; s++)
-        for (int relit = 0; relit < 2; relit++) {
-            char name[64];
-            snprintf(name, sizeof name, "%s, %s", surfaces[s],
-                     relit ? "at rest, another material each time" : "turning");
-            WrBenchPicture *p = add(all, name, all->count - relit, surfaces[s], WR_BENCH_BUMP, err);
-            if (!p) return false;
-            p->view = relit ? WR_BENCH_RELIT : WR_BENCH_TURNS;
-        }
+    static const char *const names[] = { "bezier", "torus", "torus, painted", "three tori" };
+    static const char *const views[] = { "turning", "at rest, another material each time" };
+    for (int s = 0; s < 8; s++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s, %s", names[s / 2], views[s % 2]);
+        WrBenchPicture *p = add(all, name, all->count - s % 2, surfaces[s < 2 ? 1 : 2],
+                                s / 2 == 2 ? WR_BENCH_BUMP_TEXTURE : WR_BENCH_BUMP, err);
+        if (p && s / 2 == 3) wr_bench_three(p->scene);
+        if (!p) return false;
+        p->view = s % 2 ? WR_BENCH_RELIT : WR_BENCH_TURNS;
+    }
     return true;
 }
 
