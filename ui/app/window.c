@@ -9,6 +9,7 @@
 #include "ui/desk/roster.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/desktop.h"
+#include "ui/gui/display.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/screen.h"
 
@@ -84,6 +85,20 @@ static bool open_screen(WrApp *app)
     return false;
 }
 
+static void choose_display(void)
+{
+    const WrDisplayEnv env = wr_display_env();
+    const char *driver = wr_display_driver(&env);
+    if (driver && !SDL_GetHint(SDL_HINT_VIDEODRIVER)) SDL_SetHint(SDL_HINT_VIDEODRIVER, driver);
+}
+
+static void tell_display(WrApp *app)
+{
+    const WrDisplayEnv env = wr_display_env();
+    app->display_word = wr_display_word(&env, SDL_GetCurrentVideoDriver());
+    if (app->display_word) fprintf(stderr, "wrinkle: %s\n", app->display_word);
+}
+
 bool wr_window_open(WrApp *app)
 {
     SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
@@ -92,7 +107,9 @@ bool wr_window_open(WrApp *app)
     SDL_SetHint(SDL_HINT_QUIT_ON_LAST_WINDOW_CLOSE, "0");
     /* SDL turns these into SDL_QUIT, but only where nobody else has taken them. */
     wr_process_drop_interrupts();
+    choose_display();
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0 || !open_screen(app)) return false;
+    tell_display(app);
     SDL_SetWindowMinimumSize(app->window, 640, 420);
     SDL_SetRenderDrawBlendMode(app->renderer, SDL_BLENDMODE_BLEND);
     SDL_EventState(SDL_DROPFILE, SDL_ENABLE);

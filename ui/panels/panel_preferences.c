@@ -216,6 +216,7 @@ void wr_dialog_preferences(WrApp *app)
     else if (waited) wait_for_key(app);
     window_rows(app);
     map_row(app);
+    if (app->display_word) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, app->display_word);
     key_list(app);
     if (wr_gui_button("Close", true) || (!waited && !app->dialog->fresh && wr_gui_escape_pressed()))
         wr_dialog_close(app);

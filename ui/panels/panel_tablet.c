@@ -99,6 +99,7 @@ static void devices(WrApp *app)
     int count = wr_pen_device_count(app->pen);
     const char *none = wr_pen_diagnosis(app->pen, -1);
     if (none[0]) wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, none);
+    if (app->display_word) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, app->display_word);
     if (count == 0) return;
     wr_gui_list_begin("devices", wr_gui_px(26.0 * (count < 4 ? count : 4) + 14));
     wr_gui_space(-6);

@@ -210,9 +210,7 @@ WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why)
     int first_event, first_error, major = 2, minor = 2, opcode;
     SDL_VERSION(&info.version);
     if (!SDL_GetWindowWMInfo(pen->window, &info) || info.subsystem != SDL_SYSWM_X11) {
-        *why =
-            "The window is not on an X server, so that pens act as mice. On Wayland start it with "
-            "SDL_VIDEODRIVER=x11.";
+        *why = "The window is not on an X server, so that pens act as mice.";
         return NULL;
     }
     Display *display = info.info.x11.display;

@@ -1,0 +1,70 @@
+/* By which system of windows the window opens, for each kind of session. */
+#include "test.h"
+
+#include "ui/gui/display.h"
+
+typedef struct Row {
+    WrDisplayEnv env; /* driver, x11, wayland, session */
+    const char *driver;
+} Row;
+
+static void xwayland_is_chosen_where_there_is_one(void **state)
+{
+    (void)state;
+    static const Row rows[] = {
+        { { NULL, ":0", NULL, "x11" }, NULL },
+        { { NULL, ":0", NULL, NULL }, NULL },
+        { { NULL, NULL, NULL, NULL }, NULL },
+        { { NULL, ":0", "", "tty" }, NULL },
+        { { NULL, ":1", "wayland-0", "wayland" }, "x11,wayland" },
+        { { NULL, ":1", NULL, "wayland" }, "x11,wayland" },
+        { { "", ":1", "wayland-1", NULL }, "x11,wayland" },
+        { { NULL, NULL, "wayland-0", "wayland" }, "wayland,x11" },
+        { { NULL, "", "wayland-0", NULL }, "wayland,x11" },
+        { { "wayland", ":1", "wayland-0", "wayland" }, NULL }, /* the user's choice holds */
+        { { "x11", ":1", "wayland-0", "wayland" }, NULL },
+        { { "dummy", NULL, "wayland-0", "wayland" }, NULL },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *got = wr_display_driver(&rows[i].env);
+        if (!rows[i].driver) assert_null(got);
+        else assert_string_equal(got, rows[i].driver);
+    }
+}
+
+/* Of the same sessions, by what SDL opened in the end. */
+static void the_word_says_what_becomes_of_pens(void **state)
+{
+    (void)state;
+    static const struct {
+        WrDisplayEnv env;
+        const char *opened, *has; /* NULL: silence */
+    } rows[] = {
+        { { NULL, ":0", NULL, "x11" }, "x11", NULL },
+        { { NULL, ":1", "wayland-0", "wayland" }, "x11", "goes through XWayland" },
+        { { NULL, ":1", "wayland-0", "wayland" }, "wayland", "opened no window" },
+        { { NULL, NULL, "wayland-0", "wayland" }, "wayland", "no XWayland" },
+        { { "wayland", ":1", "wayland-0", NULL }, "wayland", "SDL_VIDEODRIVER opens" },
+        { { "x11", ":1", "wayland-0", NULL }, "x11", NULL }, /* as asked for */
+        { { NULL, ":1", "wayland-0", NULL }, "dummy", NULL },
+        { { NULL, ":1", "wayland-0", NULL }, NULL, NULL },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *word = wr_display_word(&rows[i].env, rows[i].opened);
+        if (!rows[i].has) {
+            assert_null(word);
+            continue;
+        }
+        assert_non_null(word);
+        assert_non_null(strstr(word, rows[i].has));
+        const bool mice = strcmp(rows[i].opened, "wayland") == 0;
+        assert_true((strstr(word, "pens act as mice") != NULL) == mice);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(xwayland_is_chosen_where_there_is_one),
+                                        cmocka_unit_test(the_word_says_what_becomes_of_pens) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
