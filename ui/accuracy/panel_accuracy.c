@@ -141,8 +141,8 @@ static void error(WrApp *app)
 
 /* ---- time ---- */
 
-static const WrColour stage_colours[] = { 0xff8f8f8fu, 0xff4a8fdcu, 0xff4fb39au,
-                                          0xffe8a25cu, 0xffd8706cu, 0xffb191d6u };
+/* Of wr_series. */
+static const int stage_colours[] = { 6, 0, 2, 1, 4, 3 };
 _Static_assert(WR_LENGTH(stage_colours) == WR_PICTURE_STAGES, "a colour for each stage");
 
 static void stage_bar(const double ms[WR_PICTURE_STAGES], double all)
@@ -151,8 +151,8 @@ static void stage_bar(const double ms[WR_PICTURE_STAGES], double all)
     double x = pad.x + 1;
     for (int i = 0; i < WR_PICTURE_STAGES; i++) {
         const double w = all > 0 ? (pad.w - 2) * ms[i] / all : 0;
-        wr_gui_draw_fill(floor(x), pad.y + 1, ceil(x + w) - floor(x), pad.h - 2, stage_colours[i],
-                         0);
+        wr_gui_draw_fill(floor(x), pad.y + 1, ceil(x + w) - floor(x), pad.h - 2,
+                         wr_series[stage_colours[i]], 0);
         x += w;
     }
     wr_gui_pad_end();
@@ -178,8 +178,9 @@ static void stages(WrApp *app)
     stage_bar(ms, all);
     wr_gui_space(-4);
     for (int i = 0; i < WR_PICTURE_STAGES; i += 2) {
-        Cell c[2] = { { stage_colours[i], wr_picture_stages[i], tips[i], "" },
-                      { stage_colours[i + 1], wr_picture_stages[i + 1], tips[i + 1], "" } };
+        Cell c[2] = { { wr_series[stage_colours[i]], wr_picture_stages[i], tips[i], "" },
+                      { wr_series[stage_colours[i + 1]], wr_picture_stages[i + 1], tips[i + 1],
+                        "" } };
         for (int k = 0; k < 2; k++)
             snprintf(c[k].value, sizeof c[k].value, ms[i + k] < 10 ? "%.2f" : "%.1f", ms[i + k]);
         cells(&c[0], &c[1]);

@@ -26,9 +26,7 @@
 #define PLOT_UNITS 210 /* its height */
 #define REACH_UNITS 12 /* from the pointer to a point */
 
-static const WrColour axis_colours[] = { 0xff4a8fdcu, 0xffe8a25cu, 0xff4fb39au, 0xffb191d6u,
-                                         0xffe07f8eu, 0xffd8c95cu, 0xff9a9a9au };
-_Static_assert(WR_LENGTH(axis_colours) == WR_AXIS_COUNT + 1, "and one for several axes at once");
+_Static_assert(WR_SERIES == WR_AXIS_COUNT + 1, "and one for several axes at once");
 
 typedef struct Plot {
     WrPlotAxis time, error; /* seconds; RMS */
@@ -163,7 +161,7 @@ static void draw_points(const WrAccuracy *a, const Plot *plot, int present, bool
             const WrRung *rung = &ladder->rungs[i];
             if (rung->front != (pass == 1)) continue;
             wr_gui_draw_disc(plot->points[i][0], plot->points[i][1], (pass ? 4 : 3) * s,
-                             faded(axis_colours[rung->axis], old));
+                             faded(wr_series[rung->axis], old));
         }
     if (present >= 0 && has_point(&ladder->rungs[present])) {
         wr_gui_draw_circle(plot->points[present][0], plot->points[present][1], 7.5 * s,
@@ -217,7 +215,7 @@ static void legend(void)
     for (int i = 0; i <= WR_AXIS_COUNT; i++) {
         if (i % 2) wr_gui_same_line(0);
         wr_gui_move_to(from + (i % 2) * column);
-        wr_gui_swatch(axis_colours[i], 3.5 * s, line);
+        wr_gui_swatch(wr_series[i], 3.5 * s, line);
         wr_gui_same_line(5);
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, labels[i]);
         if (i % 2) wr_gui_space(-8);

@@ -57,9 +57,9 @@ static bool answers(const WrHardCase *row, const WrHardResult *result, const cha
 static WrColour verdict_colour(const WrHardResult *result)
 {
     if (!result) return WR_COLOUR_LABEL;
-    return result->verdict == WR_HARD_PASS   ? 0xff7fc08au
+    return result->verdict == WR_HARD_PASS   ? WR_COLOUR_GOOD
            : result->verdict == WR_HARD_FAIL ? WR_COLOUR_BAD
-                                             : WR_COLOUR_CELL;
+                                             : WR_COLOUR_WARN;
 }
 
 static void right(double end, const char *text, WrColour colour)

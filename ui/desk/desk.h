@@ -99,9 +99,10 @@ struct WrApp {
     WrLayout *layout;
     int width, height, menu_height;
     double display_scale; /* of the display, in steps of 1/4 */
-    const char *display_word; /* why it is on that display, and what that means for pens; NULL: nothing to say */
-    bool fitted;          /* the user has seen the window: its size is left alone */
-    int redraw;           /* pictures of the window still to draw */
+    const char *
+        display_word; /* why it is on that display, and what that means for pens; NULL: nothing to say */
+    bool fitted;      /* the user has seen the window: its size is left alone */
+    int redraw;       /* pictures of the window still to draw */
     bool visible, quit;
     double drawn_at, started_at;
     double drawn_scale;

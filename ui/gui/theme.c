@@ -22,3 +22,6 @@ WrColour wr_theme_colour(WrThemeColour name)
 {
     return colours[name][shown];
 }
+
+const WrColour wr_series[WR_SERIES] = { 0xff3a7bd5u, 0xffda9c58u, 0xff288462u, 0xffc9a8ecu,
+                                        0xffc6452au, 0xfff0e08cu, 0xff7d849du };

@@ -44,6 +44,8 @@ typedef uint32_t WrColour; /* 0xAARRGGBB */
       0xff000000u) /* labels that lie on the canvas or the patch */                                \
     X(CHIP_HOT, 0xf0343434u, 0xf8ffffffu, 0xff303030u)                                             \
     X(BAD, 0xffe0694fu, 0xffb3261eu, 0xffff7a66u)     /* a message that something failed */        \
+    X(WARN, 0xffe8a25cu, 0xff4a2a00u, 0xffffb000u)    /* what is not well */                       \
+    X(GOOD, 0xff7fc08au, 0xff0b6b8au, 0xff7fe0b0u)    /* what is */                                \
     X(REFUSED, 0xff5a3030u, 0xfff3c9c4u, 0xff700000u) /* behind what cannot be done now */         \
     X(LINK, 0xff78aeeau, 0xff1a5fb4u,                                                              \
       0xff6fc3ffu) /* in the guide: brighter than the accent, since it is read */                  \
@@ -74,6 +76,10 @@ extern "C" {
 WrThemeKind wr_theme(void);
 void wr_theme_set(WrThemeKind kind);
 WrColour wr_theme_colour(WrThemeColour name);
+
+/* Things of a kind side by side, such as a plot's lines: for those too who see red and green alike. */
+#define WR_SERIES 7
+extern const WrColour wr_series[WR_SERIES]; /* blue, orange, green, violet, red, yellow, grey */
 
 #ifdef __cplusplus
 }
@@ -112,6 +118,8 @@ WrColour wr_theme_colour(WrThemeColour name);
 #define WR_COLOUR_CHIP wr_theme_colour(WR_THEMED_CHIP)
 #define WR_COLOUR_CHIP_HOT wr_theme_colour(WR_THEMED_CHIP_HOT)
 #define WR_COLOUR_BAD wr_theme_colour(WR_THEMED_BAD)
+#define WR_COLOUR_WARN wr_theme_colour(WR_THEMED_WARN)
+#define WR_COLOUR_GOOD wr_theme_colour(WR_THEMED_GOOD)
 #define WR_COLOUR_REFUSED wr_theme_colour(WR_THEMED_REFUSED)
 #define WR_COLOUR_LINK wr_theme_colour(WR_THEMED_LINK)
 #define WR_COLOUR_GROUND wr_theme_colour(WR_THEMED_GROUND)

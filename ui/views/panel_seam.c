@@ -19,7 +19,7 @@
 #include <math.h>
 
 #define QUIET WR_COLOUR_LEVEL
-#define CREASED WR_COLOUR_CELL
+#define CREASED WR_COLOUR_WARN
 
 static WrColour colour_of(const WrSeamEdge *edge)
 {
