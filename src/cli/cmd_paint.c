@@ -35,6 +35,7 @@ int wr_cli_paint(const WrCli *cli)
     int status = WR_EXIT_FAILED;
     if (good) {
         WrAppOptions app = { .session = session,
+                             .file = cli->do_count == 0 ? cli->file : NULL,
                              .file_given = cli->file || cli->do_count > 0,
                              .threads = cli->threads,
                              .isa = cli->isa,

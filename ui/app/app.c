@@ -102,6 +102,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
                              .cells_v = 8,
                              .line_width = 8,
                              .high = 1,
+                             .fresh = { .width = 512, .height = 512, .surface = WR_SURFACE_sphere },
                              .solid_size = 100,
                              .solid_error = 0.05 };
     app->visible = true;
@@ -156,6 +157,7 @@ void wr_app_end(WrApp *app)
     wr_settings_fini(app->settings);
     wr_settings_fini(app->settings_known);
     wr_free(app->file->after_path);
+    wr_free(app->file->picture);
     wr_free(app->replace->path);
     for (int i = 0; i < SDL_NUM_SYSTEM_CURSORS; i++)
         if (app->cursors[i]) SDL_FreeCursor(app->cursors[i]);

@@ -37,6 +37,7 @@ WR_ROWS(dialogs);
 static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_NONE)] = { NULL, false },
     [WR_ROW(WR_DIALOG_UNSAVED)] = { wr_dialog_unsaved, false },
+    [WR_ROW(WR_DIALOG_NEW)] = { wr_dialog_new, false },
     [WR_ROW(WR_DIALOG_TABLE)] = { wr_dialog_table, false },
     [WR_ROW(WR_DIALOG_FILL)] = { wr_dialog_fill, false },
     [WR_ROW(WR_DIALOG_GRID)] = { wr_dialog_grid, false },

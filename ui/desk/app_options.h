@@ -9,6 +9,7 @@ typedef struct WrText WrText;
 typedef struct WrAppOptions {
     WrSession
         *session; /* borrowed; with outputs on. If file_given, what was asked for is open in it */
+    const char *file;  /* of file_given, and nothing more was asked for; borrowed; NULL: none */
     bool file_given;   /* false: the window opens the starter document (samples/bricks.wrinkle) */
     int threads;       /* of the preview, as in wr_pool_new */
     const char *isa;   /* kernels of the preview, as in wr_renderer_new; NULL: auto */

@@ -8,6 +8,7 @@
 typedef enum WrDialog {
     WR_DIALOG_NONE,
     WR_DIALOG_UNSAVED,
+    WR_DIALOG_NEW,
     WR_DIALOG_TABLE,
     WR_DIALOG_FILL,
     WR_DIALOG_GRID,

@@ -25,6 +25,7 @@
 #include "command/inner.h"
 #include "command/session.h"
 #include "command/table.h"
+#include "field/field.h"
 #include "system/path.h"
 
 #include <stdlib.h>
@@ -43,6 +44,8 @@ void wr_app_changed_document(WrApp *app)
 {
     app->file->clean_revision = wr_session_saved_revision(app->session);
     wr_app_try_end(app);
+    wr_free(app->file->picture);
+    app->file->picture = NULL;
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->another) (*p)->another(app);
     wr_app_live_end(app);
@@ -89,6 +92,40 @@ void wr_app_tend(WrApp *app)
     app->tending = false;
 }
 
+static bool lines_work(void *ctx, WrError *err)
+{
+    const FileCall *call = ctx;
+    bool good = true;
+    for (const char *at = call->path; *at && !wr_progress_stopped();) {
+        size_t length = strcspn(at, "\n");
+        char *line = wr_strndup(at, length);
+        WrError why;
+        if (!wr_session_run(call->session, line, good ? err : &why)) good = false;
+        wr_free(line);
+        at += length + (at[length] != '\0');
+    }
+    return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
+}
+
+/* A picture's heights are seen on a plane of its shape, and it gives the document its name. */
+static void lay_flat(WrApp *app, const char *path)
+{
+    char ending[16];
+    const WrField *field = wr_app_field(app);
+    if (wr_session_path(app->session)[0] || strcmp(wr_path_ending(path, ending), "wrinkle") == 0)
+        return;
+    WrText lines = { 0 };
+    WrError err;
+    wr_new_picture_lines(wr_field_width(field), wr_field_height(field), &lines);
+    FileCall call = { app->session, wr_text_get(&lines) };
+    if (!wr_busy_run(app, "Opening", lines_work, &call, &err)) wr_app_fail(app, &err);
+    wr_text_fini(&lines);
+    wr_app_changed_document(app);
+    app->file->picture = wr_strdup(path);
+    app->file->clean_revision = wr_session_revision(app->session); /* it can be opened again */
+    wr_app_title(app);
+}
+
 static bool open_now(WrApp *app, const char *path)
 {
     WrError err;
@@ -101,6 +138,7 @@ static bool open_now(WrApp *app, const char *path)
     app->file->starter = false;
     note_recent(app, path);
     wr_app_changed_document(app);
+    lay_flat(app, path);
     return true;
 }
 
@@ -121,6 +159,7 @@ void wr_app_start(WrApp *app)
     app->hints = true;
     if (app->options->file_given) {
         if (wr_session_path(app->session)[0]) note_recent(app, wr_session_path(app->session));
+        if (app->options->file) lay_flat(app, app->options->file);
         wr_app_take_notes(app);
         return;
     }
@@ -142,21 +181,6 @@ void wr_app_start(WrApp *app)
 
 /* ---- asking first ---- */
 
-static bool lines_work(void *ctx, WrError *err)
-{
-    const FileCall *call = ctx;
-    bool good = true;
-    for (const char *at = call->path; *at && !wr_progress_stopped();) {
-        size_t length = strcspn(at, "\n");
-        char *line = wr_strndup(at, length);
-        WrError why;
-        if (!wr_session_run(call->session, line, good ? err : &why)) good = false;
-        wr_free(line);
-        at += length + (at[length] != '\0');
-    }
-    return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
-}
-
 /* Of a line that fails the rest still runs, so that there is something to be seen. */
 static void run_lines(WrApp *app, const char *lines)
 {
@@ -173,6 +197,11 @@ static void run_lines(WrApp *app, const char *lines)
     wr_app_title(app);
 }
 
+void wr_app_new_of(WrApp *app, const char *lines)
+{
+    run_lines(app, lines);
+}
+
 void wr_app_go_on(WrApp *app)
 {
     WrAfter after = app->file->after;
@@ -181,12 +210,7 @@ void wr_app_go_on(WrApp *app)
     app->file->after_path = NULL;
     switch (after) {
     case WR_AFTER_NOTHING: break;
-    case WR_AFTER_NEW:
-        wr_hand_let_go(app);
-        wr_session_reset(app->session);
-        app->file->starter = false;
-        wr_app_changed_document(app);
-        break;
+    case WR_AFTER_NEW: wr_dialog_open(app, WR_DIALOG_NEW); break;
     case WR_AFTER_OPEN:
         if (!wr_files_ask(app->files, WR_FILE_OPEN, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
         break;

@@ -1,5 +1,6 @@
 /* document.h - the document behind the window: new, open, save, and what is asked before work is lost. */
 #pragma once
+#include "ui/desk/new_lines.h"
 #include "ui/desk/desk.h"
 #include "ui/jobs/files.h"
 
@@ -28,12 +29,14 @@ typedef struct WrForms { /* what the dialogs hold while they are open */
     int film_kind;         /* of wr_film_kinds */
     int wrap, kind, range; /* range: a WR_RANGE_ */
     bool fit;
+    WrNewForm fresh; /* of a new document */
 } WrForms;
 
 /* What the window knows of the document beside the session. */
 typedef struct WrDocumentHand {
     WrAfter after;
     char *after_path;        /* owned */
+    char *picture;           /* whose heights were opened; owned, NULL: none */
     uint64_t clean_revision; /* also counts as saved: a starter made by commands */
     bool starter;            /* the document is the starter */
 } WrDocumentHand;
@@ -45,6 +48,8 @@ void wr_app_open(WrApp *app);
 void wr_app_open_path(WrApp *app, const char *path); /* asks first if work is unsaved */
 /* The same for a new document that command lines make. */
 void wr_app_open_lines(WrApp *app, const char *lines);
+/* The same without asking. */
+void wr_app_new_of(WrApp *app, const char *lines);
 bool wr_app_save(WrApp *app); /* false: not saved yet (a dialog is open, or it failed) */
 void wr_app_save_as(WrApp *app);
 void wr_app_save_history(WrApp *app); /* asks for the file */

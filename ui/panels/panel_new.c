@@ -1,0 +1,104 @@
+/* A new document in one dialog: how large, of which shape, on what, and what it begins with. */
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/document.h"
+#include "ui/desk/later.h"
+#include "ui/desk/new_lines.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/jobs/files.h"
+#include "ui/panels/panels.h"
+
+#include "base/rows.h"
+#include "base/text.h"
+#include "document/document_file.h"
+#include "surface/surface.h"
+
+#include <math.h>
+#include <string.h>
+
+static void side(const char *label, double *value)
+{
+    static const WrNumber spec = {
+        .low = 16, .high = 4096, .hard_low = 1, .hard_high = 16384, .reset = 512, .unit = "texels"
+    };
+    wr_gui_label(label);
+    wr_gui_number(label, 0, &spec, value);
+}
+
+static void size_rows(WrNewForm *form)
+{
+    static const int longest[] = { 256, 512, 1024, 2048, 4096 };
+    static const char *const sizes[] = { "256", "512", "1024", "2048", "4096" };
+    const char *aspects[WR_ASPECTS];
+    double longer = fmax(form->width, form->height), w, h;
+    int size = -1, aspect = -1;
+    for (int i = 0; i < 5; i++)
+        if (longest[i] == longer) size = i;
+    for (int i = WR_ASPECTS - 1; i >= 0; i--) {
+        aspects[i] = wr_aspects[i].label;
+        wr_new_sides(i, longer, &w, &h);
+        if (w == form->width && h == form->height) aspect = i;
+    }
+    wr_gui_label("Longer side");
+    bool sized = wr_gui_segments("size", sizes, NULL, 5, &size);
+    wr_gui_label("Shape");
+    bool shaped = wr_gui_segments("aspect", aspects, NULL, WR_ASPECTS, &aspect);
+    if (sized && aspect >= 0) wr_new_sides(aspect, longest[size], &form->width, &form->height);
+    else if (sized) { /* a shape of its own is kept */ double by = longest[size] / longer;
+        form->width = fmax(1.0, rint(form->width * by));
+        form->height = fmax(1.0, rint(form->height * by));
+    }
+    if (shaped) wr_new_sides(aspect, longer, &form->width, &form->height);
+    side("Width", &form->width);
+    side("Height", &form->height);
+}
+
+static void surface_row(WrNewForm *form)
+{
+    const char *labels[WR_SURFACE_COUNT];
+    int kinds[WR_SURFACE_COUNT], count = 0, now = 0;
+    for (int i = 0; i < WR_SURFACE_COUNT; i++) {
+        if (!wr_new_surface(i)) continue;
+        if (i == form->surface) now = count;
+        kinds[count] = i;
+        labels[count++] = wr_surfaces[i]->label;
+    }
+    wr_gui_label("Patch");
+    if (wr_gui_choice("patch", 0, labels, count, &now)) form->surface = kinds[now];
+    wr_gui_tip("The surface that wears the table");
+}
+
+void wr_dialog_new(WrApp *app)
+{
+    static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
+                                         "Ends at top and bottom", "Ends all around" };
+    _Static_assert(WR_LENGTH(wraps) == WR_DOCUMENT_WRAPS, "in the order of their words");
+    WrNewForm *form = &app->forms->fresh;
+    const char *starters[WR_STARTERS];
+    if (!wr_gui_dialog_begin("New", 460)) return;
+    size_rows(form);
+    wr_gui_label("Edges");
+    wr_gui_choice("wrap", 0, wraps, WR_DOCUMENT_WRAPS, &form->wrap);
+    surface_row(form);
+    for (int i = 0; i < WR_STARTERS; i++) starters[i] = wr_starters[i].label;
+    wr_gui_label("Begin with");
+    wr_gui_choice("starter", 0, starters, WR_STARTERS, &form->starter);
+    wr_gui_tip(
+        "It can be changed or undone at once; Generate has all of them, with all their numbers");
+    wr_gui_space(4);
+    if (wr_gui_button("From a picture...", false)) {
+        wr_dialog_close(app);
+        if (!wr_files_ask(app->files, WR_FILE_OPEN, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+        wr_gui_dialog_end();
+        return;
+    }
+    wr_gui_tip("Its greys become heights, and the table takes its size and shape");
+    if (wr_dialog_buttons(app, "Make it", true) > 0) {
+        WrText lines = { 0 };
+        wr_new_lines(form, wr_document_wrap_name(form->wrap), &lines);
+        wr_later(app, wr_app_new_of, wr_text_get(&lines));
+        wr_text_fini(&lines);
+    }
+    wr_gui_dialog_end();
+}
