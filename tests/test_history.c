@@ -185,6 +185,12 @@ static void the_oldest_states_go_when_the_budget_is_full(void **state)
     must_run(s, "fill 7");
     must_run(s, "fill 8");
     assert_int_equal(wr_session_history_oldest(s), oldest + 1); /* the last step stays */
+    /* heights of states can be looked at, without going there, as far as they were kept */
+    assert_true(wr_field_get(wr_session_history_heights(s, oldest + 2), 3, 3) == 8);
+    assert_true(wr_field_get(wr_session_history_heights(s, oldest + 1), 3, 3) == 7);
+    assert_null(wr_session_history_heights(s, oldest));
+    assert_null(wr_session_history_heights(s, oldest + 3));
+    assert_null(wr_session_history_heights(s, -1));
     must_run(s, "undo");
     assert_true(wr_field_get(wr_document_field(doc(s)), 3, 3) == 7);
     wr_session_free(s);

@@ -368,6 +368,12 @@ size_t wr_session_history_step_bytes(const WrSession *session, int index)
     return wr_history_step_bytes(session->state.history, index);
 }
 
+const WrField *wr_session_history_heights(const WrSession *session, int position)
+{
+    if (position < 0 || position > wr_history_count(session->state.history)) return NULL;
+    return wr_history_heights(session->state.history, position);
+}
+
 size_t wr_session_history_budget(const WrSession *session)
 {
     return session->budget;

@@ -153,6 +153,13 @@ bool wr_history_view(const WrHistory *history, int state, WrSceneView *view)
     return document != NULL;
 }
 
+const WrField *wr_history_heights(const WrHistory *history, int state)
+{
+    WR_ASSERT(state >= 0 && state <= history->steps.count);
+    const WrDocument *document = *state_at((WrHistory *)history, state); /* only looked at */
+    return document ? document->layers[document->active].heights : NULL;
+}
+
 bool wr_history_brings_view(const WrHistory *history, int step)
 {
     WR_ASSERT(step >= 0 && step < history->steps.count);

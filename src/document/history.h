@@ -16,6 +16,7 @@
 #include <stdint.h>
 
 typedef struct WrDocument WrDocument;
+typedef struct WrField WrField;
 typedef struct WrSceneView WrSceneView;
 
 #define WR_HISTORY_BUDGET ((size_t)1 << 30) /* bytes, if nobody says otherwise */
@@ -47,6 +48,8 @@ uint64_t wr_history_mark(const WrHistory *history);                /* of the pre
 void wr_history_look(WrHistory *history, const WrDocument *document);
 /* The view that a state had when it was the present one last; false if the state was given up. */
 bool wr_history_view(const WrHistory *history, int state, WrSceneView *view);
+/* The heights of a state's active layer; NULL: it was given up. Borrowed until the history changes. */
+const WrField *wr_history_heights(const WrHistory *history, int state);
 /* Did step k bring a view of its own? */
 bool wr_history_brings_view(const WrHistory *history, int step);
 

@@ -81,6 +81,7 @@ static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
         { "ants", NULL, NULL, &s->ants, 0, 1 },
         { "grid", NULL, NULL, &s->grid, 0, 1 },
         { "grid_parts", NULL, &s->grid_parts, NULL, 1, 256 },
+        { "history_lines", NULL, NULL, &s->history_lines, 0, 1 },
         { "tiling", NULL, (int *)&s->tiling, NULL, 0, WR_TILINGS - 1 },
         { "join", NULL, &s->join, NULL, 0, 3 },
         { "tab", NULL, &s->tab, NULL, 0, 15 },

@@ -39,15 +39,16 @@ typedef struct WrSettings {
     int language;   /* of wr_languages */
     double divider; /* the canvas's share of the views, 0..1 */
     WrShownViews views;
-    bool panels;     /* shown */
-    double lower;    /* the layers' share of the panel on the right, 0..1 */
-    bool ants;       /* the outline of a selection moves */
-    bool grid;       /* is shown, and drawn things snap to it */
-    int grid_parts;  /* of the cell along each axis */
-    WrTiling tiling; /* how its copies stand beside it, to the eye */
-    int join;        /* how a new selection joins the present one: WrSelectMode */
-    int tab;         /* of the panel on the right */
-    bool turning;    /* the patch turns by itself */
+    bool panels;        /* shown */
+    double lower;       /* the layers' share of the panel on the right, 0..1 */
+    bool ants;          /* the outline of a selection moves */
+    bool grid;          /* is shown, and drawn things snap to it */
+    int grid_parts;     /* of the cell along each axis */
+    bool history_lines; /* the history shows command lines, not words */
+    WrTiling tiling;    /* how its copies stand beside it, to the eye */
+    int join;           /* how a new selection joins the present one: WrSelectMode */
+    int tab;            /* of the panel on the right */
+    bool turning;       /* the patch turns by itself */
     WrBrush brush;
     WrCanvasLook look;
     /* The files that the brush comes from, owned, NULL: none; as WrBrushSources. */

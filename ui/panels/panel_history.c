@@ -6,15 +6,22 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
+#include "ui/desk/settings.h"
+#include "ui/panels/history_words.h"
+#include "ui/panels/panel_layers.h"
+#include "ui/panels/thumb_list.h"
 #include "ui/panels/panels.h"
 
+#include "base/text.h"
 #include "command/session.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #define ROWS_MAX 400 /* steps shown: the newest */
-#define ROW_UNITS 23
+#define ROW_UNITS 34
+#define LINE_UNITS 23
+#define THUMB_UNITS 26
 
 static void print_bytes(double bytes, char *text, size_t size)
 {
@@ -45,25 +52,39 @@ static void go(WrApp *app, int position)
 
 /* The state after `position` steps, with the step that led to it; position 0 is the beginning. True if it
    was clicked. */
-static bool row(const WrApp *app, int position)
+static bool row(WrApp *app, int position, bool seen)
 {
+    const bool lines = app->settings->history_lines;
     int now = wr_session_history_position(app->session);
     bool kept = position >= wr_session_history_oldest(app->session);
     WrColour colour = position == now           ? WR_COLOUR_STRONG
                       : position > now || !kept ? WR_COLOUR_FAINT
                                                 : WR_COLOUR_TEXT;
-    WrRow r = wr_gui_row_begin(position, ROW_UNITS, position == now);
+    WrRow r = wr_gui_row_begin(position, lines ? LINE_UNITS : ROW_UNITS, position == now);
+    double x = wr_gui_px(12), side = wr_gui_px(THUMB_UNITS);
+    const WrField *heights = wr_session_history_heights(app->session, position);
+    const char *begin = wr_words(wr_session_path(app->session)[0] ? "as opened" : "the beginning");
+    WrText words = { 0 };
     if (position > 0) tip_of(app, position - 1, kept);
-    double x = wr_gui_px(12);
     wr_gui_row_at(x, 0);
     if (position == now) wr_gui_text(WR_FONT_SMALL, WR_COLOUR_ACCENT, "\xe2\x80\xa2");
-    wr_gui_row_at(x + wr_gui_px(12), 0);
-    const char *begin = wr_session_path(app->session)[0] ? "as opened" : "the beginning";
-    wr_gui_as_it_is(position > 0);
-    wr_gui_text_cut(WR_FONT_SMALL, colour,
-                    position > 0 ? wr_session_history_line(app->session, position - 1) : begin,
-                    wr_gui_row_width() - x - wr_gui_px(24));
+    x += wr_gui_px(12);
+    if (!lines && heights && seen) {
+        wr_gui_row_at(x, side);
+        wr_gui_image(wr_thumb_list_get(app, &app->layers->steps, position, heights, NULL, false,
+                                       THUMB_UNITS),
+                     side, side);
+    }
+    if (!lines) x += side + wr_gui_px(8);
+    if (position == 0) wr_text_add(&words, begin);
+    else if (lines) wr_text_add(&words, wr_session_history_line(app->session, position - 1));
+    else wr_history_words(wr_session_history_line(app->session, position - 1), &words);
+    wr_gui_row_at(x, 0);
+    wr_gui_as_it_is(true); /* said already */
+    wr_gui_text_cut(WR_FONT_SMALL, colour, wr_text_get(&words),
+                    wr_gui_row_width() - x - wr_gui_px(12));
     wr_gui_as_it_is(false);
+    wr_text_fini(&words);
     wr_gui_row_end();
     return r.clicked && kept && position != now;
 }
@@ -79,12 +100,16 @@ void wr_panel_history(WrApp *app)
     wr_gui_tip(
         "Memory that the states on the way take, and how much they may: the oldest are given "
         "up first. `history budget=` changes it.");
-    double wide = wr_gui_text_width(WR_FONT_TEXT, "Save as script...") + wr_gui_px(28);
+    double wide = wr_gui_text_width(WR_FONT_TEXT, wr_words("Save as script...")) + wr_gui_px(28);
     wr_gui_same_line(8);
     wr_gui_move_to(wr_gui_width() - wide);
     wr_gui_disable(count == 0);
     if (wr_gui_chip(NULL, "Save as script...")) wr_action_run(app, WR_ACT(save_history));
     wr_gui_enable();
+    static const char *const ways[] = { "In words", "As commands" };
+    int way = app->settings->history_lines;
+    if (wr_gui_segments("ways", ways, NULL, 2, &way)) app->settings->history_lines = way == 1;
+    wr_gui_tip("What was done, or the lines of text that do it, as a script has them");
     wr_gui_space(2);
     if (count == 0) {
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
@@ -94,6 +119,6 @@ void wr_panel_history(WrApp *app)
     }
     int last = count > ROWS_MAX ? count - ROWS_MAX : 0;
     for (int i = count; i >= last; i--) /* newest on top */
-        if (row(app, i)) goal = i;
+        if (row(app, i, wr_gui_will_see(wr_gui_px(ROW_UNITS)))) goal = i;
     if (goal >= 0) go(app, goal);
 }

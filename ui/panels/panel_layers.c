@@ -1,6 +1,5 @@
 /* The layers: top layer first. Every act is a command line. */
 #include "ui/panels/panel_layers.h"
-#include "ui/canvas/thumb.h"
 #include "ui/desk/action.h"
 #include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
@@ -15,14 +14,12 @@
 #include "ui/jobs/trial.h"
 #include "ui/panels/panels.h"
 
-#include "base/array.h"
 #include "base/text.h"
 #include "command/call.h"
 #include "command/session.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "field/field.h"
-#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>
@@ -31,55 +28,11 @@
 
 #define ROW_UNITS 42
 #define THUMB_UNITS 30
-#define THUMB_SECONDS 0.15 /* between two pictures of a table that keeps changing */
-
-/* ---- small pictures ---- */
-
-static WrThumb *thumb_at(WrApp *app, int place)
-{
-    while (app->layers->thumbs.count <= place)
-        wr_array_push(&app->layers->thumbs, ((WrThumb){ 0 }));
-    return &app->layers->thumbs.data[place];
-}
-
-static void make_thumb(const WrApp *app, WrThumb *thumb, const WrField *field, const WrField *cover,
-                       bool unit, int side)
-{
-    uint32_t argb[WR_THUMB_MAX * WR_THUMB_MAX];
-    if (!thumb->texture || thumb->side != side) {
-        if (thumb->texture) SDL_DestroyTexture(thumb->texture);
-        thumb->texture = SDL_CreateTexture(app->renderer, SDL_PIXELFORMAT_ARGB8888,
-                                           SDL_TEXTUREACCESS_STATIC, side, side);
-        if (!thumb->texture) return;
-    }
-    wr_thumb_draw(field, cover, unit, side, argb);
-    SDL_UpdateTexture(thumb->texture, NULL, argb, side * 4);
-    thumb->side = side;
-    thumb->key = wr_field_key(field);
-    thumb->cover = cover ? wr_field_key(cover) : 0;
-    thumb->made_at = wr_clock_seconds();
-}
-
-static SDL_Texture *thumb(WrApp *app, int place, const WrField *field, const WrField *cover,
-                          bool unit)
-{
-    WrThumb *t = thumb_at(app, place);
-    int side = wr_gui_px(THUMB_UNITS);
-    side = side < WR_THUMB_MAX ? side : WR_THUMB_MAX;
-    bool old = !t->texture || t->side != side || t->key != wr_field_key(field) ||
-               t->cover != (cover ? wr_field_key(cover) : 0);
-    bool young = t->texture && wr_clock_seconds() - t->made_at < THUMB_SECONDS;
-    if (old && young && wr_session_in_stroke(app->session)) return t->texture;
-    if (old) make_thumb(app, t, field, cover, unit, side);
-    return t->texture;
-}
 
 void wr_panel_layers_forget(WrApp *app)
 {
-    for (int i = 0; i < app->layers->thumbs.count; i++)
-        if (app->layers->thumbs.data[i].texture)
-            SDL_DestroyTexture(app->layers->thumbs.data[i].texture);
-    wr_array_free(&app->layers->thumbs);
+    wr_thumb_list_free(&app->layers->thumbs);
+    wr_thumb_list_free(&app->layers->steps);
 }
 
 /* ---- settings of the active layer ---- */
@@ -230,7 +183,8 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
 {
     const WrLayer *layer = &wr_app_document(app)->layers[i];
     double side = wr_gui_px(THUMB_UNITS), gap = wr_gui_px(8);
-    SDL_Texture *picture = thumb(app, 2 * i, layer->heights, layer->cover, false);
+    SDL_Texture *picture = wr_thumb_list_get(app, &app->layers->thumbs, 2 * i, layer->heights,
+                                             layer->cover, false, THUMB_UNITS);
     wr_gui_row_at(*x, side);
     if (!layer->mask) {
         wr_gui_image(picture, side, side);
@@ -242,7 +196,8 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
     wr_gui_tip("The layer's heights: click to edit them");
     *x += side + gap;
     wr_gui_row_at(*x, side);
-    picture = thumb(app, 2 * i + 1, layer->mask, NULL, true);
+    picture = wr_thumb_list_get(app, &app->layers->thumbs, 2 * i + 1, layer->mask, NULL, true,
+                                THUMB_UNITS);
     if (wr_gui_image_button("mask", picture, side, side, active && layer->on_mask))
         return choose_part(app, i, true);
     wr_gui_tip("Its mask: click to paint on it, Alt+click to see it alone");

@@ -1,5 +1,6 @@
 /* panel_layers.h - the list of layers. */
 #pragma once
+#include "ui/panels/thumb_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"
 
@@ -10,22 +11,15 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A small picture of a table in a list. */
-typedef struct WrThumb {
-    SDL_Texture *texture; /* owned */
-    int side;             /* pixels */
-    uint64_t key, cover;  /* of what it shows */
-    double made_at;
-} WrThumb;
-
 typedef struct WrLayersHand {
     int dragged; /* index of the layer that is held, -1: none */
     int gap;     /* where it would go: between layers gap - 1 and gap */
     int renamed; /* index of the layer whose name is being typed, -1: none */
     bool fresh;  /* it is the field's first frame */
     char name[WR_LAYER_NAME_MAX + 1];
-    bool open;                /* the menu is asked for */
-    WR_ARRAY(WrThumb) thumbs; /* two a layer: heights, mask */
+    bool open;          /* the menu is asked for */
+    WrThumbList thumbs; /* two a layer: heights, mask */
+    WrThumbList steps;  /* one a state of the history */
 } WrLayersHand;
 
 void wr_panel_layers(WrApp *app, SDL_Rect room);
