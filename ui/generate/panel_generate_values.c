@@ -39,6 +39,8 @@ static const Group groups[] = {
     { "fade", "Finer points", false, false },
     { "way", "Finer points", false, false },
     { "direction", "Script", false, false },
+    { "face", "Finer points of the font", false, false },
+    { "align", "Lines and place", false, true },
     { "points", "Along a path", false, false },
     { "edge", "Relief", false, true },
     { "across", "Repeat", false, false },
@@ -267,18 +269,36 @@ static bool heading(const WrGenerateHand *hand, int first, const Group *group)
     return wr_gui_fold(label, group->open);
 }
 
+/* What matters most of a text stands below its letters. */
+static const char *const written_first[] = { "size", "height", "profile", "bevel" };
+
+static bool comes_first(const WrGenerator *generator, int i)
+{
+    if (wr_generate_written(generator) < 0) return false;
+    for (size_t k = 0; k < sizeof written_first / sizeof *written_first; k++)
+        if (strcmp(generator->params[i].name, written_first[k]) == 0) return true;
+    return false;
+}
+
 static bool parameters(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
     const Group *group = NULL;
     bool changed = false, shown = true;
     for (int i = 0; hand->generator->params[i].name; i++) {
+        if (comes_first(hand->generator, i)) continue;
         const Group *next = group_at(hand->generator, i);
         if (next && (!group || strcmp(next->title, group->title) != 0)) {
             group = next;
             shown = heading(hand, i, group);
         }
         if (shown) changed |= parameter(app, i);
+        for (size_t k = 0; i == wr_generate_written(hand->generator) &&
+                           k < sizeof written_first / sizeof *written_first;
+             k++) {
+            int first = wr_generator_param_find(hand->generator, written_first[k]);
+            if (first >= 0) changed |= parameter(app, first);
+        }
     }
     return changed;
 }
