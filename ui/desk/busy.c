@@ -10,6 +10,7 @@
 #include "ui/desk/keys.h"
 #include "ui/desk/later.h"
 #include "ui/desk/layout.h"
+#include "ui/desk/line_words.h"
 #include "ui/desk/messages.h"
 #include "ui/desk/roster.h"
 #include "ui/desk/session_view.h"
@@ -391,9 +392,10 @@ static bool run_line(void *ctx, WrError *err)
 static bool run_command(WrApp *app, const char *line, const WrDocument *made)
 {
     WrError err;
-    char what[64];
+    WrText words = { 0 };
     wr_hand_let_go(app); /* a stroke that is open would refuse it */
-    snprintf(what, sizeof what, "%.60s", line);
+    wr_line_words(line, &words);
+    const char *what = wr_text_get(&words);
     if (app->trying) wr_trial_stop(app->trial); /* nobody waits for it any more */
     Line call = { app->session, line, made };
     WrEstimate estimate;
@@ -404,6 +406,7 @@ static bool run_command(WrApp *app, const char *line, const WrDocument *made)
     app->expected = 0.0;
     if (ok) wr_messages_overtake(app->messages, since);
     if (!ok) wr_busy_fail(app, what, &err);
+    wr_text_fini(&words);
     wr_app_try_end(app);
     wr_app_take_notes(app);
     wr_app_title(app);

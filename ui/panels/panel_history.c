@@ -7,7 +7,7 @@
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
 #include "ui/desk/settings.h"
-#include "ui/panels/history_words.h"
+#include "ui/desk/line_words.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/thumb_list.h"
 #include "ui/panels/panels.h"
@@ -78,7 +78,7 @@ static bool row(WrApp *app, int position, bool seen)
     if (!lines) x += side + wr_gui_px(8);
     if (position == 0) wr_text_add(&words, begin);
     else if (lines) wr_text_add(&words, wr_session_history_line(app->session, position - 1));
-    else wr_history_words(wr_session_history_line(app->session, position - 1), &words);
+    else wr_line_words(wr_session_history_line(app->session, position - 1), &words);
     wr_gui_row_at(x, 0);
     wr_gui_as_it_is(true); /* said already */
     wr_gui_text_cut(WR_FONT_SMALL, colour, wr_text_get(&words),

@@ -1,4 +1,4 @@
-#include "ui/panels/history_words.h"
+#include "ui/desk/line_words.h"
 #include "ui/gui/words.h"
 
 #include "base/file.h"
@@ -147,6 +147,17 @@ static const struct {
     { "sheet", "Export sheet" },
     { "dials", "Dials" },
     { "tolerance", "Tolerance" },
+    { "render", "Picture" },
+    { "export", "Export" },
+    { "maps", "Maps" },
+    { "save", "Save" },
+    { "copy", "Copy" },
+    { "script", "Script" },
+    { "camera", "Camera" },
+    { "rotate", "Turn" },
+    { "view", "View" },
+    { "undo", "Undo" },
+    { "redo", "Redo" },
 };
 
 static const char *name_of(const char *verb)
@@ -169,7 +180,7 @@ static void other_words(const Words *w, WrText *out)
     }
 }
 
-void wr_history_words(const char *line, WrText *out)
+void wr_line_words(const char *line, WrText *out)
 {
     Words w = words_of(line);
     const char *verb = w.count > 0 ? w.word[0].text : "", *kind = plain(&w, 1);

@@ -1,7 +1,0 @@
-/* history_words.h - a step of the history as a person would say it: "Stroke, leaves, 43 samples". */
-#pragma once
-
-typedef struct WrText WrText;
-
-/* Of a command line, in the window's language. */
-void wr_history_words(const char *line, WrText *out);
