@@ -67,7 +67,7 @@ typedef struct WrSettings {
     bool steady_catch_up;                /* a line on a string ends where the pointer does */
     WrFakePressure fake;                 /* of the mouse; held counts while it is not by speed */
     char *pens[WR_PENS_MAX]; /* pressure curves of devices, "CURVE NAME", owned; NULL ends them */
-    char *recent[WR_RECENT_MAX]; /* absolute paths, newest first, owned; NULL ends them */
+    char *recent[WR_RECENT_MAX + 1]; /* absolute paths, newest first, owned; NULL ends them */
 } WrSettings;
 
 WrSettings wr_settings_default(void);

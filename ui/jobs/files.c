@@ -1,6 +1,8 @@
 #include "ui/jobs/files.h"
+#include "ui/jobs/file_places.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/thread.h"
 
 #include "base/array.h"
@@ -42,6 +44,8 @@ struct WrFiles {
     /* the panel */
     char folder[PATH_SIZE], field[PATH_SIZE];
     WR_ARRAY(Entry) entries;
+    int hidden; /* of the folder, that cannot be read for the purpose */
+    bool all;   /* they are shown too */
     bool focus;
     char trouble[512];
 };
@@ -214,6 +218,7 @@ static void list_folder(WrFiles *files)
 {
     free_entries(files);
     files->trouble[0] = '\0';
+    files->hidden = 0;
     WrFolder *dir = wr_folder_open(files->folder);
     if (!dir) {
         snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", files->folder,
@@ -223,7 +228,9 @@ static void list_folder(WrFiles *files)
     for (const char *e; (e = wr_folder_next(dir)) && files->entries.count < ENTRIES_MAX;) {
         if (e[0] == '.') continue;
         char *full = wr_path_join(files->folder, e);
-        wr_array_push(&files->entries, ((Entry){ wr_strdup(e), is_folder(full) }));
+        bool folder = is_folder(full), fits = folder || wr_file_fits(files->purpose, e);
+        if (fits || files->all) wr_array_push(&files->entries, ((Entry){ wr_strdup(e), folder }));
+        files->hidden += !fits;
         wr_free(full);
     }
     wr_folder_close(dir);
@@ -376,13 +383,40 @@ WrFilePurpose wr_files_purpose(const WrFiles *files)
     return files->purpose;
 }
 
-int wr_files_panel(WrFiles *files, const char *note)
+/* Folders to go to at once, in rows as long as the dialog is wide. */
+static void show_places(WrFiles *files, char *const recent[])
+{
+    WrFilePlace places[WR_FILE_PLACES];
+    int count = wr_file_places(getenv("HOME"), recent, places), chosen = -1;
+    double left = wr_gui_available();
+    for (int i = 0; i < count; i++) {
+        double wide = wr_gui_text_width(WR_FONT_TEXT, wr_words(places[i].label)) + wr_gui_px(46);
+        if (i > 0 && wide < left) wr_gui_same_line(6);
+        else left = wr_gui_available();
+        left -= wide;
+        wr_gui_push_id(i);
+        if (wr_gui_chip(WR_ICON_FOLDER, places[i].label)) chosen = i;
+        wr_gui_pop_id();
+        wr_gui_as_it_is(true);
+        wr_gui_tip(places[i].path);
+        wr_gui_as_it_is(false);
+    }
+    if (chosen >= 0) go_to(files, places[chosen].path);
+    wr_file_places_free(places, count);
+}
+
+int wr_files_panel(WrFiles *files, const char *note, char *const recent[])
 {
     if (!wr_gui_dialog_begin(purposes[files->purpose].title, 620)) return 0;
     bool done = false;
     int answer = 0;
+    show_places(files, recent);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, files->folder);
     show_entries(files, &done);
+    if (files->hidden > 0 || files->all) {
+        if (wr_gui_check("All files", &files->all)) list_folder(files);
+        wr_gui_tip("Those too that by their names cannot be read here");
+    }
     bool entered = wr_gui_text_field("##name", 0, files->field, sizeof files->field, files->focus);
     files->focus = false;
     warn_overwrite(files);

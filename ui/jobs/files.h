@@ -41,5 +41,6 @@ bool wr_files_agreed(const WrFiles *files);
 bool wr_files_writes(WrFilePurpose purpose); /* it is a file to be written */
 
 WrFilePurpose wr_files_purpose(const WrFiles *files);
-/* The panel of our own, as a dialog, with a note above its buttons or "". 0: still open, 1: chosen (wr_files_answer), -1: cancelled. */
-int wr_files_panel(WrFiles *files, const char *note);
+/* The panel of our own, as a dialog, with a note above its buttons or "". recent: paths whose folders it offers, NULL ends
+ * them. 0: still open, 1: chosen (wr_files_answer), -1: cancelled. */
+int wr_files_panel(WrFiles *files, const char *note, char *const recent[]);

@@ -8,6 +8,7 @@
 #include "ui/desk/line.h"
 #include "ui/desk/messages.h"
 #include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
@@ -352,7 +353,7 @@ void wr_dialog_file(WrApp *app)
     file_line(app, &line);
     if (line.length > 0) wr_expectation(app, wr_text_get(&line), takes);
     wr_text_fini(&line);
-    int answer = wr_files_panel(app->files, takes);
+    int answer = wr_files_panel(app->files, takes, app->settings->recent);
     if (answer == 0) return;
     wr_dialog_close(app);
     WrFilePurpose purpose;

@@ -1,0 +1,73 @@
+#include "ui/jobs/file_places.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "system/path.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static bool is_folder(const char *path)
+{
+    WrFileInfo info;
+    return wr_path_info(path, &info) && info.kind == WR_KIND_FOLDER;
+}
+
+/* Takes both strings. */
+static void add(WrFilePlace *places, int *count, char *label, char *path)
+{
+    bool new = *count < WR_FILE_PLACES &&is_folder(path);
+    for (int i = 0; i < *count && new; i++) new = strcmp(places[i].path, path) != 0;
+    if (new) {
+        places[(*count)++] = (WrFilePlace){ label, path };
+        return;
+    }
+    wr_free(label);
+    wr_free(path);
+}
+
+int wr_file_places(const char *home, char *const recent[], WrFilePlace places[WR_FILE_PLACES])
+{
+    static const char *const own[] = { "Documents", "Pictures", "Downloads" };
+    int count = 0;
+    if (home && home[0]) add(places, &count, wr_strdup("Home"), wr_strdup(home));
+    for (size_t i = 0; home && home[0] && i < sizeof own / sizeof *own; i++)
+        add(places, &count, wr_strdup(own[i]), wr_path_join(home, own[i]));
+    for (int i = 0; recent[i]; i++) {
+        char *folder = wr_path_folder(recent[i]), *slash = strrchr(folder, '/');
+        add(places, &count, wr_strdup(slash && slash[1] ? slash + 1 : folder), folder);
+    }
+    return count;
+}
+
+void wr_file_places_free(WrFilePlace places[], int count)
+{
+    for (int i = 0; i < count; i++) {
+        wr_free(places[i].label);
+        wr_free(places[i].path);
+    }
+}
+
+static bool is_one_of(const char *ending, const char *const *list)
+{
+    for (int i = 0; list[i]; i++)
+        if (strcmp(ending, list[i]) == 0) return true;
+    return false;
+}
+
+bool wr_file_fits(WrFilePurpose purpose, const char *name)
+{
+    static const char *const pictures[] = { "png", "exr", "tif", "tiff", "jpg",  "jpeg", "jp2",
+                                            "bmp", "tga", "hdr", "pfm",  "pgm",  "ppm",  "webp",
+                                            "gif", "psd", "dpx", "heic", "avif", "jxl",  NULL };
+    static const char *const documents[] = { "wrinkle", "ora", NULL };
+    char buffer[16];
+    const char *ending = wr_path_ending(name, buffer);
+    if (wr_files_writes(purpose) || purpose == WR_FILE_GENERATE || purpose == WR_FILE_PRESET)
+        return true;
+    if (is_one_of(ending, pictures)) return true;
+    if (purpose == WR_FILE_STAMP)
+        return strcmp(ending, "gbr") == 0 || strcmp(ending, "gih") == 0 ||
+               strcmp(ending, "pat") == 0;
+    return (purpose == WR_FILE_OPEN || purpose == WR_FILE_TABLE) && is_one_of(ending, documents);
+}
