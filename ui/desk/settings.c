@@ -145,9 +145,8 @@ static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
         { "low", &s->look.low, NULL, NULL, -1e30, 1e30 },
         { "high", &s->look.high, NULL, NULL, -1e30, 1e30 },
     };
-    int count = (int)(sizeof all / sizeof *all);
     memcpy(rows, all, sizeof all);
-    return count;
+    return (int)(sizeof all / sizeof *all);
 }
 
 static void take(WrSettings *settings, const char *name, size_t name_length, const char *value,

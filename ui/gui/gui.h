@@ -101,7 +101,7 @@ int wr_gui_px(double units); /* units as whole pixels */
 #define WR_ICON_BUCKET "\xef\x89\xa6"    /* f266 format-color-fill */
 #define WR_ICON_RAMP "\xef\x82\xb6"      /* f0b6 blur-linear */
 #define WR_ICON_SEAL "\xef\x91\xba"      /* f47a */
-#define WR_ICON_FLOWER "\xef\x89\x8a"    /* f24a */
+#define WR_ICON_MIRROR "\xef\x86\x8a"    /* f18a compare */
 #define WR_ICON_TUNE "\xef\x98\xae"      /* f62e */
 #define WR_ICON_SAVE "\xef\x86\x93"      /* f193 content-save */
 #define WR_ICON_BACK "\xef\x91\xa5"      /* f465 rotate-left */

@@ -210,7 +210,7 @@ void wr_dialog_export(WrApp *app)
     wr_gui_choice("kind", 0, kinds, WR_EXPORT_KIND_COUNT, &f->kind);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_export_kinds[f->kind].help);
     if (wr_export_kinds[f->kind].prepare) { /* it has a range */
-        wr_gui_label("Codes hold");
+        wr_gui_label("Black and white");
         wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);
     }
     if (wr_export_kinds[f->kind].channels == 0) solid_numbers(f);

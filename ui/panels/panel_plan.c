@@ -53,11 +53,10 @@ static void effect(WrApp *app, int i, const WrPlanRow *e)
         wr_gui_tip("Nanoseconds a pixel, measured in the last picture");
     }
     wr_gui_space(-6);
-    if (e->run) snprintf(text, sizeof text, "%s: %s", wr_words(e->rule), wr_words(e->reason));
-    else
-        snprintf(text, sizeof text, "%s, %s: %s", wr_words(e->rule), wr_words(proofs[e->proof]),
-                 wr_words(e->reason));
+    if (e->run) snprintf(text, sizeof text, "%s", wr_words(e->reason));
+    else snprintf(text, sizeof text, "%s: %s", wr_words(proofs[e->proof]), wr_words(e->reason));
     wr_gui_text_wrapped(WR_FONT_SMALL, e->run ? WR_COLOUR_LABEL : WR_COLOUR_FAINT, text);
+    wr_gui_tip(e->rule);
     wr_gui_space(4);
 }
 

@@ -202,7 +202,7 @@ void wr_option_symmetry(WrApp *app, double width)
 {
     (void)width;
     wr_gui_centre(wr_gui_px(28));
-    if (wr_gui_icon_button("symmetry", WR_ICON_FLOWER, 28, app->settings->symmetric))
+    if (wr_gui_icon_button("symmetry", WR_ICON_MIRROR, 28, app->settings->symmetric))
         wr_action_run(app, WR_ACT(symmetry));
     wr_gui_centre_end(wr_gui_px(28));
     wr_gui_tip(app->settings->symmetric ? "Symmetry is on" : "Symmetry: mirrors, turns, a lattice");

@@ -11,16 +11,24 @@
 
 #include "base/array.h"
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <SDL.h>
 #include <string.h>
 
 #define TILE_UNITS 64
 
-static const char *name_of(const char *path)
+/* A file's name as a person writes it: "wood-grain_2.png" is Wood grain 2. */
+static void name_of(const char *path, WrText *out)
 {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    size_t length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+    wr_text_clear(out);
+    for (size_t i = 0; i < length; i++) {
+        char c = name[i] == '-' || name[i] == '_' ? ' ' : name[i];
+        wr_text_addf(out, "%c", i == 0 && c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+    }
 }
 
 static int index_of(const WrApp *app, const char *path)
@@ -44,6 +52,7 @@ static void all(WrApp *app)
     int columns = 6, count = app->stamp->stamps.count, chosen = index_of(app, app->stamp->tip_path);
     double side = wr_gui_px(TILE_UNITS);
     int rows = (count + 1 + columns - 1) / columns;
+    WrText name = { 0 };
     wr_gui_width_at_least(columns * (TILE_UNITS + 4) + 24);
     wr_gui_list_begin("stamps", (rows < 5 ? rows : 5) * (side + wr_gui_px(6)) + wr_gui_px(16));
     for (int i = -1; i < count; i++) {
@@ -55,12 +64,14 @@ static void all(WrApp *app)
                                                       : wr_thumb_of_stamp(app, i, wr_gui_px(52));
         bool pressed = wr_gui_tile("stamp", picture, side, i == chosen, false) == 1;
         wr_gui_as_it_is(i >= 0);
-        wr_gui_tip(i < 0 ? "The round brush" : name_of(app->stamp->stamps.data[i]));
+        if (i >= 0) name_of(app->stamp->stamps.data[i], &name);
+        wr_gui_tip(i < 0 ? "The round brush" : wr_text_get(&name));
         wr_gui_as_it_is(false);
         wr_gui_pop_id();
         if (pressed) wr_stamp_choose(app, i < 0 ? NULL : app->stamp->stamps.data[i]);
     }
     wr_gui_list_end();
+    wr_text_fini(&name);
 }
 
 void wr_stamp_picker(WrApp *app)
