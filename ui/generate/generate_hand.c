@@ -148,6 +148,7 @@ void wr_generate_open(WrApp *app, const WrGenerator *generator)
         else wr_generate_take(app, generator);
         wr_free(line);
     }
+    hand->opened++;
     wr_tab_show(app, "Generate");
     app->hints = false;
     if (wr_generate_written(generator) >= 0) wr_generate_focus_text(app);

@@ -60,6 +60,7 @@ typedef struct WrGenerateHand {
     WrError err;                 /* why there is nothing to be seen; "": there is */
     int blamed; /* the parameter that err is about, by wr_generate_blame; -1: none of them alone */
     const char *blame; /* what err says of it, in err */
+    int opened;        /* counts openings: each shows its first value */
     bool blame_seen;   /* the panel said so beside it, in the last picture */
     int focus_text;    /* the text gets the keyboard: for how many pictures that is still tried */
     int asking_file;   /* parameter that a file is being chosen for */

@@ -240,7 +240,9 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
     head(app);
     wr_gui_area_end();
     if (room.h > wr_gui_px(20)) {
-        wr_gui_area_begin("##generate_values", WR_AREA_PANEL, room, WR_COLOUR_LIST);
+        char name[40]; /* another one stands where it begins, not where the last was scrolled to */
+        snprintf(name, sizeof name, "##generate_values%d", hand->opened % 64);
+        wr_gui_area_begin(name, WR_AREA_PANEL, room, WR_COLOUR_LIST);
         wr_panel_generate_values(app);
         wr_gui_area_end();
     }
