@@ -305,9 +305,17 @@ static bool run_shade(const WrKernels *k, Bench *b, int member, int count)
 /* The models of reflection, either form, as smooth as they are and roughened; highlights tinted. */
 static bool run_reflect(const WrKernels *k, Bench *b, int member, int count)
 {
-    const int model = member / 6, way = member % 6;
+    const int model = member / 10, way = member % 10;
     WrStrip *s = &b->strip;
     s->count = count;
+    if (model == WR_REFLECT_COUNT && way == 0) {
+        const float axis[3] = { 0.6f, 0, 0.8f }, v0[3] = { 0, 0.6f, 0.8f }, l0[3] = { 1, 0, 0 };
+        float found[4];
+        k->survey(axis, v0, l0, s, found);
+        for (int i = 0; i < 4 && count >= 6; i++) s->cr[i] = found[i];
+        if (count >= 6) s->cr[4] = k->faces(s), s->cr[5] = k->gathered(s);
+        return true;
+    }
     if (model >= WR_REFLECT_COUNT) return false;
     if (model == WR_REFLECT_BLINN_PHONG) {
         k->tint(0.3f, s);
@@ -321,13 +329,14 @@ static bool run_reflect(const WrKernels *k, Bench *b, int member, int count)
                                   .alpha = 0.5f,
                                   .ior = 1.5f,
                                   .f0 = 0.04f,
+                                  .least = 1e-5f,
                                   .metal = 0.3f,
                                   .a = 0.9f,
                                   .b = 0.2f,
                                   .mean = 0.9f,
                                   .again = 10,
                                   .albedo = { 1, 0.1f, -1.3f, 0.7f, 0.05f, 0.01f, -0.2f, 0.1f } };
-    k->reflect[model][way / 3](&b->light[0], &matter, (WrReflectSpread)(way % 3), s);
+    k->reflect[model][way / 5](&b->light[0], &matter, (WrReflectSpread)(way % 5), s);
     return true;
 }
 

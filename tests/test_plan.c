@@ -510,6 +510,78 @@ static void matt_smooth(Stage *stage)
     stage->scene->material.roughness = 0;
 }
 
+static void of_cavities(Stage *stage)
+{
+    stage->scene->material.model = WR_REFLECT_TORRANCE_SPARROW;
+    stage->scene->material.roughness = 0.45;
+}
+
+static void metal(Stage *stage)
+{
+    of_facets(stage);
+    stage->scene->material.metalness = 1;
+}
+
+static void facets_undiffuse(Stage *stage)
+{
+    of_facets(stage);
+    no_diffuse(stage);
+}
+
+static void facets_published(Stage *stage)
+{
+    of_facets(stage);
+    stage->scene->material.energy = WR_ENERGY_PUBLISHED;
+}
+
+/* Half of the picture is nearer than a texel, the other farther. */
+static void moments_of_facets(Stage *stage)
+{
+    moments(stage);
+    of_facets(stage);
+    stage->scene->material.roughness = 0.37;
+    stage->scene->replicate_u = 0.61, stage->scene->replicate_v = 0.83;
+}
+
+static void moments_round(Stage *stage)
+{
+    moments_of_facets(stage);
+    stage->scene->dials.moments = WR_MOMENTS_TOKSVIG;
+}
+
+static void moments_small(Stage *stage)
+{
+    moments(stage);
+    stage->scene->replicate_u = 0.61, stage->scene->replicate_v = 0.83;
+}
+
+static void faint_plastic(Stage *stage)
+{
+    of_facets(stage);
+    stage->scene->material.roughness = 0.23;
+    stage->scene->dials.faint = 1e-3;
+}
+
+static void faint_metal(Stage *stage)
+{
+    metal(stage);
+    stage->scene->material.roughness = 0.2;
+    stage->scene->dials.faint = 4e-3;
+}
+
+static void faint_cavities(Stage *stage)
+{
+    of_cavities(stage);
+    stage->scene->material.roughness = 0.1;
+    stage->scene->dials.faint = 1e-3;
+}
+
+static void faint_worn(Stage *stage)
+{
+    worn(stage);
+    stage->scene->dials.faint = 1e-3;
+}
+
 static void phong_dull(Stage *stage)
 {
     stage->scene->material.model = WR_REFLECT_PHONG;
@@ -610,6 +682,11 @@ static const Case cases[WR_EFFECT_COUNT] = {
                             { matt_smooth, 1e-6 },
                             { phong_dull, 1e-6 },
                             { metal_black, NOTHING } } },
+    [WR_EFFECT_KEPT] = { of_facets,
+                         { { metal, 0 },
+                           { facets_undiffuse, 0 },
+                           { keep_all, NOTHING },
+                           { facets_published, NOTHING } } },
     [WR_EFFECT_SURROUND] = { surrounded,
                              { { surrounded_weakly, 0 },
                                { surrounded_black, 0 },
@@ -690,6 +767,24 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_STEADY] = { keep_all, { { dark, NOTHING } } },
     [WR_EFFECT_BESIDE] = { NULL, { { keep_all, 0 }, { torus, 0 }, { cube, 0 } } },
     [WR_EFFECT_SPREAD] = { moments, { { filtered, NOTHING }, { moments_dull, NOTHING } } },
+    [WR_EFFECT_WIDENED] = { NULL,
+                            { { moments, 0 },
+                              { moments_of_facets, 0 },
+                              { moments_round, 0 },
+                              { moments_small, 0 },
+                              { filtered, NOTHING } } },
+    [WR_EFFECT_FACED] = { roughened,
+                          { { of_facets, 0 },
+                            { faint_cavities, 0 },
+                            { moments_of_facets, 0 },
+                            { faint_plastic, 0 },
+                            { keep_all, NOTHING } } },
+    [WR_EFFECT_FAINT] = { NULL,
+                          { { faint_plastic, 1e-3 },
+                            { faint_metal, 4e-3 },
+                            { faint_cavities, 1e-3 },
+                            { of_facets, NOTHING },
+                            { faint_worn, NOTHING } } },
     [WR_EFFECT_ROUNDED] = { eight_bits, { { keep_all, NOTHING } } },
     [WR_EFFECT_DOUBLE] = { shaded_double, { { keep_all, NOTHING } } },
     [WR_EFFECT_HALF] = { shaded_half, { { keep_all, NOTHING } } },
@@ -848,6 +943,25 @@ static void a_bound_keeps_within_its_contrast(void **state)
     strike(&stage);
 }
 
+/* What rows say of runs is worth asking: most of a plastic ball has no highlight. */
+static void faint_highlights_are_not_worked_out(void **state)
+{
+    (void)state;
+    static const Change changes[] = { faint_plastic, faint_cavities };
+    for (int k = 0; k < 2; k++) {
+        Stage stage = stage_of(changes[k]);
+        take_surface(&stage, "plane");
+        stage.scene->height *= 0.07; /* runs that slope little show little more than their middle */
+        Shot shot = forced(&stage, WR_EFFECT_FAINT, WR_FORCE_NONE);
+        const WrPlanRow *shine = &shot.frame.plan->rows[WR_EFFECT_SPECULAR];
+        if (!(shine->pixels > 0 && shine->pixels < shot.frame.shaded * 7 / 10))
+            fail_msg("scene %d: highlights on %lld of %lld samples", k, (long long)shine->pixels,
+                     (long long)shot.frame.shaded);
+        put_away(&shot);
+        strike(&stage);
+    }
+}
+
 /* The inner walls of a closed body are seen from within it. */
 static void backs_are_seen_from_within(void **state)
 {
@@ -930,6 +1044,7 @@ int main(void)
         cmocka_unit_test(each_effect_runs_where_it_is_called_for),
         cmocka_unit_test(what_is_left_out_changes_no_more_than_its_proof_allows),
         cmocka_unit_test(a_bound_keeps_within_its_contrast),
+        cmocka_unit_test(faint_highlights_are_not_worked_out),
         cmocka_unit_test(backs_are_seen_from_within),
         cmocka_unit_test(plans_are_compared_in_all_that_rows_own),
         cmocka_unit_test(every_stage_is_charged_once),

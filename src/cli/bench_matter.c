@@ -11,6 +11,28 @@ void wr_bench_facets(WrScene *scene)
     scene->material.model = WR_REFLECT_GGX;
 }
 
+/* Instead of the lamp. */
+void wr_bench_under_sky(WrScene *scene)
+{
+    scene->light_count = 0;
+    wr_environment_set(&scene->environment, WR_SURROUND_SKY,
+                       wr_surround_built(WR_SURROUND_SKY, NULL), NULL, NULL);
+}
+
+void wr_bench_metal(WrScene *scene)
+{
+    wr_bench_facets(scene);
+    scene->material.metalness = 1;
+}
+
+/* Plastic: most of it shows no highlight. */
+void wr_bench_faint(WrScene *scene)
+{
+    wr_bench_facets(scene);
+    scene->material.roughness = 0.2;
+    scene->dials.faint = 1e-4;
+}
+
 void wr_bench_wooden(WrScene *scene)
 {
     scene->grain = wr_grains[WR_GRAIN_WOOD].usual;

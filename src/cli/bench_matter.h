@@ -5,6 +5,9 @@
 typedef struct WrScene WrScene;
 
 void wr_bench_facets(WrScene *scene);
+void wr_bench_under_sky(WrScene *scene);
+void wr_bench_metal(WrScene *scene);
+void wr_bench_faint(WrScene *scene);
 void wr_bench_wooden(WrScene *scene);
 void wr_bench_wooden_filtered(WrScene *scene);
 void wr_bench_rough(WrScene *scene);

@@ -157,14 +157,6 @@ static void exact(WrScene *scene)
     scene->bump = WR_BUMP_EXACT;
 }
 
-/* Instead of the lamp. */
-static void under_sky(WrScene *scene)
-{
-    scene->light_count = 0;
-    wr_environment_set(&scene->environment, WR_SURROUND_SKY,
-                       wr_surround_built(WR_SURROUND_SKY, NULL), NULL, NULL);
-}
-
 static void shadowed(WrScene *scene)
 {
     scene->material.shadow = true;
@@ -287,10 +279,11 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_SPECULAR)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_MODEL)] = { BUMPED, .with = wr_bench_facets, .without = same },
-    [WR_ROW(WR_EFFECT_SURROUND)] = { BUMPED, .with = under_sky, .without = same },
-    [WR_ROW(WR_EFFECT_HARMONICS)] = { BUMPED, .with = under_sky },
-    [WR_ROW(WR_EFFECT_MIRROR)] = { BUMPED, .with = under_sky },
-    [WR_ROW(WR_EFFECT_BLUR)] = { BUMPED, .with = under_sky },
+    [WR_ROW(WR_EFFECT_KEPT)] = { BUMPED, .with = wr_bench_metal, .forced = true },
+    [WR_ROW(WR_EFFECT_SURROUND)] = { BUMPED, .with = wr_bench_under_sky, .without = same },
+    [WR_ROW(WR_EFFECT_HARMONICS)] = { BUMPED, .with = wr_bench_under_sky },
+    [WR_ROW(WR_EFFECT_MIRROR)] = { BUMPED, .with = wr_bench_under_sky },
+    [WR_ROW(WR_EFFECT_BLUR)] = { BUMPED, .with = wr_bench_under_sky },
     [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
     [WR_ROW(WR_EFFECT_TINT)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = filtered },
     [WR_ROW(WR_EFFECT_FACETS)] = { BUMPED, .with = wr_bench_worn, .without = wr_bench_facets },
@@ -330,6 +323,9 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_STEADY)] = { BUMPED, same, same, .view = WR_BENCH_RELIT },
     [WR_ROW(WR_EFFECT_BESIDE)] = { BUMPED, .with = same, .forced = true },
     [WR_ROW(WR_EFFECT_SPREAD)] = { BUMPED, .with = moments },
+    [WR_ROW(WR_EFFECT_WIDENED)] = { BUMPED, .with = moments, .forced = true },
+    [WR_ROW(WR_EFFECT_FACED)] = { BUMPED, .with = wr_bench_facets, .forced = true },
+    [WR_ROW(WR_EFFECT_FAINT)] = { BUMPED, .with = wr_bench_faint, .forced = true },
     [WR_ROW(WR_EFFECT_ROUNDED)] = { BUMPED, .with = rounded },
     [WR_ROW(WR_EFFECT_DOUBLE)] = { BUMPED, .with = doubled },
     [WR_ROW(WR_EFFECT_HALF)] = { BUMPED, .with = halved },

@@ -425,8 +425,9 @@ static void fill_grain(const WrPlan *plan, const WrGrain *grain, double scale, W
 
 static void fill_matter(const WrPlan *plan, const WrFrameRequest *request, WrTileJob *job)
 {
-    const WrMaterial *m = &request->scene->material;
-    wr_scene_matter(m, &job->matter);
+    WrMaterial m = request->scene->material;
+    if (!plan->kept) m.energy = WR_ENERGY_PUBLISHED; /* no albedo is wanted */
+    wr_scene_matter(&m, &job->matter);
     if (!wr_plan_runs(plan, WR_EFFECT_DIFFUSE)) job->matter.kd = 0;
     if (!wr_plan_runs(plan, WR_EFFECT_SPECULAR)) job->matter.ks = 0;
 }

@@ -78,8 +78,12 @@ typedef struct WrWalk {
 typedef enum WrReflectSpread {
     WR_REFLECT_AS_IT_IS,
     WR_REFLECT_LEAN,
-    WR_REFLECT_ROUND
+    WR_REFLECT_ROUND,
+    WR_REFLECT_FACING, /* not; all n' are seen from their front */
+    WR_REFLECT_DULL    /* and no highlight is as bright as `least` */
 } WrReflectSpread;
+
+#define WR_FACED_FROM 2e-3 /* n'.v from which nothing is bent: reflect_seen bends below 1e-3 */
 
 /* What a strip's samples see of a lamp. */
 typedef enum WrSeen {

@@ -92,8 +92,11 @@ FLAT static void kern_specular_lean(const LIGHT *light, const SHINE *shine, STRI
         REAL tt = te * te + tf * tf;
         REAL form = cff * te * te - K_(2) * cef * te * tf + cee * tf * tf;
         REAL share = form / (tt > K_(1e-30) ? tt : K_(1)) / det;
-        share = tt > K_(1e-30) ? (share > K_(0) ? (share < K_(1) ? share : K_(1)) : K_(0)) : K_(1);
-        add_shine(&lamp, &glow, s * share, K_(1) / r_sqrt(det), half, strip, i);
+        const bool alike = (strip->see[i] + strip->sff[i] == K_(0)) & (strip->sef[i] == K_(0));
+        share = tt > K_(1e-30) && !alike ? (share > K_(0) ? (share < K_(1) ? share : K_(1)) : K_(0))
+                                         : K_(1);
+        const REAL lower = K_(1) / r_sqrt(det);
+        add_shine(&lamp, &glow, s * share, alike ? K_(1) : lower, half, strip, i);
     }
 }
 

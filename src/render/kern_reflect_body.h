@@ -4,37 +4,38 @@
 ALWAYS Facets facets_of(const STRIP *strip, int i, bool spread, bool round, REAL a2)
 {
     const VEC n = LOAD3(strip, b, i), none = { K_(0), K_(0), K_(0) };
-    if (!spread) return (Facets){ none, none, K_(0), K_(0), K_(0), K_(1) };
+    if (!spread) return (Facets){ none, none, K_(0), K_(0), K_(0), K_(1), true };
     return reflect_facets(n, LOAD3(strip, e, i), strip->see[i], strip->sef[i], strip->sff[i], round,
                           a2);
 }
 
-/* told: what highlights leave to diffuse light is `left`. */
-ALWAYS Reflected reflect_at(const STRIP *strip, int i, const WrReflect model, const bool kept,
-                            const bool spread, const bool round, const bool told, REAL left,
-                            const MATTER *m)
+/* left: as told. */
+ALWAYS Reflected reflect_at(const STRIP *strip, int i, const WrReflect model, const Form form,
+                            REAL left, const MATTER *m)
 {
     const VEC n = LOAD3(strip, b, i), l = LOAD3(strip, l, i), v = LOAD3(strip, v, i);
-    const Facets wide = facets_of(strip, i, spread, round, m->alpha * m->alpha);
-    if (model == WR_REFLECT_PHONG)
-        return reflect_phong(n, l, v, spread ? strip->see[i] + strip->sff[i] : K_(0), kept, m);
+    const Facets wide = facets_of(strip, i, form.spread, form.round, m->alpha * m->alpha);
+    if (model == WR_REFLECT_PHONG) {
+        const REAL spread = form.spread ? strip->see[i] + strip->sff[i] : K_(0);
+        return reflect_phong(n, l, v, spread, form.kept, m);
+    }
     if (model == WR_REFLECT_TORRANCE_SPARROW)
-        return reflect_torrance_sparrow(n, l, v, wide, spread, m);
-    if (model == WR_REFLECT_OREN_NAYAR) return reflect_oren_nayar(n, l, v, kept, m);
-    return reflect_ggx(n, l, v, wide, spread, kept, told, left, m);
+        return reflect_torrance_sparrow(n, l, v, wide, form, m);
+    if (model == WR_REFLECT_OREN_NAYAR) return reflect_oren_nayar(n, l, v, form.kept, m);
+    return reflect_ggx(n, l, v, wide, form, left, m);
 }
 
 ALWAYS void reflect_strip(const LIGHT *light, const MATTER *matter, const WrReflect model,
-                          const bool kept, const bool spread, const bool round, STRIP *strip)
+                          const Form form, STRIP *strip)
 {
     const MATTER m = *matter;
     const REAL r = light->rgb[0], g = light->rgb[1], b = light->rgb[2];
     const REAL own_r = m.kd * m.colour[0], own_g = m.kd * m.colour[1], own_b = m.kd * m.colour[2];
-    const bool twice = kept && model == WR_REFLECT_OREN_NAYAR;
+    const bool twice = form.kept && model == WR_REFLECT_OREN_NAYAR;
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
-        const Reflected got = reflect_at(strip, i, model, kept, spread, round, false, K_(0), &m);
+        const Reflected got = reflect_at(strip, i, model, form, K_(0), &m);
         REAL again_r = K_(0), again_g = K_(0), again_b = K_(0);
         if (twice) {
             again_r = got.again * reflect_kept(own_r * strip->cr[i], m.mean);
@@ -48,6 +49,77 @@ ALWAYS void reflect_strip(const LIGHT *light, const MATTER *matter, const WrRefl
         strip->sg[i] += g * got.white;
         strip->sb[i] += b * got.white;
     }
+}
+
+/* Models without facets know neither of the last two. */
+ALWAYS void reflect_as(const LIGHT *light, const MATTER *m, const WrReflect model, const bool kept,
+                       WrReflectSpread how, STRIP *strip)
+{
+    const bool facets = model == WR_REFLECT_GGX || model == WR_REFLECT_TORRANCE_SPARROW;
+    if (facets && how == WR_REFLECT_DULL)
+        reflect_strip(light, m, model, (Form){ .kept = kept, .facing = true, .dull = true }, strip);
+    else if (facets && how == WR_REFLECT_FACING)
+        reflect_strip(light, m, model, (Form){ .kept = kept, .facing = true }, strip);
+    else if (how == WR_REFLECT_LEAN)
+        reflect_strip(light, m, model, (Form){ .kept = kept, .spread = true }, strip);
+    else if (how == WR_REFLECT_ROUND)
+        reflect_strip(light, m, model, (Form){ .kept = kept, .spread = true, .round = true },
+                      strip);
+    else reflect_strip(light, m, model, (Form){ .kept = kept }, strip);
+}
+
+/* ---- what may be left out of a run (E37, E39, E40) ---- */
+
+/* Is n' of all samples seen from its front? Then nothing bends it. */
+FLAT static bool kern_faces(const STRIP *strip)
+{
+    const int count = strip->count;
+    int turned = 0;
+    SIMD_SUM(turned) for (int i = 0; i < count; i++)
+    {
+        turned += v_dot(LOAD3(strip, b, i), LOAD3(strip, v, i)) >= K_(WR_FACED_FROM) ? 0 : 1;
+    }
+    return turned == 0;
+}
+
+/* Do slopes spread nowhere? */
+FLAT static bool kern_gathered(const STRIP *strip)
+{
+    const int count = strip->count;
+    int wide = 0;
+    SIMD_SUM(wide) for (int i = 0; i < count; i++)
+    {
+        wide +=
+            (strip->suu[i] == K_(0)) & (strip->suv[i] == K_(0)) & (strip->svv[i] == K_(0)) ? 0 : 1;
+    }
+    return wide == 0;
+}
+
+#ifdef WR_KERN_PLAIN
+#define SIMD_SURVEY
+#else
+#define SIMD_SURVEY WR_PRAGMA(omp simd reduction(min : nv, vv, ll) reduction(max : na))
+#endif
+
+/* What directions of the samples are like: least n'.v, most n'.axis, least v.v0 and l.l0. */
+FLAT static void kern_survey(const REAL axis[3], const REAL v0[3], const REAL l0[3],
+                             const STRIP *strip, REAL out[4])
+{
+    const VEC a = { axis[0], axis[1], axis[2] }, to = { v0[0], v0[1], v0[2] };
+    const VEC from = { l0[0], l0[1], l0[2] };
+    const int count = strip->count;
+    REAL nv = K_(1), na = K_(-1), vv = K_(1), ll = K_(1);
+    SIMD_SURVEY for (int i = 0; i < count; i++)
+    {
+        const VEC n = LOAD3(strip, b, i), v = LOAD3(strip, v, i);
+        const REAL x = v_dot(n, v), y = v_dot(n, a), z = v_dot(v, to);
+        const REAL w = v_dot(LOAD3(strip, l, i), from);
+        nv = x < nv ? x : nv;
+        na = y > na ? y : na;
+        vv = z < vv ? z : vv;
+        ll = w < ll ? w : ll;
+    }
+    out[0] = nv, out[1] = na, out[2] = vv, out[3] = ll;
 }
 
 /* Highlights in the surface's colour to the share t. */
@@ -66,8 +138,7 @@ FLAT static void kern_tint(REAL t, STRIP *strip)
     FLAT static void kern_##name##_##kept(const LIGHT *light, const MATTER *m,                     \
                                           WrReflectSpread how, STRIP *strip)                       \
     {                                                                                              \
-        if (how == WR_REFLECT_AS_IT_IS) reflect_strip(light, m, MODEL, kept, false, false, strip); \
-        else reflect_strip(light, m, MODEL, kept, true, how == WR_REFLECT_ROUND, strip);           \
+        reflect_as(light, m, MODEL, kept, how, strip);                                             \
     }
 REFLECT(phong, WR_REFLECT_PHONG, 0)
 REFLECT(phong, WR_REFLECT_PHONG, 1)

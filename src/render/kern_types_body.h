@@ -42,6 +42,7 @@ typedef struct WR_T(WrStrip) {
     /* The same in the plane across n', as tangents of angles: along e, across, and mixed. */
     REAL ex[WR_SPAN], ey[WR_SPAN], ez[WR_SPAN];
     REAL see[WR_SPAN], sef[WR_SPAN], sff[WR_SPAN];
+    bool gathered; /* slopes spread at no sample: all of these are 0 */
     /* Over the pixel: bounds of u, v; of |P - P at the centre|; of the change of n, of the slopes' vector,
        of n'; and of the intensity. Infinite: none is known. */
     REAL u_low[WR_SPAN], u_high[WR_SPAN], v_low[WR_SPAN], v_high[WR_SPAN];
@@ -109,6 +110,7 @@ typedef struct WR_T(WrKernMaterial) {
 /* WrMatter's numbers (shade/reflect.h). */
 typedef struct WR_T(WrKernMatter) {
     REAL kd, ks, colour[3], shininess, scale, alpha, ior, f0, metal, a, b, mean, again;
+    REAL least; /* a fainter highlight of facets is none; of a lamp's light */
     REAL albedo[WR_ALBEDO_TERMS];
 } WR_T(WrKernMatter);
 
@@ -274,6 +276,12 @@ typedef struct WR_T(WrKernels) {
                              WR_T(WrStrip) * strip);
     /* Diffuse light and highlight of other models, as published or kept; NULL: Blinn-Phong's is made of the above. */
     WR_T(WrReflectKernel) reflect[WR_REFLECT_COUNT][WR_ENERGY_COUNT];
+    /* Of a run, after `light` and `view`: is n' of all seen from its front; do slopes (suu, suv, svv) spread nowhere? */
+    bool (*faces)(const WR_T(WrStrip) * strip);
+    bool (*gathered)(const WR_T(WrStrip) * strip);
+    /* Least n'.v, most n'.axis, least v.v0, least l.l0; nothing that is not a number. */
+    void (*survey)(const REAL axis[3], const REAL v0[3], const REAL l0[3],
+                   const WR_T(WrStrip) * strip, REAL out[4]);
     /* The same, and of surroundings, by rough and metal of each sample; what is mirrored also as wide as slopes spread. */
     void (*reflect_vary)(const WR_T(WrKernLight) * light, const WR_T(WrKernMatter) * matter,
                          const WR_T(WrKernVary) * vary, WrReflect model, bool kept,

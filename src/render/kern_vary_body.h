@@ -94,22 +94,22 @@ ALWAYS void vary_left(const VARY *vary, const STRIP *strip, REAL *restrict left)
 }
 
 ALWAYS void vary_strip(const LIGHT *light, const MATTER *matter, const VARY *vary,
-                       const WrReflect model, const bool kept, const bool spread, const bool round,
-                       STRIP *strip)
+                       const WrReflect model, const Form form, STRIP *strip)
 {
+    const bool kept = form.kept;
     const MATTER m = *matter;
     const REAL r = light->rgb[0], g = light->rgb[1], b = light->rgb[2];
     const REAL own_r = m.kd * m.colour[0], own_g = m.kd * m.colour[1], own_b = m.kd * m.colour[2];
     const bool twice = kept && model == WR_REFLECT_OREN_NAYAR;
     const bool shares = kept && model == WR_REFLECT_GGX;
+    const Form as = { kept, form.spread, form.round, shares, false, false };
     const int count = strip->count;
     REAL left[WR_SPAN];
     if (shares) vary_left(vary, strip, left);
     SIMD for (int i = 0; i < count; i++)
     {
         const MATTER own = vary_matter(&m, model, kept, strip->rough[i], strip->metal[i]);
-        const Reflected got = reflect_at(strip, i, model, kept, spread, round, shares,
-                                         shares ? left[i] : K_(0), &own);
+        const Reflected got = reflect_at(strip, i, model, as, shares ? left[i] : K_(0), &own);
         REAL again_r = K_(0), again_g = K_(0), again_b = K_(0);
         if (twice) {
             again_r = got.again * reflect_kept(own_r * strip->cr[i], own.mean);
@@ -125,13 +125,23 @@ ALWAYS void vary_strip(const LIGHT *light, const MATTER *matter, const VARY *var
     }
 }
 
+ALWAYS void vary_as(const LIGHT *light, const MATTER *m, const VARY *vary, const WrReflect model,
+                    const bool kept, WrReflectSpread how, STRIP *strip)
+{
+    if (how == WR_REFLECT_AS_IT_IS)
+        vary_strip(light, m, vary, model, (Form){ .kept = kept }, strip);
+    else if (how == WR_REFLECT_LEAN)
+        vary_strip(light, m, vary, model, (Form){ .kept = kept, .spread = true }, strip);
+    else
+        vary_strip(light, m, vary, model, (Form){ .kept = kept, .spread = true, .round = true },
+                   strip);
+}
+
 #define VARY_ROW(name, MODEL, kept)                                                                \
     FLAT static void vary_##name##_##kept(const LIGHT *light, const MATTER *m, const VARY *vary,   \
                                           WrReflectSpread how, STRIP *strip)                       \
     {                                                                                              \
-        if (how == WR_REFLECT_AS_IT_IS)                                                            \
-            vary_strip(light, m, vary, MODEL, kept, false, false, strip);                          \
-        else vary_strip(light, m, vary, MODEL, kept, true, how == WR_REFLECT_ROUND, strip);        \
+        vary_as(light, m, vary, MODEL, kept, how, strip);                                          \
     }
 VARY_ROW(facets, WR_REFLECT_TORRANCE_SPARROW, 0)
 VARY_ROW(facets, WR_REFLECT_TORRANCE_SPARROW, 1)

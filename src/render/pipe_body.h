@@ -55,6 +55,7 @@ static bool lit(const WrSink *sink)
 #include "render/pipe_shadow_body.h"
 #include "render/pipe_cast_body.h"
 #include "render/pipe_opening_body.h"
+#include "render/pipe_reflect_body.h"
 #include "render/pipe_light_body.h"
 #include "render/pipe_dark_body.h"
 #include "render/pipe_depth_body.h"
@@ -151,7 +152,12 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
     watch_lap(watch, WR_STAGE_BUMP);
     if (runs(job, WR_EFFECT_EMBOSSED)) emboss(job, rays, strip, watch);
     if (runs(job, WR_EFFECT_SPREAD) && lit(sink)) {
-        k->widen(job->plan->bump == WR_BUMP_INVARIANT, strip);
+        strip->gathered = k->gathered(strip);
+        if (strip->gathered && !runs(job, WR_EFFECT_WIDENED)) {
+            const size_t size = (size_t)strip->count * sizeof(REAL);
+            memset(strip->see, 0, size), memset(strip->sef, 0, size), memset(strip->sff, 0, size);
+        } else k->widen(job->plan->bump == WR_BUMP_INVARIANT, strip);
+        if (runs(job, WR_EFFECT_WIDENED)) did(watch, WR_EFFECT_WIDENED);
         did(watch, WR_EFFECT_SPREAD);
         watch_lap(watch, WR_STAGE_SPREAD);
     }
@@ -212,7 +218,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
         return spared;
     }
     if (spared & WR_RUN_DARK) ambient_strip(job, rays, strip, watch);
-    else light_strip(job, rays, sink, strip, watch);
+    else spared |= light_strip(job, rays, sink, strip, watch);
     keep_half3(job, strip->cr, strip->cg, strip->cb, strip->count, watch);
     return spared;
 }
@@ -240,7 +246,7 @@ static void note_map(const WrTileJob *job, const Rays *rays, unsigned spared, co
                      const WrTileScratch *scratch)
 {
     const int k = grid_of(job->view, rays);
-    const bool looked = job->plan->bump != WR_BUMP_NONE && !spared;
+    const bool looked = job->plan->bump != WR_BUMP_NONE && !(spared & (WR_RUN_LEVEL | WR_RUN_DARK));
     const bool shone = runs(job, WR_EFFECT_DIFFUSE) || runs(job, WR_EFFECT_SPECULAR);
     const int light = shone && !(spared & WR_RUN_DARK) ? WR_MAP_LIT : 0;
     const bool filtered = looked && runs(job, WR_EFFECT_FILTER);

@@ -5,8 +5,7 @@ static void shine_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, S
     const Kernels *k = KERNELS_OF(job);
     const WrMaterial *m = &job->scene->material;
     const WR_T(WrKernShine) shine = { (REAL)m->specular, (REAL)m->shininess, m->gate };
-    if (!runs(job, WR_EFFECT_SPREAD))
-        k->specular(light, shine.ks, shine.shininess, shine.gate, strip);
+    if (is_narrow(job, strip)) k->specular(light, shine.ks, shine.shininess, shine.gate, strip);
     else if (job->plan->lean) k->specular_lean(light, &shine, strip);
     else k->specular_toksvig(light, &shine, strip);
 }
@@ -37,48 +36,8 @@ static void stretch_strip(const WrView *view, Strip *strip)
     }
 }
 
-/* What another model's kernels go by. */
-static WR_T(WrKernMatter) matter_of(const WrMatter *m)
-{
-    WR_T(WrKernMatter) out = { .kd = (REAL)m->kd, .ks = (REAL)m->ks };
-    for (int c = 0; c < 3; c++) out.colour[c] = (REAL)m->colour[c];
-    out.shininess = (REAL)m->shininess, out.scale = (REAL)m->scale, out.alpha = (REAL)m->alpha;
-    out.ior = (REAL)m->ior, out.f0 = (REAL)m->f0, out.metal = (REAL)m->metal;
-    out.a = (REAL)m->a, out.b = (REAL)m->b;
-    out.mean = (REAL)m->mean, out.again = (REAL)m->again;
-    for (int i = 0; i < WR_ALBEDO_TERMS; i++) out.albedo[i] = (REAL)m->albedo[i];
-    return out;
-}
-
-/* The kernel of a model that is not made of stages; NULL: it is. */
-static WR_T(WrReflectKernel) reflect_of(const WrTileJob *job)
-{
-    return KERNELS_OF(job)->reflect[job->plan->model][job->scene->material.energy];
-}
-
-/* What one light adds, by another model than Blinn-Phong's. */
-static void reflect_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip,
-                          Watch *watch)
-{
-    const WR_T(WrKernMatter) matter = matter_of(&job->matter);
-    const bool shines = runs(job, WR_EFFECT_SPECULAR);
-    const WrReflectSpread how = !runs(job, WR_EFFECT_SPREAD) ? WR_REFLECT_AS_IT_IS
-                                : job->plan->lean            ? WR_REFLECT_LEAN
-                                                             : WR_REFLECT_ROUND;
-    if (runs(job, WR_EFFECT_VARIED))
-        KERNELS_OF(job)->reflect_vary(light, &matter, VARY_OF(job), job->plan->model,
-                                      job->scene->material.energy == WR_ENERGY_KEPT, how, strip);
-    else reflect_of(job)(light, &matter, how, strip);
-    if (runs(job, WR_EFFECT_DIFFUSE)) did(watch, WR_EFFECT_DIFFUSE);
-    if (shines) did(watch, WR_EFFECT_SPECULAR);
-    did(watch, WR_EFFECT_MODEL);
-    watch_lap(watch, shines ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
-    keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
-    keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
-}
-
-/* What one light adds. */
-static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
+/* What one light adds. Returns whether its highlight was spared. */
+static bool lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
                        const WrSink *sink, Strip *strip, Watch *watch)
 {
     const Kernels *k = KERNELS_OF(job);
@@ -86,10 +45,7 @@ static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKern
     watch_lap(watch, WR_STAGE_DIFFUSE);
     if (runs(job, WR_EFFECT_HALF)) keep_half(strip->n_dot_l, strip->count);
     keep_half3(job, strip->lx, strip->ly, strip->lz, strip->count, watch);
-    if (reflect_of(job)) {
-        reflect_strip(job, light, strip, watch);
-        return;
-    }
+    if (reflect_of(job)) return reflect_strip(job, light, strip, watch);
     if (runs(job, WR_EFFECT_DIFFUSE)) {
         k->diffuse(light, (REAL)job->scene->material.diffuse, strip);
         did(watch, WR_EFFECT_DIFFUSE);
@@ -104,20 +60,22 @@ static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKern
     }
     if (sink->bound) bound_strip(job, rays, light, strip);
     watch_lap(watch, WR_STAGE_BOUND);
+    return false;
 }
 
 /* The same where neither the relief nor an object hides it. */
-static void shadowed_lamp(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
+static bool shadowed_lamp(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
                           const WrSink *sink, Strip *strip, Watch *watch)
 {
     Sums before;
     const bool shadows = runs(job, WR_EFFECT_SHADOW), casts = runs(job, WR_EFFECT_CAST);
     if (shadows || casts) keep_sums(strip, &before);
-    lamp_strip(job, rays, light, sink, strip, watch);
+    const bool dull = lamp_strip(job, rays, light, sink, strip, watch);
     /* Of a displaced surface the rays meet its own relief: what horizons say of that is told by them. */
     const bool told = casts && job->dice && light->shadow;
     if (shadows && !told) shadow_strip(job, light, &before, strip, watch);
     if (casts) cast_strip(job, light, &before, strip, watch);
+    return dull;
 }
 
 /* What surroundings add. */
@@ -196,8 +154,8 @@ static WrVec3 colour_within(const WrTileJob *job, Strip *strip)
     return white;
 }
 
-/* The sums of all lights, stage by stage, then the colour. */
-static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink *sink,
+/* The sums of all lights, stage by stage, then the colour. Returns whether no lamp's highlight was worked out. */
+static bool light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink *sink,
                             Strip *strip, Watch *watch)
 {
     const Kernels *k = KERNELS_OF(job);
@@ -214,8 +172,9 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     if (viewed || sink->bound) k->view(&VIEWED(&job->view->lit, rays), strip);
     watch_lap(watch, specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
     if (viewed) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
+    bool dull = specular;
     for (int i = 0; i < job->view->light_count && (specular || runs(job, WR_EFFECT_DIFFUSE)); i++)
-        shadowed_lamp(job, rays, &VIEWED(job->view, lights)[i], sink, strip, watch);
+        dull &= shadowed_lamp(job, rays, &VIEWED(job->view, lights)[i], sink, strip, watch);
     if (job->plan->tint != 0) {
         k->tint((REAL)job->plan->tint, strip);
         did(watch, WR_EFFECT_MODEL);
@@ -228,6 +187,7 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     if (runs(job, WR_EFFECT_MIRROR)) mirror_strip(job, strip, watch);
     const WrVec3 c = colour_within(job, strip);
     k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
+    return dull;
 }
 
 /* The ambient light alone. */
@@ -298,18 +258,17 @@ static void veiled_at_once(const WrTileJob *job, WR_T(WrShadeKernel) shade, Stri
     watch_lap(watch, WR_STAGE_SHADOW);
 }
 
-static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink, Strip *strip,
-                        Watch *watch)
+/* Returns what the samples were spared, bits of WrRun. */
+static unsigned light_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink,
+                            Strip *strip, Watch *watch)
 {
     const WR_T(WrShadeKernel) shade = single_pass(job, rays, sink);
     if (runs(job, WR_EFFECT_DARK)) did(watch, WR_EFFECT_DARK);
-    if (!shade) {
-        light_by_stages(job, rays, sink, strip, watch);
-        return;
-    }
+    if (!shade) return light_by_stages(job, rays, sink, strip, watch) ? WR_RUN_DULL : 0;
     bring_colour(job, rays, strip, watch->scratch, watch);
     stretch_strip(job->view, strip);
     if (runs(job, WR_EFFECT_SHADOW) || runs(job, WR_EFFECT_OCCLUSION))
         veiled_at_once(job, shade, strip, watch);
     else light_at_once(job, &VIEWED(&job->view->lit, rays), shade, true, strip, watch);
+    return 0;
 }

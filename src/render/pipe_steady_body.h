@@ -91,8 +91,7 @@ static void light_known(const WrTileJob *job, const Rays *rays, const WrSink *si
     watch_lap(watch, WR_STAGE_GEOMETRY);
     if (strip->count == 0) return;
     note_view(job, rays, scratch);
-    light_strip(job, rays, sink, strip, watch);
-    scratch->spared[0] += strip->count;
+    scratch->spared[light_strip(job, rays, sink, strip, watch)] += strip->count;
     store(job, sink, strip, scratch);
     watch_lap(watch, WR_STAGE_STORE);
     scratch->shaded += strip->count;

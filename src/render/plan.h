@@ -29,6 +29,7 @@ typedef enum WrEffect {
     WR_EFFECT_DIFFUSE,
     WR_EFFECT_SPECULAR,
     WR_EFFECT_MODEL,
+    WR_EFFECT_KEPT,
     WR_EFFECT_SURROUND,
     WR_EFFECT_HARMONICS,
     WR_EFFECT_MIRROR,
@@ -64,6 +65,9 @@ typedef enum WrEffect {
     WR_EFFECT_STEADY,
     WR_EFFECT_BESIDE,
     WR_EFFECT_SPREAD,
+    WR_EFFECT_WIDENED,
+    WR_EFFECT_FACED,
+    WR_EFFECT_FAINT,
     WR_EFFECT_ROUNDED,
     WR_EFFECT_DOUBLE,
     WR_EFFECT_HALF,
@@ -180,6 +184,8 @@ typedef enum WrPrecision {
    renderer reads these and the rows, and neither scene nor dials, to choose what it does.
      model       how lamps are reflected; blinn-phong where that comes to the same
      tint        share of highlights that has the surface's colour
+     kept        never more light than came: the model's form of that name
+     faint       as the dial of that name
      grain       the solid texture's pattern; off: none is worked out, of colours the first is all
      map_filtered, map_anisotropic    the normal map's slopes over footprints
      facets_filtered, facets_anisotropic    likewise roughness and metalness
@@ -200,6 +206,7 @@ typedef enum WrPrecision {
 #define WR_PLAN_SETTINGS(X)                                                                        \
     X(MODEL, WrReflect, model)                                                                     \
     X(MODEL, double, tint)                                                                         \
+    X(KEPT, bool, kept)                                                                            \
     X(HARMONICS, int, harmonics)                                                                   \
     X(BLUR, double, gloss)                                                                         \
     X(TINT, bool, tint_anisotropic)                                                                \
@@ -229,6 +236,7 @@ typedef enum WrPrecision {
     X(NEWTON, double, texels)                                                                      \
     X(SPREAD, bool, lean)                                                                          \
     X(SPREAD, bool, graded)                                                                        \
+    X(FAINT, double, faint)                                                                        \
     X(ROUNDED, WrHeights, heights)                                                                 \
     X(DOUBLE, bool, shading_double)                                                                \
     X(DOUBLE, WrPrecision, precision)
@@ -260,7 +268,8 @@ static inline bool wr_plan_calls(const WrPlan *plan, WrEffect effect)
 typedef enum WrRun {
     WR_RUN_LEVEL = 1, /* no slope of the table is near */
     WR_RUN_DARK = 2,  /* all lights are behind it, however the table bends its normals */
-    WR_RUN_KINDS = 4  /* both of them, either, neither */
+    WR_RUN_DULL = 4,  /* no lamp's highlight is as bright as `dials faint=` */
+    WR_RUN_KINDS = 8  /* all of them, some, none */
 } WrRun;
 
 /* What the planner may ask of the table, the view and the last frame; the renderer answers. */

@@ -78,7 +78,7 @@ static inline bool still(const WrScene *scene)
     return scene->replicate_u == 0 && scene->replicate_v == 0;
 }
 
-/* As WrEffectInfo has them; these are in plan_light.c, plan_surround.c, plan_sight.c, plan_runs.c, plan_samples.c and plan_maps.c. */
+/* As WrEffectInfo has them; these are in plan_light.c, plan_reflect.c, plan_surround.c, plan_sight.c, plan_runs.c, plan_samples.c and plan_maps.c. */
 typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
 typedef void WrSettle(WrPlan *plan, const WrPlanAsk *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
@@ -89,11 +89,12 @@ WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspectiv
     wr_decide_filter, wr_decide_surround, wr_decide_harmonics, wr_decide_mirror, wr_decide_blur,
     wr_decide_displaced, wr_decide_parallax, wr_decide_exact, wr_decide_curvature, wr_decide_grain,
     wr_decide_octaves, wr_decide_faded, wr_decide_embossed, wr_decide_facets, wr_decide_varied,
-    wr_decide_samples, wr_decide_bound;
+    wr_decide_samples, wr_decide_bound, wr_decide_kept, wr_decide_widened, wr_decide_faced,
+    wr_decide_faint;
 WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr_settle_normals,
     wr_settle_facets, wr_settle_facets, wr_settle_model, wr_settle_cast, wr_settle_occlusion,
     wr_settle_harmonics, wr_settle_blur, wr_settle_displaced, wr_settle_parallax, wr_settle_exact,
-    wr_settle_curvature, wr_settle_grain, wr_settle_samples;
+    wr_settle_curvature, wr_settle_grain, wr_settle_samples, wr_settle_kept, wr_settle_faint;
 
 /* Which formula turns the normal: the scene's, or, of a displaced surface, its own normal's. */
 WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanAsk *ask);

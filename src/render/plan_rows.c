@@ -170,7 +170,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_SPECULAR)] = { "E2", "specular", WR_PROOF_IDENTICAL, NULL,
                                      "no light shines, specular is 0, the reflection model has no "
                                      "highlight, or its facets' index is 1",
-                                     STAGE(SPECULAR), .spared = WR_RUN_DARK,
+                                     STAGE(SPECULAR), .spared = WR_RUN_DARK | WR_RUN_DULL,
                                      .decide = wr_decide_specular },
     [WR_ROW(WR_EFFECT_MODEL)] = { "E36", "reflection model", WR_PROOF_BOUNDED,
                                   "rounding of the light",
@@ -178,6 +178,12 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                   "highlight, or of matt facets of roughness 0, it is Lambert's",
                                   0, .only_way = true, .spared = WR_RUN_DARK,
                                   .decide = wr_decide_model, .settle = wr_settle_model },
+    [WR_ROW(WR_EFFECT_KEPT)] = { "E44", "kept diffuse light", WR_PROOF_IDENTICAL, NULL,
+                                 "the material is not ggx's, or its energy is as published; there "
+                                 "is no diffuse light, as of metal, that could be too much beside "
+                                 "the highlight",
+                                 0, .spared = WR_RUN_DARK, .decide = wr_decide_kept,
+                                 .settle = wr_settle_kept },
     [WR_ROW(WR_EFFECT_SURROUND)] = { "E41", "surroundings", WR_PROOF_IDENTICAL, NULL,
                                      "there are none, or no light comes from them; diffuse is 0, "
                                      "the colour is black, or ggx's metalness is 1",
@@ -366,6 +372,23 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                    "highlight",
                                    STAGE(SPREAD), .decide = decide_spread,
                                    .settle = settle_spread },
+    [WR_ROW(WR_EFFECT_WIDENED)] = { "E39", "widening without spread", WR_PROOF_IDENTICAL, NULL,
+                                    "no highlight is widened. Else runs of samples over which "
+                                    "slopes do not spread, as where a pixel is no larger than a "
+                                    "texel, have theirs as it is",
+                                    0, .only_way = true, .manner = true,
+                                    .decide = wr_decide_widened },
+    [WR_ROW(WR_EFFECT_FACED)] = { "E40", "normals bent into view", WR_PROOF_IDENTICAL, NULL,
+                                  "facets of torrance-sparrow and ggx alone are bent. Of those, "
+                                  "runs of samples whose normals all face the viewer",
+                                  0, .only_way = true, .manner = true, .decide = wr_decide_faced },
+    [WR_ROW(WR_EFFECT_FAINT)] = { "E37", "faint highlights", WR_PROOF_BOUNDED,
+                                  "`faint` for each light, where colours are up to 1",
+                                  "highlights are not of facets, or the dial keeps them however "
+                                  "faint; by place they are not bounded. Else those below `faint` "
+                                  "are none, and runs of samples where all are, by the most that "
+                                  "D, V and F can be there, have none worked out",
+                                  0, .decide = wr_decide_faint, .settle = wr_settle_faint },
     [WR_ROW(WR_EFFECT_ROUNDED)] = { "E32", "rounded heights", WR_PROOF_POLICY, NULL,
                                     "the dial keeps heights as they are", 0,
                                     .decide = decide_rounded, .settle = settle_rounded },

@@ -99,6 +99,7 @@ MEMBER(newton, int, dials.newton)
 MEMBER(texels, double, dials.texels)
 MEMBER(harmonics, int, dials.harmonics)
 MEMBER(gloss, double, dials.gloss)
+MEMBER(faint, double, dials.faint)
 MEMBER(energy, WrEnergy, material.energy)
 MEMBER(horizons, int, dials.horizons)
 MEMBER(rays, int, dials.rays)
@@ -173,6 +174,11 @@ static bool with_steps(const WrScene *scene)
     return scene->parallax && !scene->displaced && info->faces == 1 && !info->held;
 }
 
+static bool with_facets(const WrScene *scene)
+{
+    return wr_reflects[scene->material.model].facets;
+}
+
 /* ---- the table ---- */
 
 static const double sample_rungs[] = { 2, 3, 4, 8, 16, NAN };
@@ -181,6 +187,7 @@ static const double mesh_rungs[] = { -2, -1, 0, 1, NAN };
 static const double newton_rungs[] = { 0, 1, 2, 3, NAN };
 static const double harmonic_rungs[] = { 0, 1, 2, NAN };
 static const double gloss_rungs[] = { 8, 16, 32, 64, NAN };
+static const double faint_rungs[] = { 1e-3, 1e-4, 1e-5, NAN };
 static const double texel_rungs[] = { 0.1, 0.01, 0.0009765625, NAN };
 static const double horizon_rungs[] = { 8, 16, 32, 64, NAN };
 static const double ray_rungs[] = { 0, 1, 8, 32, 128, NAN };
@@ -252,6 +259,11 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
                                 "texels over the width of what surroundings are blurred by",
                                 .low = 4, .high = 128, MEMBERS(gloss), .matters = with_surroundings,
                                 .rungs = gloss_rungs },
+    [WR_ROW(WR_DIAL_FAINT)] = { "faint", "dials", WR_AXIS_LIGHT, "Faint highlights",
+                                "linear intensity; a highlight of facets below it is left out; 0: "
+                                "all are kept",
+                                .low = 0, .high = 0.1, .sparse = true, MEMBERS(faint),
+                                .matters = with_facets, .rungs = faint_rungs },
     [WR_ROW(WR_DIAL_HORIZONS)] = { "horizons", "dials", WR_AXIS_LIGHT, "Horizons",
                                    "directions in which it is known how high the relief stands, a "
                                    "multiple of 4",

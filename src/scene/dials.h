@@ -114,6 +114,7 @@ typedef struct WrDials {
     WrArithmetic arithmetic;
     int harmonics; /* order up to which diffuse light of surroundings is kept: 0..2 */
     double gloss;  /* texels over the width of a lobe that surroundings are blurred by: 4..128 */
+    double faint;  /* a highlight of facets that a lamp gives no more than this is none: 0..0.1 */
 } WrDials;
 
 WrDials wr_dials_default(void);
@@ -136,6 +137,7 @@ typedef enum WrDialId {
     WR_DIAL_ENERGY,
     WR_DIAL_HARMONICS,
     WR_DIAL_GLOSS,
+    WR_DIAL_FAINT,
     WR_DIAL_HORIZONS,
     WR_DIAL_RAYS,
     WR_DIAL_DICE,

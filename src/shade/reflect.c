@@ -17,14 +17,14 @@ const WrReflectInfo wr_reflects[WR_REFLECT_COUNT] = {
         WR_REFLECT_TORRANCE_SPARROW)] = { "torrance-sparrow", "Torrance-Sparrow, Blinn 1977",
                                           "diffuse light and small mirrors in V-shaped cavities",
                                           .shines = true, .roughness = true, .ior = true,
-                                          .energies = true },
+                                          .facets = true, .energies = true },
     [WR_ROW(WR_REFLECT_OREN_NAYAR)] = { "oren-nayar", "Oren-Nayar",
                                         "small matt facets, no highlight: clay, the moon",
                                         .roughness = true, .energies = true },
     [WR_ROW(WR_REFLECT_GGX)] = { "ggx", "GGX",
                                  "small mirrors over diffuse light, or of metal: as in glTF",
                                  .shines = true, .roughness = true, .metalness = true, .ior = true,
-                                 .energies = true },
+                                 .facets = true, .energies = true },
 };
 WR_ROWS_END(wr_reflects, WR_REFLECT_COUNT);
 

@@ -25,6 +25,7 @@ typedef struct WrReflectInfo {
     const char *help;
     bool shines;                               /* it has a highlight */
     bool shininess, roughness, metalness, ior; /* the numbers that it goes by */
+    bool facets;                               /* small mirrors: n' is bent into view */
     bool energies;                             /* its two forms differ */
     double
         most; /* albedo of white as published, the largest that there is at `specular` or `diffuse` 1 */

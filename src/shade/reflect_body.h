@@ -22,11 +22,19 @@ typedef struct Reflected {
         again; /* reflected more than once: own, times what each colour keeps (reflect_kept) */
 } Reflected;
 
-/* How facets lie: slopes' covariance M across n', along e, across it, and mixed. */
+/* How facets lie: slopes' covariance M across n', along e, across it, and mixed; alike: as the material has them. */
 typedef struct Facets {
     VEC e, f;
     REAL ee, ef, ff, det;
+    bool alike;
 } Facets;
+
+/* Which of a model's forms, known when it is compiled. */
+typedef struct Form {
+    bool kept, spread, round, told, /* what highlights leave to diffuse light is told */
+        facing,                     /* n' is seen from its front: it is not bent */
+        dull;                       /* and no highlight is as bright as `least` */
+} Form;
 
 R_INLINE REAL reflect_positive(REAL x)
 {
@@ -55,7 +63,8 @@ R_INLINE Facets reflect_facets(VEC n, VEC e, REAL see, REAL sef, REAL sff, bool 
     const REAL mean = see + sff;
     const REAL ee = a2 + (round ? mean : K_(2) * see), ff = a2 + (round ? mean : K_(2) * sff);
     const REAL ef = round ? K_(0) : K_(2) * sef, det = ee * ff - ef * ef, least = a2 * a2;
-    return (Facets){ e, v_cross(n, e), ee, ef, ff, det > least ? det : least };
+    const bool alike = (see + sff == K_(0)) & (sef == K_(0));
+    return (Facets){ e, v_cross(n, e), ee, ef, ff, det > least ? det : least, alike };
 }
 
 /* pi D, by |n x h| from the vectors: of 1 - (n.h)^2 narrow highlights would lose their digits (HC99). */
@@ -72,6 +81,15 @@ R_INLINE REAL reflect_d_wide(VEC n, VEC h, Facets m)
     const REAL form = (m.ff * te * te - K_(2) * m.ef * te * tf + m.ee * tf * tf) / m.det;
     const REAL w = nh * nh + reflect_positive(form);
     return K_(1) / (r_sqrt(m.det) * w * w);
+}
+
+/* pi D as facets lie; of those that are as the material has them its own bits (E39). */
+R_INLINE REAL reflect_lobe(VEC n, VEC h, Facets wide, Form form, REAL a2)
+{
+    const REAL own = reflect_d(n, h, a2);
+    if (!form.spread) return own;
+    const REAL d = reflect_d_wide(n, h, wide);
+    return wide.alike ? own : d;
 }
 
 /* sqrt(cos^2 + w^T M w) of a direction w: what its shadowing goes by. */
@@ -105,6 +123,15 @@ R_INLINE REAL reflect_fifth(REAL c)
     return two * two * off;
 }
 
+/* Likewise. */
+R_INLINE REAL reflect_span(VEC w, REAL cosine, Facets wide, Form form, REAL a2)
+{
+    const REAL own = reflect_long(cosine, a2);
+    if (!form.spread) return own;
+    const REAL span = reflect_long_wide(w, cosine, wide);
+    return wide.alike ? own : span;
+}
+
 R_INLINE Reflected reflect_phong(VEC n, VEC l, VEC v, REAL spread, bool kept, const MATTER *m)
 {
     const REAL nl = v_dot(n, l), lit = reflect_positive(nl);
@@ -117,21 +144,21 @@ R_INLINE Reflected reflect_phong(VEC n, VEC l, VEC v, REAL spread, bool kept, co
     return (Reflected){ m->kd * lit, nl > K_(0) ? m->ks * lobe : K_(0), K_(0) };
 }
 
-R_INLINE Reflected reflect_torrance_sparrow(VEC n, VEC l, VEC v, Facets wide, bool spread,
+R_INLINE Reflected reflect_torrance_sparrow(VEC n, VEC l, VEC v, Facets wide, Form form,
                                             const MATTER *m)
 {
-    const VEC seen = reflect_seen(n, v), sum = v_add(l, v);
+    const VEC seen = form.facing ? n : reflect_seen(n, v), sum = v_add(l, v);
     const REAL hh = v_dot(sum, sum);
     const bool there = hh > K_(1e-12);
     const REAL len = r_sqrt(there ? hh : K_(1)), vh = reflect_least(K_(0.5) * len, K_(1));
     const VEC h = v_scale(sum, K_(1) / len);
     const REAL nl = v_dot(seen, l), nv = v_dot(seen, v), nh = v_dot(seen, h), lit = v_dot(n, l);
-    const REAL d = spread ? reflect_d_wide(seen, h, wide) : reflect_d(seen, h, m->alpha * m->alpha);
+    const REAL d = reflect_lobe(seen, h, wide, form, m->alpha * m->alpha);
     const REAL over = K_(1) / nv, cavity = K_(2) * nh / vh;
     const REAL g = reflect_least(over, reflect_least(cavity, cavity * nl * over));
     const REAL shine = m->ks * m->scale * d * g * reflect_fresnel(vh, m->ior);
-    return (Reflected){ m->kd * reflect_positive(lit),
-                        there && nl > K_(0) && lit > K_(0) ? shine : K_(0), K_(0) };
+    const bool shows = there && nl > K_(0) && lit > K_(0) && shine >= m->least && !form.dull;
+    return (Reflected){ m->kd * reflect_positive(lit), shows ? shine : K_(0), K_(0) };
 }
 
 /* The albedo of Fujii's Oren-Nayar, exact but for the arc's cosine (Abramowitz, Stegun 1964, 4.4.46: within 2e-8). */
@@ -195,29 +222,31 @@ R_INLINE REAL reflect_albedo(REAL mu, const MATTER *m)
     return reflect_least(reflect_terms(m->albedo, reflect_root(mu)), K_(1));
 }
 
-/* told: what highlights leave to diffuse light is `told_left`; else, kept, it follows from the material's albedo. */
-R_INLINE Reflected reflect_ggx(VEC n, VEC l, VEC v, Facets wide, bool spread, bool kept, bool told,
-                               REAL told_left, const MATTER *m)
+/* told: what highlights leave to diffuse light is `told_left`; else, kept, it follows from the material's albedo. A
+   highlight that is nowhere as bright as `least` is none. */
+R_INLINE Reflected reflect_ggx(VEC n, VEC l, VEC v, Facets wide, Form form, REAL told_left,
+                               const MATTER *m)
 {
-    const VEC seen = reflect_seen(n, v), sum = v_add(l, v);
+    const VEC seen = form.facing ? n : reflect_seen(n, v), sum = v_add(l, v);
     const REAL hh = v_dot(sum, sum), a2 = m->alpha * m->alpha;
     const bool there = hh > K_(1e-12);
     const REAL len = r_sqrt(there ? hh : K_(1));
     const VEC h = v_scale(sum, K_(1) / len);
     const REAL nl = v_dot(seen, l), nv = v_dot(seen, v),
                p = reflect_fifth(there ? K_(0.5) * len : K_(0));
-    const REAL lit = v_dot(n, l),
-               d = spread ? reflect_d_wide(seen, h, wide) : reflect_d(seen, h, a2);
+    const REAL lit = v_dot(n, l), d = reflect_lobe(seen, h, wide, form, a2);
     const REAL up = reflect_positive(nl);
-    const REAL long_v = spread ? reflect_long_wide(v, nv, wide) : reflect_long(nv, a2);
-    const REAL long_l = spread ? reflect_long_wide(l, nl, wide) : reflect_long(nl, a2);
+    const REAL long_v = reflect_span(v, nv, wide, form, a2);
+    const REAL long_l = reflect_span(l, nl, wide, form, a2);
     const REAL lobe = m->ks * d * K_(0.5) * up / (up * long_v + nv * long_l);
-    const REAL shown = there && nl > K_(0) && lit > K_(0) ? lobe : K_(0);
     const REAL f = m->f0 + (K_(1) - m->f0) * p, matt = m->kd * (K_(1) - m->metal);
+    const REAL most = f * (K_(1) - m->metal) + m->metal; /* of a colour up to 1 */
+    const bool shows = there && nl > K_(0) && lit > K_(0) && lobe * most >= m->least && !form.dull;
+    const REAL shown = shows ? lobe : K_(0);
     const REAL left =
-        told   ? told_left
-        : kept ? (K_(1) - reflect_albedo(lit, m)) * (K_(1) - reflect_albedo(nv, m)) * m->again
-               : K_(1) - f;
+        form.told   ? told_left
+        : form.kept ? (K_(1) - reflect_albedo(lit, m)) * (K_(1) - reflect_albedo(nv, m)) * m->again
+                    : K_(1) - f;
     /* metal: f0 is the colour, c + (1 - c) p = c (1 - p) + p */
     return (Reflected){ matt * reflect_positive(lit) * left + m->metal * (K_(1) - p) * shown,
                         (f * (K_(1) - m->metal) + m->metal * p) * shown, K_(0) };
