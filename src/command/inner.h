@@ -188,6 +188,8 @@ bool wr_session_find_layer(const WrSession *session, const char *word, int *inde
 /* The SHA-256 of what a command reads from a file: of a glTF with parts beside it that of the packed one (gltf.h), which
    changes with any of them. */
 bool wr_input_sha256(const char *path, char hex[65], WrError *err);
+/* Read a picture's file, or one that a glTF file holds or names, "FILE.glb#2". The caller frees it. */
+WrImage *wr_input_image(const char *path, const WrImageWish *wish, WrError *err);
 /* Hash a file that a command reads, compare with what the line says, and write it into the line. */
 bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err);
 /* The same for a file that was hashed already; name: of the argument that holds the hash. */

@@ -85,7 +85,7 @@ WrImage *wr_find_laid(WrSession *session, WrCall *call, const char *name, int wh
     char *path = wr_session_input_path(session, name);
     WrImage *image = NULL;
     const WrImageWish wish = wr_call_wish(call);
-    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
+    if (wr_session_check_sha256(call, path, err)) image = wr_input_image(path, &wish, err);
     if (image) wr_session_note_read(session, path, image);
     wr_free(path);
     return image;

@@ -103,6 +103,10 @@ static void note_mesh(WrSession *session, const char *path, const WrTriangles *m
               "corners without a normal have the mean of their faces'");
     add_count(&text, told->face_normal, "corners have their face's normal");
     add_map(&text, mesh);
+    char ending[16];
+    wr_path_ending(path, ending);
+    if (strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0)
+        wr_text_add(&text, "; its material is not taken: the command gltf does that");
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }

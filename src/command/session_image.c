@@ -7,14 +7,61 @@
 #include "base/text.h"
 #include "document/document_file.h"
 #include "image/gltf.h"
+#include "image/gltf_look.h"
+#include "image/image.h"
 
 #include <string.h>
 
 /* ---- files ---- */
 
+/* The bytes of a picture in a glTF file, by its name. */
+static bool picture_bytes(const char *name, size_t length, int image, char **bytes, size_t *size,
+                          WrError *err)
+{
+    char *path = wr_strdup(name);
+    path[length] = 0;
+    const bool good = wr_gltf_picture(path, image, bytes, size, err);
+    wr_free(path);
+    return good;
+}
+
+WrImage *wr_input_image(const char *path, const WrImageWish *wish, WrError *err)
+{
+    size_t length, size;
+    int index;
+    char *bytes;
+    WrText name = { 0 };
+    if (!wr_gltf_names_picture(path, &length, &index)) return wr_image_read_wish(path, wish, err);
+    if (wish->channel || wish->part) {
+        wr_fail(err, "%s: channel= and part= are of picture files, not of pictures in a glTF",
+                path);
+        return NULL;
+    }
+    if (!picture_bytes(path, length, index, &bytes, &size, err)) return NULL;
+    /* glTF has these two kinds; the name's ending stands for the kind */
+    const bool png = size > 4 && memcmp(bytes, "\x89PNG", 4) == 0;
+    const bool jpeg = size > 2 && memcmp(bytes, "\xff\xd8", 2) == 0;
+    WrImage *image = NULL;
+    wr_text_addf(&name, "%s.%s", path, png ? "png" : "jpg");
+    if (png || jpeg) image = wr_image_read_bytes(wr_text_get(&name), bytes, size, err);
+    else wr_fail(err, "%s: is neither PNG nor JPEG", path);
+    wr_text_fini(&name);
+    wr_free(bytes);
+    return image;
+}
+
 bool wr_input_sha256(const char *path, char hex[65], WrError *err)
 {
     WrText text = { 0 };
+    size_t length, size;
+    int image;
+    char *bytes;
+    if (wr_gltf_names_picture(path, &length, &image)) {
+        if (!picture_bytes(path, length, image, &bytes, &size, err)) return false;
+        wr_sha256_bytes(bytes, size, hex);
+        wr_free(bytes);
+        return true;
+    }
     bool packed, good = wr_gltf_pack(path, &text, &packed, err);
     if (good && packed) wr_sha256_bytes(text.data, text.length, hex);
     else if (good) good = wr_sha256_file(path, hex, err);

@@ -1,4 +1,5 @@
 #include "image/gltf.h"
+#include "image/gltf_inner.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -6,13 +7,11 @@
 #include "base/text.h"
 #include "image/mesh.h"
 
-#include <json-c/json.h>
 #include <string.h>
 
 #define DEPTH 64
 
-/* Its JSON, or NULL if it is none. */
-static json_object *parse(const char *text, size_t length)
+json_object *wr_gltf_parse(const char *text, size_t length)
 {
     json_tokener *tokener = json_tokener_new_ex(DEPTH);
     if (!tokener) return NULL;
@@ -47,8 +46,7 @@ static int hex_digit(char c)
     return at ? (int)(at - digits) : -1;
 }
 
-/* %20 and its like. False where that leaves a NUL. */
-static bool decode(const char *uri, WrText *name)
+bool wr_gltf_decode_name(const char *uri, WrText *name)
 {
     for (const char *c = uri; *c; c++) {
         const int high = *c == '%' ? hex_digit(c[1]) : -1;
@@ -61,8 +59,7 @@ static bool decode(const char *uri, WrText *name)
     return name->length > 0;
 }
 
-/* A path that does not leave the folder: no root, no "..", no scheme, no drive. */
-static bool stays_within(const char *name)
+bool wr_gltf_stays_within(const char *name)
 {
     if (*name == '/' || strpbrk(name, "\\:")) return false;
     for (const char *at = name; at;) {
@@ -97,7 +94,7 @@ static bool take_in(const char *path, const char *uri, json_object *buffer, size
     WrText name = { 0 }, data = { 0 };
     char *bytes = NULL, *folder = wr_path_folder(path), *full = NULL;
     size_t length = 0;
-    bool good = decode(uri, &name) && stays_within(wr_text_get(&name));
+    bool good = wr_gltf_decode_name(uri, &name) && wr_gltf_stays_within(wr_text_get(&name));
     if (!good)
         wr_fail(err, "%s: names the part \"%.80s\": must lie beside the file or below", path, uri);
     if (good) full = wr_path_join(folder, wr_text_get(&name));
@@ -145,7 +142,7 @@ bool wr_gltf_pack(const char *path, WrText *out, bool *packed, WrError *err)
     *packed = false;
     if (strcmp(wr_path_ending(path, ending), "gltf") != 0) return true;
     if (!wr_file_read(path, WR_GLTF_JSON_MAX, &text, &length, NULL)) return true;
-    json_object *root = parse(text, length), *buffers;
+    json_object *root = wr_gltf_parse(text, length), *buffers;
     wr_free(text);
     bool good = true;
     if (json_object_is_type(root, json_type_object) &&
