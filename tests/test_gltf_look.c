@@ -193,6 +193,15 @@ static void a_glb_gives_numbers_and_pictures(void **state)
     must_fail(s, "gltf steel.glb part=Brass", "no material \"Brass\"");
     put_glb("short.glb", json, bin, at, 9);
     must_fail(s, "gltf short.glb", "longer than the file");
+    /* documents hold the pictures themselves */
+    WrError err = { "" };
+    must_run(s, "gltf steel.glb");
+    if (!wr_session_save(s, "kept.exr", &err)) fail_msg("%s", err.text);
+    unlink("steel.glb");
+    wr_session_free(s);
+    s = wr_session_new(NULL);
+    must_run(s, "open kept.exr");
+    expect_steel(s);
     wr_session_free(s);
     test_free(bin);
 }
@@ -284,9 +293,10 @@ static void lies_are_told(void **state)
         { "{\"uri\":\"data:image/png;base64,!!!!\"}", "not of base64" },
         { "{\"uri\":\"data:image/png,abc\"}", "not of base64" },
         { "{\"uri\":\"lie.gltf\"}", "neither PNG nor JPEG" },
-        { "{\"bufferView\":0}", "bytes 5 to 2147483652 of a buffer of 3" },
+        { "{\"bufferView\":0}", "bytes 1 to 200000001 of a buffer of 3" },
         { "{\"bufferView\":1}", "of no buffer" },
         { "{\"bufferView\":2}", "of no buffer" },
+        { "{\"bufferView\":3}", "must be up to 268435456" },
         { "{\"bufferView\":77}", "is not there" },
         { "{}", "neither uri nor bufferView" },
         { "9", "neither uri nor bufferView" },
@@ -303,9 +313,9 @@ static void lies_are_told(void **state)
         snprintf(json, sizeof json,
                  "{" ASSET "\"textures\":[{\"source\":0}],\"images\":[%s],"
                  "\"buffers\":[{\"uri\":\"data:x;base64,AgAA\",\"byteLength\":3}],\"bufferViews\":["
-                 "{\"buffer\":0,\"byteOffset\":5,\"byteLength\":2147483647},"
+                 "{\"buffer\":0,\"byteOffset\":1,\"byteLength\":200000000},"
                  "{\"buffer\":0,\"byteOffset\":-1,\"byteLength\":2},"
-                 "{\"buffer\":4,\"byteLength\":2}],"
+                 "{\"buffer\":4,\"byteLength\":2},{\"buffer\":0,\"byteLength\":2147483647}],"
                  "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}]}",
                  pictures[i].image);
         put_text("lie.gltf", json);

@@ -156,9 +156,16 @@ static bool take(WrSession *session, const char *name, const char *path, const W
     return good;
 }
 
+/* Lines of material, colour and the others say what it left. */
+static void print_gltf(const WrScene *scene, WrText *text)
+{
+    (void)scene, (void)text;
+}
+
 static bool run_gltf(WrSession *session, WrCall *call, WrError *err)
 {
     WrGltfLook look;
+    if (session->loading) return wr_fail(err, "gltf is no command of a document: it opens files");
     const char *name = wr_call_arg(call, "FILE")->text;
     const char *part = wr_call_given(call, "part") ? wr_call_arg(call, "part")->text : NULL;
     char *path = wr_session_input_path(session, name);
@@ -185,6 +192,7 @@ const WrCommand wr_command_gltf = {
     .kind = WR_CLASS_SCENE,
     .args = args,
     .run = run_gltf,
+    .print = print_gltf,
     .of_object = true,
     .help = "the material of a glTF file",
     .details =
