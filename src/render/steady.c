@@ -60,10 +60,10 @@ bool wr_steady_suits(const WrScene *scene, const WrPlan *plan)
 }
 
 /* Rows that light alone decides, or material that goes by P, and what they own. */
-static const WrEffect of_light[] = { WR_EFFECT_DIFFUSE,   WR_EFFECT_SPECULAR, WR_EFFECT_MODEL,
-                                     WR_EFFECT_SURROUND,  WR_EFFECT_MIRROR,   WR_EFFECT_BLUR,
-                                     WR_EFFECT_HARMONICS, WR_EFFECT_VARIED,   WR_EFFECT_GRAIN,
-                                     WR_EFFECT_OCTAVES };
+static const WrEffect of_light[] = { WR_EFFECT_DIFFUSE, WR_EFFECT_SPECULAR, WR_EFFECT_MODEL,
+                                     WR_EFFECT_KEPT,    WR_EFFECT_FAINT,    WR_EFFECT_SURROUND,
+                                     WR_EFFECT_MIRROR,  WR_EFFECT_BLUR,     WR_EFFECT_HARMONICS,
+                                     WR_EFFECT_VARIED,  WR_EFFECT_GRAIN,    WR_EFFECT_OCTAVES };
 
 static bool same_plan(const WrPlan *a, const WrPlan *b)
 {
@@ -72,6 +72,8 @@ static bool same_plan(const WrPlan *a, const WrPlan *b)
         lit.rows[of_light[i]].run = b->rows[of_light[i]].run;
     lit.model = b->model;
     lit.tint = b->tint;
+    lit.kept = b->kept;
+    lit.faint = b->faint;
     lit.harmonics = b->harmonics;
     lit.gloss = b->gloss;
     lit.grain = b->grain;
