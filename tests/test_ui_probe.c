@@ -277,6 +277,94 @@ static void the_measured_error_falls_with_the_samples(void **state)
     wr_field_free(field);
 }
 
+/* What is tried on a scene that rests. */
+static void other_samples(WrScene *scene, WrField *field)
+{
+    (void)field;
+    scene->dials.aa = WR_AA_SUPERSAMPLE;
+    scene->dials.samples = 2;
+}
+
+static void other_scheme(WrScene *scene, WrField *field)
+{
+    (void)field;
+    scene->scheme = WR_SCHEME_BILINEAR;
+}
+
+static void other_light(WrScene *scene, WrField *field)
+{
+    (void)field;
+    scene->lights_given = true; /* as every command about lights says */
+    scene->lights[0].strength *= 0.71;
+}
+
+static void other_energy(WrScene *scene, WrField *field)
+{
+    (void)field;
+    scene->material.energy = WR_ENERGY_PUBLISHED;
+}
+
+static void other_normal(WrScene *scene, WrField *field)
+{
+    (void)field;
+    scene->bump = WR_BUMP_INVARIANT;
+}
+
+static void other_heights(WrScene *scene, WrField *field)
+{
+    (void)scene;
+    wr_field_set(field, 5, 7, wr_field_get(field, 5, 7) + 0.9F);
+}
+
+/* The error of one more piece of work of the same tools, and of new ones: the same, whether the reference was kept or not. */
+static void expect_kept(WrWorkTools *tools, WrField *field, WrScene *scene, double turn, bool kept)
+{
+    WrPool *pool = wr_pool_new(1);
+    const WrProgress progress = { 0 };
+    WrWorkTools fresh = { 0 };
+    WrWork *work[2];
+    const double *before = tools->kept.rgba;
+    const double seconds = tools->kept.seconds;
+    for (int k = 0; k < 2; k++) {
+        work[k] = wr_work_new(WR_WORK_ERROR, k ? &fresh : tools, field, scene, turn, 28, 20);
+        wr_work_jobs.run(work[k], pool, &progress);
+        assert_true(work[k]->done);
+    }
+    assert_true(work[0]->errors.rms == work[1]->errors.rms && work[0]->errors.rms > 0);
+    assert_true(work[0]->errors.max == work[1]->errors.max);
+    assert_int_equal(before && tools->kept.rgba == before && tools->kept.seconds == seconds, kept);
+    for (int k = 0; k < 2; k++) wr_work_jobs.drop(work[k]);
+    wr_work_tools_fini(&fresh);
+    wr_pool_free(pool);
+}
+
+static void the_reference_is_kept_while_the_scene_rests(void **state)
+{
+    static const struct {
+        void (*change)(WrScene *scene, WrField *field);
+        bool kept;
+    } cases[] = { { other_samples, true }, { other_scheme, true },  { other_light, false },
+                  { other_energy, false }, { other_normal, false }, { other_heights, false } };
+    (void)state;
+    WrField *field = waves();
+    WrScene *scene = scene_of("sphere");
+    WrWorkTools tools = { 0 };
+    scene->material.model = WR_REFLECT_GGX;
+    expect_kept(&tools, field, scene, 11, false);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        WrScene *other = wr_scene_clone(scene);
+        wr_scene_free(scene);
+        scene = other;
+        cases[i].change(scene, field);
+        expect_kept(&tools, field, scene, 11, cases[i].kept);
+    }
+    expect_kept(&tools, field, scene, 12, false);
+    expect_kept(&tools, field, scene, 12, true);
+    wr_work_tools_fini(&tools);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -288,6 +376,7 @@ int main(void)
         cmocka_unit_test(the_finest_of_each_axis_is_kept_of_kinds_that_are_there),
         cmocka_unit_test(a_cancelled_piece_of_work_is_not_done),
         cmocka_unit_test(the_measured_error_falls_with_the_samples),
+        cmocka_unit_test(the_reference_is_kept_while_the_scene_rests),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

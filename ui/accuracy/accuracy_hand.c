@@ -66,23 +66,6 @@ static void note_view(WrApp *app)
     a->look_of = 0;
 }
 
-/* The scene as commands, but for its dials and its tolerance: what a ladder is about. Caller frees. */
-static char *base_of(const WrScene *scene)
-{
-    WrScene *bare = wr_scene_clone(scene);
-    WrScene *plain = wr_scene_new();
-    WrText text = { 0 };
-    for (int d = 0; d < WR_DIAL_COUNT; d++) wr_dials[d].set(bare, wr_dials[d].get(plain));
-    bare->tolerance = plain->tolerance;
-    for (const WrCommand *const *row = wr_commands, *c; (c = *row) != NULL; row++)
-        if (c->print) c->print(bare, &text);
-    wr_scene_free(plain);
-    wr_scene_free(bare);
-    char *out = wr_strdup(wr_text_get(&text));
-    wr_text_fini(&text);
-    return out;
-}
-
 static bool same_dials(const WrScene *a, const WrScene *b)
 {
     for (int d = 0; d < WR_DIAL_COUNT; d++)
@@ -108,7 +91,7 @@ static void look_for_fit(WrAccuracy *a)
     a->fits = a->plot && a->plot_key == wr_field_key(a->field) && a->plot_turn == a->turn_deg;
     a->rung = -1;
     if (!a->fits) return;
-    char *base = base_of(a->scene);
+    char *base = wr_accuracy_base(a->scene);
     a->fits = strcmp(base, a->plot_base) == 0;
     wr_free(base);
     if (a->fits) a->rung = rung_of(a, a->scene);
@@ -133,7 +116,7 @@ static void take_ladder(WrAccuracy *a, WrWork *work)
     wr_work_free(a->plot);
     wr_free(a->plot_base);
     a->plot = work;
-    a->plot_base = base_of(work->scene);
+    a->plot_base = wr_accuracy_base(work->scene);
     a->plot_key = wr_field_key(work->field);
     a->plot_turn = work->turn_deg;
     a->plot_hot = -1;

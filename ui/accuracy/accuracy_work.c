@@ -13,24 +13,46 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "command/table.h"
 #include "document/tables.h"
 #include "field/field.h"
 #include "render/frame.h"
 #include "render/reference.h"
 #include "scene/dials.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define REFERENCE_SAMPLES 8 /* a side, for the error of the resting view */
 #define LADDER_SAMPLES 16   /* a side, of the ladder's reference */
 #define LADDER_RUNS 3
 #define LADDER_BUDGET 6.0 /* seconds for its timed runs */
 
+char *wr_accuracy_base(const WrScene *scene)
+{
+    WrScene *bare = wr_scene_clone(scene);
+    WrScene *plain = wr_scene_new();
+    WrText text = { 0 };
+    for (int d = 0; d < WR_DIAL_COUNT; d++) wr_dials[d].set(bare, wr_dials[d].get(plain));
+    bare->tolerance = plain->tolerance;
+    for (const WrCommand *const *row = wr_commands, *c; (c = *row) != NULL; row++)
+        if (c->print) c->print(bare, &text);
+    wr_scene_free(plain);
+    wr_scene_free(bare);
+    char *out = wr_strdup(wr_text_get(&text));
+    wr_text_fini(&text);
+    return out;
+}
+
 void wr_work_tools_fini(WrWorkTools *tools)
 {
     for (int i = 0; i < 2; i++) wr_renderer_free(tools->renderer[i]);
+    wr_reference_fini(&tools->kept);
+    wr_free(tools->kept_of);
     *tools = (WrWorkTools){ 0 };
 }
 
@@ -130,10 +152,46 @@ static bool keep_errors(WrWork *work, const float *rgba, const WrReference *refe
     return true;
 }
 
+/* All that the reference's picture depends on: the scene but for its dials, though not for those that are models of their
+   own; tables, turn, size. Caller frees. */
+static char *reference_key(const WrWork *work, const WrReferenceRequest *wanted)
+{
+    WrText text = { 0 };
+    char *base = wr_accuracy_base(work->scene);
+    const WrField *field = wanted->fields ? wanted->fields[0] : work->field;
+    wr_text_addf(&text, "%d %d %d %d %d %llu ", wanted->width, wanted->height, wanted->most,
+                 work->scene->bump == WR_BUMP_INVARIANT, (int)work->scene->material.energy,
+                 field ? (unsigned long long)wr_field_key(field) : 0ULL);
+    wr_text_add_number(&text, wanted->turn_deg);
+    wr_text_addf(&text, "\n%s", base);
+    wr_free(base);
+    return text.data;
+}
+
+/* The reference's picture: the one that is kept where nothing that it depends on has changed, as when dials are tried on a
+   scene that rests. Of several objects none is kept: their texts are not asked for. */
+static bool bring_reference(WrWork *work, const WrReferenceRequest *wanted, WrPool *pool)
+{
+    WrWorkTools *tools = work->tools;
+    char *key = wr_scene_object_count(work->scene) == 1 ? reference_key(work, wanted) : NULL;
+    if (key && tools->kept_of && strcmp(tools->kept_of, key) == 0) {
+        wr_free(key);
+        return true;
+    }
+    wr_free(tools->kept_of);
+    tools->kept_of = NULL;
+    if (!wr_reference_render(wanted, pool, &tools->kept, &work->err)) {
+        wr_free(key);
+        return false;
+    }
+    tools->kept_of = key;
+    return true;
+}
+
 static bool compare(WrWork *work, WrPool *pool, const WrFrameRequest *request, const float *normals)
 {
     WrFrame frame;
-    WrReference reference = { 0 };
+    const WrReference *reference = &work->tools->kept;
     WrReferenceRequest wanted = { .field = work->field,
                                   .fields = wr_tables_fields(work->tables),
                                   .scene = work->scene,
@@ -143,15 +201,13 @@ static bool compare(WrWork *work, WrPool *pool, const WrFrameRequest *request, c
                                   .first = REFERENCE_SAMPLES / 2,
                                   .most = REFERENCE_SAMPLES,
                                   .cancel = request->cancel };
-    bool good = wr_reference_render(&wanted, pool, &reference, &work->err) &&
-                render(work, 0, pool, request, &frame);
+    bool good = bring_reference(work, &wanted, pool) && render(work, 0, pool, request, &frame);
     if (good) {
-        wr_errors_measure(frame.rgba, normals, &reference, NULL, &work->errors);
-        work->samples = reference.samples;
-        work->change = reference.last_rms;
-        good = keep_errors(work, frame.rgba, &reference);
+        wr_errors_measure(frame.rgba, normals, reference, NULL, &work->errors);
+        work->samples = reference->samples;
+        work->change = reference->last_rms;
+        good = keep_errors(work, frame.rgba, reference);
     }
-    wr_reference_fini(&reference);
     return good;
 }
 

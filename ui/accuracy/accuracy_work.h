@@ -37,7 +37,11 @@ typedef enum WrWorkKind {
 typedef struct WrWorkTools {
     WrRenderer *renderer[2]; /* owned; made on the thread that uses them */
     const char *isa;         /* borrowed; as in wr_renderer_new */
+    WrReference kept;        /* the last that an error was measured against ... */
+    char *kept_of; /* ... and all that it depends on, as text; owned; NULL: there is none */
 } WrWorkTools;
+/* The scene as commands, but for its dials and its tolerance: what a ladder is about. Caller frees. */
+char *wr_accuracy_base(const WrScene *scene);
 void wr_work_tools_fini(WrWorkTools *tools); /* after the thread has ended */
 
 typedef struct WrWork {
