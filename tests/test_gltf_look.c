@@ -84,12 +84,6 @@ static const WrScene *scene_of_session(const WrSession *session)
     return doc(session)->scene;
 }
 
-static WrSession *listening(Said *said)
-{
-    const WrSessionOptions options = { .note = hear_note, .note_ctx = said };
-    return wr_session_new(&options);
-}
-
 /* sRGB's curve, IEC 61966-2-1. */
 static double linear(int code)
 {

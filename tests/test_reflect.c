@@ -116,6 +116,7 @@ static void albedos_are_those_of_the_published_formulas(void **state)
     assert_near(albedo(&fujii, 1, 0, .3, false, 200), 1, 1e-3); /* what is reflected again too */
 }
 
+/* HC103 */
 static void a_white_furnace_never_shows_more_than_white(void **state)
 {
     (void)state;
@@ -173,6 +174,81 @@ static void limits_are_finite(void **state)
                     if (!(got >= 0 && got < 1e13) || (l.z <= 0 && got != 0))
                         fail_msg("model %d, ends %d, places %d: %g", model, e, k, got);
                 }
+}
+
+/* HC106: n' straight away from the eye is bent until it is the eye's direction, and is finite about there. */
+static void a_normal_away_from_the_eye_is_the_eyes(void **state)
+{
+    (void)state;
+    for (int model = 0; model < 2; model++) {
+        const WrReflect kind = model ? WR_REFLECT_GGX : WR_REFLECT_TORRANCE_SPARROW;
+        const WrReflectance of = { kind, WR_ENERGY_PUBLISHED, 0, .37, 1, 1.5 };
+        WrStripd *s = wr_alloc(1, sizeof *s);
+        s->count = 200;
+        for (int i = 0; i < s->count; i++) { /* n' turns through -v; the lamp stands before it */
+            const double turn = (i - 100) * 1e-4;
+            put(s, i, (WrVec3){ 0, 0, 1 }, (WrVec3){ sin(turn), 0, -cos(turn) });
+        }
+        reflect(&of, 0, 1, s);
+        for (int i = 0; i < s->count; i++) {
+            const double got = s->dr[i] + s->sr[i];
+            if (!(got >= 0 && got < 1e-9)) fail_msg("model %d, %d: %g", kind, i, got);
+        }
+        wr_free(s);
+    }
+}
+
+/* HC109: facets widened by covariances of rank 1, huge ones, and ones a rounding below 0: D is that of M = alpha^2 + 2 C, by
+   formulas of its own, so that D (n.h) integrates to 1; what is below 0 widens nothing. Seen along the lamp, where V and F are
+   known; at slopes sqrt(M) r (cos, sin), where D (n.h)^4 sqrt(det M) is (1 / pi) / (1 + r^2)^2. */
+static void widened_facets_are_a_distribution(void **state)
+{
+    static const double covariances[][3] = {
+        { .0371, 0, 0 },      { .02, .02, .02 },  { 1e6, 0, 0 }, { 3.1e5, -3.1e5, 3.1e5 },
+        { .013, .004, .091 }, { 1e-9, 0, 1e-12 }, { 0, 0, 0 },
+    };
+    const WrReflectance of = { WR_REFLECT_GGX, WR_ENERGY_PUBLISHED, 0, .41, 1, 1.5 };
+    (void)state;
+    WrMatter m;
+    wr_matter_init(&m, &of);
+    const WrKernMatterd matter = { .ks = 1, .alpha = m.alpha, .f0 = m.f0, .metal = 1 };
+    const WrKernLightd light = { .rgb = { 1, 1, 1 } };
+    WrStripd *s = wr_alloc(1, sizeof *s);
+    for (size_t k = 0; k < sizeof covariances / sizeof *covariances; k++) {
+        const double *c = covariances[k], a2 = m.alpha * m.alpha;
+        const double step = c[0] > 1 ? .004 : .11; /* n.h stays above 1e-3: no bend */
+        const double ee = a2 + 2 * c[0], ef = 2 * c[1], ff = a2 + 2 * c[2];
+        const double low = sqrt(ee), cross = ef / low, high = sqrt(ff - cross * cross);
+        s->count = 12;
+        for (int i = 0; i < s->count; i++) { /* M = L L^T */
+            const double r = step * i * i, x = r * cos(i * 2.4), y = r * sin(i * 2.4);
+            const WrVec3 slope = { low * x, cross * x + high * y, 1 };
+            const WrVec3 h = v3_unit(slope, slope);
+            put(s, i, h, h);
+            s->ex[i] = 1, s->ey[i] = s->ez[i] = 0;
+            s->see[i] = c[0], s->sef[i] = c[1], s->sff[i] = c[2];
+        }
+        kernels->begin(0, s);
+        kernels->reflect[WR_REFLECT_GGX][WR_ENERGY_PUBLISHED](&light, &matter, WR_REFLECT_LEAN, s);
+        for (int i = 0; i < s->count; i++) {
+            const double r = step * i * i, z = s->lz[i], hx = s->lx[i], hy = s->ly[i];
+            const double span = sqrt(z * z + ee * hx * hx + 2 * ef * hx * hy + ff * hy * hy);
+            const double d = 4 * span * (s->dr[i] + s->sr[i]); /* pi D */
+            const double got = d * z * z * z * z * low * high,
+                         want = 1 / ((1 + r * r) * (1 + r * r));
+            if (!(fabs(got - want) <= 1e-6 * want))
+                fail_msg("covariance %zu, %d: %.12g, not %.12g", k, i, got, want);
+        }
+    }
+    s->count = 1; /* below 0 by a rounding */
+    put(s, 0, tilted(.9, .3), tilted(.8, 2.1));
+    s->ex[0] = 1, s->ey[0] = s->ez[0] = 0, s->see[0] = -1e-12, s->sef[0] = 1e-12,
+    s->sff[0] = -1e-12;
+    kernels->begin(0, s);
+    kernels->reflect[WR_REFLECT_GGX][WR_ENERGY_PUBLISHED](&light, &matter, WR_REFLECT_LEAN, s);
+    const double widened = s->dr[0] + s->sr[0];
+    assert_near(widened, at_once(&of, 0, 1, tilted(.9, .3), tilted(.8, 2.1)), 1e-9);
+    wr_free(s);
 }
 
 static void a_normal_turned_past_the_eye_makes_no_jump(void **state)
@@ -255,6 +331,8 @@ int main(void)
         cmocka_unit_test(light_and_eye_can_change_places),
         cmocka_unit_test(limits_are_finite),
         cmocka_unit_test(a_normal_turned_past_the_eye_makes_no_jump),
+        cmocka_unit_test(a_normal_away_from_the_eye_is_the_eyes),
+        cmocka_unit_test(widened_facets_are_a_distribution),
         cmocka_unit_test(pictures_are_the_references),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
