@@ -3,7 +3,7 @@
    for. */
 #include "test.h"
 #include "test_folder.h"
-#include "test_window.h"
+#include "test_app.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -28,43 +28,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#define PATIENCE 120.0 /* seconds until waiting in vain is a failure */
-
-typedef struct Bench {
-    WrPool *pool;
-    WrSession *session;
-    WrAppOptions options;
-    WrApp *app;
-} Bench;
-
-static void begin(Bench *bench)
-{
-    WrError err = { "" };
-    SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
-    bench->pool = wr_pool_new(1);
-    bench->session = wr_session_new(&(WrSessionOptions){ .pool = bench->pool, .outputs = true });
-    if (!wr_session_run(bench->session, "table 64x64", &err)) fail_msg("%s", err.text);
-    bench->options = (WrAppOptions){
-        .session = bench->session, .file_given = true, .threads = 1, .width = 900, .height = 700
-    };
-    bench->app = wr_store_new();
-    bench->app->options = &bench->options;
-    bench->app->session = bench->session;
-    if (!wr_app_begin(bench->app, &err)) fail_msg("%s", err.text);
-    double end = wr_clock_seconds() + PATIENCE;
-    while (bench->app->drawn_at == 0.0 && wr_clock_seconds() < end) wr_app_step(bench->app);
-    assert_true(bench->app->drawn_at > 0.0);
-    bench->app->file->clean_revision = wr_session_revision(bench->session);
-}
-
-static void finish(Bench *bench)
-{
-    wr_app_end(bench->app);
-    wr_free(bench->app);
-    wr_session_free(bench->session);
-    wr_pool_free(bench->pool);
-}
 
 /* ---- long work ---- */
 
@@ -290,17 +253,6 @@ static void the_first_stroke_is_undone_before_it_is_drawn(void **state)
     WrHash after = wr_session_hash(bench.session);
     assert_memory_equal(&before, &after, sizeof before);
     finish(&bench);
-}
-
-static void draw_again(WrApp *app)
-{
-    const double before = app->drawn_at;
-    double end = wr_clock_seconds() + PATIENCE;
-    while (app->drawn_at == before && wr_clock_seconds() < end) {
-        app->redraw = 2;
-        SDL_PushEvent(&(SDL_Event){ .type = app->ready_event });
-        wr_app_step(app);
-    }
 }
 
 /* Motion, button up and leaving the window come before one picture: the number is where the button went up. */

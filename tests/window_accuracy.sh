@@ -18,15 +18,6 @@ printf '%s\n' 'width 1280' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' '
 patch=360x500+600+160 # the sphere, without the chips above and the labels below
 panel=250x330+1016+140
 plot=180x140+1064+265 # three steps of the wheel down
-# search WORDS: run the action that is found first.
-search() {
-    key ctrl+Return
-    rest
-    xdotool type --delay 30 "$1"
-    rest
-    key Return
-    rest
-}
 # much A B WHERE WHAT: those pictures differ there; same A B WHERE WHAT: they do not.
 much() {
     local changed

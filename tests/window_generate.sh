@@ -15,15 +15,6 @@ printf 'table 256x256\nbump height=0.1\n' >flat.wrinkle
 configure() {
     printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' 'tab 0' 'lower 0.42' >config/wrinkle/window.conf
 }
-# search WORDS: run the action that is found first.
-search() {
-    key ctrl+Return
-    rest
-    xdotool type --delay 30 "$1"
-    rest
-    key Return
-    rest
-}
 # slide X Y DX: drag slowly, so that no two events come into one picture of the window.
 slide() {
     xdotool mousemove $((X + $1)) $((Y + $2))

@@ -50,7 +50,7 @@ serve() {
     done
     mkfifo "$folder/display"
     # -r: a key that is held is pressed once, or the window would never rest meanwhile.
-    Xvfb -r -noreset -displayfd 3 -screen 0 1280x900x24 -nolisten tcp 3>"$folder/display" >"$folder/server.log" 2>&1 &
+    Xvfb -r -noreset -displayfd 3 -screen 0 "${WR_TEST_SCREEN:-1280x900}x24" -nolisten tcp 3>"$folder/display" >"$folder/server.log" 2>&1 &
     server=$!
     read -r -t 30 number <"$folder/display" || { cat "$folder/server.log"; exit 1; }
     export DISPLAY=:$number
@@ -181,6 +181,14 @@ click() {
     rest
     xdotool click 1
     rest
+}
+# search WORDS: run the action that is found first. Enter with nothing typed runs none.
+search() {
+    key ctrl+Return
+    key Return
+    xdotool type --delay 30 "$1"
+    rest
+    key Return
 }
 # The newest command that the journal holds, a stroke by its beginning.
 newest() { sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj 2>/dev/null | tail -n 1; }

@@ -195,7 +195,7 @@ try {
         io.MouseWheel += event->wheel.preciseY;
         io.MouseWheelH += event->wheel.preciseX;
         break;
-    case SDL_TEXTINPUT: io.AddInputCharactersUTF8(event->text.text); break;
+    case SDL_TEXTINPUT: wr_gui_keys_letters(gui, event->text.text); break;
     case SDL_KEYDOWN:
     case SDL_KEYUP: wr_gui_keys_event(gui, &event->key); break;
     case SDL_WINDOWEVENT:
@@ -209,7 +209,7 @@ WR_CAUGHT()
 extern "C" void wr_gui_release_all(WrGui *gui)
 try {
     memset(gui->held, 0, sizeof gui->held);
-    wr_gui_keys_release();
+    wr_gui_keys_release(gui);
 }
 WR_CAUGHT()
 

@@ -12,6 +12,14 @@ extern "C" {
 #include <stdint.h>
 
 #define WR_GUI_KEYS 512 /* of the keyboard, by SDL_Scancode */
+#define WR_GUI_TYPED 64
+
+/* A key that went down or up, or letters that came of keys. */
+struct WrTyped {
+    SDL_Keysym key;
+    bool down;
+    char letters[SDL_TEXTINPUTEVENT_TEXT_SIZE]; /* UTF-8; "" for a key */
+};
 
 struct WrGui {
     SDL_Renderer *renderer; /* borrowed */
@@ -26,6 +34,10 @@ struct WrGui {
     bool released_late[WR_GUI_KEYS]; /* keys that went down and up between two frames */
     bool pressed_now[WR_GUI_KEYS];
     int held_late; /* KMOD_ bits held while a key went down since the last frame */
+    WrTyped typed_on
+        [WR_GUI_TYPED]; /* keys and letters that no frame has had, in the order in which they came */
+    int typed_count;
+    int typed_held; /* KMOD_ bits held at the last of those that frames had */
     char clipboard[4096];
     bool close_popups; /* Escape was pressed over a menu */
     ImGuiID selecting; /* a text area that gets the keyboard: its text will be selected */
@@ -56,11 +68,12 @@ struct WrGui {
 
 /* The one whose frame is open. */
 WrGui *wr_gui_current(void);
-/* gui_imgui_keys.cpp. Before the first frame; an event; all are let go; just before a frame; just after it has
-   begun: true if keys were let go that the widgets have not seen go up. */
+/* gui_imgui_keys.cpp. Before the first frame; a key; letters that were typed; all are let go; just before a frame; just after it
+   has begun: true if there is something that the widgets have not seen yet. */
 void wr_gui_keys_begin();
 void wr_gui_keys_event(WrGui *gui, const SDL_KeyboardEvent *key);
-void wr_gui_keys_release();
+void wr_gui_keys_letters(WrGui *gui, const char *utf8);
+void wr_gui_keys_release(WrGui *gui);
 void wr_gui_keys_frame(WrGui *gui);
 bool wr_gui_keys_seen(WrGui *gui);
 /* Keys, by their place: went down since the last frame; the same, or it is held and repeats. */

@@ -2,6 +2,7 @@
    for keys; before, an array of them by the platform's numbers. This file alone knows which. */
 #include "ui/gui/gui_imgui.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const struct {
@@ -81,7 +82,12 @@ void wr_gui_keys_event(WrGui *gui, const SDL_KeyboardEvent *key)
     if (known != ImGuiKey_None) ImGui::GetIO().AddKeyEvent(known, down);
 }
 
-void wr_gui_keys_release()
+void wr_gui_keys_letters(WrGui *, const char *utf8)
+{
+    ImGui::GetIO().AddInputCharactersUTF8(utf8);
+}
+
+void wr_gui_keys_release(WrGui *)
 {
     for (const auto &pair : keys) ImGui::GetIO().AddKeyEvent(pair.imgui, false);
     send_held(0);
@@ -117,35 +123,115 @@ void wr_gui_keys_begin()
     for (const auto &pair : keys) ImGui::GetIO().KeyMap[pair.imgui] = pair.sdl;
 }
 
-void wr_gui_keys_event(WrGui *gui, const SDL_KeyboardEvent *key)
+/* Of what comes between two frames the library takes all letters first, none while Ctrl is down, and of the keys that
+   move and delete one. So a frame gets letters, or one such key; the rest waits for the next, which comes at once. */
+
+static bool is_held_key(int code)
 {
-    ImGuiIO &io = ImGui::GetIO();
-    int code = key->keysym.scancode;
-    if (!is_key(code)) return;
-    if (key->type == SDL_KEYDOWN) {
-        if (code == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
-        io.KeysDown[code] = gui->pressed_now[code] = true;
-        gui->held_late |= key->keysym.mod & (KMOD_CTRL | KMOD_SHIFT | KMOD_ALT);
-    } else if (gui->pressed_now[code]) {
-        gui->released_late[code] = true; /* seen for one frame, then let go */
-    } else {
-        io.KeysDown[code] = false;
-    }
+    return code >= SDL_SCANCODE_LCTRL && code <= SDL_SCANCODE_RGUI;
 }
 
-void wr_gui_keys_release()
+/* Of a key that goes down: it does something to a text, or with it, besides what letters come of it. */
+static bool acts(const SDL_Keysym &key)
+{
+    if (key.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)) return true;
+    if (key.scancode == SDL_SCANCODE_SPACE || key.scancode < SDL_SCANCODE_RETURN) return false;
+    for (const auto &pair : keys)
+        if (pair.sdl == key.scancode) return true;
+    return false;
+}
+
+static void keep(WrGui *gui, const WrTyped &typed)
+{
+    if (gui->typed_count == WR_GUI_TYPED) { /* nobody types so fast: the oldest goes */
+        memmove(gui->typed_on, gui->typed_on + 1, (WR_GUI_TYPED - 1) * sizeof typed);
+        gui->typed_count--;
+    }
+    gui->typed_on[gui->typed_count++] = typed;
+}
+
+void wr_gui_keys_event(WrGui *gui, const SDL_KeyboardEvent *key)
+{
+    if (!is_key(key->keysym.scancode)) return;
+    keep(gui, WrTyped{ key->keysym, key->type == SDL_KEYDOWN, "" });
+}
+
+void wr_gui_keys_letters(WrGui *gui, const char *utf8)
+{
+    WrTyped typed = {};
+    snprintf(typed.letters, sizeof typed.letters, "%s", utf8);
+    if (typed.letters[0]) keep(gui, typed);
+}
+
+void wr_gui_keys_release(WrGui *gui)
 {
     ImGuiIO &io = ImGui::GetIO();
     memset(io.KeysDown, 0, sizeof io.KeysDown);
     io.KeyShift = io.KeyCtrl = io.KeyAlt = false;
+    int letters = 0;
+    for (int i = 0; i < gui->typed_count; i++)
+        if (gui->typed_on[i].letters[0]) gui->typed_on[letters++] = gui->typed_on[i];
+    gui->typed_count = letters; /* they were typed, wherever the keys go now */
+    gui->typed_held = 0;
+}
+
+static void key_down(WrGui *gui, const SDL_Keysym &key)
+{
+    int code = key.scancode;
+    if (code == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
+    ImGui::GetIO().KeysDown[code] = gui->pressed_now[code] = true;
+    if (!is_held_key(code)) gui->held_late |= key.mod & (KMOD_CTRL | KMOD_SHIFT | KMOD_ALT);
+}
+
+static void key_up(WrGui *gui, int code)
+{
+    if (gui->pressed_now[code])
+        gui->released_late[code] = true; /* seen for one frame, then let go */
+    else ImGui::GetIO().KeysDown[code] = false;
+}
+
+/* What the next frame is to see of them, from the first that waits: true if letters are among it. */
+static bool take_typed(WrGui *gui)
+{
+    bool letters = false, acted = false;
+    int taken = 0;
+    for (; taken < gui->typed_count; taken++) {
+        const WrTyped &typed = gui->typed_on[taken];
+        if (typed.letters[0]) {
+            if (acted) break;
+            ImGui::GetIO().AddInputCharactersUTF8(typed.letters);
+            letters = true;
+            continue;
+        }
+        if (typed.down) {
+            int code = typed.key.scancode;
+            bool down = ImGui::GetIO().KeysDown[code];
+            if (down && !gui->released_late[code])
+                continue; /* held: the library repeats it itself */
+            bool act = !is_held_key(code) && acts(typed.key);
+            /* Let go since the last frame, which it must see first. */
+            bool anew = !down && ImGui::GetIO().KeysDownDuration[code] >= 0.0f;
+            if (down || anew || (act && acted) || (letters && acts(typed.key))) break;
+            acted |= act;
+            key_down(gui, typed.key);
+        } else {
+            key_up(gui, typed.key.scancode);
+        }
+        gui->typed_held = typed.key.mod;
+    }
+    gui->typed_count -= taken;
+    memmove(gui->typed_on, gui->typed_on + taken, (size_t)gui->typed_count * sizeof *gui->typed_on);
+    return letters;
 }
 
 /* Those held now, and those that were held while a key went down since the last frame: Ctrl+A counts even if
-   both were let go before there was one. */
+   both were let go before there was one. With letters, those that were held as they came. */
 void wr_gui_keys_frame(WrGui *gui)
 {
+    if (ImGui::GetCurrentContext() != gui->context) return;
     ImGuiIO &io = ImGui::GetIO();
-    int mod = (int)SDL_GetModState() | gui->held_late;
+    bool letters = take_typed(gui);
+    int mod = (letters ? gui->typed_held : (int)SDL_GetModState()) | gui->held_late;
     io.KeyShift = (mod & KMOD_SHIFT) != 0;
     io.KeyCtrl = (mod & KMOD_CTRL) != 0;
     io.KeyAlt = (mod & KMOD_ALT) != 0;
@@ -154,7 +240,7 @@ void wr_gui_keys_frame(WrGui *gui)
 
 bool wr_gui_keys_seen(WrGui *gui)
 {
-    bool dropped = false;
+    bool dropped = gui->typed_count > 0;
     for (int i = 0; i < WR_GUI_KEYS; i++) {
         gui->pressed_now[i] = false;
         if (!gui->released_late[i]) continue;

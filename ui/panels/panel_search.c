@@ -103,8 +103,8 @@ void wr_dialog_search(WrApp *app)
     if (!wr_gui_dialog_begin("Search actions", 460)) return;
     char before[sizeof finder->text];
     memcpy(before, finder->text, sizeof before);
-    bool enter =
-        wr_gui_text_field("##find", 0, finder->text, sizeof finder->text, app->dialog->fresh);
+    bool enter = wr_gui_text_field("##find", 0, finder->text, sizeof finder->text,
+                                   app->dialog->fresh || finder->empty);
     if (strcmp(before, finder->text) != 0) finder->chosen = 0;
     int count = find(app, found), go = -1;
     if (wr_gui_key_pressed(SDL_SCANCODE_DOWN)) finder->chosen++;
@@ -117,7 +117,9 @@ void wr_dialog_search(WrApp *app)
         if (row(app, &found[i], i, i == finder->chosen)) go = i;
     if (count == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No action has these words.");
     wr_gui_list_end();
-    if (enter && count > 0) go = finder->chosen;
+    /* Enter with nothing typed would run whatever stands first. */
+    finder->empty = enter && !finder->text[0] && finder->chosen == 0;
+    if (enter && count > 0 && !finder->empty) go = finder->chosen;
     if (go >= 0) run(app, found[go].name);
     else if (!app->dialog->fresh && wr_gui_escape_pressed()) wr_dialog_close(app);
     wr_gui_dialog_end();

@@ -5,6 +5,7 @@
 typedef struct WrFinder { /* the search for actions */
     char text[80];
     int chosen;
+    bool empty; /* Enter came with nothing typed: the field is to have the keys again */
 } WrFinder;
 
 void wr_dialog_search(WrApp *app);
