@@ -77,7 +77,7 @@ static const char *const instant[] = {
     "fill",         "open",
     "redo",         "cell",
     "sheet",        "export normal-baked",
-    "gltf",
+    "gltf",         "filter",
 };
 
 /* What generators need besides their defaults; those that read other files are tried elsewhere. */

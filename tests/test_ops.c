@@ -50,7 +50,7 @@ static void parameters_out_of_range_are_refused_with_name_and_value(void **state
                                       -INFINITY,
                                       bad->whole ? 0.5 : NAN };
             for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
-                double param[WR_OP_PARAMS];
+                double param[WR_OP_VALUES];
                 for (int q = 0; q < WR_OP_PARAMS; q++) param[q] = wr_ops[k].params[q].fallback;
                 param[p] = values[v];
                 WrError err = { "" };
@@ -335,7 +335,7 @@ static void tables_of_any_size_survive_every_operation(void **state)
             WrField *in =
                 noisy_table(sizes[s][0], sizes[s][1], wraps & 1 ? P : C, wraps & 2 ? P : C, s);
             for (int k = 0; k < wr_op_count; k++) {
-                double param[WR_OP_PARAMS];
+                double param[WR_OP_VALUES];
                 for (int p = 0; p < wr_op_param_count(&wr_ops[k]); p++)
                     param[p] = wr_ops[k].params[p].fallback;
                 if (strcmp(wr_ops[k].name, "crop") == 0) param[2] = sizes[s][0], param[3] = 1;

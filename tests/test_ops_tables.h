@@ -95,7 +95,7 @@ static inline double distance(const WrField *a, const WrField *b)
 /* One call of an operation: its name and parameters. */
 typedef struct OpCall {
     const char *name;
-    double param[WR_OP_PARAMS];
+    double param[WR_OP_VALUES];
 } OpCall;
 
 /* Every way in which an operation works that keeps the table's size, and filters alone first. */

@@ -223,6 +223,24 @@ static void the_archive_is_laid_out_as_the_format_wants(void **state)
     wr_document_free(document);
 }
 
+/* Programs that know no filters see through it. */
+static void a_filters_preview_is_transparent(void **state)
+{
+    (void)state;
+    WrDocument *document = make_document(33, 21);
+    WrFilter filter = wr_filter_of(wr_op_find("blur"));
+    document->solo = -1;
+    document->active = 0;
+    wr_document_add_filter(document, "soft", &filter);
+    save(document, "", "a.ora");
+    zip_t *archive = zip_open("a.ora", ZIP_RDONLY, NULL);
+    WrImage *image = picture_in(archive, "data/layer2.png");
+    for (int k = 0; k < 33 * 21; k++) assert_near(image->data[4 * k + 3], 0, 0);
+    wr_image_free(image);
+    zip_discard(archive);
+    wr_document_free(document);
+}
+
 static void previews_show_heights_over_the_stated_range(void **state)
 {
     (void)state;
@@ -553,7 +571,7 @@ static void a_newer_version_loads_and_says_so(void **state)
 {
     (void)state;
     static const char xml[] =
-        "<image w='1' h='1' xmlns:k='" WR_ORA_NAMESPACE "' k:version='5'><stack>"
+        "<image w='1' h='1' xmlns:k='" WR_ORA_NAMESPACE "' k:version='6'><stack>"
         "<layer src='data/a.png' k:blend='burn' k:glow='3'/></stack></image>";
     static const uint8_t code = 255;
     Part parts[] = { TYPE,
@@ -563,7 +581,7 @@ static void a_newer_version_loads_and_says_so(void **state)
     wr_free((char *)parts[2].bytes);
     WrText notes = { 0 };
     WrLoaded loaded = load("new.ora", &notes);
-    assert_true(loaded.newer_version == 5.0);
+    assert_true(loaded.newer_version == 6.0);
     assert_non_null(strstr(wr_text_get(&notes), "its blend mode is not known here"));
     assert_true(wr_field_get(loaded.document->layers[0].heights, 0, 0) == 1.0f);
     wr_text_fini(&notes);
@@ -620,6 +638,7 @@ int main(void)
         cmocka_unit_test(the_colour_picture_travels_along),
         cmocka_unit_test(the_same_document_gives_the_same_bytes_a_while_later),
         cmocka_unit_test(the_archive_is_laid_out_as_the_format_wants),
+        cmocka_unit_test(a_filters_preview_is_transparent),
         cmocka_unit_test(previews_show_heights_over_the_stated_range),
         cmocka_unit_test(a_strangers_layers_become_heights_and_coverage),
         cmocka_unit_test(a_file_of_ours_from_another_program_keeps_its_pictures),

@@ -59,6 +59,10 @@ static void make_line(TestRandom *random, int index, char *line, size_t size)
         snprintf(line, size, "table 96x80");
         return;
     }
+    if (index <= 2) {
+        snprintf(line, size, index == 1 ? "filter blur sigma=1.3 name=soft" : "layer use 1");
+        return;
+    }
     switch ((int)(7 * test_random(random))) {
     case 0:
     case 1:
@@ -69,7 +73,10 @@ static void make_line(TestRandom *random, int index, char *line, size_t size)
         snprintf(line, size, "stroke points=%.3f,%.3f;%.3f,%.3f;%.3f,%.3f,0.5 radius=%.1f", a, b, b,
                  c, c, a, 2 + 9 * a);
         break;
-    case 4: snprintf(line, size, "bump height=%.4f", a); break;
+    case 4:
+        if (b < 0.5) snprintf(line, size, "bump height=%.4f", a);
+        else snprintf(line, size, "filter blur sigma=%.4f layer=soft", 5 * a);
+        break;
     case 5: snprintf(line, size, index > 3 && c < 0.7 ? "undo" : "rotate %.0f,0,0", 90 * a); break;
     default: snprintf(line, size, "layer add opacity=%.2f", a); break;
     }

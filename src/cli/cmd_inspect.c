@@ -170,11 +170,17 @@ static void add_layer_json(WrText *text, const WrDocument *document, int index)
     wr_text_add_json_number(text, (double)layer->radius);
     wr_text_addf(text,
                  ",\"visible\":%s,\"locked\":%s,\"cover\":%s,\"mask\":%s,\"active\":%s,"
-                 "\"solo\":%s}",
+                 "\"solo\":%s",
                  layer->visible ? "true" : "false", layer->locked ? "true" : "false",
                  layer->cover ? "true" : "false", layer->mask ? "true" : "false",
                  document->active == index ? "true" : "false",
                  document->solo == index ? "true" : "false");
+    WrText filter = { 0 };
+    if (layer->filter.op) wr_filter_print(&layer->filter, &filter);
+    if (layer->filter.op) wr_text_add(text, ",\"filter\":");
+    if (layer->filter.op) wr_text_add_json_string(text, filter.data);
+    wr_text_add(text, "}");
+    wr_text_fini(&filter);
 }
 
 /* "  2 moss  max, opacity 0.5, hidden", top first, as they lie on each other. */
@@ -187,6 +193,10 @@ static void add_layer_text(WrText *text, const WrDocument *document, int index)
                  wr_number_print_float(layer->opacity, number));
     if (wr_blends[layer->blend].uses_radius)
         wr_text_addf(text, ", radius %s", wr_number_print_float(layer->radius, number));
+    if (layer->filter.op) {
+        wr_text_add(text, ", filter ");
+        wr_filter_print(&layer->filter, text);
+    }
     if (layer->mask) wr_text_add(text, ", masked");
     if (!layer->visible) wr_text_add(text, ", hidden");
     if (layer->locked) wr_text_add(text, ", locked");

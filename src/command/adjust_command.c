@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/op_args.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "field/ops.h"
@@ -13,7 +14,7 @@
 
 typedef struct Adjusting {
     const WrOpInfo *op;
-    double param[WR_OP_PARAMS];
+    WrFilter filter;
     WrOpOptions options;
 } Adjusting;
 
@@ -22,7 +23,7 @@ static bool run_on(const Adjusting *adjusting, WrField **field, WrError *err)
     if (!*field) return true;
     WrOpOptions options = adjusting->options;
     options.progress = wr_progress_here();
-    WrField *made = wr_op_run(adjusting->op, *field, adjusting->param, &options, err);
+    WrField *made = wr_op_run(adjusting->op, *field, adjusting->filter.param, &options, err);
     if (!made) return false;
     wr_field_free(*field);
     *field = made;
@@ -33,7 +34,7 @@ static bool run_on(const Adjusting *adjusting, WrField **field, WrError *err)
 static bool run_on_part(const Adjusting *adjusting, WrField **field, WrError *err)
 {
     if (!*field || !run_on(adjusting, field, err)) return !*field;
-    const double unit[WR_OP_PARAMS] = { 0, 1 };
+    const double unit[WR_OP_VALUES] = { 0, 1 };
     WrProgressPart quiet = { .progress = { 0 } }; /* a step back to 0 would only confuse */
     wr_progress_part(&quiet, wr_progress_here(), 0.0, 1.0);
     quiet.progress.report = NULL;
@@ -47,8 +48,9 @@ static bool run_on_part(const Adjusting *adjusting, WrField **field, WrError *er
 
 static bool run_on_layer(const Adjusting *adjusting, WrLayer *layer, WrError *err)
 {
-    if (!run_on(adjusting, &layer->heights, err)) return false;
     const WrOpInfo *op = adjusting->op;
+    const bool holds = !layer->filter.op || op->reshapes; /* a filter has no heights to change */
+    if (holds && !run_on(adjusting, &layer->heights, err)) return false;
     return !(op->moves || op->reshapes) || (run_on_part(adjusting, &layer->cover, err) &&
                                             run_on_part(adjusting, &layer->mask, err));
 }
@@ -75,9 +77,7 @@ bool wr_run_adjust(WrSession *session, WrCall *call, WrError *err)
     const WrOpInfo *op = adjusting.op;
     adjusting.options = (WrOpOptions){ .pool = session->options.pool };
     if (!op->reshapes) adjusting.options.mask = session->state.document->selection;
-    for (int i = 0; i < wr_op_param_count(op); i++)
-        adjusting.param[i] = op->params[i].choices ? wr_call_choice(call, op->params[i].name)
-                                                   : wr_call_number(call, op->params[i].name);
+    adjusting.filter = wr_call_filter(call, op);
     if (op->reshapes || wr_call_choice(call, "layers") == 1)
         return run_on_all(session, &adjusting, err);
     WrLayer *layer = wr_session_layer(session, err);
@@ -86,35 +86,15 @@ bool wr_run_adjust(WrSession *session, WrCall *call, WrError *err)
 
 static const char *const layer_choices[] = { "active", "all", NULL };
 
-/* ---- adjust ---- */
-
-static WrArgSpec op_argument(const WrOpParam *param)
-{
-    WrArgSpec spec = { .name = param->name,
-                       .type = WR_ARG_NUMBER,
-                       .low = param->low,
-                       .high = param->high,
-                       .above = param->above,
-                       .whole = param->whole,
-                       .fallback = &param->fallback,
-                       .unit = *param->unit ? param->unit : NULL,
-                       .help = param->help };
-    if (!param->choices) return spec;
-    spec.type = WR_ARG_CHOICE;
-    spec.words = param->choices;
-    spec.fallback = NULL;
-    spec.fallback_text = param->choices[(int)param->fallback];
-    return spec;
-}
+/* ---- the forms ---- */
 
 /* One form an operation. */
 static bool form_adjust(int i, WrForm *out)
 {
     if (i >= wr_op_count) return false;
     const WrOpInfo *op = &wr_ops[i];
-    int count = wr_op_param_count(op);
     *out = (WrForm){ .name = op->name, .help = op->help };
-    for (int k = 0; k < count; k++) out->args[k] = op_argument(&op->params[k]);
+    const int count = wr_op_args(op, out->args);
     if (op->reshapes) return true;
     out->args[count] = (WrArgSpec){ .name = "layers",
                                     .type = WR_ARG_CHOICE,

@@ -37,7 +37,7 @@ static uint64_t key_of(const WrSession *session, const WrScene *object)
     const int layer = wr_layer_named(document, object->layer);
     uint64_t key, height;
     if (form_of(object)) return object->triangles->key | 1;
-    key = layer >= 0 ? wr_layer_key(&document->layers[layer])
+    key = layer >= 0 ? wr_layer_key(document, layer)
                      : wr_field_key(wr_document_composite(document, session->options.pool));
     memcpy(&height, &object->height, sizeof height);
     return (key * 0x9e3779b97f4a7c15U ^ (object->colouring.steep ? height : 0)) | 1;

@@ -364,9 +364,11 @@ static const Price prices[] = {
     { "script", NULL, .count = NULL },
 };
 
+/* A filter layer costs what the operation costs over one table. */
 static const Price *find(const char *verb, const char *form)
 {
     const Price *any = NULL;
+    if (strcmp(verb, "filter") == 0) verb = "adjust";
     for (size_t i = 0; i < sizeof prices / sizeof *prices; i++) {
         const Price *p = &prices[i];
         if (strcmp(p->verb, verb) != 0) continue;

@@ -172,6 +172,8 @@ bool wr_session_follow(WrSession *session, WrError *err);
 /* The layer that edits change, or what stands in for its mask. NULL and an error if it is locked or not shown. */
 WrLayer *wr_session_layer(WrSession *session, WrError *err);
 bool wr_session_check_layer(const WrSession *session, WrError *err); /* only whether */
+/* Fails if that layer is a filter, which has none, unless edits go to its mask. */
+bool wr_session_check_heights(const WrSession *session, int index, WrError *err);
 /* "layer 2 \"moss\"": how messages name a layer. */
 const char *wr_session_layer_name(const WrSession *session, int index, WrText *buffer);
 /* Fails if that layer is locked. */

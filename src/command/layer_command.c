@@ -228,6 +228,9 @@ static bool layer_clear(WrSession *session, WrCall *call, WrError *err)
     int index;
     if (!find_unlocked(session, call, &index, err)) return false;
     WrLayer *layer = &document->layers[index];
+    if (layer->filter.op)
+        return wr_fail(err, "layer %d is a filter, without heights that could be cleared",
+                       index + 1);
     wr_session_put_field(session, &layer->heights, uniform(layer, 0.0f));
     if (layer->cover) wr_session_put_field(session, &layer->cover, uniform(layer, 0.0f));
     return true;

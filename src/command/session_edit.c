@@ -94,10 +94,23 @@ static bool check_shown(const WrSession *session, int index, WrError *err)
     return false;
 }
 
+bool wr_session_check_heights(const WrSession *session, int index, WrError *err)
+{
+    const WrLayer *layer = &session->state.document->layers[index];
+    if (!layer->filter.op || layer->on_mask) return true;
+    WrText name = { 0 };
+    wr_fail(err,
+            "%s is a filter, without heights of its own: `layer use` chooses another, or its mask",
+            wr_session_layer_name(session, index, &name));
+    wr_text_fini(&name);
+    return false;
+}
+
 bool wr_session_check_layer(const WrSession *session, WrError *err)
 {
     const int active = session->state.document->active;
-    return wr_session_check_unlocked(session, active, err) && check_shown(session, active, err);
+    return wr_session_check_unlocked(session, active, err) && check_shown(session, active, err) &&
+           wr_session_check_heights(session, active, err);
 }
 
 WrLayer *wr_session_layer(WrSession *session, WrError *err)

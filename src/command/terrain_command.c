@@ -111,7 +111,7 @@ static bool lags(const WrDocument *document, int i, int *index)
     if (!object->form_layer || object->shape.kind != WR_SURFACE_terrain) return false;
     *index = wr_layer_named(document, object->form_layer);
     return *index >= 0 &&
-           (!object->triangles || object->form_key != wr_layer_key(&document->layers[*index]));
+           (!object->triangles || object->form_key != wr_layer_key(document, *index));
 }
 
 static bool take_form(WrSession *session, WrScene *object, int index, WrError *err)
@@ -126,7 +126,7 @@ static bool take_form(WrSession *session, WrScene *object, int index, WrError *e
     wr_field_free(heights);
     if (!made) return false;
     wr_scene_set_triangles(object, made, NULL, NULL);
-    object->form_key = wr_layer_key(&document->layers[index]);
+    object->form_key = wr_layer_key(document, index);
     return true;
 }
 

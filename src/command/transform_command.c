@@ -150,6 +150,7 @@ static bool move_mask(Moving *m, WrLayer *layer, WrError *err)
 static bool move_layer(Moving *m, WrLayer *layer, WrError *err)
 {
     WrRelief piece = { NULL, NULL }, cover = { NULL, NULL };
+    if (layer->filter.op) return move_mask(m, layer, err);
     bool good = place(m, layer->heights, &piece, err) &&
                 (!layer->cover || place(m, layer->cover, &cover, err));
     if (good && !m->leave) {

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "document/composite.h"
 #include "field/field.h"
 #include "scene/scene.h"
@@ -33,6 +34,14 @@ WrLayer wr_layer_new(const char *name, const WrField *like)
 {
     WrLayer layer = layer_of(name, empty_like(like, 0.0f));
     layer.cover = empty_like(like, 0.0f);
+    return layer;
+}
+
+WrLayer wr_layer_of_filter(const char *name, const WrFilter *filter, const WrField *like)
+{
+    WrLayer layer = layer_of(name, empty_like(like, 0.0f));
+    layer.blend = WR_BLEND_MIX;
+    layer.filter = *filter;
     return layer;
 }
 
@@ -101,6 +110,13 @@ void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in)
     document->layers[stand_in->index].mask = mask;
     wr_field_free(stand_in->before);
     *stand_in = (WrStandIn){ .index = 0 };
+}
+
+bool wr_document_filters(const WrDocument *document)
+{
+    bool any = false;
+    for (int i = 0; i < document->layer_count; i++) any |= document->layers[i].filter.op != NULL;
+    return any;
 }
 
 bool wr_document_shows(const WrDocument *document, int index)
@@ -178,7 +194,7 @@ static bool is_plain(const WrDocument *document)
     const WrLayer *layer = &document->layers[0];
     const WrBlendMode *mode = &wr_blends[layer->blend];
     return document->layer_count == 1 && wr_document_shows(document, 0) && layer->opacity == 1.0f &&
-           !layer->mask &&
+           !layer->mask && !layer->filter.op &&
            (layer->blend == WR_BLEND_ADD || (mode->takes && !(mode->uses_cover && layer->cover)));
 }
 
@@ -208,6 +224,15 @@ void wr_document_insert(WrDocument *document, int index, WrLayer layer)
     document->layer_count++;
     document->active += document->active >= index;
     document->solo += document->solo >= index;
+}
+
+void wr_document_add_filter(WrDocument *document, const char *name, const WrFilter *filter)
+{
+    WrLayer layer = wr_layer_of_filter(name, filter, document->layers[0].heights);
+    layer.mask = share_or_null(document->selection);
+    const int place = document->active + 1;
+    wr_document_insert(document, place, layer);
+    document->active = place;
 }
 
 /* Close the gap of a layer that was taken out. */
@@ -268,6 +293,15 @@ static WrHash hash_field(const WrField *field, WrHash hash)
     return wr_hash_bytes(&texels, sizeof texels, hash);
 }
 
+static WrHash hash_filter(const WrFilter *filter, WrHash hash)
+{
+    WrText text = { 0 };
+    wr_filter_print(filter, &text);
+    hash = wr_hash_bytes(text.data, text.length, hash);
+    wr_text_fini(&text);
+    return hash;
+}
+
 static WrHash hash_layer(const WrLayer *layer, WrHash hash)
 {
     int32_t settings[3] = { (int32_t)layer->blend, layer->visible, layer->locked };
@@ -276,6 +310,7 @@ static WrHash hash_layer(const WrLayer *layer, WrHash hash)
     hash = wr_hash_bytes(settings, sizeof settings, hash);
     hash = wr_hash_bytes(numbers, sizeof numbers, hash);
     if (layer->on_mask) hash = wr_hash_bytes("mask", 4, hash);
+    if (layer->filter.op) hash = hash_filter(&layer->filter, hash);
     hash = hash_field(layer->heights, hash);
     hash = hash_field(layer->cover, hash);
     return hash_field(layer->mask, hash);

@@ -3,6 +3,7 @@
 #pragma once
 #include "base/hash.h"
 #include "document/blend.h"
+#include "field/ops.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -14,7 +15,8 @@ typedef struct WrScene WrScene;
 #define WR_LAYERS_MAX 256     /* of a document */
 #define WR_LAYER_NAME_MAX 255 /* bytes of a layer's name */
 
-/* One layer. All fields of a document have one size and one wrap. */
+/* One layer. A filter's heights are empty: what joins the layers below it is what the operation makes of
+   their composite, which is kept up to date. All fields of a document have one size and one wrap. */
 typedef struct WrLayer {
     char *name;       /* UTF-8, owned; names need not differ */
     WrField *heights; /* owned; shared tiles */
@@ -26,6 +28,7 @@ typedef struct WrLayer {
     bool visible;     /* hidden layers are not in the composite, and edits refuse them */
     bool locked;      /* edits refuse it */
     bool on_mask;     /* edits go to its mask, which it then has */
+    WrFilter filter;  /* op NULL: it is none */
 } WrLayer;
 
 typedef struct WrComposite WrComposite; /* private to the room */
@@ -53,7 +56,7 @@ void wr_document_swap_composites(WrDocument *document, WrDocument *from);
 void wr_document_free(WrDocument *document); /* NULL is fine */
 
 /* The composited F: the visible layers joined from the bottom up (compositor.h), or the solo layer alone
- * on the ground. A document of one plain layer (visible, opacity 1, no mask, taken as it is) has that
+ * on the ground (a filter alone: the layers up to it). A document of one plain layer (visible, opacity 1, no mask, taken as it is) has that
  * layer's heights themselves; otherwise tiles that changed since the last call are done again. Borrowed
  * until the next edit. Any number of threads may call it as long as nobody edits. */
 const WrField *wr_document_field(const WrDocument *document);
@@ -76,7 +79,9 @@ size_t wr_document_difference(const WrDocument *before, const WrDocument *after)
 
 /* A layer of the field's size and wrap, heights 0, saying nothing anywhere (cover 0), add, opacity 1. */
 WrLayer wr_layer_new(const char *name, const WrField *like);
-WrLayer wr_layer_share(const WrLayer *layer); /* a second one, fields shared */
+WrLayer wr_layer_of_filter(const char *name, const WrFilter *filter,
+                           const WrField *like); /* mix, opacity 1 */
+WrLayer wr_layer_share(const WrLayer *layer);    /* a second one, fields shared */
 void wr_layer_fini(WrLayer *layer);
 /* What edits are to change: the active layer itself; or, where they go to its mask, `stand_in`, a plain layer of the
  * mask's values as heights, which shares its texels with the mask as long as they are written in place. Every
@@ -89,13 +94,16 @@ typedef struct WrStandIn {
 WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in);
 /* The mask is what was made of it, kept to 0..1. Does nothing without a beginning. */
 void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in);
+bool wr_document_filters(const WrDocument *document); /* is any of its layers a filter? */
 /* Is it shown: visible, and no other layer alone? */
 bool wr_document_shows(const WrDocument *document, int index);
 
 /* Structural changes keep `active` and `solo` at the layers that they meant; where one of these goes away,
    active falls to the layer below (else above), solo to none. */
 void wr_document_insert(WrDocument *document, int index, WrLayer layer); /* takes it */
-void wr_document_remove(WrDocument *document, int index);                /* not the last one */
+/* A filter above the active layer, which becomes active. What is selected is its mask. */
+void wr_document_add_filter(WrDocument *document, const char *name, const WrFilter *filter);
+void wr_document_remove(WrDocument *document, int index); /* not the last one */
 void wr_document_move(WrDocument *document, int from, int to);
 /* One layer "base" of these heights (taken) in the place of all; no selection. */
 void wr_document_start_over(WrDocument *document, WrField *heights);

@@ -11,7 +11,8 @@
    Attributes of part 0: wrinkle:version (of this format), wrinkle:program, wrinkle:scene (canonical command
    lines; the tolerance's with the dials that were chosen for it), wrinkle:wrap ("periodic", "clamp-u", ...), wrinkle:zero, wrinkle:range, wrinkle:active (number of the
    layer that edits change), wrinkle:solo (of the layer shown alone, 0: none). Of a layer: wrinkle:layer,
-   wrinkle:blend, wrinkle:opacity, wrinkle:radius, wrinkle:visible and wrinkle:locked ("on", "off").
+   wrinkle:blend, wrinkle:opacity, wrinkle:radius, wrinkle:visible and wrinkle:locked ("on", "off"); of a filter layer,
+   whose heights are 0, wrinkle:filter, its operation and values ("blur sigma=3").
 
    A document of one layer that is F bit for bit, with nothing that needs a part (coverage, mask, selection,
    pictures, mesh), is a file of that one part, with the layer's attributes beside the file's: many programs open
@@ -21,7 +22,7 @@
    several is still written as version 2; version 3 no mesh, version 4 no normal map and
    no objects with different meshes, version 5 no surroundings, version 6 no size of the cell,
    solid textures, tone, relief shadows and displaced surfaces, version 7 no pictures of roughness and metalness, occlusion, parallax,
-   round lamps, colours of hollows and sheets. All are read. */
+   round lamps, colours of hollows and sheets, version 8 no filter layers. All are read. */
 #pragma once
 #include "scene/objects.h"
 #include "field/wrap.h"
@@ -37,8 +38,9 @@ typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
-#define WR_DOCUMENT_VERSION 8
-#define WR_DOCUMENT_VERSION_CELL 7 /* of a file without what came after (age.h) */
+#define WR_DOCUMENT_VERSION 9
+#define WR_DOCUMENT_VERSION_FACETS 8 /* of a file without filter layers */
+#define WR_DOCUMENT_VERSION_CELL 7   /* of a file without what came after (age.h) */
 #define WR_DOCUMENT_VERSION_SURROUND                                                               \
     6 /* of a file without a size of its cell, and what came with it */
 #define WR_DOCUMENT_VERSION_OBJECTS 5 /* of a file without surroundings */

@@ -290,6 +290,19 @@ static bool read_switch(Loading *in, int part, const char *name, bool *out, WrEr
     return true;
 }
 
+/* What a filter of the file's own time is; one that we do not know leaves a layer of nothing. */
+static bool read_filter(Loading *in, int part, WrFilter *out, WrError *err)
+{
+    const char *text = wr_image_file_attribute(in->file, part, "wrinkle:filter");
+    WrError why = { "" };
+    WrFilter filter;
+    if (!text) return true;
+    if (wr_filter_parse(text, &filter, &why)) *out = filter;
+    else if (!in->newer)
+        return wr_fail(err, "%s: damaged: filter '%.40s' of a layer: %s", in->path, text, why.text);
+    return true;
+}
+
 static bool read_blend(Loading *in, int part, WrBlend *out, WrError *err)
 {
     const char *text = wr_image_file_attribute(in->file, part, "wrinkle:blend");
@@ -324,6 +337,7 @@ static bool read_layer(Loading *in, int index, WrLayer *out, WrError *err)
                 read_number(in, slot.heights, "wrinkle:opacity", 1.0, &layer.opacity, err) &&
                 read_number(in, slot.heights, "wrinkle:radius", 3.4028234663852886e38,
                             &layer.radius, err) &&
+                read_filter(in, slot.heights, &layer.filter, err) &&
                 read_switch(in, slot.heights, "wrinkle:visible", &layer.visible, err) &&
                 read_switch(in, slot.heights, "wrinkle:locked", &layer.locked, err) &&
                 read_switch(in, slot.heights, "wrinkle:on-mask", &layer.on_mask, err) &&

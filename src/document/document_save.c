@@ -20,7 +20,7 @@
 #endif
 
 #define FILE_ATTRIBUTES 8
-#define LAYER_ATTRIBUTES 7
+#define LAYER_ATTRIBUTES 8
 #define PARTS_MAX                                                                                  \
     (3 + WR_OBJECT_PICTURES * WR_OBJECTS_MAX +                                                     \
      3 * WR_LAYERS_MAX) /* F, selection, mesh, pictures; heights, cover, mask of a layer */
@@ -149,7 +149,8 @@ static int version_of(const Saving *to)
 {
     const WrScene *scene = to->document->scene;
     const WrSceneAge age = wr_scene_age(scene);
-    if (age == WR_SCENE_OF_FACETS) return WR_DOCUMENT_VERSION;
+    if (wr_document_filters(to->document)) return WR_DOCUMENT_VERSION;
+    if (age == WR_SCENE_OF_FACETS) return WR_DOCUMENT_VERSION_FACETS;
     if (age == WR_SCENE_OF_CELL) return WR_DOCUMENT_VERSION_CELL;
     if (scene->environment.kind != WR_SURROUND_OFF) return WR_DOCUMENT_VERSION_SURROUND;
     if (wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene))
@@ -191,7 +192,15 @@ static const char *part_name(Saving *to, int layer)
     return keep(to, text);
 }
 
-static void describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATTRIBUTES])
+static const char *keep_filter(Saving *to, const WrFilter *filter)
+{
+    WrText text = { 0 };
+    wr_filter_print(filter, &text);
+    return keep(to, text);
+}
+
+/* How many attributes the layer has. */
+static int describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATTRIBUTES])
 {
     const WrLayer *layer = &to->document->layers[index];
     const WrImageAttribute attributes[LAYER_ATTRIBUTES] = {
@@ -204,15 +213,19 @@ static void describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATT
         { "wrinkle:on-mask", layer->on_mask ? "on" : "off" },
     };
     memcpy(out, attributes, sizeof attributes);
+    if (!layer->filter.op) return LAYER_ATTRIBUTES - 1;
+    out[LAYER_ATTRIBUTES - 1] =
+        (WrImageAttribute){ "wrinkle:filter", keep_filter(to, &layer->filter) };
+    return LAYER_ATTRIBUTES;
 }
 
 static void add_layer(Saving *to, int index)
 {
     const WrLayer *layer = &to->document->layers[index];
-    describe_layer(to, index, to->of_layers[index]);
+    int count = describe_layer(to, index, to->of_layers[index]);
     WrImageOut *part = add_field(to, layer->heights, part_name(to, index));
     part->attributes = to->of_layers[index];
-    part->attribute_count = LAYER_ATTRIBUTES;
+    part->attribute_count = count;
     if (layer->cover) add_field(to, layer->cover, keep_whole(to, WR_DOCUMENT_COVER, index + 1));
     if (layer->mask) add_field(to, layer->mask, keep_whole(to, WR_DOCUMENT_MASK, index + 1));
 }
@@ -220,8 +233,8 @@ static void add_layer(Saving *to, int index)
 /* The only layer's settings go beside the file's. */
 static void add_layer_to_composite(Saving *to)
 {
-    describe_layer(to, 0, to->of_file + FILE_ATTRIBUTES);
-    to->parts[0].attribute_count = FILE_ATTRIBUTES + LAYER_ATTRIBUTES;
+    to->parts[0].attribute_count =
+        FILE_ATTRIBUTES + describe_layer(to, 0, to->of_file + FILE_ATTRIBUTES);
 }
 
 static bool same_bits(const WrField *a, const WrField *b)
@@ -283,8 +296,8 @@ static bool has_pictures(const WrScene *scene)
 static bool fits_one_part(const WrDocument *document)
 {
     const WrLayer *layer = &document->layers[0];
-    return document->layer_count == 1 && !layer->cover && !layer->mask && !document->selection &&
-           !has_pictures(document->scene) && !document->scene->triangles &&
+    return document->layer_count == 1 && !layer->filter.op && !layer->cover && !layer->mask &&
+           !document->selection && !has_pictures(document->scene) && !document->scene->triangles &&
            same_bits(wr_document_field(document), layer->heights);
 }
 

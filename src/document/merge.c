@@ -50,6 +50,7 @@ static double unit(double x)
 
 static bool is_additive(const WrLayer *layer)
 {
+    if (layer->filter.op) return false;
     return layer->blend == WR_BLEND_ADD || layer->blend == WR_BLEND_SUBTRACT;
 }
 

@@ -27,7 +27,8 @@
 typedef struct WrText WrText;
 
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
-#define WR_ORA_VERSION 4
+#define WR_ORA_VERSION 5
+#define WR_ORA_VERSION_FACETS 4  /* of a file without filter layers */
 #define WR_ORA_VERSION_CELL 3    /* of a file without what came after (age.h) */
 #define WR_ORA_VERSION_OBJECTS 2 /* of a file without a size of its cell, and what came with it */
 #define WR_ORA_VERSION_PLAIN 1   /* of a file without normal maps or different meshes */

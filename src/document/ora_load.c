@@ -209,6 +209,19 @@ static char *find_name(const WrOraLayer *from, int number)
     return name;
 }
 
+static bool read_filter(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
+{
+    WrError why = { "" };
+    WrFilter filter;
+    if (!from->filter) return true;
+    if (wr_filter_parse(from->filter, &filter, &why)) layer->filter = filter;
+    else if (in->newer) note(in, layer->name, "its filter is not known here: it does nothing");
+    else
+        return wr_fail(err, "%s: damaged: filter '%.40s' of layer '%.80s': %s", in->path,
+                       from->filter, layer->name, why.text);
+    return true;
+}
+
 /* The one place where attributes become a layer's settings; ora_save.c has the way there. */
 static bool read_settings(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
 {
@@ -239,7 +252,7 @@ static bool read_settings(Loading *in, const WrOraLayer *from, WrLayer *layer, W
         return wr_fail(err, "%s: damaged: radius '%.40s' of layer '%.80s' must be 0 or more",
                        in->path, from->radius, layer->name);
     layer->radius = (float)radius;
-    return true;
+    return read_filter(in, from, layer, err);
 }
 
 static bool read_layer(Loading *in, const WrOraLayer *from, int number, WrLayer *out, WrError *err)

@@ -240,13 +240,14 @@ static bool add_layer_preview(Saving *to, char *name, int index, WrError *err)
     const WrLayer *layer = &to->document->layers[index];
     if (index == to->lowest)
         return add_preview(to, (Entry){ .name = name, .heights = to->ground }, err);
-    return add_preview(to,
-                       (Entry){ .name = name,
-                                .heights = layer->heights,
-                                .cover = layer->cover,
-                                .mask = layer->mask,
-                                .showing = wr_ora_showing(layer->blend) },
-                       err);
+    return add_preview(
+        to,
+        (Entry){ .name = name,
+                 .heights = layer->heights,
+                 .cover = layer->filter.op ? layer->heights : layer->cover,
+                 .mask = layer->mask,
+                 .showing = layer->filter.op ? WR_ORA_HEIGHTS : wr_ora_showing(layer->blend) },
+        err);
 }
 
 static bool add_image(Saving *to, const WrImage *image, char *name, const char *attribute,
@@ -363,6 +364,7 @@ static bool add_layer(Saving *to, int index, WrError *err)
     if (layer->on_mask) wr_ora_add_attribute(xml, "wrinkle:on-mask", "on");
     wr_ora_add_attribute(xml, "wrinkle:blend", wr_blends[layer->blend].name);
     wr_ora_add_float(xml, "wrinkle:radius", layer->radius);
+    wr_ora_add_filter(xml, &layer->filter);
     bool good =
         add_layer_preview(to, png, index, err) &&
         add_field(to, "wrinkle:heights", numbered("data/layer", number, ".exr"), layer->heights,
@@ -385,7 +387,7 @@ static bool add_image_attributes(Saving *to, WrError *err)
                  "h=\"%d\" xmlns:wrinkle=\"" WR_ORA_NAMESPACE "\" wrinkle:version=\"%d\" "
                  "wrinkle:wrap=\"%s\" wrinkle:range=\"%s,%s\" wrinkle:active=\"%d\" "
                  "wrinkle:solo=\"%d\" wrinkle:scene=\"data/scene.wrinkle\"",
-                 wr_field_width(f), wr_field_height(f), wr_ora_version(document->scene),
+                 wr_field_width(f), wr_field_height(f), wr_ora_version(document),
                  wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)),
                  wr_number_print_float(to->range.low, low),
                  wr_number_print_float(to->range.high, high), document->active + 1,

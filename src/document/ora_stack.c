@@ -188,18 +188,21 @@ static void add_layer(Reading *reading, const char **attributes)
                          .mask = wr_strdup(find(attributes, OURS "mask")),
                          .blend = wr_strdup(find(attributes, OURS "blend")),
                          .radius = wr_strdup(find(attributes, OURS "radius")),
+                         .filter = wr_strdup(find(attributes, OURS "filter")),
                          .name_bytes = wr_strdup(find(attributes, OURS "name")),
                          .own_opacity = wr_strdup(find(attributes, OURS "opacity")),
                          .own_visible = wr_strdup(find(attributes, OURS "visible")) };
     wr_array_push(&reading->stack->layers, layer);
 }
 
-int wr_ora_version(const WrScene *scene)
+int wr_ora_version(const WrDocument *document)
 {
+    const WrScene *scene = document->scene;
     const bool new =
         wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
     const WrSceneAge age = wr_scene_age(scene);
-    if (age == WR_SCENE_OF_FACETS) return WR_ORA_VERSION;
+    if (wr_document_filters(document)) return WR_ORA_VERSION;
+    if (age == WR_SCENE_OF_FACETS) return WR_ORA_VERSION_FACETS;
     if (age == WR_SCENE_OF_CELL) return WR_ORA_VERSION_CELL;
     return new ? WR_ORA_VERSION_OBJECTS : WR_ORA_VERSION_PLAIN;
 }
@@ -304,9 +307,11 @@ void wr_ora_stack_fini(WrOraStack *stack)
 {
     for (int i = 0; i < stack->layers.count; i++) {
         WrOraLayer *layer = &stack->layers.data[i];
-        char *texts[] = { layer->name,       layer->src,         layer->operation,  layer->heights,
-                          layer->cover,      layer->mask,        layer->blend,      layer->radius,
-                          layer->name_bytes, layer->own_opacity, layer->own_visible };
+        char *texts[] = {
+            layer->name,       layer->src,         layer->operation,   layer->heights,
+            layer->cover,      layer->mask,        layer->blend,       layer->radius,
+            layer->name_bytes, layer->own_opacity, layer->own_visible, layer->filter
+        };
         for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     }
     wr_array_free(&stack->layers);
@@ -330,4 +335,13 @@ void wr_ora_add_name(WrText *xml, const char *name)
     wr_text_add(xml, " wrinkle:name=\"");
     for (; *name; name++) wr_text_addf(xml, "%02x", (unsigned)(unsigned char)*name);
     wr_text_add(xml, "\"");
+}
+
+void wr_ora_add_filter(WrText *xml, const WrFilter *filter)
+{
+    WrText text = { 0 };
+    if (!filter->op) return;
+    wr_filter_print(filter, &text);
+    wr_ora_add_attribute(xml, "wrinkle:filter", wr_text_get(&text));
+    wr_text_fini(&text);
 }

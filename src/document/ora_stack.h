@@ -5,10 +5,12 @@
 #include "base/array.h"
 #include "document/blend.h"
 #include "document/document_file.h"
+#include "field/ops.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 
+typedef struct WrDocument WrDocument;
 typedef struct WrError WrError;
 typedef struct WrText WrText;
 
@@ -21,6 +23,7 @@ typedef struct WrOraLayer {
     bool locked, selected;
     char *operation;                                            /* composite-op */
     char *heights, *cover, *mask, *blend, *radius, *name_bytes; /* ours */
+    char *filter;                                               /* ours */
     char *own_opacity, *own_visible; /* ours, where others are told otherwise */
     bool on_mask;                    /* ours */
 } WrOraLayer;
@@ -46,6 +49,7 @@ WrBlend wr_ora_blend(const char *operation, bool *exact);
 /* name="value", escaped, with a space before it. What XML cannot hold becomes '?'; false if there was such. */
 bool wr_ora_add_attribute(WrText *xml, const char *name, const char *value);
 void wr_ora_add_float(WrText *xml, const char *name, float value);
+void wr_ora_add_filter(WrText *xml, const WrFilter *filter); /* nothing of none */
 /* The name as an attribute, beside it as hex digits where XML cannot hold it. */
 void wr_ora_add_name(WrText *xml, const char *name);
 /* The attribute that names the entry of an object's picture, and that entry: PREFIXcolour, PREFIXcolour-2, ... and the
@@ -53,4 +57,4 @@ void wr_ora_add_name(WrText *xml, const char *name);
 #define WR_ORA_PICTURE_NAME 64
 const char *wr_ora_picture_name(const char *prefix, int object, int which, const char *suffix,
                                 char buffer[WR_ORA_PICTURE_NAME]);
-int wr_ora_version(const WrScene *scene); /* of a file of it */
+int wr_ora_version(const WrDocument *document); /* of a file of it */

@@ -1,6 +1,8 @@
 #include "document/tables.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "document/document.h"
 #include "field/field.h"
 
@@ -16,7 +18,8 @@ int wr_layer_named(const WrDocument *document, const char *name)
 /* What the layer's heights alone are: they themselves, where all of them show as they are. */
 static bool is_plain(const WrLayer *layer)
 {
-    return !layer->cover && !layer->mask && layer->opacity == 1.0f && layer->blend == WR_BLEND_ADD;
+    return !layer->cover && !layer->mask && !layer->filter.op && layer->opacity == 1.0f &&
+           layer->blend == WR_BLEND_ADD;
 }
 
 static WrField *field_of(const WrDocument *document, int index, WrDocument **cached, WrPool *pool)
@@ -37,9 +40,9 @@ WrField *wr_document_layer_alone(const WrDocument *document, int index, WrPool *
     return field_of(document, index, NULL, pool);
 }
 
-uint64_t wr_layer_key(const WrLayer *layer)
+static uint64_t key_of(const WrLayer *layer, uint64_t key)
 {
-    uint32_t how[3] = { (uint32_t)layer->blend };
+    uint32_t how[3] = { (uint32_t)layer->blend | (uint32_t)layer->visible << 8 };
     memcpy(how + 1, &layer->opacity, sizeof *how);
     memcpy(how + 2, &layer->radius, sizeof *how);
     const uint64_t part[] = { wr_field_key(layer->heights),
@@ -48,9 +51,25 @@ uint64_t wr_layer_key(const WrLayer *layer)
                               how[0],
                               how[1],
                               how[2] };
-    uint64_t key = 1;
     for (size_t i = 0; i < sizeof part / sizeof *part; i++)
         key = (key ^ part[i]) * 0x9e3779b97f4a7c15U, key ^= key >> 32;
+    return key;
+}
+
+/* A filter shows what lies below it too. */
+uint64_t wr_layer_key(const WrDocument *document, int index)
+{
+    const WrFilter *filter = &document->layers[index].filter;
+    const int first = filter->op ? 0 : index;
+    uint64_t key = 1;
+    for (int i = first; i <= index; i++) {
+        key = key_of(&document->layers[i], key);
+        WrText text = { 0 };
+        if (document->layers[i].filter.op) wr_filter_print(&document->layers[i].filter, &text);
+        WrHash hash = wr_hash_bytes(wr_text_get(&text), text.length, (WrHash){ key, 0 });
+        key = hash.low ^ hash.high;
+        wr_text_fini(&text);
+    }
     return key;
 }
 

@@ -30,7 +30,7 @@ WrTables *wr_document_tables(const WrDocument *document, const WrScene *scene, W
                              WrPool *pool);
 /* What layer `index` alone is; the caller owns it. And a number that tells whether that may be another by now. */
 WrField *wr_document_layer_alone(const WrDocument *document, int index, WrPool *pool);
-uint64_t wr_layer_key(const WrLayer *layer);
+uint64_t wr_layer_key(const WrDocument *document, int index);
 /* The uppermost layer of that name; -1: there is none, as of NULL. */
 int wr_layer_named(const WrDocument *document, const char *name);
 WrTables *wr_tables_share(const WrTables *tables); /* NULL stays NULL */

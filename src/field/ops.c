@@ -224,19 +224,6 @@ int wr_op_param_count(const WrOpInfo *op)
     return count;
 }
 
-static bool check_param(const WrOpInfo *op, const WrOpParam *param, double value, WrError *err)
-{
-    bool inside =
-        value >= param->low && value <= param->high && (!param->above || value > param->low);
-    if (inside && (!param->whole || value == floor(value))) return true;
-    if (param->choices)
-        return wr_fail(err, "%s: %s %g: must be the number of one of its words, 0..%g", op->name,
-                       param->name, value, param->high);
-    return wr_fail(err, "%s: %s %g: must be %s%s %g..%g%s%s", op->name, param->name, value,
-                   param->whole ? "a whole number" : "a number", param->above ? " above" : ",",
-                   param->low, param->high, *param->unit ? " " : "", param->unit);
-}
-
 static bool check_mask(const WrOpInfo *op, const WrField *in, const WrField *mask, WrError *err)
 {
     if (!mask) return true;
@@ -254,19 +241,20 @@ WrField *wr_op_run(const WrOpInfo *op, const WrField *in, const double *param,
                    const WrOpOptions *options, WrError *err)
 {
     static const WrOpOptions none;
-    double value[WR_OP_PARAMS];
+    const WrFilter usual = wr_filter_of(op);
     if (!options) options = &none;
-    for (int k = 0; k < wr_op_param_count(op); k++) {
-        value[k] = param ? param[k] : op->params[k].fallback;
-        if (!check_param(op, &op->params[k], value[k], err)) return NULL;
-    }
+    if (!param) param = usual.param;
+    if (!wr_op_check_params(op, param, err)) return NULL;
     if (!check_mask(op, in, options->mask, err)) return NULL;
+    WR_ASSERT(!options->was || !options->mask);
     WrOpJob job = { .name = op->name,
                     .in = in,
                     .mask = options->mask,
+                    .was = options->was,
+                    .made = options->made,
                     .pool = options->pool,
                     .progress = options->progress,
                     .to = 1.0,
                     .err = err };
-    return op->run(&job, value);
+    return op->run(&job, param);
 }

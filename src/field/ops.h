@@ -22,6 +22,7 @@ typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
+typedef struct WrText WrText;
 
 /* What `filter` of resize may be: box is the mean of what a texel covers. */
 #define WR_RESIZE_FILTERS(X)                                                                       \
@@ -31,7 +32,9 @@ typedef struct WrProgress WrProgress;
     X(WR_RESIZE_LANCZOS3, "lanczos3")
 enum { WR_RESIZE_FILTERS(WR_WORD_ID) };
 
-#define WR_OP_PARAMS 6 /* parameters of one operation, at most */
+#define WR_OP_PARAMS 6  /* parameters of one operation, at most */
+#define WR_OP_POINTS 16 /* points of one that is a list of points, at most */
+#define WR_OP_VALUES (WR_OP_PARAMS + 2 * WR_OP_POINTS) /* the numbers of all of them, at most */
 
 typedef struct WrOpParam {
     const char *name;           /* as in commands: "sigma"; NULL ends the list */
@@ -45,13 +48,19 @@ typedef struct WrOpParam {
     bool above;                 /* `low` itself is excluded */
     const char *const
         *choices; /* words, ends with NULL; the value is the word's index. NULL: a number */
+    const double
+        *points; /* the default of a list of points x,y: their number, then theirs. Such a parameter
+                             is the last of an operation; low and high are of its numbers. NULL: no list */
 } WrOpParam;
 
 /* What an operation may be given besides its table and its parameters. */
 typedef struct WrOpOptions {
     const WrField *mask; /* selection, 0..1 (clamped), of the table's size; NULL = everything.
                             result = in + mask (op - in); where it is 0 a texel keeps its bits */
-    WrPool *pool;        /* NULL: the calling thread alone */
+    const WrField *was,  /* what the same operation with the same parameters was given before, */
+        *made;    /* and what it made of that: only what may differ is done again. Both, of the
+                            table's size and without mask; or NULL */
+    WrPool *pool; /* NULL: the calling thread alone */
     const WrProgress *progress; /* NULL: no reports, no cancelling */
 } WrOpOptions;
 
@@ -78,7 +87,8 @@ int wr_op_param_count(const WrOpInfo *op);
 /* Carry out an operation.
  *
  * in       read only; no writer may run meanwhile
- * param    [wr_op_param_count(op)] in the order of op->params; NULL = all defaults
+ * param    [wr_op_param_count(op)] in the order of op->params, a list of points as their number and then
+ *          the points' numbers; NULL = all defaults
  * options  NULL = whole table, one thread, no reports
  * Returns  a new table, the caller's; NULL and an error for a parameter out of its range or not finite, a
  *          mask of another size or where none is taken, no memory for scratch space, or when cancelled
@@ -87,3 +97,19 @@ int wr_op_param_count(const WrOpInfo *op);
  *          two */
 WrField *wr_op_run(const WrOpInfo *op, const WrField *in, const double *param,
                    const WrOpOptions *options, WrError *err);
+
+/* An operation with its values, which is carried out again whenever what lies below it changes. */
+typedef struct WrFilter {
+    const WrOpInfo *op; /* NULL: none */
+    double param[WR_OP_VALUES];
+} WrFilter;
+
+/* With all values at their defaults. */
+WrFilter wr_filter_of(const WrOpInfo *op);
+bool wr_filter_same(const WrFilter *a, const WrFilter *b);
+/* Check that it may stand over a table: that it keeps the table's size, and its values. */
+bool wr_filter_check(const WrFilter *filter, WrError *err);
+/* "blur sigma=3": the operation and all its values, as `adjust` takes them. */
+void wr_filter_print(const WrFilter *filter, WrText *text);
+/* Read what was printed and check it; values that are not there are the defaults. */
+bool wr_filter_parse(const char *text, WrFilter *filter, WrError *err);

@@ -109,7 +109,8 @@ static WrField *run_blur(WrOpJob *job, double sigma, double amount)
                           .ctx = &blur,
                           .scratch = sizeof(float) * (READ_PITCH * WIDE + MID_PITCH * WIDE),
                           .input = { (size_t)blur.reach * (READ_PITCH + 1), READ_PITCH },
-                          .reach = blur.reach };
+                          .reach = blur.reach,
+                          .window = 2 * blur.reach + 1 };
         return wr_op_build_same(job, &work);
     }
     WrOpPlane plane;

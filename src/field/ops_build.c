@@ -26,9 +26,12 @@ typedef struct Build {
     const WrOpJob *job;
     const WrOpWork *work;
     WrField *out;
-    bool same;   /* out is the input but for what was made */
-    bool blends; /* out is a share of the input: the mask applies */
-    int blocks_u, first;
+    const WrField
+        *base;   /* what is where nothing changes; `out` itself, but where little is done again */
+    bool same;   /* base is the input */
+    bool blends; /* base is a share of the input: the mask applies */
+    WrOpBlock *blocks; /* [count], those that are done again; NULL: all */
+    int count, blocks_u, first;
     float (*result)[SIDE * SIDE]; /* [BATCH] */
     Bench *bench;                 /* [threads] */
     char *scratch;                /* [threads][scratch_pitch] */
@@ -44,6 +47,7 @@ static int min_int(int a, int b)
 
 static WrOpBlock block_at(const Build *build, int index)
 {
+    if (build->blocks) return build->blocks[index];
     int i = index % build->blocks_u * SIDE, j = index / build->blocks_u * SIDE;
     return (WrOpBlock){ i, j, min_int(SIDE, wr_field_width(build->out) - i),
                         min_int(SIDE, wr_field_height(build->out) - j) };
@@ -164,7 +168,7 @@ static const float *read_before(const Build *build, const WrOpBlock *b, const ch
         *pitch = work->input.pitch;
         return (const float *)(const void *)scratch + work->input.at;
     }
-    wr_field_read(build->out, b->i, b->j, b->count_i, b->count_j, bench->before, SIDE);
+    wr_field_read(build->base, b->i, b->j, b->count_i, b->count_j, bench->before, SIDE);
     return bench->before;
 }
 
@@ -210,12 +214,23 @@ static float *open_tile(Build *build, WrOpBlock b, int t)
                                                                b.j / WR_TILE + y);
 }
 
+/* What is done again may now be what the base has. */
+static void put_base(Build *build, WrOpBlock b, int t)
+{
+    int x = t % ACROSS, y = t / ACROSS, tx = b.i / WR_TILE + x, ty = b.j / WR_TILE + y;
+    if (build->out == build->base || x * WR_TILE >= b.count_i || y * WR_TILE >= b.count_j) return;
+    if (wr_field_tile(build->out, tx, ty) != wr_field_tile(build->base, tx, ty))
+        wr_field_tile_share(build->out, build->base, tx, ty);
+}
+
 static void fetch_tiles(Build *build, int count)
 {
     for (int index = 0; index < count; index++) {
         WrOpBlock b = block_at(build, build->first + index);
-        for (int t = 0; t < BLOCK_TILES; t++)
+        for (int t = 0; t < BLOCK_TILES; t++) {
             build->tile[index][t] = build->changed[index][t] ? open_tile(build, b, t) : NULL;
+            if (!build->changed[index][t]) put_base(build, b, t);
+        }
     }
 }
 
@@ -236,7 +251,7 @@ static void fill_tiles(int index, int worker, void *ctx)
 
 static bool run_batches(Build *build)
 {
-    int count = build->blocks_u * ((wr_field_height(build->out) + SIDE - 1) / SIDE);
+    const int count = build->count;
     if (!wr_op_step(build->job, 0.0)) return false;
     for (int first = 0; first < count; first += BATCH) {
         int blocks = min_int(BATCH, count - first);
@@ -260,6 +275,28 @@ WrField *wr_op_base(const WrOpJob *job, int width, int height, WrWrap wrap_u, Wr
     return wr_field_new(width, height, wrap_u, wrap_v, wr_field_level(in), job->err);
 }
 
+static bool same_shape(const WrField *a, const WrField *b)
+{
+    const float x = wr_field_level(a), y = wr_field_level(b);
+    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b) &&
+           wr_field_wrap_u(a) == wr_field_wrap_u(b) && wr_field_wrap_v(a) == wr_field_wrap_v(b) &&
+           memcmp(&x, &y, sizeof x) == 0;
+}
+
+/* Which blocks there are, and what they are written over. */
+static void plan_blocks(Build *build, WrField *base)
+{
+    const WrOpJob *job = build->job;
+    const int window = build->work->window;
+    build->blocks_u = (wr_field_width(base) + SIDE - 1) / SIDE;
+    build->count = build->blocks_u * ((wr_field_height(base) + SIDE - 1) / SIDE);
+    build->base = build->out = base;
+    if (!job->was || window == 0 || !same_shape(job->was, job->in) || !same_shape(job->made, base))
+        return;
+    build->blocks = wr_op_changed_blocks(job, window / 2, &build->count);
+    build->out = wr_field_share(job->made);
+}
+
 WrField *wr_op_build(const WrOpJob *job, WrField *base, const WrOpWork *work)
 {
     if (!base) return NULL;
@@ -268,24 +305,27 @@ WrField *wr_op_build(const WrOpJob *job, WrField *base, const WrOpWork *work)
     Build *build = wr_alloc(1, sizeof *build);
     build->job = job;
     build->work = work;
-    build->out = base;
     build->same = same;
+    plan_blocks(build, base);
     build->blends = wr_field_width(base) == wr_field_width(job->in) &&
                     wr_field_height(base) == wr_field_height(job->in);
-    build->blocks_u = (wr_field_width(base) + SIDE - 1) / SIDE;
     build->scratch_pitch = (work->scratch + WR_ALIGN) / WR_ALIGN * WR_ALIGN;
-    build->result = wr_try_alloc(BATCH, sizeof *build->result, job->name, job->err);
+    build->result = wr_try_alloc((size_t)min_int(BATCH, build->count) + 1, sizeof *build->result,
+                                 job->name, job->err);
     if (build->result)
         build->bench = wr_try_alloc(threads, sizeof *build->bench, job->name, job->err);
     if (build->bench)
         build->scratch = wr_try_alloc(threads, build->scratch_pitch, job->name, job->err);
     bool good = build->scratch && run_batches(build);
+    WrField *out = build->out;
+    if (out != base) wr_field_free(base);
+    wr_free(build->blocks);
     wr_free(build->result);
     wr_free(build->bench);
     wr_free(build->scratch);
     wr_free(build);
-    if (good) return base;
-    wr_field_free(base);
+    if (good) return out;
+    wr_field_free(out);
     return NULL;
 }
 

@@ -30,7 +30,8 @@ enum { WR_LIMIT_SIDES(WR_WORD_ID) };
 struct WrOpJob {
     const char *name; /* for messages */
     const WrField *in;
-    const WrField *mask; /* NULL: everything */
+    const WrField *mask;       /* NULL: everything */
+    const WrField *was, *made; /* as in WrOpOptions; NULL: everything is to be made */
     WrPool *pool;
     const WrProgress *progress;
     double from, to; /* the part of the whole that the present step is, 0..1 */
@@ -54,7 +55,9 @@ typedef struct WrOpWork {
     struct {
         size_t at, pitch;
     } input;
-    int reach;  /* input texels farther away than this do not matter; -1: not known */
+    int reach; /* input texels farther away than this do not matter; -1: not known */
+    int window; /* texels along a side of the square of input that alone a texel depends on, 2 reach + 1; 0: on
+                   the whole table, by its range or its sums */
     bool moves; /* copies texels: -0 stays -0. Else a texel that comes out equal keeps its bits */
 } WrOpWork;
 
@@ -69,6 +72,13 @@ WrField *wr_op_build(const WrOpJob *job, WrField *base, const WrOpWork *work);
 
 /* The same for an operation that gives a table of the input's size and edges. */
 WrField *wr_op_build_same(const WrOpJob *job, const WrOpWork *work);
+
+/* The blocks, along tiles, that may come out otherwise than in what was made: those within `reach` of a texel
+   that differs. The caller frees them. */
+WrOpBlock *wr_op_changed_blocks(const WrOpJob *job, int reach, int *count);
+
+/* Check all values, as they stand in a WrFilter. */
+bool wr_op_check_params(const WrOpInfo *op, const double *value, WrError *err);
 
 /* Report how much of the present step is done, 0..1; false and an error when the job is cancelled. */
 bool wr_op_step(const WrOpJob *job, double fraction);

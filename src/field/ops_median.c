@@ -163,8 +163,10 @@ WrField *wr_op_median(WrOpJob *job, const double *param)
         median.half[d + median.reach] = half;
         median.size += 2 * half + 1;
     }
-    WrOpWork work = {
-        .make = make_median, .ctx = &median, .scratch = sizeof(Desk), .reach = median.reach
-    };
+    WrOpWork work = { .make = make_median,
+                      .ctx = &median,
+                      .scratch = sizeof(Desk),
+                      .reach = median.reach,
+                      .window = 2 * median.reach + 1 };
     return wr_op_build_same(job, &work);
 }

@@ -87,7 +87,8 @@ static WrField *run_morph(WrOpJob *job, double radius, bool erode)
     WrOpWork work = { .make = make_dilated,
                       .ctx = &morph,
                       .scratch = sizeof(float[LEVELS][WIDE]),
-                      .reach = morph.reach };
+                      .reach = morph.reach,
+                      .window = 2 * morph.reach + 1 };
     return wr_op_build_same(job, &work);
 }
 

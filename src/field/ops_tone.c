@@ -8,7 +8,8 @@
 typedef struct Tone Tone;
 struct Tone {
     void (*map)(const Tone *tone, float *row, int count); /* in place */
-    double a[5];                                          /* what `map` needs */
+    int window;  /* 1; 0: the numbers below are made of the table's range */
+    double a[5]; /* what `map` needs */
 };
 
 static void make_mapped(const WrOpJob *job, const void *ctx, WrOpBlock b, float *out, size_t pitch,
@@ -36,7 +37,9 @@ static WrField *run_tone(WrOpJob *job, const Tone *tone)
     float level = wr_field_level(in);
     tone->map(tone, &level, 1);
     bool stays = level == wr_field_level(in);
-    WrOpWork work = { .make = make_mapped, .ctx = tone, .reach = stays ? 0 : -1 };
+    WrOpWork work = {
+        .make = make_mapped, .ctx = tone, .reach = stays ? 0 : -1, .window = tone->window
+    };
     if (stays || job->mask || !has_null_tile(in)) return wr_op_build_same(job, &work);
     work.reach = 0;
     WrField *base = wr_field_new(wr_field_width(in), wr_field_height(in), wr_field_wrap_u(in),
@@ -70,6 +73,7 @@ WrField *wr_op_levels(WrOpJob *job, const double *param)
         return NULL;
     }
     Tone tone = { map_levels,
+                  1,
                   { param[0], 1.0 / span, 1.0 / param[2], param[3], param[4] - param[3] } };
     return run_tone(job, &tone);
 }
@@ -86,7 +90,7 @@ WrField *wr_op_invert(WrOpJob *job, const double *param)
 {
     float low = 0.0f, high = 0.0f;
     if (param[0] == WR_INVERT_RANGE) wr_field_range(job->in, &low, &high);
-    Tone tone = { map_invert, { (double)low + high } };
+    Tone tone = { map_invert, param[0] != WR_INVERT_RANGE, { (double)low + high } };
     return run_tone(job, &tone);
 }
 
@@ -111,7 +115,7 @@ WrField *wr_op_normalise(WrOpJob *job, const double *param)
 {
     float low, high;
     wr_field_range(job->in, &low, &high);
-    Tone tone = { low < high ? map_normalise : map_constant, { low, high, param[0], param[1] } };
+    Tone tone = { low < high ? map_normalise : map_constant, 0, { low, high, param[0], param[1] } };
     return run_tone(job, &tone);
 }
 
@@ -122,7 +126,7 @@ static void map_add(const Tone *tone, float *row, int count)
 
 WrField *wr_op_add(WrOpJob *job, const double *param)
 {
-    Tone tone = { map_add, { param[0] } };
+    Tone tone = { map_add, 1, { param[0] } };
     return run_tone(job, &tone);
 }
 
@@ -133,7 +137,7 @@ static void map_multiply(const Tone *tone, float *row, int count)
 
 WrField *wr_op_multiply(WrOpJob *job, const double *param)
 {
-    Tone tone = { map_multiply, { param[0] } };
+    Tone tone = { map_multiply, 1, { param[0] } };
     return run_tone(job, &tone);
 }
 
@@ -153,6 +157,6 @@ WrField *wr_op_clamp(WrOpJob *job, const double *param)
         wr_fail(job->err, "%s: low %g is above high %g", job->name, param[0], param[1]);
         return NULL;
     }
-    Tone tone = { map_clamp, { param[0], param[1] } };
+    Tone tone = { map_clamp, 1, { param[0], param[1] } };
     return run_tone(job, &tone);
 }

@@ -176,7 +176,7 @@ static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, fl
 
 static WrField *above(const WrField *heights, double level, const WrGenerateJob *job, WrError *err)
 {
-    const double amount[WR_OP_PARAMS] = { 0.5 - level };
+    const double amount[WR_OP_VALUES] = { 0.5 - level };
     const WrOpOptions options = { .pool = job->pool, .progress = job->progress };
     return wr_op_run(wr_op_find("add"), heights, amount, &options, err);
 }

@@ -170,6 +170,11 @@ void wr_act_select_mask(WrApp *app)
 
 /* ---- what can be done ---- */
 
+bool wr_is_filter(const WrApp *app)
+{
+    return active(app)->filter.op != NULL;
+}
+
 bool wr_can_several_layers(const WrApp *app)
 {
     return count(app) > 1;

@@ -91,6 +91,7 @@
     X(layer_duplicate, "Ctrl+J")                                                                   \
     X(layer_delete, "Shift+Delete")                                                                \
     X(layer_rename, "")                                                                            \
+    X(filter_edit, "")                                                                             \
     X(layer_merge, "Ctrl+Alt+E")                                                                   \
     X(layer_flatten, "Ctrl+Shift+F")                                                               \
     X(layer_clear, "Delete")                                                                       \

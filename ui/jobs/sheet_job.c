@@ -135,7 +135,7 @@ static bool resize(WrDocument *document, int w, int h, WrPool *pool, WrError *er
 {
     const WrField *field = wr_document_composite(document, pool);
     const bool smaller = w <= wr_field_width(field) && h <= wr_field_height(field);
-    const double param[WR_OP_PARAMS] = { w, h, smaller ? WR_RESIZE_BOX : WR_RESIZE_LANCZOS3 };
+    const double param[WR_OP_VALUES] = { w, h, smaller ? WR_RESIZE_BOX : WR_RESIZE_LANCZOS3 };
     const WrOpOptions options = { .pool = pool, .progress = wr_progress_here() };
     if (w == wr_field_width(field) && h == wr_field_height(field)) return true;
     WrField *made = wr_op_run(wr_op_find("resize"), field, param, &options, err);

@@ -72,9 +72,20 @@ static bool adjust_field(const Work *work, WrField **field, const WrOpOptions *o
 /* As the adjust command: where texels only move, what a layer says something about moves with them. */
 static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *options, WrError *err)
 {
-    if (!adjust_field(work, &layer->heights, options, err)) return false;
+    if (!layer->filter.op && !adjust_field(work, &layer->heights, options, err)) return false;
     return !work->ask.op->moves || (adjust_field(work, &layer->cover, options, err) &&
                                     adjust_field(work, &layer->mask, options, err));
+}
+
+/* What it makes is made with the composite. */
+static bool filter(const Work *work, WrDocument *document, WrError *err)
+{
+    WrFilter made = { .op = work->ask.op };
+    memcpy(made.param, work->ask.param, sizeof made.param);
+    if (!wr_filter_check(&made, err)) return false;
+    if (work->ask.layer >= 0) document->layers[work->ask.layer].filter = made;
+    else wr_document_add_filter(document, "", &made);
+    return true;
 }
 
 static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError *err)
@@ -86,7 +97,11 @@ static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError
                                 work->ask.param, &options, err);
         return work->field != NULL;
     }
+    if (work->ask.filters) return filter(work, document, err);
     options.mask = document->selection;
+    const WrLayer *active = &document->layers[document->active];
+    if (!work->ask.all_layers && active->filter.op && !active->on_mask)
+        return wr_fail(err, "the active layer is a filter, without heights of its own");
     if (!work->ask.all_layers) {
         WrStandIn stand_in = { .index = 0 };
         bool good = adjust_layer(work, wr_document_edit_begin(document, &stand_in), &options, err);

@@ -21,8 +21,9 @@ void wr_trial_free(WrTrial *trial); /* NULL is fine */
 
 typedef struct WrTrialAsk {
     const WrOpInfo *op; /* an operation on the active layer, inside the selection; or NULL: */
-    double param[WR_OP_PARAMS];
+    double param[WR_OP_VALUES];
     bool all_layers;
+    bool filters; /* that as a filter layer: a new one (layer -1), or in the place of layer's */
 
     const WrBrush
         *dab; /* or a dab of this brush at u, v on the active layer; copied, its tip shared;
@@ -32,7 +33,7 @@ typedef struct WrTrialAsk {
     const char *line; /* or a generator's command line, or `transform` (trial_generate.h); copied */
     bool rough;       /* first roughly, at once, and only then as the command makes it */
 
-    int layer; /* or a layer with other settings */
+    int layer; /* or a layer with other settings; or that filter layer */
     WrBlend blend;
     float opacity, radius;
 } WrTrialAsk;

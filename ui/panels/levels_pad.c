@@ -22,9 +22,10 @@ static int index_of(const WrOpInfo *op, const char *name)
     return i;
 }
 
-/* What the dialog changes: the active layer's heights, or its mask. */
+/* What the dialog changes: the active layer's heights, or its mask; of a filter what lies below it. */
 static const WrField *table_of(const WrApp *app)
 {
+    if (app->adjust->below) return app->adjust->below;
     const WrDocument *document = wr_app_document(app);
     const WrLayer *layer = &document->layers[document->active];
     return layer->on_mask ? layer->mask : layer->heights;
@@ -106,9 +107,9 @@ bool wr_levels_pad(WrApp *app)
                          wr_gui_px(2));
     }
     wr_gui_pad_end();
-    wr_gui_tip(
-        "How often each height is there. Drag the blue line to what becomes low, the white one "
-        "to what becomes high");
+    if (!pad.held)
+        wr_gui_tip("How often each height is there. Drag the blue line to what becomes low, the "
+                   "white one to what becomes high");
     if (pad.pressed) {
         bool nearer_high = fabs(pad.pointer_x - to_x(&pad, span, *high)) <
                            fabs(pad.pointer_x - to_x(&pad, span, *low));

@@ -34,7 +34,10 @@ const WrOpInfo *wr_action_op(const char *name)
 
 static void ask(WrApp *app)
 {
-    WrTrialAsk trial = { .op = app->adjust->op, .all_layers = app->adjust->layers == 1 };
+    WrTrialAsk trial = { .op = app->adjust->op,
+                         .all_layers = app->adjust->layers == 1,
+                         .filters = app->adjust->filters,
+                         .layer = app->adjust->layer };
     memcpy(trial.param, app->adjust->param, sizeof trial.param);
     app->adjust->asked_at = wr_session_revision(app->session);
     wr_app_try(app, &trial);
@@ -54,15 +57,63 @@ static double beginning(const WrApp *app, const WrOpParam *param)
     return param->fallback;
 }
 
-void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op)
+static bool has_histogram(const WrOpInfo *op)
+{
+    return strcmp(op->name, "levels") == 0;
+}
+
+static void forget_below(WrApp *app)
+{
+    wr_field_free(app->adjust->below);
+    app->adjust->below = NULL;
+}
+
+/* What a new filter above the active layer will be over. */
+static WrField *below_new(const WrDocument *document)
+{
+    if (document->active + 1 < document->layer_count)
+        return wr_document_below(document, document->active + 1, NULL);
+    return wr_field_share(wr_document_field(document));
+}
+
+/* layer: index of a filter layer, -1 a new one. */
+static void open(WrApp *app, const WrFilter *filter, bool filters, int layer)
 {
     wr_dialog_open(app, WR_DIALOG_ADJUST);
-    app->adjust->op = op;
+    app->adjust->op = filter->op;
     app->adjust->view = *app->view;
     app->adjust->layers = 0;
-    for (int i = 0; i < wr_op_param_count(op); i++)
-        app->adjust->param[i] = beginning(app, &op->params[i]);
+    app->adjust->filters = filters;
+    app->adjust->layer = layer;
+    memcpy(app->adjust->param, filter->param, sizeof app->adjust->param);
+    forget_below(app);
+    if (filters && has_histogram(filter->op)) {
+        const WrDocument *document = wr_app_document(app);
+        app->adjust->below =
+            layer >= 0 ? wr_document_below(document, layer, NULL) : below_new(document);
+    }
     ask(app);
+}
+
+void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op)
+{
+    WrFilter filter = wr_filter_of(op);
+    for (int i = 0; i < wr_op_param_count(op); i++)
+        if (!op->params[i].points) filter.param[i] = beginning(app, &op->params[i]);
+    open(app, &filter, false, -1);
+}
+
+void wr_dialog_filter_open(WrApp *app, const WrOpInfo *op)
+{
+    const WrFilter filter = wr_filter_of(op);
+    open(app, &filter, true, -1);
+}
+
+void wr_filter_edit(WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    const WrLayer *layer = &document->layers[document->active];
+    if (layer->filter.op) open(app, &layer->filter, true, document->active);
 }
 
 /* ---- parameters ---- */
@@ -137,7 +188,8 @@ static bool half_cell(WrApp *app)
 static bool which_layers(WrApp *app)
 {
     static const char *const names[] = { "The active one", "All" };
-    if (app->adjust->op->reshapes || wr_app_document(app)->layer_count == 1) return false;
+    if (app->adjust->filters || app->adjust->op->reshapes || wr_app_document(app)->layer_count == 1)
+        return false;
     wr_gui_label("Layers");
     return wr_gui_choice("layers", 0, names, 2, &app->adjust->layers);
 }
@@ -146,22 +198,20 @@ static bool which_layers(WrApp *app)
 
 static void line_of(const WrApp *app, WrText *line)
 {
-    const WrOpInfo *op = app->adjust->op;
-    wr_text_addf(line, "adjust %s", op->name);
-    for (int i = 0; i < wr_op_param_count(op); i++) {
-        const WrOpParam *param = &op->params[i];
-        double value = app->adjust->param[i];
-        if (param->choices) wr_text_addf(line, " %s=%s", param->name, param->choices[(int)value]);
-        else wr_line_number(line, param->name, value);
-    }
-    if (app->adjust->layers == 1 && !op->reshapes) wr_text_add(line, " layers=all");
+    const WrAdjust *adjust = app->adjust;
+    WrFilter filter = { .op = adjust->op };
+    memcpy(filter.param, adjust->param, sizeof filter.param);
+    wr_text_add(line, adjust->filters ? "filter " : "adjust ");
+    wr_filter_print(&filter, line);
+    if (adjust->filters && adjust->layer >= 0) wr_text_addf(line, " layer=%d", adjust->layer + 1);
+    if (adjust->layers == 1 && !adjust->op->reshapes) wr_text_add(line, " layers=all");
 }
 
 static void commit(WrApp *app)
 {
     WrText line = { 0 };
     line_of(app, &line);
-    bool same = app->adjust->asked_at == wr_session_revision(app->session);
+    bool same = !app->adjust->filters && app->adjust->asked_at == wr_session_revision(app->session);
     if (same) wr_app_run_tried(app, wr_text_get(&line));
     else wr_app_run_slow(app, wr_text_get(&line));
     wr_text_fini(&line);
@@ -197,22 +247,28 @@ static void progress(WrApp *app)
 void wr_dialog_adjust(WrApp *app)
 {
     const WrOpInfo *op = app->adjust->op;
-    char title[64], help[200];
+    char name[80], title[96], help[200];
     WrError err;
-    snprintf(title, sizeof title, "%.40s###adjust", wr_words(op->label));
+    const bool filters = app->adjust->filters;
+    if (!filters) snprintf(name, sizeof name, "%.40s", wr_words(op->label));
+    else if (app->adjust->layer >= 0)
+        snprintf(name, sizeof name, wr_words("%s: filter layer"), wr_words(op->label));
+    else snprintf(name, sizeof name, wr_words("%s: new filter layer"), wr_words(op->label));
+    snprintf(title, sizeof title, "%s###adjust", name);
     if (!wr_gui_dialog_begin_at(title, wr_dialog_side(app))) return;
     snprintf(help, sizeof help, "%.190s.", wr_words(op->help));
     if (help[0] >= 'a' && help[0] <= 'z') help[0] = (char)(help[0] - 'a' + 'A');
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, help);
     wr_gui_space(4);
-    bool changed = strcmp(op->name, "levels") == 0 && wr_levels_pad(app);
+    bool changed = has_histogram(op) && wr_levels_pad(app);
     changed |= parameters(app);
     changed |= half_cell(app);
     changed |= which_layers(app);
-    if (wr_app_document(app)->selection)
+    if (wr_app_document(app)->selection && !(filters && app->adjust->layer >= 0))
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                            op->reshapes ? "The whole table changes, selected or not."
-                                         : "Only what is selected changes.");
+                            filters        ? "What is selected becomes the layer's mask."
+                            : op->reshapes ? "The whole table changes, selected or not."
+                                           : "Only what is selected changes.");
     if (changed) ask(app);
     if (wr_trial_error(app->trial, &err)) wr_app_fail(app, &err);
     int answer = wr_dialog_buttons(app, "Apply", true);
@@ -221,6 +277,7 @@ void wr_dialog_adjust(WrApp *app)
     if (answer > 0) commit(app);
     if (answer < 0) cancel(app);
     if (answer != 0) app->adjust->op = NULL;
+    if (answer != 0) forget_below(app);
     wr_gui_dialog_end();
 }
 
@@ -228,5 +285,17 @@ bool wr_adjust_by_name(WrApp *app, const char *name)
 {
     const WrOpInfo *op = wr_action_op(name);
     if (op) wr_dialog_adjust_open(app, op);
+    return op != NULL;
+}
+
+const WrPart wr_part_adjust = { .another = forget_below };
+
+bool wr_filter_by_name(WrApp *app, const char *name)
+{
+    static const char start[] = "filter_";
+    const bool ours = strncmp(name, start, sizeof start - 1) == 0;
+    const WrOpInfo *op = ours ? wr_op_find(name + sizeof start - 1) : NULL;
+    if (op && op->reshapes) op = NULL;
+    if (op) wr_dialog_filter_open(app, op);
     return op != NULL;
 }

@@ -2,7 +2,9 @@
 #pragma once
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"
+#include "ui/desk/roster.h"
 
+#include "document/document.h"
 #include "field/ops.h"
 
 #include <stdbool.h>
@@ -19,8 +21,11 @@ typedef struct WrHeightCounts {
 /* What the dialog of an operation holds. */
 typedef struct WrAdjust {
     const WrOpInfo *op; /* NULL: none */
-    double param[WR_OP_PARAMS];
+    double param[WR_OP_VALUES];
     int layers;               /* 0 the active one, 1 all */
+    bool filters;             /* it is of a filter layer */
+    int layer;                /* that layer's index; -1: a new one */
+    WrField *below;           /* what a filter with a histogram is over; NULL: nothing. Owned */
     uint64_t asked_at;        /* the document's revision when it was tried last */
     WrCanvasView view;        /* as it was before */
     WrHeightCounts histogram; /* of levels */
@@ -34,5 +39,11 @@ typedef struct WrAdjust {
 const WrOpInfo *wr_action_op(const char *name);
 void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op);
 void wr_dialog_adjust(WrApp *app);
+/* The same of a new filter layer, and of the values of the active one, if that is one. */
+void wr_dialog_filter_open(WrApp *app, const WrOpInfo *op);
+void wr_filter_edit(WrApp *app);
+/* The operation of an action "filter_NAME", or NULL; and its label in menus is that of the operation. */
+extern const WrPart wr_part_adjust;
+bool wr_filter_by_name(WrApp *app, const char *name); /* see WrActionFamily */
 bool wr_levels_pad(WrApp *app); /* levels_pad.c; true if a value was dragged */
 bool wr_adjust_by_name(WrApp *app, const char *name); /* "adjust_NAME"; see WrActionFamily */

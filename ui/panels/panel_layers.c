@@ -138,7 +138,8 @@ static void name_field(WrApp *app, double width)
 
 static void describe(const WrLayer *layer, char *text, size_t size)
 {
-    snprintf(text, size, "%s %.4g %%", wr_words(wr_blends[layer->blend].name),
+    const bool plain = layer->filter.op && layer->blend == WR_BLEND_MIX; /* as filters are */
+    snprintf(text, size, "%s %.4g %%", wr_words(plain ? "filter" : wr_blends[layer->blend].name),
              rint((double)layer->opacity * 1000.0) / 10.0);
 }
 
@@ -178,14 +179,42 @@ static bool choose_part(WrApp *app, int i, bool mask)
     return wr_app_run_linef(app, "layer use %d part=%s", i + 1, mask ? "mask" : "heights");
 }
 
+static bool row_mask(WrApp *app, int i, bool active, double *x)
+{
+    const WrLayer *layer = &wr_app_document(app)->layers[i];
+    const double side = wr_gui_px(THUMB_UNITS);
+    SDL_Texture *picture = wr_thumb_list_get(app, &app->layers->thumbs, 2 * i + 1, layer->mask,
+                                             NULL, true, THUMB_UNITS);
+    if (wr_gui_image_button("mask", picture, side, side, active && layer->on_mask))
+        return choose_part(app, i, true);
+    wr_gui_tip("Its mask: click to paint on it, Alt+click to see it alone");
+    *x += side + wr_gui_px(8);
+    return false;
+}
+
+/* The dialog of its values comes with the next picture, when it is the active layer. */
+static void edit_filter(WrApp *app, int i)
+{
+    if (wr_app_document(app)->active != i && !wr_app_run_linef(app, "layer use %d", i + 1)) return;
+    wr_action_run(app, WR_ACT(filter_edit));
+}
+
 /* Its heights and its mask; a frame is round what edits go to. True if a command was run. */
 static bool row_pictures(WrApp *app, int i, bool active, double *x)
 {
     const WrLayer *layer = &wr_app_document(app)->layers[i];
     double side = wr_gui_px(THUMB_UNITS), gap = wr_gui_px(8);
+    wr_gui_row_at(*x, side);
+    if (layer->filter.op) {
+        if (wr_gui_glyph("filter", WR_ICON_TUNE, THUMB_UNITS, WR_COLOUR_CELL)) edit_filter(app, i);
+        wr_gui_tip("A filter over the layers below. Click to change its values");
+        *x += side + gap;
+        if (!layer->mask) return false;
+        wr_gui_row_at(*x, side);
+        return row_mask(app, i, active, x);
+    }
     SDL_Texture *picture = wr_thumb_list_get(app, &app->layers->thumbs, 2 * i, layer->heights,
                                              layer->cover, false, THUMB_UNITS);
-    wr_gui_row_at(*x, side);
     if (!layer->mask) {
         wr_gui_image(picture, side, side);
         *x += side + gap;
@@ -196,13 +225,7 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
     wr_gui_tip("The layer's heights: click to edit them");
     *x += side + gap;
     wr_gui_row_at(*x, side);
-    picture = wr_thumb_list_get(app, &app->layers->thumbs, 2 * i + 1, layer->mask, NULL, true,
-                                THUMB_UNITS);
-    if (wr_gui_image_button("mask", picture, side, side, active && layer->on_mask))
-        return choose_part(app, i, true);
-    wr_gui_tip("Its mask: click to paint on it, Alt+click to see it alone");
-    *x += side + gap;
-    return false;
+    return row_mask(app, i, active, x);
 }
 
 /* True if a command was run: the layers are others now. */
@@ -274,7 +297,8 @@ static bool row(WrApp *app, int i)
     }
     if (r.menu) app->layers->open = true;
     if ((r.clicked || r.menu) && !active) return wr_app_run_linef(app, "layer use %d", i + 1);
-    if (r.doubled && app->layers->renamed < 0) wr_layer_rename_start(app, i);
+    if (r.doubled && document->layers[i].filter.op) edit_filter(app, i);
+    else if (r.doubled && app->layers->renamed < 0) wr_layer_rename_start(app, i);
     return false;
 }
 
@@ -282,7 +306,8 @@ static bool row(WrApp *app, int i)
 
 static void menu(WrApp *app)
 {
-    static const char *const names[] = { WR_ACT(layer_rename),
+    static const char *const names[] = { WR_ACT(filter_edit),
+                                         WR_ACT(layer_rename),
                                          WR_ACT(layer_duplicate),
                                          WR_ACT(layer_delete),
                                          "-",
@@ -324,16 +349,31 @@ static void list(WrApp *app)
     menu(app);
 }
 
+static void filter_button(WrApp *app)
+{
+    wr_gui_same_line(8);
+    if (wr_gui_glyph("filters", WR_ICON_TUNE, 24, WR_COLOUR_TEXT)) wr_gui_popup_open("filters");
+    wr_gui_tip("New filter layer: an operation over the layers below");
+    if (!wr_gui_popup_begin("filters")) return;
+    wr_menu_filters(app);
+    wr_gui_popup_end();
+}
+
 static void foot(WrApp *app)
 {
     static const struct {
         const char *action, *icon;
     } buttons[] = {
-        { WR_ACT(layer_add), WR_ICON_PLUS },      { WR_ACT(layer_duplicate), WR_ICON_COPY },
-        { WR_ACT(layer_delete), WR_ICON_DELETE }, { WR_ACT(layer_merge), WR_ICON_MERGE },
-        { WR_ACT(layer_raise), WR_ICON_RAISE },   { WR_ACT(layer_lower), WR_ICON_LOWER }
+        { WR_ACT(layer_add), WR_ICON_PLUS },       { NULL, WR_ICON_TUNE },
+        { WR_ACT(layer_duplicate), WR_ICON_COPY }, { WR_ACT(layer_delete), WR_ICON_DELETE },
+        { WR_ACT(layer_merge), WR_ICON_MERGE },    { WR_ACT(layer_raise), WR_ICON_RAISE },
+        { WR_ACT(layer_lower), WR_ICON_LOWER }
     };
     for (size_t i = 0; i < sizeof buttons / sizeof *buttons; i++) {
+        if (!buttons[i].action) {
+            filter_button(app);
+            continue;
+        }
         const WrAction *action = wr_action_find(app, buttons[i].action);
         bool enabled = wr_action_can(app, action);
         char keys[32], tip[96];

@@ -23,7 +23,7 @@
 
 #define FIND_UNITS 190 /* width of what opens the search */
 
-/* Names of actions; "-" is a line, "recent", "scale", "theme", "tiling" and "operations" are made below. */
+/* Names of actions; "-" is a line, "recent", "scale", "theme", "tiling", "operations" and "filters" are made below. */
 static const char *const file_menu[] = { WR_ACT(new),
                                          WR_ACT(open),
                                          "recent",
@@ -105,9 +105,11 @@ static const char *const tool_menu[] = { WR_ACT(brush),
                                          WR_ACT(zoom),
                                          NULL };
 static const char *const layer_menu[] = { WR_ACT(layer_add),
+                                          "filters",
                                           WR_ACT(layer_duplicate),
                                           WR_ACT(layer_delete),
                                           WR_ACT(layer_rename),
+                                          WR_ACT(filter_edit),
                                           "-",
                                           WR_ACT(layer_raise),
                                           WR_ACT(layer_lower),
@@ -249,17 +251,30 @@ void wr_menu_item(WrApp *app, const char *name)
         wr_action_run(app, name);
 }
 
-/* All table operations, in the order of their table. */
-static void operations(WrApp *app)
+/* Table operations, in the order of their table: all, or those that a layer can be. */
+static void list_operations(WrApp *app, bool filters)
 {
     for (const WrOpInfo *op = wr_ops; op->name; op++) {
         char name[64], label[80], keys[32];
-        snprintf(name, sizeof name, "adjust_%.50s", op->name);
+        if (filters && op->reshapes) continue;
+        snprintf(name, sizeof name, "%s_%.50s", filters ? "filter" : "adjust", op->name);
         snprintf(label, sizeof label, "%.60s...", wr_words(op->label));
         if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys), false, true))
             wr_action_run(app, name);
         wr_gui_tip(op->help);
     }
+}
+
+void wr_menu_filters(WrApp *app)
+{
+    list_operations(app, true);
+}
+
+static void filters(WrApp *app)
+{
+    if (!wr_gui_menu_begin("New filter layer")) return;
+    wr_menu_filters(app);
+    wr_gui_menu_end();
 }
 
 static void generator_item(WrApp *app, const WrGenerator *generator)
@@ -369,7 +384,8 @@ static void menu(WrApp *app, const char *label, const char *const *names)
         else if (strcmp(*names, "scale") == 0) scale(app);
         else if (strcmp(*names, "theme") == 0) theme(app);
         else if (strcmp(*names, "tiling") == 0) tiling(app);
-        else if (strcmp(*names, "operations") == 0) operations(app);
+        else if (strcmp(*names, "operations") == 0) list_operations(app, false);
+        else if (strcmp(*names, "filters") == 0) filters(app);
         else if (strcmp(*names, "compare") == 0) compare(app);
         else if (strcmp(*names, "camera") == 0) camera(app);
         else wr_menu_item(app, *names);

@@ -58,6 +58,10 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
         snprintf(label, sizeof label, "%.60s...", wr_words(op->label));
         snprintf(also, sizeof also, "%.60s %.40s", op->label, op->name);
         offer(found, &count, name, label, also, query);
+        if (op->reshapes) continue;
+        snprintf(name, sizeof name, "filter_%.50s", op->name);
+        snprintf(label, sizeof label, wr_words("Filter layer: %s..."), wr_words(op->label));
+        offer(found, &count, name, label, also, query);
     }
     for (const WrFamily *f = wr_families; f->name; f++)
         for (const WrGenerator *g = f->rows; g->family; g++) {

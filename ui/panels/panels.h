@@ -7,6 +7,7 @@
 
 void wr_panel_menu(WrApp *app);
 void wr_menu_item(WrApp *app, const char *action); /* of any menu that is open */
+void wr_menu_filters(WrApp *app);                  /* the operations that a new layer can be */
 void wr_panel_options(WrApp *app);
 void wr_panel_tools(WrApp *app);
 void wr_panel_right(WrApp *app);
