@@ -18,7 +18,6 @@
 #include "ui/desk/session_view.h"
 #include "ui/desk/settings.h"
 #include "ui/generate/generate_hand.h"
-#include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/patch/patch.h"
 #include "ui/tools/shelf.h"
@@ -27,7 +26,6 @@
 
 #include "base/rows.h"
 #include "base/text.h"
-#include "base/vec.h"
 #include "command/session.h"
 #include "field/field.h"
 #include "scene/scene.h"
@@ -385,7 +383,7 @@ const WrAction wr_actions[] = {
     ROW(layer_duplicate, "Duplicate layer", wr_act_layer_duplicate, NULL, NULL),
     ROW(layer_delete, "Delete layer", wr_act_layer_delete, wr_can_several_layers, NULL),
     ROW(layer_rename, "Rename layer", wr_act_layer_rename, NULL, NULL),
-    ROW(filter_edit, "Edit filter...", wr_filter_edit, wr_is_filter, NULL),
+    ROW(filter_edit, "Edit filter...", wr_act_filter_edit, wr_is_filter, NULL),
     ROW(layer_merge, "Merge layer down", wr_act_layer_merge, wr_can_merge, NULL),
     ROW(layer_flatten, "Flatten all layers", wr_act_layer_flatten, wr_can_several_layers, NULL),
     ROW(layer_clear, "Clear layer", wr_act_layer_clear, NULL, NULL),

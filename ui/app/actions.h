@@ -61,6 +61,7 @@ void wr_act_layer_duplicate(WrApp *app);
 void wr_act_layer_delete(WrApp *app);
 void wr_act_layer_rename(WrApp *app);
 void wr_act_layer_merge(WrApp *app);
+void wr_act_filter_edit(WrApp *app);
 bool wr_is_filter(const WrApp *app);
 void wr_act_layer_flatten(WrApp *app);
 void wr_act_layer_clear(WrApp *app);

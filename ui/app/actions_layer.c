@@ -4,6 +4,7 @@
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/session_view.h"
+#include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panels.h"
 
@@ -169,6 +170,11 @@ void wr_act_select_mask(WrApp *app)
 }
 
 /* ---- what can be done ---- */
+
+void wr_act_filter_edit(WrApp *app)
+{
+    wr_filter_edit(app);
+}
 
 bool wr_is_filter(const WrApp *app)
 {
