@@ -7,6 +7,29 @@
 #define SEEN 0.5   /* pixels: less is not seen (E50) */
 #define CODE 0.004 /* linear intensity: about one code of 255 at middle grey */
 
+#define FULL_SCALE 0.1 /* linear intensity that is full in the map, as in pictures of errors */
+
+void wr_illusion_colour(const WrIllusion *illusion, size_t pixel, uint8_t rgb[3])
+{
+    for (int c = 0; c < 3; c++) {
+        const double value = (double)illusion->map[3 * pixel + (size_t)c] / (c ? FULL_SCALE : 1);
+        rgb[c] = (uint8_t)lrint(255 * fmin(fmax(value, 0), 1));
+    }
+}
+
+void wr_illusion_height(const WrIllusion *illusion, WrText *text)
+{
+    const double moved = fmax(illusion->way, illusion->hausdorff); /* fmax leaves NAN out */
+    const bool shadows = illusion->shadow >= CODE;
+    if (!(moved >= SEEN))
+        wr_text_add(text, shadows ? "Nobody sees the difference here, but for shadows."
+                                  : "Nobody sees the difference here.");
+    else
+        wr_text_addf(text, "Below height %.3g nobody sees %s.",
+                     fabs(illusion->bump_height) * SEEN / moved,
+                     shadows ? "it here, but for shadows" : "the difference here");
+}
+
 static void add_outline(const WrIllusion *it, WrText *text)
 {
     const double moved = it->hausdorff;
@@ -41,6 +64,8 @@ static void add_inside(const WrIllusion *it, WrText *text)
 
 void wr_illusion_advice(const WrIllusion *illusion, WrText *text)
 {
+    wr_illusion_height(illusion, text);
+    wr_text_add(text, " ");
     add_outline(illusion, text);
     add_inside(illusion, text);
 }

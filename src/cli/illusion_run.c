@@ -8,8 +8,6 @@
 
 #include <math.h>
 
-#define FULL_SCALE 0.1 /* linear intensity that is white, as in pictures of errors */
-
 bool wr_illusion_check(const WrCli *cli, WrError *err)
 {
     if (cli->map && !cli->illusion)
@@ -20,19 +18,12 @@ bool wr_illusion_check(const WrCli *cli, WrError *err)
     return !cli->map || wr_image_can_write(cli->map, WR_PIXEL_U8, 3, true, err);
 }
 
-static uint8_t code_of(double value)
-{
-    return (uint8_t)lrint(255 * fmin(fmax(value, 0), 1));
-}
-
-/* Red outline, green shading, blue shadow. */
 static bool write_map(const WrIllusion *it, const char *path, WrError *err)
 {
     const size_t pixels = (size_t)it->width * (size_t)it->height;
     uint8_t *rgb = wr_try_alloc(pixels, 3, "the map", err);
     if (!rgb) return false;
-    for (size_t i = 0; i < 3 * pixels; i++)
-        rgb[i] = code_of((double)it->map[i] / (i % 3 == 0 ? 1 : FULL_SCALE));
+    for (size_t i = 0; i < pixels; i++) wr_illusion_colour(it, i, rgb + 3 * i);
     const bool good =
         wr_image_write_pixels(path, it->width, it->height, 3, WR_PIXEL_U8, true, rgb, err);
     wr_free(rgb);

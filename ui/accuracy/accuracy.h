@@ -33,6 +33,7 @@ typedef enum WrPatchLook {
     WR_PATCH_LEVEL,   /* mip level */
     WR_PATCH_HEIGHT,  /* F */
     WR_PATCH_NORMAL,  /* n', as colours */
+    WR_PATCH_LACKS,   /* what bump lacks of displacement: outline red, shading green, shadow blue */
     WR_PATCH_RAN,     /* where each effect ran: the preview's own picture, live as that is */
     WR_PATCH_LOOKS
 } WrPatchLook;

@@ -164,6 +164,11 @@ static void take_look(WrApp *app)
     if (!work) return;
     if (work->done) wr_accuracy_lay(app, work);
     else wr_app_fail(app, &work->err);
+    if (work->done && work->kind == WR_WORK_ILLUSION) { /* the panel has its numbers */
+        wr_work_free(app->accuracy->illusion);
+        app->accuracy->illusion = work;
+        return;
+    }
     wr_work_free(work);
 }
 
@@ -272,7 +277,8 @@ static void begin_looking(WrApp *app)
         wr_clock_seconds() < a->changed_at + WR_ACCURACY_LOOK_REST)
         return;
     bool pair = compares(a);
-    WrWork *work = new_work(app, pair ? WR_WORK_PAIR : WR_WORK_MAP, &a->look_tools);
+    const WrWorkKind map = a->look == WR_PATCH_LACKS ? WR_WORK_ILLUSION : WR_WORK_MAP;
+    WrWork *work = new_work(app, pair ? WR_WORK_PAIR : map, &a->look_tools);
     work->map = wr_accuracy_map_of(a->look);
     if (pair) work->other = wr_accuracy_scene(app, 1);
     a->look_of = a->state;

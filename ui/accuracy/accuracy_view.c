@@ -33,7 +33,8 @@ const char *const wr_patch_look_names[WR_PATCH_LOOKS] = {
     [WR_ROW(WR_PATCH_FLICKER)] = "Flicker A, B", [WR_ROW(WR_PATCH_ERROR)] = "Error",
     [WR_ROW(WR_PATCH_DROPPED)] = "Dropped term", [WR_ROW(WR_PATCH_TILT)] = "Slope of the bump",
     [WR_ROW(WR_PATCH_LEVEL)] = "Mip level",      [WR_ROW(WR_PATCH_HEIGHT)] = "Heights",
-    [WR_ROW(WR_PATCH_NORMAL)] = "Normals",       [WR_ROW(WR_PATCH_RAN)] = "What ran",
+    [WR_ROW(WR_PATCH_NORMAL)] = "Normals",       [WR_ROW(WR_PATCH_LACKS)] = "Beside displacement",
+    [WR_ROW(WR_PATCH_RAN)] = "What ran",
 };
 WR_ROWS_END(wr_patch_look_names, WR_PATCH_LOOKS);
 
@@ -122,10 +123,29 @@ static void lay_map(WrApp *app, const WrWork *work, int look)
     wr_free(bgra);
 }
 
+/* Its three numbers of each pixel as colours, as the file of `accuracy --illusion --map` has them. */
+static void lay_lacks(WrApp *app, const WrWork *work)
+{
+    const WrIllusion *it = &work->illusion;
+    const size_t count = (size_t)it->width * (size_t)it->height;
+    uint8_t *bgra = wr_alloc(count, 4);
+    for (size_t i = 0; i < count; i++) {
+        uint8_t rgb[3];
+        wr_illusion_colour(it, i, rgb);
+        for (int c = 0; c < 3; c++) bgra[4 * i + 2 - (size_t)c] = rgb[c];
+        bgra[4 * i + 3] = 255;
+    }
+    put(app, &app->accuracy->map, bgra, it->width, it->height, work->of);
+    app->accuracy->map.look = WR_PATCH_LACKS;
+    wr_free(bgra);
+}
+
 void wr_accuracy_lay(WrApp *app, const WrWork *work)
 {
     WrAccuracy *a = app->accuracy;
-    if (work->kind == WR_WORK_PAIR) {
+    if (work->kind == WR_WORK_ILLUSION) {
+        lay_lacks(app, work);
+    } else if (work->kind == WR_WORK_PAIR) {
         for (int i = 0; i < 2; i++)
             put(app, &a->pair[i], work->bgra[i], work->width, work->height, work->of);
         a->flicker_since = wr_clock_seconds();
@@ -354,6 +374,21 @@ static void draw_ran(const WrApp *app)
     }
 }
 
+/* What the colours say, and below which height nobody sees any of it. */
+static void draw_lacks(const WrApp *app)
+{
+    const WrWork *work = app->accuracy->illusion;
+    const SDL_Rect *room = &app->layout->patch;
+    const double s = wr_gui_scale(), left = room->x + 12 * s, bottom = room->y + room->h - 12 * s;
+    WrText text = { 0 };
+    if (!work) return;
+    wr_illusion_height(&work->illusion, &text);
+    chip(left, bottom - 28 * s, 0, room->w - 56 * s, "",
+         wr_words("red: outline, green: shading, blue: shadow"));
+    chip(left, bottom, 0, room->w - 56 * s, "", wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
 static const char *waiting(const WrApp *app)
 {
     if (app->settings->turning) return "when the patch rests";
@@ -386,6 +421,8 @@ void wr_accuracy_overlay(WrApp *app)
         split_labels(app);
     } else if (pair) {
         side_label(app, a->flicker_shown, room->x + 12 * s, 0, room->w - 56 * s);
+    } else if (a->look == WR_PATCH_LACKS) {
+        draw_lacks(app);
     } else if (a->look != WR_PATCH_NORMAL) {
         draw_scale(app);
     }

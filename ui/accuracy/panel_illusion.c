@@ -68,4 +68,12 @@ void wr_panel_illusion(WrApp *app)
     wr_gui_tip(
         "Render this view bump mapped, displaced, and displaced with shadows, and tell how far "
         "they are apart: outline, shading and shadow.");
+    if (a->illusion) {
+        wr_gui_same_line(8);
+        const bool shown = a->look == WR_PATCH_LACKS;
+        if (wr_gui_button(shown ? "Picture" : "Map on the patch", false))
+            wr_accuracy_show(app, shown ? WR_PATCH_PLAIN : WR_PATCH_LACKS);
+        wr_gui_tip("Lay what bump lacks over the patch: its outline red, shading green, shadow "
+                   "blue");
+    }
 }
