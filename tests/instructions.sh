@@ -9,8 +9,9 @@ command -v valgrind >/dev/null || { echo 'valgrind is missing: apt-get install v
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
 
-# Pictures always in memory of their own, which comes empty: what was freed before must be emptied, and would count.
-export GLIBC_TUNABLES=glibc.malloc.mmap_threshold=32768
+# Pictures always in memory of their own, which comes empty: what was freed before must be emptied, and would count. So the
+# end of what small blocks have is given back at once; else a small picture finds room there, now and then.
+export GLIBC_TUNABLES=glibc.malloc.mmap_threshold=32768:glibc.malloc.trim_threshold=4096:glibc.malloc.top_pad=0
 valgrind --tool=callgrind --callgrind-out-file="$folder/out" --collect-atstart=no --toggle-collect=wr_test_counted \
     --dump-after=wr_test_counted "$program" >"$folder/calls" 2>"$folder/err" ||
     { cat "$folder/err"; exit 1; }
