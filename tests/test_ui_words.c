@@ -3,6 +3,12 @@
 
 #include "window_walk.h"
 
+#include "command/table.h"
+
+#include "ui/desk/action_list.h"
+#include "ui/desk/keys.h"
+#include "ui/panels/panel_search.h"
+
 #define MISSED_MOST 4000
 
 /* Texts of the program itself: not what was put together out of them, and not the user's. */
@@ -58,6 +64,103 @@ static void every_text_that_the_window_shows_has_a_translation(void **state)
     for (int i = 0; i < missed.count; i++) print_text(missed.text[i]);
     assert_int_equal(missed.count, 0);
     assert_true(missed.asked > 1000); /* numbers and names were among what was asked for */
+}
+
+/* ---- what can be done is found ---- */
+
+static const char *listed[1000];
+static int listed_count;
+
+static void note_listed(const char *action)
+{
+    if (listed_count < 1000) listed[listed_count++] = action;
+}
+
+static void every_action_stands_in_a_menu(void **state)
+{
+    (void)state;
+    Walk walk;
+    walk_open(&walk, "en");
+    listed_count = 0;
+    wr_menu_listed = note_listed;
+    walk_frame(&walk);
+    wr_menu_listed = NULL;
+    int missing = 0;
+    for (const WrAction *a = walk.app->roster->actions; a->name; a++) {
+        bool there = false;
+        for (int i = 0; i < listed_count && !there; i++) there = strcmp(listed[i], a->name) == 0;
+        if (!there) printf("%s (%s) is in no menu\n", a->name, a->label), missing++;
+    }
+    walk_close(&walk);
+    assert_int_equal(missing, 0);
+}
+
+static const char *told_of;
+static bool told;
+
+static void note_told(const char *english)
+{
+    told = told || strcmp(english, told_of) == 0;
+}
+
+/* Commands answer to their verb in the search, which then takes the line; in German they are explained in German. */
+static void every_command_is_reached_by_the_search(void **state)
+{
+    (void)state;
+    Walk walk;
+    walk_open(&walk, "de");
+    const bool german = strcmp(wr_words_language(), "de") == 0;
+    for (const WrCommand *const *c = wr_commands; *c; c++) {
+        if (german && wr_words((*c)->help) == (*c)->help)
+            fail_msg("%s: \"%s\" has no German text", (*c)->name, (*c)->help);
+        wr_action_run(walk.app, "search");
+        walk_frame(&walk);
+        walk_frame(&walk);
+        snprintf(walk.app->finder->text, sizeof walk.app->finder->text, "%s ", (*c)->name);
+        walk.app->finder->line = true; /* as its row in the list does */
+        told_of = (*c)->help;
+        told = false;
+        wr_words_asked = note_told;
+        walk_frame(&walk);
+        walk_frame(&walk);
+        wr_words_asked = NULL;
+        if (!told) fail_msg("the search says nothing about '%s'", (*c)->name);
+        wr_dialog_close(walk.app);
+        walk_frame(&walk);
+    }
+    walk_close(&walk);
+}
+
+static void no_key_does_two_things(void **state)
+{
+    (void)state;
+#define ROW(name, keys) { #name, keys },
+    static const struct {
+        const char *action, *keys;
+    } rows[] = { WR_ACTIONS(ROW) WR_HELD_ACTIONS(ROW) WR_FAMILY_ACTIONS(ROW) };
+#undef ROW
+    struct {
+        WrKey key;
+        const char *action;
+    } all[400];
+    int count = 0;
+    for (size_t i = 0; i < WR_LENGTH(rows); i++)
+        for (const char *at = rows[i].keys; *at;) {
+            const size_t length = strcspn(at, " ");
+            WrKey key;
+            WrError err;
+            if (length > 0 && !wr_key_parse(at, length, &key, &err)) fail_msg("%s", err.text);
+            for (int k = 0; k < count && length > 0; k++)
+                if (all[k].key.code == key.code && all[k].key.mods == key.mods)
+                    fail_msg("%.*s is of %s and of %s", (int)length, at, all[k].action,
+                             rows[i].action);
+            if (length > 0 && count < 400) {
+                all[count].key = key;
+                all[count++].action = rows[i].action;
+            }
+            at += length + (at[length] == ' ');
+        }
+    assert_true(count > 100);
 }
 
 /* ---- room ---- */
@@ -119,6 +222,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_text_that_the_window_shows_has_a_translation),
+        cmocka_unit_test(every_action_stands_in_a_menu),
+        cmocka_unit_test(every_command_is_reached_by_the_search),
+        cmocka_unit_test(no_key_does_two_things),
         cmocka_unit_test(no_text_is_cut),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);

@@ -55,7 +55,9 @@ void wr_gui_fits_window(const char *text)
 {
     if (!wr_gui_cut) return;
     const ImGuiWindow *window = ImGui::GetCurrentWindow();
-    if (window->SkipItems || window->HiddenFramesCanSkipItems > 0) return;
+    if (window->SkipItems || window->HiddenFramesCanSkipItems > 0 ||
+        window->HiddenFramesCannotSkipItems > 0)
+        return;
     if (window->Flags & ImGuiWindowFlags_AlwaysAutoResize) return; /* it grows */
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     wr_gui_fits(text, high.x - low.x, window->ClipRect.Max.x - low.x);

@@ -45,6 +45,7 @@ const char *wr_catalogue_find(const WrCatalogue *catalogue,
 
 /* Told of each text that was asked for and has no translation, while it is set; for tests. */
 extern void (*wr_words_missed)(const char *english);
+extern void (*wr_words_asked)(const char *english); /* of each that was asked for */
 
 #ifdef __cplusplus
 }

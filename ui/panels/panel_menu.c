@@ -172,6 +172,10 @@ static const char *const view_menu[] = { WR_ACT(look_grey),
                                          WR_ACT(zoom_in),
                                          WR_ACT(zoom_out),
                                          WR_ACT(zoom_100),
+                                         WR_ACT(pan_left),
+                                         WR_ACT(pan_right),
+                                         WR_ACT(pan_up),
+                                         WR_ACT(pan_down),
                                          WR_ACT(fit),
                                          WR_ACT(mirror_view),
                                          WR_ACT(turn_left),
@@ -189,9 +193,11 @@ static const char *const view_menu[] = { WR_ACT(look_grey),
                                          "camera",
                                          "-",
                                          WR_ACT(accuracy),
+                                         WR_ACT(accuracy_measure),
                                          "compare",
                                          WR_ACT(inspector),
                                          WR_ACT(inspector_pin),
+                                         WR_ACT(inspector_copy),
                                          WR_ACT(hard_cases),
                                          "-",
                                          WR_ACT(view_both),
@@ -239,9 +245,12 @@ static void scale(WrApp *app)
     wr_gui_menu_end();
 }
 
+void (*wr_menu_listed)(const char *action);
+
 void wr_menu_item(WrApp *app, const char *name)
 {
     char keys[32];
+    if (wr_menu_listed) wr_menu_listed(name);
     const WrAction *action = wr_action_find(app, name);
     WR_ASSERT(action);
     if (!action) return;

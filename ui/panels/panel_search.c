@@ -1,7 +1,9 @@
-/* Finding an action by typing: all that the menus hold, every table operation, every generator. */
+/* Finding an action by typing: all that the menus hold, every table operation, every generator; and every command, which is
+   a line to be typed here. */
 #include "ui/panels/panel_search.h"
 #include "ui/desk/action.h"
 #include "ui/desk/action_list.h"
+#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/keys.h"
@@ -12,6 +14,7 @@
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
 
+#include "command/table.h"
 #include "field/ops.h"
 #include "generate/generator.h"
 
@@ -20,6 +23,7 @@
 #include <string.h>
 
 #define FOUND_MAX 12
+#define COMMAND "command:" /* names of rows that are commands begin so */
 
 typedef struct Found {
     char name[64], label[80];
@@ -45,7 +49,7 @@ static void offer(Found found[FOUND_MAX], int *count, const char *name, const ch
     if (*count < FOUND_MAX) (*count)++;
 }
 
-static int find(const WrApp *app, Found found[FOUND_MAX])
+static int find_actions(const WrApp *app, Found found[FOUND_MAX])
 {
     int count = 0;
     const char *query = app->finder->text;
@@ -76,8 +80,59 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
     return count;
 }
 
+/* Commands besides. */
+static int find(const WrApp *app, Found found[FOUND_MAX])
+{
+    const char *query = app->finder->text;
+    int count = find_actions(app, found);
+    for (const WrCommand *const *c = wr_commands; *c; c++) {
+        char name[64], label[80];
+        snprintf(name, sizeof name, COMMAND "%.40s", (*c)->name);
+        snprintf(label, sizeof label, "%.20s: %s", (*c)->name, wr_words((*c)->help));
+        offer(found, &count, name, label, (*c)->help, query);
+    }
+    return count;
+}
+
+/* The command whose line is being typed: its verb and a space stand there. */
+static const WrCommand *typed(const char *text)
+{
+    char verb[40];
+    const size_t length = strcspn(text, " ");
+    if (text[length] != ' ' || length >= sizeof verb) return NULL;
+    memcpy(verb, text, length);
+    verb[length] = '\0';
+    return wr_command_find(verb);
+}
+
+/* What is known of it, in the list's place; Return carries the line out. */
+static void command_line(WrApp *app, const WrCommand *command, bool enter)
+{
+    char line[sizeof app->finder->text];
+    wr_gui_list_begin("found", 26.0 * FOUND_MAX * wr_gui_scale() + wr_gui_px(12));
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, command->help);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                        "Enter carries the line out. Its values are on the guide's pages of the "
+                        "commands (F1). For example:");
+    wr_gui_as_it_is(true);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, command->example);
+    wr_gui_as_it_is(false);
+    wr_gui_list_end();
+    if (!enter) return;
+    snprintf(line, sizeof line, "%s", app->finder->text);
+    wr_dialog_close(app);
+    wr_app_run_line(app, line);
+}
+
 static void run(WrApp *app, const char *name)
 {
+    WrFinder *finder = app->finder;
+    if (strncmp(name, COMMAND, strlen(COMMAND)) == 0) {
+        snprintf(finder->text, sizeof finder->text, "%.60s ", name + strlen(COMMAND));
+        finder->fill = finder->line = true;
+        wr_app_redraw(app);
+        return;
+    }
     wr_dialog_close(app);
     wr_action_run(app, name);
 }
@@ -108,7 +163,16 @@ void wr_dialog_search(WrApp *app)
     char before[sizeof finder->text];
     memcpy(before, finder->text, sizeof before);
     bool enter = wr_gui_text_field("##find", 0, finder->text, sizeof finder->text,
-                                   app->dialog->fresh || finder->empty);
+                                   app->dialog->fresh || finder->fill || finder->empty);
+    const WrCommand *command = typed(finder->text);
+    finder->fill = false;
+    finder->line = finder->line && command;
+    if (command && (finder->line || find_actions(app, found) == 0)) {
+        command_line(app, command, enter);
+        if (!app->dialog->fresh && wr_gui_escape_pressed()) wr_dialog_close(app);
+        wr_gui_dialog_end();
+        return;
+    }
     if (strcmp(before, finder->text) != 0) finder->chosen = 0;
     int count = find(app, found), go = -1;
     if (wr_gui_key_pressed(SDL_SCANCODE_DOWN)) finder->chosen++;

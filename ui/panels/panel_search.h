@@ -3,7 +3,10 @@
 #include "ui/desk/desk.h"
 
 typedef struct WrFinder { /* the search for actions */
-    char text[80];
+    char text[600];
+    bool
+        fill; /* a command was just chosen: its verb is put into the field, which wants the keys again */
+    bool line; /* what is typed is a command's line, not words of actions */
     int chosen;
     bool empty; /* Enter came with nothing typed: the field is to have the keys again */
 } WrFinder;

@@ -8,6 +8,8 @@
 void wr_panel_menu(WrApp *app);
 void wr_menu_item(WrApp *app, const char *action); /* of any menu that is open */
 void wr_menu_filters(WrApp *app);                  /* the operations that a new layer can be */
+/* Told of each action that a menu has, while it is set; for tests. */
+extern void (*wr_menu_listed)(const char *action);
 void wr_panel_options(WrApp *app);
 void wr_panel_tools(WrApp *app);
 void wr_panel_right(WrApp *app);
