@@ -101,6 +101,7 @@ static const char *const lines[] = {
     "adjust blur sigma=50 layers=all",
     "adjust sharpen amount=2 sigma=20 layers=all",
     "adjust median radius=8 layers=all",
+    "adjust curves points=0,0.2;0.5,0.3;1,1",
     "adjust dilate radius=16 layers=all",
     "adjust erode radius=16 layers=all",
     "adjust slope-limit limit=0.001 layers=all",

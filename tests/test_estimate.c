@@ -144,6 +144,18 @@ static void estimates_are_near_what_commands_take(void **state)
 }
 
 /* Lattices from loose to so close that nearly all is hidden. */
+/* Asked at every texel how far away the edge is, a ridge takes several times as long. */
+static void a_ridge_costs_more_than_a_bevel(void **state)
+{
+    (void)state;
+    WrSession *s = wr_session_new(NULL);
+    WrEstimate ridge, bevel;
+    assert_true(wr_session_estimate(s, "rim kind=ridge", &ridge, NULL));
+    assert_true(wr_session_estimate(s, "rim kind=bevel", &bevel, NULL));
+    assert_true(ridge.seconds > 3 * bevel.seconds);
+    wr_session_free(s);
+}
+
 static void crowds_are_near_what_they_take(void **state)
 {
     (void)state;
@@ -393,6 +405,7 @@ static void estimates_are_told_in_a_few_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_ridge_costs_more_than_a_bevel),
         cmocka_unit_test(every_edit_and_output_has_a_price),
         cmocka_unit_test(every_example_is_estimated_and_nothing_changes),
         cmocka_unit_test(estimates_rise_with_size_and_counts),

@@ -29,6 +29,7 @@ static const char *const kinds[] = {
     "erode radius=%.3f",
     "levels in-low=-0.37 in-high=%.3f gamma=1.7 out-low=0.21 out-high=0.83",
     "add amount=%.3f",
+    "curves points=-0.7,0.21;0.4,%.3f;1.2,0.35",
     "multiply factor=%.3f",
     "clamp low=0.19 high=%.3f",
     "invert about=zero",
@@ -42,7 +43,7 @@ static const char *const kinds[] = {
 };
 enum {
     KINDS = sizeof kinds / sizeof *kinds,
-    NEAR = 10 /* the first ones do not look at the whole table */
+    NEAR = 11 /* the first ones do not look at the whole table */
 };
 
 static WrFilter filter_of(int kind, double value)

@@ -99,7 +99,7 @@ typedef struct OpCall {
 } OpCall;
 
 /* Every way in which an operation works that keeps the table's size, and filters alone first. */
-enum { FILTER_CALLS = 15, SAME_SIZE_CALLS = 27 };
+enum { FILTER_CALLS = 15, SAME_SIZE_CALLS = 28 };
 static const OpCall same_size_calls[SAME_SIZE_CALLS] = {
     { "blur", { 0.0 } },
     { "blur", { 0.7 } },
@@ -120,6 +120,7 @@ static const OpCall same_size_calls[SAME_SIZE_CALLS] = {
     { "invert", { 1 } },
     { "levels", { -0.4, 0.4, 1.0, 0.0, 2.0 } },
     { "levels", { 0.0, 0.5, 2.2, 0.1, -1.0 } },
+    { "curves", { 3, -0.5, 0.1, 0.4, 0.6, 1.2, 0.7 } },
     { "normalise", { -2.0, 3.0 } },
     { "add", { 0.25 } },
     { "multiply", { -3.0 } },

@@ -78,6 +78,13 @@ static void texels(const Job *job, const Price *p, WrEstimate *out)
     add(out, p->ns * job->texels, p->bytes * job->texels);
 }
 
+/* more: of a ridge, which asks at every texel how far away the edge is, not only near it. */
+static void edge(const Job *job, const Price *p, WrEstimate *out)
+{
+    const bool ridge = choice(job, "kind") == 2.0;
+    add(out, (ridge ? p->more : p->ns) * job->texels, p->bytes * job->texels);
+}
+
 /* ns: an octave; more: one of those that are not made row by row. */
 static void octaves(const Job *job, const Price *p, WrEstimate *out)
 {
@@ -302,7 +309,7 @@ static const Price prices[] = {
     NOISE("torus", 280, 280),
     { "formula", "fourier", terms, .ns = 100, .bytes = 8.2 },
     { "formula", "poly", terms, .ns = 5.5, .bytes = 8.2 },
-    { "rim", NULL, texels, .ns = 150, .bytes = 20 },
+    { "rim", NULL, edge, .ns = 150, .more = 650, .bytes = 20 },
     { "text", NULL, texels, .ns = 6, .bytes = 6 },
     SOLID("sphere", 50, 0.05, 1, 0.25, 2e3),
     SOLID("ellipsoid", 50, 0.05, 1, 2.5, 2e3),
@@ -326,6 +333,7 @@ static const Price prices[] = {
     UNKNOWN("open", NULL),
     ADJUST(NULL, 11, 0),
     ADJUST("levels", 60, 0),
+    ADJUST("curves", 30, 0),
     ADJUST("blur", 11, 0.12),
     ADJUST("sharpen", 11, 0.12),
     ADJUST("median", 40, 0.22),

@@ -48,6 +48,8 @@ static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
         .choices = words                                                                           \
     }
 
+static const double straight[] = { 2, 0, 0, 1, 1 };
+
 const WrOpInfo wr_ops[] = {
     { .name = "offset",
       .label = "Offset",
@@ -115,6 +117,21 @@ const WrOpInfo wr_ops[] = {
                     .soft_high = 10 },
                   HEIGHT("out-low", "To low", "height that in-low becomes", 0),
                   HEIGHT("out-high", "To high", "height that in-high becomes", 1) } },
+    { .name = "curves",
+      .label = "Curves",
+      .help = "give each height the one that a smooth curve through points has there; beyond the "
+              "first and the last point it goes on straight",
+      .run = wr_op_curves,
+      .params = { { .name = "points",
+                    .label = "Points",
+                    .help = "heights and what they become; between them a monotone cubic (Fritsch "
+                            "and Carlson)",
+                    .unit = HEIGHT_UNIT,
+                    .low = -FLT_MAX,
+                    .high = FLT_MAX,
+                    .soft_low = -1,
+                    .soft_high = 2,
+                    .points = straight } } },
     { .name = "invert",
       .label = "Invert",
       .help = "turn bumps into dents",

@@ -15,6 +15,7 @@
      are under 1e37. */
 #pragma once
 #include "base/rows.h"
+#include "field/curve.h"
 
 #include <stdbool.h>
 
@@ -32,8 +33,8 @@ typedef struct WrText WrText;
     X(WR_RESIZE_LANCZOS3, "lanczos3")
 enum { WR_RESIZE_FILTERS(WR_WORD_ID) };
 
-#define WR_OP_PARAMS 6  /* parameters of one operation, at most */
-#define WR_OP_POINTS 16 /* points of one that is a list of points, at most */
+#define WR_OP_PARAMS 6               /* parameters of one operation, at most */
+#define WR_OP_POINTS WR_CURVE_POINTS /* points of one that is a list of points, at most */
 #define WR_OP_VALUES (WR_OP_PARAMS + 2 * WR_OP_POINTS) /* the numbers of all of them, at most */
 
 typedef struct WrOpParam {

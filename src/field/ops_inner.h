@@ -125,6 +125,7 @@ WrField *wr_op_rotate(WrOpJob *job, const double *param);
 WrField *wr_op_crop(WrOpJob *job, const double *param);
 WrField *wr_op_resize(WrOpJob *job, const double *param);
 WrField *wr_op_levels(WrOpJob *job, const double *param);
+WrField *wr_op_curves(WrOpJob *job, const double *param);
 WrField *wr_op_invert(WrOpJob *job, const double *param);
 WrField *wr_op_normalise(WrOpJob *job, const double *param);
 WrField *wr_op_add(WrOpJob *job, const double *param);

@@ -78,6 +78,27 @@ WrField *wr_op_levels(WrOpJob *job, const double *param)
     return run_tone(job, &tone);
 }
 
+typedef struct CurveTone {
+    Tone tone; /* the first: what `map` is given */
+    WrCurve curve;
+} CurveTone;
+
+static void map_curve(const Tone *tone, float *row, int count)
+{
+    const WrCurve *curve = &((const CurveTone *)tone)->curve;
+    for (int i = 0; i < count; i++) row[i] = wr_op_float(wr_curve_at(curve, (double)row[i]));
+}
+
+/* param: how many points, and they */
+WrField *wr_op_curves(WrOpJob *job, const double *param)
+{
+    CurveTone curves = { .tone = { .map = map_curve, .window = 1 } };
+    if (wr_curve_make(param + 1, (int)param[0], &curves.curve, job->err))
+        return run_tone(job, &curves.tone);
+    wr_error_prefix(job->err, "%s: ", job->name);
+    return NULL;
+}
+
 /* a: the sum that a height and its inverse make */
 static void map_invert(const Tone *tone, float *row, int count)
 {

@@ -27,14 +27,19 @@ const WrField *wr_app_field(const WrApp *app)
 bool wr_app_shows_mask(const WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
-    return app->mask_alone && !app->trying && document->layers[document->active].on_mask;
+    return app->mask_alone && document->layers[document->active].on_mask;
 }
 
 const WrField *wr_app_canvas_field(const WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
     const WrLayer *layer = &document->layers[document->active];
-    if (wr_app_shows_mask(app)) return layer->mask;
+    if (wr_app_shows_mask(app)) {
+        const WrDocument *made = app->trying ? wr_trial_made(app->trial) : NULL;
+        const bool same = made && made->layer_count == document->layer_count;
+        const WrField *mask = same ? made->layers[document->active].mask : NULL;
+        return mask ? mask : layer->mask;
+    }
     const bool worn = !app->trying && !wr_document_shows(document, document->active) &&
                       document->solo < 0 && wr_scene_wears(document->scene, layer->name);
     return worn ? layer->heights : wr_app_field(app);

@@ -49,60 +49,60 @@ static void count(WrHeightCounts *h, const WrField *field)
         h->most = h->count[k] > h->most ? h->count[k] : h->most;
 }
 
-/* Heights from the left to the right edge: all that there are, and both ends of the levels. */
-typedef struct Span {
-    double low, high;
-} Span;
-
-static double to_x(const WrPad *pad, Span span, double height)
+double wr_height_x(const WrPad *pad, WrHeightSpan span, double height)
 {
     return pad->x + pad->w * (height - span.low) / (span.high - span.low);
 }
 
-static void bars(const WrPad *pad, Span span, const WrHeightCounts *h)
+void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h)
 {
     const double bin = (h->high - h->low) / WR_HEIGHT_BINS;
     for (int k = 0; k < WR_HEIGHT_BINS; k++) {
         double tall = pad->h * sqrt((double)h->count[k] / h->most); /* so that rare ones are seen */
-        double x = to_x(pad, span, h->low + k * bin),
-               right = to_x(pad, span, h->low + (k + 1) * bin);
+        double x = wr_height_x(pad, span, h->low + k * bin),
+               right = wr_height_x(pad, span, h->low + (k + 1) * bin);
         if (tall > 0.0)
             wr_gui_draw_fill(x, pad->y + pad->h - tall, fmax(right - x, 1.0), tall, 0xff6a6a6au, 0);
     }
 }
 
 /* What each height becomes, as a part of the way from the lowest to the highest result. */
-static void curve(const WrPad *pad, Span span, double low, double high, double gamma)
+static void curve(const WrPad *pad, WrHeightSpan span, double low, double high, double gamma)
 {
     double before_x = 0.0, before_y = 0.0;
     for (int k = 0; k <= STEPS; k++) {
         double height = span.low + (span.high - span.low) * k / STEPS;
         double t = high > low ? fmin(fmax((height - low) / (high - low), 0.0), 1.0) : 0.0;
-        double x = to_x(pad, span, height), y = pad->y + pad->h * (1.0 - pow(t, 1.0 / gamma));
+        double x = wr_height_x(pad, span, height),
+               y = pad->y + pad->h * (1.0 - pow(t, 1.0 / gamma));
         if (k) wr_gui_draw_line(before_x, before_y, x, y, WR_COLOUR_CELL, wr_gui_px(1));
         before_x = x;
         before_y = y;
     }
 }
 
+const WrHeightCounts *wr_height_counts(WrApp *app)
+{
+    WrHeightCounts *h = &app->adjust->histogram;
+    const WrField *field = table_of(app);
+    if (h->key != wr_field_key(field)) count(h, field);
+    return h;
+}
+
 bool wr_levels_pad(WrApp *app)
 {
     WrAdjust *adjust = app->adjust;
-    WrHeightCounts *h = &adjust->histogram;
-    const WrField *field = table_of(app);
+    const WrHeightCounts *h = wr_height_counts(app);
     double *low = &adjust->param[index_of(adjust->op, "in-low")];
     double *high = &adjust->param[index_of(adjust->op, "in-high")];
-    if (h->key != wr_field_key(field)) count(h, field);
-    Span span = { fmin(h->low, fmin(*low, *high)), fmax(h->high, fmax(*low, *high)) };
+    WrHeightSpan span = { fmin(h->low, fmin(*low, *high)), fmax(h->high, fmax(*low, *high)) };
     WrPad pad = wr_gui_pad_begin("histogram", 0, wr_gui_px(ROOM_UNITS));
     if (adjust->held && pad.held)
-        span = adjust->held_span.low < adjust->held_span.high
-                   ? (Span){ adjust->held_span.low, adjust->held_span.high }
-                   : span;
-    bars(&pad, span, h);
+        span = adjust->held_span.low < adjust->held_span.high ? adjust->held_span : span;
+    wr_height_bars(&pad, span, h);
     curve(&pad, span, *low, *high, adjust->param[index_of(adjust->op, "gamma")]);
     for (int k = 0; k < 2; k++) {
-        double x = to_x(&pad, span, k ? *high : *low);
+        double x = wr_height_x(&pad, span, k ? *high : *low);
         wr_gui_draw_line(x, pad.y, x, pad.y + pad.h, k ? 0xfff4f4f4u : WR_COLOUR_ACCENT,
                          wr_gui_px(2));
     }
@@ -111,11 +111,10 @@ bool wr_levels_pad(WrApp *app)
         wr_gui_tip("How often each height is there. Drag the blue line to what becomes low, the "
                    "white one to what becomes high");
     if (pad.pressed) {
-        bool nearer_high = fabs(pad.pointer_x - to_x(&pad, span, *high)) <
-                           fabs(pad.pointer_x - to_x(&pad, span, *low));
+        bool nearer_high = fabs(pad.pointer_x - wr_height_x(&pad, span, *high)) <
+                           fabs(pad.pointer_x - wr_height_x(&pad, span, *low));
         adjust->held = nearer_high ? 2 : 1;
-        adjust->held_span.low = span.low;
-        adjust->held_span.high = span.high;
+        adjust->held_span = span;
     }
     if (!pad.held || !adjust->held) {
         adjust->held = 0;

@@ -59,7 +59,7 @@ static double beginning(const WrApp *app, const WrOpParam *param)
 
 static bool has_histogram(const WrOpInfo *op)
 {
-    return strcmp(op->name, "levels") == 0;
+    return strcmp(op->name, "levels") == 0 || strcmp(op->name, "curves") == 0;
 }
 
 static void forget_below(WrApp *app)
@@ -82,7 +82,7 @@ static void open(WrApp *app, const WrFilter *filter, bool filters, int layer)
     wr_dialog_open(app, WR_DIALOG_ADJUST);
     app->adjust->op = filter->op;
     app->adjust->view = *app->view;
-    app->adjust->layers = 0;
+    app->adjust->layers = app->adjust->held = app->adjust->chosen = 0;
     app->adjust->filters = filters;
     app->adjust->layer = layer;
     memcpy(app->adjust->param, filter->param, sizeof app->adjust->param);
@@ -162,6 +162,7 @@ static bool parameters(WrApp *app)
     bool changed = false;
     for (int i = 0; i < wr_op_param_count(op); i++) {
         const WrOpParam *param = &op->params[i];
+        if (param->points) continue; /* drawn by hand */
         wr_gui_label(param->label);
         if (param->choices) {
             changed |= choice(param, &app->adjust->param[i]);
@@ -260,7 +261,8 @@ void wr_dialog_adjust(WrApp *app)
     if (help[0] >= 'a' && help[0] <= 'z') help[0] = (char)(help[0] - 'a' + 'A');
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, help);
     wr_gui_space(4);
-    bool changed = has_histogram(op) && wr_levels_pad(app);
+    bool changed =
+        has_histogram(op) && (op->params->points ? wr_curves_pad(app) : wr_levels_pad(app));
     changed |= parameters(app);
     changed |= half_cell(app);
     changed |= which_layers(app);

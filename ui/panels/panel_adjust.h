@@ -3,6 +3,7 @@
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"
+#include "ui/gui/gui.h"
 
 #include "document/document.h"
 #include "field/ops.h"
@@ -18,6 +19,11 @@ typedef struct WrHeightCounts {
     unsigned most, count[WR_HEIGHT_BINS];
 } WrHeightCounts;
 
+/* Heights from the left to the right edge of a histogram. */
+typedef struct WrHeightSpan {
+    double low, high;
+} WrHeightSpan;
+
 /* What the dialog of an operation holds. */
 typedef struct WrAdjust {
     const WrOpInfo *op; /* NULL: none */
@@ -29,10 +35,9 @@ typedef struct WrAdjust {
     uint64_t asked_at;        /* the document's revision when it was tried last */
     WrCanvasView view;        /* as it was before */
     WrHeightCounts histogram; /* of levels */
-    int held;                 /* on it: 1 the low end, 2 the high one; 0: neither */
-    struct {
-        double low, high;
-    } held_span; /* what it showed then */
+    int held;               /* on it: 1 the low end, 2 the high one, of a curve a point; 0: none */
+    int chosen;             /* the curve's point that keys move, 0: none */
+    WrHeightSpan held_span; /* what it showed then */
 } WrAdjust;
 
 /* The operation of an action "adjust_NAME", or NULL. */
@@ -45,5 +50,10 @@ void wr_filter_edit(WrApp *app);
 /* The operation of an action "filter_NAME", or NULL; and its label in menus is that of the operation. */
 extern const WrPart wr_part_adjust;
 bool wr_filter_by_name(WrApp *app, const char *name); /* see WrActionFamily */
+bool wr_curves_pad(WrApp *app);                       /* curves_pad.c; likewise */
+/* What is counted and drawn below both: the heights that the dialog changes. */
+const WrHeightCounts *wr_height_counts(WrApp *app);
+double wr_height_x(const WrPad *pad, WrHeightSpan span, double height);
+void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h);
 bool wr_levels_pad(WrApp *app); /* levels_pad.c; true if a value was dragged */
 bool wr_adjust_by_name(WrApp *app, const char *name); /* "adjust_NAME"; see WrActionFamily */

@@ -136,6 +136,16 @@ static void apply(WrApp *app)
     wr_text_fini(&line);
 }
 
+/* Another tool: what was made is kept, as a step. Another document: nothing of it is this one's. */
+static void leave(WrApp *app)
+{
+    const WrTransformHand *hand = app->transform;
+    const bool ours = hand->measured && hand->revision == wr_session_revision(app->session);
+    if (app->trying && ours && !is_still(hand))
+        apply(app); /* nothing is tried of an old document */
+    else cancel(app);
+}
+
 /* ---- the gesture ---- */
 
 /* The pointer in texels from the middle of the nearest copy of the piece, as `v` has it. */
@@ -451,5 +461,5 @@ const WrTool wr_tool_transform = {
     .marks = marks,
     .options = options,
     .key = key,
-    .leave = cancel
+    .leave = leave
 };
