@@ -174,13 +174,26 @@ static void pan_camera(WrApp *app, const WrPlacement *at, double dx, double dy)
     camera->target = v3_add(from->target, by);
 }
 
+/* Pixels of a drag that turns by half a turn: across the view, and from nearer by than where all is seen so many more as
+   the front is larger, so that it goes with the hand. */
+static double half_turn(const WrApp *app, const WrPlacement *at)
+{
+    const SDL_Rect *r = &app->layout->patch;
+    const WrCamera *camera = &app->patch->from_camera;
+    const double across = r->w < r->h ? r->w : r->h, least = 0.02 * at->ball;
+    if (app->patch->cube.pressed) return wr_patch_cube_span();
+    double away = v3_len(v3_sub(camera->eye, camera->target));
+    double fits = at->ball * r->h / (at->half_height * across); /* where the ball fills the view */
+    if (at->orthographic) return across * fmax(1.0, fits);
+    return across * fmax(1.0, fmax(fits - at->ball, least) / fmax(away - at->ball, least));
+}
+
 static void orbit(WrApp *app, const WrPointer *p)
 {
     WrPlacement at;
     const double dx = p->x - app->hand->start.x, dy = p->y - app->hand->start.y;
     if (!place(app, &at) || (!app->live && hypot(dx, dy) < CLICK)) return;
-    const SDL_Rect *r = &app->layout->patch;
-    const double span = app->patch->cube.pressed ? wr_patch_cube_span() : r->w < r->h ? r->w : r->h;
+    const double span = half_turn(app, &at);
     if (app->patch->pans) pan_camera(app, &at, dx, dy);
     else if (app->patch->rounds) orbit_camera(app, dx, dy, span);
     if (app->patch->pans || app->patch->rounds) return;
