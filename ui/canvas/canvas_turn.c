@@ -2,6 +2,7 @@
 
 #include <SDL.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 #define DEGREE 0.017453292519943295
@@ -32,24 +33,40 @@ static int within(int at, int size)
     return at < 0 ? 0 : at >= size ? size - 1 : at;
 }
 
+#define FIXED                                                                                      \
+    4294967296.0 /* places as whole numbers of 2^-32 of a pixel: quarters are exact, rows do not drift */
+
+typedef struct Source {
+    const uint32_t *pixels;
+    int w, h;
+} Source;
+
+static uint32_t between(const Source *from, int64_t x, int64_t y)
+{
+    int left = (int)(x >> 32), top = (int)(y >> 32);
+    uint32_t tx = (uint32_t)(x >> 24) & (PARTS - 1), ty = (uint32_t)(y >> 24) & (PARTS - 1);
+    bool inside = left >= 0 && top >= 0 && left + 1 < from->w && top + 1 < from->h;
+    int x0 = inside ? left : within(left, from->w),
+        x1 = inside ? left + 1 : within(left + 1, from->w);
+    int y0 = inside ? top : within(top, from->h), y1 = inside ? top + 1 : within(top + 1, from->h);
+    const uint32_t *upper = from->pixels + (size_t)y0 * (size_t)from->w;
+    const uint32_t *lower = from->pixels + (size_t)y1 * (size_t)from->w;
+    return blend(blend(upper[x0], upper[x1], tx), blend(lower[x0], lower[x1], tx), ty);
+}
+
 void wr_canvas_turn(const uint32_t *from, int from_w, int from_h, uint32_t *to, int to_w, int to_h,
                     double degrees, SDL_Rect rect)
 {
-    Turn t = turn_of(degrees);
+    const Turn t = turn_of(degrees);
+    const Source source = { from, from_w, from_h };
+    const int64_t step_x = llrint(t.c * FIXED), step_y = llrint(-t.s * FIXED);
     for (int j = rect.y; j < rect.y + rect.h; j++) {
-        double dy = j + 0.5 - to_h / 2.0;
-        for (int i = rect.x; i < rect.x + rect.w; i++) {
-            double dx = i + 0.5 - to_w / 2.0;
-            double x = t.c * dx + t.s * dy + from_w / 2.0 - 0.5 + 0.5 / PARTS;
-            double y = t.c * dy - t.s * dx + from_h / 2.0 - 0.5 + 0.5 / PARTS;
-            double fx = floor(x), fy = floor(y);
-            int x0 = within((int)fx, from_w), x1 = within((int)fx + 1, from_w);
-            const uint32_t *upper = from + (size_t)within((int)fy, from_h) * (size_t)from_w;
-            const uint32_t *lower = from + (size_t)within((int)fy + 1, from_h) * (size_t)from_w;
-            uint32_t tx = (uint32_t)((x - fx) * PARTS), ty = (uint32_t)((y - fy) * PARTS);
-            to[(size_t)j * (size_t)to_w + (size_t)i] =
-                blend(blend(upper[x0], upper[x1], tx), blend(lower[x0], lower[x1], tx), ty);
-        }
+        const double dx = rect.x + 0.5 - to_w / 2.0, dy = j + 0.5 - to_h / 2.0;
+        const double half = 0.5 - 0.5 / PARTS; /* of a pixel, and rounding to the nearest part */
+        int64_t x = llrint((t.c * dx + t.s * dy + from_w / 2.0 - half) * FIXED);
+        int64_t y = llrint((t.c * dy - t.s * dx + from_h / 2.0 - half) * FIXED);
+        uint32_t *out = to + (size_t)j * (size_t)to_w + (size_t)rect.x;
+        for (int i = 0; i < rect.w; i++, x += step_x, y += step_y) out[i] = between(&source, x, y);
     }
 }
 
