@@ -415,7 +415,7 @@ void wr_accuracy_overlay(WrApp *app)
         bool failed =
             !pair && a->look == WR_PATCH_ERROR && a->error_of == a->state && a->error_why.text[0];
         snprintf(text, sizeof text, "%s: %s", wr_words(name),
-                 failed ? wr_words("cannot be measured") : waiting(app));
+                 failed ? wr_words("cannot be measured") : wr_words(waiting(app)));
         chip(room->x + 12 * s, room->y + room->h - 12 * s, 0, room->w - 56 * s, "", text);
     } else if (shows_split(a)) {
         split_labels(app);

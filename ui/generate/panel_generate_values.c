@@ -7,6 +7,7 @@
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/files.h"
 
 #include "document/blend.h"
@@ -264,7 +265,8 @@ static bool heading(const WrGenerateHand *hand, int first, const Group *group)
     char label[96];
     int changed = count_changed(hand, first, group);
     if (changed > 0)
-        snprintf(label, sizeof label, "%s (%d changed)###%s", group->title, changed, group->title);
+        snprintf(label, sizeof label, wr_words("%s (%d changed)###%s"), wr_words(group->title),
+                 changed, group->title);
     else snprintf(label, sizeof label, "%s###%s", group->title, group->title);
     return wr_gui_fold(label, group->open);
 }
