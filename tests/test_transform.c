@@ -54,22 +54,25 @@ static void whole_layers_go_as_table_operations_carry_them_to_the_bit(void **sta
 }
 
 /* A point of the piece and where A + R S (p - A) leads it, worked out here; A, the point that only moves, lies far from the
-   piece's middle, so that a turn the other way leads elsewhere. */
+   piece's middle, so that a turn the other way leads elsewhere; the table is of several blocks, of which only those are made
+   that the piece is thought to meet. */
 static void a_turn_about_a_far_point_leads_where_it_shall(void **state)
 {
     (void)state;
     WrSession *s = session_of(
-        (const char *[]){ "table 163x121", "select rect from=0.5,0.4 to=0.7,0.6", "fill 1",
-                          "transform turn=37 scale=1.3,0.7 about=0.45,0.35", NULL });
+        (const char *[]){ "table 1031x777", "select rect from=0.5,0.4 to=0.7,0.6", "fill 1",
+                          "transform turn=37 scale=1.3,1.9 about=0.45,0.35", NULL });
     const double c = cos(37 / 57.29577951308232), n = sin(37 / 57.29577951308232);
     for (int k = 0; k < 49; k++) {
         /* parts of the piece's sides, inside for 0.2..0.8 and well outside for -0.4 and 1.4 */
         static const double parts[] = { -0.4, 0.2, 0.35, 0.5, 0.65, 0.8, 1.4 };
         const double a = parts[k % 7], b = parts[k / 7];
-        const double x = (0.5 + 0.2 * a - 0.45) * 163 * 1.3, y = (0.4 + 0.2 * b - 0.35) * 121 * 0.7;
-        const double u = 0.45 * 163 + c * x - n * y, v = 0.35 * 121 + n * x + c * y;
+        const double x = (0.5 + 0.2 * a - 0.45) * 1031 * 1.3,
+                     y = (0.4 + 0.2 * b - 0.35) * 777 * 1.9;
+        const double u = 0.45 * 1031 + c * x - n * y, v = 0.35 * 777 + n * x + c * y;
         const bool inside = k % 7 > 0 && k % 7 < 6 && k / 7 > 0 && k / 7 < 6;
-        assert_near(f_at(s, (int)floor(u), 120 - (int)floor(v)), inside ? 1.0 : 0.0, 1e-6);
+        assert_near(f_at(s, ((int)floor(u) + 1031) % 1031, 776 - ((int)floor(v) + 777) % 777),
+                    inside ? 1.0 : 0.0, 1e-6);
     }
     wr_session_free(s);
 }
