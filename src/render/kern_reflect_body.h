@@ -25,29 +25,45 @@ ALWAYS Reflected reflect_at(const STRIP *strip, int i, const WrReflect model, co
     return reflect_ggx(n, l, v, wide, form, left, m);
 }
 
+/* A lamp's colour, and the surface's own times kd. */
+typedef struct Shone {
+    REAL r, g, b, own_r, own_g, own_b;
+} Shone;
+
+ALWAYS Shone shone_of(const LIGHT *light, const MATTER *m)
+{
+    return (Shone){ light->rgb[0],        light->rgb[1],        light->rgb[2],
+                    m->kd * m->colour[0], m->kd * m->colour[1], m->kd * m->colour[2] };
+}
+
+/* What it adds to the sums of sample i. twice: also what facets throw at each other, of which `mean` is kept. */
+ALWAYS void add_reflected(Shone by, Reflected got, const bool twice, REAL mean, STRIP *strip, int i)
+{
+    REAL again_r = K_(0), again_g = K_(0), again_b = K_(0);
+    if (twice) {
+        again_r = got.again * reflect_kept(by.own_r * strip->cr[i], mean);
+        again_g = got.again * reflect_kept(by.own_g * strip->cg[i], mean);
+        again_b = got.again * reflect_kept(by.own_b * strip->cb[i], mean);
+    }
+    strip->dr[i] += by.r * (got.own + again_r);
+    strip->dg[i] += by.g * (got.own + again_g);
+    strip->db[i] += by.b * (got.own + again_b);
+    strip->sr[i] += by.r * got.white;
+    strip->sg[i] += by.g * got.white;
+    strip->sb[i] += by.b * got.white;
+}
+
 ALWAYS void reflect_strip(const LIGHT *light, const MATTER *matter, const WrReflect model,
                           const Form form, STRIP *strip)
 {
     const MATTER m = *matter;
-    const REAL r = light->rgb[0], g = light->rgb[1], b = light->rgb[2];
-    const REAL own_r = m.kd * m.colour[0], own_g = m.kd * m.colour[1], own_b = m.kd * m.colour[2];
+    const Shone by = shone_of(light, &m);
     const bool twice = form.kept && model == WR_REFLECT_OREN_NAYAR;
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
         const Reflected got = reflect_at(strip, i, model, form, K_(0), &m);
-        REAL again_r = K_(0), again_g = K_(0), again_b = K_(0);
-        if (twice) {
-            again_r = got.again * reflect_kept(own_r * strip->cr[i], m.mean);
-            again_g = got.again * reflect_kept(own_g * strip->cg[i], m.mean);
-            again_b = got.again * reflect_kept(own_b * strip->cb[i], m.mean);
-        }
-        strip->dr[i] += r * (got.own + again_r);
-        strip->dg[i] += g * (got.own + again_g);
-        strip->db[i] += b * (got.own + again_b);
-        strip->sr[i] += r * got.white;
-        strip->sg[i] += g * got.white;
-        strip->sb[i] += b * got.white;
+        add_reflected(by, got, twice, m.mean, strip, i);
     }
 }
 

@@ -98,8 +98,7 @@ ALWAYS void vary_strip(const LIGHT *light, const MATTER *matter, const VARY *var
 {
     const bool kept = form.kept;
     const MATTER m = *matter;
-    const REAL r = light->rgb[0], g = light->rgb[1], b = light->rgb[2];
-    const REAL own_r = m.kd * m.colour[0], own_g = m.kd * m.colour[1], own_b = m.kd * m.colour[2];
+    const Shone by = shone_of(light, &m);
     const bool twice = kept && model == WR_REFLECT_OREN_NAYAR;
     const bool shares = kept && model == WR_REFLECT_GGX;
     const Form as = { kept, form.spread, form.round, shares, false, false };
@@ -110,18 +109,7 @@ ALWAYS void vary_strip(const LIGHT *light, const MATTER *matter, const VARY *var
     {
         const MATTER own = vary_matter(&m, model, kept, strip->rough[i], strip->metal[i]);
         const Reflected got = reflect_at(strip, i, model, as, shares ? left[i] : K_(0), &own);
-        REAL again_r = K_(0), again_g = K_(0), again_b = K_(0);
-        if (twice) {
-            again_r = got.again * reflect_kept(own_r * strip->cr[i], own.mean);
-            again_g = got.again * reflect_kept(own_g * strip->cg[i], own.mean);
-            again_b = got.again * reflect_kept(own_b * strip->cb[i], own.mean);
-        }
-        strip->dr[i] += r * (got.own + again_r);
-        strip->dg[i] += g * (got.own + again_g);
-        strip->db[i] += b * (got.own + again_b);
-        strip->sr[i] += r * got.white;
-        strip->sg[i] += g * got.white;
-        strip->sb[i] += b * got.white;
+        add_reflected(by, got, twice, own.mean, strip, i);
     }
 }
 
