@@ -28,33 +28,35 @@ closed() {
 printf '%s\n' 'table 96x96' 'layer add form' 'noise perlin cells=4' 'surface terrain layer=form cells=9' \
     'camera orthographic eye=0,0,5 size=2' 'dials aa=point' >hills.wrinkle
 start hills.wrinkle
-click 1110 391
+click 1110 419
 xdotool type --delay 20 0.375
 rest
 xdotool key Return
 rest
 becomes 'surface terrain * height=0.375 cells=9 layer=form' "another height of the ground"
-pick 1110 479 2
+pick 1110 537 2
 becomes 'surface terrain * height=0.375 cells=9 layer=1' "the ground of another layer"
 
-# ---- a view is kept, used again and forgotten; the background; at the panel's end ----
+# ---- a view is kept, used again and forgotten; the background; near the panel's end ----
 xdotool mousemove $((X + 1000)) $((Y + 300))
 for _ in $(seq 24); do xdotool click 5; done
 rest
-click 1110 163
+xdotool click 4
+rest
+click 1050 240
 becomes 'camera save "view 1"' "a view that is kept"
 xdotool mousemove $((X + 760)) $((Y + 700))
 key KP_Next
 becomes 'camera from right' "another view"
-click 1000 163
+click 1000 212
 becomes 'camera use "view 1"' "the view that was kept"
-xdotool mousemove $((X + 1174)) $((Y + 163))
+xdotool mousemove $((X + 1172)) $((Y + 212))
 rest # with the icon's tip, which lies over a row
 xdotool click 1
 becomes 'camera forget "view 1"' "the view forgotten"
-pick 1110 225 2
+pick 1110 301 2
 becomes 'background gradient' "a gradient behind"
-pick 1110 225 3
+pick 1110 301 3
 becomes 'background none' "nothing behind"
 closed
 

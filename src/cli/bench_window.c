@@ -2,6 +2,8 @@
 #include "cli/bench.h"
 
 #include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "system/clock.h"
 #include "system/path.h"
@@ -79,9 +81,13 @@ static double time_start(const char *program, const char *folder)
     const bool ran = system(wr_text_get(&line)) == 0;
     wr_text_clear(&line);
     wr_text_addf(&line, "%s/told", folder);
-    FILE *told = ran ? fopen(wr_text_get(&line), "r") : NULL;
-    if (!told || fscanf(told, "first picture after %lf", &ms) != 1) ms = -1;
-    if (told) fclose(told);
+    char *told = NULL;
+    size_t length;
+    WrError err;
+    if (!ran || !wr_file_read(wr_text_get(&line), 65536, &told, &length, &err) ||
+        sscanf(told, "first picture after %lf", &ms) != 1)
+        ms = -1;
+    wr_free(told);
     wr_text_fini(&line);
     return ms;
 }

@@ -176,7 +176,7 @@ static bool run_gltf(WrSession *session, WrCall *call, WrError *err)
 }
 
 static const WrArgSpec args[] = {
-    { .name = "FILE", .type = WR_ARG_PATH, .positional = true, .help = "a .gltf or .glb file" },
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "a .gltf or .glb file" },
     { .name = "part",
       .type = WR_ARG_NAME,
       .shape = "N or NAME",

@@ -202,6 +202,13 @@ bool wr_keys_hold(const WrKeyMap *map, const char *action, int held)
     return false;
 }
 
+/* Of keys that are held alone the last plus goes. */
+static void drop_plus(char *name)
+{
+    size_t length = strlen(name);
+    if (length > 0) name[length - 1] = '\0';
+}
+
 static void print_key(WrKey key, char *buffer, size_t size)
 {
     bool only = key.code == SDLK_UNKNOWN;
@@ -210,8 +217,7 @@ static void print_key(WrKey key, char *buffer, size_t size)
              only                    ? ""
              : key.code == SDLK_HASH ? HASH
                                      : SDL_GetKeyName(key.code));
-    size_t length = strlen(buffer);
-    if (only && length > 0) buffer[length - 1] = '\0'; /* the last plus */
+    if (only) drop_plus(buffer);
 }
 
 /* The same in the user's language: "Strg+Umschalt+Entf". Keys have words of their own, "key: Delete", since a key and what
@@ -225,6 +231,7 @@ static void say_key(WrKey key, char *buffer, size_t size)
     snprintf(buffer, size, "%s%s%s%s", key.mods & WR_MOD_CTRL ? wr_words("Ctrl+") : "",
              key.mods & WR_MOD_SHIFT ? wr_words("Shift+") : "",
              key.mods & WR_MOD_ALT ? wr_words("Alt+") : "", said == id ? bare : said);
+    if (key.code == SDLK_UNKNOWN) drop_plus(buffer);
 }
 
 char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32])

@@ -272,23 +272,27 @@ try {
     float right = at.x + ImGui::CalcItemWidth() - px(13), arrow = px(4);
     float middle = roundf(at.y + ImGui::GetFrameHeight() / 2 - arrow / 2);
     const char *now = *index >= 0 && *index < count ? wr_gui_said(items[*index]) : "";
-    const float room = ImGui::CalcItemWidth() - 2 * ImGui::GetStyle().FramePadding.x;
-    const bool tight =
-        ImGui::CalcTextSize(now).x > room; /* the small face has the fields' height all the same */
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
-    const float lines = ImGui::GetFontSize();
-    if (tight) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
-                        ImVec2(tight ? padding.x * 0.5f : padding.x,
-                               padding.y + (lines - ImGui::GetFontSize()) / 2));
-    wr_gui_fits(now, ImGui::CalcTextSize(now).x, tight ? room + padding.x : room);
-    bool open = ImGui::BeginCombo("##choice", now,
+    const float room = ImGui::CalcItemWidth() - 2 * padding.x;
+    float said_wide = ImGui::CalcTextSize(now).x;
+    const bool tight =
+        said_wide > room; /* then it is in the small face, which fields are as high as without */
+    /* Drawn here: a face that is chosen across BeginCombo would be given back to the list's own window. */
+    const ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
+    if (tight) said_wide = small->CalcTextSizeA(small->FontSize, FLT_MAX, 0.0f, now).x;
+    wr_gui_fits(now, said_wide, tight ? room + padding.x : room);
+    const float lower = (ImGui::GetFontSize() - small->FontSize) / 2;
+    const ImVec2 place(at.x + padding.x * 0.5f, at.y + padding.y + lower);
+    const ImVec4 clip(at.x, at.y, right + px(13), at.y + ImGui::GetFrameHeight());
+    bool open = ImGui::BeginCombo("##choice", tight ? "" : now,
                                   ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
-    ImGui::PopStyleVar();
-    if (tight) ImGui::PopFont();
+    if (tight)
+        list->AddText(small, small->FontSize, place, ImGui::GetColorU32(ImGuiCol_Text), now,
+                      nullptr, 0.0f, &clip);
     wr_gui_edge(list, at, ImVec2(right + px(13), at.y + ImGui::GetFrameHeight()));
-    list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
-                            ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
+    if (!tight || place.x + said_wide < right - arrow)
+        list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
+                                ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
     if (wr_gui_tells_all)
         for (int i = 0; i < count; i++) wr_gui_said(items[i]);
     if (open) {

@@ -77,7 +77,7 @@ static WrField *below_new(const WrDocument *document)
 }
 
 /* layer: index of a filter layer, -1 a new one. */
-static void open(WrApp *app, const WrFilter *filter, bool filters, int layer)
+static void ask_values(WrApp *app, const WrFilter *filter, bool filters, int layer)
 {
     wr_dialog_open(app, WR_DIALOG_ADJUST);
     app->adjust->op = filter->op;
@@ -100,20 +100,20 @@ void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op)
     WrFilter filter = wr_filter_of(op);
     for (int i = 0; i < wr_op_param_count(op); i++)
         if (!op->params[i].points) filter.param[i] = beginning(app, &op->params[i]);
-    open(app, &filter, false, -1);
+    ask_values(app, &filter, false, -1);
 }
 
 void wr_dialog_filter_open(WrApp *app, const WrOpInfo *op)
 {
     const WrFilter filter = wr_filter_of(op);
-    open(app, &filter, true, -1);
+    ask_values(app, &filter, true, -1);
 }
 
 void wr_filter_edit(WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
     const WrLayer *layer = &document->layers[document->active];
-    if (layer->filter.op) open(app, &layer->filter, true, document->active);
+    if (layer->filter.op) ask_values(app, &layer->filter, true, document->active);
 }
 
 /* ---- parameters ---- */
