@@ -193,6 +193,10 @@ static void the_oldest_states_go_when_the_budget_is_full(void **state)
     assert_null(wr_session_history_heights(s, -1));
     must_run(s, "undo");
     assert_true(wr_field_get(wr_document_field(doc(s)), 3, 3) == 7);
+    /* of a filter those under it, which are what it changes */
+    must_run(s, "filter invert");
+    assert_true(wr_field_get(wr_session_history_heights(s, wr_session_history_position(s)), 3, 3) ==
+                7);
     wr_session_free(s);
 }
 

@@ -146,8 +146,8 @@ void wr_session_journal_leave(WrSession *session);
    not among them. */
 int wr_session_history_count(const WrSession *session);
 const char *wr_session_history_line(const WrSession *session, int index); /* "" out of range */
-/* The heights of the active layer after `position` steps, 0 .. count; NULL: they were given up. Borrowed until the next
-   command. */
+/* The heights of the active layer after `position` steps, 0 .. count, of that under it where it is a filter; NULL: they were
+   given up. Borrowed until the next command. */
 const WrField *wr_session_history_heights(const WrSession *session, int position);
 /* How many of them are in force: steps 0 .. position - 1. */
 int wr_session_history_position(const WrSession *session);

@@ -157,7 +157,10 @@ const WrField *wr_history_heights(const WrHistory *history, int state)
 {
     WR_ASSERT(state >= 0 && state <= history->steps.count);
     const WrDocument *document = *state_at((WrHistory *)history, state); /* only looked at */
-    return document ? document->layers[document->active].heights : NULL;
+    if (!document) return NULL;
+    int layer = document->active;
+    while (layer > 0 && document->layers[layer].filter.op) layer--;
+    return document->layers[layer].heights;
 }
 
 bool wr_history_brings_view(const WrHistory *history, int step)

@@ -48,7 +48,8 @@ uint64_t wr_history_mark(const WrHistory *history);                /* of the pre
 void wr_history_look(WrHistory *history, const WrDocument *document);
 /* The view that a state had when it was the present one last; false if the state was given up. */
 bool wr_history_view(const WrHistory *history, int state, WrSceneView *view);
-/* The heights of a state's active layer; NULL: it was given up. Borrowed until the history changes. */
+/* The heights of a state's active layer, of that under it where it is a filter; NULL: it was given up. Borrowed until the
+   history changes. */
 const WrField *wr_history_heights(const WrHistory *history, int state);
 /* Did step k bring a view of its own? */
 bool wr_history_brings_view(const WrHistory *history, int step);
