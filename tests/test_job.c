@@ -2,6 +2,7 @@
 #include "test.h"
 
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/progress.h"
 
 #include "ui/jobs/job.h"
@@ -31,12 +32,17 @@ typedef struct Piece {
 } Piece;
 
 static int dropped;
+static WrPool *first; /* of work that was done in place: what a piece keeps may hold on to it */
 
 static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
     Piece *piece = arg;
     assert_non_null(pool);
     assert_ptr_equal(wr_progress_here(), progress);
+    if (!first) first = pool;
+    if (none_left) assert_ptr_equal(pool, first);
+    assert_int_equal(wr_pool_threads(first),
+                     1); /* it is still there, also for threads that come later */
     piece->result = piece->value + 1;
 }
 

@@ -317,9 +317,9 @@ static void other_heights(WrScene *scene, WrField *field)
 }
 
 /* The error of one more piece of work of the same tools, and of new ones: the same, whether the reference was kept or not. */
-static void expect_kept(WrWorkTools *tools, WrField *field, WrScene *scene, double turn, bool kept)
+static void expect_kept(WrWorkTools *tools, WrPool *pool, WrField *field, WrScene *scene,
+                        double turn, bool kept)
 {
-    WrPool *pool = wr_pool_new(1);
     const WrProgress progress = { 0 };
     WrWorkTools fresh = { 0 };
     WrWork *work[2];
@@ -335,7 +335,6 @@ static void expect_kept(WrWorkTools *tools, WrField *field, WrScene *scene, doub
     assert_int_equal(before && tools->kept.rgba == before && tools->kept.seconds == seconds, kept);
     for (int k = 0; k < 2; k++) wr_work_jobs.drop(work[k]);
     wr_work_tools_fini(&fresh);
-    wr_pool_free(pool);
 }
 
 static void the_reference_is_kept_while_the_scene_rests(void **state)
@@ -348,19 +347,21 @@ static void the_reference_is_kept_while_the_scene_rests(void **state)
     (void)state;
     WrField *field = waves();
     WrScene *scene = scene_of("sphere");
+    WrPool *pool = wr_pool_new(1);
     WrWorkTools tools = { 0 };
     scene->material.model = WR_REFLECT_GGX;
-    expect_kept(&tools, field, scene, 11, false);
+    expect_kept(&tools, pool, field, scene, 11, false);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         WrScene *other = wr_scene_clone(scene);
         wr_scene_free(scene);
         scene = other;
         cases[i].change(scene, field);
-        expect_kept(&tools, field, scene, 11, cases[i].kept);
+        expect_kept(&tools, pool, field, scene, 11, cases[i].kept);
     }
-    expect_kept(&tools, field, scene, 12, false);
-    expect_kept(&tools, field, scene, 12, true);
+    expect_kept(&tools, pool, field, scene, 12, false);
+    expect_kept(&tools, pool, field, scene, 12, true);
     wr_work_tools_fini(&tools);
+    wr_pool_free(pool);
     wr_scene_free(scene);
     wr_field_free(field);
 }

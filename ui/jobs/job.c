@@ -21,6 +21,8 @@ struct WrJob {
     volatile int cancel; /* atomic; read by the work */
     const WrJobKind *kind;
     WrThread thread;
+    WrPool *
+        in_place; /* owned; of work that has no thread: what it keeps may hold on to it. NULL: there was none */
     int threads;
     Uint32 done_event;
 };
@@ -91,10 +93,9 @@ static void *thread_main(void *arg)
 /* The system gives no thread: on the caller's, which waits. Called under the lock. */
 static void do_in_place(WrJob *job)
 {
-    WrPool *pool = wr_pool_new(1);
     WrProgress progress = { .cancel = &job->cancel };
-    do_next(job, pool, &progress);
-    wr_pool_free(pool);
+    if (!job->in_place) job->in_place = wr_pool_new(1);
+    do_next(job, job->in_place, &progress);
 }
 
 /* Replace all that is wanted by `work`, which may be NULL. */
@@ -162,6 +163,7 @@ void wr_job_free(WrJob *job)
     if (started) wr_thread_join(job->thread);
     if (job->done) job->kind->drop(job->done);
     if (job->next) job->kind->drop(job->next);
+    wr_pool_free(job->in_place);
     wr_cond_fini(&job->wake);
     wr_mutex_fini(&job->lock);
     wr_free(job);
