@@ -81,6 +81,16 @@ sleep 20 # what the dials cost is measured while nothing moves
 picture "$out/accuracy.png" 250x700+950+30
 close
 
+# A filter layer's curve over the histogram, the table as a lit relief.
+start "$source/samples/bricks.wrinkle"
+found 'Lit relief'
+found 'filter blur'
+key Return
+found 'filter curves'
+picture "$out/filters.png" 1200x760+0+0 800
+key Escape
+close
+
 # Maps of a table, beside its heights.
 maps=()
 while read -r -a words; do
