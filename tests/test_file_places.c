@@ -14,9 +14,9 @@ static void places_are_there_once(void **state)
     char here[2048], path[3][2304];
     assert_non_null(getcwd(here, sizeof here));
     mkdir("Pictures", 0700);
-    mkdir("work", 0700);
-    snprintf(path[0], sizeof path[0], "%s/work/a.exr", here);
-    snprintf(path[1], sizeof path[1], "%s/work/b.png", here);
+    mkdir("mine", 0700);
+    snprintf(path[0], sizeof path[0], "%s/mine/a.exr", here);
+    snprintf(path[1], sizeof path[1], "%s/mine/b.png", here);
     snprintf(path[2], sizeof path[2], "%s/gone/c.png", here);
     char *recent[] = { path[0], path[1], path[2], NULL };
     WrFilePlace places[WR_FILE_PLACES];
@@ -25,7 +25,7 @@ static void places_are_there_once(void **state)
     assert_string_equal(places[0].label, "Home");
     assert_string_equal(places[0].path, here);
     assert_string_equal(places[1].label, "Pictures");
-    assert_string_equal(places[2].label, "work");
+    assert_string_equal(places[2].label, "mine");
     wr_file_places_free(places, count);
     assert_int_equal(wr_file_places(NULL, recent + 3, places), 0);
     char many[20][32], *all[21] = { NULL };

@@ -5,13 +5,6 @@
 #include "accuracy/illusion.h"
 #include "base/text.h"
 
-static WrField *level_field(double value)
-{
-    WrField *field = wr_field_new(7, 5, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    for (int k = 0; k < 35; k++) wr_field_set(field, k % 7, k / 7, (float)value);
-    return field;
-}
-
 static WrScene *ahead_of(const char *surface, double height, double distance)
 {
     WrScene *scene = scene_of(surface);
@@ -40,7 +33,7 @@ static void a_raised_ball(void **state)
 {
     (void)state;
     const double R = 0.83, c = 0.137, d = 4.1;
-    WrField *field = level_field(c / 0.73);
+    WrField *field = level_field(7, 5, c / 0.73);
     WrScene *scene = ahead_of("sphere", 0.73, d);
     scene->shape.value[0] = R;
     WrIllusion it = measured(scene, field, 203, 201);
@@ -65,7 +58,7 @@ static void a_raised_plane(void **state)
 {
     (void)state;
     const double c = 0.4173, d = 2.9;
-    WrField *field = level_field(c);
+    WrField *field = level_field(7, 5, c);
     WrScene *scene = ahead_of("plane", 1, d);
     WrIllusion it = measured(scene, field, 180, 181);
     const double f = 90.5 / tan(scene->camera.fov_deg * WR_PI / 360);
@@ -157,7 +150,7 @@ static void the_advice_holds(void **state)
 static void what_cannot_be_measured_is_refused(void **state)
 {
     (void)state;
-    WrField *field = level_field(1);
+    WrField *field = level_field(7, 5, 1);
     WrScene *scene = scene_of("sphere");
     WrIllusionRequest request = { .field = field, .scene = scene, .width = 20, .height = 3000 };
     WrIllusion out = { 0 };

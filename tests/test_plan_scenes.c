@@ -28,11 +28,6 @@ static void take_table(Stage *stage, WrField *field)
     stage->field = field;
 }
 
-static WrField *level_field(int w, int h)
-{
-    return wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.25f, NULL);
-}
-
 static void take_surface(Stage *stage, const char *name)
 {
     wr_shape_default((WrSurfaceKind)wr_surface_find(name), &stage->scene->shape);
@@ -40,14 +35,14 @@ static void take_surface(Stage *stage, const char *name)
 
 static void flat_table(Stage *stage)
 {
-    take_table(stage, level_field(64, 64));
+    take_table(stage, level_field(64, 64, 0.25));
     stage->scene->material.specular = 0;
 }
 
 static void one_texel(Stage *stage)
 {
     flat_table(stage);
-    take_table(stage, level_field(512, 512));
+    take_table(stage, level_field(512, 512, 0.25));
     wr_field_set(stage->field, 330, 200, 0.5f);
     stage->scene->replicate_u = stage->scene->replicate_v = 1;
 }
@@ -127,7 +122,7 @@ static void invariant(Stage *stage)
 
 static void bricks(Stage *stage, int replicate)
 {
-    WrField *field = level_field(64, 64);
+    WrField *field = level_field(64, 64, 0.25);
     for (int i = 0; i < 64 * 64; i++)
         if (i % 64 % 16 < 2 || i / 64 % 16 < 2) wr_field_set(field, i % 64, i / 64, 0);
     take_table(stage, field);
@@ -183,7 +178,7 @@ static void checkered_bilinear(Stage *stage)
 
 static void least_table(Stage *stage)
 {
-    take_table(stage, level_field(1, 1));
+    take_table(stage, level_field(1, 1, 0.25));
 }
 
 static void still(Stage *stage)
@@ -264,7 +259,7 @@ static void constant_surroundings(Stage *stage)
 /* Of the faces that are seen, 0 has bumps, 3 letters, here two strokes, and 4 nothing at all. */
 static void faces(Stage *stage)
 {
-    WrField *field = level_field(1152, 768);
+    WrField *field = level_field(1152, 768, 0.25);
     for (int k = 0; k < 300 * 300; k++) {
         const int i = 40 + k % 300, j = 40 + k / 300;
         wr_field_set(field, i, 384 + j, 0.25f + 0.01f * (float)((i * 7 + j * 5) % 13));

@@ -7,13 +7,6 @@
 #include "render/reference.h"
 #include "render/reference_shade.h"
 
-static WrField *level_field(double value)
-{
-    WrField *field = wr_field_new(7, 5, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    for (int k = 0; k < 35; k++) wr_field_set(field, k % 7, k / 7, (float)value);
-    return field;
-}
-
 static WrScene *displaced_of(const char *surface, double height)
 {
     WrScene *scene = scene_of(surface);
@@ -53,7 +46,7 @@ static void a_raised_ball_is_a_larger_ball(void **state)
     static const double way[][3] = { { 0.83, 0.137, 4.1 }, { 1.21, -0.31, 5.3 } };
     for (int k = 0; k < 2; k++) {
         WrScene *scene = ahead_of("sphere", 0.73, way[k][2]);
-        WrField *field = level_field(way[k][1] / 0.73);
+        WrField *field = level_field(7, 5, way[k][1] / 0.73);
         scene->shape.value[0] = way[k][0];
         WrReferenceStage stage;
         WrReferenceSample got;
@@ -85,7 +78,7 @@ static void a_raised_plane_comes_nearer(void **state)
     (void)state;
     const double c = 0.4173, d = 2.9;
     WrScene *scene = ahead_of("plane", 1, d);
-    WrField *field = level_field(c);
+    WrField *field = level_field(7, 5, c);
     WrReferenceStage stage;
     WrReferenceSample got;
     stand(&stage, scene, field);
@@ -174,7 +167,7 @@ static void it_meets_what_a_march_meets(void **state)
 static void a_raised_cube_is_a_larger_box(void **state)
 {
     (void)state;
-    WrField *field = level_field(0.173);
+    WrField *field = level_field(7, 5, 0.173);
     WrScene *scene = ahead_of("cube", 1, 4.3);
     scene->rotate_deg = (WrVec3){ 31, 24, 11 };
     WrReferenceStage stage;
@@ -252,7 +245,7 @@ static void no_heights_make_nonsense(void **state)
 {
     (void)state;
     for (int k = 0; k < 2; k++) {
-        WrField *field = k == 0 ? level_field(1) : random_field(9, 7, 5);
+        WrField *field = k == 0 ? level_field(7, 5, 1) : random_field(9, 7, 5);
         WrScene *scene = ahead_of("sphere", k == 0 ? -1 : 1e6, 4);
         WrReferenceStage stage;
         WrReferenceSample got;

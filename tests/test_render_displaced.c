@@ -5,26 +5,12 @@
 #include "render/kern.h"
 #include "render/plan.h"
 
-static WrField *level_field(double value)
-{
-    WrField *field = wr_field_new(37, 22, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    for (int j = 0; j < 22; j++)
-        for (int i = 0; i < 37; i++) wr_field_set(field, i, j, (float)value);
-    return field;
-}
-
 static WrScene *displaced_of(const char *surface, double height)
 {
     WrScene *scene = scene_of(surface);
     scene->displaced = true;
     scene->height = height;
     return scene;
-}
-
-static void look_from(WrScene *scene, double distance)
-{
-    scene->camera.fit = false;
-    scene->camera.eye = (WrVec3){ 0, 0, distance };
 }
 
 /* ---- closed forms ---- */
@@ -36,14 +22,12 @@ static void a_raised_ball_is_a_larger_ball(void **state)
     static const double way[][3] = { { 0.83, 0.137, 4.1 }, { 1.21, -0.31, 5.3 } };
     for (int k = 0; k < 2; k++) {
         WrScene *scene = displaced_of("sphere", 0.73);
-        WrField *field = level_field(way[k][1] / 0.73);
+        WrField *field = level_field(37, 22, way[k][1] / 0.73);
         scene->shape.value[0] = way[k][0];
-        look_from(scene, way[k][2]);
+        look_from(scene, 0, 0, way[k][2]);
         Shot shot = shoot(scene, field, 301, 301, 2, "auto", false);
         assert_true(wr_plan_runs(shot.frame.plan, WR_EFFECT_DISPLACED));
-        const double r = way[k][0] + way[k][1], d = way[k][2];
-        const double f = 150.5 / tan(scene->camera.fov_deg * WR_PI / 360);
-        const double want = f * r / sqrt(d * d - r * r);
+        const double want = seen_radius(scene, 301, way[k][0] + way[k][1], way[k][2]);
         assert_near(sqrt((double)shot.frame.covered / WR_PI), want, 0.5);
         put_away(&shot);
         wr_scene_free(scene);
@@ -56,13 +40,13 @@ static void a_raised_plane_comes_nearer(void **state)
 {
     (void)state;
     const double c = 0.4173, d = 2.9;
-    WrField *field = level_field(c);
+    WrField *field = level_field(37, 22, c);
     double side[2];
     for (int k = 0; k < 2; k++) {
         WrScene *scene = displaced_of("plane", 1);
         scene->displaced = k == 1;
         scene->still = true;
-        look_from(scene, d);
+        look_from(scene, 0, 0, d);
         Shot shot = shoot(scene, field, 301, 301, 1, "auto", false);
         side[k] = sqrt((double)shot.frame.covered);
         put_away(&shot);
@@ -81,7 +65,7 @@ static void no_heights_make_nonsense(void **state)
     (void)state;
     static const double height[] = { -1, 1e6 };
     for (int k = 0; k < 2; k++) {
-        WrField *field = k == 0 ? level_field(1) : random_field(31, 17, 5);
+        WrField *field = k == 0 ? level_field(37, 22, 1) : random_field(31, 17, 5);
         WrScene *scene = displaced_of("sphere", height[k]);
         Shot shot = shoot(scene, field, 40, 33, 2, "auto", false);
         for (int i = 0; i < 40 * 33 * 4; i++) assert_true(isfinite(shot.frame.rgba[i]));

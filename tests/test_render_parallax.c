@@ -6,14 +6,6 @@
 #include "render/kern.h"
 #include "render/plan.h"
 
-static WrField *level_field(double value)
-{
-    WrField *field = wr_field_new(37, 22, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    for (int j = 0; j < 22; j++)
-        for (int i = 0; i < 37; i++) wr_field_set(field, i, j, (float)value);
-    return field;
-}
-
 /* Waves of a few texels' length up to `most` a period. */
 static WrField *wavy_field(int w, int h)
 {
@@ -33,12 +25,6 @@ static WrScene *parallax_of(const char *surface, double height)
     scene->parallax = true;
     scene->height = height;
     return scene;
-}
-
-static void look_from(WrScene *scene, double x, double y, double z)
-{
-    scene->camera.fit = false;
-    scene->camera.eye = (WrVec3){ x, y, z };
 }
 
 /* ---- closed forms ---- */
@@ -101,7 +87,7 @@ static void a_raised_plane_comes_nearer(void **state)
     static const double rise[] = { 0.4173, -0.5311 };
     const double d = 2.9, f = 150.5 / tan(35 * WR_PI / 360);
     for (int k = 0; k < 2; k++) {
-        WrField *field = level_field(rise[k]);
+        WrField *field = level_field(37, 22, rise[k]);
         WrScene *scene = parallax_of("plane", 1);
         scene->still = true;
         look_from(scene, 0, 0, d);
@@ -118,13 +104,11 @@ static void a_sunk_ball_is_a_smaller_ball(void **state)
 {
     (void)state;
     const double c = 0.03, d = 4.1;
-    WrField *field = level_field(-c);
+    WrField *field = level_field(37, 22, -c);
     WrScene *scene = parallax_of("sphere", 1);
     look_from(scene, 0, 0, d);
     Shot shot = shoot(scene, field, 301, 301, 2, "auto", false);
-    const double f = 150.5 / tan(scene->camera.fov_deg * WR_PI / 360);
-    const double want = f * (1 - c) / sqrt(d * d - (1 - c) * (1 - c));
-    const double base = f / sqrt(d * d - 1);
+    const double want = seen_radius(scene, 301, 1 - c, d), base = seen_radius(scene, 301, 1, d);
     const double got = sqrt((double)shot.frame.covered / WR_PI);
     if (fabs(got - want) > 0.25 * (base - want)) fail_msg("radius %g, not %g", got, want);
     put_away(&shot);
@@ -209,7 +193,7 @@ static void it_is_the_displaced_surface(void **state)
 static void what_rises_before_others_is_seen(void **state)
 {
     (void)state;
-    WrField *field = level_field(0.8);
+    WrField *field = level_field(37, 22, 0.8);
     WrScene *scene = parallax_of("plane", 1), *other;
     scene->still = true;
     scene->material.colour = (WrVec3){ 1, 0, 0 };

@@ -34,6 +34,25 @@ static inline WrField *random_field(int w, int h, uint64_t seed)
     return field;
 }
 
+static inline WrField *level_field(int w, int h, double value)
+{
+    return wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, (float)value, NULL);
+}
+
+static inline void look_from(WrScene *scene, double x, double y, double z)
+{
+    scene->camera.fit = false;
+    scene->camera.eye = (WrVec3){ x, y, z };
+}
+
+/* The radius in pixels of a ball of radius r seen from d in the middle of a picture of `side` pixels: its outline is where
+   lines from the eye touch it, r / sqrt(d^2 - r^2) from the axis at distance 1. */
+static inline double seen_radius(const WrScene *scene, int side, double r, double d)
+{
+    const double f = 0.5 * side / tan(scene->camera.fov_deg * WR_PI / 360);
+    return f * r / sqrt(d * d - r * r);
+}
+
 static inline WrScene *scene_of(const char *surface)
 {
     WrScene *scene = wr_scene_new();

@@ -67,8 +67,9 @@ static inline void walk_open(Walk *walk, const char *language)
     const WrSessionOptions how = { .pool = walk->pool, .outputs = true };
     walk->session = wr_session_new(&how);
     static const char *const lines[] = { "table 64x48", "surface torus", "layer add",
-                                         "pattern bricks", "layer mask 1 from=heights" };
-    for (size_t i = 0; i < 4; i++) walk_run(walk, lines[i]);
+                                         "pattern bricks",
+                                         "layer mask 2 from=height low=0.2 high=0.9" };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) walk_run(walk, lines[i]);
     walk->options = (WrAppOptions){
         .session = walk->session, .threads = 1, .file_given = true, .width = 1280, .height = 800
     };
@@ -98,20 +99,7 @@ static inline void walk_frame(Walk *walk)
     int width, height;
     SDL_GetRendererOutputSize(app->renderer, &width, &height);
     wr_gui_frame_begin(app->gui, width, height, 0.02);
-    app->in_frame = true;
-    wr_panel_menu(app);
-    wr_app_make_layout(app);
-    wr_app_place_view(app);
-    wr_panel_options(app);
-    wr_panel_tools(app);
-    wr_panel_right(app);
-    wr_canvas_view_overlay(app);
-    wr_patch_overlay(app);
-    wr_patch_paint_overlay(app);
-    wr_accuracy_overlay(app);
-    wr_panel_status(app);
-    wr_panel_dialogs(app);
-    app->in_frame = false;
+    wr_app_draw_parts(app, false);
     wr_gui_frame_end(app->gui);
 }
 

@@ -253,6 +253,34 @@ static void draw_divider(const SDL_Rect *d, bool hot)
     wr_gui_draw_fill(d->x, d->y, d->w, d->h, hot ? WR_COLOUR_SELECTED : WR_COLOUR_LINE, 0);
 }
 
+static void draw_views(WrApp *app)
+{
+    wr_gui_sdl_clear(app->renderer, WR_COLOUR_BAR);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->draw) (*p)->draw(app);
+    draw_divider(&app->layout->divider, app->hand->grab == WR_GRAB_DIVIDER);
+    draw_divider(&app->layout->panel_divider, app->hand->grab == WR_GRAB_PANELS);
+}
+
+void wr_app_draw_parts(WrApp *app, bool views)
+{
+    app->in_frame = true;
+    wr_panel_menu(app);
+    wr_app_make_layout(app);
+    wr_app_place_view(app);
+    wr_panel_options(app);
+    wr_panel_tools(app);
+    wr_panel_right(app);
+    if (views) draw_views(app);
+    wr_canvas_view_overlay(app);
+    wr_patch_overlay(app);
+    wr_patch_paint_overlay(app);
+    wr_accuracy_overlay(app);
+    wr_panel_status(app);
+    wr_panel_dialogs(app);
+    app->in_frame = false;
+}
+
 static void draw(WrApp *app, double now)
 {
     WrError err;
@@ -267,26 +295,8 @@ static void draw(WrApp *app, double now)
     int width, height;
     SDL_GetRendererOutputSize(app->renderer, &width, &height);
     wr_gui_frame_begin(app->gui, width, height, now - app->drawn_at);
-    app->in_frame = true;
-    wr_panel_menu(app);
-    wr_app_make_layout(app);
-    wr_app_place_view(app);
-    wr_panel_options(app);
-    wr_panel_tools(app);
-    wr_panel_right(app);
-    wr_gui_sdl_clear(app->renderer, WR_COLOUR_BAR);
-    for (const WrPart *const *p = app->roster->parts; *p; p++)
-        if ((*p)->draw) (*p)->draw(app);
-    draw_divider(&app->layout->divider, app->hand->grab == WR_GRAB_DIVIDER);
-    draw_divider(&app->layout->panel_divider, app->hand->grab == WR_GRAB_PANELS);
-    wr_canvas_view_overlay(app);
-    wr_patch_overlay(app);
-    wr_patch_paint_overlay(app);
-    wr_accuracy_overlay(app);
-    wr_panel_status(app);
-    wr_panel_dialogs(app);
+    wr_app_draw_parts(app, true);
     wr_thumbs_update(app);
-    app->in_frame = false;
     wr_gui_frame_end(app->gui);
     SDL_RenderPresent(app->renderer);
     wr_hand_look(app);

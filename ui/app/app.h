@@ -13,7 +13,8 @@ typedef struct WrError WrError;
  *
  * Environment: WRINKLE_RENDERER=software|opengl, WRINKLE_SCALE=0.75..3 (size of everything),
  * WRINKLE_DIALOG=own (never the desktop's file dialog), WRINKLE_TIMING=1 (milliseconds to the first
- * picture on standard error; a time of wr_clock_seconds: counted from there, and the window closes after it). Settings: $XDG_CONFIG_HOME/wrinkle/window.conf; keys: keys.conf there. */
+ * picture on standard error; a time of wr_clock_seconds: counted from there, and the window closes
+ * after it). Settings: $XDG_CONFIG_HOME/wrinkle/window.conf; keys: keys.conf there. */
 int wr_app_run(const WrAppOptions *options);
 
 /* How soon a pointer's motion is seen: milliseconds from the moment that the system has an event until a

@@ -65,9 +65,10 @@ typedef struct Row {
 
 #define ROWS_MAX 96
 
-static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
+/* Of the window as a whole. */
+static int window_rows(WrSettings *s, Row *rows)
 {
-    const Row all[] = {
+    const Row some[] = {
         { "width", NULL, &s->width, NULL, 320, 32768 },
         { "height", NULL, &s->height, NULL, 240, 32768 },
         { "maximized", NULL, NULL, &s->maximized, 0, 1 },
@@ -86,6 +87,15 @@ static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
         { "join", NULL, &s->join, NULL, 0, 3 },
         { "tab", NULL, &s->tab, NULL, 0, 15 },
         { "turning", NULL, NULL, &s->turning, 0, 1 },
+    };
+    memcpy(rows, some, sizeof some);
+    return (int)(sizeof some / sizeof *some);
+}
+
+/* Of the brush. */
+static int brush_rows(WrSettings *s, Row *rows)
+{
+    const Row some[] = {
         { "radius", &s->brush.radius, NULL, NULL, 0, 1e9 },
         { "hardness", &s->brush.hardness, NULL, NULL, 0, 1 },
         { "strength", &s->brush.strength, NULL, NULL, -1e30, 1e30 },
@@ -107,6 +117,15 @@ static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
         { "jitter_size", &s->brush.jitter_size, NULL, NULL, 0, 1 },
         { "other_strength", &s->other_strength, NULL, NULL, -1e30, 1e30 },
         { "lock_size", NULL, NULL, &s->lock_size, 0, 1 },
+    };
+    memcpy(rows, some, sizeof some);
+    return (int)(sizeof some / sizeof *some);
+}
+
+/* Of symmetry and of tools that draw. */
+static int drawing_rows(WrSettings *s, Row *rows)
+{
+    const Row some[] = {
         { "symmetric", NULL, NULL, &s->symmetric, 0, 1 },
         { "symmetry_panel", NULL, NULL, &s->symmetry_panel, 0, 1 },
         { "mirror_u", NULL, NULL, &s->symmetry.mirror_u, 0, 1 },
@@ -128,6 +147,15 @@ static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
         { "ramp_fold", NULL, NULL, &s->drawing.fold, 0, 1 },
         { "ramp_low", &s->drawing.low, NULL, NULL, -1e30, 1e30 },
         { "ramp_high", &s->drawing.high, NULL, NULL, -1e30, 1e30 },
+    };
+    memcpy(rows, some, sizeof some);
+    return (int)(sizeof some / sizeof *some);
+}
+
+/* Of the hand, and of how the table is looked at. */
+static int view_rows(WrSettings *s, Row *rows)
+{
+    const Row some[] = {
         { "steady", NULL, &s->steady, NULL, 0, WR_STEADY_COUNT - 1 },
         { "steady_smooth", &s->steady_smooth, NULL, NULL, 1, 1000 },
         { "steady_string", &s->steady_string, NULL, NULL, 1, 1000 },
@@ -145,8 +173,16 @@ static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
         { "low", &s->look.low, NULL, NULL, -1e30, 1e30 },
         { "high", &s->look.high, NULL, NULL, -1e30, 1e30 },
     };
-    memcpy(rows, all, sizeof all);
-    return (int)(sizeof all / sizeof *all);
+    memcpy(rows, some, sizeof some);
+    return (int)(sizeof some / sizeof *some);
+}
+
+static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
+{
+    int count = window_rows(s, rows);
+    count += brush_rows(s, rows + count);
+    count += drawing_rows(s, rows + count);
+    return count + view_rows(s, rows + count);
 }
 
 static void take(WrSettings *settings, const char *name, size_t name_length, const char *value,
