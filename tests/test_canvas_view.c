@@ -261,13 +261,13 @@ static void contours_are_few_and_at_round_heights(void **state)
     TestRandom r = { 45 };
     for (int i = 0; i < 500; i++) {
         double low = 10 * test_random(&r) - 5, range = pow(10, 12 * test_random(&r) - 6);
-        double step = wr_ink_step(low, low + range), lines = range / step;
+        double step = wr_canvas_ink_step(low, low + range), lines = range / step;
         double digit = step / pow(10, floor(log10(step) + 1e-9));
         if (lines < 6 || lines > 18) fail_msg("%g lines over %g by %g", lines, range, step);
         assert_true(fabs(digit - 1) < 1e-9 || fabs(digit - 2) < 1e-9 || fabs(digit - 5) < 1e-9);
     }
-    assert_near(wr_ink_step(0, 1), 0.1, 1e-12);
-    assert_true(wr_ink_step(3, 3) > 0);
+    assert_near(wr_canvas_ink_step(0, 1), 0.1, 1e-12);
+    assert_true(wr_canvas_ink_step(3, 3) > 0);
 }
 
 /* A slant: a pixel is a line where its height and its left or upper neighbour's are not between the same two multiples. */
@@ -275,8 +275,8 @@ static void contours_lie_between_two_pixels_that_differ(void **state)
 {
     (void)state;
     const WrCanvasLook look = { .colours = WR_CANVAS_CONTOURS };
-    WrInk ink;
-    wr_ink_make(&ink, &look, -0.31, 0.83);
+    WrCanvasInk ink;
+    wr_canvas_ink_make(&ink, &look, -0.31, 0.83);
     double step = ink.step;
     float rows[2][97];
     uint32_t out[97];
@@ -285,7 +285,7 @@ static void contours_lie_between_two_pixels_that_differ(void **state)
         rows[0][i] = (float)(0.0113 * i - 0.31);
         rows[1][i] = rows[0][i] + 0.0071F;
     }
-    wr_ink_heights(&ink, rows[1] + 1, rows[1][0], rows[0] + 1, 96, out);
+    wr_canvas_ink_heights(&ink, rows[1] + 1, rows[1][0], rows[0] + 1, 96, out);
     for (int i = 1; i < 97; i++) {
         double here = (double)rows[1][i], left = (double)rows[1][i - 1], over = (double)rows[0][i];
         bool line = false;
@@ -294,7 +294,7 @@ static void contours_lie_between_two_pixels_that_differ(void **state)
             line = line || (over < k * step && here >= k * step);
         }
         lines += line;
-        if (line != (out[i - 1] != wr_ink_colour(&ink, here))) fail_msg("pixel %d", i);
+        if (line != (out[i - 1] != wr_canvas_ink_colour(&ink, here))) fail_msg("pixel %d", i);
     }
     assert_true(lines >= 8);
 }
@@ -312,11 +312,11 @@ static void reliefs_are_lit_by_the_cosine_and_level_ground_is_grey(void **state)
         float p[3] = { 0, (float)(6 * test_random(&r) - 3), 0 },
               q[3] = { 0, (float)(6 * test_random(&r) - 3), 0 };
         uint32_t out[3];
-        WrInk ink;
+        WrCanvasInk ink;
         p[2] = (float)(-look.light_x / up); /* faces the light */
         q[2] = (float)(-look.light_y / up);
-        wr_ink_make(&ink, &look, 0, 1);
-        wr_ink_slopes(&ink, p, q, 3, out);
+        wr_canvas_ink_make(&ink, &look, 0, 1);
+        wr_canvas_ink_slopes(&ink, p, q, 3, out);
         double lit = (up - (double)p[1] * look.light_x - (double)q[1] * look.light_y) /
                      sqrt(1 + (double)p[1] * (double)p[1] + (double)q[1] * (double)q[1]);
         assert_near(out[0] & 0xff, 0.55 * 255, 1.0);

@@ -30,7 +30,7 @@ struct WrCanvas {
     float *line[2]; /* one row of cells: [tiles_u * side] */
     float *value[2], *above; /* [width]: what a row's pixels hold, and that row before */
     bool *needed;            /* [tiles_u] tile columns that a rectangle looks at */
-    WrInk ink;
+    WrCanvasInk ink;
     WrCanvasView view, flat; /* of the picture held, and not turned */
     WrCanvasLook look;
     double low, high;
@@ -87,7 +87,7 @@ void wr_canvas_free(WrCanvas *canvas)
 
 uint32_t wr_canvas_colour(const WrCanvas *canvas, double height)
 {
-    return wr_ink_colour(&canvas->ink, height);
+    return wr_canvas_ink_colour(&canvas->ink, height);
 }
 
 double wr_canvas_contour_step(const WrCanvas *canvas)
@@ -143,7 +143,7 @@ static void make_line(WrCanvas *canvas, int field, const WrCellTaps *row, int ti
     }
 }
 
-/* What pixels x0 to x1 of a row hold. */
+/* What pixels x0 to x1 of a row hold; NaN beyond the table. */
 static void make_values(WrCanvas *canvas, const WrCellTaps *row, const WrCellTaps *columns, int x0,
                         int x1, int tiles_u, int level, double deadline)
 {
@@ -153,8 +153,9 @@ static void make_values(WrCanvas *canvas, const WrCellTaps *row, const WrCellTap
         float *value = canvas->value[k];
         for (int x = x0; x < x1; x++) {
             const WrCellTaps *t = &columns[x];
-            value[x] = t->weight[0] * line[t->cell[0]] + t->weight[1] * line[t->cell[1]] +
-                       t->weight[2] * line[t->cell[2]] + t->weight[3] * line[t->cell[3]];
+            float sum = t->weight[0] * line[t->cell[0]] + t->weight[1] * line[t->cell[1]] +
+                        t->weight[2] * line[t->cell[2]] + t->weight[3] * line[t->cell[3]];
+            value[x] = t->outside ? NAN : sum;
         }
     }
 }
@@ -163,14 +164,20 @@ static void make_values(WrCanvas *canvas, const WrCellTaps *row, const WrCellTap
 static void paint_line(WrCanvas *canvas, const WrCellTaps *columns, int x0, int x1, bool above,
                        uint32_t *out)
 {
-    float *value = canvas->value[0];
+    const float *value = canvas->value[0];
     if (canvas->fields == 2)
-        wr_ink_slopes(&canvas->ink, value + x0, canvas->value[1] + x0, x1 - x0, out + x0);
+        wr_canvas_ink_slopes(&canvas->ink, value + x0, canvas->value[1] + x0, x1 - x0, out + x0);
     else
-        wr_ink_heights(&canvas->ink, value + x0, value[x0 > 0 ? x0 - 1 : 0],
-                       above ? canvas->above + x0 : NULL, x1 - x0, out + x0);
+        wr_canvas_ink_heights(&canvas->ink, value + x0, value[x0 > 0 ? x0 - 1 : 0],
+                              above ? canvas->above + x0 : NULL, x1 - x0, out + x0);
     for (int x = x0; x < x1; x++)
         if (columns[x].outside) out[x] = WR_COLOUR_SURROUND;
+}
+
+/* For the next row, whose contours look at this one. */
+static void keep_above(WrCanvas *canvas)
+{
+    float *value = canvas->value[0];
     canvas->value[0] = canvas->above;
     canvas->above = value;
 }
@@ -188,7 +195,7 @@ static void paint_run(WrCanvas *canvas, SDL_Rect rect, int x0, int x1, const WrC
 {
     int tiles_u = wr_field_tiles_u(field), shift = 6 - level, left = x0 > 0 ? x0 - 1 : 0;
     bool brick = canvas->flat.tiling == WR_TILING_BRICK;
-    bool lined = canvas->look.colours == WR_CANVAS_CONTOURS;
+    bool lined = canvas->look.colours == WR_CANVAS_CONTOURS, above = false;
     int first = lined && rect.y > 0 ? rect.y - 1 : rect.y; /* lines look at the row above */
     size_t bytes = (size_t)(x1 - x0) * sizeof *canvas->pixels;
     memset(canvas->needed, 0, (size_t)tiles_u * sizeof *canvas->needed);
@@ -207,8 +214,10 @@ static void paint_run(WrCanvas *canvas, SDL_Rect rect, int x0, int x1, const WrC
             memcpy(out + x0, out - canvas->width + x0, bytes);
         } else {
             make_values(canvas, row, columns, left, x1, tiles_u, level, deadline);
-            paint_line(canvas, columns, x0, x1, lined && y > first, out);
+            if (y >= rect.y) paint_line(canvas, columns, x0, x1, above, out);
+            keep_above(canvas);
         }
+        above = lined && !row->outside;
     }
 }
 
@@ -316,7 +325,7 @@ static bool make_buffers(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanva
     return true;
 }
 
-/* Another size of the view, of the picture before it is turned, or of the table. */
+/* They are there, for this size of the view, of the picture before it is turned, and of the table's rows. */
 static bool has_buffers(const WrCanvas *canvas, const WrCanvasView *view)
 {
     const WrCanvasView flat = wr_view_flat(view);
@@ -344,7 +353,7 @@ static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, bool held)
     canvas->look = *look;
     canvas->low = low;
     canvas->high = high;
-    if (!canvas->valid) wr_ink_make(&canvas->ink, look, low, high);
+    if (!canvas->valid) wr_canvas_ink_make(&canvas->ink, look, low, high);
 }
 
 /* Bring the cells of both fields up to date. True: all may be different. */

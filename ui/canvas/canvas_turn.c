@@ -1,11 +1,11 @@
 #include "ui/canvas/canvas_turn.h"
+#include "ui/canvas/view.h"
 
 #include <SDL.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
-#define DEGREE 0.017453292519943295
 #define PARTS 256 /* of a pixel, in the weights */
 
 typedef struct Turn {
@@ -14,8 +14,8 @@ typedef struct Turn {
 
 static Turn turn_of(double degrees)
 {
-    Turn turn = { cos(degrees * DEGREE), sin(degrees * DEGREE) };
-    if (degrees / 90.0 == rint(degrees / 90.0)) turn = (Turn){ rint(turn.c), rint(turn.s) };
+    Turn turn;
+    wr_view_turn_of(degrees, &turn.c, &turn.s);
     return turn;
 }
 
@@ -33,8 +33,8 @@ static int within(int at, int size)
     return at < 0 ? 0 : at >= size ? size - 1 : at;
 }
 
-#define FIXED                                                                                      \
-    4294967296.0 /* places as whole numbers of 2^-32 of a pixel: quarters are exact, rows do not drift */
+/* Places are whole numbers of 2^-32 of a pixel: quarters are exact, rows do not drift. */
+#define FIXED 4294967296.0
 
 typedef struct Source {
     const uint32_t *pixels;

@@ -3,7 +3,7 @@
 #include <SDL.h>
 #include <stdint.h>
 
-/* Fill `rect` of the picture `to` with `from`, turned clockwise by `degrees` about the middles of both; between pixels
+/* Fill `rect` (pixels of `to`, within it) of the picture to[to_h][to_w] with from[from_h][from_w], both ARGB, turned clockwise by `degrees` about the middles of both; between pixels
    straight lines, so that quarters keep every colour. from must reach a pixel beyond all that is seen. */
 void wr_canvas_turn(const uint32_t *from, int from_w, int from_h, uint32_t *to, int to_w, int to_h,
                     double degrees, SDL_Rect rect);

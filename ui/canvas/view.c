@@ -1,5 +1,7 @@
 #include "ui/canvas/view.h"
 
+#include "base/exactmath.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,20 +17,18 @@ void wr_view_zoom_range(const WrCanvasView *view, double *low, double *high)
     *high = 128.0;
 }
 
-#define DEGREE 0.017453292519943295
-
-/* Cosine and sine of the turn; quarters are exact. */
-static void turn_of(const WrCanvasView *view, double *c, double *s)
+void wr_view_turn_of(double degrees, double *c, double *s)
 {
-    double quarters = view->turn / 90.0;
-    *c = quarters == rint(quarters) ? rint(cos(view->turn * DEGREE)) : cos(view->turn * DEGREE);
-    *s = quarters == rint(quarters) ? rint(sin(view->turn * DEGREE)) : sin(view->turn * DEGREE);
+    double quarters = degrees / 90.0;
+    *c = cos(degrees * WR_RAD_PER_DEG);
+    *s = sin(degrees * WR_RAD_PER_DEG);
+    if (quarters == rint(quarters)) *c = rint(*c), *s = rint(*s);
 }
 
 void wr_view_fit(WrCanvasView *view, double margin)
 {
     double free = 1.0 - margin, c, s;
-    turn_of(view, &c, &s);
+    wr_view_turn_of(view->turn, &c, &s);
     double wide = fabs(c) * view->table_w + fabs(s) * view->table_h;
     double tall = fabs(s) * view->table_w + fabs(c) * view->table_h;
     double zoom = fmin(view->w * free / wide, view->h * free / tall);
@@ -43,7 +43,7 @@ void wr_view_step(const WrCanvasView *view, double dx, double dy, double *px, do
 {
     double c = 1.0, s = 0.0, x = view->mirrored ? -view->zoom * dx : view->zoom * dx,
            y = view->zoom * dy;
-    if (view->turn != 0.0) turn_of(view, &c, &s);
+    if (view->turn != 0.0) wr_view_turn_of(view->turn, &c, &s);
     *px = c * x - s * y;
     *py = s * x + c * y;
 }
@@ -51,7 +51,7 @@ void wr_view_step(const WrCanvasView *view, double dx, double dy, double *px, do
 void wr_view_step_back(const WrCanvasView *view, double dx, double dy, double *x, double *y)
 {
     double c = 1.0, s = 0.0;
-    if (view->turn != 0.0) turn_of(view, &c, &s);
+    if (view->turn != 0.0) wr_view_turn_of(view->turn, &c, &s);
     double across = (c * dx + s * dy) / view->zoom;
     *x = view->mirrored ? -across : across;
     *y = (c * dy - s * dx) / view->zoom;
@@ -127,7 +127,7 @@ WrCanvasView wr_view_flat(const WrCanvasView *view)
 {
     WrCanvasView flat = *view;
     double c, s;
-    turn_of(view, &c, &s);
+    wr_view_turn_of(view->turn, &c, &s);
     flat.x = flat.y = 0;
     if (view->turn == 0.0) return flat;
     flat.turn = 0.0;

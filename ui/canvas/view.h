@@ -31,7 +31,8 @@ void wr_view_zoom_range(const WrCanvasView *view, double *low, double *high);
 void wr_view_fit(WrCanvasView *view, double margin);
 /* Zoom to `zoom` (clamped) so that the texel under the pixel (px, py) stays there. */
 void wr_view_zoom_at(WrCanvasView *view, double px, double py, double zoom);
-/* Turn the picture about the texel under the pixel (px, py), which stays there. */
+/* Turn the picture to `degrees` clockwise (any; brought into -180..180) about the texel under the pixel (px, py), which
+   stays there. */
 void wr_view_turn_at(WrCanvasView *view, double px, double py, double degrees);
 /* Move the picture by dx, dy pixels. The centre stays within the cell by whole periods on tiled axes:
    what is seen is the same, and positions never grow. */
@@ -60,6 +61,8 @@ WrCellRange wr_view_cells(const WrCanvasView *view);
 void wr_view_bounds(const WrCanvasView *view, double low[2], double high[2]);
 /* The view that is not turned and holds all that this one shows, pixel for pixel: its rectangle begins at 0, 0. */
 WrCanvasView wr_view_flat(const WrCanvasView *view);
+/* Cosine and sine of a turn by degrees; quarters are exact. */
+void wr_view_turn_of(double degrees, double *c, double *s);
 bool wr_view_same(const WrCanvasView *a, const WrCanvasView *b);
 
 /* The shifts by whole cells, (dx, dy) in texels, at which a disc of `radius` texels about (x, y) also

@@ -182,7 +182,7 @@ void wr_app_start(WrApp *app)
 /* ---- asking first ---- */
 
 /* Of a line that fails the rest still runs, so that there is something to be seen. */
-static void run_lines(WrApp *app, const char *lines)
+void wr_app_new_of(WrApp *app, const char *lines)
 {
     WrError err;
     FileCall call = { app->session, lines };
@@ -195,11 +195,6 @@ static void run_lines(WrApp *app, const char *lines)
     wr_app_changed_document(app);
     app->file->clean_revision = wr_session_revision(app->session); /* it can be opened again */
     wr_app_title(app);
-}
-
-void wr_app_new_of(WrApp *app, const char *lines)
-{
-    run_lines(app, lines);
 }
 
 void wr_app_go_on(WrApp *app)
@@ -215,7 +210,7 @@ void wr_app_go_on(WrApp *app)
         if (!wr_files_ask(app->files, WR_FILE_OPEN, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
         break;
     case WR_AFTER_PATH: open_now(app, path); break;
-    case WR_AFTER_LINES: run_lines(app, path); break;
+    case WR_AFTER_LINES: wr_app_new_of(app, path); break;
     case WR_AFTER_QUIT: app->quit = true; break;
     }
     wr_free(path);

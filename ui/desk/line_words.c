@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "field/ops.h"
 #include "generate/generator.h"
@@ -88,7 +89,7 @@ static const char *brush_deed(const Words *w)
                   { "smear", "smeared" },  { "to", "to a height" }, { "clone", "cloned" },
                   { "level", "levelled" }, { "pinch", "pinched" },  { "sharpen", "sharpened" } };
     const char *mode = value_of(w, "mode");
-    for (size_t i = 0; mode && i < sizeof deeds / sizeof *deeds; i++)
+    for (int i = 0; mode && i < WR_LENGTH(deeds); i++)
         if (strcmp(mode, deeds[i].mode) == 0) return deeds[i].words;
     return NULL;
 }
@@ -162,7 +163,7 @@ static const struct {
 
 static const char *name_of(const char *verb)
 {
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    for (int i = 0; i < WR_LENGTH(names); i++)
         if (strcmp(verb, names[i].verb) == 0) return wr_words(names[i].words);
     return NULL;
 }

@@ -3,5 +3,5 @@
 
 typedef struct WrText WrText;
 
-/* Of a command line, in the window's language. */
+/* Of a command line, in the window's language; added to out. */
 void wr_line_words(const char *line, WrText *out);

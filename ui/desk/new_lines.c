@@ -1,5 +1,6 @@
 #include "ui/desk/new_lines.h"
 
+#include "base/rows.h"
 #include "base/text.h"
 #include "surface/surface.h"
 
@@ -72,7 +73,7 @@ static void surface_lines(int kind, double cell, WrText *out)
 static bool is_length(const char *at, size_t *name)
 {
     static const char *const words[] = { "joint=", "bevel=", "corner=", "wobble=", "gap=" };
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+    for (int i = 0; i < WR_LENGTH(words); i++) {
         *name = strlen(words[i]);
         if (strncmp(at, words[i], *name) == 0) return true;
     }

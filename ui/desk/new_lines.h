@@ -27,12 +27,12 @@ typedef struct WrNewForm {
     int starter;          /* of wr_starters */
 } WrNewForm;
 
-/* The texels of a table with that aspect whose longer side has so many. */
+/* The texels of a table with that aspect (a row of wr_aspects) whose longer side has so many; whole, at least 1. */
 void wr_new_sides(int aspect, double longer, double *width, double *height);
-/* Can it be offered: it needs no file. */
+/* Can a WrSurfaceKind be offered: it needs no file. */
 bool wr_new_surface(int kind);
 /* The document's lines, one after the other, each with its end. The cell keeps its shape on the surface as nearly as whole
- * repeats let it. wrap: the word for the form's. */
+ * repeats let it. wrap: the word for the form's. Added to out. */
 void wr_new_lines(const WrNewForm *form, const char *wrap, WrText *out);
-/* The surface and repeats of a picture of that size, so that it is seen as it is. */
+/* The surface of a picture of that size (texels), so that it is seen in its shape; added to out. */
 void wr_new_picture_lines(int width, int height, WrText *out);

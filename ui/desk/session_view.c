@@ -92,12 +92,10 @@ void wr_app_live_end(WrApp *app)
 
 const char *wr_app_name(const WrApp *app)
 {
-    const char *path = wr_session_path(app->session), *slash = strrchr(path, '/');
-    if (!path[0] && app->file->picture) {
-        slash = strrchr(app->file->picture, '/');
-        return slash ? slash + 1 : app->file->picture;
-    }
+    const char *path = wr_session_path(app->session);
+    if (!path[0] && app->file->picture) path = app->file->picture;
     if (!path[0]) return app->file->starter ? "bricks (starter)" : "untitled";
+    const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
 }
 

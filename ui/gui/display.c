@@ -31,16 +31,14 @@ const char *wr_display_word(const WrDisplayEnv *env, const char *opened)
     const bool native = opened && strcmp(opened, "wayland") == 0;
     if (!is_wayland(env) || !opened || (!native && strcmp(opened, "x11") != 0)) return NULL;
     if (!native)
-        return said(env->driver) ? NULL
-                                 : "The session is Wayland, where pens would act as mice: the "
-                                   "window goes through "
-                                   "XWayland, which tells all that they send. "
-                                   "SDL_VIDEODRIVER=wayland opens it on "
-                                   "Wayland itself.";
+        return said(env->driver)
+                   ? NULL
+                   : "The session is Wayland, where pens would act as mice: the window goes "
+                     "through XWayland, which tells all that they send. SDL_VIDEODRIVER=wayland "
+                     "opens it on Wayland itself.";
     if (said(env->driver))
         return "SDL_VIDEODRIVER opens the window on Wayland itself, where pens act as mice. "
-               "Without "
-               "it the window goes through XWayland, where there is one.";
+               "Without it the window goes through XWayland, where there is one.";
     return said(env->x11)
                ? "XWayland opened no window; on Wayland itself pens act as mice."
                : "There is no XWayland (DISPLAY is not set); on Wayland itself pens act as mice.";

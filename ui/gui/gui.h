@@ -248,7 +248,7 @@ void wr_gui_row_end(void);
 void wr_gui_drop_line(double y);
 /* Text cut off with dots where it is wider than `width` pixels. */
 void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width);
-/* In as many lines as it takes. */
+/* In as many lines as it takes, `width` pixels wide. */
 void wr_gui_text_within(WrFont font, WrColour colour, const char *text, double width);
 /* A picture of w x h pixels, with a thin edge. */
 void wr_gui_image(SDL_Texture *texture, double w, double h);
@@ -301,7 +301,7 @@ void wr_gui_draw_unclip(void);
 void wr_gui_draw_line(double x0, double y0, double x1, double y1, WrColour colour, double width);
 void wr_gui_draw_rect(double x, double y, double w, double h, WrColour colour, double width);
 void wr_gui_draw_fill(double x, double y, double w, double h, WrColour colour, double rounding);
-/* Four corners, in their order round it. */
+/* Filled; four corners, in their order round it. */
 void wr_gui_draw_quad(const double x[4], const double y[4], WrColour colour);
 void wr_gui_draw_circle(double x, double y, double radius, WrColour colour, double width);
 void wr_gui_draw_disc(double x, double y, double radius, WrColour colour);

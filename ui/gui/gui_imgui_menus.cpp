@@ -204,7 +204,7 @@ try {
     char text[1100];
     char said[320];
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "", icon ? "  " : "",
-             strlen(label) < 250 ? wr_gui_labelled(label, said) : label);
+             wr_gui_labelled(label, said));
     if (!ImGui::Selectable(text, selected, ImGuiSelectableFlags_AllowDoubleClick)) return 0;
     return ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
 }

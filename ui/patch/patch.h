@@ -74,6 +74,8 @@ void wr_patch_commit_zoom(WrApp *app, bool now);
 /* The camera, or the object's turn, as it stands in the live scene, becomes a command. */
 void wr_patch_commit_camera(WrApp *app);
 void wr_patch_commit_turn(WrApp *app);
+/* Where its camera stands, as the patch is turned now. False: there is none, or no room. */
+bool wr_patch_place(const WrApp *app, WrPlacement *out);
 void wr_patch_free(WrApp *app);
 double wr_patch_next_time(const WrApp *app); /* clock at which update must run; 0: only on events */
 bool wr_patch_paints(const WrApp *app);      /* the pointer over the patch would paint */

@@ -66,7 +66,7 @@ static bool find(const WrApp *app, Cube *cube)
     double s = wr_gui_scale();
     WrPlacement at;
     if (r->w < LEAST_UNITS * s || r->h < LEAST_UNITS * s) return false;
-    if (!wr_scene_place(scene, app->patch->turn_deg, (double)r->w / r->h, &at, NULL)) return false;
+    if (!wr_patch_place(app, &at)) return false;
     WrRotation camera = of_camera(&at), turn = turntable(app);
     cube->stands = wr_rotation_times(&camera, &turn);
     if (!several(scene)) {
@@ -119,9 +119,7 @@ static void place_camera(WrApp *app, const WrRotation *stands)
                      world = wr_rotation_times(&turn, &back);
     WrPlacement at;
     WrCamera *camera = &wr_app_live(app)->camera;
-    const SDL_Rect *r = &app->layout->patch;
-    if (!wr_scene_place(wr_app_scene(app), app->patch->turn_deg, (double)r->w / r->h, &at, NULL))
-        return;
+    if (!wr_patch_place(app, &at)) return;
     const double away = v3_len(v3_sub(at.eye, camera->target));
     camera->eye = v3_mad(camera->target, wr_rotation_apply(&world, (WrVec3){ 0, 0, 1 }), away);
     camera->up = wr_rotation_apply(&world, (WrVec3){ 0, 1, 0 });
@@ -130,10 +128,8 @@ static void place_camera(WrApp *app, const WrRotation *stands)
 /* The object, under the camera as it is. */
 static void place_object(WrApp *app, const WrRotation *stands)
 {
-    const SDL_Rect *r = &app->layout->patch;
     WrPlacement at;
-    if (!wr_scene_place(wr_app_scene(app), app->patch->turn_deg, (double)r->w / r->h, &at, NULL))
-        return;
+    if (!wr_patch_place(app, &at)) return;
     WrScene *scene = wr_app_live(app);
     const WrRotation camera = of_camera(&at), turn = turntable(app), pose = pose_of(scene);
     const WrRotation seen = wr_rotation_times(&camera, &turn), back = wr_rotation_inverse(&seen);

@@ -27,7 +27,7 @@
 
 /* ---- the light ---- */
 
-static bool place(const WrApp *app, WrPlacement *out)
+bool wr_patch_place(const WrApp *app, WrPlacement *out)
 {
     const SDL_Rect *r = &app->layout->patch;
     return r->w > 0 &&
@@ -63,7 +63,7 @@ static int light_under(const WrApp *app, const WrPointer *p)
     WrPlacement at;
     const WrScene *scene = wr_app_scene(app);
     double reach = 14.0 * wr_gui_scale();
-    if (!place(app, &at)) return -1;
+    if (!wr_patch_place(app, &at)) return -1;
     for (int i = scene->light_count - 1; i >= 0; i--) {
         double x, y;
         light_spot(app, &at, &scene->lights[i], &x, &y);
@@ -77,7 +77,7 @@ static void move_light(WrApp *app, double x, double y)
 {
     WrPlacement at;
     double cx, cy, rx, ry;
-    if (!place(app, &at)) return;
+    if (!wr_patch_place(app, &at)) return;
     pad(app, &cx, &cy, &rx, &ry);
     WrVec3 d = wr_light_from_pad((x - cx) / rx, (cy - y) / ry);
     WrVec3 world =
@@ -144,7 +144,7 @@ static void start_orbit(WrApp *app)
     WrPlacement at;
     app->patch->from = wr_rotation_from_deg(deg);
     app->patch->from_camera = scene->camera;
-    if (place(app, &at)) app->patch->from_camera.eye = at.eye;
+    if (wr_patch_place(app, &at)) app->patch->from_camera.eye = at.eye;
 }
 
 /* Half a turn for a drag across the view, about the world's y axis and across it; never over the top. */
@@ -192,7 +192,7 @@ static void orbit(WrApp *app, const WrPointer *p)
 {
     WrPlacement at;
     const double dx = p->x - app->hand->start.x, dy = p->y - app->hand->start.y;
-    if (!place(app, &at) || (!app->live && hypot(dx, dy) < CLICK)) return;
+    if (!wr_patch_place(app, &at) || (!app->live && hypot(dx, dy) < CLICK)) return;
     const double span = half_turn(app, &at);
     if (app->patch->pans) pan_camera(app, &at, dx, dy);
     else if (app->patch->rounds) orbit_camera(app, dx, dy, span);
@@ -273,7 +273,7 @@ bool wr_patch_press(WrApp *app, const WrPointer *at)
     if (right && light < 0 && wr_app_scene(app)->light_count > 0) light = 0;
     if (light >= 0 && at->button != SDL_BUTTON_MIDDLE) {
         WrPlacement placed;
-        if (!place(app, &placed)) return false;
+        if (!wr_patch_place(app, &placed)) return false;
         app->hand->grab = WR_GRAB_LIGHT;
         p->light = light;
         light_spot(app, &placed, &wr_app_scene(app)->lights[light], &p->light_x, &p->light_y);
@@ -315,7 +315,7 @@ void wr_patch_release(WrApp *app)
 void wr_patch_wheel(WrApp *app, double steps)
 {
     WrPlacement at;
-    if (app->hand->grab != WR_GRAB_NONE || !place(app, &at)) return;
+    if (app->hand->grab != WR_GRAB_NONE || !wr_patch_place(app, &at)) return;
     if (app->patch->zoom_angle) wr_patch_commit_zoom(app, true);
     double factor = exp2(-steps / 6.0);
     WrScene *scene = wr_app_live(app);
@@ -371,7 +371,7 @@ void wr_patch_draw_lights(const WrApp *app)
     WrPlacement at;
     const WrScene *scene = wr_app_scene(app);
     double s = wr_gui_scale();
-    if (!place(app, &at)) return;
+    if (!wr_patch_place(app, &at)) return;
     for (int i = 0; i < scene->light_count; i++) {
         double x, y;
         light_spot(app, &at, &scene->lights[i], &x, &y);

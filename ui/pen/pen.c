@@ -1,7 +1,7 @@
 /* The queue of pen events, and what becomes of a device's numbers. Where they come from is pen_x11.c,
    pen_finger.c and pen_record.c. */
-#include "ui/gui/words.h"
 #include "ui/pen/pen.h"
+#include "ui/gui/words.h"
 #include "ui/pen/pen_curve.h"
 #include "ui/pen/pen_inner.h"
 

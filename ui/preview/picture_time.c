@@ -1,6 +1,6 @@
 /* How long the newest picture of the patch took: one figure, the same wherever it is shown. */
-#include "ui/gui/words.h"
 #include "ui/preview/preview.h"
+#include "ui/gui/words.h"
 
 #include "base/rows.h"
 #include "render/frame.h"

@@ -15,6 +15,9 @@ WrRotation wr_rotation_from_deg(WrVec3 deg);
 WrVec3 wr_rotation_to_deg(const WrRotation *rotation);
 WrRotation wr_rotation_axis(WrVec3 unit_axis, double deg);              /* right-handed */
 WrRotation wr_rotation_times(const WrRotation *a, const WrRotation *b); /* first b, then a */
+WrRotation wr_rotation_inverse(const WrRotation *rotation);
+/* From a (t = 0) to b (t = 1) about one axis, evenly. */
+WrRotation wr_rotation_between(const WrRotation *a, const WrRotation *b, double t);
 WrVec3 wr_rotation_apply(const WrRotation *rotation, WrVec3 v);
 
 /* A drag by (dx, dy) pixels across a view that is `span` pixels: `rotation` is the object's own, to which

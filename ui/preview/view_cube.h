@@ -19,8 +19,5 @@ bool wr_cube_at(const WrRotation *cube, double x, double y, int side[3]);
 /* The rotation that shows that face, edge or corner in front, upright; above and below with the front downwards, or
  * upwards. */
 WrRotation wr_cube_facing(const int side[3]);
-/* From a (t = 0) to b (t = 1) about one axis, evenly. */
-WrRotation wr_rotation_between(const WrRotation *a, const WrRotation *b, double t);
-WrRotation wr_rotation_inverse(const WrRotation *rotation);
 /* 0..1 of the way at 0..1 of the time: begins and ends at rest. */
 double wr_cube_ease(double t);

@@ -1,7 +1,7 @@
 /* The seam meter: a square on the canvas, one side an edge of the cell; quiet where the table goes on
    smoothly, orange where it jumps. */
-#include "ui/gui/words.h"
 #include "ui/views/panel_seam.h"
+#include "ui/gui/words.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/layout.h"
 #include "ui/desk/session_view.h"
