@@ -123,6 +123,7 @@ static void what_cannot_be_laid_is_refused(void **state)
     must_fail(s, "export height x.png resize=big", "resize");
     must_fail(s, "export height x.png atlas=one", "endings");
     must_fail(s, "export height x.png atlas=missing.png", "missing.png");
+    must_fail(s, "export height x.png atlas=cell.wrinkle", "a document or a picture");
     must_fail(s, "export height x.png margin=-1", "margin");
     must_fail(s, "export height x.png border=on atlas=a.png", "border");
     must_run(s, "table 16x16 wrap=clamp-u");

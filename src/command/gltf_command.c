@@ -121,8 +121,9 @@ static bool take_pictures(WrSession *session, const char *file, const WrGltfLook
 static void note(WrSession *session, const char *path, const WrGltfLook *look, const Told *told)
 {
     WrText text = { 0 };
+    char shown[WR_EXCERPT_SIZE];
     wr_text_addf(&text, "%s: material %d of %d", path, look->index + 1, look->count);
-    if (look->name[0]) wr_text_addf(&text, " \"%s\"", look->name);
+    if (look->name[0]) wr_text_addf(&text, " \"%s\"", wr_excerpt(look->name, shown));
     wr_text_add(&text, ": its numbers");
     if (told->taken.length > 0)
         wr_text_addf(&text, ", and pictures of %s", wr_text_get(&told->taken));

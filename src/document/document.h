@@ -56,9 +56,10 @@ void wr_document_swap_composites(WrDocument *document, WrDocument *from);
 void wr_document_free(WrDocument *document); /* NULL is fine */
 
 /* The composited F: the visible layers joined from the bottom up (compositor.h), or the solo layer alone
- * on the ground (a filter alone: the layers up to it). A document of one plain layer (visible, opacity 1, no mask, taken as it is) has that
- * layer's heights themselves; otherwise tiles that changed since the last call are done again. Borrowed
- * until the next edit. Any number of threads may call it as long as nobody edits. */
+ * on the ground (a filter alone: the layers up to it). A document of one plain layer (visible, opacity 1,
+ * no mask, taken as it is) has that layer's heights themselves; otherwise tiles that changed since the
+ * last call are done again. Borrowed until the next edit. Any number of threads may call it as long as
+ * nobody edits. */
 const WrField *wr_document_field(const WrDocument *document);
 /* The same, with a pool for the tiles that changed; NULL: this thread. */
 const WrField *wr_document_composite(const WrDocument *document, WrPool *pool);

@@ -1,6 +1,7 @@
 #include "export/atlas.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "document/document.h"
@@ -57,13 +58,23 @@ static WrField *from_picture(const char *path, WrError *err)
     return field;
 }
 
+static WrField *from_file(const char *path, WrError *err)
+{
+    char ending[16];
+    if (wr_document_recognise(path) || wr_ora_recognise(path)) return from_document(path, err);
+    if (strcmp(wr_path_ending(path, ending), "wrinkle") != 0) return from_picture(path, err);
+    wr_fail(err,
+            "%s: a script is no cell of an atlas: must be a document or a picture, as one that "
+            "the script saves",
+            path);
+    return NULL;
+}
+
 static bool add_file(Cells *cells, const char *path, WrError *err)
 {
     if (cells->count == CELLS_MOST)
         return wr_fail(err, "an atlas takes up to %d cells", CELLS_MOST);
-    WrField *field = wr_document_recognise(path) || wr_ora_recognise(path)
-                         ? from_document(path, err)
-                         : from_picture(path, err);
+    WrField *field = from_file(path, err);
     if (field) cells->cell[cells->count++] = field;
     return field != NULL;
 }

@@ -102,7 +102,7 @@ static json_object *item_of(const Gltf *file, const char *list, int index)
     return element(member(file->root, list, json_type_array), index);
 }
 
-/* A whole number of 0 .. 2^31 - 1; `missing` where there is none. */
+/* A whole number of 0 .. 2^31 - 1; `missing` where there is none, -1 where it is another. */
 static int64_t index_in(json_object *of, const char *name, int64_t missing)
 {
     json_object *x = member(of, name, json_type_int);
@@ -116,14 +116,17 @@ static bool has(json_object *of, const char *name)
     return json_object_is_type(of, json_type_object) && json_object_object_get_ex(of, name, &out);
 }
 
-/* 0..1, or `missing` where the file does not say. */
+static bool is_number(json_object *x)
+{
+    return json_object_is_type(x, json_type_double) || json_object_is_type(x, json_type_int);
+}
+
+/* 0..1; `out` stays as it is where the file does not say. */
 static bool share_of(const Gltf *file, const char *name, json_object *x, double *out, WrError *err)
 {
     if (!x) return true;
     const double value = json_object_get_double(x);
-    const bool number =
-        json_object_is_type(x, json_type_double) || json_object_is_type(x, json_type_int);
-    if (number && value >= 0 && value <= 1) {
+    if (is_number(x) && value >= 0 && value <= 1) {
         *out = value;
         return true;
     }
@@ -215,7 +218,7 @@ static bool read_material(const Gltf *file, json_object *material, WrGltfLook *l
     if (name) snprintf(look->name, sizeof look->name, "%s", json_object_get_string(name));
     if (!read_factors(file, pbr, look, err)) return false;
     if ((scale = any(normal, "scale"))) look->normal_scale = json_object_get_double(scale);
-    if (!(fabs(look->normal_scale) <= 100))
+    if ((scale && !is_number(scale)) || !(fabs(look->normal_scale) <= 100))
         return wr_fail(err, "%s: normalTexture scale %.40s: must be a number of -100..100",
                        file->path, json_object_to_json_string(scale));
     look->base = image_of(file, member(pbr, "baseColorTexture", json_type_object), "colours", look);
@@ -270,8 +273,8 @@ bool wr_gltf_look(const char *path, const char *which, WrGltfLook *out, WrError 
     json_object *material = good ? element(materials, index) : NULL;
     if (good && !json_object_is_type(material, json_type_object))
         good = which ? wr_fail(err, "%s: has no material \"%.60s\" (it has %d)", path, which, count)
-                     : wr_fail(err, "%s: its triangles name material %d of %d", path, index + 1,
-                               count);
+                     : wr_fail(err, "%s: its triangles name material %lld of %d", path, index + 1LL,
+                               count); /* the file's index may be INT32_MAX */
     out->index = index, out->count = count;
     good = good && read_material(&file, material, out, err);
     close_gltf(&file);
