@@ -52,11 +52,11 @@ typedef struct WrIllusionRequest {
 /* Zero-initialise *out. Errors: those of frames and of the reference; nothing in the scene that could be displaced. */
 bool wr_illusion_measure(const WrIllusionRequest *request, WrIllusion *out, WrError *err);
 void wr_illusion_fini(WrIllusion *illusion);
-/* The map's pixel as a colour: red outline, green shading, blue shadow; of light a tenth is full. */
+/* The map's pixel as a colour: red outline, green shading, blue shadow; of light a tenth is full. pixel: row by row. */
 void wr_illusion_colour(const WrIllusion *illusion, size_t pixel, uint8_t rgb[3]);
 /* Below which height nobody sees a difference in this view; or that nobody does. One sentence. */
 void wr_illusion_height(const WrIllusion *illusion, WrText *text);
-/* What follows: below which height nobody sees the difference, and what it is made of. One to three sentences. */
+/* What follows: below which height nobody sees the difference, and what it is made of. Up to five sentences. */
 void wr_illusion_advice(const WrIllusion *illusion, WrText *text);
 void wr_illusion_text(const WrIllusion *illusion, const char *name, WrText *text);
 void wr_illusion_json(const WrIllusion *illusion, const char *name, WrText *text);

@@ -4,9 +4,8 @@
 
 #include <math.h>
 
-#define SEEN 0.5   /* pixels: less is not seen (E50) */
-#define CODE 0.004 /* linear intensity: about one code of 255 at middle grey */
-
+#define SEEN 0.5       /* pixels: less is not seen (E50) */
+#define CODE 0.004     /* linear intensity: about one code of 255 at middle grey */
 #define FULL_SCALE 0.1 /* linear intensity that is full in the map, as in pictures of errors */
 
 void wr_illusion_colour(const WrIllusion *illusion, size_t pixel, uint8_t rgb[3])

@@ -1,10 +1,10 @@
 /* Bodies that throw shadows: closed forms and facets, and how much of a lamp they leave. */
 #include "render/cast.h"
-#include "render/raised.h"
 
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "field/field.h"
+#include "render/raised.h"
 #include "surface/triangles.h"
 
 #include <math.h>

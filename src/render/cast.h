@@ -33,8 +33,8 @@ typedef struct WrCastQuad {
 typedef struct WrCastBody {
     WrShape shape; /* that all else was made for; kept while the scene's is the same */
     double radius; /* about the object's centre */
-    WrHash raised; /* what F is, of a displaced surface; else 0 */
-    double rise;   /* so far its points may be from the base; else 0 */
+    WrHash raised; /* of all that F goes by, of a displaced surface; else 0 */
+    double rise;   /* so far its points may be from the base, object units; else 0 */
     bool made;     /* what rays meet is there */
     WrCastQuad quads[6];
     int quad_count;
@@ -69,7 +69,7 @@ typedef struct WrCast {
 bool wr_cast_asked(const WrScene *scene);
 /* Is the object such that it never hides a lamp from itself? */
 bool wr_cast_spares_itself(const WrScene *scene);
-/* The body's size alone. field: NULL with a formula. */
+/* The body's size alone. field: what F is looked up in where the surface is displaced; NULL with a formula. */
 void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *field);
 /* All of it. Errors: no memory. */
 bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err);
@@ -86,7 +86,7 @@ bool wr_cast_facets(WrCastBody *body, const WrScene *scene, const WrField *field
    that can, or, if so wanted, all of them are made. rays: to a round lamp. Errors: no memory; a camera that cannot look. */
 typedef struct WrCastAsk {
     const WrScene *const *scenes;
-    const WrField *const *fields; /* their tables */
+    const WrField *const *fields; /* [count]: their tables; NULL with a formula */
     WrCastBody *const *bodies;
     int count, at, rays;
     bool all;

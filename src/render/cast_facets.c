@@ -2,9 +2,9 @@
    hundred-thousandths of its radius. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "render/cast.h"
 #include "render/raised.h"
-#include "field/field.h"
 #include "surface/triangles.h"
 
 #include <math.h>

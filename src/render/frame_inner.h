@@ -132,7 +132,9 @@ void wr_frame_shown(WrRenderer *renderer);
 int wr_frame_tiles(const WrTileJob *tile); /* of the picture */
 /* Render the tiles. False if told to stop. */
 bool wr_frame_run(WrRenderer *renderer, FrameJob *job);
+/* May an edit be answered by the tiles alone that look at what it wrote? The request asks for it, and no edit reaches farther. */
 bool wr_frame_may_keep(const WrFrameRequest *request);
+/* Are both wanted as the same codes: over the same background, by the same tone? Or is neither? */
 bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b);
 void wr_renderer_forget(
     WrRenderer *renderer); /* all that a renderer holds but its threads' scratch */

@@ -1,5 +1,5 @@
-/* What the samples of a resting view look at (sight.h), and n', P, u and v of them (steady.h): when it is known, and when it is
-   noted. */
+/* What the samples of a resting view look at (sight.h), and n', P, u and v of them (steady.h): when it is known, and when it
+   is noted. */
 #include "field/field.h"
 #include "render/frame_inner.h"
 #include "scene/objects.h"
@@ -50,9 +50,9 @@ static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrH
     const WrPlan *plan = &renderer->plan;
     const int64_t objects = renderer->among ? renderer->among : 1;
     WrSightKey key;
+    /* Where light alone is new it is of use to the next edit. */
     if (!renderer->mesh && renderer->steady->use != WR_STEADY_KNOWN)
-        wr_sight_fini(
-            &renderer->sight); /* where light alone is new it is of use to the next edit */
+        wr_sight_fini(&renderer->sight);
     const bool small = objects * request->width * request->height <= SIGHT_MOST;
     renderer->sighting = small && wr_frame_may_keep(request) && renderer->mesh &&
                          plan->newton != 0 && plan->sampling == WR_SAMPLING_ONE &&

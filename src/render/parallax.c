@@ -2,14 +2,16 @@
 
 #include "field/field.h"
 #include "field/scheme.h"
+#include "render/raised.h"
 #include "scene/scene.h"
 
 #include <math.h>
 #include <string.h>
 
-#define OVERSHOOT                                                                                  \
-    0.28125           /* Catmull-Rom's, of the range: its weights' sizes add up to 1.25 an axis */
-#define STEEPER 1.875 /* its slopes, of the differences: 1.5 along an axis, 1.25 across */
+/* Catmull-Rom's: beyond the range, of which its weights' sizes add up to 1.25 an axis; and its slopes, of the differences,
+   1.5 along an axis and 1.25 across. */
+#define OVERSHOOT 0.28125
+#define STEEPER 1.875
 
 static double entry(const WrTableCopy *copy, int i, int j)
 {
@@ -48,14 +50,6 @@ void wr_relief_bounds_bring(WrReliefBounds *bounds, const WrTable *table, WrSche
     measure(bounds, copy, wr_field_width(field), wr_field_height(field));
 }
 
-/* Of all the terms, whatever their signs. */
-static double most_of(const WrAnalytic *formula)
-{
-    double sum = 0;
-    for (int k = 0; k < formula->count; k++) sum += fabs(formula->terms[k].a);
-    return sum;
-}
-
 /* Is a border a point, as at a pole? axis: 0: at u, 1: at v of `at`. */
 static bool is_point(const WrShape *shape, int axis, double at)
 {
@@ -87,7 +81,7 @@ void wr_parallax_range(const WrScene *scene, const WrReliefBounds *bounds, const
 {
     double low = bounds->low, high = bounds->high;
     if (plan->source == WR_SOURCE_FORMULA) {
-        high = most_of(&scene->analytic), low = -high;
+        high = wr_raised_amplitude(&scene->analytic), low = -high;
     } else if (plan->scheme == WR_SCHEME_CATMULL) {
         const double more = OVERSHOOT * (high - low);
         low -= more, high += more;

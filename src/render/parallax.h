@@ -7,6 +7,7 @@
    A ray that leaves u, v of 0..1 where the surface ends, or the space between the lowest and the highest F, meets nothing.
    Those that pass beside a plane may meet what stands on it; of curved bases outlines are seen within the base's own, never
    beyond it. A relief is seen from above: what would be seen from below its edge is left out.
+   Elsewhere this is relief mapping or parallax occlusion mapping, of curved bases by a quadric (Oliveira, Policarpo 2005).
    Layer 5, private to the renderer. */
 #pragma once
 #include "render/plan.h"
@@ -21,7 +22,7 @@ typedef struct WrReliefBounds {
     WrCopyKind copy;
     WrPrecision precision;
     bool known;
-    double low, high, steep[2];
+    double low, high, steep[2]; /* of F; of |Fu|, |Fv|, the largest */
 } WrReliefBounds;
 
 /* Kernel units, by u and v of the patch. */

@@ -70,8 +70,8 @@ static double above(const Way *w, double t)
 static bool down_to(const Way *w, double h, double *t)
 {
     const double part = w->rise * w->rise + 4 * w->bend * h;
-    const double root =
-        sqrt(fmax(part, 0)); /* t = (-rise - root) / (2 bend), without what cancels */
+    const double root = sqrt(fmax(part, 0));
+    /* t = (-rise - root) / (2 bend), without what cancels */
     *t = root - w->rise > 0 ? -2 * h / (root - w->rise) : 0;
     return part >= 0;
 }

@@ -41,8 +41,8 @@ typedef struct WrSteadyView {
 
 /* Zero-initialise; fini frees. */
 typedef struct WrSteady {
-    WrSteadyView
-        view; /* of the last frame that it suits; its parts are the next; count 0: there was none */
+    /* Of the last frame that it suits; its parts are those below; count 0: there was none. */
+    WrSteadyView view;
     WrSteadyPart *parts; /* [count], owned, with shares of their scenes and copies of their plans */
     float *normals,
         *points, /* [height][width][3], while they are noted; n' 0,0,0: nothing is seen. Owned */

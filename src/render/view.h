@@ -68,7 +68,7 @@ bool wr_view_rise(const WrScene *scene, const WrField *field, double radius, dou
 bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPlan *plan,
                   double turn_deg, int width, int height, WrError *err);
 /* A plane's rays go on to a relief from low to high over it (parallax.h): where they meet the base then, u and v may lie beyond
-   its own, as far as the eye can look past its edges at what stands there. */
+   its own, as far as the eye can look past its edges at what stands there. low, high: kernel units. */
 void wr_view_widen(WrView *view, double low, double high);
 void wr_view_fini(WrView *view);
 /* The grid of k x k samples a pixel; k is 1, K or a power of two below K. */

@@ -114,7 +114,7 @@ typedef struct WrDials {
     WrArithmetic arithmetic;
     int harmonics; /* order up to which diffuse light of surroundings is kept: 0..2 */
     double gloss;  /* texels over the width of a lobe that surroundings are blurred by: 4..128 */
-    double faint;  /* a highlight of facets that a lamp gives no more than this is none: 0..0.1 */
+    double faint;  /* linear: a lamp's highlight of facets below this is left out: 0..0.1 */
 } WrDials;
 
 WrDials wr_dials_default(void);
