@@ -319,6 +319,31 @@ static void a_raised_ball_throws_its_own_shadow(void **state)
     }
 }
 
+/* A ball whose relief is too low to be seen is as bright as one that is not displaced. */
+static void a_relief_too_low_to_be_seen_darkens_nothing(void **state)
+{
+    (void)state;
+    static const double rise[] = { 0.004, -0.004 };
+    for (int k = 0; k < 2; k++) {
+        WrScene *scene = above_ground("sphere", (WrVec3){ 0.1, -0.2, 0.93 }, 0.437);
+        WrField *field =
+            wr_field_new(5, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, (float)rise[k], NULL);
+        scene->displaced = true, scene->height = 1;
+        Shot shot = shot_on(scene, field, NULL);
+        scene->displaced = false;
+        Shot plain = shot_on(scene, field, NULL);
+        int other = 0;
+        for (int i = 0; i < SIDE * SIDE; i++)
+            other += fabs((double)(shot.frame.rgba[4 * i] - plain.frame.rgba[4 * i])) > 0.05;
+        print_message("%d of %d pixels differ\n", other, SIDE * SIDE);
+        assert_true(other < 40); /* of outlines; the ball has 290 */
+        put_away(&shot);
+        put_away(&plain);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
 /* On the ground, on themselves; where the relief's own shadow is asked for too, rays tell of both. */
 static void raised_objects_shadow_as_the_reference_has_it(void **state)
 {
@@ -355,6 +380,7 @@ int main(void)
         cmocka_unit_test(what_cannot_reach_is_left_out),
         cmocka_unit_test(dark_lamps_change_no_other),
         cmocka_unit_test(a_raised_ball_throws_its_own_shadow),
+        cmocka_unit_test(a_relief_too_low_to_be_seen_darkens_nothing),
         cmocka_unit_test(raised_objects_shadow_as_the_reference_has_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

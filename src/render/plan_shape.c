@@ -3,6 +3,7 @@
 #include "render/plan_inner.h"
 
 #include "field/analytic.h"
+#include "render/cast.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"
 
@@ -20,7 +21,9 @@ WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanAsk *ask, const ch
     if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
     if (scene->analytic.kind == WR_ANALYTIC_OFF && ask->facts.zero)
         return say(WR_VERDICT_SPARED, why, "the table is 0 everywhere");
-    if (ask->facts.rise >= 0 && ask->facts.rise < SEEN)
+    /* Rays to lamps meet facets of P + F n, however low: from its base all of it would be hidden, or nothing. */
+    const bool met = wr_cast_asked(scene) && ask->dials->rays > 0;
+    if (ask->facts.rise >= 0 && ask->facts.rise < SEEN && !met)
         return say(WR_VERDICT_SPARED, why, "F moves no point by half a pixel: bump looks the same");
     return say(WR_VERDICT_RUN, why, "F moves the surface: facets of P + F n are seen");
 }
