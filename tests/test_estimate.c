@@ -143,7 +143,6 @@ static void estimates_are_near_what_commands_take(void **state)
                      exp(ratio[i]), exp(sum));
 }
 
-/* Lattices from loose to so close that nearly all is hidden. */
 /* Asked at every texel how far away the edge is, a ridge takes several times as long. */
 static void a_ridge_costs_more_than_a_bevel(void **state)
 {
@@ -156,6 +155,7 @@ static void a_ridge_costs_more_than_a_bevel(void **state)
     wr_session_free(s);
 }
 
+/* Lattices from loose to so close that nearly all is hidden. */
 static void crowds_are_near_what_they_take(void **state)
 {
     (void)state;

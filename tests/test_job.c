@@ -41,8 +41,8 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     assert_ptr_equal(wr_progress_here(), progress);
     if (!first) first = pool;
     if (none_left) assert_ptr_equal(pool, first);
-    assert_int_equal(wr_pool_threads(first),
-                     1); /* it is still there, also for threads that come later */
+    /* it is still there, also for threads that come later */
+    assert_int_equal(wr_pool_threads(first), 1);
     piece->result = piece->value + 1;
 }
 

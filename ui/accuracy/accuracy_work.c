@@ -280,7 +280,7 @@ static int ascending(const void *a, const void *b)
 }
 
 /* Outlines and poles must not make all else of a map black. */
-static void find_high(WrWork *work)
+static void find_ends(WrWork *work)
 {
     const size_t count = work->values ? (size_t)work->measured_w * (size_t)work->measured_h : 0;
     float *sorted = wr_alloc(count + 1, sizeof *sorted);
@@ -305,7 +305,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     case WR_WORK_MAP: work->done = draw_map(work, pool, progress); break;
     case WR_WORK_PROBE: work->done = wr_accuracy_probe(work); break;
     }
-    if (work->done) find_high(work);
+    if (work->done) find_ends(work);
 }
 
 static void drop(void *arg)

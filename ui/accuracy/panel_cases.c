@@ -119,13 +119,9 @@ static WrRow row_of(const WrCases *cases, int index)
     wr_gui_row_at(x, 2.3 * line);
     wr_gui_as_it_is(true);
     wr_gui_text(WR_FONT_SMALL, row->scene ? WR_COLOUR_ACCENT : WR_COLOUR_LABEL, row->id);
-    wr_gui_as_it_is(false);
     wr_gui_row_at(text, 2.3 * line);
-    wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, row->what, room);
-    wr_gui_as_it_is(false);
     wr_gui_row_at(text, 0.2 * line);
-    wr_gui_as_it_is(true);
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, row->holds, room);
     wr_gui_as_it_is(false);
     worst(END_FLOAT * wide, row, result, WR_HARD_FLOAT);
@@ -168,8 +164,6 @@ static void detail(const WrCases *cases)
     wr_gui_list_begin("detail", wr_gui_px(112));
     wr_gui_as_it_is(true);
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, row->holds);
-    wr_gui_as_it_is(false);
-    wr_gui_as_it_is(true);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&text));
     wr_gui_as_it_is(false);
     wr_text_clear(&text);

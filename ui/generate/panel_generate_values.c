@@ -295,9 +295,8 @@ static bool parameters(WrApp *app)
             shown = heading(hand, i, group);
         }
         if (shown) changed |= parameter(app, i);
-        for (size_t k = 0; i == wr_generate_written(hand->generator) &&
-                           k < sizeof written_first / sizeof *written_first;
-             k++) {
+        if (i != wr_generate_written(hand->generator)) continue;
+        for (size_t k = 0; k < sizeof written_first / sizeof *written_first; k++) {
             int first = wr_generator_param_find(hand->generator, written_first[k]);
             if (first >= 0) changed |= parameter(app, first);
         }

@@ -16,9 +16,9 @@ static bool is_folder(const char *path)
 /* Takes both strings. */
 static void add(WrFilePlace *places, int *count, char *label, char *path)
 {
-    bool new = *count < WR_FILE_PLACES &&is_folder(path);
-    for (int i = 0; i < *count && new; i++) new = strcmp(places[i].path, path) != 0;
-    if (new) {
+    bool wanted = *count < WR_FILE_PLACES && is_folder(path);
+    for (int i = 0; i < *count && wanted; i++) wanted = strcmp(places[i].path, path) != 0;
+    if (wanted) {
         places[(*count)++] = (WrFilePlace){ label, path };
         return;
     }

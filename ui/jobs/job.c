@@ -21,8 +21,8 @@ struct WrJob {
     volatile int cancel; /* atomic; read by the work */
     const WrJobKind *kind;
     WrThread thread;
-    WrPool *
-        in_place; /* owned; of work that has no thread: what it keeps may hold on to it. NULL: there was none */
+    /* Owned; of work that has no thread, which may keep what holds on to it. NULL: there was none. */
+    WrPool *in_place;
     int threads;
     Uint32 done_event;
 };

@@ -8,8 +8,8 @@
 #include "ui/desk/messages.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
-#include "ui/gui/words.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/trial.h"
 
 #include "base/error.h"

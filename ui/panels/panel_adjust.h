@@ -26,15 +26,15 @@ typedef struct WrHeightSpan {
 
 /* What the dialog of an operation holds. */
 typedef struct WrAdjust {
-    const WrOpInfo *op; /* NULL: none */
-    double param[WR_OP_VALUES];
-    int layers;               /* 0 the active one, 1 all */
-    bool filters;             /* it is of a filter layer */
-    int layer;                /* that layer's index; -1: a new one */
-    WrField *below;           /* what a filter with a histogram is over; NULL: nothing. Owned */
-    uint64_t asked_at;        /* the document's revision when it was tried last */
-    WrCanvasView view;        /* as it was before */
-    WrHeightCounts histogram; /* of levels */
+    const WrOpInfo *op;         /* NULL: none */
+    double param[WR_OP_VALUES]; /* as in WrFilter */
+    int layers;                 /* 0 the active one, 1 all */
+    bool filters;               /* it is of a filter layer */
+    int layer;                  /* that layer's index; -1: a new one */
+    WrField *below;             /* what a filter with a histogram is over; NULL: nothing. Owned */
+    uint64_t asked_at;          /* the document's revision when it was tried last */
+    WrCanvasView view;          /* as it was before */
+    WrHeightCounts histogram;   /* of levels and curves */
     int held;               /* on it: 1 the low end, 2 the high one, of a curve a point; 0: none */
     int chosen;             /* the curve's point that keys move, 0: none */
     WrHeightSpan held_span; /* what it showed then */
@@ -47,13 +47,19 @@ void wr_dialog_adjust(WrApp *app);
 /* The same of a new filter layer, and of the values of the active one, if that is one. */
 void wr_dialog_filter_open(WrApp *app, const WrOpInfo *op);
 void wr_filter_edit(WrApp *app);
-/* The operation of an action "filter_NAME", or NULL; and its label in menus is that of the operation. */
+/* Of another document: what lay below a filter is let go. */
 extern const WrPart wr_part_adjust;
-bool wr_filter_by_name(WrApp *app, const char *name); /* see WrActionFamily */
-bool wr_curves_pad(WrApp *app);                       /* curves_pad.c; likewise */
-/* What is counted and drawn below both: the heights that the dialog changes. */
+
+/* ---- levels_pad.c, curves_pad.c ---- */
+/* True if a value was changed. */
+bool wr_levels_pad(WrApp *app);
+bool wr_curves_pad(WrApp *app);
+/* The heights that the dialog changes, counted: valid until the next call. */
 const WrHeightCounts *wr_height_counts(WrApp *app);
+/* Where a height stands in the pad, in pixels of the window. */
 double wr_height_x(const WrPad *pad, WrHeightSpan span, double height);
 void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h);
-bool wr_levels_pad(WrApp *app); /* levels_pad.c; true if a value was dragged */
-bool wr_adjust_by_name(WrApp *app, const char *name); /* "adjust_NAME"; see WrActionFamily */
+
+/* ---- actions "adjust_NAME" and "filter_NAME"; see WrActionFamily ---- */
+bool wr_adjust_by_name(WrApp *app, const char *name);
+bool wr_filter_by_name(WrApp *app, const char *name);

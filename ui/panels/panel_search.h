@@ -4,8 +4,7 @@
 
 typedef struct WrFinder { /* the search for actions */
     char text[600];
-    bool
-        fill; /* a command was just chosen: its verb is put into the field, which wants the keys again */
+    bool fill; /* a command was just chosen: the field holds its verb, and wants the keys again */
     bool line; /* what is typed is a command's line, not words of actions */
     int chosen;
     bool empty; /* Enter came with nothing typed: the field is to have the keys again */

@@ -1,11 +1,11 @@
 /* The export sheet. */
-#include "ui/gui/words.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 
 #include "base/rows.h"
 #include "field/field.h"

@@ -1,5 +1,4 @@
 /* The status line: what is under the pointer, what the last picture cost, what there is to say. */
-#include "ui/gui/words.h"
 #include "ui/panels/panel_status.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
@@ -12,6 +11,7 @@
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/preview/preview.h"

@@ -1,6 +1,5 @@
 /* The option row: values of the brush that several tools show, and how many of a tool's options find room. What does
    not fit is behind the button at its end. */
-#include "ui/gui/words.h"
 #include "ui/tools/option.h"
 
 #include "base/rows.h"
@@ -10,6 +9,7 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/gui/words.h"
 #include "ui/pen/steady.h"
 #include "ui/tools/shelf.h"
 #include "ui/tools/thumbs.h"
