@@ -105,6 +105,8 @@ static const char *const lines[] = {
     "adjust dilate radius=16 layers=all",
     "adjust erode radius=16 layers=all",
     "adjust slope-limit limit=0.001 layers=all",
+    "adjust noise octaves=8 layers=all",
+    "adjust warp octaves=8 layers=all",
     "colour big.exr",
     "colouring ramp",
     "normalmap big.exr",

@@ -11,7 +11,8 @@ BEGIN {
     may["system"] = " system "
     base = " system base "
     may["base"] = base
-    may["field"] = may["noise"] = may["image"] = base
+    may["noise"] = may["image"] = base
+    may["field"] = base "noise "
     may["surface"] = base "field "
     may["shade"] = base "field noise image "
     may["generate"] = base "field surface noise image "

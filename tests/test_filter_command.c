@@ -242,6 +242,86 @@ static void undo_costs_what_the_edit_touched(void **state)
     wr_session_free(s);
 }
 
+/* As where memory lacks for its work: what fails here is the operation, by values that no command would set. */
+static void break_filter(WrSession *s, int layer, double to)
+{
+    ((WrDocument *)doc(s))->layers[layer].filter.param[1] = to;
+}
+
+static void what_a_filter_cannot_be_carried_out_for_is_refused(void **state)
+{
+    (void)state;
+    static const char *const refused[] = { "save lacks.exr",
+                                           "save lacks.ora",
+                                           "export height lacks.png",
+                                           "export normal+y lacks.png",
+                                           "render lacks.png size=16x16",
+                                           "maps blender .",
+                                           "layer flatten",
+                                           "layer merge 2",
+                                           "select height low=0.2 high=0.7",
+                                           "layer mask 3 from=height low=0.2 high=0.9",
+                                           "copy lacks.exr of=composite" };
+    WrSession *s = hilly();
+    wr_session_set_outputs(s, true);
+    must_run(s, "filter levels in-low=0.17 in-high=1.3");
+    WrField *right = now(s);
+    WrHash before = wr_session_hash(s);
+    break_filter(s, 1, 0.17);
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        WrError err = { "" };
+        must_run(s, "undo");
+        must_run(s, "redo"); /* whose composite nobody made yet */
+        break_filter(s, 1, 0.17);
+        if (wr_session_run(s, refused[i], &err)) fail_msg("%s went through", refused[i]);
+        if (!strstr(err.text, "'Levels' cannot be carried out (levels: "))
+            fail_msg("%s: %s", refused[i], err.text);
+    }
+    assert_int_not_equal(access("lacks.exr", F_OK), 0);
+    assert_int_not_equal(access("lacks.ora", F_OK), 0);
+    assert_int_not_equal(access("lacks.png", F_OK), 0);
+    must_run(s, "layer use 1");
+    must_run(s, "dab 0.5,0.5 radius=3 strength=1"); /* what does not look at it goes on */
+    must_run(s, "undo 2");
+    must_run(s, "layer set 2 visible=off");
+    must_run(s, "save lacks.exr");
+    must_run(s, "undo");
+    break_filter(s, 1, 1.3);
+    WrHash after = wr_session_hash(s);
+    assert_memory_equal(&before, &after, sizeof before);
+    assert_true(same_field(right, wr_document_field(doc(s))));
+    wr_field_free(right);
+    wr_session_free(s);
+}
+
+/* A filter that was tried is not made again: the composite is the trial's, the very table. */
+static void a_filter_that_was_made_before_is_taken(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "filter blur sigma=2.5",
+                                         "filter median radius=2 layer=2" };
+    WrError err;
+    WrSession *s = hilly(), *tried = hilly();
+    for (int i = 0; i < 2; i++) {
+        WrDocument *made = wr_document_share(doc(s));
+        WrFilter filter;
+        assert_true(wr_filter_parse(i ? "median radius=2" : "blur sigma=2.5", &filter, &err));
+        if (i) made->layers[1].filter = filter;
+        else wr_document_add_filter(made, "", &filter);
+        const uint64_t key = wr_field_key(wr_document_field(made));
+        assert_true(wr_session_takes_made(lines[i]));
+        if (!wr_session_run_made(s, lines[i], made, &err)) fail_msg("%s", err.text);
+        wr_document_free(made);
+        assert_true(wr_field_key(wr_document_field(doc(s))) == key);
+        must_run(tried, lines[i]);
+        assert_true(same_field(wr_document_field(doc(s)), wr_document_field(doc(tried))));
+        WrHash a = wr_session_hash(s), b = wr_session_hash(tried);
+        assert_memory_equal(&a, &b, sizeof a);
+    }
+    wr_session_free(s);
+    wr_session_free(tried);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -250,6 +330,8 @@ int main(void)
         cmocka_unit_test(joining_and_doubling_keep_what_is_seen),
         cmocka_unit_test(files_keep_filters_and_older_ones_stay_as_they_were),
         cmocka_unit_test(files_with_filters_that_are_none_are_refused),
+        cmocka_unit_test(what_a_filter_cannot_be_carried_out_for_is_refused),
+        cmocka_unit_test(a_filter_that_was_made_before_is_taken),
         cmocka_unit_test(undo_costs_what_the_edit_touched),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

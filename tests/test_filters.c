@@ -31,6 +31,8 @@ static const char *const kinds[] = {
     "add amount=%.3f",
     "curves points=-0.7,0.21;0.4,%.3f;1.2,0.35",
     "multiply factor=%.3f",
+    "noise amount=%.3f cells=7 octaves=3 kind=value mode=billow seed=41",
+    "warp amount=1%.3f cells=3 octaves=2 seed=3",
     "clamp low=0.19 high=%.3f",
     "invert about=zero",
     "invert about=range",
@@ -43,7 +45,7 @@ static const char *const kinds[] = {
 };
 enum {
     KINDS = sizeof kinds / sizeof *kinds,
-    NEAR = 11 /* the first ones do not look at the whole table */
+    NEAR = 13 /* the first ones do not look at the whole table */
 };
 
 static WrFilter filter_of(int kind, double value)

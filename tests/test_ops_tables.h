@@ -99,7 +99,7 @@ typedef struct OpCall {
 } OpCall;
 
 /* Every way in which an operation works that keeps the table's size, and filters alone first. */
-enum { FILTER_CALLS = 15, SAME_SIZE_CALLS = 28 };
+enum { FILTER_CALLS = 17, MOVE_CALLS = 26, SAME_SIZE_CALLS = 31 };
 static const OpCall same_size_calls[SAME_SIZE_CALLS] = {
     { "blur", { 0.0 } },
     { "blur", { 0.7 } },
@@ -116,6 +116,8 @@ static const OpCall same_size_calls[SAME_SIZE_CALLS] = {
     { "slope-limit", { 0.03, 1 } },
     { "slope-limit", { 0.03, 2 } },
     { "invert", { 0 } },
+    { "warp", { 7.3, 3, 2, 0, 5 } },
+    { "warp", { 3.6, 2, 1, 1, 77 } },
     /* from here on, flat tables change */
     { "invert", { 1 } },
     { "levels", { -0.4, 0.4, 1.0, 0.0, 2.0 } },
@@ -125,6 +127,7 @@ static const OpCall same_size_calls[SAME_SIZE_CALLS] = {
     { "add", { 0.25 } },
     { "multiply", { -3.0 } },
     { "clamp", { -0.1, 0.3 } },
+    { "noise", { 0.2, 5, 3, 1, 2, 9 } },
     /* from here on, texels move */
     { "offset", { 37, -71 } },
     { "offset", { 0, 0 } },

@@ -77,6 +77,11 @@ static void an_offset_that_is_tried_moves_what_layers_say_too(void **state)
     try_then_run(
         &(WrTrialAsk){ .op = wr_op_find("offset"), .param = { 100, 31 }, .all_layers = true },
         "adjust offset du=100 dv=31 layers=all");
+    /* where that overshoots, what a layer says stays within 0 to 1 */
+    try_then_run(&(WrTrialAsk){ .op = wr_op_find("warp"),
+                                .param = { 23.7, 9, 3, 0, 7 },
+                                .all_layers = true },
+                 "adjust warp amount=23.7 cells=9 octaves=3 seed=7 layers=all");
 }
 
 static void a_layers_settings_that_are_tried_come_out_as_their_command(void **state)

@@ -54,6 +54,7 @@ bool wr_bench_stroke(const WrCli *cli, WrBenchStroke *stroke, int samples, WrErr
 /* A dab of 64 texels across and its undo, each with the composite brought up to date after it: medians. */
 typedef struct WrBenchEdit {
     int table, layers;
+    const char *filter; /* the command of a filter layer over them; NULL: none */
     double dab_ms, composite_ms, undo_ms, undo_composite_ms;
     double bytes; /* that the step costs */
 } WrBenchEdit;

@@ -17,7 +17,7 @@ static bool run(WrSession *session, const char *line, WrError *err)
 }
 
 /* A grid below, and on each further layer one dab. */
-static bool make(WrSession *session, int size, int layers, WrError *err)
+static bool make(WrSession *session, int size, int layers, const char *filter, WrError *err)
 {
     char line[96];
     snprintf(line, sizeof line, "table %dx%d", size, size);
@@ -28,7 +28,7 @@ static bool make(WrSession *session, int size, int layers, WrError *err)
         snprintf(line, sizeof line, "dab %g,0.5 radius=32", i / 32.0);
         if (!run(session, line, err)) return false;
     }
-    return true;
+    return !filter || (run(session, filter, err) && run(session, "layer use 1", err));
 }
 
 static double since(double start)
@@ -41,7 +41,7 @@ bool wr_bench_edit(const WrCli *cli, WrBenchEdit *edit, int rounds, WrError *err
     WrSession *session = wr_cli_session(cli, false, err);
     double *times[4];
     for (int k = 0; k < 4; k++) times[k] = wr_alloc((size_t)rounds, sizeof *times[k]);
-    bool good = session && make(session, edit->table, edit->layers, err);
+    bool good = session && make(session, edit->table, edit->layers, edit->filter, err);
     if (good) wr_document_composite(wr_session_document(session), cli->pool);
     for (int i = 0; i < rounds && good; i++) {
         char line[96];

@@ -213,8 +213,10 @@ int wr_cli_accuracy(const WrCli *cli)
     WrSession *session = wr_cli_load(cli, false, &err);
     bool good = session != NULL;
     if (good) {
+        wr_filters_forget();
         prepare(cli, session, &work);
-        good = cli->illusion ? wr_illusion_run(cli, &work.request, name_of(cli), &work.text, &err)
+        good = !wr_filters_carried(&err) ? false
+               : cli->illusion ? wr_illusion_run(cli, &work.request, name_of(cli), &work.text, &err)
                : cli->tolerance_count > 0 ? compete(cli, &work, &err)
                                           : climb(cli, &work, &err);
         if (work.terminal) fprintf(stderr, "\r                 \r");

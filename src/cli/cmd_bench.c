@@ -160,9 +160,14 @@ static bool bench_edits(const WrCli *cli, const Options *options, WrText *text, 
     static const int tables[] = { 512, 4096, 16384 }, layers[] = { 1, 20 };
     wr_text_addf(text, "\ndab of 64 texels       layers %9s %12s %9s %12s %9s\n", "dab ms",
                  "composite ms", "undo ms", "composite ms", "bytes");
-    for (int i = 0; i < 6; i++) {
-        WrBenchEdit edit = { .table = tables[i / 2], .layers = layers[i % 2] };
+    static const char *const filters[] = { "filter blur sigma=3", "filter median radius=3",
+                                           "filter warp", "filter curves points=0,0;0.3,0.1;1,1" };
+    for (int i = 0; i < 10; i++) {
+        WrBenchEdit edit = { .table = i < 6 ? tables[i / 2] : 4096,
+                             .layers = i < 6 ? layers[i % 2] : 1,
+                             .filter = i < 6 ? NULL : filters[i - 6] };
         char table[32];
+        if (edit.filter) wr_text_addf(text, "    below %s\n", edit.filter);
         if (!wr_bench_edit(cli, &edit, options->quick ? 21 : 101, err)) return false;
         snprintf(table, sizeof table, "%dx%d", edit.table, edit.table);
         wr_text_addf(text, "  table %-13s %8d %9.3f %12.3f %9.3f %12.3f %9.0f\n", table,

@@ -340,7 +340,8 @@ int wr_cli_inspect(const WrCli *cli)
     WrError err;
     WrText text = { 0 };
     WrSession *session = wr_cli_load(cli, false, &err);
-    bool good = session && inspect(cli, session, &text, &err);
+    wr_filters_forget();
+    bool good = session && inspect(cli, session, &text, &err) && wr_filters_carried(&err);
     int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     wr_text_fini(&text);
     wr_session_free(session);

@@ -18,32 +18,30 @@ typedef struct Adjusting {
     WrOpOptions options;
 } Adjusting;
 
-static bool run_on(const Adjusting *adjusting, WrField **field, WrError *err)
+typedef WrField *Runner(const WrOpInfo *op, const WrField *in, const double *param,
+                        const WrOpOptions *options, WrError *err);
+
+static bool run_with(Runner *run, const Adjusting *adjusting, WrField **field, WrError *err)
 {
     if (!*field) return true;
     WrOpOptions options = adjusting->options;
     options.progress = wr_progress_here();
-    WrField *made = wr_op_run(adjusting->op, *field, adjusting->filter.param, &options, err);
+    WrField *made = run(adjusting->op, *field, adjusting->filter.param, &options, err);
     if (!made) return false;
     wr_field_free(*field);
     *field = made;
     return true;
 }
 
+static bool run_on(const Adjusting *adjusting, WrField **field, WrError *err)
+{
+    return run_with(wr_op_run, adjusting, field, err);
+}
+
 /* The same for coverage, masks and selections, which stay in 0..1 whatever the filter overshoots. */
 static bool run_on_part(const Adjusting *adjusting, WrField **field, WrError *err)
 {
-    if (!*field || !run_on(adjusting, field, err)) return !*field;
-    const double unit[WR_OP_VALUES] = { 0, 1 };
-    WrProgressPart quiet = { .progress = { 0 } }; /* a step back to 0 would only confuse */
-    wr_progress_part(&quiet, wr_progress_here(), 0.0, 1.0);
-    quiet.progress.report = NULL;
-    WrOpOptions options = { .pool = adjusting->options.pool, .progress = &quiet.progress };
-    WrField *clamped = wr_op_run(wr_op_find("clamp"), *field, unit, &options, err);
-    if (!clamped) return false;
-    wr_field_free(*field);
-    *field = clamped;
-    return true;
+    return run_with(wr_op_run_unit, adjusting, field, err);
 }
 
 static bool run_on_layer(const Adjusting *adjusting, WrLayer *layer, WrError *err)

@@ -133,6 +133,15 @@ static void filter(const Job *job, const Price *p, WrEstimate *out)
         p->bytes * job->texels * layers);
 }
 
+/* more: an octave of noise that is not made row by row. */
+static void noisy(const Job *job, const Price *p, WrEstimate *out)
+{
+    const bool sheared = choice(job, "kind") == 3.0;
+    const double layers = choice(job, "layers") > 0.0 ? job->document->layer_count : 1.0;
+    const double ns = p->ns + (sheared ? p->more * number(job, "octaves", 0) : 0.0);
+    add(out, ns * job->texels * layers, p->bytes * job->texels * layers);
+}
+
 static void resizing(const Job *job, const Price *p, WrEstimate *out)
 {
     double made = number(job, "width", 0) * number(job, "height", 0);
@@ -339,6 +348,8 @@ static const Price prices[] = {
     ADJUST("median", 40, 0.22),
     ADJUST("dilate", 10, 0.035),
     ADJUST("erode", 10, 0.035),
+    { "adjust", "noise", noisy, .ns = 12, .more = 8, .bytes = 9 },
+    ADJUST("warp", 30, 0),
     { "adjust", "slope-limit", filter, .ns = 25, .bytes = 14 },
     { "adjust", "resize", resizing, .ns = 10, .bytes = 6.5 },
     { "adjust", "crop", resizing, .ns = 3, .bytes = 8 },

@@ -252,6 +252,7 @@ bool wr_check_settings(const void *ctx, const char *name, const char *value, WrE
 typedef bool WrHandler(WrSession *session, WrCall *call, WrError *err);
 WrHandler wr_run_generate;                       /* generate_commands.c */
 WrHandler wr_run_adjust;                         /* adjust_command.c */
+WrHandler wr_run_filter;                         /* filter_command.c */
 WrHandler wr_run_undo, wr_run_redo, wr_run_view; /* history_commands.c */
 
 /* The scene's canonical lines: each command's row prints its own. */

@@ -179,14 +179,26 @@ static bool take_made(WrSession *session, const WrCall *call, WrError *err)
     return true;
 }
 
+/* What a filter makes was made already: the composite, then, is. */
+static void know_made(WrSession *session)
+{
+    WrDocument *knows = wr_document_share(session->made);
+    wr_document_swap_composites(session->state.document, knows);
+    wr_document_free(knows);
+}
+
 static bool run_edit(WrSession *session, WrCall *call, WrError *err)
 {
     bool layers = session->options.composites && session->state.document->layer_count > 1;
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, layers ? 0.8 : 1.0);
-    bool good = !wr_progress_stopped() && (session->made ? take_made(session, call, err)
-                                                         : call->command->run(session, call, err));
+    const bool takes = session->made && call->command->run != wr_run_filter;
+    wr_filters_forget();
+    bool good = !wr_progress_stopped() &&
+                (takes ? take_made(session, call, err) : call->command->run(session, call, err));
     wr_document_edit_end(session->state.document, &session->stand_in);
+    if (good && session->made && !takes) know_made(session);
+    good = good && wr_filters_carried(err); /* what it made of a composite is made of all of it */
     good = went_through(good, err);
     part.from = part.to;
     part.to = 1.0;
@@ -252,7 +264,8 @@ bool wr_session_takes_made(const char *line)
     WrCall *call = NULL;
     if (!wr_call_parse(line, false, &call, NULL)) return false;
     bool takes = call->command &&
-                 (call->command->run == wr_run_adjust || call->command->run == wr_run_generate);
+                 (call->command->run == wr_run_adjust || call->command->run == wr_run_filter ||
+                  call->command->run == wr_run_generate);
     for (int i = 0; i < call->count; i++) takes = takes && !wr_call_hash_name(call, i);
     wr_call_free(call);
     return takes;

@@ -69,8 +69,8 @@ void wr_session_reset(WrSession *session);
    current folder. */
 bool wr_session_run(WrSession *session, const char *line, WrError *err);
 /* Run a line whose work is done already: `made` is the document as it is, shared, with its layers as the line
-   makes them, which the caller vouches for. Only lines that change nothing but layers' tables and read no
-   files: wr_session_takes_made. Steps, journal and all else go as in wr_session_run. */
+   makes them, which the caller vouches for; of a filter layer, what it makes of those below. Only lines that
+   change nothing else and read no files: wr_session_takes_made. Steps, journal and all else go as in wr_session_run. */
 bool wr_session_run_made(WrSession *session, const char *line, const WrDocument *made,
                          WrError *err);
 bool wr_session_takes_made(const char *line);

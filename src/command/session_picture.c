@@ -22,6 +22,7 @@ static bool make_request(WrSession *session, int width, int height, double turn_
     if (!session->renderer) return false;
     const WrProgress *here = wr_progress_here();
     const WrDocument *document = session->state.document;
+    wr_filters_forget();
     wr_tables_free(session->tables);
     session->tables =
         wr_document_tables(document, document->scene, &session->table_cache, session->options.pool);
@@ -33,7 +34,7 @@ static bool make_request(WrSession *session, int width, int height, double turn_
                              .turn_deg = turn_deg,
                              .full = session->options.full,
                              .cancel = here ? here->cancel : NULL };
-    return true;
+    return wr_filters_carried(err);
 }
 
 bool wr_session_frame(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,

@@ -25,6 +25,21 @@ struct WrComposite {
     WR_ARRAY(Stage) stages;
 };
 
+/* Why the newest filter that could not be carried out was not; "" if all were. */
+static _Thread_local WrError lack;
+
+void wr_filters_forget(void)
+{
+    lack.text[0] = '\0';
+}
+
+bool wr_filters_carried(WrError *err)
+{
+    if (!lack.text[0]) return true;
+    if (err) *err = lack;
+    return false;
+}
+
 /* The layers of the stage at hand. */
 typedef struct Stack {
     WrBlendLayer of[WR_LAYERS_MAX + 2];
@@ -84,10 +99,10 @@ static Stage *stage_at(WrComposite *composite, int index)
     return &composite->stages.data[index];
 }
 
-/* The filter over a composite. Without memory, and where the work is cancelled: that itself. */
-static const WrField *filtered(Stage *stage, const WrFilter *filter, const WrField *in,
-                               WrPool *pool)
+/* The filter over a composite. Where it cannot be carried out, and where the work is cancelled: that itself. */
+static const WrField *filtered(Stage *stage, const WrLayer *layer, const WrField *in, WrPool *pool)
 {
+    const WrFilter *filter = &layer->filter;
     const bool same = stage->made && wr_filter_same(&stage->filter, filter);
     if (same && wr_field_key(stage->given) == wr_field_key(in)) return stage->made;
     WrProgressPart quiet = { .progress = { 0 } }; /* a step back to 0 would only confuse */
@@ -99,6 +114,11 @@ static const WrField *filtered(Stage *stage, const WrFilter *filter, const WrFie
                                   .progress = &quiet.progress };
     WrError err;
     WrField *made = wr_op_run(filter->op, in, filter->param, &options, &err);
+    if (!made && !wr_progress_stopped())
+        wr_fail(&lack,
+                "the filter layer '%.60s' cannot be carried out (%.120s): hide it, or have "
+                "less open",
+                layer->name, err.text);
     if (!made) return in;
     wr_field_free(stage->given);
     wr_field_free(stage->made);
@@ -155,7 +175,7 @@ static const WrField *update(WrComposite *composite, const WrLayer *layers, int 
             stack.of[stack.count++] = (WrBlendLayer){ .heights = layer->heights, .hidden = true };
         const WrField *below =
             wr_compositor_update(stage_at(composite, at)->above, stack.of, stack.count, pool);
-        const WrField *made = filtered(stage_at(composite, ++at), &layer->filter, below, pool);
+        const WrField *made = filtered(stage_at(composite, ++at), layer, below, pool);
         begin_stack(&stack, layer, below, made);
     }
     drop_stages(composite, at + 1);

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 typedef struct WrScene WrScene;
@@ -63,6 +64,11 @@ void wr_document_free(WrDocument *document); /* NULL is fine */
 const WrField *wr_document_field(const WrDocument *document);
 /* The same, with a pool for the tiles that changed; NULL: this thread. */
 const WrField *wr_document_composite(const WrDocument *document, WrPool *pool);
+
+/* A filter that cannot be carried out, for want of memory, leaves what it was given in its place, and is tried again the
+ * next time. Whether any did among all that the calling thread composited since it forgot: false and an error. */
+void wr_filters_forget(void);
+bool wr_filters_carried(WrError *err);
 
 /* What lies below layer `index` (0..layer_count - 1): the composite of the visible layers under it, 0 where
  * there is nothing. A table of its own, the caller's. */

@@ -348,7 +348,9 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
                       WrError *err)
 {
     const int objects = wr_scene_object_count(document->scene);
-    if (!check_pictures(document->scene, path, err)) return false;
+    wr_filters_forget();
+    wr_document_field(document);
+    if (!wr_filters_carried(err) || !check_pictures(document->scene, path, err)) return false;
     WrImage *mesh;
     if (!wr_scene_meshes_to_image(document->scene, &mesh, err)) {
         wr_error_prefix(err, "%s: ", path);

@@ -419,8 +419,10 @@ static bool fill_archive(Saving *to, WrError *err)
 {
     static const char type[] = "image/openraster";
     wr_srgb_profile(to->profile);
+    wr_filters_forget();
     find_ground(to);
     choose_range(to);
+    if (!wr_filters_carried(err)) return false;
     if (!add_text(to, "mimetype", type, sizeof type - 1, err) || !add_image_attributes(to, err))
         return false;
     for (int i = to->document->layer_count - 1; i >= 0; i--)

@@ -349,10 +349,11 @@ static bool run_scaled(WrExportJob *job, const char *path, WrError *err)
 static bool run_on(WrExportJob *job, const WrDocument *document, const char *path, WrError *err)
 {
     WrTables *tables = NULL;
+    wr_filters_forget();
     job->field = wr_document_field(document);
     job->scene = document->scene;
     const bool ok = (!job->options.object || take_object(job, document, &tables, err)) &&
-                    run_scaled(job, path, err);
+                    wr_filters_carried(err) && run_scaled(job, path, err);
     wr_tables_free(tables);
     return ok;
 }
@@ -402,6 +403,7 @@ bool wr_export_picture_like(const WrExportJob *like, const WrExportKind *kind,
 bool wr_export_levels(const WrExportKind *kind, const WrDocument *document,
                       const WrExportOptions *options, WrPool *pool, WrLevels *levels, WrError *err)
 {
+    wr_filters_forget();
     WrExportJob job = { .kind = kind,
                         .field = wr_document_field(document),
                         .scene = document->scene,
@@ -409,6 +411,7 @@ bool wr_export_levels(const WrExportKind *kind, const WrDocument *document,
                         .channels = kind->channels,
                         .pool = pool };
     *levels = (WrLevels){ 0 };
+    if (!wr_filters_carried(err)) return false;
     if (!settle_options(kind, kind->channels, job.scene, "levels.exr", &job.options, err))
         return false;
     job.analytic = job.scene->analytic.kind != WR_ANALYTIC_OFF;

@@ -2,8 +2,10 @@
 #include "field/ops.h"
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "field/field.h"
 #include "field/ops_inner.h"
+#include "noise/octaves.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,6 +22,7 @@ static const char *const invert_words[] = { WR_INVERT_ABOUTS(WR_WORD) NULL };
 static const char *const angle_words[] = { "90", "180", "270", NULL };
 static const char *const filter_words[] = { WR_RESIZE_FILTERS(WR_WORD) NULL };
 static const char *const window_words[] = { WR_WINDOWS(WR_WORD) NULL };
+static const char *const between_words[] = { WR_WARP_BETWEENS(WR_WORD) NULL };
 static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
 
 #define SIGMA(default_)                                                                            \
@@ -41,6 +44,15 @@ static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
         .name = name_, .label = label_, .help = help_, .unit = "texels", .fallback = fallback_,    \
         .low = low_, .high = high_, .soft_low = low_, .soft_high = high_, .whole = true            \
     }
+#define WHOLE(name_, label_, help_, fallback_, low_, high_, soft_high_)                            \
+    {                                                                                              \
+        .name = name_, .label = label_, .help = help_, .unit = "", .fallback = fallback_,          \
+        .low = low_, .high = high_, .soft_low = low_, .soft_high = soft_high_, .whole = true       \
+    }
+#define CELLS(fallback_)                                                                           \
+    WHOLE("cells", "Cells", "of the coarsest noise, across the table; upwards about as large",     \
+          fallback_, 1, 8192, 64)
+#define SEED WHOLE("seed", "Seed", "another number, another noise", 1, 0, 4294967295.0, 100)
 #define WORDS(name_, label_, help_, fallback_, words)                                              \
     {                                                                                              \
         .name = name_, .label = label_, .help = help_, .unit = "", .fallback = fallback_,          \
@@ -223,6 +235,54 @@ const WrOpInfo wr_ops[] = {
                   WORDS("side", "Side",
                         "below: only lower heights; above: only raise them; mean: half way",
                         WR_SIDE_MEAN, side_words) } },
+    { .name = "noise",
+      .label = "Noise",
+      .help = "add noise that tiles",
+      .run = wr_op_noise,
+      .params = { HEIGHT("amount", "Amount", "height of the coarsest noise", 0.1),
+                  CELLS(16),
+                  WHOLE("octaves", "Octaves",
+                        "noises, each twice as fine and half as high; those too fine for the "
+                        "table are left out",
+                        4, 1, WR_OCTAVES_MOST, 8),
+                  { .name = "kind",
+                    .label = "Kind",
+                    .help = "of the noise",
+                    .unit = "",
+                    .high = 3,
+                    .soft_high = 3,
+                    .whole = true,
+                    .choices = wr_op_noise_kinds },
+                  { .name = "mode",
+                    .label = "Sum of",
+                    .help = "fbm: the noises; turbulence: their amounts; billow: these about 0; "
+                            "ridged: crests where they are 0",
+                    .unit = "",
+                    .high = WR_OCTAVES_MODE_COUNT - 1,
+                    .soft_high = WR_OCTAVES_MODE_COUNT - 1,
+                    .whole = true,
+                    .choices = wr_octaves_words },
+                  SEED } },
+    { .name = "warp",
+      .label = "Warp",
+      .help = "move heights to the side by noise that tiles",
+      .moves = true,
+      .run = wr_op_warp,
+      .params = { { .name = "amount",
+                    .label = "Amount",
+                    .help = "how far a height is moved along an axis, at most",
+                    .unit = "texels",
+                    .fallback = 12,
+                    .low = 0,
+                    .high = 256,
+                    .soft_low = 0,
+                    .soft_high = 64 },
+                  CELLS(4),
+                  WHOLE("octaves", "Octaves", "noises, each twice as fine and half as far", 2, 1,
+                        WR_OCTAVES_MOST, 8),
+                  WORDS("between", "Between texels", "what heights between texels are taken to be",
+                        WR_WARP_CUBIC, between_words),
+                  SEED } },
     { .name = NULL }
 };
 const int wr_op_count = sizeof wr_ops / sizeof *wr_ops - 1;
@@ -274,4 +334,20 @@ WrField *wr_op_run(const WrOpInfo *op, const WrField *in, const double *param,
                     .to = 1.0,
                     .err = err };
     return op->run(&job, param);
+}
+
+WrField *wr_op_run_unit(const WrOpInfo *op, const WrField *in, const double *param,
+                        const WrOpOptions *options, WrError *err)
+{
+    const double unit[WR_OP_VALUES] = { 0, 1 };
+    WrField *made = wr_op_run(op, in, param, options, err);
+    if (!made) return NULL;
+    WrProgressPart quiet = { .progress = { 0 } }; /* a step back to 0 would only confuse */
+    wr_progress_part(&quiet, options ? options->progress : NULL, 0.0, 1.0);
+    quiet.progress.report = NULL;
+    const WrOpOptions rest = { .pool = options ? options->pool : NULL,
+                               .progress = &quiet.progress };
+    WrField *kept = wr_op_run(wr_op_find("clamp"), made, unit, &rest, err);
+    wr_field_free(made);
+    return kept;
 }

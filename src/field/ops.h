@@ -6,11 +6,12 @@
    What all of them keep to:
    - Periodic axes wrap; on a clamped axis the edge texel is repeated outwards.
    - The same bits on every processor and for any number of threads, whatever tiles the heights are kept
-     in. Where no texel's place changes by other than whole texels, op(roll(F)) is roll(op(F)), bit for bit.
+     in. Where no texel's place changes by other than whole texels, op(roll(F)) is roll(op(F)), bit for bit; but
+     for noise and warp, which go by a texel's place.
    - Tiles whose texels come out equal are the very tiles of the input; those that are NULL stay NULL.
      (Where the table's level changes with them, as when a constant is added to a table that has NULL
      tiles, these stay NULL at the new level, and all others are new.)
-   - Filters leave flat neighbourhoods exactly as they are.
+   - Filters leave flat neighbourhoods exactly as they are; noise does not.
    - Heights that would pass float's range are clamped to it. Filters are exact as stated while heights
      are under 1e37. */
 #pragma once
@@ -98,6 +99,10 @@ int wr_op_param_count(const WrOpInfo *op);
  *          two */
 WrField *wr_op_run(const WrOpInfo *op, const WrField *in, const double *param,
                    const WrOpOptions *options, WrError *err);
+
+/* The same of a table of 0..1, such as a coverage or a mask, which stays within that whatever the operation overshoots. */
+WrField *wr_op_run_unit(const WrOpInfo *op, const WrField *in, const double *param,
+                        const WrOpOptions *options, WrError *err);
 
 /* An operation with its values, which is carried out again whenever what lies below it changes. */
 typedef struct WrFilter {

@@ -24,6 +24,10 @@ enum { WR_WINDOWS(WR_WORD_ID) };
     X(WR_SIDE_BELOW, "below") X(WR_SIDE_ABOVE, "above") X(WR_SIDE_MEAN, "mean")
 enum { WR_LIMIT_SIDES(WR_WORD_ID) };
 
+#define WR_WARP_BETWEENS(X) X(WR_WARP_CUBIC, "catmull") X(WR_WARP_LINEAR, "linear")
+enum { WR_WARP_BETWEENS(WR_WORD_ID) };
+extern const char *const wr_op_noise_kinds[]; /* names of noises that tile; ends with NULL */
+
 #define WR_OP_SIDE (4 * WR_TILE) /* texels along a block's side */
 
 /* One call of wr_op_run. */
@@ -136,4 +140,6 @@ WrField *wr_op_sharpen(WrOpJob *job, const double *param);
 WrField *wr_op_median(WrOpJob *job, const double *param);
 WrField *wr_op_dilate(WrOpJob *job, const double *param);
 WrField *wr_op_erode(WrOpJob *job, const double *param);
+WrField *wr_op_noise(WrOpJob *job, const double *param);
+WrField *wr_op_warp(WrOpJob *job, const double *param);
 WrField *wr_op_slope_limit(WrOpJob *job, const double *param);

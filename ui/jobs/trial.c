@@ -58,11 +58,14 @@ static void drop(void *arg)
 
 /* ---- on the job's thread ---- */
 
-static bool adjust_field(const Work *work, WrField **field, const WrOpOptions *options,
+typedef WrField *Runner(const WrOpInfo *op, const WrField *in, const double *param,
+                        const WrOpOptions *options, WrError *err);
+
+static bool adjust_field(const Work *work, Runner *run, WrField **field, const WrOpOptions *options,
                          WrError *err)
 {
     if (!*field) return true;
-    WrField *made = wr_op_run(work->ask.op, *field, work->ask.param, options, err);
+    WrField *made = run(work->ask.op, *field, work->ask.param, options, err);
     if (!made) return false;
     wr_field_free(*field);
     *field = made;
@@ -72,9 +75,11 @@ static bool adjust_field(const Work *work, WrField **field, const WrOpOptions *o
 /* As the adjust command: where texels only move, what a layer says something about moves with them. */
 static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *options, WrError *err)
 {
-    if (!layer->filter.op && !adjust_field(work, &layer->heights, options, err)) return false;
-    return !work->ask.op->moves || (adjust_field(work, &layer->cover, options, err) &&
-                                    adjust_field(work, &layer->mask, options, err));
+    if (!layer->filter.op && !adjust_field(work, wr_op_run, &layer->heights, options, err))
+        return false;
+    return !work->ask.op->moves ||
+           (adjust_field(work, wr_op_run_unit, &layer->cover, options, err) &&
+            adjust_field(work, wr_op_run_unit, &layer->mask, options, err));
 }
 
 /* What it makes is made with the composite. */
@@ -152,7 +157,12 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
         layer->opacity = ask->opacity;
         layer->radius = ask->radius;
     }
+    wr_filters_forget();
     if (!work->field) work->field = wr_field_share(wr_document_composite(work->document, pool));
+    if (!wr_filters_carried(&work->err)) {
+        wr_field_free(work->field);
+        work->field = NULL;
+    }
     work->seconds = wr_clock_seconds() - began;
 }
 

@@ -212,7 +212,7 @@ static void commit(WrApp *app)
 {
     WrText line = { 0 };
     line_of(app, &line);
-    bool same = !app->adjust->filters && app->adjust->asked_at == wr_session_revision(app->session);
+    const bool same = app->adjust->asked_at == wr_session_revision(app->session);
     if (same) wr_app_run_tried(app, wr_text_get(&line));
     else wr_app_run_slow(app, wr_text_get(&line));
     wr_text_fini(&line);
@@ -290,7 +290,17 @@ bool wr_adjust_by_name(WrApp *app, const char *name)
     return op != NULL;
 }
 
-const WrPart wr_part_adjust = { .another = forget_below };
+static void tell_of_lack(WrApp *app)
+{
+    WrError err;
+    const bool lacked = app->adjust->lacks;
+    wr_filters_forget();
+    if (wr_document_filters(wr_app_document(app))) wr_document_field(wr_app_document(app));
+    app->adjust->lacks = !wr_filters_carried(&err);
+    if (app->adjust->lacks && !lacked) wr_app_fail(app, &err);
+}
+
+const WrPart wr_part_adjust = { .update = tell_of_lack, .another = forget_below };
 
 bool wr_filter_by_name(WrApp *app, const char *name)
 {

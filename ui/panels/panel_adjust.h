@@ -38,6 +38,7 @@ typedef struct WrAdjust {
     int held;               /* on it: 1 the low end, 2 the high one, of a curve a point; 0: none */
     int chosen;             /* the curve's point that keys move, 0: none */
     WrHeightSpan held_span; /* what it showed then */
+    bool lacks;             /* a filter could not be carried out, which was said */
 } WrAdjust;
 
 /* The operation of an action "adjust_NAME", or NULL. */
@@ -47,7 +48,7 @@ void wr_dialog_adjust(WrApp *app);
 /* The same of a new filter layer, and of the values of the active one, if that is one. */
 void wr_dialog_filter_open(WrApp *app, const WrOpInfo *op);
 void wr_filter_edit(WrApp *app);
-/* Of another document: what lay below a filter is let go. */
+/* Of another document what lay below a filter is let go; a filter that cannot be carried out is told of, once. */
 extern const WrPart wr_part_adjust;
 
 /* ---- levels_pad.c, curves_pad.c ---- */
