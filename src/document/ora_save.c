@@ -309,12 +309,10 @@ static void choose_range(Saving *to)
 static void find_ground(Saving *to)
 {
     int count = to->document->layer_count;
-    to->lowest = 0;
-    while (to->lowest < count && !wr_document_shows(to->document, to->lowest)) to->lowest++;
-    if (to->lowest == count) {
-        to->lowest = -1;
-        return;
-    }
+    to->lowest = -1;
+    for (int i = count - 1; i >= 0; i--)
+        if (wr_document_shows(to->document, i)) to->lowest = i;
+    if (to->lowest < 0) return;
     WrDocument *alone = wr_document_snapshot(to->document);
     for (int i = count - 1; i >= 0; i--)
         if (i != to->lowest) wr_document_remove(alone, i);
