@@ -102,7 +102,7 @@ static void sweep(const WrSkySweep *given, double scale, float *restrict slope)
 {
     const WrSkySweep w = *given;
     const float times = (float)scale;
-    Half a, b;
+    Half a = { .next = _mm512_setzero_si512() }, b = a; /* the first row knows what is next */
     if (w.rows[0] > w.rows[w.count - 1])
         for (int i = 0; i < w.count; i++) sweep_row(&w, i, 1, times, &a, &b, slope);
     else
