@@ -8,9 +8,12 @@
 #include <string.h>
 
 #define REACH 43
+#define LANES WR_TAPS_LANES
 #define PITCH 256
-#define COUNT 150
-#define ROWS (2 * REACH + 1)
+#define COUNT 11 /* elements: fours, and some over */
+#define ROWS (2 * REACH + COUNT)
+#define TO 19 /* floats from one element of the result to the next: there is a gap */
+#define MIDDLE (&heights[REACH][REACH])
 
 static float heights[ROWS][PITCH], weights[REACH + 1];
 
@@ -25,23 +28,24 @@ static int fill(void **state)
     return 0;
 }
 
+/* Elements one after the other, and below one another. */
+static const ptrdiff_t steps[] = { LANES, PITCH };
+
 static void each_texel_gets_its_taps_along_rows_and_columns(void **state)
 {
     (void)state;
-    const ptrdiff_t steps[] = { 1, PITCH };
     for (int index = 0; wr_taps_at(index); index++)
         for (int s = 0; s < 2; s++) {
-            const float *centre = &heights[REACH][REACH];
-            float sum[COUNT];
-            wr_taps_at(index)->add(weights, REACH, centre, steps[s], COUNT, sum);
-            for (int i = 0; i < COUNT; i++) {
+            float sum[COUNT * TO];
+            wr_taps_at(index)->add(weights, REACH, MIDDLE, steps[s], COUNT, sum, TO);
+            for (int i = 0; i < COUNT * LANES; i++) {
+                const float *c = MIDDLE + i / LANES * steps[s] + i % LANES;
                 double exact = 0;
                 for (int k = 1; k <= REACH; k++)
-                    exact += (double)weights[k] *
-                             ((double)centre[i - k * steps[s]] + (double)centre[i + k * steps[s]] -
-                              2.0 * (double)centre[i]);
+                    exact += (double)weights[k] * ((double)c[-k * steps[s]] +
+                                                   (double)c[k * steps[s]] - 2.0 * (double)*c);
                 /* 43 sums of at most 43/80 * 12 in float: each rounds by 2^-24 of it */
-                assert_float_equal(sum[i], exact, 43 * 7 * 0x1p-23);
+                assert_float_equal(sum[i / LANES * TO + i % LANES], exact, 43 * 7 * 0x1p-23);
             }
         }
 }
@@ -50,33 +54,46 @@ static void all_instruction_sets_give_the_same_bits_for_any_count_and_reach(void
 {
     (void)state;
     for (int index = 1; wr_taps_at(index); index++)
-        for (int count = 1; count <= COUNT; count += count < 70 ? 1 : 7)
-            for (int reach = 0; reach <= REACH; reach += 1 + reach / 3) {
-                float plain[COUNT + 1], other[COUNT + 1];
-                for (int i = 0; i <= COUNT; i++) plain[i] = other[i] = 77.0f;
-                wr_taps_v1.add(weights, reach, &heights[REACH][REACH + 1], PITCH, count, plain);
-                wr_taps_at(index)->add(weights, reach, &heights[REACH][REACH + 1], PITCH, count,
-                                       other);
+        for (int count = 0; count <= COUNT; count++)
+            for (int reach = 0; reach <= REACH; reach++) {
+                const ptrdiff_t step = steps[reach % 2];
+                float plain[COUNT * TO], other[COUNT * TO];
+                for (int i = 0; i < COUNT * TO; i++) plain[i] = other[i] = 77.0f;
+                wr_taps_v1.add(weights, reach, MIDDLE + 1, step, count, plain, TO);
+                wr_taps_at(index)->add(weights, reach, MIDDLE + 1, step, count, other, TO);
                 assert_memory_equal(plain, other, sizeof plain);
-                assert_true(other[count] == 77.0f); /* nothing beyond the count is written */
+                for (int i = 0; i < COUNT * TO; i++) /* nothing beside the elements is written */
+                    if (i % TO >= LANES || i / TO >= count) assert_true(other[i] == 77.0f);
             }
 }
 
 static void smoothing_adds_the_sum_to_the_height(void **state)
 {
     (void)state;
-    const ptrdiff_t steps[] = { 1, PITCH };
     for (int index = 0; wr_taps_at(index); index++)
-        for (int count = 1; count <= COUNT; count += count < 70 ? 1 : 7)
+        for (int count = 1; count <= COUNT; count++)
             for (int s = 0; s < 2; s++) {
-                const float *centre = &heights[REACH][REACH + 2];
-                float sum[COUNT], smooth[COUNT + 1];
-                smooth[count] = 77.0f;
-                wr_taps_v1.add(weights, REACH, centre, steps[s], count, sum);
-                wr_taps_at(index)->smooth(weights, REACH, centre, steps[s], count, smooth);
-                for (int i = 0; i < count; i++) assert_true(smooth[i] == centre[i] + sum[i]);
-                assert_true(smooth[count] == 77.0f);
+                float sum[COUNT * TO], smooth[COUNT * TO];
+                wr_taps_v1.add(weights, REACH, MIDDLE + 2, steps[s], count, sum, TO);
+                wr_taps_at(index)->smooth(weights, REACH, MIDDLE + 2, steps[s], count, smooth, TO);
+                for (int i = 0; i < count * LANES; i++) {
+                    const int at = i / LANES * TO + i % LANES;
+                    const float height = MIDDLE[2 + i / LANES * steps[s] + i % LANES];
+                    assert_true(smooth[at] == height + sum[at]);
+                }
             }
+}
+
+static void turned_rows_are_columns(void **state)
+{
+    (void)state;
+    for (int index = 0; wr_taps_at(index); index++) {
+        float out[LANES * TO];
+        for (int i = 0; i < LANES * TO; i++) out[i] = 77.0f;
+        wr_taps_at(index)->turn(&heights[3][5], PITCH, out, TO);
+        for (int i = 0; i < LANES * TO; i++)
+            assert_true(out[i] == (i % TO < LANES ? heights[3 + i % TO][5 + i / TO] : 77.0f));
+    }
 }
 
 /* Whole numbers, so that sums are exact in any order. */
@@ -144,11 +161,12 @@ static void steps_go_to_and_from_heights_alike_along_and_across(void **state)
 static void a_flat_neighbourhood_adds_exactly_nothing(void **state)
 {
     (void)state;
-    float flat[512], sum[COUNT];
-    for (int i = 0; i < 512; i++) flat[i] = 0.7f;
+    static float flat[ROWS * LANES];
+    for (int i = 0; i < ROWS * LANES; i++) flat[i] = 0.7312f;
     for (int index = 0; wr_taps_at(index); index++) {
-        wr_taps_at(index)->add(weights, REACH, flat + 100, 1, COUNT, sum);
-        for (int i = 0; i < COUNT; i++) assert_true(sum[i] == 0.0f);
+        float sum[COUNT * LANES];
+        wr_taps_at(index)->add(weights, REACH, flat + REACH * LANES, LANES, COUNT, sum, LANES);
+        for (int i = 0; i < COUNT * LANES; i++) assert_true(sum[i] == 0.0f);
     }
 }
 
@@ -160,6 +178,7 @@ int main(void)
         cmocka_unit_test(boxes_are_their_sums_to_the_nearest_whole_number),
         cmocka_unit_test(steps_go_to_and_from_heights_alike_along_and_across),
         cmocka_unit_test(smoothing_adds_the_sum_to_the_height),
+        cmocka_unit_test(turned_rows_are_columns),
         cmocka_unit_test(a_flat_neighbourhood_adds_exactly_nothing),
     };
     return cmocka_run_group_tests(tests, fill, NULL);

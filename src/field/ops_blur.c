@@ -5,8 +5,8 @@
  * which is sum w_k T[k] since the weights add to 1; but this way a flat neighbourhood gives exactly c, and
  * float's rounding is that of the differences. What is cut off beyond 4 sigma weighs 6e-5.
  *
- * A block is read with an apron of R texels, filtered along u, then along v: rows of 320 floats at most,
- * so that all of it stays in the second-level cache. */
+ * A block is read with an apron of R texels, filtered along u, then along v: all of it stays in the second-level cache, what
+ * is filtered at once in the first. */
 #include "field/ops_inner.h"
 
 #include "base/exactmath.h"
@@ -16,9 +16,12 @@
 #include <math.h>
 
 #define REACH WR_OP_NARROW_REACH
-#define WIDE (WR_OP_SIDE + 2 * REACH) /* a block with its apron */
+#define SIDE WR_OP_SIDE
+#define LANES WR_TAPS_LANES
+#define WIDE (SIDE + 2 * REACH) /* a block with its apron */
+#define ROWS (WIDE + LANES)     /* the last ones of LANES may lie beyond it */
 #define READ_PITCH (WIDE + 16)
-#define MID_PITCH (WR_OP_SIDE + 16)
+#define MID_PITCH (SIDE + 16)
 #define LOG2_E 1.4426950408889634
 
 int wr_op_gauss(double sigma, float weight[REACH + 1])
@@ -42,23 +45,36 @@ typedef struct Blur {
     float amount; /* how much of the blurred difference is added to the height: 1 a blur */
 } Blur;
 
-/* A strip of the block's rows, filtered along v. */
-static void finish_strip(const Blur *blur, const WrOpBlock *b, int x, const float *in,
-                         const float *mid, float *out, size_t pitch)
+/* What a thread works on. */
+typedef struct Desk {
+    float in[ROWS * READ_PITCH];                    /* the block with its apron */
+    float mid[ROWS * MID_PITCH];                    /* the same, filtered along u */
+    float turned[WIDE * LANES], done[SIDE * LANES]; /* LANES rows of it as columns; filtered */
+} Desk;
+
+/* LANES rows along u: turned, so that what is filtered side by side lies side by side. */
+static void filter_rows(const Blur *blur, int count, const float *in, float *mid, Desk *desk)
 {
     const WrTaps *taps = wr_taps();
-    int count = b->count_i - x < WR_TAPS_STRIP ? b->count_i - x : WR_TAPS_STRIP, r = blur->reach;
+    const int r = blur->reach;
+    for (int x = 0; x < count + 2 * r; x += LANES)
+        taps->turn(in + x, READ_PITCH, desk->turned + x * LANES, LANES);
+    taps->smooth(blur->weight, r, desk->turned + r * LANES, LANES, count, desk->done, LANES);
+    for (int x = 0; x < count; x += LANES)
+        taps->turn(desk->done + x * LANES, LANES, mid + x, MID_PITCH);
+}
+
+/* The sums along v become heights. */
+static void sharpen(const Blur *blur, const WrOpBlock *b, const Desk *desk, float *out,
+                    size_t pitch)
+{
+    const int r = blur->reach;
     for (int y = 0; y < b->count_j; y++) {
-        const float *centre = mid + (y + r) * MID_PITCH + x;
-        const float *was = in + (y + r) * READ_PITCH + r + x;
-        float *row = out + (size_t)y * pitch + x, sum[WR_TAPS_STRIP];
-        if (blur->amount == 1.0f) {
-            taps->smooth(blur->weight, r, centre, MID_PITCH, count, row);
-            continue;
-        }
-        taps->add(blur->weight, r, centre, MID_PITCH, count, sum);
-        for (int k = 0; k < count; k++)
-            row[k] = was[k] + blur->amount * ((centre[k] - was[k]) + sum[k]);
+        const float *centre = desk->mid + (y + r) * MID_PITCH;
+        const float *was = desk->in + (y + r) * READ_PITCH + r;
+        float *row = out + (size_t)y * pitch;
+        for (int k = 0; k < b->count_i; k++)
+            row[k] = was[k] + blur->amount * ((centre[k] - was[k]) + row[k]);
     }
 }
 
@@ -67,15 +83,16 @@ static void make_blurred(const WrOpJob *job, const void *ctx, WrOpBlock b, float
 {
     const Blur *blur = ctx;
     const WrTaps *taps = wr_taps();
-    int r = blur->reach, rows = b.count_j + 2 * r;
-    float *in = scratch, *mid = in + READ_PITCH * WIDE;
-    wr_op_read(job->in, b.i - r, b.j - r, b.count_i + 2 * r, rows, in, READ_PITCH);
-    for (int y = 0; y < rows; y++) {
-        const float *centre = in + y * READ_PITCH + r;
-        taps->smooth(blur->weight, r, centre, 1, b.count_i, mid + y * MID_PITCH);
-    }
-    for (int x = 0; x < b.count_i; x += WR_TAPS_STRIP)
-        finish_strip(blur, &b, x, in, mid, out, pitch);
+    const int r = blur->reach, rows = b.count_j + 2 * r;
+    const bool blurs = blur->amount == 1.0f;
+    Desk *desk = scratch;
+    wr_op_read(job->in, b.i - r, b.j - r, b.count_i + 2 * r, rows, desk->in, READ_PITCH);
+    for (int y = 0; y < rows; y += LANES)
+        filter_rows(blur, b.count_i, desk->in + y * READ_PITCH, desk->mid + y * MID_PITCH, desk);
+    for (int x = 0; x < b.count_i; x += LANES)
+        (blurs ? taps->smooth : taps->add)(blur->weight, r, desk->mid + r * MID_PITCH + x,
+                                           MID_PITCH, b.count_j, out + x, (ptrdiff_t)pitch);
+    if (!blurs) sharpen(blur, &b, desk, out, pitch);
 }
 
 typedef struct Wide {
@@ -107,7 +124,7 @@ static WrField *run_blur(WrOpJob *job, double sigma, double amount)
         blur.reach = wr_op_gauss(sigma, blur.weight);
         WrOpWork work = { .make = make_blurred,
                           .ctx = &blur,
-                          .scratch = sizeof(float) * (READ_PITCH * WIDE + MID_PITCH * WIDE),
+                          .scratch = sizeof(Desk),
                           .input = { (size_t)blur.reach * (READ_PITCH + 1), READ_PITCH },
                           .reach = blur.reach,
                           .window = 2 * blur.reach + 1 };

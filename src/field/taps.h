@@ -4,8 +4,7 @@
 #pragma once
 #include <stddef.h>
 
-#define WR_TAPS_STRIP                                                                              \
-    64 /* of a row that filters along v, so that all rows stay in the nearest cache */
+#define WR_TAPS_LANES 16 /* texels of an element, which are filtered side by side: a cache line */
 
 /* Rows (or columns) that boxes filter side by side: a vector of doubles, where all that one piece of work holds
  * stays in the second cache. */
@@ -20,13 +19,16 @@ typedef struct WrBox {
 typedef struct WrTaps {
     const char *name; /* "v1", "v3", "v4": levels of x86-64; v1 is plain C everywhere */
 
-    /* sum[i] = sum over k = 1..reach of weight[k] ((c[i - k step] + c[i + k step]) - 2 c[i]), nearest
-     * taps first, for i = 0..count-1. c lies in rows with reach step floats before and after. */
+    /* out[j] = sum over k = 1..reach of weight[k] ((c[j - k] + c[j + k]) - 2 c[j]), nearest taps first, for
+     * j = 0..count-1: of elements of WR_TAPS_LANES floats that lie `step` floats apart in c, `to` in out. There are
+     * `reach` more of them before and after. */
     void (*add)(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
-                float *sum);
-    /* The same, and c[i] added. */
+                float *out, ptrdiff_t to);
+    /* The same, and c[j] added. */
     void (*smooth)(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
-                   float *out);
+                   float *out, ptrdiff_t to);
+    /* WR_TAPS_LANES rows of as many texels: out[y][x] = in[x][y]. */
+    void (*turn)(const float *in, ptrdiff_t pitch, float *out, ptrdiff_t out_pitch);
     /* out[i] = box around in[i + r + 1], rounded to a whole number, for i = 0 .. count - 1; elements are
      * WR_BOX_LANES whole numbers below 2^51. */
     void (*box)(const WrBox *box, const double *in, int count, double *out);

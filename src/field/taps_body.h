@@ -3,7 +3,11 @@
 #include "field/taps.h"
 
 #include <float.h>
+#include <stdbool.h>
 #include <string.h>
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
 
 /* Vectors by name, since the sums of several must stay in registers while all taps are added, which no
  * compiler does with an array: that is what makes this loop fast. */
@@ -15,74 +19,144 @@ typedef float Vec __attribute__((vector_size(32)));
 typedef float Vec __attribute__((vector_size(16)));
 #endif
 #define LANES ((int)(sizeof(Vec) / sizeof(float)))
+#define ALWAYS static inline __attribute__((always_inline))
 
-static inline Vec load(const float *from)
+ALWAYS Vec load(const float *from)
 {
     Vec v;
     memcpy(&v, from, sizeof v);
     return v;
 }
 
-/* What every texel gets; the vectors below do the same. */
-static inline float one(const float *weight, int reach, const float *c, ptrdiff_t step)
+ALWAYS void store(float *to, Vec v)
 {
-    float sum = 0.0f, twice = c[0] + c[0];
-    for (int k = 1; k <= reach; k++) sum += weight[k] * ((c[-k * step] + c[k * step]) - twice);
-    return sum;
+    memcpy(to, &v, sizeof v);
 }
 
-static inline void two(const float *weight, int reach, const float *c, ptrdiff_t step, float *sum)
+/* a - b, bit for bit: 1 a is a. Of a tap's three sums one goes where products go, since many processors have no more units
+ * for sums than for products. */
+ALWAYS Vec minus(Vec a, Vec unit, Vec b)
 {
-    Vec s0 = { 0.0f }, s1 = { 0.0f }, t0 = load(c) + load(c),
-        t1 = load(c + LANES) + load(c + LANES);
-    const float *below = c, *above = c;
-    for (int k = 1; k <= reach; k++) {
-        below -= step;
-        above += step;
-        s0 += weight[k] * ((load(below) + load(above)) - t0);
-        s1 += weight[k] * ((load(below + LANES) + load(above + LANES)) - t1);
-    }
-    memcpy(sum, &s0, sizeof s0);
-    memcpy(sum + LANES, &s1, sizeof s1);
+#ifdef __AVX512F__
+    return (Vec)_mm512_fmsub_ps((__m512)a, (__m512)unit, (__m512)b);
+#elif defined __FMA__
+    return (Vec)_mm256_fmsub_ps((__m256)a, (__m256)unit, (__m256)b);
+#else
+    (void)unit;
+    return a - b;
+#endif
 }
 
-static inline void four(const float *weight, int reach, const float *c, ptrdiff_t step, float *sum)
+/* A vector of 1 that the compiler does not know. */
+ALWAYS Vec one_of(const float *weight)
 {
-    Vec s0 = { 0.0f }, s1 = s0, s2 = s0, s3 = s0;
-    Vec t0 = load(c), t1 = load(c + LANES), t2 = load(c + 2 * LANES), t3 = load(c + 3 * LANES);
-    const float *below = c, *above = c;
-    t0 += t0, t1 += t1, t2 += t2, t3 += t3;
+    Vec one = (weight[0] - weight[0]) - (Vec){ 0.0f };
+    return one + 1.0f;
+}
+
+ALWAYS void put(Vec sum, const float *from, bool adds, float *out)
+{
+    store(out, adds ? load(from) + sum : sum);
+}
+
+/* Of one element, a vector of it. */
+ALWAYS void one(const float *weight, int reach, const float *c, ptrdiff_t step, bool adds,
+                float *out)
+{
+    Vec sum = { 0.0f }, twice = load(c) + load(c);
+    for (int k = 1; k <= reach; k++)
+        sum += weight[k] * ((load(c - k * step) + load(c + k * step)) - twice);
+    put(sum, c, adds, out);
+}
+
+/* Of four elements that follow one another. With each tap their neighbours on either side, b and a, move on by one, so that
+ * only one is new. */
+ALWAYS void four(const float *weight, int reach, const float *c, ptrdiff_t step, bool adds,
+                 float *out, ptrdiff_t to)
+{
+    const float *below = c, *above = c + 3 * step;
+    Vec s0 = { 0.0f }, s1 = s0, s2 = s0, s3 = s0, unit = one_of(weight);
+    Vec b0 = load(c), b1 = load(c + step), b2 = load(c + 2 * step), b3 = load(above);
+    Vec a0 = b0, a1 = b1, a2 = b2, a3 = b3;
+    Vec t0 = b0 + b0, t1 = b1 + b1, t2 = b2 + b2, t3 = b3 + b3;
     for (int k = 1; k <= reach; k++) {
         Vec w = weight[k] - (Vec){ 0.0f };
         below -= step;
         above += step;
-        s0 += w * ((load(below) + load(above)) - t0);
-        s1 += w * ((load(below + LANES) + load(above + LANES)) - t1);
-        s2 += w * ((load(below + 2 * LANES) + load(above + 2 * LANES)) - t2);
-        s3 += w * ((load(below + 3 * LANES) + load(above + 3 * LANES)) - t3);
+        b3 = b2, b2 = b1, b1 = b0, b0 = load(below);
+        a0 = a1, a1 = a2, a2 = a3, a3 = load(above);
+        s0 += w * minus(b0 + a0, unit, t0);
+        s1 += w * minus(b1 + a1, unit, t1);
+        s2 += w * minus(b2 + a2, unit, t2);
+        s3 += w * minus(b3 + a3, unit, t3);
     }
-    memcpy(sum, &s0, sizeof s0);
-    memcpy(sum + LANES, &s1, sizeof s1);
-    memcpy(sum + 2 * LANES, &s2, sizeof s2);
-    memcpy(sum + 3 * LANES, &s3, sizeof s3);
+    put(s0, c, adds, out);
+    put(s1, c + step, adds, out + to);
+    put(s2, c + 2 * step, adds, out + 2 * to);
+    put(s3, c + 3 * step, adds, out + 3 * to);
+}
+
+ALWAYS void filter(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
+                   bool adds, float *out, ptrdiff_t to)
+{
+    for (int lane = 0; lane < WR_TAPS_LANES; lane += LANES) {
+        const float *from = c + lane;
+        float *at = out + lane;
+        int j = 0;
+        for (; j + 4 <= count; j += 4, from += 4 * step, at += 4 * to)
+            four(weight, reach, from, step, adds, at, to);
+        for (; j < count; j++, from += step, at += to) one(weight, reach, from, step, adds, at);
+    }
 }
 
 static void add(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
-                float *sum)
+                float *out, ptrdiff_t to)
 {
-    int i = 0;
-    for (; i + 4 * LANES <= count; i += 4 * LANES) four(weight, reach, c + i, step, sum + i);
-    for (; i + 2 * LANES <= count; i += 2 * LANES) two(weight, reach, c + i, step, sum + i);
-    for (; i < count; i++) sum[i] = one(weight, reach, c + i, step);
+    filter(weight, reach, c, step, count, false, out, to);
 }
 
 static void smooth(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
-                   float *restrict out)
+                   float *out, ptrdiff_t to)
 {
-    add(weight, reach, c, step, count, out);
-#pragma omp simd
-    for (int i = 0; i < count; i++) out[i] = c[i] + out[i];
+    filter(weight, reach, c, step, count, true, out, to);
 }
+
+#ifdef __AVX512F__
+/* By pairs of rows that lie 1, 2, 4 and 8 apart. */
+static void turn(const float *in, ptrdiff_t pitch, float *out, ptrdiff_t out_pitch)
+{
+    __m512 a[WR_TAPS_LANES], b[WR_TAPS_LANES];
+#define EACH(i) _Pragma("GCC unroll 16") for (int i = 0; i < WR_TAPS_LANES; i++)
+    EACH(i) a[i] = _mm512_loadu_ps(in + i * pitch);
+    EACH(i) b[i] = i & 1 ? _mm512_unpackhi_ps(a[i - 1], a[i]) : _mm512_unpacklo_ps(a[i], a[i + 1]);
+    EACH(i)
+    {
+        const __m512d *pair = (const __m512d *)&b[(i & 12) + (i >> 1 & 1)];
+        a[i] = (__m512)(i & 1 ? _mm512_unpackhi_pd(pair[0], pair[2])
+                              : _mm512_unpacklo_pd(pair[0], pair[2]));
+    }
+    EACH(i)
+    {
+        const __m512 *pair = &a[i & 11];
+        b[i] = i & 4 ? _mm512_shuffle_f32x4(pair[0], pair[4], 0xdd)
+                     : _mm512_shuffle_f32x4(pair[0], pair[4], 0x88);
+    }
+    EACH(i)
+    {
+        const __m512 *pair = &b[i & 7];
+        a[i] = i & 8 ? _mm512_shuffle_f32x4(pair[0], pair[8], 0xdd)
+                     : _mm512_shuffle_f32x4(pair[0], pair[8], 0x88);
+    }
+    EACH(i) _mm512_storeu_ps(out + i * out_pitch, a[i]);
+#undef EACH
+}
+#else
+static void turn(const float *in, ptrdiff_t pitch, float *out, ptrdiff_t out_pitch)
+{
+    for (int y = 0; y < WR_TAPS_LANES; y++)
+        for (int x = 0; x < WR_TAPS_LANES; x++) out[y * out_pitch + x] = in[x * pitch + y];
+}
+#endif
 
 /* Adding and subtracting this rounds |x| < 2^51 to a whole number. */
 #define ROUNDER 0x1.8p52
@@ -150,6 +224,7 @@ const WrTaps WR_TAPS_TABLE = {
     .name = WR_TAPS_NAME,
     .add = add,
     .smooth = smooth,
+    .turn = turn,
     .box = box,
     .to_steps = to_steps,
     .add_steps = add_steps,
