@@ -5,10 +5,15 @@
 static _Thread_local const WrProgress *here;
 static _Thread_local int64_t looks;
 
+bool wr_cancel_asked(const volatile int *cancel)
+{
+    return cancel && __atomic_load_n(cancel, __ATOMIC_RELAXED) != 0;
+}
+
 /* Not inline: a test measures the time between two looks by standing in for these. */
 bool wr_progress_cancelled(const WrProgress *progress)
 {
-    return progress && progress->cancel && __atomic_load_n(progress->cancel, __ATOMIC_RELAXED) != 0;
+    return progress && wr_cancel_asked(progress->cancel);
 }
 
 bool wr_progress_step(const WrProgress *progress, double fraction)

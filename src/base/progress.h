@@ -16,6 +16,8 @@ typedef struct WrProgress {
     void *ctx; /* handed to report */
 } WrProgress;
 
+/* Is it other than 0? NULL: no. However it was set, by any thread or by a signal. */
+bool wr_cancel_asked(const volatile int *cancel);
 /* Has somebody asked the work to stop? Any thread may ask. */
 bool wr_progress_cancelled(const WrProgress *progress);
 

@@ -1,6 +1,7 @@
 /* Dabs: ours, round and by the engine, beside libmypaint's own surface with the same brush and motion. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "brush/brush.h"
 #include "brush/peer.h"
@@ -31,7 +32,7 @@ bool wr_bench_brush(const WrCli *cli, WrBenchBrush *brush, int dabs, int rounds,
         double seconds[] = { wr_brush_race_peer(race), wr_brush_race_engine(race),
                              wr_brush_race_round(race) };
         for (int n = 0; n < 3 && k >= 0; n++) times[n][k] = seconds[n];
-        if (cli->cancel && *cli->cancel) good = wr_fail(err, "interrupted");
+        if (wr_cancel_asked(cli->cancel)) good = wr_fail(err, "interrupted");
     }
     wr_brush_race_free(race);
     if (!good) return false;

@@ -1,6 +1,7 @@
 /* Documents: what an edit and its undo take, and saving and loading. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "cli/bench.h"
 #include "command/session.h"
 #include "document/document.h"
@@ -61,7 +62,7 @@ bool wr_bench_edit(const WrCli *cli, WrBenchEdit *edit, int rounds, WrError *err
         start = wr_clock_seconds();
         wr_document_composite(wr_session_document(session), cli->pool);
         times[3][i] = since(start);
-        if (good && cli->cancel && *cli->cancel) good = wr_fail(err, "interrupted");
+        if (good && wr_cancel_asked(cli->cancel)) good = wr_fail(err, "interrupted");
     }
     edit->dab_ms = wr_bench_median(times[0], rounds);
     edit->composite_ms = wr_bench_median(times[1], rounds);

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "base/progress.h"
 #include "brush/brush.h"
 #include "cli/bench.h"
 #include "command/session.h"
@@ -122,7 +123,7 @@ bool wr_bench_stroke(const WrCli *cli, WrBenchStroke *stroke, int samples, WrErr
         apply[i] = 1e3 * (applied - start);
         preview[i] = 1e3 * (wr_clock_seconds() - applied);
         stroke->apply_worst_ms = fmax(stroke->apply_worst_ms, apply[i]);
-        if (cli->cancel && *cli->cancel) good = wr_fail(err, "interrupted");
+        if (wr_cancel_asked(cli->cancel)) good = wr_fail(err, "interrupted");
     }
     if (good) {
         stroke->apply_ms = wr_bench_median(apply, samples);

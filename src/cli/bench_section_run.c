@@ -1,6 +1,7 @@
 /* The pictures of a section, measured by turns. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "cli/bench.h"
 #include "cli/bench_sections.h"
 #include "field/field.h"
@@ -117,7 +118,7 @@ bool wr_bench_section_measure(WrBenchSections *all, const WrBenchSection *sectio
     for (int round = -1; round < all->rounds && good; round++) /* the first fills caches */
         for (int i = 0; i < all->count && good; i++) {
             good = draw(all, &all->picture[i], &lanes[i], round, err);
-            if (good && all->cli->cancel && *all->cli->cancel) good = wr_fail(err, "interrupted");
+            if (good && wr_cancel_asked(all->cli->cancel)) good = wr_fail(err, "interrupted");
         }
     for (int i = 0; i < all->count; i++) {
         if (good) all->picture[i].ms = wr_bench_median(lanes[i].ms, all->rounds); /* sorts them */

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "cli/brush_sample.h"
 #include "cli/brushes.h"
@@ -110,7 +111,7 @@ static bool fill_sheet(const WrCli *cli, Sheet *sheet, const WrBrushList *list,
                                                              : NULL;
         if (good) draw_name(sheet, entry, why, x, y);
         wr_preset_free(preset);
-        if (good && cli->cancel && *cli->cancel) good = wr_fail(err, "cancelled");
+        if (good && wr_cancel_asked(cli->cancel)) good = wr_fail(err, "cancelled");
     }
     note_progress(list->count, list->count);
     wr_free(sample);
@@ -177,7 +178,7 @@ bool wr_brushes_thumbnails(const WrCli *cli, const WrBrushList *list, const char
                                      sample, err);
         wr_preset_free(preset);
         wr_free(path);
-        if (good && cli->cancel && *cli->cancel) good = wr_fail(err, "cancelled");
+        if (good && wr_cancel_asked(cli->cancel)) good = wr_fail(err, "cancelled");
     }
     note_progress(list->count, list->count);
     wr_text_fini(&name);

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/stamp.h"
 #include "base/text.h"
 #include "command/session.h"
@@ -172,7 +173,7 @@ static int export_once(const WrCli *cli, Last *last)
 
 static bool is_cancelled(const WrCli *cli)
 {
-    return cli->cancel && *cli->cancel;
+    return wr_cancel_asked(cli->cancel);
 }
 
 /* The file, or one that it was made of, is another one than it was; what is between two files counts later. */

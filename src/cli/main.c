@@ -15,12 +15,12 @@ static volatile int interrupted;
 
 static void on_interrupt(void)
 {
-    interrupted = 1;
+    __atomic_store_n(&interrupted, 1, __ATOMIC_RELAXED);
 }
 
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err)
 {
-    bool stopped = cli->cancel && *cli->cancel && status == WR_EXIT_FAILED;
+    bool stopped = wr_cancel_asked(cli->cancel) && status == WR_EXIT_FAILED;
     wr_cli_tell_end();
     fprintf(stderr, "wrinkle: %s\n", stopped ? "interrupted" : err->text);
     return stopped ? WR_EXIT_INTERRUPTED : status;

@@ -173,7 +173,7 @@ static void render_tile(int index, int worker, void *ctx)
     part.w = least(tile->width - part.x, tile->tile_w);
     part.h = least(tile->rows - part.y, tile->tile_h);
     part.y += tile->top;
-    if (job->cancel && *job->cancel) return;
+    if (wr_cancel_asked(job->cancel)) return;
     if (!touches(job, index)) return;
     const double start = wr_clock_seconds();
     if (job->only) render_asked(job, part, index, job->scratch[worker]);
@@ -360,7 +360,7 @@ bool wr_frame_run(WrRenderer *renderer, FrameJob *job)
     job->tiles_u = tiles_across(&job->tile);
     const bool whole =
         wr_pool_run_told(renderer->pool, wr_frame_tiles(&job->tile), render_tile, job);
-    return whole && (!job->cancel || !*job->cancel);
+    return whole && !wr_cancel_asked(job->cancel);
 }
 
 bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "base/progress.h"
 #include "render/frame.h"
 #include "render/reference_cast.h"
 #include "render/reference_parallax.h"
@@ -109,7 +110,7 @@ static void render_row(int y, int worker, void *ctx)
     const WrReferenceRequest *request = pass->request;
     const size_t row = (size_t)y * (size_t)request->width;
     for (int x = 0; x < request->width; x++) {
-        if (request->cancel && *request->cancel) return;
+        if (wr_cancel_asked(request->cancel)) return;
         if (!wanted(request, x, y)) continue;
         sample_pixel(pass, x, y, pass->rgba + 4 * (row + (size_t)x), &pass->lost[y]);
         WrReferenceSample centre;
@@ -183,7 +184,7 @@ static bool render_pass(const Set *set, const WrReferenceRequest *request, int k
     out->lost = 0;
     for (int y = 0; y < request->height; y++) out->lost += pass.lost[y];
     wr_free(pass.lost);
-    if (request->cancel && *request->cancel) return wr_fail(err, "cancelled");
+    if (wr_cancel_asked(request->cancel)) return wr_fail(err, "cancelled");
     out->samples = k;
     return true;
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "base/progress.h"
 #include "base/vec.h"
 #include "render/reference_shade.h"
 #include "scene/objects.h"
@@ -67,7 +68,7 @@ static void walk_row(int y, int worker, void *ctx)
 {
     (void)worker;
     const Walk *walk = ctx;
-    if (walk->request->cancel && *walk->request->cancel) return;
+    if (wr_cancel_asked(walk->request->cancel)) return;
     for (int x = 0; x < walk->request->width; x++) {
         const WrReferenceRay ray = wr_reference_view_ray(&walk->stage->view, x + 0.5, y + 0.5);
         WrReferenceHit hit;
@@ -110,7 +111,7 @@ bool wr_reference_moved(const WrReferenceRequest *request, WrPool *pool, WrMoved
         all.most = fmax(all.most, rows[y].most);
     }
     wr_free(rows);
-    if (good && request->cancel && *request->cancel) return wr_fail(err, "cancelled");
+    if (good && wr_cancel_asked(request->cancel)) return wr_fail(err, "cancelled");
     const double count = all.places > 0 ? (double)all.places : 1;
     *out = (WrMoved){ all.places, all.way / count, all.most, sqrt(all.light / count) };
     return good;

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/pool.h"
+#include "base/progress.h"
 #include "field/field.h"
 #include "render/reference_cast.h"
 #include "render/reference_parallax.h"
@@ -212,7 +213,7 @@ static void map_row(int y, int worker, void *ctx)
     const Looker *looker = &job->looker;
     const WrReferenceView *view = &looker->stage.view;
     float *out = job->out + (size_t)y * (size_t)job->width;
-    if (job->cancel && *job->cancel) return;
+    if (wr_cancel_asked(job->cancel)) return;
     for (int x = 0; x < job->width; x++) {
         const WrReferenceRay ray = wr_reference_view_ray(view, x + 0.5, y + 0.5);
         WrReferenceHit hit;
@@ -241,6 +242,6 @@ bool wr_reference_map(const WrField *field, const WrScene *scene, int width, int
     bool good = looker_init(&job.looker, field, scene, width, height, turn_deg, table, pool, err);
     if (good) wr_pool_run(pool, height, map_row, &job);
     wr_reference_stage_fini(&job.looker.stage);
-    if (good && cancel && *cancel) return wr_fail(err, "cancelled");
+    if (good && wr_cancel_asked(cancel)) return wr_fail(err, "cancelled");
     return good;
 }

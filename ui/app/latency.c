@@ -15,6 +15,7 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "system/clock.h"
 #include "system/thread.h"
 
@@ -155,7 +156,7 @@ static bool all_seen(const WrLatency *latency)
 
 static bool stopped(const WrApp *app)
 {
-    return app->quit || (app->options->cancel && *app->options->cancel);
+    return app->quit || (wr_cancel_asked(app->options->cancel));
 }
 
 static bool measure(WrApp *app, WrLatency *latency, WrError *err)
