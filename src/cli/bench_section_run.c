@@ -57,14 +57,14 @@ static void lane_fini(Lane *lane)
     wr_free(lane->ms);
 }
 
-/* A dab of square texels, a little higher each round, on the side that is seen. */
+/* A dab of square texels in the middle of what is seen, which is the middle of the table; no slope in it stays as it was. */
 static void paint(WrField *field, int size, int round)
 {
-    const int side = size < DAB ? size : DAB;
+    const int side = size < DAB ? size : DAB, from = (size - side) / 2;
     for (int j = 0; j < side; j++)
         for (int i = 0; i < side; i++)
-            wr_field_set(field, (size / 4 + i) % size, (size / 2 + j) % size,
-                         1e-4f * (float)(round + 2));
+            wr_field_set(field, from + i, from + j,
+                         1e-5f * (float)((7 * i + 13 * j + 5 * round) % 17));
 }
 
 /* The picture's scene, of a material of each round's own where that is what changes. The caller's to free. */

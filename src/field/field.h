@@ -77,6 +77,12 @@ int64_t wr_field_write(WrField *field, int i, int j, int count_i, int count_j, c
    pointers differ. The sizes must be equal. Costs what differs, not what the tables hold. */
 typedef void (*WrTileVisitor)(int tx, int ty, void *ctx);
 void wr_field_changes(const WrField *a, const WrField *b, WrTileVisitor changed, void *ctx);
+/* The texels of tile (tx, ty) whose bits differ between a and b, of equal size, lie in columns i0 <= i < i1 and rows
+   j0 <= j < j1 of the table; all 0: there are none. */
+typedef struct WrFieldRect {
+    int i0, i1, j0, j1;
+} WrFieldRect;
+WrFieldRect wr_field_difference(const WrField *a, const WrField *b, int tx, int ty);
 
 /* Size, wrap and every texel's bits; equal for equal contents however they came about. */
 WrHash wr_field_hash(const WrField *field);

@@ -190,3 +190,38 @@ int64_t wr_field_write(WrField *field, int i, int j, int count_i, int count_j, c
     }
     return mended;
 }
+
+/* ---- what differs -------------------------------------------------------------------------------- */
+
+/* Of two rows of a tile the columns that differ, from *first to before *end; false: none does. */
+static bool rows_differ(const float *a, const float *b, int count, int *first, int *end)
+{
+    if (memcmp(a, b, (size_t)count * sizeof *a) == 0) return false;
+    *first = 0, *end = count;
+    while (memcmp(&a[*first], &b[*first], sizeof *a) == 0) ++*first;
+    while (memcmp(&a[*end - 1], &b[*end - 1], sizeof *a) == 0) --*end;
+    return true;
+}
+
+WrFieldRect wr_field_difference(const WrField *a, const WrField *b, int tx, int ty)
+{
+    const float *of_a = wr_field_tile(a, tx, ty), *of_b = wr_field_tile(b, tx, ty);
+    const int left = tx * WR_TILE, top = ty * WR_TILE;
+    const int w = wr_field_width(a) - left, h = wr_field_height(a) - top;
+    float level_a[WR_TILE], level_b[WR_TILE];
+    WrFieldRect all = { WR_TILE, 0, WR_TILE, 0 };
+    for (int i = 0; i < WR_TILE; i++)
+        level_a[i] = wr_field_level(a), level_b[i] = wr_field_level(b);
+    for (int y = 0; y < WR_TILE && y < h; y++) {
+        const float *row_a = of_a ? of_a + y * WR_TILE : level_a;
+        const float *row_b = of_b ? of_b + y * WR_TILE : level_b;
+        int first, end;
+        if (!rows_differ(row_a, row_b, w < WR_TILE ? w : WR_TILE, &first, &end)) continue;
+        all.i0 = first < all.i0 ? first : all.i0;
+        all.i1 = end > all.i1 ? end : all.i1;
+        all.j0 = y < all.j0 ? y : all.j0;
+        all.j1 = y + 1;
+    }
+    if (all.i1 == 0) return (WrFieldRect){ 0, 0, 0, 0 };
+    return (WrFieldRect){ left + all.i0, left + all.i1, top + all.j0, top + all.j1 };
+}

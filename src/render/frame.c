@@ -129,58 +129,6 @@ bool wr_frame_resize(WrRenderer *renderer, const WrFrameRequest *request, WrErro
     return true;
 }
 
-static int least(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-static void render_part(const FrameJob *job, WrTilePart part, int index, WrTileScratch *scratch)
-{
-    if (job->objects)
-        wr_tile_render_group(&job->tile, job->objects, job->count, part, index, scratch);
-    else wr_tile_render(&job->tile, part, index, scratch);
-}
-
-/* Do the changes of a resting view's tables reach the tile? */
-static bool touches(const FrameJob *job, int index)
-{
-    bool any = job->keep_count == 0;
-    for (int i = 0; i < job->keep_count && !any; i++) any = wr_keep_touches(job->keeps[i], index);
-    return any;
-}
-
-/* The tile's blocks that are asked for, those beside each other at once: long rows are faster. */
-static void render_asked(const FrameJob *job, WrTilePart tile, int index, WrTileScratch *scratch)
-{
-    const int blocks = (job->tile.width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
-    const unsigned char *row = job->only + tile.y / WR_FRAME_BLOCK * blocks;
-    const int end = tile.x + tile.w;
-    for (int x = tile.x, next; x < end; x = next) {
-        const bool asked = row[x / WR_FRAME_BLOCK];
-        next = x;
-        while (next < end && (row[next / WR_FRAME_BLOCK] != 0) == asked)
-            next = least(end, (next / WR_FRAME_BLOCK + 1) * WR_FRAME_BLOCK);
-        if (asked) render_part(job, (WrTilePart){ x, tile.y, next - x, tile.h }, index, scratch);
-    }
-}
-
-static void render_tile(int index, int worker, void *ctx)
-{
-    FrameJob *job = ctx;
-    const WrTileJob *tile = &job->tile;
-    WrTilePart part = { index % job->tiles_u * tile->tile_w, index / job->tiles_u * tile->tile_h, 0,
-                        0 };
-    part.w = least(tile->width - part.x, tile->tile_w);
-    part.h = least(tile->rows - part.y, tile->tile_h);
-    part.y += tile->top;
-    if (wr_cancel_asked(job->cancel)) return;
-    if (!touches(job, index)) return;
-    const double start = wr_clock_seconds();
-    if (job->only) render_asked(job, part, index, job->scratch[worker]);
-    else render_part(job, part, index, job->scratch[worker]);
-    job->scratch[worker]->all += wr_clock_seconds() - start;
-}
-
 static void want_codes(WrRenderer *renderer, const WrFrameCodes *codes, WrTileJob *job)
 {
     job->codes = renderer->codes;
@@ -345,24 +293,6 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
     return wr_fail(err, "cancelled");
 }
 
-static int tiles_across(const WrTileJob *tile)
-{
-    return (tile->width + tile->tile_w - 1) / tile->tile_w;
-}
-
-int wr_frame_tiles(const WrTileJob *tile)
-{
-    return tiles_across(tile) * ((tile->rows + tile->tile_h - 1) / tile->tile_h);
-}
-
-bool wr_frame_run(WrRenderer *renderer, FrameJob *job)
-{
-    job->tiles_u = tiles_across(&job->tile);
-    const bool whole =
-        wr_pool_run_told(renderer->pool, wr_frame_tiles(&job->tile), render_tile, job);
-    return whole && !wr_cancel_asked(job->cancel);
-}
-
 bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
@@ -423,14 +353,14 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
     job->cancel = request->cancel;
     if (renderer->steady->use == WR_STEADY_KNOWN) return; /* no tile tells what it looks at */
     if (!wr_frame_may_keep(request)) return;
-    wr_keep_start(&renderer->keep, wr_frame_tiles(&job->tile));
-    job->tile.seen = renderer->keep.seen;
+    wr_frame_start_notes(&job->tile, &renderer->keep);
+    job->tile.seen = &renderer->keep;
 }
 
 void wr_frame_shown(WrRenderer *renderer)
 {
     if (renderer->sighting) renderer->sight.whole = true;
-    if (renderer->keep.seen) wr_keep_field(&renderer->keep, renderer->looked);
+    if (renderer->keep.patches) wr_keep_field(&renderer->keep, renderer->looked);
 }
 
 /* A picture of one object. */

@@ -121,6 +121,8 @@ void wr_frame_bring_sight(WrRenderer *renderer, const WrFrameRequest *request, W
    are decided once more, in each of the objects' renderers. */
 void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
                             const WrSteadyPart *parts, WrRenderer *const *owners, int count);
+/* Make ready for noting what each tile of the picture looks at. */
+void wr_frame_start_notes(const WrTileJob *canvas, WrKeep *keep);
 /* Both, as the frame's tiles find or fill them. */
 void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job);
 /* Where its tiles go, and of what size they are; request NULL: for picking. */

@@ -4,7 +4,9 @@
 #include "render/frame_inner.h"
 #include "scene/objects.h"
 
-#define SIGHT_MOST (1 << 24)  /* pixels; 8 bytes each */
+#define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
+#define PLACES                                                                                     \
+    (1 << 16) /* samples along a picture whose places in 256ths are exact in single precision */
 #define STEADY_MOST (1 << 22) /* likewise; 33 bytes each, and 32 more while they are noted */
 
 /* Does its relief throw shadows, or hide itself? */
@@ -25,6 +27,17 @@ static bool reaches_far(const WrScene *scene)
 bool wr_frame_may_keep(const WrFrameRequest *request)
 {
     return request->keep && !request->only && !request->rows && !reaches_far(request->scene);
+}
+
+void wr_frame_start_notes(const WrTileJob *canvas, WrKeep *keep)
+{
+    const WrPlan *plan = canvas->plan;
+    const int k = canvas->samples, w = canvas->width * k, h = canvas->height * k;
+    const bool jittered = k > 1 && plan->spread == WR_SPREAD_JITTERED;
+    /* Of those that are refined the neighbours count; and a place has to tell its sample. */
+    const bool whole =
+        plan->sampling == WR_SAMPLING_ADAPTIVE || (jittered && (w > PLACES || h > PLACES));
+    wr_keep_start(keep, wr_frame_tiles(canvas), canvas->tile_w, canvas->tile_h, whole);
 }
 
 bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)

@@ -69,8 +69,9 @@ static bool bring_pyramids(WrRenderer *renderer, bool hold, WrError *err)
 static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
-    float low, high;
-    wr_table_range(&renderer->table, &low, &high);
+    float low = 0, high = 0;
+    if (plan->heights == WR_HEIGHTS_16 || plan->heights == WR_HEIGHTS_8)
+        wr_table_range(&renderer->table, &low, &high);
     renderer->looked =
         wr_rounded_bring(&renderer->rounded, request->field, plan->heights, low, high, err);
     renderer->table.precision = plan->precision;
@@ -84,9 +85,8 @@ static double sloped_share(const WrRenderer *renderer, const WrField *field)
     const bool gradient = wr_plan_runs(&renderer->plan, WR_EFFECT_GRADIENT);
     const int tiles = wr_field_tiles_u(field) * wr_field_tiles_v(field);
     int sloped = 0;
-    for (int i = 0; i < tiles; i++)
-        sloped += gradient ? table->steep[i][0] > 0 || table->steep[i][1] > 0
-                           : table->low[i] != table->high[i];
+    if (gradient) return (double)table->sloped / tiles;
+    for (int i = 0; i < tiles; i++) sloped += table->low[i] != table->high[i];
     return (double)sloped / tiles;
 }
 
@@ -306,7 +306,7 @@ static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request
     *level = (WrLevel){ .steep = gradient ? (const float(*)[2])renderer->table.steep : NULL,
                         .low = renderer->table.low,
                         .high = renderer->table.high,
-                        .steepest = { gradient ? 0 : INFINITY, gradient ? 0 : INFINITY },
+                        .steepest = { INFINITY, INFINITY },
                         .tiles_u = wr_field_tiles_u(request->field),
                         .tiles_v = wr_field_tiles_v(request->field),
                         .width = job->look.width,
@@ -315,12 +315,10 @@ static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request
                         .rv = job->look.rv,
                         .periodic_u = job->look.periodic_u,
                         .periodic_v = job->look.periodic_v };
-    for (int i = 0; gradient && i < level->tiles_u * level->tiles_v; i++)
-        for (int c = 0; c < 2; c++) {
-            const float steep = level->steep[i][c];
-            level->steepest[c] = fmaxf(level->steepest[c], steep);
-            level->gentlest[c] = fminf(i ? level->gentlest[c] : steep, steep);
-        }
+    for (int c = 0; gradient && c < 2; c++) {
+        level->steepest[c] = renderer->table.steepest[c];
+        level->gentlest[c] = renderer->table.gentlest[c];
+    }
 }
 
 /* The same for single precision, with the copies that it reads. */

@@ -249,8 +249,9 @@ static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request
 }
 
 /* The parts' jobs, the nearest first. */
-static int make_jobs(WrRenderer *renderer, const WrFrameRequest *request, bool rests, int tiles,
-                     WrTileJob jobs[WR_OBJECTS_MAX], const WrKeep *keeps[WR_OBJECTS_MAX])
+static int make_jobs(WrRenderer *renderer, const WrFrameRequest *request, bool rests,
+                     const WrTileJob *canvas, WrTileJob jobs[WR_OBJECTS_MAX],
+                     const WrKeep *keeps[WR_OBJECTS_MAX])
 {
     WrGroup *group = renderer->group;
     for (int i = 0; i < group->count; i++) {
@@ -259,9 +260,9 @@ static int make_jobs(WrRenderer *renderer, const WrFrameRequest *request, bool r
         const WrFrameRequest asked = request_of(part, request);
         WrTileJob job = wr_frame_job(own, &asked);
         const bool noted = notes_tiles(renderer, request, rests);
-        if (noted) wr_keep_start(&own->keep, tiles);
+        if (noted) wr_frame_start_notes(canvas, &own->keep);
         else if (!rests) wr_keep_fini(&own->keep);
-        job.seen = noted ? own->keep.seen : NULL;
+        job.seen = noted ? &own->keep : NULL;
         job.object = part->object;
         keeps[i] = &own->keep;
         int k = i;
@@ -306,7 +307,7 @@ bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame
                      .scratch = renderer->scratch,
                      .only = request->only,
                      .cancel = rests ? NULL : request->cancel };
-    job.count = make_jobs(renderer, request, rests, wr_frame_tiles(&job.tile), jobs, keeps);
+    job.count = make_jobs(renderer, request, rests, &job.tile, jobs, keeps);
     job.keep_count = rests ? job.count : 0;
     renderer->last = *request;
     const double prepared = wr_clock_seconds() - started;

@@ -2,140 +2,309 @@
 
 #include "base/memory.h"
 #include "field/field.h"
+#include "render/kern.h"
 
 #include <math.h>
 #include <string.h>
 
 void wr_keep_fini(WrKeep *keep)
 {
-    wr_free(keep->seen);
+    wr_free(keep->patches);
+    wr_free(keep->whole);
     wr_field_free(keep->field);
     *keep = (WrKeep){ 0 };
 }
 
-void wr_keep_start(WrKeep *keep, int tiles)
+static const WrKeepBox nothing = { .high_u = -1, .high_v = -1 };
+
+static bool is_empty(const WrKeepBox *box)
+{
+    return box->high_u < box->low_u;
+}
+
+void wr_keep_start(WrKeep *keep, int tiles, int tile_w, int tile_h, bool whole)
 {
     wr_keep_fini(keep);
-    keep->seen = wr_alloc((size_t)tiles, sizeof *keep->seen);
     keep->tiles = tiles;
+    keep->tile_w = tile_w, keep->tile_h = tile_h;
+    keep->patch_w = whole ? tile_w : WR_KEEP_W;
+    keep->patch_h = whole ? tile_h : WR_KEEP_H;
+    keep->across = (tile_w + keep->patch_w - 1) / keep->patch_w;
+    keep->down = (tile_h + keep->patch_h - 1) / keep->patch_h;
+    const size_t patches = (size_t)tiles * (size_t)keep->across * (size_t)keep->down;
+    keep->patches = wr_alloc(patches, sizeof *keep->patches);
+    keep->whole = wr_alloc((size_t)tiles, sizeof *keep->whole);
+    for (size_t i = 0; i < patches; i++) keep->patches[i] = nothing;
+    for (int i = 0; i < tiles; i++) keep->whole[i] = nothing;
 }
 
-static void note(WrBlocks *seen, int u, int v)
+static WrKeepBox *patches_of(const WrKeep *keep, int tile)
 {
-    u = u < WR_KEEP_SIDE ? u : WR_KEEP_SIDE - 1; /* 1 itself, on clamped axes */
-    v = v < WR_KEEP_SIDE ? v : WR_KEEP_SIDE - 1;
-    seen->row[v] |= 1ULL << u;
+    return keep->patches + (size_t)tile * (size_t)keep->across * (size_t)keep->down;
 }
 
-void wr_keep_note_places(WrBlocks *seen, int count, size_t size, const void *tu, const void *tv)
+/* ---- noting ---- */
+
+WrKeepNotes wr_keep_open(WrKeep *keep, int tile, int x, int y)
 {
-    if (size == sizeof(float)) {
-        const float *u = tu, *v = tv;
-        for (int i = 0; i < count; i++)
-            note(seen, (int)(u[i] * WR_KEEP_SIDE), (int)(v[i] * WR_KEEP_SIDE));
-    } else {
-        const double *u = tu, *v = tv;
-        for (int i = 0; i < count; i++)
-            note(seen, (int)(u[i] * WR_KEEP_SIDE), (int)(v[i] * WR_KEEP_SIDE));
+    if (!keep) return (WrKeepNotes){ 0 };
+    return (WrKeepNotes){ .patches = patches_of(keep, tile),
+                          .across = keep->across,
+                          .single = keep->across * keep->down == 1,
+                          .x = x - x % keep->tile_w,
+                          .y = y - y % keep->tile_h };
+}
+
+/* How far x lies from `from` round the ends, -1/2 .. 1/2. */
+static inline float apart(float x, float from)
+{
+    const float d = x - from;
+    return d > 0.5f ? d - 1.0f : d < -0.5f ? d + 1.0f : d;
+}
+
+/* All of another box, too. */
+static void add_box(WrKeepBox *box, const WrKeepBox *more)
+{
+    if (is_empty(more)) return;
+    if (is_empty(box)) *box = (WrKeepBox){ .u = more->u, .v = more->v };
+    const float du = apart(more->u, box->u), dv = apart(more->v, box->v);
+    box->low_u = fminf(box->low_u, du + more->low_u);
+    box->high_u = fmaxf(box->high_u, du + more->high_u);
+    box->low_v = fminf(box->low_v, dv + more->low_v);
+    box->high_v = fmaxf(box->high_v, dv + more->high_v);
+}
+
+/* The least and the largest of `count`. */
+static inline void extent(int count, const float *restrict x, float *low, float *high)
+{
+    float least = x[0], most = x[0];
+#pragma omp simd reduction(min : least) reduction(max : most)
+    for (int i = 0; i < count; i++) {
+        least = x[i] < least ? x[i] : least;
+        most = x[i] > most ? x[i] : most;
+    }
+    *low = least, *high = most;
+}
+
+/* The same of places, by how far they lie from the first one round the ends. */
+static void extent_round(int count, const float *x, float *low, float *high)
+{
+    *low = *high = 0;
+    for (int i = 0; i < count; i++) {
+        const float d = apart(x[i], x[0]);
+        *low = fminf(*low, d);
+        *high = fmaxf(*high, d);
+    }
+    *low += x[0], *high += x[0];
+}
+
+/* The box with `count` places more. */
+static inline void add_places(WrKeepBox *box, int count, const float *u, const float *v)
+{
+    float u0, u1, v0, v1;
+    extent(count, u, &u0, &u1);
+    extent(count, v, &v0, &v1);
+    if (u1 - u0 > 0.5f) extent_round(count, u, &u0, &u1);
+    if (v1 - v0 > 0.5f) extent_round(count, v, &v0, &v1);
+    const WrKeepBox more = { u[0], v[0], u0 - u[0], u1 - u[0], v0 - v[0], v1 - v[0] };
+    add_box(box, &more);
+}
+
+/* Which patch of those beside each other holds a sample at x, of k a pixel. */
+static int patch_at(float x, int k, int from, int side)
+{
+    const int sample = (int)(x + 0.5f);
+    return (int)((unsigned)((k == 1 ? sample : sample / k) - from) / (unsigned)side);
+}
+
+/* Samples that stand beside each other in a row, one a pixel. */
+static void note_row(const WrKeepNotes *notes, int x, int count, const float *u, const float *v,
+                     WrKeepBox *patch)
+{
+    const int first = WR_KEEP_W - (x - notes->x) % WR_KEEP_W;
+    int run = first < count ? first : count;
+    add_places(patch++, run, u, v);
+    for (; count - run >= WR_KEEP_W; run += WR_KEEP_W)
+        add_places(patch++, WR_KEEP_W, u + run, v + run);
+    if (run < count) add_places(patch, count - run, u + run, v + run);
+}
+
+/* How many samples from the first on stand in the same patch, whose place among the tile's that is. */
+static int run_of(const WrKeepNotes *notes, int k, int count, const float *x, const float *y,
+                  int column, int row)
+{
+    const int px = notes->x + column * WR_KEEP_W, py = notes->y + row * WR_KEEP_H;
+    const float x0 = (float)(px * k) - 0.5f, x1 = (float)((px + WR_KEEP_W) * k) - 0.5f;
+    const float y0 = (float)(py * k) - 0.5f, y1 = (float)((py + WR_KEEP_H) * k) - 0.5f;
+    int run = 1;
+    while (run < count && x[run] >= x0 && x[run] < x1 && y[run] >= y0 && y[run] < y1) run++;
+    return run;
+}
+
+/* Samples anywhere in the tile, or in a row of it. */
+static void note_samples(const WrKeepNotes *notes, int k, int count, const float *x, const float *y,
+                         const float *u, const float *v)
+{
+    for (int i = 0, run; i < count; i += run) {
+        const int column = patch_at(x[i], k, notes->x, WR_KEEP_W);
+        const int row = patch_at(y[i], k, notes->y, WR_KEEP_H);
+        WrKeepBox *patch = notes->patches + row * notes->across + column;
+        const int last = count - 1;
+        const bool beside = k == 1 && y[i] == y[last] && x[last] - x[i] == (float)(last - i);
+        if (beside) {
+            note_row(notes, (int)(x[i] + 0.5f), count - i, u + i, v + i, patch);
+            return;
+        }
+        run = run_of(notes, k, count - i, x + i, y + i, column, row);
+        add_places(patch, run, u + i, v + i);
     }
 }
 
-/* The blocks from a to b as a mask, round the ends: what is too much on a clamped axis does no harm. */
-static uint64_t span(double a, double b)
+/* [count]; single or double precision. */
+static const float *narrowed(int count, size_t size, const void *numbers, float *room)
 {
-    if (!(b - a < 1.0)) return ~0ULL;
-    int first = (int)floor(a * WR_KEEP_SIDE), last = (int)floor(b * WR_KEEP_SIDE);
-    uint64_t mask = 0;
-    for (int k = first; k <= last; k++)
-        mask |= 1ULL << ((k % WR_KEEP_SIDE + WR_KEEP_SIDE) % WR_KEEP_SIDE);
-    return mask;
+    const double *from = numbers;
+    if (size == sizeof(float)) return numbers;
+    for (int i = 0; i < count; i++) room[i] = (float)from[i];
+    return room;
 }
 
-void wr_keep_note_box(WrBlocks *seen, double tu, double tv, double reach_u, double reach_v)
+void wr_keep_note_places(const WrKeepNotes *notes, int k, int count, size_t size, const void *x,
+                         const void *y, const void *tu, const void *tv)
 {
-    const uint64_t columns = span(tu - reach_u, tu + reach_u);
-    const uint64_t rows = span(tv - reach_v, tv + reach_v);
-    for (int v = 0; v < WR_KEEP_SIDE; v++)
-        if (rows >> v & 1) seen->row[v] |= columns;
+    float room[4][WR_SPAN];
+    const float *at_x = narrowed(count, size, x, room[0]),
+                *at_y = narrowed(count, size, y, room[1]);
+    const float *u = narrowed(count, size, tu, room[2]), *v = narrowed(count, size, tv, room[3]);
+    if (notes->single && count > 0) add_places(notes->patches, count, u, v);
+    else note_samples(notes, k, count, at_x, at_y, u, v);
 }
 
-/* Texels that differ, columns [i0, i1) and rows [j0, j1) from the top. */
-typedef struct Rect {
-    int i0, i1, j0, j1;
-} Rect;
+void wr_keep_note_box(const WrKeepNotes *notes, int k, double x, double y, double tu, double tv,
+                      double reach_u, double reach_v)
+{
+    const float u = (float)reach_u, v = (float)reach_v;
+    const WrKeepBox box = { (float)tu, (float)tv, -u, u, -v, v };
+    const int column = notes->single ? 0 : patch_at((float)x, k, notes->x, WR_KEEP_W);
+    const int row = notes->single ? 0 : patch_at((float)y, k, notes->y, WR_KEEP_H);
+    add_box(notes->patches + row * notes->across + column, &box);
+}
+
+void wr_keep_close(WrKeep *keep, int tile)
+{
+    if (!keep) return;
+    const WrKeepBox *patches = patches_of(keep, tile);
+    keep->whole[tile] = nothing;
+    for (int i = 0; i < keep->across * keep->down; i++) add_box(&keep->whole[tile], &patches[i]);
+}
+
+/* ---- comparing ---- */
 
 typedef struct Compare {
     const WrField *old, *now;
     int reach;
-    WrBlocks *changed;
+    WrKeep *keep;
 } Compare;
 
-static Rect difference(const Compare *compare, int tx, int ty)
+/* What both hold and what lies between them, the shorter way round. */
+static WrKeepBox joined(const WrKeepBox *a, const WrKeepBox *b)
 {
-    const float *a = wr_field_tile(compare->old, tx, ty), *b = wr_field_tile(compare->now, tx, ty);
-    const float level_a = wr_field_level(compare->old), level_b = wr_field_level(compare->now);
-    Rect r = { WR_TILE, 0, WR_TILE, 0 };
-    for (int y = 0; y < WR_TILE; y++)
-        for (int x = 0; x < WR_TILE; x++) {
-            float fa = a ? a[y * WR_TILE + x] : level_a, fb = b ? b[y * WR_TILE + x] : level_b;
-            if (memcmp(&fa, &fb, sizeof fa) == 0) continue;
-            r.i0 = x < r.i0 ? x : r.i0;
-            r.i1 = x + 1 > r.i1 ? x + 1 : r.i1;
-            r.j0 = y < r.j0 ? y : r.j0;
-            r.j1 = y + 1 > r.j1 ? y + 1 : r.j1;
-        }
-    return (Rect){ tx * WR_TILE + r.i0, tx * WR_TILE + r.i1, ty * WR_TILE + r.j0,
-                   ty * WR_TILE + r.j1 };
+    WrKeepBox box = *a;
+    add_box(&box, b);
+    return box;
 }
 
-/* The blocks that texels [a, b) of n touch, as a mask; round the end, or cut there. */
-static uint64_t blocks_of(int a, int b, int n, WrWrap wrap)
+static float area(const WrKeepBox *box)
 {
-    if (b - a >= n) return ~0ULL;
-    int first = (int)((int64_t)a * WR_KEEP_SIDE / n) - 1; /* a may be negative: one block more */
-    int last = (int)((int64_t)b * WR_KEEP_SIDE / n) + 1;
-    uint64_t mask = 0;
-    for (int k = first; k <= last; k++) {
-        if (wrap == WR_WRAP_PERIODIC)
-            mask |= 1ULL << ((k % WR_KEEP_SIDE + WR_KEEP_SIDE) % WR_KEEP_SIDE);
-        else if (k >= 0 && k < WR_KEEP_SIDE) mask |= 1ULL << k;
+    return fminf(box->high_u - box->low_u, 1) * fminf(box->high_v - box->low_v, 1);
+}
+
+/* What a and b come to as one is larger by this than both apart. */
+static float waste(const WrKeepBox *a, const WrKeepBox *b)
+{
+    const WrKeepBox box = joined(a, b);
+    return area(&box) - area(a) - area(b);
+}
+
+/* A box more; with one that it fits to, or, where there are too many, with the one that it fits to best. */
+static void add_change(WrKeep *keep, const WrKeepBox *box)
+{
+    int best = 0;
+    float least = INFINITY;
+    for (int i = 0; i < keep->changes; i++) {
+        const float more = waste(&keep->changed[i], box);
+        if (more < least) best = i, least = more;
     }
-    return mask;
+    if (least <= 0.25f * area(box) || keep->changes == WR_KEEP_CHANGES)
+        keep->changed[best] = joined(&keep->changed[best], box);
+    else keep->changed[keep->changes++] = *box;
 }
 
 static void mark(int tx, int ty, void *ctx)
 {
     const Compare *compare = ctx;
     const WrField *field = compare->now;
-    const int w = wr_field_width(field), h = wr_field_height(field), reach = compare->reach;
-    Rect r = difference(compare, tx, ty);
+    const float w = (float)wr_field_width(field), h = (float)wr_field_height(field);
+    const float reach = (float)compare->reach;
+    const WrFieldRect r = wr_field_difference(compare->old, field, tx, ty);
     if (r.i0 >= r.i1) return;
-    uint64_t columns = blocks_of(r.i0 - reach, r.i1 + reach, w, wr_field_wrap_u(field));
+    const float half_u = 0.5f * (float)(r.i1 - r.i0) + reach;
+    const float half_v = 0.5f * (float)(r.j1 - r.j0) + reach;
     /* Rows run down, v runs up. */
-    uint64_t rows = blocks_of(h - r.j1 - reach, h - r.j0 + reach, h, wr_field_wrap_v(field));
-    for (int v = 0; v < WR_KEEP_SIDE; v++)
-        if (rows >> v & 1) compare->changed->row[v] |= columns;
+    const WrKeepBox box = { .u = 0.5f * (float)(r.i0 + r.i1) / w,
+                            .v = 1 - 0.5f * (float)(r.j0 + r.j1) / h,
+                            .low_u = -half_u / w,
+                            .high_u = half_u / w,
+                            .low_v = -half_v / h,
+                            .high_v = half_v / h };
+    add_change(compare->keep, &box);
 }
 
 bool wr_keep_compare(WrKeep *keep, const WrField *field, int reach)
 {
     const WrField *old = keep->field;
-    if (!keep->seen || !old || wr_field_width(old) != wr_field_width(field) ||
+    if (!keep->patches || !old || wr_field_width(old) != wr_field_width(field) ||
         wr_field_height(old) != wr_field_height(field) ||
         wr_field_wrap_u(old) != wr_field_wrap_u(field) ||
         wr_field_wrap_v(old) != wr_field_wrap_v(field))
         return false;
-    memset(&keep->changed, 0, sizeof keep->changed);
-    Compare compare = { old, field, reach, &keep->changed };
+    keep->changes = 0;
+    Compare compare = { old, field, reach, keep };
     wr_field_changes(old, field, mark, &compare);
     return true;
 }
 
+/* Do they overlap along an axis, round its ends? Both hold a place in 0..1. */
+static bool overlap(float a0, float a1, float b0, float b1)
+{
+    if (a1 - a0 >= 1 || b1 - b0 >= 1) return true;
+    for (int turn = -1; turn <= 1; turn++)
+        if (a0 + (float)turn <= b1 && a1 + (float)turn >= b0) return true;
+    return false;
+}
+
+static bool meets(const WrKeepBox *a, const WrKeepBox *b)
+{
+    return overlap(a->u + a->low_u, a->u + a->high_u, b->u + b->low_u, b->u + b->high_u) &&
+           overlap(a->v + a->low_v, a->v + a->high_v, b->v + b->low_v, b->v + b->high_v);
+}
+
+static bool meets_any(const WrKeep *keep, const WrKeepBox *box)
+{
+    if (is_empty(box)) return false;
+    for (int i = 0; i < keep->changes; i++)
+        if (meets(&keep->changed[i], box)) return true;
+    return false;
+}
+
 bool wr_keep_touches(const WrKeep *keep, int tile)
 {
-    for (int v = 0; v < WR_KEEP_SIDE; v++)
-        if (keep->seen[tile].row[v] & keep->changed.row[v]) return true;
-    return false;
+    return meets_any(keep, &keep->whole[tile]);
+}
+
+bool wr_keep_touches_patch(const WrKeep *keep, int tile, int column, int row)
+{
+    return meets_any(keep, &patches_of(keep, tile)[row * keep->across + column]);
 }
 
 void wr_keep_field(WrKeep *keep, const WrField *field)

@@ -1,42 +1,68 @@
-/* keep.h - what lets a resting view be brought up to date by an edit: which part of the table each tile
-   of the last picture looked at.
+/* keep.h - what lets a resting view be brought up to date by an edit: which part of the table each patch of the last
+   picture's pixels looked at.
    Layer 5, private to the renderer.
 
-   The table's cell is cut into WR_KEEP_SIDE x WR_KEEP_SIDE blocks; a tile of the picture has a bit for each
-   block that one of its samples fell into. Where a table's texels differ, their blocks (and those within
-   the scheme's reach) are marked, and only tiles with a marked block are rendered again: the picture has
-   the bits that a whole new one would have. */
+   A tile of the picture is cut into patches; of each the smallest box of the table's cell is kept that holds all places
+   where its samples looked, round the cell's ends. Where a table's texels differ, boxes hold them, grown by the scheme's
+   reach; only patches whose box meets one of those are rendered again: the picture has the bits that a whole new one
+   would have. */
 #pragma once
-#include "render/kern.h"
-
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
-#define WR_KEEP_SIDE 64
+typedef struct WrField WrField;
 
-typedef struct WrBlocks {
-    uint64_t row[WR_KEEP_SIDE]; /* row v, from v = 0 up; bit u */
-} WrBlocks;
+/* Of a patch, pixels. Higher ones would be drawn in fewer strips, wider ones in longer rows; smaller ones are fewer
+   pixels that an edit does not reach. */
+#define WR_KEEP_W 16
+#define WR_KEEP_H 8
+#define WR_KEEP_CHANGES 48 /* boxes that differ, at most: then the nearest two become one */
+
+/* Of the cell: from `u + low_u` to `u + high_u`, likewise v, round the ends; u, v in 0..1. high below low: nothing. */
+typedef struct WrKeepBox {
+    float u, v, low_u, high_u, low_v, high_v;
+} WrKeepBox;
 
 /* Zero-initialise; fini frees. */
 typedef struct WrKeep {
-    WrBlocks *seen; /* [tiles] of the last picture; NULL: nothing is kept. Owned */
-    int tiles;
-    WrField *field;   /* snapshot of the last picture */
-    WrBlocks changed; /* since then; by wr_keep_compare */
+    WrKeepBox
+        *patches;     /* [tiles][down][across] of the last picture; NULL: nothing is kept. Owned */
+    WrKeepBox *whole; /* [tiles] what holds those of each. Owned */
+    int tiles, across, down;
+    int tile_w, tile_h, patch_w, patch_h; /* pixels */
+    WrField *field;                       /* snapshot of the last picture */
+    WrKeepBox changed[WR_KEEP_CHANGES];   /* since then; by wr_keep_compare */
+    int changes;
 } WrKeep;
 
+/* A tile's patches, while they are noted. */
+typedef struct WrKeepNotes {
+    WrKeepBox *patches; /* NULL: nothing is noted */
+    int across;
+    bool single;    /* there is one, wherever samples stand */
+    int x, y;       /* pixels: the tile's place */
+} WrKeepNotes;
+
 void wr_keep_fini(WrKeep *keep);
-/* Forget the picture and make room for a new one's tiles. */
-void wr_keep_start(WrKeep *keep, int tiles);
-/* Places in the table, 0..1, where samples looked: float or double, by the size of one. */
-void wr_keep_note_places(WrBlocks *seen, int count, size_t size, const void *tu, const void *tv);
-/* A place and all within reach of it, round the table's ends; reach in 0..1. */
-void wr_keep_note_box(WrBlocks *seen, double tu, double tv, double reach_u, double reach_v);
-/* Mark what differs between the kept field and this one, of equal size and wrap: exact texels of the
+/* Forget the picture and make room for a new one's tiles, of tile_w x tile_h pixels. whole: each is one patch. */
+void wr_keep_start(WrKeep *keep, int tiles, int tile_w, int tile_h, bool whole);
+/* Note what is looked at from a tile that holds the pixel x, y; keep NULL: nothing. */
+WrKeepNotes wr_keep_open(WrKeep *keep, int tile, int x, int y);
+/* All of the tile was noted. */
+void wr_keep_close(WrKeep *keep, int tile);
+/* Places in the table, 0..1, where samples looked that stand at x, y in the grid of k a pixel: float or double, by the
+   size of one. */
+void wr_keep_note_places(const WrKeepNotes *notes, int k, int count, size_t size, const void *x,
+                         const void *y, const void *tu, const void *tv);
+/* One, and all within reach of it; reach in 0..1. */
+void wr_keep_note_box(const WrKeepNotes *notes, int k, double x, double y, double tu, double tv,
+                      double reach_u, double reach_v);
+/* Find what differs between the kept field and this one, of equal size and wrap: exact texels of the
  * tiles that differ, grown by `reach` texels. False: cannot be compared, or nothing is kept. */
 bool wr_keep_compare(WrKeep *keep, const WrField *field, int reach);
+/* Do changes reach anything of the tile? */
 bool wr_keep_touches(const WrKeep *keep, int tile);
+/* Do they reach patch `column`, `row` of it? */
+bool wr_keep_touches_patch(const WrKeep *keep, int tile, int column, int row);
 /* The picture now shows this field. */
 void wr_keep_field(WrKeep *keep, const WrField *field);

@@ -41,6 +41,23 @@ static void did(const Watch *watch, WrEffect effect)
     wr_did(watch->scratch, effect);
 }
 
+/* Samples a side of the grid that these rays are of. */
+static int grid_of(const WrView *view, const Rays *rays)
+{
+    int i = 0;
+    while (i + 1 < view->grid_count && &VIEWED(&view->grids[i], rays) != rays) i++;
+    return view->grids[i].k;
+}
+
+/* Where the strip looked. */
+static void note_looks(const WrTileJob *job, const Rays *rays, const Strip *strip,
+                       const WrTileScratch *scratch)
+{
+    if (scratch->notes.patches)
+        wr_keep_note_places(&scratch->notes, grid_of(job->view, rays), strip->count, sizeof(REAL),
+                            strip->x, strip->y, strip->tu, strip->tv);
+}
+
 #include "render/pipe_half_body.h"
 #include "render/pipe_look_body.h"
 #include "render/pipe_map_body.h"
@@ -176,8 +193,8 @@ static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, c
     const bool dark = is_dark(job, rays, level, strip);
     const unsigned spared = (level ? WR_RUN_LEVEL : 0) | (dark ? WR_RUN_DARK : 0);
     if (runs(job, WR_EFFECT_GROUND) && !dark) did(watch, WR_EFFECT_GROUND);
-    if (spared && scratch->seen && job->plan->bump != WR_BUMP_NONE)
-        note_spared(job, strip, scratch->seen);
+    if (spared && scratch->notes.patches && job->plan->bump != WR_BUMP_NONE)
+        note_spared(job, rays, strip, scratch);
     if (dark) return spared;
     if (runs(job, WR_EFFECT_CURVATURE)) {
         const WrSurfaceKind kind = job->view->shape_d.kind;
@@ -231,14 +248,6 @@ static void note_view(const WrTileJob *job, const Rays *rays, WrTileScratch *scr
     if (rays->perspective) wr_did(scratch, WR_EFFECT_PERSPECTIVE);
     if (!job->view->cull) wr_did(scratch, WR_EFFECT_BACK);
     if (sizeof(REAL) == sizeof(double)) wr_did(scratch, WR_EFFECT_DOUBLE);
-}
-
-/* Samples a side of the grid that these rays are of. */
-static int grid_of(const WrView *view, const Rays *rays)
-{
-    int i = 0;
-    while (i + 1 < view->grid_count && &VIEWED(&view->grids[i], rays) != rays) i++;
-    return view->grids[i].k;
 }
 
 /* What the strip's pixels took. */
@@ -354,11 +363,12 @@ static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
 }
 
 /* Places of what hit, where a later stage asks for them. */
-static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL gy, Strip *strip)
+static void note_places(const WrTileJob *job, const WrSink *sink, bool noted, REAL gx, REAL gy,
+                        Strip *strip)
 {
     if (!runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) && !job->plan->map_filtered &&
         !job->plan->facets_filtered && !sink->bound && !job->map && !runs(job, WR_EFFECT_HORIZON) &&
-        !runs(job, WR_EFFECT_FADED) && !runs(job, WR_EFFECT_PARALLAX))
+        !runs(job, WR_EFFECT_FADED) && !runs(job, WR_EFFECT_PARALLAX) && !noted)
         return;
     for (int i = 0; i < strip->count; i++) {
         strip->x[i] = gx + (REAL)strip->index[i];
@@ -401,14 +411,14 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     const WR_T(WrRound) *round = round_of(job);
     if (round) {
         round->hit(rays, &VIEWED(view, shape), gx, gy, tile->w, strip);
-        note_places(job, sink, gx, gy, strip);
+        note_places(job, sink, scratch->notes.patches, gx, gy, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, -1, sink, scratch, &watch);
         return;
     }
     for (int i = 0; i < view->quad_count; i++) {
         kernels->hit_quad(rays, &VIEWED(view, quads)[i], gx, gy, tile->w, strip);
-        note_places(job, sink, gx, gy, strip);
+        note_places(job, sink, scratch->notes.patches, gx, gy, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, i, sink, scratch, &watch);
     }

@@ -44,7 +44,8 @@ static bool is_dark(const WrTileJob *job, const Rays *rays, bool level, const St
 }
 
 /* Where a spared run would have looked: an edit there may call for what it was spared. */
-static void note_spared(const WrTileJob *job, Strip *strip, WrBlocks *seen)
+static void note_spared(const WrTileJob *job, const Rays *rays, Strip *strip,
+                        const WrTileScratch *scratch)
 {
     const WrLevel *level = &job->level;
     for (int i = 0; i < strip->count; i++) {
@@ -52,7 +53,7 @@ static void note_spared(const WrTileJob *job, Strip *strip, WrBlocks *seen)
         strip->tu[i] = (REAL)(level->periodic_u ? u - floor(u) : fmin(fmax(u, 0), 1));
         strip->tv[i] = (REAL)(level->periodic_v ? v - floor(v) : fmin(fmax(v, 0), 1));
     }
-    wr_keep_note_places(seen, strip->count, sizeof(REAL), strip->tu, strip->tv);
+    note_looks(job, rays, strip, scratch);
 }
 
 /* Where the table has no slope n' is n, to the bit. */

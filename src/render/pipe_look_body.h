@@ -97,21 +97,39 @@ typedef struct Batch {
     int count;
     int sample[WR_SPAN], tap[WR_SPAN];
     const WrPictureLook *picture; /* that is looked up; NULL: none of those */
+    int grid;                     /* samples a side of a pixel */
 } Batch;
 
 /* What makes sums of a batch's look-ups; it leaves near and far empty. */
 typedef void Flush(const WrTileJob *job, const Batch *batch, Strip *strip, WrTileScratch *scratch,
                    Watch *watch);
 
-static void note_far(const WrTileJob *job, const Strip *far, WrBlocks *seen)
+/* Where look-up i of the pyramid looked, of a sample at x, y of the grid of k a pixel. */
+static void note_far(const WrTileJob *job, int k, REAL x, REAL y, const Strip *far, int i,
+                     const WrKeepNotes *notes)
 {
     const WrPyramid *pyramid = LOOK_OF(job)->pyramid;
-    for (int i = 0; i < far->count; i++) {
-        int level = (int)far->level[i] + 1;
-        level = level < pyramid->levels ? level : pyramid->levels - 1;
-        double reach_u = 1.5 / pyramid->level[level].width + 2.0 / LOOK_OF(job)->width;
-        double reach_v = 1.5 / pyramid->level[level].height + 2.0 / LOOK_OF(job)->height;
-        wr_keep_note_box(seen, (double)far->tu[i], (double)far->tv[i], reach_u, reach_v);
+    int level = (int)far->level[i] + 1;
+    level = level < pyramid->levels ? level : pyramid->levels - 1;
+    const double reach_u = 1.5 / pyramid->level[level].width + 2.0 / LOOK_OF(job)->width;
+    const double reach_v = 1.5 / pyramid->level[level].height + 2.0 / LOOK_OF(job)->height;
+    wr_keep_note_box(notes, k, (double)x, (double)y, (double)far->tu[i], (double)far->tv[i],
+                     reach_u, reach_v);
+}
+
+static void note_batch(const WrTileJob *job, int k, const Batch *batch, const Strip *near,
+                       const Strip *far, const Strip *strip, const WrKeepNotes *notes)
+{
+    int a = 0, b = 0;
+    for (int at = 0; at < batch->count; at++) {
+        const int i = batch->sample[at];
+        const REAL level = strip->level[i], x = strip->x[i], y = strip->y[i];
+        if (level < (REAL)1) {
+            wr_keep_note_box(notes, k, (double)x, (double)y, (double)near->tu[a],
+                             (double)near->tv[a], 0, 0);
+            a++;
+        }
+        if (level > (REAL)0) note_far(job, k, x, y, far, b++, notes);
     }
 }
 
@@ -147,10 +165,8 @@ static void flush_slopes(const WrTileJob *job, const Batch *batch, Strip *strip,
     if (near->count > 0) look_level0(job, near, scratch);
     watch_lap(watch, WR_STAGE_LOOK);
     if (far->count > 0) KERNELS_OF(job)->look_pyramid(LOOK_OF(job), moments, far);
-    if (scratch->seen) {
-        wr_keep_note_places(scratch->seen, near->count, sizeof(REAL), near->tu, near->tv);
-        note_far(job, far, scratch->seen);
-    }
+    if (scratch->notes.patches)
+        note_batch(job, batch->grid, batch, near, far, strip, &scratch->notes);
     sum_batch(batch, near, far, strip);
     near->count = far->count = 0;
     watch_lap(watch, WR_STAGE_PYRAMID);
@@ -168,12 +184,14 @@ static int count_wide(const Strip *strip, unsigned char *wide)
 }
 
 /* Look up all along each sample's footprint. */
-static void look_along(const WrTileJob *job, Flush *flush, const WrPictureLook *picture,
-                       Strip *strip, WrTileScratch *scratch, Watch *watch)
+static void look_along(const WrTileJob *job, const Rays *rays, Flush *flush,
+                       const WrPictureLook *picture, Strip *strip, WrTileScratch *scratch,
+                       Watch *watch)
 {
     Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
     Batch batch;
     batch.picture = picture;
+    batch.grid = grid_of(job->view, rays);
     batch.count = near->count = far->count = 0;
     for (int i = 0; i < strip->count; i++)
         for (int tap = 0; tap < strip->taps[i]; tap++) {
@@ -202,12 +220,11 @@ static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
     watch_lap(watch, WR_STAGE_FOOTPRINT);
     scratch->wide_samples += wide;
     if (wide > 0) {
-        look_along(job, flush_slopes, NULL, strip, scratch, watch);
+        look_along(job, rays, flush_slopes, NULL, strip, scratch, watch);
         return;
     }
     look_level0(job, strip, scratch);
-    if (scratch->seen)
-        wr_keep_note_places(scratch->seen, strip->count, sizeof(REAL), strip->tu, strip->tv);
+    note_looks(job, rays, strip, scratch);
     watch_lap(watch, WR_STAGE_LOOK);
 }
 
@@ -221,8 +238,7 @@ static void look(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScr
         return;
     } else {
         look_level0(job, strip, scratch);
-        if (scratch->seen)
-            wr_keep_note_places(scratch->seen, strip->count, sizeof(REAL), strip->tu, strip->tv);
+        note_looks(job, rays, strip, scratch);
     }
     watch_lap(watch, WR_STAGE_LOOK);
 }
@@ -280,7 +296,7 @@ static int look_wide(const WrTileJob *job, const Rays *rays, const WrPictureLook
     k->spread(FAR_LOOK(picture), anisotropic, strip);
     const int count = count_wide(strip, wide);
     watch_lap(watch, facets ? WR_STAGE_FACETS : WR_STAGE_TINT);
-    if (count > 0) look_along(job, flush_colours, picture, strip, scratch, watch);
+    if (count > 0) look_along(job, rays, flush_colours, picture, strip, scratch, watch);
     else k->colour(&picture->near, strip);
     watch_lap(watch, facets ? WR_STAGE_FACETS : WR_STAGE_COLOUR);
     return count;

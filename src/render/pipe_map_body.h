@@ -234,8 +234,8 @@ static void look_map(const WrTileJob *job, const Rays *rays, Strip *strip, WrTil
         else move_reals(kept[c], sums[c], strip->count);
     }
     map_levels(job, rays, strip);
-    look_along(job, frame == WR_FRAME_OBJECT ? flush_vectors : flush_map, NULL, strip, scratch,
-               watch);
+    look_along(job, rays, frame == WR_FRAME_OBJECT ? flush_vectors : flush_map, NULL, strip,
+               scratch, watch);
     for (int i = 0; i < strip->count && frame != WR_FRAME_GRADIENT; i++)
         turn_into_slopes(job, strip, i);
     for (int c = 0; c < 6; c++)

@@ -51,7 +51,7 @@ static inline bool wr_refine_touches(const WrTileJob *job, WrTilePart part)
 /* From now on samples are this object's. */
 static inline void wr_refine_turn_to(const WrRefiner *r, const WrTileJob *job)
 {
-    if (r->among) r->scratch->seen = job->seen ? &job->seen[r->index] : NULL;
+    if (r->among) r->scratch->notes = wr_keep_open(job->seen, r->index, 0, 0);
 }
 
 /* What shows that or nearer hides all of the object (E52). */

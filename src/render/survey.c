@@ -97,7 +97,7 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
     WrTileJob own = *job;
     Spent spent = { 0 };
     own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;
-    scratch->seen = NULL;
+    scratch->notes = (WrKeepNotes){ 0 };
     const int64_t area = (int64_t)w * h / AREA;
     const bool heavy = job->triangles || (job->mesh && is_heavy(job->mesh));
     const int count = heavy ? FEW : area < LEAST ? LEAST : area > MOST ? MOST : (int)area;

@@ -137,6 +137,18 @@ typedef struct RangeJob {
     const WrField *field;
 } RangeJob;
 
+/* The least and the largest of `count` heights, and of what was found before. */
+static void add_range(const float *heights, int count, float *low, float *high)
+{
+    float least = *low, most = *high;
+#pragma omp simd reduction(min : least) reduction(max : most)
+    for (int i = 0; i < count; i++) {
+        least = heights[i] < least ? heights[i] : least;
+        most = heights[i] > most ? heights[i] : most;
+    }
+    *low = least, *high = most;
+}
+
 static void range_tile(int tx, int ty, void *ctx)
 {
     RangeJob *job = ctx;
@@ -148,11 +160,7 @@ static void range_tile(int tx, int ty, void *ctx)
         int w = wr_field_width(field) - tx * WR_TILE, h = wr_field_height(field) - ty * WR_TILE;
         low = high = tile[0];
         for (int y = 0; y < h && y < WR_TILE; y++)
-            for (int x = 0; x < w && x < WR_TILE; x++) {
-                float t = tile[y * WR_TILE + x];
-                low = t < low ? t : low;
-                high = t > high ? t : high;
-            }
+            add_range(tile + y * WR_TILE, w < WR_TILE ? w : WR_TILE, &low, &high);
     }
     job->table->low[at] = low;
     job->table->high[at] = high;
@@ -182,11 +190,12 @@ bool wr_table_flat(WrTable *table, const WrField *field)
 
 void wr_table_range(const WrTable *table, float *low, float *high)
 {
-    *low = table->low[0], *high = table->high[0];
-    for (int i = 1; i < tile_count(table->ranged); i++) {
-        *low = table->low[i] < *low ? table->low[i] : *low;
-        *high = table->high[i] > *high ? table->high[i] : *high;
-    }
+    const int count = tile_count(table->ranged);
+    float other = *high = table->high[0];
+    *low = table->low[0];
+    add_range(table->low, count, low, &other);
+    other = *low;
+    add_range(table->high, count, &other, high);
 }
 
 /* ---- copies ------------------------------------------------------------------------------------ */
@@ -333,18 +342,26 @@ static Pieces cut(int a, int b, int n, WrWrap wrap)
     return p;
 }
 
-/* The parts of the copy that a changed tile of the field reaches. */
+/* What texels [a, b) of an axis of n reach: on a clamped one the last 3 also what is extrapolated from them, so the end. */
+static Pieces reach_from(int a, int b, int reach, int n, WrWrap wrap)
+{
+    const bool ends = wrap != WR_WRAP_PERIODIC;
+    const int edge = reach + WR_APRON;
+    Pieces p = cut(ends && a < 3 ? 0 : a - reach, ends && b > n - 3 ? n : b + reach, n, wrap);
+    p.border = a < edge || b > n - edge;
+    return p;
+}
+
+/* The parts of the copy that a changed tile's texels reach. */
 static void reached(const CopyJob *job, int tx, int ty, Pieces *u, Pieces *v)
 {
     const WrField *field = job->field;
     const int w = wr_field_width(field), h = wr_field_height(field), reach = kinds[job->kind].reach;
-    const int i1 = (tx + 1) * WR_TILE < w ? (tx + 1) * WR_TILE : w;
-    const int j1 = (ty + 1) * WR_TILE < h ? (ty + 1) * WR_TILE : h;
-    const int edge = reach + WR_APRON;
-    *u = cut(tx * WR_TILE - reach, i1 + reach, w, wr_field_wrap_u(field));
-    *v = cut(ty * WR_TILE - reach, j1 + reach, h, wr_field_wrap_v(field));
-    u->border = tx * WR_TILE < edge || i1 > w - edge;
-    v->border = ty * WR_TILE < edge || j1 > h - edge;
+    const WrFieldRect own = wr_field_difference(job->copy->seen, field, tx, ty);
+    *u = *v = (Pieces){ .count = 0 };
+    if (own.i0 == own.i1) return;
+    *u = reach_from(own.i0, own.i1, reach, w, wr_field_wrap_u(field));
+    *v = reach_from(own.j0, own.j1, reach, h, wr_field_wrap_v(field));
 }
 
 static void refresh_tile(int tx, int ty, void *ctx)
@@ -380,6 +397,24 @@ static void refresh_apron(CopyJob *job)
     refresh(job, -a, h, w + 2 * a, a);
     refresh(job, -a, 0, a, h);
     refresh(job, w, 0, a, h);
+}
+
+/* What is asked of the whole table's slopes, from its tiles'. */
+static void sum_steep(WrTable *table, int count)
+{
+    const float(*steep)[2] = (const float(*)[2])table->steep;
+    float u0 = steep[0][0], u1 = u0, v0 = steep[0][1], v1 = v0;
+    int sloped = 0;
+#pragma omp simd reduction(min : u0, v0) reduction(max : u1, v1) reduction(+ : sloped)
+    for (int i = 0; i < count; i++) {
+        const float u = steep[i][0], v = steep[i][1];
+        u0 = u < u0 ? u : u0, u1 = u > u1 ? u : u1;
+        v0 = v < v0 ? v : v0, v1 = v > v1 ? v : v1;
+        sloped += (u > 0) | (v > 0);
+    }
+    table->gentlest[0] = u0, table->gentlest[1] = v0;
+    table->steepest[0] = u1, table->steepest[1] = v1;
+    table->sloped = sloped;
 }
 
 static void count_tile(int tx, int ty, void *ctx)
@@ -432,6 +467,7 @@ bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPoo
         wr_table_drop(table, kind); /* half made */
         return wr_fail(err, "cancelled");
     }
+    if (kind == WR_COPY_GRADIENT) sum_steep(table, tile_count(field));
     wr_field_free(copy->seen);
     copy->seen = wr_field_share(field);
     return true;
@@ -439,9 +475,5 @@ bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPoo
 
 bool wr_table_slope_free(const WrTable *table)
 {
-    const WrTableCopy *copy = &table->copies[WR_COPY_GRADIENT];
-    if (!copy->seen) return false;
-    for (int i = 0; i < tile_count(copy->seen); i++)
-        if (table->steep[i][0] > 0 || table->steep[i][1] > 0) return false;
-    return true;
+    return table->copies[WR_COPY_GRADIENT].seen && table->sloped == 0;
 }

@@ -35,7 +35,9 @@ typedef struct WrTable {
     float *low, *high; /* [tiles] of each field tile */
     float (*steep)
         [2]; /* [tiles] the gradient copy's largest |dF/du|, |dF/dv| there; INFINITY: not known */
-    int64_t texels_refreshed; /* by the last bring-up: what an edit cost */
+    float steepest[2], gentlest[2]; /* of all tiles, the largest and the least of those ... */
+    int sloped;                     /* ... and how many tiles have any */
+    int64_t texels_refreshed;       /* by the last bring-up: what an edit cost */
 } WrTable;
 
 void wr_table_init(WrTable *table);

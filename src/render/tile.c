@@ -452,7 +452,7 @@ void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScr
     int64_t spared[WR_RUN_KINDS];
     memcpy(spared, scratch->spared, sizeof spared);
     const double start = wr_clock_seconds();
-    scratch->seen = job->seen ? &job->seen[index] : NULL;
+    scratch->notes = wr_keep_open(job->seen, index, whole.x, whole.y);
     const bool beside = wr_plan_runs(job->plan, WR_EFFECT_BESIDE);
     if (beside) wr_did(scratch, WR_EFFECT_BESIDE);
     const WrTilePart part = beside ? whole : wr_tile_touched(job, whole);
@@ -465,6 +465,7 @@ void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScr
         if (!one && job->codes) render_many_codes(job, part, scratch);
         else if (!one) render_many(job, part, scratch);
     }
+    wr_keep_close(job->seen, index);
     scratch->tiles += scratch->shaded > before;
     if (scratch->shaded > before) count_spared(scratch, spared);
 }

@@ -95,7 +95,7 @@ typedef struct WrTileJob {
     float *points, *uv;         /* of those, where they lie; or NULL */
     unsigned char *owner;       /* which object each shows (WrSteady), of several; or NULL */
     uint8_t *map;               /* likewise */
-    WrBlocks *seen;             /* [tiles] to fill with what each tile looks at; NULL: not wanted */
+    WrKeep *seen;               /* to note what each tile looks at; NULL: not wanted */
     int object;                 /* which of the scene's it draws */
 } WrTileJob;
 
@@ -177,7 +177,7 @@ typedef struct WrTileScratch {
     unsigned char wide_of[WR_SPAN],
         tint_of[WR_SPAN]; /* the last strip's: which of its samples did */
     WrEffects ran;        /* noted by what does it, where it is done */
-    WrBlocks *seen;       /* of the tile at hand; NULL: not wanted */
+    WrKeepNotes notes;    /* of what the tile at hand looks at */
     WrTilePart mapped;    /* pixels whose map is this thread's: those of its tile */
     unsigned strips;      /* counts strips: one in sixteen is timed */
     int32_t picked;       /* the triangle that was picked last */
@@ -233,7 +233,7 @@ static inline void wr_tile_map(const WrTileJob *job, const WrTileScratch *scratc
 /* Tile sizes for K x K samples: about 256 x 32 samples whatever K. blocks: as many blocks of WR_FRAME_BLOCK
    pixels beside each other, or a power of two that divides one, and no taller than one. */
 void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *tile_h);
-/* A tile or a part of one, within the band; index: of the tile in job->seen. */
+/* A tile or a part of one, within the band; index: of the tile, for job->seen. */
 void wr_tile_render(const WrTileJob *job, WrTilePart part, int index, WrTileScratch *scratch);
 /* The same of several objects, jobs[count] in the order in which they are drawn, the nearest first; all are of one
    picture and one number of samples. canvas: where its pixels go. */

@@ -115,7 +115,7 @@ static void draw(const Touching *touching, int k, WrTilePart whole, bool light, 
         if (light) out.rgba = scratch->sample[y][x];
         if (k == 1) want_notes(job, part, &out);
         if (several && !job->steady) out.nearest = &scratch->nearest[y][x];
-        scratch->seen = job->seen ? &job->seen[index] : NULL;
+        scratch->notes = wr_keep_open(job->seen, index, whole.x, whole.y);
         const WrDepthTile tile =
             wr_tile_depth(job, k, part.x * k, part.y * k, part.w * k, part.h * k, scratch);
         wr_tile_samples(job, k, &tile, &out, scratch);
@@ -180,5 +180,6 @@ void wr_tile_render_group(const WrTileJob *canvas, const WrTileJob *jobs, int co
     if (canvas->plan->sampling == WR_SAMPLING_ADAPTIVE)
         refine(canvas, jobs, count, whole, index, scratch);
     else sample(canvas, &touching, whole, index, scratch);
+    for (int i = 0; i < touching.count; i++) wr_keep_close(touching.job[i]->seen, index);
     scratch->tiles += scratch->shaded > before;
 }
