@@ -39,8 +39,8 @@ typedef struct WrKeep {
 typedef struct WrKeepNotes {
     WrKeepBox *patches; /* NULL: nothing is noted */
     int across;
-    bool single;    /* there is one, wherever samples stand */
-    int x, y;       /* pixels: the tile's place */
+    bool single; /* there is one, wherever samples stand */
+    int x, y;    /* pixels: the tile's place */
 } WrKeepNotes;
 
 void wr_keep_fini(WrKeep *keep);
