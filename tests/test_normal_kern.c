@@ -121,6 +121,55 @@ static void one_slope_beyond_all_bounds_is_told(void **state)
             }
 }
 
+/* Of the texels from the third on, of a row: how many blocks are in doubt; what is not has the formula's codes. */
+static int check_near(const WrNormalKernels *kern, const WrNormalJob *job, int count)
+{
+    uint8_t bytes[3 * COUNT + 1];
+    const int whole = count / WR_NORMAL_BLOCK;
+    bytes[3 * count] = 77;
+    const uint32_t doubtful = kern->nearly8(job, &texels[1][2], PITCH, count, bytes);
+    assert_true(bytes[3 * count] == 77 && (uint64_t)doubtful >> whole == 0);
+    int doubts = 0;
+    for (int k = 0; k < whole; k++) doubts += doubtful >> k & 1;
+    for (int i = 0; i < whole * WR_NORMAL_BLOCK; i++) {
+        double x, y;
+        if (doubtful >> i / WR_NORMAL_BLOCK & 1) continue;
+        tilt(job, i + 2, &x, &y);
+        long double length = sqrtl((long double)x * x + (long double)y * y + 1.0L);
+        check_code(bytes[3 * i], 255.0L, x / length);
+        check_code(bytes[3 * i + 1], 255.0L, job->green * (y / length));
+        check_code(bytes[3 * i + 2], 255.0L, 1.0L / length);
+    }
+    return doubts;
+}
+
+static void codes_in_single_precision_are_right_or_in_doubt(void **state)
+{
+    (void)state;
+    for (int index = 0; wr_normal_kernels_at(index); index++)
+        for (int k = 0; k < 200; k++) {
+            const WrNormalKernels *kern = wr_normal_kernels_at(index);
+            WrNormalJob job = { .stencil = k % 2 ? WR_STENCIL_CENTRAL : WR_STENCIL_FORWARD,
+                                .height = 0.31,
+                                .cell_w = 1,
+                                .cell_h = 0.7,
+                                .width = 100,
+                                .rows = 33,
+                                .last = 255,
+                                .green = k % 3 ? -1.0 : 1.0 };
+            const int count = COUNT - k % 37, blocks = count / WR_NORMAL_BLOCK;
+            fill(k % 4 ? 0.07 : 5.0, (uint64_t)k); /* ordinary, and nearly upright */
+            assert_true(check_near(kern, &job, count) < blocks / 2);
+            texels[1][2 + 16] =
+                k % 8 < 4 ? INFINITY : NAN; /* that block sees it, and both its neighbours */
+            assert_true(check_near(kern, &job, count) >= 1);
+            fill(1e30, (uint64_t)k); /* their squares are beyond float */
+            assert_int_equal(check_near(kern, &job, count), blocks);
+            fill(0.0, 0); /* level, of which no code may be in doubt: they are many */
+            assert_int_equal(check_near(kern, &job, count), 0);
+        }
+}
+
 /* The six numbers of bump slopes, and means of four, by every instruction set; what is too large is told. */
 static void moments_are_products_and_their_means(void **state)
 {
@@ -172,6 +221,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tilts_and_codes_are_their_formulas_for_any_count),
         cmocka_unit_test(one_slope_beyond_all_bounds_is_told),
+        cmocka_unit_test(codes_in_single_precision_are_right_or_in_doubt),
         cmocka_unit_test(moments_are_products_and_their_means),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -114,16 +114,48 @@ static int run_length(const WrExportJob *job, int x)
     return job->width - x < WR_NORMAL_STRIP ? job->width - x : WR_NORMAL_STRIP;
 }
 
+/* Whether codes may be taken from heights in single precision first. */
+static bool is_quick(const Piece *piece)
+{
+    const WrExportJob *job = piece->job;
+    return job->options.depth == 8 && !job->options.dither && sign_of_green(job) &&
+           piece->normal.stencil != WR_STENCIL_SPLINE;
+}
+
+/* Row j of a run, whose first texel's height is `at`: quickly, then exactly what that left in doubt. */
+static void quick_run(Piece *piece, int x, int count, int j, const float *at, size_t pitch)
+{
+    enum { TAPS = WR_NORMAL_BLOCK + 2 * APRON };
+    size_t texel = (size_t)(piece->y - piece->strip->y + j) * (size_t)piece->job->width + (size_t)x;
+    uint32_t doubtful = piece->kernels->nearly8(&piece->normal, at, (ptrdiff_t)pitch, count,
+                                                (uint8_t *)piece->strip->out + 3 * texel);
+    if (count % WR_NORMAL_BLOCK) doubtful |= 1u << count / WR_NORMAL_BLOCK;
+    for (int b = 0; doubtful >> b; b++) {
+        double taps[3][TAPS];
+        int first = b * WR_NORMAL_BLOCK, left = count - first;
+        if (!(doubtful >> b & 1)) continue;
+        int texels = left < WR_NORMAL_BLOCK ? left : WR_NORMAL_BLOCK;
+        const float *rows = at - pitch + first - APRON;
+        for (int k = 0; k < 3; k++)
+            piece->kernels->widen(rows + (size_t)k * pitch, texels + 2 * APRON, taps[k]);
+        finish_run(piece, x + first, texels, j, &taps[1][APRON], TAPS);
+    }
+}
+
 /* The taps are heights: run by run of columns, so that they stay in the nearest cache. */
 static void table_rows(Piece *piece)
 {
     enum { PITCH = WR_NORMAL_STRIP + 2 * APRON, TALL = WR_EXPORT_PIECE_ROWS + 2 * APRON };
     float texels[PITCH * TALL];
     double taps[PITCH * TALL];
+    const bool quick = is_quick(piece);
     for (int x = 0; x < piece->job->width; x += WR_NORMAL_STRIP) {
         int count = run_length(piece->job, x);
         wr_field_read(piece->job->field, x - APRON, piece->y - APRON, count + 2 * APRON,
                       piece->rows + 2 * APRON, texels, PITCH);
+        for (int j = 0; quick && j < piece->rows; j++)
+            quick_run(piece, x, count, j, texels + (j + APRON) * PITCH + APRON, PITCH);
+        if (quick) continue;
         for (int j = 0; j < piece->rows + 2 * APRON; j++)
             piece->kernels->widen(texels + j * PITCH, count + 2 * APRON, taps + j * PITCH);
         for (int j = 0; j < piece->rows; j++)

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #define WR_NORMAL_STRIP 256 /* texels of a row at most */
+#define WR_NORMAL_BLOCK 16
 
 /* Whether slopes are such that plain products give the bits of v3_unit, which scales by powers of two
  * against overflow. What is not finite is not. */
@@ -42,6 +43,11 @@ typedef struct WrNormalKernels {
                    uint8_t *out);
     void (*codes16)(const WrNormalJob *job, const double *x, const double *y, int count,
                     uint16_t *out);
+    /* Codes of 8 bits from the heights themselves, in single precision, of blocks of WR_NORMAL_BLOCK texels; not by
+     * WR_STENCIL_SPLINE. Bit k of what is returned: block k was not made, or a code of it may be the next one to the right
+     * one; it is to be made as above, as is what is left over beyond the last whole block. */
+    uint32_t (*nearly8)(const WrNormalJob *job, const float *at, ptrdiff_t pitch, int count,
+                        uint8_t *out);
     void (*floats)(const WrNormalJob *job, const double *x, const double *y, int count, float *out);
     /* The six numbers of bump slopes, texel after texel: f, s, t, s s, t t, s t. False, and nothing is said of `out`, where
      * a height is beyond `most`, a slope beyond `steepest`, or either is no number. STRIP texels at most. */
