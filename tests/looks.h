@@ -20,6 +20,20 @@ static struct Looks {
     void (*hook)(void); /* called at each look, in place of measuring; NULL: none */
 } looks = { .lock = PTHREAD_MUTEX_INITIALIZER };
 
+/* Read and written by any thread. */
+static inline double looks_longest(void)
+{
+    double longest;
+    __atomic_load(&looks.longest, &longest, __ATOMIC_RELAXED);
+    return longest;
+}
+
+/* The lock is held, but where no other thread works. */
+static inline void looks_set(double longest)
+{
+    __atomic_store(&looks.longest, &longest, __ATOMIC_RELAXED);
+}
+
 static inline void look(void)
 {
     static _Thread_local unsigned round;
@@ -28,10 +42,12 @@ static inline void look(void)
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     const double now = (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
     const unsigned present = __atomic_load_n(&looks.round, __ATOMIC_ACQUIRE);
-    if (round == present && now - last > looks.longest) {
+    if (round == present && now - last > looks_longest()) {
         pthread_mutex_lock(&looks.lock);
-        looks.longest = now - last;
-        looks.frames = backtrace(looks.where, LOOKS_FRAMES);
+        if (now - last > looks_longest()) {
+            looks_set(now - last);
+            looks.frames = backtrace(looks.where, LOOKS_FRAMES);
+        }
         pthread_mutex_unlock(&looks.lock);
     }
     round = present;
@@ -42,7 +58,7 @@ static inline void look(void)
 /* This thread begins to work. */
 static inline void looks_begin(void)
 {
-    looks.longest = 0.0;
+    looks_set(0.0);
     __atomic_fetch_add(&looks.round, 1, __ATOMIC_ACQ_REL);
     look();
 }
@@ -51,7 +67,7 @@ static inline void looks_begin(void)
 static inline double looks_end(void)
 {
     look();
-    return looks.longest * 1e3;
+    return looks_longest() * 1e3;
 }
 
 bool __real_wr_progress_cancelled(const WrProgress *progress);

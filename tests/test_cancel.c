@@ -50,7 +50,7 @@ static void hear(void *ctx, double fraction)
     Stop *stop = ctx;
     assert_true(fraction >= 0.0 && fraction <= 1.0);
     if (++stop->reports != stop->at) return;
-    stop->cancel = 1;
+    __atomic_store_n(&stop->cancel, 1, __ATOMIC_RELAXED);
     stop->pieces = wr_pool_pieces();
     stop->since = wr_clock_seconds();
 }

@@ -233,7 +233,7 @@ static volatile int cancel;
 static void *cancel_when_it_runs(void *ctx)
 {
     while (access(ctx, F_OK) != 0) wr_thread_sleep_ms(1);
-    cancel = 1;
+    __atomic_store_n(&cancel, 1, __ATOMIC_RELAXED);
     return NULL;
 }
 

@@ -248,7 +248,7 @@ static void stop_at_once(void *ctx, double fraction)
     Stopping *stopping = ctx;
     assert_true(fraction >= stopping->last && fraction <= 1.0);
     stopping->last = fraction;
-    if (++stopping->reports == 2) stopping->cancel = 1;
+    if (++stopping->reports == 2) __atomic_store_n(&stopping->cancel, 1, __ATOMIC_RELAXED);
 }
 
 static void a_cancelled_generator_stops_with_an_error_and_makes_nothing(void **state)

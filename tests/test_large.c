@@ -167,7 +167,7 @@ static void hear(void *ctx, double fraction)
     if (!(fraction >= stop->last && fraction <= 1))
         fail_msg("report %d: %g after %g", stop->reports, fraction, stop->last);
     stop->last = fraction;
-    if (++stop->reports == stop->at) stop->cancel = 1;
+    if (++stop->reports == stop->at) __atomic_store_n(&stop->cancel, 1, __ATOMIC_RELAXED);
 }
 
 static int files_here(void)

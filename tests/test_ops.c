@@ -301,7 +301,7 @@ static void watch(void *ctx, double fraction)
     Watch *w = ctx;
     w->rising = w->rising && fraction >= w->last && fraction <= 1.0;
     w->last = fraction;
-    if (w->reports++ == w->at) w->stop = 1;
+    if (w->reports++ == w->at) __atomic_store_n(&w->stop, 1, __ATOMIC_RELAXED);
 }
 
 static void work_reports_its_progress_and_stops_at_any_report(void **state)

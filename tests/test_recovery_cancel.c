@@ -25,7 +25,7 @@ static void hear(void *ctx, double fraction)
     Stop *stop = ctx;
     assert_true(fraction >= stop->fraction && fraction <= 1.0);
     stop->fraction = fraction;
-    if (++stop->reports == stop->at) stop->cancel = 1;
+    if (++stop->reports == stop->at) __atomic_store_n(&stop->cancel, 1, __ATOMIC_RELAXED);
 }
 
 /* A program that ended without a word; the hash of what it had. saved: by then it had a file. */

@@ -258,7 +258,7 @@ static void take_leaning(const Lines *l, int64_t start, int lanes, int s, const 
         const size_t row = (size_t)place(start + i, l->across, l->turns_across);
         const size_t at = row * sky->part->pitch + (size_t)s;
         loose->at[from + i] = there ? at : SIZE_MAX;
-        loose->out[from + i] = sky->out[at];
+        loose->out[from + i] = there ? sky->out[at] : 0; /* beyond the edge it is another line's */
         if (sky->k >= 0) continue;
         loose->p[from + i] = sky->p[at];
         loose->q[from + i] = sky->q[at];
