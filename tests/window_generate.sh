@@ -214,5 +214,20 @@ save_as written.exr
 [[ $(hash_of written.exr) == "$(hash_of said.exr)" ]] || complain "what was typed is not what the command writes"
 quit
 
+# ---- a font is found by typing, and stands first the next time ----
+start flat.wrinkle
+home
+key t
+click 1095 421
+xdotool type --delay 30 'serif bold dejavu'
+rest
+key Down
+key Return
+key Return
+becomes 'text Wrinkle *file=*/DejaVuSerif*Bold*.ttf*' "letters of a font that was found"
+chosen=$(newest)
+quit
+grep -q '^font 0 /.*/DejaVuSerif.*Bold' config/wrinkle/window.conf || complain "the font is not kept: $chosen"
+
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }
 printf 'ok\n'

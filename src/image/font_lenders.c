@@ -1,19 +1,12 @@
 /* Which installed fonts have characters: asked of fontconfig. */
-#include "base/aside.h"
 #include "base/memory.h"
 #include "image/font.h"
+#include "image/font_config.h"
 #include "system/path.h"
 
 #include <fontconfig/fontconfig.h>
 
 #include <string.h>
-
-/* Where it finds no list of the fonts that it made before, it looks into each: seconds, with some hundred. */
-static bool load_list(void *ctx, WrError *err)
-{
-    (void)ctx;
-    return FcInit() || wr_fail(err, "fontconfig does not work");
-}
 
 /* The nearest to these letters first, outlines alone. NULL: fontconfig does not work. */
 static FcFontSet *sorted(FcConfig *config, const FcCharSet *wanted, const char *kind,
@@ -84,9 +77,8 @@ static const char *take_best(const FcFontSet *set, FcCharSet **wanted)
 int wr_font_lenders(const uint32_t *characters, int count, const char *kind, const char *language,
                     int most, char *paths[])
 {
-    static WrAside list = { .work = load_list };
     int found = 0;
-    if (!wr_aside_wait(&list, NULL)) return 0;
+    if (!wr_font_config(NULL)) return 0;
     FcConfig *config = FcConfigReference(NULL);
     FcCharSet *wanted = FcCharSetCreate();
     for (int i = 0; i < count && wanted; i++) FcCharSetAddChar(wanted, characters[i]);

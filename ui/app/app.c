@@ -25,6 +25,7 @@
 #include "ui/desk/roster.h"
 #include "ui/desk/session_view.h"
 #include "ui/desk/settings.h"
+#include "ui/generate/font_choice.h"
 #include "ui/generate/generate_gallery.h"
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
@@ -140,6 +141,7 @@ void wr_app_end(WrApp *app)
     wr_sheet_free(app);
     wr_presets_free(app);
     wr_gallery_free(app);
+    wr_font_choice_free(app);
     wr_generate_free(app);
     wr_guide_free(app);
     if (app->renderer) wr_panel_layers_forget(app);

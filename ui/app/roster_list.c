@@ -10,6 +10,7 @@
 #include "ui/desk/document.h"
 #include "ui/desk/replace.h"
 #include "ui/desk/roster.h"
+#include "ui/generate/font_choice.h"
 #include "ui/generate/generate_gallery.h"
 #include "ui/generate/generate_hand.h"
 #include "ui/help/panel_help.h"
@@ -83,6 +84,7 @@ static const WrPart *const parts[] = { &wr_part_window,
                                        &wr_part_layers,
                                        &wr_part_thumbs,
                                        &wr_part_gallery,
+                                       &wr_part_font_choice,
                                        &wr_part_presets,
                                        &wr_part_sheet,
                                        &wr_part_adjust,

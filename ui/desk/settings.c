@@ -45,6 +45,7 @@ void wr_settings_fini(WrSettings *settings)
     for (int i = 0; i < WR_RECENT_MAX; i++) wr_free(settings->recent[i]);
     for (int i = 0; i < WR_FAVOURITES_MAX; i++) wr_free(settings->favourites[i]);
     for (int i = 0; i < WR_USED_MAX; i++) wr_free(settings->used[i]);
+    for (int i = 0; i < WR_FONTS_MAX; i++) wr_free(settings->fonts[i]);
     for (int i = 0; i < WR_PENS_MAX; i++) wr_free(settings->pens[i]);
     wr_free(settings->preset);
     wr_free(settings->tip);
@@ -210,7 +211,7 @@ typedef struct TextRow {
     int most;
 } TextRow;
 
-#define TEXT_ROWS 7
+#define TEXT_ROWS 8
 
 static void text_rows_of(WrSettings *s, TextRow rows[TEXT_ROWS])
 {
@@ -218,6 +219,7 @@ static void text_rows_of(WrSettings *s, TextRow rows[TEXT_ROWS])
                                      { "pen", s->pens, WR_PENS_MAX },
                                      { "favourite", s->favourites, WR_FAVOURITES_MAX },
                                      { "used", s->used, WR_USED_MAX },
+                                     { "font", s->fonts, WR_FONTS_MAX },
                                      { "preset", &s->preset, 1 },
                                      { "tip", &s->tip, 1 },
                                      { "set", &s->set, 1 } };
@@ -329,6 +331,11 @@ void wr_settings_note_recent(WrSettings *settings, const char *path)
 void wr_settings_note_used(WrSettings *settings, const char *id)
 {
     put_first(settings->used, WR_USED_MAX, id);
+}
+
+void wr_settings_note_font(WrSettings *settings, const char *font)
+{
+    put_first(settings->fonts, WR_FONTS_MAX, font);
 }
 
 void wr_settings_set_text(char **text, const char *value)

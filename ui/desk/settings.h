@@ -16,6 +16,7 @@ typedef struct WrText WrText;
 #define WR_RECENT_MAX 8
 #define WR_FAVOURITES_MAX 64
 #define WR_USED_MAX 12
+#define WR_FONTS_MAX 6
 #define WR_PENS_MAX 32
 #define WR_SETTINGS_FILE_MAX (1 << 16) /* bytes */
 
@@ -57,10 +58,12 @@ typedef struct WrSettings {
     bool lock_size;        /* another preset keeps the size */
     char *favourites[WR_FAVOURITES_MAX]; /* ids of presets, owned; NULL ends them */
     char *used[WR_USED_MAX]; /* the same, newest first; "round" is the brush without a preset */
-    bool symmetric;          /* brush.symmetry is `symmetry`; else there is none */
-    WrSymmetry symmetry;     /* kept while it is off */
-    bool symmetry_panel;     /* shown */
-    int key_map;             /* wr_key_maps */
+    char *fonts
+        [WR_FONTS_MAX]; /* chosen last, newest first, owned: a name of wr_font_names or "FACE PATH" */
+    bool symmetric;     /* brush.symmetry is `symmetry`; else there is none */
+    WrSymmetry symmetry; /* kept while it is off */
+    bool symmetry_panel; /* shown */
+    int key_map;         /* wr_key_maps */
     WrDrawSettings drawing;
     int steady;                          /* WrSteadyKind of strokes by hand */
     double steady_smooth, steady_string; /* their lengths, pixels at scale 1 */
@@ -100,6 +103,7 @@ bool wr_settings_update(WrSettings *known, const WrSettings *now, bool last);
 void wr_settings_set_text(char **text, const char *value);
 /* A preset was chosen: it becomes the first of those used. */
 void wr_settings_note_used(WrSettings *settings, const char *id);
+void wr_settings_note_font(WrSettings *settings, const char *font);
 /* Index of a favourite, or -1; put it at the end, or take it out; does nothing more when all places are
  * taken. */
 int wr_settings_favourite(const WrSettings *settings, const char *id);

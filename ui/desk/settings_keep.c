@@ -33,6 +33,7 @@ static WrSettings without_texts(const WrSettings *settings)
     memset(copy.pens, 0, sizeof copy.pens);
     memset(copy.favourites, 0, sizeof copy.favourites);
     memset(copy.used, 0, sizeof copy.used);
+    memset(copy.fonts, 0, sizeof copy.fonts);
     copy.preset = copy.tip = copy.set = NULL;
     copy.brush.preset = NULL;
     copy.brush.tip = NULL;
@@ -45,6 +46,7 @@ void wr_settings_take_lists(WrSettings *settings, const WrSettings *from)
     copy_texts(settings->pens, from->pens, WR_PENS_MAX);
     copy_texts(settings->favourites, from->favourites, WR_FAVOURITES_MAX);
     copy_texts(settings->used, from->used, WR_USED_MAX);
+    copy_texts(settings->fonts, from->fonts, WR_FONTS_MAX);
 }
 
 WrSettings wr_settings_copy(const WrSettings *settings)
@@ -159,6 +161,7 @@ void wr_settings_merge(const WrSettings *base, const WrSettings *mine, WrSetting
     merge_text(base->set, mine->set, &theirs->set);
     merge_newest(base->recent, mine->recent, WR_RECENT_MAX, theirs, wr_settings_note_recent);
     merge_newest(base->used, mine->used, WR_USED_MAX, theirs, wr_settings_note_used);
+    merge_newest(base->fonts, mine->fonts, WR_FONTS_MAX, theirs, wr_settings_note_font);
     merge_favourites(base, mine, theirs);
     merge_pens(base, mine, theirs);
 }

@@ -16,6 +16,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+typedef struct WrFontChoice WrFontChoice;
 typedef struct WrGallery WrGallery;
 typedef struct WrPointer WrPointer;
 typedef struct WrText WrText;
@@ -70,7 +71,8 @@ typedef struct WrGenerateHand {
     char name[WR_GENERATE_NAME]; /* of a preset to be saved */
     int preset;                  /* chosen, index; -1: the defaults, -2: none of them */
 
-    WrGallery *gallery; /* owned; NULL until it is opened */
+    WrGallery *gallery;  /* owned; NULL until it is opened */
+    WrFontChoice *fonts; /* owned; likewise */
 
     WrPosePart held; /* by the pointer */
     double first[3], first_number[3];

@@ -4,6 +4,7 @@
 #include "ui/desk/dialog.h"
 #include "ui/desk/line.h"
 #include "ui/desk/session_view.h"
+#include "ui/generate/font_choice.h"
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
@@ -13,6 +14,7 @@
 #include "document/blend.h"
 #include "document/document.h"
 #include "generate/generator.h"
+#include "image/font.h"
 
 #include <SDL.h>
 #include <math.h>
@@ -168,7 +170,8 @@ static bool field(WrApp *app, int i, const WrParam *p, WrGenerateValue *value)
     case WR_PARAM_NUMBER:
     case WR_PARAM_WHOLE:
     case WR_PARAM_TUPLE: return strcmp(p->name, "seed") == 0 ? seed(p, value) : numbers(p, value);
-    case WR_PARAM_CHOICE: return choice(p, value);
+    case WR_PARAM_CHOICE:
+        return p->words == wr_font_names ? wr_font_choice_row(app, i) : choice(p, value);
     case WR_PARAM_SWITCH: return turn_switch(value);
     case WR_PARAM_FILE: return file(app, i, p, value);
     case WR_PARAM_TEXT:

@@ -242,6 +242,7 @@ typedef struct WrRow {
 WrRow wr_gui_row_begin(int id, double height_units, bool selected);
 /* x: pixels from the row's left edge. tall: height of what comes, pixels; 0: a line of text. */
 void wr_gui_row_at(double x, double tall);
+void wr_gui_row_see(void);     /* right after begin: its list scrolls until it is seen */
 double wr_gui_row_width(void); /* pixels */
 void wr_gui_row_end(void);
 /* A line across the area at y pixels of the window: where what is dragged will go. */
@@ -252,8 +253,13 @@ void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double widt
 void wr_gui_text_within(WrFont font, WrColour colour, const char *text, double width);
 /* A picture of w x h pixels, with a thin edge. */
 void wr_gui_image(SDL_Texture *texture, double w, double h);
+/* A picture that says by its opacity where that colour goes; NULL only takes its place. */
 /* The same as a button; chosen: with a frame around it. */
 bool wr_gui_image_button(const char *id, SDL_Texture *texture, double w, double h, bool chosen);
+/* A picture that says by its opacity where that colour goes; NULL only takes its place. */
+void wr_gui_ink(SDL_Texture *texture, double w, double h, WrColour colour);
+/* Looks like a choice, cut off where it is too long; what opens is the caller's. */
+bool wr_gui_list_button(const char *id, const char *label, double width);
 
 /* ---- menus, popups, dialogs: begin returns true while open, and only then end follows ---- */
 /* tight: there is little room. Returns its height in pixels. */

@@ -64,6 +64,12 @@ extern "C" void wr_gui_row_at(double x, double tall)
         ImVec2(gui->row_left + (float)x, gui->row_top + floorf((gui->row_height - 1 - h) / 2)));
 }
 
+extern "C" void wr_gui_row_see(void)
+try {
+    ImGui::ScrollToItem(ImGuiScrollFlags_KeepVisibleEdgeY);
+}
+WR_CAUGHT()
+
 extern "C" double wr_gui_row_width(void)
 {
     return (double)(wr_gui_current()->row_right - wr_gui_current()->row_left);
@@ -143,6 +149,41 @@ try {
     wr_gui_edge(list, at, end);
 }
 WR_CAUGHT()
+
+extern "C" void wr_gui_ink(SDL_Texture *texture, double w, double h, WrColour colour)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
+    ImGui::Dummy(ImVec2((float)w, (float)h));
+    if (texture)
+        ImGui::GetWindowDrawList()->AddImage(wr_gui_texture_id(texture), at, end, ImVec2(0, 0),
+                                             ImVec2(1, 1), wr_gui_colour_of(colour));
+}
+WR_CAUGHT()
+
+extern "C" bool wr_gui_list_button(const char *id, const char *label, double width)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float h = ImGui::GetFrameHeight(), pad = ImGui::GetStyle().FramePadding.x, arrow = px(4);
+    ImVec2 end(at.x + (float)width, at.y + h);
+    ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_FIELD));
+    ImGui::PushID(id);
+    bool pressed = ImGui::Button("##list", ImVec2((float)width, h));
+    ImGui::PopID();
+    ImGui::PopStyleColor();
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    wr_gui_edge(list, at, end);
+    float right = end.x - px(13), middle = roundf(at.y + h / 2 - arrow / 2);
+    const ImVec4 clip(at.x, at.y, right - arrow - px(2), end.y);
+    const char *said = wr_gui_said(label);
+    ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
+                                        ImVec2(at.x + pad, at.y + ImGui::GetStyle().FramePadding.y),
+                                        wr_gui_colour_of(WR_COLOUR_TEXT), said, nullptr, 0.0f,
+                                        &clip);
+    list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
+                            ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
+    return pressed;
+}
+WR_CAUGHT(false)
 
 extern "C" bool wr_gui_image_button(const char *id, SDL_Texture *texture, double w, double h,
                                     bool chosen)

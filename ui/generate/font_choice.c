@@ -1,0 +1,443 @@
+#include "ui/generate/font_choice.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/search.h"
+#include "ui/desk/settings.h"
+#include "ui/generate/generate_hand.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/gui/words.h"
+#include "ui/jobs/job.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "generate/generator.h"
+#include "image/font.h"
+#include "image/font_list.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ROW 30.0
+#define SAMPLE 180.0 /* units that a name's letters have */
+#define WIDE 450.0
+#define TALL 420.0
+#define PAGE 10 /* rows */
+#define BATCH 6 /* samples that are made at once */
+
+typedef struct Row {
+    WrFontEntry entry; /* owned; of a named one nothing but family */
+    const char *named; /* of wr_font_names; NULL: installed */
+    SDL_Texture *texture;
+    bool asked, failed;
+} Row;
+
+/* Where a heading stands before a row of the list as it is shown. */
+typedef struct Shown {
+    int row;
+    const char *heading; /* NULL: none */
+} Shown;
+
+typedef struct Item {
+    int row;
+    const char *named;
+    WrFontEntry entry; /* owned */
+    uint32_t *argb;    /* owned; NULL: it cannot be read */
+} Item;
+
+typedef struct Work {
+    bool lists; /* the fonts are looked for; else samples are made */
+    WrFontList fonts;
+    WrError err;
+    int w, h, round, count;
+    Item items[BATCH];
+} Work;
+
+struct WrFontChoice {
+    WrJob *job;
+    WR_ARRAY(Row) rows;
+    WR_ARRAY(Shown) shown;
+    bool asked, listed,
+        stale; /* the fonts were asked for, are there; `shown` is not of what is typed */
+    WrError err;
+    int w, h, round; /* of the samples */
+    char filter[64];
+    int chosen;       /* of shown */
+    bool fresh, jump; /* it was opened just now; the chosen one is to be seen */
+    WR_ARRAY(int) wishes;
+};
+
+/* ---- on the job's thread ---- */
+
+static void free_entry(WrFontEntry *entry)
+{
+    wr_free(entry->family);
+    wr_free(entry->style);
+    wr_free(entry->path);
+    wr_free(entry->sample);
+}
+
+static void drop(void *arg)
+{
+    Work *work = arg;
+    for (int i = 0; i < work->count; i++) {
+        free_entry(&work->items[i].entry);
+        wr_free(work->items[i].argb);
+    }
+    wr_font_list_fini(&work->fonts);
+    wr_free(work);
+}
+
+static void run(void *arg, WrPool *pool, const WrProgress *progress)
+{
+    Work *work = arg;
+    if (work->lists) wr_font_list(&work->fonts, &work->err);
+    for (int i = 0; i < work->count && !wr_progress_cancelled(progress); i++) {
+        Item *item = &work->items[i];
+        const WrFontSample sample = { item->named, &item->entry, work->w, work->h };
+        item->argb = wr_alloc((size_t)work->w * (size_t)work->h, sizeof *item->argb);
+        if (wr_font_sample(&sample, pool, progress, item->argb)) continue;
+        wr_free(item->argb);
+        item->argb = NULL;
+    }
+}
+
+/* ---- the window's side ---- */
+
+static void add_named(WrFontChoice *choice)
+{
+    for (int i = 0; i < WR_FONT_FAMILY_COUNT; i++) {
+        Row row = { .named = wr_font_names[i], .entry.family = wr_strdup(wr_font_names[i]) };
+        wr_array_push(&choice->rows, row);
+    }
+}
+
+static WrFontChoice *choice_of(WrApp *app)
+{
+    static const WrJobKind kind = { run, drop };
+    if (app->generate->fonts) return app->generate->fonts;
+    WrFontChoice *choice = wr_alloc(1, sizeof *choice);
+    choice->job = wr_job_new(&kind, 1, app->job_event);
+    add_named(choice);
+    choice->stale = true;
+    return app->generate->fonts = choice;
+}
+
+static void forget(WrApp *app)
+{
+    WrFontChoice *choice = app->generate->fonts;
+    if (!choice) return;
+    choice->round++;
+    for (int i = 0; i < choice->rows.count; i++) {
+        Row *row = &choice->rows.data[i];
+        if (row->texture) SDL_DestroyTexture(row->texture);
+        row->texture = NULL;
+        row->asked = row->failed = false;
+    }
+}
+
+void wr_font_choice_free(WrApp *app)
+{
+    WrFontChoice *choice = app->generate->fonts;
+    if (!choice) return;
+    forget(app);
+    wr_job_free(choice->job);
+    for (int i = 0; i < choice->rows.count; i++) free_entry(&choice->rows.data[i].entry);
+    wr_array_free(&choice->rows);
+    wr_array_free(&choice->shown);
+    wr_array_free(&choice->wishes);
+    wr_free(choice);
+    app->generate->fonts = NULL;
+}
+
+static void take_list(WrFontChoice *choice, Work *work)
+{
+    for (int i = 0; i < work->fonts.count; i++) {
+        Row row = { .entry = work->fonts.data[i] };
+        wr_array_push(&choice->rows, row);
+    }
+    wr_array_free(&work->fonts); /* what it held is in the rows now */
+    choice->err = work->err;
+    choice->listed = choice->stale = true;
+}
+
+static void take_samples(WrApp *app, WrFontChoice *choice, const Work *work)
+{
+    for (int i = 0; i < work->count && work->round == choice->round; i++) {
+        const Item *item = &work->items[i];
+        Row *row = &choice->rows.data[item->row];
+        row->failed = !item->argb;
+        if (!item->argb) continue;
+        row->texture = SDL_CreateTexture(app->renderer, SDL_PIXELFORMAT_ARGB8888,
+                                         SDL_TEXTUREACCESS_STATIC, work->w, work->h);
+        if (!row->texture) continue;
+        SDL_SetTextureBlendMode(row->texture, SDL_BLENDMODE_BLEND);
+        SDL_UpdateTexture(row->texture, NULL, item->argb, work->w * 4);
+    }
+}
+
+static char *copy_of(const char *text)
+{
+    return text ? wr_strdup(text) : NULL;
+}
+
+static void ask_samples(WrFontChoice *choice)
+{
+    Work *work = wr_alloc(1, sizeof *work);
+    work->w = choice->w;
+    work->h = choice->h;
+    work->round = choice->round;
+    for (int i = 0; i < choice->wishes.count && work->count < BATCH; i++) {
+        Row *row = &choice->rows.data[choice->wishes.data[i]];
+        if (row->asked) continue;
+        row->asked = true;
+        work->items[work->count++] = (Item){ .row = choice->wishes.data[i],
+                                             .named = row->named,
+                                             .entry = { .sample = copy_of(row->entry.sample),
+                                                        .path = copy_of(row->entry.path),
+                                                        .face = row->entry.face } };
+    }
+    wr_job_start(choice->job, work);
+}
+
+/* Once a picture while the list is open, after its rows were drawn. */
+static void go_on(WrApp *app, WrFontChoice *choice)
+{
+    Work *work = wr_job_take(choice->job);
+    if (work && work->lists) take_list(choice, work);
+    else if (work) take_samples(app, choice, work);
+    if (work) {
+        drop(work);
+        wr_app_redraw(app);
+    }
+    if (wr_job_busy(choice->job, NULL, NULL)) return;
+    if (!choice->asked) {
+        work = wr_alloc(1, sizeof *work);
+        work->lists = choice->asked = true;
+        wr_job_start(choice->job, work);
+    } else if (choice->wishes.count > 0) {
+        ask_samples(choice);
+    }
+    choice->wishes.count = 0;
+}
+
+/* ---- which are shown ---- */
+
+static bool is_kept(const Row *row, const char *kept)
+{
+    char *path = NULL;
+    if (row->named) return strcmp(row->named, kept) == 0;
+    const long face = strtol(kept, &path, 10);
+    return path != kept && *path == ' ' && face == row->entry.face &&
+           strcmp(path + 1, row->entry.path) == 0;
+}
+
+static void show(WrFontChoice *choice, int row, const char *heading)
+{
+    const int count = choice->shown.count;
+    bool begins = true;
+    for (int i = 0; i < count && begins; i++)
+        begins = !choice->shown.data[i].heading || choice->shown.data[i].heading != heading;
+    wr_array_push(&choice->shown, ((Shown){ row, begins ? heading : NULL }));
+}
+
+static bool answers(const Row *row, const char *query)
+{
+    char label[200];
+    snprintf(label, sizeof label, "%s %s", row->entry.family, row->named ? "" : row->entry.style);
+    return wr_search_score(label, query) > 0;
+}
+
+/* Without words: those that were chosen last, then all. */
+static void sort_shown(const WrApp *app, WrFontChoice *choice)
+{
+    static const char recent[] = "RECENT", named[] = "BY NAME", installed[] = "INSTALLED";
+    const bool all = choice->filter[strspn(choice->filter, " ")] == '\0';
+    choice->shown.count = 0;
+    for (int k = 0; all && k < WR_FONTS_MAX && app->settings->fonts[k]; k++)
+        for (int i = 0; i < choice->rows.count; i++)
+            if (is_kept(&choice->rows.data[i], app->settings->fonts[k])) show(choice, i, recent);
+    for (int i = 0; i < choice->rows.count; i++)
+        if (all || answers(&choice->rows.data[i], choice->filter))
+            show(choice, i, choice->rows.data[i].named ? named : installed);
+    choice->stale = false;
+}
+
+/* ---- what is in hand ---- */
+
+static int param_of(const WrGenerateHand *hand, const char *name)
+{
+    return wr_generator_param_find(hand->generator, name);
+}
+
+static bool is_in_hand(const WrGenerateHand *hand, int param, const Row *row)
+{
+    const int file = param_of(hand, "file"), face = param_of(hand, "face");
+    const char *path = file >= 0 ? hand->value[file].text : "";
+    if (row->named)
+        return !path[0] &&
+               strcmp(row->named, wr_font_names[(int)hand->value[param].number[0]]) == 0;
+    return strcmp(row->entry.path, path) == 0 &&
+           (face < 0 || (int)hand->value[face].number[0] == row->entry.face);
+}
+
+static void take_in_hand(WrApp *app, int param, const Row *row)
+{
+    WrGenerateHand *hand = app->generate;
+    const int file = param_of(hand, "file"), face = param_of(hand, "face");
+    WrText kept = { 0 };
+    for (int i = 0; row->named && i < WR_FONT_FAMILY_COUNT; i++)
+        if (strcmp(wr_font_names[i], row->named) == 0) hand->value[param].number[0] = i;
+    wr_generate_set_text(&hand->value[file], row->named ? "" : row->entry.path);
+    if (face >= 0) hand->value[face].number[0] = row->entry.face;
+    if (row->named) wr_text_add(&kept, row->named);
+    else wr_text_addf(&kept, "%d %s", row->entry.face, row->entry.path);
+    wr_settings_note_font(app->settings, wr_text_get(&kept));
+    wr_text_fini(&kept);
+}
+
+/* ---- the list ---- */
+
+static void label_of(const Row *row, char label[200])
+{
+    snprintf(label, 200, row->named || !row->entry.style[0] ? "%.90s" : "%.90s %.90s",
+             row->entry.family, row->named ? "" : row->entry.style);
+}
+
+static bool row_pressed(WrFontChoice *choice, int i, bool chosen, bool current)
+{
+    char label[200];
+    const int index = choice->shown.data[i].row;
+    const Row *row = &choice->rows.data[index];
+    const double wide = wr_gui_px(SAMPLE), left = wr_gui_px(12) + wide + wr_gui_px(12);
+    if (!wr_gui_will_see(wr_gui_px(ROW)) && !(chosen && choice->jump)) {
+        wr_gui_space(ROW);
+        return false;
+    }
+    if (!row->asked) wr_array_push(&choice->wishes, index);
+    const WrRow place = wr_gui_row_begin(i, ROW, chosen);
+    if (chosen && choice->jump) wr_gui_row_see();
+    wr_gui_row_at(wr_gui_px(12), choice->h);
+    if (row->failed) wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_BAD, "cannot be read", wide);
+    else wr_gui_ink(row->texture, choice->w, choice->h, WR_COLOUR_TEXT);
+    label_of(row, label);
+    wr_gui_row_at(left, 0);
+    wr_gui_as_it_is(true);
+    wr_gui_text_cut(WR_FONT_SMALL, current ? WR_COLOUR_STRONG : WR_COLOUR_LABEL, label,
+                    wr_gui_row_width() - left - wr_gui_px(12));
+    wr_gui_as_it_is(false);
+    wr_gui_row_end();
+    return place.clicked;
+}
+
+static void move_by_keys(WrFontChoice *choice)
+{
+    const int was = choice->chosen, last = choice->shown.count - 1;
+    if (wr_gui_key_pressed(SDL_SCANCODE_DOWN)) choice->chosen++;
+    if (wr_gui_key_pressed(SDL_SCANCODE_UP)) choice->chosen--;
+    if (wr_gui_key_pressed(SDL_SCANCODE_PAGEDOWN)) choice->chosen += PAGE;
+    if (wr_gui_key_pressed(SDL_SCANCODE_PAGEUP)) choice->chosen -= PAGE;
+    if (choice->chosen > last) choice->chosen = last;
+    if (choice->chosen < 0) choice->chosen = 0;
+    choice->jump = choice->jump || choice->chosen != was;
+}
+
+/* The place in `shown` that was pressed, or -1. */
+static int rows(const WrApp *app, WrFontChoice *choice, int param)
+{
+    int pressed = -1;
+    wr_gui_space(-6);
+    for (int i = 0; i < choice->shown.count; i++) {
+        const Shown *shown = &choice->shown.data[i];
+        if (shown->heading) wr_gui_heading(shown->heading);
+        const bool current = is_in_hand(app->generate, param, &choice->rows.data[shown->row]);
+        if (row_pressed(choice, i, i == choice->chosen, current)) pressed = i;
+    }
+    choice->jump = false;
+    if (!choice->listed)
+        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, "Looking for the fonts that are installed...");
+    else if (choice->err.text[0])
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, choice->err.text);
+    else if (choice->shown.count == 0)
+        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Nothing has these words.");
+    return pressed;
+}
+
+/* The one in hand is the first to be seen. */
+static void find_current(const WrApp *app, WrFontChoice *choice, int param)
+{
+    choice->chosen = 0;
+    choice->jump = true;
+    for (int i = choice->shown.count - 1; i >= 0; i--)
+        if (is_in_hand(app->generate, param, &choice->rows.data[choice->shown.data[i].row]))
+            choice->chosen = i;
+}
+
+static void size_samples(WrApp *app, WrFontChoice *choice)
+{
+    const int w = wr_gui_px(SAMPLE), h = wr_gui_px(ROW - 2.0);
+    if (w != choice->w || h != choice->h) forget(app);
+    choice->w = w;
+    choice->h = h;
+}
+
+static bool list(WrApp *app, int param)
+{
+    if (!wr_gui_popup_begin("fonts")) return false;
+    WrFontChoice *choice = choice_of(app);
+    char before[sizeof choice->filter];
+    memcpy(before, choice->filter, sizeof before);
+    size_samples(app, choice);
+    wr_gui_width_at_least(WIDE);
+    const bool enter =
+        wr_gui_text_field("##filter", 0, choice->filter, sizeof choice->filter, choice->fresh);
+    wr_gui_tip("Only those that have these words");
+    const bool typed = strcmp(before, choice->filter) != 0;
+    if (typed || choice->stale) sort_shown(app, choice);
+    if (choice->fresh) find_current(app, choice, param);
+    else if (typed) choice->chosen = 0, choice->jump = true;
+    choice->fresh = false;
+    move_by_keys(choice);
+    wr_gui_list_begin("##fonts", fmin(wr_gui_px(TALL), app->height - wr_gui_px(150)));
+    int taken = rows(app, choice, param);
+    wr_gui_list_end();
+    if (enter && choice->chosen < choice->shown.count) taken = choice->chosen;
+    if (taken >= 0) take_in_hand(app, param, &choice->rows.data[choice->shown.data[taken].row]);
+    if (taken >= 0 || wr_gui_escape_pressed()) wr_gui_popup_close();
+    go_on(app, choice);
+    wr_gui_popup_end();
+    return taken >= 0;
+}
+
+bool wr_font_choice_row(WrApp *app, int param)
+{
+    char label[200];
+    WrGenerateHand *hand = app->generate;
+    const WrFontChoice *known = hand->fonts;
+    const int file = param_of(hand, "file");
+    const char *path = hand->value[file].text, *slash = strrchr(path, '/');
+    snprintf(label, sizeof label, "%.190s",
+             path[0] ? (slash ? slash + 1 : path)
+                     : wr_font_names[(int)hand->value[param].number[0]]);
+    for (int i = 0; known && path[0] && i < known->rows.count; i++)
+        if (is_in_hand(hand, param, &known->rows.data[i])) label_of(&known->rows.data[i], label);
+    wr_gui_as_it_is(true);
+    const bool open = wr_gui_list_button("font", label, wr_gui_available());
+    wr_gui_as_it_is(false);
+    if (open) {
+        WrFontChoice *choice = choice_of(app);
+        choice->filter[0] = '\0';
+        choice->fresh = choice->stale = true;
+        wr_gui_popup_open("fonts");
+        app->redraw = WR_GENERATE_WAKE;
+    }
+    return list(app, param);
+}
+
+const WrPart wr_part_font_choice = { .forget = forget };
