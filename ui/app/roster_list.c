@@ -69,26 +69,12 @@ static const WrTab tabs[] = {
 };
 
 /* In the order in which they are updated and drawn. */
-static const WrPart *const parts[] = { &wr_part_window,
-                                       &wr_part_hand,
-                                       &wr_part_tools,
-                                       &wr_part_strokes,
-                                       &wr_part_select,
-                                       &wr_part_clone,
-                                       &wr_part_canvas,
-                                       &wr_part_marks,
-                                       &wr_part_stamp,
-                                       &wr_part_generate,
-                                       &wr_part_patch,
-                                       &wr_part_accuracy,
-                                       &wr_part_layers,
-                                       &wr_part_thumbs,
-                                       &wr_part_gallery,
-                                       &wr_part_font_choice,
-                                       &wr_part_presets,
-                                       &wr_part_sheet,
-                                       &wr_part_adjust,
-                                       NULL };
+static const WrPart *const parts[] = {
+    &wr_part_window,      &wr_part_hand,     &wr_part_tools,  &wr_part_strokes, &wr_part_select,
+    &wr_part_clone,       &wr_part_canvas,   &wr_part_marks,  &wr_part_stamp,   &wr_part_generate,
+    &wr_part_patch,       &wr_part_accuracy, &wr_part_layers, &wr_part_thumbs,  &wr_part_gallery,
+    &wr_part_font_choice, &wr_part_presets,  &wr_part_sheet,  &wr_part_adjust,  NULL
+};
 
 static WrActionFamily *const families[] = { wr_adjust_by_name, wr_filter_by_name,
                                             wr_generate_by_name, NULL };
