@@ -144,7 +144,7 @@ static void mistakes_are_named_with_what_would_be_right(void **state)
         { "adjust resize width=20000", { "width=20000", "1..16384" } },
         { "undo 0", { "undo", "1.." } },
         { "dab 0,0 set=slow_traking=2", { "dab", "set", "slow_traking" } },
-        { "dab 0,0 set=slow_tracking=much", { "dab", "slow_tracking=number" } },
+        { "dab 0,0 set=slow_tracking=much", { "dab", "slow_tracking=much", "0..10" } },
         { "dab 0,0 mode=erode2", { "mode=erode2", "erode", "smear" } },
         { "dab 0,0 jitter=0,181,0", { "jitter", "angle is \"181\"", "0..180" } },
         { "dab 0,0 repeat=65x1", { "repeat=65x1", "1..64" } },

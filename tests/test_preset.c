@@ -31,7 +31,7 @@ static int setting(const char *name)
 static int input(const char *name)
 {
     for (int i = 0; i < wr_preset_input_count(); i++)
-        if (strcmp(wr_preset_input_name(i), name) == 0) return i;
+        if (strcmp(wr_preset_input(i)->name, name) == 0) return i;
     fail_msg("no input %s", name);
     return -1;
 }
@@ -64,9 +64,16 @@ static void every_input_of_the_library_is_known(void **state)
 {
     (void)state;
     assert_int_equal(wr_preset_input_count(), MYPAINT_BRUSH_INPUTS_COUNT);
-    for (int i = 0; i < wr_preset_input_count(); i++)
-        assert_string_equal(wr_preset_input_name(i),
-                            mypaint_brush_input_info((MyPaintBrushInput)i)->cname);
+    for (int i = 0; i < wr_preset_input_count(); i++) {
+        const MyPaintBrushInputInfo *theirs = mypaint_brush_input_info((MyPaintBrushInput)i);
+        const WrInputInfo *ours = wr_preset_input(i);
+        assert_string_equal(ours->name, theirs->cname);
+        assert_true(ours->label[0] && ours->help[strlen(ours->help) - 1] == '.');
+        if (!(ours->low < ours->high && ours->low >= theirs->soft_min - 0.01 &&
+              ours->high <= theirs->soft_max + 0.01))
+            fail_msg("%s: %g..%g is wider than %g..%g", ours->name, ours->low, ours->high,
+                     (double)theirs->soft_min, (double)theirs->soft_max);
+    }
 }
 
 static void settings_of_colour_alone_are_ignored(void **state)
@@ -312,6 +319,80 @@ static void with_changes_values_and_names_what_is_wrong(void **state)
     wr_preset_free(preset);
 }
 
+static void assert_curve(const WrPreset *preset, const char *set, const char *by,
+                         const float (*want)[2], int count)
+{
+    const float(*got)[2] = NULL;
+    assert_int_equal(wr_preset_curve(preset, setting(set), input(by), &got), count);
+    if (count > 0) assert_memory_equal(got, want, sizeof *want * (size_t)count);
+}
+
+static void with_draws_curves_which_files_keep(void **state)
+{
+    (void)state;
+    WrError err;
+    static const float own[][2] = { { 0, 0.1f }, { 0.7f, 0.3f } },
+                       line[][2] = { { 0, 0 }, { 1, 1 } };
+    static const float drawn[][2] = {
+        { 0.05f, -0.31f }, { 0.4f, 0.2f }, { 0.4f, 0.7f }, { 1.3f, 1.9f }
+    };
+    static const float wobble[][2] = { { 0, -0.3f }, { 1, 0.33333334f } };
+    WrPreset *preset = with_settings("\"opaque\": {\"base_value\": 0.7, \"inputs\": {\"pressure\": "
+                                     "[[0, 0], [1, 1]], \"speed1\": [[0, 0.1], [0.7, 0.3]]}}");
+    WrPreset *other = wr_preset_with(preset,
+                                     "opaque:pressure=0.05,-0.31|0.4,0.2|0.4,0.7|1.3,1.9;"
+                                     "hardness:random=0,-0.3|1,0.333333333;slow_tracking=2",
+                                     &err);
+    if (!other) fail_msg("%s", err.text);
+    WrText text = { 0 };
+    for (int round = 0; round < 2; round++) { /* as made, and read from its own file */
+        assert_curve(other, "opaque", "pressure", drawn, 4);
+        assert_curve(other, "opaque", "speed1", own, 2);
+        assert_curve(other, "hardness", "random", wobble, 2);
+        assert_curve(other, "hardness", "pressure", NULL, 0);
+        assert_true(wr_preset_value(other, setting("opaque")) == 0.7);
+        assert_true(wr_preset_value(other, setting("slow_tracking")) == 2.0);
+        WrBrush brush = wr_preset_brush(other);
+        wr_text_clear(&text);
+        wr_preset_print(other, &brush, &text);
+        wr_preset_free(other);
+        other = parse(wr_text_get(&text), &err);
+        if (!other) fail_msg("%s", err.text);
+    }
+    wr_preset_free(other);
+    assert_curve(preset, "opaque", "pressure", line, 2); /* it is as it was */
+    other = wr_preset_with(preset, "opaque:pressure=;opaque:speed1=0,1|1,0;opaque:speed1=", &err);
+    if (!other) fail_msg("%s", err.text);
+    assert_true(wr_preset_is_constant(other, setting("opaque")));
+    wr_preset_free(other);
+    static const struct {
+        const char *settings, *words;
+    } wrong[] = {
+        { "opaque:pressur=0,0|1,1", "opaque:pressur: is no input" },
+        { "opak:pressure=0,0|1,1", "'opak' is not a setting" },
+        { "opaque:pressure=0,0", "one point: must be 2..64" },
+        { "opaque:pressure=0,0|1", "point '1': must be x,y" },
+        { "opaque:pressure=0,0|1,1,1", "point '1,1,1': must be x,y" },
+        { "opaque:pressure=0,0|1,2.01", "-2..2" },
+        { "opaque:pressure=0,0|nan,1", "point 'nan,1'" },
+        { "opaque:pressure=0,0|1e10,1", "point '1e10,1'" },
+        { "opaque:pressure=0.5,0|0.4,1", "point '0.4,1': its x must not be below" },
+        { "opaque:pressure", "must be NAME=VALUE or NAME:INPUT" },
+        { "opaque:=0,0|1,1", "opaque:: is no input" },
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_null(wr_preset_with(preset, wrong[i].settings, &err));
+        if (!strstr(err.text, wrong[i].words)) fail_msg("'%s'", err.text);
+    }
+    wr_text_clear(&text);
+    wr_text_add(&text, "opaque:pressure=0,0");
+    for (int i = 1; i < 65; i++) wr_text_addf(&text, "|%d,0", i);
+    assert_null(wr_preset_with(preset, wr_text_get(&text), &err));
+    assert_non_null(strstr(err.text, "more than 64 points"));
+    wr_text_fini(&text);
+    wr_preset_free(preset);
+}
+
 static void a_shared_preset_lives_until_its_last_owner(void **state)
 {
     (void)state;
@@ -339,6 +420,7 @@ int main(void)
         cmocka_unit_test(printing_and_reading_give_the_same_text_again),
         cmocka_unit_test(a_brushs_radius_survives_its_logarithm),
         cmocka_unit_test(with_changes_values_and_names_what_is_wrong),
+        cmocka_unit_test(with_draws_curves_which_files_keep),
         cmocka_unit_test(a_shared_preset_lives_until_its_last_owner),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -211,6 +211,41 @@ static void what_is_copied_can_be_pasted_to_the_bit(void **state)
     wr_session_free(s);
 }
 
+/* Columns 140..162 of 150 and rows 80..97 of 90 are cut, and pasted to 190..212 of 200 and 110..127 of 120. */
+static void what_is_cut_over_both_edges_is_pasted_over_them(void **state)
+{
+    (void)state;
+    const WrSessionOptions options = { .outputs = true };
+    WrSession *s = wr_session_new(&options);
+    must_run(s, "table 150x90");
+    must_run(s, "noise value cells=37 seed=3");
+    WrField *old = wr_field_share(layer(s, 1)->heights);
+    char line[160];
+    snprintf(line, sizeof line, "select rect from=%.17g,%.17g to=%.17g,%.17g", 140.0 / 150,
+             1 - 80.0 / 90, 163.0 / 150, 1 - 98.0 / 90);
+    must_run(s, line);
+    must_run(s, "copy cut.exr");
+    must_run(s, "layer clear 1");
+    WrSession *other = session_of((const char *[]){ "table 200x120", "fill 0.25", NULL });
+    snprintf(line, sizeof line, "picture paste cut.exr at=%.17g,%.17g", 201.5 / 200,
+             1 - 119.0 / 120);
+    must_run(other, line);
+    for (int j = 0; j < 120; j++)
+        for (int i = 0; i < 200; i++) {
+            const bool there = in_rect(i, j, 190, 110, 23, 18, 200, 120);
+            const int x = (i - 190 + 200) % 200, y = (j - 110 + 120) % 120;
+            assert_true(f_at(other, i, j) ==
+                        (there ? wr_field_get(old, (140 + x) % 150, (80 + y) % 90) : 0.25f));
+        }
+    for (int j = 0; j < 90; j++)
+        for (int i = 0; i < 150; i++)
+            assert_true(f_at(s, i, j) ==
+                        (in_rect(i, j, 140, 80, 23, 18, 150, 90) ? 0.0f : wr_field_get(old, i, j)));
+    wr_field_free(old);
+    wr_session_free(other);
+    wr_session_free(s);
+}
+
 static void the_box_of_a_selection_goes_over_edges(void **state)
 {
     (void)state;
@@ -283,6 +318,7 @@ int main(void)
         cmocka_unit_test(turned_and_scaled_heights_are_the_functions_own),
         cmocka_unit_test(what_shrinks_is_averaged),
         cmocka_unit_test(what_is_copied_can_be_pasted_to_the_bit),
+        cmocka_unit_test(what_is_cut_over_both_edges_is_pasted_over_them),
         cmocka_unit_test(the_box_of_a_selection_goes_over_edges),
         cmocka_unit_test(what_cannot_be_moved_is_refused),
         cmocka_unit_test(partly_covered_heights_stay_as_high),

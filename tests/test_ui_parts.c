@@ -212,6 +212,17 @@ static void a_changed_setting_takes_its_place_and_can_be_taken_back(void **state
     assert_string_equal(wr_text_get(&a), "slow_tracking=2");
     wr_tuning_put(wr_text_get(&a), "slow_tracking", (double)NAN, &b);
     assert_string_equal(wr_text_get(&b), "");
+    /* curves, beside the value of the same setting */
+    wr_tuning_put(NULL, "opaque", 0.5, &a);
+    wr_tuning_put_text(wr_text_get(&a), "opaque:pressure", "0,0|1,1", &b);
+    assert_string_equal(wr_text_get(&b), "opaque=0.5;opaque:pressure=0,0|1,1");
+    assert_true(wr_tuning_has(wr_text_get(&b), "opaque:pressure"));
+    assert_false(wr_tuning_has(wr_text_get(&b), "opaque:press"));
+    wr_tuning_put_text(wr_text_get(&b), "opaque:pressure", "", &a);
+    assert_string_equal(wr_text_get(&a), "opaque=0.5;opaque:pressure=");
+    assert_true(wr_tuning_get(wr_text_get(&a), "opaque", &value) && value == 0.5);
+    wr_tuning_put_text(wr_text_get(&a), "opaque:pressure", NULL, &b);
+    assert_string_equal(wr_text_get(&b), "opaque=0.5");
     wr_text_fini(&a);
     wr_text_fini(&b);
 }

@@ -8,6 +8,7 @@ folder=$(mktemp -d) || exit 1
 # shellcheck source=tests/window_help.sh
 source "$source/tests/window_help.sh"
 
+command -v xclip >/dev/null || { echo "xclip is missing: apt-get install xclip"; exit 1; }
 serve
 printf 'table 512x512\nbump height=1\n' >flat.wrinkle
 
@@ -181,6 +182,19 @@ xdotool mousemove $((X + cx)) $((Y + cy))
 rest
 drag $((cx - 80)) $((cy + 30)) 5 0 30
 becomes 'stroke *preset=*rivet*' "a stroke with a preset that was searched for"
+# ... its curves are drawn by hand: a point in the middle is pulled down; undo takes it back, and it is drawn again.
+search 'curves of the brush'
+settle
+drag 1075 270 0 8 5
+rest
+key ctrl+z
+drag 1075 270 0 9 5
+rest
+key Escape
+drag $((cx - 80)) $((cy + 60)) 5 0 30
+becomes 'stroke *preset=*rivet*set="opaque_multiply:pressure=*,*|*,*|*,*"*' "a stroke by a curve that was drawn"
+[[ $(newest) =~ set=\"opaque_multiply:pressure=[^|]*\|0\.(49|50|5)[0-9]*,0\.[0-9]*\|[^|]*\" ]] ||
+    complain "the curve that was drawn is $(newest)"
 # ... and / goes back to the brush before.
 key slash
 drag $((cx - 80)) $((cy - 30)) 5 0 10
@@ -268,7 +282,16 @@ key Return
 becomes 'transform move=*,0' "a piece moved by a drag"
 moved=$(newest | sed -E 's/.*move=([0-9]+),0/\1/')
 [[ ${moved:-0} -gt 10 ]] || complain "a drag of 40 pixels moves by ${moved:-nothing}"
+# ... the grid of eighths, 64 texels apart, holds it where an edge comes near; another tool keeps what was made
+left=$((128 + moved))
+key alt+g
+drag $cx $cy 3 0 10
+rest
 key b
+becomes 'transform move=*,0' "what was moved is kept by another tool"
+moved=$(newest | sed -E 's/.*move=(-?[0-9]+),0/\1/')
+[[ $(((left + moved) % 64)) == 0 && $moved != 0 ]] || complain "on the grid an edge at $left is moved by $moved"
+key alt+g
 key ctrl+c
 has_copied() { compgen -G 'state/wrinkle/clipboard/copy-*.exr' >/dev/null; }
 until_true 120 "the copy" has_copied
@@ -280,6 +303,17 @@ becomes 'picture paste *clipboard/copy-*' "what was copied is pasted"
 home
 save_as pasted.exr
 near "$(height pasted.exr 0.1 0.1)" 1 || complain "a mask that hides all shows $(height pasted.exr 0.1 0.1)"
+# ... what is cut out of the lower layer is gone, and a picture of another program is pasted
+key ctrl+x
+becomes 'layer clear*' "what is cut is cleared"
+copies() { compgen -G "state/wrinkle/clipboard/copy-*.$1" | wc -l; }
+[[ $(copies exr) == 2 ]] || complain "$(copies exr) copies, not the one before and what was cut"
+convert -size 48x32 gradient:black-white picture.png
+xclip -selection clipboard -t image/png -i picture.png
+key ctrl+v
+rest
+key Return
+becomes 'picture paste *clipboard/copy-*.png*size=48*' "a picture of another program is pasted"
 xdotool key ctrl+q
 ends 0
 

@@ -13,6 +13,9 @@
 #include "generate/generator.h"
 #include "surface/surface.h"
 
+#include "brush/preset.h"
+#include "ui/panels/panel_dynamics.h"
+#include "ui/tools/shelf.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/app.h"
 #include "ui/app/canvas_view.h"
@@ -156,6 +159,17 @@ static inline void walk_dialogs(Walk *walk)
         walk_frame(walk); /* it has measured itself */
         if (app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(app);
     }
+    const WrLibrary *library = wr_shelf_library(app); /* ours come first; each has curves */
+    if (wr_library_count(library) > 0) wr_shelf_choose(app, wr_library_entry(library, 0)->id);
+    assert_non_null(app->shelf->preset);
+    walk_show(walk, "preset %s", "soft");
+    for (int i = 0; i < wr_preset_setting_count(); i++) {
+        if (wr_preset_setting(i)->use == WR_SETTING_IGNORED) continue;
+        wr_dialog_dynamics_open(app, i);
+        walk_show(walk, "curves of %s", wr_preset_setting(i)->name);
+    }
+    wr_dialog_close(app);
+    wr_shelf_choose(app, WR_ROUND);
     wr_dialog_open(app, WR_DIALOG_UNSAVED);
     walk_show(walk, "dialog %s", "unsaved");
     wr_dialog_close(app);

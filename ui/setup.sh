@@ -16,7 +16,7 @@ wr_program_packages=(
 wr_test_packages=(
     libcmocka-dev clang clang-format libclang-rt-14-dev
     console-setup-linux fonts-inter-variable fonts-lohit-deva
-    xvfb xauth xdotool x11-utils openbox valgrind
+    xvfb xauth xdotool xclip x11-utils openbox valgrind
     xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
     imagemagick openimageio-tools
     desktop-file-utils groff-base jq librsvg2-bin parallel shellcheck

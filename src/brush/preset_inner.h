@@ -8,7 +8,8 @@
 #include "brush/preset.h"
 #include "brush/tip.h"
 
-#define WR_CURVE_POINTS 64   /* of one curve, at most; at least 2 */
+#define WR_CURVE_POINTS WR_PRESET_POINTS /* of one curve, at most; at least 2 */
+#define WR_CURVE_FAR 1e9                 /* x of a curve's points, at most */
 #define WR_PRESET_TEXT 20000 /* bytes of a description, at most; so of the other texts */
 
 /* How one input turns one setting: straight lines between the points, added to the base value. */
@@ -42,5 +43,3 @@ double wr_preset_peak(const WrPreset *preset, int setting);
 bool wr_preset_uses(const WrPreset *preset, int setting);
 /* Is an input that is random used, or chance in itself? */
 bool wr_preset_is_random(const WrPreset *preset);
-/* -1 where there is none. */
-int wr_preset_input_find(const char *name);

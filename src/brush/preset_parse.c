@@ -11,7 +11,6 @@
 #include <string.h>
 
 #define DEPTH 16  /* of nested objects and lists; a preset needs 7 */
-#define FAR 1e9   /* x of a curve's points, at most */
 #define LOTS 1e30 /* table units */
 
 /* Where in the file something is, for messages: "groove: radius_logarithmic: pressure". */
@@ -92,7 +91,7 @@ static bool read_point(json_object *pair, Place at, float point[2], double reach
     for (size_t k = 0; k < 2; k++)
         if (!read_number(json_object_array_get_idx(pair, k), at, -1e300, 1e300, &xy[k], err))
             return false;
-    point[0] = (float)bring(xy[0], -FAR, FAR, skipped);
+    point[0] = (float)bring(xy[0], -WR_CURVE_FAR, WR_CURVE_FAR, skipped);
     point[1] = (float)bring(xy[1], -reach, reach, skipped);
     return true;
 }
@@ -111,8 +110,7 @@ static bool read_curve(WrPreset *preset, json_object *list, Place at, int settin
         return fail_at(err, at, text);
     }
     WrCurve curve = { .setting = setting, .input = input, .count = (int)count };
-    const MyPaintBrushSettingInfo *info = mypaint_brush_setting_info((MyPaintBrushSetting)setting);
-    double reach = (double)info->max - (double)info->min;
+    const double reach = wr_preset_reach(setting);
     for (size_t i = 0; i < count; i++) {
         json_object *pair = json_object_array_get_idx(list, i);
         if (!read_point(pair, at, curve.points[i], reach, &preset->skipped, err)) return false;

@@ -1,4 +1,4 @@
-/* A preset as text, and presets made from others. */
+/* A preset as text. */
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/text.h"
@@ -8,8 +8,6 @@
 #include <string.h>
 
 #define LN2 0.69314718055994530942
-
-/* ---- the file's text ---- */
 
 static void add_text(WrText *text, const char *name, const char *value)
 {
@@ -22,7 +20,7 @@ static void add_text(WrText *text, const char *name, const char *value)
 static void add_curve(WrText *text, const WrCurve *curve, bool first)
 {
     char x[WR_NUMBER_SIZE], y[WR_NUMBER_SIZE];
-    wr_text_addf(text, "%s\"%s\": [", first ? " " : ", ", wr_preset_input_name(curve->input));
+    wr_text_addf(text, "%s\"%s\": [", first ? " " : ", ", wr_preset_input(curve->input)->name);
     for (int i = 0; i < curve->count; i++)
         wr_text_addf(text, "%s[%s, %s]", i > 0 ? ", " : "",
                      wr_number_print_float(curve->points[i][0], x),
@@ -103,69 +101,4 @@ void wr_preset_print(const WrPreset *preset, const WrBrush *brush, WrText *text)
         add_setting(text, preset, i, base, i == MYPAINT_BRUSH_SETTINGS_COUNT - 1);
     }
     wr_text_add(text, "    },\n    \"version\": 3\n}\n");
-}
-
-/* ---- others made from one ---- */
-
-static WrPreset *copy(const WrPreset *preset)
-{
-    WrPreset *made = wr_preset_new(preset->name);
-    made->comment = wr_strdup(preset->comment);
-    made->description = wr_strdup(preset->description);
-    made->group = wr_strdup(preset->group);
-    made->notes = wr_strdup(preset->notes);
-    memcpy(made->base, preset->base, sizeof made->base);
-    made->curves.count = 0;
-    for (int i = 0; i < preset->curves.count; i++)
-        wr_array_push(&made->curves, preset->curves.data[i]);
-    made->own = preset->own;
-    made->gives_mode = preset->gives_mode;
-    made->tip = preset->tip ? wr_tip_share(preset->tip) : NULL;
-    made->tip_file = wr_strdup(preset->tip_file);
-    memcpy(made->tip_sha256, preset->tip_sha256, sizeof made->tip_sha256);
-    made->skipped = preset->skipped;
-    return made;
-}
-
-/* One NAME=VALUE of `length` bytes. */
-static bool set_one(WrPreset *preset, const char *text, size_t length, WrError *err)
-{
-    char name[64] = "";
-    const char *equals = memchr(text, '=', length);
-    size_t name_length = equals ? (size_t)(equals - text) : length;
-    if (name_length < sizeof name) memcpy(name, text, name_length);
-    int setting = wr_preset_setting_find(name);
-    if (!equals)
-        return wr_fail(err, "settings: '%.*s': must be NAME=VALUE, with ; between several",
-                       length < 60 ? (int)length : 60, text);
-    if (setting < 0)
-        return wr_fail(err, "settings: '%.*s' is not a setting of brush presets",
-                       name_length < 60 ? (int)name_length : 60, text);
-    const WrSettingInfo *info = wr_preset_setting(setting);
-    size_t value_length = length - name_length - 1;
-    double value;
-    char low[WR_NUMBER_SIZE], high[WR_NUMBER_SIZE];
-    if (!wr_number_parse(equals + 1, value_length, &value) ||
-        !(value >= info->low && value <= info->high))
-        return wr_fail(err, "settings: %s=%.*s: must be %s..%s", info->name,
-                       value_length < 40 ? (int)value_length : 40, equals + 1,
-                       wr_number_print(info->low, low), wr_number_print(info->high, high));
-    preset->base[setting] = value;
-    /* A radius of the file's own would hide this one. */
-    if (setting == MYPAINT_BRUSH_SETTING_RADIUS_LOGARITHMIC) preset->own.radius = 0.0;
-    return true;
-}
-
-WrPreset *wr_preset_with(const WrPreset *preset, const char *settings, WrError *err)
-{
-    WrPreset *made = copy(preset);
-    while (*settings) {
-        size_t length = strcspn(settings, ";");
-        if (length > 0 && !set_one(made, settings, length, err)) {
-            wr_preset_free(made);
-            return NULL;
-        }
-        settings += length + (settings[length] == ';');
-    }
-    return made;
 }

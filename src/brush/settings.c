@@ -257,21 +257,3 @@ int wr_preset_setting_find(const char *name)
         if (strcmp(settings[i].name, name) == 0) return i;
     return -1;
 }
-
-int wr_preset_input_count(void)
-{
-    return MYPAINT_BRUSH_INPUTS_COUNT;
-}
-
-const char *wr_preset_input_name(int input)
-{
-    WR_ASSERT(input >= 0 && input < MYPAINT_BRUSH_INPUTS_COUNT);
-    return mypaint_brush_input_info((MyPaintBrushInput)input)->cname;
-}
-
-int wr_preset_input_find(const char *name)
-{
-    for (int i = 0; i < MYPAINT_BRUSH_INPUTS_COUNT; i++)
-        if (strcmp(wr_preset_input_name(i), name) == 0) return i;
-    return -1;
-}

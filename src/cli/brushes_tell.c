@@ -67,7 +67,7 @@ static void settings_lines(const WrPreset *preset, WrSettingUse use, const char 
         wr_text_addf(text, "    %-28s %s", info->name, number);
         for (int k = 0, any = 0; k < wr_preset_input_count(); k++)
             if (curve_points(preset, i, k) > 0)
-                wr_text_addf(text, "%s %s", any++ ? "," : "  by", wr_preset_input_name(k));
+                wr_text_addf(text, "%s %s", any++ ? "," : "  by", wr_preset_input(k)->name);
         wr_text_add(text, "\n");
         if (use == WR_SETTING_MAPPED) wr_text_addf(text, "      %s\n", info->meaning);
     }
@@ -88,7 +88,7 @@ static void setting_json(const WrPreset *preset, int index, WrText *text)
     wr_text_add(text, ",\"inputs\":[");
     for (int k = 0, any = 0; k < wr_preset_input_count(); k++)
         if (curve_points(preset, index, k) > 0)
-            wr_text_addf(text, "%s\"%s\"", any++ ? "," : "", wr_preset_input_name(k));
+            wr_text_addf(text, "%s\"%s\"", any++ ? "," : "", wr_preset_input(k)->name);
     wr_text_add(text, "]}");
 }
 

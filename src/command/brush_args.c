@@ -89,8 +89,9 @@ const WrArgSpec wr_args_brush[] = {
     { .name = "set",
       .type = WR_ARG_TEXT,
       .check = wr_check_settings,
-      .shape = "name=value;...",
-      .help = "other values of the preset's settings, as MyPaint calls them" },
+      .shape = "name=value;name:input=x,y|x,y|...;...",
+      .help = "other values of the preset's settings, as MyPaint calls them, and other curves of "
+              "what an input adds to one" },
     { .name = "seed",
       .type = WR_ARG_NUMBER,
       .low = 0,

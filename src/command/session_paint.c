@@ -155,28 +155,9 @@ static bool hold_brush(WrSession *session, WrCall *call, WrHeldBrush *out, WrErr
 bool wr_check_settings(const void *ctx, const char *name, const char *value, WrError *err)
 {
     (void)ctx;
-    char excerpt[WR_EXCERPT_SIZE];
-    for (const char *p = value; *p;) {
-        size_t length = strcspn(p, ";"), key = strcspn(p, "=;");
-        double number;
-        char *setting = wr_strndup(p, key);
-        bool known = wr_preset_setting_find(setting) >= 0;
-        bool good =
-            known && p[key] == '=' && wr_number_parse(p + key + 1, length - key - 1, &number);
-        if (!known)
-            wr_fail(err,
-                    "%s: unknown setting \"%s\": must be one of a preset's (`wrinkle brushes` "
-                    "tells them)",
-                    name, wr_excerpt(setting, excerpt));
-        else if (!good)
-            wr_fail(err, "%s: setting %s: must be %s=number", name, wr_excerpt(setting, excerpt),
-                    excerpt);
-        wr_free(setting);
-        if (!good) return false;
-        p += length;
-        if (*p) p++;
-    }
-    return true;
+    if (wr_preset_settings_check(value, err)) return true;
+    wr_error_prefix(err, "%s: ", name);
+    return false;
 }
 
 /* ---- the ground ---- */

@@ -351,6 +351,7 @@ const WrAction wr_actions[] = {
     ROW(preset_next, "Next favourite brush", wr_act_preset_next, NULL, NULL),
     ROW(preset_previous, "Favourite brush before", wr_act_preset_previous, NULL, NULL),
     ROW(favourite, "Brush is a favourite", wr_act_favourite, NULL, wr_is_favourite),
+    ROW(brush_curves, "Curves of the brush...", wr_act_brush_curves, NULL, NULL),
     ROW(preset_save, "Save brush as a preset...", wr_act_preset_save, NULL, NULL),
     ROW(lock_size, "Keep the size when brushes change", wr_act_lock_size, NULL, wr_is_lock_size),
     ROW(symmetry, "Symmetry...", wr_act_symmetry, NULL, wr_is_symmetry),

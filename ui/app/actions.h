@@ -40,6 +40,7 @@ void wr_act_preset_previous(WrApp *app);
 void wr_act_favourite(WrApp *app);
 void wr_act_round_brush(WrApp *app);
 void wr_act_lock_size(WrApp *app);
+void wr_act_brush_curves(WrApp *app);
 void wr_act_preset_save(WrApp *app);
 void wr_act_brushes(WrApp *app);
 void wr_act_symmetry(WrApp *app);

@@ -7,6 +7,7 @@
 #include "ui/desk/messages.h"
 #include "ui/desk/roster.h"
 #include "ui/desk/settings.h"
+#include "ui/panels/panel_dynamics.h"
 #include "ui/tools/shelf.h"
 #include "ui/tools/symmetry.h"
 #include "ui/tools/tool.h"
@@ -196,6 +197,11 @@ void wr_act_lock_size(WrApp *app)
 bool wr_is_lock_size(const WrApp *app)
 {
     return app->settings->lock_size;
+}
+
+void wr_act_brush_curves(WrApp *app)
+{
+    wr_dialog_dynamics_open(app, -1);
 }
 
 void wr_act_preset_save(WrApp *app)

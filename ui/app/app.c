@@ -35,6 +35,7 @@
 #include "ui/help/guide.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_status.h"
+#include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/panel_presets.h"
@@ -151,6 +152,7 @@ void wr_app_end(WrApp *app)
     wr_gui_free(app->gui);
     wr_files_free(app->files);
     wr_pen_free(app->pen);
+    wr_dynamics_free(app);
     wr_tablet_free(app);
     wr_keys_free(app->keys);
     if (app->live) wr_scene_free(app->live);

@@ -11,7 +11,9 @@
 #include "ui/desk/layout.h"
 #include "ui/desk/roster.h"
 #include "ui/desk/settings.h"
+#include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
+#include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panel_preferences.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_objects.h"
@@ -432,7 +434,7 @@ static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
 
 static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
 {
-    if (wr_preferences_take_key(app, event)) return;
+    if (wr_preferences_take_key(app, event) || wr_dynamics_take_key(app, event)) return;
     if (blocked(app) || wr_gui_wants_text(app->gui) || wr_gui_popup_open_now(app->gui)) return;
     int mods = wr_key_mods((SDL_Keymod)event->keysym.mod);
     if (event->keysym.sym == SDLK_SPACE &&
@@ -444,6 +446,11 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
     if (mods == 0 && tool->key && tool->key(app, event->keysym.sym)) return;
     if (event->keysym.sym == SDLK_ESCAPE) {
         cancel_held(app);
+        return;
+    }
+    const bool enters = event->keysym.sym == SDLK_RETURN || event->keysym.sym == SDLK_KP_ENTER;
+    if (enters && mods == WR_MOD_CTRL && wr_generate_writes(app)) { /* as in their field */
+        wr_generate_commit(app);
         return;
     }
     const char *action = wr_keys_find(app->keys, event->keysym);

@@ -15,6 +15,7 @@
 #include "ui/generate/generate_hand.h"
 #include "ui/help/panel_help.h"
 #include "ui/panels/panel_adjust.h"
+#include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_preferences.h"
 #include "ui/panels/panel_search.h"
@@ -54,6 +55,7 @@ static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_PREFERENCES)] = { wr_dialog_preferences, false },
     [WR_ROW(WR_DIALOG_RECOVER)] = { wr_dialog_recover, false },
     [WR_ROW(WR_DIALOG_PRESET)] = { wr_dialog_preset, false },
+    [WR_ROW(WR_DIALOG_DYNAMICS)] = { wr_dialog_dynamics, true },
     [WR_ROW(WR_DIALOG_REPLACE)] = { wr_dialog_replace, false },
     [WR_ROW(WR_DIALOG_TABLET)] = { wr_dialog_tablet, false },
     [WR_ROW(WR_DIALOG_CASES)] = { wr_dialog_cases, false },

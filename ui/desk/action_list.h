@@ -60,6 +60,7 @@
     X(preset_next, ".")                                                                            \
     X(preset_previous, ",")                                                                        \
     X(favourite, "")                                                                               \
+    X(brush_curves, "")                                                                            \
     X(preset_save, "")                                                                             \
     X(lock_size, "")                                                                               \
     X(symmetry, "U")                                                                               \

@@ -60,6 +60,7 @@ typedef struct WrShelf WrShelf;
 typedef struct WrStampHand WrStampHand;
 typedef struct WrSurfaceHand WrSurfaceHand;
 typedef struct WrObjectsHand WrObjectsHand;
+typedef struct WrDynamics WrDynamics;
 typedef struct WrTester WrTester;
 typedef struct WrTiming WrTiming;
 typedef struct WrTool WrTool;
@@ -81,8 +82,9 @@ struct WrApp {
     WrPreview *preview;
     WrKeyMap *keys;
     WrPen *pen;
-    WrTester *tester; /* of tablets; owned, NULL until it is opened */
-    WrGuide *guide;   /* the help; owned, NULL until it is opened */
+    WrTester *tester;     /* of tablets; owned, NULL until it is opened */
+    WrDynamics *dynamics; /* the same of the brush's curves */
+    WrGuide *guide;       /* the help; owned, NULL until it is opened */
     WrSettings *settings;
     WrSettings *settings_known; /* as they were read or written last */
     double settings_at;         /* clock when they were looked at last */

@@ -23,8 +23,9 @@ typedef enum WrDialog {
     WR_DIALOG_SEARCH,
     WR_DIALOG_PREFERENCES,
     WR_DIALOG_RECOVER,
-    WR_DIALOG_PRESET,  /* the name of a preset to be saved */
-    WR_DIALOG_REPLACE, /* a file that stands where one is to be written */
+    WR_DIALOG_PRESET,   /* the name of a preset to be saved */
+    WR_DIALOG_DYNAMICS, /* curves of the brush */
+    WR_DIALOG_REPLACE,  /* a file that stands where one is to be written */
     WR_DIALOG_TABLET,
     WR_DIALOG_CASES,
     WR_DIALOG_HELP,

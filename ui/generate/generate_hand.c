@@ -269,6 +269,12 @@ void wr_generate_commit(WrApp *app)
     wr_text_fini(&line);
 }
 
+bool wr_generate_writes(const WrApp *app)
+{
+    const WrGenerateHand *hand = app->generate;
+    return hand->active && hand->generator && wr_generate_written(hand->generator) >= 0;
+}
+
 bool wr_generate_by_name(WrApp *app, const char *name)
 {
     const WrGenerator *generator = wr_action_generator(name);

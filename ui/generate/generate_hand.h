@@ -123,6 +123,8 @@ void wr_generate_file(WrApp *app, const char *path); /* it was chosen for asking
 /* ---- what would come of it ---- */
 void wr_generate_update(WrApp *app); /* once before each picture */
 void wr_generate_commit(WrApp *app);
+/* Letters are being written: Ctrl and Enter puts them on the table. */
+bool wr_generate_writes(const WrApp *app);
 void wr_generate_cancel(WrApp *app); /* nothing is shown any more; the values stay */
 
 /* ---- generate_presets.c: presets.wrinkle in the settings folder, a script of lines with their names as comments

@@ -82,7 +82,8 @@ static void ask_values(WrApp *app, const WrFilter *filter, bool filters, int lay
     wr_dialog_open(app, WR_DIALOG_ADJUST);
     app->adjust->op = filter->op;
     app->adjust->view = *app->view;
-    app->adjust->layers = app->adjust->held = app->adjust->chosen = 0;
+    app->adjust->layers = app->adjust->held = 0;
+    app->adjust->points = (WrPointsHand){ 0 };
     app->adjust->filters = filters;
     app->adjust->layer = layer;
     memcpy(app->adjust->param, filter->param, sizeof app->adjust->param);

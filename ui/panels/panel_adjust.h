@@ -4,6 +4,7 @@
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"
 #include "ui/gui/gui.h"
+#include "ui/panels/points_pad.h"
 
 #include "document/document.h"
 #include "field/ops.h"
@@ -35,10 +36,10 @@ typedef struct WrAdjust {
     uint64_t asked_at;          /* the document's revision when it was tried last */
     WrCanvasView view;          /* as it was before */
     WrHeightCounts histogram;   /* of levels and curves */
-    int held;               /* on it: 1 the low end, 2 the high one, of a curve a point; 0: none */
-    int chosen;             /* the curve's point that keys move, 0: none */
-    WrHeightSpan held_span; /* what it showed then */
-    bool lacks;             /* a filter could not be carried out, which was said */
+    int held;                   /* on it: 1 the low end, 2 the high one; 0: none */
+    WrPointsHand points;        /* of a curve */
+    WrHeightSpan held_span;     /* what it showed then */
+    bool lacks;                 /* a filter could not be carried out, which was said */
 } WrAdjust;
 
 /* The operation of an action "adjust_NAME", or NULL. */

@@ -7,6 +7,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
+#include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panels.h"
 #include "ui/tools/option.h"
 #include "ui/tools/shelf.h"
@@ -156,6 +157,8 @@ static void pressure(WrApp *app)
 
 /* ---- settings of a preset ---- */
 
+#define CURVE_UNITS 24 /* of the button that opens a setting's curves */
+
 #define GROUP_LIST(X)                                                                              \
     X(DABS, "DABS")                                                                                \
     X(SCATTER, "SCATTER")                                                                          \
@@ -199,7 +202,7 @@ static void setting(WrApp *app, int index)
     const WrSettingInfo *info = wr_preset_setting(index);
     double own = wr_preset_value(app->shelf->preset, index), value = own;
     bool changed = wr_tuning_get(app->brush_files->set, info->name, &value);
-    bool curve = !wr_preset_is_constant(app->shelf->preset, index);
+    bool curve = !wr_preset_is_constant(app->shelf->tuned, index);
     char tip[512];
     snprintf(tip, sizeof tip, "%.300s\n%.60s%s%s", wr_words(info->meaning), info->name,
              curve ? wr_words("; the pen or the motion turns it too") : "",
@@ -213,7 +216,12 @@ static void setting(WrApp *app, int index)
     snprintf(label, sizeof label, "%s%.40s", changed ? "\xe2\x80\xa2 " : "", wr_words(info->label));
     wr_gui_push_id(index);
     wr_gui_label(label);
-    WrEdit edit = wr_gui_number(info->name, 0, &spec, &value);
+    WrEdit edit =
+        wr_gui_number(info->name, wr_gui_available() - wr_gui_px(CURVE_UNITS + 6), &spec, &value);
+    wr_gui_same_line(6);
+    if (wr_gui_icon_button("curve", WR_ICON_CURVE, CURVE_UNITS, curve))
+        wr_dialog_dynamics_open(app, index);
+    wr_gui_tip("What pen and motion add to it, as curves");
     wr_gui_pop_id();
     if (edit != WR_EDIT_NONE)
         wr_shelf_tune(app, info->name, value == own ? (double)NAN : rint(value * 1e4) / 1e4);

@@ -68,6 +68,7 @@ static void under_pointer(const WrApp *app)
     pair("v", text);
     snprintf(text, sizeof text, "%.4g", f);
     pair("F", text);
+    wr_gui_tip("Height in the table; the inspector's F is this times the bump height");
     snprintf(text, sizeof text, "%.1f\xc2\xb0", wr_atan2(slope, 1.0) / WR_RAD_PER_DEG);
     pair("slope", text);
     wr_gui_tip("Angle of the relief over the unit cell at the scene's bump height");

@@ -45,22 +45,36 @@ static void add_name(WrText *out, const char *name, size_t length)
     wr_text_add(out, "=");
 }
 
-void wr_tuning_put(const char *set, const char *name, double value, WrText *out)
+void wr_tuning_put_text(const char *set, const char *name, const char *value, WrText *out)
 {
     Pair pair;
-    bool there = isnan(value) != 0;
+    bool there = !value;
     wr_text_clear(out);
     for (const char *at = set; next(&at, &pair);) {
         bool same = is(&pair, name);
         if (same && there) continue; /* taken out, or there twice */
         add_name(out, pair.name, pair.name_length);
-        if (same) wr_text_add_number(out, value);
+        if (same) wr_text_add(out, value);
         else wr_text_add_n(out, pair.value, pair.value_length);
         there |= same;
     }
     if (there) return;
     add_name(out, name, strlen(name));
-    wr_text_add_number(out, value);
+    wr_text_add(out, value);
+}
+
+void wr_tuning_put(const char *set, const char *name, double value, WrText *out)
+{
+    char number[WR_NUMBER_SIZE];
+    wr_tuning_put_text(set, name, isnan(value) ? NULL : wr_number_print(value, number), out);
+}
+
+bool wr_tuning_has(const char *set, const char *name)
+{
+    Pair pair;
+    for (const char *at = set; next(&at, &pair);)
+        if (is(&pair, name)) return true;
+    return false;
 }
 
 int wr_tuning_count(const char *set)

@@ -1,4 +1,4 @@
-/* tuning.h - the text "name=value;name=value" of a preset's changed settings. No window needed. */
+/* tuning.h - the text "name=value;name=value" of a preset's changed settings and curves. No window needed. */
 #pragma once
 #include <stdbool.h>
 
@@ -8,5 +8,8 @@ typedef struct WrText WrText;
 bool wr_tuning_get(const char *set, const char *name, double *value);
 /* The text with that value, in the order in which they came; NAN takes the name out. */
 void wr_tuning_put(const char *set, const char *name, double value, WrText *out);
+/* The same for a value that is no number; NULL takes the name out. */
+void wr_tuning_put_text(const char *set, const char *name, const char *value, WrText *out);
+bool wr_tuning_has(const char *set, const char *name);
 /* How many there are. */
 int wr_tuning_count(const char *set);

@@ -1,0 +1,165 @@
+#include "ui/panels/points_pad.h"
+#include "ui/gui/theme.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <string.h>
+
+#define REACH_UNITS 9.0
+#define OUT_UNITS 28.0 /* so far outside a point is let go */
+#define STEPS 160
+
+double wr_points_x(const WrPad *pad, const WrPointsSpan *span, double x)
+{
+    return pad->x + pad->w * (x - span->left) / (span->right - span->left);
+}
+
+double wr_points_y(const WrPad *pad, const WrPointsSpan *span, double y)
+{
+    return pad->y + pad->h * (1.0 - (y - span->low) / (span->high - span->low));
+}
+
+void wr_points_draw(const WrPad *pad, const WrPointsHand *hand, const double *value, WrPointsAt *at,
+                    const void *ctx)
+{
+    const WrPointsSpan *span = &hand->span;
+    double before_x = 0.0, before_y = 0.0;
+    bool before = false;
+    for (int k = 0; k <= STEPS; k++) {
+        double height;
+        const double place = span->left + (span->right - span->left) * k / STEPS;
+        const bool there = at(ctx, place, &height);
+        const double x = wr_points_x(pad, span, place);
+        const double y =
+            there ? fmin(fmax(wr_points_y(pad, span, height), pad->y), pad->y + pad->h) : 0.0;
+        if (before && there)
+            wr_gui_draw_line(before_x, before_y, x, y, WR_COLOUR_CELL, wr_gui_px(2));
+        before = there;
+        before_x = x;
+        before_y = y;
+    }
+    for (int i = 0; i < (int)*value; i++)
+        wr_gui_draw_disc(wr_points_x(pad, span, value[1 + 2 * i]),
+                         wr_points_y(pad, span, value[2 + 2 * i]), wr_gui_px(4),
+                         i == hand->chosen - 1 ? WR_COLOUR_ACCENT : WR_COLOUR_STRONG);
+}
+
+static int near(const WrPad *pad, const WrPointsSpan *span, const double *value)
+{
+    double most = wr_gui_px(REACH_UNITS);
+    int found = -1;
+    for (int i = 0; i < (int)*value; i++) {
+        const double away = hypot(wr_points_x(pad, span, value[1 + 2 * i]) - pad->pointer_x,
+                                  wr_points_y(pad, span, value[2 + 2 * i]) - pad->pointer_y);
+        if (away <= most) found = i, most = away;
+    }
+    return found;
+}
+
+static bool take_away(const WrPointsRules *rules, double *value, int i)
+{
+    const int count = (int)*value;
+    if (count <= rules->least) return false;
+    memmove(value + 1 + 2 * i, value + 3 + 2 * i, sizeof *value * 2 * (size_t)(count - 1 - i));
+    *value = count - 1;
+    return true;
+}
+
+/* The new point's index; -1: there is no room. */
+static int add(const WrPointsRules *rules, double *value, double x, double y)
+{
+    const int count = (int)*value;
+    int i = 0;
+    while (i < count && value[1 + 2 * i] < x) i++;
+    if (count == rules->most || (i < count && value[1 + 2 * i] == x)) return -1;
+    memmove(value + 3 + 2 * i, value + 1 + 2 * i, sizeof *value * 2 * (size_t)(count - i));
+    value[1 + 2 * i] = x;
+    value[2 + 2 * i] = y;
+    *value = count + 1;
+    return i;
+}
+
+static double within(double x, double low, double high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+static double rounded(double x)
+{
+    return rint(x * 1e4) / 1e4;
+}
+
+static void keep_inside(const WrPointsSpan *span, const WrPointsRules *rules, double *x, double *y)
+{
+    if (rules->ends) *x = within(*x, span->left, span->right);
+    if (rules->inside) *y = within(*y, span->low, span->high);
+    *x = rounded(*x);
+    *y = rounded(*y);
+}
+
+/* Between its neighbours, which it never passes. */
+static void move(const WrPointsSpan *span, const WrPointsRules *rules, double *value, int i,
+                 double x, double y)
+{
+    const double gap = (span->right - span->left) / 1e3;
+    keep_inside(span, rules, &x, &y);
+    if (i > 0) x = fmax(x, value[2 * i - 1] + gap);
+    if (i < (int)*value - 1) x = fmin(x, value[3 + 2 * i] - gap);
+    value[1 + 2 * i] = rounded(x);
+    value[2 + 2 * i] = y;
+}
+
+static bool drag(const WrPad *pad, const WrPointsRules *rules, WrPointsHand *hand, double *value,
+                 double x, double y)
+{
+    const int i = hand->held - 1;
+    const double out = wr_gui_px(OUT_UNITS);
+    const bool outside = pad->pointer_y < pad->y - out || pad->pointer_y > pad->y + pad->h + out ||
+                         pad->pointer_x < pad->x - out || pad->pointer_x > pad->x + pad->w + out;
+    if (outside && take_away(rules, value, i)) {
+        hand->held = hand->chosen = 0;
+        return true;
+    }
+    const double was_x = value[1 + 2 * i], was_y = value[2 + 2 * i];
+    move(&hand->span, rules, value, i, x, y);
+    return value[1 + 2 * i] != was_x || value[2 + 2 * i] != was_y;
+}
+
+static bool keys(const WrPointsRules *rules, WrPointsHand *hand, double *value)
+{
+    const WrPointsSpan *span = &hand->span;
+    const int i = hand->chosen - 1;
+    if (i < 0 || i >= (int)*value) return false;
+    const double dx =
+        wr_gui_key_pressed(SDL_SCANCODE_RIGHT) - wr_gui_key_pressed(SDL_SCANCODE_LEFT);
+    const double dy = wr_gui_key_pressed(SDL_SCANCODE_UP) - wr_gui_key_pressed(SDL_SCANCODE_DOWN);
+    if (wr_gui_key_pressed(SDL_SCANCODE_DELETE) && take_away(rules, value, i)) {
+        hand->chosen = 0;
+        return true;
+    }
+    if (dx == 0.0 && dy == 0.0) return false;
+    move(span, rules, value, i, value[1 + 2 * i] + dx * (span->right - span->left) / 200.0,
+         value[2 + 2 * i] + dy * (span->high - span->low) / 200.0);
+    return true;
+}
+
+bool wr_points_move(const WrPad *pad, const WrPointsSpan *now, const WrPointsRules *rules,
+                    WrPointsHand *hand, double *value)
+{
+    if (!hand->held) hand->span = *now;
+    const WrPointsSpan *span = &hand->span;
+    double x = span->left + (span->right - span->left) * (pad->pointer_x - pad->x) / pad->w;
+    double y = span->high - (span->high - span->low) * (pad->pointer_y - pad->y) / pad->h;
+    bool changed = false;
+    if (pad->pressed) {
+        int at = near(pad, span, value);
+        changed = at < 0;
+        keep_inside(span, rules, &x, &y);
+        if (at < 0) at = add(rules, value, x, y);
+        hand->held = hand->chosen = at + 1;
+    }
+    if (pad->held && hand->held) changed |= drag(pad, rules, hand, value, x, y);
+    if (!pad->held) hand->held = 0;
+    if (!pad->held) changed |= keys(rules, hand, value);
+    return changed;
+}
