@@ -283,17 +283,22 @@ static void contours_lie_between_two_pixels_that_differ(void **state)
     int lines = 0;
     for (int i = 0; i < 97; i++) {
         rows[0][i] = (float)(0.0113 * i - 0.31);
-        rows[1][i] = rows[0][i] + 0.0071F;
+        rows[1][i] = rows[0][i] + 0.0371F; /* more than from the left */
     }
     wr_canvas_ink_heights(&ink, rows[1] + 1, rows[1][0], rows[0] + 1, 96, out);
     for (int i = 1; i < 97; i++) {
         double here = (double)rows[1][i], left = (double)rows[1][i - 1], over = (double)rows[0][i];
         bool line = false;
+        uint32_t ink_of = 0;
         for (int k = -5; k < 10; k++) {
-            line = line || (left < k * step && here >= k * step);
-            line = line || (over < k * step && here >= k * step);
+            if (!(left < k * step && here >= k * step) && !(over < k * step && here >= k * step))
+                continue;
+            line =
+                true; /* the ground's, every fifth, and the others; a pixel here has one at most */
+            ink_of = k == 0 ? 0xffc05a10u : k % 5 == 0 ? 0xff101010u : 0xff505860u;
         }
         lines += line;
+        if (line && out[i - 1] != ink_of) fail_msg("pixel %d is %x", i, out[i - 1]);
         if (line != (out[i - 1] != wr_canvas_ink_colour(&ink, here))) fail_msg("pixel %d", i);
     }
     assert_true(lines >= 8);

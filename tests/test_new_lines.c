@@ -62,10 +62,11 @@ static void cells_keep_their_shape(void **state)
 {
     (void)state;
     static const int sizes[][2] = { { 512, 512 }, { 300, 200 }, { 128, 511 }, { 1000, 31 } };
-    const WrSurfaceKind kinds[] = { WR_SURFACE_plane, WR_SURFACE_sphere, WR_SURFACE_cylinder };
-    for (int n = 0; n < 12; n++) {
-        const int *size = sizes[n / 3];
-        WrNewForm form = { .width = size[0], .height = size[1], .surface = (int)kinds[n % 3] };
+    const WrSurfaceKind kinds[] = { WR_SURFACE_plane, WR_SURFACE_sphere, WR_SURFACE_cylinder,
+                                    WR_SURFACE_torus };
+    for (int n = 0; n < 16; n++) {
+        const int *size = sizes[n / 4], kind = n % 4;
+        WrNewForm form = { .width = size[0], .height = size[1], .surface = (int)kinds[kind] };
         WrSession *session = wr_session_new(NULL);
         WrText lines = { 0 };
         wr_new_lines(&form, wr_document_wrap_name(0), &lines);
@@ -73,12 +74,13 @@ static void cells_keep_their_shape(void **state)
         run(session, rest);
         const WrScene *scene = wr_session_document(session)->scene;
         const double cell = (double)size[0] / size[1], *p = scene->shape.value;
-        const double wide = n % 3 == 0   ? p[0] / p[1]
-                            : n % 3 == 1 ? 2.0
-                                         : 6.283185307179586 * p[0] / p[1];
+        const double wide = kind == 0   ? p[0] / p[1]
+                            : kind == 1 ? 2.0
+                            : kind == 2 ? 6.283185307179586 * p[0] / p[1]
+                                        : p[0] / p[1]; /* the tube's middle over the tube */
         const double ru = scene->replicate_u, rv = scene->replicate_v;
         const double stretched = wide * rv / ru / cell; /* 1: as it is */
-        if (n % 3 == 0) assert_near(stretched, 1, 1e-12);
+        if (kind == 0) assert_near(stretched, 1, 1e-12);
         else if (ru > 1) assert_true(stretched > 0.66 && stretched < 1.51);
         else assert_true(stretched < 1.51); /* a cell wider than the surface is pressed */
         wr_text_fini(&lines);
