@@ -316,6 +316,8 @@ rest
 key Return
 becomes 'picture paste *clipboard/copy-*.png*size=48*' "a picture of another program is pasted"
 xdotool key ctrl+q
+settle
+xdotool key d
 ends 0
 
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }

@@ -85,15 +85,10 @@ DIALOG(about, WR_DIALOG_ABOUT)
 
 /* ---- tools ---- */
 
-static void choose_tool(WrApp *app, const char *name)
-{
-    wr_tool_choose(app, wr_tool_find(app, name));
-}
-
 #define TOOL(name)                                                                                 \
     static void tool_##name(WrApp *app)                                                            \
     {                                                                                              \
-        choose_tool(app, WR_ACT(name));                                                            \
+        wr_tool_choose(app, wr_tool_find(app, WR_ACT(name)));                                      \
     }
 TOOL(brush)
 TOOL(smooth)
