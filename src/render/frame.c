@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "field/field.h"
 #include "render/frame_inner.h"
+#include "render/kern_wide.h"
 #include "render/pipe.h"
 #include "scene/objects.h"
 #include "system/clock.h"
@@ -184,6 +185,7 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     renderer->look = job.look, renderer->look_double = job.look_double;
     renderer->parallax = job.parallax;
     wr_frame_fill_sight(renderer, &job);
+    job.wide = wr_wide_of(job.kernels);
     job.cast = &renderer->cast;
     job.cast_count =
         wr_plan_calls(&renderer->plan, WR_EFFECT_CAST) ? renderer->cast.count : renderer->cast.all;

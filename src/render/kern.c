@@ -3,6 +3,7 @@
 #include "base/cpu.h"
 #include "base/error.h"
 #include "render/kern_tables.h"
+#include "render/kern_wide.h"
 
 #include <string.h>
 
@@ -41,6 +42,14 @@ const WrKernels *wr_kernels_get(const char *isa, bool fast, WrError *err)
     int level = find_level(isa, err);
     if (level < 0) return NULL;
     return fast ? levels[level].fast : levels[level].exact;
+}
+
+const WrWide *wr_wide_of(const WrKernels *kernels)
+{
+    const WrWide *wide = kernels == &wr_kern_fast_v4   ? &wr_wide_v4
+                         : kernels == &wr_kern_fast_v3 ? &wr_wide_v3
+                                                       : NULL;
+    return wide && wide->shade ? wide : NULL;
 }
 
 const WrKernelsd *wr_kernels_double(const char *isa, WrError *err)

@@ -68,6 +68,7 @@ static bool lit(const WrSink *sink)
     return sink->rgba || sink->codes;
 }
 
+#include "render/pipe_wide_body.h"
 #include "render/pipe_horizon_body.h"
 #include "render/pipe_shadow_body.h"
 #include "render/pipe_cast_body.h"

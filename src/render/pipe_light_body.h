@@ -131,7 +131,8 @@ static void light_at_once(const WrTileJob *job, const Rays *rays, WR_T(WrShadeKe
         material = { ambient ? (REAL)m->ambient : (REAL)0,
                      diffuse ? (REAL)m->diffuse : (REAL)0,
                      { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z } };
-    shade(rays, VIEWED(job->view, lights), &shine, &material, strip);
+    if (!shines || !shaded_wide(job, rays, &shine, &material, strip))
+        shade(rays, VIEWED(job->view, lights), &shine, &material, strip);
     if (diffuse) did(watch, WR_EFFECT_DIFFUSE);
     if (shines) did(watch, WR_EFFECT_SPECULAR);
     watch_lap(watch, WR_STAGE_LIGHT);

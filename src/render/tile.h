@@ -24,6 +24,7 @@
 #define WR_TILE_SAMPLES_H 64
 #define WR_TILE_ROOM (WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H + WR_WALK_PAD)
 
+typedef struct WrWide WrWide; /* kern_wide.h */
 typedef struct WrCast WrCast;
 typedef struct WrFrames WrFrames;
 typedef struct WrHorizon WrHorizon;
@@ -61,6 +62,7 @@ typedef struct WrTileJob {
     double relief_height;          /* of a table unit, kernel units, above 0 */
     const WrCast *cast;            /* what can hide lamps from it; read where the plan runs that */
     int cast_count;                /* of cast->to */
+    const WrWide *wide;            /* kernels of several stages at once; or NULL */
     double cast_unit;              /* kernel units -> those of the object */
     WrParallax parallax;           /* read where the plan runs that */
     WrLevel level;                 /* how steep the table is where; only for one of the next two */
