@@ -179,6 +179,47 @@ static void slopes_along_either_parameter_count(void **state)
     }
 }
 
+/* Fast arithmetic bends a sphere's normals without its tangents, which this asks for: as many samples are spared, and what
+   the renderer drew before is forgotten. */
+static void fast_arithmetic_spares_as_much(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    WrField *field = bumpy_field(64, 64);
+    WrScene *scene = scene_of("sphere"), *other = scene_of("sphere");
+    scene->height = 0.01;
+    scene->lights[0] =
+        (WrLight){ .where = { 0.5, 0.2, -0.9 }, .colour = { 1, 0.9, 0.8 }, .strength = 1 };
+    other->height = 0.003;
+    WrRenderer *renderer = wr_renderer_new(NULL, "auto", &err);
+    Shot exact = shoot(scene, field, 150, 150, 1, "auto", false);
+    scene->dials.arithmetic = WR_ARITHMETIC_FAST;
+    for (int shine = 5; shine < 60; shine += 40) { /* the stages; several at once */
+        scene->material.shininess = shine;
+        Shot fast = shoot(scene, field, 150, 150, 1, "auto", false);
+        WrFrame frame;
+        WrFrameRequest request = { .field = field, .scene = other, .width = 150, .height = 150 };
+        const int64_t lit = fast.frame.plan->rows[WR_EFFECT_BUMP].pixels;
+        const int64_t want = exact.frame.plan->rows[WR_EFFECT_BUMP].pixels;
+        assert_in_range(want, exact.frame.shaded / 4, exact.frame.shaded * 9 / 10);
+        assert_in_range(lit, want * 98 / 100, want * 102 / 100);
+        for (int turn = 0; turn < 3; turn++) {
+            request.turn_deg = 40 * turn;
+            if (!wr_renderer_frame(renderer, &request, &frame, &err)) fail_msg("%s", err.text);
+        }
+        request.scene = scene;
+        request.turn_deg = 15;
+        if (!wr_renderer_frame(renderer, &request, &frame, &err)) fail_msg("%s", err.text);
+        assert_memory_equal(frame.rgba, fast.frame.rgba, 150 * 150 * 4 * sizeof(float));
+        put_away(&fast);
+    }
+    put_away(&exact);
+    wr_renderer_free(renderer);
+    wr_scene_free(scene);
+    wr_scene_free(other);
+    wr_field_free(field);
+}
+
 /* A view that rests: what was dark may come to light by an edit. */
 static void edits_bring_the_light_back(void **state)
 {
@@ -224,6 +265,7 @@ int main(void)
         cmocka_unit_test(one_texel_brings_the_light_back),
         cmocka_unit_test(slopes_along_either_parameter_count),
         cmocka_unit_test(edits_bring_the_light_back),
+        cmocka_unit_test(fast_arithmetic_spares_as_much),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -185,11 +185,13 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     renderer->look = job.look, renderer->look_double = job.look_double;
     renderer->parallax = job.parallax;
     wr_frame_fill_sight(renderer, &job);
-    job.wide = wr_wide_of(job.kernels);
     job.cast = &renderer->cast;
     job.cast_count =
         wr_plan_calls(&renderer->plan, WR_EFFECT_CAST) ? renderer->cast.count : renderer->cast.all;
     job.cast_unit = 1 / renderer->view.scale;
+    job.wide = wr_wide_of(job.kernels);
+    job.wide_sphere = wr_pipe_wide_sphere(&job);
+    job.grey = wr_pipe_grey(&job);
     return job;
 }
 

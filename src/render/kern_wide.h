@@ -6,12 +6,33 @@
 #include "render/kern.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct WrWide {
+    /* Is its highlight such as these are for? */
+    bool (*narrow)(const WrKernLight *light, const WrKernShine *shine);
     /* All of one lamp of Blinn and Phong, as WrKernels.shade does it; pictured: C is a picture's. False: not such as this
        is for, and nothing is done. */
     bool (*shade)(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
                   const WrKernMaterial *material, bool pictured, WrStrip *strip);
+    /* Of a sphere that is seen from outside, the samples of a row from (gx, gy) on, neighbours: index, n, s: 1 / |d| of
+       sphere_light; mapped: u, v. False: as above. */
+    bool (*sphere)(const WrRays *rays, const WrShapef *shape, float gx, float gy, int count,
+                   bool mapped, WrStrip *strip);
+    /* P of those. */
+    void (*points)(const WrShapef *shape, WrStrip *strip);
+    /* The light of those, by n or, bent, by Blinn's n' of the slopes; of a near lamp with P. dark: it is behind all of
+       them. */
+    bool (*sphere_light)(const WrRays *rays, const WrShapef *shape, const WrKernLight *light,
+                         const WrKernShine *shine, const WrKernMaterial *material, float gx,
+                         float gy, bool pictured, bool bent, bool *dark, WrStrip *strip);
+    /* Fu, Fv of `central`, as WrKernels.look; false: as above. */
+    bool (*central)(const WrLook *look, WrStrip *strip);
+    /* C of a colour picture, as WrKernels.colour; false: as above. */
+    bool (*colour)(const WrColourLook *look, WrStrip *strip);
+    /* Finished colours as opaque codes, as WrKernels.codes; grey: red, green and blue of all are the same bits. How many
+       numbers were not finite. */
+    int (*codes)(const uint32_t *bins, const WrStrip *strip, bool grey, uint32_t *out);
 } WrWide;
 
 extern const WrWide wr_wide_v3, wr_wide_v4; /* empty where the processor is another */

@@ -18,13 +18,12 @@ static float widest(const WrKernLight *light, const WrKernShine *shine)
 /* (1 - x)^s, 0 <= x <= NARROW: within 1e-5 of itself. */
 ALWAYS Wide narrow_lobe(Wide x, Wide s)
 {
-    const Wide slope =
-        w_all(-1.44269621f) +
-        x * (w_all(-0.721112967f) +
-             x * (w_all(-0.488225251f) +
-                  x * (w_all(-0.276858598f) +
-                       x * (w_all(-0.729325235f) +
-                            x * (w_all(0.875417769f) + x * w_all(-1.39874518f))))));
+    const Wide slope = w_all(-1.44269621f) +
+                       x * (w_all(-0.721112967f) +
+                            x * (w_all(-0.488225251f) +
+                                 x * (w_all(-0.276858598f) +
+                                      x * (w_all(-0.729325235f) +
+                                           x * (w_all(0.875417769f) + x * w_all(-1.39874518f))))));
     const Wide e = w_max(s * (x * slope), w_all(-100.0f)), n = w_nearest(e), f = e - n;
     const Wide p =
         w_all(1.0f) +
@@ -35,28 +34,27 @@ ALWAYS Wide narrow_lobe(Wide x, Wide s)
 
 typedef struct Lamp {
     WideVec where, viewer;
-    Wide shininess, limit;
+    Wide shininess, limit; /* limit: of 2 (1 - n'.h) */
     bool gate;
 } Lamp;
 
-/* The highlight of samples i and on, of normal `bent`; 0 where there is none. */
-ALWAYS Wide narrow_highlight(const Lamp *lamp, WideVec l, Wide n_dot_l, WideVec bent,
-                             const bool near, const WrStrip *strip, int i)
+ALWAYS WideVec unit_towards(WideVec from, WideVec to)
 {
-    const Wide least = w_all(1e-24f);
-    WideVec v = lamp->viewer;
-    if (near) {
-        v = w_sub(v, W_LOAD3(strip, p, i));
-        v = w_scale(v, w_rsqrt(w_max(w_dot(v, v), w_all(1e-30f))));
-    }
-    const WideVec h = { l.x + v.x, l.y + v.y, l.z + v.z };
-    const Wide hh = w_dot(h, h);
-    const WideVec off = w_mad(bent, h, -w_rsqrt(w_max(hh, least)));
-    const Wide below = w_all(0.5f) * w_dot(off, off);
-    WideMask shown = w_both(w_less(below, lamp->limit), w_less(least, hh));
+    const WideVec v = w_sub(to, from);
+    return w_scale(v, w_rsqrt(w_max(w_dot(v, v), w_all(1e-30f))));
+}
+
+/* Seen along v; 0 where there is none. */
+ALWAYS Wide narrow_highlight(const Lamp *lamp, WideVec l, Wide n_dot_l, WideVec bent, WideVec v)
+{
+    const WideVec h = { l.x + v.x, l.y + v.y,
+                        l.z + v.z }; /* 0 where l and v are opposite: off is n' */
+    const WideVec off = w_mad(bent, h, -w_rsqrt(w_max(w_dot(h, h), w_all(1e-24f))));
+    const Wide twice = w_dot(off, off);
+    WideMask shown = w_less(twice, lamp->limit);
     if (lamp->gate) shown = w_both(shown, w_less(w_all(0.0f), n_dot_l));
     if (!w_any(shown)) return w_all(0.0f);
-    return w_kept(shown, narrow_lobe(below, lamp->shininess));
+    return w_kept(shown, narrow_lobe(w_all(0.5f) * twice, lamp->shininess));
 }
 
 /* What each channel is made of. */
@@ -64,7 +62,8 @@ typedef struct Channel {
     Wide own, diffuse, specular;
 } Channel;
 
-ALWAYS Channel channel_of(const WrKernLight *light, const WrKernShine *shine, const WrKernMaterial *material, int c)
+ALWAYS Channel channel_of(const WrKernLight *light, const WrKernShine *shine,
+                          const WrKernMaterial *material, int c)
 {
     return (Channel){ w_all(material->rgb[c]), w_all(material->kd * light->rgb[c]),
                       w_all(shine->ks * light->rgb[c]) };
@@ -80,50 +79,78 @@ ALWAYS bool are_alike(const float c[3])
     return c[0] == c[1] && c[0] == c[2];
 }
 
-ALWAYS void shade_narrow(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
-                         const WrKernMaterial *material, float limit, const bool point, const bool near,
-                         const bool pictured, WrStrip *strip)
+/* A lamp on matter. */
+typedef struct Scenery {
+    Lamp lamp;
+    Channel red, green, blue;
+    Wide ambient;
+    bool grey; /* what is no picture's is the same in all channels */
+} Scenery;
+
+ALWAYS Scenery scenery_of(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
+                          const WrKernMaterial *material)
 {
-    const Lamp lamp = { w_alike(light->where), w_alike(near ? rays->eye : rays->toward),
-                        w_all(shine->shininess), w_all(limit), shine->gate };
-    const Channel red = channel_of(light, shine, material, 0);
-    const Channel green = channel_of(light, shine, material, 1);
-    const Channel blue = channel_of(light, shine, material, 2);
-    const bool grey = !pictured && are_alike(light->rgb) && are_alike(material->rgb);
-    const Wide zero = w_all(0.0f), one = w_all(1.0f), ambient = w_all(material->ambient);
+    return (Scenery){ { w_alike(light->where),
+                        w_alike(rays->perspective ? rays->eye : rays->toward),
+                        w_all(shine->shininess), w_all(2 * widest(light, shine)), shine->gate },
+                      channel_of(light, shine, material, 0),
+                      channel_of(light, shine, material, 1),
+                      channel_of(light, shine, material, 2),
+                      w_all(material->ambient),
+                      are_alike(light->rgb) && are_alike(material->rgb) };
+}
+
+/* The colour of samples i and on, at p with n' `bent`, seen along v. Returns n'.l. */
+ALWAYS Wide put_colour(const Scenery *s, const bool point, const bool pictured, WideVec p,
+                       WideVec bent, WideVec v, WrStrip *strip, int i)
+{
+    const WideVec l = point ? unit_towards(p, s->lamp.where) : s->lamp.where;
+    const Wide n_dot_l = w_dot(bent, l), lit = w_max(n_dot_l, w_all(0.0f)), one = w_all(1.0f);
+    const Wide lobe = narrow_highlight(&s->lamp, l, n_dot_l, bent, v);
+    const Wide r = pictured ? w_load(strip->cr + i) : one;
+    const Wide red = channel_lit(s->red, r, s->ambient, lit, lobe);
+    Wide green = red, blue = red;
+    if (pictured || !s->grey) {
+        const Wide g = pictured ? w_load(strip->cg + i) : one;
+        const Wide b = pictured ? w_load(strip->cb + i) : one;
+        green = channel_lit(s->green, g, s->ambient, lit, lobe);
+        blue = channel_lit(s->blue, b, s->ambient, lit, lobe);
+    }
+    w_store(strip->cr + i, red), w_store(strip->cg + i, green), w_store(strip->cb + i, blue);
+    return n_dot_l;
+}
+
+ALWAYS void shade_narrow(const Scenery *s, const bool point, const bool near, const bool pictured,
+                         WrStrip *strip)
+{
     const int count = strip->count;
     for (int i = 0; i < count; i += WIDE) {
-        const WideVec bent = W_LOAD3(strip, b, i);
-        WideVec l = lamp.where;
-        if (point) {
-            l = w_sub(l, W_LOAD3(strip, p, i));
-            l = w_scale(l, w_rsqrt(w_max(w_dot(l, l), w_all(1e-30f))));
-        }
-        const Wide n_dot_l = w_dot(bent, l), lit = w_max(n_dot_l, zero);
-        const Wide lobe = narrow_highlight(&lamp, l, n_dot_l, bent, near, strip, i);
-        const Wide r = channel_lit(red, pictured ? w_load(strip->cr + i) : one, ambient, lit, lobe);
-        Wide g = r, b = r;
-        if (!grey) {
-            g = channel_lit(green, pictured ? w_load(strip->cg + i) : one, ambient, lit, lobe);
-            b = channel_lit(blue, pictured ? w_load(strip->cb + i) : one, ambient, lit, lobe);
-        }
-        w_store(strip->cr + i, r), w_store(strip->cg + i, g), w_store(strip->cb + i, b);
+        const WideVec p = point || near ? W_LOAD3(strip, p, i) : s->lamp.viewer;
+        const WideVec v = near ? unit_towards(p, s->lamp.viewer) : s->lamp.viewer;
+        put_colour(s, point, pictured, p, W_LOAD3(strip, b, i), v, strip, i);
     }
+}
+
+static bool narrow(const WrKernLight *light, const WrKernShine *shine)
+{
+    return widest(light, shine) <= NARROW;
 }
 
 static bool wide_shade(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
                        const WrKernMaterial *material, bool pictured, WrStrip *strip)
 {
-    const float limit = widest(light, shine);
-    const bool point = light->point, near = rays->perspective;
-    if (!(limit <= NARROW)) return false;
-    if (point && near && pictured) shade_narrow(rays, light, shine, material, limit, true, true, true, strip);
-    else if (point && near) shade_narrow(rays, light, shine, material, limit, true, true, false, strip);
-    else if (point && pictured) shade_narrow(rays, light, shine, material, limit, true, false, true, strip);
-    else if (point) shade_narrow(rays, light, shine, material, limit, true, false, false, strip);
-    else if (near && pictured) shade_narrow(rays, light, shine, material, limit, false, true, true, strip);
-    else if (near) shade_narrow(rays, light, shine, material, limit, false, true, false, strip);
-    else if (pictured) shade_narrow(rays, light, shine, material, limit, false, false, true, strip);
-    else shade_narrow(rays, light, shine, material, limit, false, false, false, strip);
+    if (!narrow(light, shine)) return false;
+    const Scenery s = scenery_of(rays, light, shine, material);
+    const int which = (light->point ? 4 : 0) + (rays->perspective ? 2 : 0) + (pictured ? 1 : 0);
+    switch (which) {
+    case 0: shade_narrow(&s, false, false, false, strip); break;
+    case 1: shade_narrow(&s, false, false, true, strip); break;
+    case 2: shade_narrow(&s, false, true, false, strip); break;
+    case 3: shade_narrow(&s, false, true, true, strip); break;
+    case 4: shade_narrow(&s, true, false, false, strip); break;
+    case 5: shade_narrow(&s, true, false, true, strip); break;
+    case 6: shade_narrow(&s, true, true, false, strip); break;
+    default: shade_narrow(&s, true, true, true, strip); break;
+    }
     return true;
 }

@@ -1,3 +1,3 @@
 /* The wide kernels for one instruction set; CMakeLists.txt gives the flags. */
 #define WR_WIDE_TABLE wr_wide_v3
-#include "render/kern_wide_table.h"
+#include "render/kern_wide_set_body.h"

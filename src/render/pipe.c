@@ -35,7 +35,7 @@
 #define GRAIN_OF(job) (&(job)->grain)
 #define VARY_OF(job) (&(job)->vary)
 #define VIEWED(view, member) ((view)->member)
-#define HAS_WIDE /* kern_wide.h is in single precision */
+#define HAS_WIDE     /* kern_wide.h is in single precision */
 #define MORE_STEPS 0 /* more steps of Newton's method than single precision needs */
 #define TURN 0x1p-18 /* part of a tangent that Newton's last step may change it by */
 #include "render/pipe_body.h"

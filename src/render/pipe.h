@@ -22,6 +22,11 @@ struct WrPipe {
 
 extern const WrPipe wr_pipe, wr_pipe_double;
 
+/* Do rows go to the kernels of several stages at once (kern_wide.h), for all that the job tells? */
+bool wr_pipe_wide_sphere(const WrTileJob *job);
+/* Are red, green and blue of all of its light worked out alike? */
+bool wr_pipe_grey(const WrTileJob *job);
+
 /* Refine a tile by dials.h's rule: a first sample at each centre, then k x k where it is called for. */
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch);
 /* The same of several objects: jobs[count], the nearest first; canvas: where pixels go; index: of the tile in their `seen`. */

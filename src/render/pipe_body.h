@@ -68,7 +68,6 @@ static bool lit(const WrSink *sink)
     return sink->rgba || sink->codes;
 }
 
-#include "render/pipe_wide_body.h"
 #include "render/pipe_horizon_body.h"
 #include "render/pipe_shadow_body.h"
 #include "render/pipe_cast_body.h"
@@ -182,6 +181,19 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
     keep_half3(job, strip->bx, strip->by, strip->bz, strip->count, watch);
 }
 
+/* What the run is spared, once P and n are known; lit: it is known not to be dark. untold: as is_dark has it. */
+static unsigned spared_of(const WrTileJob *job, const Rays *rays, bool level, bool lit,
+                          const WR_T(WrRound) * untold, Strip *strip, WrTileScratch *scratch,
+                          Watch *watch)
+{
+    const bool dark = !lit && is_dark(job, rays, level, untold, strip);
+    const unsigned spared = (level ? WR_RUN_LEVEL : 0) | (dark ? WR_RUN_DARK : 0);
+    if (runs(job, WR_EFFECT_GROUND) && !dark) did(watch, WR_EFFECT_GROUND);
+    if (spared && scratch->notes.patches && job->plan->bump != WR_BUMP_NONE)
+        note_spared(job, rays, strip, scratch);
+    return spared;
+}
+
 /* P, n and n' of the samples, as far as light asks for them. Returns what they were spared, bits of WrRun. */
 static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, const WrSink *sink,
                              Strip *strip, WrTileScratch *scratch, Watch *watch)
@@ -191,12 +203,9 @@ static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, c
     surface_strip(job, face, level, sink, strip, watch);
     if (sink->nearest) keep_near(job, sink, strip, watch);
     if (strip->count == 0) return 0;
-    const bool dark = is_dark(job, rays, level, strip);
-    const unsigned spared = (level ? WR_RUN_LEVEL : 0) | (dark ? WR_RUN_DARK : 0);
-    if (runs(job, WR_EFFECT_GROUND) && !dark) did(watch, WR_EFFECT_GROUND);
-    if (spared && scratch->notes.patches && job->plan->bump != WR_BUMP_NONE)
-        note_spared(job, rays, strip, scratch);
-    if (dark) return spared;
+    const WR_T(WrRound) *untold = bends_at_once(job, sink) ? round_of(job) : NULL;
+    const unsigned spared = spared_of(job, rays, level, false, untold, strip, scratch, watch);
+    if (spared & WR_RUN_DARK) return spared;
     if (runs(job, WR_EFFECT_CURVATURE)) {
         const WrSurfaceKind kind = job->view->shape_d.kind;
         KERNELS_OF(job)->curvature[kind](&VIEWED(job->view, shape), face, strip);
@@ -271,20 +280,26 @@ static void note_map(const WrTileJob *job, const Rays *rays, unsigned spared, co
     }
 }
 
-static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
-                         WrTileScratch *scratch, Watch *watch)
+/* What has become of a strip's samples, to its place and into the counts. */
+static void put_strip(const WrTileJob *job, const Rays *rays, unsigned spared, const WrSink *sink,
+                      const Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
-    Strip *strip = STRIP_OF(scratch);
-    if (strip->count == 0) return;
     note_view(job, rays, scratch);
-    const unsigned spared = shade_strip(job, rays, quad, sink, strip, scratch, watch);
-    if (strip->count == 0) return;
     if (lit(sink)) scratch->spared[spared] += strip->count;
     if (job->map) note_map(job, rays, spared, strip, scratch);
     store(job, sink, strip, scratch);
     if (runs(job, WR_EFFECT_HORIZON)) fade_strip(job, rays, sink, strip, watch);
     watch_lap(watch, WR_STAGE_STORE);
     if (lit(sink)) scratch->shaded += strip->count;
+}
+
+static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
+                         WrTileScratch *scratch, Watch *watch)
+{
+    Strip *strip = STRIP_OF(scratch);
+    if (strip->count == 0) return;
+    const unsigned spared = shade_strip(job, rays, quad, sink, strip, scratch, watch);
+    if (strip->count > 0) put_strip(job, rays, spared, sink, strip, scratch, watch);
 }
 
 /* ---- visibility ---------------------------------------------------------------------------------- */
@@ -377,6 +392,8 @@ static void note_places(const WrTileJob *job, const WrSink *sink, bool noted, RE
     }
 }
 
+#include "render/pipe_wide_body.h"
+
 static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, const WrSink *sink,
                 WrTileScratch *scratch)
 {
@@ -411,6 +428,7 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     }
     const WR_T(WrRound) *round = round_of(job);
     if (round) {
+        if (wide_row(job, rays, gx, gy, tile->w, sink, scratch, &watch)) return;
         round->hit(rays, &VIEWED(view, shape), gx, gy, tile->w, strip);
         note_places(job, sink, scratch->notes.patches, gx, gy, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);

@@ -29,15 +29,20 @@ static bool are_behind(const WrTileJob *job, const Rays *rays, const float table
     return true;
 }
 
-/* A few samples first, as if the run read the table's gentlest tile: most that are not dark show it there. */
-static bool is_dark(const WrTileJob *job, const Rays *rays, bool level, const Strip *strip)
+/* A few samples first, as if the run read the table's gentlest tile: most that are not dark show it there. untold: of a surface whose
+   tangents are not there yet, or NULL. */
+static bool is_dark(const WrTileJob *job, const Rays *rays, bool level,
+                    const WR_T(WrRound) * untold, Strip *strip)
 {
     const int few = strip->count / 3 + 1;
     const bool bumped = !level && job->plan->bump != WR_BUMP_NONE;
     float table[2];
-    if (!job->dark || job->view->stretched ||
-        !are_behind(job, rays, bumped ? job->level.gentlest : NULL, few, strip))
-        return false;
+    if (!job->dark || job->view->stretched) return false;
+    if (bumped && untold) {
+        if (!are_behind(job, rays, NULL, few, strip)) return false;
+        untold->tangents(&VIEWED(job->view, shape), strip);
+    }
+    if (!are_behind(job, rays, bumped ? job->level.gentlest : NULL, few, strip)) return false;
     if (!bumped) return are_behind(job, rays, NULL, 1, strip);
     find_steepest(job, strip, table);
     return are_behind(job, rays, table, few, strip) && are_behind(job, rays, table, 1, strip);

@@ -121,21 +121,52 @@ static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, c
         ->shade[VIEWED(job->view, lights)->point][rays->perspective][shines][pictured(job)];
 }
 
+/* What one lamp meets. */
+typedef struct LampMatter {
+    WR_T(WrKernShine) shine;
+    WR_T(WrKernMaterial) material;
+} LampMatter;
+
+static LampMatter lamp_matter(const WrTileJob *job, bool ambient)
+{
+    const WrMaterial *m = &job->scene->material;
+    const bool diffuse = runs(job, WR_EFFECT_DIFFUSE);
+    return (LampMatter){ { (REAL)m->specular, (REAL)m->shininess, m->gate },
+                         { ambient ? (REAL)m->ambient : (REAL)0,
+                           diffuse ? (REAL)m->diffuse : (REAL)0,
+                           { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z } } };
+}
+
+static void note_light(const WrTileJob *job, Watch *watch)
+{
+    if (runs(job, WR_EFFECT_DIFFUSE)) did(watch, WR_EFFECT_DIFFUSE);
+    if (runs(job, WR_EFFECT_SPECULAR)) did(watch, WR_EFFECT_SPECULAR);
+    watch_lap(watch, WR_STAGE_LIGHT);
+}
+
+#ifdef HAS_WIDE
+/* In vectors written by hand. False: the stages do it. */
+static bool shaded_wide(const WrTileJob *job, const Rays *rays, const LampMatter *m, Strip *strip)
+{
+    return job->wide &&
+           job->wide->shade(rays, job->view->lights, &m->shine, &m->material, pictured(job), strip);
+}
+#else
+static bool shaded_wide(const WrTileJob *job, const Rays *rays, const LampMatter *m, Strip *strip)
+{
+    (void)job, (void)rays, (void)m, (void)strip;
+    return false;
+}
+#endif
+
 static void light_at_once(const WrTileJob *job, const Rays *rays, WR_T(WrShadeKernel) shade,
                           bool ambient, Strip *strip, Watch *watch)
 {
-    const WrMaterial *m = &job->scene->material;
-    const bool diffuse = runs(job, WR_EFFECT_DIFFUSE), shines = runs(job, WR_EFFECT_SPECULAR);
-    const WR_T(WrKernShine) shine = { (REAL)m->specular, (REAL)m->shininess, m->gate };
-    const WR_T(WrKernMaterial)
-        material = { ambient ? (REAL)m->ambient : (REAL)0,
-                     diffuse ? (REAL)m->diffuse : (REAL)0,
-                     { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z } };
-    if (!shines || !shaded_wide(job, rays, &shine, &material, strip))
-        shade(rays, VIEWED(job->view, lights), &shine, &material, strip);
-    if (diffuse) did(watch, WR_EFFECT_DIFFUSE);
-    if (shines) did(watch, WR_EFFECT_SPECULAR);
-    watch_lap(watch, WR_STAGE_LIGHT);
+    const LampMatter m = lamp_matter(job, ambient);
+    const bool shines = runs(job, WR_EFFECT_SPECULAR);
+    if (!shines || !shaded_wide(job, rays, &m, strip))
+        shade(rays, VIEWED(job->view, lights), &m.shine, &m.material, strip);
+    note_light(job, watch);
 }
 
 /* C within 0..1 of a model that keeps its energy: more would reflect more than comes (HC110). */

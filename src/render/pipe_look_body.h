@@ -45,6 +45,9 @@ static void look_by(const WrTileJob *job, WrScheme scheme, Strip *strip, WrTileS
         return;
     }
 #endif
+#ifdef HAS_WIDE
+    if (job->wide && scheme == WR_SCHEME_CENTRAL && job->wide->central(LOOK_OF(job), strip)) return;
+#endif
     KERNELS_OF(job)->look[scheme](LOOK_OF(job), strip);
 }
 
@@ -311,6 +314,17 @@ static void look_tint(const WrTileJob *job, const Rays *rays, Strip *strip, WrTi
                                      scratch->tint_of, strip, scratch, watch);
 }
 
+/* By vectors written by hand (kern_wide.h), where there are such. */
+static bool coloured_wide(const WrTileJob *job, Strip *strip)
+{
+#ifdef HAS_WIDE
+    return job->wide && job->wide->colour(&job->colour.near, strip);
+#else
+    (void)job, (void)strip;
+    return false;
+#endif
+}
+
 /* C of the colour picture. */
 static void look_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
                         WrTileScratch *scratch, Watch *watch)
@@ -320,7 +334,7 @@ static void look_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
         look_tint(job, rays, strip, scratch, watch);
         return;
     }
-    KERNELS_OF(job)->colour(&job->colour.near, strip);
+    if (!coloured_wide(job, strip)) KERNELS_OF(job)->colour(&job->colour.near, strip);
     watch_lap(watch, WR_STAGE_COLOUR);
 }
 

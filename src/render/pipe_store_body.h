@@ -14,12 +14,20 @@ static int store_run(const Strip *strip, float *restrict out)
     return fresh;
 }
 
+static int plain_codes(const WrTileJob *job, const Strip *strip, uint32_t *to)
+{
+#ifdef HAS_WIDE
+    if (job->wide) return job->wide->codes(job->coder.bins, strip, job->grey, to);
+#endif
+    return KERNELS_OF(job)->codes(job->coder.bins, strip, to);
+}
+
 /* A strip's colours as codes; how many numbers were not finite. */
 static int64_t make_codes(const WrTileJob *job, const Strip *strip, uint32_t *to)
 {
     const WrBehind nothing = { 0 };
     float rgba[WR_SPAN][4];
-    if (job->coder.tone.plain) return KERNELS_OF(job)->codes(job->coder.bins, strip, to);
+    if (job->coder.tone.plain) return plain_codes(job, strip, to);
     for (int i = 0; i < strip->count; i++) {
         rgba[i][0] = (float)strip->cr[i];
         rgba[i][1] = (float)strip->cg[i];

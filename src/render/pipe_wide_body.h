@@ -1,19 +1,129 @@
-/* pipe_wide_body.h - what goes to the kernels of several stages at once (kern_wide.h), where there are such. A part of
+/* pipe_wide_body.h - rows that go to the kernels of several stages at once (kern_wide.h), where there are such. A part of
    pipe_body.h. */
 
 #ifdef HAS_WIDE
-/* The light of the single lamp. False: the stages do it. */
-static bool shaded_wide(const WrTileJob *job, const Rays *rays, const WrKernShine *shine,
-                        const WrKernMaterial *material, Strip *strip)
+/* Does the lamp, for certain, shine on some sample, however bent others are? */
+static bool lit_somewhere(const WrTileJob *job, const Strip *strip)
 {
-    return job->wide &&
-           job->wide->shade(rays, job->view->lights, shine, material, pictured(job), strip);
+    const WrKernLight *light = job->view->lights;
+    const float *l = light->where, off = light->point ? job->view->shape.value[0] : 0.0f;
+    bool any = false;
+    for (int k = 0; k < 3; k++) {
+        const int i = k * (strip->count - 1) / 2;
+        any |= strip->nx[i] * l[0] + strip->ny[i] * l[1] + strip->nz[i] * l[2] > off;
+    }
+    return any;
+}
+
+/* By the slopes of the table. Returns what the run was spared, bits of WrRun. */
+static unsigned light_bumped(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy,
+                             const WrSink *sink, Strip *strip, WrTileScratch *scratch, Watch *watch)
+{
+    const WrShapef *shape = &job->view->shape;
+    const LampMatter m = lamp_matter(job, true);
+    const bool level = is_level(job, strip);
+    const bool lit = !job->dark || lit_somewhere(job, strip);
+    if (!lit || job->view->lights->point) job->wide->points(shape, strip);
+    const unsigned spared = spared_of(job, rays, level, lit, round_of(job), strip, scratch, watch);
+    bool dark;
+    if (spared & WR_RUN_DARK) {
+        ambient_strip(job, rays, strip, watch);
+        return spared;
+    }
+    if (!level) {
+        look(job, rays, strip, scratch, watch);
+        scratch->ran |= normal_effects[WR_BUMP_BLINN];
+        did(watch, WR_EFFECT_TANGENTS);
+    }
+    bring_colour(job, rays, strip, scratch, watch);
+    if (job->wide->sphere_light(rays, shape, job->view->lights, &m.shine, &m.material, gx, gy,
+                                pictured(job), !level, &dark, strip)) {
+        note_light(job, watch);
+        return spared;
+    }
+    job->wide->points(shape, strip);
+    if (level) job->kernels->bump[WR_BUMP_NONE](rays, strip);
+    else job->kernels->bend[WR_INVERT_SPHERE](rays, shape, strip);
+    watch_lap(watch, WR_STAGE_BUMP);
+    light_at_once(job, rays, single_pass(job, rays, sink), true, strip, watch);
+    return spared;
+}
+
+/* By n alone: what is dark shows in the light itself. */
+static unsigned light_plain(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, Strip *strip,
+                            WrTileScratch *scratch, Watch *watch)
+{
+    const LampMatter m = lamp_matter(job, true);
+    bool dark = false;
+    bring_colour(job, rays, strip, scratch, watch);
+    if (job->view->lights->point) job->wide->points(&job->view->shape, strip);
+    job->wide->sphere_light(rays, &job->view->shape, job->view->lights, &m.shine, &m.material, gx,
+                            gy, pictured(job), false, &dark, strip);
+    if (runs(job, WR_EFFECT_DARK)) did(watch, WR_EFFECT_DARK);
+    if (!dark || !job->dark) note_light(job, watch);
+    watch_lap(watch, WR_STAGE_LIGHT);
+    return dark && job->dark ? WR_RUN_DARK : 0;
+}
+
+/* A row of a sphere under one lamp. False: the stages do it. */
+static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
+                     const WrSink *sink, WrTileScratch *scratch, Watch *watch)
+{
+    const bool mapped = runs(job, WR_EFFECT_PARAMETERS), bumped = job->plan->bump != WR_BUMP_NONE;
+    Strip *strip = &scratch->strip;
+    if (!job->wide_sphere || !lit(sink) || sink->normals || sink->points || sink->uv ||
+        sink->nearest || sink->bound)
+        return false;
+    if (!job->wide->sphere(rays, &job->view->shape, gx, gy, count, mapped, strip)) return false;
+    note_places(job, sink, scratch->notes.patches, gx, gy, strip);
+    watch_lap(watch, WR_STAGE_VISIBILITY);
+    if (strip->count == 0) return true;
+    if (mapped) did(watch, WR_EFFECT_PARAMETERS);
+    did(watch, WR_EFFECT_STEADY);
+    const unsigned spared = bumped ? light_bumped(job, rays, gx, gy, sink, strip, scratch, watch)
+                                   : light_plain(job, rays, gx, gy, strip, scratch, watch);
+    put_strip(job, rays, spared, sink, strip, scratch, watch);
+    return true;
+}
+
+/* Is the picture one of those that kern_wide.h is for? */
+bool wr_pipe_wide_sphere(const WrTileJob *job)
+{
+    static const WrEffects may =
+        WR_EFFECT_BIT(WR_EFFECT_DIFFUSE) | WR_EFFECT_BIT(WR_EFFECT_SPECULAR) |
+        WR_EFFECT_BIT(WR_EFFECT_COLOUR) | WR_EFFECT_BIT(WR_EFFECT_BUMP) |
+        WR_EFFECT_BIT(WR_EFFECT_GRADIENT) | WR_EFFECT_BIT(WR_EFFECT_WIDE) |
+        WR_EFFECT_BIT(WR_EFFECT_SAMPLES) | WR_EFFECT_BIT(WR_EFFECT_PERSPECTIVE) |
+        WR_EFFECT_BIT(WR_EFFECT_AGAIN) | WR_EFFECT_BIT(WR_EFFECT_STEADY) |
+        WR_EFFECT_BIT(WR_EFFECT_BESIDE) | WR_EFFECT_BIT(WR_EFFECT_PARAMETERS) |
+        WR_EFFECT_BIT(WR_EFFECT_TANGENTS) | WR_EFFECT_BIT(WR_EFFECT_DARK) |
+        WR_EFFECT_BIT(WR_EFFECT_GROUND);
+    const LampMatter m = lamp_matter(job, true);
+    if (!job->wide || job->plan->inversion != WR_INVERT_SPHERE) return false;
+    for (int e = 0; e < WR_EFFECT_COUNT; e++)
+        if (runs(job, (WrEffect)e) && !(may & WR_EFFECT_BIT(e))) return false;
+    return job->view->cull && !job->view->stretched && job->view->light_count == 1 &&
+           job->wide->narrow(job->view->lights, &m.shine) && runs(job, WR_EFFECT_SPECULAR) &&
+           !job->map && !job->dice && !job->triangles &&
+           (job->plan->bump == WR_BUMP_NONE || job->plan->bump == WR_BUMP_BLINN);
+}
+
+bool wr_pipe_grey(const WrTileJob *job)
+{
+    const WrVec3 own = job->scene->material.colour;
+    bool grey =
+        job->wide_sphere && !runs(job, WR_EFFECT_COLOUR) && own.x == own.y && own.x == own.z;
+    for (int i = 0; i < job->view->light_count; i++) {
+        const float *rgb = job->view->lights[i].rgb;
+        grey &= rgb[0] == rgb[1] && rgb[0] == rgb[2];
+    }
+    return grey;
 }
 #else
-static bool shaded_wide(const WrTileJob *job, const Rays *rays, const WR_T(WrKernShine) * shine,
-                        const WR_T(WrKernMaterial) * material, const Strip *strip)
+static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
+                     const WrSink *sink, WrTileScratch *scratch, Watch *watch)
 {
-    (void)job, (void)rays, (void)shine, (void)material, (void)strip;
+    (void)job, (void)rays, (void)gx, (void)gy, (void)count, (void)sink, (void)scratch, (void)watch;
     return false;
 }
 #endif

@@ -63,6 +63,8 @@ typedef struct WrTileJob {
     const WrCast *cast;            /* what can hide lamps from it; read where the plan runs that */
     int cast_count;                /* of cast->to */
     const WrWide *wide;            /* kernels of several stages at once; or NULL */
+    bool wide_sphere;              /* rows go to them */
+    bool grey;                     /* red, green and blue of all samples are the same */
     double cast_unit;              /* kernel units -> those of the object */
     WrParallax parallax;           /* read where the plan runs that */
     WrLevel level;                 /* how steep the table is where; only for one of the next two */
