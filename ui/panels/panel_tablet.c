@@ -23,7 +23,7 @@ void wr_tablet_start(WrApp *app)
 {
     for (int i = 0; i < WR_PENS_MAX && app->settings->pens[i]; i++) {
         const char *line = app->settings->pens[i], *name = wr_settings_pen_name(line);
-        char numbers[256];
+        char numbers[WR_PEN_CURVE_TEXT];
         WrPenCurve curve;
         if (!name || (size_t)(name - line) > sizeof numbers) continue;
         memcpy(numbers, line, (size_t)(name - line));
@@ -34,7 +34,7 @@ void wr_tablet_start(WrApp *app)
 
 static void keep(WrApp *app, const char *name, const WrPenCurve *curve)
 {
-    char numbers[256];
+    char numbers[WR_PEN_CURVE_TEXT];
     wr_pen_curve_print(curve, numbers, sizeof numbers);
     WrText line = { 0 };
     wr_text_addf(&line, "%s %s", numbers, name);
@@ -49,7 +49,7 @@ void wr_dialog_tablet_open(WrApp *app)
     if (!app->tester) app->tester = wr_alloc(1, sizeof *app->tester);
     WrTester *t = app->tester;
     wr_array_free(&t->points);
-    *t = (WrTester){ .seen = wr_pen_total(app->pen), .drawing = -1, .grip = -1 };
+    *t = (WrTester){ .seen = wr_pen_total(app->pen), .drawing = -1 };
     t->counted = t->seen;
     WrPenEvent newest;
     if (wr_pen_newest(app->pen, &newest)) t->chosen = newest.device;

@@ -2,6 +2,7 @@
 #pragma once
 #include "ui/desk/desk.h"
 #include "ui/gui/gui.h"
+#include "ui/panels/points_pad.h"
 #include "ui/pen/pen_curve.h"
 
 #include "base/array.h"
@@ -24,7 +25,7 @@ struct WrTester {
     WR_ARRAY(WrScribble) points;
     int drawing;                       /* device whose line is being drawn, -1: none */
     double pad_x, pad_y, pad_w, pad_h; /* of the scribble, as drawn last, pixels of the window */
-    int grip;                          /* point of the curve that is held, -1: none */
+    WrPointsHand grip;                 /* on the curve */
     double counted_at, rate;           /* events a second */
     int64_t counted;
     double newest_at; /* clock */
@@ -35,7 +36,7 @@ void wr_tester_follow(WrApp *app);
 void wr_tester_scribble(WrApp *app, double width, double height);
 /* The newest numbers of the chosen device. */
 void wr_tester_live(WrApp *app, double width, double height);
-/* The curve from the device's pressure (across) to the brush's (up), with its two points to drag. */
+/* The curve from the device's pressure (across) to the brush's (up), whose points are moved by hand. */
 WrEdit wr_tester_curve(WrApp *app, double side, WrPenCurve *curve);
 
 /* panel_tablet.c: the pressure curves that were kept go to the pens; the tester. */

@@ -214,77 +214,76 @@ void wr_tester_live(WrApp *app, double width, double height)
 
 /* ---- the curve ---- */
 
+static const WrPointsRules rules = {
+    .least = 2, .most = WR_PEN_POINTS, .inside = true, .ends = true
+};
+
 static double within(double x, double low, double high)
 {
     return x < low ? low : x > high ? high : x;
 }
 
-/* Where a point of the curve stands: pressures of the device and of the brush, 0..1. */
-static void point_at(const WrPenCurve *c, int i, double *raw, double *out)
+/* Points as the pad has them: pressures of the device and of the brush. */
+static void to_pad(const WrPenCurve *c, double value[1 + 2 * WR_PEN_POINTS])
 {
-    *raw = c->minimum + c->x[i] * (c->maximum - c->minimum);
-    *out = within(c->y[i] * c->gain, 0.0, 1.0);
-}
-
-static void drag_point(WrPenCurve *c, int i, double raw, double out)
-{
-    double x = (raw - c->minimum) / (c->maximum - c->minimum), y = out / c->gain;
-    c->x[i] = within(x, i == 0 ? 0.0 : c->x[0] + 0.02, i == 0 ? c->x[1] - 0.02 : 1.0);
-    c->y[i] = within(y, i == 0 ? 0.0 : c->y[0], i == 0 ? c->y[1] : 1.0);
-}
-
-static int nearest_point(const WrPenCurve *c, double raw, double out)
-{
-    double away[2];
-    for (int i = 0; i < 2; i++) {
-        double x, y;
-        point_at(c, i, &x, &y);
-        away[i] = (x - raw) * (x - raw) + (y - out) * (y - out);
+    value[0] = c->count;
+    for (int i = 0; i < c->count; i++) {
+        value[1 + 2 * i] = c->minimum + c->x[i] * (c->maximum - c->minimum);
+        value[2 + 2 * i] = c->y[i] * c->gain;
     }
-    return away[0] < away[1] ? 0 : 1;
 }
 
-static void draw_curve(const WrApp *app, const WrPad *pad, const WrPenCurve *c, int grip)
+/* moved: the point's index, which does not go over or under its neighbours; -1: none. False where what comes of it is
+ * no curve. */
+static bool from_pad(const double *value, int moved, WrPenCurve *c)
 {
-    double last = 0.0;
+    WrPenCurve made = { .minimum = c->minimum, .maximum = c->maximum, .gain = c->gain };
+    made.count = (int)value[0];
+    for (int i = 0; i < made.count; i++) {
+        made.x[i] = within((value[1 + 2 * i] - c->minimum) / (c->maximum - c->minimum), 0.0, 1.0);
+        made.y[i] = within(value[2 + 2 * i] / c->gain, 0.0, 1.0);
+    }
+    if (moved >= 0 && moved < made.count)
+        made.y[moved] = within(made.y[moved], moved > 0 ? made.y[moved - 1] : 0.0,
+                               moved + 1 < made.count ? made.y[moved + 1] : 1.0);
+    const bool valid = wr_pen_curve_valid(&made);
+    if (valid) *c = made;
+    return valid;
+}
+
+static bool curve_at(const void *ctx, double raw, double *out)
+{
+    *out = wr_pen_curve_apply(ctx, raw);
+    return true;
+}
+
+static void grid(const WrApp *app, const WrPad *pad)
+{
+    WrPenEvent e;
     for (int i = 1; i < 4; i++) {
         wr_gui_draw_fill(floor(pad->x + pad->w * i / 4), pad->y, 1, pad->h, WR_COLOUR_GRID, 0);
         wr_gui_draw_fill(pad->x, floor(pad->y + pad->h * i / 4), pad->w, 1, WR_COLOUR_GRID, 0);
     }
-    WrPenEvent e;
     if (newest_of(app, &e) && e.raw > 0.0)
         wr_gui_draw_fill(floor(pad->x + e.raw * pad->w), pad->y, 1, pad->h, 0xff6a6a6au, 0);
-    for (int i = 0; i <= 96; i++) {
-        double raw = i / 96.0, out = wr_pen_curve_apply(c, raw);
-        if (i > 0)
-            wr_gui_draw_line(pad->x + (raw - 1.0 / 96.0) * pad->w, pad->y + (1.0 - last) * pad->h,
-                             pad->x + raw * pad->w, pad->y + (1.0 - out) * pad->h, WR_COLOUR_RAISE,
-                             wr_gui_px(2));
-        last = out;
-    }
-    for (int i = 0; i < 2; i++) {
-        double raw, out;
-        point_at(c, i, &raw, &out);
-        double x = pad->x + raw * pad->w, y = pad->y + (1.0 - out) * pad->h;
-        wr_gui_draw_disc(x, y, wr_gui_px(6), 0xff1f1f1fu);
-        wr_gui_draw_disc(x, y, wr_gui_px(5), i == grip ? WR_COLOUR_STRONG : WR_COLOUR_RAISE);
-    }
 }
 
 WrEdit wr_tester_curve(WrApp *app, double side, WrPenCurve *curve)
 {
-    WrTester *t = app->tester;
-    WrEdit edit = WR_EDIT_NONE;
+    static const WrPointsSpan span = { 0.0, 1.0, 0.0, 1.0 };
+    WrPointsHand *hand = &app->tester->grip;
+    double value[1 + 2 * WR_PEN_POINTS];
     WrPad pad = wr_gui_pad_begin("curve", side, side);
-    double raw = (pad.pointer_x - pad.x) / pad.w, out = 1.0 - (pad.pointer_y - pad.y) / pad.h;
-    if (pad.pressed) t->grip = nearest_point(curve, raw, out);
-    if ((pad.held || pad.released) && t->grip >= 0) {
-        drag_point(curve, t->grip, raw, out);
-        edit = WR_EDIT_LIVE;
-    }
-    if (pad.released && t->grip >= 0) edit = WR_EDIT_DONE;
-    draw_curve(app, &pad, curve, pad.held ? t->grip : -1);
+    to_pad(curve, value);
+    bool changed = wr_points_move(&pad, &span, &rules, hand, value);
+    changed = changed && from_pad(value, hand->chosen - 1, curve);
+    to_pad(curve, value);
+    grid(app, &pad);
+    wr_points_draw(&pad, hand, value, curve_at, curve);
     wr_gui_pad_end();
-    if (edit == WR_EDIT_DONE) t->grip = -1;
-    return edit;
+    if (!pad.held && !hand->chosen)
+        wr_gui_tip("How hard a touch counts. Drag the points; click for one more; drag one out, or "
+                   "press Delete, to take it away");
+    if (pad.released || (changed && !pad.held)) return WR_EDIT_DONE;
+    return changed ? WR_EDIT_LIVE : WR_EDIT_NONE;
 }

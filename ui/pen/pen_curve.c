@@ -6,21 +6,28 @@
 #include <stdio.h>
 #include <string.h>
 
-#define KNOTS 4
+#define KNOTS (WR_PEN_POINTS + 2)
 
 WrPenCurve wr_pen_curve_default(void)
 {
-    return (WrPenCurve){
-        .minimum = 0.0, .maximum = 1.0, .gain = 1.0, .x = { 0.25, 0.75 }, .y = { 0.25, 0.75 }
-    };
+    return (WrPenCurve){ .minimum = 0.0,
+                         .maximum = 1.0,
+                         .gain = 1.0,
+                         .x = { 0.25, 0.75 },
+                         .y = { 0.25, 0.75 },
+                         .count = 2 };
 }
 
 /* Nothing passes that is not a number: all comparisons with NaN are false. */
 bool wr_pen_curve_valid(const WrPenCurve *c)
 {
-    return c->minimum >= 0.0 && c->minimum < c->maximum && c->maximum <= 1.0 && c->gain >= 0.1 &&
-           c->gain <= 10.0 && c->x[0] >= 0.0 && c->x[0] < c->x[1] && c->x[1] <= 1.0 &&
-           c->y[0] >= 0.0 && c->y[0] <= c->y[1] && c->y[1] <= 1.0;
+    bool valid = c->minimum >= 0.0 && c->minimum < c->maximum && c->maximum <= 1.0 &&
+                 c->gain >= 0.1 && c->gain <= 10.0 && c->count >= 2 && c->count <= WR_PEN_POINTS;
+    if (!valid) return false;
+    valid = c->x[0] >= 0.0 && c->y[0] >= 0.0;
+    for (int i = 1; i < c->count; i++)
+        valid = valid && c->x[i - 1] < c->x[i] && c->y[i - 1] <= c->y[i];
+    return valid && c->x[c->count - 1] <= 1.0 && c->y[c->count - 1] <= 1.0;
 }
 
 static double clamp01(double x)
@@ -36,9 +43,16 @@ static int knots_of(const WrPenCurve *c, double x[KNOTS], double y[KNOTS])
 {
     int count = 0;
     if (c->x[0] > 0.0) x[count] = 0.0, y[count++] = 0.0;
-    for (int i = 0; i < 2; i++) x[count] = c->x[i], y[count++] = c->y[i];
-    if (c->x[1] < 1.0) x[count] = 1.0, y[count++] = 1.0;
+    for (int i = 0; i < c->count; i++) x[count] = c->x[i], y[count++] = c->y[i];
+    if (c->x[c->count - 1] < 1.0) x[count] = 1.0, y[count++] = 1.0;
     return count;
+}
+
+static bool is_straight(const WrPenCurve *c)
+{
+    bool straight = true;
+    for (int i = 0; i < c->count; i++) straight = straight && c->x[i] == c->y[i];
+    return straight;
 }
 
 /* Inside: the harmonic mean of the two secants, weighted by their lengths; 0 where one is flat. */
@@ -58,7 +72,7 @@ static double slope_at_end(double h0, double h1, double d0, double d1)
 
 static double curve_at(const WrPenCurve *c, double p)
 {
-    if (c->x[0] == c->y[0] && c->x[1] == c->y[1]) return p; /* the straight line, to the last bit */
+    if (is_straight(c)) return p; /* to the last bit */
     double x[KNOTS], y[KNOTS], h[KNOTS], d[KNOTS], s[KNOTS];
     int n = knots_of(c, x, y), i = 0;
     if (p <= x[0]) return y[0];
@@ -95,25 +109,45 @@ void wr_pen_curve_print(const WrPenCurve *c, char *text, int size)
         if (i > 0) wr_text_add(&line, " ");
         wr_text_add_number(&line, values[i]);
     }
+    for (int i = 2; i < c->count; i++) {
+        wr_text_add(&line, ";");
+        wr_text_add_number(&line, c->x[i]);
+        wr_text_add(&line, ",");
+        wr_text_add_number(&line, c->y[i]);
+    }
     snprintf(text, (size_t)size, "%s", wr_text_get(&line));
     wr_text_fini(&line);
+}
+
+/* A number up to one of the marks; *text goes to the mark. */
+static bool number(const char **text, const char *marks, double *value)
+{
+    const size_t length = strcspn(*text, marks);
+    const bool good = wr_number_parse(*text, length, value);
+    *text += length;
+    return good;
 }
 
 bool wr_pen_curve_parse(const char *text, WrPenCurve *curve)
 {
     double values[7];
     for (int i = 0; i < 7; i++) {
-        size_t length = strcspn(text, " ");
-        if (!wr_number_parse(text, length, &values[i])) return false;
-        text += length;
+        if (!number(&text, i < 6 ? " " : ";", &values[i])) return false;
         if (*text == ' ' && i < 6) text++;
     }
-    if (*text) return false;
     WrPenCurve c = { .minimum = values[0],
                      .maximum = values[1],
                      .gain = values[2],
                      .x = { values[3], values[5] },
-                     .y = { values[4], values[6] } };
+                     .y = { values[4], values[6] },
+                     .count = 2 };
+    while (*text == ';') {
+        text++;
+        if (c.count == WR_PEN_POINTS || !number(&text, ",", &c.x[c.count]) || *text++ != ',' ||
+            !number(&text, ";", &c.y[c.count]))
+            return false;
+        c.count++;
+    }
     if (!wr_pen_curve_valid(&c)) return false;
     *curve = c;
     return true;

@@ -2,20 +2,24 @@
 #pragma once
 #include <stdbool.h>
 
-/* p = clamp((raw - minimum) / (maximum - minimum), 0, 1), then the curve through (0,0), two points and
+#define WR_PEN_POINTS 8 /* of a curve, at most; at least 2 */
+
+/* p = clamp((raw - minimum) / (maximum - minimum), 0, 1), then the curve through (0,0), its points and
    (1,1), monotone and smooth; at last times gain, at most 1. */
 typedef struct WrPenCurve {
-    double minimum, maximum; /* 0 <= minimum < maximum <= 1 */
-    double gain;             /* 0.1..10 */
-    double x[2], y[2];       /* 0..1, x[0] < x[1], y[0] <= y[1] */
+    double minimum, maximum;                   /* 0 <= minimum < maximum <= 1 */
+    double gain;                               /* 0.1..10 */
+    double x[WR_PEN_POINTS], y[WR_PEN_POINTS]; /* 0..1; x rises, y does not fall */
+    int count;                                 /* of the points */
 } WrPenCurve;
 
 WrPenCurve wr_pen_curve_default(void); /* the straight line */
 bool wr_pen_curve_valid(const WrPenCurve *curve);
 /* raw not finite or out of range: 0, or the nearest. A curve that is not valid counts as the straight
-   line. A point on the left edge takes the place of (0,0), one on the right edge that of (1,1). */
+   line. A first point on the left edge takes the place of (0,0), a last one on the right edge that of (1,1). */
 double wr_pen_curve_apply(const WrPenCurve *curve, double raw);
-/* One line for the settings file and back. */
+/* Seven words for the settings file and back, all further points in the last one: "0 1 1 0.25 0.25 0.5 0.6;0.7,0.9". */
+#define WR_PEN_CURVE_TEXT 512
 void wr_pen_curve_print(const WrPenCurve *curve, char *text, int size);
 bool wr_pen_curve_parse(const char *text, WrPenCurve *curve);
 
