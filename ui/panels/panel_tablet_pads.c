@@ -215,7 +215,7 @@ void wr_tester_live(WrApp *app, double width, double height)
 /* ---- the curve ---- */
 
 static const WrPointsRules rules = {
-    .least = 2, .most = WR_PEN_POINTS, .inside = true, .ends = true
+    .least = 2, .most = WR_PEN_POINTS, .inside = true, .ends = true, .reach = 20
 };
 
 static double within(double x, double low, double high)

@@ -44,9 +44,10 @@ void wr_points_draw(const WrPad *pad, const WrPointsHand *hand, const double *va
                          i == hand->chosen - 1 ? WR_COLOUR_ACCENT : WR_COLOUR_STRONG);
 }
 
-static int near(const WrPad *pad, const WrPointsSpan *span, const double *value)
+static int near(const WrPad *pad, const WrPointsSpan *span, const WrPointsRules *rules,
+                const double *value)
 {
-    double most = wr_gui_px(REACH_UNITS);
+    double most = wr_gui_px(rules->reach > 0.0 ? rules->reach : REACH_UNITS);
     int found = -1;
     for (int i = 0; i < (int)*value; i++) {
         const double away = hypot(wr_points_x(pad, span, value[1 + 2 * i]) - pad->pointer_x,
@@ -152,7 +153,7 @@ bool wr_points_move(const WrPad *pad, const WrPointsSpan *now, const WrPointsRul
     double y = span->high - (span->high - span->low) * (pad->pointer_y - pad->y) / pad->h;
     bool changed = false;
     if (pad->pressed) {
-        int at = near(pad, span, value);
+        int at = near(pad, span, rules, value);
         changed = at < 0;
         keep_inside(span, rules, &x, &y);
         if (at < 0) at = add(rules, value, x, y);

@@ -23,6 +23,7 @@ typedef struct WrPointsRules {
     bool
         inside; /* they stay within the span from bottom to top, and, where `ends`, from left to right */
     bool ends;
+    double reach; /* units from a point that still are on it; 0: as usual */
 } WrPointsRules;
 
 /* One picture of the pad. span: as it would be now; hand->span is what it is. value: the number of points, then x, y of each,
