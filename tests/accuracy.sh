@@ -38,6 +38,18 @@ refuse 1 'map.xyz' --size 8x8 --illusion --map map.xyz --do 'dab 0.3,0.7 radius=
 refuse 1 '--runs 2' --runs 2
 refuse 2 '--csv' --csv
 
+# The hard cases from the command line, interrupted once they are being measured; `hardcases` is the test that measures them.
+"$program" accuracy --hard-cases --json >out 2>err & cases=$!
+for ((i = 0; i < 2400; i++)); do
+    read -ra stat 2>/dev/null <"/proc/$cases/stat" || break
+    ((stat[13] < 30)) || break # ticks of its own
+    sleep 0.05
+done
+kill -INT $cases
+wait $cases
+[[ $? != 0 && ! -s out ]] && grep -q interrupted err || complain "hard cases are not interrupted: $(cat out err)"
+rm -f out err
+
 "$program" accuracy --size 40x30 --illusion --map map.png --json --do 'dab 0.3,0.7 radius=60 strength=1' --do 'bump height=0.1' >a.json ||
     complain 'the illusion is not measured'
 jq -e '.width == 40 and .shading > 0 and .outline >= 0 and .rise > 0 and (.advice | length > 20)' a.json >/dev/null || complain "the illusion's JSON lacks something"

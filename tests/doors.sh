@@ -130,11 +130,13 @@ else
             sleep 0.05
         done
         kill "-$signal" "$job"
-        (sleep 60 && kill -KILL "$job") 2>/dev/null &
-        watchdog=$!
+        for ((i = 0; i < 1200; i++)); do
+            kill -0 "$job" 2>/dev/null || break
+            sleep 0.05
+        done
+        kill -KILL "$job" 2>/dev/null
         wait "$job"
         status=$?
-        kill "$watchdog" 2>/dev/null
         [[ $status == 143 ]] || complain "hanging, interrupted by $signal: $status, not 143"
     done
 fi

@@ -1,10 +1,12 @@
 /* Measures the hard cases that are named and tells those that fail, in which precisions, or that cannot be
-   measured: hard_rows ID... Without one it names all that are measured, and in which. A helper of mutate.sh. */
+   measured: hard_rows ID... Without one it names all that are measured, and in which. hard_rows --scene ID prints the lines
+   of that case's scene and measures nothing. A helper of mutate.sh and window_accuracy.sh. */
 #include "base/error.h"
 #include "hardcases/hardcases.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char *const words[WR_HARD_PRECISIONS] = { " float", " double" };
 
@@ -29,10 +31,19 @@ static void tell(const WrHardResult *result)
     fflush(stdout);
 }
 
+static int scene_of(const char *id)
+{
+    const WrHardCase *row = wr_hardcase_find(id);
+    if (row && row->scene) return printf("%s", row->scene) < 0;
+    fprintf(stderr, "hard_rows: %s: there is no such case with a scene\n", id);
+    return 2;
+}
+
 int main(int count, char **ids)
 {
     int failed = 0;
     if (count == 1) list();
+    if (count == 3 && strcmp(ids[1], "--scene") == 0) return scene_of(ids[2]);
     for (int i = 1; i < count; i++) {
         const WrHardCase *row = wr_hardcase_find(ids[i]);
         WrHardRequest request = { 0 };

@@ -115,34 +115,83 @@ int wr_study_look_around(const Study *study, int64_t b)
 }
 
 /* What k x k samples may be off where the outline steps from p to the next pixel across it and does just the
-   same beside: of the object's colour 1/(2k) at most, evenly. */
+   same beside: of the object's colour 1/(2k) at most. share: 1, or
+   1/2 where two blocks meet there, of which one is off. */
 static void add_step(const float *p, const float *across, const float *p_beside,
-                     const float *across_beside, int k, Change *sum)
+                     const float *across_beside, int k, double share, Change *sum)
 {
     if (p[3] == across[3] || p[3] != p_beside[3] || across[3] != across_beside[3]) return;
     const float *in = p[3] > across[3] ? p : across;
     for (int c = 0; c < 3; c++) {
         const double colour = fabs((double)in[c] / (double)in[3]);
-        sum->squares += colour * colour / (12.0 * k * k);
+        sum->squares += share * colour * colour / (4.0 * k * k);
         sum->most = fmax(sum->most, colour / (2.0 * k));
     }
 }
 
+/* A pixel of the picture at that level, or the nearest to it that its block has; NULL: beyond the picture, or its block has
+   none any more, for it is far from the object. */
+static const float *pixel_at(const Study *study, int x, int y, int level)
+{
+    if (x < 0 || y < 0 || x >= study->request->width || y >= study->request->height) return NULL;
+    const Block *block = &study->block[(int64_t)(y / BLOCK) * study->blocks_u + x / BLOCK];
+    int n = level;
+    while (n > 0 && !block->rgba[n]) n--;
+    while (n < TOP && !block->rgba[n]) n++;
+    return block->rgba[n] ? block->rgba[n] + (size_t)4 * (size_t)(y % BLOCK * BLOCK + x % BLOCK)
+                          : NULL;
+}
+
+/* The steps from the pixels of a block's line to those across it, which may be of the next block; from (x, y) on, along
+   (du, dv), `count` of them; (nu, nv) leads across; share as of add_step. */
+typedef struct Line {
+    int x, y, du, dv, nu, nv, count;
+    double share;
+} Line;
+
+static void add_line(const Study *study, const Line *line, int level, Change *sum)
+{
+    const int k = wr_level_side(level);
+    for (int n = 0; n + 1 < line->count; n++) {
+        const int x = line->x + n * line->du, y = line->y + n * line->dv;
+        const float *p = pixel_at(study, x, y, level);
+        const float *beside = pixel_at(study, x + line->du, y + line->dv, level);
+        const float *across = pixel_at(study, x + line->nu, y + line->nv, level);
+        const float *both =
+            pixel_at(study, x + line->du + line->nu, y + line->dv + line->nv, level);
+        if (across && both) add_step(p, across, beside, both, k, line->share, sum);
+    }
+}
+
 /* Do outlines run with the rows or the columns here? Then every pixel along them has the same coverage, and
-   what two levels agree on may be off all the same. */
+   what two levels agree on may be off all the same. One between two blocks is doubted in both: either may hold the part of a
+   pixel that no sample meets. */
 static Change aligned(const Study *study, int64_t b, int level)
 {
     const Corner at = wr_study_corner(study, b);
-    const float *rgba = study->block[b].rgba[level];
-    const int k = wr_level_side(level);
     Change sum = { 0, 0 };
-    for (int y = 0; y + 1 < at.h; y++)
-        for (int x = 0; x + 1 < at.w; x++) {
-            const float *p = rgba + (size_t)4 * (size_t)(y * BLOCK + x);
-            const float *right = p + 4, *down = p + (size_t)4 * BLOCK;
-            add_step(p, right, down, down + 4, k, &sum);
-            add_step(p, down, right, down + 4, k, &sum);
-        }
+    for (int x = -1; x < at.w; x++) {
+        const bool between = x < 0 || x + 1 == at.w;
+        add_line(study,
+                 &(Line){ .x = at.x + (x < 0 ? 0 : x),
+                          .y = at.y,
+                          .dv = 1,
+                          .nu = x < 0 ? -1 : 1,
+                          .count = at.h,
+                          .share = between ? 0.5 : 1 },
+                 level, &sum);
+    }
+    for (int y = -1; y < at.h; y++) {
+        const bool between = y < 0 || y + 1 == at.h;
+        add_line(study,
+                 &(Line){ .x = at.x,
+                          .y = at.y + (y < 0 ? 0 : y),
+                          .du = 1,
+                          .nv = y < 0 ? -1 : 1,
+                          .count = at.w,
+                          .share = between ? 0.5 : 1 },
+                 level, &sum);
+    }
     return sum;
 }
 
@@ -204,7 +253,6 @@ static bool keep_block(Study *study, int64_t b, int pair, int level, WrError *er
     if (!block->rgba[level]) return false;
     take(study, b, block->rgba[level]);
     block->pair_of[level] = (signed char)pair;
-    block->step[level] = aligned(study, b, level);
     return true;
 }
 
@@ -219,6 +267,8 @@ bool wr_study_render(Study *study, int pair, int level, bool keep, float *out, W
             out += BLOCK_FLOATS;
         }
     }
+    for (int64_t b = 0; keep && b < study->count; b++)
+        if (study->mask[b]) study->block[b].step[level] = aligned(study, b, level);
     return true;
 }
 
