@@ -221,15 +221,19 @@ static double rested()
     return ImGui::GetTime() - gui->tip_since;
 }
 
-extern "C" void wr_gui_tip(const char *text)
-try {
+/* Has the pointer been on the last item for so long that its tip shows? */
+static bool wants_tip(const char *text)
+{
     if (text && wr_gui_tells_all) wr_gui_said(text);
-    if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-    if (ImGui::IsMouseDown(0)) return;
-    if (rested() < (double)TIP_SECONDS) {
-        wr_gui_current()->tip_waits = true;
-        return;
-    }
+    if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
+    if (ImGui::IsMouseDown(0)) return false;
+    const bool rests = rested() >= (double)TIP_SECONDS;
+    if (!rests) wr_gui_current()->tip_waits = true;
+    return rests;
+}
+
+static void show_tip(const char *text)
+{
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(px(300));
@@ -237,6 +241,26 @@ try {
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
     ImGui::PopStyleVar();
+}
+
+extern "C" void wr_gui_tip(const char *text)
+try {
+    if (wants_tip(text)) show_tip(text);
+}
+WR_CAUGHT()
+
+/* In a column along the right edge the tip stands to the left of it, so that neither the next field nor the one before is
+ * covered. */
+void wr_gui_tip_of_field(const char *text)
+try {
+    if (!wants_tip(text)) return;
+    const ImVec2 whole = ImGui::GetIO().DisplaySize, at = ImGui::GetWindowPos();
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const bool lower = low.y > 0.5f * whole.y;
+    if (at.x > 0.5f * whole.x)
+        ImGui::SetNextWindowPos(ImVec2(at.x - px(4), lower ? high.y : low.y), ImGuiCond_Always,
+                                ImVec2(1.0f, lower ? 1.0f : 0.0f));
+    show_tip(text);
 }
 WR_CAUGHT()
 
