@@ -283,6 +283,14 @@ static void what_a_filter_cannot_be_carried_out_for_is_refused(void **state)
     must_run(s, "layer use 1");
     must_run(s, "dab 0.5,0.5 radius=3 strength=1"); /* what does not look at it goes on */
     must_run(s, "undo 2");
+    must_run(s, "layer set 3 blend=mix");
+    must_run(s, "layer use 3");
+    break_filter(s, 1, 0.17);
+    WrError erased = { "" };
+    assert_false(wr_session_stroke_begin(s, "stroke mode=erase radius=5", &erased));
+    assert_non_null(strstr(erased.text, "cannot be carried out"));
+    must_run(s, "undo 2");
+    break_filter(s, 1, 0.17);
     must_run(s, "layer set 2 visible=off");
     must_run(s, "save lacks.exr");
     must_run(s, "undo");

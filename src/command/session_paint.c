@@ -189,7 +189,13 @@ bool wr_painting_begin(WrSession *session, WrCall *call, WrPainting *painting, W
     WrPainting made = { 0 };
     WrLayer *layer = wr_session_layer(session, err);
     if (!layer || !hold_brush(session, call, &made.held, err)) return false;
+    wr_filters_forget();
     if (made.held.brush.mode == WR_BRUSH_ERASE) prepare_erasing(session, layer, &made);
+    if (!wr_filters_carried(err)) { /* of what lies below */
+        wr_field_free(made.below);
+        held_fini(&made.held);
+        return false;
+    }
     made.ground = (WrBrushGround){ .field = layer->heights,
                                    .mark = layer->cover,
                                    .selection = session->state.document->selection,
