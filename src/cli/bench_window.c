@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "system/clock.h"
+#include "system/pages.h"
 #include "system/path.h"
 #include "system/process.h"
 
@@ -42,6 +43,15 @@ static const char *const three_objects[] = {
     NULL
 };
 
+/* Of 1 MB of heights, and of 1 GB. */
+static const char *const small_table[] = { "table 512x512", "grid cells=16x16 width=6 high=0.5",
+                                           "surface sphere", NULL };
+static const char *const huge_table[] = { "table 16384x16384", "grid cells=64x64 width=40 high=0.5",
+                                          "surface sphere", NULL };
+#define HUGE_NEEDS                                                                                 \
+    ((uint64_t)10                                                                                  \
+     << 30) /* bytes: heights, their composite, what is shown, what is rendered, slopes */
+
 static bool run_all(WrSession *session, const char *const *lines, WrError *err)
 {
     for (int i = 0; lines[i]; i++)
@@ -49,12 +59,10 @@ static bool run_all(WrSession *session, const char *const *lines, WrError *err)
     return true;
 }
 
-static bool measure(const WrCli *cli, const char *const *scene, double radius, bool turning,
-                    double seconds, WrAppLatency *latency, WrError *err)
+static bool measure(const WrCli *cli, const char *const *scene, WrAppLatency *latency, WrError *err)
 {
     WrSession *session = wr_cli_session(cli, true, err);
     WrAppOptions options = { .session = session, .threads = cli->threads, .isa = cli->isa };
-    *latency = (WrAppLatency){ .radius = radius, .seconds = seconds, .turning = turning };
     bool good = session && run_all(session, scene, err) && wr_app_latency(&options, latency, err);
     wr_session_free(session);
     return good;
@@ -64,6 +72,41 @@ static void print(WrText *text, const char *what, const WrAppDelays *ms)
 {
     wr_text_addf(text, "    %-26s %9.1f %9.1f %9.1f %9.1f\n", what, ms->half, ms->most,
                  ms->nearly_all, ms->all);
+}
+
+/* Documents of two sizes in windows of two sizes: what the processor has to do while nothing happens, and when a motion is
+   seen. */
+static bool add_sizes(const WrCli *cli, bool quick, WrText *text, WrError *err)
+{
+    static const struct {
+        const char *what;
+        const char *const *scene;
+        int width, height;
+        bool huge;
+    } rows[] = { { "1 MB of heights, window of 1280x800", small_table, 1280, 800, false },
+                 { "1 MB of heights, window of 2560x1440", small_table, 2560, 1440, false },
+                 { "1 GB of heights, window of 1280x800", huge_table, 1280, 800, true },
+                 { "1 GB of heights, window of 2560x1440", huge_table, 2560, 1440, true } };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (rows[i].huge && (quick || wr_pages_free_bytes() < HUGE_NEEDS)) {
+            if (!quick)
+                wr_text_addf(text, "  %s: left out, for want of %.0f GB of memory\n", rows[i].what,
+                             (double)HUGE_NEEDS / 1073741824.0);
+            continue;
+        }
+        WrAppLatency latency = { .radius = 16,
+                                 .seconds = quick ? 2 : 20,
+                                 .width = rows[i].width,
+                                 .height = rows[i].height,
+                                 .idle_seconds = quick ? 1 : 10 };
+        if (!measure(cli, rows[i].scene, &latency, err)) return false;
+        wr_text_addf(text, "  %s: at rest %.2f %% of a processor\n", rows[i].what,
+                     100.0 * latency.idle);
+        print(text, "the outline has moved", &latency.pointer);
+        print(text, "the table shows the paint", &latency.canvas);
+        print(text, "the patch shows it", &latency.preview);
+    }
+    return true;
 }
 
 #define STARTS 15 /* odd: the middle one is told */
@@ -131,17 +174,17 @@ bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err)
         "\npainting in the window: ms from an event until it is seen\n%-30s %9s %9s %9s %9s\n", "",
         "50 %", "95 %", "99 %", "100 %");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        WrAppLatency latency;
-        double seconds = quick ? rows[i].seconds / 10 : rows[i].seconds;
-        if (!measure(cli, rows[i].scene, rows[i].radius, rows[i].turning, seconds, &latency, err))
-            return false;
+        WrAppLatency latency = { .radius = rows[i].radius,
+                                 .seconds = quick ? rows[i].seconds / 10 : rows[i].seconds,
+                                 .turning = rows[i].turning };
+        if (!measure(cli, rows[i].scene, &latency, err)) return false;
         wr_text_addf(text, "  %s: %lld events, %lld pictures\n", rows[i].what,
                      (long long)latency.events, (long long)latency.pictures);
         print(text, "the outline has moved", &latency.pointer);
         print(text, "the table shows the paint", &latency.canvas);
         print(text, "the patch shows it", &latency.preview);
     }
-    return true;
+    return add_sizes(cli, quick, text, err);
 }
 #else
 bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err)

@@ -25,17 +25,20 @@ typedef struct WrAppDelays {
 
 typedef struct WrAppLatency {
     /* asked for */
-    double radius;  /* of the brush, texels */
-    double seconds; /* of scribbling, 0.5..600 */
-    bool turning;   /* the patch turns meanwhile */
+    double radius;       /* of the brush, texels */
+    double seconds;      /* of scribbling, 0.5..600 */
+    bool turning;        /* the patch turns meanwhile */
+    int width, height;   /* of the window, pixels; 0: 1440 x 900 */
+    double idle_seconds; /* that nothing happens before, and nothing turns; 0: none */
     /* measured */
+    double idle; /* of one processor, 0..: what the program takes while nothing happens */
     int64_t events, pictures;
     WrAppDelays pointer; /* the outline stands at the pointer's place */
     WrAppDelays canvas;  /* the table's picture holds all that the event paints */
     WrAppDelays preview; /* so does the patch's picture */
 } WrAppLatency;
 
-/* Open a window that nobody sees (1440 x 900, without a display), scribble on its canvas for a while, the
+/* Open a window that nobody sees (without a display), leave it alone for a while, scribble on its canvas for a while, the
  * same each time, at 125 events a second of real time, and measure. The session's document is painted on.
  * Reads and writes no settings. Error: no window, nothing measured, interrupted. */
 bool wr_app_latency(const WrAppOptions *options, WrAppLatency *latency, WrError *err);

@@ -27,6 +27,8 @@
 #define STROKE_EVENTS 500 /* then the button is let go for a moment */
 #define PAUSE_EVENTS 25
 #define SETTLE_SECONDS 1.5 /* before the first event: first pictures, caches */
+#define MOST_SECONDS 60.0  /* that the beginning is waited for, with a large table */
+#define BUSY 0.3           /* of a processor: more than that is no rest */
 #define LAST_SECONDS 5.0   /* after the last one, for all to be seen */
 
 struct WrLatency {
@@ -149,14 +151,56 @@ static void step_for(WrApp *app, double seconds)
     }
 }
 
+static bool stopped(const WrApp *app)
+{
+    return app->quit || (wr_cancel_asked(app->options->cancel));
+}
+
+/* ---- doing nothing ---- */
+
+typedef struct Alarm {
+    double seconds;
+    Uint32 event;
+    volatile int rang; /* atomic */
+} Alarm;
+
+static void *ring(void *arg)
+{
+    Alarm *alarm = arg;
+    SDL_Delay((Uint32)(alarm->seconds * 1e3));
+    __atomic_store_n(&alarm->rang, 1, __ATOMIC_RELAXED);
+    SDL_Event event = { .type = alarm->event };
+    SDL_PushEvent(&event);
+    return NULL;
+}
+
+/* What the processor has to do while nobody does anything; negative: it cannot be told. */
+static double measure_idle(WrApp *app, double seconds)
+{
+    WrThread thread;
+    Alarm alarm = { .seconds = seconds, .event = app->job_event };
+    if (!wr_thread_begin(&thread, ring, &alarm)) return -1.0;
+    const double start = wr_clock_seconds(), before = wr_clock_process_seconds();
+    while (!__atomic_load_n(&alarm.rang, __ATOMIC_RELAXED) && !app->quit) wr_app_step(app);
+    const double share = (wr_clock_process_seconds() - before) / (wr_clock_seconds() - start);
+    wr_thread_join(thread);
+    return share;
+}
+
 static bool all_seen(const WrLatency *latency)
 {
     return latency->seen[1] >= latency->count && latency->seen[2] >= latency->count;
 }
 
-static bool stopped(const WrApp *app)
+/* First pictures are drawn and caches made: however long that takes with a large table. */
+static void settle(WrApp *app)
 {
-    return app->quit || (wr_cancel_asked(app->options->cancel));
+    double before, end = wr_clock_seconds() + MOST_SECONDS;
+    do {
+        before = wr_clock_process_seconds();
+        step_for(app, SETTLE_SECONDS);
+    } while (wr_clock_process_seconds() - before > BUSY * SETTLE_SECONDS &&
+             wr_clock_seconds() < end && !stopped(app));
 }
 
 static bool measure(WrApp *app, WrLatency *latency, WrError *err)
@@ -193,8 +237,8 @@ bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err
     for (int64_t i = 0; i < latency.count; i++)
         latency.paints[i] = i % (STROKE_EVENTS + PAUSE_EVENTS) < STROKE_EVENTS;
     WrAppOptions own = *options;
-    own.width = 1440;
-    own.height = 900;
+    own.width = out->width > 0 ? out->width : 1440;
+    own.height = out->height > 0 ? out->height : 900;
     own.file_given = true;
     WrApp *app = wr_store_new();
     app->options = &own;
@@ -205,6 +249,8 @@ bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err
     SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
     bool good = wr_app_begin(app, err);
     if (good) {
+        app->settings->turning = false;
+        if (out->idle_seconds > 0.0) settle(app), out->idle = measure_idle(app, out->idle_seconds);
         app->settings->turning = out->turning;
         app->settings->brush.radius = out->radius;
         app->settings->brush.strength = 0.02;
