@@ -3,6 +3,8 @@
 
 #include "base/memory.h"
 
+#include "base/rows.h"
+#include "ui/gui/sentences.h"
 #include "ui/gui/words.h"
 
 #include <stdint.h>
@@ -149,6 +151,46 @@ static void english_is_itself(void **state)
     wr_words_choose(1000);
 }
 
+static void what_was_put_together_is_said_by_its_form(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *english, *german;
+    } rows[] = {
+        { "dab: radius=-3.7: must be at least 0.5", "dab: radius=-3.7: muss mindestens 0.5 sein" },
+        { "no layer is called \"top: x\": must be a name or 1..3",
+          "keine Ebene hei\xc3\x9ft \"top: x\": muss ein Name sein oder 1..3" },
+        { "/tmp/open (1).exr: No such file or directory",
+          "/tmp/open (1).exr: Datei oder Ordner nicht gefunden" },
+        { "unknown command \"sphre\": did you mean sphere?",
+          "unbekannter Befehl \"sphre\": war sphere gemeint?" },
+        { "Brushes is locked: `layer set 2 lock=off` unlocks it",
+          "Brushes ist gesperrt: `layer set 2 lock=off` entsperrt sie" },
+        { "nothing to undo", "nichts r\xc3\xbc"
+                             "ckg\xc3\xa4ngig zu machen" },
+        { ": must be ", ": must be " }, /* nothing stands where something must */
+        { "a b c: d", "a b c: d" },
+        { "100 %s of %d", "100 %s of %d" },
+        { "", "" },
+    };
+    char said[WR_SENTENCE], small[24];
+    wr_words_choose(2);
+    if (strcmp(wr_words_language(), "de") != 0) skip(); /* built without msgfmt */
+    for (int i = 0; i < WR_LENGTH(rows); i++)
+        assert_string_equal(wr_sentence(rows[i].english, said, sizeof said), rows[i].german);
+    /* Cut between letters, wherever that is. */
+    for (size_t size = 1; size <= sizeof small; size++) {
+        memset(small, 'x', sizeof small);
+        wr_sentence("nothing to undo", small, size);
+        const size_t length = strlen(small);
+        assert_true(length < size && length + 2 >= (size < 23 ? size : 23));
+        assert_memory_equal(small, rows[5].german, length);
+        assert_true(((unsigned char)rows[5].german[length] & 0xc0) != 0x80);
+    }
+    wr_words_choose(1);
+    assert_string_equal(wr_sentence(rows[0].english, said, sizeof said), rows[0].english);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +200,7 @@ int main(void)
         cmocka_unit_test(lengths_that_run_over_the_end_of_numbers_are_refused),
         cmocka_unit_test(the_environment_chooses_as_gettext_does),
         cmocka_unit_test(english_is_itself),
+        cmocka_unit_test(what_was_put_together_is_said_by_its_form),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@
 wr_program_packages=(
     build-essential cmake ninja-build pkg-config
     libassimp-dev libexpat1-dev libfontconfig-dev libfreetype-dev libfribidi-dev libharfbuzz-dev libimgui-dev libjson-c-dev
-    libmd-dev libmypaint-dev libopenimageio-dev libpng-dev
+    libdbus-1-dev libmd-dev libmypaint-dev libopenimageio-dev libpng-dev
     libsdl2-dev libseccomp-dev libsleef-dev libstb-dev libx11-dev libxi-dev libxxhash-dev libzip-dev mypaint-brushes
     zlib1g-dev
     gettext fonts-dejavu-core fonts-inter fonts-materialdesignicons-webfont gnuplot-nox xfonts-terminus
@@ -16,7 +16,7 @@ wr_program_packages=(
 wr_test_packages=(
     libcmocka-dev clang clang-format libclang-rt-14-dev
     console-setup-linux fonts-inter-variable fonts-lohit-deva
-    xvfb xauth xdotool xclip x11-utils openbox valgrind
+    dbus-daemon xvfb xauth xdotool xclip x11-utils openbox valgrind
     xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
     imagemagick openimageio-tools
     desktop-file-utils groff-base jq librsvg2-bin parallel shellcheck

@@ -90,6 +90,8 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->canvas_second = wr_canvas_map_new(app->options->threads, app->job_event);
     app->preview = wr_preview_new(app->options->threads, app->options->isa, app->ready_event);
     app->files = wr_files_new(app->file_event);
+    wr_files_choose_way(app->files, (WrFileWay)app->settings->dialogs);
+    wr_files_set_window(app->files, app->window);
     app->pen = wr_pen_new(app->window);
     wr_tablet_start(app);
     app->keys = wr_keys_new();
@@ -208,6 +210,9 @@ static void handle(WrApp *app, const SDL_Event *event)
             if ((*p)->forget) (*p)->forget(app);
     } else if (event->type == app->file_event) {
         WrFilePurpose purpose;
+        const WrFilesHeard heard = wr_files_hear(app->files);
+        if (heard == WR_FILES_PANEL) wr_dialog_open(app, WR_DIALOG_FILE);
+        if (heard != WR_FILES_ANSWERED) return;
         const char *path = wr_files_answer(app->files, &purpose);
         if (path) wr_app_file_chosen(app, purpose, path);
         else app->file->after = WR_AFTER_NOTHING;

@@ -2,6 +2,7 @@
 #include "ui/desk/messages.h"
 #include "ui/desk/app_options.h"
 #include "ui/desk/desk.h"
+#include "ui/gui/sentences.h"
 #include "ui/gui/words.h"
 
 #include "base/array.h"
@@ -51,7 +52,8 @@ void wr_app_say_lines(WrApp *app, const char *text)
 
 void wr_app_fail(WrApp *app, const WrError *err)
 {
-    add(app, wr_words(err->text), true);
+    char said[WR_SENTENCE];
+    add(app, wr_sentence(err->text, said, sizeof said), true);
 }
 
 void wr_app_take_notes(WrApp *app)
@@ -62,7 +64,8 @@ void wr_app_take_notes(WrApp *app)
         size_t length = strcspn(at, "\n");
         bool more = at[length] == '\n';
         at[length] = '\0';
-        if (length > 0) add(app, at, false);
+        char said[WR_SENTENCE];
+        if (length > 0) add(app, wr_sentence(at, said, sizeof said), false);
         at += length + more;
     }
     wr_text_clear(notes);

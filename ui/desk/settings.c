@@ -76,6 +76,7 @@ static int window_rows(WrSettings *s, Row *rows)
         { "scale", &s->scale, NULL, NULL, 0, 3 },
         { "theme", NULL, (int *)&s->theme, NULL, 0, WR_THEME_KINDS - 1 },
         { "language", NULL, &s->language, NULL, 0, 63 },
+        { "dialogs", NULL, &s->dialogs, NULL, 0, 2 },
         { "divider", &s->divider, NULL, NULL, 0.05, 0.95 },
         { "views", NULL, (int *)&s->views, NULL, 0, 2 },
         { "panels", NULL, NULL, &s->panels, 0, 1 },

@@ -38,6 +38,7 @@ typedef struct WrSettings {
     double scale; /* 0.75..3; 0: from the display */
     WrThemeKind theme;
     int language;   /* of wr_languages */
+    int dialogs;    /* for files: WrFileWay */
     double divider; /* the canvas's share of the views, 0..1 */
     WrShownViews views;
     bool panels;        /* shown */

@@ -6,3 +6,9 @@ double wr_desktop_dpi(SDL_Window *window)
     (void)window;
     return 0;
 }
+
+unsigned long wr_desktop_window(SDL_Window *window)
+{
+    (void)window;
+    return 0;
+}

@@ -71,3 +71,11 @@ double wr_desktop_dpi(SDL_Window *window)
     XSetErrorHandler(before);
     return dpi;
 }
+
+unsigned long wr_desktop_window(SDL_Window *window)
+{
+    SDL_SysWMinfo info;
+    SDL_VERSION(&info.version);
+    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11) return 0;
+    return info.info.x11.window;
+}

@@ -1,5 +1,6 @@
 /* Areas, text, menus and widgets. */
 #include "ui/gui/gui_imgui.h"
+#include "ui/gui/sentences.h"
 
 extern "C" {
 #include "system/clock.h"
@@ -169,7 +170,10 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_text_wrapped(WrFont font, WrColour colour, const char *text)
 try {
-    text_in(font, colour, text, true);
+    /* What is wrong is mostly put together, by rooms that know nothing of languages. */
+    char said[WR_SENTENCE];
+    const bool wrong = colour == WR_COLOUR_BAD && !wr_gui_current()->as_it_is;
+    text_in(font, colour, wrong ? wr_sentence(text, said, sizeof said) : text, true);
 }
 WR_CAUGHT()
 

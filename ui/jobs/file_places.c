@@ -55,19 +55,24 @@ static bool is_one_of(const char *ending, const char *const *list)
     return false;
 }
 
+#define PICTURES                                                                                   \
+    "png", "exr", "tif", "tiff", "jpg", "jpeg", "jp2", "bmp", "tga", "hdr", "pfm", "pgm", "ppm",   \
+        "webp", "gif", "psd", "dpx", "heic", "avif", "jxl"
+
+const char *const *wr_file_endings(WrFilePurpose purpose)
+{
+    static const char *const pictures[] = { PICTURES, NULL };
+    static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
+    static const char *const documents[] = { PICTURES, "wrinkle", "ora", NULL };
+    if (wr_files_writes(purpose) || purpose == WR_FILE_GENERATE || purpose == WR_FILE_PRESET)
+        return NULL;
+    if (purpose == WR_FILE_STAMP) return stamps;
+    return purpose == WR_FILE_OPEN || purpose == WR_FILE_TABLE ? documents : pictures;
+}
+
 bool wr_file_fits(WrFilePurpose purpose, const char *name)
 {
-    static const char *const pictures[] = { "png", "exr", "tif", "tiff", "jpg",  "jpeg", "jp2",
-                                            "bmp", "tga", "hdr", "pfm",  "pgm",  "ppm",  "webp",
-                                            "gif", "psd", "dpx", "heic", "avif", "jxl",  NULL };
-    static const char *const documents[] = { "wrinkle", "ora", NULL };
     char buffer[16];
-    const char *ending = wr_path_ending(name, buffer);
-    if (wr_files_writes(purpose) || purpose == WR_FILE_GENERATE || purpose == WR_FILE_PRESET)
-        return true;
-    if (is_one_of(ending, pictures)) return true;
-    if (purpose == WR_FILE_STAMP)
-        return strcmp(ending, "gbr") == 0 || strcmp(ending, "gih") == 0 ||
-               strcmp(ending, "pat") == 0;
-    return (purpose == WR_FILE_OPEN || purpose == WR_FILE_TABLE) && is_one_of(ending, documents);
+    const char *const *endings = wr_file_endings(purpose);
+    return !endings || is_one_of(wr_path_ending(name, buffer), endings);
 }

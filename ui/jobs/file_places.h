@@ -17,3 +17,5 @@ void wr_file_places_free(WrFilePlace places[], int count);
 /* Is it, by its name's ending, one that may be read for that? All are where it may be anything, and of files to be
  * written. */
 bool wr_file_fits(WrFilePurpose purpose, const char *name);
+/* The endings that it goes by, NULL ends them; NULL: any. */
+const char *const *wr_file_endings(WrFilePurpose purpose);

@@ -1,5 +1,8 @@
 #include "ui/jobs/files.h"
 #include "ui/jobs/file_places.h"
+#include "ui/jobs/file_program.h"
+#include "ui/jobs/portal.h"
+#include "ui/gui/desktop.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
@@ -36,8 +39,14 @@ struct WrFiles {
     WrFilePurpose purpose;
     char answer[PATH_SIZE]; /* "" if cancelled */
     bool agreed;            /* the native dialog asked before it gave a name that is taken */
-    /* the native dialog */
-    bool running;
+    char *from;             /* owned: the file that the question began with, as a path */
+    WrFileWay way;
+    char parent[32]; /* the window, as the portal names it */
+    /* the native dialog: of the portal, or a child's */
+    bool running, by_portal;
+    WrPortalAsk ask; /* its texts are owned */
+    WrPortalEnd end;
+    volatile int stop;
     WrPid child;
     int pipe;
     WrThread waiter;
@@ -106,97 +115,99 @@ WrFiles *wr_files_new(Uint32 done_event)
 
 /* ---- the desktop's dialog ---- */
 
-static char *find_program(const char *name)
-{
-    const char *path = getenv("PATH");
-    while (path && *path) {
-        size_t length = strcspn(path, ":");
-        char *folder = wr_strndup(path, length), *full = wr_path_join(folder, name);
-        wr_free(folder);
-        if (length > 0 && wr_path_can_run(full)) return full;
-        wr_free(full);
-        path += length + (path[length] == ':');
-    }
-    return NULL;
-}
-
-/* Read the child's answer: one path on one line. Runs on a thread of its own. */
+/* Read the program's answer, on a thread of its own. */
 static void *wait_for_child(void *arg)
 {
     WrFiles *files = arg;
-    char text[PATH_SIZE];
-    size_t length = 0;
-    for (;;) {
-        int64_t got = wr_fd_read(files->pipe, text + length, sizeof text - 1 - length);
-        if (got <= 0) break;
-        length += (size_t)got;
-        if (length == sizeof text - 1) break;
-    }
-    WrChildEnd end;
-    wr_child_wait(files->child, &end);
-    while (length > 0 && text[length - 1] == '\n') length--;
-    bool chosen = end.why == WR_CHILD_LEFT && end.number == 0 && text[0] == '/' && length > 0;
-    memcpy(files->answer, text, chosen ? length : 0);
-    files->answer[chosen ? length : 0] = '\0';
+    wr_file_program_hear(files->child, files->pipe, files->answer, sizeof files->answer);
     SDL_Event event = { .type = files->done_event };
     SDL_PushEvent(&event);
     return NULL;
 }
 
-/* Nobody would hear its answer. */
-static void dismiss(WrPid child)
+static bool ask_program(WrFiles *files, const char *start_at)
 {
-    WrChildEnd end;
-    wr_child_ask_to_end(child);
-    wr_child_wait(child, &end);
+    const char *title = wr_words(purposes[files->purpose].title);
+    if (!wr_file_program_start(title, wr_files_writes(files->purpose), start_at, &files->child,
+                               &files->pipe))
+        return false;
+    files->by_portal = false;
+    files->running = wr_thread_start(&files->waiter, wait_for_child, files);
+    if (files->running) return true;
+    wr_file_program_dismiss(files->child); /* nobody would hear its answer */
+    wr_fd_close(files->pipe);
+    return false;
 }
 
-static bool start(WrFiles *files, const char *program, const char *const *arguments)
+/* ---- the portal's dialog ---- */
+
+#define SOON 1.0  /* seconds in which a portal takes the question, where another way would do */
+#define LATE 10.0 /* where it is what the user wants: it may be only starting */
+
+static void free_ask(WrPortalAsk *ask)
 {
-    int ends[2];
-    if (!wr_fd_pipe(ends, true)) return false;
-    const WrChildStart it = {
-        .program = program, .arguments = arguments, .in = -1, .out = ends[1], .err = -1
-    };
-    int trouble = wr_child_start(&it, &files->child);
-    wr_fd_close(ends[1]);
-    files->pipe = ends[0];
-    files->running = trouble == 0 && wr_thread_start(&files->waiter, wait_for_child, files);
-    if (trouble == 0 && !files->running) dismiss(files->child);
-    if (!files->running) wr_fd_close(ends[0]);
+    const char *const texts[] = { ask->title, ask->accept, ask->folder, ask->name };
+    for (int i = 0; i < WR_LENGTH(texts); i++) wr_free((char *)(uintptr_t)texts[i]);
+    *ask = (WrPortalAsk){ 0 };
+}
+
+/* On a thread of its own. */
+static void *wait_for_portal(void *arg)
+{
+    WrFiles *files = arg;
+    files->end = wr_portal_ask(&files->ask, &files->stop, files->answer, sizeof files->answer);
+    SDL_Event event = { .type = files->done_event };
+    SDL_PushEvent(&event);
+    return NULL;
+}
+
+static bool ask_portal(WrFiles *files, const char *folder, const char *name)
+{
+    const bool writes = wr_files_writes(files->purpose);
+    if (!wr_portal_may_be()) return false;
+    free_ask(&files->ask);
+    files->ask = (WrPortalAsk){ .title = wr_strdup(wr_words(purposes[files->purpose].title)),
+                                .accept = wr_strdup(wr_words(purposes[files->purpose].done)),
+                                .folder = wr_strdup(folder),
+                                .name = wr_strdup(name),
+                                .parent = files->parent,
+                                .kind = wr_words("What can be read here"),
+                                .all = wr_words("All files"),
+                                .endings = writes ? NULL : wr_file_endings(files->purpose),
+                                .save = writes,
+                                .patience = files->way == WR_FILE_WAY_DESKTOP ? LATE : SOON };
+    files->stop = 0;
+    files->running = wr_thread_start(&files->waiter, wait_for_portal, files);
+    files->by_portal = files->running;
     return files->running;
 }
 
-static bool ask_native(WrFiles *files, const char *start_at)
+/* ---- either of them ---- */
+
+static bool wants_own(const WrFiles *files)
 {
-    const char *title = purposes[files->purpose].title, *forced = getenv("WRINKLE_DIALOG");
-    bool save = wr_files_writes(files->purpose), ok = false;
-    if (forced && strcmp(forced, "own") == 0) return false;
-    char *zenity = find_program("zenity"), *kdialog = zenity ? NULL : find_program("kdialog");
-    if (zenity) {
-        WrText where = { 0 }, named = { 0 };
-        wr_text_addf(&where, "--filename=%s", start_at);
-        wr_text_addf(&named, "--title=%s", title);
-        const char *arguments[] = { zenity,
-                                    "--file-selection",
-                                    wr_text_get(&named),
-                                    wr_text_get(&where),
-                                    save ? "--save" : NULL,
-                                    "--confirm-overwrite",
-                                    NULL };
-        ok = start(files, zenity, arguments);
-        wr_text_fini(&where);
-        wr_text_fini(&named);
-    } else if (kdialog) {
-        /* It asks by itself before it gives the name of a file that is there. */
-        const char *arguments[] = { kdialog,  "--title",
-                                    title,    save ? "--getsavefilename" : "--getopenfilename",
-                                    start_at, NULL };
-        ok = start(files, kdialog, arguments);
-    }
-    wr_free(zenity);
-    wr_free(kdialog);
-    return ok;
+    const char *forced = getenv("WRINKLE_DIALOG");
+    return files->way == WR_FILE_WAY_OWN || (forced && strcmp(forced, "own") == 0);
+}
+
+void wr_files_choose_way(WrFiles *files, WrFileWay way)
+{
+    files->way = way;
+}
+
+void wr_files_set_window(WrFiles *files, SDL_Window *window)
+{
+    const unsigned long number = wr_desktop_window(window);
+    files->parent[0] = '\0';
+    if (number) snprintf(files->parent, sizeof files->parent, "x11:%lx", number);
+}
+
+/* The thread's or the child's end. */
+static void join(WrFiles *files)
+{
+    wr_thread_join(files->waiter);
+    if (!files->by_portal) wr_fd_close(files->pipe);
+    files->running = false;
 }
 
 /* ---- the panel's folder ---- */
@@ -289,12 +300,13 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
         wr_image_warm_writing();
     char *from = folder ? wr_strdup(folder) : wr_path_real(".");
     char *start_at = wr_path_join(from ? from : "/", name);
-    bool native = ask_native(files, start_at);
-    if (!native) {
-        snprintf(files->field, sizeof files->field, "%s", name);
-        go_to(files, from ? from : "/");
-    }
-    wr_free(start_at);
+    wr_free(files->from);
+    files->from = start_at;
+    snprintf(files->field, sizeof files->field, "%s", name);
+    files->by_portal = false;
+    bool native = !wants_own(files) &&
+                  (ask_portal(files, from ? from : "", name) || ask_program(files, start_at));
+    if (!native) go_to(files, from ? from : "/");
     if (folder) wr_free(from);
     else free(from);
     return native;
@@ -310,6 +322,23 @@ static void take_native(WrFiles *files)
     wr_free(full);
 }
 
+WrFilesHeard wr_files_hear(WrFiles *files)
+{
+    if (!files->running) return WR_FILES_ANSWERED;
+    join(files);
+    if (!files->by_portal || files->end != WR_PORTAL_NONE) {
+        take_native(files);
+        return WR_FILES_ANSWERED;
+    }
+    files->by_portal = false;
+    files->answer[0] = '\0';
+    if (ask_program(files, files->from)) return WR_FILES_AGAIN;
+    char *folder = wr_path_folder(files->from);
+    go_to(files, folder);
+    wr_free(folder);
+    return WR_FILES_PANEL;
+}
+
 bool wr_files_agreed(const WrFiles *files)
 {
     return files->agreed;
@@ -318,9 +347,7 @@ bool wr_files_agreed(const WrFiles *files)
 const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose)
 {
     if (files->running) {
-        wr_thread_join(files->waiter);
-        wr_fd_close(files->pipe);
-        files->running = false;
+        join(files);
         take_native(files);
     }
     *purpose = files->purpose;
@@ -331,8 +358,11 @@ void wr_files_free(WrFiles *files)
 {
     if (!files) return;
     WrFilePurpose unused;
-    if (files->running) wr_child_ask_to_end(files->child);
+    files->stop = 1;
+    if (files->running && !files->by_portal) wr_child_ask_to_end(files->child);
     wr_files_answer(files, &unused);
+    free_ask(&files->ask);
+    wr_free(files->from);
     free_entries(files);
     wr_free(files);
 }

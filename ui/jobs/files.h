@@ -1,6 +1,8 @@
-/* files.h - asking for a file: with the desktop's own dialog (zenity or kdialog, run without a shell
-   while the window stays alive), or with a plain panel of our own. */
+/* files.h - asking for a file: with the desktop's own dialog (its portal, portal.h, or zenity or kdialog, run without a
+   shell), while the window stays alive, or with a plain panel of our own. */
 #pragma once
+#include "base/rows.h"
+
 #include <SDL.h>
 #include <stdbool.h>
 
@@ -24,15 +26,34 @@ typedef enum WrFilePurpose {
     WR_FILE_PURPOSES
 } WrFilePurpose;
 
+/* Who asks. */
+#define WR_FILE_WAYS(X)                                                                            \
+    X(WR_FILE_WAY_AUTOMATIC,                                                                       \
+      "Automatic") /* whichever of the desktop's answers soon, else our own */                     \
+    X(WR_FILE_WAY_DESKTOP, "The desktop's") /* the same, and it is waited for longer */            \
+    X(WR_FILE_WAY_OWN, "Wrinkle's own")
+typedef enum WrFileWay { WR_FILE_WAYS(WR_WORD_ID) WR_FILE_WAY_COUNT } WrFileWay;
+
 typedef struct WrFiles WrFiles;
 
 /* done_event: an SDL event type that is pushed when a native dialog was closed. */
 WrFiles *wr_files_new(Uint32 done_event);
 void wr_files_free(WrFiles *files); /* closes a dialog that is open */
 
+/* How the next questions are asked. window: the dialogs belong to it. */
+void wr_files_choose_way(WrFiles *files, WrFileWay way);
+void wr_files_set_window(WrFiles *files, SDL_Window *window);
+
 /* Ask. name: the file name that the field starts with. True: a native dialog is open and the event will
  * come; false: there is none, and the panel must be drawn instead (wr_files_panel). */
 bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, const char *name);
+/* First after the event: what has become of the question. */
+typedef enum WrFilesHeard {
+    WR_FILES_ANSWERED, /* or cancelled */
+    WR_FILES_AGAIN, /* that dialog did not come, or went away; another is open, and the event will come again */
+    WR_FILES_PANEL /* none of the desktop's comes: the panel must be drawn */
+} WrFilesHeard;
+WrFilesHeard wr_files_hear(WrFiles *files);
 /* After the event: the path chosen, or NULL if it was cancelled. Valid until the next ask. A file to be
  * written has an ending: that of its kind where none was typed. */
 const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose);

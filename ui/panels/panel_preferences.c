@@ -11,6 +11,7 @@
 #include "ui/gui/gui_icons.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
+#include "ui/jobs/files.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -39,6 +40,17 @@ static void language_row(WrApp *app)
         wr_words_choose(app->settings->language);
 }
 
+static void dialogs_row(WrApp *app)
+{
+    static const char *const ways[] = { WR_FILE_WAYS(WR_WORD) };
+    wr_gui_label("File dialogs");
+    if (wr_gui_choice("dialogs", 0, ways, WR_FILE_WAY_COUNT, &app->settings->dialogs))
+        wr_files_choose_way(app->files, (WrFileWay)app->settings->dialogs);
+    wr_gui_tip("Who asks for files: the desktop by its portal, zenity or kdialog, or this program. "
+               "Automatic: "
+               "the desktop if it answers within a second.");
+}
+
 static void window_rows(WrApp *app)
 {
     static const char *const themes[] = { "Dark", "Light", "High contrast" };
@@ -57,6 +69,7 @@ static void window_rows(WrApp *app)
     if (wr_gui_choice("size", 0, sizes, WR_LENGTH(sizes), &size))
         wr_app_set_scale(app, scales[size]);
     language_row(app);
+    dialogs_row(app);
 }
 
 static void map_row(WrApp *app)

@@ -1,0 +1,13 @@
+/* Without libdbus: there is no portal. */
+#include "ui/jobs/portal.h"
+
+bool wr_portal_may_be(void)
+{
+    return false;
+}
+
+WrPortalEnd wr_portal_ask(const WrPortalAsk *ask, const volatile int *stop, char *path, size_t size)
+{
+    (void)ask, (void)stop, (void)path, (void)size;
+    return WR_PORTAL_NONE;
+}
