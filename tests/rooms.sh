@@ -41,6 +41,7 @@ BEGIN {
     library["hb"] = library["fribidi"] = library["fontconfig/"] = library["zlib"] = "image"
     library["sleef"] = library["xxhash"] = library["sha2"] = "base"
     library["libmypaint"] = library["mypaint"] = "brush"
+    library["dbus/"] = "ui/jobs"
     library["json-c/"] = "brush image" # presets; what a glTF names
 }
 FNR == 1 {

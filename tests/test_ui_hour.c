@@ -18,9 +18,11 @@
 
 #define SIDE 512
 #define BUDGET (48 << 20)
-/* Beyond undo's budget and what the window has after its first tenth: two more tables in each of so many copies (document,
-   composite, what is shown, what is rendered), lists of lines, and what malloc keeps of what it was given back. */
-#define SLACK (64 << 20)
+/* Bytes beyond undo's budget and what the window has when it opens: the layers, each with its composite and what a filter
+   keeps; what is shown and rendered; what work takes for a moment, which malloc keeps of it. Measured: 150 MB. */
+#define CONSTANT (192 << 20)
+/* And what the second half may take more than the first: nothing but chance. */
+#define SLACK (24 << 20)
 #define LAYERS_MOST 6
 
 typedef struct Hour {
@@ -130,7 +132,10 @@ static void change(Hour *hour)
     case 1:
         line(hour, "adjust offset du=%d dv=%d", (int)some(hour, -99, 99), (int)some(hour, -99, 99));
         break;
-    case 2: line(hour, "filter blur radius=%.2f", some(hour, 0.5, 4)); break;
+    case 2:
+        if (wr_session_document(hour->bench.session)->layer_count < LAYERS_MOST)
+            line(hour, "filter blur radius=%.2f", some(hour, 0.5, 4));
+        break;
     case 3:
         line(hour, "text \"Ab%d\" size=%d at=%.3f,%.3f", (int)some(hour, 0, 99),
              (int)some(hour, 20, 160), u, v);
@@ -235,13 +240,20 @@ static void an_hour_takes_no_more_memory_than_undo_may(void **state)
     static Hour hour;
     const char *said = getenv("WR_HOUR"), *tell = getenv("WR_HOUR_TELL");
     const int seconds = said ? atoi(said) : 3600;
-    double first = 0, most = 0;
+    double opened, told, half = 0, most = 0;
     begin_hour(&hour);
+    opened = told = resident();
     for (int i = 0; i < seconds; i++) {
         second(&hour);
-        if (i == seconds / 10) first = resident();
         const double now = resident();
         if (now > most) most = now;
+        if (2 * i < seconds) half = most;
+        if (tell && now > told + 8e6) {
+            printf("second %d: %.1f MB more, last: %.200s\n", i, (now - told) / 1048576.0,
+                   wr_session_last_command(hour.bench.session));
+            fflush(stdout);
+        }
+        told = fmax(told, now);
         if (tell && i % (seconds / 10 + 1) == 0)
             printf("second %d: %.1f MB resident, undo %.1f MB, %.1f MB in blocks\n", i,
                    now / 1048576.0,
@@ -249,13 +261,15 @@ static void an_hour_takes_no_more_memory_than_undo_may(void **state)
                    (double)mallinfo2().uordblks / 1048576.0);
         assert_true(wr_session_history_bytes(hour.bench.session) <= 2 * (size_t)BUDGET);
     }
-    printf("%lld strokes, %lld motions, %lld lines of which %lld were refused; %.1f MB after a "
-           "tenth, %.1f MB at most\n",
+    printf("%lld strokes, %lld motions, %lld lines of which %lld were refused; resident: %.1f MB "
+           "when opened, at most "
+           "%.1f MB in the first half, %.1f MB in all\n",
            (long long)hour.strokes, (long long)hour.motions, (long long)hour.lines,
-           (long long)hour.refused, first / 1048576.0, most / 1048576.0);
+           (long long)hour.refused, opened / 1048576.0, half / 1048576.0, most / 1048576.0);
     assert_true(hour.lines == 0 || hour.refused < hour.lines / 2);
-    if (most > first + BUDGET + SLACK)
-        fail_msg("%.1f MB resident, %.1f after a tenth", most / 1048576.0, first / 1048576.0);
+    if (most > opened + BUDGET + CONSTANT) fail_msg("%.1f MB resident", most / 1048576.0);
+    if (most > half + SLACK)
+        fail_msg("the second half took %.1f MB more", (most - half) / 1048576.0);
     compare(&hour);
 }
 

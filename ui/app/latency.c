@@ -28,7 +28,7 @@
 #define PAUSE_EVENTS 25
 #define SETTLE_SECONDS 1.5 /* before the first event: first pictures, caches */
 #define MOST_SECONDS 60.0  /* that the beginning is waited for, with a large table */
-#define BUSY 0.3           /* of a processor: more than that is no rest */
+#define BUSY 0.10          /* of a processor: more than that is no rest */
 #define LAST_SECONDS 5.0   /* after the last one, for all to be seen */
 
 struct WrLatency {
@@ -161,6 +161,8 @@ static bool stopped(const WrApp *app)
 typedef struct Alarm {
     double seconds;
     Uint32 event;
+    double at,
+        processor;     /* the clock, and what the program has used of processors, when it rings */
     volatile int rang; /* atomic */
 } Alarm;
 
@@ -168,39 +170,51 @@ static void *ring(void *arg)
 {
     Alarm *alarm = arg;
     SDL_Delay((Uint32)(alarm->seconds * 1e3));
-    __atomic_store_n(&alarm->rang, 1, __ATOMIC_RELAXED);
+    alarm->at = wr_clock_seconds();
+    alarm->processor = wr_clock_process_seconds();
+    __atomic_store_n(&alarm->rang, 1, __ATOMIC_RELEASE);
     SDL_Event event = { .type = alarm->event };
     SDL_PushEvent(&event);
     return NULL;
 }
 
-/* What the processor has to do while nobody does anything; negative: it cannot be told. */
-static double measure_idle(WrApp *app, double seconds)
+static void wait_once(WrApp *app)
+{
+    SDL_Event event;
+    (void)app;
+    SDL_WaitEvent(&event);
+}
+
+/* Of a processor, while `step` is done again and again and nobody does anything. */
+static double share_of(WrApp *app, void (*step)(WrApp *app), double seconds)
 {
     WrThread thread;
     Alarm alarm = { .seconds = seconds, .event = app->job_event };
-    if (!wr_thread_begin(&thread, ring, &alarm)) return -1.0;
+    if (!wr_thread_begin(&thread, ring, &alarm)) return 0.0;
     const double start = wr_clock_seconds(), before = wr_clock_process_seconds();
-    while (!__atomic_load_n(&alarm.rang, __ATOMIC_RELAXED) && !app->quit) wr_app_step(app);
-    const double share = (wr_clock_process_seconds() - before) / (wr_clock_seconds() - start);
+    while (!__atomic_load_n(&alarm.rang, __ATOMIC_ACQUIRE) && !app->quit) step(app);
     wr_thread_join(thread);
-    return share;
+    return (alarm.processor - before) / (alarm.at - start);
 }
 
-static bool all_seen(const WrLatency *latency)
+/* Without a display SDL looks for events a thousand times a second, which is not the window's work. */
+static double measure_idle(WrApp *app, double seconds)
 {
-    return latency->seen[1] >= latency->count && latency->seen[2] >= latency->count;
+    const double both = share_of(app, wr_app_step, seconds);
+    return fmax(0.0, both - share_of(app, wait_once, fmin(seconds, 2.0)));
 }
 
 /* First pictures are drawn and caches made: however long that takes with a large table. */
 static void settle(WrApp *app)
 {
-    double before, end = wr_clock_seconds() + MOST_SECONDS;
-    do {
-        before = wr_clock_process_seconds();
-        step_for(app, SETTLE_SECONDS);
-    } while (wr_clock_process_seconds() - before > BUSY * SETTLE_SECONDS &&
-             wr_clock_seconds() < end && !stopped(app));
+    const double end = wr_clock_seconds() + MOST_SECONDS;
+    while (share_of(app, wr_app_step, 1.0) > BUSY && wr_clock_seconds() < end && !stopped(app))
+        continue;
+}
+
+static bool all_seen(const WrLatency *latency)
+{
+    return latency->seen[1] >= latency->count && latency->seen[2] >= latency->count;
 }
 
 static bool measure(WrApp *app, WrLatency *latency, WrError *err)
