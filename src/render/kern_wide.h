@@ -26,8 +26,8 @@ typedef struct WrWide {
     bool (*sphere_light)(const WrRays *rays, const WrShapef *shape, const WrKernLight *light,
                          const WrKernShine *shine, const WrKernMaterial *material, float gx,
                          float gy, bool pictured, bool bent, bool *dark, WrStrip *strip);
-    /* Fu, Fv of `central`, as WrKernels.look; false: as above. */
-    bool (*central)(const WrLook *look, WrStrip *strip);
+    /* Fu, Fv of `central`, as WrKernels.look, and noted: tu, tv; false: as above. */
+    bool (*central)(const WrLook *look, bool noted, WrStrip *strip);
     /* C of a colour picture, as WrKernels.colour; false: as above. */
     bool (*colour)(const WrColourLook *look, WrStrip *strip);
     /* Finished colours as opaque codes, as WrKernels.codes; grey: red, green and blue of all are the same bits. How many

@@ -21,7 +21,7 @@ typedef struct Texels {
     float ru, rv;
 } Texels;
 
-static void place_texels(const Texels *of, WrStrip *strip)
+ALWAYS void place_texels(const Texels *of, const bool noted, WrStrip *strip)
 {
     const int pitch = of->pitch, apron = of->apron, count = strip->count;
     const float W = (float)of->width, H = (float)of->height, ru = of->ru, rv = of->rv;
@@ -30,8 +30,7 @@ static void place_texels(const Texels *of, WrStrip *strip)
         const float tu = turned(ru * strip->u[k]), tv = turned(rv * strip->v[k]);
         const float x = W * tu - 0.5f, y = H * (1.0f - tv) - 0.5f;
         const float i = floorf(x), j = floorf(y);
-        strip->tu[k] = tu;
-        strip->tv[k] = tv;
+        if (noted) strip->tu[k] = tu, strip->tv[k] = tv;
         strip->at[k] = ((int)j + apron) * pitch + (int)i + apron;
         strip->ta[k] = x - i;
         strip->tb[k] = y - j;
@@ -45,15 +44,16 @@ ALWAYS __m128 w_two(const float *from)
 }
 
 /* The differences in the middle of texels, as kern_look_body.h's theorem has them. */
-static bool wide_central(const WrLook *look, WrStrip *strip)
+static bool wide_central(const WrLook *look, bool noted, WrStrip *strip)
 {
     const int count = strip->count;
     const ptrdiff_t row = 2 * (ptrdiff_t)look->pitch;
     const float *gradient = look->gradient, scale_u = look->scale_u, scale_v = look->scale_v;
     if (!look->periodic_u || !look->periodic_v || look->wide || look->heights) return false;
-    place_texels(&(Texels){ look->width, look->height, look->pitch, WR_APRON, (float)look->ru,
-                            (float)look->rv },
-                 strip);
+    const Texels of = { look->width, look->height,    look->pitch,
+                        WR_APRON,    (float)look->ru, (float)look->rv };
+    if (noted) place_texels(&of, true, strip);
+    else place_texels(&of, false, strip);
     /* Fu, Fv of the left texel, then of the right; of two samples at once. */
     const __m256i each = _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1);
     for (int k = 0; k < count; k += 2) {
@@ -81,9 +81,10 @@ static bool wide_colour(const WrColourLook *look, WrStrip *strip)
     const int count = strip->count;
     const ptrdiff_t row = 4 * (ptrdiff_t)look->pitch;
     if (!look->periodic_u || !look->periodic_v) return false;
-    place_texels(
-        &(Texels){ look->width, look->height, look->pitch, 1, (float)look->ru, (float)look->rv },
-        strip);
+    const Texels of = {
+        look->width, look->height, look->pitch, 1, (float)look->ru, (float)look->rv
+    };
+    place_texels(&of, false, strip);
     for (int k = 0; k < count; k++) {
         const float *at = look->rgba + 4 * (ptrdiff_t)strip->at[k];
         const __m256 top = _mm256_loadu_ps(at), low = _mm256_loadu_ps(at + row);

@@ -103,37 +103,31 @@ ALWAYS int run_of(const Met *met, int most)
 
 /* ---- u and v ---- */
 
-/* The angle whose tangent is y / x in turns, both not negative, up to 2e-7. */
-ALWAYS Wide turns_between(Wide y, Wide x)
+/* The angle in turns of sine and cosine, neither negative, from the smaller one times `by`; up to 2e-7. */
+ALWAYS Wide turns_of(Wide sine, Wide cosine, Wide by)
 {
-    const Wide small = w_min(x, y), large = w_max(w_max(x, y), w_all(1.17549435e-38f));
-    const Wide t = small * w_reciprocal(large), z = t * t;
-    const Wide low =
-        w_all(-0.0214029402f) +
-        z * (w_all(0.0132299857f) + z * (w_all(-0.00578694232f) + z * w_all(0.0012172733f)));
-    const Wide a = t * (w_all(0.159154817f) +
-                        z * (w_all(-0.0530394651f) + z * (w_all(0.0316273347f) + z * low)));
-    return w_pick(w_less(x, y), w_all(0.25f) - a, a);
+    const Wide s = w_min(sine, cosine) * by, w = s * s;
+    const Wide high =
+        w_all(0.00955011882f) + w * (w_all(-0.00352944806f) + w * w_all(0.0150733879f));
+    const Wide a = s * (w_all(0.159154847f) +
+                        w * (w_all(0.0265393257f) + w * (w_all(0.0116312345f) + w * high)));
+    return w_pick(w_less(cosine, sine), w_all(0.25f) - a, a);
 }
 
-/* In two loops, for a processor looks only so far ahead. */
+/* u and v of n: sines and cosines are there already, but for the distance from the axis. */
 static void put_parameters(WrStrip *strip)
 {
-    const Wide zero = w_all(0.0f), one = w_all(1.0f);
+    const Wide zero = w_all(0.0f), one = w_all(1.0f), half = w_all(0.5f);
     const int count = strip->count;
     for (int i = 0; i < count; i += WIDE) {
-        const WideVec p = W_LOAD3(strip, n, i);
-        Wide u = turns_between(w_abs(p.y), w_abs(p.x));
-        u = w_pick(w_less(p.x, zero), w_all(0.5f) - u, u);
-        u = w_pick(w_less(p.y, zero), one - u, u);
+        const WideVec n = W_LOAD3(strip, n, i);
+        const Wide flat = n.x * n.x + n.y * n.y, inv = w_rsqrt(w_max(flat, w_all(1e-37f)));
+        Wide u = turns_of(w_abs(n.y), w_abs(n.x), inv);
+        u = w_pick(w_less(n.x, zero), half - u, u);
+        u = w_pick(w_less(n.y, zero), one - u, u);
+        const Wide a = turns_of(w_abs(n.z), flat * inv, one);
         w_store(strip->u + i, w_kept(w_less(u, one), u));
-    }
-    for (int i = 0; i < count; i += WIDE) {
-        const WideVec p = W_LOAD3(strip, n, i);
-        const Wide flat = p.x * p.x + p.y * p.y;
-        const Wide a = turns_between(w_abs(p.z), flat * w_rsqrt(w_max(flat, w_all(1e-37f))));
-        const Wide v = w_all(0.5f) + w_all(2.0f) * w_signed(a, p.z);
-        w_store(strip->v + i, w_min(w_max(v, zero), one));
+        w_store(strip->v + i, w_min(w_max(half + w_all(2.0f) * w_signed(a, n.z), zero), one));
     }
 }
 

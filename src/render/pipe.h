@@ -22,10 +22,8 @@ struct WrPipe {
 
 extern const WrPipe wr_pipe, wr_pipe_double;
 
-/* Do rows go to the kernels of several stages at once (kern_wide.h), for all that the job tells? */
-bool wr_pipe_wide_sphere(const WrTileJob *job);
-/* Are red, green and blue of all of its light worked out alike? */
-bool wr_pipe_grey(const WrTileJob *job);
+/* What of the job the kernels of several stages at once (kern_wide.h) are for: fills wide_sphere, wide_met, grey. */
+void wr_pipe_wide(WrTileJob *job);
 
 /* Refine a tile by dials.h's rule: a first sample at each centre, then k x k where it is called for. */
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch);

@@ -224,7 +224,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
     const int face = quad >= 0 ? job->view->quad_face[quad] : job->dice ? scratch->face : 0;
     unsigned spared = 0;
     if (runs(job, WR_EFFECT_PARAMETERS) && !job->triangles) {
-        round_of(job)->params(&VIEWED(job->view, shape), strip);
+        if (!scratch->told) round_of(job)->params(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_PARAMETERS);
         watch_lap(watch, WR_STAGE_PARAMETERS);
     }
@@ -429,10 +429,12 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     const WR_T(WrRound) *round = round_of(job);
     if (round) {
         if (wide_row(job, rays, gx, gy, tile->w, sink, scratch, &watch)) return;
-        round->hit(rays, &VIEWED(view, shape), gx, gy, tile->w, strip);
+        scratch->told = met_wide(job, rays, gx, gy, tile->w, strip);
+        if (!scratch->told) round->hit(rays, &VIEWED(view, shape), gx, gy, tile->w, strip);
         note_places(job, sink, scratch->notes.patches, gx, gy, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, -1, sink, scratch, &watch);
+        scratch->told = false;
         return;
     }
     for (int i = 0; i < view->quad_count; i++) {

@@ -46,7 +46,9 @@ static void look_by(const WrTileJob *job, WrScheme scheme, Strip *strip, WrTileS
     }
 #endif
 #ifdef HAS_WIDE
-    if (job->wide && scheme == WR_SCHEME_CENTRAL && job->wide->central(LOOK_OF(job), strip)) return;
+    if (job->wide && scheme == WR_SCHEME_CENTRAL &&
+        job->wide->central(LOOK_OF(job), scratch->notes.patches, strip))
+        return;
 #endif
     KERNELS_OF(job)->look[scheme](LOOK_OF(job), strip);
 }

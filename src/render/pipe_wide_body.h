@@ -86,44 +86,67 @@ static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
     return true;
 }
 
-/* Is the picture one of those that kern_wide.h is for? */
-bool wr_pipe_wide_sphere(const WrTileJob *job)
+/* Points, u and v of a row of a sphere, whatever comes then. False: the stages find them. */
+static bool met_wide(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
+                     Strip *strip)
 {
-    static const WrEffects may =
-        WR_EFFECT_BIT(WR_EFFECT_DIFFUSE) | WR_EFFECT_BIT(WR_EFFECT_SPECULAR) |
-        WR_EFFECT_BIT(WR_EFFECT_COLOUR) | WR_EFFECT_BIT(WR_EFFECT_BUMP) |
-        WR_EFFECT_BIT(WR_EFFECT_GRADIENT) | WR_EFFECT_BIT(WR_EFFECT_WIDE) |
-        WR_EFFECT_BIT(WR_EFFECT_SAMPLES) | WR_EFFECT_BIT(WR_EFFECT_PERSPECTIVE) |
-        WR_EFFECT_BIT(WR_EFFECT_AGAIN) | WR_EFFECT_BIT(WR_EFFECT_STEADY) |
-        WR_EFFECT_BIT(WR_EFFECT_BESIDE) | WR_EFFECT_BIT(WR_EFFECT_PARAMETERS) |
-        WR_EFFECT_BIT(WR_EFFECT_TANGENTS) | WR_EFFECT_BIT(WR_EFFECT_DARK) |
-        WR_EFFECT_BIT(WR_EFFECT_GROUND);
-    const LampMatter m = lamp_matter(job, true);
-    if (!job->wide || job->plan->inversion != WR_INVERT_SPHERE) return false;
-    for (int e = 0; e < WR_EFFECT_COUNT; e++)
-        if (runs(job, (WrEffect)e) && !(may & WR_EFFECT_BIT(e))) return false;
-    return job->view->cull && !job->view->stretched && job->view->light_count == 1 &&
-           job->wide->narrow(job->view->lights, &m.shine) && runs(job, WR_EFFECT_SPECULAR) &&
-           !job->map && !job->dice && !job->triangles &&
-           (job->plan->bump == WR_BUMP_NONE || job->plan->bump == WR_BUMP_BLINN);
+    const WrShapef *shape = &job->view->shape;
+    if (!job->wide_met ||
+        !job->wide->sphere(rays, shape, gx, gy, count, runs(job, WR_EFFECT_PARAMETERS), strip))
+        return false;
+    job->wide->points(shape, strip);
+    return true;
 }
 
-bool wr_pipe_grey(const WrTileJob *job)
+/* Does nothing run but these? */
+static bool runs_only(const WrTileJob *job, WrEffects these)
+{
+    for (int e = 0; e < WR_EFFECT_COUNT; e++)
+        if (runs(job, (WrEffect)e) && !(these >> e & 1)) return false;
+    return true;
+}
+
+static bool is_grey(const WrTileJob *job)
 {
     const WrVec3 own = job->scene->material.colour;
-    bool grey =
-        job->wide_sphere && !runs(job, WR_EFFECT_COLOUR) && own.x == own.y && own.x == own.z;
-    for (int i = 0; i < job->view->light_count; i++) {
-        const float *rgb = job->view->lights[i].rgb;
-        grey &= rgb[0] == rgb[1] && rgb[0] == rgb[2];
-    }
-    return grey;
+    const float *rgb = job->view->lights->rgb;
+    return own.x == own.y && own.x == own.z && rgb[0] == rgb[1] && rgb[0] == rgb[2];
+}
+
+void wr_pipe_wide(WrTileJob *job)
+{
+#define E(name) WR_EFFECT_BIT(WR_EFFECT_##name)
+    static const WrEffects at_once = E(DIFFUSE) | E(SPECULAR) | E(COLOUR) | E(BUMP) | E(GRADIENT) |
+                                     E(WIDE) | E(SAMPLES) | E(PERSPECTIVE) | E(AGAIN) | E(STEADY) |
+                                     E(BESIDE) | E(PARAMETERS) | E(TANGENTS) | E(DARK) | E(GROUND);
+    static const WrEffects geometry =
+        E(INVARIANT) | E(EXACT) | E(CURVATURE) | E(FILTER) | E(BACK) | E(DEPTH) | E(NEWTON);
+#undef E
+    const LampMatter m = lamp_matter(job, true);
+    const WrBumpMode bump = job->plan->bump;
+    job->wide_sphere = job->wide_met = job->grey = false;
+    if (!job->wide) return;
+    job->wide_met = job->plan->inversion == WR_INVERT_SPHERE && job->view->cull &&
+                    !job->view->stretched && !job->dice && !job->triangles &&
+                    !runs(job, WR_EFFECT_PARALLAX);
+    if (job->view->light_count != 1 || !runs(job, WR_EFFECT_SPECULAR)) return;
+    if (!job->wide->narrow(job->view->lights, &m.shine)) return;
+    job->wide_sphere = job->wide_met && !job->map && runs_only(job, at_once) &&
+                       (bump == WR_BUMP_NONE || bump == WR_BUMP_BLINN);
+    job->grey = is_grey(job) && !runs(job, WR_EFFECT_COLOUR) && runs_only(job, at_once | geometry);
 }
 #else
 static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
                      const WrSink *sink, WrTileScratch *scratch, Watch *watch)
 {
     (void)job, (void)rays, (void)gx, (void)gy, (void)count, (void)sink, (void)scratch, (void)watch;
+    return false;
+}
+
+static bool met_wide(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
+                     const Strip *strip)
+{
+    (void)job, (void)rays, (void)gx, (void)gy, (void)count, (void)strip;
     return false;
 }
 #endif

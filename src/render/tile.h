@@ -64,6 +64,7 @@ typedef struct WrTileJob {
     int cast_count;                /* of cast->to */
     const WrWide *wide;            /* kernels of several stages at once; or NULL */
     bool wide_sphere;              /* rows go to them */
+    bool wide_met;                 /* where rays meet a sphere is asked of them */
     bool grey;                     /* red, green and blue of all samples are the same */
     double cast_unit;              /* kernel units -> those of the object */
     WrParallax parallax;           /* read where the plan runs that */
@@ -168,6 +169,7 @@ typedef struct WrTileScratch {
     double whole[WR_STAGE_COUNT];   /* of what is measured each time */
     double all;                     /* of all its tiles */
     int64_t covered, shaded;        /* pixels, samples */
+    bool told;                      /* the strip's u and v came with its points */
     int face;                       /* of a displaced surface: that the strip's samples lie on */
     bool behind;                    /* what lies behind the row at hand is there */
     int64_t met;   /* samples of the last tile that was refined that met something, however often */
