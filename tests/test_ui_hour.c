@@ -18,8 +18,8 @@
 
 #define SIDE 512
 #define BUDGET (48 << 20)
-/* Bytes beyond undo's budget and what the window has when it opens: the layers, each with its composite and what a filter
-   keeps; what is shown and rendered; what work takes for a moment, which malloc keeps of it. Measured: 150 MB. */
+/* Bytes beyond undo's budget and what the window has when it opens: 115 MB of the library of pictures, which the journal
+   loads when it begins anew; the layers, each with its composite and what a filter keeps; what is shown and rendered. */
 #define CONSTANT (192 << 20)
 /* And what the second half may take more than the first: nothing but chance. */
 #define SLACK (24 << 20)

@@ -51,6 +51,7 @@ static const char *const forms[] = {
     FORM("layer 1 has none below that it could be merged into"),
     FORM("layer %s is a filter, without heights that could be cleared"),
     FORM("layer %s has no mask"),
+    FORM("layer %s: must be %s"),
     FORM("no layer is called \"%s\": must be a name or %s"),
     FORM("%s layers are called \"%s\": say which by its number"),
     FORM("%s is locked: `layer set %s lock=off` unlocks it"),
