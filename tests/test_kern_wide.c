@@ -73,8 +73,11 @@ static void codes_are_those_of_the_table(void **state)
     WrStrip *strip = wr_alloc(1, sizeof *strip);
     Sets sets;
     wr_code_bins_fill(bins);
+    assert_null(wr_wide_codes_of(wr_kernels_get("ref", false, NULL)));
     for (int s = 0; set_of(s, &sets); s++) {
         TestRandom random = { 11 };
+        const WrKernels *exact = wr_kernels_get(sets.name, false, NULL);
+        if (sets.wide) assert_true(wr_wide_codes_of(exact) == sets.wide->codes);
         for (int round = 0; sets.wide && round < 600; round++) {
             const bool grey = round % 3 == 0;
             strip->count = 1 + (int)(WR_SPAN * test_random(&random));

@@ -190,6 +190,7 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
         wr_plan_calls(&renderer->plan, WR_EFFECT_CAST) ? renderer->cast.count : renderer->cast.all;
     job.cast_unit = 1 / renderer->view.scale;
     job.wide = wr_wide_of(job.kernels);
+    job.wide_codes = wr_wide_codes_of(job.kernels);
     wr_pipe_wide(&job);
     return job;
 }

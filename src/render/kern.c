@@ -52,6 +52,13 @@ const WrWide *wr_wide_of(const WrKernels *kernels)
     return wide && wide->shade ? wide : NULL;
 }
 
+WrWideCodes wr_wide_codes_of(const WrKernels *kernels)
+{
+    if (kernels == &wr_kern_v4 || kernels == &wr_kern_fast_v4) return wr_wide_v4.codes;
+    if (kernels == &wr_kern_v3 || kernels == &wr_kern_fast_v3) return wr_wide_v3.codes;
+    return NULL;
+}
+
 const WrKernelsd *wr_kernels_double(const char *isa, WrError *err)
 {
     int level = find_level(isa, err);

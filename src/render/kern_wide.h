@@ -8,6 +8,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* Finished colours as opaque codes, as WrKernels.codes; grey: red, green and blue of all are the same bits. How many
+   numbers were not finite. */
+typedef int (*WrWideCodes)(const uint32_t *bins, const WrStrip *strip, bool grey, uint32_t *out);
+
 typedef struct WrWide {
     /* Is its highlight such as these are for? */
     bool (*narrow)(const WrKernLight *light, const WrKernShine *shine);
@@ -30,12 +34,12 @@ typedef struct WrWide {
     bool (*central)(const WrLook *look, bool noted, WrStrip *strip);
     /* C of a colour picture, as WrKernels.colour; false: as above. */
     bool (*colour)(const WrColourLook *look, WrStrip *strip);
-    /* Finished colours as opaque codes, as WrKernels.codes; grey: red, green and blue of all are the same bits. How many
-       numbers were not finite. */
-    int (*codes)(const uint32_t *bins, const WrStrip *strip, bool grey, uint32_t *out);
+    WrWideCodes codes;
 } WrWide;
 
 extern const WrWide wr_wide_v3, wr_wide_v4; /* empty where the processor is another */
 
 /* Those beside a set of kernels; NULL: there are none. */
 const WrWide *wr_wide_of(const WrKernels *kernels);
+/* Their codes, which are the same whatever the arithmetic: beside exact sets too. */
+WrWideCodes wr_wide_codes_of(const WrKernels *kernels);

@@ -17,7 +17,7 @@ static int store_run(const Strip *strip, float *restrict out)
 static int plain_codes(const WrTileJob *job, const Strip *strip, uint32_t *to)
 {
 #ifdef HAS_WIDE
-    if (job->wide) return job->wide->codes(job->coder.bins, strip, job->grey, to);
+    if (job->wide_codes) return job->wide_codes(job->coder.bins, strip, job->grey, to);
 #endif
     return KERNELS_OF(job)->codes(job->coder.bins, strip, to);
 }

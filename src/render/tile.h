@@ -6,6 +6,7 @@
 #include "render/frame.h"
 #include "scene/scene.h"
 #include "render/keep.h"
+#include "render/kern_wide.h"
 #include "render/level.h"
 #include "render/mesh.h"
 #include "render/opening.h"
@@ -24,7 +25,6 @@
 #define WR_TILE_SAMPLES_H 64
 #define WR_TILE_ROOM (WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H + WR_WALK_PAD)
 
-typedef struct WrWide WrWide; /* kern_wide.h */
 typedef struct WrCast WrCast;
 typedef struct WrFrames WrFrames;
 typedef struct WrHorizon WrHorizon;
@@ -63,6 +63,7 @@ typedef struct WrTileJob {
     const WrCast *cast;            /* what can hide lamps from it; read where the plan runs that */
     int cast_count;                /* of cast->to */
     const WrWide *wide;            /* kernels of several stages at once; or NULL */
+    WrWideCodes wide_codes;        /* codes of strips; or NULL */
     bool wide_sphere;              /* rows go to them */
     bool wide_met;                 /* where rays meet a sphere is asked of them */
     bool grey;                     /* red, green and blue of all samples are the same */
