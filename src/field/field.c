@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/slab.h"
 #include "field/ops.h"
 
 #include <float.h>
@@ -29,6 +30,8 @@ typedef struct Tile {
     Counted counted;
     alignas(WR_ALIGN) float texels[TEXELS];
 } Tile;
+
+static WrSlabs tile_slabs = { WR_SLABS_OF(sizeof(Tile)) };
 
 typedef struct Node {
     Counted counted;
@@ -70,10 +73,12 @@ static void retain(Counted *thing)
 static void release(Counted *thing, int depth)
 {
     if (!thing || atomic_fetch_sub_explicit(&thing->refs, 1, memory_order_acq_rel) != 1) return;
-    if (depth > 0) {
-        Node *node = (Node *)thing;
-        for (int i = 0; i < FAN * FAN; i++) release(node->child[i], depth - 1);
+    if (depth == 0) {
+        wr_slab_give(&tile_slabs, thing);
+        return;
     }
+    Node *node = (Node *)thing;
+    for (int i = 0; i < FAN * FAN; i++) release(node->child[i], depth - 1);
     wr_free(thing);
 }
 
@@ -100,9 +105,14 @@ static Node *own_node(Counted **slot, int depth)
 
 static Tile *new_tile(void)
 {
-    Tile *tile = wr_alloc_unset(1, sizeof *tile);
+    Tile *tile = wr_slab_take(&tile_slabs);
     atomic_init(&tile->counted.refs, 1);
     return tile;
+}
+
+void wr_field_trim(void)
+{
+    wr_slab_trim(&tile_slabs);
 }
 
 static Tile *own_tile(Counted **slot, float level)

@@ -25,6 +25,8 @@ WrField *wr_field_new(int width, int height, WrWrap wrap_u, WrWrap wrap_v, float
    writes to it. */
 WrField *wr_field_share(const WrField *field);
 void wr_field_free(WrField *field); /* NULL is fine */
+/* What freed tables leave for the next one goes back to the system. */
+void wr_field_trim(void);
 
 int wr_field_width(const WrField *field);
 int wr_field_height(const WrField *field);

@@ -1,0 +1,143 @@
+#include "base/slab.h"
+
+#include "base/memory.h"
+
+#include <stdbool.h>
+
+#define BLOCK ((size_t)8 << 20) /* bytes: memory.c asks for large pages from there on */
+#define IDLE 10 /* blocks that are kept for the next who asks: a table of 4096 x 4096 */
+
+/* The beginning of a block; pieces follow. Each has the slab's address in the WR_ALIGN bytes before it. */
+typedef struct WrSlab {
+    struct WrSlab *before, *after; /* in one of the lists, while it has pieces left */
+    void *given;      /* the last piece that was given back; it begins with the one before */
+    size_t used, cut; /* pieces that are out; that were ever cut off */
+} WrSlab;
+
+static size_t rounded(size_t bytes)
+{
+    return (bytes + WR_ALIGN - 1) / WR_ALIGN * WR_ALIGN;
+}
+
+static void list(WrSlab **first, WrSlab *slab)
+{
+    slab->before = NULL;
+    slab->after = *first;
+    if (slab->after) slab->after->before = slab;
+    *first = slab;
+}
+
+static void unlist(WrSlab **first, WrSlab *slab)
+{
+    if (slab->before) slab->before->after = slab->after;
+    else *first = slab->after;
+    if (slab->after) slab->after->before = slab->before;
+}
+
+static WrSlab **slab_of(void *piece)
+{
+    return (WrSlab **)(void *)((char *)piece - WR_ALIGN);
+}
+
+/* The lock is held. */
+static void *cut(const WrSlabs *slabs, WrSlab *slab)
+{
+    const size_t pitch = WR_ALIGN + rounded(slabs->bytes);
+    void *piece = (char *)slab + rounded(sizeof *slab) + slab->cut++ * pitch + WR_ALIGN;
+    *slab_of(piece) = slab;
+    return piece;
+}
+
+static bool is_full(const WrSlabs *slabs, const WrSlab *slab)
+{
+    const size_t pitch = WR_ALIGN + rounded(slabs->bytes);
+    return !slab->given && rounded(sizeof *slab) + (slab->cut + 1) * pitch > BLOCK;
+}
+
+/* The lock is held. One that has pieces left, best one that is in use. */
+static WrSlab *slab_with_room(WrSlabs *slabs)
+{
+    if (slabs->begun) return slabs->begun;
+    WrSlab *slab = slabs->idle;
+    if (slab) {
+        unlist(&slabs->idle, slab);
+        slabs->idle_count--;
+    } else {
+        slab = wr_alloc_unset(1, BLOCK);
+        *slab = (WrSlab){ 0 };
+    }
+    list(&slabs->begun, slab);
+    return slab;
+}
+
+/* The lock is held. */
+static void *take(WrSlabs *slabs)
+{
+    WrSlab *slab = slab_with_room(slabs);
+    void *piece = slab->given;
+    if (piece) slab->given = *(void **)piece;
+    else piece = cut(slabs, slab);
+    slab->used++;
+    if (is_full(slabs, slab)) unlist(&slabs->begun, slab);
+    return piece;
+}
+
+/* The lock is held. What is to be freed, or NULL. */
+static WrSlab *give(WrSlabs *slabs, void *piece)
+{
+    WrSlab *slab = *slab_of(piece);
+    if (is_full(slabs, slab)) list(&slabs->begun, slab);
+    *(void **)piece = slab->given;
+    slab->given = piece;
+    if (--slab->used > 0) return NULL;
+    unlist(&slabs->begun, slab);
+    if (slabs->idle_count == IDLE) return slab;
+    slabs->idle_count++;
+    list(&slabs->idle, slab);
+    return NULL;
+}
+
+#ifdef __SANITIZE_ADDRESS__
+void *wr_slab_take(WrSlabs *slabs)
+{
+    (void)take;
+    return wr_alloc_unset(1, slabs->bytes);
+}
+
+void wr_slab_give(WrSlabs *slabs, void *piece)
+{
+    (void)slabs, (void)give;
+    wr_free(piece);
+}
+#else
+void *wr_slab_take(WrSlabs *slabs)
+{
+    wr_mutex_lock(&slabs->lock);
+    void *piece = take(slabs);
+    wr_mutex_unlock(&slabs->lock);
+    return piece;
+}
+
+void wr_slab_give(WrSlabs *slabs, void *piece)
+{
+    if (!piece) return;
+    wr_mutex_lock(&slabs->lock);
+    WrSlab *empty = give(slabs, piece);
+    wr_mutex_unlock(&slabs->lock);
+    wr_free(empty);
+}
+#endif
+
+void wr_slab_trim(WrSlabs *slabs)
+{
+    wr_mutex_lock(&slabs->lock);
+    WrSlab *slab = slabs->idle;
+    slabs->idle = NULL;
+    slabs->idle_count = 0;
+    wr_mutex_unlock(&slabs->lock);
+    while (slab) {
+        WrSlab *next = slab->after;
+        wr_free(slab);
+        slab = next;
+    }
+}
