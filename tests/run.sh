@@ -37,7 +37,7 @@ export LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0
 # address, and where it guesses wrong it falls over itself, after all tests have passed.
 export ASAN_OPTIONS=intercept_tls_get_addr=0
 export UBSAN_OPTIONS=print_stacktrace=1
-export TSAN_OPTIONS=ignore_noninstrumented_modules=1
+export TSAN_OPTIONS=ignore_noninstrumented_modules=1:suppressions=$root/tests/threads.supp
 
 passed=0 failed=0
 prefix=${WRINKLE_BUILD:-$root/build}

@@ -167,9 +167,11 @@ static void odd_sizes_of_mp4_repeat_their_last_column_and_row(void **state)
 static void without_ffmpeg_its_package_is_named(void **state)
 {
     (void)state;
+#ifndef __SANITIZE_THREAD__ /* which makes a fork of a vfork, so that what the child finds is not told */
     expect_failure(NULL, 0,
                    "films are made by the program ffmpeg, which is not installed "
                    "(Debian's package ffmpeg)");
+#endif
 }
 
 static void its_death_is_told_in_its_words(void **state)
