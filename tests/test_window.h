@@ -14,5 +14,7 @@ static inline int enter_window(void **state)
     setenv("XDG_DATA_HOME", *state, 1);
     setenv("WRINKLE_DATA", WR_SOURCE_DIR, 1);
     setenv("WRINKLE_RENDERER", "software", 1);
+    unsetenv("DBUS_SESSION_BUS_ADDRESS"); /* no portal of the user's */
+    unsetenv("XDG_RUNTIME_DIR");
     return trouble;
 }

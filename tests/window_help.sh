@@ -35,7 +35,7 @@ until_true() {
 
 # The program shall find nothing of the user's.
 quiet_environment() {
-    unset WAYLAND_DISPLAY SDL_VIDEODRIVER WRINKLE_SCALE
+    unset WAYLAND_DISPLAY SDL_VIDEODRIVER WRINKLE_SCALE DBUS_SESSION_BUS_ADDRESS XDG_RUNTIME_DIR # no portal either
     export HOME=$folder XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state WRINKLE_DATA=$source WRINKLE_DIALOG=own
     export WRINKLE_RENDERER=software WRINKLE_TIMING=1 WRINKLE_REST=$folder/rest
 }
