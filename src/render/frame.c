@@ -231,6 +231,13 @@ static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, doubl
                         request->turn_deg, request->width, request->height, rise, err);
 }
 
+/* Texels that an edit reaches beside those that a look-up's place lies in. What pixels may need more samples is told
+   from the table between those places, too. */
+static int reach_of(const WrPlan *plan)
+{
+    return wr_schemes[plan->scheme].reach + (plan->sampling == WR_SAMPLING_ADAPTIVE ? 2 : 0);
+}
+
 /* Does the last picture show what this request asks for, but for edits of the table? */
 static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
                   const WrKernels *kernels)
@@ -240,8 +247,7 @@ static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrP
            same_view(renderer, request) &&
            wr_frame_same_output(&renderer->last.codes, &request->codes) &&
            renderer->kernels == kernels && wr_plan_same(before, &renderer->plan) &&
-           wr_keep_compare(&renderer->keep, renderer->looked,
-                           wr_schemes[renderer->plan.scheme].reach + 2);
+           wr_keep_compare(&renderer->keep, renderer->looked, reach_of(&renderer->plan));
 }
 
 /* Is the view of the last picture, with its mesh, this one's? */
