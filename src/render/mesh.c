@@ -135,19 +135,9 @@ static void project_row(int j, int worker, void *ctx)
     (void)worker;
     MeshJob *job = ctx;
     WrViewMesh *mesh = job->mesh;
-    const size_t row = (size_t)j * (size_t)(mesh->mu + 1);
-    for (int i = 0; i <= mesh->mu; i++) {
-        size_t at = row + (size_t)i;
-        WrVec3 p = { mesh->x[at], mesh->y[at], mesh->z[at] };
-        WrRasterVertex vertex;
-        mesh->out[at] = WR_VERTEX_IN;
-        if (!wr_raster_project(job->view, p, 0, 0, &vertex))
-            mesh->out[at] = wr_raster_bound(job->view, p, &vertex.x, &vertex.y) ? WR_VERTEX_OUT
-                                                                                : WR_VERTEX_BEHIND;
-        mesh->sx[at] = vertex.x;
-        mesh->sy[at] = vertex.y;
-        mesh->close[at] = vertex.close;
-    }
+    const size_t at = (size_t)j * (size_t)(mesh->mu + 1);
+    const WrRasterRow row = { mesh->sx + at, mesh->sy + at, mesh->close + at, mesh->out + at };
+    wr_raster_project_row(job->view, mesh->mu + 1, mesh->x + at, mesh->y + at, mesh->z + at, &row);
 }
 
 static void bound_row(int by, int worker, void *ctx)
@@ -266,13 +256,6 @@ bool wr_view_mesh_box(const WrViewMesh *mesh, const WrView *view, const WrDepthT
     return box[0] <= box[2];
 }
 
-static WrRasterVertex vertex_at(const WrViewMesh *mesh, int i, int j)
-{
-    size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i;
-    return (WrRasterVertex){ mesh->sx[at], mesh->sy[at], mesh->close[at],
-                             (float)i / (float)mesh->mu, mesh->v[j] };
-}
-
 static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int ij[3][2],
                            WrDepthTile *tile)
 {
@@ -285,47 +268,103 @@ static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int
     wr_raster_clipped(view, corner, tile);
 }
 
-/* Do all four corners lie beyond the same side of the tile? */
-static bool cell_misses(const int32_t *top, const int32_t *low, int64_t from, int64_t to)
+/* A block of cells, as a tile of samples is drawn. */
+typedef struct Block {
+    const WrViewMesh *mesh;
+    const WrView *view;
+    WrRasterBounds bounds; /* of the tile */
+    bool culls; /* what looks away is known before vertices are brought to the tile's grid */
+    bool mirrored;
+    float u[WR_MESH_BLOCK + 1]; /* of its vertices */
+    int i0;
+} Block;
+
+/* Beyond which sides of the tile the vertices of a row lie, as bits; 0 where they have no place. */
+static void find_sides(const Block *block, size_t at, unsigned char sides[WR_MESH_BLOCK + 1])
 {
-    const int64_t a = top[0], b = top[1], c = low[0], d = low[1];
-    return (a < from && b < from && c < from && d < from) || (a > to && b > to && c > to && d > to);
+    const WrViewMesh *mesh = block->mesh;
+    const WrRasterBounds *tile = &block->bounds;
+    for (size_t i = 0; i <= WR_MESH_BLOCK; i++) {
+        const int64_t x = mesh->sx[at + i], y = mesh->sy[at + i];
+        const int beyond =
+            (x < tile->x0) | (x > tile->x1) << 1 | (y < tile->y0) << 2 | (y > tile->y1) << 3;
+        sides[i] = (unsigned char)(mesh->out[at + i] == WR_VERTEX_BEHIND ? 0 : beyond);
+    }
 }
 
-static void raster_cell(const WrViewMesh *mesh, const WrView *view, const WrRasterBounds *bounds,
-                        int i, int j, WrDepthTile *tile)
+static WrRasterVertex vertex_at(const Block *block, size_t at, int i, int j)
 {
-    size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i, next = at + (size_t)mesh->mu + 1;
-    const unsigned char *top = mesh->out + at, *low = mesh->out + next;
-    const bool out = top[0] | top[1] | low[0] | low[1];
-    const int behind = (top[0] == WR_VERTEX_BEHIND) + (top[1] == WR_VERTEX_BEHIND) +
-                       (low[0] == WR_VERTEX_BEHIND) + (low[1] == WR_VERTEX_BEHIND);
-    if (behind == 4) return;
-    if (behind == 0 && (cell_misses(mesh->sy + at, mesh->sy + next, bounds->y0, bounds->y1) ||
-                        cell_misses(mesh->sx + at, mesh->sx + next, bounds->x0, bounds->x1)))
-        return;
-    if (out) {
-        raster_clipped(mesh, view, (const int[3][2]){ { i, j }, { i + 1, j }, { i + 1, j + 1 } },
-                       tile);
-        raster_clipped(mesh, view, (const int[3][2]){ { i, j }, { i + 1, j + 1 }, { i, j + 1 } },
-                       tile);
+    const WrViewMesh *mesh = block->mesh;
+    return (WrRasterVertex){ mesh->sx[at], mesh->sy[at], mesh->close[at], block->u[i - block->i0],
+                             mesh->v[j] };
+}
+
+/* Does the triangle of these vertices look away, or is it a line? As wr_raster_triangle decides it. */
+static bool looks_away(const Block *block, size_t a, size_t b, size_t c)
+{
+    const int32_t *x = block->mesh->sx, *y = block->mesh->sy;
+    const int64_t area = ((int64_t)x[b] - x[a]) * ((int64_t)y[c] - y[a]) -
+                         ((int64_t)y[b] - y[a]) * ((int64_t)x[c] - x[a]);
+    return block->culls && (area == 0 || (area > 0) != block->mirrored);
+}
+
+/* A cell between four vertices before the eye and near the picture. */
+static void raster_whole(const Block *block, size_t at, int i, int j, WrDepthTile *tile)
+{
+    const size_t low = at + (size_t)block->mesh->mu + 1;
+    const bool one = !looks_away(block, at, at + 1, low + 1);
+    const bool two = !looks_away(block, at, low + 1, low);
+    if (!one && !two) return;
+    const WrRasterVertex a = vertex_at(block, at, i, j);
+    const WrRasterVertex d = vertex_at(block, low + 1, i + 1, j + 1);
+    if (one) wr_raster_triangle(block->view, a, vertex_at(block, at + 1, i + 1, j), d, tile);
+    if (two) wr_raster_triangle(block->view, a, d, vertex_at(block, low, i, j + 1), tile);
+}
+
+static void raster_cell(const Block *block, size_t at, int i, int j, WrDepthTile *tile)
+{
+    const unsigned char *top = block->mesh->out + at, *low = top + block->mesh->mu + 1;
+    if (!(top[0] | top[1] | low[0] | low[1])) {
+        raster_whole(block, at, i, j, tile);
         return;
     }
-    WrRasterVertex a = vertex_at(mesh, i, j), b = vertex_at(mesh, i + 1, j);
-    WrRasterVertex c = vertex_at(mesh, i, j + 1), d = vertex_at(mesh, i + 1, j + 1);
-    wr_raster_triangle(view, a, b, d, tile);
-    wr_raster_triangle(view, a, d, c, tile);
+    if (top[0] == WR_VERTEX_BEHIND && top[1] == WR_VERTEX_BEHIND && low[0] == WR_VERTEX_BEHIND &&
+        low[1] == WR_VERTEX_BEHIND)
+        return;
+    const int one[3][2] = { { i, j }, { i + 1, j }, { i + 1, j + 1 } };
+    const int two[3][2] = { { i, j }, { i + 1, j + 1 }, { i, j + 1 } };
+    raster_clipped(block->mesh, block->view, one, tile);
+    raster_clipped(block->mesh, block->view, two, tile);
+}
+
+/* What of block b may meet the tile: cells whose corners do not all lie beyond the same side of it. */
+static void raster_block(Block *block, int b, WrDepthTile *tile)
+{
+    const WrViewMesh *mesh = block->mesh;
+    const size_t pitch = (size_t)mesh->mu + 1;
+    const int i0 = b % mesh->blocks_u * WR_MESH_BLOCK, j0 = b / mesh->blocks_u * WR_MESH_BLOCK;
+    unsigned char sides[2][WR_MESH_BLOCK + 1];
+    block->i0 = i0;
+    for (int i = 0; i <= WR_MESH_BLOCK; i++) block->u[i] = (float)(i0 + i) / (float)mesh->mu;
+    for (int j = 0; j <= WR_MESH_BLOCK; j++) {
+        const size_t at = (size_t)(j0 + j) * pitch + (size_t)i0;
+        const unsigned char *here = sides[j % 2], *over = sides[(j + 1) % 2];
+        find_sides(block, at, sides[j % 2]);
+        for (int i = 0; i < WR_MESH_BLOCK && j > 0; i++)
+            if (!(over[i] & over[i + 1] & here[i] & here[i + 1]))
+                raster_cell(block, at - pitch + (size_t)i, i0 + i, j0 + j - 1, tile);
+    }
 }
 
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile)
 {
-    const WrRasterBounds bounds = wr_raster_bounds(tile, view->samples);
+    const bool own_grid = tile->k <= 0 || tile->k == view->samples;
+    Block block = { .mesh = mesh,
+                    .view = view,
+                    .bounds = wr_raster_bounds(tile, view->samples),
+                    .culls = view->cull && own_grid,
+                    .mirrored = view->stretch[0] * view->stretch[1] * view->stretch[2] < 0 };
     for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
-    for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++) {
-        if (!wr_raster_meets(&mesh->blocks[b], &bounds)) continue;
-        int i0 = b % mesh->blocks_u * WR_MESH_BLOCK, j0 = b / mesh->blocks_u * WR_MESH_BLOCK;
-        for (int j = j0; j < j0 + WR_MESH_BLOCK; j++)
-            for (int i = i0; i < i0 + WR_MESH_BLOCK; i++)
-                raster_cell(mesh, view, &bounds, i, j, tile);
-    }
+    for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++)
+        if (wr_raster_meets(&mesh->blocks[b], &block.bounds)) raster_block(&block, b, tile);
 }

@@ -11,13 +11,24 @@ WrClipVertex wr_raster_clip_vertex(const WrView *view, WrVec3 p, double u, doubl
                            v };
 }
 
+/* Where x and y along the camera's axes lie in the grid, 1/256 samples; inv: 1 / depth, or 1. */
+static inline double column_at(double x, double inv, double half_w, double grid_w)
+{
+    return (0.5 + 0.5 * x * inv / half_w) * grid_w * 256.0;
+}
+
+static inline double row_at(double y, double inv, double half_h, double grid_h)
+{
+    return (0.5 - 0.5 * y * inv / half_h) * grid_h * 256.0;
+}
+
 /* Camera axes -> grid samples, for a vertex known to be inside the near plane and the guard band. */
 static WrRasterVertex project(const WrView *view, const WrClipVertex *c)
 {
     double inv = view->perspective ? 1.0 / c->depth : 1.0;
-    double x = (0.5 + 0.5 * c->x * inv / view->half_w) * view->grid_w;
-    double y = (0.5 - 0.5 * c->y * inv / view->half_h) * view->grid_h;
-    return (WrRasterVertex){ (int32_t)rint(x * 256.0), (int32_t)rint(y * 256.0),
+    double x = column_at(c->x, inv, view->half_w, view->grid_w);
+    double y = row_at(c->y, inv, view->half_h, view->grid_h);
+    return (WrRasterVertex){ (int32_t)rint(x), (int32_t)rint(y),
                              (float)(view->perspective ? inv : -c->depth), (float)c->u,
                              (float)c->v };
 }
@@ -45,9 +56,69 @@ bool wr_raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
     *x = *y = 0;
     if (!(c.depth >= view->near)) return false;
     const double inv = view->perspective ? 1.0 / c.depth : 1.0;
-    *x = within_int(256.0 * (0.5 + 0.5 * c.x * inv / view->half_w) * view->grid_w);
-    *y = within_int(256.0 * (0.5 - 0.5 * c.y * inv / view->half_h) * view->grid_h);
+    *x = within_int(column_at(c.x, inv, view->half_w, view->grid_w));
+    *y = within_int(row_at(c.y, inv, view->half_h, view->grid_h));
     return true;
+}
+
+/* What is whole already stays; of less than 2^51 the nearest whole number, ties to even, as rint has it. */
+#define WHOLE_FROM 0x1.8p52
+
+/* Vertices under way to the grid. */
+#define PROJECTED 128
+typedef struct Projected {
+    double x[PROJECTED], y[PROJECTED], close[PROJECTED]; /* 1/256 samples */
+    int in[PROJECTED]; /* inside the near plane and the guard band */
+} Projected;
+
+/* The same as wr_raster_project of `count` points. */
+static void project_many(const WrView *view, int count, const float *restrict px,
+                         const float *restrict py, const float *restrict pz,
+                         Projected *restrict out)
+{
+    const WrVec3 eye = view->eye, right = view->right, up = view->up, ahead = view->forward;
+    const bool perspective = view->perspective;
+    const double half_w = view->half_w, half_h = view->half_h, near = view->near;
+    const double grid_w = view->grid_w, grid_h = view->grid_h;
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        const double wx = (double)px[i] - eye.x, wy = (double)py[i] - eye.y;
+        const double wz = (double)pz[i] - eye.z;
+        const double x = wx * right.x + wy * right.y + wz * right.z;
+        const double y = wx * up.x + wy * up.y + wz * up.z;
+        const double depth = wx * ahead.x + wy * ahead.y + wz * ahead.z;
+        const double inv = perspective ? 1.0 / depth : 1.0;
+        const double reach = WR_GUARD * (perspective ? depth : 1.0);
+        out->x[i] = column_at(x, inv, half_w, grid_w) + WHOLE_FROM - WHOLE_FROM;
+        out->y[i] = row_at(y, inv, half_h, grid_h) + WHOLE_FROM - WHOLE_FROM;
+        out->close[i] = perspective ? inv : -depth;
+        out->in[i] = (depth >= near) & (fabs(x) <= reach * half_w) & (fabs(y) <= reach * half_h);
+    }
+}
+
+/* One that is not inside. */
+static WrVertexPlace bound_of(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
+{
+    return wr_raster_bound(view, p, x, y) ? WR_VERTEX_OUT : WR_VERTEX_BEHIND;
+}
+
+void wr_raster_project_row(const WrView *view, int count, const float *x, const float *y,
+                           const float *z, const WrRasterRow *row)
+{
+    Projected at;
+    for (int from = 0; from < count; from += PROJECTED) {
+        const int left = count - from, n = left < PROJECTED ? left : PROJECTED;
+        project_many(view, n, x + from, y + from, z + from, &at);
+        for (int k = 0; k < n; k++) {
+            const int i = from + k;
+            row->out[i] = WR_VERTEX_IN;
+            row->close[i] = at.in[k] ? (float)at.close[k] : 0;
+            if (at.in[k]) row->x[i] = (int32_t)at.x[k], row->y[i] = (int32_t)at.y[k];
+            else
+                row->out[i] = (unsigned char)bound_of(view, (WrVec3){ x[i], y[i], z[i] },
+                                                      &row->x[i], &row->y[i]);
+        }
+    }
 }
 
 /* Edge from (ax, ay) to (bx, by): e(x, y) > 0 to its left; whole numbers, 1/256 sample squared. Samples

@@ -26,6 +26,14 @@ WrClipVertex wr_raster_clip_vertex(const WrView *view, WrVec3 p, double u, doubl
 bool wr_raster_project(const WrView *view, WrVec3 p, double u, double v, WrRasterVertex *out);
 /* Where a vertex beyond the guard band lies, 1/256 samples, to 2^30 of them; false where it is not before the near plane. */
 bool wr_raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y);
+/* The same of a row of points x, y, z [count], into arrays of as many: places and closeness as in WrViewMesh. */
+typedef struct WrRasterRow {
+    int32_t *x, *y;
+    float *close;
+    unsigned char *out; /* WrVertexPlace */
+} WrRasterRow;
+void wr_raster_project_row(const WrView *view, int count, const float *x, const float *y,
+                           const float *z, const WrRasterRow *row);
 void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
                         WrDepthTile *tile);
 /* Clip against the near plane and the guard band, before any division (HC82, HC83). */
