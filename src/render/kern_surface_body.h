@@ -261,8 +261,8 @@ APART FLAT static void arrive_strip(const RAYS *rays, const NEWTON *how, STRIP *
     }
 }
 
-/* A surface's evaluation at all of a strip's tu, tv. */
-typedef void Evaluate(const SHAPE *shape, STRIP *strip);
+/* A surface's evaluation at tu, tv of a strip's samples from <= i < to, whole vectors of them. */
+typedef void Evaluate(const SHAPE *shape, int from, int to, STRIP *strip);
 
 /* Up to a whole number of vectors the last sample again. */
 static void fill_lanes(STRIP *strip)
@@ -283,8 +283,28 @@ static void begin(Evaluate *evaluate, const SHAPE *shape, STRIP *strip)
         strip->tu[i] = strip->u[i];
         strip->tv[i] = strip->v[i];
     }
-    evaluate(shape, strip);
+    evaluate(shape, 0, WHOLE(strip->count), strip);
     begin_strip(strip);
+}
+
+/* Does a vector of samples hold one that is to take a step at whose end the surface is evaluated? */
+static bool vector_moves(const STRIP *strip, int from)
+{
+    int any = 0;
+    SIMD_SUM(any) for (int i = from; i < from + LANES; i++)
+    {
+        any += strip->f[i] == K_(2) ? 1 : 0;
+    }
+    return any > 0;
+}
+
+/* Evaluate where it is asked for. */
+static void evaluate_moving(Evaluate *evaluate, const SHAPE *shape, STRIP *strip)
+{
+    for (int from = 0, to; from < strip->count; from = to + LANES) {
+        for (to = from; to < strip->count && vector_moves(strip, to);) to += LANES;
+        if (to > from) evaluate(shape, from, to, strip);
+    }
 }
 
 /* A step evaluates the surface once: at its end, which is the next one's start. */
@@ -304,10 +324,20 @@ static void polish_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *ray
             strip->wx[i] = strip->f[i] == K_(1) ? K_(1) : strip->wx[i];
         }
         if (!any_aims(strip, K_(2))) break;
-        evaluate(shape, strip);
+        evaluate_moving(evaluate, shape, strip);
         arrive_strip(rays, how, strip);
     }
 }
+
+#ifdef WR_KERN_FAST
+#include "render/kern_between_body.h"
+#else
+static void guess_between(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
+                          const NEWTON *how, STRIP *strip)
+{
+    (void)evaluate, (void)shape, (void)rays, (void)how, (void)strip;
+}
+#endif
 
 /* Where `polish` was before its last step, in u, v: that step again where wx says that there was one. */
 static void resume_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
@@ -346,7 +376,8 @@ ALWAYS bool cross_strip(REAL noise, STRIP *strip)
     return thin == 0;
 }
 
-/* The normal of which surfaces costs more than the rest of them: it is worked out when Newton has ended. */
+/* The normal of which surfaces costs more than the rest of them: it is worked out when Newton has ended, which costs them
+   most, too: better guesses pay. */
 #define LATE(name) (WR_SURFACE_##name == WR_SURFACE_bezier)
 
 /* n and |N|, which `polish` left to this. */
@@ -406,10 +437,10 @@ static void run_geometry(const SHAPE *shape, bool turns, STRIP *strip)
 }
 
 /* As put_there, for a strip filled up to whole vectors. */
-static void run_there(const SHAPE *shape, STRIP *strip)
+static void run_there(const SHAPE *shape, int first, int to, STRIP *strip)
 {
     POINT at[LANES];
-    for (int from = 0; from < strip->count; from += LANES) {
+    for (int from = first; from < to; from += LANES) {
         run_lanes(shape, LANES, strip->tu + from, strip->tv + from, at);
         for (int k = 0; k < LANES; k++) {
             const int i = from + k;
@@ -440,24 +471,25 @@ static void run_there(const SHAPE *shape, STRIP *strip)
         if (RUNS(name)) run_geometry(shape, true, strip);                                          \
         else curvature_strip(FN(name##_at), shape, face, strip);                                   \
     }                                                                                              \
-    APART FLAT static void evaluate_##name(const SHAPE *shape, STRIP *strip)                       \
+    APART FLAT static void evaluate_##name(const SHAPE *shape, int from, int to, STRIP *strip)     \
     {                                                                                              \
         if (RUNS(name)) {                                                                          \
-            run_there(shape, strip);                                                               \
+            run_there(shape, from, to, strip);                                                     \
             return;                                                                                \
         }                                                                                          \
         const SHAPE own = *shape; /* that no store changes, as far as a compiler can see */        \
         FN(BezierPlane) ready;                                                                     \
         const Patch still = { &own, &ready };                                                      \
         if (LATE(name)) FN(bezier_ready)(&own, &ready);                                            \
-        EACH(i, strip)                                                                             \
-        {                                                                                          \
-            put_there(FN(name##_at), &still, LATE(name), strip, i);                                \
-        }                                                                                          \
+        for (int at = from; at < to; at += LANES) SIMD for (int i = at; i < at + LANES; i++)       \
+            {                                                                                      \
+                put_there(FN(name##_at), &still, LATE(name), strip, i);                            \
+            }                                                                                      \
     }                                                                                              \
     static void kern_polish_##name(const RAYS *rays, const SHAPE *shape, const NEWTON *how,        \
                                    STRIP *strip)                                                   \
     {                                                                                              \
+        if (LATE(name)) guess_between(evaluate_##name, shape, rays, how, strip);                   \
         polish_strip(evaluate_##name, shape, rays, how, strip);                                    \
     }                                                                                              \
     static void kern_resume_##name(const RAYS *rays, const SHAPE *shape, const NEWTON *how,        \

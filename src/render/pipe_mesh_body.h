@@ -1,11 +1,18 @@
 /* pipe_mesh_body.h - which samples a mesh covers, and where on the surface: by the depth buffer and Newton's method, or as
    a resting view noted it (sight.h). A part of pipe_body.h. */
 
+/* Part of a tangent that the last step may change it by. What fast arithmetic rounds is near that by itself: it may be more
+   there, and normals turn by 1/32768 at most. */
+static double turn_of(const WrTileJob *job)
+{
+    return KERNELS_OF(job)->exact ? TURN : 8 * TURN;
+}
+
 static WR_T(WrNewton) newton_of(const WrTileJob *job)
 {
     WR_T(WrNewton) how = job->mesh->newton;
     if (job->plan->newton < 0) how.steps += MORE_STEPS;
-    how.last = wr_tile_exact(job) ? 0.0f : (float)TURN;
+    how.last = wr_tile_exact(job) ? 0.0f : (float)turn_of(job);
     return how;
 }
 
