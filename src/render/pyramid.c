@@ -49,6 +49,7 @@ typedef struct Job {
     WrWrap wrap_u, wrap_v;
     int level; /* to be made */
     int changed;
+    unsigned ends; /* levels whose outermost texels were made, as bits: their aprons are to be */
 } Job;
 
 /* Central differences of the table at [i0, i1) x [j0, j1), as the gradient table has them. */
@@ -251,6 +252,8 @@ static void remake(Job *job, int a, int b, int c, int d)
         i0 = i0 < 0 ? 0 : i0, j0 = j0 < 0 ? 0 : j0;
         i1 = i1 > at->width ? at->width : i1, j1 = j1 > at->height ? at->height : j1;
         for (int j = j0; j < j1 && i0 < i1; j++) make(job, i0, i1, j);
+        if (i0 == 0 || j0 == 0 || i1 == at->width || j1 == at->height)
+            job->ends |= 1U << job->level;
     }
 }
 
@@ -261,15 +264,16 @@ static void remake_tile(int tx, int ty, void *ctx)
     Job *job = ctx;
     if (wr_progress_stopped()) return;
     const int w = wr_field_width(job->field), h = wr_field_height(job->field), reach = 3;
-    int a = tx * WR_TILE - reach, b = (tx + 1) * WR_TILE + reach;
-    int c = ty * WR_TILE - reach, d = (ty + 1) * WR_TILE + reach;
+    const WrFieldRect own = wr_field_difference(job->pyramid->seen, job->field, tx, ty);
+    if (own.i0 == own.i1) return;
+    const int a = own.i0 - reach, b = own.i1 + reach, c = own.j0 - reach, d = own.j1 + reach;
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++) {
             int a2 = a + x * w, b2 = b + x * w, c2 = c + y * h, d2 = d + y * h;
             if (b2 <= 0 || a2 >= w || d2 <= 0 || c2 >= h) continue;
             remake(job, a2 < 0 ? 0 : a2, b2 > w ? w : b2, c2 < 0 ? 0 : c2, d2 > h ? h : d2);
         }
-    job->pyramid->texels_refreshed += WR_TILE * WR_TILE;
+    job->pyramid->texels_refreshed += (own.i1 - own.i0) * (own.j1 - own.j0);
 }
 
 bool wr_pyramid_allocate(WrPyramid *pyramid, WrPyramidKind kind, int width, int height,
@@ -319,7 +323,7 @@ bool wr_pyramid_bring(WrPyramid *pyramid, WrPyramidKind kind, const WrField *fie
     if (same && job.changed <= tiles / 2) {
         wr_field_changes(pyramid->seen, field, remake_tile, &job);
         for (job.level = first_level(pyramid); job.level < pyramid->levels; job.level++)
-            make_apron(&job);
+            if (job.ends >> job.level & 1) make_apron(&job);
     } else {
         if (!same &&
             !wr_pyramid_allocate(pyramid, kind, wr_field_width(field), wr_field_height(field), err))
