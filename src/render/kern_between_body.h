@@ -4,6 +4,8 @@
    stays. Of fast arithmetic alone: which samples are solved first depends on where a strip begins. A part of
    kern_surface_body.h. */
 
+#ifdef WR_KERN_FAST
+
 #define KNOT 8 /* samples from knot to knot */
 #define KNOTS (WR_SPAN / KNOT)
 #define NEAR_GUESS 0.5f /* of a cell of the mesh: two guesses of one place are no farther apart */
@@ -74,3 +76,13 @@ static void guess_between(Evaluate *evaluate, const SHAPE *shape, const RAYS *ra
             guess_run(&knots, how, first, from, strip);
     }
 }
+
+#else
+
+static void guess_between(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
+                          const NEWTON *how, STRIP *strip)
+{
+    (void)evaluate, (void)shape, (void)rays, (void)how, (void)strip;
+}
+
+#endif

@@ -329,15 +329,7 @@ static void polish_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *ray
     }
 }
 
-#ifdef WR_KERN_FAST
 #include "render/kern_between_body.h"
-#else
-static void guess_between(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
-                          const NEWTON *how, STRIP *strip)
-{
-    (void)evaluate, (void)shape, (void)rays, (void)how, (void)strip;
-}
-#endif
 
 /* Where `polish` was before its last step, in u, v: that step again where wx says that there was one. */
 static void resume_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
