@@ -26,6 +26,7 @@ static void places_are_there_once(void **state)
     assert_string_equal(places[0].path, here);
     assert_string_equal(places[1].label, "Pictures");
     assert_string_equal(places[2].label, "mine");
+    assert_true(places[0].named && places[1].named && !places[2].named); /* a word, or a name */
     wr_file_places_free(places, count);
     assert_int_equal(wr_file_places(NULL, recent + 3, places), 0);
     char many[20][32], *all[21] = { NULL };
@@ -50,6 +51,8 @@ static void files_are_shown_for_what_they_can_be_read_as(void **state)
     assert_false(wr_file_fits(WR_FILE_IMPORT, "a.wrinkle"));
     assert_true(wr_file_fits(WR_FILE_STAMP, "leaf.gih"));
     assert_false(wr_file_fits(WR_FILE_COLOUR, "leaf.gih"));
+    assert_true(wr_file_fits(WR_FILE_GLTF, "helmet.GLB"));
+    assert_false(wr_file_fits(WR_FILE_GLTF, "helmet.png"));
     assert_true(wr_file_fits(WR_FILE_SAVE, "notes.txt")); /* what is written over is seen */
     assert_true(wr_file_fits(WR_FILE_GENERATE, "font.ttf"));
 }

@@ -16,6 +16,7 @@
 #include "ui/app/loop.h"
 #include "ui/app/store.h"
 #include "ui/desk/app_options.h"
+#include "ui/canvas/view.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/document.h"
 #include "ui/desk/hand.h"
@@ -103,7 +104,75 @@ static SDL_Event key(Uint32 type, SDL_Keycode code)
     return (SDL_Event){ .key = event };
 }
 
+static SDL_Event button(Uint32 type, int x, int y)
+{
+    SDL_MouseButtonEvent event = { .type = type, .button = SDL_BUTTON_LEFT, .x = x, .y = y };
+    return (SDL_Event){ .button = event };
+}
+
 /* ---- the tests ---- */
+
+/* The views are looked at as ever: a key of the canvas at once; the patch by hand, which becomes one step of the history
+   when the work is done. */
+static void the_views_are_alive_meanwhile(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    app->settings->turning = false;
+    const double zoom = app->view->zoom;
+    const bool grid = app->settings->grid;
+    SDL_Event in = key(SDL_KEYDOWN, SDLK_PLUS), lines = key(SDL_KEYDOWN, SDLK_g);
+    in.key.keysym.sym = SDLK_EQUALS;
+    lines.key.keysym.mod = KMOD_LALT;
+    Long keys = { .app = app, .events = { in, lines }, .count = 2 };
+    assert_true(run(&keys, &err));
+    assert_true(app->view->zoom > zoom * 1.05);
+    assert_true(app->settings->grid != grid);
+
+    const WrHash before = wr_session_hash(bench.session);
+    const int x = app->layout->patch.x + app->layout->patch.w / 2;
+    const int y = app->layout->patch.y + app->layout->patch.h / 2;
+    SDL_Event move = { .motion = { .type = SDL_MOUSEMOTION, .x = x + 40, .y = y, .xrel = 40 } };
+    Long drag = { .app = app,
+                  .events = { button(SDL_MOUSEBUTTONDOWN, x, y), move,
+                              button(SDL_MOUSEBUTTONUP, x + 40, y) },
+                  .count = 3 };
+    assert_true(run(&drag, &err));
+    assert_non_null(app->live); /* what is seen, until it is a command */
+    WrHash after = wr_session_hash(bench.session);
+    assert_memory_equal(&before, &after, sizeof before); /* not while the work ran */
+    for (int i = 0; i < 50 && app->live; i++) draw_again(app);
+    assert_null(app->live);
+    after = wr_session_hash(bench.session);
+    assert_memory_not_equal(&before, &after, sizeof before);
+    finish(&bench);
+}
+
+/* What would touch the document is not swallowed: the bar says that it waits for nobody, and nothing was done. */
+static void what_changes_the_document_is_refused_meanwhile(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    const WrHash before = wr_session_hash(bench.session);
+    const int x = app->layout->canvas.x + app->layout->canvas.w / 2;
+    SDL_Event layer = key(SDL_KEYDOWN, SDLK_j);
+    layer.key.keysym.mod = KMOD_LCTRL;
+    Long work = { .app = app,
+                  .events = { layer, key(SDL_KEYDOWN, SDLK_DELETE),
+                              button(SDL_MOUSEBUTTONDOWN, x, 51) },
+                  .count = 3 };
+    assert_true(run(&work, &err));
+    for (int i = 0; i < 3; i++) draw_again(app);
+    const WrHash after = wr_session_hash(bench.session);
+    assert_memory_equal(&before, &after, sizeof before);
+    finish(&bench);
+}
 
 static void what_the_window_is_told_holds_at_once(void **state)
 {
@@ -220,12 +289,6 @@ static void a_cancel_is_no_error_and_then_it_closes(void **state)
     finish(&bench);
 }
 
-static SDL_Event button(Uint32 type, int x, int y)
-{
-    SDL_MouseButtonEvent event = { .type = type, .button = SDL_BUTTON_LEFT, .x = x, .y = y };
-    return (SDL_Event){ .button = event };
-}
-
 /* There is nothing else to undo yet, and all of it comes before the stroke is drawn. */
 static void the_first_stroke_is_undone_before_it_is_drawn(void **state)
 {
@@ -287,6 +350,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_the_window_is_told_holds_at_once),
+        cmocka_unit_test(the_views_are_alive_meanwhile),
+        cmocka_unit_test(what_changes_the_document_is_refused_meanwhile),
         cmocka_unit_test(a_dropped_file_opens_afterwards),
         cmocka_unit_test(a_chosen_file_is_taken_afterwards),
         cmocka_unit_test(keys_wait_while_the_journal_is_tended),

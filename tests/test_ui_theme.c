@@ -38,7 +38,7 @@ static void words_can_be_read_in_every_theme(void **state)
     } inks[] = { { WR_THEMED_TEXT, 7 },    { WR_THEMED_STRONG, 7 }, { WR_THEMED_LABEL, 4.5 },
                  { WR_THEMED_MUTED, 3.9 }, { WR_THEMED_LINK, 4.5 }, { WR_THEMED_BAD, 3.9 },
                  { WR_THEMED_CELL, 3.9 },  { WR_THEMED_WARN, 4.5 }, { WR_THEMED_GOOD, 3.9 },
-                 { WR_THEMED_FAINT, 2.5 }, { WR_THEMED_ACCENT, 3 } };
+                 { WR_THEMED_FAINT, 2.5 }, { WR_THEMED_ACCENT, 3 }, { WR_THEMED_FOCUS, 3 } };
     static const WrThemeColour beneath[] = { WR_THEMED_SELECTED, WR_THEMED_FILL,
                                              WR_THEMED_FILL_HOT, WR_THEMED_ROW_SELECTED,
                                              WR_THEMED_BUTTON,   WR_THEMED_BUTTON_HOT,

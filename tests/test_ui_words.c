@@ -5,6 +5,7 @@
 
 #include "command/table.h"
 
+#include "ui/app/roster_list.h"
 #include "ui/desk/action_list.h"
 #include "ui/desk/keys.h"
 #include "ui/panels/panel_search.h"
@@ -93,6 +94,38 @@ static void every_action_stands_in_a_menu(void **state)
     }
     walk_close(&walk);
     assert_int_equal(missing, 0);
+}
+
+static bool menu_told[1000];
+
+static void note_help(const char *english)
+{
+    const WrRoster *roster = &wr_roster;
+    for (int i = 0; roster->actions[i].name; i++)
+        if (roster->helps[i] == english) menu_told[i] = true;
+}
+
+/* A line of its own, that says more than the name, and that the menus show. */
+static void every_action_has_a_help_line(void **state)
+{
+    (void)state;
+    Walk walk;
+    walk_open(&walk, "en");
+    wr_words_asked = note_help;
+    walk_frame(&walk);
+    wr_words_asked = NULL;
+    int lacking = 0;
+    const WrRoster *roster = walk.app->roster;
+    for (int i = 0; roster->actions[i].name; i++) {
+        const WrAction *a = &roster->actions[i];
+        const char *help = wr_action_help(walk.app, a);
+        bool own = help && strlen(help) > 14 && strcmp(help, a->label) != 0 && menu_told[i];
+        for (int j = 0; j < i && own; j++) own = strcmp(help, roster->helps[j]) != 0;
+        if (!own) printf("%s (%s): \"%s\"\n", a->name, a->label, help ? help : "nothing");
+        lacking += !own;
+    }
+    walk_close(&walk);
+    assert_int_equal(lacking, 0);
 }
 
 static const char *told_of;
@@ -223,6 +256,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_text_that_the_window_shows_has_a_translation),
         cmocka_unit_test(every_action_stands_in_a_menu),
+        cmocka_unit_test(every_action_has_a_help_line),
         cmocka_unit_test(every_command_is_reached_by_the_search),
         cmocka_unit_test(no_key_does_two_things),
         cmocka_unit_test(no_text_is_cut),

@@ -49,7 +49,8 @@ typedef struct Walk {
     WrPool *pool;
     WrSession *session;
     WrAppOptions options;
-    char where[120]; /* what is shown */
+    char where[120];                  /* what is shown */
+    void (*shown)(struct Walk *walk); /* is told of each place; NULL: a picture of it is made */
 } Walk;
 
 static inline void walk_run(Walk *walk, const char *line)
@@ -109,7 +110,8 @@ static inline void walk_frame(Walk *walk)
 static inline void walk_show(Walk *walk, const char *format, const char *what)
 {
     snprintf(walk->where, sizeof walk->where, format, what);
-    walk_frame(walk);
+    if (walk->shown) walk->shown(walk);
+    else walk_frame(walk);
 }
 
 static inline void walk_tabs(Walk *walk)

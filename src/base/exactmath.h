@@ -16,3 +16,4 @@ double wr_asin(double x);            /* 1 ulp, radians */
 
 #define WR_PI 3.14159265358979323846
 #define WR_RAD_PER_DEG (WR_PI / 180.0)
+#define WR_DEG_PER_RAD (180.0 / WR_PI)

@@ -198,36 +198,6 @@ static bool panels_shown(const WrApp *app)
     return app->settings->panels;
 }
 
-static void view_both(WrApp *app)
-{
-    app->settings->views = WR_VIEWS_BOTH;
-}
-
-static void view_canvas(WrApp *app)
-{
-    app->settings->views = WR_VIEWS_CANVAS;
-}
-
-static void view_patch(WrApp *app)
-{
-    app->settings->views = WR_VIEWS_PATCH;
-}
-
-static bool is_both(const WrApp *app)
-{
-    return app->settings->views == WR_VIEWS_BOTH;
-}
-
-static bool is_canvas(const WrApp *app)
-{
-    return app->settings->views == WR_VIEWS_CANVAS;
-}
-
-static bool is_patch(const WrApp *app)
-{
-    return app->settings->views == WR_VIEWS_PATCH;
-}
-
 static void range_auto(WrApp *app)
 {
     app->settings->look.automatic = !app->settings->look.automatic;
@@ -404,6 +374,7 @@ const WrAction wr_actions[] = {
     ROW(fill, "Fill...", fill, NULL, NULL),
     ROW(grid, "Grid...", grid, NULL, NULL),
     ROW(import, "Import heights...", import, NULL, NULL),
+    ROW(gltf, "Materials of a glTF...", wr_app_ask_gltf, NULL, NULL),
     ROW(zoom_in, "Zoom in", zoom_in, NULL, NULL),
     ROW(zoom_out, "Zoom out", zoom_out, NULL, NULL),
     ROW(zoom_100, "100 %", zoom_100, NULL, NULL),
@@ -423,9 +394,12 @@ const WrAction wr_actions[] = {
     ROW(pan_up, "Look up", pan_up, NULL, NULL),
     ROW(pan_down, "Look down", pan_down, NULL, NULL),
     ROW(panels, "Panels", panels, NULL, panels_shown),
-    ROW(view_both, "Table and patch", view_both, NULL, is_both),
-    ROW(view_canvas, "Table alone", view_canvas, NULL, is_canvas),
-    ROW(view_patch, "Patch alone", view_patch, NULL, is_patch),
+    ROW(part_next, "Keys to the next part of the window", wr_act_part_next, NULL, NULL),
+    ROW(part_back, "Keys to the part before", wr_act_part_back, NULL, NULL),
+    ROW(menus, "Keys to the menus", wr_act_menus, NULL, NULL),
+    ROW(view_both, "Table and patch", wr_act_view_both, NULL, wr_is_both),
+    ROW(view_canvas, "Table alone", wr_act_view_canvas, NULL, wr_is_canvas),
+    ROW(view_patch, "Patch alone", wr_act_view_patch, NULL, wr_is_patch),
     ROW(look_grey, "Grey", wr_act_look_grey, NULL, wr_is_grey),
     ROW(look_signed, "Blue below zero, orange above", wr_act_look_signed, NULL, wr_is_signed),
     ROW(look_contours, "Contour lines", wr_act_look_contours, NULL, wr_is_contours),

@@ -3,6 +3,7 @@
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/settings.h"
+#include "ui/gui/focus.h"
 
 void wr_act_look_grey(WrApp *app)
 {
@@ -215,3 +216,50 @@ TILING(straight, WR_TILING_STRAIGHT)
 TILING(half_drop, WR_TILING_HALF_DROP)
 TILING(brick, WR_TILING_BRICK)
 #undef TILING
+
+/* ---- parts of the window ---- */
+
+void wr_act_view_both(WrApp *app)
+{
+    app->settings->views = WR_VIEWS_BOTH;
+}
+
+void wr_act_view_canvas(WrApp *app)
+{
+    app->settings->views = WR_VIEWS_CANVAS;
+}
+
+void wr_act_view_patch(WrApp *app)
+{
+    app->settings->views = WR_VIEWS_PATCH;
+}
+
+bool wr_is_both(const WrApp *app)
+{
+    return app->settings->views == WR_VIEWS_BOTH;
+}
+
+bool wr_is_canvas(const WrApp *app)
+{
+    return app->settings->views == WR_VIEWS_CANVAS;
+}
+
+bool wr_is_patch(const WrApp *app)
+{
+    return app->settings->views == WR_VIEWS_PATCH;
+}
+
+void wr_act_part_next(WrApp *app)
+{
+    wr_gui_focus_part(app->gui, 1);
+}
+
+void wr_act_part_back(WrApp *app)
+{
+    wr_gui_focus_part(app->gui, -1);
+}
+
+void wr_act_menus(WrApp *app)
+{
+    wr_gui_focus_menus(app->gui, true);
+}

@@ -44,3 +44,14 @@ void wr_act_theme_light(WrApp *app);
 bool wr_is_theme_light(const WrApp *app);
 void wr_act_theme_contrast(WrApp *app);
 bool wr_is_theme_contrast(const WrApp *app);
+
+void wr_act_view_both(WrApp *app);
+void wr_act_view_canvas(WrApp *app);
+void wr_act_view_patch(WrApp *app);
+void wr_act_part_next(WrApp *app);
+void wr_act_part_back(WrApp *app);
+void wr_act_menus(WrApp *app);
+
+bool wr_is_both(const WrApp *app);
+bool wr_is_canvas(const WrApp *app);
+bool wr_is_patch(const WrApp *app);

@@ -12,6 +12,7 @@
 #include "ui/desk/roster.h"
 #include "ui/desk/settings.h"
 #include "ui/generate/generate_hand.h"
+#include "ui/gui/focus.h"
 #include "ui/gui/gui.h"
 #include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panel_preferences.h"
@@ -432,10 +433,20 @@ static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
     }
 }
 
+/* Keys that lead to other parts of the window, also out of a text that is being typed. */
+static bool leaves_text(const WrApp *app, const SDL_KeyboardEvent *event)
+{
+    const char *action = wr_keys_find(app->keys, event->keysym);
+    return action && (strcmp(action, WR_ACT(part_next)) == 0 ||
+                      strcmp(action, WR_ACT(part_back)) == 0 || strcmp(action, WR_ACT(menus)) == 0);
+}
+
 static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
 {
-    if (wr_preferences_take_key(app, event) || wr_dynamics_take_key(app, event)) return;
-    if (blocked(app) || wr_gui_wants_text(app->gui) || wr_gui_popup_open_now(app->gui)) return;
+    if (wr_preferences_take_key(app, event) || wr_gui_took_key(app->gui)) return;
+    if (wr_dynamics_take_key(app, event)) return;
+    if (blocked(app) || wr_gui_popup_open_now(app->gui)) return;
+    if (wr_gui_wants_text(app->gui) && !leaves_text(app, event)) return;
     int mods = wr_key_mods((SDL_Keymod)event->keysym.mod);
     if (event->keysym.sym == SDLK_SPACE &&
         (mods == 0 || (mods == WR_MOD_SHIFT && app->hand->on_canvas))) {

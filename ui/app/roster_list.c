@@ -98,6 +98,7 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_ROUGHNESS)] = wr_map_take_roughness,
     [WR_ROW(WR_FILE_METALNESS)] = wr_map_take_metalness,
     [WR_ROW(WR_FILE_SURROUND)] = wr_light_take_surround,
+    [WR_ROW(WR_FILE_GLTF)] = wr_file_take_gltf,
     [WR_ROW(WR_FILE_PRESET)] = wr_shelf_take,
 };
 WR_ROWS_END(takes, WR_FILE_PURPOSES);
@@ -105,6 +106,8 @@ WR_ROWS_END(takes, WR_FILE_PURPOSES);
 const WrRoster wr_roster = { .tools = wr_tools,
                              .tool_count = WR_TOOL_COUNT,
                              .actions = wr_actions,
+                             .helps = wr_action_helps,
+                             .meanwhile = wr_meanwhile,
                              .families = families,
                              .dialogs = dialogs,
                              .tabs = tabs,

@@ -5,3 +5,6 @@
 
 extern const WrRoster wr_roster;
 extern const WrAction wr_actions[]; /* ends with name NULL */
+extern const char
+    *const wr_meanwhile[]; /* names of those that change only how things are looked at */
+extern const char *const wr_action_helps[]; /* in the same order */

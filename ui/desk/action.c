@@ -13,6 +13,11 @@ const WrAction *wr_action_find(const WrApp *app, const char *name)
     return NULL;
 }
 
+const char *wr_action_help(const WrApp *app, const WrAction *action)
+{
+    return app->roster->helps[action - app->roster->actions];
+}
+
 bool wr_action_can(const WrApp *app, const WrAction *action)
 {
     return !action->enabled || action->enabled(app);

@@ -13,6 +13,8 @@ struct WrAction {
 };
 
 const WrAction *wr_action_find(const WrApp *app, const char *name); /* NULL: none, or of a family */
-bool wr_action_can(const WrApp *app, const WrAction *action);       /* at present */
+/* What it does, in a line. */
+const char *wr_action_help(const WrApp *app, const WrAction *action);
+bool wr_action_can(const WrApp *app, const WrAction *action); /* at present */
 /* At once, or after the picture of the window that is being made. */
 void wr_action_run(WrApp *app, const char *name);

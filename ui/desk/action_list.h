@@ -116,6 +116,7 @@
     X(offset_half, "Ctrl+Shift+H")                                                                 \
     X(fill, "")                                                                                    \
     X(grid, "")                                                                                    \
+    X(gltf, "")                                                                                    \
     X(import, "")                                                                                  \
     X(zoom_in, "+ = Shift+= Ctrl++ Ctrl+= Keypad_+")                                               \
     X(zoom_out, "- Ctrl+- Keypad_-")                                                               \
@@ -133,6 +134,9 @@
     X(pan_up, "Up")                                                                                \
     X(pan_down, "Down")                                                                            \
     X(panels, "Tab")                                                                               \
+    X(part_next, "Ctrl+Tab")                                                                       \
+    X(part_back, "Ctrl+Shift+Tab")                                                                 \
+    X(menus, "F10")                                                                                \
     X(view_both, "F2")                                                                             \
     X(view_canvas, "F3")                                                                           \
     X(view_patch, "F4")                                                                            \

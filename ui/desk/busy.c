@@ -1,10 +1,12 @@
 /* What may take long runs on a thread of its own while the window stays alive.
 
    Meanwhile only that thread touches the session. The window shows a snapshot of the document from before:
-   the patch turns, the canvas can be moved and zoomed, the panels stand still. Whatever else is pressed is
-   refused, and the bar says so. */
+   the patch turns and can be turned, the canvas can be moved and zoomed, and actions that only change how either is
+   looked at are done at once (wr_meanwhile); the panels stand still. Whatever else is pressed is refused, and the bar says
+   so. */
 #include "ui/desk/busy.h"
 #include "ui/canvas/view.h"
+#include "ui/desk/action.h"
 #include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/keys.h"
@@ -253,6 +255,31 @@ static bool take_note(Wait *wait, const SDL_Event *event)
            event->type != SDL_KEYUP; /* the widgets want those too */
 }
 
+/* A part's view is looked at. */
+static bool look(WrApp *app, const SDL_Event *event)
+{
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->look && (*p)->look(app, event)) return true;
+    return false;
+}
+
+/* Keys of actions that touch nothing of what is worked on. */
+static bool look_by_key(WrApp *app, const SDL_KeyboardEvent *event)
+{
+    int x, y;
+    SDL_GetMouseState(&x, &y);
+    const bool stops =
+        event->keysym.sym == SDLK_SPACE && wr_layout_inside(&app->layout->patch, x, y);
+    const char *name = stops ? WR_ACT(turn) : wr_keys_find(app->keys, event->keysym);
+    for (const char *const *m = app->roster->meanwhile; name && *m; m++) {
+        const WrAction *action = strcmp(*m, name) == 0 ? wr_action_find(app, name) : NULL;
+        if (!action) continue;
+        if (wr_action_can(app, action)) action->run(app);
+        return true;
+    }
+    return false;
+}
+
 /* Escape cancels, a request to close waits, the bar's button is the bar's; all else is refused. */
 static void take_event(Wait *wait, const SDL_Event *event)
 {
@@ -273,7 +300,8 @@ static void take_event(Wait *wait, const SDL_Event *event)
         cancel(wait);
         return;
     }
-    if (move_view(wait, event)) return;
+    if (move_view(wait, event) || look(app, event) || (key && look_by_key(app, &event->key)))
+        return;
     wr_gui_event(app->gui, event);
     bool on_bar = event->type == SDL_MOUSEBUTTONDOWN &&
                   over(&app->layout->status, event->button.x, event->button.y);

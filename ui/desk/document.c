@@ -360,3 +360,17 @@ void wr_file_take_save(WrApp *app, const char *path)
 {
     save_to(app, path);
 }
+
+void wr_file_take_gltf(WrApp *app, const char *path)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "gltf ");
+    wr_text_add_word(&line, path);
+    wr_app_run_slow(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+void wr_app_ask_gltf(WrApp *app)
+{
+    if (!wr_files_ask(app->files, WR_FILE_GLTF, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+}

@@ -35,7 +35,7 @@ void wr_app_make_layout(WrApp *app)
                          .scale = wr_gui_scale(),
                          .divider = app->settings->divider,
                          .views = app->settings->views,
-                         .tools = app->roster->tool_count,
+                         .tools = app->roster->tool_count + WR_STRIP_MORE,
                          .panels = app->settings->panels,
                          .lower = app->settings->lower };
     *app->layout = wr_layout_make(&in);

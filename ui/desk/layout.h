@@ -8,7 +8,8 @@ typedef enum WrShownViews { WR_VIEWS_BOTH, WR_VIEWS_CANVAS, WR_VIEWS_PATCH } WrS
 /* From one tool of the strip to the next, pixels at scale 1: where all have room, and where they just fit into one
    column. */
 #define WR_TOOL_MOST 38
-#define WR_TOOL_LEAST 32
+#define WR_TOOL_LEAST 30
+#define WR_STRIP_MORE 3 /* buttons among the tools (panels/panel_tools.c) */
 
 typedef struct WrLayoutInput {
     int width, height; /* of the window, pixels */

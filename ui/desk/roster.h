@@ -32,6 +32,8 @@ typedef struct WrPart {
     bool (*works)(WrApp *app);             /* something is computed: its bar moves */
     /* Of the window, and of a key that was let go; also while a command runs beside the window. */
     void (*event)(WrApp *app, const SDL_Event *event);
+    /* An event while a command runs: true if it was for looking at its view, which may go on. */
+    bool (*look)(WrApp *app, const SDL_Event *event);
     void (*meanwhile)(WrApp *app); /* before each picture while a command runs beside the window */
     void (*draw)(WrApp *app);      /* its view, below all widgets; also while a command runs */
     void (*let_go)(WrApp *app);    /* end what is held, keeping what was done */
@@ -46,7 +48,9 @@ typedef void WrFileTake(WrApp *app, const char *path);
 struct WrRoster {
     const WrTool *const *tools;
     int tool_count;
-    const WrAction *actions;         /* ends with name NULL */
+    const WrAction *actions;      /* ends with name NULL */
+    const char *const *helps;     /* of each action what it does, in a line */
+    const char *const *meanwhile; /* those that may be done while a command runs; ends with NULL */
     WrActionFamily *const *families; /* ends with NULL */
     const WrDialogRow *dialogs;      /* [WR_DIALOG_COUNT]; the first is none */
     const WrTab *tabs;

@@ -14,6 +14,7 @@
 #include "ui/tools/tool.h"
 #include "ui/views/overlay.h"
 
+#include "base/exactmath.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "field/select.h"
@@ -27,7 +28,6 @@
 #define LEAST_UNITS 26.0 /* of the corner's way from the middle */
 #define RING_UNITS 22.0  /* of the ring, beyond the corner */
 #define HOLD_STEPS 3     /* of 4 units, around the pointer */
-#define DEGREES 57.29577951308232
 
 static const char *const place_names[] = { "at", "origin", "centre", NULL };
 static const char *const size_names[] = { "size", "radius", NULL };
@@ -94,7 +94,7 @@ static double ring_way(const WrApp *app, const Pose *pose)
 
 static double turn_rad(const WrApp *app, const Pose *pose)
 {
-    return app->generate->value[pose->turn].number[pose->turned] / DEGREES;
+    return app->generate->value[pose->turn].number[pose->turned] * WR_RAD_PER_DEG;
 }
 
 /* The nearest copy of the middle to a pointer. */
@@ -221,7 +221,7 @@ static void turn(WrApp *app, const Pose *pose, const WrPointer *at)
     WrPointer first = app->hand->start;
     from_middle(app, pose, at, &x, &y);
     from_middle(app, pose, &first, &fx, &fy);
-    double deg = hand->first_number[pose->turned] + (atan2(y, x) - atan2(fy, fx)) * DEGREES;
+    double deg = hand->first_number[pose->turned] + (atan2(y, x) - atan2(fy, fx)) * WR_DEG_PER_RAD;
     deg -= 360.0 * rint(deg / 360.0);
     if (at->mods & WR_MOD_SHIFT) deg = rint(deg / 15.0) * 15.0;
     if (deg < p->low) deg += 360.0;

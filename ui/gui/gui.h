@@ -100,8 +100,11 @@ int wr_gui_px(double units); /* units as whole pixels */
 #define WR_ICON_CURVE "\xef\x95\x99"     /* f559 vector-curve */
 #define WR_ICON_BUCKET "\xef\x89\xa6"    /* f266 format-color-fill */
 #define WR_ICON_RAMP "\xef\x82\xb6"      /* f0b6 blur-linear */
-#define WR_ICON_SEAL "\xef\x91\xba"      /* f47a */
-#define WR_ICON_MIRROR "\xef\x86\x8a"    /* f18a compare */
+#define WR_ICON_STAMP "\xee\x80\x80"     /* e000: drawn by gui_imgui_icons.cpp */
+#define WR_ICON_MIRROR "\xee\x80\x81"    /* e001: the same */
+#define WR_ICON_ERASER "\xef\x87\xbe"    /* f1fe */
+#define WR_ICON_TEXT "\xef\x97\xb4"      /* f5f4 format-title */
+#define WR_ICON_CUBE "\xef\x86\xa6"      /* f1a6 */
 #define WR_ICON_TUNE "\xef\x98\xae"      /* f62e */
 #define WR_ICON_SAVE "\xef\x86\x93"      /* f193 content-save */
 #define WR_ICON_BACK "\xef\x91\xa5"      /* f465 rotate-left */
@@ -145,6 +148,8 @@ extern void (*wr_gui_cut)(const char *text, double width, double room);
 /* While it is set menus, lists, popups and folds are open, tips are looked up, and no picture is drawn: all that the
    panels can say is said in a frame or two. For tests. */
 extern bool wr_gui_tells_all;
+/* While it is set all goes on as ever, but for the picture, which nobody draws. For tests. */
+extern bool wr_gui_unseen;
 
 typedef enum WrFont {
     WR_FONT_TEXT,

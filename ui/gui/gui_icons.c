@@ -19,10 +19,11 @@ static const struct {
     { WR_ICON_DROP, "Sm" },      { WR_ICON_FINGER, "Sr" },   { WR_ICON_CLONE, "Cl" },
     { WR_ICON_BOX, "Rc" },       { WR_ICON_ROUND, "El" },    { WR_ICON_POLYGON, "Pg" },
     { WR_ICON_CURVE, "Cv" },     { WR_ICON_BUCKET, "Fi" },   { WR_ICON_RAMP, "Ra" },
-    { WR_ICON_SEAL, "St" },      { WR_ICON_MIRROR, "|" },    { WR_ICON_TUNE, "Tu" },
+    { WR_ICON_STAMP, "St" },     { WR_ICON_MIRROR, "|" },    { WR_ICON_TUNE, "Tu" },
     { WR_ICON_SAVE, "Sv" },      { WR_ICON_BACK, "Bk" },     { WR_ICON_DOTS, "..." },
     { WR_ICON_WAND, "Wd" },      { WR_ICON_DICE, "Rnd" },    { WR_ICON_GRID, "Gr" },
-    { WR_ICON_TRANSFORM, "Tf" },
+    { WR_ICON_TRANSFORM, "Tf" }, { WR_ICON_ERASER, "Er" },   { WR_ICON_TEXT, "T" },
+    { WR_ICON_CUBE, "So" },
 };
 
 const char *wr_icon_word(const char *icon)

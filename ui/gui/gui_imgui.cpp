@@ -116,6 +116,15 @@ try {
         wr_fail(err, "no memory for the window");
         return nullptr;
     }
+    gui->focus.stops = static_cast<WrKeyStop *>(calloc(WR_GUI_STOPS, sizeof(WrKeyStop)));
+    gui->focus.coming = static_cast<WrKeyStop *>(calloc(WR_GUI_STOPS, sizeof(WrKeyStop)));
+    if (!gui->focus.stops || !gui->focus.coming) {
+        wr_fail(err, "no memory for the window");
+        free(gui->focus.stops);
+        free(gui->focus.coming);
+        free(gui);
+        return nullptr;
+    }
     gui->renderer = renderer;
     gui->context = ImGui::CreateContext();
     settle_io(gui);
@@ -133,6 +142,8 @@ try {
     if (gui->aside) ImGui::DestroyContext(gui->aside);
     ImGui::DestroyContext(gui->context);
     if (gui->atlas) SDL_DestroyTexture(gui->atlas);
+    free(gui->focus.stops);
+    free(gui->focus.coming);
     free(gui);
 }
 WR_CAUGHT()
@@ -179,6 +190,7 @@ extern "C" void wr_gui_event(WrGui *gui, const SDL_Event *event)
 try {
     ImGuiIO &io = ImGui::GetIO();
     int button;
+    if (wr_gui_focus_event(gui, event)) return;
     switch (event->type) {
     case SDL_MOUSEMOTION:
         io.MousePos = gui->pointer = ImVec2((float)event->motion.x, (float)event->motion.y);
@@ -285,6 +297,9 @@ extern "C" bool wr_gui_unsettled(const WrGui *gui)
     for (int i = 0; i < 3; i++)
         if (gui->pressed[i] || g.IO.MouseDown[i] != gui->held[i]) return true;
     bool dims = g.DimBgRatio > 0.0f && g.DimBgRatio < 1.0f;
+    const WrFocus *focus = &gui->focus;
+    if (focus->waiting_count > 0 || (focus->stepped && focus->arrow_let_go)) return true;
+    if (gui->typing_focus || focus->moved) return true;
     return gui->keys_dropped || gui->popups != g.OpenPopupStack.Size || dims || gui->fits ||
            window_comes(g);
 }
@@ -313,6 +328,7 @@ try {
         gui->pressed[i] = false;
     }
     wr_gui_keys_frame(gui);
+    wr_gui_focus_before(gui);
     ImGui::NewFrame();
     ImGuiContext &g = *ImGui::GetCurrentContext();
     gui->popups = g.OpenPopupStack.Size;
@@ -322,6 +338,7 @@ try {
     if (gui->close_popups && g.OpenPopupStack.Size > keep) ImGui::ClosePopupToLevel(keep, true);
     gui->close_popups = false;
     gui->keys_dropped = wr_gui_keys_seen(gui);
+    wr_gui_focus_begun(gui);
     ImGui::PushFont(gui->fonts[WR_FONT_TEXT]);
 }
 WR_CAUGHT()
@@ -329,11 +346,12 @@ WR_CAUGHT()
 extern "C" void wr_gui_frame_end(WrGui *gui)
 try {
     ImGui::PopFont();
+    wr_gui_focus_end(gui);
     ImGui::Render();
     double sizes = fitted_sizes(*ImGui::GetCurrentContext());
     gui->fits = sizes != gui->fitted;
     gui->fitted = sizes;
-    if (wr_gui_tells_all) return;
+    if (wr_gui_tells_all || wr_gui_unseen) return;
     ImDrawData *data = ImGui::GetDrawData();
     ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
     for (int n = 0; n < data->CmdListsCount; n++) {

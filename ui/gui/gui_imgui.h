@@ -1,5 +1,6 @@
 /* gui_imgui.h - what the gui_imgui*.cpp files share; nobody else includes it. */
 #pragma once
+#include "ui/gui/focus.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/words.h"
 
@@ -8,11 +9,52 @@ extern "C" {
 }
 
 #include <imgui.h>
+
+struct ImGuiWindow;
 #include <stdbool.h>
 #include <stdint.h>
 
 #define WR_GUI_KEYS 512 /* of the keyboard, by SDL_Scancode */
 #define WR_GUI_TYPED 64
+
+#define WR_GUI_STOPS 2000
+#define WR_GUI_WAITING 16 /* keys for the focus that no frame has had */
+#define WR_GUI_LEVELS 8   /* menus within menus */
+
+/* Where the keys are. */
+struct WrFocus {
+    WrKeyStop *stops,
+        *coming; /* of the last frame, and of the one that is being made; owned, WR_GUI_STOPS each */
+    int count, coming_count;
+    ImGuiID at; /* 0: none */
+    int index;  /* of its stop, in the last frame that had it */
+    bool shown; /* the ring is; the keys are for it */
+    bool took;  /* the newest key that went down */
+    bool moved; /* it shall be scrolled to where it is seen */
+    bool first; /* the list that comes: its first stop gets it */
+    SDL_Keysym waiting[WR_GUI_WAITING];
+    int waiting_count;
+    SDL_Keysym key;     /* that the stop at `at` gets in this frame; no scancode: none */
+    bool pressed;       /* it is pressed in this frame as by the pointer */
+    bool arrow_let_go;  /* an arrow was */
+    ImGuiID stepped;    /* a number that arrows move: drag_value */
+    bool step_ends;     /* it is done with in this frame */
+    float pad_x, pad_y; /* the keys' pointer on a pad, 0..1 */
+    bool pad_held;      /* and its button */
+    ImGuiID pad_down;   /* the pad that it is held on */
+    bool pad_cross;     /* it is seen on the pad that is being drawn, at pad_at */
+    ImVec2 pad_at;
+    bool stop_typing; /* the text that is being typed is left */
+    int close_to;     /* popups deeper than this close; -1: none */
+    int levels;       /* popups that were open in the last frame */
+    bool beside;      /* and what is open in the next frame was opened in the place of them */
+    ImGuiID popups[WR_GUI_LEVELS];  /* their names */
+    ImGuiID openers[WR_GUI_LEVELS]; /* where the focus was when each of them came */
+    bool before[WR_GUI_LEVELS];     /* and whether it was shown */
+    ImGuiID home;                   /* where it was before it came to the menus */
+    bool in_menus;                  /* it came there by wr_gui_focus_menus */
+    double alt_at; /* seconds since the start when Alt went down, and nothing since; 0: it is up */
+};
 
 /* A key that went down or up, or letters that came of keys. */
 struct WrTyped {
@@ -64,6 +106,7 @@ struct WrGui {
     ImGuiID row_drag;
     ImDrawList *pad; /* that drawing goes to; NULL: to the views */
     bool as_it_is;   /* texts are the user's own and are not looked up */
+    WrFocus focus;
 };
 
 /* The one whose frame is open. */
@@ -80,6 +123,24 @@ bool wr_gui_keys_seen(WrGui *gui);
 bool wr_gui_went_down(SDL_Scancode key);
 bool wr_gui_key_repeats(SDL_Scancode key);
 bool wr_gui_return_for_list(); /* as wr_gui_return_pressed, for the list that is open */
+/* gui_imgui_focus.cpp. An event, true if it is a key for the focus alone; before and after a frame has begun, and before it
+   ends. */
+bool wr_gui_focus_event(WrGui *gui, const SDL_Event *event);
+void wr_gui_focus_before(WrGui *gui);
+void wr_gui_focus_begun(WrGui *gui);
+void wr_gui_focus_end(WrGui *gui);
+/* The last item, or one at a place, can be reached by keys. */
+void wr_gui_stop(WrKeyStopKind kind, bool chosen);
+void wr_gui_stop_at(WrKeyStopKind kind, ImGuiID id, bool chosen, ImVec2 low, ImVec2 high);
+/* An entry of `window` whose menu is open, and current. */
+void wr_gui_stop_open(ImGuiWindow *window, ImGuiID id);
+/* The window that ends has nothing to press: if it scrolls, keys scroll it. */
+void wr_gui_stop_scrolled();
+bool wr_gui_focused(ImGuiID id);                     /* it has the ring */
+bool wr_gui_focus_pressed(ImGuiID id);               /* by Space or Enter, in this frame */
+bool wr_gui_focus_key(ImGuiID id, SDL_Scancode key); /* it gets that key in this frame */
+bool wr_gui_focus_menu(ImGuiID id);                  /* as by the right button */
+int wr_gui_focus_arrows(ImGuiID id, bool both); /* 1 up or right, -1 down or left; both: all four */
 /* gui_imgui_words.cpp. A text in the user's language, without what follows ##; and for the library, what is seen in that
    language and an identity by the English one. */
 const char *wr_gui_said(const char *text);
@@ -90,6 +151,8 @@ void wr_gui_fits(const char *text, float width, float room);
 void wr_gui_fits_window(const char *text);
 /* Room in the row for what is so wide; where that is too little a new row is begun, but in bars. */
 float wr_gui_row_room(float width);
+/* Of those that no font has (gui_imgui_icons.cpp): draws it and returns true. */
+bool wr_gui_draw_icon(ImDrawList *list, const char *icon, ImVec2 at, float side, ImU32 ink);
 /* The icon, or the word for it where there is no font of icons. */
 const char *wr_gui_icon(const char *icon);
 /* Draw the faces at the present scale and hand them to the renderer. */
@@ -100,7 +163,7 @@ ImVec4 wr_gui_vec_of(WrColour colour);
    unevenly. */
 void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high);
 /* A tip that does not cover the fields around the last item, which is one of a column. */
-void wr_gui_tip_of_field(const char *text);
+void wr_gui_tip_of_field(ImGuiID id, const char *text);
 
 /* What other versions of the library call by other names; keys are in gui_imgui_keys.cpp, faces in
    gui_imgui_fonts.cpp. */

@@ -34,7 +34,13 @@ extern "C" bool wr_gui_menu_begin(const char *label)
 try {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
     char said[320];
-    bool open = !wr_gui_tells_all && ImGui::BeginMenu(wr_gui_labelled(label, said));
+    const char *shown = wr_gui_labelled(label, said);
+    const ImGuiID id = ImGui::GetID(shown);
+    ImGuiWindow *window = ImGui::GetCurrentWindow();
+    bool open = !wr_gui_tells_all && ImGui::BeginMenu(shown);
+    /* Where it is open its own window is what is current now. */
+    if (!open) wr_gui_stop(WR_STOP_MENU, false);
+    else wr_gui_stop_open(window, id);
     if (wr_gui_tells_all) ImGui::MenuItem(wr_gui_labelled(label, said));
     if (!wr_gui_tells_all) wr_gui_fits_window(label);
     ImGui::PopStyleVar();
@@ -51,7 +57,9 @@ extern "C" void wr_gui_menu_end(void)
 extern "C" bool wr_gui_menu_item(const char *label, const char *keys, bool checked, bool enabled)
 try {
     char said[320];
-    return ImGui::MenuItem(wr_gui_labelled(label, said), keys, checked, enabled);
+    bool pressed = ImGui::MenuItem(wr_gui_labelled(label, said), keys, checked, enabled);
+    if (enabled) wr_gui_stop(WR_STOP_ITEM, false);
+    return pressed;
 }
 WR_CAUGHT(false)
 
@@ -166,9 +174,10 @@ extern "C" bool wr_gui_field_left(void)
 extern "C" bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus)
 try {
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
-    if (focus) ImGui::SetKeyboardFocusHere();
+    if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) ImGui::SetKeyboardFocusHere();
     bool done = ImGui::InputText(
         id, text, size, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    wr_gui_stop(WR_STOP_TEXT, false);
     wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     return done;
 }
@@ -186,7 +195,7 @@ extern "C" bool wr_gui_text_area(const char *id, int lines, char *text, size_t s
 try {
     WrGui *gui = wr_gui_current();
     float tall = ImGui::GetTextLineHeight() * (float)lines + 2 * ImGui::GetStyle().FramePadding.y;
-    if (focus) {
+    if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) {
         ImGui::SetKeyboardFocusHere();
         gui->selecting = ImGui::GetID(id);
     }
@@ -194,6 +203,8 @@ try {
     bool changed = ImGui::InputTextMultiline(id, text, size, ImVec2(-1.0f, tall),
                                              pending ? ImGuiInputTextFlags_CallbackAlways : 0,
                                              pending ? select_all : nullptr, gui);
+    wr_gui_stop_at(WR_STOP_TEXT, ImGui::GetID(id), false, ImGui::GetItemRectMin(),
+                   ImGui::GetItemRectMax());
     wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     return changed;
 }
@@ -205,8 +216,13 @@ try {
     char said[320];
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "", icon ? "  " : "",
              wr_gui_labelled(label, said));
-    if (!ImGui::Selectable(text, selected, ImGuiSelectableFlags_AllowDoubleClick)) return 0;
-    return ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
+    bool pressed = ImGui::Selectable(text, selected, ImGuiSelectableFlags_AllowDoubleClick);
+    wr_gui_stop(WR_STOP_LIST, selected);
+    if (!pressed) return 0;
+    const ImGuiID id = ImGui::GetItemID();
+    const bool enter =
+        wr_gui_focus_key(id, SDL_SCANCODE_RETURN) || wr_gui_focus_key(id, SDL_SCANCODE_KP_ENTER);
+    return enter || ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
 }
 WR_CAUGHT(0)
 
@@ -220,5 +236,6 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_list_end(void)
 {
+    wr_gui_stop_scrolled();
     ImGui::EndChild();
 }

@@ -163,21 +163,66 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
     }
     draw_field(spec, at, ImVec2(at.x + size.x, at.y + size.y), *value,
                ImGui::IsItemHovered() || gui->dragging == item);
-    wr_gui_tip_of_field(spec->tip);
+    wr_gui_tip_of_field(item, spec->tip);
     return edit;
+}
+
+/* ---- by keys ---- */
+
+/* A hundredth of the way, or a thousandth, but no less than what is shown. */
+static double stepped(const WrNumber *spec, double value, int way, bool fine)
+{
+    const double share = (double)way * (fine ? 0.001 : 0.01);
+    double next = spec->logarithmic ? value * pow(spec->high / spec->low, share)
+                                    : value + share * (spec->high - spec->low);
+    next = round_as_shown(spec, next);
+    if (next == round_as_shown(spec, value) && spec->decimals >= 0)
+        next = round_as_shown(spec, value + (double)way * pow(10.0, -spec->decimals));
+    const double low = fmin(spec->low, value), high = fmax(spec->high, value);
+    return next < low ? low : next > high ? high : next;
+}
+
+/* Arrows change it, live while one is held; Enter types into it; Backspace and Delete reset it. */
+static WrEdit by_keys(WrGui *gui, ImGuiID item, const WrNumber *spec, double *value)
+{
+    WrFocus *focus = &gui->focus;
+    const int way = wr_gui_focus_arrows(item, true);
+    if (wr_gui_focus_pressed(item)) start_typing(gui, item, spec, *value);
+    if (wr_gui_focus_key(item, SDL_SCANCODE_BACKSPACE) ||
+        wr_gui_focus_key(item, SDL_SCANCODE_DELETE)) {
+        const bool other = *value != spec->reset;
+        *value = spec->reset;
+        return other ? WR_EDIT_DONE : WR_EDIT_NONE;
+    }
+    if (way) {
+        const double from = focus->stepped == item ? gui->drag_value : *value;
+        focus->stepped = item;
+        gui->drag_value = stepped(spec, from, way, (focus->key.mod & KMOD_SHIFT) != 0);
+    }
+    if (focus->stepped != item) return WR_EDIT_NONE;
+    const bool live = *value != gui->drag_value;
+    *value = gui->drag_value;
+    if (!focus->step_ends) return live ? WR_EDIT_LIVE : WR_EDIT_NONE;
+    focus->stepped = 0;
+    return WR_EDIT_DONE;
 }
 
 extern "C" WrEdit wr_gui_number(const char *id, double width, const WrNumber *spec, double *value)
 try {
     WrGui *gui = wr_gui_current();
     ImGui::PushID(id);
-    ImGuiID item = ImGui::GetID("number");
+    ImGuiID item = ImGui::GetID("##field");
     float w = width > 0 ? (float)width : ImGui::GetContentRegionAvail().x;
     if (w < 8) w = 8;
     if (gui->armed == item && wr_clock_seconds() - gui->armed_since > DOUBLE_CLICK_SECONDS)
         start_typing(gui, item, spec, *value);
+    const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + w, at.y + ImGui::GetFrameHeight());
+    const WrEdit keyed = gui->typing == item ? WR_EDIT_NONE : by_keys(gui, item, spec, value);
     WrEdit edit = gui->typing == item ? type_into(gui, item, w, spec, value)
                                       : drag_field(gui, item, w, spec, value);
+    if (keyed != WR_EDIT_NONE) edit = keyed;
+    wr_gui_stop_at(WR_STOP_NUMBER, item, false, at, end);
+    if (gui->typing == item && !gui->focus.shown) gui->focus.at = item;
     ImGui::PopID();
     return edit;
 }
@@ -205,6 +250,7 @@ try {
     if (ImGui::ColorButton("##swatch", ImVec4(code[0], code[1], code[2], 1),
                            ImGuiColorEditFlags_NoTooltip, ImVec2(w, ImGui::GetFrameHeight())))
         ImGui::OpenPopup("picker");
+    wr_gui_stop(WR_STOP_PRESS, false);
     if (ImGui::BeginPopup("picker")) {
         ImGui::SetNextItemWidth((float)wr_gui_px(220));
         if (ImGui::ColorPicker3("##picker", code,

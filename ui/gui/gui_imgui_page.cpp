@@ -40,6 +40,7 @@ extern "C" void wr_gui_page_end(double height, double scroll)
     wr_gui_current()->pad = nullptr;
     ImGui::Dummy(ImVec2(1, (float)height));
     if (scroll >= 0) ImGui::SetScrollY((float)scroll);
+    wr_gui_stop_scrolled();
     ImGui::EndChild();
 }
 

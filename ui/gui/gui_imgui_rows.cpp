@@ -38,7 +38,8 @@ try {
     bool released = ImGui::InvisibleButton("row", ImVec2(right - left, height));
     bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
     bool doubled = hovered && ImGui::IsMouseDoubleClicked(0);
-    bool menu = hovered && ImGui::IsMouseClicked(1);
+    wr_gui_stop(WR_STOP_ROW, false);
+    bool menu = (hovered && ImGui::IsMouseClicked(1)) || wr_gui_focus_menu(ImGui::GetItemID());
     bool moved = ImGui::IsMouseDragPastThreshold(0, px(5));
     ImGui::SetItemAllowOverlap();
     WrColour ground = selected ? WR_COLOUR_ROW_SELECTED : hovered ? WR_COLOUR_ROW_HOT : 0;
@@ -190,6 +191,7 @@ extern "C" bool wr_gui_image_button(const char *id, SDL_Texture *texture, double
 try {
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
     bool pressed = ImGui::InvisibleButton(id, ImVec2((float)w, (float)h));
+    wr_gui_stop(WR_STOP_PRESS, false);
     ImDrawList *list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
     if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
@@ -211,6 +213,7 @@ try {
     ImVec2 at(ImGui::GetCursorScreenPos().x, where.y + roundf((bar.y - h) / 2));
     ImGui::SetCursorScreenPos(at);
     bool pressed = ImGui::InvisibleButton(label, ImVec2((float)width, h));
+    wr_gui_stop(WR_STOP_PRESS, false);
     label = wr_gui_said(label);
     ImVec2 end(at.x + (float)width, at.y + h);
     ImDrawList *list = ImGui::GetWindowDrawList();
@@ -233,6 +236,7 @@ try {
     float side = px(units);
     ImVec2 at = ImGui::GetCursorScreenPos();
     bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
+    wr_gui_stop(WR_STOP_PRESS, false);
     bool hovered = ImGui::IsItemHovered();
     icon = wr_gui_icon(icon);
     ImVec2 size = ImGui::CalcTextSize(icon);
@@ -267,6 +271,7 @@ try {
     float side = px(units), gap = px(6), line = px(2);
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton(id, ImVec2(side, side));
+    wr_gui_stop(WR_STOP_PRESS, false);
     ImDrawList *list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, ImVec2(at.x + side, at.y + side), wr_gui_colour_of(WR_COLOUR_CHIP),
                         px(3));

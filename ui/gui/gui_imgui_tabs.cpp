@@ -16,6 +16,7 @@ static bool segment(const char *id, const char *said, ImVec2 size, WrColour grou
     const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + size.x, at.y + size.y);
     const ImVec2 text = ImGui::CalcTextSize(said);
     bool pressed = ImGui::InvisibleButton(id, size);
+    wr_gui_stop(WR_STOP_SEGMENT, on);
     list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
     if (on)
         list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(end.x - 1, end.y - 1),
@@ -85,6 +86,7 @@ static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
     ImGui::SetCursorPos(place);
     ImVec2 at = ImGui::GetCursorScreenPos();
     bool pressed = ImGui::InvisibleButton(label, size);
+    wr_gui_stop(WR_STOP_TAB, on);
     if (on) {
         ImVec2 end(at.x + size.x, at.y + size.y);
         list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_PANEL));

@@ -22,7 +22,9 @@ try {
     float s = (float)side;
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + s, at.y + s);
     bool pressed = ImGui::InvisibleButton(id, ImVec2(s, s));
-    bool hovered = ImGui::IsItemHovered(), menu = hovered && ImGui::IsMouseClicked(1);
+    wr_gui_stop(WR_STOP_TILE, selected);
+    bool hovered = ImGui::IsItemHovered();
+    bool menu = (hovered && ImGui::IsMouseClicked(1)) || wr_gui_focus_menu(ImGui::GetItemID());
     ImDrawList *list = ImGui::GetWindowDrawList();
     put_picture(list, texture, at, end);
     if (selected) {
@@ -73,7 +75,9 @@ try {
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     float wide = ImGui::CalcItemWidth();
+    if (wr_gui_focus_pressed(ImGui::GetID(id))) ImGui::SetKeyboardFocusHere();
     bool changed = ImGui::InputTextWithHint(id, wr_gui_said(hint), text, size);
+    wr_gui_stop(WR_STOP_TEXT, false);
     wr_gui_edge(ImGui::GetWindowDrawList(), at,
                 ImVec2(at.x + wide, at.y + ImGui::GetFrameHeight()));
     return changed;
@@ -91,6 +95,7 @@ try {
     if (wr_gui_tells_all) ImGui::SetNextItemOpen(true);
     bool shown = ImGui::CollapsingHeader(wr_gui_labelled(label, said),
                                          open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    wr_gui_stop(WR_STOP_PRESS, false);
     ImGui::PopFont();
     ImGui::PopStyleColor(4);
     return shown;

@@ -50,6 +50,7 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_area_end(void)
 try {
+    wr_gui_stop_scrolled();
     ImGui::End();
 }
 WR_CAUGHT()
@@ -225,15 +226,31 @@ static double rested()
     return ImGui::GetTime() - gui->tip_since;
 }
 
-/* Has the pointer been on the last item for so long that its tip shows? */
-static bool wants_tip(const char *text)
+/* Has the pointer been on the last item for so long that its tip shows, or the ring round it, which has it by that name? */
+static bool wants_tip(ImGuiID id, const char *text)
 {
     if (text && wr_gui_tells_all) wr_gui_said(text);
-    if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
+    if (!text || !(wr_gui_focused(id) || ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)))
+        return false;
     if (ImGui::IsMouseDown(0)) return false;
     const bool rests = rested() >= (double)TIP_SECONDS;
     if (!rests) wr_gui_current()->tip_waits = true;
     return rests;
+}
+
+/* Beside a menu, where it covers no entry; under what has the ring, since the pointer is elsewhere. */
+static void place_tip(bool focused)
+{
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const bool menu = window->Flags & (ImGuiWindowFlags_Popup | ImGuiWindowFlags_ChildMenu) &&
+                      !(window->Flags & ImGuiWindowFlags_Modal);
+    const float right = window->Pos.x + window->Size.x + px(6);
+    const bool fits = right + px(320) < ImGui::GetIO().DisplaySize.x;
+    if (menu)
+        ImGui::SetNextWindowPos(ImVec2(fits ? right : window->Pos.x - px(6), low.y), 0,
+                                ImVec2(fits ? 0.0f : 1.0f, 0));
+    else if (focused) ImGui::SetNextWindowPos(ImVec2(low.x, high.y + px(6)));
 }
 
 static void show_tip(const char *text)
@@ -249,21 +266,25 @@ static void show_tip(const char *text)
 
 extern "C" void wr_gui_tip(const char *text)
 try {
-    if (wants_tip(text)) show_tip(text);
+    const ImGuiID id = ImGui::GetItemID();
+    if (!wants_tip(id, text)) return;
+    place_tip(wr_gui_focused(id));
+    show_tip(text);
 }
 WR_CAUGHT()
 
 /* In a column along the right edge the tip stands to the left of it, so that neither the next field nor the one before is
  * covered. */
-void wr_gui_tip_of_field(const char *text)
+void wr_gui_tip_of_field(ImGuiID id, const char *text)
 try {
-    if (!wants_tip(text)) return;
+    if (!wants_tip(id, text)) return;
     const ImVec2 whole = ImGui::GetIO().DisplaySize, at = ImGui::GetWindowPos();
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const bool lower = low.y > 0.5f * whole.y;
     if (at.x > 0.5f * whole.x)
         ImGui::SetNextWindowPos(ImVec2(at.x - px(4), lower ? high.y : low.y), ImGuiCond_Always,
                                 ImVec2(1.0f, lower ? 1.0f : 0.0f));
+    else place_tip(wr_gui_focused(id));
     show_tip(text);
 }
 WR_CAUGHT()
@@ -312,6 +333,14 @@ try {
     const float lower = (ImGui::GetFontSize() - small->FontSize) / 2;
     const ImVec2 place(at.x + padding.x * 0.5f, at.y + padding.y + lower);
     const ImVec4 clip(at.x, at.y, right + px(13), at.y + ImGui::GetFrameHeight());
+    const ImGuiID item = ImGui::GetID("##choice");
+    wr_gui_stop_at(WR_STOP_CHOICE, item, false, at,
+                   ImVec2(right + px(13), at.y + ImGui::GetFrameHeight()));
+    const int step = -wr_gui_focus_arrows(item, false);
+    if (*index + step >= 0 && *index + step < count && step) {
+        *index += step;
+        changed = true;
+    }
     bool open = ImGui::BeginCombo("##choice", tight ? "" : now,
                                   ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
     if (tight)
@@ -354,6 +383,7 @@ try {
     ImVec2 at = ImGui::GetCursorScreenPos();
     snprintf(box, sizeof box, "##box%s", id ? id : label);
     bool changed = ImGui::Checkbox(wraps ? box : shown, value);
+    wr_gui_stop(WR_STOP_PRESS, false);
     wr_gui_edge(ImGui::GetWindowDrawList(), at, ImVec2(at.x + side, at.y + side));
     if (!wraps) {
         wr_gui_fits_window(label);
@@ -380,6 +410,7 @@ try {
     const char *shown = wr_gui_labelled(label, said);
     wr_gui_row_room(ImGui::CalcTextSize(shown, nullptr, true).x + px(28));
     bool pressed = ImGui::Button(shown);
+    wr_gui_stop(WR_STOP_PRESS, false);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     if (primary) ImGui::PopStyleColor(2);
@@ -392,17 +423,21 @@ try {
     float side = px(units);
     ImVec2 at = ImGui::GetCursorScreenPos();
     bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
+    wr_gui_stop(WR_STOP_PRESS, false);
     ImDrawList *list = ImGui::GetWindowDrawList();
     ImVec2 end(at.x + side, at.y + side);
     if (selected) list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_SELECTED), px(3));
     else if (ImGui::IsItemHovered())
         list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_BUTTON), px(3));
     ImFont *font = wr_gui_current()->fonts[WR_FONT_ICON];
+    const ImU32 ink = wr_gui_colour_of(selected ? WR_COLOUR_STRONG : WR_COLOUR_TEXT);
+    const float drawn = roundf(wr_gui_size_of(font)), edge = roundf((side - drawn) / 2);
+    if (wr_gui_draw_icon(list, icon, ImVec2(at.x + edge, at.y + edge), drawn, ink)) return pressed;
     icon = wr_gui_icon(icon);
     ImVec2 size = font->CalcTextSizeA(wr_gui_size_of(font), FLT_MAX, 0, icon);
     list->AddText(font, wr_gui_size_of(font),
                   ImVec2(at.x + roundf((side - size.x) / 2), at.y + roundf((side - size.y) / 2)),
-                  wr_gui_colour_of(selected ? WR_COLOUR_STRONG : WR_COLOUR_TEXT), icon);
+                  ink, icon);
     return pressed;
 }
 WR_CAUGHT(false)
@@ -418,6 +453,7 @@ try {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(3)));
     wr_gui_row_room(ImGui::CalcTextSize(text, nullptr, true).x + px(16));
     bool pressed = ImGui::Button(text);
+    wr_gui_stop(WR_STOP_PRESS, false);
     wr_gui_fits_window(label);
     ImGui::PopStyleVar(2);
     ImGui::PopStyleColor(2);

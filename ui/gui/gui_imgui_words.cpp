@@ -8,7 +8,7 @@
 #include <string.h>
 
 void (*wr_gui_cut)(const char *text, double width, double room);
-bool wr_gui_tells_all;
+bool wr_gui_tells_all, wr_gui_unseen;
 
 extern "C" void wr_gui_as_it_is(bool on)
 {

@@ -52,6 +52,7 @@ typedef uint32_t WrColour; /* 0xAARRGGBB */
     X(GROUND, 0xff2e2e2eu, 0xfff2f2f2u, 0xff181818u) /* behind its code */                         \
     X(MARKED, 0xff34485eu, 0xffffe9a8u, 0xff004a9cu) /* what was searched for */                   \
     X(LINE, 0xff1a1a1au, 0xffc2c2c2u, 0xffffffffu)   /* between bars and views */                  \
+    X(FOCUS, 0xff8fd0ffu, 0xff0a4fa8u, 0xff00e5ffu)  /* round what the keys are for */             \
     X(LIGHT, 0xffffd873u, 0xffffd873u, 0xffffd873u)  /* the light on the patch */
 
 typedef enum WrThemeColour {
@@ -124,5 +125,6 @@ extern const WrColour wr_series[WR_SERIES]; /* blue, orange, green, violet, red,
 #define WR_COLOUR_LINK wr_theme_colour(WR_THEMED_LINK)
 #define WR_COLOUR_GROUND wr_theme_colour(WR_THEMED_GROUND)
 #define WR_COLOUR_MARKED wr_theme_colour(WR_THEMED_MARKED)
+#define WR_COLOUR_FOCUS wr_theme_colour(WR_THEMED_FOCUS)
 #define WR_COLOUR_LINE wr_theme_colour(WR_THEMED_LINE)
 #define WR_COLOUR_LIGHT wr_theme_colour(WR_THEMED_LIGHT)

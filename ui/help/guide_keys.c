@@ -109,12 +109,25 @@ static const Row patch[] = { { "*Drag*", "turn it" },
                              { "*Space over it*", "pause and go on turning" },
                              { NULL, NULL } };
 
+static const Row keyboard[] = {
+    { WR_ACT(part_next), "to the next part of the window: bars, panels, what lies on the views" },
+    { WR_ACT(part_back), "to the part before" },
+    { WR_ACT(menus), "to the menus; so does a tap on Alt" },
+    { "*Tab, Shift+Tab*", "then: along what can be pressed, a ring shows where" },
+    { "*Arrows*", "change a number, a list, a row of choices; Shift by less; Delete resets" },
+    { "*Space, Enter*", "press it, or type into it" },
+    { "*Menu key*", "what the right button does" },
+    { "*Escape*", "the keys are the canvas's again" },
+    { NULL, NULL }
+};
+
 static const struct {
     const char *title;
     const Row *rows;
-} groups[] = { { "Painting", painting }, { "Brushes", brushes }, { "Tools", tools },
-               { "Tablet", tablet },     { "Looking", looking }, { "Selecting and layers", layers },
-               { "The patch", patch } };
+} groups[] = { { "Painting", painting }, { "Brushes", brushes },
+               { "Tools", tools },       { "Tablet", tablet },
+               { "Looking", looking },   { "Selecting and layers", layers },
+               { "The patch", patch },   { "Without the pointer", keyboard } };
 #define GROUP_COUNT (sizeof groups / sizeof *groups)
 
 static void add_head(WrText *text, const char *title)

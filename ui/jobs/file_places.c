@@ -14,12 +14,12 @@ static bool is_folder(const char *path)
 }
 
 /* Takes both strings. */
-static void add(WrFilePlace *places, int *count, char *label, char *path)
+static void add(WrFilePlace *places, int *count, char *label, char *path, bool named)
 {
     bool wanted = *count < WR_FILE_PLACES && is_folder(path);
     for (int i = 0; i < *count && wanted; i++) wanted = strcmp(places[i].path, path) != 0;
     if (wanted) {
-        places[(*count)++] = (WrFilePlace){ label, path };
+        places[(*count)++] = (WrFilePlace){ label, path, named };
         return;
     }
     wr_free(label);
@@ -30,12 +30,12 @@ int wr_file_places(const char *home, char *const recent[], WrFilePlace places[WR
 {
     static const char *const own[] = { "Documents", "Pictures", "Downloads" };
     int count = 0;
-    if (home && home[0]) add(places, &count, wr_strdup("Home"), wr_strdup(home));
+    if (home && home[0]) add(places, &count, wr_strdup("Home"), wr_strdup(home), true);
     for (size_t i = 0; home && home[0] && i < sizeof own / sizeof *own; i++)
-        add(places, &count, wr_strdup(own[i]), wr_path_join(home, own[i]));
+        add(places, &count, wr_strdup(own[i]), wr_path_join(home, own[i]), true);
     for (int i = 0; recent[i]; i++) {
         char *folder = wr_path_folder(recent[i]), *slash = strrchr(folder, '/');
-        add(places, &count, wr_strdup(slash && slash[1] ? slash + 1 : folder), folder);
+        add(places, &count, wr_strdup(slash && slash[1] ? slash + 1 : folder), folder, false);
     }
     return count;
 }
@@ -64,9 +64,11 @@ const char *const *wr_file_endings(WrFilePurpose purpose)
     static const char *const pictures[] = { PICTURES, NULL };
     static const char *const stamps[] = { PICTURES, "gbr", "gih", "pat", NULL };
     static const char *const documents[] = { PICTURES, "wrinkle", "ora", NULL };
+    static const char *const models[] = { "gltf", "glb", NULL };
     if (wr_files_writes(purpose) || purpose == WR_FILE_GENERATE || purpose == WR_FILE_PRESET)
         return NULL;
     if (purpose == WR_FILE_STAMP) return stamps;
+    if (purpose == WR_FILE_GLTF) return models;
     return purpose == WR_FILE_OPEN || purpose == WR_FILE_TABLE ? documents : pictures;
 }
 

@@ -6,6 +6,7 @@
 
 typedef struct WrFilePlace {
     char *label, *path; /* owned */
+    bool named;         /* its label is a word of the window, not the folder's name */
 } WrFilePlace;
 #define WR_FILE_PLACES 9
 

@@ -57,6 +57,8 @@ struct WrFiles {
     bool all;   /* they are shown too */
     bool focus;
     char trouble[512];
+    WrFilePlace places[WR_FILE_PLACES]; /* owned; as they were when it was opened */
+    int place_count;                    /* -1: they are to be looked up */
 };
 
 WR_ROWS(purposes);
@@ -79,6 +81,7 @@ static const struct {
     [WR_ROW(WR_FILE_ROUGHNESS)] = { "Choose a picture of roughness", "Choose", NULL },
     [WR_ROW(WR_FILE_METALNESS)] = { "Choose a picture of metalness", "Choose", NULL },
     [WR_ROW(WR_FILE_SURROUND)] = { "Choose a picture of surroundings", "Choose", NULL },
+    [WR_ROW(WR_FILE_GLTF)] = { "Take the materials of a glTF", "Take", NULL },
     [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* its name is typed */
 };
 WR_ROWS_END(purposes, WR_FILE_PURPOSES);
@@ -105,11 +108,18 @@ static void free_entries(WrFiles *files)
     wr_array_free(&files->entries);
 }
 
+/* They are looked up anew when the panel is shown. */
+static void forget_places(WrFiles *files)
+{
+    wr_file_places_free(files->places, files->place_count);
+    files->place_count = -1;
+}
+
 WrFiles *wr_files_new(Uint32 done_event)
 {
     WrFiles *files = wr_alloc(1, sizeof *files);
     files->done_event = done_event;
-    files->pipe = -1;
+    files->pipe = files->place_count = -1;
     return files;
 }
 
@@ -300,6 +310,7 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
         wr_image_warm_writing();
     char *from = folder ? wr_strdup(folder) : wr_path_real(".");
     char *start_at = wr_path_join(from ? from : "/", name);
+    forget_places(files);
     wr_free(files->from);
     files->from = start_at;
     snprintf(files->field, sizeof files->field, "%s", name);
@@ -364,6 +375,7 @@ void wr_files_free(WrFiles *files)
     free_ask(&files->ask);
     wr_free(files->from);
     free_entries(files);
+    forget_places(files);
     wr_free(files);
 }
 
@@ -416,23 +428,26 @@ WrFilePurpose wr_files_purpose(const WrFiles *files)
 /* Folders to go to at once, in rows as long as the dialog is wide. */
 static void show_places(WrFiles *files, char *const recent[])
 {
-    WrFilePlace places[WR_FILE_PLACES];
-    int count = wr_file_places(getenv("HOME"), recent, places), chosen = -1;
+    if (files->place_count < 0)
+        files->place_count = wr_file_places(getenv("HOME"), recent, files->places);
+    const WrFilePlace *places = files->places;
+    int count = files->place_count, chosen = -1;
     double left = wr_gui_available();
     for (int i = 0; i < count; i++) {
-        double wide = wr_gui_text_width(WR_FONT_TEXT, wr_words(places[i].label)) + wr_gui_px(46);
+        wr_gui_as_it_is(!places[i].named); /* a folder may be called as something here is */
+        double wide = wr_gui_text_width(WR_FONT_TEXT, places[i].label) + wr_gui_px(46);
         if (i > 0 && wide < left) wr_gui_same_line(6);
         else left = wr_gui_available();
         left -= wide;
         wr_gui_push_id(i);
         if (wr_gui_chip(WR_ICON_FOLDER, places[i].label)) chosen = i;
+        wr_gui_as_it_is(false);
         wr_gui_pop_id();
         wr_gui_as_it_is(true);
         wr_gui_tip(places[i].path);
         wr_gui_as_it_is(false);
     }
     if (chosen >= 0) go_to(files, places[chosen].path);
-    wr_file_places_free(places, count);
 }
 
 int wr_files_panel(WrFiles *files, const char *note, char *const recent[])

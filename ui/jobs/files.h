@@ -22,6 +22,7 @@ typedef enum WrFilePurpose {
     WR_FILE_ROUGHNESS,
     WR_FILE_METALNESS,
     WR_FILE_SURROUND,
+    WR_FILE_GLTF,   /* its materials and pictures */
     WR_FILE_PRESET, /* never asked for by itself: a preset's name is typed */
     WR_FILE_PURPOSES
 } WrFilePurpose;
@@ -63,5 +64,5 @@ bool wr_files_writes(WrFilePurpose purpose); /* it is a file to be written */
 
 WrFilePurpose wr_files_purpose(const WrFiles *files);
 /* The panel of our own, as a dialog, with a note above its buttons or "". recent: paths whose folders it offers, NULL ends
- * them. 0: still open, 1: chosen (wr_files_answer), -1: cancelled. */
+ * them; they are looked up when it opens. 0: still open, 1: chosen (wr_files_answer), -1: cancelled. */
 int wr_files_panel(WrFiles *files, const char *note, char *const recent[]);

@@ -123,16 +123,17 @@ static bool view_row(WrApp *app, int i)
 static void views(WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);
+    wr_gui_label("Views");
+    const bool keep = wr_gui_chip(WR_ICON_PLUS, "Keep this view");
+    wr_gui_tip("Keep how the patch is looked at now, in the document; `camera save NAME` keeps it "
+               "under a name of your own");
     for (int i = 0; i < scene->view_count; i++) {
         wr_gui_push_id(1000 + i);
         const bool changed = view_row(app, i);
         wr_gui_pop_id();
         if (changed) return;
     }
-    wr_gui_label("Views");
-    if (wr_gui_chip(WR_ICON_PLUS, "Keep this view")) wr_action_run(app, WR_ACT(view_keep));
-    wr_gui_tip("Keep how the patch is looked at now, in the document; `camera save NAME` keeps it "
-               "under a name of your own");
+    if (keep) wr_action_run(app, WR_ACT(view_keep));
 }
 
 /* ---- behind ---- */

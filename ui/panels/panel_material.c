@@ -1,4 +1,6 @@
 /* The scene's panel: bump and material. */
+#include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
@@ -84,6 +86,9 @@ static void material(WrApp *app)
     wr_gui_space(8);
     wr_gui_heading("MATERIAL");
     wr_panel_presets(app);
+    wr_gui_label("From a file");
+    if (wr_gui_chip(WR_ICON_FOLDER, "glTF...")) wr_action_run(app, WR_ACT(gltf));
+    wr_gui_tip("Material and pictures of a .gltf or .glb file, for the object at hand");
     reflection(app);
     const WrReflectInfo *model = &wr_reflects[wr_app_scene(app)->material.model];
     for (int i = 0; (param = wr_scene_param("material", NULL, i)) != NULL; i++)

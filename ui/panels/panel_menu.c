@@ -33,6 +33,7 @@ static const char *const file_menu[] = { WR_ACT(new),
                                          WR_ACT(save_history),
                                          "-",
                                          WR_ACT(import),
+                                         WR_ACT(gltf),
                                          WR_ACT(export),
                                          WR_ACT(maps),
                                          WR_ACT(render),
@@ -205,6 +206,9 @@ static const char *const view_menu[] = { WR_ACT(look_grey),
                                          WR_ACT(view_canvas),
                                          WR_ACT(view_patch),
                                          WR_ACT(panels),
+                                         WR_ACT(part_next),
+                                         WR_ACT(part_back),
+                                         WR_ACT(menus),
                                          WR_ACT(fullscreen),
                                          "theme",
                                          "scale",
@@ -259,6 +263,7 @@ void wr_menu_item(WrApp *app, const char *name)
     if (wr_gui_menu_item(action->label, wr_keys_label(app->keys, name, keys), checked,
                          wr_action_can(app, action)))
         wr_action_run(app, name);
+    wr_gui_tip(wr_action_help(app, action));
 }
 
 /* Table operations, in the order of their table: all, or those that a layer can be. */

@@ -264,13 +264,13 @@ static void surface(WrApp *app)
 
 void wr_panel_scene(WrApp *app)
 {
-    wr_panel_objects(app);
-    surface(app);
-    wr_panel_material(app);
-    wr_panel_maps(app);
-    wr_panel_solid(app);
-    wr_panel_lights(app);
-    wr_panel_camera(app);
-    wr_panel_cell(app);
+    static void (*const sections[])(
+        WrApp * app) = { wr_panel_objects, surface,         wr_panel_material, wr_panel_maps,
+                         wr_panel_solid,   wr_panel_lights, wr_panel_camera,   wr_panel_cell };
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
+        wr_gui_push_id((int)i); /* a strength here is not the strength there */
+        sections[i](app);
+        wr_gui_pop_id();
+    }
     wr_gui_space(8);
 }

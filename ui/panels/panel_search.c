@@ -27,25 +27,28 @@
 
 typedef struct Found {
     char name[64], label[80];
+    const char *help; /* a line that says what it does; a table's */
     int score;
 } Found;
 
-/* Keep the best, those of equal score in the order of their table. also: what it answers to besides its label,
-   or NULL. */
-static void offer(Found found[FOUND_MAX], int *count, const char *name, const char *label,
-                  const char *also, const char *query)
+/* Keep the best, those of equal score in the order of their table. also: what it answers to besides its label and its
+   help, or NULL. */
+static void offer(Found found[FOUND_MAX], int *count, const Found *one, const char *also,
+                  const char *query)
 {
-    int score = wr_search_score(wr_words(label), query), at = *count;
-    if (score == 0) score = wr_search_score(label, query); /* in English too */
+    int score = wr_search_score(wr_words(one->label), query), at = *count;
+    if (score == 0) score = wr_search_score(one->label, query); /* in English too */
     if (score == 0 && also && wr_search_score(also, query) > 0) score = 1;
+    if (score == 0 &&
+        (wr_search_score(wr_words(one->help), query) > 0 || wr_search_score(one->help, query) > 0))
+        score = 1;
     if (score == 0) return;
     while (at > 0 && found[at - 1].score < score) at--;
     if (at >= FOUND_MAX) return;
     int last = *count < FOUND_MAX ? *count : FOUND_MAX - 1;
     memmove(found + at + 1, found + at, (size_t)(last - at) * sizeof *found);
+    found[at] = *one;
     found[at].score = score;
-    snprintf(found[at].name, sizeof found[at].name, "%.60s", name);
-    snprintf(found[at].label, sizeof found[at].label, "%.78s", label);
     if (*count < FOUND_MAX) (*count)++;
 }
 
@@ -54,28 +57,35 @@ static int find_actions(const WrApp *app, Found found[FOUND_MAX])
     int count = 0;
     const char *query = app->finder->text;
     for (const WrAction *a = app->roster->actions; a->name; a++)
-        if (strcmp(a->name, WR_ACT(search)) != 0)
-            offer(found, &count, a->name, a->label, NULL, query);
+        if (strcmp(a->name, WR_ACT(search)) != 0) {
+            Found one = { .help = wr_action_help(app, a) };
+            snprintf(one.name, sizeof one.name, "%.60s", a->name);
+            snprintf(one.label, sizeof one.label, "%.78s", a->label);
+            offer(found, &count, &one, NULL, query);
+        }
     for (const WrOpInfo *op = wr_ops; op->name; op++) {
-        char name[64], label[80], also[120];
-        snprintf(name, sizeof name, "adjust_%.50s", op->name);
-        snprintf(label, sizeof label, "%.60s...", wr_words(op->label));
+        char also[120];
+        Found one = { .help = op->help };
+        snprintf(one.name, sizeof one.name, "adjust_%.50s", op->name);
+        snprintf(one.label, sizeof one.label, "%.60s...", wr_words(op->label));
         snprintf(also, sizeof also, "%.60s %.40s", op->label, op->name);
-        offer(found, &count, name, label, also, query);
+        offer(found, &count, &one, also, query);
         if (op->reshapes) continue;
-        snprintf(name, sizeof name, "filter_%.50s", op->name);
-        snprintf(label, sizeof label, wr_words("Filter layer: %s..."), wr_words(op->label));
-        offer(found, &count, name, label, also, query);
+        snprintf(one.name, sizeof one.name, "filter_%.50s", op->name);
+        snprintf(one.label, sizeof one.label, wr_words("Filter layer: %s..."), wr_words(op->label));
+        offer(found, &count, &one, also, query);
     }
     for (const WrFamily *f = wr_families; f->name; f++)
         for (const WrGenerator *g = f->rows; g->family; g++) {
-            char name[WR_GENERATE_ACTION], label[80], also[300];
+            char name[WR_GENERATE_ACTION], also[300];
+            Found one = { .help = g->help };
             wr_generate_action(g, name);
-            snprintf(label, sizeof label, g->name ? "%.30s: %.40s" : "%.30s", wr_words(f->label),
-                     wr_words(g->label));
+            snprintf(one.name, sizeof one.name, "%.60s", name);
+            snprintf(one.label, sizeof one.label, g->name ? "%.30s: %.40s" : "%.30s",
+                     wr_words(f->label), wr_words(g->label));
             snprintf(also, sizeof also, "%.30s %.30s %.30s %.130s", f->name, g->name ? g->name : "",
                      g->label, g->help);
-            offer(found, &count, name, label, also, query);
+            offer(found, &count, &one, also, query);
         }
     return count;
 }
@@ -86,10 +96,10 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
     const char *query = app->finder->text;
     int count = find_actions(app, found);
     for (const WrCommand *const *c = wr_commands; *c; c++) {
-        char name[64], label[80];
-        snprintf(name, sizeof name, COMMAND "%.40s", (*c)->name);
-        snprintf(label, sizeof label, "%.20s: %s", (*c)->name, wr_words((*c)->help));
-        offer(found, &count, name, label, (*c)->help, query);
+        Found one = { .help = (*c)->help };
+        snprintf(one.name, sizeof one.name, COMMAND "%.40s", (*c)->name);
+        snprintf(one.label, sizeof one.label, "%.20s: %.55s", (*c)->name, wr_words((*c)->help));
+        offer(found, &count, &one, NULL, query);
     }
     return count;
 }
@@ -151,7 +161,16 @@ static bool row(const WrApp *app, const Found *found, int i, bool chosen)
     wr_gui_row_at(wr_gui_row_width() - wide - wr_gui_px(14), 0);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, keys);
     wr_gui_row_end();
+    wr_gui_tip(found->help);
     return r.clicked && enabled;
+}
+
+/* What the chosen one does, in two lines whether it takes them or not: the dialog keeps its size. */
+static void help_line(const Found *found)
+{
+    wr_gui_list_begin("help", 2.6 * wr_gui_line_height(WR_FONT_SMALL) + wr_gui_px(16));
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, found->help);
+    wr_gui_list_end();
 }
 
 void wr_dialog_search(WrApp *app)
@@ -185,6 +204,7 @@ void wr_dialog_search(WrApp *app)
         if (row(app, &found[i], i, i == finder->chosen)) go = i;
     if (count == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No action has these words.");
     wr_gui_list_end();
+    if (count > 0) help_line(&found[finder->chosen]);
     /* Enter with nothing typed would run whatever stands first. */
     finder->empty = enter && !finder->text[0] && finder->chosen == 0;
     if (enter && count > 0 && !finder->empty) go = finder->chosen;

@@ -291,11 +291,14 @@ static void numbers(const WrApp *app, WrSheetState *sheet)
     wr_certificate_text(&look->seam, &seam);
     const double texels =
         (double)wr_field_width(wr_app_field(app)) * wr_field_height(wr_app_field(app));
-    snprintf(
-        line, sizeof line, "Heights %.4g to %.4g, %.3g %% clipped; all files up to %s; seam %s",
-        look->histogram.low, look->histogram.high, 100.0 * (double)look->histogram.outside / texels,
-        bytes, wr_certificate_word(wr_certificate_order(&look->seam)));
+    snprintf(line, sizeof line,
+             wr_words("Heights %.4g to %.4g, %.3g %% clipped; all files up to %s; seam %s"),
+             look->histogram.low, look->histogram.high,
+             100.0 * (double)look->histogram.outside / texels, bytes,
+             wr_words(wr_certificate_word(wr_certificate_order(&look->seam))));
+    wr_gui_as_it_is(true); /* it is put together */
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_TEXT, line, wr_gui_available());
+    wr_gui_as_it_is(false);
     wr_gui_tip(wr_text_get(&seam));
     wr_text_fini(&seam);
 }

@@ -211,7 +211,10 @@ void wr_patch_update(WrApp *app)
     WrPatch *p = app->patch;
     double now = wr_clock_seconds();
     take_picture(app);
-    wr_patch_cube_update(app, false);
+    if (!app->shown) {
+        wr_patch_commit_late(app);
+        wr_patch_cube_update(app, false);
+    }
     hold_still(app);
     if (p->zoom_commit_at > 0.0 && now >= p->zoom_commit_at) wr_patch_commit_zoom(app, true);
     if (app->layout->patch.w <= 0 || !app->visible || app->drawn_at == 0.0) return;
@@ -344,12 +347,15 @@ void wr_patch_overlay(WrApp *app)
 
 static void settle(WrApp *app)
 {
+    if (app->shown) return;
+    wr_patch_commit_late(app);
     wr_patch_cube_update(app, true);
     wr_patch_commit_zoom(app, true);
 }
 
 static void another(WrApp *app)
 {
+    app->patch->meanwhile = WR_PATCH_NOTHING;
     wr_patch_commit_zoom(app, false);
 }
 
@@ -361,6 +367,7 @@ static void forget(WrApp *app)
 const WrPart wr_part_patch = { .update = wr_patch_update,
                                .next_time = wr_patch_next_time,
                                .meanwhile = wr_patch_update,
+                               .look = wr_patch_look,
                                .draw = wr_patch_draw,
                                .settle = settle,
                                .another = another,

@@ -18,6 +18,14 @@ typedef struct WrField WrField;
 typedef struct WrPointer WrPointer;
 typedef struct WrScene WrScene;
 
+/* What was done to the view while a command ran. */
+typedef enum WrPatchLate {
+    WR_PATCH_NOTHING,
+    WR_PATCH_HELD,   /* it is held still */
+    WR_PATCH_CAMERA, /* app->live has another camera, */
+    WR_PATCH_TURNED  /* or another turn of the object: a command afterwards */
+} WrPatchLate;
+
 typedef struct WrPatch {
     SDL_Texture *texture; /* of the newest picture; owned */
     int texture_w, texture_h;
@@ -57,6 +65,7 @@ typedef struct WrPatch {
     double zoom_commit_at; /* clock at which a zoom by the wheel becomes a command; 0: none */
     bool zoom_angle;       /* it is of the angle of view */
     WrPatchCube cube;
+    WrPatchLate meanwhile;
 } WrPatch;
 
 void wr_patch_update(WrApp *app); /* wish for what is wanted; take what is ready */
@@ -74,6 +83,9 @@ void wr_patch_commit_zoom(WrApp *app, bool now);
 /* The camera, or the object's turn, as it stands in the live scene, becomes a command. */
 void wr_patch_commit_camera(WrApp *app);
 void wr_patch_commit_turn(WrApp *app);
+/* patch_meanwhile.c: an event while a command runs, true if it was for looking at the patch; and when that is done. */
+bool wr_patch_look(WrApp *app, const SDL_Event *event);
+void wr_patch_commit_late(WrApp *app);
 /* Where its camera stands, as the patch is turned now. False: there is none, or no room. */
 bool wr_patch_place(const WrApp *app, WrPlacement *out);
 void wr_patch_free(WrApp *app);

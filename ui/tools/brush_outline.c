@@ -12,6 +12,7 @@
 #include "ui/tools/stroke_hand.h"
 
 #include "base/array.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "brush/brush.h"
 #include "brush/symmetry.h"
@@ -43,7 +44,7 @@ WrBrushMark wr_brush_mark(const WrApp *app)
     const WrBrush *brush = hand->drawing ? &hand->now : &app->settings->brush;
     WrBrushMark mark = { .radius = brush->radius,
                          .aspect = brush->aspect > 1.0 ? brush->aspect : 1.0,
-                         .turn = brush->angle_deg / 57.29577951308232,
+                         .turn = brush->angle_deg * WR_RAD_PER_DEG,
                          .square = brush->tip != NULL,
                          .erases = brush->mode == WR_BRUSH_ERASE };
     bool sized = brush->pressure == WR_PRESSURE_SIZE || brush->pressure == WR_PRESSURE_BOTH;

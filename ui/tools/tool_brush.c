@@ -16,6 +16,7 @@
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 
+#include "base/exactmath.h"
 #include "brush/brush.h"
 #include "field/field.h"
 #include "field/scheme.h"
@@ -105,7 +106,7 @@ static void aim(WrApp *app, const WrPointer *at)
     const WrPointer *from = &app->hand->start;
     double dx = at->x - from->x, dy = at->y - from->y;
     if (at->mods & (WR_MOD_CTRL | WR_MOD_SHIFT)) {
-        double step = SNAP_DEG / 57.29577951308232, turn = rint(atan2(dy, dx) / step) * step;
+        double step = SNAP_DEG * WR_RAD_PER_DEG, turn = rint(atan2(dy, dx) / step) * step;
         double way = dx * cos(turn) + dy * sin(turn);
         dx = way * cos(turn);
         dy = way * sin(turn);

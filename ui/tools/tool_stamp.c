@@ -25,6 +25,7 @@
 
 #include "base/array.h"
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "brush/brush.h"
@@ -193,7 +194,7 @@ static void drag(WrApp *app, const WrPointer *at)
     draw->dragged = true;
     double to_x, to_y;
     wr_view_step_back(app->view, dx, dy, &to_x, &to_y);
-    double turn = atan2(-to_y, to_x) * 57.29577951308232;
+    double turn = atan2(-to_y, to_x) * WR_DEG_PER_RAD;
     if (at->mods & WR_MOD_SHIFT) turn = rint(turn / 15.0) * 15.0;
     draw->angle_deg = wr_line_round(turn, 1);
     draw->radius = wr_line_round(fmax(way / app->view->zoom, 0.5), 1);
@@ -239,7 +240,7 @@ static bool wheel(WrApp *app, double steps)
 static void overlay(WrApp *app)
 {
     WrSelectPoint points[48];
-    double u, v, r = radius_of(app), a = app->stamp->angle_deg / 57.29577951308232;
+    double u, v, r = radius_of(app), a = app->stamp->angle_deg * WR_RAD_PER_DEG;
     int count = app->stamp->tip ? 4 : 48, w = 1, h = 1;
     if (app->stamp->tip) wr_tip_size(app->stamp->tip, 0, &w, &h);
     double longer = w > h ? w : h;
@@ -314,7 +315,7 @@ static void options(WrApp *app)
 
 const WrTool wr_tool_stamp = {
     .action = WR_ACT(stamp),
-    .icon = WR_ICON_SEAL,
+    .icon = WR_ICON_STAMP,
     .help = "Press where a picture goes, drag for its turn and size, let go; the wheel sizes it.",
     .press = press,
     .drag = drag,

@@ -17,6 +17,7 @@
 #include "ui/views/grid.h"
 #include "ui/views/overlay.h"
 
+#include "base/exactmath.h"
 #include "base/text.h"
 #include "command/session.h"
 #include "document/document.h"
@@ -25,7 +26,6 @@
 #include <SDL.h>
 #include <math.h>
 
-#define DEGREES 57.29577951308232
 #define NEAR_UNITS 9.0   /* of a handle */
 #define SNAP_UNITS 6.0   /* from the cell's edges and middles */
 #define SNAP_DEGREES 2.0 /* from quarter turns */
@@ -64,7 +64,7 @@ static void place_of(const WrTransformHand *hand, const WrTransformValues *v, do
 {
     double x = (along - 0.5) * hand->box.count_i * v->scale[0];
     double y = (down - 0.5) * hand->box.count_j * v->scale[1];
-    double c = cos(v->turn / DEGREES), s = sin(v->turn / DEGREES);
+    double c = cos(v->turn * WR_RAD_PER_DEG), s = sin(v->turn * WR_RAD_PER_DEG);
     out[0] = hand->box.i + 0.5 * hand->box.count_i + v->move[0] + c * x + s * y;
     out[1] = hand->box.j + 0.5 * hand->box.count_j - v->move[1] - s * x + c * y;
 }
@@ -191,7 +191,7 @@ static bool find_handle(const WrApp *app, const double at[2], int side[2])
 /* Along the piece's own axes. */
 static void to_own(const WrTransformValues *v, const double at[2], double out[2])
 {
-    double c = cos(v->turn / DEGREES), s = sin(v->turn / DEGREES);
+    double c = cos(v->turn * WR_RAD_PER_DEG), s = sin(v->turn * WR_RAD_PER_DEG);
     out[0] = c * at[0] - s * at[1];
     out[1] = s * at[0] + c * at[1];
 }
@@ -252,7 +252,7 @@ static void turn(WrApp *app, const WrPointer *at, const double here[2])
 {
     WrTransformHand *hand = app->transform;
     double by = atan2(-here[1], here[0]) - atan2(-hand->from[1], hand->from[0]);
-    double deg = hand->first.turn + by * DEGREES, quarter = rint(deg / 90.0) * 90.0;
+    double deg = hand->first.turn + by * WR_DEG_PER_RAD, quarter = rint(deg / 90.0) * 90.0;
     if (at->mods & WR_MOD_SHIFT) deg = rint(deg / 15.0) * 15.0;
     else if (!(at->mods & WR_MOD_ALT) && fabs(deg - quarter) < SNAP_DEGREES) deg = quarter;
     else deg = wr_line_round(deg, 1);

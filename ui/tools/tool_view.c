@@ -9,6 +9,8 @@
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 
+#include "base/exactmath.h"
+
 #include <math.h>
 
 void wr_tool_pan_drag(WrApp *app, const WrPointer *at)
@@ -25,7 +27,7 @@ void wr_tool_turn_drag(WrApp *app, const WrPointer *at)
     double x = view->x + view->w / 2.0, y = view->y + view->h / 2.0;
     const WrPointer *from = &app->hand->start;
     double turn = atan2(at->y - y, at->x - x) - atan2(from->y - y, from->x - x);
-    double degrees = app->hand->turn_from + turn * 57.29577951308232;
+    double degrees = app->hand->turn_from + turn * WR_DEG_PER_RAD;
     if (at->mods & WR_MOD_CTRL) degrees = SNAP_DEG * rint(degrees / SNAP_DEG);
     wr_view_turn_at(view, x, y, degrees);
     wr_app_redraw(app);
