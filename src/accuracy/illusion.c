@@ -210,8 +210,7 @@ static bool any_to_move(const WrIllusionRequest *request, WrError *err)
     const WrScene *scene = request->scene;
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         const WrScene *object = wr_scene_object(scene, i);
-        if (!object->hidden && object->height != 0 && !wr_shape_endless(&object->shape) &&
-            !wr_surfaces[object->shape.kind]->held)
+        if (!object->hidden && object->height != 0 && !wr_shape_unmoved(&object->shape))
             return true;
     }
     return wr_fail(err,

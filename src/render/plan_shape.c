@@ -14,10 +14,8 @@ WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanAsk *ask, const ch
     const WrScene *scene = ask->scene;
     (void)plan;
     if (!scene->displaced) return say(WR_VERDICT_NONE, why, "the table turns the normal alone");
-    if (surface_of(ask)->held)
-        return say(WR_VERDICT_NONE, why, "meshes and patches out of files are not displaced");
-    if (wr_shape_endless(&scene->shape))
-        return say(WR_VERDICT_NONE, why, "a plane without end is not displaced");
+    const char *reason = wr_shape_unmoved(&scene->shape);
+    if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
     if (scene->analytic.kind == WR_ANALYTIC_OFF && ask->facts.zero)
         return say(WR_VERDICT_SPARED, why, "the table is 0 everywhere");
@@ -33,25 +31,13 @@ void wr_settle_displaced(WrPlan *plan, const WrPlanAsk *ask)
     if (runs(plan, WR_EFFECT_DISPLACED)) plan->dice = ask->dials->dice;
 }
 
-/* Why rays end at the base whatever the table says, or NULL. */
-static const char *no_parallax(const WrPlanAsk *ask)
-{
-    int columns, rows;
-    wr_surface_cells(&ask->scene->shape, &columns, &rows);
-    if (surface_of(ask)->held) return "meshes and patches out of files have none";
-    if (columns * rows != 1 || surface_of(ask)->faces != 1)
-        return "faces that meet at edges have none";
-    if (wr_shape_endless(&ask->scene->shape)) return "a plane without end has none";
-    return NULL;
-}
-
 WrVerdict wr_decide_parallax(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
     if (!scene->parallax) return say(WR_VERDICT_NONE, why, "rays end at the base");
     if (runs(plan, WR_EFFECT_DISPLACED))
         return say(WR_VERDICT_NONE, why, "the surface itself is displaced: rays meet its facets");
-    const char *reason = no_parallax(ask);
+    const char *reason = wr_shape_without_parallax(&scene->shape);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
     if (scene->analytic.kind == WR_ANALYTIC_OFF && ask->facts.zero)

@@ -43,8 +43,7 @@ void wr_raised_fini(WrRaised *raised)
 
 bool wr_is_raised(const WrScene *scene)
 {
-    return scene->displaced && scene->height != 0 && !wr_surfaces[scene->shape.kind]->held &&
-           !wr_shape_endless(&scene->shape);
+    return scene->displaced && scene->height != 0 && !wr_shape_unmoved(&scene->shape);
 }
 
 double wr_raised_amplitude(const WrAnalytic *formula)

@@ -19,11 +19,8 @@ typedef struct Way {
 
 bool wr_reference_has_parallax(const WrScene *scene)
 {
-    int columns, rows;
-    wr_surface_cells(&scene->shape, &columns, &rows);
     return scene->parallax && !wr_reference_displaced(scene) && scene->height != 0 &&
-           !wr_surfaces[scene->shape.kind]->held && columns * rows == 1 &&
-           wr_surfaces[scene->shape.kind]->faces == 1 && !wr_shape_endless(&scene->shape);
+           !wr_shape_without_parallax(&scene->shape);
 }
 
 /* The spline through a table stays within its range and as much again on both sides. */

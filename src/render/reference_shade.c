@@ -143,8 +143,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
 
 bool wr_reference_displaced(const WrScene *scene)
 {
-    return scene->displaced && scene->height != 0 && !wr_surfaces[scene->shape.kind]->held &&
-           !wr_shape_endless(&scene->shape);
+    return scene->displaced && scene->height != 0 && !wr_shape_unmoved(&scene->shape);
 }
 
 static void height_of(const void *ctx, double u, double v, double *f, double *fu, double *fv)

@@ -165,13 +165,13 @@ static bool with_rays(const WrScene *scene)
 
 static bool with_dice(const WrScene *scene)
 {
-    return scene->displaced && !wr_surfaces[scene->shape.kind]->held;
+    return scene->displaced && !wr_shape_unmoved(&scene->shape);
 }
 
 static bool with_steps(const WrScene *scene)
 {
-    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
-    return scene->parallax && !scene->displaced && info->faces == 1 && !info->held;
+    const bool displaced = scene->displaced && !wr_shape_unmoved(&scene->shape);
+    return scene->parallax && !displaced && !wr_shape_without_parallax(&scene->shape);
 }
 
 static bool with_facets(const WrScene *scene)

@@ -166,6 +166,24 @@ void wr_surface_cells(const WrShape *shape, int *columns, int *rows)
     *rows = v > 1 ? (int)lround(v) : 1;
 }
 
+const char *wr_shape_unmoved(const WrShape *shape)
+{
+    if (wr_surfaces[shape->kind]->held) return "meshes and patches out of files are not displaced";
+    if (wr_shape_endless(shape)) return "a plane without end is not displaced";
+    return NULL;
+}
+
+const char *wr_shape_without_parallax(const WrShape *shape)
+{
+    int columns, rows;
+    wr_surface_cells(shape, &columns, &rows);
+    if (wr_surfaces[shape->kind]->held) return "meshes and patches out of files have none";
+    if (columns * rows != 1 || wr_surfaces[shape->kind]->faces != 1)
+        return "faces that meet at edges have none";
+    if (wr_shape_endless(shape)) return "a plane without end has none";
+    return NULL;
+}
+
 int wr_surface_face(const WrShape *shape, int face, double u, double v)
 {
     int columns, rows;

@@ -148,6 +148,10 @@ WrSurfaceCell wr_surface_cell(const WrShape *shape, int face);
 /* Does it go on beyond u, v 0..1, as far as WR_ENDLESS either way? Beyond that float knows no place within the table. */
 bool wr_shape_endless(const WrShape *shape);
 #define WR_ENDLESS 0x1p20
+/* Why a table cannot move its points (displacement), or NULL: it can. */
+const char *wr_shape_unmoved(const WrShape *shape);
+/* Why rays cannot go on from it to a relief over it (parallax), or NULL: they can. */
+const char *wr_shape_without_parallax(const WrShape *shape);
 /* How many cells lie beside and above one another, where each face has one of its own; else 1, 1. */
 void wr_surface_cells(const WrShape *shape, int *columns, int *rows);
 /* The face whose cell holds (u,v), within its margin; `face` where all have the same. */
