@@ -344,6 +344,28 @@ static void a_relief_too_low_to_be_seen_darkens_nothing(void **state)
     }
 }
 
+/* Against the plan a displaced ball is shown as its base, or its table moves nothing: then its lamps are hidden by bases too. */
+static void what_is_shown_undisplaced_throws_its_bases_shadow(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        WrForce force[WR_EFFECT_COUNT] = { WR_FORCE_NONE };
+        WrScene *scene = above_ground("sphere", (WrVec3){ 0.1, -0.2, 0.93 }, 0.437);
+        WrField *field = bumpy_field(16, 16);
+        if (k) wr_field_fill(field, 0);
+        else force[WR_EFFECT_DISPLACED] = WR_FORCE_OFF;
+        scene->displaced = true, scene->height = 0.113;
+        Shot shot = shot_on(scene, field, force);
+        scene->displaced = false;
+        Shot plain = shot_on(scene, field, NULL);
+        assert_true(same_picture(&shot, &plain));
+        put_away(&shot);
+        put_away(&plain);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
 /* On the ground, on themselves; where the relief's own shadow is asked for too, rays tell of both. */
 static void raised_objects_shadow_as_the_reference_has_it(void **state)
 {
@@ -381,6 +403,7 @@ int main(void)
         cmocka_unit_test(dark_lamps_change_no_other),
         cmocka_unit_test(a_raised_ball_throws_its_own_shadow),
         cmocka_unit_test(a_relief_too_low_to_be_seen_darkens_nothing),
+        cmocka_unit_test(what_is_shown_undisplaced_throws_its_bases_shadow),
         cmocka_unit_test(raised_objects_shadow_as_the_reference_has_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -21,10 +21,10 @@ bool wr_cast_asked(const WrScene *scene)
     return false;
 }
 
-bool wr_cast_spares_itself(const WrScene *scene)
+bool wr_cast_spares_itself(const WrCastBody *body)
 {
-    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
-    if (wr_is_raised(scene)) return false;
+    const WrSurfaceInfo *info = wr_surfaces[body->shape.kind];
+    if (body->rise > 0) return false;
     return info->convex_closed || (info->flat && !info->held);
 }
 
@@ -118,12 +118,11 @@ void wr_cast_body_fini(WrCastBody *body)
     *body = (WrCastBody){ 0 };
 }
 
-/* What F is, of a displaced surface; of another 0. */
+/* What F is, of a surface that is displaced. */
 static WrHash relief_of(const WrScene *scene, const WrField *field)
 {
     const WrAnalytic *formula = &scene->analytic;
-    WrHash hash = { 0, 0 };
-    if (!wr_is_raised(scene)) return hash;
+    WrHash hash;
     const bool table = formula->kind == WR_ANALYTIC_OFF;
     const uint64_t key = table ? wr_field_key(field) : 0;
     const double by[3] = { scene->height, scene->replicate_u, scene->replicate_v };
@@ -139,10 +138,11 @@ static WrHash relief_of(const WrScene *scene, const WrField *field)
     return hash;
 }
 
-void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *field)
+void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *field, bool moves)
 {
     const WrTriangles *held = scene->triangles;
-    const WrHash raised = relief_of(scene, field);
+    const bool moved = moves && wr_is_raised(scene);
+    const WrHash raised = moved ? relief_of(scene, field) : (WrHash){ 0, 0 };
     const bool same = body->radius > 0 && wr_hash_equal(body->raised, raised) &&
                       memcmp(&body->shape, &scene->shape, sizeof body->shape) == 0;
     if (same && (!body->triangles || !held || held->key == body->triangles->key)) return;
@@ -150,7 +150,7 @@ void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *fi
     body->shape = scene->shape;
     body->radius = wr_shape_radius(&scene->shape);
     body->raised = raised;
-    if (wr_is_raised(scene)) body->rise = wr_raised_most(scene, field);
+    if (moved) body->rise = wr_raised_most(scene, field);
 }
 
 #define ROUNDING                                                                                   \
@@ -161,14 +161,13 @@ void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *fi
 bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err)
 {
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
-    wr_cast_body_size(body, scene, field);
     if (body->made) return true;
     body->lift = ROUNDING * body->radius;
     if (wr_surfaces[scene->shape.kind]->held) {
         body->triangles =
             scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
         if (body->triangles->patches) body->lift = PATCHY * body->radius;
-    } else if (how == WR_INVERT_MESH || wr_is_raised(scene)) {
+    } else if (how == WR_INVERT_MESH || body->rise > 0) {
         if (!wr_cast_facets(body, scene, field, err)) return false;
     } else if (how == WR_INVERT_PLANE || how == WR_INVERT_CUBE) {
         take_quads(body);

@@ -34,7 +34,7 @@ typedef struct WrCastBody {
     WrShape shape; /* that all else was made for; kept while the scene's is the same */
     double radius; /* about the object's centre */
     WrHash raised; /* of all that F goes by, of a displaced surface; else 0 */
-    double rise;   /* so far its points may be from the base, object units; else 0 */
+    double rise;   /* so far its points may be from the base, object units; of another surface 0 */
     bool made;     /* what rays meet is there */
     WrCastQuad quads[6];
     int quad_count;
@@ -67,11 +67,12 @@ typedef struct WrCast {
 
 /* Does the scene ask for such shadows, of a light that shines? */
 bool wr_cast_asked(const WrScene *scene);
-/* Is the object such that it never hides a lamp from itself? */
-bool wr_cast_spares_itself(const WrScene *scene);
-/* The body's size alone. field: what F is looked up in where the surface is displaced; NULL with a formula. */
-void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *field);
-/* All of it. Errors: no memory. */
+/* Is the object such that it never hides a lamp from itself? Its size is known. */
+bool wr_cast_spares_itself(const WrCastBody *body);
+/* The body's size alone. field: what F is looked up in where the surface is displaced; NULL with a formula. moves: a displaced
+   surface is met as it is displaced, else its base. */
+void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *field, bool moves);
+/* All of it; its size is known. Errors: no memory. */
 bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err);
 void wr_cast_body_fini(WrCastBody *body);
 /* Does the ray o + t d meet it for 0 < t < most? */
@@ -90,6 +91,7 @@ typedef struct WrCastAsk {
     WrCastBody *const *bodies;
     int count, at, rays;
     bool all;
+    bool moves; /* what is displaced throws its displaced shadow */
     double turn_deg, aspect;
 } WrCastAsk;
 bool wr_cast_prepare(WrCast *cast, const WrCastAsk *ask, WrError *err);

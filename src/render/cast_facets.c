@@ -200,7 +200,7 @@ static bool facets_of(WrCastBody *body, const WrRaised *raised, WrError *err)
 bool wr_cast_facets(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err)
 {
     WrRaised raised = { 0 };
-    if (!wr_is_raised(scene)) return facets_of(body, NULL, err);
+    if (!(body->rise > 0)) return facets_of(body, NULL, err);
     const bool good = wr_raised_init(&raised, scene, field, err) && facets_of(body, &raised, err);
     wr_raised_fini(&raised);
     return good;

@@ -22,7 +22,7 @@ static bool stand(const WrCastAsk *ask, int i, Standing *out, WrError *err)
 {
     const WrScene *scene = ask->scenes[i];
     WrCastBody *body = ask->bodies[i];
-    wr_cast_body_size(body, scene, ask->fields[i]);
+    wr_cast_body_size(body, scene, ask->fields[i], ask->moves);
     if (!wr_scene_place_sized(scene, body->radius, ask->turn_deg, ask->aspect, &out->place, err))
         return false;
     out->ball = wr_shape_endless(&scene->shape)
@@ -126,7 +126,7 @@ bool wr_cast_prepare(WrCast *cast, const WrCastAsk *ask, WrError *err)
             if (!stand(ask, i, &other, err)) return false;
             const bool self = i == ask->at;
             const bool can =
-                self ? !wr_cast_spares_itself(ask->scenes[i]) : may_any(ask, &own, &other);
+                self ? !wr_cast_spares_itself(ask->bodies[i]) : may_any(ask, &own, &other);
             const WrCastTo to = see(&own, &other, ask->bodies[i], self);
             if (can != (round == 0) || !finite_to(&to)) continue;
             if (!wr_cast_body_bring(ask->bodies[i], ask->scenes[i], ask->fields[i], err))

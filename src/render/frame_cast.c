@@ -8,6 +8,12 @@ static bool wants_all(const WrFrameRequest *request)
     return request->full || (request->force && request->force[WR_EFFECT_CAST] == WR_FORCE_ON);
 }
 
+/* Against the plan, not even what is displaced. */
+static bool keeps_bases(const WrFrameRequest *request)
+{
+    return request->force && request->force[WR_EFFECT_DISPLACED] == WR_FORCE_OFF;
+}
+
 bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
                     const WrField *const *fields, int count, const WrFrameRequest *request,
                     WrError *err)
@@ -27,6 +33,7 @@ bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
                                 .at = i,
                                 .rays = dials->rays,
                                 .all = wants_all(request),
+                                .moves = !keeps_bases(request),
                                 .turn_deg = request->turn_deg,
                                 .aspect = (double)request->width / request->height };
         if (!wr_cast_prepare(&renderers[i]->cast, &ask, err)) return false;
