@@ -252,7 +252,8 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DISPLACED)] = { "E50", "displacement", WR_PROOF_BOUNDED,
                                       "half a pixel, of where a point of the surface is seen",
                                       "the surface is not displaced, or F moves no point of it by "
-                                      "half a pixel: bump suffices",
+                                      "half a pixel, and no lamp lets objects hide it: bump "
+                                      "suffices",
                                       0, .finer = true, .decide = wr_decide_displaced,
                                       .settle = wr_settle_displaced },
     [WR_ROW(WR_EFFECT_PARALLAX)] = { "E85", "parallax", WR_PROOF_BOUNDED,
