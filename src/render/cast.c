@@ -103,6 +103,7 @@ bool wr_cast_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most)
     case WR_INVERT_CONE:
         return meets_tube(value[0] / 2, -value[0] / value[1], value[1], o, d, most);
     case WR_INVERT_MESH:
+        return wr_cast_meets_torus(&body->shape, o, d, most); /* no other has no facets */
     case WR_INVERT_TRIANGLES: break;
     }
     return false;
@@ -158,6 +159,13 @@ void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *fi
 #define PATCHY                                                                                     \
     0x1p-10 /* the same of what is shown by patches and cast by the triangles that they were cut to */
 
+/* Of meshes there are closed forms for the torus alone. */
+static bool needs_facets(const WrCastBody *body)
+{
+    const bool mesh = wr_surfaces[body->shape.kind]->inversion == WR_INVERT_MESH;
+    return body->rise > 0 || (mesh && body->shape.kind != WR_SURFACE_torus);
+}
+
 bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err)
 {
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
@@ -167,7 +175,7 @@ bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, const WrField *f
         body->triangles =
             scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
         if (body->triangles->patches) body->lift = PATCHY * body->radius;
-    } else if (how == WR_INVERT_MESH || body->rise > 0) {
+    } else if (needs_facets(body)) {
         if (!wr_cast_facets(body, scene, field, err)) return false;
     } else if (how == WR_INVERT_PLANE || how == WR_INVERT_CUBE) {
         take_quads(body);

@@ -2,7 +2,7 @@
    precision, so that the answers are the same on every processor.
    Layer 5, private to the renderer.
 
-   A body is the shape itself where rays meet it in closed form (plane, cube, sphere, cylinder, cone); else triangles, those
+   A body is the shape itself where rays meet it in closed form (plane, cube, sphere, cylinder, cone, torus); else triangles, those
    of a mesh or facets of the surface, in a tree of boxes. Facets are off by no more than the body's `lift`. A displaced
    surface throws the shadow of facets of P + F n.
 
@@ -77,6 +77,8 @@ bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, const WrField *f
 void wr_cast_body_fini(WrCastBody *body);
 /* Does the ray o + t d meet it for 0 < t < most? */
 bool wr_cast_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most);
+/* The same of a torus. */
+bool wr_cast_meets_torus(const WrShape *shape, WrVec3 o, WrVec3 d, double most);
 /* The same of its tree. */
 bool wr_cast_tree_bring(WrCastBody *body, WrError *err);
 bool wr_cast_tree_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most);
