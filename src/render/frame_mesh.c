@@ -100,6 +100,7 @@ static void prepare_parallax(WrRenderer *renderer, const WrScene *scene)
     view->nearest -= fmax(fabs(range[0]), fabs(range[1])) * scene->size;
     if (wr_surfaces[scene->shape.kind]->inversion == WR_INVERT_PLANE)
         wr_view_widen(view, range[0] * view->scale, range[1] * view->scale);
+    if (wr_parallax_has_shell(&scene->shape)) wr_view_grow(view, range[1] * view->scale);
 }
 
 static bool prepare_triangles(WrRenderer *renderer, const WrScene *scene, WrError *err)

@@ -13,7 +13,7 @@ static WrVec3 sum3(const double a[3], const double b[3], double x, const double 
 /* A ray passes the ball farther off than rays of the pixel lie apart. */
 static bool misses_ball(const WrView *view, const WrRaysd *rays, double x, double y)
 {
-    const double R = view->shape_d.value[0];
+    const double R = view->shell_d.value[0];
     WrVec3 d = sum3(rays->d0, rays->dx, x, rays->dy, y),
            q = sum3(rays->q0, rays->qx, x, rays->qy, y);
     double dd = v3_dot(d, d), m = v3_dot(q, d) / dd, near = -m;

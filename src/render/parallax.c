@@ -35,6 +35,12 @@ static void measure(WrReliefBounds *bounds, const WrTableCopy *copy, int width, 
         }
 }
 
+bool wr_parallax_has_shell(const WrShape *shape)
+{
+    const WrInversion how = wr_surfaces[shape->kind]->inversion;
+    return how == WR_INVERT_SPHERE || how == WR_INVERT_CYLINDER;
+}
+
 void wr_relief_bounds_bring(WrReliefBounds *bounds, const WrTable *table, WrScheme scheme,
                             const WrField *field)
 {
@@ -97,7 +103,9 @@ void wr_parallax_fill(WrParallax *parallax, const WrScene *scene, const WrField 
     const double unit = scene->height * scale;
     const double repeat[2] = { fabs(scene->replicate_u), fabs(scene->replicate_v) };
     double range[2];
-    *parallax = (WrParallax){ .steps = plan->steps, .bent = !wr_surfaces[scene->shape.kind]->flat };
+    *parallax = (WrParallax){ .steps = plan->steps,
+                              .bent = !wr_surfaces[scene->shape.kind]->flat,
+                              .shell = wr_parallax_has_shell(&scene->shape) };
     note_ends(parallax, &scene->shape);
     wr_parallax_range(scene, bounds, plan, unit, range);
     parallax->low = range[0], parallax->high = range[1];

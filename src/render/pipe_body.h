@@ -62,6 +62,13 @@ static void note_looks(const WrTileJob *job, const Rays *rays, const Strip *stri
 #include "render/pipe_look_body.h"
 #include "render/pipe_map_body.h"
 
+/* The kernels of a surface that rays meet in closed form; NULL: of another. */
+static const WR_T(WrRound) * round_of(const WrTileJob *job)
+{
+    const WR_T(WrRound) *round = &KERNELS_OF(job)->round[job->plan->inversion];
+    return round->hit ? round : NULL;
+}
+
 /* Is light worked out? */
 static bool lit(const WrSink *sink)
 {
@@ -100,13 +107,6 @@ static const WrEffects normal_effects[] = {
     [WR_BUMP_EXACT] = WR_EFFECT_BIT(WR_EFFECT_BUMP) | WR_EFFECT_BIT(WR_EFFECT_EXACT),
 };
 _Static_assert(sizeof normal_effects / sizeof *normal_effects == WR_BUMP_COUNT, "all formulas");
-
-/* The kernels of a surface that rays meet in closed form; NULL: of another. */
-static const WR_T(WrRound) * round_of(const WrTileJob *job)
-{
-    const WR_T(WrRound) *round = &KERNELS_OF(job)->round[job->plan->inversion];
-    return round->hit ? round : NULL;
-}
 
 static void store_parameters(const WrSink *sink, const Strip *strip)
 {
@@ -352,7 +352,8 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
     const WR_T(WrRound) *round = round_of(job);
     if (round) {
         pour(places, strip);
-        round->hit_at(rays, &VIEWED(view, shape), places->count, strip);
+        if (go_along(job, rays)) take_all(places->count, strip);
+        else round->hit_at(rays, &VIEWED(view, shell), places->count, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, -1, sink, scratch, &watch);
         return;
@@ -429,8 +430,10 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     const WR_T(WrRound) *round = round_of(job);
     if (round) {
         if (wide_row(job, rays, gx, gy, tile->w, sink, scratch, &watch)) return;
-        scratch->told = met_wide(job, rays, gx, gy, tile->w, strip);
-        if (!scratch->told) round->hit(rays, &VIEWED(view, shape), gx, gy, tile->w, strip);
+        scratch->told =
+            !runs(job, WR_EFFECT_PARALLAX) && met_wide(job, rays, gx, gy, tile->w, strip);
+        if (go_along(job, rays)) take_all(tile->w, strip);
+        else if (!scratch->told) round->hit(rays, &VIEWED(view, shell), gx, gy, tile->w, strip);
         note_places(job, sink, scratch->notes.patches, gx, gy, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, -1, sink, scratch, &watch);
@@ -470,7 +473,8 @@ static bool pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, d
         locate_mesh(job, rays, &tile, places, strip, &watch);
     } else if (round) {
         pour(places, strip);
-        round->hit_at(rays, &VIEWED(job->view, shape), 1, strip);
+        if (go_along(job, rays)) take_all(1, strip);
+        else round->hit_at(rays, &VIEWED(job->view, shell), 1, strip);
         round->params(&VIEWED(job->view, shape), strip);
     }
     const bool quads = !round && !job->mesh && !job->triangles;

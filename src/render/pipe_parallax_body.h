@@ -15,8 +15,9 @@ typedef struct March {
     REAL before[WR_SPAN], past[WR_SPAN]; /* g there */
     REAL pace[WR_SPAN], least[WR_SPAN];  /* t by g, 0: not known; and t of the shortest step */
     bool below[WR_SPAN];                 /* where it comes in, the surface ends */
-    bool misses[WR_SPAN];                /* where it goes out it has met nothing; then: it did */
-    int on[WR_SPAN], count;              /* those that are on their way */
+    REAL dx[WR_SPAN], dy[WR_SPAN], dz[WR_SPAN]; /* d; only through shells, as long as they are */
+    bool misses[WR_SPAN];   /* where it goes out it has met nothing; then: it did */
+    int on[WR_SPAN], count; /* those that are on their way */
     int met[WR_SPAN], met_count;
 } March;
 
@@ -116,22 +117,28 @@ static void pace_ray(const WrParallax *p, int i, March *m)
     m->least[i] = (REAL)((to - from) / fmax(1, floor(steps)));
 }
 
+#include "render/pipe_shell_body.h"
+
 /* g at t of the rays in the list. */
 static void look_ahead(const WrTileJob *job, const Strip *s, const March *m, const int *list,
                        int count, const REAL *t, REAL *g, WrTileScratch *scratch)
 {
     Strip *near = NEAR_OF(scratch);
+    const bool shell = job->parallax.shell;
     near->count = count;
-    for (int k = 0; k < count; k++) {
+    for (int k = 0; k < count && !shell; k++) {
         const int i = list[k];
         near->u[k] = s->u[i] + t[i] * m->a[i];
         near->v[k] = s->v[i] + t[i] * m->b[i];
     }
+    if (shell) place_shell(job, s, m, list, count, t, near);
     if (job->plan->source == WR_SOURCE_FORMULA) look_analytic(job, near);
     else look_heights(job, near, scratch);
     for (int k = 0; k < count; k++) {
         const int i = list[k];
-        g[i] = t[i] * (m->rise[i] + t[i] * m->bend[i]) - m->side[i] * near->f[k];
+        const REAL base =
+            shell ? m->side[i] * over_base(job, near, k) : t[i] * (m->rise[i] + t[i] * m->bend[i]);
+        g[i] = base - m->side[i] * near->f[k];
     }
 }
 
@@ -233,13 +240,15 @@ static void move_samples(const WrTileJob *job, const Rays *rays, const March *m,
         kept[count++] = i;
         ray_of(rays, s, i, d);
         s->px[i] += t[i] * d[0], s->py[i] += t[i] * d[1], s->pz[i] += t[i] * d[2];
-        s->u[i] += t[i] * m->a[i], s->v[i] += t[i] * m->b[i];
         s->s[i] = m->side[i];
+        if (p->shell) continue;
+        s->u[i] += t[i] * m->a[i], s->v[i] += t[i] * m->b[i];
         if (endless) continue;
         s->u[i] = once_round(p->closed[0], s->u[i]);
         s->v[i] = once_round(p->closed[1], s->v[i]);
     }
     if (count < s->count) keep_samples(kept, count, s);
+    if (p->shell) round_of(job)->params(&VIEWED(job->view, shape), s);
 }
 
 /* The strip's samples from the base to the relief: their u, v, P. */
@@ -250,9 +259,14 @@ static void meet_relief(const WrTileJob *job, const Rays *rays, int face, Strip 
     March m;
     REAL t[WR_SPAN], g[WR_SPAN];
     if (s->count == 0) return;
-    KERNELS_OF(job)->geometry[kind](&VIEWED(job->view, shape), face, s);
-    if (job->parallax.bent) KERNELS_OF(job)->curvature[kind](&VIEWED(job->view, shape), face, s);
-    set_out(job, rays, s, &m, t, scratch);
+    if (job->parallax.shell) {
+        set_out_shell(job, rays, s, &m, t, scratch);
+    } else {
+        KERNELS_OF(job)->geometry[kind](&VIEWED(job->view, shape), face, s);
+        if (job->parallax.bent)
+            KERNELS_OF(job)->curvature[kind](&VIEWED(job->view, shape), face, s);
+        set_out(job, rays, s, &m, t, scratch);
+    }
     while (m.count > 0) step_on(job, s, &m, t, g, scratch);
     close_in(job, s, &m, t, g, scratch);
     move_samples(job, rays, &m, t, s);

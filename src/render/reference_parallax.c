@@ -1,6 +1,7 @@
 #include "render/reference_parallax.h"
 
 #include "field/field.h"
+#include "render/parallax.h"
 
 #include <math.h>
 
@@ -142,8 +143,9 @@ static double within(bool round, double x)
     return round ? x - floor(x) : fmin(fmax(x, 0), 1);
 }
 
-bool wr_reference_parallax(const WrReferenceStage *stage, const WrReferenceRay *ray,
-                           WrReferenceHit *hit, WrSurfacePoint *at, double *side)
+/* at: the base's point at the hit. */
+static bool go_on(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit,
+                  WrSurfacePoint *at, double *side)
 {
     const WrSurfaceInfo *info = stage->view.info;
     const double e = v3_dot(at->pu, at->pu), f = v3_dot(at->pu, at->pv), g = v3_dot(at->pv, at->pv);
@@ -164,5 +166,19 @@ bool wr_reference_parallax(const WrReferenceStage *stage, const WrReferenceRay *
     const WrVec3 p = v3_mad(at->p, ray->d, t);
     wr_reference_view_at(&stage->view, hit, at);
     at->p = p;
+    return true;
+}
+
+bool wr_reference_parallax(const WrReferenceStage *stage, const WrReferenceRay *ray,
+                           WrReferenceHit *hit, WrSurfacePoint *at, double *side)
+{
+    if (!wr_parallax_has_shell(stage->view.shape)) {
+        if (!wr_reference_view_hit(&stage->view, ray, hit)) return false;
+        wr_reference_view_at(&stage->view, hit, at);
+        return go_on(stage, ray, hit, at, side);
+    }
+    if (!wr_reference_shell(stage, ray, hit, side)) return false;
+    wr_reference_view_at(&stage->view, hit, at);
+    at->p = v3_mad(ray->q, ray->d, hit->s);
     return true;
 }

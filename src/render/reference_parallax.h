@@ -9,7 +9,10 @@ bool wr_reference_has_parallax(const WrScene *scene);
 /* Lowest and highest F, object units, and cells that hold one bend each; field may be NULL where F is a formula. */
 void wr_reference_parallax_init(WrReferenceStage *stage, const WrField *field,
                                 const double cells[2]);
-/* at: the base's point at the hit. Both move to where the ray meets the relief, P to the ray; side: 1, or -1 of what is seen
-   from behind. false: it meets nothing. */
+/* Where the ray meets the relief, the base's point there with P on the ray; side: 1, or -1 of what is seen from behind. false:
+   it meets nothing. */
 bool wr_reference_parallax(const WrReferenceStage *stage, const WrReferenceRay *ray,
                            WrReferenceHit *hit, WrSurfacePoint *at, double *side);
+/* The same of a base that has a shell, but for the point. */
+bool wr_reference_shell(const WrReferenceStage *stage, const WrReferenceRay *ray,
+                        WrReferenceHit *hit, double *side);

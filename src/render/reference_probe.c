@@ -73,10 +73,8 @@ static bool hit_surface(const Looker *looker, const WrReferenceRay *ray, WrRefer
     WrSurfacePoint at;
     double side;
     if (is_raised(looker)) return wr_reference_raised_hit(&stage->raised, ray, hit);
-    if (!wr_reference_view_hit(&stage->view, ray, hit)) return false;
-    if (!stage->parallax) return true;
-    wr_reference_view_at(&stage->view, hit, &at);
-    return wr_reference_parallax(stage, ray, hit, &at, &side);
+    if (stage->parallax) return wr_reference_parallax(stage, ray, hit, &at, &side);
+    return wr_reference_view_hit(&stage->view, ray, hit);
 }
 
 /* The surface that is seen, to first order: of a displaced one P + F n, and what u and v do to it. */

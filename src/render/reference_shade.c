@@ -396,10 +396,16 @@ static double eased_at(const WrReferenceStage *stage, const WrReferenceRay *ray,
     return isfinite(periods) ? left_of(periods) : 0;
 }
 
-static bool hit_stage(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit)
+static bool hit_stage(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit,
+                      WrSurfacePoint *at, double *side)
 {
-    return stage->raised.count > 0 ? wr_reference_raised_hit(&stage->raised, ray, hit)
-                                   : wr_reference_view_hit(&stage->view, ray, hit);
+    if (stage->parallax) return wr_reference_parallax(stage, ray, hit, at, side);
+    const bool met = stage->raised.count > 0 ? wr_reference_raised_hit(&stage->raised, ray, hit)
+                                             : wr_reference_view_hit(&stage->view, ray, hit);
+    if (!met) return false;
+    wr_reference_view_at(&stage->view, hit, at);
+    *side = wr_reference_side(&stage->view, at);
+    return true;
 }
 
 bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceShare share,
@@ -408,12 +414,9 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     const WrReferenceView *view = &stage->view;
     const WrReferenceRay ray = wr_reference_view_ray(view, x, y);
     WrReferenceHit hit;
-    if (!hit_stage(stage, &ray, &hit)) return false;
     WrSurfacePoint at;
     double f = 0, fu = 0, fv = 0, side;
-    wr_reference_view_at(view, &hit, &at);
-    if (!stage->parallax) side = wr_reference_side(view, &at);
-    else if (!wr_reference_parallax(stage, &ray, &hit, &at, &side)) return false;
+    if (!hit_stage(stage, &ray, &hit, &at, &side)) return false;
     if (stage->scene->height != 0) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
     wr_reference_add_map(stage, &hit, &at, &fu, &fv);
     const double eased = eased_at(stage, &ray, &hit, &at, &out->cover);

@@ -160,10 +160,11 @@ static int pixel_at(double x, int size)
     return x > 0 ? x < size ? (int)x : size : 0;
 }
 
-static void find_bounds(WrView *view, WrVec3 centre, int width, int height)
+/* radius: of the ball that holds it. */
+static void find_bounds(WrView *view, WrVec3 centre, double radius, int width, int height)
 {
     const Extent e =
-        view->quad_count > 0 ? extent_of_quads(view) : extent_of_ball(view, centre, view->radius);
+        view->quad_count > 0 ? extent_of_quads(view) : extent_of_ball(view, centre, radius);
     view->x0 = pixel_at((e.x0 / view->half_w + 1) / 2 * width - 2, width);
     view->x1 = pixel_at((e.x1 / view->half_w + 1) / 2 * width + 3, width);
     view->y0 = pixel_at((1 - e.y1 / view->half_h) / 2 * height - 2, height);
@@ -211,8 +212,21 @@ void wr_view_widen(WrView *view, double low, double high)
     single->u0 = (float)quad->u0, single->u1 = (float)quad->u1;
     single->v0 = (float)quad->v0, single->v1 = (float)quad->v1;
     single->least = (float)quad->least, single->most = (float)quad->most;
-    find_bounds(view, (WrVec3){ 0, 0, 0 }, view->grid_w / view->samples,
+    find_bounds(view, (WrVec3){ 0, 0, 0 }, view->radius, view->grid_w / view->samples,
                 view->grid_h / view->samples);
+}
+
+#define ENDLESS_TUBE 1e30 /* what a float holds */
+
+void wr_view_grow(WrView *view, double more)
+{
+    const double radius = view->shape_d.value[0] + more;
+    view->shell_d.value[0] = radius * (1 + 1e-6);
+    view->shell.value[0] = (float)view->shell_d.value[0];
+    if (wr_surfaces[view->shape_d.kind]->inversion == WR_INVERT_CYLINDER)
+        view->shell_d.value[1] = view->shell.value[1] = (float)ENDLESS_TUBE;
+    find_bounds(view, (WrVec3){ 0, 0, 0 }, view->radius + fmax(more, 0),
+                view->grid_w / view->samples, view->grid_h / view->samples);
 }
 
 static bool planar(const WrSurfaceInfo *info)
@@ -439,10 +453,11 @@ bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPla
     view->near = WR_NEAR_PLANE * view->radius;
     wr_shape_scaled(&scene->shape, view->scale, &view->shape);
     scale_shape(&scene->shape, view->scale, &view->shape_d);
+    view->shell = view->shape, view->shell_d = view->shape_d;
     make_grids(view, v3_scale(place.centre, view->scale));
     make_lit(view, &place);
     if (planar(info)) make_quads(view, &scene->shape);
-    find_bounds(view, v3_scale(place.centre, view->scale), width, height);
+    find_bounds(view, v3_scale(place.centre, view->scale), view->radius, width, height);
     make_lights(view, scene, &place);
     find_depth(view, &scene->camera, &place);
     return true;

@@ -26,6 +26,8 @@ typedef struct WrView {
     double radius;      /* of the object, kernel units; no larger when stretched */
     WrShapef shape;
     WrShape shape_d;
+    WrShapef shell; /* what rays meet in closed form: the shape, or it grown (wr_view_grow) */
+    WrShape shell_d;
     WrViewGrid lit; /* rays as light sees them: eye and toward, stretched; else K's */
     WrViewGrid grids[WR_VIEW_GRIDS]; /* K and its powers of two below, 1 first */
     int grid_count;
@@ -70,6 +72,9 @@ bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPla
 /* A plane's rays go on to a relief from low to high over it (parallax.h): where they meet the base then, u and v may lie beyond
    its own, as far as the eye can look past its edges at what stands there. low, high: kernel units. */
 void wr_view_widen(WrView *view, double low, double high);
+/* Rays of a ball or a tube meet its shell instead, which is farther out by `more` (kernel units) and holds a relief over it; of a
+   tube one without ends: which part of the ray is between them is asked later. */
+void wr_view_grow(WrView *view, double more);
 void wr_view_fini(WrView *view);
 /* The grid of k x k samples a pixel; k is 1, K or a power of two below K. */
 const WrViewGrid *wr_view_grid(const WrView *view, int k);

@@ -35,7 +35,8 @@ static void relief(WrApp *app)
          "Ambient occlusion: ambient light and that of surroundings, as much as each texel sees");
     flag(app, WR_SCENE_PARAM_PARALLAX, "Hides what stands behind it",
          "Parallax: rays go on from the base to the relief, a rung between bump mapping and true "
-         "displacement. On a plane outlines are true, on curved bases they stay the base's");
+         "displacement. Outlines are true on planes, spheres and cylinders, on other bases they "
+         "stay the base's");
     flag(app, WR_SCENE_PARAM_DISPLACED, "Moves the surface itself",
          "True displacement, outline included, in place of bump mapping that imitates it. Slower; "
          "each edit cuts the surface anew");
