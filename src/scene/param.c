@@ -36,7 +36,8 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_PARALLAX)] = { "bump", NULL, "parallax", IN_SCENE(parallax),
                                           .planned = true, .sparse = true,
                                           .help = "the eye's rays go on from the base to F over "
-                                                  "it: parts hide others; outlines too, of planes, spheres and cylinders" },
+                                                  "it: parts hide others; outlines too, of planes, "
+                                                  "spheres and cylinders" },
     [WR_ROW(WR_SCENE_PARAM_REPLICATE)] = { "replicate", NULL, "ru,rv", .positional = true,
                                            .required = true, IN_SCENE(replicate_u), .components = 2,
                                            .low = -1e9, .high = 1e9, .fallback = { 1, 1 },
