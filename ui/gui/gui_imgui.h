@@ -162,8 +162,8 @@ ImVec4 wr_gui_vec_of(WrColour colour);
 /* A thin edge of whole pixels, its corners left out: SDL's software renderer draws smooth thin outlines
    unevenly. */
 void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high);
-/* A tip that does not cover the fields around the last item, which is one of a column. */
-void wr_gui_tip_of_field(ImGuiID id, const char *text);
+/* The tip of the last item, which has that name for the ring. */
+void wr_gui_tip_of(ImGuiID id, const char *text);
 
 /* What other versions of the library call by other names; keys are in gui_imgui_keys.cpp, faces in
    gui_imgui_fonts.cpp. */

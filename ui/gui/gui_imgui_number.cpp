@@ -163,7 +163,7 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
     }
     draw_field(spec, at, ImVec2(at.x + size.x, at.y + size.y), *value,
                ImGui::IsItemHovered() || gui->dragging == item);
-    wr_gui_tip_of_field(item, spec->tip);
+    wr_gui_tip_of(item, spec->tip);
     return edit;
 }
 

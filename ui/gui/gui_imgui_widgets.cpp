@@ -238,18 +238,23 @@ static bool wants_tip(ImGuiID id, const char *text)
     return rests;
 }
 
-/* Beside a menu, where it covers no entry; under what has the ring, since the pointer is elsewhere. */
+/* Beside a menu, where it covers no entry; left of the column along the right edge, where it covers neither the next field
+   nor the one before; under what has the ring, since the pointer is elsewhere. */
 static void place_tip(bool focused)
 {
     const ImGuiWindow *window = ImGui::GetCurrentWindow();
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const ImVec2 whole = ImGui::GetIO().DisplaySize;
     const bool menu = window->Flags & (ImGuiWindowFlags_Popup | ImGuiWindowFlags_ChildMenu) &&
                       !(window->Flags & ImGuiWindowFlags_Modal);
-    const float right = window->Pos.x + window->Size.x + px(6);
-    const bool fits = right + px(320) < ImGui::GetIO().DisplaySize.x;
+    const float end = window->Pos.x + window->Size.x, right = end + px(6);
+    const bool fits = right + px(320)<whole.x, lower = low.y> 0.5f * whole.y;
     if (menu)
         ImGui::SetNextWindowPos(ImVec2(fits ? right : window->Pos.x - px(6), low.y), 0,
                                 ImVec2(fits ? 0.0f : 1.0f, 0));
+    else if (window->Pos.x > 0.5f * whole.x && end > whole.x - px(24))
+        ImGui::SetNextWindowPos(ImVec2(window->Pos.x - px(4), lower ? high.y : low.y), 0,
+                                ImVec2(1.0f, lower ? 1.0f : 0.0f));
     else if (focused) ImGui::SetNextWindowPos(ImVec2(low.x, high.y + px(6)));
 }
 
@@ -264,30 +269,18 @@ static void show_tip(const char *text)
     ImGui::PopStyleVar();
 }
 
-extern "C" void wr_gui_tip(const char *text)
+void wr_gui_tip_of(ImGuiID id, const char *text)
 try {
-    const ImGuiID id = ImGui::GetItemID();
     if (!wants_tip(id, text)) return;
     place_tip(wr_gui_focused(id));
     show_tip(text);
 }
 WR_CAUGHT()
 
-/* In a column along the right edge the tip stands to the left of it, so that neither the next field nor the one before is
- * covered. */
-void wr_gui_tip_of_field(ImGuiID id, const char *text)
-try {
-    if (!wants_tip(id, text)) return;
-    const ImVec2 whole = ImGui::GetIO().DisplaySize, at = ImGui::GetWindowPos();
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    const bool lower = low.y > 0.5f * whole.y;
-    if (at.x > 0.5f * whole.x)
-        ImGui::SetNextWindowPos(ImVec2(at.x - px(4), lower ? high.y : low.y), ImGuiCond_Always,
-                                ImVec2(1.0f, lower ? 1.0f : 0.0f));
-    else place_tip(wr_gui_focused(id));
-    show_tip(text);
+extern "C" void wr_gui_tip(const char *text)
+{
+    wr_gui_tip_of(ImGui::GetItemID(), text);
 }
-WR_CAUGHT()
 
 /* ---- choices and buttons ---- */
 
