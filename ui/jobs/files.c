@@ -369,7 +369,7 @@ void wr_files_free(WrFiles *files)
 {
     if (!files) return;
     WrFilePurpose unused;
-    files->stop = 1;
+    __atomic_store_n(&files->stop, 1, __ATOMIC_RELAXED);
     if (files->running && !files->by_portal) wr_child_ask_to_end(files->child);
     wr_files_answer(files, &unused);
     free_ask(&files->ask);

@@ -2,6 +2,7 @@
    that says nothing holds nobody up for longer. */
 #include "ui/jobs/portal.h"
 
+#include "base/progress.h"
 #include "system/clock.h"
 #include "system/object.h"
 #include "system/path.h"
@@ -192,7 +193,7 @@ static DBusMessage *next(Bus *bus, double deadline)
 {
     for (;;) {
         DBusMessage *message = bus->dbus.connection_pop_message(bus->connection);
-        if (message || *bus->stop || wr_clock_seconds() >= deadline) return message;
+        if (message || wr_cancel_asked(bus->stop) || wr_clock_seconds() >= deadline) return message;
         if (!bus->dbus.connection_read_write(bus->connection, SLICE_MS)) {
             bus->gone = true;
             return NULL;
@@ -385,17 +386,17 @@ static WrPortalEnd ask_bus(Bus *bus, const WrPortalAsk *ask)
     if (!told(bus, question(bus, ask, token), deadline, bus->handle, sizeof bus->handle)) {
         if (!bus->gone)
             close_request(bus); /* one that is only late must not open a second dialog */
-        return *bus->stop ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
+        return wr_cancel_asked(bus->stop) ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
     }
-    while (!bus->answered && !bus->gone && !*bus->stop) {
+    while (!bus->answered && !bus->gone && !wr_cancel_asked(bus->stop)) {
         DBusMessage *heard = next(bus, wr_clock_seconds() + 3600.0);
         if (!heard) continue;
         hear(bus, heard);
         bus->dbus.message_unref(heard);
     }
     if (bus->answered) return bus->end;
-    if (*bus->stop) close_request(bus);
-    return *bus->stop ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
+    if (wr_cancel_asked(bus->stop)) close_request(bus);
+    return wr_cancel_asked(bus->stop) ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
 }
 
 WrPortalEnd wr_portal_ask(const WrPortalAsk *ask, const volatile int *stop, char *path, size_t size)
