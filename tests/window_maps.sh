@@ -38,7 +38,8 @@ click 1045 450
 becomes 'material preset=gold' "a material that was chosen by its picture"
 key ctrl+z
 rest
-xdotool mousemove $((X + 1000)) $((Y + 300)) click 5
+xdotool mousemove $((X + 1000)) $((Y + 300)) click 5 && rest
+xdotool click 5
 rest
 shot before
 # The folders of the two rows: eleven bright pixels above one another, where no other row has as many or as few.
