@@ -1,5 +1,5 @@
-/* Finding an action by typing: all that the menus hold, every table operation, every generator; and every command, which is
-   a line to be typed here. */
+/* Finding an action by typing: all that the menus hold, every table operation, every generator, surface and material; and
+   every command, which is a line to be typed here. */
 #include "ui/panels/panel_search.h"
 #include "ui/desk/action.h"
 #include "ui/desk/action_list.h"
@@ -17,6 +17,8 @@
 #include "command/table.h"
 #include "field/ops.h"
 #include "generate/generator.h"
+#include "scene/preset.h"
+#include "surface/surface.h"
 
 #include <SDL.h>
 #include <stdio.h>
@@ -24,6 +26,7 @@
 
 #define FOUND_MAX 12
 #define COMMAND "command:" /* names of rows that are commands begin so */
+#define LINE "line:"       /* and of those that are whole lines */
 
 typedef struct Found {
     char name[64], label[80];
@@ -90,6 +93,29 @@ static int find_actions(const WrApp *app, Found found[FOUND_MAX])
     return count;
 }
 
+/* Surfaces and materials, each a line: people look for torus and gold. */
+static void find_lines(Found found[FOUND_MAX], int *count, const char *query)
+{
+    for (int i = 0; i < WR_SURFACE_COUNT; i++) {
+        const WrSurfaceInfo *surface = wr_surfaces[i];
+        Found one = { .help = surface->help };
+        if (surface->held || surface->make)
+            continue; /* made of a file or a text, which the line lacks */
+        snprintf(one.name, sizeof one.name, LINE "surface %.40s", surface->name);
+        snprintf(one.label, sizeof one.label, "%.30s: %.40s", wr_words("Patch"),
+                 wr_words(surface->label));
+        offer(found, count, &one, surface->label, query);
+    }
+    for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {
+        const WrMaterialPreset *preset = &wr_material_presets[i];
+        Found one = { .help = preset->help };
+        snprintf(one.name, sizeof one.name, LINE "material preset=%.40s", preset->name);
+        snprintf(one.label, sizeof one.label, "%.30s: %.40s", wr_words("Material"),
+                 wr_words(preset->title));
+        offer(found, count, &one, preset->title, query);
+    }
+}
+
 /* Commands besides. */
 static int find(const WrApp *app, Found found[FOUND_MAX])
 {
@@ -101,6 +127,7 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
         snprintf(one.label, sizeof one.label, "%.20s: %.55s", (*c)->name, wr_words((*c)->help));
         offer(found, &count, &one, NULL, query);
     }
+    find_lines(found, &count, query);
     return count;
 }
 
@@ -144,7 +171,8 @@ static void run(WrApp *app, const char *name)
         return;
     }
     wr_dialog_close(app);
-    wr_action_run(app, name);
+    if (strncmp(name, LINE, strlen(LINE)) == 0) wr_app_run_line(app, name + strlen(LINE));
+    else wr_action_run(app, name);
 }
 
 static bool row(const WrApp *app, const Found *found, int i, bool chosen)
