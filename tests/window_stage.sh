@@ -48,9 +48,9 @@ becomes 'camera save "view 1"' "a view that is kept"
 xdotool mousemove $((X + 760)) $((Y + 700))
 key KP_Next
 becomes 'camera from right' "another view"
-click 1000 212
+click 1000 272
 becomes 'camera use "view 1"' "the view that was kept"
-xdotool mousemove $((X + 1172)) $((Y + 212))
+xdotool mousemove $((X + 1172)) $((Y + 272))
 rest # with the icon's tip, which lies over a row
 xdotool click 1
 becomes 'camera forget "view 1"' "the view forgotten"
