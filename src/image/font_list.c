@@ -31,11 +31,10 @@ static char *name_of(FcPattern *font, const char *what)
 {
     FcChar8 *said = NULL;
     if (FcPatternGetString(font, what, 0, &said) != FcResultMatch || !said[0]) return NULL;
-    char *name = wr_strndup((const char *)said, NAME_MOST);
-    size_t length = strlen(name);
-    if (said[length] != '\0')
-        while (length > 0 && ((unsigned char)said[length] & 0xc0) == 0x80) length--;
-    name[length] = '\0';
+    size_t length = 0;
+    while (length < NAME_MOST && said[length]) length++;
+    while (length > 0 && (said[length] & 0xc0) == 0x80) length--;
+    char *name = wr_strndup((const char *)said, length);
     for (char *c = name; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = ' ';
     if (name[strspn(name, " ")] && wr_font_strange_bytes(name) == 0) return name;
