@@ -293,8 +293,8 @@ static void contours_lie_between_two_pixels_that_differ(void **state)
         for (int k = -5; k < 10; k++) {
             if (!(left < k * step && here >= k * step) && !(over < k * step && here >= k * step))
                 continue;
-            line =
-                true; /* the ground's, every fifth, and the others; a pixel here has one at most */
+            /* the ground's, every fifth, and the others; a pixel here has one at most */
+            line = true;
             ink_of = k == 0 ? 0xffc05a10u : k % 5 == 0 ? 0xff101010u : 0xff505860u;
         }
         lines += line;

@@ -109,10 +109,7 @@ static Drawn check_scene(TestRandom *random, int k)
         wr_field_free(field);
         field = next;
     }
-    wr_renderer_free(renderer);
-    wr_pool_free(pool);
-    wr_scene_free(scene);
-    wr_field_free(field);
+    free_view(renderer, pool, scene, field);
     return drawn;
 }
 
@@ -179,10 +176,7 @@ static void a_dab_costs_the_pixels_that_it_reaches(void **state)
     }
     assert_in_range(unseen, 64 / 4, 64 * 3 / 4);
     assert_in_range(drawn, 1, whole / 2);
-    wr_renderer_free(renderer);
-    wr_pool_free(pool);
-    wr_scene_free(scene);
-    wr_field_free(field);
+    free_view(renderer, pool, scene, field);
 }
 
 int main(void)

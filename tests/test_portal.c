@@ -418,8 +418,10 @@ static int enter(void **state)
 
 static int leave(void **state)
 {
-    kill(daemon_process, SIGTERM);
-    waitpid(daemon_process, NULL, 0);
+    if (daemon_process > 0) { /* or it would be a group of processes */
+        kill(daemon_process, SIGTERM);
+        waitpid(daemon_process, NULL, 0);
+    }
     return remove_folder(state);
 }
 

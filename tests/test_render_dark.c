@@ -251,10 +251,7 @@ static void edits_bring_the_light_back(void **state)
             wr_field_free(field);
             field = next;
         }
-        wr_renderer_free(renderer);
-        wr_pool_free(pool);
-        wr_scene_free(scene);
-        wr_field_free(field);
+        free_view(renderer, pool, scene, field);
     }
 }
 

@@ -175,10 +175,7 @@ static void edits_show_wherever_they_are(void **state)
             wr_field_free(field);
             field = next;
         }
-        wr_renderer_free(renderer);
-        wr_pool_free(pool);
-        wr_scene_free(scene);
-        wr_field_free(field);
+        free_view(renderer, pool, scene, field);
     }
 }
 

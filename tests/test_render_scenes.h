@@ -89,6 +89,15 @@ static inline void put_away(Shot *shot)
     wr_pool_free(shot->pool);
 }
 
+/* All that a view of the test's own was made of. */
+static inline void free_view(WrRenderer *renderer, WrPool *pool, WrScene *scene, WrField *field)
+{
+    wr_renderer_free(renderer);
+    wr_pool_free(pool);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 static inline size_t frame_bytes(const WrFrame *frame)
 {
     return (size_t)frame->width * (size_t)frame->height * 4 * sizeof(float);

@@ -151,7 +151,7 @@ static void the_views_are_alive_meanwhile(void **state)
     finish(&bench);
 }
 
-/* What would touch the document is not swallowed: the bar says that it waits for nobody, and nothing was done. */
+/* What would touch the document is done neither while the work runs nor afterwards. */
 static void what_changes_the_document_is_refused_meanwhile(void **state)
 {
     (void)state;

@@ -279,8 +279,8 @@ static void a_held_arrow_is_one_step_of_the_history(void **state)
         stop = come_to(&walk, WR_STOP_NUMBER, 0);
     }
     uint64_t before = 0;
-    for (int n = 0; n < 12 && !walk.app->live;
-         n++) { /* one of those that are seen while they move */
+    /* one of those that are seen while they move */
+    for (int n = 0; n < 12 && !walk.app->live; n++) {
         tap(&walk, SDL_SCANCODE_TAB, 0);
         come_to(&walk, WR_STOP_NUMBER, 0);
         before = wr_session_revision(walk.session);

@@ -2,7 +2,6 @@
 #include "test.h"
 
 #include "base/memory.h"
-
 #include "base/rows.h"
 #include "ui/gui/sentences.h"
 #include "ui/gui/words.h"

@@ -8,14 +8,12 @@
 #include "base/pool.h"
 #include "base/rows.h"
 #include "base/text.h"
+#include "brush/preset.h"
 #include "command/session.h"
 #include "field/ops.h"
 #include "generate/generator.h"
 #include "surface/surface.h"
 
-#include "brush/preset.h"
-#include "ui/panels/panel_dynamics.h"
-#include "ui/tools/shelf.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/app.h"
 #include "ui/app/canvas_view.h"
@@ -36,10 +34,12 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/words.h"
 #include "ui/jobs/files.h"
+#include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panel_status.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
+#include "ui/tools/shelf.h"
 #include "ui/tools/tool.h"
 
 #include <SDL.h>

@@ -22,5 +22,5 @@ void *wr_slab_take(WrSlabs *slabs);
 /* What was taken from the same; NULL does nothing. Of the blocks of which nothing is taken any more some are kept for the
  * next who asks, since the system clears what it hands out; the others go back to it. */
 void wr_slab_give(WrSlabs *slabs, void *piece);
-/* Those that are kept go back as well. */
+/* Those that are kept go back as well. Any thread; pieces that are out stay as they are. */
 void wr_slab_trim(WrSlabs *slabs);

@@ -77,27 +77,30 @@ const WrSettingInfo *wr_preset_setting(int index);
 int wr_preset_setting_find(const char *name);                  /* -1 */
 double wr_preset_value(const WrPreset *preset, int index);     /* base value */
 bool wr_preset_is_constant(const WrPreset *preset, int index); /* no input turns it */
-/* One input's curve: points [count][2], borrowed; 0 points without. */
+
 #define WR_PRESET_POINTS 64 /* of a curve, at most; at least 2 */
+
+/* What of pen and motion can turn a setting. */
 typedef struct WrInputInfo {
     const char *name;  /* "pressure" */
     const char *label; /* for people */
     const char *help;  /* a sentence */
-    double low, high;  /* what a curve is drawn over */
+    double low, high;  /* what a curve is drawn over; values may lie beyond */
 } WrInputInfo;
 
 int wr_preset_input_count(void);
-const WrInputInfo *wr_preset_input(int input);
-int wr_preset_input_find(const char *name); /* -1 */
+const WrInputInfo *wr_preset_input(int input); /* 0 .. count - 1 */
+int wr_preset_input_find(const char *name);    /* -1 */
 /* What a curve adds to a setting is within -reach .. reach. */
 double wr_preset_reach(int setting);
+/* One input's curve: points [count][2], borrowed; 0 points without. */
 int wr_preset_curve(const WrPreset *preset, int index, int input, const float (**points)[2]);
 
 /* A preset like this one with other base values, and other curves: "slow_tracking=2;opaque:pressure=0,0|0.4,0.1|1,1".
- * A curve takes the place of the one that the setting has by that input; without points there is none. Error: unknown
- * names, values out of range. */
+ * A curve takes the place of the one that the setting has by that input; without points there is none. The caller's;
+ * NULL and an error: unknown names, values out of range, points that are too many, one alone, or not in order. */
 WrPreset *wr_preset_with(const WrPreset *preset, const char *settings, WrError *err);
-/* Is that such a text, whatever the preset? */
+/* Is that such a text, whatever the preset? false: the same errors. */
 bool wr_preset_settings_check(const char *settings, WrError *err);
 /* Appends the file's text of this preset with brush's values as its own, "wrinkle" included. The tip is
  * named if it is still the preset's own. The caller owns *text. */

@@ -8,14 +8,13 @@
 #include "brush/preset.h"
 #include "brush/tip.h"
 
-#define WR_CURVE_POINTS WR_PRESET_POINTS /* of one curve, at most; at least 2 */
-#define WR_CURVE_FAR 1e9                 /* x of a curve's points, at most */
+#define WR_CURVE_FAR 1e9     /* x of a curve's points, at most */
 #define WR_PRESET_TEXT 20000 /* bytes of a description, at most; so of the other texts */
 
 /* How one input turns one setting: straight lines between the points, added to the base value. */
 typedef struct WrCurve {
     int setting, input, count;
-    float points[WR_CURVE_POINTS][2]; /* x never falls; |y| is within the setting's range */
+    float points[WR_PRESET_POINTS][2]; /* x never falls; |y| is within the setting's range */
 } WrCurve;
 
 struct WrPreset {

@@ -104,9 +104,9 @@ static bool read_curve(WrPreset *preset, json_object *list, Place at, int settin
         return fail_type(err, at, list, "a list of points [x, y]");
     size_t count = json_object_array_length(list);
     if (count == 0) return true;
-    if (count < 2 || count > WR_CURVE_POINTS) {
+    if (count < 2 || count > WR_PRESET_POINTS) {
         char text[80];
-        snprintf(text, sizeof text, "%zu points: must be 2..%d", count, WR_CURVE_POINTS);
+        snprintf(text, sizeof text, "%zu points: must be 2..%d", count, WR_PRESET_POINTS);
         return fail_at(err, at, text);
     }
     WrCurve curve = { .setting = setting, .input = input, .count = (int)count };

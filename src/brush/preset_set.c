@@ -124,15 +124,15 @@ static bool set_curve(WrPreset *preset, int setting, Piece input, Piece points, 
                        "random, direction or another that MyPaint knows",
                        of, shown(input), input.at);
     while (points.length > 0) {
-        if (curve.count == WR_CURVE_POINTS)
-            return wr_fail(err, "settings: %s:%s: more than %d points", of, name, WR_CURVE_POINTS);
+        if (curve.count == WR_PRESET_POINTS)
+            return wr_fail(err, "settings: %s:%s: more than %d points", of, name, WR_PRESET_POINTS);
         if (!read_point(&curve, cut(&points, '|'), err)) return false;
     }
     if (curve.count == 1)
         return wr_fail(err,
                        "settings: %s:%s: one point: must be 2..%d, or none to take the curve "
                        "away",
-                       of, name, WR_CURVE_POINTS);
+                       of, name, WR_PRESET_POINTS);
     put_curve(preset, &curve);
     return true;
 }

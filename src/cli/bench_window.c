@@ -48,9 +48,8 @@ static const char *const small_table[] = { "table 512x512", "grid cells=16x16 wi
                                            "surface sphere", NULL };
 static const char *const huge_table[] = { "table 16384x16384", "grid cells=64x64 width=40 high=0.5",
                                           "surface sphere", NULL };
-#define HUGE_NEEDS                                                                                 \
-    ((uint64_t)10                                                                                  \
-     << 30) /* bytes: heights, their composite, what is shown, what is rendered, slopes */
+/* Bytes: heights, their composite, what is shown, what is rendered, slopes. */
+#define HUGE_NEEDS ((uint64_t)10 << 30)
 
 static bool run_all(WrSession *session, const char *const *lines, WrError *err)
 {

@@ -215,10 +215,10 @@ int wr_cli_accuracy(const WrCli *cli)
     if (good) {
         wr_filters_forget();
         prepare(cli, session, &work);
-        good = !wr_filters_carried(&err) ? false
-               : cli->illusion ? wr_illusion_run(cli, &work.request, name_of(cli), &work.text, &err)
-               : cli->tolerance_count > 0 ? compete(cli, &work, &err)
-                                          : climb(cli, &work, &err);
+        good = wr_filters_carried(&err) &&
+               (cli->illusion ? wr_illusion_run(cli, &work.request, name_of(cli), &work.text, &err)
+                : cli->tolerance_count > 0 ? compete(cli, &work, &err)
+                                           : climb(cli, &work, &err));
         if (work.terminal) fprintf(stderr, "\r                 \r");
     }
     int status = good ? wr_cli_print(cli, &work.text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);

@@ -66,7 +66,8 @@ const WrField *wr_document_field(const WrDocument *document);
 const WrField *wr_document_composite(const WrDocument *document, WrPool *pool);
 
 /* A filter that cannot be carried out, for want of memory, leaves what it was given in its place, and is tried again the
- * next time. Whether any did among all that the calling thread composited since it forgot: false and an error. */
+ * next time. wr_filters_carried: were all carried out that the calling thread composited since it last forgot? false: an
+ * error that names the layer. What was cancelled does not count. */
 void wr_filters_forget(void);
 bool wr_filters_carried(WrError *err);
 

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #define WR_NORMAL_STRIP 256 /* texels of a row at most */
-#define WR_NORMAL_BLOCK 16
+#define WR_NORMAL_BLOCK 16  /* texels of a row that nearly8 makes, or leaves, together */
 
 /* Whether slopes are such that plain products give the bits of v3_unit, which scales by powers of two
  * against overflow. What is not finite is not. */

@@ -25,7 +25,7 @@ WrField *wr_field_new(int width, int height, WrWrap wrap_u, WrWrap wrap_v, float
    writes to it. */
 WrField *wr_field_share(const WrField *field);
 void wr_field_free(WrField *field); /* NULL is fine */
-/* What freed tables leave for the next one goes back to the system. */
+/* What freed tables leave for the next one goes back to the system. Any thread. */
 void wr_field_trim(void);
 
 int wr_field_width(const WrField *field);

@@ -100,7 +100,8 @@ int wr_op_param_count(const WrOpInfo *op);
 WrField *wr_op_run(const WrOpInfo *op, const WrField *in, const double *param,
                    const WrOpOptions *options, WrError *err);
 
-/* The same of a table of 0..1, such as a coverage or a mask, which stays within that whatever the operation overshoots. */
+/* The same of a table of 0..1, such as a coverage or a mask, which stays within that whatever the operation overshoots.
+ * What is returned is the caller's, errors are as above. */
 WrField *wr_op_run_unit(const WrOpInfo *op, const WrField *in, const double *param,
                         const WrOpOptions *options, WrError *err);
 

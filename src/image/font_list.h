@@ -11,7 +11,7 @@ typedef struct WrFontEntry {
     char *family, *style; /* owned; UTF-8 of one line */
     char *path;           /* owned; UTF-8 of one line */
     char *sample; /* owned: its family's name if it has those letters, else some of its own */
-    int face;     /* of a collection, from 0 */
+    int face;     /* of a collection, from 0; else 0 */
 } WrFontEntry;
 typedef WR_ARRAY(WrFontEntry) WrFontList;
 

@@ -8,8 +8,8 @@
 typedef struct WrError WrError;
 
 #define WR_GLTF_NAME 64
-#define WR_GLTF_PICTURE_MAX                                                                        \
-    ((size_t)256 << 20) /* bytes of one picture, or of the file of its buffer */
+/* Bytes of one picture, or of the file of its buffer. */
+#define WR_GLTF_PICTURE_MAX ((size_t)256 << 20)
 
 /* One material, as the file gives it; what it leaves out has glTF's default. Pictures by their index among the file's
    images, from 0; -1: none. */

@@ -103,7 +103,7 @@ bool wr_cast_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most)
     case WR_INVERT_CONE:
         return meets_tube(value[0] / 2, -value[0] / value[1], value[1], o, d, most);
     case WR_INVERT_MESH:
-        return wr_cast_meets_torus(&body->shape, o, d, most); /* no other has no facets */
+        return wr_cast_meets_torus(&body->shape, o, d, most); /* all others have facets */
     case WR_INVERT_TRIANGLES: break;
     }
     return false;

@@ -72,14 +72,14 @@ bool wr_cast_spares_itself(const WrCastBody *body);
 /* The body's size alone. field: what F is looked up in where the surface is displaced; NULL with a formula. moves: a displaced
    surface is met as it is displaced, else its base. */
 void wr_cast_body_size(WrCastBody *body, const WrScene *scene, const WrField *field, bool moves);
-/* All of it; its size is known. Errors: no memory. */
+/* All of it; its size is known, and field as it was for that. Errors: no memory. */
 bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, const WrField *field, WrError *err);
 void wr_cast_body_fini(WrCastBody *body);
-/* Does the ray o + t d meet it for 0 < t < most? */
+/* Does the ray o + t d, object units, d of any length, meet it for 0 < t < most? */
 bool wr_cast_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most);
 /* The same of a torus. */
 bool wr_cast_meets_torus(const WrShape *shape, WrVec3 o, WrVec3 d, double most);
-/* The same of its tree. */
+/* The tree of boxes about body->triangles, and the same of it. Errors: no memory. */
 bool wr_cast_tree_bring(WrCastBody *body, WrError *err);
 bool wr_cast_tree_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most);
 /* Facets of a surface without a closed form, or displaced, into body->triangles, and what they are off by into its lift. */

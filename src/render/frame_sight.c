@@ -5,8 +5,7 @@
 #include "scene/objects.h"
 
 #define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
-#define PLACES                                                                                     \
-    (1 << 16) /* samples along a picture whose places in 256ths are exact in single precision */
+#define PLACES (1 << 16) /* samples along a side: in 256ths they are exact in single precision */
 #define STEADY_MOST (1 << 22) /* likewise; 33 bytes each, and 32 more while they are noted */
 
 /* Does its relief throw shadows, or hide itself? */

@@ -25,12 +25,11 @@ typedef struct WrKeepBox {
 
 /* Zero-initialise; fini frees. */
 typedef struct WrKeep {
-    WrKeepBox
-        *patches;     /* [tiles][down][across] of the last picture; NULL: nothing is kept. Owned */
-    WrKeepBox *whole; /* [tiles] what holds those of each. Owned */
+    WrKeepBox *patches; /* [tiles][down][across] of the last picture; NULL: nothing kept. Owned */
+    WrKeepBox *whole;   /* [tiles] what holds those of each. Owned */
     int tiles, across, down;
     int tile_w, tile_h, patch_w, patch_h; /* pixels */
-    WrField *field;                       /* snapshot of the last picture */
+    WrField *field;                       /* snapshot of the last picture's; NULL: none. Owned */
     WrKeepBox changed[WR_KEEP_CHANGES];   /* since then; by wr_keep_compare */
     int changes;
 } WrKeep;
@@ -50,11 +49,11 @@ void wr_keep_start(WrKeep *keep, int tiles, int tile_w, int tile_h, bool whole);
 WrKeepNotes wr_keep_open(WrKeep *keep, int tile, int x, int y);
 /* All of the tile was noted. */
 void wr_keep_close(WrKeep *keep, int tile);
-/* Places in the table, 0..1, where samples looked that stand at x, y in the grid of k a pixel: float or double, by the
-   size of one. */
+/* Places in the table, 0..1, where up to WR_SPAN samples looked that stand at x, y in the grid of k a side of a pixel:
+   float or double, by the size of one. */
 void wr_keep_note_places(const WrKeepNotes *notes, int k, int count, size_t size, const void *x,
                          const void *y, const void *tu, const void *tv);
-/* One, and all within reach of it; reach in 0..1. */
+/* One such place, and all within reach of it; reach in 0..1. */
 void wr_keep_note_box(const WrKeepNotes *notes, int k, double x, double y, double tu, double tv,
                       double reach_u, double reach_v);
 /* Find what differs between the kept field and this one, of equal size and wrap: exact texels of the

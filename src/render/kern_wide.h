@@ -1,6 +1,7 @@
 /* kern_wide.h - kernels for the pictures that matter most, in fast arithmetic alone: several stages at once, in vectors
    written by hand (kern_wide_body.h). They keep to the bound of fast arithmetic, not to the bits of the stages; each
-   sample's bits are its own, wherever in a strip it stands.
+   sample's bits are its own, wherever in a strip it stands. Lanes beyond a strip's count are read and written up to the
+   next whole vector, which WR_SPAN holds. (gx, gy) is a place in the grid of the rays, in samples.
    Layer 5, private to the renderer. */
 #pragma once
 #include "render/kern.h"
@@ -8,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Finished colours as opaque codes, as WrKernels.codes; grey: red, green and blue of all are the same bits. How many
+/* Finished colours as opaque codes, as WrKernels.codes; grey: red, green and blue of all are the same bits. Returns how many
    numbers were not finite. */
 typedef int (*WrWideCodes)(const uint32_t *bins, const WrStrip *strip, bool grey, uint32_t *out);
 

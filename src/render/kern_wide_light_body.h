@@ -1,4 +1,4 @@
-/* kern_lamp_body.h - all of one lamp in one pass, where highlights are narrow. A part of kern_wide_*.c.
+/* kern_wide_light_body.h - all of one lamp in one pass, where highlights are narrow. A part of kern_wide_*.c.
    The formulas are those of shade/light_body.h, but for what narrow highlights spare: they are worked out only where
    some sample of a vector has one of 2^-FAINT of what the picture shows, and there 1 - n'.h is small, so that its
    logarithm takes no exponent. */
@@ -47,8 +47,8 @@ ALWAYS WideVec unit_towards(WideVec from, WideVec to)
 /* Seen along v; 0 where there is none. */
 ALWAYS Wide narrow_highlight(const Lamp *lamp, WideVec l, Wide n_dot_l, WideVec bent, WideVec v)
 {
-    const WideVec h = { l.x + v.x, l.y + v.y,
-                        l.z + v.z }; /* 0 where l and v are opposite: off is n' */
+    /* 0 where l and v are opposite: off is n' */
+    const WideVec h = { l.x + v.x, l.y + v.y, l.z + v.z };
     const WideVec off = w_mad(bent, h, -w_rsqrt(w_max(w_dot(h, h), w_all(1e-24f))));
     const Wide twice = w_dot(off, off);
     WideMask shown = w_less(twice, lamp->limit);

@@ -15,7 +15,7 @@ typedef struct March {
     REAL before[WR_SPAN], past[WR_SPAN]; /* g there */
     REAL pace[WR_SPAN], least[WR_SPAN];  /* t by g, 0: not known; and t of the shortest step */
     bool below[WR_SPAN];                 /* where it comes in, the surface ends */
-    REAL dx[WR_SPAN], dy[WR_SPAN], dz[WR_SPAN]; /* d; only through shells, as long as they are */
+    REAL dx[WR_SPAN], dy[WR_SPAN], dz[WR_SPAN]; /* d, of any length; of shells alone */
     bool misses[WR_SPAN];   /* where it goes out it has met nothing; then: it did */
     int on[WR_SPAN], count; /* those that are on their way */
     int met[WR_SPAN], met_count;

@@ -4,7 +4,7 @@
    A ray is at foot + t d, the foot nearest to the base's middle. Of a sphere |.| - R, of a tube that of x and y alone, is how high
    it is over the base, and u and v are those of the point: nothing is left out. */
 
-/* Parts of a way, t; from > to: none. */
+/* Part of a way, t; from > to: none of it; to 1e15 either way: all of it. */
 typedef struct Part {
     REAL from, to;
 } Part;
@@ -157,8 +157,8 @@ static void count_texels(const WrTileJob *job, const Strip *s, March *m, REAL *t
         }
         place_shell(job, s, m, m->on, m->count, t, near);
         for (int k = 0; k < m->count; k++) {
-            const double round = fabs((double)(near->u[k] - u[k]));
-            const double along = part ? fmin(round, 1 - round) : 0;
+            const double round = part ? fabs((double)(near->u[k] - u[k])) : 0;
+            const double along = fmin(round, 1 - round);
             const double up = part ? fabs((double)(near->v[k] - v[k])) : 0;
             const REAL passed = (REAL)(along * p->texels[0] + up * p->texels[1]);
             m->least[m->on[k]] = part ? m->least[m->on[k]] + passed : 0;

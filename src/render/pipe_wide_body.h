@@ -125,10 +125,11 @@ void wr_pipe_wide(WrTileJob *job)
     const LampMatter m = lamp_matter(job, true);
     const WrBumpMode bump = job->plan->bump;
     job->wide_sphere = job->wide_met = job->grey = false;
-    if (job->view->light_count == 1 && is_grey(job) && !runs(job, WR_EFFECT_COLOUR) && !job->wide)
-        job->grey =
-            runs_only(job, at_once | geometry); /* exact: each channel is worked out alike */
-    if (!job->wide) return;
+    if (!job->wide) { /* exact: each channel is worked out alike */
+        job->grey = job->view->light_count == 1 && is_grey(job) && !runs(job, WR_EFFECT_COLOUR) &&
+                    runs_only(job, at_once | geometry);
+        return;
+    }
     job->wide_met = job->plan->inversion == WR_INVERT_SPHERE && job->view->cull &&
                     !job->view->stretched && !job->dice && !job->triangles &&
                     !runs(job, WR_EFFECT_PARALLAX);

@@ -67,8 +67,9 @@ bool wr_raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
 /* Vertices under way to the grid. */
 #define PROJECTED 128
 typedef struct Projected {
-    double x[PROJECTED], y[PROJECTED], close[PROJECTED]; /* 1/256 samples */
-    int in[PROJECTED]; /* inside the near plane and the guard band */
+    double x[PROJECTED], y[PROJECTED]; /* 1/256 samples, whole */
+    double close[PROJECTED];           /* as WrRasterVertex has it */
+    int in[PROJECTED];                 /* inside the near plane and the guard band */
 } Projected;
 
 /* The same as wr_raster_project of `count` points. */

@@ -1,5 +1,5 @@
-/* reference_parallax.h - parallax for the reference: a ray that has met the base goes on to the relief over its tangent plane
-   (parallax.h), by short even steps that are bisected, in double.
+/* reference_parallax.h - parallax for the reference: a ray that has met the base goes on to the relief over its tangent plane,
+   or through the shell of a round base (parallax.h), by short even steps that are bisected, in double.
    Layer 5, private to the reference. */
 #pragma once
 #include "render/reference_shade.h"
@@ -13,6 +13,6 @@ void wr_reference_parallax_init(WrReferenceStage *stage, const WrField *field,
    it meets nothing. */
 bool wr_reference_parallax(const WrReferenceStage *stage, const WrReferenceRay *ray,
                            WrReferenceHit *hit, WrSurfacePoint *at, double *side);
-/* The same of a base that has a shell, but for the point. */
+/* The same of a base that has a shell (wr_parallax_has_shell), but for the point. */
 bool wr_reference_shell(const WrReferenceStage *stage, const WrReferenceRay *ray,
                         WrReferenceHit *hit, double *side);

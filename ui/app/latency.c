@@ -153,7 +153,7 @@ static void step_for(WrApp *app, double seconds)
 
 static bool stopped(const WrApp *app)
 {
-    return app->quit || (wr_cancel_asked(app->options->cancel));
+    return app->quit || wr_cancel_asked(app->options->cancel);
 }
 
 /* ---- doing nothing ---- */

@@ -64,6 +64,6 @@ void wr_file_take_open(WrApp *app, const char *path);
 void wr_file_take_save(WrApp *app, const char *path);
 void wr_file_take_import(WrApp *app, const char *path);
 void wr_file_take_gltf(WrApp *app, const char *path);
-void wr_app_ask_gltf(WrApp *app); /* whose materials the objects shall have */
+void wr_app_ask_gltf(WrApp *app); /* for the file whose material the object at hand shall have */
 void wr_file_take_export(WrApp *app, const char *path);
 void wr_file_take_history(WrApp *app, const char *path);

@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "brush/brush.h"
 #include "system/path.h"
@@ -91,7 +92,7 @@ static int window_rows(WrSettings *s, Row *rows)
         { "turning", NULL, NULL, &s->turning, 0, 1 },
     };
     memcpy(rows, some, sizeof some);
-    return (int)(sizeof some / sizeof *some);
+    return WR_LENGTH(some);
 }
 
 /* Of the brush. */
@@ -121,7 +122,7 @@ static int brush_rows(WrSettings *s, Row *rows)
         { "lock_size", NULL, NULL, &s->lock_size, 0, 1 },
     };
     memcpy(rows, some, sizeof some);
-    return (int)(sizeof some / sizeof *some);
+    return WR_LENGTH(some);
 }
 
 /* Of symmetry and of tools that draw. */
@@ -151,7 +152,7 @@ static int drawing_rows(WrSettings *s, Row *rows)
         { "ramp_high", &s->drawing.high, NULL, NULL, -1e30, 1e30 },
     };
     memcpy(rows, some, sizeof some);
-    return (int)(sizeof some / sizeof *some);
+    return WR_LENGTH(some);
 }
 
 /* Of the hand, and of how the table is looked at. */
@@ -176,7 +177,7 @@ static int view_rows(WrSettings *s, Row *rows)
         { "high", &s->look.high, NULL, NULL, -1e30, 1e30 },
     };
     memcpy(rows, some, sizeof some);
-    return (int)(sizeof some / sizeof *some);
+    return WR_LENGTH(some);
 }
 
 static int rows_of(WrSettings *s, Row rows[ROWS_MAX])

@@ -59,9 +59,9 @@ typedef struct WrSettings {
     bool lock_size;        /* another preset keeps the size */
     char *favourites[WR_FAVOURITES_MAX]; /* ids of presets, owned; NULL ends them */
     char *used[WR_USED_MAX]; /* the same, newest first; "round" is the brush without a preset */
-    char *fonts
-        [WR_FONTS_MAX]; /* chosen last, newest first, owned: a name of wr_font_names or "FACE PATH" */
-    bool symmetric;     /* brush.symmetry is `symmetry`; else there is none */
+    /* Fonts chosen last, newest first, owned; NULL ends them: a name of wr_font_names or "FACE PATH". */
+    char *fonts[WR_FONTS_MAX];
+    bool symmetric;      /* brush.symmetry is `symmetry`; else there is none */
     WrSymmetry symmetry; /* kept while it is off */
     bool symmetry_panel; /* shown */
     int key_map;         /* wr_key_maps */
@@ -104,6 +104,7 @@ bool wr_settings_update(WrSettings *known, const WrSettings *now, bool last);
 void wr_settings_set_text(char **text, const char *value);
 /* A preset was chosen: it becomes the first of those used. */
 void wr_settings_note_used(WrSettings *settings, const char *id);
+/* The same of a font. */
 void wr_settings_note_font(WrSettings *settings, const char *font);
 /* Index of a favourite, or -1; put it at the end, or take it out; does nothing more when all places are
  * taken. */

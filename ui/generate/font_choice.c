@@ -63,10 +63,10 @@ struct WrFontChoice {
     WrJob *job;
     WR_ARRAY(Row) rows;
     WR_ARRAY(Shown) shown;
-    bool asked, listed,
-        stale; /* the fonts were asked for, are there; `shown` is not of what is typed */
+    bool asked, listed; /* the fonts were asked for, are there */
+    bool stale;         /* `shown` is not of what is typed */
     WrError err;
-    int w, h, round; /* of the samples */
+    int w, h, round; /* of the samples: pixels, and how often they were begun anew */
     char filter[64];
     int chosen;       /* of shown */
     bool fresh, jump; /* it was opened just now; the chosen one is to be seen */
@@ -242,15 +242,20 @@ static void show(WrFontChoice *choice, int row, const char *heading)
 {
     const int count = choice->shown.count;
     bool begins = true;
-    for (int i = 0; i < count && begins; i++)
-        begins = !choice->shown.data[i].heading || choice->shown.data[i].heading != heading;
+    for (int i = 0; i < count && begins; i++) begins = choice->shown.data[i].heading != heading;
     wr_array_push(&choice->shown, ((Shown){ row, begins ? heading : NULL }));
+}
+
+static void label_of(const Row *row, char label[200])
+{
+    snprintf(label, 200, row->named || !row->entry.style[0] ? "%.90s" : "%.90s %.90s",
+             row->entry.family, row->named ? "" : row->entry.style);
 }
 
 static bool answers(const Row *row, const char *query)
 {
     char label[200];
-    snprintf(label, sizeof label, "%s %s", row->entry.family, row->named ? "" : row->entry.style);
+    label_of(row, label);
     return wr_search_score(label, query) > 0;
 }
 
@@ -303,12 +308,6 @@ static void take_in_hand(WrApp *app, int param, const Row *row)
 }
 
 /* ---- the list ---- */
-
-static void label_of(const Row *row, char label[200])
-{
-    snprintf(label, 200, row->named || !row->entry.style[0] ? "%.90s" : "%.90s %.90s",
-             row->entry.family, row->named ? "" : row->entry.style);
-}
 
 static bool row_pressed(WrFontChoice *choice, int i, bool chosen, bool current)
 {

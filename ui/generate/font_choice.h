@@ -23,8 +23,8 @@ extern const WrPart wr_part_font_choice;
 
 /* What a word looks like in a font, white, as opaque as it covers a pixel; the baseline stands at the same height in all.
  *
- * font     a named one, or a file and a face of it
- * argb     [h][w]
+ * sample   the font, a named one or a file and a face of it, and the picture's size in pixels
+ * argb     [h][w], the caller's; top row first
  * False    the font cannot be read, or `progress` was cancelled */
 typedef struct WrFontSample {
     const char *named; /* of wr_font_names; NULL: entry */

@@ -11,7 +11,7 @@ extern "C" {
    that it tells programs (XSETTINGS: Xft/DPI), else by the server's resources (Xft.dpi). */
 double wr_desktop_dpi(SDL_Window *window);
 
-/* The X server's number of the window; 0: it has none. */
+/* The X server's number of the window; 0: it has none, as under Wayland. */
 unsigned long wr_desktop_window(SDL_Window *window);
 
 /* Dots an inch of what was read: an _XSETTINGS_SETTINGS property, and lines of resources. Both come from other programs; 0

@@ -258,12 +258,11 @@ void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double widt
 void wr_gui_text_within(WrFont font, WrColour colour, const char *text, double width);
 /* A picture of w x h pixels, with a thin edge. */
 void wr_gui_image(SDL_Texture *texture, double w, double h);
-/* A picture that says by its opacity where that colour goes; NULL only takes its place. */
 /* The same as a button; chosen: with a frame around it. */
 bool wr_gui_image_button(const char *id, SDL_Texture *texture, double w, double h, bool chosen);
-/* A picture that says by its opacity where that colour goes; NULL only takes its place. */
+/* w x h pixels of a picture that says by its opacity where that colour goes; NULL only takes its place. */
 void wr_gui_ink(SDL_Texture *texture, double w, double h, WrColour colour);
-/* Looks like a choice, cut off where it is too long; what opens is the caller's. */
+/* Looks like a choice, `width` pixels wide, its label cut off where it is too long; what opens is the caller's. */
 bool wr_gui_list_button(const char *id, const char *label, double width);
 
 /* ---- menus, popups, dialogs: begin returns true while open, and only then end follows ---- */

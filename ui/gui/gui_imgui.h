@@ -9,10 +9,10 @@ extern "C" {
 }
 
 #include <imgui.h>
-
-struct ImGuiWindow;
 #include <stdbool.h>
 #include <stdint.h>
+
+struct ImGuiWindow;
 
 #define WR_GUI_KEYS 512 /* of the keyboard, by SDL_Scancode */
 #define WR_GUI_TYPED 64
@@ -23,8 +23,8 @@ struct ImGuiWindow;
 
 /* Where the keys are. */
 struct WrFocus {
-    WrKeyStop *stops,
-        *coming; /* of the last frame, and of the one that is being made; owned, WR_GUI_STOPS each */
+    /* Of the last frame, and of the one that is being made; owned, WR_GUI_STOPS each. */
+    WrKeyStop *stops, *coming;
     int count, coming_count;
     ImGuiID at; /* 0: none */
     int index;  /* of its stop, in the last frame that had it */

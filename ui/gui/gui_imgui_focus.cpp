@@ -16,7 +16,6 @@ static const ImGuiWindow *part_of(const ImGuiWindow *window)
     return window;
 }
 
-/* How many popups are open, the dialog counted; and the window of the last of them. */
 int wr_gui_levels_open(const ImGuiContext &g)
 {
     return g.OpenPopupStack.Size < WR_GUI_LEVELS ? g.OpenPopupStack.Size : WR_GUI_LEVELS;
@@ -32,7 +31,6 @@ bool wr_gui_is_dialog(const ImGuiWindow *window)
     return window && (window->Flags & ImGuiWindowFlags_Modal);
 }
 
-/* Can the keys come to it now? While a popup is open only to what is in it. */
 bool wr_gui_reachable(const ImGuiContext &g, const WrKeyStop *stop)
 {
     const ImGuiWindow *top = wr_gui_top_of(g);

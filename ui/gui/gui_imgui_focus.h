@@ -13,7 +13,9 @@ bool wr_gui_is_list(const ImGuiWindow *window); /* within a part */
 bool wr_gui_reachable(const ImGuiContext &g, const WrKeyStop *stop);
 /* Of the last frame; NULL: it was not there. */
 const WrKeyStop *wr_gui_find_stop(const WrFocus *focus, ImGuiID id);
-/* gui_imgui_focus_keys.cpp */
+
+/* ---- gui_imgui_focus_keys.cpp ---- */
+/* The ring comes to a stop of the last frame. */
 void wr_gui_go_to(WrFocus *focus, const WrKeyStop *stop);
 /* Of a group Tab comes to the chosen one, or to the first. */
 const WrKeyStop *wr_gui_entrance(const ImGuiContext &g, const WrFocus *focus,

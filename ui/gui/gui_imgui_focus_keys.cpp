@@ -28,7 +28,6 @@ void wr_gui_go_to(WrFocus *focus, const WrKeyStop *stop)
     focus->pad_x = focus->pad_y = 0.5f;
 }
 
-/* Of a group Tab comes to the chosen one, or to the first. */
 const WrKeyStop *wr_gui_entrance(const ImGuiContext &g, const WrFocus *focus, const WrKeyStop *stop)
 {
     if (!stop->group) return stop;

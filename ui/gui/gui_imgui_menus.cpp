@@ -41,7 +41,7 @@ try {
     /* Where it is open its own window is what is current now. */
     if (!open) wr_gui_stop(WR_STOP_MENU, false);
     else wr_gui_stop_open(window, id);
-    if (wr_gui_tells_all) ImGui::MenuItem(wr_gui_labelled(label, said));
+    if (wr_gui_tells_all) ImGui::MenuItem(shown);
     if (!wr_gui_tells_all) wr_gui_fits_window(label);
     ImGui::PopStyleVar();
     return open || wr_gui_stands_in(label);

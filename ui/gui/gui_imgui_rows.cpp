@@ -169,6 +169,7 @@ try {
     ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_FIELD));
     ImGui::PushID(id);
     bool pressed = ImGui::Button("##list", ImVec2((float)width, h));
+    wr_gui_stop(WR_STOP_PRESS, false);
     ImGui::PopID();
     ImGui::PopStyleColor();
     ImDrawList *list = ImGui::GetWindowDrawList();
@@ -176,10 +177,9 @@ try {
     float right = end.x - px(13), middle = roundf(at.y + h / 2 - arrow / 2);
     const ImVec4 clip(at.x, at.y, right - arrow - px(2), end.y);
     const char *said = wr_gui_said(label);
-    ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
-                                        ImVec2(at.x + pad, at.y + ImGui::GetStyle().FramePadding.y),
-                                        wr_gui_colour_of(WR_COLOUR_TEXT), said, nullptr, 0.0f,
-                                        &clip);
+    list->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
+                  ImVec2(at.x + pad, at.y + ImGui::GetStyle().FramePadding.y),
+                  wr_gui_colour_of(WR_COLOUR_TEXT), said, nullptr, 0.0f, &clip);
     list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
                             ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
     return pressed;

@@ -248,7 +248,8 @@ static void place_tip(bool focused)
     const bool menu = window->Flags & (ImGuiWindowFlags_Popup | ImGuiWindowFlags_ChildMenu) &&
                       !(window->Flags & ImGuiWindowFlags_Modal);
     const float end = window->Pos.x + window->Size.x, right = end + px(6);
-    const bool fits = right + px(320)<whole.x, lower = low.y> 0.5f * whole.y;
+    const bool fits = right + px(320) < whole.x;
+    const bool lower = low.y > 0.5f * whole.y;
     if (menu)
         ImGui::SetNextWindowPos(ImVec2(fits ? right : window->Pos.x - px(6), low.y), 0,
                                 ImVec2(fits ? 0.0f : 1.0f, 0));
@@ -317,8 +318,7 @@ try {
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
     const float room = ImGui::CalcItemWidth() - 2 * padding.x;
     float said_wide = ImGui::CalcTextSize(now).x;
-    const bool tight =
-        said_wide > room; /* then it is in the small face, which fields are as high as without */
+    const bool tight = said_wide > room; /* then it is in the small face */
     /* Drawn here: a face that is chosen across BeginCombo would be given back to the list's own window. */
     const ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
     if (tight) said_wide = small->CalcTextSizeA(small->FontSize, FLT_MAX, 0.0f, now).x;

@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-/* Where it is too long it is cut between letters. Returns `out`. */
+/* out: the caller's, size bytes, at least 1; where the sentence is too long it is cut between letters. Returns `out`. */
 const char *wr_sentence(const char *english, char *out, size_t size);
 #define WR_SENTENCE 1200 /* bytes: room for the longest error */
 

@@ -65,7 +65,7 @@ typedef struct Library {
     bool good;
 } Library;
 
-/* Once for the whole process; nobody unloads it. */
+/* For each question; the library is opened once and nobody unloads it. */
 static bool load(Library *dbus)
 {
     void *object = wr_object_open(LIBRARY);
@@ -380,7 +380,8 @@ static WrPortalEnd ask_bus(Bus *bus, const WrPortalAsk *ask)
     static volatile int count;
     char token[40];
     const double deadline = wr_clock_seconds() + ask->patience;
-    snprintf(token, sizeof token, "wrinkle%ld_%d", (long)wr_process_id(), ++count);
+    snprintf(token, sizeof token, "wrinkle%ld_%d", (long)wr_process_id(),
+             __atomic_add_fetch(&count, 1, __ATOMIC_RELAXED));
     if (!connect_to_bus(bus) || !introduce(bus, token, deadline)) return WR_PORTAL_NONE;
     /* What it calls the question: as we do, but for old ones. */
     if (!told(bus, question(bus, ask, token), deadline, bus->handle, sizeof bus->handle)) {

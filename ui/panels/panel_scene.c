@@ -9,6 +9,7 @@
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
+#include "base/rows.h"
 #include "base/text.h"
 #include "command/call.h"
 #include "document/document.h"
@@ -267,8 +268,8 @@ void wr_panel_scene(WrApp *app)
     static void (*const sections[])(
         WrApp * app) = { wr_panel_objects, surface,         wr_panel_material, wr_panel_maps,
                          wr_panel_solid,   wr_panel_lights, wr_panel_camera,   wr_panel_cell };
-    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
-        wr_gui_push_id((int)i); /* a strength here is not the strength there */
+    for (int i = 0; i < WR_LENGTH(sections); i++) {
+        wr_gui_push_id(i); /* a strength here is not the strength there */
         sections[i](app);
         wr_gui_pop_id();
     }

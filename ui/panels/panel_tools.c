@@ -67,8 +67,7 @@ static Button eraser_button(const WrApp *app)
 static Button family_button(const WrApp *app, int k)
 {
     const WrGenerator *generator = wr_action_generator(own[k].action);
-    const WrFamily *family = wr_families;
-    while (strcmp(family->name, generator->family) != 0) family++;
+    const WrFamily *family = wr_family_find(generator->family);
     return (Button){ own[k].action, own[k].icon, family->label, family->help,
                      strcmp(family_now(app), own[k].family) == 0 };
 }

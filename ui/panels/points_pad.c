@@ -9,12 +9,13 @@
 #define OUT_UNITS 28.0 /* so far outside a point is let go */
 #define STEPS 160
 
-double wr_points_x(const WrPad *pad, const WrPointsSpan *span, double x)
+/* Where x and y stand, pixels of the window. */
+static double x_of(const WrPad *pad, const WrPointsSpan *span, double x)
 {
     return pad->x + pad->w * (x - span->left) / (span->right - span->left);
 }
 
-double wr_points_y(const WrPad *pad, const WrPointsSpan *span, double y)
+static double y_of(const WrPad *pad, const WrPointsSpan *span, double y)
 {
     return pad->y + pad->h * (1.0 - (y - span->low) / (span->high - span->low));
 }
@@ -29,9 +30,8 @@ void wr_points_draw(const WrPad *pad, const WrPointsHand *hand, const double *va
         double height;
         const double place = span->left + (span->right - span->left) * k / STEPS;
         const bool there = at(ctx, place, &height);
-        const double x = wr_points_x(pad, span, place);
-        const double y =
-            there ? fmin(fmax(wr_points_y(pad, span, height), pad->y), pad->y + pad->h) : 0.0;
+        const double x = x_of(pad, span, place);
+        const double y = there ? fmin(fmax(y_of(pad, span, height), pad->y), pad->y + pad->h) : 0.0;
         if (before && there)
             wr_gui_draw_line(before_x, before_y, x, y, WR_COLOUR_CELL, wr_gui_px(2));
         before = there;
@@ -39,9 +39,8 @@ void wr_points_draw(const WrPad *pad, const WrPointsHand *hand, const double *va
         before_y = y;
     }
     for (int i = 0; i < (int)*value; i++)
-        wr_gui_draw_disc(wr_points_x(pad, span, value[1 + 2 * i]),
-                         wr_points_y(pad, span, value[2 + 2 * i]), wr_gui_px(4),
-                         i == hand->chosen - 1 ? WR_COLOUR_ACCENT : WR_COLOUR_STRONG);
+        wr_gui_draw_disc(x_of(pad, span, value[1 + 2 * i]), y_of(pad, span, value[2 + 2 * i]),
+                         wr_gui_px(4), i == hand->chosen - 1 ? WR_COLOUR_ACCENT : WR_COLOUR_STRONG);
 }
 
 static int near(const WrPad *pad, const WrPointsSpan *span, const WrPointsRules *rules,
@@ -50,8 +49,8 @@ static int near(const WrPad *pad, const WrPointsSpan *span, const WrPointsRules 
     double most = wr_gui_px(rules->reach > 0.0 ? rules->reach : REACH_UNITS);
     int found = -1;
     for (int i = 0; i < (int)*value; i++) {
-        const double away = hypot(wr_points_x(pad, span, value[1 + 2 * i]) - pad->pointer_x,
-                                  wr_points_y(pad, span, value[2 + 2 * i]) - pad->pointer_y);
+        const double away = hypot(x_of(pad, span, value[1 + 2 * i]) - pad->pointer_x,
+                                  y_of(pad, span, value[2 + 2 * i]) - pad->pointer_y);
         if (away <= most) found = i, most = away;
     }
     return found;

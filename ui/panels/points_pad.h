@@ -12,18 +12,17 @@ typedef struct WrPointsSpan {
 
 /* What is kept from picture to picture; zero at first. */
 typedef struct WrPointsHand {
-    int held,
-        chosen; /* a point's number from 1: under the pointer, and the one that keys move; 0: none */
+    int held;          /* the point under the pointer, from 1; 0: none */
+    int chosen;        /* the one that keys move; likewise */
     WrPointsSpan span; /* that the pad had when the hold began, and keeps until its end */
 } WrPointsHand;
 
 /* The rules of a curve. */
 typedef struct WrPointsRules {
     int least, most; /* points */
-    bool
-        inside; /* they stay within the span from bottom to top, and, where `ends`, from left to right */
-    bool ends;
-    double reach; /* units from a point that still are on it; 0: as usual */
+    bool inside;     /* they stay within the span from bottom to top */
+    bool ends;       /* and from left to right */
+    double reach;    /* units from a point that still are on it; 0: as usual */
 } WrPointsRules;
 
 /* One picture of the pad. span: as it would be now; hand->span is what it is. value: the number of points, then x, y of each,
@@ -31,9 +30,6 @@ typedef struct WrPointsRules {
 bool wr_points_move(const WrPad *pad, const WrPointsSpan *span, const WrPointsRules *rules,
                     WrPointsHand *hand, double *value);
 
-/* Where x and y stand, pixels of the window. */
-double wr_points_x(const WrPad *pad, const WrPointsSpan *span, double x);
-double wr_points_y(const WrPad *pad, const WrPointsSpan *span, double y);
 /* The points as discs, and y(x) from the left to the right edge as a line; at(ctx, x, &y) is false where there is nothing. */
 typedef bool WrPointsAt(const void *ctx, double x, double *y);
 void wr_points_draw(const WrPad *pad, const WrPointsHand *hand, const double *value, WrPointsAt *at,
