@@ -158,7 +158,8 @@ bool wr_points_move(const WrPad *pad, const WrPointsSpan *now, const WrPointsRul
         if (at < 0) at = add(rules, value, x, y);
         hand->held = hand->chosen = at + 1;
     }
-    if (pad->held && hand->held) changed |= drag(pad, rules, hand, value, x, y);
+    /* Where it is let go counts too: the last motion may come with it. */
+    if (hand->held) changed |= drag(pad, rules, hand, value, x, y);
     if (!pad->held) hand->held = 0;
     if (!pad->held) changed |= keys(rules, hand, value);
     return changed;
