@@ -156,6 +156,23 @@ static void a_ridge_costs_more_than_a_bevel(void **state)
     wr_session_free(s);
 }
 
+/* Sheared noise is not made row by row: its octaves cost more. */
+static void sheared_noise_costs_more_than_other(void **state)
+{
+    (void)state;
+    WrSession *s = wr_session_new(NULL);
+    WrEstimate sheared, other;
+    assert_true(wr_session_estimate(s, "adjust noise kind=sheared octaves=3", &sheared, NULL));
+    for (int i = 0; i < 3; i++) {
+        static const char *const lines[] = { "adjust noise kind=perlin octaves=3",
+                                             "adjust noise kind=gradient octaves=3",
+                                             "adjust noise kind=value octaves=3" };
+        assert_true(wr_session_estimate(s, lines[i], &other, NULL));
+        assert_true(sheared.seconds > 1.5 * other.seconds);
+    }
+    wr_session_free(s);
+}
+
 /* Lattices from loose to so close that nearly all is hidden. */
 static void crowds_are_near_what_they_take(void **state)
 {
@@ -410,6 +427,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ridge_costs_more_than_a_bevel),
+        cmocka_unit_test(sheared_noise_costs_more_than_other),
         cmocka_unit_test(every_edit_and_output_has_a_price),
         cmocka_unit_test(every_example_is_estimated_and_nothing_changes),
         cmocka_unit_test(estimates_rise_with_size_and_counts),

@@ -84,9 +84,8 @@ static bool run_copy(WrSession *session, WrCall *call, WrError *err)
                      .selection = document->selection,
                      .path = wr_call_arg(call, "FILE")->text };
     if (wr_call_choice(call, "of") == OF_COMPOSITE) {
-        wr_filters_forget();
-        copy.heights = wr_document_composite(document, session->options.pool);
-        if (!wr_filters_carried(err)) return false;
+        copy.heights = wr_document_whole(document, session->options.pool, err);
+        if (!copy.heights) return false;
         copy.cover = NULL;
     }
     if (wr_progress_stopped()) return wr_fail(err, "cancelled");

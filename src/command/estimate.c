@@ -59,6 +59,17 @@ static double choice(const Job *job, const char *name)
     return has(job, name) ? wr_call_arg(job->call, name)->choice : 0.0;
 }
 
+/* Is that choice this word? */
+static bool is_word(const Job *job, const char *name, const char *word)
+{
+    for (int i = 0; i < job->call->count; i++) {
+        const WrArgSpec *spec = &job->call->specs[i];
+        if (strcmp(spec->name, name) == 0)
+            return strcmp(wr_arg_word(spec, job->call->args[i].choice), word) == 0;
+    }
+    return false;
+}
+
 static double largest_two(const Job *job, const char *name)
 {
     double a = number(job, name, 0), b = number(job, name, 1), c = number(job, name, 2);
@@ -81,7 +92,7 @@ static void texels(const Job *job, const Price *p, WrEstimate *out)
 /* more: of a ridge, which asks at every texel how far away the edge is, not only near it. */
 static void edge(const Job *job, const Price *p, WrEstimate *out)
 {
-    const bool ridge = choice(job, "kind") == 2.0;
+    const bool ridge = is_word(job, "kind", "ridge");
     add(out, (ridge ? p->more : p->ns) * job->texels, p->bytes * job->texels);
 }
 
@@ -136,7 +147,7 @@ static void filter(const Job *job, const Price *p, WrEstimate *out)
 /* more: an octave of noise that is not made row by row. */
 static void noisy(const Job *job, const Price *p, WrEstimate *out)
 {
-    const bool sheared = choice(job, "kind") == 3.0;
+    const bool sheared = is_word(job, "kind", "sheared");
     const double layers = choice(job, "layers") > 0.0 ? job->document->layer_count : 1.0;
     const double ns = p->ns + (sheared ? p->more * number(job, "octaves", 0) : 0.0);
     add(out, ns * job->texels * layers, p->bytes * job->texels * layers);

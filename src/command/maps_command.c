@@ -58,9 +58,8 @@ static bool run_maps(WrSession *session, WrCall *call, WrError *err)
 {
     WrSet *set = wr_set_find(wr_call_arg(call, "SET")->text, err);
     if (!set) return false;
-    wr_filters_forget();
-    wr_document_composite(session->state.document, session->options.pool);
-    bool good = wr_filters_carried(err) && (!wr_progress_stopped() || wr_fail(err, "cancelled")) &&
+    bool good = wr_document_whole(session->state.document, session->options.pool, err) &&
+                (!wr_progress_stopped() || wr_fail(err, "cancelled")) &&
                 run_set(session, call, set, err);
     wr_set_free(set);
     return good;

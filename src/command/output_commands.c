@@ -51,9 +51,8 @@ static bool run_render(WrSession *session, WrCall *call, WrError *err)
 /* Up to date, so that what follows need not wait for it. */
 static bool make_composite(WrSession *session, WrError *err)
 {
-    wr_filters_forget();
-    wr_document_composite(session->state.document, session->options.pool);
-    return wr_filters_carried(err) && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
+    return wr_document_whole(session->state.document, session->options.pool, err) &&
+           (!wr_progress_stopped() || wr_fail(err, "cancelled"));
 }
 
 /* Do both names lead to one file? */

@@ -210,6 +210,13 @@ const WrField *wr_document_field(const WrDocument *document)
     return wr_document_composite(document, NULL);
 }
 
+const WrField *wr_document_whole(const WrDocument *document, WrPool *pool, WrError *err)
+{
+    wr_filters_forget();
+    const WrField *field = wr_document_composite(document, pool);
+    return wr_filters_carried(err) ? field : NULL;
+}
+
 /* ---- the order of layers ---- */
 
 void wr_document_insert(WrDocument *document, int index, WrLayer layer)

@@ -70,6 +70,8 @@ const WrField *wr_document_composite(const WrDocument *document, WrPool *pool);
  * error that names the layer. What was cancelled does not count. */
 void wr_filters_forget(void);
 bool wr_filters_carried(WrError *err);
+/* The composite, with all filters carried out; NULL where one was not, which is the error. pool: as above. */
+const WrField *wr_document_whole(const WrDocument *document, WrPool *pool, WrError *err);
 
 /* What lies below layer `index` (0..layer_count - 1): the composite of the visible layers under it, 0 where
  * there is nothing. A table of its own, the caller's. */

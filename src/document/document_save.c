@@ -348,9 +348,8 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
                       WrError *err)
 {
     const int objects = wr_scene_object_count(document->scene);
-    wr_filters_forget();
-    wr_document_field(document);
-    if (!wr_filters_carried(err) || !check_pictures(document->scene, path, err)) return false;
+    if (!wr_document_whole(document, NULL, err) || !check_pictures(document->scene, path, err))
+        return false;
     WrImage *mesh;
     if (!wr_scene_meshes_to_image(document->scene, &mesh, err)) {
         wr_error_prefix(err, "%s: ", path);

@@ -33,14 +33,12 @@ static WrField *from_document(const char *path, WrError *err)
                                              : wr_document_load(path, &loaded, &replaced, err);
     wr_text_fini(&notes);
     if (!good) return NULL;
-    wr_filters_forget();
-    WrField *field = wr_field_share(wr_document_field(loaded.document));
+    const WrField *field = wr_document_whole(loaded.document, NULL, err);
+    WrField *own = field ? wr_field_share(field) : NULL;
     wr_document_free(loaded.document);
     wr_loaded_free_images(&loaded);
     wr_free(loaded.scene_text);
-    if (wr_filters_carried(err)) return field;
-    wr_field_free(field);
-    return NULL;
+    return own;
 }
 
 static WrField *from_picture(const char *path, WrError *err)

@@ -403,15 +403,14 @@ bool wr_export_picture_like(const WrExportJob *like, const WrExportKind *kind,
 bool wr_export_levels(const WrExportKind *kind, const WrDocument *document,
                       const WrExportOptions *options, WrPool *pool, WrLevels *levels, WrError *err)
 {
-    wr_filters_forget();
     WrExportJob job = { .kind = kind,
-                        .field = wr_document_field(document),
+                        .field = wr_document_whole(document, NULL, err),
                         .scene = document->scene,
                         .options = *options,
                         .channels = kind->channels,
                         .pool = pool };
     *levels = (WrLevels){ 0 };
-    if (!wr_filters_carried(err)) return false;
+    if (!job.field) return false;
     if (!settle_options(kind, kind->channels, job.scene, "levels.exr", &job.options, err))
         return false;
     job.analytic = job.scene->analytic.kind != WR_ANALYTIC_OFF;

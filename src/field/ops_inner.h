@@ -26,7 +26,14 @@ enum { WR_LIMIT_SIDES(WR_WORD_ID) };
 
 #define WR_WARP_BETWEENS(X) X(WR_WARP_CUBIC, "catmull") X(WR_WARP_LINEAR, "linear")
 enum { WR_WARP_BETWEENS(WR_WORD_ID) };
-extern const char *const wr_op_noise_kinds[]; /* names of noises that tile; ends with NULL */
+/* Noises that tile, by their names in noise/noise.h. */
+#define WR_OP_NOISES(X)                                                                            \
+    X(WR_OP_NOISE_PERLIN, "perlin")                                                                \
+    X(WR_OP_NOISE_GRADIENT, "gradient")                                                            \
+    X(WR_OP_NOISE_VALUE, "value")                                                                  \
+    X(WR_OP_NOISE_SHEARED, "sheared")
+enum { WR_OP_NOISES(WR_WORD_ID) WR_OP_NOISE_COUNT };
+extern const char *const wr_op_noise_kinds[]; /* their words; ends with NULL */
 
 #define WR_OP_SIDE (4 * WR_TILE) /* texels along a block's side */
 

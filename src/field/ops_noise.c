@@ -17,7 +17,7 @@
 #define MARGIN 2 /* texels that a cubic looks at beyond the place */
 #define CELLS_MAX 8192.0
 
-const char *const wr_op_noise_kinds[] = { "perlin", "gradient", "value", "sheared", NULL };
+const char *const wr_op_noise_kinds[] = { WR_OP_NOISES(WR_WORD) NULL };
 
 /* Cells that are about square in texels. */
 static WrOctaves octaves_of(const WrField *in, double cells, double octaves, double seed)

@@ -193,7 +193,7 @@ static FcFontSet *listed(FcConfig *config)
     return set;
 }
 
-static void free_entry(WrFontEntry *entry)
+void wr_font_entry_fini(WrFontEntry *entry)
 {
     wr_free(entry->family);
     wr_free(entry->style);
@@ -222,7 +222,7 @@ bool wr_font_list(WrFontList *list, WrError *err)
     if (found.count > 1) qsort(found.data, (size_t)found.count, sizeof *found.data, compare);
     for (int i = 0; i < found.count; i++)
         if (!listed_before(list, &found.data[i].face)) wr_array_push(list, found.data[i].face);
-        else free_entry(&found.data[i].face);
+        else wr_font_entry_fini(&found.data[i].face);
     wr_array_free(&found);
     if (set) FcFontSetDestroy(set);
     if (config) FcConfigDestroy(config);
@@ -231,6 +231,6 @@ bool wr_font_list(WrFontList *list, WrError *err)
 
 void wr_font_list_fini(WrFontList *list)
 {
-    for (int i = 0; i < list->count; i++) free_entry(&list->data[i]);
+    for (int i = 0; i < list->count; i++) wr_font_entry_fini(&list->data[i]);
     wr_array_free(list);
 }

@@ -23,3 +23,4 @@ typedef WR_ARRAY(WrFontEntry) WrFontList;
  * Threads  any; takes seconds where fontconfig has kept no list */
 bool wr_font_list(WrFontList *list, WrError *err);
 void wr_font_list_fini(WrFontList *list);
+void wr_font_entry_fini(WrFontEntry *entry); /* what it owns */

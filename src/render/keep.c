@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "field/field.h"
+#include "render/extent.h"
 #include "render/kern.h"
 
 #include <math.h>
@@ -74,19 +75,7 @@ static void add_box(WrKeepBox *box, const WrKeepBox *more)
     box->high_v = fmaxf(box->high_v, dv + more->high_v);
 }
 
-/* The least and the largest of `count`. */
-static inline void extent(int count, const float *restrict x, float *low, float *high)
-{
-    float least = x[0], most = x[0];
-#pragma omp simd reduction(min : least) reduction(max : most)
-    for (int i = 0; i < count; i++) {
-        least = x[i] < least ? x[i] : least;
-        most = x[i] > most ? x[i] : most;
-    }
-    *low = least, *high = most;
-}
-
-/* The same of places, by how far they lie from the first one round the ends. */
+/* The least and the largest of places, by how far they lie from the first one round the ends. */
 static void extent_round(int count, const float *x, float *low, float *high)
 {
     *low = *high = 0;
@@ -101,9 +90,9 @@ static void extent_round(int count, const float *x, float *low, float *high)
 /* The box with `count` places more. */
 static inline void add_places(WrKeepBox *box, int count, const float *u, const float *v)
 {
-    float u0, u1, v0, v1;
-    extent(count, u, &u0, &u1);
-    extent(count, v, &v0, &v1);
+    float u0 = u[0], u1 = u[0], v0 = v[0], v1 = v[0];
+    wr_extent_add(u, count, &u0, &u1);
+    wr_extent_add(v, count, &v0, &v1);
     if (u1 - u0 > 0.5f) extent_round(count, u, &u0, &u1);
     if (v1 - v0 > 0.5f) extent_round(count, v, &v0, &v1);
     const WrKeepBox more = { u[0], v[0], u0 - u[0], u1 - u[0], v0 - v[0], v1 - v[0] };

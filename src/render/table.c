@@ -1,4 +1,5 @@
 #include "render/table.h"
+#include "render/extent.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -137,18 +138,6 @@ typedef struct RangeJob {
     const WrField *field;
 } RangeJob;
 
-/* The least and the largest of `count` heights, and of what was found before. */
-static void add_range(const float *heights, int count, float *low, float *high)
-{
-    float least = *low, most = *high;
-#pragma omp simd reduction(min : least) reduction(max : most)
-    for (int i = 0; i < count; i++) {
-        least = heights[i] < least ? heights[i] : least;
-        most = heights[i] > most ? heights[i] : most;
-    }
-    *low = least, *high = most;
-}
-
 static void range_tile(int tx, int ty, void *ctx)
 {
     RangeJob *job = ctx;
@@ -160,7 +149,7 @@ static void range_tile(int tx, int ty, void *ctx)
         int w = wr_field_width(field) - tx * WR_TILE, h = wr_field_height(field) - ty * WR_TILE;
         low = high = tile[0];
         for (int y = 0; y < h && y < WR_TILE; y++)
-            add_range(tile + y * WR_TILE, w < WR_TILE ? w : WR_TILE, &low, &high);
+            wr_extent_add(tile + y * WR_TILE, w < WR_TILE ? w : WR_TILE, &low, &high);
     }
     job->table->low[at] = low;
     job->table->high[at] = high;
@@ -193,9 +182,9 @@ void wr_table_range(const WrTable *table, float *low, float *high)
     const int count = tile_count(table->ranged);
     float other = *high = table->high[0];
     *low = table->low[0];
-    add_range(table->low, count, low, &other);
+    wr_extent_add(table->low, count, low, &other);
     other = *low;
-    add_range(table->high, count, &other, high);
+    wr_extent_add(table->high, count, &other, high);
 }
 
 /* ---- copies ------------------------------------------------------------------------------------ */

@@ -75,19 +75,11 @@ struct WrFontChoice {
 
 /* ---- on the job's thread ---- */
 
-static void free_entry(WrFontEntry *entry)
-{
-    wr_free(entry->family);
-    wr_free(entry->style);
-    wr_free(entry->path);
-    wr_free(entry->sample);
-}
-
 static void drop(void *arg)
 {
     Work *work = arg;
     for (int i = 0; i < work->count; i++) {
-        free_entry(&work->items[i].entry);
+        wr_font_entry_fini(&work->items[i].entry);
         wr_free(work->items[i].argb);
     }
     wr_font_list_fini(&work->fonts);
@@ -148,7 +140,7 @@ void wr_font_choice_free(WrApp *app)
     if (!choice) return;
     forget(app);
     wr_job_free(choice->job);
-    for (int i = 0; i < choice->rows.count; i++) free_entry(&choice->rows.data[i].entry);
+    for (int i = 0; i < choice->rows.count; i++) wr_font_entry_fini(&choice->rows.data[i].entry);
     wr_array_free(&choice->rows);
     wr_array_free(&choice->shown);
     wr_array_free(&choice->wishes);

@@ -91,7 +91,7 @@ static const char *const forms[] = {
     FORM("%s is \"%s\": must be %s"),
     FORM("%s: must be %s"),
     FORM("a text"),
-    FORM("a name"),
+    FORM("a name of up to %s bytes"),
     FORM("a file"),
     FORM("at least %s and below %s"),
     FORM("at least %s"),

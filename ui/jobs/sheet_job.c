@@ -133,9 +133,8 @@ void wr_sheet_size(int size, int *w, int *h)
 /* The document with one layer, its heights at that size: means of what a texel covers where it becomes smaller. */
 static bool resize(WrDocument *document, int w, int h, WrPool *pool, WrError *err)
 {
-    wr_filters_forget();
-    const WrField *field = wr_document_composite(document, pool);
-    if (!wr_filters_carried(err)) return false;
+    const WrField *field = wr_document_whole(document, pool, err);
+    if (!field) return false;
     const bool smaller = w <= wr_field_width(field) && h <= wr_field_height(field);
     const double param[WR_OP_VALUES] = { w, h, smaller ? WR_RESIZE_BOX : WR_RESIZE_LANCZOS3 };
     const WrOpOptions options = { .pool = pool, .progress = wr_progress_here() };
