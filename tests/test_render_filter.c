@@ -319,21 +319,24 @@ static void far_away_the_filtered_table_is_smooth(void **state)
     wr_field_free(field);
 }
 
-/* E29 with pyramids: an edit reaches farther on coarse levels. */
+/* E29 with pyramids: an edit reaches farther on coarse levels. The last case: rows of a sphere that go to loops of several stages
+   (render/kern_wide.h), whose bits are not promised. */
 static void a_resting_filtered_view_is_refreshed_to_the_bits_of_a_new_picture(void **state)
 {
     (void)state;
     const WrAntialias how[] = { WR_AA_FILTER, WR_AA_MOMENTS, WR_AA_ADAPTIVE, WR_AA_SUPERSAMPLE };
-    for (int k = 0; k < 8; k++) {
+    for (int k = 0; k < 9; k++) {
         WrField *field = bumpy_field(300, 200);
-        WrScene *scene = scene_of(k & 1 ? "plane" : "torus");
-        scene->dials.aa = how[k / 2];
-        scene->dials.footprint = WR_FOOTPRINT_ANISOTROPIC;
+        WrScene *scene = scene_of(k == 8 ? "sphere" : k & 1 ? "plane" : "torus");
+        scene->dials.aa = how[k / 2 % 4];
+        scene->dials.footprint = k == 8 ? WR_FOOTPRINT_ISOTROPIC : WR_FOOTPRINT_ANISOTROPIC;
+        if (k == 8) scene->dials.arithmetic = WR_ARITHMETIC_FAST;
         scene->dials.samples = 2;
         if (k == 5) scene->dials.heights = WR_HEIGHTS_8;
         if (k == 6) scene->dials.shading = WR_SHADING_DOUBLE;
         scene->replicate_u = scene->replicate_v = 1;
-        const int w = 140, h = 112; /* more than a tile, also of `adaptive` */
+        const int w = k == 8 ? 230 : 140,
+                  h = k == 8 ? 190 : 112; /* more than a tile, also of `adaptive` */
         Shot kept = shoot(scene, field, w, h, 2, "auto", false);
         WrFrameRequest request = {
             .field = field, .scene = scene, .width = w, .height = h, .turn_deg = 15, .keep = true
@@ -347,7 +350,8 @@ static void a_resting_filtered_view_is_refreshed_to_the_bits_of_a_new_picture(vo
             wr_field_set(field, i, j, (float)(2 * test_random(&random)));
             assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
             Shot fresh = shoot(scene, field, w, h, 2, "auto", false);
-            if (!same_picture(&kept, &fresh)) fail_msg("case %d, step %d", k, step);
+            if (k == 8 ? !(worst_difference(&kept, &fresh) < 2e-4f) : !same_picture(&kept, &fresh))
+                fail_msg("case %d, step %d", k, step);
             least = kept.frame.shaded < least ? kept.frame.shaded : least;
             put_away(&fresh);
         }

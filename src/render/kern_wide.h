@@ -33,6 +33,13 @@ typedef struct WrWide {
                          float gy, bool pictured, bool bent, bool *dark, WrStrip *strip);
     /* Fu, Fv of `central`, as WrKernels.look, and noted: tu, tv; false: as above. */
     bool (*central)(const WrLook *look, bool noted, WrStrip *strip);
+    /* Are these for its slopes over a footprint, looked up once a sample? */
+    bool (*filters)(const WrLook *look);
+    /* level of the samples of `sphere`, as WrKernels.footprint and spread; how many are above level 0. */
+    int (*footprint)(const WrRays *rays, const WrShapef *shape, const WrLook *look, float gx,
+                     float gy, WrStrip *strip);
+    /* Fu, Fv of `central` under level 1 and of the pyramid above level 0; tu, tv. */
+    void (*filtered)(const WrLook *look, WrStrip *strip);
     /* C of a colour picture, as WrKernels.colour; false: as above. */
     bool (*colour)(const WrColourLook *look, WrStrip *strip);
     WrWideCodes codes;

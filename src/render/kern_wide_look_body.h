@@ -43,17 +43,20 @@ ALWAYS __m128 w_two(const float *from)
     return _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(const void *)from));
 }
 
-/* The differences in the middle of texels, as kern_look_body.h's theorem has them. */
-static bool wide_central(const WrLook *look, bool noted, WrStrip *strip)
+static bool looks_central(const WrLook *look)
+{
+    return look->periodic_u && look->periodic_v && !look->wide && !look->heights;
+}
+
+/* The differences in the middle of texels, as kern_look_body.h's theorem has them, before they are scaled. */
+ALWAYS void central_slopes(const WrLook *look, const bool noted, WrStrip *strip)
 {
     const int count = strip->count;
     const ptrdiff_t row = 2 * (ptrdiff_t)look->pitch;
-    const float *gradient = look->gradient, scale_u = look->scale_u, scale_v = look->scale_v;
-    if (!look->periodic_u || !look->periodic_v || look->wide || look->heights) return false;
+    const float *gradient = look->gradient;
     const Texels of = { look->width, look->height,    look->pitch,
                         WR_APRON,    (float)look->ru, (float)look->rv };
-    if (noted) place_texels(&of, true, strip);
-    else place_texels(&of, false, strip);
+    place_texels(&of, noted, strip);
     /* Fu, Fv of the left texel, then of the right; of two samples at once. */
     const __m256i each = _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1);
     for (int k = 0; k < count; k += 2) {
@@ -69,9 +72,28 @@ static bool wide_central(const WrLook *look, bool noted, WrStrip *strip)
     W_EACH for (int k = 0; k < count; k++)
     {
         const float fu = column[4 * k], fv = column[4 * k + 1], a = strip->ta[k];
-        strip->fu[k] = held(scale_u * (fu + a * (column[4 * k + 2] - fu)));
-        strip->fv[k] = held(scale_v * (fv + a * (column[4 * k + 3] - fv)));
+        strip->fu[k] = fu + a * (column[4 * k + 2] - fu);
+        strip->fv[k] = fv + a * (column[4 * k + 3] - fv);
     }
+}
+
+ALWAYS void scale_slopes(const WrLook *look, WrStrip *strip)
+{
+    const float scale_u = look->scale_u, scale_v = look->scale_v;
+    const int count = strip->count;
+    W_EACH for (int k = 0; k < count; k++)
+    {
+        strip->fu[k] = held(scale_u * strip->fu[k]);
+        strip->fv[k] = held(scale_v * strip->fv[k]);
+    }
+}
+
+static bool wide_central(const WrLook *look, bool noted, WrStrip *strip)
+{
+    if (!looks_central(look)) return false;
+    if (noted) central_slopes(look, true, strip);
+    else central_slopes(look, false, strip);
+    scale_slopes(look, strip);
     return true;
 }
 

@@ -15,6 +15,39 @@ static bool lit_somewhere(const WrTileJob *job, const Strip *strip)
     return any;
 }
 
+static void note_filtered(const WrTileJob *job, const Rays *rays, const Strip *strip,
+                          const WrKeepNotes *notes)
+{
+    const int k = grid_of(job->view, rays);
+    for (int i = 0; i < strip->count; i++) {
+        const REAL x = strip->x[i], y = strip->y[i];
+        if (strip->level[i] < (REAL)1)
+            wr_keep_note_box(notes, k, (double)x, (double)y, (double)strip->tu[i],
+                             (double)strip->tv[i], 0, 0);
+        if (strip->level[i] > (REAL)0) note_far(job, k, x, y, strip, i, notes);
+    }
+}
+
+/* Slopes over the footprint, as look_filtered. */
+static void filter_wide(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, Strip *strip,
+                        WrTileScratch *scratch, Watch *watch)
+{
+    const int wide = job->wide->footprint(rays, &job->view->shape, LOOK_OF(job), gx, gy, strip);
+    did(watch, WR_EFFECT_FILTER);
+    watch_lap(watch, WR_STAGE_FOOTPRINT);
+    scratch->wide_samples += wide;
+    if (wide == 0) {
+        look_level0(job, strip, scratch);
+        note_looks(job, rays, strip, scratch);
+        watch_lap(watch, WR_STAGE_LOOK);
+        return;
+    }
+    scratch->ran |= job->looks;
+    job->wide->filtered(LOOK_OF(job), strip);
+    if (scratch->notes.patches) note_filtered(job, rays, strip, &scratch->notes);
+    watch_lap(watch, WR_STAGE_PYRAMID);
+}
+
 /* By the slopes of the table. Returns what the run was spared, bits of WrRun. */
 static unsigned light_bumped(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy,
                              const WrSink *sink, Strip *strip, WrTileScratch *scratch, Watch *watch)
@@ -31,7 +64,8 @@ static unsigned light_bumped(const WrTileJob *job, const Rays *rays, REAL gx, RE
         return spared;
     }
     if (!level) {
-        look(job, rays, strip, scratch, watch);
+        if (runs(job, WR_EFFECT_FILTER)) filter_wide(job, rays, gx, gy, strip, scratch, watch);
+        else look(job, rays, strip, scratch, watch);
         scratch->ran |= normal_effects[WR_BUMP_BLINN];
         did(watch, WR_EFFECT_TANGENTS);
     }
@@ -75,7 +109,7 @@ static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
         sink->nearest || sink->bound)
         return false;
     if (!job->wide->sphere(rays, &job->view->shape, gx, gy, count, mapped, strip)) return false;
-    note_places(job, sink, scratch->notes.patches, gx, gy, strip);
+    if (scratch->notes.patches) note_places(job, sink, true, gx, gy, strip);
     watch_lap(watch, WR_STAGE_VISIBILITY);
     if (strip->count == 0) return true;
     if (mapped) did(watch, WR_EFFECT_PARAMETERS);
@@ -113,6 +147,14 @@ static bool is_grey(const WrTileJob *job)
     return own.x == own.y && own.x == own.z && rgb[0] == rgb[1] && rgb[0] == rgb[2];
 }
 
+/* Are slopes over footprints such as these loops look up? */
+static bool filters_at_once(const WrTileJob *job)
+{
+    const WrPlan *plan = job->plan;
+    return !plan->anisotropic && plan->scheme == WR_SCHEME_CENTRAL &&
+           plan->precision == WR_PRECISION_SINGLE && job->wide->filters(LOOK_OF(job));
+}
+
 void wr_pipe_wide(WrTileJob *job)
 {
 #define E(name) WR_EFFECT_BIT(WR_EFFECT_##name)
@@ -130,12 +172,13 @@ void wr_pipe_wide(WrTileJob *job)
                     runs_only(job, at_once | geometry);
         return;
     }
+    const WrEffects filtered = filters_at_once(job) ? WR_EFFECT_BIT(WR_EFFECT_FILTER) : 0;
     job->wide_met = job->plan->inversion == WR_INVERT_SPHERE && job->view->cull &&
                     !job->view->stretched && !job->dice && !job->triangles &&
                     !runs(job, WR_EFFECT_PARALLAX);
     if (job->view->light_count != 1 || !runs(job, WR_EFFECT_SPECULAR)) return;
     if (!job->wide->narrow(job->view->lights, &m.shine)) return;
-    job->wide_sphere = job->wide_met && !job->map && runs_only(job, at_once) &&
+    job->wide_sphere = job->wide_met && !job->map && runs_only(job, at_once | filtered) &&
                        (bump == WR_BUMP_NONE || bump == WR_BUMP_BLINN);
     job->grey = is_grey(job) && !runs(job, WR_EFFECT_COLOUR) && runs_only(job, at_once | geometry);
 }
