@@ -13,6 +13,17 @@
    numbers were not finite. */
 typedef int (*WrWideCodes)(const uint32_t *bins, const WrStrip *strip, bool grey, uint32_t *out);
 
+/* A surface that rays meet by way of a mesh, made ready for vectors. */
+typedef struct WrWideSheet {
+    WrSurfaceKind kind; /* WR_SURFACE_bezier or WR_SURFACE_torus */
+    float patch[3][16]; /* x, y, z: of (u - 1/2)^i (v - 1/2)^j at 4 j + i */
+    float noise;        /* |Pu x Pv| up to there is rounding */
+    float ring, tube;   /* radii */
+} WrWideSheet;
+
+/* False: a surface that there are no vectors of. */
+bool wr_wide_sheet(WrSurfaceKind kind, const WrShapef *shape, WrWideSheet *sheet);
+
 typedef struct WrWide {
     /* Is its highlight such as these are for? */
     bool (*narrow)(const WrKernLight *light, const WrKernShine *shine);
@@ -43,6 +54,13 @@ typedef struct WrWide {
     /* C of a colour picture, as WrKernels.colour; false: as above. */
     bool (*colour)(const WrColourLook *look, WrStrip *strip);
     WrWideCodes codes;
+    /* WrKernels.polish, and with `resumes` resume; of a torus without n. */
+    void (*newton)(const WrWideSheet *sheet, const WrRays *rays, const WrNewton *how, bool resumes,
+                   WrStrip *strip);
+    /* n and |N| of Pu x Pv; false: somewhere |N| is no more than noise, or hardly. */
+    bool (*cross)(float noise, WrStrip *strip);
+    /* As WrKernels.bump[WR_BUMP_BLINN]; false: a slope is too steep for this. */
+    bool (*blinn)(const WrRays *rays, WrStrip *strip);
 } WrWide;
 
 extern const WrWide wr_wide_v3, wr_wide_v4; /* empty where the processor is another */

@@ -14,11 +14,14 @@
 #include "render/kern_wide_look_body.h"
 #include "render/kern_wide_filter_body.h"
 #include "render/kern_wide_codes_body.h"
+#include "render/kern_wide_newton_body.h"
+#include "render/kern_wide_bend_body.h"
 
 const WrWide WR_WIDE_TABLE = { narrow,       wide_shade,        wide_sphere,
                                wide_points,  wide_sphere_light, wide_central,
                                wide_filters, wide_footprint,    wide_filtered,
-                               wide_colour,  wide_codes };
+                               wide_colour,  wide_codes,        wide_newton,
+                               wide_cross,   wide_blinn };
 #else
 const WrWide WR_WIDE_TABLE = { 0 };
 #endif

@@ -85,6 +85,7 @@ static bool lit(const WrSink *sink)
 #include "render/pipe_depth_body.h"
 #include "render/pipe_parallax_body.h"
 #include "render/pipe_displaced_body.h"
+#include "render/pipe_frame_body.h"
 
 /* Where on the surface each pixel lies, and how far its normal turns there. */
 static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
@@ -139,8 +140,7 @@ static void surface_strip(const WrTileJob *job, int face, bool level, const WrSi
         did(watch, WR_EFFECT_TANGENTS);
     }
     if (round) round->normals(&VIEWED(job->view, shape), strip);
-    else if (job->mesh && job->newton)
-        KERNELS_OF(job)->frame[job->view->shape_d.kind](&VIEWED(job->view, shape), strip);
+    else if (job->mesh && job->newton) frame_strip(job, strip);
     else KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
@@ -161,7 +161,7 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
     if (bump != WR_BUMP_NONE && bends_at_once(job, sink)) {
         k->bend[job->plan->inversion](rays, &VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
-    } else k->bump[bump](rays, strip);
+    } else if (!bent_wide(job, bump, rays, strip)) k->bump[bump](rays, strip);
     if (job->dice) face_viewer(job, rays, strip);
     if (runs(job, WR_EFFECT_PARALLAX)) face_ray(rays, side, strip);
     scratch->ran |= normal_effects[bump] &

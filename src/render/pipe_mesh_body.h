@@ -16,13 +16,32 @@ static WR_T(WrNewton) newton_of(const WrTileJob *job)
     return how;
 }
 
+#ifdef HAS_WIDE
+/* In vectors written by hand. False: the stages do it. */
+static bool solved_wide(const WrTileJob *job, const Rays *rays, const WrNewton *how, bool resumes,
+                        Strip *strip)
+{
+    if (job->wide_newton) job->wide->newton(&job->sheet, rays, how, resumes, strip);
+    return job->wide_newton;
+}
+#else
+static bool solved_wide(const WrTileJob *job, const Rays *rays, const WR_T(WrNewton) * how,
+                        bool resumes, const Strip *strip)
+{
+    (void)job, (void)rays, (void)how, (void)resumes, (void)strip;
+    return false;
+}
+#endif
+
 /* Make the parameters of what the mesh covers exact. */
 static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
     watch_lap(watch, WR_STAGE_VISIBILITY);
     if (strip->count == 0 || !job->newton) return;
     const WR_T(WrNewton) how = newton_of(job);
-    KERNELS_OF(job)->polish[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how, strip);
+    if (!solved_wide(job, rays, &how, false, strip))
+        KERNELS_OF(job)->polish[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how,
+                                                         strip);
     did(watch, WR_EFFECT_NEWTON);
     watch_lap(watch, WR_STAGE_NEWTON);
 }
@@ -33,7 +52,9 @@ static void resume(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *
     watch_lap(watch, WR_STAGE_VISIBILITY);
     if (strip->count == 0) return;
     const WR_T(WrNewton) how = newton_of(job);
-    KERNELS_OF(job)->resume[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how, strip);
+    if (!solved_wide(job, rays, &how, true, strip))
+        KERNELS_OF(job)->resume[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how,
+                                                         strip);
     watch_lap(watch, WR_STAGE_NEWTON);
 }
 

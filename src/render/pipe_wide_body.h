@@ -167,6 +167,8 @@ void wr_pipe_wide(WrTileJob *job)
     const LampMatter m = lamp_matter(job, true);
     const WrBumpMode bump = job->plan->bump;
     job->wide_sphere = job->wide_met = job->grey = false;
+    job->wide_newton = job->wide && job->mesh &&
+                       wr_wide_sheet(job->view->shape_d.kind, &job->view->shape, &job->sheet);
     if (!job->wide) { /* exact: each channel is worked out alike */
         job->grey = job->view->light_count == 1 && is_grey(job) && !runs(job, WR_EFFECT_COLOUR) &&
                     runs_only(job, at_once | geometry);

@@ -66,6 +66,8 @@ typedef struct WrTileJob {
     WrWideCodes wide_codes;        /* codes of strips; or NULL */
     bool wide_sphere;              /* rows go to them */
     bool wide_met;                 /* where rays meet a sphere is asked of them */
+    bool wide_newton;              /* (u,v) of a mesh's samples are */
+    WrWideSheet sheet;             /* of what */
     bool grey;                     /* red, green and blue of all samples are the same */
     double cast_unit;              /* kernel units -> those of the object */
     WrParallax parallax;           /* read where the plan runs that */
