@@ -3,8 +3,10 @@
 #include "test_folder.h"
 
 #include "base/error.h"
+#include "base/pool.h"
 #include "document/document.h"
 #include "export/export.h"
+#include "export/picture.h"
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"
@@ -353,6 +355,85 @@ static void surfaces_without_one_chart_are_refused(void **state)
     wr_document_free(document);
 }
 
+/* ---- a table of several runs and tiles in memory ---- */
+
+/* The height at an index beyond the ends by one at most. */
+static double tap(const WrField *field, int i, int j)
+{
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    const bool clamps_u = wr_field_wrap_u(field) == WR_WRAP_CLAMP;
+    const bool clamps_v = wr_field_wrap_v(field) == WR_WRAP_CLAMP;
+    if (clamps_u && (i < 0 || i >= w)) {
+        const int end = i < 0 ? 0 : w - 1, in = i < 0 ? 1 : -1;
+        return (float)(3 * tap(field, end, j) - 3 * tap(field, end + in, j) +
+                       tap(field, end + 2 * in, j));
+    }
+    if (clamps_v && (j < 0 || j >= h)) {
+        const int end = j < 0 ? 0 : h - 1, in = j < 0 ? 1 : -1;
+        return (float)(3 * tap(field, i, end) - 3 * tap(field, i, end + in) +
+                       tap(field, i, end + 2 * in));
+    }
+    return (double)wr_field_get(field, (i + w) % w, (j + h) % h);
+}
+
+/* Level but for a slanted half, in which tiles are there. */
+static WrField *half_rough(int w, int h, WrWrap wrap_u, WrWrap wrap_v)
+{
+    TestRandom random = { (uint64_t)w };
+    WrField *field = wr_field_new(w, h, wrap_u, wrap_v, 0.171f, NULL);
+    for (int j = 0; j < h; j++)
+        for (int i = 0; i < w; i++)
+            if (i + j / 3 > w / 2 || j < 2)
+                wr_field_set(field, i, j, (float)(0.011 * test_random(&random)));
+    return field;
+}
+
+static void check_bytes(const WrDocument *document, const WrExportPicture *picture)
+{
+    const WrField *field = wr_document_field(document);
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    const long double height = document->scene->height;
+    assert_true(picture->width == w && picture->height == h);
+    for (int j = 0; j < h; j++)
+        for (int i = 0; i < w; i++) {
+            const long double x = -height * w * (tap(field, i + 1, j) - tap(field, i - 1, j)) / 2;
+            const long double y = height * h * (tap(field, i, j + 1) - tap(field, i, j - 1)) / 2;
+            const long double length = sqrtl(x * x + y * y + 1);
+            const long double n[3] = { x / length, y / length, 1 / length };
+            for (int c = 0; c < 3; c++) {
+                const long double code = 255 * (n[c] / 2 + 0.5L), part = code - floorl(code);
+                const int got = picture->rgb[3 * ((size_t)j * (size_t)w + (size_t)i) + (size_t)c];
+                if (fabsl(part - 0.5L) > 1e-9L && got != (int)floorl(code + 0.5L))
+                    fail_msg("texel %d,%d channel %d: %d, want %Lg", i, j, c, got, code);
+            }
+        }
+}
+
+static void bytes_in_memory_are_the_formulas_for_any_ends_and_threads(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = { { 523, 211 }, { 257, 65 }, { 3, 130 }, { 320, 3 } };
+    for (int k = 0; k < 8; k++) {
+        const WrExportOptions options = wr_export_default();
+        WrDocument *document = new_document();
+        wr_field_free(document->layers[0].heights);
+        document->layers[0].heights =
+            half_rough(sizes[k % 4][0], sizes[k % 4][1], k & 4 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC,
+                       k & 1 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
+        WrPool *pool = wr_pool_new(3);
+        WrExportPicture one, three;
+        const WrExportKind *kind = wr_export_find("normal+y");
+        assert_true(wr_export_picture(kind, document, &options, NULL, &one, NULL));
+        assert_true(wr_export_picture(kind, document, &options, pool, &three, NULL));
+        check_bytes(document, &one);
+        assert_memory_equal(one.rgb, three.rgb, (size_t)one.width * (size_t)one.height * 3);
+        wr_export_picture_fini(&one);
+        wr_export_picture_fini(&three);
+        wr_pool_free(pool);
+        wr_document_free(document);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -363,6 +444,7 @@ int main(void)
         cmocka_unit_test(mirrored_parts_have_the_cells_own_map),
         cmocka_unit_test(a_sheared_mesh_has_the_frame_of_mikktspace),
         cmocka_unit_test(padding_goes_as_far_as_it_is_told),
+        cmocka_unit_test(bytes_in_memory_are_the_formulas_for_any_ends_and_threads),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

@@ -170,6 +170,44 @@ static void codes_in_single_precision_are_right_or_in_doubt(void **state)
         }
 }
 
+/* Heights such that the first component, or the second, of one texel in sixteen is within a few hundred-thousandths of
+ * the edge between two codes. */
+static void fill_near_edges(const WrNormalJob *job, bool second, TestRandom *random)
+{
+    const double to[2] = { job->height * job->width / 2 / job->cell_w,
+                           job->height * job->rows / 2 / job->cell_h };
+    memset(texels, 0, sizeof texels);
+    for (int i = 2 + (int)(test_random(random) * 16); i < COUNT; i += 16) {
+        const double code = floor(20 + 215 * test_random(random)) + 0.5;
+        const double n = 2 * (code + (test_random(random) - 0.5) * 2e-4) / 255 - 1;
+        const double other = test_random(random) * 3 - 1;
+        const double own = n * sqrt((1 + other * other) / (1 - n * n));
+        texels[1][i + 1] = (float)(-(second ? other : own) / to[0]);
+        texels[2][i] = (float)(job->green * (second ? own : other) / to[1]);
+    }
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < PITCH; i++) taps[j][i] = texels[j][i];
+}
+
+static void codes_beside_the_edges_between_them_are_right_or_in_doubt(void **state)
+{
+    (void)state;
+    TestRandom random = { 77 };
+    for (int index = 0; wr_normal_kernels_at(index); index++)
+        for (int k = 0; k < 300; k++) {
+            const WrNormalJob job = { .stencil = WR_STENCIL_CENTRAL,
+                                      .height = 0.37,
+                                      .cell_w = 1.3,
+                                      .cell_h = 1,
+                                      .width = 211,
+                                      .rows = 97,
+                                      .last = 255,
+                                      .green = k % 3 ? -1.0 : 1.0 };
+            fill_near_edges(&job, k % 2, &random);
+            check_near(wr_normal_kernels_at(index), &job, COUNT);
+        }
+}
+
 /* The six numbers of bump slopes, and means of four, by every instruction set; what is too large is told. */
 static void moments_are_products_and_their_means(void **state)
 {
@@ -222,6 +260,7 @@ int main(void)
         cmocka_unit_test(tilts_and_codes_are_their_formulas_for_any_count),
         cmocka_unit_test(one_slope_beyond_all_bounds_is_told),
         cmocka_unit_test(codes_in_single_precision_are_right_or_in_doubt),
+        cmocka_unit_test(codes_beside_the_edges_between_them_are_right_or_in_doubt),
         cmocka_unit_test(moments_are_products_and_their_means),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

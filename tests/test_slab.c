@@ -94,12 +94,41 @@ static void several_threads_get_pieces_of_their_own(void **state)
     assert_int_equal(wrong, 0);
 }
 
+/* Large blocks of any content: two that were given back, of about the size that is asked for, until they are trimmed. */
+static void two_large_blocks_are_kept_for_the_next(void **state)
+{
+    (void)state;
+#ifndef __SANITIZE_ADDRESS__
+    const size_t bytes = 37 << 20;
+    wr_memory_trim();
+    const uint64_t before = wr_process_space();
+    char *block[3];
+    for (int i = 0; i < 3; i++) {
+        block[i] = wr_try_alloc_unset(bytes + (size_t)i, 1, "a block", NULL);
+        memset(block[i], 'a' + i, bytes + (size_t)i);
+    }
+    for (int i = 0; i < 3; i++) wr_free(block[i]);
+    char *zeroed = wr_try_alloc(bytes, 1, "a block", NULL), *wide, *narrow, *last;
+    for (size_t i = 0; i < bytes; i += 4093) assert_int_equal(zeroed[i], 0);
+    wide = wr_try_alloc_unset(bytes + 3, 1, "a block", NULL);       /* too large for either */
+    narrow = wr_try_alloc_unset(bytes / 2 - 1, 1, "a block", NULL); /* not worth one */
+    last = wr_try_alloc_unset(bytes + 2, 1, "a block", NULL);
+    assert_true(wide != block[1] && wide != block[2] && narrow != block[1] && narrow != block[2]);
+    assert_ptr_equal(last, block[2]);
+    assert_true(last[0] == 'c' && last[bytes + 1] == 'c');
+    wr_free(last), wr_free(narrow), wr_free(wide), wr_free(zeroed);
+    wr_memory_trim();
+    if (before) assert_true(wr_process_space() < before + bytes);
+#endif
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_of_which_nothing_is_out_go_back_but_for_ten),
         cmocka_unit_test(pieces_are_kept_while_they_are_out),
         cmocka_unit_test(several_threads_get_pieces_of_their_own),
+        cmocka_unit_test(two_large_blocks_are_kept_for_the_next),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

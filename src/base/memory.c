@@ -2,24 +2,47 @@
 
 #include "base/error.h"
 #include "system/pages.h"
+#include "system/thread.h"
 
 #include <stdint.h>
 #include <string.h>
 
 #define LARGE ((size_t)8 << 20) /* bytes; malloc takes such blocks from the system, untouched */
+#define PAGED                                                                                      \
+    ((size_t)33                                                                                    \
+     << 20) /* from here on it does so whatever happened before: they begin with a large page */
+#define PAGE ((size_t)2 << 20)
+#define KEPT_LEAST ((size_t)4 << 20)
+#define KEPT_MOST ((size_t)128 << 20)
+#define KEPT 2
 
-/* Blocks above this come from mmap by way of malloc's own threshold; zeroing them by hand would touch
-   every page, so calloc is asked for and its pointer aligned by hand. The original pointer is kept in
-   the word before the block. */
+/* Stands before each block. */
+typedef struct Head {
+    void *raw;   /* what malloc gave */
+    size_t kept; /* the block's bytes, if it is kept when it is given back; else 0 */
+} Head;
+
+/* Given back, and not yet taken again; guarded by `lock`. */
+static void *kept[KEPT];
+static WrMutex lock = WR_MUTEX_READY;
+
+static Head *head_of(void *block)
+{
+    return (Head *)block - 1;
+}
+
+/* Blocks above LARGE come from mmap by way of malloc's own threshold; zeroing them by hand would touch
+   every page, so calloc is asked for and its pointer aligned by hand. */
 static void *aligned(size_t bytes, bool zeroed)
 {
-    if (bytes > SIZE_MAX - WR_ALIGN - sizeof(void *)) return NULL;
-    size_t whole = bytes + WR_ALIGN + sizeof(void *);
+    const size_t align = bytes >= PAGED ? PAGE : WR_ALIGN;
+    if (bytes > SIZE_MAX - align - sizeof(Head)) return NULL;
+    size_t whole = bytes + align + sizeof(Head);
     char *raw = zeroed ? calloc(1, whole) : malloc(whole);
     if (!raw) return NULL;
     if (whole >= LARGE) wr_pages_large(raw, whole);
-    uintptr_t start = ((uintptr_t)raw + sizeof(void *) + WR_ALIGN - 1) & ~(uintptr_t)(WR_ALIGN - 1);
-    ((void **)start)[-1] = raw;
+    uintptr_t start = ((uintptr_t)raw + sizeof(Head) + align - 1) & ~(uintptr_t)(align - 1);
+    *head_of((void *)start) = (Head){ raw, 0 };
     return (void *)start;
 }
 
@@ -61,9 +84,70 @@ void *wr_realloc(void *block, size_t old_count, size_t count, size_t size)
     return grown;
 }
 
+static void give(void *block)
+{
+    if (block) free(head_of(block)->raw);
+}
+
+#ifdef __SANITIZE_ADDRESS__
+static void *take_kept(size_t bytes)
+{
+    (void)bytes;
+    return NULL;
+}
+
+static void *keep(void *block)
+{
+    return block;
+}
+#else
+/* One that is large enough, and not much larger; or NULL. */
+static void *take_kept(size_t bytes)
+{
+    void *block = NULL;
+    wr_mutex_lock(&lock);
+    for (int i = 0; i < KEPT && !block; i++) {
+        if (!kept[i] || head_of(kept[i])->kept < bytes || head_of(kept[i])->kept / 2 > bytes)
+            continue;
+        block = kept[i];
+        kept[i] = NULL;
+    }
+    wr_mutex_unlock(&lock);
+    return block;
+}
+
+/* What is to be freed in its place: what was kept longest, if anything. */
+static void *keep(void *block)
+{
+    wr_mutex_lock(&lock);
+    void *oldest = kept[KEPT - 1];
+    memmove(kept + 1, kept, (KEPT - 1) * sizeof *kept);
+    kept[0] = block;
+    wr_mutex_unlock(&lock);
+    return oldest;
+}
+#endif
+
+void *wr_try_alloc_unset(size_t count, size_t size, const char *what, WrError *err)
+{
+    size_t bytes;
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes < KEPT_LEAST || bytes > KEPT_MOST)
+        return wr_try_alloc(count, size, what, err);
+    void *block = take_kept(bytes);
+    if (block) return block;
+    block = wr_try_alloc(count, size, what, err);
+    if (block) head_of(block)->kept = bytes;
+    return block;
+}
+
+void wr_memory_trim(void)
+{
+    for (int i = 0; i < KEPT; i++) give(keep(NULL));
+}
+
 void wr_free(void *block)
 {
-    if (block) free(((void **)block)[-1]);
+    if (block) give(head_of(block)->kept ? keep(block) : block);
 }
 
 char *wr_strdup(const char *text)

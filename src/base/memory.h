@@ -20,6 +20,12 @@ void *wr_alloc_unset(size_t count, size_t size);
    untouched. */
 void *wr_try_alloc(size_t count, size_t size, const char *what, WrError *err);
 
+/* The same of any content, for what is written whole. Since the system clears what it hands out, two blocks of 4 to 128 MB
+   that were given back are kept for the next who asks for about as much. */
+void *wr_try_alloc_unset(size_t count, size_t size, const char *what, WrError *err);
+/* What is kept goes back to the system. Any thread. */
+void wr_memory_trim(void);
+
 /* Grow or shrink a block of wr_alloc or wr_realloc; keeps the first min(old, new) bytes. Aborts when
    memory is gone. old_count is what was asked for before. */
 void *wr_realloc(void *block, size_t old_count, size_t count, size_t size);

@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 
 #include <math.h>
+#include <stdalign.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -142,22 +143,38 @@ static void quick_run(Piece *piece, int x, int count, int j, const float *at, si
     }
 }
 
+/* While row j of a run is made, the next one's is fetched, which begins at x; with the first the row before it, and after
+ * the last those beyond it. */
+static void expect_row(const Piece *piece, int x, int j)
+{
+    const int first = j == 0 ? -APRON : j, end = j + 1 == piece->rows ? j + 1 + APRON : j + 1;
+    for (int k = first; k < end; k++)
+        wr_field_expect(piece->job->field, x, piece->y + k, WR_NORMAL_STRIP + WR_TILE / 4);
+}
+
 /* The taps are heights: run by run of columns, so that they stay in the nearest cache. */
 static void table_rows(Piece *piece)
 {
-    enum { PITCH = WR_NORMAL_STRIP + 2 * APRON, TALL = WR_EXPORT_PIECE_ROWS + 2 * APRON };
-    float texels[PITCH * TALL];
+    enum {
+        BEFORE = WR_ALIGN / sizeof(float), /* so that rows begin where lines of the cache do */
+        PITCH = WR_NORMAL_STRIP + 2 * BEFORE,
+        TALL = WR_EXPORT_PIECE_ROWS + 2 * APRON
+    };
+    alignas(WR_ALIGN) float texels[PITCH * TALL];
     double taps[PITCH * TALL];
     const bool quick = is_quick(piece);
     for (int x = 0; x < piece->job->width; x += WR_NORMAL_STRIP) {
         int count = run_length(piece->job, x);
         wr_field_read(piece->job->field, x - APRON, piece->y - APRON, count + 2 * APRON,
-                      piece->rows + 2 * APRON, texels, PITCH);
-        for (int j = 0; quick && j < piece->rows; j++)
-            quick_run(piece, x, count, j, texels + (j + APRON) * PITCH + APRON, PITCH);
+                      piece->rows + 2 * APRON, texels + BEFORE - APRON, PITCH);
+        for (int j = 0; quick && j < piece->rows; j++) {
+            expect_row(piece, x + WR_NORMAL_STRIP, j);
+            quick_run(piece, x, count, j, texels + (j + APRON) * PITCH + BEFORE, PITCH);
+        }
         if (quick) continue;
         for (int j = 0; j < piece->rows + 2 * APRON; j++)
-            piece->kernels->widen(texels + j * PITCH, count + 2 * APRON, taps + j * PITCH);
+            piece->kernels->widen(texels + j * PITCH + BEFORE - APRON, count + 2 * APRON,
+                                  taps + j * PITCH);
         for (int j = 0; j < piece->rows; j++)
             finish_run(piece, x, count, j, taps + (j + APRON) * PITCH + APRON, PITCH);
     }

@@ -45,7 +45,7 @@ typedef struct WrNormalKernels {
                     uint16_t *out);
     /* Codes of 8 bits from the heights themselves, in single precision, of blocks of WR_NORMAL_BLOCK texels; not by
      * WR_STENCIL_SPLINE. Bit k of what is returned: block k was not made, or a code of it may be the next one to the right
-     * one; it is to be made as above, as is what is left over beyond the last whole block. */
+     * one; it is to be made as above, as is what is left over beyond the last whole block. Which are in doubt differs between sets. */
     uint32_t (*nearly8)(const WrNormalJob *job, const float *at, ptrdiff_t pitch, int count,
                         uint8_t *out);
     void (*floats)(const WrNormalJob *job, const double *x, const double *y, int count, float *out);

@@ -4,7 +4,7 @@
 
 #include <math.h>
 #include <string.h>
-#ifdef __AVX512BW__
+#ifdef __SSSE3__
 #include <immintrin.h>
 #endif
 
@@ -127,62 +127,7 @@ static void codes8(const WrNormalJob *job, const double *x, const double *y, int
     pack8(plane, count, out);
 }
 
-/* A component's code; *doubt: whether it lies so near the edge between two that it may be the wrong one. Of the tilts'
- * twelve roundings, each 2^-24 of a component, 127 are below 2^-13; those of the last two sums below 2^-16. */
-ALWAYS int32_t near_code(float last, float n, int32_t *doubt)
-{
-    const float x = n * (0.5f * last) + (0.5f * last + 0.5f);
-    const int32_t code = (int32_t)x;
-    const float part = x - (float)code;
-    *doubt |= (part < 0x1p-12f) | (part > 1 - 0x1p-12f);
-    return code;
-}
-
-/* Is one of a block's not 0? A reduction in the loop that makes them would not be one of vectors. */
-ALWAYS bool any_of(const int32_t *restrict lane)
-{
-    uint64_t pair[WR_NORMAL_BLOCK / 2];
-    memcpy(pair, lane, sizeof pair);
-    return ((pair[0] | pair[1]) | (pair[2] | pair[3])) |
-           ((pair[4] | pair[5]) | (pair[6] | pair[7]));
-}
-
-/* Where a tilt is 0 its code is exact; what is beyond all bounds is in doubt. */
-ALWAYS void near_codes(const WrNormalJob *job, const float *restrict at, ptrdiff_t pitch, int count,
-                       int32_t (*restrict plane)[WR_NORMAL_STRIP], int32_t *restrict doubts)
-{
-    const bool forward = job->stencil == WR_STENCIL_FORWARD;
-    const ptrdiff_t back = forward ? 0 : 1, up = forward ? 0 : pitch;
-    const double half = forward ? 1.0 : 0.5;
-    const float to_x = (float)(-job->height * job->width * half / job->cell_w);
-    const float to_y = (float)(job->green * job->height * job->rows * half / job->cell_h);
-    const float last = (float)job->last;
-#pragma omp simd
-    for (int i = 0; i < count; i++) {
-        const float x = to_x * (at[i + 1] - at[i - back]), y = to_y * (at[i + pitch] - at[i - up]);
-        const float length2 = x * x + y * y + 1.0f, inverse = 1.0f / sqrtf(length2);
-        int32_t doubt_x = 0, doubt_y = 0, doubt_z = 0;
-        plane[0][i] = near_code(last, x * inverse, &doubt_x);
-        plane[1][i] = near_code(last, y * inverse, &doubt_y);
-        plane[2][i] = near_code(last, inverse, &doubt_z);
-        doubts[i] =
-            (doubt_x & (x != 0.0f)) | (doubt_y & (y != 0.0f)) | doubt_z | !(length2 < 1e30f);
-    }
-}
-
-static uint32_t nearly8(const WrNormalJob *given, const float *restrict at, ptrdiff_t pitch,
-                        int count, uint8_t *restrict out)
-{
-    const WrNormalJob job = *given;
-    const int whole = count / WR_NORMAL_BLOCK * WR_NORMAL_BLOCK;
-    int32_t plane[3][WR_NORMAL_STRIP], doubts[WR_NORMAL_STRIP];
-    uint32_t doubtful = 0;
-    near_codes(&job, at, pitch, whole, plane, doubts);
-    pack8(plane, whole, out);
-    for (int k = 0; k < whole / WR_NORMAL_BLOCK; k++)
-        doubtful |= (uint32_t)any_of(doubts + k * WR_NORMAL_BLOCK) << k;
-    return doubtful;
-}
+#include "export/normal_near_body.h"
 
 static void codes16(const WrNormalJob *job, const double *x, const double *y, int count,
                     uint16_t *restrict out)

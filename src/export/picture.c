@@ -8,8 +8,6 @@
 
 #include <math.h>
 
-#define STRIP 64 /* rows at a time */
-
 /* One number 0..255 a channel; two channels are red and green. */
 static void put_codes(const uint8_t *from, int channels, size_t count, uint8_t *rgb)
 {
@@ -41,19 +39,15 @@ bool wr_export_fill_picture(WrExportJob *job, WrError *err)
     const int channels = job->channels;
     const size_t each = job->options.depth == 32 ? sizeof(float) : 1;
     const bool as_they_are = each == 1 && channels == 3;
-    picture->rgb = wr_try_alloc(count, 3, "a picture of a map", err);
-    char *values = as_they_are ? (char *)picture->rgb
-                   : picture->rgb
-                       ? wr_try_alloc(count * (size_t)channels, each, "a picture of a map", err)
-                       : NULL;
+    picture->rgb = wr_try_alloc_unset(count, 3, "a picture of a map", err);
+    char *values = as_they_are    ? (char *)picture->rgb
+                   : picture->rgb ? wr_try_alloc_unset(count * (size_t)channels, each,
+                                                       "a picture of a map", err)
+                                  : NULL;
     const bool made = values && (!job->kind->make || job->kind->make(job, err));
     if (made) {
         if (job->kind->prepare) job->kind->prepare(job);
-        for (int y = 0; y < job->height; y += STRIP) {
-            const int rows = job->height - y < STRIP ? job->height - y : STRIP;
-            job->kind->rows(job, y, rows,
-                            values + (size_t)y * (size_t)job->width * (size_t)channels * each);
-        }
+        job->kind->rows(job, 0, job->height, values);
         if (each == 1 && !as_they_are)
             put_codes((const uint8_t *)values, channels, count, picture->rgb);
         else if (each != 1)

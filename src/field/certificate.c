@@ -28,13 +28,13 @@ static double *read_piece(const Strip *strip, int first)
 {
     const int lines = strip->length + 3;
     const size_t count = (size_t)lines * 4;
-    double *out = wr_alloc(count, sizeof *out), *raw = wr_alloc(count, sizeof *raw);
+    double *out = wr_alloc_unset(count, sizeof *out), *raw = wr_alloc_unset(count, sizeof *raw);
     const int i = strip->along_v ? first : -1, j = strip->along_v ? -1 : first;
     const int w = strip->along_v ? 4 : lines, h = strip->along_v ? lines : 4;
     if (wr_schemes[strip->scheme].taps == WR_TAPS_FITTED) {
         wr_field_read_fitted_double(strip->field, i, j, w, h, raw, (size_t)w);
     } else {
-        float *texels = wr_alloc(count, sizeof *texels);
+        float *texels = wr_alloc_unset(count, sizeof *texels);
         wr_field_read(strip->field, i, j, w, h, texels, (size_t)w);
         for (size_t k = 0; k < count; k++) raw[k] = texels[k];
         wr_free(texels);
@@ -46,40 +46,62 @@ static double *read_piece(const Strip *strip, int first)
     return out;
 }
 
-/* F, F' and F'' across the edge, per texel, on line l at `a` of 0..1 within the piece. F' of the scheme itself is a
-   polynomial of degree 2 at most, so that three of it tell F''. */
-static void sample(const Strip *strip, const double *piece, int l, double a, double out[3])
+/* Places within a piece: its start, middle and end. */
+enum { START, MIDDLE, END, PLACES };
+
+/* What a piece has on one line: F and F' across the edge at its places, per texel. */
+typedef struct Look {
+    double value[PLACES], slope[PLACES];
+} Look;
+
+/* Of the piece that begins at texel `first`, as [length] lines; the caller frees it. */
+static Look *look_at(const Strip *strip, int first)
 {
-    double slope[3];
     const WrSchemeEval eval = wr_schemes[strip->scheme].eval;
-    for (int k = 0; k < 3; k++) {
-        double got[3];
-        eval(piece + (size_t)l * 4, 0.5 * k, 0.0, got);
-        slope[k] = got[1];
-    }
-    double got[3];
-    eval(piece + (size_t)l * 4, a, 0.0, got);
-    out[0] = got[0];
-    out[1] = got[1];
-    const double at_start = -3.0 * slope[0] + 4.0 * slope[1] - slope[2];
-    const double at_end = slope[0] - 4.0 * slope[1] + 3.0 * slope[2];
-    out[2] = at_start + a * (at_end - at_start);
+    double *taps = read_piece(strip, first);
+    Look *looks = wr_alloc_unset((size_t)strip->length, sizeof *looks);
+    for (int l = 0; l < strip->length; l++)
+        for (int k = 0; k < PLACES; k++) {
+            double got[3];
+            eval(taps + (size_t)l * 4, 0.5 * k, 0.0, got);
+            looks[l].value[k] = got[0];
+            looks[l].slope[k] = got[1];
+        }
+    wr_free(taps);
+    return looks;
 }
 
-/* Where piece `before` at a and piece `after` at b are the same place; the largest jumps join jump. */
-static void compare(const Strip *strip, int before, double a, int after, double b, double jump[3],
-                    double *most)
+/* F''. F' of the scheme itself is a polynomial of degree 2 at most, so that three of it tell it. */
+static double bend(const Look *look, int place)
 {
-    double *left = read_piece(strip, before), *right = read_piece(strip, after);
+    const double *slope = look->slope;
+    const double at_start = -3.0 * slope[START] + 4.0 * slope[MIDDLE] - slope[END];
+    const double at_end = slope[START] - 4.0 * slope[MIDDLE] + 3.0 * slope[END];
+    return at_start + 0.5 * place * (at_end - at_start);
+}
+
+/* The largest jumps so far, and the largest height of either side. */
+typedef struct Jumps {
+    double jump[WR_CERTIFICATE_ORDERS], most;
+} Jumps;
+
+static void enlarge(double *most, double x)
+{
+    *most = x > *most ? x : *most;
+}
+
+/* Where pieces before and after meet, at their places x and y. */
+static void compare(const Strip *strip, const Look *before, int x, const Look *after, int y,
+                    Jumps *jumps)
+{
     for (int l = 0; l < strip->length; l++) {
-        double x[3], y[3];
-        sample(strip, left, l, a, x);
-        sample(strip, right, l, b, y);
-        for (int k = 0; k < 3; k++) jump[k] = fmax(jump[k], fabs(y[k] - x[k]));
-        *most = fmax(*most, fmax(fabs(x[0]), fabs(y[0])));
+        const Look *a = before + l, *b = after + l;
+        enlarge(&jumps->jump[0], fabs(b->value[y] - a->value[x]));
+        enlarge(&jumps->jump[1], fabs(b->slope[y] - a->slope[x]));
+        enlarge(&jumps->jump[2], fabs(bend(b, y) - bend(a, x)));
+        enlarge(&jumps->most, fabs(a->value[x]));
+        enlarge(&jumps->most, fabs(b->value[y]));
     }
-    wr_free(left);
-    wr_free(right);
 }
 
 /* Jumps per texel become those per unit; smaller ones than rounding leaves are none. */
@@ -97,22 +119,39 @@ static void settle(WrCertificateEdge *edge, const double jump[3], double most, i
     }
 }
 
-/* Piece p holds texels p .. p + 3, the place being between p + 1 and p + 2; of nearest at p + 1. */
+/* Of the pieces p .. p + 3 texels about the edge, which is between p + 1 and p + 2, of nearest at p + 1. */
+static void certify_centred(const Strip *strip, int last, Jumps *jumps)
+{
+    Look *before = look_at(strip, last - 1), *after = look_at(strip, -1);
+    compare(strip, before, START, after, START, jumps);
+    wr_free(before);
+    wr_free(after);
+}
+
+/* The edge's own piece and the joints at both of its ends; of an axis that ends, that piece of either end. */
+static void certify_pieces(const Strip *strip, int last, bool ends, Jumps *jumps)
+{
+    Look *outer = look_at(strip, last - 2), *left = look_at(strip, last - 1);
+    Look *right = ends ? look_at(strip, -2) : left, *inner = look_at(strip, -1);
+    if (ends) compare(strip, left, MIDDLE, right, MIDDLE, jumps);
+    compare(strip, outer, END, left, START, jumps);
+    compare(strip, right, END, inner, START, jumps);
+    if (ends) wr_free(right);
+    wr_free(outer);
+    wr_free(left);
+    wr_free(inner);
+}
+
 static WrCertificateEdge certify(const Strip *strip, bool ends)
 {
     WrCertificateEdge edge = { .ends = ends };
-    double jump[3] = { 0 }, most = 0.0;
-    const int last = strip->size - 1;
-    if (wr_schemes[strip->scheme].taps == WR_TAPS_CENTRED) {
-        compare(strip, (ends ? last : -1) - 1, 0.0, -1, 0.0, jump, &most);
-    } else {
-        if (ends) compare(strip, last - 1, 0.5, -2, 0.5, jump, &most);
-        compare(strip, (ends ? last : -1) - 2, 1.0, (ends ? last : -1) - 1, 0.0, jump, &most);
-        compare(strip, -2, 1.0, -1, 0.0, jump, &most);
-    }
+    Jumps jumps = { 0 };
+    const int last = ends ? strip->size - 1 : -1;
+    if (wr_schemes[strip->scheme].taps == WR_TAPS_CENTRED) certify_centred(strip, last, &jumps);
+    else certify_pieces(strip, last, ends, &jumps);
     if (strip->scheme == WR_SCHEME_CATMULL)
-        for (int k = 0; k < 3; k++) jump[k] *= CATMULL_BETWEEN;
-    settle(&edge, jump, most, strip->size);
+        for (int k = 0; k < WR_CERTIFICATE_ORDERS; k++) jumps.jump[k] *= CATMULL_BETWEEN;
+    settle(&edge, jumps.jump, jumps.most, strip->size);
     return edge;
 }
 

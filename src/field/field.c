@@ -113,6 +113,7 @@ static Tile *new_tile(void)
 void wr_field_trim(void)
 {
     wr_slab_trim(&tile_slabs);
+    wr_memory_trim();
 }
 
 static Tile *own_tile(Counted **slot, float level)

@@ -71,6 +71,8 @@ int wr_field_tiles_v(const WrField *field);
    through the three edge texels; repeated where the axis has fewer than 3). */
 void wr_field_read(const WrField *field, int i, int j, int count_i, int count_j, float *out,
                    size_t pitch);
+/* A hint: these texels of a row will be read soon. Indices outside the table are fine. */
+void wr_field_expect(const WrField *field, int i, int j, int count_i);
 /* Write a rectangle that lies inside the table. Non-finite heights become 0; returns how many. */
 int64_t wr_field_write(WrField *field, int i, int j, int count_i, int count_j, const float *in,
                        size_t pitch);

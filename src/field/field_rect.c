@@ -3,6 +3,7 @@
 #include "field/field.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 
 #include <float.h>
 #include <math.h>
@@ -19,11 +20,23 @@ static int wrap_index(int64_t i, int n)
     return (int)(rest < 0 ? rest + n : rest);
 }
 
+/* By pieces of sizes that the compiler knows: for a row of a tile it would make one instruction of memcpy that takes
+ * longer to begin than to copy. */
+static inline void copy_texels(const float *restrict in, int count, float *restrict out)
+{
+    int k = 0;
+    for (; k + 16 <= count; k += 16) memcpy(out + k, in + k, 16 * sizeof *out);
+    if (count & 8) memcpy(out + k, in + k, 8 * sizeof *out), k += 8;
+    if (count & 4) memcpy(out + k, in + k, 4 * sizeof *out), k += 4;
+    if (count & 2) memcpy(out + k, in + k, 2 * sizeof *out), k += 2;
+    if (count & 1) out[k] = in[k];
+}
+
 static void copy_block(const float *tile, float level, int x, int y, int count_i, int count_j,
                        float *out, size_t pitch)
 {
     for (int row = 0; row < count_j; row++, out += pitch) {
-        if (tile) memcpy(out, tile + (y + row) * WR_TILE + x, sizeof *out * (size_t)count_i);
+        if (tile) copy_texels(tile + (y + row) * WR_TILE + x, count_i, out);
         else
             for (int col = 0; col < count_i; col++) out[col] = level;
     }
@@ -43,6 +56,20 @@ static void read_inside(const WrField *field, int i, int j, int count_i, int cou
             col += cols;
         }
         row += rows;
+    }
+}
+
+void wr_field_expect(const WrField *field, int i, int j, int count_i)
+{
+    enum { LINE = WR_ALIGN / (int)sizeof(float) };
+    const int width = wr_field_width(field), end = count_i < width - i ? i + count_i : width;
+    if (i < 0 || j < 0 || j >= wr_field_height(field)) return;
+    for (i = i / LINE * LINE; i < end;) {
+        const float *tile = wr_field_tile(field, i / WR_TILE, j / WR_TILE);
+        const int after = (i / WR_TILE + 1) * WR_TILE;
+        for (; tile && i < after && i < end; i += LINE)
+            __builtin_prefetch(tile + j % WR_TILE * WR_TILE + i % WR_TILE);
+        i = i < end && tile ? i : after;
     }
 }
 

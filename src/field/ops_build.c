@@ -310,12 +310,12 @@ WrField *wr_op_build(const WrOpJob *job, WrField *base, const WrOpWork *work)
     build->blends = wr_field_width(base) == wr_field_width(job->in) &&
                     wr_field_height(base) == wr_field_height(job->in);
     build->scratch_pitch = (work->scratch + WR_ALIGN) / WR_ALIGN * WR_ALIGN;
-    build->result = wr_try_alloc((size_t)min_int(BATCH, build->count) + 1, sizeof *build->result,
-                                 job->name, job->err);
+    build->result = wr_try_alloc_unset((size_t)min_int(BATCH, build->count) + 1,
+                                       sizeof *build->result, job->name, job->err);
     if (build->result)
-        build->bench = wr_try_alloc(threads, sizeof *build->bench, job->name, job->err);
+        build->bench = wr_try_alloc_unset(threads, sizeof *build->bench, job->name, job->err);
     if (build->bench)
-        build->scratch = wr_try_alloc(threads, build->scratch_pitch, job->name, job->err);
+        build->scratch = wr_try_alloc_unset(threads, build->scratch_pitch, job->name, job->err);
     bool good = build->scratch && run_batches(build);
     WrField *out = build->out;
     if (out != base) wr_field_free(base);

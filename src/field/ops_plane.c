@@ -85,7 +85,7 @@ bool wr_op_plane_init(WrOpPlane *plane, const WrOpJob *job)
 {
     int width = wr_field_width(job->in), height = wr_field_height(job->in);
     size_t pitch = ((size_t)width + 4 + 15) / 16 * 16 + 16;
-    float *block = wr_try_alloc(pitch * (size_t)height, sizeof *block, job->name, job->err);
+    float *block = wr_try_alloc_unset(pitch * (size_t)height, sizeof *block, job->name, job->err);
     if (!block) return false;
     *plane = (WrOpPlane){ block, block + 2, pitch, width, height };
     return true;
