@@ -5,6 +5,7 @@
 
 #include "ui/canvas/ants.h"
 #include "ui/canvas/canvas.h"
+#include "ui/gui/kept.h"
 #include "ui/canvas/canvas_ink.h"
 #include "ui/canvas/view.h"
 
@@ -117,6 +118,7 @@ static void what_is_under_the_pointer_stays_there(void **state)
 typedef struct Shown {
     SDL_Surface *surface;
     SDL_Renderer *renderer;
+    WrKept *kept;
     WrCanvas *canvas;
 } Shown;
 
@@ -127,12 +129,14 @@ static Shown show_new(void)
                 .canvas = wr_canvas_new() };
     s.renderer = SDL_CreateSoftwareRenderer(s.surface);
     assert_non_null(s.renderer);
+    s.kept = wr_kept_new(s.renderer);
     return s;
 }
 
 static void show_free(Shown *s)
 {
     wr_canvas_free(s->canvas);
+    wr_kept_free(s->kept);
     SDL_DestroyRenderer(s->renderer);
     SDL_FreeSurface(s->surface);
 }
@@ -141,9 +145,13 @@ static void show(Shown *s, const WrCanvasView *view, const WrField *field)
 {
     const WrCanvasLook look = { .colours = WR_CANVAS_SIGNED, .low = -1, .high = 1 };
     WrCanvasRange range;
-    while (wr_canvas_draw(s->canvas, s->renderer, view, field, NULL, &look, false, 1.0, &range)) {
+    bool unfinished = true;
+    while (unfinished) {
+        wr_kept_clear(s->kept, 0xff123456u);
+        unfinished =
+            wr_canvas_draw(s->canvas, s->kept, view, field, NULL, &look, false, 1.0, &range);
+        wr_kept_end(s->kept);
     }
-    SDL_RenderFlush(s->renderer);
 }
 
 static uint32_t pixel(const Shown *s, int i, int j)
@@ -340,11 +348,13 @@ static void normals_have_the_colours_of_a_map(void **state)
     Shown s = show_new();
     WrField *p = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 1, NULL);
     WrField *q = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    wr_canvas_draw(s.canvas, s.renderer, &view, p, q, &look, false, 1, &range);
-    SDL_RenderFlush(s.renderer);
+    wr_kept_clear(s.kept, 0xff123456u);
+    wr_canvas_draw(s.canvas, s.kept, &view, p, q, &look, false, 1, &range);
+    wr_kept_end(s.kept);
     assert_int_equal(pixel(&s, 100, 100), 0xff2580da); /* 127.5 (1 - 1/sqrt 2, 1, 1 + 1/sqrt 2) */
-    wr_canvas_draw(s.canvas, s.renderer, &view, q, p, &look, false, 1, &range);
-    SDL_RenderFlush(s.renderer);
+    wr_kept_clear(s.kept, 0xff123456u);
+    wr_canvas_draw(s.canvas, s.kept, &view, q, p, &look, false, 1, &range);
+    wr_kept_end(s.kept);
     assert_int_equal(pixel(&s, 100, 100), 0xff8025da);
     wr_field_free(p);
     wr_field_free(q);

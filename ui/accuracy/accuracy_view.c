@@ -7,6 +7,7 @@
 #include "ui/desk/layout.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/kept.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
 #include "ui/patch/patch.h"
@@ -66,7 +67,7 @@ static void put(WrApp *app, WrPatchLayer *layer, const uint8_t *bgra, int width,
         layer->width = width;
         layer->height = height;
     }
-    SDL_UpdateTexture(layer->texture, NULL, bgra, 4 * width);
+    wr_gui_sdl_update(layer->texture, NULL, bgra, 4 * width);
     layer->of = of;
     if (app->redraw < 1) app->redraw = 1;
 }
@@ -186,9 +187,9 @@ static void draw_split(WrApp *app)
     WrAccuracy *a = app->accuracy;
     SDL_Rect left = { room->x, room->y, line_x(app) - room->x, room->h };
     SDL_Rect right = { left.x + left.w, room->y, room->w - left.w, room->h };
-    SDL_RenderCopy(app->renderer, a->pair[0].texture, &(SDL_Rect){ 0, 0, left.w, left.h }, &left);
-    SDL_RenderCopy(app->renderer, a->pair[1].texture, &(SDL_Rect){ left.w, 0, right.w, right.h },
-                   &right);
+    WrKept *kept = wr_gui_kept(app->gui);
+    wr_kept_copy(kept, a->pair[0].texture, &(SDL_Rect){ 0, 0, left.w, left.h }, &left);
+    wr_kept_copy(kept, a->pair[1].texture, &(SDL_Rect){ left.w, 0, right.w, right.h }, &right);
 }
 
 void wr_accuracy_draw(WrApp *app)
@@ -206,9 +207,9 @@ void wr_accuracy_draw(WrApp *app)
         if (!pair_ready(a)) return;
         a->flicker_shown =
             a->hold_b || wr_accuracy_flicker(wr_clock_seconds(), a->flicker_since, &next);
-        SDL_RenderCopy(app->renderer, a->pair[a->flicker_shown].texture, NULL, room);
+        wr_kept_copy(wr_gui_kept(app->gui), a->pair[a->flicker_shown].texture, NULL, room);
     } else if (map_ready(a)) {
-        SDL_RenderCopy(app->renderer, a->map.texture, NULL, room);
+        wr_kept_copy(wr_gui_kept(app->gui), a->map.texture, NULL, room);
     }
 }
 

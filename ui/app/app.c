@@ -29,7 +29,6 @@
 #include "ui/generate/generate_gallery.h"
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
-#include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
 #include "ui/help/guide.h"
@@ -264,7 +263,6 @@ static void draw_divider(const SDL_Rect *d, bool hot)
 
 static void draw_views(WrApp *app)
 {
-    wr_gui_sdl_clear(app->renderer, WR_COLOUR_BAR);
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->draw) (*p)->draw(app);
     draw_divider(&app->layout->divider, app->hand->grab == WR_GRAB_DIVIDER);
@@ -307,7 +305,6 @@ static void draw(WrApp *app, double now)
     wr_app_draw_parts(app, true);
     wr_thumbs_update(app);
     wr_gui_frame_end(app->gui);
-    SDL_RenderPresent(app->renderer);
     wr_hand_look(app);
     set_cursor(app);
     app->drawn_at = now;

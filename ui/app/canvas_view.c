@@ -81,7 +81,7 @@ void wr_canvas_view_draw(WrApp *app)
     look.light_y = -y;
     WrCanvasRange range;
     app->canvas_unfinished =
-        wr_canvas_draw(app->canvas, app->renderer, app->view, map ? map : field,
+        wr_canvas_draw(app->canvas, wr_gui_kept(app->gui), app->view, map ? map : field,
                        map ? second : NULL, &look, is_held(app), MEANS_BUDGET, &range);
     app->map_shown = map != NULL;
     if (map && range.table_low != app->map_range->table_low) wr_app_redraw(app);

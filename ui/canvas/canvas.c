@@ -4,6 +4,7 @@
 #include "ui/canvas/canvas_range.h"
 #include "ui/canvas/canvas_turn.h"
 #include "ui/canvas/view.h"
+#include "ui/gui/kept.h"
 #include "ui/gui/theme.h"
 
 #include "base/array.h"
@@ -20,6 +21,7 @@
 struct WrCanvas {
     WrCanvasCells *cells[2]; /* of the second: slopes along v */
     int fields;              /* that are shown together */
+    WrKept *kept;            /* that is drawn for; borrowed */
     SDL_Texture *texture;
     int width, height;          /* of pixels */
     uint32_t *pixels;           /* [height][width], ARGB, not turned */
@@ -236,8 +238,10 @@ static void put(WrCanvas *canvas, SDL_Rect rect)
         pixels = canvas->turned;
         width = view->w;
     }
-    SDL_UpdateTexture(canvas->texture, &rect, pixels + (size_t)rect.y * (size_t)width + rect.x,
+    wr_gui_sdl_update(canvas->texture, &rect, pixels + (size_t)rect.y * (size_t)width + rect.x,
                       width * 4);
+    wr_kept_changed(canvas->kept,
+                    &(SDL_Rect){ view->x + rect.x, view->y + rect.y, rect.w, rect.h });
 }
 
 static void paint_rect(WrCanvas *canvas, SDL_Rect rect, const WrField *field, int level,
@@ -292,15 +296,15 @@ static void paint_tile(WrCanvas *canvas, SDL_Point tile, const WrField *field, i
     }
 }
 
-static bool make_buffers(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView *view,
-                         int cells)
+static bool make_buffers(WrCanvas *canvas, const WrCanvasView *view, int cells)
 {
     const WrCanvasView flat = wr_view_flat(view);
     size_t w = (size_t)flat.w, h = (size_t)flat.h;
     if (!canvas->texture || canvas->view.w != view->w || canvas->view.h != view->h) {
         wr_canvas_forget(canvas);
-        canvas->texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_ARGB8888,
-                                            SDL_TEXTUREACCESS_STREAMING, view->w, view->h);
+        canvas->texture =
+            SDL_CreateTexture(wr_kept_renderer(canvas->kept), SDL_PIXELFORMAT_ARGB8888,
+                              SDL_TEXTUREACCESS_STREAMING, view->w, view->h);
         if (!canvas->texture) return false;
         SDL_SetTextureBlendMode(canvas->texture, SDL_BLENDMODE_NONE);
         SDL_SetTextureScaleMode(canvas->texture, SDL_ScaleModeNearest);
@@ -388,14 +392,15 @@ static void paint(WrCanvas *canvas, const WrField *field, int level, double dead
     canvas->valid = true;
 }
 
-bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView *view,
-                    const WrField *field, const WrField *second, const WrCanvasLook *look,
-                    bool held, double budget, WrCanvasRange *range)
+bool wr_canvas_draw(WrCanvas *canvas, WrKept *kept, const WrCanvasView *view, const WrField *field,
+                    const WrField *second, const WrCanvasLook *look, bool held, double budget,
+                    WrCanvasRange *range)
 {
     int level = wr_cells_level(view->zoom);
+    canvas->kept = kept;
     bool whole = look_at(canvas, field, second, level);
     if (!has_buffers(canvas, view) &&
-        !make_buffers(canvas, renderer, view, wr_field_tiles_u(field) * WR_TILE))
+        !make_buffers(canvas, view, wr_field_tiles_u(field) * WR_TILE))
         return false;
     if (whole || is_rough(canvas) || !wr_view_same(&canvas->view, view)) canvas->valid = false;
     canvas->view = *view;
@@ -406,7 +411,7 @@ bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView
         paint(canvas, field, level, wr_clock_seconds() + budget);
     *range = (WrCanvasRange){ canvas->low, canvas->high, (double)canvas->table_low,
                               (double)canvas->table_high };
-    SDL_RenderCopy(renderer, canvas->texture, NULL,
-                   &(SDL_Rect){ view->x, view->y, view->w, view->h });
+    wr_kept_copy_told(kept, canvas->texture, NULL,
+                      &(SDL_Rect){ view->x, view->y, view->w, view->h });
     return is_rough(canvas);
 }

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 typedef struct WrField WrField;
+typedef struct WrKept WrKept;
 
 typedef struct WrCanvas WrCanvas;
 
@@ -56,9 +57,9 @@ double wr_canvas_contour_step(const WrCanvas *canvas);
 /* Bring the picture up to date and draw it into the view's rectangle. Takes at most about `budget`
  * seconds for the means of large tables; true if it would be better with another call. second: slopes along v, where `field`
  * holds those along u; else NULL. held: it is being painted, so that a range that follows it only widens. */
-bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView *view,
-                    const WrField *field, const WrField *second, const WrCanvasLook *look,
-                    bool held, double budget, WrCanvasRange *range);
+bool wr_canvas_draw(WrCanvas *canvas, WrKept *kept, const WrCanvasView *view, const WrField *field,
+                    const WrField *second, const WrCanvasLook *look, bool held, double budget,
+                    WrCanvasRange *range);
 /* The colour of a height, 0xffRRGGBB, as in the last picture. */
 uint32_t wr_canvas_colour(const WrCanvas *canvas, double height);
 /* The renderer lost its textures: make them anew. */

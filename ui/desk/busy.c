@@ -17,7 +17,7 @@
 #include "ui/desk/roster.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
-#include "ui/gui/gui_sdl.h"
+#include "ui/gui/kept.h"
 #include "ui/gui/theme.h"
 #include "ui/pen/pen.h"
 #include "ui/jobs/job.h"
@@ -96,7 +96,7 @@ static void grab(Wait *wait)
     if (wait->behind) {
         SDL_SetTextureBlendMode(wait->behind, SDL_BLENDMODE_NONE);
         SDL_SetTextureColorMod(wait->behind, 150, 150, 150); /* it does not answer */
-        SDL_UpdateTexture(wait->behind, NULL, pixels, w * 4);
+        wr_gui_sdl_update(wait->behind, NULL, pixels, w * 4);
     }
     wait->behind_w = w;
     wait->behind_h = h;
@@ -173,14 +173,12 @@ static void draw(Wait *wait, double now)
     SDL_GetRendererOutputSize(app->renderer, &app->width, &app->height);
     wr_gui_frame_begin(app->gui, app->width, app->height, PICTURE_SECONDS);
     wr_app_make_layout(app);
-    wr_gui_sdl_clear(app->renderer, WR_COLOUR_BAR);
     SDL_Rect place = { 0, 0, wait->behind_w, wait->behind_h };
-    if (wait->behind) SDL_RenderCopy(app->renderer, wait->behind, NULL, &place);
+    if (wait->behind) wr_kept_copy(wr_gui_kept(app->gui), wait->behind, NULL, &place);
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->draw) (*p)->draw(app);
     if (now - wait->since > MOMENT_SECONDS) bar(wait, now);
     wr_gui_frame_end(app->gui);
-    SDL_RenderPresent(app->renderer);
     wr_gui_aside_end(app->gui);
 }
 

@@ -5,6 +5,7 @@
 #include "ui/desk/settings.h"
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
 #include "ui/jobs/job.h"
@@ -170,7 +171,7 @@ static void take_samples(WrApp *app, WrFontChoice *choice, const Work *work)
                                          SDL_TEXTUREACCESS_STATIC, work->w, work->h);
         if (!row->texture) continue;
         SDL_SetTextureBlendMode(row->texture, SDL_BLENDMODE_BLEND);
-        SDL_UpdateTexture(row->texture, NULL, item->argb, work->w * 4);
+        wr_gui_sdl_update(row->texture, NULL, item->argb, work->w * 4);
     }
 }
 

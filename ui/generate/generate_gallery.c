@@ -4,6 +4,7 @@
 #include "ui/desk/search.h"
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
 #include "ui/jobs/job.h"
@@ -176,7 +177,7 @@ static void take(WrApp *app, WrGallery *gallery)
     if (work->argb && work->round == gallery->round) {
         SDL_Texture *texture = SDL_CreateTexture(app->renderer, SDL_PIXELFORMAT_ARGB8888,
                                                  SDL_TEXTUREACCESS_STATIC, work->side, work->side);
-        if (texture) SDL_UpdateTexture(texture, NULL, work->argb, work->side * 4);
+        if (texture) wr_gui_sdl_update(texture, NULL, work->argb, work->side * 4);
         gallery->tiles[work->index].texture = texture;
     }
     drop(work);

@@ -18,6 +18,7 @@ extern "C" {
 #endif
 
 typedef struct WrGui WrGui;
+typedef struct WrKept WrKept;
 
 /* scale: 0.75..4. The caller owns it; it must be freed before the renderer. */
 WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, WrError *err);
@@ -49,8 +50,12 @@ bool wr_gui_popup_open_now(const WrGui *gui);
 /* The pointer's shape that the widgets ask for. */
 SDL_SystemCursor wr_gui_cursor(const WrGui *gui);
 
+/* A new picture of the window, width x height pixels, so many seconds after the last one. */
 void wr_gui_frame_begin(WrGui *gui, int width, int height, double seconds);
+/* Draws what was noted since then, widgets on top of views, and puts it on the screen. */
 void wr_gui_frame_end(WrGui *gui);
+/* The picture that views note what they draw for (kept.h), between begin and end. */
+WrKept *wr_gui_kept(const WrGui *gui);
 
 /* The Debian packages of fonts that were not found, as a sentence; NULL if none is missing. */
 const char *wr_gui_missing_fonts(const WrGui *gui);

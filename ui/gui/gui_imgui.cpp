@@ -1,6 +1,6 @@
 /* The widget library's context: style, events, frames. */
 #include "ui/gui/gui_imgui.h"
-#include "ui/gui/gui_sdl.h"
+#include "ui/gui/kept.h"
 
 #include <imgui_internal.h>
 #include <math.h>
@@ -126,6 +126,7 @@ try {
         return nullptr;
     }
     gui->renderer = renderer;
+    gui->kept = wr_kept_new(renderer);
     gui->context = ImGui::CreateContext();
     settle_io(gui);
     if (!wr_gui_set_scale(gui, scale, err)) {
@@ -142,6 +143,7 @@ try {
     if (gui->aside) ImGui::DestroyContext(gui->aside);
     ImGui::DestroyContext(gui->context);
     if (gui->atlas) SDL_DestroyTexture(gui->atlas);
+    wr_kept_free(gui->kept);
     free(gui->focus.stops);
     free(gui->focus.coming);
     free(gui);
@@ -321,6 +323,8 @@ extern "C" void wr_gui_frame_begin(WrGui *gui, int width, int height, double sec
 try {
     ImGuiIO &io = ImGui::GetIO();
     io.DisplaySize = ImVec2((float)width, (float)height);
+    wr_kept_clear(gui->kept, WR_COLOUR_BAR);
+    gui->drawn_for = ImGui::GetCurrentContext();
     io.DeltaTime = (float)(seconds > 1e-4 ? (seconds < 0.5 ? seconds : 0.5) : 1e-4);
     for (int i = 0; i < 3;
          i++) { /* pressed and let go since the last frame: pressed for one frame */
@@ -351,7 +355,10 @@ try {
     double sizes = fitted_sizes(*ImGui::GetCurrentContext());
     gui->fits = sizes != gui->fitted;
     gui->fitted = sizes;
-    if (wr_gui_tells_all || wr_gui_unseen) return;
+    if (wr_gui_tells_all || wr_gui_unseen || gui->drawn_for != ImGui::GetCurrentContext()) {
+        wr_kept_drop(gui->kept); /* or pictures aside came in the midst of this one */
+        return;
+    }
     ImDrawData *data = ImGui::GetDrawData();
     ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
     for (int n = 0; n < data->CmdListsCount; n++) {
@@ -359,17 +366,28 @@ try {
         const auto *vertices = reinterpret_cast<const WrGuiVertex *>(list->VtxBuffer.Data);
         for (const ImDrawCmd &cmd : list->CmdBuffer) {
             if (cmd.UserCallback) continue;
-            SDL_Rect clip = { (int)cmd.ClipRect.x, (int)cmd.ClipRect.y,
-                              (int)(cmd.ClipRect.z - cmd.ClipRect.x),
-                              (int)(cmd.ClipRect.w - cmd.ClipRect.y) };
-            if (clip.w <= 0 || clip.h <= 0) continue;
-            wr_gui_sdl_draw(gui->renderer, wr_gui_texture_of(cmd.GetTexID()), white.x, white.y,
-                            vertices + cmd.VtxOffset, list->VtxBuffer.Size - (int)cmd.VtxOffset,
-                            list->IdxBuffer.Data + cmd.IdxOffset, (int)cmd.ElemCount, clip);
+            WrGuiCommand command = {};
+            command.clip = { (int)cmd.ClipRect.x, (int)cmd.ClipRect.y,
+                             (int)(cmd.ClipRect.z - cmd.ClipRect.x),
+                             (int)(cmd.ClipRect.w - cmd.ClipRect.y) };
+            if (command.clip.w <= 0 || command.clip.h <= 0) continue;
+            command.texture = wr_gui_texture_of(cmd.GetTexID());
+            command.white_u = white.x;
+            command.white_v = white.y;
+            command.vertices = vertices + cmd.VtxOffset;
+            command.indices = list->IdxBuffer.Data + cmd.IdxOffset;
+            command.index_count = (int)cmd.ElemCount;
+            wr_kept_command(gui->kept, &command);
         }
     }
+    wr_kept_end(gui->kept);
 }
 WR_CAUGHT()
+
+extern "C" WrKept *wr_gui_kept(const WrGui *gui)
+{
+    return gui->kept;
+}
 
 extern "C" double wr_gui_scale(void)
 {

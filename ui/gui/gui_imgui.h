@@ -64,10 +64,12 @@ struct WrTyped {
 };
 
 struct WrGui {
-    SDL_Renderer *renderer; /* borrowed */
-    ImGuiContext *context;  /* owned */
-    ImGuiContext *aside;    /* owned; NULL until it is needed */
-    SDL_Texture *atlas;     /* owned */
+    SDL_Renderer *renderer;  /* borrowed */
+    ImGuiContext *context;   /* owned */
+    ImGuiContext *aside;     /* owned; NULL until it is needed */
+    SDL_Texture *atlas;      /* owned */
+    WrKept *kept;            /* owned */
+    ImGuiContext *drawn_for; /* whose picture it is */
     ImFont *fonts[WR_FONT_COUNT];
     double scale;
     bool no_icons, no_text;          /* their fonts were not found */

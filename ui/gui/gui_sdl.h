@@ -15,19 +15,64 @@ typedef struct WrGuiVertex {
     SDL_Color colour;
 } WrGuiVertex;
 
-/* One command: triangles of `indices` into `vertices`, clipped. white_u, white_v: the texture
-   coordinate of a white texel; triangles that lie wholly on it are drawn without the texture, which
-   SDL's software renderer does several times faster. */
-void wr_gui_sdl_draw(SDL_Renderer *renderer, SDL_Texture *texture, float white_u, float white_v,
-                     const WrGuiVertex *vertices, int vertex_count, const uint16_t *indices,
-                     int index_count, SDL_Rect clip);
+/* Triangles of `indices` into `vertices`, clipped. white_u, white_v: the texture coordinate of a white texel; triangles
+   that lie wholly on it are drawn without the texture, which SDL's software renderer does several times faster. All
+   borrowed. */
+typedef struct WrGuiCommand {
+    SDL_Texture *texture;
+    int texture_w, texture_h; /* texels */
+    float white_u, white_v;
+    const WrGuiVertex *vertices;
+    const uint16_t *indices;
+    int index_count;
+    SDL_Rect clip;
+} WrGuiCommand;
 
-/* All of the window, or a rectangle of it, in one colour (0xAARRGGBB). */
-void wr_gui_sdl_clear(SDL_Renderer *renderer, uint32_t argb);
+typedef enum WrGuiKind {
+    WR_GUI_NOTHING,  /* to be seen */
+    WR_GUI_TRIANGLE, /* of the texture */
+    WR_GUI_PLAIN,    /* a triangle without it */
+    WR_GUI_FILL,     /* an upright rectangle of one colour */
+    WR_GUI_LETTER,   /* texels as pixels, times one colour */
+    WR_GUI_SCALED /* the same, larger or smaller: SDL draws other pixels when it is clipped otherwise */
+} WrGuiKind;
+
+/* A part of a command that is drawn by itself. */
+typedef struct WrGuiPiece {
+    WrGuiKind kind;
+    int first, count; /* indices */
+    SDL_Rect box;     /* no pixel beyond it is touched; clipped */
+    SDL_Rect to, of;  /* of rectangles: pixels, not clipped, and texels */
+} WrGuiPiece;
+
+/* The piece that begins at index `first`, a multiple of 3 below index_count. letters: SDL draws the widgets' letters faster
+   one by one; otherwise they are triangles. */
+WrGuiPiece wr_gui_sdl_piece(const WrGuiCommand *command, int first, bool letters);
+
+#define WR_GUI_PEN_VERTICES 768
+
+/* Draws pieces, several at once where that gives the same pixels. */
+typedef struct WrGuiPen {
+    SDL_Renderer *renderer; /* borrowed, as is the texture */
+    SDL_Texture *texture;   /* of the triangles below; NULL: none */
+    int count;
+    WrGuiVertex vertices[WR_GUI_PEN_VERTICES];
+} WrGuiPen;
+
+void wr_gui_sdl_piece_draw(WrGuiPen *pen, const WrGuiCommand *command, const WrGuiPiece *piece);
+void wr_gui_sdl_flush(
+    WrGuiPen *pen); /* what is still held back is drawn: before the clip changes, and at the end */
+
+/* A rectangle in one colour (0xAARRGGBB). */
 void wr_gui_sdl_fill(SDL_Renderer *renderer, const SDL_Rect *place, uint32_t argb);
 
 /* A texture of white with the given coverage, from width x height RGBA bytes; NULL if SDL cannot. */
 SDL_Texture *wr_gui_sdl_texture(SDL_Renderer *renderer, int width, int height, const void *rgba);
+/* Pixels of a texture are others now (place NULL: all), as by SDL_UpdateTexture. Every texture that wr_kept_copy or a widget
+   shows is changed by this alone. */
+void wr_gui_sdl_update(SDL_Texture *texture, const SDL_Rect *place, const void *pixels, int pitch);
+/* Another number after each of these. */
+uintptr_t wr_gui_sdl_revision(const SDL_Texture *texture);
 
 #ifdef __cplusplus
 }

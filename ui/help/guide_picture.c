@@ -1,5 +1,6 @@
 #include "ui/help/guide_picture.h"
 #include "ui/jobs/job.h"
+#include "ui/gui/gui_sdl.h"
 
 #include "base/array.h"
 #include "base/file.h"
@@ -104,7 +105,7 @@ static void take(WrGuidePictures *pictures)
                                              SDL_TEXTUREACCESS_STATIC, work->width, work->height);
     if (picture->texture) {
         SDL_SetTextureScaleMode(picture->texture, SDL_ScaleModeLinear);
-        SDL_UpdateTexture(picture->texture, NULL, work->argb, work->width * 4);
+        wr_gui_sdl_update(picture->texture, NULL, work->argb, work->width * 4);
         picture->width = work->width;
         picture->height = work->height;
         pictures->made++;

@@ -3,6 +3,7 @@
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
 
 #include "base/error.h"
@@ -65,7 +66,7 @@ static SDL_Texture *texture_of(SDL_Renderer *renderer, const WrFrame *frame, int
     wr_image_codes(WR_PIXEL_U8, rgb, 3 * count, codes, NULL);
     SDL_Texture *texture =
         SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STATIC, side, side);
-    if (texture) SDL_UpdateTexture(texture, NULL, codes, side * 3);
+    if (texture) wr_gui_sdl_update(texture, NULL, codes, side * 3);
     wr_free(rgb);
     wr_free(codes);
     return texture;

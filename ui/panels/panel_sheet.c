@@ -4,6 +4,7 @@
 #include "ui/desk/dialog.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
 
@@ -246,7 +247,7 @@ static SDL_Texture *make_green(SDL_Renderer *renderer, double green)
         }
     SDL_Texture *texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGB24,
                                              SDL_TEXTUREACCESS_STATIC, GREEN_SIDE, GREEN_SIDE);
-    if (texture) SDL_UpdateTexture(texture, NULL, rgb, GREEN_SIDE * 3);
+    if (texture) wr_gui_sdl_update(texture, NULL, rgb, GREEN_SIDE * 3);
     return texture;
 }
 

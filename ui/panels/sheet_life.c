@@ -7,6 +7,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/words.h"
 #include "ui/panels/panel_sheet.h"
+#include "ui/gui/gui_sdl.h"
 
 #include "base/hash.h"
 #include "base/memory.h"
@@ -179,7 +180,7 @@ static SDL_Texture *texture_of(SDL_Renderer *renderer, int w, int h, const uint8
 {
     SDL_Texture *texture =
         SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STATIC, w, h);
-    if (texture) SDL_UpdateTexture(texture, NULL, rgb, w * 3);
+    if (texture) wr_gui_sdl_update(texture, NULL, rgb, w * 3);
     return texture;
 }
 

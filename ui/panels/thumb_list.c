@@ -2,6 +2,7 @@
 #include "ui/canvas/thumb.h"
 #include "ui/desk/desk.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/gui_sdl.h"
 
 #include "base/array.h"
 #include "command/session.h"
@@ -23,7 +24,7 @@ static void make_thumb(const WrApp *app, WrThumb *thumb, const WrField *field, c
         if (!thumb->texture) return;
     }
     wr_thumb_draw(field, cover, unit, side, argb);
-    SDL_UpdateTexture(thumb->texture, NULL, argb, side * 4);
+    wr_gui_sdl_update(thumb->texture, NULL, argb, side * 4);
     thumb->side = side;
     thumb->key = wr_field_key(field);
     thumb->cover = cover ? wr_field_key(cover) : 0;

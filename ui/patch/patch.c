@@ -10,7 +10,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
-#include "ui/gui/gui_sdl.h"
+#include "ui/gui/kept.h"
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
 #include "ui/patch/patch_paint.h"
@@ -182,7 +182,7 @@ static void take_picture(WrApp *app)
         SDL_SetTextureBlendMode(p->texture, SDL_BLENDMODE_NONE);
         SDL_SetTextureScaleMode(p->texture, SDL_ScaleModeLinear);
     }
-    SDL_UpdateTexture(p->texture, &(SDL_Rect){ 0, 0, picture->width, picture->height },
+    wr_gui_sdl_update(p->texture, &(SDL_Rect){ 0, 0, picture->width, picture->height },
                       picture->bgra, 4 * picture->width);
     if (app->redraw < 1) app->redraw = 1; /* the widgets have nothing to settle */
 }
@@ -274,12 +274,12 @@ void wr_patch_draw(WrApp *app)
     if (room->w <= 0) return;
     const WrPreviewPicture *picture = wr_preview_picture(app->preview);
     if (!p->texture || picture->serial == 0) {
-        wr_gui_sdl_fill(app->renderer, room, WR_COLOUR_SURROUND);
+        wr_kept_fill(wr_gui_kept(app->gui), room, WR_COLOUR_SURROUND);
         return;
     }
     if (picture->serial != p->serial) take_picture(app);
-    SDL_RenderCopy(app->renderer, p->texture, &(SDL_Rect){ 0, 0, picture->width, picture->height },
-                   room);
+    wr_kept_copy(wr_gui_kept(app->gui), p->texture,
+                 &(SDL_Rect){ 0, 0, picture->width, picture->height }, room);
 }
 
 /* How far the picture is from its best: a ring that closes. */

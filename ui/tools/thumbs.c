@@ -7,6 +7,7 @@
 #include "ui/tools/shelf.h"
 #include "ui/tools/tool_stamp.h"
 #include "ui/jobs/job.h"
+#include "ui/gui/gui_sdl.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -295,7 +296,7 @@ static void take(WrApp *app, Batch *batch)
         if (!item->argb) continue;
         slot->texture = SDL_CreateTexture(app->renderer, SDL_PIXELFORMAT_ARGB8888,
                                           SDL_TEXTUREACCESS_STATIC, batch->side, batch->side);
-        if (slot->texture) SDL_UpdateTexture(slot->texture, NULL, item->argb, batch->side * 4);
+        if (slot->texture) wr_gui_sdl_update(slot->texture, NULL, item->argb, batch->side * 4);
     }
     drop(batch);
     wr_app_redraw(app);

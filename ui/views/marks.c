@@ -9,6 +9,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/kept.h"
 
 #include "base/array.h"
 #include "document/document.h"
@@ -48,23 +49,22 @@ void wr_marks_try(WrApp *app, const WrOutlineAsk *ask)
 /* The pixels, white and black in turn along the line. */
 static void draw(const WrApp *app, const WrAnts *ants, int phase)
 {
-    static const SDL_Color colours[2] = { { 250, 250, 250, 255 }, { 16, 16, 16, 255 } };
+    static const uint32_t colours[2] = { 0xfffafafau, 0xff101010u };
+    WrKept *kept = wr_gui_kept(app->gui);
     SDL_Point chunk[512];
     double dash = DASH * wr_gui_scale();
     for (int pass = 0; pass < 2; pass++) {
         int count = 0;
-        SDL_SetRenderDrawColor(app->renderer, colours[pass].r, colours[pass].g, colours[pass].b,
-                               255);
         for (int i = 0; i < ants->pixels.count; i++) {
             const WrAnt *ant = &ants->pixels.data[i];
             double place = (double)ant->along / dash - phase / 4.0;
             if (((int)floor(place) & 1) != pass) continue;
             chunk[count++] = ant->at;
             if (count < 512) continue;
-            SDL_RenderDrawPoints(app->renderer, chunk, count);
+            wr_kept_points(kept, chunk, count, colours[pass]);
             count = 0;
         }
-        if (count > 0) SDL_RenderDrawPoints(app->renderer, chunk, count);
+        wr_kept_points(kept, chunk, count, colours[pass]);
     }
 }
 
