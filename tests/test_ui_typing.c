@@ -24,16 +24,20 @@ static void tap(SDL_Scancode code, Uint16 mod)
     push_key(SDL_KEYUP, code, mod);
 }
 
-/* Lower-case letters, as keys and as what comes of them. */
+/* Letters, as keys and as what comes of them. */
 static void type(const char *letters)
 {
     for (const char *at = letters; *at; at++) {
-        SDL_Scancode code = (SDL_Scancode)(SDL_SCANCODE_A + (*at - 'a'));
-        push_key(SDL_KEYDOWN, code, 0);
+        bool upper = *at >= 'A' && *at <= 'Z';
+        Uint16 mod = upper ? KMOD_LSHIFT : 0;
+        SDL_Scancode code = (SDL_Scancode)(SDL_SCANCODE_A + (*at - (upper ? 'A' : 'a')));
+        if (upper) push_key(SDL_KEYDOWN, SDL_SCANCODE_LSHIFT, mod);
+        push_key(SDL_KEYDOWN, code, mod);
         SDL_Event event = { .text = { .type = SDL_TEXTINPUT } };
         event.text.text[0] = *at;
         SDL_PushEvent(&event);
-        push_key(SDL_KEYUP, code, 0);
+        push_key(SDL_KEYUP, code, mod);
+        if (upper) push_key(SDL_KEYUP, SDL_SCANCODE_LSHIFT, 0);
     }
 }
 
@@ -98,6 +102,20 @@ static void letters_before_a_chord_are_not_lost(void **state)
     finish(&bench);
 }
 
+/* A long name, with letters that come twice and capitals, while one picture is made. */
+static void no_letter_of_many_is_lost(void **state)
+{
+    (void)state;
+    static const char many[] =
+        "MwWLkLkkGKCojaaGinjVbGblkVgzRGewnhrwWwBggMgGKrHMKqJXYHNMYrLvucqyJwNqrqrAxoKxaSNbbMfI"
+        "wNqrqrAxoKxaSNbbMfIOVmKjUtrfXrDCtTNMuIMOKjgkGUiiLuRoDsTeNFQM";
+    Bench bench;
+    open_search(&bench);
+    type(many);
+    expect(bench.app, many);
+    finish(&bench);
+}
+
 static void an_answer_waits_for_the_letters_before_it(void **state)
 {
     (void)state;
@@ -130,6 +148,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_and_keys_keep_their_order),
         cmocka_unit_test(letters_before_a_chord_are_not_lost),
+        cmocka_unit_test(no_letter_of_many_is_lost),
         cmocka_unit_test(an_answer_waits_for_the_letters_before_it),
         cmocka_unit_test(nothing_typed_is_no_answer),
     };

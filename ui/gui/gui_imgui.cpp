@@ -2,6 +2,10 @@
 #include "ui/gui/gui_imgui.h"
 #include "ui/gui/kept.h"
 
+extern "C" {
+#include "base/memory.h"
+}
+
 #include <imgui_internal.h>
 #include <math.h>
 #include <string.h>
@@ -146,6 +150,7 @@ try {
     wr_kept_free(gui->kept);
     free(gui->focus.stops);
     free(gui->focus.coming);
+    wr_free(gui->typed_on);
     free(gui);
 }
 WR_CAUGHT()

@@ -15,7 +15,6 @@ extern "C" {
 struct ImGuiWindow;
 
 #define WR_GUI_KEYS 512 /* of the keyboard, by SDL_Scancode */
-#define WR_GUI_TYPED 64
 
 #define WR_GUI_STOPS 2000
 #define WR_GUI_WAITING 16 /* keys for the focus that no frame has had */
@@ -78,9 +77,9 @@ struct WrGui {
     bool released_late[WR_GUI_KEYS]; /* keys that went down and up between two frames */
     bool pressed_now[WR_GUI_KEYS];
     int held_late; /* KMOD_ bits held while a key went down since the last frame */
-    WrTyped typed_on
-        [WR_GUI_TYPED]; /* keys and letters that no frame has had, in the order in which they came */
-    int typed_count;
+    WrTyped *
+        typed_on; /* keys and letters that no frame has had, in the order in which they came; owned */
+    int typed_count, typed_room;
     int typed_held; /* KMOD_ bits held at the last of those that frames had */
     char clipboard[4096];
     bool close_popups; /* Escape was pressed over a menu */

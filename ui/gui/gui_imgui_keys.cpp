@@ -2,6 +2,10 @@
    for keys; before, an array of them by the platform's numbers. This file alone knows which. */
 #include "ui/gui/gui_imgui.h"
 
+extern "C" {
+#include "base/memory.h"
+}
+
 #include <stdio.h>
 #include <string.h>
 
@@ -141,11 +145,21 @@ static bool acts(const SDL_Keysym &key)
     return false;
 }
 
+/* Of a key that goes down while a text is typed: what it does is letters, or Shift for them, so that it can go down
+   more than once in a frame. */
+static bool tells_by_letters(const SDL_Keysym &key)
+{
+    bool shift = key.scancode == SDL_SCANCODE_LSHIFT || key.scancode == SDL_SCANCODE_RSHIFT;
+    return ImGui::GetIO().WantTextInput && (shift || (!is_held_key(key.scancode) && !acts(key)));
+}
+
 static void keep(WrGui *gui, const WrTyped &typed)
 {
-    if (gui->typed_count == WR_GUI_TYPED) { /* nobody types so fast: the oldest goes */
-        memmove(gui->typed_on, gui->typed_on + 1, (WR_GUI_TYPED - 1) * sizeof typed);
-        gui->typed_count--;
+    if (gui->typed_count == gui->typed_room) {
+        int room = gui->typed_room > 0 ? 2 * gui->typed_room : 64;
+        gui->typed_on = static_cast<WrTyped *>(
+            wr_realloc(gui->typed_on, (size_t)gui->typed_room, (size_t)room, sizeof typed));
+        gui->typed_room = room;
     }
     gui->typed_on[gui->typed_count++] = typed;
 }
@@ -180,6 +194,7 @@ static void key_down(WrGui *gui, const SDL_Keysym &key)
     int code = key.scancode;
     if (code == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
     ImGui::GetIO().KeysDown[code] = gui->pressed_now[code] = true;
+    gui->released_late[code] = false;
     if (!is_held_key(code)) gui->held_late |= key.mod & (KMOD_CTRL | KMOD_SHIFT | KMOD_ALT);
 }
 
@@ -209,9 +224,11 @@ static bool take_typed(WrGui *gui)
             if (down && !gui->released_late[code])
                 continue; /* held: the library repeats it itself */
             bool act = !is_held_key(code) && acts(typed.key);
-            /* Let go since the last frame, which it must see first. */
-            bool anew = !down && ImGui::GetIO().KeysDownDuration[code] >= 0.0f;
-            if (down || anew || (act && acted) || (letters && acts(typed.key))) break;
+            /* Let go since the last frame, which it must see first; but letters of a text tell for themselves. */
+            bool anew = down || ImGui::GetIO().KeysDownDuration[code] >= 0.0f;
+            if ((anew && !tells_by_letters(typed.key)) || (act && acted) ||
+                (letters && acts(typed.key)))
+                break;
             acted |= act;
             key_down(gui, typed.key);
         } else {
@@ -219,6 +236,7 @@ static bool take_typed(WrGui *gui)
         }
         gui->typed_held = typed.key.mod;
     }
+    if (taken == 0) return letters;
     gui->typed_count -= taken;
     memmove(gui->typed_on, gui->typed_on + taken, (size_t)gui->typed_count * sizeof *gui->typed_on);
     return letters;
