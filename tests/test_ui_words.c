@@ -10,6 +10,10 @@
 #include "ui/desk/keys.h"
 #include "ui/panels/panel_search.h"
 
+#include <dirent.h>
+#include <stdio.h>
+#include <string.h>
+
 #define MISSED_MOST 4000
 
 /* Texts of the program itself: not what was put together out of them, and not the user's. */
@@ -65,6 +69,36 @@ static void every_text_that_the_window_shows_has_a_translation(void **state)
     for (int i = 0; i < missed.count; i++) print_text(missed.text[i]);
     assert_int_equal(missed.count, 0);
     assert_true(missed.asked > 1000); /* numbers and names were among what was asked for */
+}
+
+/* Pages are read from files, so the walk does not know their titles for the program's own. */
+static void every_page_of_the_guide_has_a_title_in_german(void **state)
+{
+    (void)state;
+    Walk walk;
+    walk_open(&walk, "de");
+    const bool german = strcmp(wr_words_language(), "de") == 0;
+    DIR *folder = opendir(WR_SOURCE_DIR "/ui/guide");
+    assert_non_null(folder);
+    int pages = 0, lacking = 0;
+    for (const struct dirent *file; german && (file = readdir(folder));) {
+        char path[600], line[200] = "";
+        if (!strstr(file->d_name, ".md")) continue;
+        snprintf(path, sizeof path, WR_SOURCE_DIR "/ui/guide/%s", file->d_name);
+        FILE *page = fopen(path, "r");
+        assert_non_null(page);
+        assert_non_null(fgets(line, sizeof line, page));
+        fclose(page);
+        line[strcspn(line, "\n")] = 0;
+        assert_true(strncmp(line, "# ", 2) == 0);
+        pages++;
+        if (wr_words(line + 2) == line + 2)
+            printf("no German title: \"%s\"\n", line + 2), lacking++;
+    }
+    closedir(folder);
+    walk_close(&walk);
+    assert_int_equal(lacking, 0);
+    assert_true(!german || pages > 20);
 }
 
 /* ---- what can be done is found ---- */
@@ -255,6 +289,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_text_that_the_window_shows_has_a_translation),
+        cmocka_unit_test(every_page_of_the_guide_has_a_title_in_german),
         cmocka_unit_test(every_action_stands_in_a_menu),
         cmocka_unit_test(every_action_has_a_help_line),
         cmocka_unit_test(every_command_is_reached_by_the_search),

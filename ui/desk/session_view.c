@@ -2,6 +2,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/document.h"
+#include "ui/gui/words.h"
 #include "ui/jobs/trial.h"
 
 #include "command/session.h"
@@ -94,7 +95,7 @@ const char *wr_app_name(const WrApp *app)
 {
     const char *path = wr_session_path(app->session);
     if (!path[0] && app->file->picture) path = app->file->picture;
-    if (!path[0]) return app->file->starter ? "bricks (starter)" : "untitled";
+    if (!path[0]) return wr_words(app->file->starter ? "bricks (starter)" : "untitled");
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
 }

@@ -25,7 +25,7 @@
 #define INDEX "README.md" /* its links are the pages, in their order */
 #define PAGE_BYTES (4u << 20)
 #define FOUND_MAX 80
-#define COLUMN 216 /* units of the list of pages */
+#define COLUMN 250 /* units of the list of pages */
 
 struct WrGuide {
     WR_ARRAY(WrGuidePage) pages;
@@ -222,10 +222,8 @@ static void list_found(WrApp *app, WrGuide *guide)
         wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, words, wr_gui_row_width() - wr_gui_px(12));
         wr_gui_as_it_is(false);
         wr_gui_space(-10);
-        wr_gui_as_it_is(true);
         wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, page->title,
                         wr_gui_row_width() - wr_gui_px(12));
-        wr_gui_as_it_is(false);
         wr_gui_group_end();
         wr_gui_row_end();
         if (row.clicked) choose(app, guide, i);
@@ -237,10 +235,8 @@ static void list_pages(WrApp *app, WrGuide *guide)
     for (int i = 0; i < guide->pages.count; i++) {
         WrRow row = wr_gui_row_begin(i, 26, i == guide->page);
         wr_gui_row_at(wr_gui_px(8), 0);
-        wr_gui_as_it_is(true);
         wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, guide->pages.data[i].title,
                         wr_gui_row_width() - wr_gui_px(12));
-        wr_gui_as_it_is(false);
         wr_gui_row_end();
         if (row.clicked) open_page(app, guide, i, -1);
     }
@@ -269,7 +265,7 @@ static void show_page(WrApp *app, WrGuide *guide, double tall)
     int length;
     WrGuiPage field = wr_gui_page_begin("page", 0, tall);
     const WrGuidePage *page = &guide->pages.data[guide->page];
-    wr_gui_as_it_is(true); /* the pages are English */
+    wr_gui_as_it_is(true); /* the page of keys speaks for itself, the others are English */
     if (wr_guide_layout(&guide->layout, page, field.w, guide->pictures)) wr_app_redraw(app);
     const char *link =
         wr_guide_draw(&guide->layout, &field, guide->marked, guide->pictures, &length);

@@ -4,6 +4,7 @@
 #include "ui/desk/desk.h"
 #include "ui/desk/keys.h"
 #include "ui/desk/roster.h"
+#include "ui/gui/words.h"
 #include "ui/help/guide.h"
 
 #include "base/text.h"
@@ -132,7 +133,7 @@ static const struct {
 
 static void add_head(WrText *text, const char *title)
 {
-    wr_text_addf(text, "\n## %s\n\n| keys | |\n| --- | --- |\n", title);
+    wr_text_addf(text, "\n## %s\n\n| %s | |\n| --- | --- |\n", wr_words(title), wr_words("keys"));
 }
 
 /* A key may be a bar or a backquote. */
@@ -140,7 +141,7 @@ static void add_row(WrText *text, const char *keys, const char *words)
 {
     wr_text_add(text, "| ");
     for (const char *p = keys; *p; p++) wr_text_addf(text, *p == '|' ? "\\%c" : "%c", *p);
-    wr_text_addf(text, " | %s |\n", words);
+    wr_text_addf(text, " | %s |\n", wr_words(words));
 }
 
 static bool is_told(const char *action)
@@ -165,16 +166,19 @@ static void add_others(const WrApp *app, WrText *text)
 void wr_guide_keys(const WrApp *app, WrText *text)
 {
     WrText keys = { 0 };
-    wr_text_add(
-        text,
-        "# Keys\n\nOn the left is the table of heights F(u,v): light is high. On the right the "
-        "same heights wrinkle a surface. The table repeats; paint on any copy. The pages "
-        "beside this one tell the rest.\n");
+    wr_text_addf(
+        text, "# %s\n\n%s", wr_words("Keys"),
+        wr_words("On the left is the table of heights F(u,v): light is high. On the right the "
+                 "same heights wrinkle a surface. The table repeats; paint on any copy. The pages "
+                 "beside this one tell the rest."));
+    if (strcmp(wr_words_language(), "en") != 0)
+        wr_text_addf(text, " %s", wr_words("They are in English."));
+    wr_text_add(text, "\n");
     for (size_t i = 0; i < GROUP_COUNT; i++) {
         add_head(text, groups[i].title);
         for (const Row *row = groups[i].rows; row->action; row++) {
             wr_text_clear(&keys);
-            if (row->action[0] == '*') wr_text_add(&keys, row->action);
+            if (row->action[0] == '*') wr_text_add(&keys, wr_words(row->action));
             else wr_keys_list(app->keys, row->action, &keys);
             add_row(text, keys.length ? wr_text_get(&keys) : "-", row->text);
         }
