@@ -5,7 +5,7 @@
 set -uo pipefail
 cd "$1" || exit 1
 
-common=(-D_GNU_SOURCE -DWR_SOURCE_DIR='""' -DWR_BINARY_DIR='""' -fsyntax-only -Wall -Wextra -Wshadow
+common=(-D_GNU_SOURCE -DWR_SOURCE_DIR='""' -DWR_BINARY_DIR='""' -fsyntax-only -fopenmp-simd -Wall -Wextra -Wshadow
         -Werror -Isrc -I. -Itests)
 c_only=(-std=c17 -Wpedantic -Wstrict-prototypes -Wmissing-prototypes)
 read -ra libraries < <(pkg-config --cflags sdl2 freetype2 cmocka imgui)
