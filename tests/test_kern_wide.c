@@ -7,11 +7,13 @@
 
 /* ---- codes ---- */
 
-static void expect_codes(const Sets *sets, const uint32_t *bins, const WrStrip *strip, bool grey)
+/* grey: what stands in the other channels is nobody's. */
+static void expect_codes(const Sets *sets, const uint32_t *bins, WrStrip *strip, bool grey)
 {
     uint32_t want[WR_SPAN], got[WR_SPAN + 1];
     got[strip->count] = 0x12345678U;
     const int odd = sets->ref->codes(bins, strip, want);
+    for (int i = 0; i < strip->count && grey; i++) strip->cg[i] = NAN, strip->cb[i] = 0.5f;
     assert_int_equal(sets->wide->codes(bins, strip, grey, got), odd);
     for (int i = 0; i < strip->count; i++)
         if (got[i] != want[i])
@@ -64,18 +66,23 @@ static void codes_are_those_of_the_table(void **state)
 
 /* ---- spheres ---- */
 
-static void same_place(const WrStrip *got, int i, const WrStrip *want, int k, const char *set)
+static void same_parameters(const WrStrip *got, int i, const WrStrip *want, int k, const char *set)
 {
-    const float *const a[] = { got->px, got->py, got->pz, got->nx, got->ny, got->nz, got->v };
-    const float *const b[] = {
-        want->px, want->py, want->pz, want->nx, want->ny, want->nz, want->v
-    };
     const double flat = hypot(want->nx[k], want->ny[k]);
-    for (int c = 0; c < 7; c++)
-        if (off_by(a[c][i], b[c][k]) > FAST_BOUND)
-            fail_msg("%s: number %d is %.9g, not %.9g", set, c, (double)a[c][i], (double)b[c][k]);
+    if (off_by(got->v[i], want->v[k]) > FAST_BOUND)
+        fail_msg("%s: v is %.9g, not %.9g", set, (double)got->v[i], (double)want->v[k]);
     if (turns_off(got->u[i], want->u[k]) * flat > 1e-5 || got->u[i] < 0 || got->u[i] >= 1)
         fail_msg("%s: u is %.9g, not %.9g", set, (double)got->u[i], (double)want->u[k]);
+}
+
+static void same_place(const WrStrip *got, int i, const WrStrip *want, int k, const char *set)
+{
+    const float *const a[] = { got->px, got->py, got->pz, got->nx, got->ny, got->nz };
+    const float *const b[] = { want->px, want->py, want->pz, want->nx, want->ny, want->nz };
+    for (int c = 0; c < 6; c++)
+        if (off_by(a[c][i], b[c][k]) > FAST_BOUND)
+            fail_msg("%s: number %d is %.9g, not %.9g", set, c, (double)a[c][i], (double)b[c][k]);
+    same_parameters(got, i, want, k, set);
 }
 
 /* The same of the same sample, whatever its place in the strip. */
@@ -152,6 +159,73 @@ static void spheres_are_those_of_the_stages(void **state)
     wr_free(want);
 }
 
+/* A whole exponent, however small, a lamp far away. */
+static void make_broad(TestRandom *random, Scenery *s)
+{
+    s->light.point = false;
+    put3(s->light.where, some_unit(random));
+    s->shine.shininess = floorf(between(random, 1, test_random(random) < 0.5 ? 20 : 140));
+}
+
+/* What comes of it where red tells all, and where a picture's colours come between. */
+static void expect_smooth(const Sets *sets, const Scenery *s, const WrBall *ball, float gx,
+                          float gy, int count, const WrStrip *want, WrStrip *got)
+{
+    WrStrip *all = wr_alloc(1, sizeof *all);
+    bool dark;
+    *all = *got;
+    assert_true(sets->wide->smooth(ball, &s->rays, &s->light, &s->shine, &s->material, gx, gy,
+                                   count, WR_WIDE_RED, &dark, got));
+    assert_memory_equal(got->index, all->index, (size_t)all->count * sizeof *all->index);
+    for (int k = 0; k < all->count; k++) assert_true(got->cr[k] == all->cr[k]);
+    assert_true(sets->wide->smooth(ball, &s->rays, &s->light, &s->shine, &s->material, gx, gy,
+                                   count, WR_WIDE_LATER, &dark, got));
+    for (int k = 0; k < got->count; k++) got->cr[k] = got->cg[k] = got->cb[k] = 1;
+    sets->wide->paint(&s->rays, &s->light, &s->shine, &s->material, got);
+    compare(s, got, want, sets->name, same_colour);
+    compare(s, got, want, sets->name, same_parameters);
+    wr_free(all);
+}
+
+/* All of it in one pass, from the ray to the colour. */
+static void smooth_spheres_are_those_of_the_stages(void **state)
+{
+    (void)state;
+    WrStrip *got = wr_alloc(1, sizeof *got), *want = wr_alloc(1, sizeof *want);
+    Sets sets;
+    for (int i = 0; set_of(i, &sets); i++) {
+        TestRandom random = { 31 };
+        int done = 0, darks = 0;
+        for (int round = 0; sets.wide && round < 700; round++) {
+            Scenery s = some_scenery(&random);
+            make_broad(&random, &s);
+            const float gx = (float)(int)(400 * test_random(&random));
+            const float gy = (float)(int)(500 * test_random(&random));
+            const int count = 1 + (int)(WR_SPAN * test_random(&random));
+            WrBall ball;
+            bool dark;
+            wr_ball_make(&ball, &s.rays, &s.shape, &s.light);
+            met_by_stages(&sets, &s, gx, gy, count, want);
+            sets.ref->bump[WR_BUMP_NONE](&s.rays, want);
+            sets.ref->shade[0][s.rays.perspective][1][0](&s.rays, &s.light, &s.shine, &s.material,
+                                                         want);
+            if (!sets.wide->smooth(&ball, &s.rays, &s.light, &s.shine, &s.material, gx, gy, count,
+                                   WR_WIDE_ALL, &dark, got)) {
+                assert_true(!ball.shown || s.shine.shininess > 128.0f);
+                continue;
+            }
+            assert_true(ball.shown && s.shine.shininess <= 128.0f);
+            done += compare(&s, got, want, sets.name, same_colour);
+            darks += dark && got->count > 0;
+            for (int k = 0; k < want->count && dark; k++) assert_true(is_behind(&s.light, want, k));
+            expect_smooth(&sets, &s, &ball, gx, gy, count, want, got);
+        }
+        if (sets.wide) assert_true(done > 20000 && darks > 20);
+    }
+    wr_free(got);
+    wr_free(want);
+}
+
 /* The light alone, from any n' and P. */
 static void one_lamp_is_that_of_the_stages(void **state)
 {
@@ -190,6 +264,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(codes_are_those_of_the_table),
         cmocka_unit_test(spheres_are_those_of_the_stages),
+        cmocka_unit_test(smooth_spheres_are_those_of_the_stages),
         cmocka_unit_test(one_lamp_is_that_of_the_stages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

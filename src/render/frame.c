@@ -191,6 +191,7 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     job.cast_unit = 1 / renderer->view.scale;
     job.wide = wr_wide_of(job.kernels);
     job.wide_codes = wr_wide_codes_of(job.kernels);
+    job.balls = renderer->balls;
     wr_pipe_wide(&job);
     return job;
 }

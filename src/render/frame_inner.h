@@ -33,6 +33,7 @@ struct WrRenderer {
     WrRounded rounded;
     WrReliefBounds bounds; /* of what parallax looks up ... */
     WrParallax parallax;   /* ... and how the last frame did, for picking */
+    WrBall balls[WR_VIEW_GRIDS];
     WrLook look;
     WrLookd look_double;
     const WrField *looked; /* what this frame looks up: the request's field, or its rounded form */

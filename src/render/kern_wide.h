@@ -4,12 +4,13 @@
    next whole vector, which WR_SPAN holds. (gx, gy) is a place in the grid of the rays, in samples.
    Layer 5, private to the renderer. */
 #pragma once
+#include "render/ball.h"
 #include "render/kern.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Finished colours as opaque codes, as WrKernels.codes; grey: red, green and blue of all are the same bits. Returns how many
+/* Finished colours as opaque codes, as WrKernels.codes; grey: red tells green and blue, too. Returns how many
    numbers were not finite. */
 typedef int (*WrWideCodes)(const uint32_t *bins, const WrStrip *strip, bool grey, uint32_t *out);
 
@@ -24,13 +25,26 @@ typedef struct WrWideSheet {
 /* False: a surface that there are no vectors of. */
 bool wr_wide_sheet(WrSurfaceKind kind, const WrShapef *shape, WrWideSheet *sheet);
 
+/* What comes of the light: red, which tells green and blue, too; all channels; u, v and what `paint` asks for. */
+typedef enum WrWidePaint { WR_WIDE_RED, WR_WIDE_ALL, WR_WIDE_LATER } WrWidePaint;
+
 typedef struct WrWide {
     /* Is its highlight such as these are for? */
     bool (*narrow)(const WrKernLight *light, const WrKernShine *shine);
+    /* And for `smooth`? */
+    bool (*broad)(const WrKernLight *light, const WrKernShine *shine);
     /* All of one lamp of Blinn and Phong, as WrKernels.shade does it; pictured: C is a picture's. False: not such as this
        is for, and nothing is done. */
     bool (*shade)(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
                   const WrKernMaterial *material, bool pictured, WrStrip *strip);
+    /* All of a sphere without bumps under one distant lamp, from visibility to the colour, of the samples of a row from
+       (gx, gy) on, neighbours: index, and by `how`. dark: the lamp is behind all of them. False: as above. */
+    bool (*smooth)(const WrBall *ball, const WrRays *rays, const WrKernLight *light,
+                   const WrKernShine *shine, const WrKernMaterial *material, float gx, float gy,
+                   int count, WrWidePaint how, bool *dark, WrStrip *strip);
+    /* After WR_WIDE_LATER: the colours of that light on C. */
+    void (*paint)(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
+                  const WrKernMaterial *material, WrStrip *strip);
     /* Of a sphere that is seen from outside, the samples of a row from (gx, gy) on, neighbours: index, n, s: 1 / |d| of
        sphere_light; mapped: u, v. False: as above. */
     bool (*sphere)(const WrRays *rays, const WrShapef *shape, float gx, float gy, int count,

@@ -44,11 +44,12 @@ static void code_channel(const float *light, int count, int32_t *code, unsigned 
     }
 }
 
-/* Codes of up to WIDE samples from i on by the table. How many numbers are not finite. */
-static int codes_by_table(const uint32_t *bins, const WrStrip *strip, int i, int count,
+/* Codes of up to WIDE samples from i on by the table; grey: red tells all. How many numbers are not finite. */
+static int codes_by_table(const uint32_t *bins, const WrStrip *strip, bool grey, int i, int count,
                           uint32_t *out)
 {
-    const float *const from[3] = { strip->cr + i, strip->cg + i, strip->cb + i };
+    const float *const red = strip->cr + i;
+    const float *const from[3] = { red, grey ? red : strip->cg + i, grey ? red : strip->cb + i };
     int odd = 0;
     for (int k = 0; k < count && k < WIDE; k++) {
         uint32_t code[3];
@@ -69,7 +70,7 @@ static int grey_codes(const uint32_t *bins, const WrStrip *strip, uint32_t *out)
     for (int i = 0; i < count; i += WIDE) {
         const unsigned of = w_first_bits(count - i);
         const Coded at = code_by_curve(w_load(strip->cr + i));
-        if (w_bits(at.unsure) & of) odd += codes_by_table(bins, strip, i, count - i, out + i);
+        if (w_bits(at.unsure) & of) odd += codes_by_table(bins, strip, true, i, count - i, out + i);
         else w_store_some((int32_t *)out + i, of, w_opaque(at.code, at.code, at.code));
     }
     return odd;
@@ -88,7 +89,7 @@ static int wide_codes(const uint32_t *bins, const WrStrip *strip, bool grey, uin
     code_channel(strip->cb, count, b, unsure);
     for (int i = 0; i < count; i += WIDE) {
         const WideInt all = w_opaque(w_load_int(r + i), w_load_int(g + i), w_load_int(b + i));
-        if (unsure[i / WIDE]) odd += codes_by_table(bins, strip, i, count - i, out + i);
+        if (unsure[i / WIDE]) odd += codes_by_table(bins, strip, false, i, count - i, out + i);
         else w_store_some((int32_t *)out + i, w_first_bits(count - i), all);
     }
     return odd;

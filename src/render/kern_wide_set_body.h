@@ -10,6 +10,8 @@
 #include "render/kern_wide_body.h"
 #ifdef WIDE
 #include "render/kern_wide_light_body.h"
+#include "render/kern_wide_place_body.h"
+#include "render/kern_wide_chord_body.h"
 #include "render/kern_wide_sphere_body.h"
 #include "render/kern_wide_look_body.h"
 #include "render/kern_wide_filter_body.h"
@@ -17,11 +19,11 @@
 #include "render/kern_wide_newton_body.h"
 #include "render/kern_wide_bend_body.h"
 
-const WrWide WR_WIDE_TABLE = { narrow,       wide_shade,        wide_sphere,
-                               wide_points,  wide_sphere_light, wide_central,
-                               wide_filters, wide_footprint,    wide_filtered,
-                               wide_colour,  wide_codes,        wide_newton,
-                               wide_cross,   wide_blinn };
+const WrWide WR_WIDE_TABLE = { narrow,       broad,        wide_shade,     wide_smooth,
+                               wide_paint,   wide_sphere,  wide_points,    wide_sphere_light,
+                               wide_central, wide_filters, wide_footprint, wide_filtered,
+                               wide_colour,  wide_codes,   wide_newton,    wide_cross,
+                               wide_blinn };
 #else
 const WrWide WR_WIDE_TABLE = { 0 };
 #endif

@@ -83,6 +83,49 @@ static unsigned light_bumped(const WrTileJob *job, const Rays *rays, REAL gx, RE
     return spared;
 }
 
+/* What the light of a run was spared that is dark, or not; bits of WrRun. */
+static unsigned lit_plain(const WrTileJob *job, bool dark, Watch *watch)
+{
+    if (runs(job, WR_EFFECT_DARK)) did(watch, WR_EFFECT_DARK);
+    if (!dark || !job->dark) note_light(job, watch);
+    watch_lap(watch, WR_STAGE_LIGHT);
+    return dark && job->dark ? WR_RUN_DARK : 0;
+}
+
+static const WrBall *ball_of(const WrTileJob *job, const Rays *rays)
+{
+    const WrView *view = job->view;
+    int i = 0;
+    while (i + 1 < view->grid_count && &VIEWED(&view->grids[i], rays) != rays) i++;
+    return &job->balls[i];
+}
+
+/* A row without bumps, all of it at once. False: as below. */
+static bool smooth_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
+                       const WrSink *sink, WrTileScratch *scratch, Watch *watch)
+{
+    const LampMatter m = lamp_matter(job, true);
+    const WrKernLight *light = job->view->lights;
+    const bool alike = job->grey && job->wide_codes && job->coder.tone.plain && !sink->rgba;
+    const WrWidePaint how = pictured(job) ? WR_WIDE_LATER : alike ? WR_WIDE_RED : WR_WIDE_ALL;
+    Strip *strip = &scratch->strip;
+    bool dark = false;
+    if (!job->wide->smooth(ball_of(job, rays), rays, light, &m.shine, &m.material, gx, gy, count,
+                           how, &dark, strip))
+        return false;
+    if (scratch->notes.patches) note_places(job, sink, true, gx, gy, strip);
+    watch_lap(watch, WR_STAGE_VISIBILITY);
+    if (strip->count == 0) return true;
+    did(watch, WR_EFFECT_STEADY);
+    if (how == WR_WIDE_LATER) {
+        did(watch, WR_EFFECT_PARAMETERS);
+        bring_colour(job, rays, strip, scratch, watch);
+        job->wide->paint(rays, light, &m.shine, &m.material, strip);
+    }
+    put_strip(job, rays, lit_plain(job, dark, watch), sink, strip, scratch, watch);
+    return true;
+}
+
 /* By n alone: what is dark shows in the light itself. */
 static unsigned light_plain(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, Strip *strip,
                             WrTileScratch *scratch, Watch *watch)
@@ -93,10 +136,7 @@ static unsigned light_plain(const WrTileJob *job, const Rays *rays, REAL gx, REA
     if (job->view->lights->point) job->wide->points(&job->view->shape, strip);
     job->wide->sphere_light(rays, &job->view->shape, job->view->lights, &m.shine, &m.material, gx,
                             gy, pictured(job), false, &dark, strip);
-    if (runs(job, WR_EFFECT_DARK)) did(watch, WR_EFFECT_DARK);
-    if (!dark || !job->dark) note_light(job, watch);
-    watch_lap(watch, WR_STAGE_LIGHT);
-    return dark && job->dark ? WR_RUN_DARK : 0;
+    return lit_plain(job, dark, watch);
 }
 
 /* A row of a sphere under one lamp. False: the stages do it. */
@@ -108,7 +148,11 @@ static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
     if (!job->wide_sphere || !lit(sink) || sink->normals || sink->points || sink->uv ||
         sink->nearest || sink->bound)
         return false;
-    if (!job->wide->sphere(rays, &job->view->shape, gx, gy, count, mapped, strip)) return false;
+    if (mapped == pictured(job) && !bumped &&
+        smooth_row(job, rays, gx, gy, count, sink, scratch, watch))
+        return true;
+    if (!job->narrow || !job->wide->sphere(rays, &job->view->shape, gx, gy, count, mapped, strip))
+        return false;
     if (scratch->notes.patches) note_places(job, sink, true, gx, gy, strip);
     watch_lap(watch, WR_STAGE_VISIBILITY);
     if (strip->count == 0) return true;
@@ -166,6 +210,7 @@ void wr_pipe_wide(WrTileJob *job)
 #undef E
     const LampMatter m = lamp_matter(job, true);
     const WrBumpMode bump = job->plan->bump;
+    const WrKernLight *lamp = job->view->lights;
     job->wide_sphere = job->wide_met = job->grey = false;
     job->wide_newton = job->wide && job->mesh &&
                        wr_wide_sheet(job->view->shape_d.kind, &job->view->shape, &job->sheet);
@@ -179,7 +224,10 @@ void wr_pipe_wide(WrTileJob *job)
                     !job->view->stretched && !job->dice && !job->triangles &&
                     !runs(job, WR_EFFECT_PARALLAX);
     if (job->view->light_count != 1 || !runs(job, WR_EFFECT_SPECULAR)) return;
-    if (!job->wide->narrow(job->view->lights, &m.shine)) return;
+    job->narrow = job->wide->narrow(lamp, &m.shine);
+    if (!job->narrow && (bump != WR_BUMP_NONE || !job->wide->broad(lamp, &m.shine))) return;
+    for (int i = 0; i < job->view->grid_count; i++)
+        wr_ball_make(&job->balls[i], &job->view->grids[i].rays, &job->view->shape, lamp);
     job->wide_sphere = job->wide_met && !job->map && runs_only(job, at_once | filtered) &&
                        (bump == WR_BUMP_NONE || bump == WR_BUMP_BLINN);
     job->grey = is_grey(job) && !runs(job, WR_EFFECT_COLOUR) && runs_only(job, at_once | geometry);

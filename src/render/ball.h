@@ -1,0 +1,56 @@
+/* ball.h - a sphere that is seen from outside, as the rays of a whole grid meet it: as polynomials of a pixel's place.
+   Layer 5, private to the renderer.
+   Of a ray o + t d either o is the same for all and d linear in the place x, y (perspective), or the other way round. So d.d is a
+   quadratic, and so is r^2 = (o.d)^2 - d.d (o.o - 1), in radii; the nearer point is at t = -(o.d + r) / d.d, and of the normal n,
+   which is that point,
+       n.w = (o.w d.d - o.d d.w - r d.w) / d.d,   n.v = r / |d|
+   for any fixed w. Made once a picture in double, where nothing cancels; what is left for each pixel are a few products in
+   single precision, about the middle of its row's chord. */
+#pragma once
+#include "render/kern.h"
+
+#include <stdbool.h>
+
+/* c[0] + c[1] x + c[2] y + c[3] x^2 + c[4] x y + c[5] y^2. */
+typedef struct WrForm {
+    double c[6];
+} WrForm;
+
+/* n.w = (along - r across) / d.d. */
+typedef struct WrSlant {
+    WrForm along, across;
+} WrSlant;
+
+typedef struct WrBall {
+    bool
+        good; /* the others are there: all of the sphere is before the eye and the near plane, its outline an ellipse */
+    WrForm dd, rr; /* d.d, r^2 */
+    double by;     /* -1/2 by the part of x^2 in r^2 */
+    WrSlant n[3];  /* n's own x, y, z */
+    bool
+        shown; /* `lit` is there, and the lamp nowhere nearly opposite to the viewer, where l + v is told badly by l.v */
+    WrSlant lit; /* n.l; its across is d.l */
+} WrBall;
+
+/* Of the rays of a grid; light: one, or NULL. */
+void wr_ball_make(WrBall *ball, const WrRays *rays, const WrShapef *shape,
+                  const WrKernLight *light);
+
+/* Where a row meets it. */
+typedef struct WrChord {
+    double y, middle; /* middle: a whole number */
+    int first, last;  /* pixels that meet it, from gx on; last < first: none */
+} WrChord;
+
+/* Of `count` pixels from (gx, y) on; false: so far away that places are not exact. */
+bool wr_chord_of(const WrBall *ball, double gx, double y, int count, WrChord *chord);
+
+/* The form along a row, about the middle of its chord: c[0] + c[1] x + c[2] x^2. */
+static inline void wr_form_along(const WrForm *form, const WrChord *chord, float c[3])
+{
+    const double *of = form->c, y = chord->y, m = chord->middle;
+    const double slope = of[1] + y * of[4];
+    c[0] = (float)(of[0] + y * (of[2] + y * of[5]) + m * (slope + m * of[3]));
+    c[1] = (float)(slope + 2 * m * of[3]);
+    c[2] = (float)of[3];
+}

@@ -1,0 +1,188 @@
+/* kern_wide_chord_body.h - rows of a sphere by the polynomials of ball.h. A part of kern_wide_*.c. */
+
+ALWAYS Wide row_places(float gx, int i)
+{
+    return w_all(gx + (float)i) + w_count();
+}
+
+typedef struct WideCurve {
+    Wide c0, c1, c2;
+} WideCurve;
+
+ALWAYS WideCurve w_curve(const WrForm *form, const WrChord *chord)
+{
+    float c[3];
+    wr_form_along(form, chord, c);
+    return (WideCurve){ w_all(c[0]), w_all(c[1]), w_all(c[2]) };
+}
+ALWAYS Wide w_bent(WideCurve of, Wide x)
+{
+    return of.c0 + x * (of.c1 + x * of.c2);
+}
+ALWAYS Wide w_straight(WideCurve of, Wide x)
+{
+    return of.c0 + x * of.c1;
+}
+
+/* n.w. */
+typedef struct WideSlant {
+    WideCurve along, across;
+} WideSlant;
+
+ALWAYS WideSlant w_slant(const WrSlant *of, const WrChord *chord)
+{
+    return (WideSlant){ w_curve(&of->along, chord), w_curve(&of->across, chord) };
+}
+ALWAYS Wide w_slanted(const WideSlant *of, Wide x, Wide r, Wide inv2)
+{
+    return (w_bent(of->along, x) - r * w_straight(of->across, x)) * inv2;
+}
+
+/* sqrt(a), 0 where it is less. */
+ALWAYS Wide w_root(Wide a)
+{
+    const Wide some = w_max(a, w_all(1e-30f));
+    return some * w_rsqrt(some);
+}
+
+/* ---- smooth ones under a distant lamp ---- */
+
+#define BROAD 128 /* exponents up to there: n.h is exact enough for them */
+
+/* A highlight of a whole exponent, however wide. */
+typedef struct Broad {
+    Wide least; /* of smaller cosines there is none; their powers would not be normal numbers */
+    int exponent;
+    bool gate;
+} Broad;
+
+static bool broad(const WrKernLight *light, const WrKernShine *shine)
+{
+    const float s = shine->shininess;
+    return !light->point && s >= 1.0f && s <= (float)BROAD && s == floorf(s);
+}
+
+static Broad broad_of(const WrKernShine *shine)
+{
+    const int s = (int)shine->shininess;
+    const float least = s <= 16 ? 0x1p-6f : s <= 32 ? 0x1p-3f : 0.5825f; /* 2^-0.78 */
+    return (Broad){ w_all(least), s, shine->gate };
+}
+
+ALWAYS Wide whole_power(Wide base, int exponent)
+{
+    while (!(exponent & 1)) base = base * base, exponent >>= 1;
+    Wide power = base;
+    while (exponent >>= 1) {
+        base = base * base;
+        if (exponent & 1) power = power * base;
+    }
+    return power;
+}
+
+/* The highlight where n.l, n.v and l.v are these: n.h = (n.l + n.v) / |l + v|. */
+ALWAYS Wide broad_highlight(const Broad *of, Wide n_dot_l, Wide n_dot_v, Wide l_dot_v)
+{
+    const Wide half = w_all(0.5f), size = w_max(half + half * l_dot_v, w_all(1e-7f));
+    const Wide n_dot_h = (n_dot_l + n_dot_v) * half * w_rsqrt(size);
+    WideMask shown = w_less(of->least, n_dot_h);
+    if (of->gate) shown = w_both(shown, w_less(w_all(0.0f), n_dot_l));
+    return whole_power(w_kept(shown, n_dot_h), of->exponent);
+}
+
+/* What of a row the light is worked out from. */
+typedef struct SmoothRow {
+    WideCurve dd, rr;
+    WideSlant lit;
+    Broad broad;
+    float from; /* x of the row's pixel 0 */
+} SmoothRow;
+
+/* Returns the largest n.l. */
+ALWAYS float smooth_chord(const SmoothRow *row, const Scenery *s, const WrWidePaint how, int first,
+                          WrStrip *strip)
+{
+    const int count = strip->count;
+    const Wide one = w_all(1.0f);
+    Wide largest = w_all(-1.0f);
+    for (int i = 0; i < count; i += WIDE) {
+        const Wide x = row_places(row->from, first + i);
+        const Wide inv = w_rsqrt(w_bent(row->dd, x)), inv2 = inv * inv;
+        const Wide r = w_root(w_bent(row->rr, x)), across = w_straight(row->lit.across, x);
+        const Wide n_dot_l = (w_bent(row->lit.along, x) - r * across) * inv2;
+        const Wide lobe = broad_highlight(&row->broad, n_dot_l, r * inv, -across * inv);
+        const Wide lit = w_max(n_dot_l, w_all(0.0f));
+        w_store_counted(strip->index + i, first + i);
+        largest = w_max(largest, w_among(w_first_bits(count - i), n_dot_l, largest));
+        if (how == WR_WIDE_LATER) {
+            w_store(strip->n_dot_l + i, lit), w_store(strip->sr + i, lobe);
+            w_store(strip->s + i, r), w_store(strip->n_len + i, inv2);
+            continue;
+        }
+        w_store(strip->cr + i, channel_lit(s->red, one, s->ambient, lit, lobe));
+        if (how == WR_WIDE_RED) continue;
+        w_store(strip->cg + i, channel_lit(s->green, one, s->ambient, lit, lobe));
+        w_store(strip->cb + i, channel_lit(s->blue, one, s->ambient, lit, lobe));
+    }
+    return w_largest(largest);
+}
+
+/* u and v by what that left. */
+static void chord_parameters(const WrBall *ball, const WrChord *chord, float from, WrStrip *strip)
+{
+    const int count = strip->count;
+    const WideSlant x_of = w_slant(&ball->n[0], chord), y_of = w_slant(&ball->n[1], chord);
+    const WideSlant z_of = w_slant(&ball->n[2], chord);
+    for (int i = 0; i < count; i += WIDE) {
+        const Wide x = row_places(from, chord->first + i);
+        const Wide r = w_load(strip->s + i), inv2 = w_load(strip->n_len + i);
+        const WideVec n = { w_slanted(&x_of, x, r, inv2), w_slanted(&y_of, x, r, inv2),
+                            w_slanted(&z_of, x, r, inv2) };
+        put_parameters_of(n, strip, i);
+    }
+}
+
+static bool wide_smooth(const WrBall *ball, const WrRays *rays, const WrKernLight *light,
+                        const WrKernShine *shine, const WrKernMaterial *material, float gx,
+                        float gy, int count, WrWidePaint how, bool *dark, WrStrip *strip)
+{
+    WrChord chord;
+    if (!ball->shown || !broad(light, shine) ||
+        !wr_chord_of(ball, (double)gx, (double)gy, count, &chord))
+        return false;
+    strip->count = chord.last - chord.first + 1;
+    *dark = true;
+    if (strip->count <= 0) {
+        strip->count = 0;
+        return true;
+    }
+    const Scenery s = scenery_of(rays, light, shine, material);
+    const SmoothRow row = { w_curve(&ball->dd, &chord), w_curve(&ball->rr, &chord),
+                            w_slant(&ball->lit, &chord), broad_of(shine),
+                            (float)((double)gx - chord.middle) };
+    float most;
+    switch (how) {
+    case WR_WIDE_RED: most = smooth_chord(&row, &s, WR_WIDE_RED, chord.first, strip); break;
+    case WR_WIDE_ALL: most = smooth_chord(&row, &s, WR_WIDE_ALL, chord.first, strip); break;
+    default:
+        most = smooth_chord(&row, &s, WR_WIDE_LATER, chord.first, strip);
+        chord_parameters(ball, &chord, row.from, strip);
+    }
+    *dark = !(most > 0.0f);
+    return true;
+}
+
+/* The picture's colours under that light. */
+static void wide_paint(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
+                       const WrKernMaterial *material, WrStrip *strip)
+{
+    const Scenery s = scenery_of(rays, light, shine, material);
+    const int count = strip->count;
+    for (int i = 0; i < count; i += WIDE) {
+        const Wide lit = w_load(strip->n_dot_l + i), lobe = w_load(strip->sr + i);
+        const Wide r = w_load(strip->cr + i), g = w_load(strip->cg + i), b = w_load(strip->cb + i);
+        w_store(strip->cr + i, channel_lit(s.red, r, s.ambient, lit, lobe));
+        w_store(strip->cg + i, channel_lit(s.green, g, s.ambient, lit, lobe));
+        w_store(strip->cb + i, channel_lit(s.blue, b, s.ambient, lit, lobe));
+    }
+}
