@@ -1,4 +1,4 @@
-/* A view that rests but for its light (E76): n', P, u and v are noted at the second change and used from the third on, and
+/* A view that rests but for its light (E76): what light looks at is noted at the second change and used from the third on, and
    each picture has the bits of a whole new one, whatever commands came between, of one object and of several. */
 #include "test.h"
 #include "test_folder.h"
@@ -14,6 +14,7 @@
 
 #define WIDTH                                                                                      \
     131 /* of a picture: a tile that is packed, and one that is not, beside each other with 300 */
+#define HEIGHT 37
 #define STEPS 26 /* of one scene */
 
 /* Light and material alone. */
@@ -39,6 +40,13 @@ static const char *const light_lines[] = {
     "background plain colour=0.1,0,0.3",
     "tone soft exposure=0.7",
     "tone clip exposure=0",
+    "material shadow=on",
+    "material shadow=off",
+    "material occlusion=on",
+    "material occlusion=off",
+    "light directional to=0.9,0.1,0.4 shadow=on index=1",
+    "light directional to=-0.2,0.5,0.3 size=3 shadow=on",
+    "light point at=1.1,-0.4,0.9 size=7",
 };
 
 /* What moves points or normals, or what light then looks at besides them; a number takes %d. */
@@ -58,11 +66,14 @@ static const char *const other_lines[] = {
     "dials aa=point heights=8bit",
     "dials aa=supersample samples=2",
     "dials aa=point heights=float",
-    "material shadow=on",
-    "material shadow=off",
-    "light directional to=0.9,0.1,0.4 shadow=on index=1",
+    "dials aa=moments",
+    "dials aa=moments moments=lean footprint=anisotropic",
+    "dials aa=supersample samples=3 spread=jittered",
+    "dials shading=half",
+    "dials shading=float rays=5",
     "light directional to=0.8,0.3,0.4 index=1",
-    "grain wood",
+    "grain wood drives=bump height=0.0%d",
+    "grain wood drives=colour",
     "grain marble amount=0.%d",
     "grain off",
     "colouring ramp",
@@ -73,6 +84,7 @@ static const char *const other_lines[] = {
     "analytic fourier terms=2,3,0.0%d",
     "analytic off",
     "object set size=0.%d",
+    "object set size=0.%d,0.7,1",
 };
 
 #define COUNT(lines) (int)(sizeof(lines) / sizeof *(lines))
@@ -109,6 +121,7 @@ typedef struct Rig {
     int width;
     bool codes;
     int known;   /* pictures that worked out light alone */
+    int hidden;  /* of those, that asked nothing about shadows, though there are some */
     int painted; /* of those, that looked a picture up */
 } Rig;
 
@@ -117,7 +130,7 @@ static WrFrameRequest request_of(const Rig *rig, bool keep)
     const WrScene *scene = doc(rig->session)->scene;
     const WrField *field = wr_document_field(doc(rig->session));
     WrFrameRequest request = {
-        .field = field, .scene = scene, .width = rig->width, .height = 93, .keep = keep
+        .field = field, .scene = scene, .width = rig->width, .height = HEIGHT, .keep = keep
     };
     request.codes = wr_frame_codes_of(scene, true);
     request.codes.wanted = rig->codes;
@@ -129,6 +142,12 @@ static const void *bytes_of(const WrFrame *frame)
     return frame->codes ? (const void *)frame->codes : (const void *)frame->rgba;
 }
 
+static bool knows_shadows(const WrPlan *plan)
+{
+    const WrPlanRow *cast = &plan->rows[WR_EFFECT_CAST], *relief = &plan->rows[WR_EFFECT_SHADOW];
+    return (cast->run || relief->run) && !cast->ran && !relief->ran;
+}
+
 /* The picture that rests has the bits of a whole new one. */
 static void compare(Rig *rig, const char *line)
 {
@@ -138,13 +157,16 @@ static void compare(Rig *rig, const char *line)
     if (!wr_renderer_frame(rig->renderer, &request, &rests, &err)) fail_msg("%s", err.text);
     const bool known = rests.plan->rows[WR_EFFECT_STEADY].verdict == WR_VERDICT_SPARED;
     rig->known += known;
+    rig->hidden += known && knows_shadows(rests.plan);
     rig->painted +=
         known && (rests.plan->rows[WR_EFFECT_COLOUR].run || rests.plan->rows[WR_EFFECT_FACETS].run);
     if (!wr_renderer_frame(rig->other, &anew, &fresh, &err)) fail_msg("%s", err.text);
     const size_t pixel = rig->codes ? sizeof(uint32_t) : 4 * sizeof(float);
-    const size_t count = (size_t)rig->width * 93 * pixel;
+    const size_t count = (size_t)rig->width * HEIGHT * pixel;
     if (memcmp(bytes_of(&rests), bytes_of(&fresh), count) != 0)
-        fail_msg("%s: the resting picture is another", line);
+        fail_msg("%s: the resting picture is another (%s; %s)", line,
+                 rests.plan->rows[WR_EFFECT_STEADY].reason,
+                 rests.plan->rows[WR_EFFECT_CAST].reason);
     assert_int_equal(rests.covered, fresh.covered);
 }
 
@@ -184,6 +206,7 @@ static Rig rig_of(int width, bool codes)
     rig.other = wr_renderer_new(rig.pool, NULL, &err);
     must_run(rig.session, "table 75x52");
     must_run(rig.session, "noise perlin");
+    must_run(rig.session, "dials gloss=4 horizons=8"); /* cheaper */
     return rig;
 }
 
@@ -262,6 +285,7 @@ static void light_alone_of_several_gives_the_same_bits(void **state)
 typedef struct Step {
     const char *line;
     int known;
+    int hidden; /* and of those, asked nothing about shadows */
 } Step;
 
 static void walk(Rig *rig, const Step *steps, int count)
@@ -273,6 +297,9 @@ static void walk(Rig *rig, const Step *steps, int count)
         if (rig->known != steps[i].known)
             fail_msg("step %d, %s: %d pictures worked out light alone, not %d", i, steps[i].line,
                      rig->known, steps[i].known);
+        if (rig->hidden != steps[i].hidden)
+            fail_msg("step %d, %s: %d pictures asked for no shadow, not %d", i, steps[i].line,
+                     rig->hidden, steps[i].hidden);
     }
     free_rig(rig);
 }
@@ -281,25 +308,25 @@ static void walk(Rig *rig, const Step *steps, int count)
 static void light_alone_is_worked_out(void **state)
 {
     (void)state;
-    static const Step steps[] = { { "light directional to=0.3,0.1,-1 index=1",
+    static const Step steps[] = { { "light directional to=0.3,0.1,-1 index=1", 0,
                                     0 }, /* from behind: dark runs are noted too */
-                                  { "material diffuse=0.6", 0 },
-                                  { "material diffuse=0.7", 1 },
-                                  { "light directional to=1,1,2 index=1", 2 },
-                                  { "dab 0.5,0.5 radius=9", 2 },
-                                  { "material diffuse=0.6", 2 },
-                                  { "material specular=0.5", 3 },
-                                  { "camera perspective fov=31", 3 },
-                                  { "material specular=0.25", 3 },
-                                  { "material specular=0.75", 4 },
-                                  { "bump height=0.07", 4 },
-                                  { "material specular=0.3", 4 },
-                                  { "environment studio turn=12", 5 },
-                                  { "environment turn=31", 6 },
-                                  { "width 120", 6 },
-                                  { "environment turn=33", 6 },
-                                  { "environment turn=34", 7 },
-                                  { "dials arithmetic=fast", 7 } };
+                                  { "material diffuse=0.6", 0, 0 },
+                                  { "material diffuse=0.7", 1, 0 },
+                                  { "light directional to=1,1,2 index=1", 2, 0 },
+                                  { "dab 0.5,0.5 radius=9", 2, 0 },
+                                  { "material diffuse=0.6", 2, 0 },
+                                  { "material specular=0.5", 3, 0 },
+                                  { "camera perspective fov=31", 3, 0 },
+                                  { "material specular=0.25", 3, 0 },
+                                  { "material specular=0.75", 4, 0 },
+                                  { "bump height=0.07", 4, 0 },
+                                  { "material specular=0.3", 4, 0 },
+                                  { "environment studio turn=12", 5, 0 },
+                                  { "environment turn=31", 6, 0 },
+                                  { "width 120", 6, 0 },
+                                  { "environment turn=33", 6, 0 },
+                                  { "environment turn=34", 7, 0 },
+                                  { "dials arithmetic=fast", 7, 0 } };
     Rig rig = rig_of(257, true);
     must_run(rig.session, "surface torus");
     walk(&rig, steps, COUNT(steps));
@@ -309,22 +336,22 @@ static void light_alone_is_worked_out(void **state)
 static void light_alone_of_several_is_worked_out(void **state)
 {
     (void)state;
-    static const Step steps[] = { { "object hide ring", 0 },
-                                  { "material diffuse=0.6", 0 },
-                                  { "material diffuse=0.7", 1 },
-                                  { "object choose box", 2 },
-                                  { "material colour=0.2,0.4,0.9", 3 },
-                                  { "light directional to=1,1,2 index=1", 4 },
-                                  { "object remove ring", 4 },
-                                  { "material specular=0.5", 4 },
-                                  { "material specular=0.1", 5 },
-                                  { "object set at=-0.1,0.05,0.2", 5 },
-                                  { "material specular=0.4", 5 },
-                                  { "material specular=0.6", 6 },
-                                  { "object hide box", 6 },
-                                  { "material specular=0.2", 6 },
-                                  { "material specular=0.3", 7 },
-                                  { "object show box", 7 } };
+    static const Step steps[] = { { "object hide ring", 0, 0 },
+                                  { "material diffuse=0.6", 0, 0 },
+                                  { "material diffuse=0.7", 1, 0 },
+                                  { "object choose box", 2, 0 },
+                                  { "material colour=0.2,0.4,0.9", 3, 0 },
+                                  { "light directional to=1,1,2 index=1", 4, 0 },
+                                  { "object remove ring", 4, 0 },
+                                  { "material specular=0.5", 4, 0 },
+                                  { "material specular=0.1", 5, 0 },
+                                  { "object set at=-0.1,0.05,0.2", 5, 0 },
+                                  { "material specular=0.4", 5, 0 },
+                                  { "material specular=0.6", 6, 0 },
+                                  { "object hide box", 6, 0 },
+                                  { "material specular=0.2", 6, 0 },
+                                  { "material specular=0.3", 7, 0 },
+                                  { "object show box", 7, 0 } };
     Rig rig = rig_of(257, true);
     must_run(rig.session, "surface sphere");
     must_run(rig.session, "camera perspective eye=0,0.3,6 fov=40");
@@ -337,26 +364,92 @@ static void light_alone_of_several_is_worked_out(void **state)
 static void pictures_and_roughness_are_light(void **state)
 {
     (void)state;
-    static const Step steps[] = { { "roughness rough.pgm", 0 },
-                                  { "material metalness=0.6", 0 },
-                                  { "environment studio turn=40", 1 },
-                                  { "colour spots.ppm", 1 },
-                                  { "material metalness=0.3", 1 },
-                                  { "colour spots.ppm repeat=3,1.5", 2 },
-                                  { "roughness rough.pgm repeat=0.7,2", 3 },
-                                  { "grain marble drives=colour", 4 },
-                                  { "grain marble amount=0.3", 5 },
-                                  { "environment off", 6 },
-                                  { "roughness off", 6 },
-                                  { "grain wood drives=colour+roughness", 6 },
-                                  { "grain granite rough_light=0.9 amount=3", 7 },
-                                  { "grain checker drives=roughness", 8 },
-                                  { "grain off", 9 } };
+    static const Step steps[] = { { "roughness rough.pgm", 0, 0 },
+                                  { "material metalness=0.6", 0, 0 },
+                                  { "environment studio turn=40", 1, 0 },
+                                  { "colour spots.ppm", 2, 0 }, /* u and v are known */
+                                  { "material metalness=0.3", 3, 0 },
+                                  { "colour spots.ppm repeat=3,1.5", 4, 0 },
+                                  { "roughness rough.pgm repeat=0.7,2", 5, 0 },
+                                  { "grain marble drives=colour", 6, 0 },
+                                  { "grain marble amount=0.3", 7, 0 },
+                                  { "environment off", 8, 0 },
+                                  { "roughness off", 9, 0 },
+                                  { "grain wood drives=colour+roughness", 10, 0 },
+                                  { "grain granite rough_light=0.9 amount=3", 11, 0 },
+                                  { "grain checker drives=roughness", 12, 0 },
+                                  { "grain off", 13, 0 } };
     Rig rig = rig_of(400, false);
     write_pictures();
     must_run(rig.session, "surface sphere");
     must_run(rig.session, "material model=ggx");
     must_run(rig.session, "camera orthographic size=0.7"); /* rows of whole tiles */
+    walk(&rig, steps, COUNT(steps));
+}
+
+/* What is seen of a lamp stays while it does: of the relief, and of other objects. */
+static void shadows_stay_with_their_lamps(void **state)
+{
+    (void)state;
+    static const Step steps[] = {
+        { "material shadow=on", 0, 0 },
+        { "material diffuse=0.6", 0, 0 },
+        { "material specular=0.35", 1, 1 },
+        { "light directional to=1,0.2,0.1 shadow=on index=1", 2, 1 },
+        { "material colour=0.9,0.5,0.2", 3, 2 },
+        { "light point at=-1,1.2,0.7 size=8 shadow=on", 4, 2 },
+        { "light point at=-1,1.2,0.7 size=8 strength=0.6 shadow=on index=2", 5, 3 },
+        { "dials rays=7", 6, 3 },
+        { "material occlusion=on", 7, 4 },
+        { "material model=ggx", 8, 5 },
+        { "light directional to=1,0,0 strength=0 index=2", 9, 6 },
+        { "dab 0.4,0.6 radius=7", 9, 6 },
+        { "material ambient=0.2", 9, 6 },
+        { "material ambient=0.3", 10, 7 },
+        { "object choose ring", 11, 8 },
+        { "material shadow=on", 12, 8 }
+    };
+    Rig rig = rig_of(173, true);
+    must_run(rig.session, "surface sphere");
+    must_run(rig.session, "light directional to=0.8,0.3,0.5 shadow=on");
+    must_run(rig.session, "bump height=0.06");
+    must_run(rig.session, "object set name=first");
+    must_run(rig.session, "object add ring at=0.6,0.4,0.5 size=0.7");
+    must_run(rig.session, "surface torus");
+    must_run(rig.session, "bump height=0.03");
+    must_run(rig.session, "object choose first");
+    walk(&rig, steps, COUNT(steps));
+}
+
+/* Footprints, the widths of highlights, and every sample of a pixel are noted. */
+static void filtered_and_many_samples_are_noted(void **state)
+{
+    (void)state;
+    static const Step steps[] = { { "material shininess=31", 0, 0 },
+                                  { "material specular=0.4", 0, 0 },
+                                  { "material specular=0.5", 1, 0 },
+                                  { "material specular=0", 2, 0 },
+                                  { "material specular=0.3", 3, 0 },
+                                  { "colour spots.ppm repeat=3,2", 3, 0 },
+                                  { "material diffuse=0.7", 3, 0 },
+                                  { "colour spots.ppm repeat=2,7", 4, 0 },
+                                  { "dials aa=moments moments=lean", 5, 0 },
+                                  { "material model=ggx roughness=0.3", 6, 0 },
+                                  { "environment studio turn=20", 7, 0 },
+                                  { "dials aa=supersample samples=5", 7, 0 },
+                                  { "material roughness=0.4", 7, 0 },
+                                  { "material roughness=0.5", 8, 0 },
+                                  { "dials spread=jittered", 8, 0 },
+                                  { "light directional to=1,0.4,0.3", 8, 0 },
+                                  { "light directional to=1,0.4,0.1 index=1", 9, 0 },
+                                  { "dials aa=adaptive", 9, 0 },
+                                  { "material diffuse=0.5", 9, 0 },
+                                  { "material diffuse=0.6", 9, 0 } };
+    Rig rig = rig_of(119, false);
+    write_pictures();
+    must_run(rig.session, "surface torus");
+    must_run(rig.session, "replicate 7,5");
+    must_run(rig.session, "dials aa=moments");
     walk(&rig, steps, COUNT(steps));
 }
 
@@ -368,6 +461,8 @@ int main(void)
         cmocka_unit_test(light_alone_is_worked_out),
         cmocka_unit_test(light_alone_of_several_is_worked_out),
         cmocka_unit_test(pictures_and_roughness_are_light),
+        cmocka_unit_test(shadows_stay_with_their_lamps),
+        cmocka_unit_test(filtered_and_many_samples_are_noted),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

@@ -97,3 +97,21 @@ void wr_bench_three(WrScene *scene)
     scene->others = others;
     scene->other_count = 2;
 }
+
+void wr_bench_three_hide(WrScene *scene)
+{
+    wr_bench_three(scene);
+    scene->lights[0].shadow = true;
+}
+
+void wr_bench_mapped(WrScene *scene)
+{
+    WrNormalMap *map = &scene->normals;
+    map->image = wr_image_new(256, 256, 3, NULL);
+    map->strength = 1;
+    for (int i = 0; i < 256 * 256 && map->image; i++) {
+        const double x = 0.3 * sin(i % 256 * 0.39269908169872414), z = 1 / sqrt(1 + x * x);
+        map->image->data[3 * i] = (float)(x * z);
+        map->image->data[3 * i + 2] = (float)z;
+    }
+}

@@ -18,3 +18,7 @@ void wr_bench_worn(WrScene *scene);
 void wr_bench_embossed(WrScene *scene);
 /* Two more like it, smaller, before and behind its sides. */
 void wr_bench_three(WrScene *scene);
+/* The same, and they throw shadows on one another. */
+void wr_bench_three_hide(WrScene *scene);
+/* A normal map of waves, of slopes up to 0.3. */
+void wr_bench_mapped(WrScene *scene);

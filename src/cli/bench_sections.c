@@ -195,19 +195,6 @@ static void smooth(WrScene *scene)
     scene->bump = WR_BUMP_NONE;
 }
 
-/* A normal map of waves, of slopes up to 0.3. */
-static void mapped(WrScene *scene)
-{
-    WrNormalMap *map = &scene->normals;
-    map->image = wr_image_new(256, 256, 3, NULL);
-    map->strength = 1;
-    for (int i = 0; i < 256 * 256 && map->image; i++) {
-        const double x = 0.3 * sin(i % 256 * 0.39269908169872414), z = 1 / sqrt(1 + x * x);
-        map->image->data[3 * i] = (float)(x * z);
-        map->image->data[3 * i + 2] = (float)z;
-    }
-}
-
 static void from_behind(WrScene *scene)
 {
     scene->lights[0].where = (WrVec3){ 0.2, 0.9, -1 };
@@ -292,7 +279,7 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_GRAIN)] = { BUMPED, .with = wr_bench_wooden, .without = same },
     [WR_ROW(WR_EFFECT_OCTAVES)] = { BUMPED, .with = wr_bench_wooden },
     [WR_ROW(WR_EFFECT_FADED)] = { BUMPED, .with = wr_bench_wooden_filtered },
-    [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },
+    [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = wr_bench_mapped },
     [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = wr_bench_displaced, .without = exact,
                                       .forced = true },
     [WR_ROW(WR_EFFECT_PARALLAX)] = { BUMPED, .with = wr_bench_parallax, .without = same,
@@ -423,16 +410,26 @@ static bool fill_views(WrBenchSections *all, const WrBenchView *views, const cha
 
 static bool fill_relit(WrBenchSections *all, WrError *err)
 {
-    static const char *const names[] = { "bezier", "torus", "torus, painted", "three tori" };
-    static const char *const views[] = { "turning", "at rest, another material each time" };
-    for (int s = 0; s < 8; s++) {
+    static const struct {
+        const char *name, *surface;
+        WrBenchMode mode;
+        void (*change)(WrScene *scene);
+    } rows[] = { { "bezier", "bezier", WR_BENCH_BUMP, NULL },
+                 { "torus", "torus", WR_BENCH_BUMP, NULL },
+                 { "torus, painted", "torus", WR_BENCH_BUMP_TEXTURE, NULL },
+                 { "three tori", "torus", WR_BENCH_BUMP, wr_bench_three },
+                 { "torus, moments", "torus", WR_BENCH_BUMP, moments },
+                 { "torus, relief shadow", "torus", WR_BENCH_BUMP, shadowed },
+                 { "three tori, shadows", "torus", WR_BENCH_BUMP, wr_bench_three_hide },
+                 { "sphere, 4 x 4 samples", "sphere", WR_BENCH_BUMP, supersampled } };
+    for (int i = 0; i < 2 * WR_LENGTH(rows); i++) {
         char name[64];
-        snprintf(name, sizeof name, "%s, %s", names[s / 2], views[s % 2]);
-        WrBenchPicture *p = add(all, name, all->count - s % 2, surfaces[s < 2 ? 1 : 2],
-                                s / 2 == 2 ? WR_BENCH_BUMP_TEXTURE : WR_BENCH_BUMP, err);
-        if (p && s / 2 == 3) wr_bench_three(p->scene);
+        snprintf(name, sizeof name, "%s, %s", rows[i / 2].name, i % 2 ? "relit" : "turning");
+        WrBenchPicture *p =
+            add(all, name, all->count - i % 2, rows[i / 2].surface, rows[i / 2].mode, err);
         if (!p) return false;
-        p->view = s % 2 ? WR_BENCH_RELIT : WR_BENCH_TURNS;
+        if (rows[i / 2].change) rows[i / 2].change(p->scene);
+        p->view = i % 2 ? WR_BENCH_RELIT : WR_BENCH_TURNS;
     }
     return true;
 }

@@ -401,7 +401,7 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     }
     wr_frame_shown(renderer);
     wr_frame_account(renderer, prepared, started, frame);
-    if (renderer->steady->use == WR_STEADY_NOTE) wr_steady_noted(renderer->steady, frame->shaded);
+    if (renderer->steady->use == WR_STEADY_NOTE) renderer->steady->whole = true;
     return true;
 }
 

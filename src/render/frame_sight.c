@@ -4,9 +4,10 @@
 #include "render/frame_inner.h"
 #include "scene/objects.h"
 
+#include <stdio.h>
+
 #define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
 #define PLACES (1 << 16) /* samples along a side: in 256ths they are exact in single precision */
-#define STEADY_MOST (1 << 22) /* likewise; 33 bytes each, and 32 more while they are noted */
 
 /* Does its relief throw shadows, or hide itself? */
 static bool hides(const WrScene *object)
@@ -23,9 +24,14 @@ static bool reaches_far(const WrScene *scene)
     return any;
 }
 
+static bool is_whole(const WrFrameRequest *request)
+{
+    return request->keep && !request->only && !request->rows;
+}
+
 bool wr_frame_may_keep(const WrFrameRequest *request)
 {
-    return request->keep && !request->only && !request->rows && !reaches_far(request->scene);
+    return is_whole(request) && !reaches_far(request->scene);
 }
 
 void wr_frame_start_notes(const WrTileJob *canvas, WrKeep *keep)
@@ -99,30 +105,66 @@ static bool is_any_forced(const WrForce *force)
 /* As the planner would have it, and nothing wanted of it but its light. */
 static bool may_be_steady(const WrFrameRequest *request)
 {
-    return wr_frame_may_keep(request) && !request->normals && !request->map &&
-           !is_any_forced(request->force) && !request->full &&
-           (int64_t)request->width * request->height <= STEADY_MOST;
+    return is_whole(request) && !request->normals && !request->map &&
+           !is_any_forced(request->force) && !request->full;
+}
+
+/* What becomes of the view's numbers, for the plan's row. hinders: why they are not kept, or NULL. */
+static void tell_steady(WrSteady *steady, const WrSteadyView *view, const char *hinders)
+{
+    char bytes[40];
+    const double size = (double)wr_steady_bytes(view);
+    snprintf(bytes, sizeof bytes, "%.3g MB, %.3g bytes a sample", size * 1e-6,
+             size / ((double)view->width * view->height));
+    if (hinders) snprintf(steady->told, sizeof steady->told, "new, and not kept: %s", hinders);
+    else if (steady->use == WR_STEADY_KNOWN)
+        snprintf(steady->told, sizeof steady->told,
+                 "the view rests, and only its light changed: they are known (%s)", bytes);
+    else
+        snprintf(steady->told, sizeof steady->told, "new; while a view rests they are kept (%s)",
+                 bytes);
+}
+
+/* Does light of every part depend on n'? */
+static bool has_normals(const WrSteadyView *view)
+{
+    bool all = true;
+    for (int i = 0; i < view->count; i++) all &= view->parts[i].plan->normals;
+    return all;
+}
+
+/* Why no numbers are kept of such a view, or NULL. */
+static const char *hinders_of(const WrSteadyView *view)
+{
+    const char *why = NULL;
+    for (int i = 0; i < view->count && !why; i++)
+        why = wr_steady_hinders(view->parts[i].scene, view->parts[i].plan);
+    if (!why && wr_steady_bytes(view) > WR_STEADY_MOST)
+        why = "they would take more than " WR_STEADY_MOST_TEXT;
+    return why;
 }
 
 void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
                             const WrSteadyPart *parts, WrRenderer *const *owners, int count)
 {
+    WrSteady *steady = renderer->steady;
+    const int k = count > 0 ? parts[0].plan->samples : 1;
     const WrSteadyView view = { .parts = parts,
                                 .count = count,
                                 .kernels = renderer->kernels,
                                 .turn_deg = request->turn_deg,
-                                .width = request->width,
-                                .height = request->height };
-    WrSteady *steady = renderer->steady;
-    bool may = may_be_steady(request) && count > 0, anew = false;
-    for (int i = 0; i < count; i++) {
-        may = may && wr_steady_suits(parts[i].scene, parts[i].plan);
-        anew |= wr_plan_runs(parts[i].plan, WR_EFFECT_AGAIN);
-    }
-    steady->use = may && anew ? wr_steady_bring(steady, &view) : WR_STEADY_NONE;
+                                .width = k * request->width,
+                                .height = k * request->height };
+    const char *hinders = count > 0 ? hinders_of(&view) : NULL;
+    bool anew = false;
+    for (int i = 0; i < count; i++) anew |= wr_plan_runs(parts[i].plan, WR_EFFECT_AGAIN);
+    const bool may = may_be_steady(request) && count > 0 && !hinders && anew && has_normals(&view);
+    steady->use = may ? wr_steady_bring(steady, &view) : WR_STEADY_NONE;
+    if (count > 0) tell_steady(steady, &view, hinders);
     for (int i = 0; i < count; i++) {
         WrPlanAsk *ask = &owners[i]->ask;
         ask->facts.steady = steady->use == WR_STEADY_KNOWN;
+        ask->facts.steady_told = steady->told;
         ask->facts.normals |= steady->use == WR_STEADY_NOTE; /* also where it is dark */
         wr_plan_again(&owners[i]->plan, ask);
     }
@@ -130,12 +172,12 @@ void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
 
 void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job)
 {
-    WrSteady *steady = renderer->steady;
+    const WrSteady *steady = renderer->steady;
     job->sight = renderer->sighting ? &renderer->sight : NULL;
     job->seen_before = renderer->sighted;
+    if (steady->use == WR_STEADY_NONE) return;
     if (steady->use == WR_STEADY_KNOWN) job->steady = steady;
-    if (steady->use != WR_STEADY_NOTE) return;
-    job->normals = steady->normals;
-    job->points = steady->points;
-    job->uv = steady->uv;
+    else job->noting = steady;
+    job->lamps = steady->lamps;
+    job->recalls = wr_steady_groups(job->scene, job->plan);
 }

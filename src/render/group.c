@@ -244,7 +244,6 @@ static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request
     renderer->kernels =
         wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, NULL);
     WrTileJob canvas = wr_frame_canvas(renderer, request);
-    if (renderer->steady->use == WR_STEADY_NOTE) canvas.owner = renderer->steady->owner;
     return canvas;
 }
 
@@ -319,7 +318,7 @@ bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame
     group->last = *request;
     group->whole = true;
     wr_frame_account(renderer, prepared, started, frame);
-    if (renderer->steady->use == WR_STEADY_NOTE) wr_steady_noted(renderer->steady, -1);
+    if (renderer->steady->use == WR_STEADY_NOTE) renderer->steady->whole = true;
     return true;
 }
 

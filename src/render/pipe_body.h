@@ -76,6 +76,7 @@ static bool lit(const WrSink *sink)
 }
 
 #include "render/pipe_horizon_body.h"
+#include "render/pipe_known_body.h"
 #include "render/pipe_shadow_body.h"
 #include "render/pipe_cast_body.h"
 #include "render/pipe_opening_body.h"
@@ -244,6 +245,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
         stretch_strip(job->view, strip);
         return spared;
     }
+    if (job->noting) note_known(job, strip);
     if (spared & WR_RUN_DARK) ambient_strip(job, rays, strip, watch);
     else spared |= light_strip(job, rays, sink, strip, watch);
     keep_half3(job, strip->cr, strip->cg, strip->cb, strip->count, watch);
@@ -332,7 +334,7 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
     Watch watch = watch_start(scratch);
     if (places->count == 0) return;
     if (job->steady) {
-        recall_places(job, tile, places, strip);
+        recall_places(job, places, strip);
         light_known(job, rays, sink, scratch, &watch);
         return;
     }
@@ -434,7 +436,7 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
             !runs(job, WR_EFFECT_PARALLAX) && met_wide(job, rays, gx, gy, tile->w, strip);
         if (go_along(job, rays)) take_all(tile->w, strip);
         else if (!scratch->told) round->hit(rays, &VIEWED(view, shell), gx, gy, tile->w, strip);
-        note_places(job, sink, scratch->notes.patches, gx, gy, strip);
+        note_places(job, sink, scratch->notes.patches || job->noting, gx, gy, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, -1, sink, scratch, &watch);
         scratch->told = false;
@@ -442,7 +444,7 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     }
     for (int i = 0; i < view->quad_count; i++) {
         kernels->hit_quad(rays, &VIEWED(view, quads)[i], gx, gy, tile->w, strip);
-        note_places(job, sink, scratch->notes.patches, gx, gy, strip);
+        note_places(job, sink, scratch->notes.patches || job->noting, gx, gy, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, i, sink, scratch, &watch);
     }

@@ -48,27 +48,40 @@ static WrVec3 start_of(const WrTileJob *job, int face, const Strip *s, int i)
     return v3_mad(at.p, at.n_unit, (double)s->f[i]);
 }
 
+/* What sample i sees of the lamp past objects: 0..1. */
+static REAL cast_share(const WrTileJob *job, const WrKernLightd *lamp, const Strip *s, int i,
+                       int face)
+{
+    const WrVec3 where = { lamp->where[0], lamp->where[1], lamp->where[2] };
+    const WrVec3 p = start_of(job, face, s, i);
+    const WrVec3 way = v3_sub(where, p);
+    const double away = lamp->point ? v3_len(way) * job->cast_unit : INFINITY;
+    const WrVec3 l = lamp->point ? v3_unit(way, (WrVec3){ 0, 0, 1 }) : where;
+    return (REAL)wr_cast_share(job->cast, job->cast_count, v3_scale(p, job->cast_unit),
+                               seen_normal(job, s, i, p), l, away, lamp->radius);
+}
+
 /* The lamp, which the strip has added, as far as no object hides it. */
 static void cast_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, const Sums *before,
                        Strip *s, Watch *watch)
 {
-    const WrKernLightd *lamp = &job->view->lights_d[light - VIEWED(job->view, lights)];
-    const WrVec3 where = { lamp->where[0], lamp->where[1], lamp->where[2] };
+    const ptrdiff_t at = light - VIEWED(job->view, lights);
+    const WrKernLightd *lamp = &job->view->lights_d[at];
+    float *known = job->lamps ? job->lamps[at].cast : NULL;
     REAL *const to[6] = { s->dr, s->dg, s->db, s->sr, s->sg, s->sb };
+    bool asked = !job->steady; /* else what is known is only put to use */
     for (int i = 0; i < s->count && lamp->shadow; i++) {
         bool adds = false;
         for (int k = 0; k < 6; k++) adds |= to[k][i] != before->of[k][i];
         if (!adds) continue;
-        const WrVec3 p = start_of(job, watch->scratch->face, s, i);
-        const WrVec3 way = v3_sub(where, p);
-        const double away = lamp->point ? v3_len(way) * job->cast_unit : INFINITY;
-        const WrVec3 l = lamp->point ? v3_unit(way, (WrVec3){ 0, 0, 1 }) : where;
-        const REAL share =
-            (REAL)wr_cast_share(job->cast, job->cast_count, v3_scale(p, job->cast_unit),
-                                seen_normal(job, s, i, p), l, away, lamp->radius);
+        float *kept = known ? &known[share_place(job, s, i)] : NULL;
+        const bool told = kept && *kept >= 0;
+        const REAL share = told ? (REAL)*kept : cast_share(job, lamp, s, i, watch->scratch->face);
+        if (kept) *kept = (float)share;
+        asked |= !told;
         for (int k = 0; k < 6 && share < 1; k++)
             to[k][i] = before->of[k][i] + share * (to[k][i] - before->of[k][i]);
     }
-    did(watch, WR_EFFECT_CAST);
+    if (asked) did(watch, WR_EFFECT_CAST);
     watch_lap(watch, WR_STAGE_CAST);
 }

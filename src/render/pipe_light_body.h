@@ -266,8 +266,7 @@ static void veiled_at_once(const WrTileJob *job, WR_T(WrShadeKernel) shade, Stri
     WrSeen seen = WR_SEEN_WHOLE;
     Colours own, dark; /* the picture's, if there is one; of ambient light */
     if (runs(job, WR_EFFECT_SHADOW)) {
-        seen = seen_of(job, &VIEWED(job->view, lights)[0], strip, share);
-        did(watch, WR_EFFECT_SHADOW);
+        seen = seen_of(job, &VIEWED(job->view, lights)[0], strip, share, watch);
         watch_lap(watch, WR_STAGE_SHADOW);
     }
     const bool open = runs(job, WR_EFFECT_OCCLUSION);

@@ -15,12 +15,33 @@ static WR_T(WrKernHorizon) horizon_of(const WrTileJob *job)
                                   .steepest = (REAL)h->steepest };
 }
 
+/* Is what all of the samples see of the lamp known? */
+static bool recall_seen(const WrTileJob *job, const float *known, const Strip *s,
+                        REAL share[WR_SPAN], WrSeen *seen)
+{
+    int whole = 0, not = 0, told = 0;
+    for (int i = 0; i < s->count; i++) {
+        share[i] = (REAL)known[share_place(job, s, i)];
+        told += share[i] >= (REAL)0;
+        whole += !(share[i] < (REAL)1);
+        not += !(share[i] > (REAL)0);
+    }
+    *seen = whole == s->count ? WR_SEEN_WHOLE : not == s->count ? WR_SEEN_NOT : WR_SEEN_PART;
+    return told == s->count;
+}
+
 /* What the strip's samples see of a lamp. */
 static WrSeen seen_of(const WrTileJob *job, const WR_T(WrKernLight) * light, const Strip *s,
-                      REAL share[WR_SPAN])
+                      REAL share[WR_SPAN], Watch *watch)
 {
     const WR_T(WrKernHorizon) horizon = horizon_of(job);
-    return KERNELS_OF(job)->shadow(light, &horizon, s, share);
+    float *known = job->lamps ? job->lamps[light - VIEWED(job->view, lights)].relief : NULL;
+    WrSeen seen;
+    if (known && recall_seen(job, known, s, share, &seen)) return seen;
+    did(watch, WR_EFFECT_SHADOW);
+    seen = KERNELS_OF(job)->shadow(light, &horizon, s, share);
+    for (int i = 0; i < s->count && known; i++) known[share_place(job, s, i)] = (float)share[i];
+    return seen;
 }
 
 /* The sums of the light so far, before a lamp adds to them. */
@@ -40,8 +61,7 @@ static void shadow_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, 
 {
     REAL *const to[6] = { s->dr, s->dg, s->db, s->sr, s->sg, s->sb };
     REAL share[WR_SPAN];
-    const bool any = seen_of(job, light, s, share) != WR_SEEN_WHOLE;
+    const bool any = seen_of(job, light, s, share, watch) != WR_SEEN_WHOLE;
     for (int k = 0; k < 6 && any; k++) KERNELS_OF(job)->veil(share, before->of[k], s->count, to[k]);
-    did(watch, WR_EFFECT_SHADOW);
     watch_lap(watch, WR_STAGE_SHADOW);
 }

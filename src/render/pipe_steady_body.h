@@ -4,36 +4,52 @@
 /* Does light, or what it goes by, look at where the samples lie? */
 static bool wants_points(const WrTileJob *job, const Rays *rays)
 {
-    bool any = rays->perspective || runs(job, WR_EFFECT_GRAIN) || runs(job, WR_EFFECT_VARIED);
+    bool any = rays->perspective || runs(job, WR_EFFECT_GRAIN) || runs(job, WR_EFFECT_VARIED) ||
+               job->recalls & WR_STEADY_BIT(WR_STEADY_NORMALS);
     for (int i = 0; i < job->view->light_count; i++) any |= VIEWED(job->view, lights)[i].point;
     return any;
 }
 
-/* `numbers` of each of `count` samples that stand beside each other in a block. */
-static void copy_block(const float *from, int count, REAL *const *into, int numbers, int to)
+/* Numbers of `count` samples that stand beside each other in a block, to their place in a strip. */
+static void copy_block(const float *restrict from, int count, REAL *restrict to)
 {
-    for (int k = 0; k < numbers; k++) {
-        const float *restrict block = from + k * WR_STEADY_BLOCK;
-        REAL *restrict out = into[k] + to;
 #pragma omp simd
-        for (int i = 0; i < count; i++) out[i] = (REAL)block[i];
+    for (int i = 0; i < count; i++) to[i] = (REAL)from[i];
+}
+
+/* The numbers of `groups` of so many samples of a block, to the strip's end. */
+static void recall_block(const WrSteady *steady, unsigned groups, const float *from, int count,
+                         Strip *strip)
+{
+    for (int g = 0; g < WR_STEADY_GROUPS; g++) {
+        REAL *to[6];
+        if (!(steady->groups & WR_STEADY_BIT(g))) continue;
+        const int numbers = numbers_of(strip, (WrSteadyGroup)g, to);
+        for (int k = 0; k < numbers; k++, from += WR_STEADY_BLOCK)
+            if (groups & WR_STEADY_BIT(g)) copy_block(from, count, to[k] + strip->count);
+        if (g != WR_STEADY_TRIANGLE) continue;
+        for (int i = 0; i < count; i++) strip->triangle[strip->count + i] = (int)from[i];
+        from += WR_STEADY_BLOCK;
     }
+    strip->count += count;
 }
 
 /* The numbers of `count` places from x, y on, all of them the object's, to the strip's end. */
-static void recall_run(const WrSteady *steady, bool points, int x, int y, int count, Strip *strip)
+static void recall_run(const WrSteady *steady, unsigned groups, int x, int y, int count,
+                       Strip *strip)
 {
-    REAL *const turned[] = { strip->bx, strip->by, strip->bz, strip->px, strip->py, strip->pz };
-    REAL *const places[] = { strip->u, strip->v };
     for (int left = count, most; left > 0; left -= most, x += most) {
-        const float *from = wr_steady_at(steady, x, y);
         most = WR_STEADY_BLOCK - x % WR_STEADY_BLOCK;
         most = most < left ? most : left;
-        copy_block(from, most, turned, points ? 6 : 3, strip->count);
-        if (steady->each == 8)
-            copy_block(from + 6 * WR_STEADY_BLOCK, most, places, 2, strip->count);
-        strip->count += most;
+        recall_block(steady, groups, steady->numbers + wr_steady_at(steady, x, y), most, strip);
     }
+}
+
+/* The groups that the strip is given. */
+static unsigned recalled(const WrTileJob *job, const Rays *rays)
+{
+    const unsigned points = WR_STEADY_BIT(WR_STEADY_POINTS);
+    return wants_points(job, rays) ? job->recalls : job->recalls & ~points;
 }
 
 /* Where a run of `mark` ends that begins at `from`. */
@@ -55,32 +71,48 @@ static void recall_row_of(const WrTileJob *job, const Rays *rays, const WrDepthT
                           Strip *strip)
 {
     const WrSteady *steady = job->steady;
-    const unsigned char *owner = steady->owner + wr_tile_place(job, tile->x, tile->y + y);
+    const unsigned char *owner = steady->owner + wr_steady_place(steady, tile->x, tile->y + y);
     const unsigned char *end = owner + tile->w, *from = owner;
     const unsigned char mark = (unsigned char)(job->object + 1);
-    const bool points = wants_points(job, rays);
+    const unsigned groups = recalled(job, rays);
     strip->count = 0;
     while (from < end && (from = memchr(from, mark, (size_t)(end - from)))) {
         const int x = (int)(from - owner), count = (int)(run_end(from, end, mark) - from);
         int *index = strip->index + strip->count;
+        REAL *at_x = strip->x + strip->count, *at_y = strip->y + strip->count;
 #pragma omp simd
-        for (int i = 0; i < count; i++) index[i] = x + i;
-        recall_run(steady, points, tile->x + x, tile->y + y, count, strip);
+        for (int i = 0; i < count; i++) {
+            index[i] = x + i;
+            at_x[i] = (REAL)(tile->x + x + i);
+            at_y[i] = (REAL)(tile->y + y);
+        }
+        recall_run(steady, groups, tile->x + x, tile->y + y, count, strip);
         from += count;
     }
 }
 
 /* The same of places anywhere in the tile. */
-static void recall_places(const WrTileJob *job, const WrDepthTile *tile, const WrScatter *places,
-                          Strip *strip)
+static void recall_places(const WrTileJob *job, const WrScatter *places, Strip *strip)
 {
     strip->count = 0;
     for (int i = 0; i < places->count; i++) {
-        const int x = tile->x + places->cell[i] % tile->w, y = tile->y + places->cell[i] / tile->w;
-        if (job->steady->owner[wr_tile_place(job, x, y)] != job->object + 1) continue;
+        const int x = (int)(places->x[i] + 0.5), y = (int)(places->y[i] + 0.5);
+        const size_t at = wr_steady_place(job->steady, x, y);
+        if (job->steady->owner[at] != job->object + 1) continue;
         strip->index[strip->count] = i;
-        recall_run(job->steady, true, x, y, 1, strip);
+        strip->x[strip->count] = (REAL)places->x[i];
+        strip->y[strip->count] = (REAL)places->y[i];
+        recall_run(job->steady, job->recalls, x, y, 1, strip);
     }
+}
+
+/* Do slopes spread at none of the samples? */
+static bool are_gathered(const Strip *strip)
+{
+    bool any = false;
+    for (int i = 0; i < strip->count; i++)
+        any |= (strip->see[i] != 0) | (strip->sef[i] != 0) | (strip->sff[i] != 0);
+    return !any;
 }
 
 /* Their light, into the picture. */
@@ -91,7 +123,9 @@ static void light_known(const WrTileJob *job, const Rays *rays, const WrSink *si
     watch_lap(watch, WR_STAGE_GEOMETRY);
     if (strip->count == 0) return;
     note_view(job, rays, scratch);
+    if (runs(job, WR_EFFECT_SPREAD)) strip->gathered = are_gathered(strip);
     scratch->spared[light_strip(job, rays, sink, strip, watch)] += strip->count;
+    keep_half3(job, strip->cr, strip->cg, strip->cb, strip->count, watch);
     store(job, sink, strip, scratch);
     watch_lap(watch, WR_STAGE_STORE);
     scratch->shaded += strip->count;

@@ -79,12 +79,6 @@ static void store(const WrTileJob *job, const WrSink *sink, const Strip *strip,
         out[1] = (float)strip->by[i];
         out[2] = (float)strip->bz[i];
     }
-    for (int i = 0; i < strip->count && sink->points; i++) {
-        float *out = sink->points + 3 * strip->index[i];
-        out[0] = (float)strip->px[i];
-        out[1] = (float)strip->py[i];
-        out[2] = (float)strip->pz[i];
-    }
     for (int i = 0; i < strip->count && sink->bound; i++)
         sink->bound[strip->index[i]] = (float)strip->bound[i];
 }

@@ -145,7 +145,7 @@ static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
 {
     const bool mapped = runs(job, WR_EFFECT_PARAMETERS), bumped = job->plan->bump != WR_BUMP_NONE;
     Strip *strip = &scratch->strip;
-    if (!job->wide_sphere || !lit(sink) || sink->normals || sink->points || sink->uv ||
+    if (!job->wide_sphere || !lit(sink) || sink->normals || job->noting || sink->uv ||
         sink->nearest || sink->bound)
         return false;
     if (mapped == pictured(job) && !bumped &&

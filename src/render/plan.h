@@ -274,18 +274,19 @@ typedef enum WrRun {
 
 /* What the planner may ask of the table, the view and the last frame; the renderer answers. */
 typedef struct WrPlanFacts {
-    bool flat;       /* every texel equal */
-    bool zero;       /* every texel 0 */
-    bool slope_free; /* the gradient table is 0 everywhere, though the table is not flat */
-    bool normals;    /* the caller wants n' itself */
-    bool ends;       /* the table ends at an axis' ends: it does not repeat */
-    bool outside;    /* the eye is outside a closed surface, for certain */
-    bool lively;     /* adaptive: nearly all of the view's pixels need all samples */
-    bool sighted;    /* what the view's samples look at is known from the last picture */
-    bool steady;     /* and n' and P of them */
-    int among;       /* objects that are shown; 0 or 1: this one alone */
-    int hiders;      /* objects that can hide a lamp from this one, itself among them */
-    double rise;     /* pixels that F could move a point at most; below 0: not known */
+    bool flat;               /* every texel equal */
+    bool zero;               /* every texel 0 */
+    bool slope_free;         /* the gradient table is 0 everywhere, though the table is not flat */
+    bool normals;            /* the caller wants n' itself */
+    bool ends;               /* the table ends at an axis' ends: it does not repeat */
+    bool outside;            /* the eye is outside a closed surface, for certain */
+    bool lively;             /* adaptive: nearly all of the view's pixels need all samples */
+    bool sighted;            /* what the view's samples look at is known from the last picture */
+    bool steady;             /* and n' and P of them */
+    const char *steady_told; /* what becomes of those; NULL: they are new */
+    int among;               /* objects that are shown; 0 or 1: this one alone */
+    int hiders;              /* objects that can hide a lamp from this one, itself among them */
+    double rise;             /* pixels that F could move a point at most; below 0: not known */
     bool rests;    /* the last picture is kept, and was made by the same plan of the same request */
     double sloped; /* the share of the table's tiles that have a slope; below 0: not known */
 } WrPlanFacts;

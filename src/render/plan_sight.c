@@ -87,10 +87,9 @@ WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char *
 WrVerdict wr_decide_steady(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
-    if (ask->facts.steady)
-        return say(WR_VERDICT_SPARED, why,
-                   "the view rests, and only its light changed: points and normals are known");
-    return say(WR_VERDICT_RUN, why, "points and normals are new");
+    const char *told = ask->facts.steady_told;
+    if (ask->facts.steady) return say(WR_VERDICT_SPARED, why, told);
+    return say(WR_VERDICT_RUN, why, told ? told : "points and normals are new");
 }
 
 /* ---- what of the surface ---- */

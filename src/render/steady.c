@@ -1,31 +1,44 @@
 #include "render/steady.h"
 
 #include "base/memory.h"
+#include "render/view.h"
 #include "scene/scene.h"
+#include "surface/triangles.h"
 
 #include <string.h>
 
-/* Of a picture. */
-static size_t pixels_of(const WrSteadyView *view)
+static size_t samples_of(const WrSteadyView *view)
 {
     return (size_t)view->width * (size_t)view->height;
 }
 
-static void drop_notes(WrSteady *steady)
+static const int group_sizes[] = {
+    [WR_STEADY_BENT] = 3,    [WR_STEADY_POINTS] = 3,   [WR_STEADY_PLACES] = 2,
+    [WR_STEADY_NORMALS] = 3, [WR_STEADY_TANGENTS] = 6, [WR_STEADY_SPREAD] = 6,
+    [WR_STEADY_TRIANGLE] = 1
+};
+_Static_assert(sizeof group_sizes / sizeof *group_sizes == WR_STEADY_GROUPS, "all groups");
+
+static int each_of(unsigned groups)
 {
-    wr_free(steady->normals);
-    wr_free(steady->points);
-    wr_free(steady->uv);
-    steady->normals = steady->points = steady->uv = NULL;
+    int each = 0;
+    for (int g = 0; g < WR_STEADY_GROUPS; g++)
+        if (groups & WR_STEADY_BIT(g)) each += group_sizes[g];
+    return each;
 }
 
 static void drop_numbers(WrSteady *steady)
 {
-    drop_notes(steady);
     wr_free(steady->numbers);
     wr_free(steady->owner);
+    for (int i = 0; i < steady->share_count; i++) wr_free(steady->shares[i].of);
+    wr_free(steady->shares);
+    wr_free(steady->lamps);
     steady->numbers = NULL;
     steady->owner = NULL;
+    steady->shares = NULL;
+    steady->lamps = NULL;
+    steady->share_count = 0;
     steady->whole = false;
 }
 
@@ -45,25 +58,58 @@ void wr_steady_fini(WrSteady *steady)
     *steady = (WrSteady){ .parts = NULL };
 }
 
-/* What light looks at besides n', P, u and v, or what gives a pixel more than one of them. */
-static const WrEffect more[] = { WR_EFFECT_TINT,      WR_EFFECT_FADED,     WR_EFFECT_EMBOSSED,
-                                 WR_EFFECT_SHADOW,    WR_EFFECT_CAST,      WR_EFFECT_BOUND,
-                                 WR_EFFECT_OCCLUSION, WR_EFFECT_DISPLACED, WR_EFFECT_PARALLAX,
-                                 WR_EFFECT_SPREAD,    WR_EFFECT_HORIZON,   WR_EFFECT_HALF };
+/* ---- what it suits ---- */
 
-bool wr_steady_suits(const WrScene *scene, const WrPlan *plan)
+const char *wr_steady_hinders(const WrScene *scene, const WrPlan *plan)
 {
-    for (size_t i = 0; i < sizeof more / sizeof *more; i++)
-        if (wr_plan_runs(plan, more[i])) return false;
-    return plan->normals && plan->sampling == WR_SAMPLING_ONE && !plan->shading_double &&
-           !plan->facets_filtered && v3_len(scene->sizes) == 0 && !wr_shape_endless(&scene->shape);
+    if (wr_plan_runs(plan, WR_EFFECT_DISPLACED)) return "the surface is displaced";
+    if (wr_plan_runs(plan, WR_EFFECT_PARALLAX)) return "parallax moves what is seen";
+    if (plan->sampling == WR_SAMPLING_ADAPTIVE)
+        return "which samples `adaptive` takes goes by their light";
+    if (plan->shading_double) return "they are in double precision";
+    if (wr_shape_endless(&scene->shape)) return "a plane without end fades by samples";
+    return NULL;
 }
 
-/* Rows that light alone decides, or material that goes by P, and what they own. */
-static const WrEffect of_light[] = { WR_EFFECT_DIFFUSE, WR_EFFECT_SPECULAR, WR_EFFECT_MODEL,
-                                     WR_EFFECT_KEPT,    WR_EFFECT_FAINT,    WR_EFFECT_SURROUND,
-                                     WR_EFFECT_MIRROR,  WR_EFFECT_BLUR,     WR_EFFECT_HARMONICS,
-                                     WR_EFFECT_VARIED,  WR_EFFECT_GRAIN,    WR_EFFECT_OCTAVES };
+unsigned wr_steady_groups(const WrScene *scene, const WrPlan *plan)
+{
+    const bool wide = wr_plan_runs(plan, WR_EFFECT_TINT) || plan->facets_filtered;
+    const bool shadow = wr_plan_runs(plan, WR_EFFECT_SHADOW);
+    const bool cast = wr_plan_runs(plan, WR_EFFECT_CAST);
+    const bool held =
+        wr_surfaces[scene->shape.kind]->held && !(scene->triangles && scene->triangles->patches);
+    unsigned groups = WR_STEADY_BIT(WR_STEADY_BENT) | WR_STEADY_BIT(WR_STEADY_POINTS);
+    if (wr_plan_runs(plan, WR_EFFECT_COLOUR) || wr_plan_runs(plan, WR_EFFECT_FACETS) || shadow ||
+        wr_plan_runs(plan, WR_EFFECT_OCCLUSION))
+        groups |= WR_STEADY_BIT(WR_STEADY_PLACES);
+    if (wide || shadow || cast || wr_plan_runs(plan, WR_EFFECT_FADED))
+        groups |= WR_STEADY_BIT(WR_STEADY_NORMALS);
+    if (wide || shadow) groups |= WR_STEADY_BIT(WR_STEADY_TANGENTS);
+    if (wr_plan_runs(plan, WR_EFFECT_SPREAD)) groups |= WR_STEADY_BIT(WR_STEADY_SPREAD);
+    if (cast && held) groups |= WR_STEADY_BIT(WR_STEADY_TRIANGLE);
+    return groups;
+}
+
+static unsigned all_groups(const WrSteadyView *view)
+{
+    unsigned groups = 0;
+    for (int i = 0; i < view->count; i++)
+        groups |= wr_steady_groups(view->parts[i].scene, view->parts[i].plan);
+    return groups;
+}
+
+/* ---- comparing ---- */
+
+/* Rows that light alone decides, or material that goes by P, and what they own; and those that say which numbers are worked
+   out, which `groups` compares. */
+static const WrEffect of_light[] = { WR_EFFECT_DIFFUSE,   WR_EFFECT_SPECULAR,  WR_EFFECT_MODEL,
+                                     WR_EFFECT_KEPT,      WR_EFFECT_FAINT,     WR_EFFECT_SURROUND,
+                                     WR_EFFECT_MIRROR,    WR_EFFECT_BLUR,      WR_EFFECT_HARMONICS,
+                                     WR_EFFECT_VARIED,    WR_EFFECT_GRAIN,     WR_EFFECT_OCTAVES,
+                                     WR_EFFECT_FADED,     WR_EFFECT_COLOUR,    WR_EFFECT_TINT,
+                                     WR_EFFECT_FACETS,    WR_EFFECT_SPREAD,    WR_EFFECT_SHADOW,
+                                     WR_EFFECT_CAST,      WR_EFFECT_OCCLUSION, WR_EFFECT_TANGENTS,
+                                     WR_EFFECT_PARAMETERS };
 
 static bool same_plan(const WrPlan *a, const WrPlan *b)
 {
@@ -78,13 +124,27 @@ static bool same_plan(const WrPlan *a, const WrPlan *b)
     lit.gloss = b->gloss;
     lit.grain = b->grain;
     lit.graded = b->graded;
+    lit.lean = b->lean;
+    lit.tint_anisotropic = b->tint_anisotropic;
+    lit.facets_filtered = b->facets_filtered;
+    lit.facets_anisotropic = b->facets_anisotropic;
+    lit.rays = b->rays;
+    lit.horizons = b->horizons;
     return wr_plan_same(&lit, b);
+}
+
+/* Is n' bent by the same solid texture, or by none? */
+static bool same_grain(const WrSteadyPart *a, const WrSteadyPart *b)
+{
+    return !wr_plan_runs(b->plan, WR_EFFECT_EMBOSSED) ||
+           memcmp(&a->scene->grain, &b->scene->grain, sizeof a->scene->grain) == 0;
 }
 
 static bool same_part(const WrSteadyPart *a, const WrSteadyPart *b)
 {
     return a->field == b->field && a->object == b->object &&
-           wr_scene_same_normals(a->scene, b->scene) && same_plan(a->plan, b->plan);
+           wr_scene_same_normals(a->scene, b->scene) && same_grain(a, b) &&
+           same_plan(a->plan, b->plan);
 }
 
 static bool same(const WrSteadyView *a, const WrSteadyView *b)
@@ -114,76 +174,147 @@ static void take(WrSteady *steady, const WrSteadyView *view)
     steady->view.parts = parts;
 }
 
-/* Is a picture looked up at u and v? */
-static bool looks_up(const WrSteadyView *view)
+/* ---- lamps ---- */
+
+/* How fine the shares of lamps are: of the parts that have any; 0: none has. */
+static int fine_of(const WrSteadyView *view, bool cast)
 {
-    bool any = false;
-    for (int i = 0; i < view->count; i++)
-        any |= wr_plan_runs(view->parts[i].plan, WR_EFFECT_COLOUR) ||
-               wr_plan_runs(view->parts[i].plan, WR_EFFECT_FACETS);
-    return any;
+    int fine = 0;
+    for (int i = 0; i < view->count; i++) {
+        const WrPlan *plan = view->parts[i].plan;
+        const bool runs = wr_plan_runs(plan, cast ? WR_EFFECT_CAST : WR_EFFECT_SHADOW);
+        const int own = cast ? plan->rays : plan->horizons;
+        if (runs && own > fine) fine = own;
+    }
+    return fine;
+}
+
+static bool same_lamp(const WrLight *a, const WrLight *b)
+{
+    return a->kind == b->kind && a->where.x == b->where.x && a->where.y == b->where.y &&
+           a->where.z == b->where.z && a->size_deg == b->size_deg && a->shadow == b->shadow;
+}
+
+static size_t share_bytes(const WrSteadyView *view)
+{
+    return samples_of(view) * sizeof(float);
+}
+
+static size_t number_bytes(const WrSteadyView *view)
+{
+    const size_t blocks = ((size_t)view->width + WR_STEADY_BLOCK - 1) / WR_STEADY_BLOCK;
+    return blocks * (size_t)view->height * WR_STEADY_BLOCK * (size_t)each_of(all_groups(view)) *
+               sizeof(float) +
+           samples_of(view);
+}
+
+/* One that no lamp of the frame at hand uses, or a new one, of which nothing is known; NULL: no room is left. */
+static WrSteadyShare *empty_share(WrSteady *steady)
+{
+    const size_t count = samples_of(&steady->view);
+    WrSteadyShare *share = NULL;
+    for (int i = 0; i < steady->share_count && !share; i++)
+        if (!steady->shares[i].used) share = &steady->shares[i];
+    if (!share) {
+        const size_t more = ((size_t)steady->share_count + 1) * share_bytes(&steady->view);
+        if (more + number_bytes(&steady->view) > WR_STEADY_MOST) return NULL;
+        float *of = wr_try_alloc(count, sizeof *of, "shadows", NULL);
+        if (!of) return NULL;
+        const size_t shares = (size_t)steady->share_count;
+        steady->shares = wr_realloc(steady->shares, shares, shares + 1, sizeof *steady->shares);
+        share = &steady->shares[steady->share_count++];
+        share->of = of;
+    }
+    for (size_t i = 0; i < count; i++) share->of[i] = -1;
+    return share;
+}
+
+static WrSteadyShare *known_share(const WrSteady *steady, const WrLight *lamp, bool cast, int fine)
+{
+    for (int i = 0; i < steady->share_count; i++) {
+        WrSteadyShare *share = &steady->shares[i];
+        if (share->cast == cast && share->fine == fine && same_lamp(&share->lamp, lamp))
+            return share;
+    }
+    return NULL;
+}
+
+/* Those that are known first, so that none of them is taken for another lamp. */
+static void bring_shares(WrSteady *steady, const WrScene *scene, bool cast, int fine)
+{
+    for (int round = 0; round < 2; round++)
+        for (int k = 0, i = 0; k < scene->light_count && fine > 0; k++) {
+            const WrLight *lamp = &scene->lights[k];
+            if (!wr_view_shows_light(scene, k)) continue;
+            float **of = cast ? &steady->lamps[i].cast : &steady->lamps[i].relief;
+            i++;
+            if (*of || (cast && !lamp->shadow)) continue;
+            WrSteadyShare *share = known_share(steady, lamp, cast, fine);
+            if (!share && round == 1 && (share = empty_share(steady))) {
+                share->lamp = *lamp;
+                share->cast = cast;
+                share->fine = fine;
+            }
+            if (!share) continue;
+            share->used = true;
+            *of = share->of;
+        }
+}
+
+/* The shares of the lamps of the view at hand. */
+static void bring_lamps(WrSteady *steady, const WrSteadyView *view)
+{
+    const WrScene *scene = view->parts[0].scene;
+    const int rays = fine_of(view, true), directions = fine_of(view, false);
+    wr_free(steady->lamps);
+    steady->lamps = NULL;
+    for (int i = 0; i < steady->share_count; i++) steady->shares[i].used = false;
+    if (rays == 0 && directions == 0) return;
+    steady->lamps = wr_alloc((size_t)scene->light_count + 1, sizeof *steady->lamps);
+    bring_shares(steady, scene, true, rays);
+    bring_shares(steady, scene, false, directions);
+}
+
+/* ---- together ---- */
+
+size_t wr_steady_bytes(const WrSteadyView *view)
+{
+    const WrScene *scene = view->parts[0].scene;
+    const bool relief = fine_of(view, false) > 0, cast = fine_of(view, true) > 0;
+    size_t shares = 0;
+    for (int k = 0; k < scene->light_count; k++)
+        if (wr_view_shows_light(scene, k)) shares += relief + (cast && scene->lights[k].shadow);
+    return number_bytes(view) + shares * share_bytes(view);
+}
+
+static bool make_room(WrSteady *steady, const WrSteadyView *view)
+{
+    const size_t bytes = number_bytes(view), samples = samples_of(view);
+    drop_numbers(steady);
+    steady->groups = all_groups(view);
+    steady->each = each_of(steady->groups);
+    if (bytes > WR_STEADY_MOST) return false;
+    steady->numbers = wr_try_alloc(bytes - samples, 1, "normals", NULL);
+    steady->owner = wr_try_alloc(samples, 1, "samples", NULL);
+    return steady->numbers && steady->owner;
 }
 
 WrSteadyUse wr_steady_bring(WrSteady *steady, const WrSteadyView *view)
 {
-    const size_t count = pixels_of(view);
     if (!same(&steady->view, view)) {
         take(steady, view);
         return WR_STEADY_NONE;
     }
-    if (steady->whole) return WR_STEADY_KNOWN;
-    drop_numbers(steady);
-    steady->each = looks_up(view) ? 8 : 6;
-    steady->normals = wr_try_alloc(count, 3 * sizeof(float), "normals", NULL);
-    steady->points = wr_try_alloc(count, 3 * sizeof(float), "points", NULL);
-    steady->owner = wr_try_alloc(count, 1, "samples", NULL);
-    if (steady->each == 8) steady->uv = wr_try_alloc(count, 2 * sizeof(float), "places", NULL);
-    const bool looked = steady->uv || steady->each == 6;
-    if (steady->normals && steady->points && steady->owner && looked) return WR_STEADY_NOTE;
-    drop_numbers(steady);
-    return WR_STEADY_NONE;
-}
-
-/* A row of what was noted, `count` numbers a sample, to its blocks. */
-static void put_row(const WrSteady *steady, const float *from, int y, int first, int count)
-{
-    for (int x = 0; x < steady->view.width; x++) {
-        float *to = steady->numbers + (wr_steady_at(steady, x, y) - steady->numbers);
-        for (int k = 0; k < count; k++) to[(first + k) * WR_STEADY_BLOCK] = from[count * x + k];
+    const unsigned wanted = all_groups(view);
+    const bool known = steady->whole && (wanted & ~steady->groups) == 0;
+    if (!known && steady->whole) {
+        take(steady, view);
+        return WR_STEADY_NONE;
     }
-}
-
-/* Which samples there are of a single object, and how many. */
-static int64_t find_samples(WrSteady *steady, int object)
-{
-    const size_t count = pixels_of(&steady->view);
-    int64_t seen = 0;
-    for (size_t i = 0; i < count; i++) {
-        const float *n = steady->normals + 3 * i;
-        const bool there = (n[0] != 0.0f) | (n[1] != 0.0f) | (n[2] != 0.0f);
-        steady->owner[i] = (unsigned char)(there ? object + 1 : 0);
-        seen += there;
-    }
-    return seen;
-}
-
-void wr_steady_noted(WrSteady *steady, int64_t samples)
-{
-    const size_t width = (size_t)steady->view.width, height = (size_t)steady->view.height;
-    const size_t blocks = (width + WR_STEADY_BLOCK - 1) / WR_STEADY_BLOCK * height;
-    const size_t each = (size_t)steady->each;
-    const bool single = samples >= 0;
-    steady->numbers = wr_try_alloc(blocks, each * WR_STEADY_BLOCK * sizeof(float), "normals", NULL);
-    steady->whole =
-        steady->numbers && (!single || find_samples(steady, steady->parts[0].object) == samples);
-    if (!steady->whole) {
+    if (!known && !make_room(steady, view)) {
         drop_numbers(steady);
-        return;
+        return WR_STEADY_NONE;
     }
-    for (size_t y = 0; y < height; y++) {
-        put_row(steady, steady->normals + 3 * y * width, (int)y, 0, 3);
-        put_row(steady, steady->points + 3 * y * width, (int)y, 3, 3);
-        if (steady->uv) put_row(steady, steady->uv + 2 * y * width, (int)y, 6, 2);
-    }
-    drop_notes(steady);
+    bring_lamps(steady, view);
+    return known ? WR_STEADY_KNOWN : WR_STEADY_NOTE;
 }

@@ -1,7 +1,9 @@
-/* steady.h - n' and P of the samples of a resting view, and where pictures are looked up also u and v, so that a change of
-   light or material alone works out light alone (E76). They are noted when such a change comes for the first time: a view
-   that turns, or that an edit reaches, never pays for it. n' is unit, P in kernel units (view.h): both as light finds
-   them, before an object is stretched. Of several objects each sample has the numbers of the one that it shows.
+/* steady.h - what light looks at of the samples of a resting view, so that a change of light or material alone works out
+   light alone (E76): n' and P, where pictures are looked up also u and v, and what shadows, footprints and widened
+   highlights go by. They are noted when such a change comes for the first time: a view that turns, or that an edit
+   reaches, never pays for it. Besides, how much each sample sees of each lamp, while that lamp stays. All as light finds
+   it, before an object is stretched, in kernel units (view.h). Of several objects each sample has the numbers of the one
+   that it shows.
    Layer 5, private to the renderer. */
 #pragma once
 #include "render/plan.h"
@@ -20,6 +22,20 @@ typedef enum WrSteadyUse {
     WR_STEADY_KNOWN /* it is used */
 } WrSteadyUse;
 
+/* Numbers of a sample, as the strips have them. */
+typedef enum WrSteadyGroup {
+    WR_STEADY_BENT,     /* n' */
+    WR_STEADY_POINTS,   /* P */
+    WR_STEADY_PLACES,   /* u, v: of pictures, of shadows and occlusion by the relief */
+    WR_STEADY_NORMALS,  /* n: of shadows and footprints */
+    WR_STEADY_TANGENTS, /* Pu, Pv: of shadows by the relief and footprints */
+    WR_STEADY_SPREAD,   /* how slopes spread in the plane across n', and along which direction */
+    WR_STEADY_TRIANGLE, /* which of a mesh's it is: of shadows */
+    WR_STEADY_GROUPS
+} WrSteadyGroup;
+#define WR_STEADY_BIT(group) (1U << (group))
+#define WR_STEADY_EACH 24 /* numbers of all groups */
+
 /* What a frame shows of an object but for its light. */
 typedef struct WrSteadyPart {
     const WrScene *scene; /* of the object alone */
@@ -34,45 +50,70 @@ typedef struct WrSteadyView {
     int count;
     const WrKernels *kernels;
     double turn_deg;
-    int width, height; /* pixels */
+    int width, height; /* samples */
 } WrSteadyView;
 
 #define WR_STEADY_BLOCK 64 /* samples beside each other */
+/* Bytes that are kept at most, of a view of up to 2048 x 2048 pixels with a shadow; larger ones have nothing kept. */
+#define WR_STEADY_MOST ((size_t)384000000)
+#define WR_STEADY_MOST_TEXT "384 MB"
+
+/* How much each sample sees of a lamp. */
+typedef struct WrSteadyShare {
+    WrLight lamp; /* whose: but for colour and strength */
+    bool cast;    /* past objects; else over the relief's horizon */
+    int fine;     /* rays to a round lamp, or directions of horizons */
+    bool used;    /* by the frame at hand */
+    float *of;    /* [height][width]; below 0: not known yet. Owned */
+} WrSteadyShare;
+
+/* The shares of a lamp that shines; NULL: they are not kept. */
+typedef struct WrSteadyLamp {
+    float *cast, *relief;
+} WrSteadyLamp;
 
 /* Zero-initialise; fini frees. */
 typedef struct WrSteady {
     /* Of the last frame that it suits; its parts are those below; count 0: there was none. */
     WrSteadyView view;
     WrSteadyPart *parts; /* [count], owned, with shares of their scenes and copies of their plans */
-    float *normals,
-        *points, /* [height][width][3], while they are noted; n' 0,0,0: nothing is seen. Owned */
-        *uv;     /* [height][width][2], likewise; NULL: no picture is looked up */
-    /* Afterwards, once whole: n', P, and u and v, [height][blocks of a row][each][WR_STEADY_BLOCK], so that a row of a tile
-       is read in one piece. Owned */
+    unsigned groups;     /* bits of those that are noted */
+    int each;            /* numbers of a sample */
+    /* [height][blocks of a row][each][WR_STEADY_BLOCK], the groups' in their order, so that a row of a tile is read in one
+       piece. Owned; NULL: nothing is noted */
     float *numbers;
-    int each; /* numbers a sample: 6, or 8 */
-    /* [height][width], noted: which object a sample shows, 1 + its place among the scene's; 0: nothing. Owned */
+    /* [height][width]: which object a sample shows, 1 + its place among the scene's; 0: nothing. Owned */
     unsigned char *owner;
-    bool whole;      /* each sample was noted */
-    WrSteadyUse use; /* of the frame at hand */
+    WrSteadyShare *shares; /* [share_count], owned */
+    int share_count;
+    WrSteadyLamp *lamps; /* of the view's (view.h), in their order; owned. NULL: none is hidden */
+    bool whole;          /* each sample was noted */
+    WrSteadyUse use;     /* of the frame at hand */
+    char told[120];      /* what becomes of it, for the plan's row */
 } WrSteady;
 
 _Static_assert(WR_OBJECTS_MAX < 255, "an owner is a byte");
 
-/* The numbers of the sample at x, y: WR_STEADY_BLOCK apart; of those beside it up to the next multiple of that. */
-static inline const float *wr_steady_at(const WrSteady *steady, int x, int y)
+static inline size_t wr_steady_place(const WrSteady *steady, int x, int y)
+{
+    return (size_t)y * (size_t)steady->view.width + (size_t)x;
+}
+
+/* Where the numbers of the sample at x, y are: WR_STEADY_BLOCK apart; then those beside it up to the next multiple of that. */
+static inline size_t wr_steady_at(const WrSteady *steady, int x, int y)
 {
     const int blocks = (steady->view.width + WR_STEADY_BLOCK - 1) / WR_STEADY_BLOCK;
     const size_t block = (size_t)y * (size_t)blocks + (size_t)(x / WR_STEADY_BLOCK);
-    return steady->numbers + block * (size_t)steady->each * WR_STEADY_BLOCK + x % WR_STEADY_BLOCK;
+    return block * (size_t)steady->each * WR_STEADY_BLOCK + (size_t)(x % WR_STEADY_BLOCK);
 }
 
 void wr_steady_fini(WrSteady *steady);
-/* Can light alone be worked out of n', P, u and v, one sample a pixel? */
-bool wr_steady_suits(const WrScene *scene, const WrPlan *plan);
+/* Why light alone cannot be worked out of such numbers, or NULL. */
+const char *wr_steady_hinders(const WrScene *scene, const WrPlan *plan);
+/* The groups that light of that plan looks at. */
+unsigned wr_steady_groups(const WrScene *scene, const WrPlan *plan);
+/* Bytes that a view's numbers, and its lamps' shares, come to. */
+size_t wr_steady_bytes(const WrSteadyView *view);
 /* The use of it to a frame that it suits and that draws every tile: known where it differs from the last one in light
    at most, noted where it does so for the first time. Without memory there is none. */
 WrSteadyUse wr_steady_bring(WrSteady *steady, const WrSteadyView *view);
-/* All of one object was noted, so many samples that were seen. A normal of 0,0,0 among them is told from nothing by their
-   number: then it is not whole. Of several objects `owner` was filled, and samples is -1. */
-void wr_steady_noted(WrSteady *steady, int64_t samples);

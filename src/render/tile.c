@@ -125,8 +125,6 @@ static WrSink row_sink(const WrTileRows *rows, int y)
     const size_t row = (size_t)y, samples = row * rows->wide;
     return (WrSink){ .rgba = rows->rgba ? rows->rgba + row * rows->rgba_step : NULL,
                      .normals = rows->normals ? rows->normals + 3 * samples : NULL,
-                     .points = rows->points ? rows->points + 3 * samples : NULL,
-                     .uv = rows->uv ? rows->uv + 2 * samples : NULL,
                      .codes = rows->codes ? rows->codes + row * rows->codes_step : NULL,
                      .nearest = rows->nearest ? rows->nearest + row * rows->nearest_step : NULL };
 }
@@ -163,7 +161,7 @@ void wr_tile_behind_strip(const WrTileJob *job, const WrSink *sink, int from, in
 
 /* Several short rows, one after the other. */
 typedef struct Packed {
-    float rgba[WR_SPAN][4], normals[WR_SPAN][3], points[WR_SPAN][3], uv[WR_SPAN][2];
+    float rgba[WR_SPAN][4], normals[WR_SPAN][3];
     uint32_t codes[WR_SPAN];
     WrNearest nearest[WR_SPAN];
 } Packed;
@@ -173,14 +171,12 @@ typedef struct Plane {
     float *packed, *to; /* to NULL: not wanted */
     size_t each, step;  /* floats a sample, and a row of `to` */
 } Plane;
-#define PLANES 4
+#define PLANES 2
 
 static void find_planes(const WrTileRows *out, Packed *packed, Plane planes[PLANES])
 {
     planes[0] = (Plane){ packed->rgba[0], out->rgba, 4, out->rgba_step };
     planes[1] = (Plane){ packed->normals[0], out->normals, 3, 3 * out->wide };
-    planes[2] = (Plane){ packed->points[0], out->points, 3, 3 * out->wide };
-    planes[3] = (Plane){ packed->uv[0], out->uv, 2, 2 * out->wide };
 }
 
 /* Nothing, or what other objects have left there. */
@@ -257,8 +253,6 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
         if (out->codes) fill_packed(job, tile, top, rows, packed.codes);
         WrSink sink = { .rgba = out->rgba ? packed.rgba[0] : NULL,
                         .normals = out->normals ? packed.normals[0] : NULL,
-                        .points = out->points ? packed.points[0] : NULL,
-                        .uv = out->uv ? packed.uv[0] : NULL,
                         .codes = out->codes ? packed.codes : NULL,
                         .nearest = out->nearest ? packed.nearest : NULL };
         const double ready = wr_clock_seconds();
@@ -303,8 +297,6 @@ static void render_point(const WrTileJob *job, WrTilePart part, bool light, WrTi
     if (light && job->codes) out.codes = code_at(job, part.x, part.y);
     else if (light) out.rgba = wr_tile_pixel(job, part.x, part.y);
     if (job->normals) out.normals = job->normals + wr_tile_place(job, part.x, part.y) * 3;
-    if (job->points) out.points = job->points + wr_tile_place(job, part.x, part.y) * 3;
-    if (job->uv) out.uv = job->uv + wr_tile_place(job, part.x, part.y) * 2;
     wr_tile_samples(job, 1, &tile, &out, scratch);
 }
 

@@ -52,8 +52,11 @@ typedef struct WrTileJob {
     WrTriangleLook triangle_look;
     const WrDice *dice;     /* of a displaced surface, what the triangles are; or NULL */
     bool seen_before;       /* it is known */
-    const WrSteady *steady; /* n', P, u and v of the view's samples, which are known; or NULL */
-    bool newton;            /* the mesh's parameters are made exact */
+    const WrSteady *steady; /* what light looks at of the view's samples, which is known; or NULL */
+    const WrSteady *noting; /* where that is noted; or NULL */
+    const WrSteadyLamp *lamps; /* what samples see of the lamps; NULL: it is not kept */
+    unsigned recalls;          /* bits of WrSteadyGroup that light looks at */
+    bool newton;               /* the mesh's parameters are made exact */
     WrLook look;
     WrLookd look_double;           /* where kernels_double looks */
     WrEffects looks;               /* what a look-up in the table does, by what it was given */
@@ -101,9 +104,7 @@ typedef struct WrTileJob {
     uint32_t *codes; /* the band as 8-bit codes over `background`; or NULL */
     WrCoder coder;
     const WrBackdrop *backdrop; /* of the band */
-    float *normals;             /* WrFrameRequest's, or the renderer's own; or NULL */
-    float *points, *uv;         /* of those, where they lie; or NULL */
-    unsigned char *owner;       /* which object each shows (WrSteady), of several; or NULL */
+    float *normals;             /* WrFrameRequest's; or NULL */
     uint8_t *map;               /* likewise */
     WrKeep *seen;               /* to note what each tile looks at; NULL: not wanted */
     int object;                 /* which of the scene's it draws */
@@ -124,7 +125,6 @@ typedef struct WrSink {
     bool once;
     int x, y, wide;
     float *normals;     /* 3 a sample: n' */
-    float *points;      /* 3 a sample: P, kernel units */
     WrNearest *nearest; /* one a sample; what lies behind it is not stored */
     float *bound;       /* how far the intensity may change over the pixel */
     double pixel;       /* of the bound, samples a side */

@@ -71,29 +71,6 @@ float wr_tile_hidden_from(const WrTileJob *job)
     return nearest - FLT_EPSILON * fabsf(nearest);
 }
 
-/* n' and what else is wanted of each sample of the picture. */
-static void want_notes(const WrTileJob *job, WrTilePart part, WrTileRows *out)
-{
-    const size_t place = wr_tile_place(job, part.x, part.y);
-    if (job->normals) out->normals = job->normals + 3 * place;
-    if (job->points) out->points = job->points + 3 * place;
-    if (job->uv) out->uv = job->uv + 2 * place;
-}
-
-/* Which object each sample of the tile shows, one a pixel. */
-static void note_owners(const WrTileJob *canvas, const Touching *touching, WrTilePart whole,
-                        const WrTileScratch *scratch)
-{
-    const int only = touching->job[0]->object;
-    for (int y = 0; y < whole.h; y++) {
-        unsigned char *owner = canvas->owner + wr_tile_place(canvas, whole.x, whole.y + y);
-        for (int x = 0; x < whole.w; x++) {
-            const int object = touching->count > 1 ? scratch->nearest[y][x].object : only;
-            owner[x] = (unsigned char)(scratch->sample[y][x][3] > 0 ? object + 1 : 0);
-        }
-    }
-}
-
 /* All objects' samples into scratch->sample, and, where wanted, n' into the picture. */
 static void draw(const Touching *touching, int k, WrTilePart whole, bool light, int index,
                  WrTileScratch *scratch)
@@ -113,7 +90,8 @@ static void draw(const Touching *touching, int k, WrTilePart whole, bool light, 
                            .over = several,
                            .nearest_step = WR_TILE_SAMPLES_W };
         if (light) out.rgba = scratch->sample[y][x];
-        if (k == 1) want_notes(job, part, &out);
+        if (k == 1 && job->normals)
+            out.normals = job->normals + 3 * wr_tile_place(job, part.x, part.y);
         if (several && !job->steady) out.nearest = &scratch->nearest[y][x];
         scratch->notes = wr_keep_open(job->seen, index, whole.x, whole.y);
         const WrDepthTile tile =
@@ -152,7 +130,6 @@ static void sample(const WrTileJob *canvas, const Touching *touching, WrTilePart
     const int64_t covered = scratch->covered;
     empty(k, whole, touching->count > 1, scratch);
     draw(touching, k, whole, true, index, scratch);
-    if (canvas->owner) note_owners(canvas, touching, whole, scratch);
     scratch->covered = covered; /* that was samples */
     if (k > 1) wr_did(scratch, WR_EFFECT_SAMPLES);
     const double start = wr_clock_seconds();

@@ -9,9 +9,9 @@
 
 /* Where the rows of a tile go. */
 typedef struct WrTileRows {
-    float *rgba, *normals, *points, *uv; /* of the first row; NULL: not wanted */
-    size_t rgba_step;                    /* floats a row */
-    size_t wide;                         /* samples a row, of the others */
+    float *rgba, *normals; /* of the first row; NULL: not wanted */
+    size_t rgba_step;      /* floats a row */
+    size_t wide;           /* samples a row of the normals */
     uint32_t *codes;
     size_t codes_step;
     WrNearest *nearest;

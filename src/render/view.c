@@ -363,18 +363,22 @@ static void find_depth(WrView *view, const WrCamera *camera, const WrPlacement *
     view->nearest = view->endless ? -INFINITY : middle - place->radius * place->size;
 }
 
-/* Those that shine; where none does all of them, for who forces light. */
+bool wr_view_shows_light(const WrScene *scene, int k)
+{
+    bool any = false;
+    for (int i = 0; i < scene->light_count; i++) any |= light_shines(&scene->lights[i]);
+    return !any || light_shines(&scene->lights[k]);
+}
+
 static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *place)
 {
     const WrVec3 ahead = { 0, 0, 1 };
     view->lights = wr_alloc((size_t)scene->light_count + 1, sizeof *view->lights);
     view->lights_d = wr_alloc((size_t)scene->light_count + 1, sizeof *view->lights_d);
-    bool any = false;
-    for (int i = 0; i < scene->light_count; i++) any |= light_shines(&scene->lights[i]);
     view->light_count = 0;
     for (int k = 0; k < scene->light_count; k++) {
         const WrLight *light = &scene->lights[k];
-        if (any && !light_shines(light)) continue;
+        if (!wr_view_shows_light(scene, k)) continue;
         const int i = view->light_count++;
         WrKernLightd *out = &view->lights_d[i];
         out->point = light->kind == WR_LIGHT_POINT;

@@ -65,6 +65,8 @@ bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int w
    to; below 0: not known. */
 bool wr_view_rise(const WrScene *scene, const WrField *field, double radius, double turn_deg,
                   int width, int height, double *rise, WrError *err);
+/* Is light k of the scene among the view's? Those are that shine; where none does all, for who forces light. */
+bool wr_view_shows_light(const WrScene *scene, int k);
 /* Fill a view, with what the plan says of samples, backs and perspective; all checks were made when the scene was accepted, so this fails only for a camera that
    cannot look (eye on target). Call fini even then. */
 bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPlan *plan,
