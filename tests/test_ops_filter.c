@@ -60,6 +60,36 @@ static void a_blur_is_exact_but_for_what_lies_beyond_four_sigma(void **state)
     wr_field_free(out);
 }
 
+/* So tall that blocks lie below one another in a piece of work, of fewer or more threads or none: the same heights, and the
+ * Gaussian's, at the ends and where blocks and tiles meet. */
+static void a_tall_table_is_blurred_alike_in_any_pieces(void **state)
+{
+    (void)state;
+    static const Shape tall[] = { { 19, 4421, P, C }, { 19, 4421, C, P }, { 281, 1061, C, C } };
+    WrPool *pool = wr_pool_new(3);
+    for (int k = 0; k < 3; k++) {
+        const double sigma = 4.7;
+        WrField *in = noisy_table(tall[k].width, tall[k].height, tall[k].u, tall[k].v, 9);
+        WrField *out = run("blur", in, sigma);
+        WrField *shared = run_with("blur", in, &sigma, &(WrOpOptions){ .pool = pool });
+        assert_true(same_table(out, shared));
+        for (int j = 0; j<tall[k].height; j += j % 256> 250 || j % 256 < 20 ? 1 : 37)
+            assert_near(wr_field_get(out, j % 17, j), gauss_at(in, j % 17, j, sigma, 19), 3e-7);
+        WrField *sharp = run("sharpen", in, 1.0, sigma);
+        for (int j = 5; j < tall[k].height; j += 97) /* 2 F less the blur */
+            assert_near(wr_field_get(sharp, 9, j),
+                        2 * (double)wr_field_get(in, 9, j) - (double)wr_field_get(out, 9, j), 3e-7);
+        wr_field_free(in), wr_field_free(out), wr_field_free(shared), wr_field_free(sharp);
+    }
+    WrField *in = flat_table(21, 4421, C, C, 0.3f); /* most of its blocks are left out */
+    for (int j = 700; j < 2900; j += 1050) wr_field_set(in, 11, j, -5.3f);
+    WrField *out = run("blur", in, 4.7);
+    for (int j = 0; j<4421; j += j % 1050> 715 || j % 1050 < 685 ? 23 : 1)
+        assert_near(wr_field_get(out, 13, j), gauss_at(in, 13, j, 4.7, 19), 1e-6);
+    wr_field_free(in), wr_field_free(out);
+    wr_pool_free(pool);
+}
+
 static void hc77_a_blur_keeps_the_mean(void **state)
 {
     (void)state;
@@ -318,6 +348,7 @@ int main(void)
         cmocka_unit_test(a_blur_is_the_sum_of_gaussian_weights),
         cmocka_unit_test(a_blur_is_exact_but_for_what_lies_beyond_four_sigma),
         cmocka_unit_test(unused_texels_of_a_filtered_table_hold_the_level),
+        cmocka_unit_test(a_tall_table_is_blurred_alike_in_any_pieces),
         cmocka_unit_test(hc77_a_blur_keeps_the_mean),
         cmocka_unit_test(hc77_a_blur_never_passes_the_range),
         cmocka_unit_test(the_kernel_of_a_wide_blur_has_its_variance_and_shape),

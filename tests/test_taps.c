@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "field/taps.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -170,6 +171,43 @@ static void a_flat_neighbourhood_adds_exactly_nothing(void **state)
     }
 }
 
+static uint32_t bits_of(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* Equal heights and what is no number have the bits of before, what is beyond float its ends; nothing beside is touched. */
+static void settled_heights_are_finite_and_keep_their_bits(void **state)
+{
+    (void)state;
+    enum { ROW = 71, MORE = 5 };
+    const float odd[] = { NAN, -NAN, INFINITY, -INFINITY, -0.0f, 0.0f };
+    for (int index = 0; wr_taps_at(index); index++)
+        for (int columns = 1; columns <= ROW; columns++) {
+            float before[MORE * (ROW + 3)], now[MORE * ROW], want[MORE * ROW];
+            bool differs = false;
+            for (int k = 0; k < MORE * (ROW + 3); k++) before[k] = heights[k % 7][k / 7];
+            for (int k = 0; k < MORE * ROW; k++) {
+                const int y = k / ROW, x = k % ROW;
+                float *was = &before[y * (ROW + 3) + x];
+                const float kept = (k + columns) % 3 ? *was : odd[(k + columns) / 3 % 6];
+                if (k % 5 == 0) *was = k % 2 ? -0.0f : 0.0f;
+                now[k] = columns % 4 ? *was : (k + columns) % 7 ? kept : heights[9][k % 200];
+                if (columns % 4 == 0 && k % 11 == 0) now[k] = -*was;
+                want[k] = now[k];
+                if (x >= columns) continue;
+                want[k] = isnan(now[k]) || now[k] == *was ? *was : fminf(FLT_MAX, now[k]);
+                want[k] = fmaxf(-FLT_MAX, want[k]);
+                differs |= bits_of(want[k]) != bits_of(*was);
+            }
+            assert_true(differs ==
+                        wr_taps_at(index)->settle(before, ROW + 3, now, ROW, columns, MORE));
+            assert_memory_equal(now, want, sizeof now);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,6 +218,7 @@ int main(void)
         cmocka_unit_test(smoothing_adds_the_sum_to_the_height),
         cmocka_unit_test(turned_rows_are_columns),
         cmocka_unit_test(a_flat_neighbourhood_adds_exactly_nothing),
+        cmocka_unit_test(settled_heights_are_finite_and_keep_their_bits),
     };
     return cmocka_run_group_tests(tests, fill, NULL);
 }

@@ -110,6 +110,11 @@ static Tile *new_tile(void)
     return tile;
 }
 
+static Counted *counted_of(const float *texels)
+{
+    return (Counted *)((char *)(uintptr_t)texels - offsetof(Tile, texels));
+}
+
 void wr_field_trim(void)
 {
     wr_slab_trim(&tile_slabs);
@@ -246,6 +251,18 @@ float *wr_field_tile_fresh(WrField *field, int tx, int ty)
     return ((Tile *)*slot)->texels;
 }
 
+float *wr_field_tile_make(void)
+{
+    return new_tile()->texels;
+}
+
+void wr_field_tile_put(WrField *field, int tx, int ty, float *texels)
+{
+    Counted **slot = own_slot(field, tx, ty);
+    release(*slot, 0);
+    *slot = counted_of(texels);
+}
+
 void wr_field_tile_drop(WrField *field, int tx, int ty)
 {
     Counted **slot = own_slot(field, tx, ty);
@@ -337,7 +354,7 @@ void wr_field_tile_share(WrField *to, const WrField *from, int tx, int ty)
         return;
     }
     Counted **slot = own_slot(to, tx, ty), *shared = NULL;
-    if (tile) shared = (Counted *)((char *)(uintptr_t)tile - offsetof(Tile, texels));
+    if (tile) shared = counted_of(tile);
     retain(shared);
     release(*slot, 0);
     *slot = shared;

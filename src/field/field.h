@@ -57,6 +57,10 @@ float *wr_field_tile_write(WrField *field, int tx, int ty);
 /* The same with whatever texels the memory held before: the caller writes all of them, the unused ones
    with the level. */
 float *wr_field_tile_fresh(WrField *field, int tx, int ty);
+/* Texels of a tile that no table has yet, of any content; any thread. They are to be put into one: */
+float *wr_field_tile_make(void);
+/* whose tile they then are, in the place of what it had. */
+void wr_field_tile_put(WrField *field, int tx, int ty, float *texels);
 /* Tile (tx, ty) of `to` becomes that of `from`, a table of the same size; later writes to either do not show in the
    other. By reference, but where unused texels stand for another level. */
 void wr_field_tile_share(WrField *to, const WrField *from, int tx, int ty);

@@ -105,7 +105,7 @@ static WrOpBlock block_of(const Changed *c, int left, int top)
     if (i.to < 0) return (WrOpBlock){ 0 };
     const int x = i.from * WR_TILE, y = j.from * WR_TILE;
     return (WrOpBlock){ x, y, least((i.to + 1) * WR_TILE, wr_field_width(c->job->in)) - x,
-                        least((j.to + 1) * WR_TILE, wr_field_height(c->job->in)) - y };
+                        least((j.to + 1) * WR_TILE, wr_field_height(c->job->in)) - y, false };
 }
 
 WrOpBlock *wr_op_changed_blocks(const WrOpJob *job, int reach, int *count)

@@ -14,6 +14,7 @@
 #include "field/taps.h"
 
 #include <math.h>
+#include <string.h>
 
 #define REACH WR_OP_NARROW_REACH
 #define SIDE WR_OP_SIDE
@@ -78,16 +79,26 @@ static void sharpen(const Blur *blur, const WrOpBlock *b, const Desk *desk, floa
     }
 }
 
+/* What the block above needed of this one is the top of what this one needs. Returns how many rows. */
+static int keep_rows(const Blur *blur, const WrOpBlock *b, Desk *desk)
+{
+    const size_t rows = b->follows ? 2 * (size_t)blur->reach : 0;
+    memmove(desk->in, desk->in + SIDE * READ_PITCH, rows * READ_PITCH * sizeof *desk->in);
+    memmove(desk->mid, desk->mid + SIDE * MID_PITCH, rows * MID_PITCH * sizeof *desk->mid);
+    return (int)rows;
+}
+
 static void make_blurred(const WrOpJob *job, const void *ctx, WrOpBlock b, float *out, size_t pitch,
                          void *scratch)
 {
+    Desk *desk = scratch;
     const Blur *blur = ctx;
     const WrTaps *taps = wr_taps();
-    const int r = blur->reach, rows = b.count_j + 2 * r;
+    const int r = blur->reach, rows = b.count_j + 2 * r, first = keep_rows(blur, &b, desk);
     const bool blurs = blur->amount == 1.0f;
-    Desk *desk = scratch;
-    wr_op_read(job->in, b.i - r, b.j - r, b.count_i + 2 * r, rows, desk->in, READ_PITCH);
-    for (int y = 0; y < rows; y += LANES)
+    wr_op_read(job->in, b.i - r, b.j - r + first, b.count_i + 2 * r, rows - first,
+               desk->in + first * READ_PITCH, READ_PITCH);
+    for (int y = first; y < rows; y += LANES)
         filter_rows(blur, b.count_i, desk->in + y * READ_PITCH, desk->mid + y * MID_PITCH, desk);
     for (int x = 0; x < b.count_i; x += LANES)
         (blurs ? taps->smooth : taps->add)(blur->weight, r, desk->mid + r * MID_PITCH + x,

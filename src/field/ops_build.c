@@ -1,25 +1,28 @@
-/* From blocks of new heights to a table. A batch of blocks is made in parallel; then the tiles that
-   differ are fetched one after the other, since that may copy nodes of the tree; then they are filled in
-   parallel. Which blocks make a batch does not depend on the number of threads, nor does any height. */
+/* From blocks of new heights to a table. The blocks of a batch are made in parallel, some that lie below one another by the
+   same thread, since a filter then has what it read for the one above; of what differs tiles are made at once. They are put
+   into the table one after the other, since that may copy nodes of the tree. Which blocks make a batch does not show in any
+   height. */
 #include "field/ops_inner.h"
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "field/field.h"
+#include "field/taps.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
 #define SIDE WR_OP_SIDE
-#define BATCH 32                /* blocks; 8 MB of new heights */
+#define BATCH 128               /* blocks between two reports */
+#define TALL 8                  /* blocks below one another, at most */
 #define ACROSS (SIDE / WR_TILE) /* tiles along a block's side */
 #define BLOCK_TILES (ACROSS * ACROSS)
 
 /* Per thread. */
 typedef struct Bench {
-    float before[SIDE * SIDE], mask[SIDE * SIDE];
+    float now[SIDE * SIDE], before[SIDE * SIDE], mask[SIDE * SIDE];
 } Bench;
 
 typedef struct Build {
@@ -30,14 +33,13 @@ typedef struct Build {
         *base;   /* what is where nothing changes; `out` itself, but where little is done again */
     bool same;   /* base is the input */
     bool blends; /* base is a share of the input: the mask applies */
-    WrOpBlock *blocks; /* [count], those that are done again; NULL: all */
-    int count, blocks_u, first;
-    float (*result)[SIDE * SIDE]; /* [BATCH] */
-    Bench *bench;                 /* [threads] */
-    char *scratch;                /* [threads][scratch_pitch] */
+    WrOpBlock *blocks;  /* [count], those that are done again; NULL: all */
+    int count, first;   /* blocks, some of them without texels; of the present batch */
+    int blocks_u, tall; /* across the table; blocks of a piece of work */
+    Bench *bench;       /* [threads] */
+    char *scratch;      /* [threads][scratch_pitch] */
     size_t scratch_pitch;
-    float *tile[BATCH][BLOCK_TILES]; /* where to write; NULL: unchanged */
-    bool changed[BATCH][BLOCK_TILES];
+    float *tile[BATCH][BLOCK_TILES]; /* what the table gets; NULL: unchanged */
 } Build;
 
 static int min_int(int a, int b)
@@ -45,12 +47,15 @@ static int min_int(int a, int b)
     return a < b ? a : b;
 }
 
+/* One below another, and stack beside stack; below the table there are no texels. */
 static WrOpBlock block_at(const Build *build, int index)
 {
     if (build->blocks) return build->blocks[index];
-    int i = index % build->blocks_u * SIDE, j = index / build->blocks_u * SIDE;
+    const int stack = index / build->tall, below = index % build->tall;
+    const int i = stack % build->blocks_u * SIDE;
+    const int j = (stack / build->blocks_u * build->tall + below) * SIDE;
     return (WrOpBlock){ i, j, min_int(SIDE, wr_field_width(build->out) - i),
-                        min_int(SIDE, wr_field_height(build->out) - j) };
+                        min_int(SIDE, wr_field_height(build->out) - j), false };
 }
 
 /* First and last tile of texels from .. to along an axis of n texels, as far as a loop over tiles modulo
@@ -93,7 +98,7 @@ static bool is_flat(const WrField *field, WrOpBlock b, int reach)
 static bool nothing_to_do(const Build *build, WrOpBlock block)
 {
     const WrField *mask = build->job->mask;
-    if (wr_progress_cancelled(build->job->progress)) return true;
+    if (block.count_j <= 0 || wr_progress_cancelled(build->job->progress)) return true;
     if (build->blends && mask && wr_field_level(mask) <= 0.0f && is_flat(mask, block, 0))
         return true;
     return build->work->reach >= 0 && is_flat(build->job->in, block, build->work->reach);
@@ -138,26 +143,6 @@ static bool row_differs(const float *restrict before, const float *restrict row,
     return differs != 0;
 }
 
-/* A filter's row without a mask: the steps above in one. */
-static bool settle_row(const float *restrict before, float *restrict row, int count)
-{
-    uint32_t differs = 0;
-#pragma omp simd reduction(| : differs)
-    for (int i = 0; i < count; i++) {
-        float x = row[i], was = before[i];
-        x = x > FLT_MAX ? FLT_MAX : x;
-        x = x < -FLT_MAX ? -FLT_MAX : x;
-        bool changes = x < was || x > was; /* not where x is not a number */
-        x = changes ? x : was;
-        uint32_t old, now;
-        memcpy(&old, &was, sizeof old);
-        memcpy(&now, &x, sizeof now);
-        differs |= old ^ now;
-        row[i] = x;
-    }
-    return differs != 0;
-}
-
 /* What the block was, and its pitch. */
 static const float *read_before(const Build *build, const WrOpBlock *b, const char *scratch,
                                 Bench *bench, size_t *pitch)
@@ -172,46 +157,89 @@ static const float *read_before(const Build *build, const WrOpBlock *b, const ch
     return bench->before;
 }
 
-/* One tile's part of a row. True if any height of it changed. */
-static bool finish_part(const Build *build, const float *before, const float *mask, float *row,
-                        int count)
+/* A rectangle of heights, and what it was; mask: NULL, or how much of it is taken. */
+typedef struct Part {
+    const float *before, *mask;
+    float *now;
+    size_t before_pitch;
+    int columns, rows;
+} Part;
+
+/* The new heights as the table will have them. True if any of them changed. */
+static bool finish_part(const Build *build, const Part *part)
 {
-    if (!mask && !build->work->moves) return settle_row(before, row, count);
-    keep_finite(before, row, count);
-    if (mask) blend(mask, before, row, count);
-    if (!build->work->moves) keep_equal(before, row, count);
-    return row_differs(before, row, count);
+    bool changed = false;
+    if (!part->mask && !build->work->moves)
+        return wr_taps()->settle(part->before, part->before_pitch, part->now, SIDE, part->columns,
+                                 part->rows);
+    for (int y = 0; y < part->rows; y++) {
+        const float *before = part->before + (size_t)y * part->before_pitch;
+        float *now = part->now + y * SIDE;
+        keep_finite(before, now, part->columns);
+        if (part->mask) blend(part->mask + y * SIDE, before, now, part->columns);
+        if (!build->work->moves) keep_equal(before, now, part->columns);
+        changed |= row_differs(before, now, part->columns);
+    }
+    return changed;
 }
 
-static void make_block(int index, int worker, void *ctx)
+/* Texels that are unused have the level. */
+static float *new_tile(const Build *build, const Part *part)
 {
-    Build *build = ctx;
+    const float level = wr_field_level(build->out);
+    float *tile = wr_field_tile_make();
+    for (int k = 0; part->rows * part->columns < WR_TILE * WR_TILE && k < WR_TILE * WR_TILE; k++)
+        tile[k] = level;
+    for (int y = 0; y < part->rows; y++)
+        if (part->columns == WR_TILE)
+            memcpy(tile + y * WR_TILE, part->now + y * SIDE, WR_TILE * sizeof *tile);
+        else memcpy(tile + y * WR_TILE, part->now + y * SIDE, (size_t)part->columns * sizeof *tile);
+    return tile;
+}
+
+static void make_tiles(const Build *build, const WrOpBlock *b, const Bench *bench,
+                       const float *before, size_t pitch, float **tile)
+{
+    const bool masked = build->blends && build->job->mask;
+    for (int t = 0; t < BLOCK_TILES; t++) {
+        const int x = t % ACROSS * WR_TILE, y = t / ACROSS * WR_TILE;
+        if (x >= b->count_i || y >= b->count_j) continue;
+        const Part part = { .before = before + (size_t)y * pitch + x,
+                            .mask = masked ? bench->mask + y * SIDE + x : NULL,
+                            .now = (float *)bench->now + y * SIDE + x,
+                            .before_pitch = pitch,
+                            .columns = min_int(WR_TILE, b->count_i - x),
+                            .rows = min_int(WR_TILE, b->count_j - y) };
+        if (finish_part(build, &part)) tile[t] = new_tile(build, &part);
+    }
+}
+
+/* False if there was nothing to do. */
+static bool make_block(const Build *build, WrOpBlock b, int worker, float **tile)
+{
     const WrOpWork *work = build->work;
-    WrOpBlock b = block_at(build, build->first + index);
-    float *now = build->result[index];
     Bench *bench = &build->bench[worker];
     char *scratch = build->scratch + (size_t)worker * build->scratch_pitch;
-    memset(build->changed[index], 0, sizeof build->changed[index]);
-    if (nothing_to_do(build, b)) return;
-    work->make(build->job, work->ctx, b, now, SIDE, scratch);
+    if (nothing_to_do(build, b)) return false;
+    work->make(build->job, work->ctx, b, bench->now, SIDE, scratch);
     size_t pitch;
     const float *before = read_before(build, &b, scratch, bench, &pitch);
-    bool masked = build->blends && build->job->mask;
-    if (masked) wr_field_read(build->job->mask, b.i, b.j, b.count_i, b.count_j, bench->mask, SIDE);
-    for (int y = 0; y < b.count_j; y++)
-        for (int x = 0; x < b.count_i; x += WR_TILE)
-            build->changed[index][y / WR_TILE * ACROSS + x / WR_TILE] |= finish_part(
-                build, before + (size_t)y * pitch + x, masked ? bench->mask + y * SIDE + x : NULL,
-                now + y * SIDE + x, min_int(WR_TILE, b.count_i - x));
+    if (build->blends && build->job->mask)
+        wr_field_read(build->job->mask, b.i, b.j, b.count_i, b.count_j, bench->mask, SIDE);
+    make_tiles(build, &b, bench, before, pitch, tile);
+    return true;
 }
 
-/* A tile that is written whole need not be copied before. */
-static float *open_tile(Build *build, WrOpBlock b, int t)
+static void make_stack(int index, int worker, void *ctx)
 {
-    int x = t % ACROSS, y = t / ACROSS;
-    bool whole = b.count_i >= (x + 1) * WR_TILE && b.count_j >= (y + 1) * WR_TILE;
-    return (whole ? wr_field_tile_fresh : wr_field_tile_write)(build->out, b.i / WR_TILE + x,
-                                                               b.j / WR_TILE + y);
+    Build *build = ctx;
+    bool follows = false;
+    for (int k = index * build->tall; k < (index + 1) * build->tall; k++) {
+        WrOpBlock b = block_at(build, build->first + k);
+        b.follows = follows;
+        memset(build->tile[k], 0, sizeof build->tile[k]);
+        follows = make_block(build, b, worker, build->tile[k]);
+    }
 }
 
 /* What is done again may now be what the base has. */
@@ -223,29 +251,17 @@ static void put_base(Build *build, WrOpBlock b, int t)
         wr_field_tile_share(build->out, build->base, tx, ty);
 }
 
-static void fetch_tiles(Build *build, int count)
+static void put_tiles(Build *build, int count)
 {
     for (int index = 0; index < count; index++) {
-        WrOpBlock b = block_at(build, build->first + index);
+        const WrOpBlock b = block_at(build, build->first + index);
         for (int t = 0; t < BLOCK_TILES; t++) {
-            build->tile[index][t] = build->changed[index][t] ? open_tile(build, b, t) : NULL;
-            if (!build->changed[index][t]) put_base(build, b, t);
+            float *tile = build->tile[index][t];
+            if (tile)
+                wr_field_tile_put(build->out, b.i / WR_TILE + t % ACROSS,
+                                  b.j / WR_TILE + t / ACROSS, tile);
+            else put_base(build, b, t);
         }
-    }
-}
-
-static void fill_tiles(int index, int worker, void *ctx)
-{
-    (void)worker;
-    Build *build = ctx;
-    WrOpBlock b = block_at(build, build->first + index);
-    for (int t = 0; t < BLOCK_TILES; t++) {
-        float *tile = build->tile[index][t];
-        if (!tile) continue;
-        int x = t % ACROSS * WR_TILE, y = t / ACROSS * WR_TILE;
-        size_t bytes = sizeof *tile * (size_t)min_int(WR_TILE, b.count_i - x);
-        for (int row = 0; row < WR_TILE && y + row < b.count_j; row++)
-            memcpy(tile + row * WR_TILE, build->result[index] + (y + row) * SIDE + x, bytes);
     }
 }
 
@@ -256,11 +272,10 @@ static bool run_batches(Build *build)
     for (int first = 0; first < count; first += BATCH) {
         int blocks = min_int(BATCH, count - first);
         build->first = first;
-        wr_pool_run(build->job->pool, blocks, make_block, build);
+        wr_pool_run(build->job->pool, blocks / build->tall, make_stack, build);
+        put_tiles(build, blocks);
         if (wr_progress_cancelled(build->job->progress))
             return wr_fail(build->job->err, "%s: cancelled", build->job->name);
-        fetch_tiles(build, blocks);
-        wr_pool_run(build->job->pool, blocks, fill_tiles, build);
         if (!wr_op_step(build->job, (double)(first + blocks) / count)) return false;
     }
     return true;
@@ -283,16 +298,29 @@ static bool same_shape(const WrField *a, const WrField *b)
            memcmp(&x, &y, sizeof x) == 0;
 }
 
+/* Several stacks for each thread, so that none waits for long. */
+static int stack_height(int blocks, int threads)
+{
+    int tall = TALL;
+    while (tall > 1 && blocks < 4 * threads * tall) tall /= 2;
+    return tall;
+}
+
 /* Which blocks there are, and what they are written over. */
 static void plan_blocks(Build *build, WrField *base)
 {
     const WrOpJob *job = build->job;
     const int window = build->work->window;
+    const int blocks_v = (wr_field_height(base) + SIDE - 1) / SIDE;
     build->blocks_u = (wr_field_width(base) + SIDE - 1) / SIDE;
-    build->count = build->blocks_u * ((wr_field_height(base) + SIDE - 1) / SIDE);
     build->base = build->out = base;
-    if (!job->was || window == 0 || !same_shape(job->was, job->in) || !same_shape(job->made, base))
+    if (!job->was || window == 0 || !same_shape(job->was, job->in) ||
+        !same_shape(job->made, base)) {
+        build->tall = stack_height(build->blocks_u * blocks_v, wr_pool_threads(job->pool));
+        build->count = build->blocks_u * ((blocks_v + build->tall - 1) / build->tall) * build->tall;
         return;
+    }
+    build->tall = 1;
     build->blocks = wr_op_changed_blocks(job, window / 2, &build->count);
     build->out = wr_field_share(job->made);
 }
@@ -310,17 +338,13 @@ WrField *wr_op_build(const WrOpJob *job, WrField *base, const WrOpWork *work)
     build->blends = wr_field_width(base) == wr_field_width(job->in) &&
                     wr_field_height(base) == wr_field_height(job->in);
     build->scratch_pitch = (work->scratch + WR_ALIGN) / WR_ALIGN * WR_ALIGN;
-    build->result = wr_try_alloc_unset((size_t)min_int(BATCH, build->count) + 1,
-                                       sizeof *build->result, job->name, job->err);
-    if (build->result)
-        build->bench = wr_try_alloc_unset(threads, sizeof *build->bench, job->name, job->err);
+    build->bench = wr_try_alloc_unset(threads, sizeof *build->bench, job->name, job->err);
     if (build->bench)
         build->scratch = wr_try_alloc_unset(threads, build->scratch_pitch, job->name, job->err);
     bool good = build->scratch && run_batches(build);
     WrField *out = build->out;
     if (out != base) wr_field_free(base);
     wr_free(build->blocks);
-    wr_free(build->result);
     wr_free(build->bench);
     wr_free(build->scratch);
     wr_free(build);

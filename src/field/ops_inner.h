@@ -52,12 +52,14 @@ struct WrOpJob {
 /* A rectangle of texels of the result. */
 typedef struct WrOpBlock {
     int i, j, count_i, count_j; /* counts 1..WR_OP_SIDE */
+    bool
+        follows; /* the scratch is as it was left by the block above, of WR_OP_SIDE rows and the same columns */
 } WrOpBlock;
 
 /* What the builder has to know about an operation. */
 typedef struct WrOpWork {
     /* The new heights of a block, row by row, `pitch` floats a row. They may pass float's range.
-       scratch: `scratch` bytes that no other thread uses, 64-byte aligned, left over from other calls. */
+       scratch: `scratch` bytes that no other thread uses, 64-byte aligned, of any content (but see `follows`). */
     void (*make)(const WrOpJob *job, const void *ctx, WrOpBlock block, float *out, size_t pitch,
                  void *scratch);
     const void *ctx;

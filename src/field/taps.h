@@ -1,7 +1,8 @@
-/* taps.h - the inner loops of blurs (ops_blur.c, ops_blur_wide.c), compiled once per instruction set. All sets give the
+/* taps.h - the inner loops of blurs (ops_blur.c, ops_blur_wide.c), and of what all operations end with (ops_build.c), compiled once per instruction set. All sets give the
    same bits: only + - *, in the same order, without contraction.
    Layer 1, private to this room. */
 #pragma once
+#include <stdbool.h>
 #include <stddef.h>
 
 #define WR_TAPS_LANES 16 /* texels of an element, which are filtered side by side: a cache line */
@@ -38,6 +39,10 @@ typedef struct WrTaps {
     /* The same of WR_BOX_LANES texels that lie side by side. */
     void (*to_steps_across)(double scale, const float *texels, double *element);
     void (*add_steps_across)(double scale, double step, const double *both, float *heights);
+    /* New heights beside what they were, `columns` of each of `rows`: within float's range, with the bits of before where
+     * they are equal to that or no number. True if the bits of one differ. */
+    bool (*settle)(const float *before, size_t before_pitch, float *now, size_t pitch, int columns,
+                   int rows);
 } WrTaps;
 
 extern const WrTaps wr_taps_v1, wr_taps_v3, wr_taps_v4;

@@ -4,6 +4,7 @@
 
 #include <float.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
 #ifdef __FMA__
 #include <immintrin.h>
@@ -220,6 +221,34 @@ static void add_steps_across(double scale, double step, const double *restrict b
         heights[lane] = blurred(scale, step, heights[lane], both[lane]);
 }
 
+/* A row's bits that differ. */
+ALWAYS uint32_t settle_row(const float *restrict before, float *restrict now, int columns)
+{
+    uint32_t differs = 0;
+#pragma omp simd reduction(| : differs)
+    for (int i = 0; i < columns; i++) {
+        float was = before[i], x = now[i] > FLT_MAX ? FLT_MAX : now[i];
+        x = x < -FLT_MAX ? -FLT_MAX : x;
+        const bool changes = (x < was) | (x > was); /* not where x is not a number */
+        x = changes ? x : was;
+        uint32_t old, new;
+        memcpy(&old, &was, sizeof old);
+        memcpy(&new, &x, sizeof new);
+        differs |= old ^ new;
+        now[i] = x;
+    }
+    return differs;
+}
+
+static bool settle(const float *before, size_t before_pitch, float *now, size_t pitch, int columns,
+                   int rows)
+{
+    uint32_t differs = 0;
+    for (int y = 0; y < rows; y++)
+        differs |= settle_row(before + (size_t)y * before_pitch, now + (size_t)y * pitch, columns);
+    return differs != 0;
+}
+
 const WrTaps WR_TAPS_TABLE = {
     .name = WR_TAPS_NAME,
     .add = add,
@@ -230,4 +259,5 @@ const WrTaps WR_TAPS_TABLE = {
     .add_steps = add_steps,
     .to_steps_across = to_steps_across,
     .add_steps_across = add_steps_across,
+    .settle = settle,
 };
