@@ -23,6 +23,11 @@ static locale_t c_locale(void)
     return mine;
 }
 
+void wr_locale_keep_plain(void)
+{
+    uselocale(c_locale());
+}
+
 void wr_locale_print_plain(char *text, size_t size, double value, int digits)
 {
     locale_t old = uselocale(c_locale());

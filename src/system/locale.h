@@ -3,6 +3,8 @@
 #pragma once
 #include <stddef.h>
 
+/* All that the calling thread prints and reads is so from now on, whatever language is set meanwhile. */
+void wr_locale_keep_plain(void);
 /* With `digits` significant digits, as printf's %.*g. */
 void wr_locale_print_plain(char *text, size_t size, double value, int digits);
 /* As strtod and strtof; *end is what follows. */

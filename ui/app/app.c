@@ -73,9 +73,12 @@
 bool wr_app_begin(WrApp *app, WrError *err)
 {
     wr_settings_begin(app);
+    wr_app_start_ahead(app);
     wr_words_choose(app->settings->language);
+    wr_theme_set(app->settings->theme);
     if (!wr_window_open(app)) return wr_fail(err, "no window: %s", SDL_GetError());
-    app->gui = wr_gui_new(app->renderer, wr_app_wanted_scale(app), err);
+    app->drawn_scale = wr_app_wanted_scale(app);
+    app->gui = wr_gui_new(app->renderer, app->drawn_scale, err);
     if (!app->gui) return false;
     app->ready_event = SDL_RegisterEvents(4);
     app->file_event = app->ready_event + 1;
@@ -128,6 +131,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
 
 void wr_app_end(WrApp *app)
 {
+    wr_app_start_end(app);
     wr_rest_free(app->rest);
     wr_preview_free(app->preview);
     wr_accuracy_free(app);

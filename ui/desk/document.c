@@ -26,7 +26,9 @@
 #include "command/session.h"
 #include "command/table.h"
 #include "field/field.h"
+#include "system/locale.h"
 #include "system/path.h"
+#include "system/thread.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -153,9 +155,68 @@ static void make_starter(WrApp *app)
     app->file->clean_revision = wr_session_revision(app->session);
 }
 
+/* The starter on its way. */
+typedef struct WrAhead {
+    WrThread thread;
+    bool threaded; /* the system gave one */
+    WrSession *session;
+    WrText path;
+    bool good;
+    WrError err; /* why it is not */
+} WrAhead;
+
+static void *open_starter(void *ctx)
+{
+    WrAhead *ahead = ctx;
+    wr_locale_keep_plain(); /* the window's libraries set the user's meanwhile */
+    ahead->good = wr_session_open(ahead->session, wr_text_get(&ahead->path), &ahead->err);
+    return NULL;
+}
+
+void wr_app_start_ahead(WrApp *app)
+{
+    WrText path = { 0 };
+    app->file->clean_revision = wr_session_saved_revision(app->session);
+    if (app->options->file_given || !wr_data_find("samples/bricks.wrinkle", &path)) {
+        wr_text_fini(&path);
+        return;
+    }
+    WrAhead *ahead = wr_alloc(1, sizeof *ahead);
+    ahead->session = app->session;
+    ahead->path = path;
+    app->file->ahead = ahead;
+    ahead->threaded = wr_thread_begin(&ahead->thread, open_starter, ahead);
+}
+
+void wr_app_start_end(WrApp *app)
+{
+    WrAhead *ahead = app->file->ahead;
+    if (!ahead) return;
+    if (ahead->threaded) wr_thread_join(ahead->thread);
+    wr_text_fini(&ahead->path);
+    wr_free(ahead);
+    app->file->ahead = NULL;
+}
+
+static bool take_starter(WrApp *app, WrError *err)
+{
+    WrAhead *ahead = app->file->ahead;
+    if (!ahead)
+        return wr_fail(err, "the samples and brushes of the program were not found: set "
+                            "WRINKLE_DATA to the folder that holds samples and brushes, or "
+                            "install it");
+    if (ahead->threaded) wr_thread_join(ahead->thread);
+    else ahead->good = wr_session_open(ahead->session, wr_text_get(&ahead->path), &ahead->err);
+    ahead->threaded = false;
+    const bool good = ahead->good;
+    if (!good) *err = ahead->err;
+    wr_app_start_end(app);
+    return good;
+}
+
 void wr_app_start(WrApp *app)
 {
-    app->file->clean_revision = wr_session_saved_revision(app->session);
+    WrError err;
     app->hints = true;
     if (app->options->file_given) {
         if (wr_session_path(app->session)[0]) note_recent(app, wr_session_path(app->session));
@@ -163,19 +224,11 @@ void wr_app_start(WrApp *app)
         wr_app_take_notes(app);
         return;
     }
-    WrText path = { 0 };
-    WrError err;
-    bool found = wr_data_find("samples/bricks.wrinkle", &path);
-    app->file->starter = found && wr_session_open(app->session, wr_text_get(&path), &err);
-    if (!found)
-        wr_fail(&err,
-                "the samples and brushes of the program were not found: set WRINKLE_DATA to the "
-                "folder that holds samples and brushes, or install it");
+    app->file->starter = take_starter(app, &err);
     if (!app->file->starter) {
         wr_app_fail(app, &err);
         make_starter(app);
     }
-    wr_text_fini(&path);
     wr_app_take_notes(app);
 }
 

@@ -39,10 +39,15 @@ typedef struct WrDocumentHand {
     char *picture;           /* whose heights were opened; owned, NULL: none */
     uint64_t clean_revision; /* also counts as saved: a starter made by commands */
     bool starter;            /* the document is the starter */
+    struct WrAhead *ahead;   /* it is being made; owned */
 } WrDocumentHand;
 
-void wr_app_tend(WrApp *app);  /* the journal, when nothing else is to do */
-void wr_app_start(WrApp *app); /* the starter, or what was asked for */
+void wr_app_tend(WrApp *app); /* the journal, when nothing else is to do */
+/* The starter, where nothing else was asked for, is made on a thread of its own while the window opens: until start or
+   start_end nobody else touches the session. */
+void wr_app_start_ahead(WrApp *app);
+void wr_app_start(WrApp *app);     /* the starter is there, or what was asked for */
+void wr_app_start_end(WrApp *app); /* waits for it; may be called at any time */
 void wr_app_new(WrApp *app);
 void wr_app_open(WrApp *app);
 void wr_app_open_path(WrApp *app, const char *path); /* asks first if work is unsaved */
