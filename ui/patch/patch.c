@@ -156,6 +156,22 @@ static void keep_chosen(WrApp *app, const WrPreviewPicture *picture)
     wr_session_keep_chosen(app->session, picture->kept);
 }
 
+/* Only what is another one than in the picture that the texture has goes there. */
+static void put_picture(WrApp *app, const WrPreviewPicture *picture, uint64_t had)
+{
+    WrPatch *p = app->patch;
+    const SDL_Rect *room = &app->layout->patch;
+    SDL_Rect part = { 0, 0, picture->width, picture->height };
+    if (had != 0 && picture->since == had) part = picture->changed;
+    if (part.w == 0) return;
+    const uint8_t *from =
+        picture->bgra + 4 * ((size_t)part.y * (size_t)picture->width + (size_t)part.x);
+    wr_gui_sdl_update(p->texture, &part, from, 4 * picture->width);
+    part.x += room->x;
+    part.y += room->y;
+    wr_kept_changed(wr_gui_kept(app->gui), &part);
+}
+
 static void take_picture(WrApp *app)
 {
     WrPatch *p = app->patch;
@@ -167,6 +183,7 @@ static void take_picture(WrApp *app)
         if (app->settings->turning) app->settings->turning = false; /* once is enough */
     }
     if (picture->serial == 0 || (picture->serial == p->serial && p->texture)) return;
+    uint64_t had = p->texture ? p->serial : 0;
     p->serial = picture->serial;
     p->clipped = picture->clipped;
     p->seen = picture->tag;
@@ -178,12 +195,12 @@ static void take_picture(WrApp *app)
         p->texture_h = picture->height > p->texture_h ? picture->height : p->texture_h;
         p->texture = SDL_CreateTexture(app->renderer, SDL_PIXELFORMAT_ARGB8888,
                                        SDL_TEXTUREACCESS_STREAMING, p->texture_w, p->texture_h);
+        had = 0;
         if (!p->texture) return;
         SDL_SetTextureBlendMode(p->texture, SDL_BLENDMODE_NONE);
         SDL_SetTextureScaleMode(p->texture, SDL_ScaleModeLinear);
     }
-    wr_gui_sdl_update(p->texture, &(SDL_Rect){ 0, 0, picture->width, picture->height },
-                      picture->bgra, 4 * picture->width);
+    put_picture(app, picture, had);
     if (app->redraw < 1) app->redraw = 1; /* the widgets have nothing to settle */
 }
 
@@ -278,8 +295,8 @@ void wr_patch_draw(WrApp *app)
         return;
     }
     if (picture->serial != p->serial) take_picture(app);
-    wr_kept_copy(wr_gui_kept(app->gui), p->texture,
-                 &(SDL_Rect){ 0, 0, picture->width, picture->height }, room);
+    wr_kept_copy_told(wr_gui_kept(app->gui), p->texture,
+                      &(SDL_Rect){ 0, 0, picture->width, picture->height }, room);
 }
 
 /* How far the picture is from its best: a ring that closes. */

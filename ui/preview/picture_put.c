@@ -4,6 +4,8 @@
 #include "ui/preview/picture_ran.h"
 #include "ui/preview/preview.h"
 
+#include "base/error.h"
+#include "base/memory.h"
 #include "render/frame.h"
 #include "scene/scene.h"
 
@@ -29,4 +31,72 @@ void wr_picture_put(WrPreviewPicture *picture, const WrFrame *frame, const WrFra
     if (!request->codes.wanted && frame->rgba)
         wr_chequer_behind(frame, &request->scene->tone, scale, picture->bgra);
     picture->clipped = wr_clipped(picture->bgra, frame->width, frame->height, look->marked);
+}
+
+/* ---- a picture ---- */
+
+void wr_picture_free(WrPreviewPicture *picture)
+{
+    if (picture) wr_free(picture->bgra);
+    if (picture) wr_free(picture->kept);
+    wr_free(picture);
+}
+
+bool wr_picture_room(WrPreviewPicture *picture, int width, int height, WrError *err)
+{
+    if (picture->bgra && picture->width == width && picture->height == height) return true;
+    uint8_t *bgra = wr_try_alloc((size_t)width * (size_t)height, 4, "the preview", err);
+    if (!bgra) return false;
+    wr_free(picture->bgra);
+    picture->bgra = bgra;
+    picture->width = width;
+    picture->height = height;
+    return true;
+}
+
+static const uint8_t *row_of(const WrPreviewPicture *picture, int y)
+{
+    return picture->bgra + 4 * (size_t)picture->width * (size_t)y;
+}
+
+/* The first pixel of a row that is another one, looked for in front of `most`; and the last, behind `least`. */
+static int first_other(const uint8_t *a, const uint8_t *b, int most)
+{
+    int x = 0;
+    while (x < most && memcmp(a + 4 * x, b + 4 * x, 4) == 0) x++;
+    return x;
+}
+
+static int last_other(const uint8_t *a, const uint8_t *b, int width, int least)
+{
+    int x = width - 1;
+    while (x > least && memcmp(a + 4 * x, b + 4 * x, 4) == 0) x--;
+    return x;
+}
+
+void wr_picture_compare(WrPreviewPicture *picture, const WrPreviewPicture *before)
+{
+    const int width = picture->width, height = picture->height;
+    int left = width, right = -1, top = height, bottom = -1;
+    picture->changed = (SDL_Rect){ 0, 0, width, height };
+    picture->since = 0;
+    if (!before || before->width != width || before->height != height) return;
+    for (int y = 0; y < height; y++) {
+        const uint8_t *a = row_of(picture, y), *b = row_of(before, y);
+        if (memcmp(a, b, 4 * (size_t)width) == 0) continue;
+        left = first_other(a, b, left);
+        right = last_other(a, b, width, right);
+        if (top > y) top = y;
+        bottom = y;
+    }
+    picture->since = before->serial;
+    picture->changed = bottom < 0 ? (SDL_Rect){ 0, 0, 0, 0 }
+                                  : (SDL_Rect){ left, top, right + 1 - left, bottom + 1 - top };
+}
+
+void wr_picture_follow(WrPreviewPicture *picture, const WrPreviewPicture *missed)
+{
+    if (picture->since != missed->serial) return;
+    SDL_UnionRect(&picture->changed, &missed->changed, &picture->changed);
+    picture->since = missed->since;
 }

@@ -1,5 +1,8 @@
 /* picture_put.h - from a rendered frame to the pixels of the preview's picture. */
 #pragma once
+#include <stdbool.h>
+
+typedef struct WrError WrError;
 
 typedef struct WrFrame WrFrame;
 typedef struct WrFrameRequest WrFrameRequest;
@@ -11,3 +14,11 @@ typedef struct WrPreviewPicture WrPreviewPicture;
 /* scale: the frame's pixels to one of the view's; ran: what each took, where the look asks for that. */
 void wr_picture_put(WrPreviewPicture *picture, const WrFrame *frame, const WrFrameRequest *request,
                     const WrPreviewLook *look, double scale, const WrPictureRan *ran, WrPool *pool);
+
+void wr_picture_free(WrPreviewPicture *picture); /* NULL is fine */
+/* So many pixels, each at least 1. Errors: no memory; it is as it was then. */
+bool wr_picture_room(WrPreviewPicture *picture, int width, int height, WrError *err);
+/* Say where it differs from the picture before (NULL: there is none). */
+void wr_picture_compare(WrPreviewPicture *picture, const WrPreviewPicture *before);
+/* `missed`, the picture before it, is never handed over: it counts from what that counts from. */
+void wr_picture_follow(WrPreviewPicture *picture, const WrPreviewPicture *missed);

@@ -64,8 +64,9 @@ struct WrPreview {
     WrPool *pool;         /* owned, as is the renderer */
     WrRenderer *renderer; /* NULL: not made yet, or not to be had */
     Wish now;
-    WrPreviewPicture *work; /* owned */
-    WrPreviewLevel level;   /* reached for `now` */
+    WrPreviewPicture *work;         /* owned */
+    const WrPreviewPicture *newest; /* of the two above, that was finished last; NULL: none yet */
+    WrPreviewLevel level;           /* reached for `now` */
     WrMoving moving;
     WrPictureRan ran;    /* of the last picture that showed where effects ran */
     WrChoice choice;     /* of the last picture under a tolerance */
@@ -82,13 +83,6 @@ static void wish_clear(Wish *wish)
     if (wish->scene) wr_scene_free(wish->scene);
     wr_free(wish->chosen);
     *wish = (Wish){ 0 };
-}
-
-static void picture_free(WrPreviewPicture *picture)
-{
-    if (picture) wr_free(picture->bgra);
-    if (picture) wr_free(picture->kept);
-    wr_free(picture);
 }
 
 WrPreview *wr_preview_new(int threads, const char *isa, Uint32 ready_event)
@@ -122,9 +116,9 @@ void wr_preview_free(WrPreview *preview)
     wr_pool_free(preview->pool);
     wish_clear(&preview->next);
     wish_clear(&preview->now);
-    picture_free(preview->done);
-    picture_free(preview->shown);
-    picture_free(preview->work);
+    wr_picture_free(preview->done);
+    wr_picture_free(preview->shown);
+    wr_picture_free(preview->work);
     wr_free(preview->ran.map);
     wr_free(preview->isa);
     wr_cond_fini(&preview->wake);
@@ -178,18 +172,6 @@ static void learn(WrPreview *preview, const WrPreviewPicture *picture)
     wr_moving_learn(&preview->moving, seconds - fmin(prepare, 0.8 * seconds),
                     (double)picture->width * picture->height, (double)wish->width * wish->height,
                     wish->painting ? QUICK_SECONDS : MOVING_SECONDS);
-}
-
-static bool make_room(WrPreviewPicture *picture, int width, int height, WrError *err)
-{
-    if (picture->bgra && picture->width == width && picture->height == height) return true;
-    uint8_t *bgra = wr_try_alloc((size_t)width * (size_t)height, 4, "the preview", err);
-    if (!bgra) return false;
-    wr_free(picture->bgra);
-    picture->bgra = bgra;
-    picture->width = width;
-    picture->height = height;
-    return true;
 }
 
 static bool has_tolerance(const Wish *wish)
@@ -254,7 +236,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                     ? by_tolerance(preview, &request, out, &frame, err)
                     : wr_renderer_frame(renderer, &request, &frame, err);
     if (!good) return false;
-    if (!make_room(out, frame.width, frame.height, err)) return false;
+    if (!wr_picture_room(out, frame.width, frame.height, err)) return false;
     wr_picture_put(out, &frame, &request, &wish->look, scale, &preview->ran, pool);
     out->level = level;
     out->way = way;
@@ -265,6 +247,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     out->plan = *frame.plan;
     out->seconds = wr_clock_seconds() - started;
     out->serial = ++preview->serial;
+    wr_picture_compare(out, preview->newest);
     if (preview->edited) preview->edit_seconds = out->seconds;
     if (level == WR_PREVIEW_MOVING) learn(preview, out);
     return true;
@@ -333,8 +316,9 @@ static bool choose(WrPreview *preview, WrPreviewLevel *level)
 static void publish(WrPreview *preview)
 {
     WrPreviewPicture *finished = preview->work;
+    if (preview->fresh) wr_picture_follow(finished, preview->done);
     preview->work = preview->done;
-    preview->done = finished;
+    preview->newest = preview->done = finished;
     preview->fresh = true;
 }
 

@@ -89,6 +89,9 @@ typedef struct WrPreviewPicture {
     double scale;    /* ... and its size beside the view's */
     int64_t tag;     /* of the wish that it shows */
     uint64_t serial; /* counts pictures; 0: none yet */
+    /* No pixel beyond it is another one than in that picture, by its serial, which was handed over before; 0: of none. */
+    SDL_Rect changed;
+    uint64_t since;
 } WrPreviewPicture;
 
 /* ---- picture_time.c ---- */
