@@ -20,9 +20,10 @@
 #define BUDGET (48 << 20)
 /* Bytes beyond undo's budget and what the window has when it opens: 115 MB of the library of pictures, which the journal
    loads when it begins anew; the layers, each with its composite and what a filter keeps; what is shown and rendered. */
-#define CONSTANT (192 << 20)
-/* And what the second half may take more than the first: nothing but chance. */
-#define SLACK (24 << 20)
+#define CONSTANT (168 << 20)
+/* And what the second half may take more than the first: chance, which was 2 MB. A tile of 16 KB that each stroke left
+   behind would be 16 MB. */
+#define SLACK (8 << 20)
 #define LAYERS_MOST 6
 
 typedef struct Hour {
