@@ -79,3 +79,13 @@ END {
     if (seen < 50) { printf "only %d includes found: is this the right folder?\n", seen; bad = 1 }
     exit bad
 }'
+bad=$?
+
+# What is drawn on the window, and what textures hold, goes through one room, which knows what changed; ui/app/window.c tries
+# whether there is a picture at all.
+if find ui -name '*.c' -o -name '*.cpp' | grep -v '^ui/gui/\|^ui/app/window.c$' | sort |
+    xargs grep -nE '\bSDL_(UpdateTexture|LockTexture|UnlockTexture|RenderCopy|RenderFill|RenderDraw|RenderGeometry|RenderClear|RenderPresent)'; then
+    printf 'only ui/gui draws and changes textures\n'
+    bad=1
+fi
+exit $bad
