@@ -111,27 +111,36 @@ static inline void squares(const WrCapsule *c, double x, double *restrict ex2)
 
 /* Blocks of texels some of which lie between the radii. */
 #if defined __AVX512F__ && defined __AVX512VL__
-/* The same as below in whole vectors of doubles, of which compilers take two halves. */
-static inline void raise_edge(const WrCapsule *c, const double *restrict ex2, double ey2,
-                              double strength, float *restrict heights, int from, int to)
+/* The same as below in whole vectors of doubles, of which compilers take two halves. full: the pressure is 1. Beyond the
+ * radius s is below 0 rather than cut to it: nothing of such a texel is stored. 2 s is exact, so the sum with 3 may take it as
+ * a product. */
+static inline __attribute__((always_inline)) void
+raise_edge_by(bool full, const WrCapsule *c, const double *restrict ex2, double ey2,
+              double strength, float *restrict heights, int from, int to)
 {
     const __m512d radius = _mm512_set1_pd(c->radius), inverse = _mm512_set1_pd(c->inverse_edge);
-    const __m512d most = _mm512_set1_pd(c->radius2), least = _mm512_set1_pd(c->inner2);
+    const __m512d least = _mm512_set1_pd(c->inner2), two = _mm512_set1_pd(2.0);
     const __m512d pressure = _mm512_set1_pd(c->pressure), by = _mm512_set1_pd(strength);
     const __m512d row = _mm512_set1_pd(ey2), three = _mm512_set1_pd(3.0);
     for (int b = from; b < to; b += WR_DAB_BLOCK) {
-        __m512d d2 = _mm512_add_pd(_mm512_loadu_pd(ex2 + b), row);
-        d2 = _mm512_max_pd(_mm512_min_pd(d2, most), least);
-        __m512d s = _mm512_mul_pd(_mm512_sub_pd(radius, _mm512_sqrt_pd(d2)), inverse);
-        __m512d smooth = _mm512_sub_pd(three, _mm512_add_pd(s, s));
-        smooth = _mm512_mul_pd(_mm512_mul_pd(s, s), smooth);
-        __m256 cover = _mm512_cvtpd_ps(_mm512_mul_pd(pressure, smooth));
-        __m256 start = _mm256_loadu_ps(heights + b);
-        __mmask8 any = _mm256_cmp_ps_mask(cover, _mm256_setzero_ps(), _CMP_GT_OQ);
-        __m512d made = _mm512_mul_pd(by, _mm512_cvtps_pd(cover));
-        made = _mm512_add_pd(_mm512_cvtps_pd(start), made);
-        _mm256_storeu_ps(heights + b, _mm256_mask_mov_ps(start, any, _mm512_cvtpd_ps(made)));
+        const __m512d d2 = _mm512_max_pd(_mm512_add_pd(_mm512_loadu_pd(ex2 + b), row), least);
+        const __m512d s = _mm512_mul_pd(_mm512_sub_pd(radius, _mm512_sqrt_pd(d2)), inverse);
+        __m512d smooth = _mm512_mul_pd(_mm512_mul_pd(s, s), _mm512_fnmadd_pd(two, s, three));
+        if (!full) smooth = _mm512_mul_pd(pressure, smooth);
+        const __m256 cover = _mm512_cvtpd_ps(smooth), start = _mm256_loadu_ps(heights + b);
+        __mmask8 any = _mm512_cmp_pd_mask(s, _mm512_setzero_pd(), _CMP_GT_OQ);
+        if (!full) any &= _mm256_cmp_ps_mask(cover, _mm256_setzero_ps(), _CMP_GT_OQ);
+        const __m512d made =
+            _mm512_add_pd(_mm512_cvtps_pd(start), _mm512_mul_pd(by, _mm512_cvtps_pd(cover)));
+        _mm256_mask_storeu_ps(heights + b, any, _mm512_cvtpd_ps(made));
     }
+}
+
+static inline void raise_edge(const WrCapsule *c, const double *restrict ex2, double ey2,
+                              double strength, float *restrict heights, int from, int to)
+{
+    if (c->pressure == 1.0) raise_edge_by(true, c, ex2, ey2, strength, heights, from, to);
+    else raise_edge_by(false, c, ex2, ey2, strength, heights, from, to);
 }
 #else
 static inline void raise_edge(const WrCapsule *c, const double *restrict ex2, double ey2,
@@ -152,6 +161,15 @@ static inline void raise_some(const WrCapsule *c, const double *ex2, double ey2,
 {
     for (int i = from; i < to; i++)
         heights[i] = raised(strength, heights[i], (float)(c->pressure * profile(c, ex2[i] + ey2)));
+}
+
+/* Where the summand is a float, the sum of floats is the sum in double rounded to one: a double's 53 bits are twice a
+ * float's 24 and more. */
+static inline void raise_by_float(float by, float *restrict heights, int from, int to)
+{
+    for (int b = from; b < to; b += WR_DAB_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_DAB_BLOCK; i++) heights[i] += by;
 }
 
 /* Whole blocks of equal coverage. */
@@ -199,7 +217,8 @@ static void dab_tile(const WrCapsule *capsule, const WrDabPart *part, double str
         flat_high = (flat_high < high ? flat_high : high) & -B;
         if (!(c.most > 0.0f) || flat_low >= flat_high) flat_low = flat_high = high;
         raise_edge(&c, ex2, ey2, strength, heights, low, flat_low);
-        raise_by(by, heights, flat_low, flat_high);
+        if (by == (double)(float)by) raise_by_float((float)by, heights, flat_low, flat_high);
+        else raise_by(by, heights, flat_low, flat_high);
         raise_edge(&c, ex2, ey2, strength, heights, flat_high, high);
     }
 }
