@@ -18,9 +18,12 @@ folder=$(mktemp -d) || exit 1
 source "$source/tests/window_help.sh"
 
 WR_TEST_SCREEN=$size serve
+# A window that is mapped while a manager starts may never be told that it is.
+is_managed() { xprop -root _NET_SUPPORTING_WM_CHECK 2>/dev/null | grep -q 0x; }
 if [[ -n $manager ]]; then
     "$manager" >manager.log 2>&1 &
     server="$server $!"
+    until_true 60 "the window manager" is_managed
 fi
 printf '%s\n' "width ${size%x*}" "height ${size#*x}" "scale $scale" "theme $theme" 'turning 0' 'ants 0' 'radius 20' \
     'strength 0.5' 'mode 0' >config/wrinkle/window.conf
