@@ -59,7 +59,10 @@ static float farthest(int k, WrTilePart whole, const WrTileScratch *scratch)
 {
     float depth = -INFINITY;
     for (int y = 0; y < whole.h * k; y++) {
-        for (int x = 0; x < whole.w * k; x++) depth = fmaxf(depth, scratch->nearest[y][x].depth);
+        for (int x = 0; x < whole.w * k; x++) {
+            const float deep = scratch->nearest[y][x].depth;
+            depth = deep > depth ? deep : depth;
+        }
         if (depth == INFINITY) break;
     }
     return depth;
