@@ -57,6 +57,7 @@ void wr_renderer_forget(WrRenderer *renderer)
     wr_triangles_free(renderer->square);
     renderer->square = NULL;
     wr_sight_fini(&renderer->sight);
+    wr_knots_fini(&renderer->knots);
     wr_cast_body_fini(&renderer->body);
     wr_steady_fini(&renderer->own_steady);
 }
@@ -193,6 +194,7 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     job.wide_codes = wr_wide_codes_of(job.kernels);
     job.balls = renderer->balls;
     wr_pipe_wide(&job);
+    wr_frame_tie(renderer, &job);
     return job;
 }
 

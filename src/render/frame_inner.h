@@ -8,6 +8,7 @@
 #include "render/cast.h"
 #include "render/frame.h"
 #include "render/keep.h"
+#include "render/knots.h"
 #include "render/grades.h"
 #include "render/mirror.h"
 #include "render/pyramid.h"
@@ -53,6 +54,7 @@ struct WrRenderer {
     WrCastBody body; /* of the object, as it throws shadows */
     WrCast cast;     /* what can hide lamps from it */
     WrFrames frames;
+    WrKnots knots;                /* of `mesh`, if they are known */
     WrSight sight;                /* of the last view that rested */
     WrSteady own_steady, *steady; /* of one that rests but for its light: its own, or its group's */
     WrTileScratch **scratch;      /* [threads], made on first use */
@@ -157,6 +159,10 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
 /* All grids but one, which may be NULL. */
 void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but);
 /* The triangles that the scene shows; the renderer's, or the scene's. */
+/* Do the frame's tiles go by where the view sees one sheet of the mesh (knots.h), if there is memory? */
+bool wr_frame_ties(const WrRenderer *renderer);
+/* Bring that, and let the job go by it. */
+void wr_frame_tie(WrRenderer *renderer, WrTileJob *job);
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene);
 /* What can hide lamps from each of `count` objects, those of a picture, each with its renderer. Errors: as wr_cast_prepare. */
 bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,

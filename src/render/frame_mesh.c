@@ -5,6 +5,7 @@
 #include "field/field.h"
 #include "field/scheme.h"
 #include "render/frame_inner.h"
+#include "render/pipe.h"
 #include "render/raised.h"
 #include "scene/scene.h"
 #include "surface/patches.h"
@@ -53,6 +54,34 @@ static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
     if (renderer->mesh)
         wr_view_mesh_prepare(renderer->mesh, &scene->shape, &renderer->view, &ask, kernels,
                              renderer->pool);
+}
+
+#define TIED_MOST (1 << 26) /* samples */
+
+bool wr_frame_ties(const WrRenderer *renderer)
+{
+    const WrPlan *plan = &renderer->plan;
+    const WrView *view = &renderer->view;
+    const bool even = plan->sampling == WR_SAMPLING_ONE ||
+                      (plan->sampling == WR_SAMPLING_ALL && plan->spread != WR_SPREAD_JITTERED);
+    return renderer->mesh && wr_wide_of(renderer->kernels) && even && plan->newton < 0 &&
+           !plan->shading_double && !view->endless &&
+           (int64_t)view->grid_w * view->grid_h <= TIED_MOST;
+}
+
+void wr_frame_tie(WrRenderer *renderer, WrTileJob *job)
+{
+    const int k = renderer->view.samples;
+    if (job->steady || !wr_frame_ties(renderer)) return;
+    const WrKnotsAsk ask = { .kernels = job->kernels,
+                             .wide = job->wide,
+                             .sheet = job->wide_newton ? &job->sheet : NULL,
+                             .newton = wr_pipe_newton(job),
+                             .first = renderer->top * k,
+                             .rows = renderer->rows * k };
+    if (wr_knots_bring(&renderer->knots, job->mesh, &renderer->view, &ask, renderer->pool))
+        job->knots = &renderer->knots;
+    else job->seen_before = false; /* what was noted is not all */
 }
 
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene)

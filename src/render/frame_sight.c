@@ -82,6 +82,7 @@ static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrH
     const WrTileJob job = { .plan = plan, .scene = renderer->scene };
     wr_sight_key(&key, renderer->mesh, &renderer->view, wr_tile_exact(&job), renderer->kernels);
     key.beside = beside;
+    key.tied = wr_frame_ties(renderer);
     if (wr_sight_bring(&renderer->sight, &key)) return true;
     renderer->sighting = renderer->sight.u != NULL && anew;
     return false;

@@ -28,6 +28,24 @@ bool wr_wide_sheet(WrSurfaceKind kind, const WrShapef *shape, WrWideSheet *sheet
 /* What comes of the light: red, which tells green and blue, too; all channels; u, v and what `paint` asks for. */
 typedef enum WrWidePaint { WR_WIDE_RED, WR_WIDE_ALL, WR_WIDE_LATER } WrWidePaint;
 
+/* Where a block of 8 x 8 samples lies among four by four knots, which are `across` a row: from knot `column`, `row` on;
+   `pitch`: samples from row to row of what it is written to. */
+typedef struct WrWideKnots {
+    int across, column, row, pitch;
+} WrWideKnots;
+
+/* Numbers of knots: u, v, P, Pu, Pv. */
+#define WR_KNOT_NUMBERS 11
+
+/* A row of samples between knots: their numbers, `plane` apart from one to the next, `across` a row, from the knot above and left of
+   the first sample's block on; `down` and `skip` samples from its corner. x, y: the sample's place. */
+typedef struct WrWideRow {
+    const float *numbers;
+    size_t plane;
+    int across, down, skip;
+    float x, y;
+} WrWideRow;
+
 typedef struct WrWide {
     /* Is its highlight such as these are for? */
     bool (*narrow)(const WrKernLight *light, const WrKernShine *shine);
@@ -75,6 +93,10 @@ typedef struct WrWide {
     bool (*cross)(float noise, WrStrip *strip);
     /* As WrKernels.bump[WR_BUMP_BLINN]; false: a slope is too steep for this. */
     bool (*blinn)(const WrRays *rays, WrStrip *strip);
+    /* A parameter at the samples of a block (knots.h), from the first of its knots; closed: it goes round. */
+    void (*between)(const float *knot, const WrWideKnots *how, bool closed, float *out);
+    /* All numbers of `count` samples of a row, from place `at` of the strip on. */
+    void (*sheet_row)(const WrWideRow *row, int count, int at, WrStrip *strip);
 } WrWide;
 
 extern const WrWide wr_wide_v3, wr_wide_v4; /* empty where the processor is another */

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/pool.h"
+#include "render/knots.h"
 #include "render/raster.h"
 #include "base/vec.h"
 
@@ -79,7 +80,7 @@ static void choose_cells(const WrViewMesh *mesh, const WrShape *shape, const WrV
 {
     const double tolerance = 0.25 * view->samples; /* a quarter of a pixel, in samples */
     double k = view->scale * samples_per_unit(view, shape) / (8.0 * tolerance);
-    const int most = 2048; /* a ribbon of sixty turns takes 1500 along it (HC164) ... */
+    const int most = WR_MESH_MOST; /* a ribbon of sixty turns takes 1500 along it (HC164) ... */
     double u = fmin(sqrt(2.0 * k * (mesh->uu + mesh->uv)), most);
     double v = fmin(sqrt(2.0 * k * (mesh->vv + mesh->uv)), most);
     const double over = fmax(1.0, sqrt(u * v / (512.0 * 512.0))); /* ... but not both ways */
@@ -272,6 +273,7 @@ static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int
 typedef struct Block {
     const WrViewMesh *mesh;
     const WrView *view;
+    const WrKnots *knots;  /* or NULL */
     WrRasterBounds bounds; /* of the tile */
     bool culls; /* what looks away is known before vertices are brought to the tile's grid */
     bool mirrored;
@@ -337,6 +339,20 @@ static void raster_cell(const Block *block, size_t at, int i, int j, WrDepthTile
     raster_clipped(block->mesh, block->view, two, tile);
 }
 
+/* Is the cell between four vertices told by knots? */
+static bool is_tied(const Block *block, size_t at)
+{
+    const int32_t *x = block->mesh->sx + at, *y = block->mesh->sy + at;
+    const size_t low = (size_t)block->mesh->mu + 1, of[4] = { 0, 1, low, low + 1 };
+    int32_t x0 = x[0], y0 = y[0], x1 = x[0], y1 = y[0];
+    if (!block->knots) return false;
+    for (int k = 1; k < 4; k++) {
+        x0 = x[of[k]] < x0 ? x[of[k]] : x0, x1 = x[of[k]] > x1 ? x[of[k]] : x1;
+        y0 = y[of[k]] < y0 ? y[of[k]] : y0, y1 = y[of[k]] > y1 ? y[of[k]] : y1;
+    }
+    return !wr_knots_deep(block->knots, x0, y0, x1, y1);
+}
+
 /* What of block b may meet the tile: cells whose corners do not all lie beyond the same side of it. */
 static void raster_block(Block *block, int b, WrDepthTile *tile)
 {
@@ -351,20 +367,31 @@ static void raster_block(Block *block, int b, WrDepthTile *tile)
         const unsigned char *here = sides[j % 2], *over = sides[(j + 1) % 2];
         find_sides(block, at, sides[j % 2]);
         for (int i = 0; i < WR_MESH_BLOCK && j > 0; i++)
-            if (!(over[i] & over[i + 1] & here[i] & here[i + 1]))
+            if (!(over[i] & over[i + 1] & here[i] & here[i + 1]) &&
+                !is_tied(block, at - pitch + (size_t)i))
                 raster_cell(block, at - pitch + (size_t)i, i0 + i, j0 + j - 1, tile);
     }
 }
 
+/* Does a block of cells meet what knots do not tell? */
+static bool is_deep(const WrKnots *knots, const WrViewMeshBlock *b)
+{
+    return !knots || wr_knots_deep(knots, b->x0, b->y0, b->x1, b->y1);
+}
+
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile)
 {
+    const WrKnots *knots = tile->knots;
     const bool own_grid = tile->k <= 0 || tile->k == view->samples;
     Block block = { .mesh = mesh,
                     .view = view,
+                    .knots = knots,
                     .bounds = wr_raster_bounds(tile, view->samples),
                     .culls = view->cull && own_grid,
                     .mirrored = view->stretch[0] * view->stretch[1] * view->stretch[2] < 0 };
     for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
+    if (knots && !tile->deep) return;
     for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++)
-        if (wr_raster_meets(&mesh->blocks[b], &block.bounds)) raster_block(&block, b, tile);
+        if (wr_raster_meets(&mesh->blocks[b], &block.bounds) && is_deep(knots, &mesh->blocks[b]))
+            raster_block(&block, b, tile);
 }

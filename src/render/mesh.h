@@ -8,9 +8,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+typedef struct WrKnots WrKnots;
 typedef struct WrPool WrPool;
 
-#define WR_MESH_BLOCK 8 /* cells along a block's side */
+#define WR_MESH_BLOCK 8   /* cells along a block's side */
+#define WR_MESH_MOST 2048 /* cells along u, and along v, at most */
 
 typedef struct WrViewMeshBlock { /* bounds of a block's vertices, 1/256 samples */
     int32_t x0, y0, x1, y1;
@@ -60,6 +62,8 @@ typedef struct WrDepthTile {
     int k;
     const signed char *shift; /* [h][w][2], x and y in 1/256 samples; NULL: none is shifted */
     const WrKernels *kernels; /* that cover it */
+    const WrKnots *knots;     /* that tell some of its samples (knots.h); or NULL */
+    bool untold, deep;        /* ... and not others; of those some go through the depth buffer */
 } WrDepthTile;
 
 /* What the scene asks of the mesh. */
@@ -76,7 +80,7 @@ void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *
                           const WrMeshAsk *ask, const WrKernels *kernels, WrPool *pool);
 void wr_view_mesh_fini(WrViewMesh *mesh);
 /* Rasterise what falls on the tile. Watertight: neighbouring cells share edges in whole numbers with a
-   top-left rule (HC85); of equal depths the first cell stays. */
+   top-left rule (HC85); of equal depths the first cell stays. Only what the tile's knots do not tell. */
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile);
 /* Samples of the view's grid, x0, y0, x1, y1, beyond which nothing of the mesh that meets the tile lies; false where
    nothing does. */

@@ -6,6 +6,7 @@
 #include "field/horizon.h"
 #include "render/cast.h"
 #include "render/kern_wide.h"
+#include "render/knots.h"
 #include "render/pyramid.h"
 #include "render/relief.h"
 #include "render/tile_inner.h"

@@ -24,6 +24,8 @@ extern const WrPipe wr_pipe, wr_pipe_double;
 
 /* What of the job the kernels of several stages at once (kern_wide.h) are for: fills wide_sphere, wide_met, grey. */
 void wr_pipe_wide(WrTileJob *job);
+/* How samples of the job's mesh are solved. */
+WrNewton wr_pipe_newton(const WrTileJob *job);
 
 /* Refine a tile by dials.h's rule: a first sample at each centre, then k x k where it is called for. */
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch);

@@ -346,6 +346,8 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
         return;
     }
     if (job->mesh) {
+        if (tied_places(job, tile, places, strip, &watch))
+            finish_strip(job, rays, -1, sink, scratch, &watch);
         if (job->seen_before) recall_mesh(job, rays, tile, places, strip, &watch);
         else locate_mesh(job, rays, tile, places, strip, &watch);
         finish_strip(job, rays, -1, sink, scratch, &watch);
@@ -424,6 +426,8 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
         return;
     }
     if (job->mesh) {
+        if (tied_row(job, tile, y, strip, &watch))
+            finish_strip(job, rays, -1, sink, scratch, &watch);
         if (job->seen_before) recall_row(job, rays, tile, y, strip, &watch);
         else locate_row(job, rays, tile, y, strip, &watch);
         finish_strip(job, rays, -1, sink, scratch, &watch);

@@ -17,6 +17,11 @@ static WR_T(WrNewton) newton_of(const WrTileJob *job)
 }
 
 #ifdef HAS_WIDE
+WrNewton wr_pipe_newton(const WrTileJob *job)
+{
+    return newton_of(job);
+}
+
 /* In vectors written by hand. False: the stages do it. */
 static bool solved_wide(const WrTileJob *job, const Rays *rays, const WrNewton *how, bool resumes,
                         Strip *strip)
@@ -58,6 +63,75 @@ static void resume(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *
     watch_lap(watch, WR_STAGE_NEWTON);
 }
 
+#ifdef HAS_WIDE
+/* Neighbours of a row that knots alone tell, from (x, y) of the grid on, to the strip's end. */
+static void add_tied(const WrTileJob *job, const WrDepthTile *tile, int x, int y, int count,
+                     int index, Strip *strip)
+{
+    int *restrict to = strip->index + strip->count;
+    wr_knots_row(tile->knots, job->wide, x, y, count, strip->count, strip);
+#pragma omp simd
+    for (int i = 0; i < count; i++) to[i] = index + i;
+    strip->count += count;
+}
+
+static bool met_tied(Strip *strip, Watch *watch)
+{
+    if (strip->count > 0) did(watch, WR_EFFECT_NEWTON); /* of knots */
+    watch_lap(watch, WR_STAGE_VISIBILITY);
+    return strip->count > 0;
+}
+
+/* Those of row y of the tile; false: there are none. */
+static bool tied_row(const WrTileJob *job, const WrDepthTile *tile, int y, Strip *strip,
+                     Watch *watch)
+{
+    const int gy = tile->y + y, end = tile->x + tile->w;
+    strip->count = 0;
+    for (int x = tile->x, to; x < end && tile->knots; x = to) {
+        const bool sheet = wr_knots_at(tile->knots, x, gy) == WR_KNOTS_SHEET;
+        for (to = x - x % WR_KNOT + WR_KNOT; to < end; to += WR_KNOT)
+            if ((wr_knots_at(tile->knots, to, gy) == WR_KNOTS_SHEET) != sheet) break;
+        to = to < end ? to : end;
+        if (sheet) add_tied(job, tile, x, gy, to - x, x - tile->x, strip);
+    }
+    return met_tied(strip, watch);
+}
+
+/* The same of the scatter. */
+static bool tied_places(const WrTileJob *job, const WrDepthTile *tile, const WrScatter *places,
+                        Strip *strip, Watch *watch)
+{
+    strip->count = 0;
+    for (int i = 0, to; i < places->count && tile->knots; i = to) {
+        const int cell = places->cell[i], x = tile->x + cell % tile->w;
+        const int gy = tile->y + cell / tile->w, left = tile->w - cell % tile->w;
+        const bool sheet = wr_knots_at(tile->knots, x, gy) == WR_KNOTS_SHEET;
+        for (to = i + 1; to < places->count && to < i + left; to++) {
+            const int on = x + to - i;
+            if (places->cell[to] != cell + to - i) break;
+            if ((wr_knots_at(tile->knots, on, gy) == WR_KNOTS_SHEET) != sheet) break;
+        }
+        if (sheet) add_tied(job, tile, x, gy, to - i, i, strip);
+    }
+    return met_tied(strip, watch);
+}
+#else
+static bool tied_row(const WrTileJob *job, const WrDepthTile *tile, int y, const Strip *strip,
+                     const Watch *watch)
+{
+    (void)job, (void)tile, (void)y, (void)strip, (void)watch;
+    return false;
+}
+
+static bool tied_places(const WrTileJob *job, const WrDepthTile *tile, const WrScatter *places,
+                        const Strip *strip, const Watch *watch)
+{
+    (void)job, (void)tile, (void)places, (void)strip, (void)watch;
+    return false;
+}
+#endif
+
 /* Where a tile's cell is noted. */
 static size_t note_at(const WrTileJob *job, const WrDepthTile *tile, int cell)
 {
@@ -71,6 +145,12 @@ static void note(const WrTileJob *job, size_t at, const Strip *strip, int i)
     job->sight->v[at] = (float)strip->ry[i];
 }
 
+/* Do knots alone tell all of the tile? */
+static bool is_told(const WrDepthTile *tile)
+{
+    return tile->knots && !tile->untold;
+}
+
 /* The samples of the scatter that the mesh covers. */
 static void locate_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile,
                         const WrScatter *places, Strip *strip, Watch *watch)
@@ -79,7 +159,7 @@ static void locate_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTil
     for (int i = 0; i < places->count; i++) {
         int cell = places->cell[i];
         if (job->sight) job->sight->u[note_at(job, tile, cell)] = WR_SIGHT_NONE;
-        if (tile->close[cell] == -FLT_MAX) continue;
+        if (is_told(tile) || tile->close[cell] == -FLT_MAX) continue;
         strip->index[count] = i;
         strip->x[count] = (REAL)places->x[i];
         strip->y[count] = (REAL)places->y[i];
@@ -118,8 +198,10 @@ static void locate_row(const WrTileJob *job, const Rays *rays, const WrDepthTile
 {
     const size_t at = (size_t)y * (size_t)tile->w;
     const size_t noted = job->sight ? wr_tile_place(job, tile->x, tile->y + y) : 0;
-    KERNELS_OF(job)->covered(tile->close + at, tile->u + at, tile->v + at, (REAL)tile->x,
-                             (REAL)(tile->y + y), tile->w, strip);
+    strip->count = 0;
+    if (!is_told(tile))
+        KERNELS_OF(job)->covered(tile->close + at, tile->u + at, tile->v + at, (REAL)tile->x,
+                                 (REAL)(tile->y + y), tile->w, strip);
     polish(job, rays, strip, watch);
     if (!job->sight) return;
     for (int x = 0; x < tile->w; x++) job->sight->u[noted + (size_t)x] = WR_SIGHT_NONE;

@@ -17,6 +17,7 @@ typedef struct WrSightKey {
     int mu, mv;        /* the mesh's cells */
     int width, height; /* pixels */
     bool cull, exact;  /* exact: Newton's last step is evaluated too */
+    bool tied;         /* what knots alone tell is not noted */
     const WrKernels *kernels;
     WrHash
         beside; /* of what else is drawn, which may hide it: what is hidden is not noted. 0: it is alone */

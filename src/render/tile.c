@@ -1,6 +1,7 @@
 #include "render/tile.h"
 #include "base/hash.h"
 #include "render/frame.h"
+#include "render/knots.h"
 #include "render/pipe.h"
 #include "render/tile_inner.h"
 #include "system/clock.h"
@@ -54,9 +55,11 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
                          .k = k,
                          .kernels = job->kernels };
     if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) wr_tile_jitter(&tile, k, scratch->shift);
+    if (job->knots && k == job->view->samples && !tile.shift) wr_knots_tell(job->knots, &tile);
     if (job->mesh && !job->seen_before && !job->steady) {
         double start = wr_clock_seconds();
-        wr_view_mesh_raster(job->mesh, job->view, &tile);
+        if (!tile.knots || tile.untold) wr_view_mesh_raster(job->mesh, job->view, &tile);
+        if (tile.untold) wr_knots_fill(tile.knots, job->wide, &tile);
         wr_did(scratch, WR_EFFECT_DEPTH);
         scratch->whole[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
     }

@@ -73,6 +73,7 @@ typedef struct WrTileJob {
     bool wide_met;                 /* where rays meet a sphere is asked of them */
     bool wide_newton;              /* (u,v) of a mesh's samples are */
     WrWideSheet sheet;             /* of what */
+    const WrKnots *knots;          /* of the mesh; or NULL */
     bool grey;                     /* red, green and blue of all samples are the same */
     double cast_unit;              /* kernel units -> those of the object */
     WrParallax parallax;           /* read where the plan runs that */

@@ -1,0 +1,251 @@
+#include "render/knots_inner.h"
+
+#include "base/memory.h"
+#include "base/pool.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define BEND 0.25f /* third differences of knots over first ones, at most */
+#define EVEN 0.02f /* fourth differences likewise: off by 3/128 of 8 samples times that, each way */
+#define SPARE 16   /* numbers that vectors read beyond the last */
+
+void wr_knots_fini(WrKnots *knots)
+{
+    wr_free(knots->numbers);
+    wr_free(knots->even);
+    wr_free(knots->count);
+    wr_free(knots->crossed);
+    wr_free(knots->place);
+    *knots = (WrKnots){ 0 };
+}
+
+/* Memory for so many, empty. */
+static bool make_room(WrKnots *knots, int across, int down)
+{
+    const size_t all = (size_t)across * (size_t)down;
+    if (!knots->numbers || knots->across != across || knots->down != down) {
+        wr_knots_fini(knots);
+        knots->numbers =
+            wr_try_alloc(WR_KNOT_NUMBERS * all + SPARE, sizeof *knots->numbers, "knots", NULL);
+        knots->even = wr_try_alloc(all, 1, "knots", NULL);
+        knots->count = wr_try_alloc(all, 1, "knots", NULL);
+        knots->crossed = wr_try_alloc(all, 1, "knots", NULL);
+        knots->place = wr_try_alloc(all, 1, "knots", NULL);
+    }
+    if (!knots->numbers || !knots->even || !knots->count || !knots->crossed || !knots->place)
+        return false;
+    knots->u = knots->numbers, knots->v = knots->numbers + all;
+    memset(knots->numbers, 0, (WR_KNOT_NUMBERS * all + SPARE) * sizeof *knots->numbers);
+    memset(knots->count, 0, all);
+    memset(knots->crossed, 0, all);
+    knots->across = across, knots->down = down;
+    return true;
+}
+
+/* ---- knots and blocks ---- */
+
+static void solve_some(const WrKnotsJob *job, WrStrip *strip)
+{
+    const WrKnotsAsk *ask = job->ask;
+    const WrView *view = job->view;
+    if (strip->count == 0) return;
+    WrNewton how = ask->newton;
+    how.last *= 0.125f, how.steps++;
+    if (ask->sheet) ask->wide->newton(ask->sheet, job->rays, &how, false, strip);
+    else ask->kernels->polish[view->shape_d.kind](job->rays, &view->shape, &how, strip);
+}
+
+static void keep_numbers(WrKnots *knots, size_t row, const WrStrip *strip)
+{
+    const float *const from[WR_KNOT_NUMBERS] = { strip->u,   strip->v,   strip->px,  strip->py,
+                                                 strip->pz,  strip->pux, strip->puy, strip->puz,
+                                                 strip->pvx, strip->pvy, strip->pvz };
+    const size_t plane = (size_t)knots->across * (size_t)knots->down;
+    for (size_t k = 0; k < WR_KNOT_NUMBERS; k++)
+        for (int i = 0; i < strip->count; i++)
+            knots->numbers[k * plane + row + (size_t)strip->index[i]] = from[k][i];
+}
+
+/* By Newton's method, those that one triangle covers. */
+static void solve_row(int y, int worker, void *ctx)
+{
+    const WrKnotsJob *job = ctx;
+    WrKnots *knots = job->knots;
+    WrStrip *strip = &job->strips[worker];
+    const size_t row = (size_t)y * (size_t)knots->across;
+    for (int x = 0; x < knots->across;) {
+        for (strip->count = 0; x < knots->across && strip->count < WR_SPAN; x++) {
+            const size_t at = row + (size_t)x;
+            if (knots->count[at] != 1) continue;
+            strip->index[strip->count] = x;
+            strip->x[strip->count] = (float)((x - WR_KNOTS_AROUND) * WR_KNOT);
+            strip->y[strip->count] = (float)((y + knots->top) * WR_KNOT);
+            strip->u[strip->count] = knots->u[at];
+            strip->v[strip->count++] = knots->v[at];
+        }
+        solve_some(job, strip);
+        keep_numbers(knots, row, strip);
+    }
+}
+
+/* From a to b, the short way round. */
+static inline float way(float a, float b, bool closed)
+{
+    const float d = b - a;
+    const float turn = d > 0.5f ? d - 1.0f : d < -0.5f ? d + 1.0f : d;
+    return closed ? turn : d;
+}
+
+/* Of the block at a knot, beside evenness_both's bits: it shows one sheet. */
+#define SINGLE 16
+
+/* Of five knots: do the first four bend gently enough for a cubic to guess by, 1, and all hardly at all, 2? `across`: what a step the other way changes. */
+static inline int evenness(const float at[5], float across, bool closed)
+{
+    const float a = way(at[0], at[1], closed), b = way(at[1], at[2], closed);
+    const float c = way(at[2], at[3], closed), d = way(at[3], at[4], closed);
+    const float by = fabsf(b) + fabsf(across), third = a - 2 * b + c, fourth = b - 2 * c + d;
+    const bool jumps = closed && fabsf(at[4] - at[0]) + fabsf(at[2] - at[1]) > 0.5f;
+    const int gentle = fabsf(third) < BEND * by ? 1 : 0;
+    return gentle | (!jumps && fabsf(fourth - third) < EVEN * by ? 2 : 0);
+}
+
+/* Of a parameter's knots along both axes: bits 0 and 1 along x, 2 and 3 along y. */
+static inline int evenness_both(const float *at, const size_t row[5], bool closed)
+{
+    const float x[5] = { at[0], at[1], at[2], at[3], at[4] };
+    const float y[5] = { at[row[0]], at[row[1]], at[row[2]], at[row[3]], at[row[4]] };
+    return evenness(x, way(at[1], at[row[1] + 1], closed), closed) |
+           evenness(y, way(at[row[1]], at[row[1] + 1], closed), closed) << 2;
+}
+
+/* How evenly the knots right of each knot of a row lie, and those below; beyond the last it says nothing. */
+static void even_row(int y, int worker, void *ctx)
+{
+    (void)worker;
+    const WrKnotsJob *job = ctx;
+    WrKnots *k = job->knots;
+    const size_t across = (size_t)k->across, start = (size_t)y * across;
+    const size_t last = (size_t)(k->down - 1 - y) * across;
+    size_t row[5];
+    for (size_t i = 0; i < 5; i++) row[i] = i * across < last ? i * across : last;
+    for (size_t x = start; x < start + across; x++) {
+        k->even[x] = 0;
+        if (k->count[x] != 1) continue;
+        k->even[x] = (unsigned char)(evenness_both(k->u + x, row, k->closed_u) &
+                                     evenness_both(k->v + x, row, k->closed_v));
+        if (!k->crossed[x]) k->even[x] |= SINGLE;
+    }
+}
+
+/* Are all of four knots, `step` apart, that even? */
+static bool are_even(const unsigned char *even, size_t step, int bit)
+{
+    return even[0] & even[step] & even[2 * step] & even[3 * step] & bit;
+}
+
+/* May the four by four knots from there on be gone by? */
+static bool is_smooth(const WrKnots *k, int x, int y)
+{
+    const size_t across = (size_t)k->across;
+    const unsigned char *even = k->even + (size_t)y * across + (size_t)x;
+    return are_even(even, across, 1) && are_even(even, 1, 4);
+}
+
+/* And is it enough for the block in their middle? */
+static bool is_even(const WrKnots *k, int x, int y)
+{
+    const size_t across = (size_t)k->across;
+    if (x < 1 || y < 1 || x + 4 >= k->across || y + 4 >= k->down) return false;
+    const unsigned char *even = k->even + (size_t)y * across + (size_t)x;
+    return are_even(even, across, 2) && are_even(even - 1, across, 2) && are_even(even, 1, 8) &&
+           are_even(even - across, 1, 8);
+}
+
+/* Three by three blocks from there on, each of one sheet. */
+static bool are_single(const WrKnots *k, int x, int y)
+{
+    const size_t across = (size_t)k->across;
+    if (x < 0 || y < 0 || x + 3 >= k->across || y + 3 >= k->down) return false;
+    const unsigned char *a = k->even + (size_t)y * across + (size_t)x, *b = a + across;
+    const unsigned char *c = b + across;
+    return a[0] & a[1] & a[2] & b[0] & b[1] & b[2] & c[0] & c[1] & c[2] & SINGLE;
+}
+
+static unsigned char place_of(const WrKnotsJob *job, int x, int y)
+{
+    const WrKnots *k = job->knots;
+    static const unsigned char shifts[] = { 4, 1, 3, 5, 7, 0, 2, 6, 8 };
+    const size_t at = (size_t)y * (size_t)k->across + (size_t)x;
+    if (k->crossed[at]) return WR_KNOTS_DEPTH;
+    if (k->count[at] != 1) return k->count[at] ? WR_KNOTS_DEPTH : WR_KNOTS_NOTHING;
+    if (job->ask->sheet && are_single(k, x - 1, y - 1) && is_even(k, x - 1, y - 1))
+        return WR_KNOTS_SHEET;
+    for (int i = 0; i < 9; i++)
+        if (are_single(k, x - shifts[i] % 3, y - shifts[i] / 3) &&
+            is_smooth(k, x - shifts[i] % 3, y - shifts[i] / 3))
+            return (unsigned char)(WR_KNOTS_BETWEEN + shifts[i]);
+    return WR_KNOTS_DEPTH;
+}
+
+static void place_row(int y, int worker, void *ctx)
+{
+    (void)worker;
+    const WrKnotsJob *job = ctx;
+    WrKnots *knots = job->knots;
+    unsigned char *place = knots->place + (size_t)y * (size_t)knots->across;
+    for (int x = 0; x < knots->across; x++) place[x] = place_of(job, x, y);
+}
+
+static void fill_key(const WrViewMesh *mesh, const WrView *view, const WrKnotsAsk *ask,
+                     WrKnotsKey *key)
+{
+    memset(key, 0, sizeof *key); /* padding too: keys are compared as bytes */
+    memcpy(&key->sight, &mesh->sight, sizeof key->sight);
+    memcpy(&key->shape, &mesh->shape, sizeof key->shape);
+    memcpy(&key->newton, &ask->newton, sizeof key->newton);
+    key->mu = mesh->mu, key->mv = mesh->mv, key->grid_w = view->grid_w;
+    key->first = ask->first, key->rows = ask->rows;
+    key->cull = view->cull;
+    key->kernels = ask->kernels;
+}
+
+/* All of them. */
+static bool tie(WrKnotsJob *job, WrPool *pool)
+{
+    WrKnots *knots = job->knots;
+    if (!wr_pool_run(pool, job->mesh->blocks_v, wr_knots_meet_rows, job) || job->behind)
+        return false;
+    return wr_pool_run(pool, knots->down, solve_row, job) &&
+           wr_pool_run(pool, knots->down, even_row, job) &&
+           wr_pool_run(pool, knots->down, place_row, job);
+}
+
+bool wr_knots_bring(WrKnots *knots, const WrViewMesh *mesh, const WrView *view,
+                    const WrKnotsAsk *ask, WrPool *pool)
+{
+    WrKnotsKey key;
+    fill_key(mesh, view, ask, &key);
+    if (knots->known && memcmp(&knots->key, &key, sizeof key) == 0) return true;
+    const int last = (ask->first + ask->rows - 1) / WR_KNOT + 1;
+    knots->known = false;
+    knots->top = ask->first / WR_KNOT - WR_KNOTS_AROUND;
+    if (!make_room(knots, (view->grid_w - 1) / WR_KNOT + 2 + 2 * WR_KNOTS_AROUND,
+                   last + 1 + WR_KNOTS_AROUND - knots->top))
+        return false;
+    knots->closed_u = mesh->newton.closed_u, knots->closed_v = mesh->newton.closed_v;
+    WrKnotsJob job = { .knots = knots,
+                       .mesh = mesh,
+                       .view = view,
+                       .ask = ask,
+                       .rays = &wr_view_grid(view, view->samples)->rays,
+                       .step_u = 1.0f / (float)mesh->mu,
+                       .mirrored = view->stretch[0] * view->stretch[1] * view->stretch[2] < 0,
+                       .strips = wr_alloc((size_t)wr_pool_threads(pool), sizeof(WrStrip)) };
+    knots->known = tie(&job, pool);
+    knots->key = key;
+    wr_free(job.strips);
+    return knots->known;
+}
