@@ -619,6 +619,30 @@ static void an_edit_is_seen_and_costs_its_tile_alone(void **state)
     wr_field_free(field);
 }
 
+/* Whatever is edited, raised or taken back, the least and the greatest height are those of the whole table. */
+static void the_range_follows_every_edit(void **state)
+{
+    (void)state;
+    TestRandom r = { 571 };
+    WrField *field = wr_field_new(211, 157, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.125f, NULL);
+    WrCanvasCells *cells = wr_cells_new();
+    int changes = 0, places[6][2];
+    for (int i = 0; i < 200; i++) {
+        int *place = places[i % 6];
+        if (i >= 6 && i % 3 == 0) wr_field_set(field, place[0], place[1], 0.125f);
+        place[0] = (int)(211 * test_random(&r));
+        place[1] = (int)(157 * test_random(&r));
+        wr_field_set(field, place[0], place[1], (float)(3 * test_random(&r) - 1.4));
+        wr_cells_look(cells, field, 1, count_tile, &changes);
+        float low, high, least, most;
+        wr_cells_range(cells, &low, &high);
+        wr_field_range(field, &least, &most);
+        assert_true(low == least && high == most);
+    }
+    wr_cells_free(cells);
+    wr_field_free(field);
+}
+
 /* With no time left, one texel stands for each mean, and the cache says so until it is made good. */
 static void late_means_are_rough_and_made_good_later(void **state)
 {
@@ -686,6 +710,7 @@ int main(void)
         cmocka_unit_test(levels_keep_a_cell_between_half_a_pixel_and_one),
         cmocka_unit_test(means_of_cut_off_tiles_count_only_what_is_inside),
         cmocka_unit_test(an_edit_is_seen_and_costs_its_tile_alone),
+        cmocka_unit_test(the_range_follows_every_edit),
         cmocka_unit_test(late_means_are_rough_and_made_good_later),
         cmocka_unit_test(lines_hold_numbers_as_a_hand_places_them),
     };

@@ -23,7 +23,9 @@ struct WrCanvasCells {
     bool rough;                  /* some block that was handed out is */
     float *tile_low, *tile_high; /* [tiles_v * tiles_u]; NULL until the range is asked for */
     bool *tile_known;
-    WrTileVisitor changed; /* of the look under way */
+    float *row_low, *row_high; /* the same of each row of tiles, [tiles_v] */
+    bool *row_known;           /* all of its tiles are */
+    WrTileVisitor changed;     /* of the look under way */
     void *ctx;
 };
 
@@ -48,6 +50,9 @@ static void drop_all(WrCanvasCells *cells)
     wr_free(cells->tile_low);
     wr_free(cells->tile_high);
     wr_free(cells->tile_known);
+    wr_free(cells->row_low);
+    wr_free(cells->row_high);
+    wr_free(cells->row_known);
     wr_field_free(cells->field);
     *cells = (WrCanvasCells){ 0 };
 }
@@ -65,7 +70,7 @@ static void tile_changed(int tx, int ty, void *ctx)
     int at = ty * cells->tiles_u + tx;
     wr_free(cells->blocks[at].mean);
     cells->blocks[at] = (Block){ 0 };
-    if (cells->tile_known) cells->tile_known[at] = false;
+    if (cells->tile_known) cells->tile_known[at] = cells->row_known[ty] = false;
     cells->changed(tx, ty, cells->ctx);
 }
 
@@ -187,21 +192,41 @@ static void tile_range(const WrCanvasCells *cells, int tx, int ty, float *low, f
     }
 }
 
+static void make_ranges(WrCanvasCells *cells)
+{
+    const size_t rows = (size_t)cells->tiles_v, tiles = (size_t)cells->tiles_u * rows;
+    cells->tile_known = wr_alloc(tiles, sizeof(bool));
+    cells->tile_low = wr_alloc(tiles, sizeof(float));
+    cells->tile_high = wr_alloc(tiles, sizeof(float));
+    cells->row_known = wr_alloc(rows, sizeof(bool));
+    cells->row_low = wr_alloc(rows, sizeof(float));
+    cells->row_high = wr_alloc(rows, sizeof(float));
+}
+
+/* Of the tiles of one row, those that changed looked at again. */
+static void row_range(WrCanvasCells *cells, int ty)
+{
+    float low = INFINITY, high = -INFINITY;
+    for (int tx = 0; tx < cells->tiles_u; tx++) {
+        const size_t i = (size_t)ty * (size_t)cells->tiles_u + (size_t)tx;
+        if (!cells->tile_known[i])
+            tile_range(cells, tx, ty, &cells->tile_low[i], &cells->tile_high[i]);
+        cells->tile_known[i] = true;
+        low = cells->tile_low[i] < low ? cells->tile_low[i] : low;
+        high = cells->tile_high[i] > high ? cells->tile_high[i] : high;
+    }
+    cells->row_low[ty] = low;
+    cells->row_high[ty] = high;
+    cells->row_known[ty] = true;
+}
+
 void wr_cells_range(WrCanvasCells *cells, float *low, float *high)
 {
-    size_t tiles = (size_t)cells->tiles_u * (size_t)cells->tiles_v;
-    if (!cells->tile_known) {
-        cells->tile_known = wr_alloc(tiles, sizeof(bool));
-        cells->tile_low = wr_alloc(tiles, sizeof(float));
-        cells->tile_high = wr_alloc(tiles, sizeof(float));
-    }
-    for (size_t i = 0; i < tiles; i++) {
-        if (!cells->tile_known[i])
-            tile_range(cells, (int)i % cells->tiles_u, (int)i / cells->tiles_u, &cells->tile_low[i],
-                       &cells->tile_high[i]);
-        cells->tile_known[i] = true;
-        if (i == 0 || cells->tile_low[i] < *low) *low = cells->tile_low[i];
-        if (i == 0 || cells->tile_high[i] > *high) *high = cells->tile_high[i];
+    if (!cells->tile_known) make_ranges(cells);
+    for (int ty = 0; ty < cells->tiles_v; ty++) {
+        if (!cells->row_known[ty]) row_range(cells, ty);
+        if (ty == 0 || cells->row_low[ty] < *low) *low = cells->row_low[ty];
+        if (ty == 0 || cells->row_high[ty] > *high) *high = cells->row_high[ty];
     }
 }
 
