@@ -3,7 +3,7 @@
    for. */
 #include "test.h"
 #include "test_folder.h"
-#include "test_app.h"
+#include "ui_busy_help.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -29,41 +29,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* ---- long work ---- */
-
-typedef struct Long {
-    WrApp *app;
-    SDL_Event events[3]; /* happen meanwhile */
-    int count;
-    bool gives_up; /* it ends when it is cancelled */
-    bool in_vain;  /* the window did not look at them */
-} Long;
-
-static bool untaken(const Long *work)
-{
-    for (int i = 0; i < work->count; i++)
-        if (SDL_HasEvent(work->events[i].type)) return true;
-    return false;
-}
-
-static bool take_long(void *ctx, WrError *err)
-{
-    Long *work = ctx;
-    for (int i = 0; i < work->count; i++) SDL_PushEvent(&work->events[i]);
-    double end = wr_clock_seconds() + PATIENCE;
-    while (untaken(work) && wr_clock_seconds() < end) usleep(1000);
-    work->in_vain = untaken(work);
-    while (work->gives_up && !wr_progress_stopped() && wr_clock_seconds() < end) usleep(1000);
-    return !wr_progress_stopped() || wr_fail(err, "cancelled");
-}
-
-static bool run(Long *work, WrError *err)
-{
-    bool good = wr_busy_run(work->app, "Something long", take_long, work, err);
-    assert_false(work->in_vain);
-    return good;
-}
 
 static void step_until(WrApp *app, const bool *reached)
 {
@@ -96,18 +61,6 @@ static char *some_file(const char *name)
     wr_session_free(session);
     free(folder);
     return path;
-}
-
-static SDL_Event key(Uint32 type, SDL_Keycode code)
-{
-    SDL_KeyboardEvent event = { .type = type, .keysym = { .sym = code } };
-    return (SDL_Event){ .key = event };
-}
-
-static SDL_Event button(Uint32 type, int x, int y)
-{
-    SDL_MouseButtonEvent event = { .type = type, .button = SDL_BUTTON_LEFT, .x = x, .y = y };
-    return (SDL_Event){ .button = event };
 }
 
 /* ---- the tests ---- */
@@ -239,24 +192,26 @@ static void a_chosen_file_is_taken_afterwards(void **state)
     wr_free(path);
 }
 
-/* Nobody asked for the journal to be tended: what is pressed meanwhile is not lost. */
-static void keys_wait_while_the_journal_is_tended(void **state)
+/* Nobody asked for the journal to be tended: what is pressed meanwhile is done all the same, and Escape gives nothing up. */
+static void all_waits_while_the_journal_is_tended(void **state)
 {
     (void)state;
     Bench bench;
     WrError err;
     begin(&bench);
     WrApp *app = bench.app;
-    SDL_Event events[2];
+    assert_true(wr_app_run_line(app, "dab 0.31,0.77 radius=9"));
+    const int before = wr_session_history_position(bench.session);
+    SDL_Event undo = key(SDL_KEYDOWN, SDLK_z);
+    undo.key.keysym.mod = KMOD_LCTRL;
     Long work = { .app = app,
-                  .events = { key(SDL_KEYDOWN, SDLK_SPACE), key(SDL_KEYDOWN, SDLK_ESCAPE) },
+                  .kind = WR_BUSY_TEND,
+                  .events = { undo, key(SDL_KEYDOWN, SDLK_ESCAPE) },
                   .count = 2 };
-    app->tending = true;
-    assert_true(run(&work, &err)); /* and Escape gives nothing up */
-    app->tending = false;
-    assert_int_equal(SDL_PeepEvents(events, 2, SDL_GETEVENT, SDL_KEYDOWN, SDL_KEYDOWN), 2);
-    assert_int_equal(events[0].key.keysym.sym, SDLK_SPACE);
-    assert_int_equal(events[1].key.keysym.sym, SDLK_ESCAPE);
+    assert_true(run(&work, &err));
+    assert_int_equal(wr_session_history_position(bench.session), before);
+    draw_again(app);
+    assert_int_equal(wr_session_history_position(bench.session), before - 1);
     finish(&bench);
 }
 
@@ -354,7 +309,7 @@ int main(void)
         cmocka_unit_test(what_changes_the_document_is_refused_meanwhile),
         cmocka_unit_test(a_dropped_file_opens_afterwards),
         cmocka_unit_test(a_chosen_file_is_taken_afterwards),
-        cmocka_unit_test(keys_wait_while_the_journal_is_tended),
+        cmocka_unit_test(all_waits_while_the_journal_is_tended),
         cmocka_unit_test(a_cancel_is_no_error_and_then_it_closes),
         cmocka_unit_test(the_first_stroke_is_undone_before_it_is_drawn),
         cmocka_unit_test(a_number_is_where_the_button_went_up),

@@ -83,6 +83,10 @@ struct WrSession {
     WrBrushFiles *brush_files; /* presets and tips that were read; made on first use; owned */
     WR_ARRAY(char *) kept;     /* SHA-256 of the files that the journal has copies of; owned */
     WR_ARRAY(WrSessionInput) inputs; /* their paths are owned */
+
+    bool still;         /* it is one: wr_session_still */
+    bool unsafe;        /* of a still: its journal is not */
+    char *unsafe_words; /* why; owned */
 };
 
 /* Say something that is no failure. */
@@ -93,7 +97,7 @@ char *wr_session_input_path(WrSession *session, const char *path);
 /* That file is about to be read, or was: one of wr_session_input. */
 void wr_session_note_input(WrSession *session, const char *path);
 void wr_session_forget_inputs(WrSession *session);
-/* "a stroke is being drawn" */
+/* "a stroke is being drawn"; a still refuses all. */
 bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err);
 
 /* ---- steps ---- */

@@ -69,6 +69,7 @@ void wr_session_free(WrSession *session)
     wr_brush_files_free(session->brush_files);
     wr_session_forget_inputs(session);
     wr_free((char *)session->options.isa);
+    wr_free(session->unsafe_words);
     wr_free(session);
 }
 
@@ -247,6 +248,7 @@ static bool run_call(WrSession *session, WrCall *call, WrError *err)
 
 bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err)
 {
+    if (session->still) return wr_fail(err, "not while something else is being done");
     if (!session->stroke) return true;
     return wr_fail(err, "a stroke is being drawn: it must end first");
 }

@@ -54,6 +54,10 @@ typedef struct WrSessionOptions {
 WrSession *wr_session_new(const WrSessionOptions *options);
 void wr_session_free(WrSession *session);
 
+/* All that can be read of it as it is now, however another thread changes the session meanwhile: the document, the history,
+   its file, whether the journal is safe. Nothing runs in it. It costs no more than the number of steps. The caller owns it. */
+WrSession *wr_session_still(const WrSession *session);
+
 /* Change options.outputs. */
 void wr_session_set_outputs(WrSession *session, bool outputs);
 

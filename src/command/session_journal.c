@@ -341,8 +341,8 @@ bool wr_session_journal_tend(WrSession *session)
 
 bool wr_session_journal_safe(const WrSession *session, const char **reason)
 {
-    *reason = "";
-    if (!session->journal) return true;
+    *reason = session->still ? session->unsafe_words : "";
+    if (!session->journal) return !session->unsafe;
     WrJournalState state = wr_journal_state(session->journal);
     *reason = state.reason;
     return state.safe;

@@ -5,18 +5,28 @@
 #include "document/document.h"
 #include "scene/scene.h"
 
-typedef struct Step {
+#include <string.h>
+
+/* What a step is called. Shared, so that it outlives changes of the step. */
+typedef struct Words {
+    int refs;            /* atomic */
     char *line, *folder; /* owned */
-    size_t bytes;        /* of what its two states do not share */
-    WrDocument *after;   /* NULL: given up */
+} Words;
+
+/* Shared by a history and its stills: never changed but by make_own. */
+typedef struct Step {
+    int refs; /* atomic */
+    Words *words;
+    size_t bytes;      /* of what its two states do not share */
+    WrDocument *after; /* NULL: given up */
     uint64_t mark;
     bool brings_view; /* its two states were looked at in different ways */
 } Step;
 
 struct WrHistory {
-    WrDocument *start; /* state 0; NULL: given up */
+    WrDocument *start; /* state 0, of its own; NULL: given up */
     uint64_t start_mark;
-    WR_ARRAY(Step) steps;
+    WR_ARRAY(Step *) steps;
     int position, oldest;
     size_t budget, bytes; /* bytes: of steps oldest..count - 1 */
 };
@@ -30,43 +40,88 @@ WrHistory *wr_history_new(const WrDocument *start, uint64_t mark, size_t budget)
     return history;
 }
 
-static void fini_step(Step *step)
+static bool is_last_of(int *refs)
 {
-    wr_free(step->line);
-    wr_free(step->folder);
+    return __atomic_sub_fetch(refs, 1, __ATOMIC_ACQ_REL) == 0;
+}
+
+static void free_step(Step *step)
+{
+    if (!is_last_of(&step->refs)) return;
     wr_document_free(step->after);
+    if (is_last_of(&step->words->refs)) {
+        wr_free(step->words->line);
+        wr_free(step->words->folder);
+        wr_free(step->words);
+    }
+    wr_free(step);
+}
+
+/* Step k, to be changed: no longer a still's. */
+static Step *make_own(WrHistory *history, int k)
+{
+    Step *step = history->steps.data[k];
+    if (__atomic_load_n(&step->refs, __ATOMIC_ACQUIRE) == 1) return step;
+    Step *own = wr_alloc(1, sizeof *own);
+    *own = *step;
+    own->refs = 1;
+    own->after = step->after ? wr_document_snapshot(step->after) : NULL;
+    __atomic_add_fetch(&own->words->refs, 1, __ATOMIC_RELAXED);
+    free_step(step);
+    history->steps.data[k] = own;
+    return own;
 }
 
 void wr_history_free(WrHistory *history)
 {
     if (!history) return;
-    for (int i = 0; i < history->steps.count; i++) fini_step(&history->steps.data[i]);
+    for (int i = 0; i < history->steps.count; i++) free_step(history->steps.data[i]);
     wr_array_free(&history->steps);
     wr_document_free(history->start);
     wr_free(history);
 }
 
-static WrDocument **state_at(WrHistory *history, int state)
+WrHistory *wr_history_still(const WrHistory *history)
 {
-    return state == 0 ? &history->start : &history->steps.data[state - 1].after;
+    WrHistory *still = wr_alloc(1, sizeof *still);
+    *still = *history;
+    still->start = history->start ? wr_document_snapshot(history->start) : NULL;
+    memset(&still->steps, 0, sizeof still->steps);
+    for (int i = 0; i < history->steps.count; i++) {
+        Step *step = history->steps.data[i];
+        __atomic_add_fetch(&step->refs, 1, __ATOMIC_RELAXED);
+        wr_array_push(&still->steps, step);
+    }
+    return still;
+}
+
+static const WrDocument *state_at(const WrHistory *history, int state)
+{
+    return state == 0 ? history->start : history->steps.data[state - 1]->after;
+}
+
+/* The same, to be changed. */
+static WrDocument **own_state(WrHistory *history, int state)
+{
+    return state == 0 ? &history->start : &make_own(history, state - 1)->after;
 }
 
 /* The last step goes, line and all. */
 static void drop_last(WrHistory *history)
 {
-    Step *last = &history->steps.data[history->steps.count - 1];
+    Step *last = history->steps.data[history->steps.count - 1];
     history->bytes -= last->bytes;
-    fini_step(last);
+    free_step(last);
     history->steps.count--;
 }
 
 static void keep_to_budget(WrHistory *history)
 {
     while (history->bytes > history->budget && history->oldest < history->position - 1) {
-        WrDocument **state = state_at(history, history->oldest);
+        WrDocument **state = own_state(history, history->oldest);
         wr_document_free(*state);
         *state = NULL;
-        Step *step = &history->steps.data[history->oldest++];
+        Step *step = make_own(history, history->oldest++);
         history->bytes -= step->bytes;
         step->bytes = 0;
     }
@@ -78,17 +133,20 @@ void wr_history_push(WrHistory *history, const WrDocument *document, const char 
                      const char *folder, uint64_t mark)
 {
     while (history->steps.count > history->position) drop_last(history);
-    const WrDocument *before = *state_at(history, history->position);
+    const WrDocument *before = state_at(history, history->position);
     WrSceneView old = wr_scene_view(before->scene), now = wr_scene_view(document->scene);
-    Step step = { .line = wr_strdup(line),
-                  .folder = wr_strdup(folder),
-                  .bytes = wr_document_difference(before, document),
-                  .after = wr_document_snapshot(document),
-                  .mark = mark,
-                  .brings_view = !wr_scene_view_equal(&old, &now) };
+    Step *step = wr_alloc(1, sizeof *step);
+    Words *words = wr_alloc(1, sizeof *words);
+    *words = (Words){ .refs = 1, .line = wr_strdup(line), .folder = wr_strdup(folder) };
+    *step = (Step){ .refs = 1,
+                    .words = words,
+                    .bytes = wr_document_difference(before, document),
+                    .after = wr_document_snapshot(document),
+                    .mark = mark,
+                    .brings_view = !wr_scene_view_equal(&old, &now) };
     wr_array_push(&history->steps, step);
     history->position++;
-    history->bytes += step.bytes;
+    history->bytes += step->bytes;
     keep_to_budget(history);
 }
 
@@ -110,19 +168,19 @@ int wr_history_oldest(const WrHistory *history)
 const char *wr_history_line(const WrHistory *history, int step)
 {
     WR_ASSERT(step >= 0 && step < history->steps.count);
-    return history->steps.data[step].line;
+    return history->steps.data[step]->words->line;
 }
 
 const char *wr_history_folder(const WrHistory *history, int step)
 {
     WR_ASSERT(step >= 0 && step < history->steps.count);
-    return history->steps.data[step].folder;
+    return history->steps.data[step]->words->folder;
 }
 
 size_t wr_history_step_bytes(const WrHistory *history, int step)
 {
     WR_ASSERT(step >= 0 && step < history->steps.count);
-    return history->steps.data[step].bytes;
+    return history->steps.data[step]->bytes;
 }
 
 size_t wr_history_bytes(const WrHistory *history)
@@ -133,14 +191,14 @@ size_t wr_history_bytes(const WrHistory *history)
 uint64_t wr_history_mark(const WrHistory *history)
 {
     return history->position == 0 ? history->start_mark
-                                  : history->steps.data[history->position - 1].mark;
+                                  : history->steps.data[history->position - 1]->mark;
 }
 
 /* ---- views ---- */
 
 void wr_history_look(WrHistory *history, const WrDocument *document)
 {
-    WrDocument **present = state_at(history, history->position);
+    WrDocument **present = own_state(history, history->position);
     wr_document_free(*present);
     *present = wr_document_snapshot(document);
 }
@@ -148,7 +206,7 @@ void wr_history_look(WrHistory *history, const WrDocument *document)
 bool wr_history_view(const WrHistory *history, int state, WrSceneView *view)
 {
     WR_ASSERT(state >= 0 && state <= history->steps.count);
-    const WrDocument *document = *state_at((WrHistory *)history, state); /* only looked at */
+    const WrDocument *document = state_at(history, state);
     if (document) *view = wr_scene_view(document->scene);
     return document != NULL;
 }
@@ -156,7 +214,7 @@ bool wr_history_view(const WrHistory *history, int state, WrSceneView *view)
 const WrField *wr_history_heights(const WrHistory *history, int state)
 {
     WR_ASSERT(state >= 0 && state <= history->steps.count);
-    const WrDocument *document = *state_at((WrHistory *)history, state); /* only looked at */
+    const WrDocument *document = state_at(history, state);
     if (!document) return NULL;
     int layer = document->active;
     while (layer > 0 && document->layers[layer].filter.op) layer--;
@@ -166,20 +224,20 @@ const WrField *wr_history_heights(const WrHistory *history, int state)
 bool wr_history_brings_view(const WrHistory *history, int step)
 {
     WR_ASSERT(step >= 0 && step < history->steps.count);
-    return history->steps.data[step].brings_view;
+    return history->steps.data[step]->brings_view;
 }
 
 /* The view after going to `state`: of the near side of the last step on the way that brought one, else the
    present one. */
 static WrSceneView view_there(const WrHistory *history, int state)
 {
-    const Step *steps = history->steps.data;
+    Step *const *steps = history->steps.data;
     int side = history->position;
     for (int k = history->position - 1; k >= state; k--)
-        if (steps[k].brings_view) side = k;
+        if (steps[k]->brings_view) side = k;
     for (int k = history->position; k < state; k++)
-        if (steps[k].brings_view) side = k + 1;
-    return wr_scene_view((*state_at((WrHistory *)history, side))->scene); /* only looked at */
+        if (steps[k]->brings_view) side = k + 1;
+    return wr_scene_view(state_at(history, side)->scene);
 }
 
 static void look(WrDocument *document, const WrSceneView *view)
@@ -197,7 +255,7 @@ WrDocument *wr_history_go(WrHistory *history, int state)
     WR_ASSERT(state >= history->oldest && state <= history->steps.count);
     WrSceneView view = view_there(history, state);
     history->position = state;
-    WrDocument *present = *state_at(history, state);
+    WrDocument *present = *own_state(history, state);
     look(present, &view);
     return wr_document_snapshot(present);
 }

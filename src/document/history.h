@@ -27,6 +27,9 @@ typedef struct WrHistory WrHistory;
    caller owns the history. */
 WrHistory *wr_history_new(const WrDocument *start, uint64_t mark, size_t budget);
 void wr_history_free(WrHistory *history); /* NULL is fine */
+/* The same once more, to be looked at by any thread whatever becomes of the first: it shares the steps, so that it costs no
+   more than their number. The caller owns it. */
+WrHistory *wr_history_still(const WrHistory *history);
 
 /* `line` led from the present state to `document`, which becomes it; the steps after the old one are
  * gone. folder: what relative file names in the line are relative to, or NULL. Strings and the document

@@ -27,6 +27,15 @@ void wr_views_free(WrViews *views)
     wr_free(views);
 }
 
+WrViews *wr_views_clone(const WrViews *views)
+{
+    WrViews *clone = wr_alloc(1, sizeof *clone);
+    *clone = *views;
+    memset(&clone->list, 0, sizeof clone->list);
+    for (int i = 0; i < views->list.count; i++) wr_array_push(&clone->list, views->list.data[i]);
+    return clone;
+}
+
 void wr_views_note(WrViews *views, const WrSceneView *view)
 {
     if (wr_scene_view_equal(&views->list.data[views->position], view)) return;

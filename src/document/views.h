@@ -14,7 +14,8 @@ typedef struct WrViews WrViews;
 
 /* The caller owns it. */
 WrViews *wr_views_new(const WrSceneView *start);
-void wr_views_free(WrViews *views); /* NULL is fine */
+void wr_views_free(WrViews *views);            /* NULL is fine */
+WrViews *wr_views_clone(const WrViews *views); /* the caller owns it */
 
 /* `view` is the present one now. One that equals the present one is no step; else those after it are gone. */
 void wr_views_note(WrViews *views, const WrSceneView *view);

@@ -3,6 +3,7 @@
 #include "ui/accuracy/accuracy.h"
 #include "ui/desk/action.h"
 #include "ui/desk/action_list.h"
+#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/line.h"
 #include "ui/desk/scene_line.h"
@@ -185,6 +186,7 @@ void wr_panel_accuracy_dials(WrApp *app)
     WrAccuracy *a = app->accuracy;
     wr_gui_heading("DIALS");
     which_side(app);
+    if (a->chooses == 0) wr_busy_hold(app);
     if (a->chooses == 0) wr_panel_accuracy_tolerance(app);
     const int side = a->chooses;
     WrScene *scene = wr_accuracy_scene(app, side), *plain = wr_scene_new();
@@ -200,6 +202,7 @@ void wr_panel_accuracy_dials(WrApp *app)
         axis_dials(app, side, (WrAxis)axis, scene, plain);
         wr_gui_pop_id();
     }
+    if (side == 0) wr_busy_hold_end();
     wr_scene_free(plain);
     wr_scene_free(scene);
 }

@@ -211,24 +211,3 @@ const char *const wr_action_helps[] = {
 };
 WR_ROWS_END(wr_action_helps, WR_ACTION_COUNT);
 #undef ROW
-
-/* They touch neither the document nor what a command may work on: settings of the views alone. */
-const char *const wr_meanwhile[] = {
-    WR_ACT(zoom_in),         WR_ACT(zoom_out),
-    WR_ACT(zoom_100),        WR_ACT(fit),
-    WR_ACT(mirror_view),     WR_ACT(turn_left),
-    WR_ACT(turn_right),      WR_ACT(turn_none),
-    WR_ACT(tiling_straight), WR_ACT(tiling_half_drop),
-    WR_ACT(tiling_brick),    WR_ACT(pan_left),
-    WR_ACT(pan_right),       WR_ACT(pan_up),
-    WR_ACT(pan_down),        WR_ACT(look_grey),
-    WR_ACT(look_signed),     WR_ACT(look_contours),
-    WR_ACT(look_relief),     WR_ACT(look_slope),
-    WR_ACT(look_normals),    WR_ACT(range_auto),
-    WR_ACT(range_unit),      WR_ACT(range_marks),
-    WR_ACT(view_grid),       WR_ACT(grid_finer),
-    WR_ACT(grid_coarser),    WR_ACT(ants),
-    WR_ACT(view_both),       WR_ACT(view_canvas),
-    WR_ACT(view_patch),      WR_ACT(turn),
-    WR_ACT(fullscreen),      NULL,
-};

@@ -13,6 +13,7 @@
 #include "ui/canvas/canvas_map.h"
 #include "ui/canvas/outline.h"
 #include "ui/desk/app_options.h"
+#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/document.h"
@@ -67,6 +68,7 @@
     (1.0 / 300.0)         /* while the pointer is held, so that what it does is seen at once */
 #define CARET_SECONDS 0.3 /* a text field's caret blinks, messages go */
 #define BAR_SECONDS 0.1   /* between pictures of a bar that fills */
+#define YOUNG_MS 3 /* between looks whether it is done, while events are left where they are */
 
 /* ---- life ---- */
 
@@ -139,6 +141,7 @@ void wr_app_end(WrApp *app)
     wr_marks_free(app);
     wr_recovery_free(app->recovery);
     wr_later_free(app);
+    wr_busy_free(app);
     wr_patch_paint_free(app);
     if (app->renderer) wr_patch_free(app);
     wr_thumbs_free(app);
@@ -186,6 +189,7 @@ static bool is_hand(const SDL_Event *event)
 static void handle(WrApp *app, const SDL_Event *event)
 {
     WrPenEvent pen;
+    wr_busy_tend(app);
     if (is_hand(event)) app->fitted = true;
     if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
     if (event->type == app->rest_event) {
@@ -197,9 +201,11 @@ static void handle(WrApp *app, const SDL_Event *event)
         wr_app_redraw(app);
         return;
     }
+    if (wr_busy_event(app, event)) return;
     wr_gui_event(app->gui, event);
     app->input_at = wr_clock_seconds();
     wr_app_redraw(app);
+    if (wr_busy_look(app, event)) return;
     if (event->type == SDL_QUIT) { /* a signal; a second one does not wait for an answer */
         if (app->dialog->now == WR_DIALOG_UNSAVED) app->quit = true;
         else wr_app_quit(app);
@@ -287,7 +293,7 @@ void wr_app_draw_parts(WrApp *app, bool views)
     wr_patch_overlay(app);
     wr_patch_paint_overlay(app);
     wr_accuracy_overlay(app);
-    wr_panel_status(app);
+    if (!wr_busy_bar(app)) wr_panel_status(app);
     wr_panel_dialogs(app);
     app->in_frame = false;
 }
@@ -345,7 +351,8 @@ static int wait_time(WrApp *app, double now)
     }
     double settings = wr_settings_next_time(app);
     if (settings > 0.0 && settings < next) next = settings;
-    if (works(app) && app->drawn_at + BAR_SECONDS < next) next = app->drawn_at + BAR_SECONDS;
+    if ((app->busy || works(app)) && app->drawn_at + BAR_SECONDS < next)
+        next = app->drawn_at + BAR_SECONDS;
     bool young = app->messages->list.count > 0 &&
                  now - app->messages->list.data[app->messages->list.count - 1].since < 7.0;
     bool alive = wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || young;
@@ -376,11 +383,11 @@ static void tell_refused(WrApp *app)
                         "until it is done");
 }
 
-void wr_app_step(WrApp *app)
+/* Wait for what is due, and do what the user asks for. */
+static void take_events(WrApp *app)
 {
     SDL_Event event;
-    double now = wr_clock_seconds();
-    int wait = wait_time(app, now);
+    int wait = wait_time(app, wr_clock_seconds());
     if (wait < 0 ? SDL_WaitEvent(&event) : SDL_WaitEventTimeout(&event, wait)) {
         do handle(app, &event);
         while (SDL_PollEvent(&event));
@@ -388,23 +395,30 @@ void wr_app_step(WrApp *app)
     } else if (take_pens(app)) {
         /* a picture was asked for */
     } else if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) ||
-               app->messages->list.count > 0 || works(app)) {
+               app->messages->list.count > 0 || app->busy || works(app)) {
         if (app->redraw == 0) app->redraw = 1;
     }
+}
+
+void wr_app_step(WrApp *app)
+{
+    wr_busy_tend(app);
+    if (wr_busy_is_young(app)) SDL_Delay(YOUNG_MS);
+    else take_events(app);
     tell_refused(app);
-    wr_app_tend(app);
+    if (!app->busy) wr_app_tend(app);
     wr_strokes_work(app);
     wr_later_run(app);
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->update) (*p)->update(app);
-    now = wr_clock_seconds();
+    const double now = wr_clock_seconds();
     if (app->redraw > 0 && app->visible && now >= app->drawn_at + frame_seconds(app) - 0.0005) {
         app->redraw--;
         draw(app, now);
         wr_timing_note(app, wr_clock_seconds() - now);
     }
     wr_settings_tend(app);
-    wr_rest_step(app, works(app));
+    wr_rest_step(app, app->busy || works(app));
 }
 
 int wr_app_run(const WrAppOptions *options)

@@ -163,6 +163,7 @@ void wr_canvas_view_overlay(WrApp *app)
     wr_symmetry_marks(app);
     if (app->hand->on_canvas && tool->overlay && !panning) tool->overlay(app);
     if (tool->marks) tool->marks(app);
+    wr_strokes_marks(app);
     if (app->hints && app->file->starter) hints(app);
     wr_gui_draw_unclip();
     if (room->w > wr_gui_px(140)) wr_canvas_chip(app);

@@ -4,6 +4,7 @@
 #include "ui/canvas/view.h"
 #include "ui/desk/action.h"
 #include "ui/desk/action_list.h"
+#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/hand.h"
@@ -94,6 +95,8 @@ static void press_canvas(WrApp *app, const WrPointer *at)
         hand->grab = WR_GRAB_SYMMETRY;
         return;
     }
+    if (tool->paints ? app->busy && !wr_busy_lets_wait(app) : !tool->meanwhile)
+        if (wr_busy_refuse(app)) return;
     hand->grab = WR_GRAB_TOOL;
     if (tool->paints && !hand->line && wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods)) {
         /* a drag sizes the brush, a click draws a line: known when it moves, or is let go */
@@ -110,11 +113,12 @@ static void press_patch(WrApp *app, const WrPointer *at)
         app->hand->grab = WR_GRAB_SPLIT;
     } else if (at->button == SDL_BUTTON_LEFT && wr_patch_paints(app) &&
                !wr_patch_cube_under(app, at)) {
-        if (!wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods))
+        if (app->busy && !wr_busy_lets_wait(app) && wr_busy_refuse(app)) return;
+        if (!app->busy && !wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods))
             wr_patch_choose(app, at); /* a command, which ends what is held */
         app->hand->grab = WR_GRAB_PATCH_PAINT;
         wr_patch_paint_press(app, at);
-    } else {
+    } else if (!wr_busy_refuse(app)) {
         wr_patch_press(app, at);
     }
 }
@@ -481,9 +485,4 @@ void wr_hand_event(WrApp *app, const SDL_Event *event)
     }
 }
 
-static void key_event(WrApp *app, const SDL_Event *event)
-{
-    if (event->type == SDL_KEYUP) wr_hand_event(app, event);
-}
-
-const WrPart wr_part_hand = { .let_go = end_held, .event = key_event };
+const WrPart wr_part_hand = { .let_go = end_held };

@@ -4,8 +4,8 @@
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
 #include "ui/app/hand_events.h"
+#include "ui/app/loop.h"
 #include "ui/app/tool_list.h"
-#include "ui/app/window.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/document.h"
 #include "ui/desk/replace.h"
@@ -64,19 +64,33 @@ static const WrDialogRow dialogs[] = {
 };
 WR_ROWS_END(dialogs, WR_DIALOG_COUNT);
 
-static const WrTab tabs[] = {
-    { "Brushes", NULL, wr_panel_brushes, false },  { "Scene", wr_panel_scene, NULL, false },
-    { "Plan", wr_panel_plan, NULL, false },        { "History", wr_panel_history, NULL, false },
-    { "Generate", NULL, wr_panel_generate, true }, { "Accuracy", wr_panel_accuracy, NULL, true }
-};
+static const WrTab tabs[] = { { "Brushes", NULL, wr_panel_brushes, false, false },
+                              { "Scene", wr_panel_scene, NULL, false, true },
+                              { "Plan", wr_panel_plan, NULL, false, false },
+                              { "History", wr_panel_history, NULL, false, false },
+                              { "Generate", NULL, wr_panel_generate, true, false },
+                              { "Accuracy", wr_panel_accuracy, NULL, true, false } };
 
 /* In the order in which they are updated and drawn. */
-static const WrPart *const parts[] = {
-    &wr_part_window,      &wr_part_hand,     &wr_part_tools,  &wr_part_strokes, &wr_part_select,
-    &wr_part_clone,       &wr_part_canvas,   &wr_part_marks,  &wr_part_stamp,   &wr_part_generate,
-    &wr_part_patch,       &wr_part_accuracy, &wr_part_layers, &wr_part_thumbs,  &wr_part_gallery,
-    &wr_part_font_choice, &wr_part_presets,  &wr_part_sheet,  &wr_part_adjust,  NULL
-};
+static const WrPart *const parts[] = { &wr_part_hand,
+                                       &wr_part_tools,
+                                       &wr_part_strokes,
+                                       &wr_part_select,
+                                       &wr_part_clone,
+                                       &wr_part_canvas,
+                                       &wr_part_marks,
+                                       &wr_part_stamp,
+                                       &wr_part_generate,
+                                       &wr_part_patch,
+                                       &wr_part_accuracy,
+                                       &wr_part_layers,
+                                       &wr_part_thumbs,
+                                       &wr_part_gallery,
+                                       &wr_part_font_choice,
+                                       &wr_part_presets,
+                                       &wr_part_sheet,
+                                       &wr_part_adjust,
+                                       NULL };
 
 static WrActionFamily *const families[] = { wr_adjust_by_name, wr_filter_by_name,
                                             wr_generate_by_name, NULL };
@@ -107,10 +121,10 @@ const WrRoster wr_roster = { .tools = wr_tools,
                              .tool_count = WR_TOOL_COUNT,
                              .actions = wr_actions,
                              .helps = wr_action_helps,
-                             .meanwhile = wr_meanwhile,
                              .families = families,
                              .dialogs = dialogs,
                              .tabs = tabs,
                              .tab_count = (int)(sizeof tabs / sizeof *tabs),
                              .parts = parts,
-                             .takes = takes };
+                             .takes = takes,
+                             .step = wr_app_step };

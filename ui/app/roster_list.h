@@ -6,5 +6,3 @@
 extern const WrRoster wr_roster;
 extern const WrAction wr_actions[];         /* ends with name NULL */
 extern const char *const wr_action_helps[]; /* WR_ACTION_COUNT, in the order of WR_ACTIONS */
-/* Names of those that may be done while a command runs; NULL ends them. */
-extern const char *const wr_meanwhile[];

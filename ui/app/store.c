@@ -5,6 +5,7 @@
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
+#include "ui/desk/busy_inner.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/document.h"
@@ -63,6 +64,7 @@ typedef struct Store {
     WrCertificate certificate;
     WrMeter meter;
     WrLater later;
+    WrWaits waits;
     WrMessages messages;
     WrForms forms;
     WrReplace replace;
@@ -104,6 +106,7 @@ WrApp *wr_store_new(void)
     app->certificate = &store->certificate;
     app->meter = &store->meter;
     app->later = &store->later;
+    app->waits = &store->waits;
     app->messages = &store->messages;
     app->forms = &store->forms;
     app->replace = &store->replace;

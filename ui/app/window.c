@@ -172,5 +172,3 @@ void wr_window_event(WrApp *app, const SDL_Event *event)
 {
     if (event->type == SDL_WINDOWEVENT) window_event(app, &event->window);
 }
-
-const WrPart wr_part_window = { .event = wr_window_event };

@@ -1,7 +1,6 @@
 /* window.h - the window of the system. */
 #pragma once
 #include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -13,5 +12,3 @@ double wr_window_scale(
    status line is on the screen. Known only once it is shown, and looked at until a hand has been at it. */
 void wr_window_keep(WrApp *app);
 void wr_window_event(WrApp *app, const SDL_Event *event);
-
-extern const WrPart wr_part_window;

@@ -1,5 +1,6 @@
 /* Actions by name. */
 #include "ui/desk/action.h"
+#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/later.h"
 #include "ui/desk/roster.h"
@@ -20,12 +21,14 @@ const char *wr_action_help(const WrApp *app, const WrAction *action)
 
 bool wr_action_can(const WrApp *app, const WrAction *action)
 {
+    if (action->edits && wr_busy_greys(app)) return false;
     return !action->enabled || action->enabled(app);
 }
 
 static void run_now(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(app, name);
+    if (action && action->edits && wr_busy_refuse(app)) return;
     if (action && wr_action_can(app, action)) action->run(app);
     wr_app_redraw(app);
 }
@@ -33,6 +36,7 @@ static void run_now(WrApp *app, const char *name)
 void wr_action_run(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(app, name);
+    if (action && action->edits && wr_busy_refuse(app)) return;
     for (WrActionFamily *const *f = app->roster->families; !action && *f; f++)
         if ((*f)(app, name)) break;
     if (!action || !wr_action_can(app, action)) return;

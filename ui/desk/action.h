@@ -10,6 +10,7 @@ struct WrAction {
     void (*run)(WrApp *app);
     bool (*enabled)(const WrApp *app); /* NULL: always */
     bool (*checked)(const WrApp *app); /* NULL: never */
+    bool edits; /* the document, or a file of it: not while something runs beside the window */
 };
 
 const WrAction *wr_action_find(const WrApp *app, const char *name); /* NULL: none, or of a family */

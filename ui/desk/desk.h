@@ -12,6 +12,7 @@ typedef struct WrAdjust WrAdjust;
 typedef struct WrAppOptions WrAppOptions;
 typedef struct WrBrushHand WrBrushHand;
 typedef struct WrBrushSources WrBrushSources;
+typedef struct WrBusy WrBusy;
 typedef struct WrCanvas WrCanvas;
 typedef struct WrCanvasMap WrCanvasMap;
 typedef struct WrCanvasRange WrCanvasRange;
@@ -66,13 +67,14 @@ typedef struct WrTiming WrTiming;
 typedef struct WrTool WrTool;
 typedef struct WrTransformHand WrTransformHand;
 typedef struct WrTrial WrTrial;
+typedef struct WrWaits WrWaits;
 
 /* The window owns what these point to unless they say otherwise. Lengths are pixels of the window, times seconds of
    system/clock.h. */
 struct WrApp {
     const WrRoster *roster;      /* borrowed: what the window is made of */
     const WrAppOptions *options; /* borrowed */
-    WrSession *session;          /* borrowed */
+    WrSession *session; /* borrowed; while something runs beside the window, a still of it */
     SDL_Window *window;
     SDL_Renderer *renderer;
     WrGui *gui;
@@ -153,10 +155,8 @@ struct WrApp {
     uint64_t seam_key; /* of the table and the scheme that both were measured on */
     WrMeter *meter;
     WrLater *later;
-    /* While the session works on a thread of its own: the document from before; owned. */
-    WrDocument *shown;
-    double expected;      /* seconds that the line to be run will take; 0: not known */
-    bool tending;         /* nobody asked for it: what is pressed meanwhile is kept */
+    WrBusy *busy;         /* what runs beside the window (ui/desk/busy.h); owned, NULL: nothing */
+    WrWaits *waits;       /* and what waits for it */
     bool gave_up;         /* the newest of them failed because the user cancelled it */
     WrRecovery *recovery; /* while its dialog is open; owned */
     bool in_frame;        /* between the first and the last widget of a picture */

@@ -58,51 +58,42 @@ void wr_app_changed_document(WrApp *app)
     wr_app_redraw(app);
 }
 
-/* A call that may take long, as wr_busy_run wants it. */
-typedef struct FileCall {
-    WrSession *session;
-    const char *path;
-} FileCall;
+/* Calls that may take long, as wr_busy_run wants them: ctx is a path, or lines. */
 
-static bool open_work(void *ctx, WrError *err)
+static bool open_work(WrSession *session, void *ctx, WrError *err)
 {
-    const FileCall *call = ctx;
-    return wr_session_open(call->session, call->path, err);
+    return wr_session_open(session, ctx, err);
 }
 
-static bool save_work(void *ctx, WrError *err)
+static bool save_work(WrSession *session, void *ctx, WrError *err)
 {
-    const FileCall *call = ctx;
-    return wr_session_save(call->session, call->path, err);
+    return wr_session_save(session, ctx, err);
 }
 
-static bool tend_work(void *ctx, WrError *err)
+static bool tend_work(WrSession *session, void *ctx, WrError *err)
 {
+    (void)ctx;
     (void)err;
-    wr_session_journal_tend(ctx);
+    wr_session_journal_tend(session);
     return true;
 }
 
 void wr_app_tend(WrApp *app)
 {
     WrError err;
-    /* What is held would be let go meanwhile. */
     bool idle = app->hand->grab == WR_GRAB_NONE && !wr_session_in_stroke(app->session);
-    if (!idle || !wr_session_journal_wants(app->session)) return;
-    app->tending = true;
-    wr_busy_run(app, "Keeping the journal short", tend_work, app->session, &err);
-    app->tending = false;
+    if (idle && wr_session_journal_wants(app->session))
+        wr_busy_run(app, WR_BUSY_TEND, "Keeping the journal short", tend_work, NULL, &err);
 }
 
-static bool lines_work(void *ctx, WrError *err)
+static bool lines_work(WrSession *session, void *ctx, WrError *err)
 {
-    const FileCall *call = ctx;
     bool good = true;
-    for (const char *at = call->path; *at && !wr_progress_stopped();) {
+    for (const char *at = ctx; *at && !wr_progress_stopped();) {
         size_t length = strcspn(at, "\n");
         char *line = wr_strndup(at, length);
         WrError why;
-        if (!wr_session_run(call->session, line, good ? err : &why)) good = false;
+        if (!wr_session_run(session, line, good ? err : &why)) good = false;
         wr_free(line);
         at += length + (at[length] != '\0');
     }
@@ -119,8 +110,8 @@ static void lay_flat(WrApp *app, const char *path)
     WrText lines = { 0 };
     WrError err;
     wr_new_picture_lines(wr_field_width(field), wr_field_height(field), &lines);
-    FileCall call = { app->session, wr_text_get(&lines) };
-    if (!wr_busy_run(app, "Opening", lines_work, &call, &err)) wr_app_fail(app, &err);
+    if (!wr_busy_run(app, WR_BUSY_ANOTHER, "Opening", lines_work, lines.data, &err))
+        wr_app_fail(app, &err);
     wr_text_fini(&lines);
     wr_app_changed_document(app);
     app->file->picture = wr_strdup(path);
@@ -131,9 +122,8 @@ static void lay_flat(WrApp *app, const char *path)
 static bool open_now(WrApp *app, const char *path)
 {
     WrError err;
-    FileCall call = { app->session, path };
     wr_hand_let_go(app);
-    if (!wr_busy_run(app, "Opening", open_work, &call, &err)) {
+    if (!wr_busy_run(app, WR_BUSY_ANOTHER, "Opening", open_work, (char *)path, &err)) {
         wr_busy_fail(app, "opening", &err);
         return false;
     }
@@ -234,15 +224,20 @@ void wr_app_start(WrApp *app)
 
 /* ---- asking first ---- */
 
+static bool new_work(WrSession *session, void *ctx, WrError *err)
+{
+    wr_session_reset(session);
+    return lines_work(session, ctx, err);
+}
+
 /* Of a line that fails the rest still runs, so that there is something to be seen. */
 void wr_app_new_of(WrApp *app, const char *lines)
 {
     WrError err;
-    FileCall call = { app->session, lines };
     wr_hand_let_go(app);
-    wr_session_reset(app->session);
+    bool good =
+        wr_busy_run(app, WR_BUSY_ANOTHER, "Making the document", new_work, (char *)lines, &err);
     app->file->starter = false;
-    bool good = wr_busy_run(app, "Making the document", lines_work, &call, &err);
     if (app->gave_up) wr_app_say(app, "Cancelled: the document is made as far as it came");
     else if (!good) wr_app_fail(app, &err);
     wr_app_changed_document(app);
@@ -250,8 +245,18 @@ void wr_app_new_of(WrApp *app, const char *lines)
     wr_app_title(app);
 }
 
+static void go_on(WrApp *app, const char *text)
+{
+    (void)text;
+    wr_app_go_on(app);
+}
+
 void wr_app_go_on(WrApp *app)
 {
+    if (app->in_frame) { /* it may take long */
+        wr_later(app, go_on, "");
+        return;
+    }
     WrAfter after = app->file->after;
     char *path = app->file->after_path;
     app->file->after = WR_AFTER_NOTHING;
@@ -271,6 +276,9 @@ void wr_app_go_on(WrApp *app)
 
 static void ask_first(WrApp *app, WrAfter after, const char *path)
 {
+    if (after == WR_AFTER_QUIT ? wr_busy_refuses(app) && wr_busy_close(app) : wr_busy_refuse(app))
+        return;
+    wr_busy_settle(app);
     wr_hand_let_go(app);
     app->file->after = after;
     wr_free(app->file->after_path);
@@ -309,9 +317,9 @@ void wr_app_quit(WrApp *app)
 static bool save_to(WrApp *app, const char *path)
 {
     WrError err;
+    wr_busy_settle(app);
     wr_app_settle(app);
-    FileCall call = { app->session, path };
-    bool ok = wr_busy_run(app, "Saving", save_work, &call, &err);
+    bool ok = wr_busy_run(app, WR_BUSY_EDIT, "Saving", save_work, (char *)path, &err);
     if (!ok) {
         wr_busy_fail(app, "saving", &err);
         app->file->after = WR_AFTER_NOTHING; /* nothing may be lost because a disk is full */
@@ -371,17 +379,15 @@ void wr_app_save_history(WrApp *app)
     ask_file(app, WR_FILE_HISTORY, "history.wrinkle");
 }
 
-static bool history_work(void *ctx, WrError *err)
+static bool history_work(WrSession *session, void *ctx, WrError *err)
 {
-    const FileCall *call = ctx;
-    return wr_session_save_history(call->session, call->path, err);
+    return wr_session_save_history(session, ctx, err);
 }
 
 void wr_file_take_history(WrApp *app, const char *path)
 {
     WrError err;
-    FileCall call = { app->session, path };
-    if (!wr_busy_run(app, "Saving the steps", history_work, &call, &err))
+    if (!wr_busy_run(app, WR_BUSY_EDIT, "Saving the steps", history_work, (char *)path, &err))
         wr_busy_fail(app, "saving the steps", &err);
     else wr_app_say(app, "Saved %d steps as %s", wr_session_history_position(app->session), path);
 }

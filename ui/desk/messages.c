@@ -59,7 +59,7 @@ void wr_app_fail(WrApp *app, const WrError *err)
 void wr_app_take_notes(WrApp *app)
 {
     WrText *notes = app->options->notes;
-    if (!notes || notes->length == 0) return;
+    if (!notes || app->busy || notes->length == 0) return; /* they are the worker's meanwhile */
     for (char *at = notes->data; *at;) {
         size_t length = strcspn(at, "\n");
         bool more = at[length] == '\n';

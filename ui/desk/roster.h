@@ -23,6 +23,7 @@ typedef struct WrTab {
     void (*draw)(WrApp *app);
     void (*fill)(WrApp *app, SDL_Rect room); /* has areas of its own */
     bool is_long;                            /* it needs many rows */
+    bool edits; /* all of it changes the document: grey while something runs beside the window */
 } WrTab;
 
 /* A part of the window that has a life of its own. Each function may be NULL. */
@@ -30,16 +31,14 @@ typedef struct WrPart {
     void (*update)(WrApp *app);            /* once before each picture, in the order of the list */
     double (*next_time)(const WrApp *app); /* clock at which update must run; 0: only on events */
     bool (*works)(WrApp *app);             /* something is computed: its bar moves */
-    /* Of the window, and of a key that was let go; also while a command runs beside the window. */
-    void (*event)(WrApp *app, const SDL_Event *event);
-    /* An event while a command runs: true if it was for looking at its view, which may go on. */
+    /* An event while a command runs beside the window: true if it was only for looking at its view. What comes of that
+       becomes a command afterwards. */
     bool (*look)(WrApp *app, const SDL_Event *event);
-    void (*meanwhile)(WrApp *app); /* before each picture while a command runs beside the window */
-    void (*draw)(WrApp *app);      /* its view, below all widgets; also while a command runs */
-    void (*let_go)(WrApp *app);    /* end what is held, keeping what was done */
-    void (*settle)(WrApp *app);    /* what was put off becomes a command now */
-    void (*another)(WrApp *app);   /* the document is another one: forget what was the old one's */
-    void (*forget)(WrApp *app);    /* textures were lost */
+    void (*draw)(WrApp *app);    /* its view, below all widgets */
+    void (*let_go)(WrApp *app);  /* end what is held, keeping what was done */
+    void (*settle)(WrApp *app);  /* what was put off becomes a command now */
+    void (*another)(WrApp *app); /* the document is another one: forget what was the old one's */
+    void (*forget)(WrApp *app);  /* textures were lost */
 } WrPart;
 
 /* A file was chosen, for what a purpose says. */
@@ -48,15 +47,15 @@ typedef void WrFileTake(WrApp *app, const char *path);
 struct WrRoster {
     const WrTool *const *tools;
     int tool_count;
-    const WrAction *actions;      /* ends with name NULL */
-    const char *const *helps;     /* of each action what it does, in a line */
-    const char *const *meanwhile; /* those that may be done while a command runs; ends with NULL */
+    const WrAction *actions;         /* ends with name NULL */
+    const char *const *helps;        /* of each action what it does, in a line */
     WrActionFamily *const *families; /* ends with NULL */
     const WrDialogRow *dialogs;      /* [WR_DIALOG_COUNT]; the first is none */
     const WrTab *tabs;
     int tab_count;
     const WrPart *const *parts; /* ends with NULL */
     WrFileTake *const *takes;   /* [WR_FILE_PURPOSES] */
+    void (*step)(WrApp *app);   /* one turn of the loop: events, work that is due, a picture */
 };
 
 /* Its index, for settings.tab; 0 if there is none of that label. */

@@ -16,7 +16,7 @@
 
 const WrDocument *wr_app_document(const WrApp *app)
 {
-    return app->shown ? app->shown : wr_session_document(app->session);
+    return wr_session_document(app->session);
 }
 
 const WrField *wr_app_field(const WrApp *app)

@@ -256,7 +256,7 @@ void wr_generate_commit(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
     WrText line = { 0 };
-    if (!hand->generator) return;
+    if (!hand->generator || wr_busy_refuse(app)) return;
     wr_generate_line(hand, &line);
     hand->active = false;
     hand->held = WR_POSE_NONE;

@@ -1,4 +1,5 @@
 /* The Generate tab, made from the generators' table: which one, its presets, what it has to say. */
+#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/generate/generate_gallery.h"
@@ -204,9 +205,11 @@ static void foot(WrApp *app)
     double fraction, seconds;
     bool busy = hand->active && app->trying && wr_trial_busy(app->trial, &fraction, &seconds) &&
                 seconds > 0.3;
+    wr_busy_hold(app);
     wr_gui_disable(hand->err.text[0] != '\0');
     if (wr_gui_button(hand->active ? "Apply" : "Apply again", true)) wr_generate_commit(app);
     wr_gui_enable();
+    wr_busy_hold_end();
     wr_gui_tip("Enter");
     wr_gui_same_line(8);
     if (hand->active) {

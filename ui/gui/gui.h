@@ -29,10 +29,6 @@ bool wr_gui_set_scale(WrGui *gui, double scale, WrError *err);
 /* Hand over an event. The caller looks at owns_point, holds_mouse and wants_text before it uses it
    itself. */
 void wr_gui_event(WrGui *gui, const SDL_Event *event);
-/* Widgets of their own: from begin to end all of this is about another set of windows and what is held over
-   them, while the first one waits as it is, even in the midst of a frame. */
-void wr_gui_aside_begin(WrGui *gui);
-void wr_gui_aside_end(WrGui *gui);
 /* Forget held keys and buttons (the window lost the keyboard). */
 void wr_gui_release_all(WrGui *gui);
 /* A press there would go to a widget: by the windows of the last frame, so that it is right even for
@@ -143,6 +139,9 @@ void wr_gui_push_id(int id);
 void wr_gui_pop_id(void);
 void wr_gui_disable(bool disabled); /* grey out what follows; ends with wr_gui_enable */
 void wr_gui_enable(void);
+/* The same with a reason, which is the tip of all of it; NULL: not at all. What only folds away still does. */
+void wr_gui_hold(const char *why);
+void wr_gui_hold_end(void);
 
 /* ---- text ----
    Every text that a widget is given is shown in the user's language (words.h), by what stands before ##, and known by the

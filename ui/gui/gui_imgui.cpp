@@ -144,7 +144,6 @@ WR_CAUGHT(nullptr)
 extern "C" void wr_gui_free(WrGui *gui)
 try {
     if (!gui) return;
-    if (gui->aside) ImGui::DestroyContext(gui->aside);
     ImGui::DestroyContext(gui->context);
     if (gui->atlas) SDL_DestroyTexture(gui->atlas);
     wr_kept_free(gui->kept);
@@ -162,26 +161,6 @@ try {
     return wr_gui_build_fonts(gui, err);
 }
 WR_CAUGHT(false)
-
-/* ---- aside ---- */
-
-extern "C" void wr_gui_aside_begin(WrGui *gui)
-try {
-    ImGuiStyle style = ImGui::GetStyle();
-    ImFontAtlas *fonts = ImGui::GetIO().Fonts;
-    bool fresh = !gui->aside;
-    if (fresh) gui->aside = ImGui::CreateContext(fonts);
-    ImGui::SetCurrentContext(gui->aside);
-    if (fresh) settle_io(gui);
-    ImGui::GetStyle() = style;
-}
-WR_CAUGHT()
-
-extern "C" void wr_gui_aside_end(WrGui *gui)
-try {
-    ImGui::SetCurrentContext(gui->context);
-}
-WR_CAUGHT()
 
 /* ---- events ---- */
 
@@ -329,7 +308,6 @@ try {
     ImGuiIO &io = ImGui::GetIO();
     io.DisplaySize = ImVec2((float)width, (float)height);
     wr_kept_clear(gui->kept, WR_COLOUR_BAR);
-    gui->drawn_for = ImGui::GetCurrentContext();
     io.DeltaTime = (float)(seconds > 1e-4 ? (seconds < 0.5 ? seconds : 0.5) : 1e-4);
     for (int i = 0; i < 3;
          i++) { /* pressed and let go since the last frame: pressed for one frame */
@@ -360,8 +338,8 @@ try {
     double sizes = fitted_sizes(*ImGui::GetCurrentContext());
     gui->fits = sizes != gui->fitted;
     gui->fitted = sizes;
-    if (wr_gui_tells_all || wr_gui_unseen || gui->drawn_for != ImGui::GetCurrentContext()) {
-        wr_kept_drop(gui->kept); /* or pictures aside came in the midst of this one */
+    if (wr_gui_tells_all || wr_gui_unseen) {
+        wr_kept_drop(gui->kept);
         return;
     }
     ImDrawData *data = ImGui::GetDrawData();

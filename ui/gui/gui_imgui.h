@@ -63,12 +63,11 @@ struct WrTyped {
 };
 
 struct WrGui {
-    SDL_Renderer *renderer;  /* borrowed */
-    ImGuiContext *context;   /* owned */
-    ImGuiContext *aside;     /* owned; NULL until it is needed */
-    SDL_Texture *atlas;      /* owned */
-    WrKept *kept;            /* owned */
-    ImGuiContext *drawn_for; /* whose picture it is */
+    SDL_Renderer *renderer; /* borrowed */
+    ImGuiContext *context;  /* owned */
+    SDL_Texture *atlas;     /* owned */
+    WrKept *kept;           /* owned */
+    const char *grey_why;   /* of what comes, between wr_gui_hold and _end; NULL: it is not grey */
     ImFont *fonts[WR_FONT_COUNT];
     double scale;
     bool no_icons, no_text;          /* their fonts were not found */

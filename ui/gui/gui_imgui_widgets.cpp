@@ -272,6 +272,9 @@ static void show_tip(const char *text)
 
 void wr_gui_tip_of(ImGuiID id, const char *text)
 try {
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    const bool grey = g.LastItemData.InFlags & ImGuiItemFlags_Disabled;
+    if (grey && wr_gui_current()->grey_why) return; /* that is what is told of all of it */
     if (!wants_tip(id, text)) return;
     place_tip(wr_gui_focused(id));
     show_tip(text);
@@ -282,6 +285,33 @@ extern "C" void wr_gui_tip(const char *text)
 {
     wr_gui_tip_of(ImGui::GetItemID(), text);
 }
+
+/* ---- grey, and why ---- */
+
+extern "C" void wr_gui_hold(const char *why)
+{
+    wr_gui_current()->grey_why = why;
+    ImGui::BeginDisabled(why != nullptr);
+}
+
+extern "C" void wr_gui_hold_end(void)
+try {
+    WrGui *gui = wr_gui_current();
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    ImGui::EndDisabled();
+    const char *why = gui->grey_why;
+    gui->grey_why = nullptr;
+    if (why && wr_gui_tells_all) wr_gui_said(why);
+    if (!why || !g.HoveredIdDisabled || !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows))
+        return;
+    if (g.HoveredIdTimer < TIP_SECONDS) {
+        gui->tip_waits = true;
+        return;
+    }
+    place_tip(false);
+    show_tip(why);
+}
+WR_CAUGHT()
 
 /* ---- choices and buttons ---- */
 

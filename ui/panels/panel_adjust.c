@@ -98,6 +98,7 @@ static void ask_values(WrApp *app, const WrFilter *filter, bool filters, int lay
 
 void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op)
 {
+    if (wr_busy_refuse(app)) return;
     WrFilter filter = wr_filter_of(op);
     for (int i = 0; i < wr_op_param_count(op); i++)
         if (!op->params[i].points) filter.param[i] = beginning(app, &op->params[i]);
@@ -106,6 +107,7 @@ void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op)
 
 void wr_dialog_filter_open(WrApp *app, const WrOpInfo *op)
 {
+    if (wr_busy_refuse(app)) return;
     const WrFilter filter = wr_filter_of(op);
     ask_values(app, &filter, true, -1);
 }

@@ -103,7 +103,7 @@ void wr_panel_history(WrApp *app)
     double wide = wr_gui_text_width(WR_FONT_TEXT, wr_words("Save as script...")) + wr_gui_px(28);
     wr_gui_same_line(8);
     wr_gui_move_to(wr_gui_width() - wide);
-    wr_gui_disable(count == 0);
+    wr_gui_disable(!wr_action_can(app, wr_action_find(app, WR_ACT(save_history))));
     if (wr_gui_chip(NULL, "Save as script...")) wr_action_run(app, WR_ACT(save_history));
     wr_gui_enable();
     static const char *const ways[] = { "In words", "As commands" };
@@ -118,7 +118,9 @@ void wr_panel_history(WrApp *app)
         return;
     }
     int last = count > ROWS_MAX ? count - ROWS_MAX : 0;
+    wr_busy_hold(app);
     for (int i = count; i >= last; i--) /* newest on top */
         if (row(app, i, wr_gui_will_see(wr_gui_px(ROW_UNITS)))) goal = i;
+    wr_busy_hold_end();
     if (goal >= 0) go(app, goal);
 }

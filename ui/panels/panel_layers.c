@@ -290,7 +290,7 @@ static bool row(WrApp *app, int i)
     bool changed = row_parts(app, i, active);
     wr_gui_row_end();
     if (changed) return true;
-    if (r.dragging && count > 1) follow_drag(app, &r, i, count);
+    if (r.dragging && count > 1 && !wr_busy_greys(app)) follow_drag(app, &r, i, count);
     if (r.dropped && app->layers->dragged >= 0) {
         drop(app);
         return true;
@@ -402,7 +402,9 @@ void wr_panel_layers(WrApp *app, SDL_Rect room)
     middle.y = room.y + head.h;
     middle.h = bottom.y - middle.y;
     wr_gui_area_begin("##layer_settings", WR_AREA_PANEL, head, WR_COLOUR_PANEL);
+    wr_busy_hold(app);
     settings(app, active);
+    wr_busy_hold_end();
     wr_gui_area_end();
     if (middle.h > 0) {
         wr_gui_area_begin("##layers", WR_AREA_PANEL, middle, WR_COLOUR_LIST);

@@ -1,5 +1,6 @@
 #include "ui/desk/action.h"
 #include "ui/desk/action_list.h"
+#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/document.h"
 #include "ui/desk/keys.h"
@@ -222,7 +223,7 @@ static void recent(WrApp *app)
     for (int i = 0; i < WR_RECENT_MAX && app->settings->recent[i]; i++) {
         wr_gui_push_id(i);
         wr_gui_as_it_is(true);
-        if (wr_gui_menu_item(app->settings->recent[i], NULL, false, true))
+        if (wr_gui_menu_item(app->settings->recent[i], NULL, false, !wr_busy_greys(app)))
             chosen = app->settings->recent[i];
         wr_gui_as_it_is(false);
         wr_gui_pop_id();
@@ -274,7 +275,8 @@ static void list_operations(WrApp *app, bool filters)
         if (filters && op->reshapes) continue;
         snprintf(name, sizeof name, "%s_%.50s", filters ? "filter" : "adjust", op->name);
         snprintf(label, sizeof label, "%.60s...", wr_words(op->label));
-        if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys), false, true))
+        if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys), false,
+                             !wr_busy_greys(app)))
             wr_action_run(app, name);
         wr_gui_tip(op->help);
     }

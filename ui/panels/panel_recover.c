@@ -89,16 +89,15 @@ static void describe(const WrRecoverable *r, char *name, size_t name_size, char 
 }
 
 typedef struct Call {
-    WrSession *session;
     const char *journal;
     bool beyond;
     WrRecovered recovered;
 } Call;
 
-static bool recover_work(void *ctx, WrError *err)
+static bool recover_work(WrSession *session, void *ctx, WrError *err)
 {
     Call *call = ctx;
-    return wr_session_recover(call->session, call->journal, call->beyond, &call->recovered, err);
+    return wr_session_recover(session, call->journal, call->beyond, &call->recovered, err);
 }
 
 /* The rest of it is still there: what now? */
@@ -117,8 +116,8 @@ static void ask_about_rest(WrApp *app, const Call *call)
 static void recover(WrApp *app, const char *journal, bool beyond)
 {
     WrError err;
-    Call call = { .session = app->session, .journal = journal, .beyond = beyond };
-    if (wr_busy_run(app, "Recovering", recover_work, &call, &err)) {
+    Call call = { .journal = journal, .beyond = beyond };
+    if (wr_busy_run(app, WR_BUSY_ANOTHER, "Recovering", recover_work, &call, &err)) {
         app->file->starter = false;
         wr_app_changed_document(app);
         wr_app_say_lines(app, wr_text_get(&call.recovered.report));

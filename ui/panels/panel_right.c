@@ -1,6 +1,7 @@
 /* The panel on the right: one tab at a time above, the layers below; where there is no room for both,
    the layers are a tab too. What needs many rows takes the layers' place where they leave it only a few. */
 #include "ui/accuracy/accuracy.h"
+#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/layout.h"
 #include "ui/desk/roster.h"
@@ -76,6 +77,8 @@ void wr_panel_right(WrApp *app)
         return;
     }
     wr_gui_area_begin(labels[*tab], WR_AREA_PANEL, room, WR_COLOUR_PANEL);
+    if (tabs[*tab].edits) wr_busy_hold(app);
     tabs[*tab].draw(app);
+    if (tabs[*tab].edits) wr_busy_hold_end();
     wr_gui_area_end();
 }

@@ -228,7 +228,7 @@ void wr_patch_update(WrApp *app)
     WrPatch *p = app->patch;
     double now = wr_clock_seconds();
     take_picture(app);
-    if (!app->shown) {
+    if (!app->busy) {
         wr_patch_commit_late(app);
         wr_patch_cube_update(app, false);
     }
@@ -364,7 +364,7 @@ void wr_patch_overlay(WrApp *app)
 
 static void settle(WrApp *app)
 {
-    if (app->shown) return;
+    if (app->busy) return;
     wr_patch_commit_late(app);
     wr_patch_cube_update(app, true);
     wr_patch_commit_zoom(app, true);
@@ -383,7 +383,6 @@ static void forget(WrApp *app)
 
 const WrPart wr_part_patch = { .update = wr_patch_update,
                                .next_time = wr_patch_next_time,
-                               .meanwhile = wr_patch_update,
                                .look = wr_patch_look,
                                .draw = wr_patch_draw,
                                .settle = settle,

@@ -253,7 +253,7 @@ void wr_patch_commit_turn(WrApp *app)
 bool wr_patch_press(WrApp *app, const WrPointer *at)
 {
     WrPatch *p = app->patch;
-    if (!app->shown) {
+    if (!app->busy) {
         wr_patch_commit_zoom(app, true);
         wr_patch_cube_update(app, true);
     }
@@ -318,7 +318,7 @@ void wr_patch_wheel(WrApp *app, double steps)
 {
     WrPlacement at;
     if (app->hand->grab != WR_GRAB_NONE || !wr_patch_place(app, &at)) return;
-    if (app->patch->zoom_angle && !app->shown) wr_patch_commit_zoom(app, true);
+    if (app->patch->zoom_angle && !app->busy) wr_patch_commit_zoom(app, true);
     double factor = exp2(-steps / 6.0);
     WrScene *scene = wr_app_live(app);
     WrCamera *camera = &scene->camera;
@@ -338,7 +338,7 @@ void wr_patch_wheel_angle(WrApp *app, double steps)
 {
     const WrSceneParam *fov = &wr_scene_params[WR_SCENE_PARAM_FOV];
     if (app->hand->grab != WR_GRAB_NONE || wr_app_scene(app)->camera.orthographic) return;
-    if (app->patch->zoom_commit_at > 0.0 && !app->patch->zoom_angle && !app->shown)
+    if (app->patch->zoom_commit_at > 0.0 && !app->patch->zoom_angle && !app->busy)
         wr_patch_commit_zoom(app, true);
     double *deg = &wr_app_live(app)->camera.fov_deg;
     *deg = fmin(fov->soft_high, fmax(fov->soft_low, *deg * exp2(-steps / 6.0)));
@@ -348,7 +348,7 @@ void wr_patch_wheel_angle(WrApp *app, double steps)
 
 void wr_patch_commit_zoom(WrApp *app, bool now)
 {
-    if (app->patch->zoom_commit_at == 0.0 || app->shown) return; /* it waits for what runs */
+    if (app->patch->zoom_commit_at == 0.0 || app->busy) return; /* it waits for what runs */
     app->patch->zoom_commit_at = 0.0;
     if (!app->live || !now) {
         wr_app_live_end(app);

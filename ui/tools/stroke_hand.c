@@ -3,6 +3,7 @@
    is let go before it is drawn goes on being drawn; the next one waits its turn. */
 #include "ui/desk/action_list.h"
 #include "ui/tools/stroke_hand.h"
+#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
 #include "ui/desk/keys.h"
@@ -11,7 +12,9 @@
 #include "ui/desk/session_view.h"
 #include "ui/desk/settings.h"
 #include "ui/tools/brush_line.h"
+#include "ui/gui/words.h"
 #include "ui/tools/shelf.h"
+#include "ui/views/overlay.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -110,6 +113,43 @@ static void close_first(WrApp *app)
     wr_app_title(app);
 }
 
+/* Draw until `end` on the clock. */
+static void work_until(WrApp *app, double end)
+{
+    WrBrushHand *hand = app->brush;
+    while (!app->busy && hand->jobs.count > 0 && !hand->jobs.data[0].waits) {
+        if (!hand->opened && !open_first(app)) continue;
+        push_samples(app);
+        if (hand->unfinished) {
+            double left = end - wr_clock_seconds();
+            hand->unfinished = wr_session_stroke_work(app->session, left > 0.0 ? left : 0.0);
+            wr_app_redraw(app);
+        }
+        if (hand->unfinished && wr_clock_seconds() >= end) return;
+        if (hand->unfinished) continue;
+        if (!hand->jobs.data[0].released) break;
+        close_first(app);
+    }
+    hand->shown = hand->taken;
+}
+
+/* What ran is done, or given up: the oldest one that waited is drawn now, or dropped. */
+static void draw_late(WrApp *app, const char *text, bool dropped)
+{
+    (void)text;
+    WrBrushHand *hand = app->brush;
+    int i = 0;
+    while (i < hand->jobs.count && !hand->jobs.data[i].waits) i++;
+    if (i == hand->jobs.count) return; /* cancelled by hand */
+    hand->jobs.data[i].waits = false;
+    if (!dropped) {
+        work_until(app, 1e300);
+        return;
+    }
+    if (hand->drawing && i == hand->jobs.count - 1) hand->drawing = false;
+    drop_job(hand, i);
+}
+
 bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
 {
     WrBrushHand *hand = app->brush;
@@ -123,7 +163,10 @@ bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
     hand->strokes++;
     app->hints = false;
     wr_app_redraw(app);
-    return hand->jobs.count > 1 || open_first(app);
+    if (!app->busy) return hand->jobs.count > 1 || open_first(app);
+    hand->jobs.data[hand->jobs.count - 1].waits = true;
+    wr_busy_put_off(app, wr_words("Stroke"), draw_late, "", true);
+    return true;
 }
 
 void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v)
@@ -157,26 +200,6 @@ void wr_strokes_end(WrApp *app)
     wr_app_redraw(app);
 }
 
-/* Draw until `end` on the clock. */
-static void work_until(WrApp *app, double end)
-{
-    WrBrushHand *hand = app->brush;
-    while (hand->jobs.count > 0) {
-        if (!hand->opened && !open_first(app)) continue;
-        push_samples(app);
-        if (hand->unfinished) {
-            double left = end - wr_clock_seconds();
-            hand->unfinished = wr_session_stroke_work(app->session, left > 0.0 ? left : 0.0);
-            wr_app_redraw(app);
-        }
-        if (hand->unfinished && wr_clock_seconds() >= end) return;
-        if (hand->unfinished) continue;
-        if (!hand->jobs.data[0].released) break;
-        close_first(app);
-    }
-    hand->shown = hand->taken;
-}
-
 void wr_strokes_work(WrApp *app)
 {
     app->brush->taken = app->hand->events;
@@ -187,6 +210,7 @@ void wr_strokes_work(WrApp *app)
 bool wr_strokes_waits(const WrApp *app)
 {
     const WrBrushHand *hand = app->brush;
+    if (hand->jobs.count > 0 && hand->jobs.data[0].waits) return false;
     return hand->unfinished || hand->jobs.count > (hand->drawing ? 1 : 0);
 }
 
@@ -214,6 +238,22 @@ void wr_strokes_cancel(WrApp *app)
     wr_app_take_notes(app);
     wr_app_title(app);
     wr_app_redraw(app);
+}
+
+void wr_strokes_marks(const WrApp *app)
+{
+    const WrBrushHand *hand = app->brush;
+    WR_ARRAY(WrSelectPoint) points = { 0 };
+    for (int i = 0; i < hand->jobs.count; i++) {
+        const WrStrokeJob *job = &hand->jobs.data[i];
+        if (!job->waits) continue;
+        points.count = 0;
+        for (int k = 0; k < job->samples.count; k++)
+            wr_array_push(&points,
+                          ((WrSelectPoint){ job->samples.data[k].u, job->samples.data[k].v }));
+        wr_overlay_lines(app, points.data, points.count, false, WR_COLOUR_CELL);
+    }
+    wr_array_free(&points);
 }
 
 void wr_strokes_free(WrApp *app)

@@ -283,4 +283,5 @@ const WrTool wr_tool_pick = { .action = WR_ACT(pick),
                               .help = "Pick the height under the pointer and paint towards it.",
                               .press = wr_brush_pick,
                               .drag = wr_brush_pick,
-                              .options = wr_brush_options };
+                              .options = wr_brush_options,
+                              .meanwhile = true };

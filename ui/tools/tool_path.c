@@ -287,7 +287,8 @@ const WrTool wr_tool_shape_polygon = {
     .marks = marks,
     .options = wr_shape_options,
     .key = key,
-    .leave = wr_draw_leave
+    .leave = wr_draw_leave,
+    .meanwhile = true
 };
 
 const WrTool wr_tool_shape_path = {
@@ -300,5 +301,6 @@ const WrTool wr_tool_shape_path = {
     .marks = marks,
     .options = wr_shape_options,
     .key = key,
-    .leave = wr_draw_leave
+    .leave = wr_draw_leave,
+    .meanwhile = true
 };

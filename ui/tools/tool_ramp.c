@@ -212,5 +212,6 @@ const WrTool wr_tool_ramp = {
     .marks = marks,
     .options = options,
     .key = key,
-    .leave = wr_draw_leave
+    .leave = wr_draw_leave,
+    .meanwhile = true
 };

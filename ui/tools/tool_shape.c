@@ -223,7 +223,8 @@ const WrTool wr_tool_shape_rect = {
     .marks = marks,
     .options = wr_shape_options,
     .key = key,
-    .leave = wr_draw_leave
+    .leave = wr_draw_leave,
+    .meanwhile = true
 };
 
 const WrTool wr_tool_shape_ellipse = {
@@ -236,5 +237,6 @@ const WrTool wr_tool_shape_ellipse = {
     .marks = marks,
     .options = wr_shape_options,
     .key = key,
-    .leave = wr_draw_leave
+    .leave = wr_draw_leave,
+    .meanwhile = true
 };

@@ -325,7 +325,8 @@ const WrTool wr_tool_stamp = {
     .options = options,
     .key = key,
     .wheel = wheel,
-    .leave = leave
+    .leave = leave,
+    .meanwhile = true
 };
 
 void wr_stamp_take(WrApp *app, const char *path)

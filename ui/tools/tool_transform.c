@@ -431,7 +431,9 @@ static void buttons(WrApp *app, double width)
 {
     (void)width;
     wr_gui_disable(is_still(app->transform));
+    wr_busy_hold(app);
     if (wr_gui_chip(WR_ICON_CHECK, "Apply")) apply(app);
+    wr_busy_hold_end();
     wr_gui_tip("Enter");
     wr_gui_same_line(6);
     if (wr_gui_chip(WR_ICON_CLOSE, "Cancel")) cancel(app);

@@ -54,7 +54,8 @@ const WrTool wr_tool_pan = {
     .action = WR_ACT(pan),
     .icon = WR_ICON_HAND,
     .help = "Move the table. Space and dragging, or the middle button, does it in any tool.",
-    .drag = wr_tool_pan_drag
+    .drag = wr_tool_pan_drag,
+    .meanwhile = true
 };
 
 const WrTool wr_tool_zoom = {
@@ -64,5 +65,6 @@ const WrTool wr_tool_zoom = {
             "it in "
             "any tool.",
     .press = zoom_press,
-    .drag = zoom_drag
+    .drag = zoom_drag,
+    .meanwhile = true
 };

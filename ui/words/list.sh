@@ -15,5 +15,5 @@ done
 xgettext --language=C --from-code=UTF-8 --no-location --no-wrap -o "$out" \
     -k -kwr_words -kwr_app_say:2 -kwr_gui_text:3 -kwr_gui_text_wrapped:3 -kwr_gui_text_cut:3 -kwr_gui_heading:1 \
     -kwr_gui_label:1 -kwr_gui_tip:1 -kwr_gui_button:1 -kwr_gui_chip:2 -kwr_gui_hint_field:2 -kwr_gui_fold:1 \
-    -kwr_gui_menu_begin:1 -kwr_gui_menu_item:1 -kwr_gui_dialog_begin:1 -kwr_gui_draw_text:6 -kROW:2 -kFORM:1 \
+    -kwr_gui_menu_begin:1 -kwr_gui_menu_item:1 -kwr_gui_dialog_begin:1 -kwr_gui_draw_text:6 -kROW:2 -kEDIT:2 -kFORM:1 \
     "${kept[@]}" 2>/dev/null # it warns of every text with a letter beyond ASCII

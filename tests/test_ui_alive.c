@@ -1,0 +1,278 @@
+/* What a hand does while something long runs beside the window: done at once, put off and done in order, or refused with
+   words. Without a display. */
+#include "test.h"
+#include "test_folder.h"
+#include "ui_busy_help.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "command/inner.h"
+#include "system/clock.h"
+
+#include "ui/desk/action.h"
+#include "ui/desk/busy_inner.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/messages.h"
+#include "ui/desk/settings.h"
+#include "ui/tools/stroke_hand.h"
+
+#include <string.h>
+#include <unistd.h>
+
+static void push_click(int x, int y)
+{
+    SDL_Event down = button(SDL_MOUSEBUTTONDOWN, x, y), up = button(SDL_MOUSEBUTTONUP, x, y);
+    SDL_PushEvent(&(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = x, .y = y } });
+    SDL_PushEvent(&down);
+    SDL_PushEvent(&up);
+}
+
+static void push_key(SDL_Keycode code, Uint16 mod)
+{
+    SDL_Event event = key(SDL_KEYDOWN, code);
+    event.key.keysym.scancode = SDL_GetScancodeFromKey(code);
+    event.key.keysym.mod = mod;
+    SDL_PushEvent(&event);
+    event.type = SDL_KEYUP;
+    SDL_PushEvent(&event);
+}
+
+static bool is_written(const char *line)
+{
+    char *path = wr_config_path("window.conf"), *text = NULL;
+    size_t length;
+    const bool read = wr_file_read(path, 1 << 16, &text, &length, NULL);
+    const bool found = read && strstr(text, line);
+    wr_free(text);
+    wr_free(path);
+    return found;
+}
+
+/* One thing after the other, each by a hand and seen before the next: a tab, the guide and back, a setting that is on the
+   disk while the work still runs, the brush's size. */
+static bool use_the_window(Long *work)
+{
+    WrApp *app = work->app;
+    const SDL_Rect *panel = &app->layout->panel;
+    const bool seen[] = { true,
+                          app->settings->tab != 0,
+                          app->dialog->now == WR_DIALOG_HELP,
+                          app->dialog->now == WR_DIALOG_NONE,
+                          is_written("grid 1"),
+                          app->settings->brush.radius > 33.0 };
+    const int last = (int)(sizeof seen / sizeof *seen);
+    if (!seen[work->stage]) return false;
+    switch (++work->stage) {
+    case 1: push_click(panel->x + panel->w / 2, panel->y + 16); break;
+    case 2: push_key(SDLK_F1, 0); break;
+    case 3: push_key(SDLK_ESCAPE, 0); break; /* of the guide, and not of the work */
+    case 4: push_key(SDLK_g, KMOD_LALT); break;
+    case 5: push_key(SDLK_RIGHTBRACKET, 0); break;
+    }
+    return work->stage == last;
+}
+
+static void the_window_is_used_meanwhile(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    app->settings->tab = 0;
+    app->settings->grid = false;
+    app->settings->brush.radius = 32.7;
+    const WrHash before = wr_session_hash(bench.session);
+    Long work = { .app = app, .watch = use_the_window };
+    assert_true(run(&work, &err));
+    const WrHash after = wr_session_hash(bench.session);
+    assert_memory_equal(&before, &after, sizeof before);
+    finish(&bench);
+}
+
+/* An action that changes the document is grey, and its key refused with words, but not what can wait. */
+static bool try_to_edit(Long *work)
+{
+    WrApp *app = work->app;
+    if (!wr_busy_greys(app)) return false;
+    if (work->stage++ == 0) {
+        assert_false(wr_action_can(app, wr_action_find(app, "layer_add")));
+        assert_false(wr_action_can(app, wr_action_find(app, "undo")));
+        assert_true(wr_action_can(app, wr_action_find(app, "layer_show")));
+        assert_true(wr_action_can(app, wr_action_find(app, "theme_dark")));
+        assert_false(wr_app_run_line(app, "fill 0.37"));
+        app->busy->refused_at = -1e9;
+        push_key(SDLK_j, KMOD_LCTRL);
+    }
+    return app->busy->refused_at > 0.0; /* the bar says so */
+}
+
+static void an_edit_is_refused_with_words(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    const WrHash before = wr_session_hash(bench.session);
+    Long work = { .app = bench.app, .watch = try_to_edit };
+    assert_true(run(&work, &err));
+    draw_again(bench.app);
+    const WrHash after = wr_session_hash(bench.session);
+    assert_memory_equal(&before, &after, sizeof before);
+    assert_true(wr_action_can(bench.app, wr_action_find(bench.app, "layer_add")));
+    finish(&bench);
+}
+
+static void push_stroke(const WrApp *app, int from, int to)
+{
+    const SDL_Rect *canvas = &app->layout->canvas;
+    const int x = canvas->x + canvas->w / 2, y = canvas->y + canvas->h / 2;
+    SDL_Event down = button(SDL_MOUSEBUTTONDOWN, x + from, y);
+    SDL_Event up = button(SDL_MOUSEBUTTONUP, x + to, y + 3);
+    SDL_PushEvent(&(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = x + from, .y = y } });
+    SDL_PushEvent(&down);
+    SDL_PushEvent(&(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = x + to, .y = y + 3 } });
+    SDL_PushEvent(&up);
+}
+
+/* A stroke, a lock, a stroke: the second one finds the layer locked. */
+static bool paint_and_lock(Long *work)
+{
+    WrApp *app = work->app;
+    if (app->waits->items.count < work->stage) return false;
+    switch (work->stage++) {
+    case 0: push_stroke(app, 0, 41); break;
+    case 1: assert_true(wr_app_run_line(app, "layer set 1 lock=on")); break;
+    case 2: push_stroke(app, 7, -29); break;
+    default: return true;
+    }
+    return false;
+}
+
+static void what_waits_is_done_in_its_order(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    const int before = wr_session_history_position(bench.session);
+    Long work = { .app = app, .watch = paint_and_lock };
+    assert_true(run(&work, &err));
+    assert_int_equal(wr_session_history_position(bench.session), before);
+    draw_again(app);
+    draw_again(app);
+    assert_int_equal(app->waits->items.count, 0);
+    assert_int_equal(wr_session_history_position(bench.session), before + 2);
+    const char *stroke = wr_session_history_line(bench.session, before);
+    assert_int_equal(strncmp(stroke, "stroke ", 7), 0);
+    assert_string_equal(wr_session_history_line(bench.session, before + 1), "layer set 1 lock=on");
+    assert_int_equal(app->messages->unread, 1); /* that the layer is locked */
+    finish(&bench);
+}
+
+/* Given up: what waited is thrown away, with words. */
+static bool paint_and_give_up(Long *work)
+{
+    WrApp *app = work->app;
+    if (work->stage++ > 0) return app->waits->items.count == 2;
+    assert_true(wr_app_run_line(app, "layer set 1 visible=off"));
+    push_stroke(app, 3, 38);
+    return false;
+}
+
+static bool give_up_after(Long *work)
+{
+    if (!paint_and_give_up(work)) return false;
+    push_key(SDLK_ESCAPE, 0);
+    return true;
+}
+
+static void what_waits_is_dropped_with_what_is_given_up(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    const WrHash before = wr_session_hash(bench.session);
+    Long work = { .app = app, .watch = give_up_after, .gives_up = true };
+    assert_false(run(&work, &err));
+    draw_again(app);
+    draw_again(app);
+    const WrHash after = wr_session_hash(bench.session);
+    assert_memory_equal(&before, &after, sizeof before);
+    assert_int_equal(app->waits->items.count, 0);
+    assert_int_equal(app->brush->jobs.count, 0);
+    const WrMessage *said = wr_messages_shown(app->messages, 0.0);
+    assert_non_null(said);
+    assert_non_null(strstr(said->text, "what waited"));
+    assert_non_null(strstr(said->text, "Stroke"));
+    finish(&bench);
+}
+
+/* Lines name layers by numbers, which mean others when the work has added one. */
+static void what_waits_is_not_done_to_other_layers(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    Long work = { .app = app, .watch = paint_and_give_up, .line = "layer add" };
+    assert_true(run(&work, &err));
+    const WrHash before = wr_session_hash(bench.session);
+    draw_again(app);
+    draw_again(app);
+    const WrHash after = wr_session_hash(bench.session);
+    assert_memory_equal(&before, &after, sizeof before);
+    assert_int_equal(app->brush->jobs.count, 0);
+    const WrMessage *said = wr_messages_shown(app->messages, 0.0);
+    assert_non_null(said);
+    assert_non_null(strstr(said->text, "layers are others"));
+    finish(&bench);
+}
+
+/* A widget that runs a line is in the midst of a picture, which is not held up: the loop ends the work. */
+static void a_line_of_a_widget_does_not_hold_its_picture_up(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    WrApp *app = bench.app;
+    const WrHash before = wr_session_hash(bench.session);
+    app->in_frame = true;
+    assert_true(wr_app_run_line(app, "render x.png size=16384x16384"));
+    app->in_frame = false;
+    assert_non_null(app->busy);
+    assert_true(app->session != bench.session); /* nobody touches it */
+    const double end = wr_clock_seconds() + PATIENCE;
+    while (wr_busy_is_young(app) && wr_clock_seconds() < end) draw_again(app);
+    push_key(SDLK_ESCAPE, 0);
+    while (app->busy && wr_clock_seconds() < end) draw_again(app);
+    assert_null(app->busy);
+    assert_ptr_equal(app->session, bench.session);
+    const WrHash after = wr_session_hash(bench.session);
+    assert_memory_equal(&before, &after, sizeof before);
+    const WrMessage *said = wr_messages_shown(app->messages, 0.0);
+    assert_non_null(said);
+    assert_int_equal(strncmp(said->text, "Cancelled", 9), 0);
+    assert_int_equal(access("x.png", F_OK), -1);
+    finish(&bench);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_window_is_used_meanwhile),
+        cmocka_unit_test(an_edit_is_refused_with_words),
+        cmocka_unit_test(what_waits_is_done_in_its_order),
+        cmocka_unit_test(what_waits_is_dropped_with_what_is_given_up),
+        cmocka_unit_test(what_waits_is_not_done_to_other_layers),
+        cmocka_unit_test(a_line_of_a_widget_does_not_hold_its_picture_up),
+    };
+    return cmocka_run_group_tests(tests, enter_window, remove_folder);
+}
