@@ -66,6 +66,7 @@ static bool same_file(const char *a, const char *b)
 bool wr_session_save(WrSession *session, const char *path, WrError *err)
 {
     WrText text = { 0 };
+    if (session->still) return wr_session_refuse_in_stroke(session, err);
     if (session->state.newer_path && same_file(session->state.newer_path, path))
         return wr_fail(err,
                        "%s: was saved by a newer version of the program: saving over it would lose "

@@ -134,6 +134,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
 void wr_app_end(WrApp *app)
 {
     wr_app_start_end(app);
+    wr_busy_stop(app);
     wr_rest_free(app->rest);
     wr_preview_free(app->preview);
     wr_accuracy_free(app);

@@ -85,7 +85,7 @@ bool wr_busy_end(WrApp *app, WrError *err)
     app->session = busy->session;
     app->busy = NULL;
     app->gave_up = busy->cancelled && !ok;
-    if (busy->cancelled) app->waits->given_up = true;
+    if (busy->cancelled && busy->kind != WR_BUSY_TEND) app->waits->given_up = true;
     if (!ok && err) *err = busy->err;
     catch_up(app, busy);
     wr_job_free(busy->job);
@@ -93,6 +93,19 @@ bool wr_busy_end(WrApp *app, WrError *err)
     wr_free(busy);
     wr_app_redraw(app);
     return ok;
+}
+
+void wr_busy_stop(WrApp *app)
+{
+    WrError err = { "" };
+    WrBusy *busy = app->busy;
+    if (!busy) return;
+    wr_job_interrupt(busy->job);
+    while (!is_done(busy)) SDL_Delay(LOOKS_MS);
+    WrBusyDone *after = busy->after;
+    void *ctx = busy->after_ctx;
+    const bool ok = wr_busy_end(app, &err);
+    if (after) after(app, ctx, ok, &err);
 }
 
 bool wr_busy_run(WrApp *app, WrBusyKind kind, const char *what, WrBusyWork *work, void *ctx,

@@ -79,4 +79,5 @@ bool wr_busy_event(WrApp *app, const SDL_Event *event);
 bool wr_busy_look(WrApp *app, const SDL_Event *event);
 /* Widgets: in the place of the status line; false if there is nothing to tell. */
 bool wr_busy_bar(WrApp *app);
+void wr_busy_stop(WrApp *app); /* the window ends: give up what runs */
 void wr_busy_free(WrApp *app);
