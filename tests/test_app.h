@@ -64,3 +64,22 @@ static inline void draw_again(WrApp *app)
         wr_app_step(app);
     }
 }
+
+/* The pointer, as the system tells of it. */
+static inline void push_motion(const WrApp *app, int x, int y)
+{
+    SDL_PushEvent(&(SDL_Event){
+        .motion = {
+            .type = SDL_MOUSEMOTION, .windowID = SDL_GetWindowID(app->window), .x = x, .y = y } });
+}
+
+static inline void push_button(const WrApp *app, bool down, int which, int x, int y)
+{
+    SDL_PushEvent(&(SDL_Event){ .button = { .type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
+                                            .windowID = SDL_GetWindowID(app->window),
+                                            .button = (Uint8)which,
+                                            .state = down ? SDL_PRESSED : SDL_RELEASED,
+                                            .clicks = 1,
+                                            .x = x,
+                                            .y = y } });
+}

@@ -24,6 +24,7 @@
 /* And what the second half may take more than the first: chance, which was 2 MB. A tile of 16 KB that each stroke left
    behind would be 16 MB. */
 #define SLACK (8 << 20)
+#define FILLING (24 << 20) /* the same in less than an hour: undo's memory still fills */
 #define LAYERS_MOST 6
 
 typedef struct Hour {
@@ -49,25 +50,9 @@ static double resident(void)
 
 /* ---- the hand ---- */
 
-static void button(Hour *hour, bool down, int which, int x, int y)
-{
-    SDL_Event event = { .button = { .type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
-                                    .windowID = SDL_GetWindowID(hour->bench.app->window),
-                                    .button = (Uint8)which,
-                                    .state = down ? SDL_PRESSED : SDL_RELEASED,
-                                    .clicks = 1,
-                                    .x = x,
-                                    .y = y } };
-    SDL_PushEvent(&event);
-}
-
 static void motion(Hour *hour, int x, int y)
 {
-    SDL_Event event = { .motion = { .type = SDL_MOUSEMOTION,
-                                    .windowID = SDL_GetWindowID(hour->bench.app->window),
-                                    .x = x,
-                                    .y = y } };
-    SDL_PushEvent(&event);
+    push_motion(hour->bench.app, x, y);
     hour->motions++;
 }
 
@@ -85,13 +70,14 @@ static void drag(Hour *hour, const SDL_Rect *room, int which)
     for (int i = 0; i < count; i++) {
         const int px = room->x + (int)(x * room->w), py = room->y + (int)(y * room->h);
         motion(hour, px, py);
-        if (i == 0) button(hour, true, which, px, py);
+        if (i == 0) push_button(hour->bench.app, true, which, px, py);
         way += some(hour, -0.5, 0.5);
         x = fmin(0.97, fmax(0.03, x + 0.02 * cos(way)));
         y = fmin(0.97, fmax(0.12, y + 0.02 * sin(way)));
         if (i % 8 == 7) step(hour);
     }
-    button(hour, false, which, room->x + (int)(x * room->w), room->y + (int)(y * room->h));
+    push_button(hour->bench.app, false, which, room->x + (int)(x * room->w),
+                room->y + (int)(y * room->h));
     step(hour);
 }
 
@@ -269,7 +255,7 @@ static void an_hour_takes_no_more_memory_than_undo_may(void **state)
            (long long)hour.refused, opened / 1048576.0, half / 1048576.0, most / 1048576.0);
     assert_true(hour.lines == 0 || hour.refused < hour.lines / 2);
     if (most > opened + BUDGET + CONSTANT) fail_msg("%.1f MB resident", most / 1048576.0);
-    if (most > half + SLACK)
+    if (most > half + (seconds < 3600 ? FILLING : SLACK))
         fail_msg("the second half took %.1f MB more", (most - half) / 1048576.0);
     compare(&hour);
 }

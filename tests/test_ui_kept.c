@@ -301,24 +301,6 @@ static void step(WrApp *app)
     wr_app_step(app);
 }
 
-static void move(WrApp *app, int x, int y)
-{
-    SDL_PushEvent(&(SDL_Event){
-        .motion = {
-            .type = SDL_MOUSEMOTION, .windowID = SDL_GetWindowID(app->window), .x = x, .y = y } });
-}
-
-static void button(WrApp *app, bool down, int which, int x, int y)
-{
-    SDL_PushEvent(&(SDL_Event){ .button = { .type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
-                                            .windowID = SDL_GetWindowID(app->window),
-                                            .button = (Uint8)which,
-                                            .state = down ? SDL_PRESSED : SDL_RELEASED,
-                                            .clicks = 1,
-                                            .x = x,
-                                            .y = y } });
-}
-
 static int within(TestRandom *r, int low, int size)
 {
     return low + (int)((0.05 + 0.9 * test_random(r)) * size);
@@ -328,15 +310,15 @@ static int within(TestRandom *r, int low, int size)
 static void drag(WrApp *app, TestRandom *r, const SDL_Rect *room, int which)
 {
     int x = within(r, room->x, room->w), y = within(r, room->y, room->h);
-    move(app, x, y);
-    if (which) button(app, true, which, x, y);
+    push_motion(app, x, y);
+    if (which) push_button(app, true, which, x, y);
     for (int i = 0; i < 4; i++) {
         x += (int)(40 * test_random(r)) - 20;
         y += (int)(40 * test_random(r)) - 20;
-        move(app, x, y);
+        push_motion(app, x, y);
         step(app);
     }
-    if (which) button(app, false, which, x, y);
+    if (which) push_button(app, false, which, x, y);
     step(app);
 }
 
@@ -353,7 +335,7 @@ static void dialogs(WrApp *app, TestRandom *r)
                                          "table_size",  "export", "help",   "maps" };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         act(app, names[i]);
-        move(app, within(r, 0, app->width), within(r, 0, app->height));
+        push_motion(app, within(r, 0, app->width), within(r, 0, app->height));
         step(app);
         if (app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(app);
         step(app);

@@ -151,9 +151,10 @@ static void note_copy(WrKept *kept, SDL_Texture *texture, const SDL_Rect *of, co
                       bool told)
 {
     int w = 0, h = 0;
-    uint8_t r, g, b;
+    uint8_t r, g, b, a;
     SDL_QueryTexture(texture, NULL, NULL, &w, &h);
     SDL_GetTextureColorMod(texture, &r, &g, &b);
+    SDL_GetTextureAlphaMod(texture, &a);
     const SDL_Rect all = { 0, 0, w, h };
     const Item item = {
         .kind = COPY, .box = *to, .texture = texture, .piece = { .of = of ? *of : all, .to = *to }
@@ -161,7 +162,7 @@ static void note_copy(WrKept *kept, SDL_Texture *texture, const SDL_Rect *of, co
     const bool scaled = item.piece.of.w != to->w || item.piece.of.h != to->h;
     Words words = { .count = 0 };
     say(&words, COPY);
-    say(&words, (uint32_t)r << 16 | (uint32_t)g << 8 | b);
+    say(&words, (uint32_t)a << 24 | (uint32_t)r << 16 | (uint32_t)g << 8 | b);
     say_texture(&words, texture, told && !scaled ? 0 : wr_gui_sdl_revision(texture));
     say_rect(&words, &item.piece.of);
     say_rect(&words, to);
