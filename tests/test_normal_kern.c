@@ -254,6 +254,45 @@ static void moments_are_products_and_their_means(void **state)
     }
 }
 
+/* Codes by the C library's rounding, of numbers on the edge between two, far beyond all, and any; what is outside. */
+static void codes_of_numbers_are_rounded_cut_and_counted(void **state)
+{
+    (void)state;
+    static const WrMapCodes kinds[] = {
+        { 255, -0.31, 1.73, 0, 255, -0.31, 1.42 },
+        { 127, 0, 0.77, 128, 255, -0.77, 0.77 },
+        { 65535, 0.2, 3.1, 0, 65535, 0.2, 3.3 },
+        { 32767, 0, 9, 32768, 65535, -9, 9 },
+        { 255, -4, 510, 0, 255, -4, 506 } /* halves */,
+        { 127, 0, 254, 128, 255, -254, 254 }, /* of both signs */
+        { 0, 0, 1, 128, 255, 0, 0 }           /* all are 0 */
+    };
+    TestRandom random = { 99 };
+    for (int index = 0; wr_normal_kernels_at(index); index++)
+        for (int k = 0; k < 7 * 36; k++) {
+            const WrMapCodes *c = &kinds[k % 7];
+            const int count = 1 + (k * 7) % COUNT;
+            float x[COUNT];
+            int32_t code[COUNT + 1];
+            int64_t outside = 0;
+            for (int i = 0; i < count; i++) {
+                const double any = c->low + (1.2 * test_random(&random) - 0.1) * (c->high - c->low);
+                x[i] = k % 7 == 4 || k % 7 == 5 ? (float)floor(any) : (float)any;
+                if (i % 31 == 7) x[i] = i % 2 ? 3e38f : -3e38f;
+                if (i % 17 == 3) x[i] = (float)c->high;
+            }
+            code[count] = 77;
+            const int64_t told = wr_normal_kernels_at(index)->codes_of(c, x, count, code);
+            for (int i = 0; i < count; i++) {
+                const double number = x[i];
+                const double want = c->zero + round(c->times * (number - c->less) / c->by);
+                assert_int_equal(code[i], (int)fmin(fmax(want, 0), c->last));
+                outside += number < c->low || number > c->high;
+            }
+            assert_true(told == outside && code[count] == 77);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -262,6 +301,7 @@ int main(void)
         cmocka_unit_test(codes_in_single_precision_are_right_or_in_doubt),
         cmocka_unit_test(codes_beside_the_edges_between_them_are_right_or_in_doubt),
         cmocka_unit_test(moments_are_products_and_their_means),
+        cmocka_unit_test(codes_of_numbers_are_rounded_cut_and_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "export/normal_kern.h"
 #include "field/field.h"
 #include "field/maps.h"
 #include "field/occlusion.h"
@@ -116,24 +117,73 @@ static bool beyond(const WrExportReport *report, double x)
     return x < report->code_low || x > report->code_high;
 }
 
+/* code_of, of all numbers at once. */
+static WrMapCodes codes_of(const WrExportJob *job)
+{
+    const WrExportReport *r = &job->report;
+    const double last = wr_export_last_code(job);
+    if (r->zero_code < 0)
+        return (WrMapCodes){ last,        r->code_low, r->code_high - r->code_low, 0, last,
+                             r->code_low, r->code_high };
+    const bool flat = !(r->amplitude > 0);
+    return (WrMapCodes){ flat ? 0 : r->zero_code - 1,
+                         0,
+                         flat ? 1 : r->amplitude,
+                         r->zero_code,
+                         last,
+                         -r->amplitude,
+                         r->amplitude };
+}
+
+/* Of one row, without dither. Returns how many were clipped. */
+static int64_t plain_codes(const WrExportJob *job, const WrMapCodes *codes, const float *from,
+                           size_t count, void *out, size_t first)
+{
+    enum { RUN = 512 };
+    int32_t code[RUN];
+    int64_t clipped = 0;
+    for (size_t k = 0; k < count; k += RUN) {
+        const int now = count - k < RUN ? (int)(count - k) : RUN;
+        clipped += wr_normal_kernels()->codes_of(codes, from + k, now, code);
+        if (job->options.depth == 8)
+            for (int i = 0; i < now; i++)
+                ((uint8_t *)out)[first + k + (size_t)i] = (uint8_t)code[i];
+        else
+            for (int i = 0; i < now; i++)
+                ((uint16_t *)out)[first + k + (size_t)i] = (uint16_t)code[i];
+    }
+    return clipped;
+}
+
+/* Row y, numbers from `from` to the codes from `first` on. Returns how many were clipped. */
+static int64_t dithered_codes(const WrExportJob *job, int y, const float *from, size_t count,
+                              void *out, size_t first)
+{
+    const int zero = job->report.zero_code < 0 ? 0 : job->report.zero_code;
+    int64_t clipped = 0;
+    for (size_t i = 0; i < count; i++) {
+        const int column = (int)i / job->channels, channel = (int)i % job->channels;
+        const double x = (double)from[i];
+        clipped += beyond(&job->report, x);
+        wr_export_store_code(job, out, first + i, code_of(job, x), zero,
+                             (WrExportTexel){ column, y, channel });
+    }
+    return clipped;
+}
+
 static void map_piece(WrExportJob *job, int y, int rows, void *ctx)
 {
     const Strip *strip = ctx;
     const size_t row = (size_t)job->width * (size_t)job->channels;
-    const size_t first = (size_t)(y - strip->y) * row;
-    const float *from = job->map + (size_t)y * row;
-    const int zero = job->report.zero_code < 0 ? 0 : job->report.zero_code;
+    const WrMapCodes codes = codes_of(job);
     int64_t clipped = 0;
-    if (job->options.depth == 32) {
-        memcpy((float *)strip->out + first, from, row * (size_t)rows * sizeof *from);
-        return;
-    }
-    for (size_t i = 0; i < row * (size_t)rows; i++) {
-        const int column = (int)(i % row) / job->channels, channel = (int)(i % row) % job->channels;
-        const double x = (double)from[i];
-        clipped += beyond(&job->report, x);
-        wr_export_store_code(job, strip->out, first + i, code_of(job, x), zero,
-                             (WrExportTexel){ column, y + (int)(i / row), channel });
+    for (int j = y; j < y + rows; j++) {
+        const float *from = job->map + (size_t)j * row;
+        const size_t first = (size_t)(j - strip->y) * row;
+        if (job->options.depth == 32) memcpy((float *)strip->out + first, from, row * sizeof *from);
+        else if (job->options.dither)
+            clipped += dithered_codes(job, j, from, row, strip->out, first);
+        else clipped += plain_codes(job, &codes, from, row, strip->out, first);
     }
     __atomic_fetch_add(&job->report.clipped, clipped, __ATOMIC_RELAXED);
 }

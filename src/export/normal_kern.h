@@ -1,4 +1,4 @@
-/* normal_kern.h - the inner loops of normal maps and bump slopes, compiled once per instruction set. All sets give the
+/* normal_kern.h - the inner loops of normal maps, bump slopes and other maps' codes, compiled once per instruction set. All sets give the
    same bits: only + - * / sqrt, comparisons and conversions, without contraction.
    Layer 6. Private to this room. */
 #pragma once
@@ -29,6 +29,13 @@ typedef struct WrNormalJob {
     double last, green;            /* the largest code; sign of the second component */
 } WrNormalJob;
 
+/* What numbers are as codes: zero + round(times (x - less) / by), halves away from zero, cut to 0..last. */
+typedef struct WrMapCodes {
+    double times, less, by;
+    double zero, last;
+    double low, high; /* x beyond these are counted */
+} WrMapCodes;
+
 typedef struct WrNormalKernels {
     const char *name; /* "v1", "v3", "v4": levels of x86-64; v1 is plain C everywhere */
 
@@ -53,6 +60,8 @@ typedef struct WrNormalKernels {
      * a height is beyond `most`, a slope beyond `steepest`, or either is no number. STRIP texels at most. */
     bool (*moments)(const float *f, const double *s, const double *t, int count, float most,
                     double steepest, float *out);
+    /* Codes of `count` numbers; how many of these are beyond low..high. No number is none. */
+    int64_t (*codes_of)(const WrMapCodes *codes, const float *x, int count, int32_t *out);
     /* Of two rows of 2 count texels of six numbers each, `count` means of four. */
     void (*halve)(const float *a, const float *b, int count, float *out);
 } WrNormalKernels;

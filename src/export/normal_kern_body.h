@@ -182,6 +182,27 @@ static bool moments(const float *restrict f, const double *restrict s, const dou
     return wild == 0;
 }
 
+static int64_t codes_of(const WrMapCodes *given, const float *restrict x, int count,
+                        int32_t *restrict out)
+{
+    const WrMapCodes c = *given;
+    int32_t outside = 0;
+#pragma omp simd reduction(+ : outside)
+    for (int i = 0; i < count; i++) {
+        const double number = x[i], exact = c.times * (number - c.less) / c.by;
+        double steps =
+            exact > -0x1p20 ? exact : -0x1p20; /* what is cut away is far beyond all codes */
+        steps = steps < 0x1p20 ? steps : 0x1p20;
+        const double whole = (double)(int32_t)steps, part = steps - whole;
+        double code = c.zero + whole + (part >= 0.5 ? 1.0 : 0.0) - (part <= -0.5 ? 1.0 : 0.0);
+        code = code > 0.0 ? code : 0.0;
+        code = code < c.last ? code : c.last;
+        out[i] = (int32_t)code;
+        outside += (number < c.low) | (number > c.high);
+    }
+    return outside;
+}
+
 static void halve(const float *restrict a, const float *restrict b, int count, float *restrict out)
 {
     double sum[12 * HALVED];
@@ -206,5 +227,6 @@ const WrNormalKernels WR_NORMAL_TABLE = {
     .nearly8 = nearly8,
     .floats = floats,
     .moments = moments,
+    .codes_of = codes_of,
     .halve = halve,
 };
