@@ -156,6 +156,11 @@ ALWAYS Wide w_nearest(Wide a)
 {
     return _mm512_roundscale_ps(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
 }
+/* a less the nearest whole number. */
+ALWAYS Wide w_off_nearest(Wide a)
+{
+    return _mm512_reduce_ps(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
 #else
 #define WIDE 8
 typedef __m256 Wide;
@@ -310,6 +315,10 @@ ALWAYS Wide w_power(Wide a)
 ALWAYS Wide w_nearest(Wide a)
 {
     return _mm256_round_ps(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+ALWAYS Wide w_off_nearest(Wide a)
+{
+    return a - w_nearest(a);
 }
 #endif
 

@@ -33,9 +33,10 @@ ALWAYS WideSlant w_slant(const WrSlant *of, const WrChord *chord)
 {
     return (WideSlant){ w_curve(&of->along, chord), w_curve(&of->across, chord) };
 }
-ALWAYS Wide w_slanted(const WideSlant *of, Wide x, Wide r, Wide inv2)
+/* Times d.d. */
+ALWAYS Wide w_slanted(const WideSlant *of, Wide x, Wide r)
 {
-    return (w_bent(of->along, x) - r * w_straight(of->across, x)) * inv2;
+    return w_bent(of->along, x) - r * w_straight(of->across, x);
 }
 
 /* sqrt(a), 0 where it is less. */
@@ -135,10 +136,10 @@ static void chord_parameters(const WrBall *ball, const WrChord *chord, float fro
     const WideSlant z_of = w_slant(&ball->n[2], chord);
     for (int i = 0; i < count; i += WIDE) {
         const Wide x = row_places(from, chord->first + i);
-        const Wide r = w_load(strip->s + i), inv2 = w_load(strip->n_len + i);
-        const WideVec n = { w_slanted(&x_of, x, r, inv2), w_slanted(&y_of, x, r, inv2),
-                            w_slanted(&z_of, x, r, inv2) };
-        put_parameters_of(n, strip, i);
+        const Wide r = w_load(strip->s + i);
+        const WideVec n = { w_slanted(&x_of, x, r), w_slanted(&y_of, x, r),
+                            w_slanted(&z_of, x, r) };
+        put_parameters_of(n, w_load(strip->n_len + i), strip, i);
     }
 }
 

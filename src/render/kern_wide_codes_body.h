@@ -29,9 +29,9 @@ typedef struct Coded {
 ALWAYS Coded code_by_curve(Wide light)
 {
     const Wide x = w_min(w_max(light, w_all(0.0f)), w_all(0x1.fffffep-1f)), y = curve_of(x);
-    const WideInt whole = w_whole(y);
-    const Wide part = w_abs(y - w_number(whole) - w_all(0.5f));
-    return (Coded){ whole, w_either(w_less(w_all(0.5f - CODE_OFF), part), w_odd(light)) };
+    /* Near a whole number it is not told whether y is under it. */
+    const Wide off = w_abs(w_off_nearest(y));
+    return (Coded){ w_whole(y), w_either(w_less(off, w_all(CODE_OFF)), w_odd(light)) };
 }
 
 /* A strip's codes of a channel and, of each vector, whether some sample's is unsure. */

@@ -107,6 +107,9 @@ static bool wide_colour(const WrColourLook *look, WrStrip *strip)
         look->width, look->height, look->pitch, 1, (float)look->ru, (float)look->rv
     };
     place_texels(&of, false, strip);
+    for (int k = 0; k < count; k += 8) /* what the next rows are likely to ask for */
+        _mm_prefetch((const char *)(look->rgba + 4 * (ptrdiff_t)strip->at[k] + 2 * row),
+                     _MM_HINT_T0);
     for (int k = 0; k < count; k++) {
         const float *at = look->rgba + 4 * (ptrdiff_t)strip->at[k];
         const __m256 top = _mm256_loadu_ps(at), low = _mm256_loadu_ps(at + row);
