@@ -434,6 +434,32 @@ static void bytes_in_memory_are_the_formulas_for_any_ends_and_threads(void **sta
     }
 }
 
+/* Grey of the map's codes, on any number of threads: as the file has them. */
+static void a_picture_of_one_channel_is_grey_as_its_file(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = { "curvature", "cavity", "height" };
+    WrDocument *document = new_document();
+    WrPool *pool = wr_pool_new(3);
+    for (int k = 0; k < 3; k++) {
+        WrExportReport report;
+        WrExportPicture picture;
+        const char *const settings[3] = { "depth=8", NULL };
+        const WrExportOptions options = wr_export_default();
+        WrImage *file = exported(document, kinds[k], "grey.png", settings, &report);
+        assert_true(
+            wr_export_picture(wr_export_find(kinds[k]), document, &options, pool, &picture, NULL));
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            for (int c = 0; c < 3; c++)
+                assert_int_equal(picture.rgb[3 * i + c],
+                                 lrint(255 * (double)file->data[i * file->channels]));
+        wr_export_picture_fini(&picture);
+        wr_image_free(file);
+    }
+    wr_pool_free(pool);
+    wr_document_free(document);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -445,6 +471,7 @@ int main(void)
         cmocka_unit_test(a_sheared_mesh_has_the_frame_of_mikktspace),
         cmocka_unit_test(padding_goes_as_far_as_it_is_told),
         cmocka_unit_test(bytes_in_memory_are_the_formulas_for_any_ends_and_threads),
+        cmocka_unit_test(a_picture_of_one_channel_is_grey_as_its_file),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

@@ -8,14 +8,25 @@
 
 #include <math.h>
 
+/* Codes of a picture's rows, and where they go. */
+typedef struct Codes {
+    const uint8_t *from;
+    uint8_t *rgb;
+} Codes;
+
 /* One number 0..255 a channel; two channels are red and green. */
-static void put_codes(const uint8_t *from, int channels, size_t count, uint8_t *rgb)
+static void put_codes(WrExportJob *job, int y, int rows, void *ctx)
 {
-    for (size_t i = 0; i < count; i++)
+    const Codes *codes = ctx;
+    const int channels = job->channels;
+    const size_t first = (size_t)y * (size_t)job->width, count = (size_t)rows * (size_t)job->width;
+    const uint8_t *restrict from = codes->from + first * (size_t)channels;
+    uint8_t *restrict rgb = codes->rgb + 3 * first;
+    for (size_t i = 0; channels == 1 && i < count; i++)
+        rgb[3 * i] = rgb[3 * i + 1] = rgb[3 * i + 2] = from[i];
+    for (size_t i = 0; channels > 1 && i < count; i++)
         for (int c = 0; c < 3; c++)
-            rgb[3 * i + (size_t)c] = channels == 1  ? from[i]
-                                     : c < channels ? from[i * (size_t)channels + (size_t)c]
-                                                    : 128;
+            rgb[3 * i + (size_t)c] = c < channels ? from[i * (size_t)channels + (size_t)c] : 128;
 }
 
 /* Floats, 0 in the middle, the largest white or black. */
@@ -49,7 +60,8 @@ bool wr_export_fill_picture(WrExportJob *job, WrError *err)
         if (job->kind->prepare) job->kind->prepare(job);
         job->kind->rows(job, 0, job->height, values);
         if (each == 1 && !as_they_are)
-            put_codes((const uint8_t *)values, channels, count, picture->rgb);
+            wr_export_run(job, 0, job->height, put_codes,
+                          &(Codes){ (const uint8_t *)values, picture->rgb });
         else if (each != 1)
             put_floats((const float *)(const void *)values, channels, count, picture->rgb);
         picture->width = job->width;
