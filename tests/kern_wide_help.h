@@ -62,6 +62,7 @@ static inline Scenery some_scenery(TestRandom *random)
     Scenery s = { .shine = { between(random, 0.05, 1), between(random, 15, 300),
                              test_random(random) < 0.5 } };
     WrShape shape;
+    if (test_random(random) < 0.5) s.shine.shininess = floorf(between(random, 1, 140));
     wr_shape_default(WR_SURFACE_sphere, &shape);
     shape.value[0] = between(random, 0.6, 1.7);
     wr_shape_scaled(&shape, 1, &s.shape);

@@ -49,8 +49,6 @@ typedef struct WrWideRow {
 typedef struct WrWide {
     /* Is its highlight such as these are for? */
     bool (*narrow)(const WrKernLight *light, const WrKernShine *shine);
-    /* And for `smooth`? */
-    bool (*broad)(const WrKernLight *light, const WrKernShine *shine);
     /* All of one lamp of Blinn and Phong, as WrKernels.shade does it; pictured: C is a picture's. False: not such as this
        is for, and nothing is done. */
     bool (*shade)(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,

@@ -48,54 +48,20 @@ ALWAYS Wide w_root(Wide a)
 
 /* ---- smooth ones under a distant lamp ---- */
 
-#define BROAD 128 /* exponents up to there: n.h is exact enough for them */
-
-/* A highlight of a whole exponent, however wide. */
-typedef struct Broad {
-    Wide least; /* of smaller cosines there is none; their powers would not be normal numbers */
-    int exponent;
-    bool gate;
-} Broad;
-
-static bool broad(const WrKernLight *light, const WrKernShine *shine)
-{
-    const float s = shine->shininess;
-    return !light->point && s >= 1.0f && s <= (float)BROAD && s == floorf(s);
-}
-
-static Broad broad_of(const WrKernShine *shine)
-{
-    const int s = (int)shine->shininess;
-    const float least = s <= 16 ? 0x1p-6f : s <= 32 ? 0x1p-3f : 0.5825f; /* 2^-0.78 */
-    return (Broad){ w_all(least), s, shine->gate };
-}
-
-ALWAYS Wide whole_power(Wide base, int exponent)
-{
-    while (!(exponent & 1)) base = base * base, exponent >>= 1;
-    Wide power = base;
-    while (exponent >>= 1) {
-        base = base * base;
-        if (exponent & 1) power = power * base;
-    }
-    return power;
-}
-
 /* The highlight where n.l, n.v and l.v are these: n.h = (n.l + n.v) / |l + v|. */
-ALWAYS Wide broad_highlight(const Broad *of, Wide n_dot_l, Wide n_dot_v, Wide l_dot_v)
+ALWAYS Wide broad_highlight(const Lamp *of, Wide n_dot_l, Wide n_dot_v, Wide l_dot_v)
 {
     const Wide half = w_all(0.5f), size = w_max(half + half * l_dot_v, w_all(1e-7f));
     const Wide n_dot_h = (n_dot_l + n_dot_v) * half * w_rsqrt(size);
     WideMask shown = w_less(of->least, n_dot_h);
     if (of->gate) shown = w_both(shown, w_less(w_all(0.0f), n_dot_l));
-    return whole_power(w_kept(shown, n_dot_h), of->exponent);
+    return whole_power(w_kept(shown, n_dot_h), of->whole);
 }
 
 /* What of a row the light is worked out from. */
 typedef struct SmoothRow {
     WideCurve dd, rr;
     WideSlant lit;
-    Broad broad;
     float from; /* x of the row's pixel 0 */
 } SmoothRow;
 
@@ -111,7 +77,7 @@ ALWAYS float smooth_chord(const SmoothRow *row, const Scenery *s, const WrWidePa
         const Wide inv = w_rsqrt(w_bent(row->dd, x)), inv2 = inv * inv;
         const Wide r = w_root(w_bent(row->rr, x)), across = w_straight(row->lit.across, x);
         const Wide n_dot_l = (w_bent(row->lit.along, x) - r * across) * inv2;
-        const Wide lobe = broad_highlight(&row->broad, n_dot_l, r * inv, -across * inv);
+        const Wide lobe = broad_highlight(&s->lamp, n_dot_l, r * inv, -across * inv);
         const Wide lit = w_max(n_dot_l, w_all(0.0f));
         w_store_counted(strip->index + i, first + i);
         largest = w_max(largest, w_among(w_first_bits(count - i), n_dot_l, largest));
@@ -148,7 +114,7 @@ static bool wide_smooth(const WrBall *ball, const WrRays *rays, const WrKernLigh
                         float gy, int count, WrWidePaint how, bool *dark, WrStrip *strip)
 {
     WrChord chord;
-    if (!ball->shown || !broad(light, shine) ||
+    if (!ball->shown || light->point || whole_exponent(shine) == 0 ||
         !wr_chord_of(ball, (double)gx, (double)gy, count, &chord))
         return false;
     strip->count = chord.last - chord.first + 1;
@@ -159,8 +125,7 @@ static bool wide_smooth(const WrBall *ball, const WrRays *rays, const WrKernLigh
     }
     const Scenery s = scenery_of(rays, light, shine, material);
     const SmoothRow row = { w_curve(&ball->dd, &chord), w_curve(&ball->rr, &chord),
-                            w_slant(&ball->lit, &chord), broad_of(shine),
-                            (float)((double)gx - chord.middle) };
+                            w_slant(&ball->lit, &chord), (float)((double)gx - chord.middle) };
     float most;
     switch (how) {
     case WR_WIDE_RED: most = smooth_chord(&row, &s, WR_WIDE_RED, chord.first, strip); break;

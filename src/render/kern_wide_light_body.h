@@ -1,4 +1,5 @@
-/* kern_wide_light_body.h - all of one lamp in one pass, where highlights are narrow. A part of kern_wide_*.c.
+/* kern_wide_light_body.h - all of one lamp in one pass, where highlights are narrow or of a whole exponent. A part of
+   kern_wide_*.c.
    The formulas are those of shade/light_body.h, but for what narrow highlights spare: they are worked out only where
    some sample of a vector has one of 2^-FAINT of what the picture shows, and there 1 - n'.h is small, so that its
    logarithm takes no exponent. */
@@ -32,9 +33,39 @@ ALWAYS Wide narrow_lobe(Wide x, Wide s)
     return p * w_power(n);
 }
 
+#define WHOLE 128 /* the largest: rounding of 1 - n'.h is told so many times */
+
+/* The exponent if it is a whole number such as these are for, else 0. */
+static int whole_exponent(const WrKernShine *shine)
+{
+    const float s = shine->shininess;
+    return s >= 1.0f && s <= (float)WHOLE && s == floorf(s) ? (int)s : 0;
+}
+
+/* Cosines under that have no highlight of such an exponent; their powers would not be normal numbers. */
+static float least_cosine(int whole)
+{
+    if (whole <= 4) return 0x1p-24f;
+    return whole <= 16 ? 0x1p-6f : whole <= 32 ? 0x1p-3f : 0.5825f; /* 2^-0.78 */
+}
+
+/* Squares of squares. */
+ALWAYS Wide whole_power(Wide base, int exponent)
+{
+    while (!(exponent & 1)) base = base * base, exponent >>= 1;
+    Wide power = base;
+    while (exponent >>= 1) {
+        base = base * base;
+        if (exponent & 1) power = power * base;
+    }
+    return power;
+}
+
 typedef struct Lamp {
     WideVec where, viewer;
     Wide shininess, limit; /* limit: of 2 (1 - n'.h) */
+    Wide least;            /* of whole exponents, n'.h */
+    int whole;             /* the exponent, or 0 */
     bool gate;
 } Lamp;
 
@@ -54,7 +85,8 @@ ALWAYS Wide narrow_highlight(const Lamp *lamp, WideVec l, Wide n_dot_l, WideVec 
     WideMask shown = w_less(twice, lamp->limit);
     if (lamp->gate) shown = w_both(shown, w_less(w_all(0.0f), n_dot_l));
     if (!w_any(shown)) return w_all(0.0f);
-    return w_kept(shown, narrow_lobe(w_all(0.5f) * twice, lamp->shininess));
+    if (lamp->whole == 0) return w_kept(shown, narrow_lobe(w_all(0.5f) * twice, lamp->shininess));
+    return whole_power(w_kept(shown, w_all(1.0f) - w_all(0.5f) * twice), lamp->whole);
 }
 
 /* What each channel is made of. */
@@ -90,14 +122,17 @@ typedef struct Scenery {
 ALWAYS Scenery scenery_of(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
                           const WrKernMaterial *material)
 {
-    return (Scenery){ { w_alike(light->where),
-                        w_alike(rays->perspective ? rays->eye : rays->toward),
-                        w_all(shine->shininess), w_all(2 * widest(light, shine)), shine->gate },
-                      channel_of(light, shine, material, 0),
-                      channel_of(light, shine, material, 1),
-                      channel_of(light, shine, material, 2),
-                      w_all(material->ambient),
-                      are_alike(light->rgb) && are_alike(material->rgb) };
+    const int whole = whole_exponent(shine);
+    const float least = least_cosine(whole), wide = widest(light, shine);
+    const float limit = whole && wide > 1 - least ? 1 - least : wide;
+    return (
+        Scenery){ { w_alike(light->where), w_alike(rays->perspective ? rays->eye : rays->toward),
+                    w_all(shine->shininess), w_all(2 * limit), w_all(least), whole, shine->gate },
+                  channel_of(light, shine, material, 0),
+                  channel_of(light, shine, material, 1),
+                  channel_of(light, shine, material, 2),
+                  w_all(material->ambient),
+                  are_alike(light->rgb) && are_alike(material->rgb) };
 }
 
 /* The colour of samples i and on, at p with n' `bent`, seen along v. Returns n'.l. */
@@ -133,7 +168,7 @@ ALWAYS void shade_narrow(const Scenery *s, const bool point, const bool near, co
 
 static bool narrow(const WrKernLight *light, const WrKernShine *shine)
 {
-    return widest(light, shine) <= NARROW;
+    return whole_exponent(shine) > 0 || widest(light, shine) <= NARROW;
 }
 
 static bool wide_shade(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,

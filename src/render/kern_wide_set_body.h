@@ -21,11 +21,11 @@
 #include "render/kern_wide_bend_body.h"
 #include "render/kern_wide_knots_body.h"
 
-const WrWide WR_WIDE_TABLE = { narrow,       broad,        wide_shade,     wide_smooth,
-                               wide_paint,   wide_sphere,  wide_points,    wide_sphere_light,
-                               wide_central, wide_filters, wide_footprint, wide_filtered,
-                               wide_colour,  wide_codes,   wide_newton,    wide_cross,
-                               wide_blinn,   wide_between, wide_sheet_row };
+const WrWide WR_WIDE_TABLE = { narrow,       wide_shade,     wide_smooth,       wide_paint,
+                               wide_sphere,  wide_points,    wide_sphere_light, wide_central,
+                               wide_filters, wide_footprint, wide_filtered,     wide_colour,
+                               wide_codes,   wide_newton,    wide_cross,        wide_blinn,
+                               wide_between, wide_sheet_row };
 #else
 const WrWide WR_WIDE_TABLE = { 0 };
 #endif

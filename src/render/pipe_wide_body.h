@@ -151,8 +151,7 @@ static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
     if (mapped == pictured(job) && !bumped &&
         smooth_row(job, rays, gx, gy, count, sink, scratch, watch))
         return true;
-    if (!job->narrow || !job->wide->sphere(rays, &job->view->shape, gx, gy, count, mapped, strip))
-        return false;
+    if (!job->wide->sphere(rays, &job->view->shape, gx, gy, count, mapped, strip)) return false;
     if (scratch->notes.patches) note_places(job, sink, true, gx, gy, strip);
     watch_lap(watch, WR_STAGE_VISIBILITY);
     if (strip->count == 0) return true;
@@ -224,8 +223,7 @@ void wr_pipe_wide(WrTileJob *job)
                     !job->view->stretched && !job->dice && !job->triangles &&
                     !runs(job, WR_EFFECT_PARALLAX);
     if (job->view->light_count != 1 || !runs(job, WR_EFFECT_SPECULAR)) return;
-    job->narrow = job->wide->narrow(lamp, &m.shine);
-    if (!job->narrow && (bump != WR_BUMP_NONE || !job->wide->broad(lamp, &m.shine))) return;
+    if (!job->wide->narrow(lamp, &m.shine)) return;
     for (int i = 0; i < job->view->grid_count; i++)
         wr_ball_make(&job->balls[i], &job->view->grids[i].rays, &job->view->shape, lamp);
     job->wide_sphere = job->wide_met && !job->map && runs_only(job, at_once | filtered) &&

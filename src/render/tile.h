@@ -68,8 +68,7 @@ typedef struct WrTileJob {
     const WrWide *wide;            /* kernels of several stages at once; or NULL */
     WrWideCodes wide_codes;        /* codes of strips; or NULL */
     WrBall *balls;                 /* of each grid of the view; filled where rows go to them */
-    bool wide_sphere;              /* rows go to them ... */
-    bool narrow;                   /* ... where the highlight is such */
+    bool wide_sphere;              /* rows go to them */
     bool wide_met;                 /* where rays meet a sphere is asked of them */
     bool wide_newton;              /* (u,v) of a mesh's samples are */
     WrWideSheet sheet;             /* of what */
