@@ -98,8 +98,9 @@ static void draw_field(const WrNumber *spec, ImVec2 at, ImVec2 end, double value
     list->AddRectFilled(at, end, wr_gui_colour_of(hovered ? WR_COLOUR_FIELD_HOT : WR_COLOUR_FIELD));
     float fill = roundf((end.x - at.x) * (float)place_of(spec, value));
     if (fill >= 2)
-        list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(at.x + fill, end.y - 1),
-                            wr_gui_colour_of(hovered ? WR_COLOUR_FILL_HOT : WR_COLOUR_FILL));
+        list->AddRectFilled(
+            ImVec2(at.x + 1, at.y + 1), ImVec2(at.x + fill, end.y - 1),
+            ImGui::GetColorU32(wr_gui_colour_of(hovered ? WR_COLOUR_FILL_HOT : WR_COLOUR_FILL)));
     wr_gui_edge(list, at, end);
     char text[96];
     print_value(spec, value, text, sizeof text - 24);

@@ -242,7 +242,7 @@ try {
     ImVec2 size = ImGui::CalcTextSize(icon);
     ImGui::GetWindowDrawList()->AddText(
         ImVec2(at.x + roundf((side - size.x) / 2), at.y + roundf((side - size.y) / 2)),
-        wr_gui_colour_of(hovered ? WR_COLOUR_STRONG : colour), icon);
+        ImGui::GetColorU32(wr_gui_colour_of(hovered ? WR_COLOUR_STRONG : colour)), icon);
     return pressed;
 }
 WR_CAUGHT(false)

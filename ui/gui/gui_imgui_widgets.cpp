@@ -453,7 +453,8 @@ try {
     else if (ImGui::IsItemHovered())
         list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_BUTTON), px(3));
     ImFont *font = wr_gui_current()->fonts[WR_FONT_ICON];
-    const ImU32 ink = wr_gui_colour_of(selected ? WR_COLOUR_STRONG : WR_COLOUR_TEXT);
+    const ImU32 ink = ImGui::GetColorU32(wr_gui_colour_of(
+        selected ? WR_COLOUR_STRONG : WR_COLOUR_TEXT)); /* grey where it is disabled */
     const float drawn = roundf(wr_gui_size_of(font)), edge = roundf((side - drawn) / 2);
     if (wr_gui_draw_icon(list, icon, ImVec2(at.x + edge, at.y + edge), drawn, ink)) return pressed;
     icon = wr_gui_icon(icon);
