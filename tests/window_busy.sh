@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What takes long, in the window: a bar is shown, the view can be moved, all else is refused; Escape gives it up
-# and leaves the document as it was; a wish to quit waits for it.  window_busy.sh PROGRAM SOURCE-FOLDER
+# What takes long, in the window: a bar is shown, the window is used as ever, what changes the document waits or is refused;
+# Escape gives it up and leaves the document as it was; a wish to quit waits for it.  window_busy.sh PROGRAM SOURCE-FOLDER
 set -uo pipefail
 program=$1
 source=$2
@@ -33,6 +33,17 @@ alters() {
     changed=$(differs "$1" now "$2")
     [[ ${changed%.*} -gt 2000 ]]
 }
+# changes SHOT GEOMETRY: some words there are others now.
+changes() {
+    shot now
+    local changed
+    changed=$(differs "$1" now "$2")
+    [[ ${changed%.*} -gt 60 ]]
+}
+is_as() {
+    shot now
+    [[ $(differs "$1" now "$2") == 0 ]]
+}
 # begin: open what takes long, and wait until the window says that it does.
 begin() {
     home
@@ -46,7 +57,6 @@ begin() {
 }
 
 # ---- the view can be moved meanwhile, the rest is refused, Escape gives it up ----
-mkdir bin
 export PATH=$folder/bin:$PATH
 start small.exr
 begin
@@ -128,23 +138,76 @@ xdotool key Escape
 rest
 [[ $(halves) == 0 && ! -e picture.png ]] || complain "of a picture that was given up is left: $(find . -name '*picture*')"
 
-# ---- a turntable as a film: Cancel ends ffmpeg too, here a script that takes nothing, and nothing is left ----
-printf '#!/bin/sh\necho $$ >"%s/film.pid.new" && mv "%s/film.pid.new" "%s/film.pid"\nexec sleep 100\n' \
-    "$folder" "$folder" "$folder" >"$folder/bin/ffmpeg"
-chmod +x "$folder/bin/ffmpeg"
-home
-shot calm
-ask_dialog 'save a turntable'
-key Return # "Choose a file..."
-home
-xdotool key Return # turn.mp4
-until_true 120 "the program that makes films" test -f film.pid
-until_true 120 "the bar of what takes long" shows_bar
+# film LINE: one whose program, here a script, does that.
+mkdir bin
+film() {
+    printf '#!/bin/sh\necho $$ >"%s/film.pid.new" && mv "%s/film.pid.new" "%s/film.pid"\n%s\n' \
+        "$folder" "$folder" "$folder" "$1" >"$folder/bin/ffmpeg"
+    chmod +x "$folder/bin/ffmpeg"
+    rm -f film.pid
+    home
+    shot calm
+    ask_dialog 'save a turntable'
+    key Return # "Choose a file..."
+    home
+    xdotool key Return # turn.mp4
+    until_true 120 "the program that makes films" test -f film.pid
+    until_true 120 "the bar of what takes long" shows_bar
+}
+# click_at X Y [BUTTON]
+click_at() { xdotool mousemove $((X + $1)) $((Y + $2)) click "${3:-1}"; }
+
+# ---- meanwhile the window is used; what can wait is done when the film's program has failed, which is no Cancel ----
+film "while [ ! -e '$folder/go' ]; do sleep 0.05; done; exit 1"
+panel=200x220+970+130
+shot working
+click_at 1085 90 # Scene
+until_true 120 "another tab meanwhile" alters working "$panel"
+shot tab
+click_at 1085 300 5
+until_true 120 "its rows scrolled" alters tab "$panel"
+shot scrolled
+xdotool key F1
+until_true 120 "the guide" alters scrolled "$canvas"
+xdotool key Escape
+until_true 120 "the guide closed, and nothing else" is_as scrolled "$panel"
+xdotool key ctrl+Return
+until_true 120 "the search" alters scrolled "$canvas"
+xdotool type --delay 20 'light colours'
+is_light() { grep -q '^theme 1' config/wrinkle/window.conf; }
+press_return() { xdotool key Return; sleep 0.2; is_light; }
+until_true 120 "another theme, and written" press_return
+shot light
+xdotool mousemove $((X + 180)) $((Y + 300)) mousedown 1
+for ((i = 0; i < 20; i++)); do xdotool mousemove_relative -- 6 4; done
+xdotool mouseup 1
+until_true 120 "that a stroke waits" changes light 320x28+0+772
+shot stroke
+click_at 970 611 # the layer's eye
+until_true 120 "that two things wait" changes stroke 320x28+0+772
+shot eye
+xdotool key ctrl+shift+n
+until_true 120 "that another command is refused" alters eye "$bar"
+touch go
+rest
+lines() { sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj | tail -n 2 | cut -d ' ' -f 1-3 | tr '\n' ' '; }
+are_done() { [[ $(lines) == stroke*'layer set 1 '* ]]; }
+until_true 120 "the stroke and the hidden layer, in their order" are_done || complain "the newest lines are: $(lines)"
+key ctrl+z
+key ctrl+z
+until_true 120 "both undone" title_is after.exr
+
+# ---- Cancel ends ffmpeg too, here a script that takes nothing, and nothing is left of the film, nor of what waited ----
+film 'exec sleep 100'
+shot working
+click_at 970 611
+until_true 120 "that something waits" changes working 320x28+0+772
 xdotool key Escape
 rest
 is_ended() { [[ ! -d /proc/$(cat film.pid) ]]; }
 until_true 120 "the end of that program" is_ended
 [[ ! -e turn.mp4 && -z $(find . -maxdepth 1 -name '.turn*') ]] || complain "of a film that was given up is left: $(find . -name '*turn*')"
+title_is after.exr || complain "what waited for what was given up is done: $(newest)"
 
 # ---- a wish to quit waits until it is done, or given up ----
 begin

@@ -139,7 +139,7 @@ void wr_gui_push_id(int id);
 void wr_gui_pop_id(void);
 void wr_gui_disable(bool disabled); /* grey out what follows; ends with wr_gui_enable */
 void wr_gui_enable(void);
-/* The same with a reason, which is the tip of all of it; NULL: not at all. What only folds away still does. */
+/* The same with a reason, which is the tip of all of it; NULL: not at all. */
 void wr_gui_hold(const char *why);
 void wr_gui_hold_end(void);
 

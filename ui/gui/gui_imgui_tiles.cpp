@@ -93,11 +93,9 @@ try {
     ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
     char said[320];
     if (wr_gui_tells_all) ImGui::SetNextItemOpen(true);
-    ImGui::PushItemFlag(ImGuiItemFlags_Disabled, false); /* it changes nothing: wr_gui_hold */
     bool shown = ImGui::CollapsingHeader(wr_gui_labelled(label, said),
                                          open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     wr_gui_stop(WR_STOP_PRESS, false);
-    ImGui::PopItemFlag();
     ImGui::PopFont();
     ImGui::PopStyleColor(4);
     return shown;
