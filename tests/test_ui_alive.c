@@ -93,6 +93,36 @@ static void the_window_is_used_meanwhile(void **state)
     finish(&bench);
 }
 
+static bool drag_on(Long *work)
+{
+    WrApp *app = work->app;
+    if (!wr_busy_greys(app)) return false; /* its bar is there then */
+    if (work->stage++ == 1)
+        SDL_PushEvent(&(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = 400, .y = 51 } });
+    return app->settings->brush.radius > 34.0;
+}
+
+/* That the bar comes is no reason to let go of what is held. */
+static void a_slider_is_dragged_through_the_beginning(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    app->settings->brush.radius = 32.7;
+    SDL_Event down = button(SDL_MOUSEBUTTONDOWN, 320, 51), up = button(SDL_MOUSEBUTTONUP, 400, 51);
+    SDL_PushEvent(&(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = 320, .y = 51 } });
+    draw_again(app);
+    SDL_PushEvent(&down);
+    draw_again(app);
+    Long work = { .app = app, .watch = drag_on };
+    assert_true(run(&work, &err));
+    SDL_PushEvent(&up);
+    draw_again(app);
+    finish(&bench);
+}
+
 /* An action that changes the document is grey, and its key refused with words, but not what can wait. */
 static bool try_to_edit(Long *work)
 {
@@ -268,6 +298,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_window_is_used_meanwhile),
+        cmocka_unit_test(a_slider_is_dragged_through_the_beginning),
         cmocka_unit_test(an_edit_is_refused_with_words),
         cmocka_unit_test(what_waits_is_done_in_its_order),
         cmocka_unit_test(what_waits_is_dropped_with_what_is_given_up),

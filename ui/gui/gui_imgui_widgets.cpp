@@ -28,7 +28,8 @@ try {
     ImGui::SetNextWindowSize(ImVec2((float)rect.w, (float)rect.h));
     ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                              ImGuiWindowFlags_NoSavedSettings |
-                             ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+                             ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
+                             ImGuiWindowFlags_NoFocusOnAppearing; /* it would end what is held */
     ImVec2 padding(px(12), px(12));
     if (kind == WR_AREA_PANEL) {
         flags &= ~ImGuiWindowFlags_NoScrollbar;
@@ -63,8 +64,8 @@ try {
     ImGui::Begin(name, nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoBackground);
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoBackground);
     ImGui::PopStyleVar(2);
 }
 WR_CAUGHT()
