@@ -8,12 +8,15 @@
 #include <string.h>
 
 #define LARGE ((size_t)8 << 20) /* bytes; malloc takes such blocks from the system, untouched */
-#define PAGED                                                                                      \
-    ((size_t)33                                                                                    \
-     << 20) /* from here on it does so whatever happened before: they begin with a large page */
+/* From here on it does so whatever was freed before: they begin with a large page. */
+#define PAGED ((size_t)33 << 20)
 #define PAGE ((size_t)2 << 20)
 #define KEPT_LEAST ((size_t)4 << 20)
+#ifdef __SANITIZE_ADDRESS__
+#define KEPT_MOST ((size_t)0) /* what is used after it was given back shall be seen */
+#else
 #define KEPT_MOST ((size_t)128 << 20)
+#endif
 #define KEPT 2
 
 /* Stands before each block. */
@@ -89,18 +92,6 @@ static void give(void *block)
     if (block) free(head_of(block)->raw);
 }
 
-#ifdef __SANITIZE_ADDRESS__
-static void *take_kept(size_t bytes)
-{
-    (void)bytes;
-    return NULL;
-}
-
-static void *keep(void *block)
-{
-    return block;
-}
-#else
 /* One that is large enough, and not much larger; or NULL. */
 static void *take_kept(size_t bytes)
 {
@@ -126,7 +117,6 @@ static void *keep(void *block)
     wr_mutex_unlock(&lock);
     return oldest;
 }
-#endif
 
 void *wr_try_alloc_unset(size_t count, size_t size, const char *what, WrError *err)
 {
