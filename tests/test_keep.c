@@ -56,6 +56,30 @@ static WrScene *some_scene(TestRandom *random, int k)
     return scene;
 }
 
+/* A small one that repeats, smooth here and there, so that horizons differ in how far they reach. */
+static WrField *hiding_field(TestRandom *random)
+{
+    const int w = 21 + below(random, 60), h = 18 + below(random, 50);
+    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.5f, NULL);
+    for (int j = 0; j < h; j++)
+        for (int i = 0; i < w; i++)
+            wr_field_set(field, i, j, (float)(test_random(random) * (i > w / 2 ? 0.2 : 1)));
+    return field;
+}
+
+/* Its relief throws shadows, or hides the sky from itself, or both. */
+static WrScene *hiding_scene(TestRandom *random, int k)
+{
+    static const char *const surfaces[] = { "sphere", "plane", "torus", "bezier" };
+    WrScene *scene = some_scene(random, k);
+    wr_shape_default((WrSurfaceKind)wr_surface_find(surfaces[k % 4]), &scene->shape);
+    scene->material.shadow = k % 3 != 1;
+    scene->material.occlusion = k % 3 != 0;
+    scene->dials.horizons = 4 + 4 * below(random, 3);
+    scene->height = test_random(random) < 0.5 ? -scene->height : scene->height;
+    return scene;
+}
+
 /* Texels beside each other get other heights; every third time at a corner or an edge. */
 static void edit(TestRandom *random, WrField *field, int step)
 {
@@ -76,10 +100,10 @@ typedef struct Drawn {
     int64_t kept, whole;
 } Drawn;
 
-static Drawn check_scene(TestRandom *random, int k)
+static Drawn check_scene(TestRandom *random, int k, bool hides)
 {
-    WrField *field = some_field(random);
-    WrScene *scene = some_scene(random, k);
+    WrField *field = hides ? hiding_field(random) : some_field(random);
+    WrScene *scene = hides ? hiding_scene(random, k) : some_scene(random, k);
     WrPool *pool = wr_pool_new(1 + k % 3);
     WrRenderer *renderer = wr_renderer_new(pool, NULL, NULL);
     WrFrameRequest request = { .scene = scene,
@@ -119,10 +143,23 @@ static void every_pixel_is_that_of_a_new_picture_after_any_edit(void **state)
     TestRandom random = { 2906 };
     Drawn all = { 0 };
     for (int k = 0; k < SCENES; k++) {
-        const Drawn one = check_scene(&random, k);
+        const Drawn one = check_scene(&random, k, false);
         all.kept += one.kept, all.whole += one.whole;
     }
     assert_in_range(all.kept, 1, all.whole / 3);
+}
+
+/* Shadows and occlusion reach beyond the edit: as far as it changed the horizon. */
+static void shadows_are_those_of_a_new_picture_after_any_edit(void **state)
+{
+    (void)state;
+    TestRandom random = { 471 };
+    Drawn all = { 0 };
+    for (int k = 0; k < 6; k++) {
+        const Drawn one = check_scene(&random, k, true);
+        all.kept += one.kept, all.whole += one.whole;
+    }
+    assert_in_range(all.kept, 1, all.whole * 9 / 10);
 }
 
 /* What was left out of a table without slopes comes back with the first of them. */
@@ -183,6 +220,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_is_that_of_a_new_picture_after_any_edit),
+        cmocka_unit_test(shadows_are_those_of_a_new_picture_after_any_edit),
         cmocka_unit_test(the_first_slope_is_seen),
         cmocka_unit_test(a_dab_costs_the_pixels_that_it_reaches),
     };

@@ -115,6 +115,58 @@ static void a_table_has_the_horizon_of_what_it_samples(void **state)
     wr_pool_free(pool);
 }
 
+/* The share of texels that were told to have changed. Each that is another was told. */
+static double compare_updated(const WrHorizon *was, const WrHorizon *updated, const WrHorizon *anew,
+                              const unsigned char *changed)
+{
+    int told = 0;
+    assert_float_equal(updated->steepest, anew->steepest, 0);
+    for (int j = 0; j <= anew->height; j++)
+        for (int i = 0; i <= anew->width; i++) {
+            const bool mark = changed[j % anew->height * anew->width + i % anew->width];
+            told += mark;
+            for (int k = 0; k < anew->directions; k++) {
+                const float a = wr_horizon_at(updated, i, j, k), b = wr_horizon_at(anew, i, j, k);
+                assert_memory_equal(&a, &b, sizeof a);
+                const float before = wr_horizon_at(was, i, j, k);
+                if (before != b) assert_true(mark);
+            }
+        }
+    return (double)told / ((anew->width + 1) * (anew->height + 1));
+}
+
+/* After an edit at random, round the ends too, horizons that are brought up to date have the bits of those made anew. */
+static void an_update_is_the_horizon_made_anew(void **state)
+{
+    const int sizes[][3] = {
+        { 64, 96, 16 }, { 61, 47, 8 }, { 128, 32, 64 }, { 75, 52, 4 }, { 5, 7, 12 }
+    };
+    double least = 1;
+    (void)state;
+    for (int n = 0; n < 25; n++) {
+        const int w = sizes[n % 5][0], h = sizes[n % 5][1], sign = n % 2 ? 1 : -1;
+        WrError err;
+        WrHorizon was = { 0 }, updated = { 0 }, anew = { 0 };
+        WrField *field = waves_of(w, h), *next = wr_field_share(field);
+        const int i = (int)(w * random_of(n, 5)), j = (int)(h * random_of(n, 6));
+        const int side = 1 + (int)(6 * random_of(n, 7));
+        for (int k = 0; k < side * side; k++)
+            wr_field_set(next, (i + k % side) % w, (j + k / side) % h,
+                         (float)(1.5 * random_of(n, 8 + k) - 0.5));
+        unsigned char *changed = calloc((size_t)w * (size_t)h, 1);
+        const int directions = sizes[n % 5][2];
+        assert_true(wr_horizon_make(&was, field, directions, sign, NULL, &err));
+        assert_true(wr_horizon_make(&updated, field, directions, sign, NULL, &err));
+        assert_true(wr_horizon_update(&updated, field, next, sign, changed, NULL, &err));
+        assert_true(wr_horizon_make(&anew, next, directions, sign, NULL, &err));
+        least = fmin(least, compare_updated(&was, &updated, &anew, changed));
+        wr_horizon_drop(&was), wr_horizon_drop(&updated), wr_horizon_drop(&anew);
+        wr_field_free(field), wr_field_free(next);
+        free(changed);
+    }
+    assert_true(least < 0.1); /* not all of a table is told to have changed */
+}
+
 /* Along axes there is nothing between the texels: as float has it. */
 static void along_axes_a_table_is_exact(void **state)
 {
@@ -211,6 +263,7 @@ int main(void)
         cmocka_unit_test(a_trough_has_its_closed_form),
         cmocka_unit_test(a_table_has_the_horizon_of_what_it_samples),
         cmocka_unit_test(along_axes_a_table_is_exact),
+        cmocka_unit_test(an_update_is_the_horizon_made_anew),
         cmocka_unit_test(a_sky_is_as_dark_as_closed_forms_say),
         cmocka_unit_test(a_round_lamp_sets_as_its_disc_does),
     };

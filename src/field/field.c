@@ -316,6 +316,12 @@ static void compare(const Comparison *c, const Counted *a, const Counted *b, int
                 depth - 1, tx + i % FAN * side, ty + i / FAN * side);
 }
 
+bool wr_field_alike(const WrField *a, const WrField *b)
+{
+    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b) &&
+           wr_field_wrap_u(a) == wr_field_wrap_u(b) && wr_field_wrap_v(a) == wr_field_wrap_v(b);
+}
+
 void wr_field_changes(const WrField *a, const WrField *b, WrTileVisitor changed, void *ctx)
 {
     WR_ASSERT(a->width == b->width && a->height == b->height);

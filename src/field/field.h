@@ -81,6 +81,8 @@ void wr_field_expect(const WrField *field, int i, int j, int count_i);
 int64_t wr_field_write(WrField *field, int i, int j, int count_i, int count_j, const float *in,
                        size_t pitch);
 
+/* Have both the same size and wrap? */
+bool wr_field_alike(const WrField *a, const WrField *b);
 /* Call changed(tx, ty, ctx) for each tile whose texels may differ between a and b: those whose
    pointers differ. The sizes must be equal. Costs what differs, not what the tables hold. */
 typedef void (*WrTileVisitor)(int tx, int ty, void *ctx);

@@ -1,5 +1,6 @@
 #include "field/horizon.h"
 
+#include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -45,6 +46,9 @@ void wr_horizon_line(const double *heights, int n, double *slope, int *hull)
 
 /* ---- a table ------------------------------------------------------------------------------------- */
 
+/* Boxes of texels, of a table that was edited. */
+typedef WR_ARRAY(WrFieldRect) Rects;
+
 /* One direction of a table: lines that advance by a texel along one axis, their own, while they drift along the other,
    and so close in themselves after whole turns about the table. */
 typedef struct Course {
@@ -59,6 +63,8 @@ typedef struct Making {
     WrHorizon *horizon;
     const float *heights;
     double sign;
+    const Rects *edits;     /* NULL: the horizons are made anew */
+    unsigned char *changed; /* of an update: [height][width] */
     float steepest[WR_HORIZON_MOST];
     bool failed[WR_HORIZON_MOST];
 } Making;
@@ -81,7 +87,7 @@ static Course course_of(const WrHorizon *h, int direction)
 
 static int whole_mod(int64_t a, int n)
 {
-    const int left = (int)(a % n);
+    const int left = (int)(a == (int)a ? (int)a % n : a % n); /* the short one is far faster */
     return left < 0 ? left + n : left;
 }
 
@@ -106,9 +112,11 @@ static double sample(const Making *m, const Course *c, int first, int64_t k)
 }
 
 typedef struct Line {
+    unsigned char *edited; /* [lines]: it passes a texel that changed; NULL: all are run */
     double *heights, *slope;
     int *hull;
     float *sheared; /* [across][along], where the lines meet the first turn */
+    bool *beside;   /* [across]: slopes between that row and the next are wanted */
 } Line;
 
 /* One turn's slopes of the lines' first texels into the sheared table. */
@@ -150,30 +158,80 @@ static void close_plane(float *of, int width, int height)
     memcpy(of + (size_t)height * pitch, of, pitch * sizeof *of);
 }
 
-/* The slopes at the texels, between the two lines beside each. */
-static void unshear(Making *m, const Course *c, int direction, const float *sheared)
+/* A texel's slope in an updated direction: noted where it is another. Several directions may note one texel at once. */
+static void put_slope(const Making *m, size_t i, size_t j, float slope, float *to)
+{
+    if (m->changed && memcmp(to, &slope, sizeof slope) != 0)
+        __atomic_store_n(&m->changed[j * (size_t)m->horizon->width + i], 1, __ATOMIC_RELAXED);
+    *to = slope;
+}
+
+/* Is an edited line beside the row, or the next one's? */
+static bool is_beside(const Line *line, int lines, int row)
+{
+    return !line->edited || line->edited[row % lines] || line->edited[(row + 1) % lines];
+}
+
+/* The slopes at the texels, between the two lines beside each; of an update those alone that an edited line is beside. */
+static void unshear(Making *m, const Course *c, int direction, const Line *line)
 {
     const WrHorizon *h = m->horizon;
     const double rate = (double)c->drift / ((double)c->turns * c->along);
-    float *to = h->slope + (size_t)direction * wr_horizon_plane(h);
+    float *plane = h->slope + (size_t)direction * wr_horizon_plane(h), most = 0;
     for (int along = 0; along < c->along; along++)
         for (int across = 0; across < c->across; across++) {
             const double at = across - along * rate, low = floor(at);
-            const int row = whole_mod((int64_t)low, c->across);
-            const int next = row + 1 < c->across ? row + 1 : 0;
-            const float a = sheared[(size_t)row * (size_t)c->along + (size_t)along];
-            const float b = sheared[(size_t)next * (size_t)c->along + (size_t)along];
-            const float slope = a + (float)(at - low) * (b - a);
+            const int row = whole_mod((int)low, c->across);
             const int own = c->back ? c->along - 1 - along : along;
             const size_t i = (size_t)(c->upright ? across : own);
             const size_t j = (size_t)(c->upright ? own : across);
-            to[j * ((size_t)h->width + 1) + i] = slope;
-            m->steepest[direction] = fmaxf(m->steepest[direction], slope);
+            float *to = plane + j * ((size_t)h->width + 1) + i;
+            if (line->beside[row]) {
+                const int next = row + 1 < c->across ? row + 1 : 0;
+                const float a = line->sheared[(size_t)row * (size_t)c->along + (size_t)along];
+                const float b = line->sheared[(size_t)next * (size_t)c->along + (size_t)along];
+                put_slope(m, i, j, a + (float)(at - low) * (b - a), to);
+            }
+            most = *to > most ? *to : most;
         }
-    close_plane(to, h->width, h->height);
+    m->steepest[direction] = most;
+    close_plane(plane, h->width, h->height);
 }
 
-static bool hold_line(Line *line, const Course *c, int ahead)
+/* Lines that pass texels [across from .. to) of column `along` of their own axis. */
+static void mark_column(const Course *c, int lines, int along, int from, int to,
+                        unsigned char *edited)
+{
+    const int64_t round = (int64_t)c->turns * c->along;
+    for (int turn = 0; turn < c->turns; turn++) {
+        const int64_t k = (int64_t)turn * c->along + along;
+        const int64_t low = (int64_t)floor((double)k * c->drift / (double)round);
+        for (int64_t row = from - 1 - low; row < to - low; row++) edited[whole_mod(row, lines)] = 1;
+    }
+}
+
+/* Which lines pass edited texels? NULL: no memory. */
+static unsigned char *edited_lines(const Making *m, const Course *c, int lines)
+{
+    unsigned char *edited = wr_try_alloc((size_t)lines, 1, "horizons of the table", NULL);
+    for (int k = 0; k < m->edits->count && edited; k++) {
+        const WrFieldRect *r = &m->edits->data[k];
+        const int from = c->upright ? r->j0 : r->i0, to = c->upright ? r->j1 : r->i1;
+        for (int own = from; own < to; own++)
+            mark_column(c, lines, c->back ? c->along - 1 - own : own, c->upright ? r->i0 : r->j0,
+                        c->upright ? r->i1 : r->j1, edited);
+    }
+    return edited;
+}
+
+/* Does the line, or one beside it, pass such texels? Slopes at texels lie between two. */
+static bool is_wanted(const Line *line, int lines, int first)
+{
+    return !line->edited || line->edited[first] || line->edited[(first + 1) % lines] ||
+           line->edited[(first + lines - 1) % lines];
+}
+
+static bool hold_line(Line *line, const Course *c, int lines, int ahead)
 {
     const char *what = "horizons of the table";
     WrError err;
@@ -181,7 +239,10 @@ static bool hold_line(Line *line, const Course *c, int ahead)
     line->slope = wr_try_alloc((size_t)ahead, sizeof(double), what, &err);
     line->hull = wr_try_alloc(2 * (size_t)ahead, sizeof(int), what, &err);
     line->sheared = wr_try_alloc((size_t)c->along * (size_t)c->across, sizeof(float), what, &err);
-    return line->heights && line->slope && line->hull && line->sheared;
+    line->beside = wr_try_alloc((size_t)c->across, sizeof *line->beside, what, &err);
+    for (int row = 0; row < c->across && line->beside; row++)
+        line->beside[row] = is_beside(line, lines, row);
+    return line->heights && line->slope && line->hull && line->sheared && line->beside;
 }
 
 static void run_direction(int direction, int worker, void *ctx)
@@ -191,12 +252,14 @@ static void run_direction(int direction, int worker, void *ctx)
     const int lines = common(c.across, abs(c.drift) % c.across);
     const int64_t period = (int64_t)c.turns * c.along * (c.across / lines);
     const int ahead = period < AHEAD ? (int)period : AHEAD;
-    Line line;
+    Line line = { .edited = m->edits ? edited_lines(m, &c, lines) : NULL };
     (void)worker;
-    m->failed[direction] = !hold_line(&line, &c, ahead);
+    m->failed[direction] = !hold_line(&line, &c, lines, ahead) || (m->edits && !line.edited);
     for (int first = 0; first < lines && !m->failed[direction]; first++)
-        run_line(m, &c, first, period, &line);
-    if (!m->failed[direction]) unshear(m, &c, direction, line.sheared);
+        if (is_wanted(&line, lines, first)) run_line(m, &c, first, period, &line);
+    if (!m->failed[direction]) unshear(m, &c, direction, &line);
+    wr_free(line.edited);
+    wr_free(line.beside);
     wr_free(line.heights);
     wr_free(line.slope);
     wr_free(line.hull);
@@ -215,25 +278,67 @@ static bool make_all(Making *m, WrPool *pool, WrError *err)
     return true;
 }
 
-bool wr_horizon_make(WrHorizon *horizon, const WrField *field, int directions, double sign,
-                     WrPool *pool, WrError *err)
+/* All directions of that table, in what `making` has of them. */
+static bool make_of(Making *making, const WrField *field, WrPool *pool, WrError *err)
 {
-    const int w = wr_field_width(field), h = wr_field_height(field);
-    const size_t texels = (size_t)w * (size_t)h;
-    float *heights = wr_try_alloc(texels, sizeof *heights, "horizons of the table", err);
-    wr_horizon_drop(horizon);
-    *horizon = (WrHorizon){ w, h, directions, NULL, 0 };
-    if (heights)
-        horizon->slope = wr_try_alloc(wr_horizon_plane(horizon) * (size_t)directions, sizeof(float),
-                                      "horizons of the table", err);
-    bool good = horizon->slope != NULL;
+    WrHorizon *horizon = making->horizon;
+    const int w = horizon->width, h = horizon->height;
+    float *heights =
+        wr_try_alloc((size_t)w * (size_t)h, sizeof *heights, "horizons of the table", err);
+    bool good = heights != NULL;
     if (good) {
-        Making making = { .horizon = horizon, .heights = heights, .sign = sign };
+        making->heights = heights;
         wr_field_read(field, 0, 0, w, h, heights, (size_t)w);
-        good = make_all(&making, pool, err);
+        good = make_all(making, pool, err);
     }
     wr_free(heights);
     if (!good) wr_horizon_drop(horizon);
+    return good;
+}
+
+bool wr_horizon_make(WrHorizon *horizon, const WrField *field, int directions, double sign,
+                     WrPool *pool, WrError *err)
+{
+    Making making = { .horizon = horizon, .sign = sign };
+    wr_horizon_drop(horizon);
+    *horizon = (WrHorizon){ wr_field_width(field), wr_field_height(field), directions, NULL, 0 };
+    horizon->slope = wr_try_alloc(wr_horizon_plane(horizon) * (size_t)directions, sizeof(float),
+                                  "horizons of the table", err);
+    return horizon->slope && make_of(&making, field, pool, err);
+}
+
+typedef struct Finding {
+    const WrField *before, *now;
+    Rects rects;
+} Finding;
+
+/* A box of texels and those about it, round the table's ends. */
+static void mark_about(const WrHorizon *h, const WrFieldRect *r, unsigned char *changed)
+{
+    for (int j = r->j0 - 1; j <= r->j1; j++)
+        for (int i = r->i0 - 1; i <= r->i1; i++)
+            changed[(size_t)whole_mod(j, h->height) * (size_t)h->width +
+                    (size_t)whole_mod(i, h->width)] = 1;
+}
+
+static void find_rect(int tx, int ty, void *ctx)
+{
+    Finding *f = ctx;
+    const WrFieldRect r = wr_field_difference(f->before, f->now, tx, ty);
+    if (r.i0 < r.i1) wr_array_push(&f->rects, r);
+}
+
+bool wr_horizon_update(WrHorizon *horizon, const WrField *before, const WrField *now, double sign,
+                       unsigned char *changed, WrPool *pool, WrError *err)
+{
+    Finding found = { .before = before, .now = now };
+    Making making = { .horizon = horizon, .sign = sign, .edits = &found.rects, .changed = changed };
+    memset(changed, 0, (size_t)horizon->width * (size_t)horizon->height);
+    wr_field_changes(before, now, find_rect, &found);
+    for (int k = 0; k < found.rects.count; k++) mark_about(horizon, &found.rects.data[k], changed);
+    horizon->steepest = 0;
+    const bool good = make_of(&making, now, pool, err);
+    wr_array_free(&found.rects);
     return good;
 }
 
@@ -297,6 +402,7 @@ typedef struct OpeningJob {
     const WrHorizon *horizon;
     const float *heights;
     double sign;
+    const unsigned char *changed; /* NULL: all */
     float *out;
 } OpeningJob;
 
@@ -310,6 +416,7 @@ static void open_row(int j, int worker, void *ctx)
     const float *below = job->heights + (size_t)((j + 1) % h) * (size_t)w;
     float *out = job->out + (size_t)j * ((size_t)w + 1), slope[WR_HORIZON_MOST];
     for (int i = 0; i < w; i++) {
+        if (job->changed && !job->changed[(size_t)j * (size_t)w + (size_t)i]) continue;
         for (int k = 0; k < job->horizon->directions; k++)
             slope[k] = wr_horizon_at(job->horizon, i, j, k);
         const double x = (double)row[(i + 1) % w] - (double)row[(i + w - 1) % w];
@@ -319,12 +426,12 @@ static void open_row(int j, int worker, void *ctx)
 }
 
 void wr_opening_table(const WrOpening *opening, const WrHorizon *horizon, const WrField *field,
-                      double sign, WrPool *pool, float *out)
+                      double sign, const unsigned char *changed, WrPool *pool, float *out)
 {
     const int w = horizon->width, h = horizon->height;
     float *heights = wr_alloc((size_t)w * (size_t)h, sizeof *heights);
     wr_field_read(field, 0, 0, w, h, heights, (size_t)w);
-    OpeningJob job = { opening, horizon, heights, sign, out };
+    OpeningJob job = { opening, horizon, heights, sign, changed, out };
     wr_pool_run(pool, h, open_row, &job);
     close_plane(out, w, h);
     wr_free(heights);

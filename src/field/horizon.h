@@ -58,6 +58,12 @@ static inline float wr_horizon_at(const WrHorizon *h, int i, int j, int k)
  * Errors: no memory. */
 bool wr_horizon_make(WrHorizon *horizon, const WrField *field, int directions, double sign,
                      WrPool *pool, WrError *err);
+/* Bring horizons of table `before` up to date with `now`, of equal size and wrap, to the bits that making them anew would
+ * give: only lines that pass a texel which changed are swept again. changed: [height][width], 1 afterwards where a texel's own
+ * horizon is another in any direction, or F at it or beside it, else 0.
+ * Errors: no memory; cancelled: the horizons are dropped. */
+bool wr_horizon_update(WrHorizon *horizon, const WrField *before, const WrField *now, double sign,
+                       unsigned char *changed, WrPool *pool, WrError *err);
 void wr_horizon_drop(WrHorizon *horizon);
 
 /* The share that is seen of a round lamp of angular radius a, whose middle stands at an elevation over a straight horizon:
@@ -90,6 +96,6 @@ void wr_opening_make(WrOpening *opening, int directions, double across, double d
 /* As wr_horizon_sky, of one texel's slopes: n by the slopes of F along i and j, heights over texels. */
 double wr_opening_sky(const WrOpening *opening, const float *slope, double along_i, double along_j);
 /* The same of each texel of the table that the horizon is of, its first column and row again after the last:
-   out[height + 1][width + 1]. */
+   out[height + 1][width + 1]. changed: as wr_horizon_update has it, of texels whose numbers are not there yet; NULL: all. */
 void wr_opening_table(const WrOpening *opening, const WrHorizon *horizon, const WrField *field,
-                      double sign, WrPool *pool, float *out);
+                      double sign, const unsigned char *changed, WrPool *pool, float *out);

@@ -241,6 +241,20 @@ static int reach_of(const WrPlan *plan)
     return wr_schemes[plan->scheme].reach + (plan->sampling == WR_SAMPLING_ADAPTIVE ? 2 : 0);
 }
 
+/* Where shadows and occlusion reach beyond the edit: what it changed of the horizons. False: that is not known. */
+static bool add_horizon_edit(WrRenderer *renderer)
+{
+    const WrPlan *plan = &renderer->plan;
+    const uint64_t shown = renderer->keep.field ? wr_field_key(renderer->keep.field) : 0;
+    if (!wr_plan_runs(plan, WR_EFFECT_SHADOW) && !wr_plan_runs(plan, WR_EFFECT_OCCLUSION))
+        return true;
+    if (!wr_plan_runs(plan, WR_EFFECT_BUMP)) return false; /* no tile tells what it looks at */
+    if (shown == renderer->horizon_key) return true;
+    if (!renderer->horizon_edit || shown != renderer->horizon_before) return false;
+    wr_keep_add_texels(&renderer->keep, renderer->looked, renderer->horizon_edit);
+    return true;
+}
+
 /* Does the last picture show what this request asks for, but for edits of the table? */
 static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
                   const WrKernels *kernels)
@@ -250,7 +264,8 @@ static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrP
            same_view(renderer, request) &&
            wr_frame_same_output(&renderer->last.codes, &request->codes) &&
            renderer->kernels == kernels && wr_plan_same(before, &renderer->plan) &&
-           wr_keep_compare(&renderer->keep, renderer->looked, reach_of(&renderer->plan));
+           wr_keep_compare(&renderer->keep, renderer->looked, reach_of(&renderer->plan)) &&
+           add_horizon_edit(renderer);
 }
 
 /* Is the view of the last picture, with its mesh, this one's? */

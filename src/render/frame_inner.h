@@ -50,6 +50,11 @@ struct WrRenderer {
     WrHorizon horizon; /* of the table with this key, times this sign */
     uint64_t horizon_key;
     double horizon_sign;
+    WrField *horizon_field; /* own share of that table */
+    /* [its height][its width]: where the last edit changed the horizon (wr_horizon_update), and of which table it made this
+       one. Owned; NULL: they were made anew */
+    unsigned char *horizon_edit;
+    uint64_t horizon_before;
     WrOpeningTable opening;
     WrCastBody body; /* of the object, as it throws shadows */
     WrCast cast;     /* what can hide lamps from it */
@@ -150,6 +155,10 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
                             WrError *err);
 bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 void wr_frame_drop_tables(WrRenderer *renderer);
+/* The table's horizons, and how open it is there, where the plan goes by them. Errors: no memory; cancelled. */
+bool wr_frame_bring_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+bool wr_frame_bring_opening(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+void wr_frame_drop_horizon(WrRenderer *renderer);
 /* What tiles look up; scale: object units -> kernel units. */
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job);

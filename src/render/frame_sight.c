@@ -9,18 +9,13 @@
 #define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
 #define PLACES (1 << 16) /* samples along a side: in 256ths they are exact in single precision */
 
-/* Does its relief throw shadows, or hide itself? */
-static bool hides(const WrScene *object)
-{
-    return object->material.shadow || object->material.occlusion || object->parallax;
-}
-
-/* So of any object, or among several, is a surface moved? An edit reaches farther then than what a tile looks at. */
+/* Does an edit reach farther than what a tile looks at? Parallax may meet the relief anywhere; among several objects a surface
+   is moved. */
 static bool reaches_far(const WrScene *scene)
 {
-    bool any = hides(scene) || (scene->other_count > 0 && scene->displaced);
+    bool any = scene->parallax || (scene->other_count > 0 && scene->displaced);
     for (int i = 0; i < scene->other_count; i++)
-        any |= hides(scene->others[i]) || scene->others[i]->displaced;
+        any |= scene->others[i]->parallax || scene->others[i]->displaced;
     return any;
 }
 

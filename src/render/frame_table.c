@@ -25,7 +25,7 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_relief_drop(&renderer->relief);
     wr_mirror_drop(&renderer->mirror);
     wr_grades_drop(&renderer->grades);
-    wr_horizon_drop(&renderer->horizon);
+    wr_frame_drop_horizon(renderer);
     wr_opening_table_drop(&renderer->opening);
     wr_frames_drop(&renderer->frames);
 }
@@ -158,34 +158,6 @@ static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, Wr
                            renderer->pool, err);
 }
 
-/* The table's horizons, made anew after an edit. */
-static bool bring_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
-{
-    const double sign = request->scene->height < 0 ? -1 : 1;
-    const uint64_t key = wr_field_key(renderer->looked);
-    WrHorizon *horizon = &renderer->horizon;
-    const WrPlan *plan = &renderer->plan;
-    if (!wr_plan_runs(plan, WR_EFFECT_SHADOW) && !wr_plan_runs(plan, WR_EFFECT_OCCLUSION)) {
-        if (!request->hold) wr_horizon_drop(horizon);
-        return true;
-    }
-    if (horizon->slope && renderer->horizon_key == key && renderer->horizon_sign == sign &&
-        horizon->directions == plan->horizons)
-        return true;
-    renderer->horizon_key = key, renderer->horizon_sign = sign;
-    return wr_horizon_make(horizon, renderer->looked, plan->horizons, sign, renderer->pool, err);
-}
-
-static bool bring_opening(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
-{
-    if (wr_plan_runs(&renderer->plan, WR_EFFECT_OCCLUSION))
-        return wr_opening_table_bring(&renderer->opening, request->scene, renderer->looked,
-                                      renderer->horizon_key, &renderer->horizon, renderer->pool,
-                                      err);
-    if (!request->hold) wr_opening_table_drop(&renderer->opening);
-    return true;
-}
-
 /* Do light's roughness and metalness come from a picture of that kind? */
 static bool wants_facets(const WrPlan *plan, const WrScene *scene, int kind)
 {
@@ -220,8 +192,8 @@ bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, 
     WrTint *tint = &renderer->tint;
     if (!bring_relief(renderer, request, err)) return false;
     if (!bring_mirror(renderer, request, err)) return false;
-    if (!bring_horizon(renderer, request, err)) return false;
-    if (!bring_opening(renderer, request, err)) return false;
+    if (!wr_frame_bring_horizon(renderer, request, err)) return false;
+    if (!wr_frame_bring_opening(renderer, request, err)) return false;
     if (!bring_facets(renderer, request, err)) return false;
     if (!wr_plan_runs(plan, WR_EFFECT_COLOUR)) {
         wr_tint_drop(tint);

@@ -16,6 +16,8 @@ void wr_keep_fini(WrKeep *keep)
     *keep = (WrKeep){ 0 };
 }
 
+#define CELL 16 /* texels of a side: what is marked in one is taken as one box */
+
 static const WrKeepBox nothing = { .high_u = -1, .high_v = -1 };
 
 static bool is_empty(const WrKeepBox *box)
@@ -229,16 +231,13 @@ static void add_change(WrKeep *keep, const WrKeepBox *box)
     else keep->changed[keep->changes++] = *box;
 }
 
-static void mark(int tx, int ty, void *ctx)
+/* Texels of the field, with `reach` about them. */
+static void add_rect(WrKeep *keep, const WrField *field, WrFieldRect r, int reach)
 {
-    const Compare *compare = ctx;
-    const WrField *field = compare->now;
     const float w = (float)wr_field_width(field), h = (float)wr_field_height(field);
-    const float reach = (float)compare->reach;
-    const WrFieldRect r = wr_field_difference(compare->old, field, tx, ty);
     if (r.i0 >= r.i1) return;
-    const float half_u = 0.5f * (float)(r.i1 - r.i0) + reach;
-    const float half_v = 0.5f * (float)(r.j1 - r.j0) + reach;
+    const float half_u = 0.5f * (float)(r.i1 - r.i0) + (float)reach;
+    const float half_v = 0.5f * (float)(r.j1 - r.j0) + (float)reach;
     /* Rows run down, v runs up. */
     const WrKeepBox box = { .u = 0.5f * (float)(r.i0 + r.i1) / w,
                             .v = 1 - 0.5f * (float)(r.j0 + r.j1) / h,
@@ -246,17 +245,41 @@ static void mark(int tx, int ty, void *ctx)
                             .high_u = half_u / w,
                             .low_v = -half_v / h,
                             .high_v = half_v / h };
-    add_change(compare->keep, &box);
+    add_change(keep, &box);
+}
+
+static void mark(int tx, int ty, void *ctx)
+{
+    const Compare *compare = ctx;
+    const WrFieldRect r = wr_field_difference(compare->old, compare->now, tx, ty);
+    add_rect(compare->keep, compare->now, r, compare->reach);
+}
+
+/* What of a cell of the field is marked. */
+static WrFieldRect marked_in(const WrField *field, const unsigned char *marked, int i0, int j0)
+{
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    WrFieldRect r = { w, 0, h, 0 };
+    for (int j = j0; j < j0 + CELL && j < h; j++)
+        for (int i = i0; i < i0 + CELL && i < w; i++) {
+            if (!marked[(size_t)j * (size_t)w + (size_t)i]) continue;
+            r.i0 = i < r.i0 ? i : r.i0, r.i1 = i >= r.i1 ? i + 1 : r.i1;
+            r.j0 = j < r.j0 ? j : r.j0, r.j1 = j >= r.j1 ? j + 1 : r.j1;
+        }
+    return r;
+}
+
+void wr_keep_add_texels(WrKeep *keep, const WrField *field, const unsigned char *marked)
+{
+    for (int j = 0; j < wr_field_height(field); j += CELL)
+        for (int i = 0; i < wr_field_width(field); i += CELL)
+            add_rect(keep, field, marked_in(field, marked, i, j), 2); /* one more for rounding */
 }
 
 bool wr_keep_compare(WrKeep *keep, const WrField *field, int reach)
 {
     const WrField *old = keep->field;
-    if (!keep->patches || !old || wr_field_width(old) != wr_field_width(field) ||
-        wr_field_height(old) != wr_field_height(field) ||
-        wr_field_wrap_u(old) != wr_field_wrap_u(field) ||
-        wr_field_wrap_v(old) != wr_field_wrap_v(field))
-        return false;
+    if (!keep->patches || !old || !wr_field_alike(old, field)) return false;
     keep->changes = 0;
     Compare compare = { old, field, reach, keep };
     wr_field_changes(old, field, mark, &compare);

@@ -31,21 +31,27 @@ void wr_opening_texel(const WrScene *scene, const WrField *field, double *across
 }
 
 bool wr_opening_table_bring(WrOpeningTable *table, const WrScene *scene, const WrField *field,
-                            uint64_t key, const WrHorizon *horizon, WrPool *pool, WrError *err)
+                            const WrOpeningEdit *edit, const WrHorizon *horizon, WrPool *pool,
+                            WrError *err)
 {
     const double sign = scene->height < 0 ? -1 : 1;
     double across, down;
     WrOpening opening;
     wr_opening_texel(scene, field, &across, &down);
-    if (table->open && table->key == key && table->directions == horizon->directions &&
-        table->across == sign * across && table->down == sign * down)
-        return true;
+    const bool like = table->open && table->width == horizon->width &&
+                      table->height == horizon->height &&
+                      table->directions == horizon->directions && table->across == sign * across &&
+                      table->down == sign * down;
+    if (like && table->key == edit->key) return true;
+    const bool edited = like && edit->changed && table->key == edit->before;
+    float *open = edited ? table->open : NULL;
+    if (edited) table->open = NULL; /* not whole while texels are brought up to date */
     wr_opening_table_drop(table);
-    float *open =
-        wr_try_alloc(wr_horizon_plane(horizon), sizeof *open, "how open the relief is", err);
+    if (!open)
+        open = wr_try_alloc(wr_horizon_plane(horizon), sizeof *open, "how open the relief is", err);
     if (!open) return false;
     wr_opening_make(&opening, horizon->directions, across, down);
-    wr_opening_table(&opening, horizon, field, sign, pool, open);
+    wr_opening_table(&opening, horizon, field, sign, edited ? edit->changed : NULL, pool, open);
     if (wr_progress_stopped()) { /* half of it may be missing */
         wr_free(open);
         return wr_fail(err, "cancelled");
@@ -53,7 +59,7 @@ bool wr_opening_table_bring(WrOpeningTable *table, const WrScene *scene, const W
     *table = (WrOpeningTable){ .open = open,
                                .width = horizon->width,
                                .height = horizon->height,
-                               .key = key,
+                               .key = edit->key,
                                .directions = horizon->directions,
                                .across = sign * across,
                                .down = sign * down };

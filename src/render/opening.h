@@ -18,8 +18,15 @@ typedef struct WrOpeningTable {
 } WrOpeningTable;
 
 void wr_opening_table_drop(WrOpeningTable *table);
+/* Which table horizons are of. */
+typedef struct WrOpeningEdit {
+    uint64_t key, before;         /* of it; of the one that an edit made it of */
+    const unsigned char *changed; /* what that changed (wr_horizon_update); NULL: it is not known */
+} WrOpeningEdit;
+
 /* Bring it up to date with the horizons of that table. A texel is as long as on the mean over the surface. */
 bool wr_opening_table_bring(WrOpeningTable *table, const WrScene *scene, const WrField *field,
-                            uint64_t key, const WrHorizon *horizon, WrPool *pool, WrError *err);
+                            const WrOpeningEdit *edit, const WrHorizon *horizon, WrPool *pool,
+                            WrError *err);
 /* How long a texel is along u and v, in units of height, on the mean. */
 void wr_opening_texel(const WrScene *scene, const WrField *field, double *across, double *down);
