@@ -64,7 +64,9 @@ bool wr_frame_ties(const WrRenderer *renderer)
     const WrView *view = &renderer->view;
     const bool even = plan->sampling == WR_SAMPLING_ONE ||
                       (plan->sampling == WR_SAMPLING_ALL && plan->spread != WR_SPREAD_JITTERED);
-    return renderer->mesh && wr_wide_of(renderer->kernels) && even && plan->newton < 0 &&
+    /* Of a body that shows its back there are two sheets everywhere. */
+    const bool single = view->cull || wr_surfaces[view->shape_d.kind]->open;
+    return renderer->mesh && wr_wide_of(renderer->kernels) && even && single && plan->newton < 0 &&
            !plan->shading_double && !view->endless &&
            (int64_t)view->grid_w * view->grid_h <= TIED_MOST;
 }

@@ -18,14 +18,16 @@ void wr_knots_fini(WrKnots *knots)
     wr_free(knots->count);
     wr_free(knots->crossed);
     wr_free(knots->place);
+    wr_free(knots->shown);
     *knots = (WrKnots){ 0 };
 }
 
 /* Memory for so many, empty. */
-static bool make_room(WrKnots *knots, int across, int down)
+static bool make_room(WrKnots *knots, int across, int down, int blocks)
 {
     const size_t all = (size_t)across * (size_t)down;
-    if (!knots->numbers || knots->across != across || knots->down != down) {
+    if (!knots->numbers || knots->across != across || knots->down != down ||
+        knots->blocks != blocks) {
         wr_knots_fini(knots);
         knots->numbers =
             wr_try_alloc(WR_KNOT_NUMBERS * all + SPARE, sizeof *knots->numbers, "knots", NULL);
@@ -33,14 +35,17 @@ static bool make_room(WrKnots *knots, int across, int down)
         knots->count = wr_try_alloc(all, 1, "knots", NULL);
         knots->crossed = wr_try_alloc(all, 1, "knots", NULL);
         knots->place = wr_try_alloc(all, 1, "knots", NULL);
+        knots->shown = wr_try_alloc((size_t)blocks, 1, "knots", NULL);
     }
-    if (!knots->numbers || !knots->even || !knots->count || !knots->crossed || !knots->place)
+    if (!knots->numbers || !knots->even || !knots->count || !knots->crossed || !knots->place ||
+        !knots->shown)
         return false;
     knots->u = knots->numbers, knots->v = knots->numbers + all;
     memset(knots->numbers, 0, (WR_KNOT_NUMBERS * all + SPARE) * sizeof *knots->numbers);
     memset(knots->count, 0, all);
     memset(knots->crossed, 0, all);
-    knots->across = across, knots->down = down;
+    memset(knots->shown, 0, (size_t)blocks);
+    knots->across = across, knots->down = down, knots->blocks = blocks;
     return true;
 }
 
@@ -90,35 +95,37 @@ static void solve_row(int y, int worker, void *ctx)
     }
 }
 
-/* From a to b, the short way round. */
-static inline float way(float a, float b, bool closed)
+/* From a to b; round 1: the short way round, 0: straight. Here nothing branches: rows go by vectors. */
+static inline float way(float a, float b, float round)
 {
     const float d = b - a;
-    const float turn = d > 0.5f ? d - 1.0f : d < -0.5f ? d + 1.0f : d;
-    return closed ? turn : d;
+    return d + round * ((float)(d < -0.5f) - (float)(d > 0.5f));
 }
 
 /* Of the block at a knot, beside evenness_both's bits: it shows one sheet. */
 #define SINGLE 16
 
-/* Of five knots: do the first four bend gently enough for a cubic to guess by, 1, and all hardly at all, 2? `across`: what a step the other way changes. */
-static inline int evenness(const float at[5], float across, bool closed)
+/* Do four of five knots bend gently enough for a cubic to guess by, 1, and all hardly at all, 2? across: what a step the other
+   way changes. */
+static inline int evenness(float k0, float k1, float k2, float k3, float k4, float across,
+                           float round)
 {
-    const float a = way(at[0], at[1], closed), b = way(at[1], at[2], closed);
-    const float c = way(at[2], at[3], closed), d = way(at[3], at[4], closed);
+    const float a = way(k0, k1, round), b = way(k1, k2, round);
+    const float c = way(k2, k3, round), d = way(k3, k4, round);
     const float by = fabsf(b) + fabsf(across), third = a - 2 * b + c, fourth = b - 2 * c + d;
-    const bool jumps = closed && fabsf(at[4] - at[0]) + fabsf(at[2] - at[1]) > 0.5f;
-    const int gentle = fabsf(third) < BEND * by ? 1 : 0;
-    return gentle | (!jumps && fabsf(fourth - third) < EVEN * by ? 2 : 0);
+    const float jump = round * (fabsf(k4 - k0) + fabsf(k2 - k1));
+    const int gentle = fabsf(third) < BEND * by, even = fabsf(fourth - third) < EVEN * by;
+    return gentle + 2 * (even & (jump < 0.5f));
 }
 
 /* Of a parameter's knots along both axes: bits 0 and 1 along x, 2 and 3 along y. */
-static inline int evenness_both(const float *at, const size_t row[5], bool closed)
+static inline int evenness_both(const float *const row[5], size_t x, float round)
 {
-    const float x[5] = { at[0], at[1], at[2], at[3], at[4] };
-    const float y[5] = { at[row[0]], at[row[1]], at[row[2]], at[row[3]], at[row[4]] };
-    return evenness(x, way(at[1], at[row[1] + 1], closed), closed) |
-           evenness(y, way(at[row[1]], at[row[1] + 1], closed), closed) << 2;
+    const float *r = row[0] + x, *below = row[1] + x;
+    const int along = evenness(r[0], r[1], r[2], r[3], r[4], way(r[1], below[1], round), round);
+    const int down = evenness(r[0], below[0], row[2][x], row[3][x], row[4][x],
+                              way(below[0], below[1], round), round);
+    return along + 4 * down;
 }
 
 /* How evenly the knots right of each knot of a row lie, and those below; beyond the last it says nothing. */
@@ -128,15 +135,18 @@ static void even_row(int y, int worker, void *ctx)
     const WrKnotsJob *job = ctx;
     WrKnots *k = job->knots;
     const size_t across = (size_t)k->across, start = (size_t)y * across;
-    const size_t last = (size_t)(k->down - 1 - y) * across;
-    size_t row[5];
-    for (size_t i = 0; i < 5; i++) row[i] = i * across < last ? i * across : last;
-    for (size_t x = start; x < start + across; x++) {
-        k->even[x] = 0;
-        if (k->count[x] != 1) continue;
-        k->even[x] = (unsigned char)(evenness_both(k->u + x, row, k->closed_u) &
-                                     evenness_both(k->v + x, row, k->closed_v));
-        if (!k->crossed[x]) k->even[x] |= SINGLE;
+    const unsigned char *restrict count = k->count + start, *restrict crossed = k->crossed + start;
+    const float round_u = k->closed_u ? 1.0f : 0.0f, round_v = k->closed_v ? 1.0f : 0.0f;
+    unsigned char *restrict even = k->even + start;
+    const float *u[5], *v[5];
+    for (int i = 0; i < 5; i++) {
+        const size_t row = (size_t)(y + i < k->down ? y + i : k->down - 1) * across;
+        u[i] = k->u + row, v[i] = k->v + row;
+    }
+#pragma omp simd
+    for (size_t x = 0; x < across; x++) {
+        const int own = evenness_both(u, x, round_u) & evenness_both(v, x, round_v);
+        even[x] = (unsigned char)((count[x] == 1) * (own + SINGLE * (crossed[x] == 0)));
     }
 }
 
@@ -154,16 +164,6 @@ static bool is_smooth(const WrKnots *k, int x, int y)
     return are_even(even, across, 1) && are_even(even, 1, 4);
 }
 
-/* And is it enough for the block in their middle? */
-static bool is_even(const WrKnots *k, int x, int y)
-{
-    const size_t across = (size_t)k->across;
-    if (x < 1 || y < 1 || x + 4 >= k->across || y + 4 >= k->down) return false;
-    const unsigned char *even = k->even + (size_t)y * across + (size_t)x;
-    return are_even(even, across, 2) && are_even(even - 1, across, 2) && are_even(even, 1, 8) &&
-           are_even(even - across, 1, 8);
-}
-
 /* Three by three blocks from there on, each of one sheet. */
 static bool are_single(const WrKnots *k, int x, int y)
 {
@@ -174,15 +174,12 @@ static bool are_single(const WrKnots *k, int x, int y)
     return a[0] & a[1] & a[2] & b[0] & b[1] & b[2] & c[0] & c[1] & c[2] & SINGLE;
 }
 
-static unsigned char place_of(const WrKnotsJob *job, int x, int y)
+static unsigned char place_of(const WrKnots *k, int x, int y)
 {
-    const WrKnots *k = job->knots;
     static const unsigned char shifts[] = { 4, 1, 3, 5, 7, 0, 2, 6, 8 };
     const size_t at = (size_t)y * (size_t)k->across + (size_t)x;
     if (k->crossed[at]) return WR_KNOTS_DEPTH;
     if (k->count[at] != 1) return k->count[at] ? WR_KNOTS_DEPTH : WR_KNOTS_NOTHING;
-    if (job->ask->sheet && are_single(k, x - 1, y - 1) && is_even(k, x - 1, y - 1))
-        return WR_KNOTS_SHEET;
     for (int i = 0; i < 9; i++)
         if (are_single(k, x - shifts[i] % 3, y - shifts[i] / 3) &&
             is_smooth(k, x - shifts[i] % 3, y - shifts[i] / 3))
@@ -190,13 +187,36 @@ static unsigned char place_of(const WrKnotsJob *job, int x, int y)
     return WR_KNOTS_DEPTH;
 }
 
+/* Of a row, the blocks that knots alone tell: their three by three are of one sheet, and the six by six knots about are even. */
+static void find_sheet(const WrKnots *k, int y, unsigned char *restrict sheet)
+{
+    const size_t across = (size_t)k->across;
+    const unsigned char *const e = k->even + (size_t)y * across;
+    const unsigned char *restrict far = e - 2 * across, *restrict up = e - across;
+    const unsigned char *restrict low = e + across, *restrict end = e + 2 * across;
+#pragma omp simd
+    for (size_t x = 2; x < across - 3; x++) {
+        const int single = up[x - 1] & up[x] & up[x + 1] & e[x - 1] & e[x] & e[x + 1] & low[x - 1] &
+                           low[x] & low[x + 1] & SINGLE;
+        const int along = up[x - 2] & e[x - 2] & low[x - 2] & end[x - 2] & up[x - 1] & e[x - 1] &
+                          low[x - 1] & end[x - 1] & 2;
+        const int down = far[x - 1] & far[x] & far[x + 1] & far[x + 2] & up[x - 1] & up[x] &
+                         up[x + 1] & up[x + 2] & 8;
+        sheet[x] = (single | along | down) == (SINGLE | 2 | 8);
+    }
+}
+
 static void place_row(int y, int worker, void *ctx)
 {
-    (void)worker;
     const WrKnotsJob *job = ctx;
     WrKnots *knots = job->knots;
     unsigned char *place = knots->place + (size_t)y * (size_t)knots->across;
-    for (int x = 0; x < knots->across; x++) place[x] = place_of(job, x, y);
+    unsigned char *sheet = job->sheet + (size_t)worker * (size_t)knots->across;
+    memset(sheet, 0, (size_t)knots->across);
+    if (job->ask->sheet && knots->across > 7 && y > 1 && y + 3 < knots->down)
+        find_sheet(knots, y, sheet);
+    for (int x = 0; x < knots->across; x++)
+        place[x] = sheet[x] ? WR_KNOTS_SHEET : place_of(knots, x, y);
 }
 
 static void fill_key(const WrViewMesh *mesh, const WrView *view, const WrKnotsAsk *ask,
@@ -233,9 +253,10 @@ bool wr_knots_bring(WrKnots *knots, const WrViewMesh *mesh, const WrView *view,
     knots->known = false;
     knots->top = ask->first / WR_KNOT - WR_KNOTS_AROUND;
     if (!make_room(knots, (view->grid_w - 1) / WR_KNOT + 2 + 2 * WR_KNOTS_AROUND,
-                   last + 1 + WR_KNOTS_AROUND - knots->top))
+                   last + 1 + WR_KNOTS_AROUND - knots->top, mesh->blocks_u * mesh->blocks_v))
         return false;
     knots->closed_u = mesh->newton.closed_u, knots->closed_v = mesh->newton.closed_v;
+    const size_t threads = (size_t)wr_pool_threads(pool);
     WrKnotsJob job = { .knots = knots,
                        .mesh = mesh,
                        .view = view,
@@ -243,9 +264,11 @@ bool wr_knots_bring(WrKnots *knots, const WrViewMesh *mesh, const WrView *view,
                        .rays = &wr_view_grid(view, view->samples)->rays,
                        .step_u = 1.0f / (float)mesh->mu,
                        .mirrored = view->stretch[0] * view->stretch[1] * view->stretch[2] < 0,
-                       .strips = wr_alloc((size_t)wr_pool_threads(pool), sizeof(WrStrip)) };
+                       .strips = wr_alloc(threads, sizeof(WrStrip)),
+                       .sheet = wr_alloc(threads, (size_t)knots->across) };
     knots->known = tie(&job, pool);
     knots->key = key;
     wr_free(job.strips);
+    wr_free(job.sheet);
     return knots->known;
 }

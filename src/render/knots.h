@@ -44,6 +44,8 @@ typedef struct WrKnots {
         *crossed;         /* likewise, of the block right and below of each: an edge does. Owned */
     unsigned char *even;  /* likewise: what place goes by. Owned */
     unsigned char *place; /* likewise, of blocks: WR_KNOTS_. Owned */
+    unsigned char *shown; /* [blocks] of the mesh: a triangle of it is drawn. Owned */
+    int blocks;
     bool closed_u, closed_v; /* the mesh's */
 } WrKnots;
 

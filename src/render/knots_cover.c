@@ -40,73 +40,128 @@ static int side_of(const WrKnotsJob *job, size_t a, size_t b, size_t c)
     return area > 0 ? 1 : -1;
 }
 
-/* A triangle's corner as its knots are told from it. */
-typedef struct Corner {
-    int64_t x, y;
-    float w, u, v; /* w: 1 / depth, or 1 */
-} Corner;
+/* A cell's corners, round it: i, j; i + 1, j; both + 1; i, j + 1. */
+typedef struct Cell {
+    int64_t x[4], y[4]; /* 1/256 samples */
+    int i, j;
+} Cell;
 
-static Corner corner_at(const WrKnotsJob *job, size_t at, int i, int j)
+static Cell cell_at(const WrViewMesh *mesh, int i, int j)
+{
+    const size_t at = (size_t)j * ((size_t)mesh->mu + 1) + (size_t)i, low = at + (size_t)mesh->mu;
+    const int32_t *x = mesh->sx, *y = mesh->sy;
+    return (Cell){ { x[at], x[at + 1], x[low + 2], x[low + 1] },
+                   { y[at], y[at + 1], y[low + 2], y[low + 1] },
+                   i,
+                   j };
+}
+
+/* An edge, and how far right of it a place is, on whole numbers (raster.c). */
+typedef struct Edge {
+    int64_t dx, dy, at;
+} Edge;
+
+static inline Edge edge_of(const Cell *cell, int from, int to, int64_t x, int64_t y)
+{
+    const int64_t dx = cell->x[to] - cell->x[from], dy = cell->y[to] - cell->y[from];
+    return (Edge){ dx, dy, dx * (y - cell->y[from]) - dy * (x - cell->x[from]) };
+}
+
+static inline Edge turned(Edge e)
+{
+    return (Edge){ -e.dx, -e.dy, -e.at };
+}
+
+/* Is the place on the inner side, or on the edge itself where that is a top or left one? side: the triangle's. */
+static inline bool within(Edge e, int side)
+{
+    if (side < 0) e = turned(e);
+    return e.at > 0 || (e.at == 0 && (e.dy < 0 || (e.dy == 0 && e.dx < 0)));
+}
+
+/* One more triangle covers a knot; the corners' shares of it. More than two are as good as two. */
+static void cover_knot(const WrKnotsJob *job, size_t at, const Cell *cell, const int of[3],
+                       const int64_t share[3])
 {
     const WrViewMesh *mesh = job->mesh;
-    return (Corner){ mesh->sx[at], mesh->sy[at], job->view->perspective ? mesh->close[at] : 1.0f,
-                     (float)i * job->step_u, mesh->v[j] };
-}
-
-/* e >= 0 left of the way from a to b, and on it where it is a top or left one (raster.c). */
-static int64_t beside(const Corner *a, const Corner *b, int64_t x, int64_t y)
-{
-    const int64_t dx = b->x - a->x, dy = b->y - a->y;
-    const bool owns = dy < 0 || (dy == 0 && dx < 0);
-    return dx * (y - a->y) - dy * (x - a->x) - (owns ? 0 : 1);
-}
-
-static void cover_knot(const WrKnotsJob *job, const Corner *c, int kx, int ky)
-{
     WrKnots *knots = job->knots;
-    const int64_t x = (int64_t)(kx - WR_KNOTS_AROUND) * WR_KNOT_STEP + 128,
-                  y = (int64_t)(ky + knots->top) * WR_KNOT_STEP + 128;
-    const int64_t e0 = beside(&c[1], &c[2], x, y), e1 = beside(&c[2], &c[0], x, y);
-    const int64_t e2 = beside(&c[0], &c[1], x, y);
-    if ((e0 | e1 | e2) < 0) return;
-    const size_t at = (size_t)ky * (size_t)knots->across + (size_t)kx;
-    if (__atomic_fetch_add(&knots->count[at], 1, __ATOMIC_RELAXED) != 0) return;
-    const float w0 = (float)e0 * c[0].w, w1 = (float)e1 * c[1].w, w2 = (float)e2 * c[2].w;
-    const float all = w0 + w1 + w2, inv = all > 0 ? 1.0f / all : 0.0f;
-    knots->u[at] = (w0 * c[0].u + w1 * c[1].u + w2 * c[2].u) * inv;
-    knots->v[at] = (w0 * c[0].v + w1 * c[1].v + w2 * c[2].v) * inv;
+    float w = 0, u = 0, v = 0;
+    if (__atomic_load_n(&knots->count[at], __ATOMIC_RELAXED) > 1 ||
+        __atomic_fetch_add(&knots->count[at], 1, __ATOMIC_RELAXED) != 0)
+        return;
+    for (int k = 0; k < 3; k++) {
+        const int i = cell->i + (of[k] == 1 || of[k] == 2), j = cell->j + of[k] / 2;
+        const size_t vertex = (size_t)j * ((size_t)mesh->mu + 1) + (size_t)i;
+        const float own = (float)share[k] * (job->view->perspective ? mesh->close[vertex] : 1.0f);
+        w += own, u += own * (float)i * job->step_u, v += own * mesh->v[j];
+    }
+    knots->u[at] = w != 0 ? u / w : 0;
+    knots->v[at] = w != 0 ? v / w : 0;
 }
 
-/* The first knot at x or beyond. */
-static int knot_from(int64_t x)
-{
-    return (int)-(int64_t)wr_knots_floor((int32_t)(128 - x));
-}
-
-static int64_t least3(int64_t a, int64_t b, int64_t c)
-{
-    return a < b ? a < c ? a : c : b < c ? b : c;
-}
-
-static void cover_knots(const WrKnotsJob *job, int side, Corner a, Corner b, Corner c)
+static void meet_knot(const WrKnotsJob *job, const Cell *cell, int one, int two, int kx, int ky)
 {
     const WrKnots *knots = job->knots;
-    const Corner corner[3] = { a, side > 0 ? b : c, side > 0 ? c : b };
-    const int x0 =
-        wr_knots_clamped(knot_from(least3(a.x, b.x, c.x)) + WR_KNOTS_AROUND, 0, knots->across);
-    const int x1 = wr_knots_clamped(knot_from(1 - least3(-a.x, -b.x, -c.x)) + WR_KNOTS_AROUND, 0,
-                                    knots->across);
-    const int y0 = wr_knots_clamped(knot_from(least3(a.y, b.y, c.y)) - knots->top, 0, knots->down);
-    const int y1 =
-        wr_knots_clamped(knot_from(1 - least3(-a.y, -b.y, -c.y)) - knots->top, 0, knots->down);
+    static const int first[3] = { 0, 1, 2 }, second[3] = { 0, 2, 3 };
+    const int64_t x = (int64_t)(kx - WR_KNOTS_AROUND) * WR_KNOT_STEP + 128;
+    const int64_t y = (int64_t)(ky + knots->top) * WR_KNOT_STEP + 128;
+    const size_t at = (size_t)ky * (size_t)knots->across + (size_t)kx;
+    const Edge across = edge_of(cell, 0, 2, x, y), back = turned(across);
+    const Edge a = edge_of(cell, 0, 1, x, y), b = edge_of(cell, 1, 2, x, y);
+    const Edge c = edge_of(cell, 2, 3, x, y), d = edge_of(cell, 3, 0, x, y);
+    if (one && within(a, one) && within(b, one) && within(back, one))
+        cover_knot(job, at, cell, first, (const int64_t[3]){ b.at, back.at, a.at });
+    if (two && within(across, two) && within(c, two) && within(d, two))
+        cover_knot(job, at, cell, second, (const int64_t[3]){ c.at, d.at, across.at });
+}
+
+/* The first knot at x or beyond, of vertices before the eye and near the picture. */
+static inline int knot_from(int64_t x)
+{
+    return (int)((uint32_t)(x + (1 << 28) - 129) / WR_KNOT_STEP) + 1 - (1 << 28) / WR_KNOT_STEP;
+}
+
+static inline int64_t lower(int64_t a, int64_t b)
+{
+    return a < b ? a : b;
+}
+
+static inline int64_t upper(int64_t a, int64_t b)
+{
+    return a > b ? a : b;
+}
+
+/* Knots from..to - 1 between the least and the largest of four places. */
+static inline void knots_between(const int64_t at[4], int from, int end, int *first, int *to)
+{
+    const int64_t low = lower(lower(at[0], at[1]), lower(at[2], at[3]));
+    const int64_t high = upper(upper(at[0], at[1]), upper(at[2], at[3]));
+    *first = wr_knots_clamped(knot_from(low) + from, 0, end);
+    *to = wr_knots_clamped(knot_from(high + 1) + from, 0, end);
+}
+
+static void cover_cell(const WrKnotsJob *job, int i, int j, int one, int two)
+{
+    const WrKnots *knots = job->knots;
+    const Cell cell = cell_at(job->mesh, i, j);
+    int x0, x1, y0, y1;
+    knots_between(cell.x, WR_KNOTS_AROUND, knots->across, &x0, &x1);
+    knots_between(cell.y, -knots->top, knots->down, &y0, &y1);
     for (int ky = y0; ky < y1; ky++)
-        for (int kx = x0; kx < x1; kx++) cover_knot(job, corner, kx, ky);
+        for (int kx = x0; kx < x1; kx++) meet_knot(job, &cell, one, two, kx, ky);
 }
 
 /* The sides of a row's triangles. */
 typedef struct Sides {
     signed char one[WR_MESH_MOST], two[WR_MESH_MOST];
 } Sides;
+
+/* The mesh's block there shows something. */
+static void note_shown(const WrKnotsJob *job, int i, int j)
+{
+    const int block = j / WR_MESH_BLOCK * job->mesh->blocks_u + i / WR_MESH_BLOCK;
+    __atomic_store_n(&job->knots->shown[block], 1, __ATOMIC_RELAXED);
+}
 
 /* A cell with a vertex beyond the guard band may show anything where it lies: 0 and 0. */
 static void find_sides(WrKnotsJob *job, int j, Sides *sides)
@@ -127,6 +182,7 @@ static void find_sides(WrKnotsJob *job, int j, Sides *sides)
         if (behind > 0 && behind < 4) __atomic_store_n(&job->behind, 1, __ATOMIC_RELAXED);
         if (behind > 0) continue;
         const int32_t *x = mesh->sx, *y = mesh->sy;
+        note_shown(job, i, j);
         cross_rectangle(job->knots, least(least(x[a], x[a + 1]), least(x[c], x[c + 1])),
                         least(least(y[a], y[a + 1]), least(y[c], y[c + 1])),
                         most(most(x[a], x[a + 1]), most(x[c], x[c + 1])),
@@ -134,31 +190,12 @@ static void find_sides(WrKnotsJob *job, int j, Sides *sides)
     }
 }
 
-/* Is there a knot between two places, 1/256 samples, of vertices before the eye and near the picture? */
-static inline bool holds_knot(int32_t low, int32_t high)
-{
-    const uint32_t from = (uint32_t)(low + (1 << 28) - 129) / WR_KNOT_STEP;
-    return (uint32_t)(high + (1 << 28) - 128) / WR_KNOT_STEP > from;
-}
-
-static bool cell_holds_knot(const WrKnotsJob *job, size_t a, size_t c)
-{
-    const int32_t *x = job->mesh->sx, *y = job->mesh->sy;
-    return holds_knot(least(least(x[a], x[a + 1]), least(x[c], x[c + 1])),
-                      most(most(x[a], x[a + 1]), most(x[c], x[c + 1]))) &&
-           holds_knot(least(least(y[a], y[a + 1]), least(y[c], y[c + 1])),
-                      most(most(y[a], y[a + 1]), most(y[c], y[c + 1])));
-}
-
 static void cover_row(const WrKnotsJob *job, int j, const Sides *sides)
 {
-    const size_t pitch = (size_t)job->mesh->mu + 1;
     for (int i = 0; i < job->mesh->mu; i++) {
-        const size_t at = (size_t)j * pitch + (size_t)i, low = at + pitch;
-        if ((!sides->one[i] && !sides->two[i]) || !cell_holds_knot(job, at, low)) continue;
-        const Corner a = corner_at(job, at, i, j), d = corner_at(job, low + 1, i + 1, j + 1);
-        if (sides->one[i]) cover_knots(job, sides->one[i], a, corner_at(job, at + 1, i + 1, j), d);
-        if (sides->two[i]) cover_knots(job, sides->two[i], a, d, corner_at(job, low, i, j + 1));
+        if (!(sides->one[i] | sides->two[i])) continue;
+        note_shown(job, i, j);
+        cover_cell(job, i, j, sides->one[i], sides->two[i]);
     }
 }
 

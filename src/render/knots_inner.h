@@ -14,9 +14,10 @@ typedef struct WrKnotsJob {
     const WrKnotsAsk *ask;
     const WrRays *rays;
     bool mirrored;
-    float step_u;    /* from vertex to vertex */
-    WrStrip *strips; /* [threads] */
-    int behind;      /* a vertex has no place */
+    float step_u;         /* from vertex to vertex */
+    WrStrip *strips;      /* [threads] */
+    unsigned char *sheet; /* [threads][across] */
+    int behind;           /* a vertex has no place */
 } WrKnotsJob;
 
 /* What triangles cover each knot, and which blocks their edges cross, of a row of the mesh's blocks; ctx: WrKnotsJob. */

@@ -374,9 +374,9 @@ static void raster_block(Block *block, int b, WrDepthTile *tile)
 }
 
 /* Does a block of cells meet what knots do not tell? */
-static bool is_deep(const WrKnots *knots, const WrViewMeshBlock *b)
+static bool is_deep(const WrKnots *knots, int index, const WrViewMeshBlock *b)
 {
-    return !knots || wr_knots_deep(knots, b->x0, b->y0, b->x1, b->y1);
+    return !knots || (knots->shown[index] && wr_knots_deep(knots, b->x0, b->y0, b->x1, b->y1));
 }
 
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile)
@@ -392,6 +392,6 @@ void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile
     for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
     if (knots && !tile->deep) return;
     for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++)
-        if (wr_raster_meets(&mesh->blocks[b], &block.bounds) && is_deep(knots, &mesh->blocks[b]))
+        if (wr_raster_meets(&mesh->blocks[b], &block.bounds) && is_deep(knots, b, &mesh->blocks[b]))
             raster_block(&block, b, tile);
 }

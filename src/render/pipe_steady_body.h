@@ -10,38 +10,65 @@ static bool wants_points(const WrTileJob *job, const Rays *rays)
     return any;
 }
 
-/* Numbers of `count` samples that stand beside each other in a block, to their place in a strip. */
-static void copy_block(const float *restrict from, int count, REAL *restrict to)
-{
-#pragma omp simd
-    for (int i = 0; i < count; i++) to[i] = (REAL)from[i];
-}
+/* Which numbers of a block go where in a strip. */
+typedef struct Recall {
+    REAL *to[WR_STEADY_EACH];
+    int from[WR_STEADY_EACH]; /* of a sample's numbers */
+    int count;
+    int triangle; /* which of them tells that; or -1 */
+} Recall;
 
-/* The numbers of `groups` of so many samples of a block, to the strip's end. */
-static void recall_block(const WrSteady *steady, unsigned groups, const float *from, int count,
-                         Strip *strip)
+static Recall recall_of(const WrSteady *steady, unsigned groups, Strip *strip)
 {
-    for (int g = 0; g < WR_STEADY_GROUPS; g++) {
+    Recall how = { .triangle = -1 };
+    for (int g = 0, from = 0; g < WR_STEADY_GROUPS; g++) {
         REAL *to[6];
         if (!(steady->groups & WR_STEADY_BIT(g))) continue;
         const int numbers = numbers_of(strip, (WrSteadyGroup)g, to);
-        for (int k = 0; k < numbers; k++, from += WR_STEADY_BLOCK)
-            if (groups & WR_STEADY_BIT(g)) copy_block(from, count, to[k] + strip->count);
-        if (g != WR_STEADY_TRIANGLE) continue;
-        for (int i = 0; i < count; i++) strip->triangle[strip->count + i] = (int)from[i];
-        from += WR_STEADY_BLOCK;
+        for (int k = 0; k < numbers; k++, from++) {
+            if (!(groups & WR_STEADY_BIT(g))) continue;
+            how.to[how.count] = to[k];
+            how.from[how.count++] = from;
+        }
+        if (g == WR_STEADY_TRIANGLE) how.triangle = from++;
     }
+    return how;
+}
+
+/* A whole block's samples. */
+static void copy_block(const float *restrict from, REAL *restrict to)
+{
+#pragma omp simd
+    for (int i = 0; i < WR_STEADY_BLOCK; i++) to[i] = (REAL)from[i];
+}
+
+/* Those of a part of one. */
+static void copy_some(const float *restrict from, int count, REAL *restrict to)
+{
+    for (int i = 0; i < count; i++) to[i] = (REAL)from[i];
+}
+
+/* The numbers of samples of a block, from the first of them on, to the strip's end. */
+static void recall_block(const Recall *how, const float *from, int count, Strip *strip)
+{
+    for (int k = 0; k < how->count; k++) {
+        const float *own = from + how->from[k] * WR_STEADY_BLOCK;
+        if (count == WR_STEADY_BLOCK) copy_block(own, how->to[k] + strip->count);
+        else copy_some(own, count, how->to[k] + strip->count);
+    }
+    for (int i = 0; i < count && how->triangle >= 0; i++)
+        strip->triangle[strip->count + i] = (int)from[how->triangle * WR_STEADY_BLOCK + i];
     strip->count += count;
 }
 
 /* The numbers of `count` places from x, y on, all of them the object's, to the strip's end. */
-static void recall_run(const WrSteady *steady, unsigned groups, int x, int y, int count,
+static void recall_run(const WrSteady *steady, const Recall *how, int x, int y, int count,
                        Strip *strip)
 {
     for (int left = count, most; left > 0; left -= most, x += most) {
         most = WR_STEADY_BLOCK - x % WR_STEADY_BLOCK;
         most = most < left ? most : left;
-        recall_block(steady, groups, steady->numbers + wr_steady_at(steady, x, y), most, strip);
+        recall_block(how, steady->numbers + wr_steady_at(steady, x, y), most, strip);
     }
 }
 
@@ -74,7 +101,7 @@ static void recall_row_of(const WrTileJob *job, const Rays *rays, const WrDepthT
     const unsigned char *owner = steady->owner + wr_steady_place(steady, tile->x, tile->y + y);
     const unsigned char *end = owner + tile->w, *from = owner;
     const unsigned char mark = (unsigned char)(job->object + 1);
-    const unsigned groups = recalled(job, rays);
+    const Recall how = recall_of(steady, recalled(job, rays), strip);
     strip->count = 0;
     while (from < end && (from = memchr(from, mark, (size_t)(end - from)))) {
         const int x = (int)(from - owner), count = (int)(run_end(from, end, mark) - from);
@@ -86,7 +113,7 @@ static void recall_row_of(const WrTileJob *job, const Rays *rays, const WrDepthT
             at_x[i] = (REAL)(tile->x + x + i);
             at_y[i] = (REAL)(tile->y + y);
         }
-        recall_run(steady, groups, tile->x + x, tile->y + y, count, strip);
+        recall_run(steady, &how, tile->x + x, tile->y + y, count, strip);
         from += count;
     }
 }
@@ -94,6 +121,7 @@ static void recall_row_of(const WrTileJob *job, const Rays *rays, const WrDepthT
 /* The same of places anywhere in the tile. */
 static void recall_places(const WrTileJob *job, const WrScatter *places, Strip *strip)
 {
+    const Recall how = recall_of(job->steady, job->recalls, strip);
     strip->count = 0;
     for (int i = 0; i < places->count; i++) {
         const int x = (int)(places->x[i] + 0.5), y = (int)(places->y[i] + 0.5);
@@ -102,7 +130,7 @@ static void recall_places(const WrTileJob *job, const WrScatter *places, Strip *
         strip->index[strip->count] = i;
         strip->x[strip->count] = (REAL)places->x[i];
         strip->y[strip->count] = (REAL)places->y[i];
-        recall_run(job->steady, job->recalls, x, y, 1, strip);
+        recall_run(job->steady, &how, x, y, 1, strip);
     }
 }
 
