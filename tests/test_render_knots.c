@@ -183,6 +183,35 @@ static void check_sheet(const Seen *seen, int x, int y, int count, WrStrip *stri
     }
 }
 
+/* A run that begins and ends anywhere has the numbers of its blocks one by one, to the bit. */
+static void check_run(const Seen *seen, int x, int y, TestRandom *random, WrStrip *strip)
+{
+    enum { BEFORE = 9 }; /* samples in the strip, which stay */
+    int end = x + 1;
+    while (end < W - 8 && end - x < 240 && wr_knots_at(&seen->knots, end, y) == WR_KNOTS_SHEET)
+        end++;
+    const int from = x + (int)(8 * test_random(random)), count = end - from;
+    float run[WR_KNOT_NUMBERS][WR_SPAN];
+    float *const of[WR_KNOT_NUMBERS] = { strip->u,   strip->v,   strip->px,  strip->py,
+                                         strip->pz,  strip->pux, strip->puy, strip->puz,
+                                         strip->pvx, strip->pvy, strip->pvz };
+    if (count <= 0) return;
+    for (int k = 0; k < WR_KNOT_NUMBERS; k++)
+        for (int i = 0; i < BEFORE; i++) of[k][i] = 77;
+    wr_knots_row(&seen->knots, seen->wide, from, y, count, BEFORE, strip);
+    for (int k = 0; k < WR_KNOT_NUMBERS; k++)
+        for (int i = 0; i < BEFORE; i++) assert_true(of[k][i] == 77);
+    for (int k = 0; k < WR_KNOT_NUMBERS; k++)
+        memcpy(run[k], of[k] + BEFORE, (size_t)count * sizeof(float));
+    for (int i = 0; i < count; i++) {
+        wr_knots_row(&seen->knots, seen->wide, from + i, y, 1, 0, strip);
+        for (int k = 0; k < WR_KNOT_NUMBERS; k++)
+            if (memcmp(&run[k][i], of[k], sizeof(float)) != 0)
+                fail_msg("number %d of sample %d of a run of %d: %g, not %g", k, i, count,
+                         (double)run[k][i], (double)of[k][0]);
+    }
+}
+
 /* Blocks of each kind. */
 typedef struct Kinds {
     int nothing, deep, sheet, between;
@@ -234,7 +263,8 @@ static WrScene *some_scene(TestRandom *random, int k)
     return scene;
 }
 
-static void look_at(Seen *seen, int first, int rows, Kinds *kinds, WrStrip *strip)
+static void look_at(Seen *seen, int first, int rows, TestRandom *random, Kinds *kinds,
+                    WrStrip *strip)
 {
     enum { X = 5, Y = 3, WIDE = W - 9 }; /* a tile that begins within blocks */
     enum { ROOM = W * H + WR_WALK_PAD };
@@ -251,8 +281,12 @@ static void look_at(Seen *seen, int first, int rows, Kinds *kinds, WrStrip *stri
     wr_knots_tell(&seen->knots, &tile);
     wr_view_mesh_raster(&seen->mesh, &seen->view, &tile);
     wr_knots_fill(&seen->knots, seen->wide, &tile);
-    for (int y = first - first % 8 + 8; y + 8 < first + rows - Y; y += 8)
+    for (int y = first - first % 8 + 8; y + 8 < first + rows - Y; y += 8) {
         for (int x = 8; x + 8 < X + WIDE; x += 8) check_block(seen, &tile, x, y, kinds, strip);
+        const int x = 8 * (int)(30 * test_random(random));
+        if (wr_knots_at(&seen->knots, x, y) == WR_KNOTS_SHEET)
+            check_run(seen, x, y + (int)(8 * test_random(random)), random, strip);
+    }
 }
 
 /* Of both sets, many views, and bands. */
@@ -277,7 +311,7 @@ static void blocks_show_what_they_are_told_to(void **state)
             seen->mesh = (WrViewMesh){ .mu = 0 };
             assert_true(see(seen, first, rows, &random));
             count_layers(seen);
-            look_at(seen, first, rows, &kinds, strip);
+            look_at(seen, first, rows, &random, &kinds, strip);
             forget(seen);
         }
         if (!seen->wide) continue;

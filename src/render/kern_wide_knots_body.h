@@ -76,7 +76,7 @@ static void wide_sheet_row(const WrWideRow *row, int count, int at, WrStrip *str
                                          strip->pvx, strip->pvy, strip->pvz };
     float own[WR_KNOT_NUMBERS][KNOTS_ROW], some[WIDE];
     const int end = row->skip + count;
-    knots_of_row(row, (end + 7) / 8 + 3, own);
+    knots_of_row(row, (end + 7) / 8 + KNOTS_SEEN, own); /* also what adds 0 is a number */
     for (int i = 0; i < end; i += WIDE) {
         const int skip = i == 0 ? row->skip : 0, left = end - i < WIDE ? end - i : WIDE;
         const bool whole = skip == 0 && left == WIDE;
