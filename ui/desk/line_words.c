@@ -181,6 +181,19 @@ static void other_words(const Words *w, WrText *out)
     }
 }
 
+/* What is done to a layer by a click: the layer's number stands where %.20s is. */
+static const char *layer_deed(const Words *w)
+{
+    const char *deed = plain(w, 1), *visible = value_of(w, "visible"), *lock = value_of(w, "lock");
+    if (!deed || !plain(w, 2)) return NULL;
+    if (strcmp(deed, "use") == 0) return "Layer %.20s at hand";
+    if (strcmp(deed, "set") != 0) return NULL;
+    if (visible && strcmp(visible, "off") == 0) return "Layer %.20s hidden";
+    if (visible) return "Layer %.20s shown";
+    if (lock && strcmp(lock, "off") == 0) return "Layer %.20s unlocked";
+    return lock ? "Layer %.20s locked" : NULL;
+}
+
 void wr_line_words(const char *line, WrText *out)
 {
     Words w = words_of(line);
@@ -192,6 +205,8 @@ void wr_line_words(const char *line, WrText *out)
     else if (strcmp(verb, "dab") == 0) brush_words(&w, "Dab", out);
     else if (kind && strcmp(verb, "text") == 0)
         wr_text_addf(out, "%s: %.40s", wr_words("Text"), kind);
+    else if (strcmp(verb, "layer") == 0 && layer_deed(&w))
+        wr_text_addf(out, wr_words(layer_deed(&w)), plain(&w, 2));
     else if (op) wr_text_add(out, wr_words(op->label));
     else if (generator && generator->label) wr_text_add(out, wr_words(generator->label));
     else if (w.count > 0) other_words(&w, out);

@@ -309,7 +309,10 @@ try {
         gui->tip_waits = true;
         return;
     }
-    place_tip(false);
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    if (window->Pos.x > 0.5f * g.IO.DisplaySize.x) /* beside the column, as place_tip has it */
+        ImGui::SetNextWindowPos(ImVec2(window->Pos.x - px(4), g.IO.MousePos.y), 0,
+                                ImVec2(1.0f, 0.5f));
     show_tip(why);
 }
 WR_CAUGHT()
