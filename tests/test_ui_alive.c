@@ -123,6 +123,34 @@ static void a_slider_is_dragged_through_the_beginning(void **state)
     finish(&bench);
 }
 
+/* A stroke's end and the next click come between two pictures, as on a machine that has much to do. */
+static bool click_at_once(Long *work)
+{
+    WrApp *app = work->app;
+    const SDL_Rect *canvas = &app->layout->canvas, *panel = &app->layout->panel;
+    const int x = canvas->x + canvas->w / 2, y = canvas->y + canvas->h / 2;
+    SDL_Event down = button(SDL_MOUSEBUTTONDOWN, x, y), up = button(SDL_MOUSEBUTTONUP, x, y);
+    if (!wr_busy_greys(app)) return false;
+    work->stage++;
+    if (work->stage == 1) SDL_PushEvent(&down);
+    if (work->stage == 1 || app->hand->grab == WR_GRAB_NONE) return app->settings->tab != 0;
+    SDL_PushEvent(&up);
+    push_click(panel->x + panel->w / 2, panel->y + 16);
+    return false;
+}
+
+static void a_click_right_after_another_is_not_lost(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    bench.app->settings->tab = 0;
+    Long work = { .app = bench.app, .watch = click_at_once };
+    assert_true(run(&work, &err));
+    finish(&bench);
+}
+
 /* An action that changes the document is grey, and its key refused with words, but not what can wait. */
 static bool try_to_edit(Long *work)
 {
@@ -299,6 +327,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_window_is_used_meanwhile),
         cmocka_unit_test(a_slider_is_dragged_through_the_beginning),
+        cmocka_unit_test(a_click_right_after_another_is_not_lost),
         cmocka_unit_test(an_edit_is_refused_with_words),
         cmocka_unit_test(what_waits_is_done_in_its_order),
         cmocka_unit_test(what_waits_is_dropped_with_what_is_given_up),

@@ -186,6 +186,8 @@ try {
         io.MousePos = gui->pointer = ImVec2((float)event->button.x, (float)event->button.y);
         button = button_index(event->button.button);
         if (button < 0) break;
+        if (event->type == SDL_MOUSEBUTTONUP) gui->let_go_at = gui->pointer;
+        else if (io.MouseDown[button] && !gui->held[button]) gui->again[button] = true;
         gui->held[button] = event->type == SDL_MOUSEBUTTONDOWN;
         if (gui->held[button]) gui->pressed[button] = true;
         break;
@@ -308,12 +310,18 @@ try {
     ImGuiIO &io = ImGui::GetIO();
     io.DisplaySize = ImVec2((float)width, (float)height);
     wr_kept_clear(gui->kept, WR_COLOUR_BAR);
+    bool lets_go = false;
     io.DeltaTime = (float)(seconds > 1e-4 ? (seconds < 0.5 ? seconds : 0.5) : 1e-4);
     for (int i = 0; i < 3;
          i++) { /* pressed and let go since the last frame: pressed for one frame */
-        io.MouseDown[i] = gui->held[i] || gui->pressed[i];
-        gui->pressed[i] = false;
+        io.MouseDown[i] = !gui->again[i] && (gui->held[i] || gui->pressed[i]);
+        if (gui->again[i]) lets_go = true;
+        else gui->pressed[i] = false;
+        gui->again[i] = false;
     }
+    if (lets_go) io.MousePos = gui->let_go_at;
+    else if (gui->let_go) io.MousePos = gui->pointer;
+    gui->let_go = lets_go;
     wr_gui_keys_frame(gui);
     wr_gui_focus_before(gui);
     ImGui::NewFrame();

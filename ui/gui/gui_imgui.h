@@ -70,9 +70,12 @@ struct WrGui {
     const char *grey_why;   /* of what comes, between wr_gui_hold and _end; NULL: it is not grey */
     ImFont *fonts[WR_FONT_COUNT];
     double scale;
-    bool no_icons, no_text;          /* their fonts were not found */
-    bool held[3];                    /* buttons as the events say */
-    bool pressed[3];                 /* that went down since the last frame: none is ever missed */
+    bool no_icons, no_text; /* their fonts were not found */
+    bool held[3];           /* buttons as the events say */
+    bool pressed[3];        /* that went down since the last frame: none is ever missed */
+    bool again[3];    /* and were down in that one: a frame in which they are up comes between */
+    ImVec2 let_go_at; /* where a button went up last */
+    bool let_go;      /* the last frame had the pointer there */
     bool released_late[WR_GUI_KEYS]; /* keys that went down and up between two frames */
     bool pressed_now[WR_GUI_KEYS];
     int held_late; /* KMOD_ bits held while a key went down since the last frame */
