@@ -132,12 +132,16 @@ static void spheres_are_those_of_the_stages(void **state)
             bool dark;
             if (!sets.wide->narrow(light, &s.shine)) continue;
             met_by_stages(&sets, &s, gx, gy, count, want);
-            if (!sets.wide->sphere(&s.rays, &s.shape, gx, gy, count, true, got)) continue;
+            WrBall ball;
+            wr_ball_make(&ball, &s.rays, &s.shape, light);
+            if (!sets.wide->sphere(round & 1 ? &ball : NULL, &s.rays, &s.shape, gx, gy, count, true,
+                                   got))
+                continue;
             sets.wide->points(&s.shape, got);
             places += compare(&s, got, want, sets.name, same_place);
             give_slopes(round, want);
             give_slopes(round, got);
-            const bool near = s.rays.perspective, pictured = round & 1;
+            const bool near = s.rays.perspective, pictured = round & 2;
             for (int way = 0; way < 2; way++) { /* bent, and as it is */
                 give_picture(got), give_picture(want);
                 sets.ref->bump[way ? WR_BUMP_NONE : WR_BUMP_BLINN](&s.rays, want);

@@ -125,7 +125,7 @@ static void footprints_are_those_of_the_stages(void **state)
             const int count = 1 + (int)(WR_SPAN * test_random(&random));
             int above = 0;
             met_by_stages(&sets, &s, gx, gy, count, want);
-            if (!sets.wide->sphere(&s.rays, &s.shape, gx, gy, count, true, got)) continue;
+            if (!sets.wide->sphere(NULL, &s.rays, &s.shape, gx, gy, count, true, got)) continue;
             if (got->count == 0) continue;
             for (int k = 0; k < want->count; k++)
                 want->x[k] = gx + (float)want->index[k], want->y[k] = gy;

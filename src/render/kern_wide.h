@@ -62,9 +62,9 @@ typedef struct WrWide {
     void (*paint)(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
                   const WrKernMaterial *material, WrStrip *strip);
     /* Of a sphere that is seen from outside, the samples of a row from (gx, gy) on, neighbours: index, n, s: 1 / |d| of
-       sphere_light; mapped: u, v. False: as above. */
-    bool (*sphere)(const WrRays *rays, const WrShapef *shape, float gx, float gy, int count,
-                   bool mapped, WrStrip *strip);
+       sphere_light; mapped: u, v. ball: of the same rays; NULL: there is none. False: as above. */
+    bool (*sphere)(const WrBall *ball, const WrRays *rays, const WrShapef *shape, float gx,
+                   float gy, int count, bool mapped, WrStrip *strip);
     /* P of those. */
     void (*points)(const WrShapef *shape, WrStrip *strip);
     /* The light of those, by n or, bent, by Blinn's n' of the slopes; of a near lamp with P. dark: it is behind all of

@@ -46,6 +46,30 @@ ALWAYS Wide w_root(Wide a)
     return some * w_rsqrt(some);
 }
 
+/* n and 1 / |d|; false: places are not exact. */
+static bool chord_points(const WrBall *ball, float gx, float gy, int count, WrStrip *strip)
+{
+    WrChord chord;
+    if (!wr_chord_of(ball, (double)gx, (double)gy, count, &chord)) return false;
+    const WideCurve dd = w_curve(&ball->dd, &chord), rr = w_curve(&ball->rr, &chord);
+    const WideSlant x_of = w_slant(&ball->n[0], &chord), y_of = w_slant(&ball->n[1], &chord);
+    const WideSlant z_of = w_slant(&ball->n[2], &chord);
+    const float from = (float)((double)gx - chord.middle);
+    const int hits = chord.last - chord.first + 1;
+    strip->count = hits > 0 ? hits : 0;
+    for (int i = 0; i < hits; i += WIDE) {
+        const Wide x = row_places(from, chord.first + i);
+        const Wide inv = w_rsqrt(w_bent(dd, x)), r = w_root(w_bent(rr, x));
+        const WideVec n = { w_slanted(&x_of, x, r), w_slanted(&y_of, x, r),
+                            w_slanted(&z_of, x, r) };
+        const WideVec unit = w_scale(n, inv * inv);
+        W_STORE3(strip, n, i, unit);
+        w_store(strip->s + i, inv);
+        w_store_counted(strip->index + i, chord.first + i);
+    }
+    return true;
+}
+
 /* ---- smooth ones under a distant lamp ---- */
 
 /* The highlight where n.l, n.v and l.v are these: n.h = (n.l + n.v) / |l + v|. */

@@ -125,12 +125,16 @@ static void wide_points(const WrShapef *shape, WrStrip *strip)
     }
 }
 
-static bool wide_sphere(const WrRays *rays, const WrShapef *shape, float gx, float gy, int count,
-                        bool mapped, WrStrip *strip)
+static bool wide_sphere(const WrBall *ball, const WrRays *rays, const WrShapef *shape, float gx,
+                        float gy, int count, bool mapped, WrStrip *strip)
 {
-    const RowRays row = row_rays(rays, shape, gy);
-    const int first = first_hit(rays, shape, &row, gx, gy, count);
-    if (!meet_row(&row, gx, first, count, strip)) return false;
+    if (ball && ball->good) {
+        if (!chord_points(ball, gx, gy, count, strip)) return false;
+    } else {
+        const RowRays row = row_rays(rays, shape, gy);
+        const int first = first_hit(rays, shape, &row, gx, gy, count);
+        if (!meet_row(&row, gx, first, count, strip)) return false;
+    }
     if (mapped) put_parameters(strip);
     return true;
 }

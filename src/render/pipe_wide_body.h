@@ -151,7 +151,9 @@ static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
     if (mapped == pictured(job) && !bumped &&
         smooth_row(job, rays, gx, gy, count, sink, scratch, watch))
         return true;
-    if (!job->wide->sphere(rays, &job->view->shape, gx, gy, count, mapped, strip)) return false;
+    if (!job->wide->sphere(ball_of(job, rays), rays, &job->view->shape, gx, gy, count, mapped,
+                           strip))
+        return false;
     if (scratch->notes.patches) note_places(job, sink, true, gx, gy, strip);
     watch_lap(watch, WR_STAGE_VISIBILITY);
     if (strip->count == 0) return true;
@@ -168,8 +170,8 @@ static bool met_wide(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
                      Strip *strip)
 {
     const WrShapef *shape = &job->view->shape;
-    if (!job->wide_met ||
-        !job->wide->sphere(rays, shape, gx, gy, count, runs(job, WR_EFFECT_PARAMETERS), strip))
+    if (!job->wide_met || !job->wide->sphere(NULL, rays, shape, gx, gy, count,
+                                             runs(job, WR_EFFECT_PARAMETERS), strip))
         return false;
     job->wide->points(shape, strip);
     return true;
