@@ -5,6 +5,7 @@
 #include "ui/app/canvas_view.h"
 #include "ui/app/hand_events.h"
 #include "ui/app/loop.h"
+#include "ui/app/thrift.h"
 #include "ui/app/tool_list.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/document.h"
@@ -72,25 +73,12 @@ static const WrTab tabs[] = { { "Brushes", NULL, wr_panel_brushes, false, false 
                               { "Accuracy", wr_panel_accuracy, NULL, true, false } };
 
 /* In the order in which they are updated and drawn. */
-static const WrPart *const parts[] = { &wr_part_hand,
-                                       &wr_part_tools,
-                                       &wr_part_strokes,
-                                       &wr_part_select,
-                                       &wr_part_clone,
-                                       &wr_part_canvas,
-                                       &wr_part_marks,
-                                       &wr_part_stamp,
-                                       &wr_part_generate,
-                                       &wr_part_patch,
-                                       &wr_part_accuracy,
-                                       &wr_part_layers,
-                                       &wr_part_thumbs,
-                                       &wr_part_gallery,
-                                       &wr_part_font_choice,
-                                       &wr_part_presets,
-                                       &wr_part_sheet,
-                                       &wr_part_adjust,
-                                       NULL };
+static const WrPart *const parts[] = {
+    &wr_part_hand,     &wr_part_tools,  &wr_part_strokes, &wr_part_select,   &wr_part_clone,
+    &wr_part_canvas,   &wr_part_marks,  &wr_part_stamp,   &wr_part_generate, &wr_part_patch,
+    &wr_part_accuracy, &wr_part_layers, &wr_part_thumbs,  &wr_part_gallery,  &wr_part_font_choice,
+    &wr_part_presets,  &wr_part_sheet,  &wr_part_adjust,  &wr_part_thrift,   NULL
+};
 
 static WrActionFamily *const families[] = { wr_adjust_by_name, wr_filter_by_name,
                                             wr_generate_by_name, NULL };

@@ -161,6 +161,7 @@ struct WrApp {
     WrRecovery *recovery; /* while its dialog is open; owned */
     bool in_frame;        /* between the first and the last widget of a picture */
     double input_at;      /* clock at the last event of the user's */
+    double thrifty_at;    /* clock when memory was given back because there was none for a while */
 
     WrMessages *messages;
     WrDialogHand *dialog;

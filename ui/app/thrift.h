@@ -1,0 +1,5 @@
+/* thrift.h - memory that nobody uses, while nobody uses the window. */
+#pragma once
+#include "ui/desk/roster.h"
+
+extern const WrPart wr_part_thrift;
