@@ -4,6 +4,7 @@
 
 #include "accuracy/illusion.h"
 #include "base/text.h"
+#include "scene/objects.h"
 
 static WrScene *ahead_of(const char *surface, double height, double distance)
 {
@@ -101,6 +102,8 @@ static void the_parts_are_those_of_the_pictures(void **state)
     assert_true(wr_illusion_measure(&request, &it, NULL));
     Shot shot[3];
     double outline = 0;
+    scene->displaced = true; /* all are seen from where that fits */
+    wr_scene_hold_camera(scene, scene, (double)W / H);
     for (int k = 0; k < 3; k++) {
         scene->displaced = k > 0, scene->material.shadow = k > 1;
         scene->dials.aa = WR_AA_SUPERSAMPLE, scene->dials.samples = 4, scene->dials.dice = 0.125;
@@ -129,6 +132,8 @@ static void the_advice_holds(void **state)
     WrField *field = random_field(17, 13, 8);
     WrScene *scene = scene_of("sphere");
     scene->height = 0.06;
+    /* Lower ones are seen from the same place. */
+    wr_scene_hold_camera(scene, scene, 1);
     WrIllusion it = measured(scene, field, 120, 120);
     WrText text = { 0 };
     double height = 0;

@@ -4,6 +4,7 @@
 
 #include "render/kern.h"
 #include "render/plan.h"
+#include "scene/objects.h"
 
 static WrScene *displaced_of(const char *surface, double height)
 {
@@ -66,13 +67,15 @@ static void no_heights_make_nonsense(void **state)
     static const double height[] = { -1, 1e6 };
     for (int k = 0; k < 2; k++) {
         WrField *field = k == 0 ? level_field(37, 22, 1) : random_field(31, 17, 5);
-        WrScene *scene = displaced_of("sphere", height[k]);
+        WrScene *scene = displaced_of("sphere", height[k]), *base = scene_of("sphere");
+        wr_scene_hold_camera(scene, base, 40.0 / 33); /* from within, not from afar */
         Shot shot = shoot(scene, field, 40, 33, 2, "auto", false);
         for (int i = 0; i < 40 * 33 * 4; i++) assert_true(isfinite(shot.frame.rgba[i]));
         const char *why = shot.frame.plan->rows[WR_EFFECT_DISPLACED].reason;
         assert_int_equal(strstr(why, "as many as there may be") != NULL, k == 1);
         put_away(&shot);
         wr_scene_free(scene);
+        wr_scene_free(base);
         wr_field_free(field);
     }
 }

@@ -5,6 +5,7 @@
 
 #include "render/kern.h"
 #include "render/plan.h"
+#include "scene/objects.h"
 
 /* Waves of a few texels' length up to `most` a period. */
 static WrField *wavy_field(int w, int h)
@@ -161,6 +162,7 @@ typedef struct Case {
 static Shot shape_of(const Case *at, int kind, const WrField *field)
 {
     WrScene *scene = parallax_of(at->surface, at->height);
+    wr_scene_hold_camera(scene, scene, 160.0 / 131); /* one for all three */
     scene->parallax = kind == 1, scene->displaced = kind == 2;
     scene->bump = WR_BUMP_EXACT;
     scene->scheme = at->scheme;

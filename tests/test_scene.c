@@ -5,6 +5,7 @@
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "field/field.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "base/vec.h"
 
@@ -207,6 +208,61 @@ static void fit_shows_the_whole_object_at_every_aspect_and_not_much_more(void **
         }
     }
     wr_scene_free(scene);
+}
+
+/* Where the outline of a ball about the world's origin is seen, as half_height has it. */
+static double outline_of(const WrPlacement *p, double r)
+{
+    const double d2 = v3_dot(p->eye, p->eye);
+    return p->orthographic ? r : d2 > r * r ? r / sqrt(d2 - r * r) : INFINITY;
+}
+
+static void set_displaced(WrScene *scene, int object)
+{
+    WrScene *other = wr_scene_clone(wr_scene_object(scene, object));
+    other->displaced = true;
+    wr_scene_set_object(scene, object, other);
+}
+
+/* A ball that F pushes out: while it stays within the margin the camera is that of the base, to the bit; then it just fits, of
+   one object and of two. */
+static void fit_moves_only_for_what_is_displaced_beyond_the_picture(void **state)
+{
+    (void)state;
+    static const double heights[] = { 0.0, 0.031, -0.0387, 0.0613, 0.12, -0.73, 4.1 };
+    static const double aspects[] = { 0.43, 1, 1.77 };
+    int kept = 0;
+    for (int i = 0; i < 7 * 3 * 2 * 2; i++) {
+        const double aspect = aspects[i / 7 % 3], height = heights[i % 7];
+        WrScene *scene = wr_scene_new();
+        wr_shape_default(WR_SURFACE_sphere, &scene->shape);
+        scene->camera.orthographic = i / 21 % 2;
+        scene->camera.fov_deg = 34.7;
+        scene->height = height;
+        if (i >= 42) { /* the copy, within it, is at hand */
+            WrScene *both = wr_scene_add_object(scene, true);
+            wr_scene_free(scene);
+            scene = both;
+            scene->at = (WrVec3){ 0.3, 0.1, -0.2 };
+            scene->size = 0.41;
+        }
+        const WrPlacement base = placed(scene, 11, aspect);
+        scene->displaced = true;
+        if (i >= 42) set_displaced(scene, 0);
+        const WrPlacement raised = placed(scene, 11, aspect);
+        const double r = 1 + fabs(height), shorter = aspect < 1 ? aspect : 1;
+        const double border = raised.half_height * shorter, out = outline_of(&raised, r);
+        if (outline_of(&base, r) < base.half_height * shorter * (1 - 1e-12)) {
+            kept++;
+            assert_memory_equal(&raised.eye, &base.eye, sizeof base.eye);
+            assert_true(raised.half_height == base.half_height);
+        } else {
+            assert_near(out / border, 1, 1e-12);
+        }
+        assert_true(out < border * (1 + 1e-12));
+        wr_scene_free(scene);
+    }
+    assert_in_range(kept, 25, 50);
 }
 
 static void fit_holds_about_another_target_and_a_given_eye_stays(void **state)
@@ -437,6 +493,7 @@ int main(void)
         cmocka_unit_test(hc88_placements_are_orthonormal_after_any_turn),
         cmocka_unit_test(hc87_a_day_of_turning_loses_nothing),
         cmocka_unit_test(fit_shows_the_whole_object_at_every_aspect_and_not_much_more),
+        cmocka_unit_test(fit_moves_only_for_what_is_displaced_beyond_the_picture),
         cmocka_unit_test(fit_holds_about_another_target_and_a_given_eye_stays),
         cmocka_unit_test(an_up_along_the_view_gives_way_to_another_axis),
         cmocka_unit_test(impossible_cameras_are_refused_and_nothing_is_written),

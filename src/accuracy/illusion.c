@@ -34,7 +34,7 @@ static void set_object(WrScene *object, Kind kind)
     object->material.shadow = kind == SHADOWED;
 }
 
-static WrScene *scene_of(const WrScene *scene, Kind kind)
+static WrScene *objects_of(const WrScene *scene, Kind kind)
 {
     WrScene *made = wr_scene_clone(scene);
     for (int i = 0; i < wr_scene_object_count(made); i++) {
@@ -44,6 +44,15 @@ static WrScene *scene_of(const WrScene *scene, Kind kind)
         wr_scene_set_object(made, i, other);
     }
     set_object(made, kind);
+    return made;
+}
+
+/* All from where a camera stands that has the displaced one fit. */
+static WrScene *scene_of(const WrIllusionRequest *request, Kind kind)
+{
+    WrScene *made = objects_of(request->scene, kind), *raised = objects_of(request->scene, RAISED);
+    wr_scene_hold_camera(made, raised, (double)request->width / request->height);
+    wr_scene_free(raised);
     made->tolerance.kind = WR_TOLERANCE_NONE;
     made->dials.aa = WR_AA_SUPERSAMPLE;
     made->dials.samples = SAMPLES;
@@ -54,7 +63,7 @@ static WrScene *scene_of(const WrScene *scene, Kind kind)
 static bool render(Pictures *p, Kind kind, WrError *err)
 {
     const WrIllusionRequest *request = p->request;
-    WrScene *scene = scene_of(request->scene, kind);
+    WrScene *scene = scene_of(request, kind);
     const WrFrameRequest wanted = { .field = request->field,
                                     .fields = request->fields,
                                     .scene = scene,
@@ -186,7 +195,7 @@ static void compare(const Pictures *p, WrIllusion *out)
 static bool follow(const Pictures *p, WrIllusion *out, WrError *err)
 {
     const WrIllusionRequest *request = p->request;
-    WrScene *scene = scene_of(request->scene, RAISED);
+    WrScene *scene = scene_of(request, RAISED);
     const WrReferenceRequest wanted = { .field = request->field,
                                         .fields = request->fields,
                                         .scene = scene,

@@ -3,6 +3,8 @@
 #include "base/exactmath.h"
 #include "field/field.h"
 
+#include <math.h>
+
 /* x^n by n multiplications, in one order on every processor. */
 static double power(double x, int n)
 {
@@ -33,6 +35,13 @@ static void add_fourier(const WrAnalyticTerm *term, double u, double v, double s
     sum[0] += term->a * (cos_u * cos_v);
     sum[1] -= term->a * (2.0 * WR_PI * term->i * (sin_u * cos_v));
     sum[2] -= term->a * (2.0 * WR_PI * term->j * (cos_u * sin_v));
+}
+
+double wr_analytic_amplitude(const WrAnalytic *analytic)
+{
+    double sum = 0;
+    for (int k = 0; k < analytic->count; k++) sum += fabs(analytic->terms[k].a);
+    return sum;
 }
 
 void wr_analytic_sample(const WrAnalytic *analytic, double u, double v, double *f, double *fu,

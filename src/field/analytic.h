@@ -24,3 +24,5 @@ typedef struct WrAnalytic {
  * deterministic functions: the same bits everywhere. Any output may be NULL. */
 void wr_analytic_sample(const WrAnalytic *analytic, double u, double v, double *f, double *fu,
                         double *fv);
+/* No |F| is larger: the terms' |amplitudes|, whatever their signs. */
+double wr_analytic_amplitude(const WrAnalytic *analytic);

@@ -87,7 +87,7 @@ void wr_parallax_range(const WrScene *scene, const WrReliefBounds *bounds, const
 {
     double low = bounds->low, high = bounds->high;
     if (plan->source == WR_SOURCE_FORMULA) {
-        high = wr_raised_amplitude(&scene->analytic), low = -high;
+        high = wr_analytic_amplitude(&scene->analytic), low = -high;
     } else if (plan->scheme == WR_SCHEME_CATMULL) {
         const double more = OVERSHOOT * (high - low);
         low -= more, high += more;

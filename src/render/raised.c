@@ -46,19 +46,12 @@ bool wr_is_raised(const WrScene *scene)
     return scene->displaced && scene->height != 0 && !wr_shape_unmoved(&scene->shape);
 }
 
-double wr_raised_amplitude(const WrAnalytic *formula)
-{
-    double sum = 0;
-    for (int k = 0; k < formula->count; k++) sum += fabs(formula->terms[k].a);
-    return sum;
-}
-
 /* A spline through a table's entries goes beyond them by less than their range. */
 double wr_raised_most(const WrScene *scene, const WrField *field)
 {
     float low, high;
     if (scene->analytic.kind != WR_ANALYTIC_OFF)
-        return fabs(scene->height) * wr_raised_amplitude(&scene->analytic);
+        return fabs(scene->height) * wr_analytic_amplitude(&scene->analytic);
     wr_field_range(field, &low, &high);
     const double most = fmax(fabs((double)low), fabs((double)high)) + ((double)high - (double)low);
     return fabs(scene->height) * most;

@@ -19,7 +19,5 @@ bool wr_raised_init(WrRaised *raised, const WrScene *scene, const WrField *field
 void wr_raised_fini(WrRaised *raised);
 /* Is the surface itself moved by F? */
 bool wr_is_raised(const WrScene *scene);
-/* No |F| of a formula is larger, table units: its terms' |amplitudes|, whatever their signs. */
-double wr_raised_amplitude(const WrAnalytic *formula);
 /* No |F| is larger, object units. field: not read with a formula. */
 double wr_raised_most(const WrScene *scene, const WrField *field);

@@ -229,25 +229,39 @@ bool wr_scene_fits(const WrScene *scene, int i)
     return shown == 0 || !object->hidden;
 }
 
-double wr_scene_ball(const WrScene *scene)
+double wr_scene_stands_out(const WrScene *object)
+{
+    const bool formula = object->analytic.kind != WR_ANALYTIC_OFF;
+    if (!object->displaced || wr_shape_unmoved(&object->shape)) return 0;
+    return fabs(object->height) * (formula ? wr_analytic_amplitude(&object->analytic) : 1);
+}
+
+double wr_scene_ball(const WrScene *scene, bool displaced)
 {
     double ball = 0;
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         const WrScene *object = wr_scene_object(scene, i);
         if (!wr_scene_fits(scene, i)) continue;
-        ball = fmax(ball, v3_len(object->at) + object->size * radius_of(scene, i));
+        const double more = displaced ? wr_scene_stands_out(object) : 0;
+        ball = fmax(ball, v3_len(object->at) + object->size * (radius_of(scene, i) + more));
     }
     return ball;
 }
 
-WrScene *wr_scene_part(const WrScene *scene, int i, double aspect)
+void wr_scene_hold_camera(WrScene *scene, const WrScene *like, double aspect)
 {
     WrPlacement place;
+    WrCamera *camera = &scene->camera;
+    if (!camera->fit && !camera->orthographic) return;
+    if (!wr_scene_place(like, 0, aspect, &place, NULL)) return;
+    camera->fit = false;
+    camera->eye = place.eye;
+    if (camera->orthographic) camera->size = 2 * place.half_height / place.widen;
+}
+
+WrScene *wr_scene_part(const WrScene *scene, int i, double aspect)
+{
     WrScene *part = under(scene, wr_scene_object(scene, i));
-    if (!part->camera.fit && !part->camera.orthographic) return part;
-    if (!wr_scene_place(scene, 0, aspect, &place, NULL)) return part;
-    part->camera.fit = false;
-    part->camera.eye = place.eye;
-    if (part->camera.orthographic) part->camera.size = 2 * place.half_height / place.widen;
+    wr_scene_hold_camera(part, scene, aspect);
     return part;
 }

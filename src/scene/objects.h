@@ -40,8 +40,13 @@ WrScene *wr_scene_remove_object(const WrScene *scene, int i);
 
 /* Does a camera that fits mind object i? All that are shown and turned; where none is, all that are shown; else all. */
 bool wr_scene_fits(const WrScene *scene, int i);
+/* How far a displaced surface stands out of its base, in the object's units, at table heights of -1..1 or as high as its formula
+   can be; 0: it is not displaced. Heights of a table are not asked: a camera does not move while one paints. */
+double wr_scene_stands_out(const WrScene *object);
 /* The radius of the ball about the world's origin that holds those, however the turntable turns them. */
-double wr_scene_ball(const WrScene *scene);
+double wr_scene_ball(const WrScene *scene, bool displaced);
+/* A camera that fits stands from now on where that of `like` does, in a picture `aspect` times as wide as high. */
+void wr_scene_hold_camera(WrScene *scene, const WrScene *like, double aspect);
 
 /* Object i alone as it stands among the others: with the scene's lights, background and dials, and a camera whose eye is
    where the scene's is in a picture of that aspect. What a picture of one object is made from. */

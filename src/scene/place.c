@@ -144,12 +144,13 @@ static bool check_camera(const WrCamera *camera, double aspect, WrError *err)
 }
 
 /* How far the eye stands from the target, for a ball of radius `ball` about the target to fit: its
- * outline, at ball / sqrt(distance^2 - ball^2), falls on the nearer border divided by MARGIN. */
-static double fit_distance(double ball, double half_height, double aspect, bool orthographic)
+ * outline, at ball / sqrt(distance^2 - ball^2), falls on the nearer border divided by `margin`. */
+static double fit_distance(double ball, double margin, double half_height, double aspect,
+                           bool orthographic)
 {
-    if (orthographic) return 2 * ball;
+    if (orthographic) return margin < MARGIN ? 2 * ball / MARGIN : 2 * ball;
     double half = half_height * (aspect < 1 ? aspect : 1); /* of the nearer pair of borders */
-    return ball * sqrt(1 + MARGIN / half * (MARGIN / half));
+    return ball * sqrt(1 + margin / half * (margin / half));
 }
 
 static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out)
@@ -157,10 +158,11 @@ static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out
     WrVec3 back = v3_unit(v3_sub(camera->eye, camera->target), (WrVec3){ 0, 0, 1 });
     place_axes(camera, v3_neg(back), out);
     /* The objects' ball is about the world's origin; this one is about the target and holds it. */
-    double ball = out->ball + v3_len(camera->target);
+    const double off = v3_len(camera->target);
+    double ball = out->ball + off, reach = out->reach + off;
     out->orthographic = camera->orthographic;
     if (camera->orthographic) {
-        double fitted = MARGIN * ball * (aspect < 1 ? 1 / aspect : 1);
+        double fitted = fmax(MARGIN * ball, reach) * (aspect < 1 ? 1 / aspect : 1);
         out->half_height = camera->size > 0 ? camera->size / 2 : fitted;
     } else {
         double s, c;
@@ -170,7 +172,10 @@ static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out
     const bool fits = camera->fit || (camera->orthographic && camera->size <= 0);
     out->widen = !fits && camera->frame > aspect ? camera->frame / aspect : 1;
     out->half_height *= out->widen;
-    double away = fit_distance(ball, out->half_height, aspect, camera->orthographic);
+    /* The bases keep the margin; only what stands beyond it moves the eye. */
+    const double away =
+        fmax(fit_distance(ball, MARGIN, out->half_height, aspect, camera->orthographic),
+             fit_distance(reach, 1, out->half_height, aspect, camera->orthographic));
     out->eye = camera->fit ? v3_mad(camera->target, back, away) : camera->eye;
 }
 
@@ -193,7 +198,9 @@ bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, 
     placed.radius = radius;
     place_object(scene, turn_deg, &placed);
     const bool one = scene->other_count == 0;
-    placed.ball = one ? v3_len(scene->at) + scene->size * radius : wr_scene_ball(scene);
+    placed.ball = one ? v3_len(scene->at) + scene->size * radius : wr_scene_ball(scene, false);
+    placed.reach =
+        one ? placed.ball + scene->size * wr_scene_stands_out(scene) : wr_scene_ball(scene, true);
     place_camera(&scene->camera, aspect, &placed);
     *out = placed;
     return true;

@@ -235,6 +235,7 @@ typedef struct WrPlacement {
     bool orthographic;
     double radius; /* of the object about its centre, in its units */
     double ball;   /* of all objects about the world's origin (objects.h) */
+    double reach;  /* of the same as they are displaced (wr_scene_stands_out) */
 } WrPlacement;
 
 /* Those two of the object, whatever the camera. */
@@ -244,7 +245,8 @@ void wr_scene_stretch(const WrScene *scene, WrVec3 *stretch, WrVec3 *cofactor);
  *
  * turn_deg   any finite value; whole turns are taken off exactly (HC87)
  * fit        the eye stands so far from the target that the ball about the target which holds the
- *            objects' balls keeps a few percent from the picture's nearer pair of borders, however they turn
+ *            objects' balls keeps a few percent from the picture's nearer pair of borders, however they turn; and
+ *            that what is displaced stays within it
  * up         where it is 0 or along the view, another axis takes its place
  * Errors     eye = target; an angle, position, field of view or aspect that is no number or out of
  *            range */
