@@ -213,7 +213,7 @@ title_is after.exr || complain "what waited for what was given up is done: $(new
 begin
 shot working
 xdotool key ctrl+q
-promised() { alters working "$bar"; }
+promised() { changes working 320x28+0+772; }
 until_true 120 "that it will close" promised
 is_gone && complain "quitting did not wait"
 xdotool key Escape
