@@ -225,7 +225,12 @@ static void fill_key(const WrViewMesh *mesh, const WrView *view, const WrKnotsAs
     memset(key, 0, sizeof *key); /* padding too: keys are compared as bytes */
     memcpy(&key->sight, &mesh->sight, sizeof key->sight);
     memcpy(&key->shape, &mesh->shape, sizeof key->shape);
-    memcpy(&key->newton, &ask->newton, sizeof key->newton);
+    const WrNewton *how = &ask->newton;
+    key->newton.reach_u = how->reach_u, key->newton.reach_v = how->reach_v;
+    key->newton.enough_u = how->enough_u, key->newton.enough_v = how->enough_v;
+    key->newton.uu = how->uu, key->newton.uv = how->uv, key->newton.vv = how->vv;
+    key->newton.last = how->last, key->newton.steps = how->steps;
+    key->newton.closed_u = how->closed_u, key->newton.closed_v = how->closed_v;
     key->mu = mesh->mu, key->mv = mesh->mv, key->grid_w = view->grid_w;
     key->first = ask->first, key->rows = ask->rows;
     key->cull = view->cull;
@@ -267,7 +272,7 @@ bool wr_knots_bring(WrKnots *knots, const WrViewMesh *mesh, const WrView *view,
                        .strips = wr_alloc(threads, sizeof(WrStrip)),
                        .sheet = wr_alloc(threads, (size_t)knots->across) };
     knots->known = tie(&job, pool);
-    knots->key = key;
+    memcpy(&knots->key, &key, sizeof key);
     wr_free(job.strips);
     wr_free(job.sheet);
     return knots->known;
