@@ -310,6 +310,7 @@ static void blocks_show_what_they_are_told_to(void **state)
             seen->finer = k % 5 == 1 ? -2 : seen->crumpled ? -5 : 0;
             seen->mesh = (WrViewMesh){ .mu = 0 };
             assert_true(see(seen, first, rows, &random));
+            assert_int_equal(seen->knots.top, first / WR_KNOT - WR_KNOTS_AROUND);
             count_layers(seen);
             look_at(seen, first, rows, &random, &kinds, strip);
             forget(seen);

@@ -256,10 +256,11 @@ bool wr_knots_bring(WrKnots *knots, const WrViewMesh *mesh, const WrView *view,
     if (knots->known && memcmp(&knots->key, &key, sizeof key) == 0) return true;
     const int last = (ask->first + ask->rows - 1) / WR_KNOT + 1;
     knots->known = false;
-    knots->top = ask->first / WR_KNOT - WR_KNOTS_AROUND;
+    const int top = ask->first / WR_KNOT - WR_KNOTS_AROUND;
     if (!make_room(knots, (view->grid_w - 1) / WR_KNOT + 2 + 2 * WR_KNOTS_AROUND,
-                   last + 1 + WR_KNOTS_AROUND - knots->top, mesh->blocks_u * mesh->blocks_v))
+                   last + 1 + WR_KNOTS_AROUND - top, mesh->blocks_u * mesh->blocks_v))
         return false;
+    knots->top = top;
     knots->closed_u = mesh->newton.closed_u, knots->closed_v = mesh->newton.closed_v;
     const size_t threads = (size_t)wr_pool_threads(pool);
     WrKnotsJob job = { .knots = knots,
