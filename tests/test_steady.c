@@ -387,7 +387,7 @@ static void pictures_and_roughness_are_light(void **state)
     write_pictures();
     must_run(rig.session, "surface sphere");
     must_run(rig.session, "material model=ggx");
-    must_run(rig.session, "camera orthographic size=0.7"); /* rows of whole tiles */
+    must_run(rig.session, "camera orthographic size=0.25"); /* rows of whole tiles */
     walk(&rig, steps, COUNT(steps));
 }
 
@@ -414,8 +414,9 @@ static void shadows_stay_with_their_lamps(void **state)
         { "object choose ring", 12, 8 },
         { "material shadow=on", 13, 8 }
     };
-    Rig rig = rig_of(173, true);
-    must_run(rig.session, "camera orthographic"); /* points are wanted for shadows alone */
+    Rig rig = rig_of(400, true);
+    must_run(rig.session,
+             "camera orthographic size=0.25"); /* points are wanted for shadows alone */
     must_run(rig.session, "surface sphere");
     must_run(rig.session, "light directional to=0.8,0.3,0.5 shadow=on");
     must_run(rig.session, "bump height=0.06");
