@@ -304,11 +304,16 @@ static void a_line_of_a_widget_does_not_hold_its_picture_up(void **state)
     const WrHash before = wr_session_hash(bench.session);
     app->in_frame = true;
     assert_true(wr_app_run_line(app, "render x.png size=16384x16384"));
+    assert_true(wr_app_run_line(app, "material ks=0.37")); /* the same press meant both */
     app->in_frame = false;
     assert_non_null(app->busy);
+    assert_int_equal(app->waits->items.count, 1);
     assert_true(app->session != bench.session); /* nobody touches it */
     const double end = wr_clock_seconds() + PATIENCE;
     while (wr_busy_is_young(app) && wr_clock_seconds() < end) draw_again(app);
+    app->in_frame = true;
+    assert_false(wr_app_run_line(app, "material ks=0.41")); /* another one */
+    app->in_frame = false;
     push_key(SDLK_ESCAPE, 0);
     while (app->busy && wr_clock_seconds() < end) draw_again(app);
     assert_null(app->busy);
@@ -319,6 +324,67 @@ static void a_line_of_a_widget_does_not_hold_its_picture_up(void **state)
     assert_non_null(said);
     assert_int_equal(strncmp(said->text, "Cancelled", 9), 0);
     assert_int_equal(access("x.png", F_OK), -1);
+    finish(&bench);
+}
+
+/* Escape gives the stroke up that is drawn, and not the work; it waits no more. */
+static bool give_the_stroke_up(Long *work)
+{
+    WrApp *app = work->app;
+    const SDL_Rect *canvas = &app->layout->canvas;
+    const int x = canvas->x + canvas->w / 3, y = canvas->y + canvas->h / 2;
+    SDL_Event down = button(SDL_MOUSEBUTTONDOWN, x, y);
+    const int waits = app->waits->items.count;
+    if (!wr_busy_greys(app)) return false;
+    switch (work->stage) {
+    case 0:
+        SDL_PushEvent(&(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = x, .y = y } });
+        SDL_PushEvent(&down);
+        work->stage = 1;
+        break;
+    case 1:
+        if (waits == 1) push_key(SDLK_ESCAPE, 0), work->stage = 2;
+        break;
+    default: return waits == 0;
+    }
+    return false;
+}
+
+static void a_stroke_that_waits_is_given_up_by_hand(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    Long work = { .app = bench.app, .watch = give_the_stroke_up };
+    assert_true(run(&work, &err));
+    assert_int_equal(bench.app->brush->jobs.count, 0);
+    finish(&bench);
+}
+
+/* Nobody waits for the journal to be tended: a wish to close comes meanwhile, and is done. */
+static bool see_a_few(Long *work)
+{
+    return ++work->stage > 5;
+}
+
+static void it_closes_while_the_journal_is_tended(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    WrApp *app = bench.app;
+    Long work = { .app = app, .watch = see_a_few };
+    watched = &work;
+    app->drawn = picture_drawn;
+    wr_busy_aside(app, "Keeping the journal short", take_long, &work);
+    assert_non_null(app->busy);
+    SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
+    const double end = wr_clock_seconds() + PATIENCE;
+    while (!app->quit && wr_clock_seconds() < end) draw_again(app);
+    assert_true(app->quit);
+    assert_null(app->busy);
+    watched = NULL;
     finish(&bench);
 }
 
@@ -333,6 +399,8 @@ int main(void)
         cmocka_unit_test(what_waits_is_dropped_with_what_is_given_up),
         cmocka_unit_test(what_waits_is_not_done_to_other_layers),
         cmocka_unit_test(a_line_of_a_widget_does_not_hold_its_picture_up),
+        cmocka_unit_test(a_stroke_that_waits_is_given_up_by_hand),
+        cmocka_unit_test(it_closes_while_the_journal_is_tended),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

@@ -183,12 +183,13 @@ static void which_side(WrApp *app)
 
 void wr_panel_accuracy_dials(WrApp *app)
 {
-    WrAccuracy *a = app->accuracy;
     wr_gui_heading("DIALS");
     which_side(app);
-    if (a->chooses == 0) wr_busy_hold(app);
-    if (a->chooses == 0) wr_panel_accuracy_tolerance(app);
-    const int side = a->chooses;
+    const int side = app->accuracy->chooses;
+    if (side == 0) {
+        wr_busy_hold(app);
+        wr_panel_accuracy_tolerance(app);
+    }
     WrScene *scene = wr_accuracy_scene(app, side), *plain = wr_scene_new();
     for (int axis = 0; axis < WR_AXIS_COUNT; axis++) {
         char heading[48];

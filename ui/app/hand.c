@@ -95,8 +95,8 @@ static void press_canvas(WrApp *app, const WrPointer *at)
         hand->grab = WR_GRAB_SYMMETRY;
         return;
     }
-    if (tool->paints ? app->busy && !wr_busy_lets_wait(app) : !tool->meanwhile)
-        if (wr_busy_refuse(app)) return;
+    const bool needs_idle = tool->paints ? app->busy && !wr_busy_lets_wait(app) : !tool->meanwhile;
+    if (needs_idle && wr_busy_refuse(app)) return;
     hand->grab = WR_GRAB_TOOL;
     if (tool->paints && !hand->line && wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods)) {
         /* a drag sizes the brush, a click draws a line: known when it moves, or is let go */

@@ -1,4 +1,5 @@
-/* Memory that is kept for the next table or picture goes back to the system when the window has been left alone for a while. */
+/* Memory that is kept for the next table or picture goes back to the system when the window has been left alone for a
+   while. */
 #include "ui/app/thrift.h"
 #include "ui/desk/desk.h"
 

@@ -56,7 +56,7 @@ double wr_canvas_contour_step(const WrCanvas *canvas);
 
 /* Bring the picture up to date and draw it into the view's rectangle. Takes at most about `budget`
  * seconds for the means of large tables; true if it would be better with another call. second: slopes along v, where `field`
- * holds those along u; else NULL. held: it is being painted, so that a range that follows it only widens. */
+ * holds those along u; else NULL. kept: borrowed until the next call. held: it is being painted, so that a range that follows it only widens. */
 bool wr_canvas_draw(WrCanvas *canvas, WrKept *kept, const WrCanvasView *view, const WrField *field,
                     const WrField *second, const WrCanvasLook *look, bool held, double budget,
                     WrCanvasRange *range);

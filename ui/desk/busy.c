@@ -54,6 +54,8 @@ bool wr_busy_begin(WrApp *app, const WrBusy *like)
     busy->what = wr_strdup(like->what);
     busy->since = wr_clock_seconds();
     busy->refused_at = -1e9;
+    busy->in_frame = app->in_frame;
+    busy->picture = app->drawn_at;
     busy->job = wr_job_new(&kind, 1, app->job_event);
     app->session = wr_session_still(busy->session);
     app->busy = busy;
@@ -123,10 +125,38 @@ bool wr_busy_run(WrApp *app, WrBusyKind kind, const char *what, WrBusyWork *work
     return wr_busy_end(app, err);
 }
 
+static void forget(WrApp *app, void *ctx, bool ok, const WrError *err)
+{
+    (void)app;
+    (void)ctx;
+    (void)ok;
+    (void)err;
+}
+
+void wr_busy_aside(WrApp *app, const char *what, WrBusyWork *work, void *ctx)
+{
+    WrError err;
+    if (app->busy) return;
+    if (app->drawn_at == 0.0) {
+        work(app->session, ctx, &err);
+        return;
+    }
+    const WrBusy busy = {
+        .kind = WR_BUSY_TEND, .what = (char *)what, .work = work, .ctx = ctx, .after = forget
+    };
+    if (wr_busy_begin(app, &busy)) wr_busy_end(app, NULL);
+}
+
 void wr_busy_fail(WrApp *app, const char *what, const WrError *err)
 {
     if (app->gave_up) wr_app_say(app, "Cancelled: %s, nothing changed", what);
     else wr_app_fail(app, err);
+}
+
+void wr_busy_cancel(WrBusy *busy)
+{
+    busy->cancelled = true;
+    wr_job_interrupt(busy->job);
 }
 
 /* ---- what may be done meanwhile ---- */
@@ -179,7 +209,8 @@ bool wr_busy_lets_wait(const WrApp *app)
 void wr_busy_settle(WrApp *app)
 {
     if (app->in_frame || app->waits->running) return;
-    while (!wr_busy_refuses(app) && (app->busy || app->waits->items.count > 0)) {
+    /* What somebody waits for ends there, and not here. */
+    while (app->busy ? !wr_busy_refuses(app) && app->busy->after : app->waits->items.count > 0) {
         if (app->busy) app->roster->step(app);
         wr_busy_tend(app);
     }
@@ -237,8 +268,7 @@ bool wr_busy_event(WrApp *app, const SDL_Event *event)
         return true;
     }
     if (!gives_up(app, event)) return false;
-    busy->cancelled = true;
-    wr_job_interrupt(busy->job);
+    wr_busy_cancel(busy);
     return true;
 }
 

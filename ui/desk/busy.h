@@ -34,6 +34,9 @@ bool wr_app_run_linef(WrApp *app, const char *format, ...) __attribute__((format
 typedef bool WrBusyWork(WrSession *session, void *ctx, WrError *err);
 bool wr_busy_run(WrApp *app, WrBusyKind kind, const char *what, WrBusyWork *work, void *ctx,
                  WrError *err);
+/* The same as WR_BUSY_TEND, but nobody waits: it may still be under way afterwards, so *ctx must live on (NULL is fine),
+   and no failure is told. Does nothing while something runs. */
+void wr_busy_aside(WrApp *app, const char *what, WrBusyWork *work, void *ctx);
 /* Say why the newest one failed: an error, or a note where it was the user who gave it up. */
 void wr_busy_fail(WrApp *app, const char *what, const WrError *err);
 /* Run a line that is being tried just so, on the document as it is: where the trial has made it, that is taken
@@ -66,6 +69,8 @@ void wr_busy_settle(WrApp *app);
 typedef void WrBusyLate(WrApp *app, const char *text, bool dropped);
 void wr_busy_put_off(WrApp *app, const char *words, WrBusyLate *late, const char *text,
                      bool of_layers);
+/* The newest of them is wished for no more: it goes without being called. */
+void wr_busy_take_back(WrApp *app, WrBusyLate *late, const char *text);
 
 /* ---- for the loop ---- */
 

@@ -67,7 +67,7 @@ static void drop_button(WrApp *app)
     if (drops) wr_waits_drop(app, WR_DROPPED_WISH);
 }
 
-static void bar(WrApp *app, double now)
+static void bar(WrApp *app, bool refused, double now)
 {
     WrBusy *busy = app->busy;
     char seconds[24], left[WR_PROGRESS_LEFT];
@@ -76,7 +76,7 @@ static void bar(WrApp *app, double now)
     const double whole = waits ? 970 : 830;
     const double wide = squeezed(320, 0.6, whole), long_bar = squeezed(220, 0.4, whole);
     const double end = wr_gui_px(30) + wide + long_bar;
-    say(app, now - busy->refused_at < REFUSED_SECONDS, wide);
+    say(app, refused, wide);
     wr_gui_same_line(12);
     wr_gui_move_to(wr_gui_px(30) + wide);
     wr_gui_progress(long_bar, busy->furthest > 0.0 ? busy->furthest : -1.0);
@@ -89,10 +89,7 @@ static void bar(WrApp *app, double now)
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, busy->cancelled ? "cancelling" : left);
     wr_gui_same_line(12);
     wr_gui_move_to(end + wr_gui_px(160));
-    if (wr_gui_chip(NULL, "Cancel")) {
-        busy->cancelled = true;
-        wr_job_interrupt(busy->job);
-    }
+    if (wr_gui_chip(NULL, "Cancel")) wr_busy_cancel(busy);
     wr_gui_tip("Escape");
     if (waits) drop_button(app);
 }
@@ -110,7 +107,7 @@ bool wr_busy_bar(WrApp *app)
     if (room.w <= 0) room = (SDL_Rect){ 0, app->height - tall, app->width, tall };
     const bool refused = now - busy->refused_at < REFUSED_SECONDS;
     wr_gui_area_begin("##busy", WR_AREA_BAR, room, refused ? WR_COLOUR_REFUSED : WR_COLOUR_BAR);
-    bar(app, now);
+    bar(app, refused, now);
     wr_gui_area_end();
     return true;
 }

@@ -31,6 +31,8 @@ struct WrBusy {
     double furthest;   /* fraction: bars do not go back */
     double refused_at; /* clock */
     bool cancelled, closes;
+    bool in_frame;     /* it began inside a picture of the window: */
+    double picture;    /* app->drawn_at then */
     bool file_chosen;  /* the desktop's dialog spoke: it is heard afterwards */
     WrBusyDone *after; /* NULL: somebody waits */
     void *after_ctx;
@@ -40,7 +42,9 @@ struct WrBusy {
 bool wr_busy_begin(WrApp *app, const WrBusy *busy);
 /* Come back when it is done; not inside a picture, but that it may be. */
 void wr_busy_wait(WrApp *app);
-/* It is done: the session is the window's again. What it said. */
+/* The user gives it up: it ends soon. */
+void wr_busy_cancel(WrBusy *busy);
+/* It is done: the session is the window's again. What it said; err may be NULL. */
 bool wr_busy_end(WrApp *app, WrError *err);
 
 /* ---- what waits: busy_waits.c ---- */

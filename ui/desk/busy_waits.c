@@ -32,19 +32,32 @@ void wr_busy_put_off(WrApp *app, const char *words, WrBusyLate *late, const char
     wr_app_redraw(app);
 }
 
-static WrWaiting take_first(WrWaits *waits)
+static WrWaiting take(WrWaits *waits, int index)
 {
-    WrWaiting first = waits->items.data[0];
+    WrWaiting taken = waits->items.data[index];
     waits->items.count--;
-    memmove(waits->items.data, waits->items.data + 1,
-            (size_t)waits->items.count * sizeof *waits->items.data);
-    return first;
+    memmove(waits->items.data + index, waits->items.data + index + 1,
+            (size_t)(waits->items.count - index) * sizeof *waits->items.data);
+    return taken;
 }
 
 static void fini(WrWaiting *waiting)
 {
     wr_free(waiting->text);
     wr_free(waiting->words);
+}
+
+void wr_busy_take_back(WrApp *app, WrBusyLate *late, const char *text)
+{
+    WrWaits *waits = app->waits;
+    for (int i = waits->items.count - 1; i >= 0; i--) {
+        if (waits->items.data[i].late != late || strcmp(waits->items.data[i].text, text) != 0)
+            continue;
+        WrWaiting taken = take(waits, i);
+        fini(&taken);
+        wr_app_redraw(app);
+        return;
+    }
 }
 
 void wr_waits_words(const WrApp *app, const char *between, char *text, size_t size)
@@ -63,7 +76,7 @@ void wr_waits_drop(WrApp *app, WrDropped why)
     if (app->waits->items.count == 0) return;
     wr_waits_words(app, ", ", words, sizeof words);
     while (app->waits->items.count > 0) {
-        WrWaiting first = take_first(app->waits);
+        WrWaiting first = take(app->waits, 0);
         first.late(app, first.text, true);
         fini(&first);
     }
@@ -86,7 +99,7 @@ void wr_waits_run(WrApp *app)
             wr_waits_drop(app, WR_DROPPED_LAYERS);
             break;
         }
-        WrWaiting first = take_first(waits);
+        WrWaiting first = take(waits, 0);
         first.late(app, first.text, false);
         fini(&first);
         if (waits->given_up) break;

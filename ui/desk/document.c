@@ -58,11 +58,49 @@ void wr_app_changed_document(WrApp *app)
     wr_app_redraw(app);
 }
 
-/* Calls that may take long, as wr_busy_run wants them: ctx is a path, or lines. */
+/* Calls that may take long, as wr_busy_run wants them: ctx is a path, lines, or what is opened. */
+
+static bool lines_work(WrSession *session, void *ctx, WrError *err)
+{
+    bool good = true;
+    for (const char *at = ctx; *at && !wr_progress_stopped();) {
+        size_t length = strcspn(at, "\n");
+        char *line = wr_strndup(at, length);
+        WrError why;
+        if (!wr_session_run(session, line, good ? err : &why)) good = false;
+        wr_free(line);
+        at += length + (at[length] != '\0');
+    }
+    return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
+}
+
+typedef struct Opened {
+    const char *path;
+    bool flat;    /* it is a picture: its heights are seen on a plane of its shape */
+    bool refused; /* and the lines for that failed: why */
+    WrError why;
+} Opened;
+
+/* What was opened is seen in its shape if it is a picture, which has no surface of its own. */
+static void lay_flat(WrSession *session, Opened *opened)
+{
+    char ending[16];
+    opened->flat = !wr_session_path(session)[0] &&
+                   strcmp(wr_path_ending(opened->path, ending), "wrinkle") != 0;
+    if (!opened->flat) return;
+    WrText lines = { 0 };
+    const WrField *field = wr_document_field(wr_session_document(session));
+    wr_new_picture_lines(wr_field_width(field), wr_field_height(field), &lines);
+    opened->refused = !lines_work(session, lines.data, &opened->why);
+    wr_text_fini(&lines);
+}
 
 static bool open_work(WrSession *session, void *ctx, WrError *err)
 {
-    return wr_session_open(session, ctx, err);
+    Opened *opened = ctx;
+    if (!wr_session_open(session, opened->path, err)) return false;
+    lay_flat(session, opened);
+    return true;
 }
 
 static bool save_work(WrSession *session, void *ctx, WrError *err)
@@ -80,41 +118,17 @@ static bool tend_work(WrSession *session, void *ctx, WrError *err)
 
 void wr_app_tend(WrApp *app)
 {
-    WrError err;
     bool idle = app->hand->grab == WR_GRAB_NONE && !wr_session_in_stroke(app->session);
     if (idle && wr_session_journal_wants(app->session))
-        wr_busy_run(app, WR_BUSY_TEND, "Keeping the journal short", tend_work, NULL, &err);
+        wr_busy_aside(app, "Keeping the journal short", tend_work, NULL);
 }
 
-static bool lines_work(WrSession *session, void *ctx, WrError *err)
+/* A picture gives the document its name. */
+static void take_picture(WrApp *app, const Opened *opened)
 {
-    bool good = true;
-    for (const char *at = ctx; *at && !wr_progress_stopped();) {
-        size_t length = strcspn(at, "\n");
-        char *line = wr_strndup(at, length);
-        WrError why;
-        if (!wr_session_run(session, line, good ? err : &why)) good = false;
-        wr_free(line);
-        at += length + (at[length] != '\0');
-    }
-    return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
-}
-
-/* A picture's heights are seen on a plane of its shape, and it gives the document its name. */
-static void lay_flat(WrApp *app, const char *path)
-{
-    char ending[16];
-    const WrField *field = wr_app_field(app);
-    if (wr_session_path(app->session)[0] || strcmp(wr_path_ending(path, ending), "wrinkle") == 0)
-        return;
-    WrText lines = { 0 };
-    WrError err;
-    wr_new_picture_lines(wr_field_width(field), wr_field_height(field), &lines);
-    if (!wr_busy_run(app, WR_BUSY_ANOTHER, "Opening", lines_work, lines.data, &err))
-        wr_app_fail(app, &err);
-    wr_text_fini(&lines);
-    wr_app_changed_document(app);
-    app->file->picture = wr_strdup(path);
+    if (!opened->flat) return;
+    if (opened->refused) wr_app_fail(app, &opened->why);
+    app->file->picture = wr_strdup(opened->path);
     app->file->clean_revision = wr_session_revision(app->session); /* it can be opened again */
     wr_app_title(app);
 }
@@ -122,15 +136,16 @@ static void lay_flat(WrApp *app, const char *path)
 static bool open_now(WrApp *app, const char *path)
 {
     WrError err;
+    Opened opened = { .path = path };
     wr_hand_let_go(app);
-    if (!wr_busy_run(app, WR_BUSY_ANOTHER, "Opening", open_work, (char *)path, &err)) {
+    if (!wr_busy_run(app, WR_BUSY_ANOTHER, "Opening", open_work, &opened, &err)) {
         wr_busy_fail(app, "opening", &err);
         return false;
     }
     app->file->starter = false;
     note_recent(app, path);
     wr_app_changed_document(app);
-    lay_flat(app, path);
+    take_picture(app, &opened);
     return true;
 }
 
@@ -210,7 +225,12 @@ void wr_app_start(WrApp *app)
     app->hints = true;
     if (app->options->file_given) {
         if (wr_session_path(app->session)[0]) note_recent(app, wr_session_path(app->session));
-        if (app->options->file) lay_flat(app, app->options->file);
+        if (app->options->file) {
+            Opened opened = { .path = app->options->file };
+            lay_flat(app->session, &opened);
+            wr_app_changed_document(app);
+            take_picture(app, &opened);
+        }
         wr_app_take_notes(app);
         return;
     }
@@ -237,6 +257,10 @@ void wr_app_new_of(WrApp *app, const char *lines)
     wr_hand_let_go(app);
     bool good =
         wr_busy_run(app, WR_BUSY_ANOTHER, "Making the document", new_work, (char *)lines, &err);
+    if (!good && app->busy) { /* refused: the document is as it was */
+        wr_app_fail(app, &err);
+        return;
+    }
     app->file->starter = false;
     if (app->gave_up) wr_app_say(app, "Cancelled: the document is made as far as it came");
     else if (!good) wr_app_fail(app, &err);

@@ -82,10 +82,16 @@ static void run_late(WrApp *app, const char *line, bool dropped)
     if (!dropped) wr_app_run_line(app, line);
 }
 
+/* Asked for by the same press as what runs: one of several lines that are meant as one. */
+static bool belongs(const WrApp *app)
+{
+    return app->in_frame && app->busy->in_frame && app->busy->picture == app->drawn_at;
+}
+
 static bool put_off(WrApp *app, const char *line)
 {
     const bool tended = !wr_busy_refuses(app);
-    if (!tended && !(wr_busy_lets_wait(app) && can_wait(line))) {
+    if (!tended && !(wr_busy_lets_wait(app) && (can_wait(line) || belongs(app)))) {
         wr_busy_refuse(app);
         return false;
     }

@@ -9,13 +9,13 @@
 typedef struct WrDamage WrDamage;
 
 WrDamage *wr_damage_new(void);
-void wr_damage_free(WrDamage *damage);
+void wr_damage_free(WrDamage *damage); /* NULL is fine */
 /* Another picture of width x height pixels, both above 0. Of another size than the last one all is damaged. */
 void wr_damage_begin(WrDamage *damage, int width, int height);
 /* Something is drawn on top of what was; no pixel beyond `box` is touched. what: a hash of all that it looks like,
    place and all. */
 void wr_damage_add(WrDamage *damage, const SDL_Rect *box, uint64_t what);
-/* What is drawn within `box` is not as it was, though its hash may be. */
+/* What is drawn within `box` is not as it was, though its hash may be: at any time, for the next end. */
 void wr_damage_touch(WrDamage *damage, const SDL_Rect *box);
 /* All is damaged, at the next end. */
 void wr_damage_forget(WrDamage *damage);

@@ -73,16 +73,17 @@ struct WrGui {
     bool no_icons, no_text; /* their fonts were not found */
     bool held[3];           /* buttons as the events say */
     bool pressed[3];        /* that went down since the last frame: none is ever missed */
-    bool again[3];    /* and were down in that one: a frame in which they are up comes between */
-    ImVec2 let_go_at; /* where a button went up last */
-    bool let_go;      /* the last frame had the pointer there */
+    /* And were down in that one: a frame in which they are up comes between. */
+    bool again[3];
+    ImVec2 let_go_at;                /* where a button went up last */
+    bool let_go;                     /* the last frame had the pointer there */
     bool released_late[WR_GUI_KEYS]; /* keys that went down and up between two frames */
     bool pressed_now[WR_GUI_KEYS];
     int held_late; /* KMOD_ bits held while a key went down since the last frame */
-    WrTyped *
-        typed_on; /* keys and letters that no frame has had, in the order in which they came; owned */
-    int typed_count, typed_room;
-    int typed_held; /* KMOD_ bits held at the last of those that frames had */
+    /* Keys and letters that no frame has had, in the order in which they came; owned. */
+    WrTyped *typed_on;
+    int typed_count, typed_room; /* how many there are, and fit */
+    int typed_held;              /* KMOD_ bits held at the last of those that frames had */
     char clipboard[4096];
     bool close_popups; /* Escape was pressed over a menu */
     ImGuiID selecting; /* a text area that gets the keyboard: its text will be selected */

@@ -34,7 +34,8 @@ typedef enum WrGuiKind {
     WR_GUI_PLAIN,    /* a triangle without it */
     WR_GUI_FILL,     /* an upright rectangle of one colour */
     WR_GUI_LETTER,   /* texels as pixels, times one colour */
-    WR_GUI_SCALED /* the same, larger or smaller: SDL draws other pixels when it is clipped otherwise */
+    /* The same, larger or smaller: SDL draws other pixels when it is clipped otherwise. */
+    WR_GUI_SCALED
 } WrGuiKind;
 
 /* A part of a command that is drawn by itself. */
@@ -55,13 +56,14 @@ WrGuiPiece wr_gui_sdl_piece(const WrGuiCommand *command, int first, bool letters
 typedef struct WrGuiPen {
     SDL_Renderer *renderer; /* borrowed, as is the texture */
     SDL_Texture *texture;   /* of the triangles below; NULL: none */
-    int count;
+    int count;              /* vertices, three of each triangle */
     WrGuiVertex vertices[WR_GUI_PEN_VERTICES];
 } WrGuiPen;
 
+/* The renderer's clip must lie within the command's. */
 void wr_gui_sdl_piece_draw(WrGuiPen *pen, const WrGuiCommand *command, const WrGuiPiece *piece);
-void wr_gui_sdl_flush(
-    WrGuiPen *pen); /* what is still held back is drawn: before the clip changes, and at the end */
+/* What is still held back is drawn: before the clip changes, before others draw, and at the end. */
+void wr_gui_sdl_flush(WrGuiPen *pen);
 
 /* A rectangle in one colour (0xAARRGGBB). */
 void wr_gui_sdl_fill(SDL_Renderer *renderer, const SDL_Rect *place, uint32_t argb);
@@ -71,7 +73,7 @@ SDL_Texture *wr_gui_sdl_texture(SDL_Renderer *renderer, int width, int height, c
 /* Pixels of a texture are others now (place NULL: all), as by SDL_UpdateTexture. Every texture that wr_kept_copy or a widget
    shows is changed by this alone. */
 void wr_gui_sdl_update(SDL_Texture *texture, const SDL_Rect *place, const void *pixels, int pitch);
-/* Another number after each of these. */
+/* Another number after each of these, of all textures; 0: never changed by it. */
 uintptr_t wr_gui_sdl_revision(const SDL_Texture *texture);
 
 #ifdef __cplusplus

@@ -22,11 +22,11 @@ typedef struct Item {
 } Item;
 
 struct WrKept {
-    SDL_Renderer *renderer;
-    SDL_Window *window; /* NULL: the renderer draws elsewhere */
-    WrDamage *damage;   /* owned; NULL: all is drawn each time */
-    int width, height;
-    volatile int lost; /* atomic: what was put on the screen may be gone */
+    SDL_Renderer *renderer; /* borrowed */
+    SDL_Window *window;     /* borrowed; NULL: the renderer draws elsewhere */
+    WrDamage *damage;       /* owned; NULL: all is drawn each time */
+    int width, height;      /* pixels */
+    volatile int lost;      /* atomic: what was put on the screen may be gone */
     WR_ARRAY(Item) items;
     WR_ARRAY(WrGuiCommand) commands;
     WR_ARRAY(SDL_Point) points;

@@ -1,6 +1,6 @@
 #include "ui/help/guide_picture.h"
-#include "ui/jobs/job.h"
 #include "ui/gui/gui_sdl.h"
+#include "ui/jobs/job.h"
 
 #include "base/array.h"
 #include "base/file.h"

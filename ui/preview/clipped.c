@@ -20,8 +20,8 @@ static int count_row(const uint8_t *bgra, int width)
     for (int x = 0; x < width; x++) {
         uint32_t pixel;
         memcpy(&pixel, bgra + 4 * (size_t)x, 4);
-        const uint32_t none =
-            ~pixel; /* a byte of 0 where one of 255 was; the fourth does not count */
+        /* A byte of 0 where one of 255 was; the fourth does not count. */
+        const uint32_t none = ~pixel;
         count += (none & 0xffu) == 0 || (none & 0xff00u) == 0 || (none & 0xff0000u) == 0;
     }
     return count;

@@ -3,7 +3,6 @@
 #include <stdbool.h>
 
 typedef struct WrError WrError;
-
 typedef struct WrFrame WrFrame;
 typedef struct WrFrameRequest WrFrameRequest;
 typedef struct WrPictureRan WrPictureRan;
@@ -16,9 +15,9 @@ void wr_picture_put(WrPreviewPicture *picture, const WrFrame *frame, const WrFra
                     const WrPreviewLook *look, double scale, const WrPictureRan *ran, WrPool *pool);
 
 void wr_picture_free(WrPreviewPicture *picture); /* NULL is fine */
-/* So many pixels, each at least 1. Errors: no memory; it is as it was then. */
+/* Room for its pixels, width and height at least 1. Errors: no memory; it is as it was then. */
 bool wr_picture_room(WrPreviewPicture *picture, int width, int height, WrError *err);
-/* Say where it differs from the picture before (NULL: there is none). */
+/* Set `changed` and `since` by the picture before (NULL: there is none), whose pixels must not change meanwhile. */
 void wr_picture_compare(WrPreviewPicture *picture, const WrPreviewPicture *before);
 /* `missed`, the picture before it, is never handed over: it counts from what that counts from. */
 void wr_picture_follow(WrPreviewPicture *picture, const WrPreviewPicture *missed);

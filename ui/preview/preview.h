@@ -85,13 +85,12 @@ typedef struct WrPreviewPicture {
     WrChosen chosen;    /* what the scene's tolerance chose for it */
     char *
         kept; /* the same as the document keeps it (wr_choice_write); owned; NULL: nothing was chosen */
-    WrMovingWay way; /* of WR_PREVIEW_MOVING ... */
-    double scale;    /* ... and its size beside the view's */
-    int64_t tag;     /* of the wish that it shows */
-    uint64_t serial; /* counts pictures; 0: none yet */
-    /* No pixel beyond it is another one than in that picture, by its serial, which was handed over before; 0: of none. */
-    SDL_Rect changed;
-    uint64_t since;
+    WrMovingWay way;  /* of WR_PREVIEW_MOVING ... */
+    double scale;     /* ... and its size beside the view's */
+    int64_t tag;      /* of the wish that it shows */
+    uint64_t serial;  /* counts pictures; 0: none yet */
+    SDL_Rect changed; /* pixels beyond it are as in the picture of serial `since` */
+    uint64_t since;   /* handed over before this one; 0: there is none such, all is changed */
 } WrPreviewPicture;
 
 /* ---- picture_time.c ---- */

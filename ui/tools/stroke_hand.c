@@ -26,6 +26,8 @@
 #include "system/clock.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #define WORK_SECONDS 0.004 /* that drawing may take before a picture of the window */
 
@@ -133,15 +135,14 @@ static void work_until(WrApp *app, double end)
     hand->shown = hand->taken;
 }
 
-/* What ran is done, or given up: the oldest one that waited is drawn now, or dropped. */
+/* What ran is done, or given up: the one of this number is drawn now, or dropped. */
 static void draw_late(WrApp *app, const char *text, bool dropped)
 {
-    (void)text;
     WrBrushHand *hand = app->brush;
     int i = 0;
-    while (i < hand->jobs.count && !hand->jobs.data[i].waits) i++;
+    while (i < hand->jobs.count && hand->jobs.data[i].waits != atoi(text)) i++;
     if (i == hand->jobs.count) return; /* cancelled by hand */
-    hand->jobs.data[i].waits = false;
+    hand->jobs.data[i].waits = 0;
     if (!dropped) {
         work_until(app, 1e300);
         return;
@@ -164,8 +165,10 @@ bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
     app->hints = false;
     wr_app_redraw(app);
     if (!app->busy) return hand->jobs.count > 1 || open_first(app);
-    hand->jobs.data[hand->jobs.count - 1].waits = true;
-    wr_busy_put_off(app, wr_words("Stroke"), draw_late, "", true);
+    char number[24];
+    hand->jobs.data[hand->jobs.count - 1].waits = hand->strokes;
+    snprintf(number, sizeof number, "%d", hand->strokes);
+    wr_busy_put_off(app, wr_words("Stroke"), draw_late, number, true);
     return true;
 }
 
@@ -234,6 +237,9 @@ void wr_strokes_cancel(WrApp *app)
         wr_session_stroke_cancel(app->session);
         hand->opened = hand->unfinished = false;
     }
+    char number[24];
+    snprintf(number, sizeof number, "%d", hand->jobs.data[hand->jobs.count - 1].waits);
+    wr_busy_take_back(app, draw_late, number);
     drop_job(hand, hand->jobs.count - 1);
     wr_app_take_notes(app);
     wr_app_title(app);

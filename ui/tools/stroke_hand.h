@@ -18,7 +18,7 @@ typedef struct WrStrokeJob {
     char *head; /* the command without points, owned; NULL once the session has it */
     WR_ARRAY(WrSample) samples; /* not handed to the session yet */
     bool released;              /* the pointer let go: no more will come */
-    bool waits;                 /* for what runs beside the window (ui/desk/busy.h) */
+    int waits; /* its number while it waits for what runs beside the window (ui/desk/busy.h); else 0 */
 } WrStrokeJob;
 
 typedef struct WrBrushHand {
@@ -58,8 +58,8 @@ bool wr_strokes_waits(const WrApp *app); /* more is left to draw */
 bool wr_strokes_under_way(const WrApp *app);
 void wr_strokes_finish(WrApp *app); /* draw all that is left, now */
 void wr_strokes_cancel(WrApp *app); /* the stroke that is drawn never was */
-void wr_strokes_marks(
-    const WrApp *app); /* over the canvas: those that wait for what runs beside the window */
+/* Over the canvas: those that wait for what runs beside the window. */
+void wr_strokes_marks(const WrApp *app);
 void wr_strokes_free(WrApp *app);
 
 extern const WrPart wr_part_strokes;

@@ -21,8 +21,8 @@ struct WrTool {
     bool (*key)(WrApp *app, SDL_Keycode key); /* Escape, Return, ...: true if it took it */
     bool (*wheel)(WrApp *app, double steps);  /* over the canvas: true if it took it */
     void (*leave)(WrApp *app);                /* another tool is chosen, or another document */
-    bool
-        meanwhile; /* also while something runs beside the window: it changes nothing, or what comes of it can wait */
+    /* Also while something runs beside the window: it changes nothing, or what comes of it can wait. */
+    bool meanwhile;
     bool paints; /* press, drag, release are the brush's */
     int mode;    /* 1 + the WrBrushMode that it paints with; 0: the brush's own */
 };
