@@ -5,9 +5,9 @@
 
 #include "ui/canvas/ants.h"
 #include "ui/canvas/canvas.h"
-#include "ui/gui/kept.h"
 #include "ui/canvas/canvas_ink.h"
 #include "ui/canvas/view.h"
+#include "ui/gui/kept.h"
 
 #include <SDL.h>
 

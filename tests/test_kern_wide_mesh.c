@@ -1,21 +1,12 @@
 /* Newton's method, normals and bent normals in vectors written by hand: samples are made from places of a surface by its formula
    in double, and those places have to come out again; what a resting view resumes has the bits of what it was. */
-#include "test.h"
+#include "kern_wide_help.h"
 
-#include "base/kernmath.h"
-#include "base/memory.h"
-#include "base/vec.h"
-#include "render/kern.h"
-#include "render/kern_wide.h"
-
-#define FAST_BOUND 2e-4 /* scene/dials.h: of 1, or of the value if that is larger */
-#define MET_BOUND 8e-6  /* places of samples are rounded */
+#define MET_BOUND 8e-6 /* places of samples are rounded */
 #define REACH (1.0f / 48)
 
 typedef struct Bench {
-    const WrKernels *ref;
-    const WrWide *wide;
-    const char *set;
+    Sets sets;
     WrShape shape;
     WrShapef shapef;
     WrWideSheet sheet;
@@ -27,41 +18,26 @@ typedef struct Bench {
     WrSurfacePoint at[WR_SPAN]; /* where the samples are */
 } Bench;
 
-static bool set_of(int i, Bench *b)
-{
-    const char *const names[] = { "v3", "v4" };
-    if (i >= 2) return false;
-    const WrKernels *fast = wr_kernels_get(names[i], true, NULL);
-    b->ref = wr_kernels_get("ref", false, NULL);
-    b->wide = fast ? wr_wide_of(fast) : NULL;
-    b->set = names[i];
-    return true;
-}
-
-static double between(TestRandom *random, double low, double high)
+/* In double, unlike those of kern_wide_help.h. */
+static double drawn(TestRandom *random, double low, double high)
 {
     return low + (high - low) * test_random(random);
 }
 
-static WrVec3 some_unit(TestRandom *random)
+static WrVec3 drawn_unit(TestRandom *random)
 {
-    const WrVec3 a = { between(random, -1, 1), between(random, -1, 1), between(random, -1, 1) };
+    const WrVec3 a = { drawn(random, -1, 1), drawn(random, -1, 1), drawn(random, -1, 1) };
     return v3_unit(a, (WrVec3){ 0, 0, 1 });
-}
-
-static void put3(float to[3], WrVec3 a)
-{
-    to[0] = (float)a.x, to[1] = (float)a.y, to[2] = (float)a.z;
 }
 
 static void choose_surface(TestRandom *random, WrSurfaceKind kind, Bench *b)
 {
     wr_shape_default(kind, &b->shape);
     if (kind == WR_SURFACE_torus) {
-        b->shape.value[0] = between(random, 0.5, 0.8);
-        b->shape.value[1] = between(random, 0.1, 0.4);
+        b->shape.value[0] = drawn(random, 0.5, 0.8);
+        b->shape.value[1] = drawn(random, 0.1, 0.4);
     } else
-        for (int k = 0; k < 48; k++) b->shape.value[k] += between(random, -0.15, 0.15);
+        for (int k = 0; k < 48; k++) b->shape.value[k] += drawn(random, -0.15, 0.15);
     wr_shape_scaled(&b->shape, 1, &b->shapef);
     assert_true(wr_wide_sheet(kind, &b->shapef, &b->sheet));
     const bool closed = kind == WR_SURFACE_torus;
@@ -78,12 +54,12 @@ static void choose_surface(TestRandom *random, WrSurfaceKind kind, Bench *b)
 
 static void choose_view(TestRandom *random, Bench *b)
 {
-    b->back = some_unit(random);
-    b->right = v3_unit(v3_cross(some_unit(random), b->back), (WrVec3){ 1, 0, 0 });
+    b->back = drawn_unit(random);
+    b->right = v3_unit(v3_cross(drawn_unit(random), b->back), (WrVec3){ 1, 0, 0 });
     b->up = v3_cross(b->back, b->right);
-    b->away = between(random, 2.5, 8);
+    b->away = drawn(random, 2.5, 8);
     b->eye = v3_scale(b->back, b->away);
-    b->step = between(random, 0.002, 0.02);
+    b->step = drawn(random, 0.002, 0.02);
     b->corner = v3_mad(v3_scale(b->right, -1.5), b->up, 1.5);
     b->rays = (WrRays){ .perspective = test_random(random) < 0.6 };
     put3(b->rays.eye, b->eye), put3(b->rays.toward, b->back), put3(b->rays.q0, b->corner);
@@ -110,7 +86,7 @@ static void choose_samples(TestRandom *random, double off, Bench *b)
     for (int i = 0; i < s->count; i++) {
         double u = 0, v = 0, t = 1;
         for (int k = 0; k < 300; k++) {
-            u = between(random, 0.03, 0.97), v = between(random, 0.03, 0.97);
+            u = drawn(random, 0.03, 0.97), v = drawn(random, 0.03, 0.97);
             wr_surface_at(&b->shape, 0, u, v, &b->at[i]);
             if (is_open(b, &b->at[i])) break;
         }
@@ -119,16 +95,16 @@ static void choose_samples(TestRandom *random, double off, Bench *b)
         if (b->rays.perspective) t = b->away / (b->away - v3_dot(p, b->back));
         s->x[i] = (float)((v3_dot(p, b->right) * t + 1.5) / b->step);
         s->y[i] = (float)((1.5 - v3_dot(p, b->up) * t) / b->step);
-        s->u[i] = (float)(u + off * (double)REACH * between(random, -1, 1));
-        s->v[i] = (float)(v + off * (double)REACH * between(random, -1, 1));
+        s->u[i] = (float)(u + off * (double)REACH * drawn(random, -1, 1));
+        s->v[i] = (float)(v + off * (double)REACH * drawn(random, -1, 1));
     }
 }
 
 static void expect_near(const Bench *b, const char *what, double got, double want, double bound)
 {
     if (!(fabs(got - want) <= bound * fmax(1, fabs(want))))
-        fail_msg("%s, %s: %s is %.9g, not %.9g", b->set, wr_surfaces[b->shape.kind]->name, what,
-                 got, want);
+        fail_msg("%s, %s: %s is %.9g, not %.9g", b->sets.name, wr_surfaces[b->shape.kind]->name,
+                 what, got, want);
 }
 
 static void expect_vec(const Bench *b, const char *what, const float *x, const float *y,
@@ -162,22 +138,22 @@ static void expect_bits(const Bench *b)
     for (int i = 0; i < x->count; i++)
         for (int k = 0; k < 11; k++)
             if (wr_float_bits(is[k][i]) != wr_float_bits(was[k][i]))
-                fail_msg("%s: number %d of sample %d is resumed otherwise", b->set, k, i);
+                fail_msg("%s: number %d of sample %d is resumed otherwise", b->sets.name, k, i);
 }
 
 /* Good guesses take one evaluation and a last step; coarse ones several. Returns how many took a last step. */
 static int solve(Bench *b, double off)
 {
     int landed = 0;
-    b->wide->newton(&b->sheet, &b->rays, &b->how, false, b->got);
-    assert_true(b->wide->cross(b->sheet.noise, b->got));
+    b->sets.wide->newton(&b->sheet, &b->rays, &b->how, false, b->got);
+    assert_true(b->sets.wide->cross(b->sheet.noise, b->got));
     if (off < 1) expect_places(b);
     *b->was = *b->got;
     for (int i = 0; i < b->got->count; i++) {
         landed += b->got->wx[i] > 0;
         b->got->u[i] = b->got->rx[i], b->got->v[i] = b->got->ry[i];
     }
-    b->wide->newton(&b->sheet, &b->rays, &b->how, true, b->got);
+    b->sets.wide->newton(&b->sheet, &b->rays, &b->how, true, b->got);
     expect_bits(b);
     return landed;
 }
@@ -187,10 +163,10 @@ static void places_come_out_again(void **state)
     (void)state;
     static const double offs[] = { 0.002, 0.6, 0.9, 3 };
     Bench b = { .got = wr_alloc(1, sizeof *b.got), .was = wr_alloc(1, sizeof *b.was) };
-    for (int i = 0; set_of(i, &b); i++) {
+    for (int i = 0; set_of(i, &b.sets); i++) {
         TestRandom random = { 31 };
         int samples[2] = { 0, 0 }, landed[2] = { 0, 0 };
-        for (int round = 0; b.wide && round < 96; round++) {
+        for (int round = 0; b.sets.wide && round < 96; round++) {
             const double off = offs[round % 4];
             choose_surface(&random, round & 4 ? WR_SURFACE_torus : WR_SURFACE_bezier, &b);
             choose_view(&random, &b);
@@ -203,8 +179,8 @@ static void places_come_out_again(void **state)
             if (round & 8) assert_int_equal(done, 0);
             else samples[off > 0.1] += b.got->count, landed[off > 0.1] += done;
         }
-        if (b.wide) assert_true(landed[0] > 0.9 * samples[0] && landed[1] > 0.5 * samples[1]);
-        if (b.wide) assert_in_range(samples[0] + samples[1], 3000, 1000000);
+        if (b.sets.wide) assert_true(landed[0] > 0.9 * samples[0] && landed[1] > 0.5 * samples[1]);
+        if (b.sets.wide) assert_in_range(samples[0] + samples[1], 3000, 1000000);
     }
     wr_free(b.got);
     wr_free(b.was);
@@ -215,10 +191,10 @@ static void give_frames(TestRandom *random, int round, WrStrip *s)
 {
     s->count = 1 + (int)(WR_SPAN * test_random(random));
     for (int i = 0; i < s->count; i++) {
-        const double size = exp2(between(random, -3, 3)), thin = i % 9 == 4 ? 1e-4 : 1;
-        const WrVec3 pu = v3_scale(some_unit(random), size), way = some_unit(random);
-        const WrVec3 pv = v3_mad(v3_scale(way, thin * size), pu, between(random, -1, 1));
-        const WrVec3 p = v3_scale(some_unit(random), 0.9), n = v3_cross(pu, pv);
+        const double size = exp2(drawn(random, -3, 3)), thin = i % 9 == 4 ? 1e-4 : 1;
+        const WrVec3 pu = v3_scale(drawn_unit(random), size), way = drawn_unit(random);
+        const WrVec3 pv = v3_mad(v3_scale(way, thin * size), pu, drawn(random, -1, 1));
+        const WrVec3 p = v3_scale(drawn_unit(random), 0.9), n = v3_cross(pu, pv);
         const WrVec3 unit = v3_unit(n, way);
         s->px[i] = (float)p.x, s->py[i] = (float)p.y, s->pz[i] = (float)p.z;
         s->pux[i] = (float)pu.x, s->puy[i] = (float)pu.y, s->puz[i] = (float)pu.z;
@@ -226,8 +202,8 @@ static void give_frames(TestRandom *random, int round, WrStrip *s)
         s->nx[i] = (float)unit.x, s->ny[i] = (float)unit.y, s->nz[i] = (float)unit.z;
         s->n_len[i] = (float)v3_len(n);
         const double steep = i % 7 == 3 ? 0 : i % 11 == 5 ? 1e5 : round % 8 == 7 ? 1e9 : 1;
-        s->fu[i] = (float)(steep * between(random, -2, 2));
-        s->fv[i] = (float)(steep * between(random, -2, 2));
+        s->fu[i] = (float)(steep * drawn(random, -2, 2));
+        s->fv[i] = (float)(steep * drawn(random, -2, 2));
     }
 }
 
@@ -235,15 +211,15 @@ static void bent_normals_are_those_of_the_stage(void **state)
 {
     (void)state;
     Bench b = { .got = wr_alloc(1, sizeof *b.got), .want = wr_alloc(1, sizeof *b.want) };
-    for (int i = 0; set_of(i, &b); i++) {
+    for (int i = 0; set_of(i, &b.sets); i++) {
         TestRandom random = { 8 };
         int done = 0, steep = 0;
-        for (int round = 0; b.wide && round < 80; round++) {
+        for (int round = 0; b.sets.wide && round < 80; round++) {
             choose_view(&random, &b);
             give_frames(&random, round, b.got);
             *b.want = *b.got;
-            b.ref->bump[WR_BUMP_BLINN](&b.rays, b.want);
-            if (!b.wide->blinn(&b.rays, b.got)) {
+            b.sets.ref->bump[WR_BUMP_BLINN](&b.rays, b.want);
+            if (!b.sets.wide->blinn(&b.rays, b.got)) {
                 steep++;
                 assert_true(round % 8 == 7);
                 continue;
@@ -252,7 +228,7 @@ static void bent_normals_are_those_of_the_stage(void **state)
                 expect_vec(&b, "n'", b.got->bx, b.got->by, b.got->bz, k,
                            (WrVec3){ b.want->bx[k], b.want->by[k], b.want->bz[k] }, FAST_BOUND);
         }
-        if (b.wide) assert_true(done > 5000 && steep >= 9);
+        if (b.sets.wide) assert_true(done > 5000 && steep >= 9);
     }
     wr_free(b.got);
     wr_free(b.want);
@@ -263,17 +239,17 @@ static void thin_places_are_told(void **state)
 {
     (void)state;
     Bench b = { .got = wr_alloc(1, sizeof *b.got) };
-    for (int i = 0; set_of(i, &b); i++) {
+    for (int i = 0; set_of(i, &b.sets); i++) {
         TestRandom random = { 8 };
-        for (int round = 0; b.wide && round < 40; round++) {
+        for (int round = 0; b.sets.wide && round < 40; round++) {
             give_frames(&random, 0, b.got);
             const int at = (int)(b.got->count * test_random(&random));
             b.got->pux[b.got->count % WR_SPAN] = NAN;
             if (b.got->count == WR_SPAN) continue;
-            assert_true(b.wide->cross(1e-7f, b.got));
+            assert_true(b.sets.wide->cross(1e-7f, b.got));
             b.got->pvx[at] = b.got->pux[at], b.got->pvy[at] = b.got->puy[at];
             b.got->pvz[at] = b.got->puz[at] * (1 + 1e-7f);
-            assert_false(b.wide->cross(1e-4f, b.got));
+            assert_false(b.sets.wide->cross(1e-4f, b.got));
         }
     }
     wr_free(b.got);

@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-#define WIDTH                                                                                      \
-    131 /* of a picture: a tile that is packed, and one that is not, beside each other with 300 */
+/* Of a picture: a tile that is packed, and one that is not, beside each other with 300. */
+#define WIDTH 131
 #define HEIGHT 37
 #define STEPS 26 /* of one scene */
 

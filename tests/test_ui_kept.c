@@ -3,7 +3,6 @@
 #include "test.h"
 #include "test_app.h"
 
-#include "base/hash.h"
 #include "ui/app/app.h"
 #include "ui/desk/action.h"
 #include "ui/desk/busy.h"

@@ -11,13 +11,14 @@
 /* From here on it does so whatever was freed before: they begin with a large page. */
 #define PAGED ((size_t)33 << 20)
 #define PAGE ((size_t)2 << 20)
+/* Bytes of blocks that are kept. */
 #define KEPT_LEAST ((size_t)4 << 20)
 #ifdef __SANITIZE_ADDRESS__
 #define KEPT_MOST ((size_t)0) /* what is used after it was given back shall be seen */
 #else
 #define KEPT_MOST ((size_t)128 << 20)
 #endif
-#define KEPT 2
+#define KEPT 2 /* blocks */
 
 /* Stands before each block. */
 typedef struct Head {
@@ -42,6 +43,10 @@ static void *aligned(size_t bytes, bool zeroed)
     if (bytes > SIZE_MAX - align - sizeof(Head)) return NULL;
     size_t whole = bytes + align + sizeof(Head);
     char *raw = zeroed ? calloc(1, whole) : malloc(whole);
+    if (!raw && whole >= KEPT_LEAST) { /* what is kept may be what it lacks */
+        wr_memory_trim();
+        raw = zeroed ? calloc(1, whole) : malloc(whole);
+    }
     if (!raw) return NULL;
     if (whole >= LARGE) wr_pages_large(raw, whole);
     uintptr_t start = ((uintptr_t)raw + sizeof(Head) + align - 1) & ~(uintptr_t)(align - 1);

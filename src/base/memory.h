@@ -20,8 +20,8 @@ void *wr_alloc_unset(size_t count, size_t size);
    untouched. */
 void *wr_try_alloc(size_t count, size_t size, const char *what, WrError *err);
 
-/* The same of any content, for what is written whole. Since the system clears what it hands out, two blocks of 4 to 128 MB
-   that were given back are kept for the next who asks for about as much. */
+/* The same of any content, for what is written whole; errors likewise. Since the system clears what it hands out, two such
+   blocks of 4 to 128 MB that were given back are kept for the next who asks here for about as much. Any thread. */
 void *wr_try_alloc_unset(size_t count, size_t size, const char *what, WrError *err);
 /* What is kept goes back to the system. Any thread. */
 void wr_memory_trim(void);

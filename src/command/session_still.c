@@ -13,6 +13,7 @@ WrSession *wr_session_still(const WrSession *session)
     WrSession *still = wr_alloc(1, sizeof *still);
     still->still = true;
     still->options.smooth = session->options.smooth;
+    still->options.pool = session->options.pool; /* estimates ask how many threads it has */
     still->state = (WrSessionState){ .document = wr_document_share(state->document),
                                      .history = wr_history_still(state->history),
                                      .views = wr_views_clone(state->views),

@@ -1,5 +1,6 @@
-/* normal_kern.h - the inner loops of normal maps, bump slopes and other maps' codes, compiled once per instruction set. All sets give the
-   same bits: only + - * / sqrt, comparisons and conversions, without contraction.
+/* normal_kern.h - the inner loops of normal maps, bump slopes and other maps' codes, compiled once per instruction set.
+   All sets give the same bits, but for what nearly8 leaves in doubt: only + - * / sqrt, comparisons and conversions, without
+   contraction.
    Layer 6. Private to this room. */
 #pragma once
 #include <stdbool.h>
@@ -52,7 +53,8 @@ typedef struct WrNormalKernels {
                     uint16_t *out);
     /* Codes of 8 bits from the heights themselves, in single precision, of blocks of WR_NORMAL_BLOCK texels; not by
      * WR_STENCIL_SPLINE. Bit k of what is returned: block k was not made, or a code of it may be the next one to the right
-     * one; it is to be made as above, as is what is left over beyond the last whole block. Which are in doubt differs between sets. */
+     * one; it is to be made as above, as is what is left over beyond the last whole block. Which are in doubt differs
+     * between sets. */
     uint32_t (*nearly8)(const WrNormalJob *job, const float *at, ptrdiff_t pitch, int count,
                         uint8_t *out);
     void (*floats)(const WrNormalJob *job, const double *x, const double *y, int count, float *out);

@@ -64,12 +64,11 @@ void wr_field_expect(const WrField *field, int i, int j, int count_i)
     enum { LINE = WR_ALIGN / (int)sizeof(float) };
     const int width = wr_field_width(field), end = count_i < width - i ? i + count_i : width;
     if (i < 0 || j < 0 || j >= wr_field_height(field)) return;
-    for (i = i / LINE * LINE; i < end;) {
+    for (int after; i < end; i = after) {
         const float *tile = wr_field_tile(field, i / WR_TILE, j / WR_TILE);
-        const int after = (i / WR_TILE + 1) * WR_TILE;
-        for (; tile && i < after && i < end; i += LINE)
-            __builtin_prefetch(tile + j % WR_TILE * WR_TILE + i % WR_TILE);
-        i = i < end && tile ? i : after;
+        after = (i / WR_TILE + 1) * WR_TILE;
+        for (int k = i / LINE * LINE; tile && k < after && k < end; k += LINE)
+            __builtin_prefetch(tile + j % WR_TILE * WR_TILE + k % WR_TILE);
     }
 }
 

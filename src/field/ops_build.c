@@ -188,8 +188,8 @@ static float *new_tile(const Build *build, const Part *part)
 {
     const float level = wr_field_level(build->out);
     float *tile = wr_field_tile_make();
-    for (int k = 0; part->rows * part->columns < WR_TILE * WR_TILE && k < WR_TILE * WR_TILE; k++)
-        tile[k] = level;
+    if (part->rows * part->columns < WR_TILE * WR_TILE)
+        for (int k = 0; k < WR_TILE * WR_TILE; k++) tile[k] = level;
     for (int y = 0; y < part->rows; y++)
         if (part->columns == WR_TILE)
             memcpy(tile + y * WR_TILE, part->now + y * SIDE, WR_TILE * sizeof *tile);
@@ -197,8 +197,8 @@ static float *new_tile(const Build *build, const Part *part)
     return tile;
 }
 
-static void make_tiles(const Build *build, const WrOpBlock *b, const Bench *bench,
-                       const float *before, size_t pitch, float **tile)
+static void make_tiles(const Build *build, const WrOpBlock *b, Bench *bench, const float *before,
+                       size_t pitch, float **tile)
 {
     const bool masked = build->blends && build->job->mask;
     for (int t = 0; t < BLOCK_TILES; t++) {
@@ -206,7 +206,7 @@ static void make_tiles(const Build *build, const WrOpBlock *b, const Bench *benc
         if (x >= b->count_i || y >= b->count_j) continue;
         const Part part = { .before = before + (size_t)y * pitch + x,
                             .mask = masked ? bench->mask + y * SIDE + x : NULL,
-                            .now = (float *)bench->now + y * SIDE + x,
+                            .now = bench->now + y * SIDE + x,
                             .before_pitch = pitch,
                             .columns = min_int(WR_TILE, b->count_i - x),
                             .rows = min_int(WR_TILE, b->count_j - y) };
@@ -293,9 +293,7 @@ WrField *wr_op_base(const WrOpJob *job, int width, int height, WrWrap wrap_u, Wr
 static bool same_shape(const WrField *a, const WrField *b)
 {
     const float x = wr_field_level(a), y = wr_field_level(b);
-    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b) &&
-           wr_field_wrap_u(a) == wr_field_wrap_u(b) && wr_field_wrap_v(a) == wr_field_wrap_v(b) &&
-           memcmp(&x, &y, sizeof x) == 0;
+    return wr_field_alike(a, b) && memcmp(&x, &y, sizeof x) == 0;
 }
 
 /* Several stacks for each thread, so that none waits for long. */

@@ -52,8 +52,8 @@ struct WrOpJob {
 /* A rectangle of texels of the result. */
 typedef struct WrOpBlock {
     int i, j, count_i, count_j; /* counts 1..WR_OP_SIDE */
-    bool
-        follows; /* the scratch is as it was left by the block above, of WR_OP_SIDE rows and the same columns */
+    /* The scratch is as it was left by the block above, of WR_OP_SIDE rows and the same columns. */
+    bool follows;
 } WrOpBlock;
 
 /* What the builder has to know about an operation. */

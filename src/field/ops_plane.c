@@ -88,6 +88,11 @@ bool wr_op_plane_init(WrOpPlane *plane, const WrOpJob *job)
     float *block = wr_try_alloc_unset(pitch * (size_t)height, sizeof *block, job->name, job->err);
     if (!block) return false;
     *plane = (WrOpPlane){ block, block + 2, pitch, width, height };
+    for (int y = 0; y < height; y++) { /* vectors reckon with what lies between rows */
+        float *row = block + pitch * (size_t)y;
+        memset(row, 0, 2 * sizeof *row);
+        memset(row + 2 + width, 0, (pitch - 2 - (size_t)width) * sizeof *row);
+    }
     return true;
 }
 

@@ -207,12 +207,6 @@ static bool keeps(WrSelectMode mode, float level)
     return mode == WR_SELECT_INTERSECT ? level >= 1.0f : mode != WR_SELECT_REPLACE && level <= 0.0f;
 }
 
-static bool same_shape(const WrField *a, const WrField *b)
-{
-    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b) &&
-           wr_field_wrap_u(a) == wr_field_wrap_u(b) && wr_field_wrap_v(a) == wr_field_wrap_v(b);
-}
-
 static double row_part(const WrField *field, int ty)
 {
     return (double)ty / wr_field_tiles_v(field);
@@ -231,7 +225,7 @@ WrField *wr_select_combine(const WrField *a, const WrField *b, WrSelectMode mode
 {
     if (mode == WR_SELECT_REPLACE) return wr_field_share(b);
     if (!a) return mode == WR_SELECT_SUBTRACT ? wr_select_invert(b) : wr_field_share(b);
-    if (!same_shape(a, b)) {
+    if (!wr_field_alike(a, b)) {
         wr_fail(err, "selection of %dx%d texels: must have the size and edges of the other, %dx%d",
                 wr_field_width(b), wr_field_height(b), wr_field_width(a), wr_field_height(a));
         return NULL;

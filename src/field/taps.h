@@ -1,5 +1,6 @@
-/* taps.h - the inner loops of blurs (ops_blur.c, ops_blur_wide.c), and of what all operations end with (ops_build.c), compiled once per instruction set. All sets give the
-   same bits: only + - *, in the same order, without contraction.
+/* taps.h - the inner loops of blurs (ops_blur.c, ops_blur_wide.c), and of what all operations end with (ops_build.c),
+   compiled once per instruction set. All sets give the same bits: only + - * and comparisons, in the same order, without
+   contraction.
    Layer 1, private to this room. */
 #pragma once
 #include <stdbool.h>

@@ -7,6 +7,7 @@
 #include "render/dice.h"
 #include "render/plan.h"
 #include "render/view.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"
 
@@ -136,6 +137,9 @@ static bool hc125(WrHardGauge *g, WrError *err)
     for (int k = 0; k < 2 && good; k++) {
         WrScene *scene = displaced_of(1, k == 0 ? -1 : 1e6, 0.5);
         scene->shape.value[0] = 1;
+        scene->displaced = false;
+        wr_scene_hold_camera(scene, scene, 1); /* that of the base: from within, not from afar */
+        scene->displaced = true;
         const WrFrameRequest request = {
             .field = k == 0 ? level : rough, .scene = scene, .width = 9, .height = 9
         };

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#define OPPOSITE -0.9 /* l.v from there on is no more than what it says of |l + v|, to 1e-6 */
+#define OPPOSITE -0.9 /* l.v nearer to -1 does not tell |l + v| to 1e-6 in single precision */
 
 static WrForm plus(WrForm a, WrForm b, double by)
 {

@@ -21,25 +21,25 @@ typedef struct WrSlant {
     WrForm along, across;
 } WrSlant;
 
+/* Lengths in radii. Without `good` nothing else is there; without `shown` nobody goes by `lit`:
+   opposite to the viewer l.v tells |l + v| badly. */
 typedef struct WrBall {
-    bool
-        good; /* the others are there: all of the sphere is before the eye and the near plane, its outline an ellipse */
+    bool good;     /* all of it is before the eye and the near plane: its outline is an ellipse */
     WrForm dd, rr; /* d.d, r^2 */
     double by;     /* -1/2 by the part of x^2 in r^2 */
     WrSlant n[3];  /* n's own x, y, z */
-    bool
-        shown; /* `lit` is there, and the lamp nowhere nearly opposite to the viewer, where l + v is told badly by l.v */
-    WrSlant lit; /* n.l; its across is d.l */
+    bool shown;    /* the lamp is distant, nowhere nearly opposite to the viewer */
+    WrSlant lit;   /* n.l; its across is d.l */
 } WrBall;
 
-/* Of the rays of a grid; light: one, or NULL. */
+/* Of the rays of a grid; light: one, or NULL. The ball keeps none of them. No error: what it cannot be made of is not good. */
 void wr_ball_make(WrBall *ball, const WrRays *rays, const WrShapef *shape,
                   const WrKernLight *light);
 
-/* Where a row meets it. */
+/* Where a row meets it; of a ball that is good. */
 typedef struct WrChord {
-    double y, middle; /* middle: a whole number */
-    int first, last;  /* pixels that meet it, from gx on; last < first: none */
+    double y, middle; /* places in the grid; middle: a whole number */
+    int first, last;  /* pixels that meet it, counted from gx, 0 .. count - 1; last < first: none */
 } WrChord;
 
 /* Of `count` pixels from (gx, y) on; false: so far away that places are not exact. */

@@ -2,7 +2,7 @@
    Layer 5, private to the renderer. */
 #pragma once
 
-/* Of `count` numbers, and of what *low and *high hold already. */
+/* Of `count` numbers, and of what *low and *high hold already; numbers that are NaN do not count. */
 static inline void wr_extent_add(const float *restrict x, int count, float *low, float *high)
 {
     float least = *low, most = *high;

@@ -167,11 +167,11 @@ void wr_frame_start_counts(WrRenderer *renderer);
 void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame);
 /* All grids but one, which may be NULL. */
 void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but);
-/* The triangles that the scene shows; the renderer's, or the scene's. */
 /* Do the frame's tiles go by where the view sees one sheet of the mesh (knots.h), if there is memory? */
 bool wr_frame_ties(const WrRenderer *renderer);
-/* Bring that, and let the job go by it. */
+/* Bring that, and let the job go by it; without, it goes by what was noted only if that is all. */
 void wr_frame_tie(WrRenderer *renderer, WrTileJob *job);
+/* The triangles that the scene shows; the renderer's, or the scene's. */
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene);
 /* What can hide lamps from each of `count` objects, those of a picture, each with its renderer. Errors: as wr_cast_prepare. */
 bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,

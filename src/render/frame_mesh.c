@@ -75,15 +75,18 @@ void wr_frame_tie(WrRenderer *renderer, WrTileJob *job)
 {
     const int k = renderer->view.samples;
     if (job->steady || !wr_frame_ties(renderer)) return;
+    if (job->seen_before && !renderer->sight.partly) return; /* all was noted */
     const WrKnotsAsk ask = { .kernels = job->kernels,
                              .wide = job->wide,
                              .sheet = job->wide_newton ? &job->sheet : NULL,
                              .newton = wr_pipe_newton(job),
                              .first = renderer->top * k,
                              .rows = renderer->rows * k };
-    if (wr_knots_bring(&renderer->knots, job->mesh, &renderer->view, &ask, renderer->pool))
-        job->knots = &renderer->knots;
-    else job->seen_before = false; /* what was noted is not all */
+    const bool tied =
+        wr_knots_bring(&renderer->knots, job->mesh, &renderer->view, &ask, renderer->pool);
+    if (tied) job->knots = &renderer->knots;
+    if (job->sight && !job->seen_before) renderer->sight.partly = tied;
+    if (!tied && job->seen_before) job->seen_before = false, job->sight = NULL; /* it is not all */
 }
 
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene)

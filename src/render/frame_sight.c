@@ -1,5 +1,5 @@
-/* What the samples of a resting view look at (sight.h), and n', P, u and v of them (steady.h): when it is known, and when it
-   is noted. */
+/* What the samples of a resting view look at (sight.h), and what light looks at of them (steady.h): when it is known, and
+   when it is noted. */
 #include "field/field.h"
 #include "render/frame_inner.h"
 #include "scene/objects.h"

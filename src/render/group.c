@@ -243,8 +243,7 @@ static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request
     renderer->samples = group->count > 0 ? group->parts[0].renderer->samples : 1;
     renderer->kernels =
         wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, NULL);
-    WrTileJob canvas = wr_frame_canvas(renderer, request);
-    return canvas;
+    return wr_frame_canvas(renderer, request);
 }
 
 /* The parts' jobs, the nearest first. */

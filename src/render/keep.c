@@ -8,6 +8,8 @@
 #include <math.h>
 #include <string.h>
 
+#define CELL 16 /* texels of a side: what is marked in one is taken as one box */
+
 void wr_keep_fini(WrKeep *keep)
 {
     wr_free(keep->patches);
@@ -15,8 +17,6 @@ void wr_keep_fini(WrKeep *keep)
     wr_field_free(keep->field);
     *keep = (WrKeep){ 0 };
 }
-
-#define CELL 16 /* texels of a side: what is marked in one is taken as one box */
 
 static const WrKeepBox nothing = { .high_u = -1, .high_v = -1 };
 

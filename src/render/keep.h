@@ -59,7 +59,8 @@ void wr_keep_note_box(const WrKeepNotes *notes, int k, double x, double y, doubl
 /* Find what differs between the kept field and this one, of equal size and wrap: exact texels of the
  * tiles that differ, grown by `reach` texels. False: cannot be compared, or nothing is kept. */
 bool wr_keep_compare(WrKeep *keep, const WrField *field, int reach);
-/* Besides, texels of the field that are marked, [height][width], and all within a texel of them. */
+/* After wr_keep_compare: besides, texels of the field that are marked (not 0), [height][width], and all within a texel of
+   them. */
 void wr_keep_add_texels(WrKeep *keep, const WrField *field, const unsigned char *marked);
 /* Do changes reach anything of the tile? */
 bool wr_keep_touches(const WrKeep *keep, int tile);

@@ -17,18 +17,18 @@ typedef int (*WrWideCodes)(const uint32_t *bins, const WrStrip *strip, bool grey
 /* A surface that rays meet by way of a mesh, made ready for vectors. */
 typedef struct WrWideSheet {
     WrSurfaceKind kind; /* WR_SURFACE_bezier or WR_SURFACE_torus */
-    float patch[3][16]; /* x, y, z: of (u - 1/2)^i (v - 1/2)^j at 4 j + i */
-    float noise;        /* |Pu x Pv| up to there is rounding */
-    float ring, tube;   /* radii */
+    float patch[3][16]; /* of a patch; x, y, z: of (u - 1/2)^i (v - 1/2)^j at 4 j + i */
+    float noise;        /* |Pu x Pv| up to there is rounding; 0 of a torus */
+    float ring, tube;   /* radii of a torus, in units of the world */
 } WrWideSheet;
 
-/* False: a surface that there are no vectors of. */
+/* Keeps nothing of the shape. False: a surface that there are no vectors of, and the sheet is of no use. */
 bool wr_wide_sheet(WrSurfaceKind kind, const WrShapef *shape, WrWideSheet *sheet);
 
 /* What comes of the light: red, which tells green and blue, too; all channels; u, v and what `paint` asks for. */
 typedef enum WrWidePaint { WR_WIDE_RED, WR_WIDE_ALL, WR_WIDE_LATER } WrWidePaint;
 
-/* Where a block of 8 x 8 samples lies among four by four knots, which are `across` a row: from knot `column`, `row` on;
+/* Where a block of 8 x 8 samples lies among four by four knots, which are `across` a row: from knot `column`, `row`, 0 .. 2, on;
    `pitch`: samples from row to row of what it is written to. */
 typedef struct WrWideKnots {
     int across, column, row, pitch;
@@ -38,7 +38,7 @@ typedef struct WrWideKnots {
 #define WR_KNOT_NUMBERS 11
 
 /* A row of samples between knots: their numbers, `plane` apart from one to the next, `across` a row, from the knot above and left of
-   the first sample's block on; `down` and `skip` samples from its corner. x, y: the sample's place. */
+   the first sample's block on; `down` and `skip` samples, 0 .. 7, from its corner. x, y: the sample's place. */
 typedef struct WrWideRow {
     const float *numbers;
     size_t plane;
@@ -54,7 +54,8 @@ typedef struct WrWide {
     bool (*shade)(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
                   const WrKernMaterial *material, bool pictured, WrStrip *strip);
     /* All of a sphere without bumps under one distant lamp, from visibility to the colour, of the samples of a row from
-       (gx, gy) on, neighbours: index, and by `how`. dark: the lamp is behind all of them. False: as above. */
+       (gx, gy) on, neighbours: index, and by `how`. dark: the lamp is behind all of them. ball: of the same rays and
+       light. False: as above. */
     bool (*smooth)(const WrBall *ball, const WrRays *rays, const WrKernLight *light,
                    const WrKernShine *shine, const WrKernMaterial *material, float gx, float gy,
                    int count, WrWidePaint how, bool *dark, WrStrip *strip);

@@ -16,14 +16,13 @@ static bool wide_cross(float noise, WrStrip *strip)
     return -w_largest(w_all(0.0f) - least) > fmaxf(noise * noise, 1e-30f);
 }
 
-/* n' on the viewer's side, of N' = N + D, 2^30 times as long as that. */
+/* n' of N' = N + D, which is worked out 2^30 times as long; on N's side. */
 ALWAYS WideVec blinn_wide(WideVec pu, WideVec pv, WideVec n, Wide size, Wide fu, Wide fv)
 {
-    const Wide large = w_all(0x1p30f), tiny = w_all(1e-30f);
+    const Wide large = w_all(0x1p30f);
     const WideVec way = w_mad(w_scale(pv, large * fu), pu, w_all(-0x1p30f) * fv);
     const WideVec bent = w_mad(w_cross(n, way), n, large * size);
-    const Wide bb = w_dot(bent, bent);
-    return w_pick3(w_less(tiny, bb), w_scale(bent, w_rsqrt(w_max(bb, tiny))), n);
+    return w_unit_or(bent, n);
 }
 
 ALWAYS Wide blinn_strip(const WrRays *rays, const bool near, WrStrip *strip)

@@ -161,6 +161,21 @@ ALWAYS Wide w_off_nearest(Wide a)
 {
     return _mm512_reduce_ps(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
 }
+/* a and not b. */
+ALWAYS WideMask w_but(WideMask a, WideMask b)
+{
+    return a & (WideMask)~b;
+}
+/* The lanes of bits. */
+ALWAYS WideMask w_mask(unsigned of)
+{
+    return (WideMask)of;
+}
+/* a b + c, rounded once. */
+ALWAYS Wide w_fma(Wide a, Wide b, Wide c)
+{
+    return _mm512_fmadd_ps(a, b, c);
+}
 #else
 #define WIDE 8
 typedef __m256 Wide;
@@ -320,7 +335,25 @@ ALWAYS Wide w_off_nearest(Wide a)
 {
     return a - w_nearest(a);
 }
+ALWAYS WideMask w_but(WideMask a, WideMask b)
+{
+    return _mm256_andnot_ps(b, a);
+}
+ALWAYS WideMask w_mask(unsigned of)
+{
+    return w_lanes(of);
+}
+ALWAYS Wide w_fma(Wide a, Wide b, Wide c)
+{
+    return _mm256_fmadd_ps(a, b, c);
+}
 #endif
+
+ALWAYS Wide w_floor(Wide a)
+{
+    const Wide near = w_nearest(a);
+    return w_pick(w_less(a, near), near - w_all(1.0f), near);
+}
 
 /* The bits of the first `count` lanes, or of all. */
 ALWAYS unsigned w_first_bits(int count)
@@ -348,6 +381,14 @@ ALWAYS WideVec w_scale(WideVec a, Wide s)
 {
     return (WideVec){ a.x * s, a.y * s, a.z * s };
 }
+ALWAYS WideVec w_cross(WideVec a, WideVec b)
+{
+    return (WideVec){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+ALWAYS WideVec w_pick3(WideMask mask, WideVec a, WideVec b)
+{
+    return (WideVec){ w_pick(mask, a.x, b.x), w_pick(mask, a.y, b.y), w_pick(mask, a.z, b.z) };
+}
 ALWAYS WideVec w_alike(const float v[3])
 {
     return (WideVec){ w_all(v[0]), w_all(v[1]), w_all(v[2]) };
@@ -370,5 +411,12 @@ ALWAYS Wide w_rsqrt(Wide a)
 {
     const Wide y = w_rsqrt_estimate(a), left = w_all(1.0f) - a * y * y;
     return y + w_all(0.5f) * y * left;
+}
+
+/* sqrt(a); under 1e-30 that of 1e-30. */
+ALWAYS Wide w_root(Wide a)
+{
+    const Wide some = w_max(a, w_all(1e-30f));
+    return some * w_rsqrt(some);
 }
 #endif

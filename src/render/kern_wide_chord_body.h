@@ -39,13 +39,6 @@ ALWAYS Wide w_slanted(const WideSlant *of, Wide x, Wide r)
     return w_bent(of->along, x) - r * w_straight(of->across, x);
 }
 
-/* sqrt(a), 0 where it is less. */
-ALWAYS Wide w_root(Wide a)
-{
-    const Wide some = w_max(a, w_all(1e-30f));
-    return some * w_rsqrt(some);
-}
-
 /* n and 1 / |d|; false: places are not exact. */
 static bool chord_points(const WrBall *ball, float gx, float gy, int count, WrStrip *strip)
 {

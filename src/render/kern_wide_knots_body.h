@@ -26,20 +26,12 @@ _Alignas(64) static const
                                    { EIGHTHS(CUBIC_2, 1.0f), EIGHTHS(CUBIC_1, 1.0f) },
                                    { EIGHTHS(CUBIC_3, 1.0f), EIGHTHS(CUBIC_2, 1.0f) },
                                    { NO_EIGHTHS, EIGHTHS(CUBIC_3, 1.0f) } };
-ALWAYS Wide w_fma(Wide a, Wide b, Wide c)
-{
-    return _mm512_fmadd_ps(a, b, c);
-}
 #else
 #define KNOTS_SEEN 4
 _Alignas(32) static const float seen[KNOTS_SEEN][8] = { { EIGHTHS(CUBIC_0, 1.0f) },
                                                         { EIGHTHS(CUBIC_1, 1.0f) },
                                                         { EIGHTHS(CUBIC_2, 1.0f) },
                                                         { EIGHTHS(CUBIC_3, 1.0f) } };
-ALWAYS Wide w_fma(Wide a, Wide b, Wide c)
-{
-    return _mm256_fmadd_ps(a, b, c);
-}
 #endif
 
 #define KNOTS_ROW 48 /* of a strip's samples, as whole vectors */

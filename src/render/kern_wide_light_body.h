@@ -33,7 +33,7 @@ ALWAYS Wide narrow_lobe(Wide x, Wide s)
     return p * w_power(n);
 }
 
-#define WHOLE 128 /* the largest: rounding of 1 - n'.h is told so many times */
+#define WHOLE 128 /* the largest: a power has the rounding of n'.h so many times */
 
 /* The exponent if it is a whole number such as these are for, else 0. */
 static int whole_exponent(const WrKernShine *shine)

@@ -7,44 +7,6 @@ typedef struct WidePlane {
     WideVec p, pu, pv;
 } WidePlane;
 
-ALWAYS WideVec w_cross(WideVec a, WideVec b)
-{
-    return (WideVec){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
-}
-
-ALWAYS WideVec w_pick3(WideMask mask, WideVec a, WideVec b)
-{
-    return (WideVec){ w_pick(mask, a.x, b.x), w_pick(mask, a.y, b.y), w_pick(mask, a.z, b.z) };
-}
-
-#ifdef __AVX512DQ__
-/* a and not b. */
-ALWAYS WideMask w_but(WideMask a, WideMask b)
-{
-    return a & (WideMask)~b;
-}
-/* The lanes of bits. */
-ALWAYS WideMask w_mask(unsigned of)
-{
-    return (WideMask)of;
-}
-#else
-ALWAYS WideMask w_but(WideMask a, WideMask b)
-{
-    return _mm256_andnot_ps(b, a);
-}
-ALWAYS WideMask w_mask(unsigned of)
-{
-    return w_lanes(of);
-}
-#endif
-
-ALWAYS Wide w_floor(Wide a)
-{
-    const Wide near = w_nearest(a);
-    return w_pick(w_less(a, near), near - w_all(1.0f), near);
-}
-
 /* ---- surfaces ---- */
 
 /* A cubic and its slope at t, by synthetic division. */

@@ -32,8 +32,7 @@ ALWAYS Met meet_sphere(const RowRays *rays, Wide x)
     const WideVec q = w_mad(rays->q, rays->qx, x), d = w_mad(rays->d, rays->dx, x);
     const Wide inv = w_rsqrt(w_dot(d, d)), inv2 = inv * inv, m = w_dot(q, d) * inv2;
     const WideVec f = w_mad(q, d, -m);
-    const Wide part = (w_all(1.0f) - w_dot(f, f)) * inv2, some = w_max(part, w_all(1e-30f));
-    const Wide half = some * w_rsqrt(some);
+    const Wide part = (w_all(1.0f) - w_dot(f, f)) * inv2, half = w_root(part);
     met.n = w_mad(f, d, -half);
     met.inv = inv;
     met.hit = w_less(w_all(0.0f), part);
@@ -141,17 +140,21 @@ static bool wide_sphere(const WrBall *ball, const WrRays *rays, const WrShapef *
 
 /* ---- n' and light at once ---- */
 
+/* A vector as one of length 1; `other` where it is too short to have a direction. */
+ALWAYS WideVec w_unit_or(WideVec a, WideVec other)
+{
+    const Wide tiny = w_all(1e-30f), aa = w_dot(a, a);
+    return w_pick3(w_less(tiny, aa), w_scale(a, w_rsqrt(w_max(aa, tiny))), other);
+}
+
 /* N' as bend_sphere has it, 2^30 times as long, so that near a pole it is still a number. */
 ALWAYS WideVec bend_wide(Wide scale, WideVec n, Wide fu, Wide fv)
 {
-    const Wide large = w_all(0x1p30f), tiny = w_all(1e-30f);
-    const Wide cl2 = n.x * n.x + n.y * n.y, cl = cl2 * w_rsqrt(w_max(cl2, tiny));
+    const Wide large = w_all(0x1p30f);
+    const Wide cl2 = n.x * n.x + n.y * n.y, cl = cl2 * w_rsqrt(w_max(cl2, w_all(1e-30f)));
     const Wide m = scale * cl2, q = w_all(0x1p31f) * fv * cl, qz = m + q * n.z, t = large * fu;
     const WideVec bent = { qz * n.x + t * n.y, qz * n.y - t * n.x, m * n.z - q * cl2 };
-    const Wide bb = w_dot(bent, bent), inv = w_rsqrt(w_max(bb, tiny));
-    const WideMask some = w_less(tiny, bb);
-    return (WideVec){ w_pick(some, bent.x * inv, n.x), w_pick(some, bent.y * inv, n.y),
-                      w_pick(some, bent.z * inv, n.z) };
+    return w_unit_or(bent, n);
 }
 
 #define GENTLE 1e6f /* slopes up to there need no scaling */

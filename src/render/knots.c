@@ -73,7 +73,7 @@ static void keep_numbers(WrKnots *knots, size_t row, const WrStrip *strip)
             knots->numbers[k * plane + row + (size_t)strip->index[i]] = from[k][i];
 }
 
-/* By Newton's method, those that one triangle covers. */
+/* By Newton's method, those that one triangle covers. Of several, threads decide which came first: such have no place. */
 static void solve_row(int y, int worker, void *ctx)
 {
     const WrKnotsJob *job = ctx;
@@ -83,7 +83,10 @@ static void solve_row(int y, int worker, void *ctx)
     for (int x = 0; x < knots->across;) {
         for (strip->count = 0; x < knots->across && strip->count < WR_SPAN; x++) {
             const size_t at = row + (size_t)x;
-            if (knots->count[at] != 1) continue;
+            if (knots->count[at] != 1) {
+                knots->u[at] = knots->v[at] = 0;
+                continue;
+            }
             strip->index[strip->count] = x;
             strip->x[strip->count] = (float)((x - WR_KNOTS_AROUND) * WR_KNOT);
             strip->y[strip->count] = (float)((y + knots->top) * WR_KNOT);

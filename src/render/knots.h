@@ -25,8 +25,8 @@ typedef struct WrKnotsKey {
     WrViewSight sight;
     WrShapef shape;
     WrNewton newton;
-    int mu, mv, grid_w, first,
-        rows; /* rows: samples of the grid that are wanted, from `first` on */
+    int mu, mv, grid_w; /* cells of the mesh; samples */
+    int first, rows;    /* samples of the grid that are wanted, from row `first` on */
     bool cull;
     const WrKernels *kernels;
 } WrKnotsKey;
@@ -36,8 +36,8 @@ typedef struct WrKnots {
     WrKnotsKey key;
     bool known;            /* all of it is of that key */
     int top, across, down; /* in knots: the first row's place, and how many there are */
-    float *
-        numbers; /* [WR_KNOT_NUMBERS][down][across]: u, v, P, Pu, Pv, where one triangle covers a knot. Owned */
+    /* [WR_KNOT_NUMBERS][down][across]: u, v, P, Pu, Pv, where one triangle covers a knot; else 0. Owned */
+    float *numbers;
     float *u, *v;         /* the first two of those */
     unsigned char *count; /* [down][across]: how many triangles cover it. Owned */
     unsigned char
@@ -53,7 +53,7 @@ typedef struct WrKnots {
    3 y + x where the three by three blocks that it goes by begin so far above and to the left. */
 enum { WR_KNOTS_NOTHING, WR_KNOTS_DEPTH, WR_KNOTS_SHEET, WR_KNOTS_BETWEEN };
 
-/* How the block at a sample of the view's grid is told. */
+/* How the block at a sample of the view's grid is told; it lies in the rows that were asked for. */
 static inline unsigned char wr_knots_at(const WrKnots *knots, int x, int y)
 {
     const size_t row = (size_t)(y / WR_KNOT - knots->top);
@@ -71,17 +71,17 @@ typedef struct WrKnotsAsk {
     const WrWide *wide;
     const WrWideSheet *sheet; /* NULL: a surface that there are no vectors of */
     WrNewton newton;
-    int first, rows; /* samples of the grid */
+    int first, rows; /* samples of the grid that are wanted: tiles lie in these rows */
 } WrKnotsAsk;
 
 void wr_knots_fini(WrKnots *knots);
-/* Make or keep those of a mesh that was prepared for the view. False: there are none, for want of memory or because the mesh
-   reaches behind the eye. */
+/* Make or keep those of a mesh that was prepared for the view. False: there are none, for want of memory, because the mesh
+   reaches behind the eye, or because it was cancelled (pool.h). */
 bool wr_knots_bring(WrKnots *knots, const WrViewMesh *mesh, const WrView *view,
                     const WrKnotsAsk *ask, WrPool *pool);
 /* Does a rectangle, 1/256 samples, meet a block that goes through the depth buffer? */
 bool wr_knots_deep(const WrKnots *knots, int32_t x0, int32_t y0, int32_t x1, int32_t y1);
-/* A tile of the view's own grid goes by knots: fills what it says of them. */
+/* A tile of the view's own grid goes by knots: fills `knots`, `untold`, `deep`. */
 void wr_knots_tell(const WrKnots *knots, WrDepthTile *tile);
-/* Guesses for its samples between knots. */
+/* Guesses for its samples between knots: u, v and a depth of 0, once triangles are drawn. */
 void wr_knots_fill(const WrKnots *knots, const WrWide *wide, WrDepthTile *tile);

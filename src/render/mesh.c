@@ -342,10 +342,10 @@ static void raster_cell(const Block *block, size_t at, int i, int j, WrDepthTile
 /* Is the cell between four vertices told by knots? */
 static bool is_tied(const Block *block, size_t at)
 {
+    if (!block->knots) return false;
     const int32_t *x = block->mesh->sx + at, *y = block->mesh->sy + at;
     const size_t low = (size_t)block->mesh->mu + 1, of[4] = { 0, 1, low, low + 1 };
     int32_t x0 = x[0], y0 = y[0], x1 = x[0], y1 = y[0];
-    if (!block->knots) return false;
     for (int k = 1; k < 4; k++) {
         x0 = x[of[k]] < x0 ? x[of[k]] : x0, x1 = x[of[k]] > x1 ? x[of[k]] : x1;
         y0 = y[of[k]] < y0 ? y[of[k]] : y0, y1 = y[of[k]] > y1 ? y[of[k]] : y1;

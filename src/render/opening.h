@@ -11,22 +11,24 @@ typedef struct WrScene WrScene;
 typedef struct WrOpeningTable {
     float *open; /* wr_opening_table's, owned; NULL: none */
     int width, height;
-    uint64_t key; /* of the table ... */
+    uint64_t key; /* of the table (wr_field_key) ... */
     int directions;
-    double across,
-        down; /* ... and of a texel, in units of height; below 0 where it stands inside out */
+    /* ... and how long a texel is, in units of height; below 0 where it stands inside out */
+    double across, down;
 } WrOpeningTable;
 
 void wr_opening_table_drop(WrOpeningTable *table);
+
 /* Which table horizons are of. */
 typedef struct WrOpeningEdit {
     uint64_t key, before;         /* of it; of the one that an edit made it of */
     const unsigned char *changed; /* what that changed (wr_horizon_update); NULL: it is not known */
 } WrOpeningEdit;
 
-/* Bring it up to date with the horizons of that table. A texel is as long as on the mean over the surface. */
+/* Bring it up to date with the horizons of that table. A texel is as long as on the mean over the surface;
+   the scene's height is not 0. Errors: no memory; cancelled; then there is no table. */
 bool wr_opening_table_bring(WrOpeningTable *table, const WrScene *scene, const WrField *field,
                             const WrOpeningEdit *edit, const WrHorizon *horizon, WrPool *pool,
                             WrError *err);
-/* How long a texel is along u and v, in units of height, on the mean. */
+/* How long a texel is along u and v, in units of height (of one that is not 0), on the mean. */
 void wr_opening_texel(const WrScene *scene, const WrField *field, double *across, double *down);

@@ -22,7 +22,8 @@ struct WrPipe {
 
 extern const WrPipe wr_pipe, wr_pipe_double;
 
-/* What of the job the kernels of several stages at once (kern_wide.h) are for: fills wide_sphere, wide_met, grey. */
+/* What of the job the kernels of several stages at once (kern_wide.h) are for: fills wide_newton, sheet, wide_sphere,
+   wide_met, balls, grey. */
 void wr_pipe_wide(WrTileJob *job);
 /* How samples of the job's mesh are solved. */
 WrNewton wr_pipe_newton(const WrTileJob *job);

@@ -1,5 +1,5 @@
-/* pipe_steady_body.h - samples whose n', P, u and v are known from the last picture: light alone (steady.h). A part of
-   pipe_body.h. */
+/* pipe_steady_body.h - samples of which all that light looks at is known from the picture that noted it: light alone
+   (steady.h). A part of pipe_body.h. */
 
 /* Does light, or what it goes by, look at where the samples lie? */
 static bool wants_points(const WrTileJob *job, const Rays *rays)
@@ -30,7 +30,9 @@ static Recall recall_of(const WrSteady *steady, unsigned groups, Strip *strip)
             how.to[how.count] = to[k];
             how.from[how.count++] = from;
         }
-        if (g == WR_STEADY_TRIANGLE) how.triangle = from++;
+        if (g != WR_STEADY_TRIANGLE) continue;
+        if (groups & WR_STEADY_BIT(g)) how.triangle = from; /* else nothing was put there */
+        from++;
     }
     return how;
 }

@@ -226,10 +226,10 @@ void wr_pipe_wide(WrTileJob *job)
                     !runs(job, WR_EFFECT_PARALLAX);
     if (job->view->light_count != 1 || !runs(job, WR_EFFECT_SPECULAR)) return;
     if (!job->wide->narrow(lamp, &m.shine)) return;
-    for (int i = 0; i < job->view->grid_count; i++)
-        wr_ball_make(&job->balls[i], &job->view->grids[i].rays, &job->view->shape, lamp);
     job->wide_sphere = job->wide_met && !job->map && runs_only(job, at_once | filtered) &&
                        (bump == WR_BUMP_NONE || bump == WR_BUMP_BLINN);
+    for (int i = 0; i < job->view->grid_count && job->wide_sphere; i++)
+        wr_ball_make(&job->balls[i], &job->view->grids[i].rays, &job->view->shape, lamp);
     job->grey = is_grey(job) && !runs(job, WR_EFFECT_COLOUR) && runs_only(job, at_once | geometry);
 }
 #else

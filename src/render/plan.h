@@ -282,7 +282,7 @@ typedef struct WrPlanFacts {
     bool outside;            /* the eye is outside a closed surface, for certain */
     bool lively;             /* adaptive: nearly all of the view's pixels need all samples */
     bool sighted;            /* what the view's samples look at is known from the last picture */
-    bool steady;             /* and n' and P of them */
+    bool steady;             /* and what light looks at of them */
     const char *steady_told; /* what becomes of those; NULL: they are new */
     int among;               /* objects that are shown; 0 or 1: this one alone */
     int hiders;              /* objects that can hide a lamp from this one, itself among them */

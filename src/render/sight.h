@@ -17,7 +17,7 @@ typedef struct WrSightKey {
     int mu, mv;        /* the mesh's cells */
     int width, height; /* pixels */
     bool cull, exact;  /* exact: Newton's last step is evaluated too */
-    bool tied;         /* what knots alone tell is not noted */
+    bool tied;         /* it goes by knots (knots.h), if there is memory */
     const WrKernels *kernels;
     WrHash
         beside; /* of what else is drawn, which may hide it: what is hidden is not noted. 0: it is alone */
@@ -29,7 +29,8 @@ typedef struct WrSight {
     /* [height][width], where the surface was evaluated last: from there `resume` takes the last step again, to the same
        bits. u 2: nothing is seen; below 0 or -0: as its absolute value, and no step is left. */
     float *u, *v;
-    bool whole; /* each sample was noted */
+    bool whole;  /* each sample was noted ... */
+    bool partly; /* ... but for those that knots alone tell */
 } WrSight;
 
 #define WR_SIGHT_NONE 2.0f

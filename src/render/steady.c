@@ -301,13 +301,9 @@ static bool make_room(WrSteady *steady, const WrSteadyView *view)
 
 WrSteadyUse wr_steady_bring(WrSteady *steady, const WrSteadyView *view)
 {
-    if (!same(&steady->view, view)) {
-        take(steady, view);
-        return WR_STEADY_NONE;
-    }
-    const unsigned wanted = all_groups(view);
-    const bool known = steady->whole && (wanted & ~steady->groups) == 0;
-    if (!known && steady->whole) {
+    const bool known = steady->whole;
+    const bool lacks = known && (all_groups(view) & ~steady->groups) != 0;
+    if (lacks || !same(&steady->view, view)) {
         take(steady, view);
         return WR_STEADY_NONE;
     }

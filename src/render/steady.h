@@ -64,11 +64,12 @@ typedef struct WrSteadyShare {
     bool cast;    /* past objects; else over the relief's horizon */
     int fine;     /* rays to a round lamp, or directions of horizons */
     bool used;    /* by the frame at hand */
-    float *of;    /* [height][width]; below 0: not known yet. Owned */
+    float *of;    /* [height][width], 0..1; below 0: not known yet. Owned by WrSteady */
 } WrSteadyShare;
 
 /* The shares of a lamp that shines; NULL: they are not kept. */
 typedef struct WrSteadyLamp {
+    /* `of` of shares, not owned; a sample's is written by the thread that draws its tile */
     float *cast, *relief;
 } WrSteadyLamp;
 
@@ -80,7 +81,7 @@ typedef struct WrSteady {
     unsigned groups;     /* bits of those that are noted */
     int each;            /* numbers of a sample */
     /* [height][blocks of a row][each][WR_STEADY_BLOCK], the groups' in their order, so that a row of a tile is read in one
-       piece. Owned; NULL: nothing is noted */
+       piece. Groups that a sample's own object does not ask for hold anything. Owned; NULL: nothing is noted */
     float *numbers;
     /* [height][width]: which object a sample shows, 1 + its place among the scene's; 0: nothing. Owned */
     unsigned char *owner;
@@ -115,5 +116,6 @@ unsigned wr_steady_groups(const WrScene *scene, const WrPlan *plan);
 /* Bytes that a view's numbers, and its lamps' shares, come to. */
 size_t wr_steady_bytes(const WrSteadyView *view);
 /* The use of it to a frame that it suits and that draws every tile: known where it differs from the last one in light
-   at most, noted where it does so for the first time. Without memory there is none. */
+   at most, noted where it does so for the first time. Without memory there is none. Who has noted every tile sets `whole`;
+   until then it is noted again. view: only for the call; scenes are shared, plans copied. */
 WrSteadyUse wr_steady_bring(WrSteady *steady, const WrSteadyView *view);

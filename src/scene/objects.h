@@ -43,9 +43,12 @@ bool wr_scene_fits(const WrScene *scene, int i);
 /* How far a displaced surface stands out of its base, in the object's units, at table heights of -1..1 or as high as its formula
    can be; 0: it is not displaced. Heights of a table are not asked: a camera does not move while one paints. */
 double wr_scene_stands_out(const WrScene *object);
-/* The radius of the ball about the world's origin that holds those, however the turntable turns them. */
+/* The radius of the ball about the world's origin that holds those, however the turntable turns them. displaced: with what
+   stands out of them; else their bases. */
 double wr_scene_ball(const WrScene *scene, bool displaced);
-/* A camera that fits stands from now on where that of `like` does, in a picture `aspect` times as wide as high. */
+/* A camera that fits, or is orthographic, stands from now on where that of `like` does, in a picture `aspect` times as wide
+   as high, and the latter shows as much; any other stays as it is. `like` may be the scene itself; where its camera cannot
+   look nothing changes. */
 void wr_scene_hold_camera(WrScene *scene, const WrScene *like, double aspect);
 
 /* Object i alone as it stands among the others: with the scene's lights, background and dials, and a camera whose eye is

@@ -144,7 +144,8 @@ static bool check_camera(const WrCamera *camera, double aspect, WrError *err)
 }
 
 /* How far the eye stands from the target, for a ball of radius `ball` about the target to fit: its
- * outline, at ball / sqrt(distance^2 - ball^2), falls on the nearer border divided by `margin`. */
+ * outline, at ball / sqrt(distance^2 - ball^2), falls on the nearer border divided by `margin`. Parallel
+ * rays: twice the radius; of a larger ball that fills the picture (margin 1) twice that of one which would keep MARGIN. */
 static double fit_distance(double ball, double margin, double half_height, double aspect,
                            bool orthographic)
 {
