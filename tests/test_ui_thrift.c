@@ -32,7 +32,9 @@ static bool goes(WrApp *app, double alone, double since)
 static void a_window_that_is_left_alone_gives_memory_back(void **state)
 {
     (void)state;
-#ifndef __SANITIZE_ADDRESS__
+#ifdef __SANITIZE_ADDRESS__
+    skip(); /* none is kept */
+#endif
     Bench bench;
     begin(&bench);
     for (int i = 0; i < 5; i++) draw_again(bench.app); /* its threads have what they need */
@@ -44,7 +46,6 @@ static void a_window_that_is_left_alone_gives_memory_back(void **state)
     assert_false(goes(bench.app, 30, 25)); /* nothing was asked of it since */
     assert_true(goes(bench.app, 30, 35));
     finish(&bench);
-#endif
 }
 
 int main(void)
