@@ -6,6 +6,8 @@
 
 #include "base/pool.h"
 #include "render/frame.h"
+#include "render/kern.h"
+#include "render/kern_wide.h"
 #include "document/document.h"
 #include "scene/scene.h"
 
@@ -460,6 +462,26 @@ static void filtered_and_many_samples_are_noted(void **state)
     walk(&rig, steps, COUNT(steps));
 }
 
+/* What vectors draw of a sphere is made anew as soon as it is read from memory. */
+static void many_samples_of_a_plain_sphere_are_not_kept(void **state)
+{
+    (void)state;
+    static const Step steps[] = { { "dials arithmetic=fast aa=supersample samples=3", 0, 0 },
+                                  { "material diffuse=0.7", 0, 0 },
+                                  { "material diffuse=0.6", 0, 0 },
+                                  { "material diffuse=0.55", 0, 0 },
+                                  { "material model=ggx roughness=0.3", 0, 0 },
+                                  { "material diffuse=0.5", 0, 0 },
+                                  { "material diffuse=0.45", 1, 0 } };
+    WrError err = { "" };
+    const WrKernels *fast = wr_kernels_get("auto", true, &err);
+    if (!fast || !wr_wide_of(fast)) skip(); /* this processor has none of those */
+    Rig rig = rig_of(77, false);
+    must_run(rig.session, "surface sphere");
+    must_run(rig.session, "replicate 4,2");
+    walk(&rig, steps, COUNT(steps));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -470,6 +492,7 @@ int main(void)
         cmocka_unit_test(pictures_and_roughness_are_light),
         cmocka_unit_test(shadows_stay_with_their_lamps),
         cmocka_unit_test(filtered_and_many_samples_are_noted),
+        cmocka_unit_test(many_samples_of_a_plain_sphere_are_not_kept),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

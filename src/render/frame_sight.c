@@ -2,6 +2,8 @@
    when it is noted. */
 #include "field/field.h"
 #include "render/frame_inner.h"
+#include "render/kern_wide.h"
+#include "render/pipe.h"
 #include "scene/objects.h"
 
 #include <stdio.h>
@@ -129,12 +131,21 @@ static bool has_normals(const WrSteadyView *view)
     return all;
 }
 
+/* Several samples a pixel of a sphere are made anew sooner than they are read from memory. */
+static bool is_soon_anew(const WrSteadyView *view)
+{
+    const WrSteadyPart *only = view->parts;
+    return view->count == 1 && only->plan->samples > 1 && only->scene->light_count == 1 &&
+           wr_wide_of(view->kernels) && wr_pipe_at_once(only->plan);
+}
+
 /* Why no numbers are kept of such a view, or NULL. */
 static const char *hinders_of(const WrSteadyView *view)
 {
     const char *why = NULL;
     for (int i = 0; i < view->count && !why; i++)
         why = wr_steady_hinders(view->parts[i].scene, view->parts[i].plan);
+    if (!why && is_soon_anew(view)) why = "they are made anew as soon as they are read";
     if (!why && wr_steady_bytes(view) > WR_STEADY_MOST)
         why = "they would take more than " WR_STEADY_MOST_TEXT;
     return why;

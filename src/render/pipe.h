@@ -25,6 +25,8 @@ extern const WrPipe wr_pipe, wr_pipe_double;
 /* What of the job the kernels of several stages at once (kern_wide.h) are for: fills wide_newton, sheet, wide_sphere,
    wide_met, balls, grey. */
 void wr_pipe_wide(WrTileJob *job);
+/* Those draw all of a sphere under one lamp, if its highlight suits them. */
+bool wr_pipe_at_once(const WrPlan *plan);
 /* How samples of the job's mesh are solved. */
 WrNewton wr_pipe_newton(const WrTileJob *job);
 

@@ -178,10 +178,10 @@ static bool met_wide(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
 }
 
 /* Does nothing run but these? */
-static bool runs_only(const WrTileJob *job, WrEffects these)
+static bool runs_only(const WrPlan *plan, WrEffects these)
 {
     for (int e = 0; e < WR_EFFECT_COUNT; e++)
-        if (runs(job, (WrEffect)e) && !(these >> e & 1)) return false;
+        if (wr_plan_runs(plan, (WrEffect)e) && !(these >> e & 1)) return false;
     return true;
 }
 
@@ -200,15 +200,22 @@ static bool filters_at_once(const WrTileJob *job)
            plan->precision == WR_PRECISION_SINGLE && job->wide->filters(LOOK_OF(job));
 }
 
+#define E(name) WR_EFFECT_BIT(WR_EFFECT_##name)
+static const WrEffects at_once = E(DIFFUSE) | E(SPECULAR) | E(COLOUR) | E(BUMP) | E(GRADIENT) |
+                                 E(WIDE) | E(SAMPLES) | E(PERSPECTIVE) | E(AGAIN) | E(STEADY) |
+                                 E(BESIDE) | E(PARAMETERS) | E(TANGENTS) | E(DARK) | E(GROUND);
+static const WrEffects geometry =
+    E(INVARIANT) | E(EXACT) | E(CURVATURE) | E(FILTER) | E(BACK) | E(DEPTH) | E(NEWTON);
+#undef E
+
+bool wr_pipe_at_once(const WrPlan *plan)
+{
+    return plan->inversion == WR_INVERT_SPHERE && wr_plan_runs(plan, WR_EFFECT_SPECULAR) &&
+           runs_only(plan, at_once) && (plan->bump == WR_BUMP_NONE || plan->bump == WR_BUMP_BLINN);
+}
+
 void wr_pipe_wide(WrTileJob *job)
 {
-#define E(name) WR_EFFECT_BIT(WR_EFFECT_##name)
-    static const WrEffects at_once = E(DIFFUSE) | E(SPECULAR) | E(COLOUR) | E(BUMP) | E(GRADIENT) |
-                                     E(WIDE) | E(SAMPLES) | E(PERSPECTIVE) | E(AGAIN) | E(STEADY) |
-                                     E(BESIDE) | E(PARAMETERS) | E(TANGENTS) | E(DARK) | E(GROUND);
-    static const WrEffects geometry =
-        E(INVARIANT) | E(EXACT) | E(CURVATURE) | E(FILTER) | E(BACK) | E(DEPTH) | E(NEWTON);
-#undef E
     const LampMatter m = lamp_matter(job, true);
     const WrBumpMode bump = job->plan->bump;
     const WrKernLight *lamp = job->view->lights;
@@ -217,7 +224,7 @@ void wr_pipe_wide(WrTileJob *job)
                        wr_wide_sheet(job->view->shape_d.kind, &job->view->shape, &job->sheet);
     if (!job->wide) { /* exact: each channel is worked out alike */
         job->grey = job->view->light_count == 1 && is_grey(job) && !runs(job, WR_EFFECT_COLOUR) &&
-                    runs_only(job, at_once | geometry);
+                    runs_only(job->plan, at_once | geometry);
         return;
     }
     const WrEffects filtered = filters_at_once(job) ? WR_EFFECT_BIT(WR_EFFECT_FILTER) : 0;
@@ -226,11 +233,12 @@ void wr_pipe_wide(WrTileJob *job)
                     !runs(job, WR_EFFECT_PARALLAX);
     if (job->view->light_count != 1 || !runs(job, WR_EFFECT_SPECULAR)) return;
     if (!job->wide->narrow(lamp, &m.shine)) return;
-    job->wide_sphere = job->wide_met && !job->map && runs_only(job, at_once | filtered) &&
+    job->wide_sphere = job->wide_met && !job->map && runs_only(job->plan, at_once | filtered) &&
                        (bump == WR_BUMP_NONE || bump == WR_BUMP_BLINN);
     for (int i = 0; i < job->view->grid_count && job->wide_sphere; i++)
         wr_ball_make(&job->balls[i], &job->view->grids[i].rays, &job->view->shape, lamp);
-    job->grey = is_grey(job) && !runs(job, WR_EFFECT_COLOUR) && runs_only(job, at_once | geometry);
+    job->grey =
+        is_grey(job) && !runs(job, WR_EFFECT_COLOUR) && runs_only(job->plan, at_once | geometry);
 }
 #else
 static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
