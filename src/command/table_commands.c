@@ -105,12 +105,6 @@ static bool run_open(WrSession *session, WrCall *call, WrError *err)
     return good;
 }
 
-static bool same_table(const WrField *a, const WrField *b)
-{
-    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b) &&
-           wr_field_wrap_u(a) == wr_field_wrap_u(b) && wr_field_wrap_v(a) == wr_field_wrap_v(b);
-}
-
 /* Is there nothing but one layer, so that the table may become another? */
 static bool is_alone(const WrDocument *document)
 {
@@ -258,7 +252,7 @@ static bool run_image(WrSession *session, WrCall *call, WrError *err)
     WrField *field = like ? wr_session_heights_of(session, rows, path, labels, like, err) : NULL;
     wr_field_free(like);
     bool good = field != NULL;
-    if (good && (fit || same_table(field, old))) wr_session_put_heights(session, layer, field);
+    if (good && (fit || wr_field_alike(field, old))) wr_session_put_heights(session, layer, field);
     else if (good) good = replace_table(session, layer, field, err);
     if (good && !fit && labels) take_cell(session, &image->label, path);
     wr_free(path);

@@ -65,12 +65,6 @@ static bool same_size(const WrField *a, const WrField *b)
     return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b);
 }
 
-static bool same_shape(const WrField *a, const WrField *b)
-{
-    return same_size(a, b) && wr_field_wrap_u(a) == wr_field_wrap_u(b) &&
-           wr_field_wrap_v(a) == wr_field_wrap_v(b);
-}
-
 bool wr_blend_layer_check(const WrBlendLayer *layer, WrError *err)
 {
     if ((int)layer->mode < 0 || layer->mode >= WR_BLEND_COUNT)
@@ -400,7 +394,7 @@ static void pick_parts(Update *update, const WrBlendLayer *layers, int count)
     update->parts = wr_alloc((size_t)count, sizeof *update->parts);
     for (int i = 0; i < count; i++) {
         WR_ASSERT(wr_blend_layer_check(&layers[i], NULL));
-        WR_ASSERT(same_shape(layers[i].heights, layers[0].heights));
+        WR_ASSERT(wr_field_alike(layers[i].heights, layers[0].heights));
         if (layers[i].hidden || !(layers[i].opacity > 0.0f)) continue;
         Part *part = &update->parts[update->count];
         *part = (Part){ .layer = layers[i], .on_ground = update->count == 0 };
@@ -414,7 +408,7 @@ static void pick_parts(Update *update, const WrBlendLayer *layers, int count)
 static bool is_mendable(const Update *update, const WrField *like, float level)
 {
     const WrCompositor *c = update->compositor;
-    return c->result && !c->broken && same_shape(c->result, like) &&
+    return c->result && !c->broken && wr_field_alike(c->result, like) &&
            same_bits(wr_field_level(c->result), level) &&
            !base_of(c->parts, c->count, level) == !update->base;
 }

@@ -135,12 +135,6 @@ static bool same_job(const WrMapJob *a, const WrMapJob *b)
            a->sigma == b->sigma && a->box == b->box && a->base == b->base;
 }
 
-static bool same_frame(const WrField *a, const WrField *b)
-{
-    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b) &&
-           wr_field_wrap_u(a) == wr_field_wrap_u(b) && wr_field_wrap_v(a) == wr_field_wrap_v(b);
-}
-
 /* A tile of the table changed: those whose texels lie within `support` of it are dirty. */
 typedef struct Spread {
     Work *work;
@@ -182,7 +176,7 @@ static Work *work_for(WrCanvasMap *map, const WrField *field, WrFieldMapKind kin
 {
     const Made *old = &map->made;
     const bool follows = old->source && old->kind == kind && same_job(&old->job, job) &&
-                         same_frame(old->source, field);
+                         wr_field_alike(old->source, field);
     Work *work = wr_alloc(1, sizeof *work);
     *work = (Work){ .tiles_u = wr_field_tiles_u(field), .tiles_v = wr_field_tiles_v(field) };
     work->dirty = wr_alloc((size_t)work->tiles_u * (size_t)work->tiles_v, sizeof(bool));
@@ -205,7 +199,7 @@ static Work *work_for(WrCanvasMap *map, const WrField *field, WrFieldMapKind kin
 static bool is_of(const Made *made, const WrField *field, WrFieldMapKind kind, const WrMapJob *job)
 {
     return made->source && made->kind == kind && same_job(&made->job, job) &&
-           wr_field_key(made->source) == wr_field_key(field) && same_frame(made->source, field);
+           wr_field_key(made->source) == wr_field_key(field) && wr_field_alike(made->source, field);
 }
 
 static void take(WrCanvasMap *map)
@@ -231,7 +225,7 @@ const WrField *wr_canvas_map_bring(WrCanvasMap *map, const WrField *field, WrFie
     if (!is_of(&map->made, field, kind, &plain) && !wr_job_busy(map->job, NULL, NULL))
         wr_job_start(map->job, work_for(map, field, kind, &plain));
     const bool shown =
-        map->made.map && map->made.kind == kind && same_frame(map->made.source, field);
+        map->made.map && map->made.kind == kind && wr_field_alike(map->made.source, field);
     return shown ? map->made.map : NULL;
 }
 

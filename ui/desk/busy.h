@@ -2,9 +2,10 @@
 
    While it runs, app->busy is not NULL, and app->session is a still of the session as it was (wr_session_still): all that
    the window reads, it reads there. Nobody but the worker has the session itself, and a still refuses to run anything, so
-   that whatever a part forgets is an error and no race. What the user asks for meanwhile is decided here alone: a line that
-   means the same afterwards, such as a layer's eye, and a stroke are put off and done in order when the work is done; what
-   else would change the document is refused, and the bar says so; all other things are done at once.
+   that whatever a part forgets is an error and no race. Of what the user asks for meanwhile, a line that means the same
+   afterwards, such as a layer's eye, and a stroke are put off and done in order when the work is done; what else would
+   change the document is refused, and the bar says so; all other things are done at once. An action's row (`edits`), a
+   tool's (`meanwhile`) and, for lines, ui/desk/run_line.c say which is which.
 
    Each picture of the window is one of the ordinary loop's: it is never entered from within another picture. */
 #pragma once
