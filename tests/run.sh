@@ -61,7 +61,7 @@ run_tests() {
         shift
     done
     shift
-    if ! wr_build "$build" all "$@" WR_WERROR=ON WR_TESTS=ON; then
+    if ! wr_build "$build" all "$@" WR_WERROR=ON WR_TESTS=ON WR_KERNELS=all; then
         failed=$((failed + 1))
         wr_say "$name: the build failed after $((SECONDS - begin)) s"
         return

@@ -60,6 +60,14 @@ expect "second start" "in $here"$'\n<again>'
 [[ ! -s err ]] || fail "the second start is not quiet"
 [[ $((3 * spent)) -lt $built ]] || fail "the second start took $spent ms of processors, the first one $built"
 
+# A folder that was configured for the tests stays so when it is configured anew.
+cmake -S "$toy" -B "$toy/build" -DWR_TESTS=ON >/dev/null
+touch -d '+2 seconds' "$toy/CMakeLists.txt"
+start again
+expect "configured anew" "in $here"$'\n<again>'
+grep -q '^WR_TESTS:[A-Z]*=ON$' "$toy/build/CMakeCache.txt" || fail "an option of the folder is lost: $(grep WR_TESTS "$toy/build/CMakeCache.txt")"
+touch "$toy/CMakeLists.txt"
+
 ln -s "$toy/ui/run.sh" link
 bash link x >out 2>err
 status=$?

@@ -63,7 +63,7 @@ wr_install_packages() {
 
 # Whether the build folder was configured for this checkout with these options and no room has come
 # since. (What an existing CMakeLists.txt says, ninja watches by itself.) An option that starts with '?'
-# may have any value.
+# may have any value: it is the default of a new folder.
 wr_is_configured() {
     local build=$1 option cache=$1/CMakeCache.txt stamp=$1/.configured
     shift
@@ -93,8 +93,16 @@ wr_build() {
 wr_build_locked() {
     local build=$1 target=$2 generator=() log=$1/configure.log
     shift 2
-    local options=("${@#\?}")
     if ! wr_is_configured "$build" "$@"; then
+        local option name kept options=()
+        for option in "$@"; do
+            if [[ $option == \?* ]]; then
+                name=${option#\?} name=${name%%=*}
+                kept=$(sed -nE "s/^$name:[A-Z]+=(.+)\$/\1/p" "$build/CMakeCache.txt" 2>/dev/null || true)
+                option=$name=${kept:-${option#*=}}
+            fi
+            options+=("$option")
+        done
         command -v ninja >/dev/null && [[ ! -f $build/Makefile ]] && generator=(-G Ninja)
         wr_say "configuring $build"
         if ! cmake --fresh -S "$root" -B "$build" "${generator[@]}" "${options[@]/#/-D}" >"$log" 2>&1; then

@@ -7,25 +7,46 @@
 
 #include <string.h>
 
+/* WR_NATIVE_LEVEL (CMakeLists.txt): 0 compiles every set; 1 to 4 the plain set and that level's only. */
+#define COMPILED(level) (WR_NATIVE_LEVEL == 0 || WR_NATIVE_LEVEL == (level))
+
 static const struct {
     const char *name;
-    int level; /* of the processor, at least (cpu.h) */
+    int level; /* lowest level of the processor (cpu.h) */
     const WrKernels *exact, *fast;
-    const WrKernelsd *wide;
+    const WrKernelsd *in_double;
+    const WrWide *wide; /* NULL: none */
 } levels[] = {
-    { "ref", 1, &wr_kern_ref, &wr_kern_ref, &wr_kern_double_ref },
-    { "v1", 1, &wr_kern_v1, &wr_kern_v1, &wr_kern_double_v1 },
-    { "v2", 2, &wr_kern_v2, &wr_kern_v2, &wr_kern_double_v1 },
-    { "v3", 3, &wr_kern_v3, &wr_kern_fast_v3, &wr_kern_double_v3 },
-    { "v4", 4, &wr_kern_v4, &wr_kern_fast_v4, &wr_kern_double_v4 },
+    { "ref", 1, &wr_kern_ref, &wr_kern_ref, &wr_kern_double_ref, NULL },
+#if COMPILED(1)
+    { "v1", 1, &wr_kern_v1, &wr_kern_v1, &wr_kern_double_v1, NULL },
+#endif
+#if COMPILED(2)
+    { "v2", 2, &wr_kern_v2, &wr_kern_v2, &wr_kern_double_v1, NULL },
+#endif
+#if COMPILED(3)
+    { "v3", 3, &wr_kern_v3, &wr_kern_fast_v3, &wr_kern_double_v3, &wr_wide_v3 },
+#endif
+#if COMPILED(4)
+    { "v4", 4, &wr_kern_v4, &wr_kern_fast_v4, &wr_kern_double_v4, &wr_wide_v4 },
+#endif
 };
+#define LEVEL_COUNT ((int)(sizeof levels / sizeof *levels))
+
+static bool is_level_name(const char *isa)
+{
+    static const char *const names[] = { "ref", "v1", "v2", "v3", "v4" };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(isa, names[i]) == 0) return true;
+    }
+    return false;
+}
 
 /* The row of that name, or -1 and an error. */
 static int find_level(const char *isa, WrError *err)
 {
-    const int count = (int)(sizeof levels / sizeof *levels);
-    bool best = !isa || strcmp(isa, "auto") == 0;
-    for (int i = count - 1; i >= 0; i--) {
+    const bool best = !isa || strcmp(isa, "auto") == 0;
+    for (int i = LEVEL_COUNT - 1; i >= 0; i--) {
         if (!best && strcmp(isa, levels[i].name) != 0) continue;
         if (levels[i].level <= wr_cpu_level()) return i;
         if (best) continue;
@@ -33,7 +54,9 @@ static int find_level(const char *isa, WrError *err)
                 isa);
         return -1;
     }
-    wr_fail(err, "isa %s: must be ref, v1, v2, v3, v4 or auto", isa);
+    if (is_level_name(isa))
+        wr_fail(err, "isa %s: not in this build; configure it with -DWR_KERNELS=all", isa);
+    else wr_fail(err, "isa %s: must be ref, v1, v2, v3, v4 or auto", isa);
     return -1;
 }
 
@@ -46,21 +69,24 @@ const WrKernels *wr_kernels_get(const char *isa, bool fast, WrError *err)
 
 const WrWide *wr_wide_of(const WrKernels *kernels)
 {
-    const WrWide *wide = kernels == &wr_kern_fast_v4   ? &wr_wide_v4
-                         : kernels == &wr_kern_fast_v3 ? &wr_wide_v3
-                                                       : NULL;
-    return wide && wide->shade ? wide : NULL;
+    for (int i = 0; i < LEVEL_COUNT; i++) {
+        const WrWide *wide = levels[i].wide;
+        if (wide && wide->shade && kernels == levels[i].fast) return wide;
+    }
+    return NULL;
 }
 
 WrWideCodes wr_wide_codes_of(const WrKernels *kernels)
 {
-    if (kernels == &wr_kern_v4 || kernels == &wr_kern_fast_v4) return wr_wide_v4.codes;
-    if (kernels == &wr_kern_v3 || kernels == &wr_kern_fast_v3) return wr_wide_v3.codes;
+    for (int i = 0; i < LEVEL_COUNT; i++) {
+        const WrWide *wide = levels[i].wide;
+        if (wide && (kernels == levels[i].exact || kernels == levels[i].fast)) return wide->codes;
+    }
     return NULL;
 }
 
 const WrKernelsd *wr_kernels_double(const char *isa, WrError *err)
 {
     int level = find_level(isa, err);
-    return level < 0 ? NULL : levels[level].wide;
+    return level < 0 ? NULL : levels[level].in_double;
 }
