@@ -47,7 +47,7 @@ static void joints_of_cells_that_repeat_are_those_of_their_scheme(void **state)
     static const int orders[WR_SCHEME_COUNT] = { -1, 0, 1, 2, 2, 1 };
     WrField *field = random_table(WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
     for (int s = 0; s < WR_SCHEME_COUNT; s++) {
-        const WrCertificate c = wr_certificate_table(field, (WrScheme)s);
+        const WrCertificate c = wr_certificate_table(field, (WrScheme)s, NULL);
         for (int in_u = 0; in_u < 2; in_u++) {
             const WrCertificateEdge *edge = in_u ? &c.u : &c.v;
             const int length = in_u ? H : W, size = in_u ? W : H, order = orders[s];
@@ -88,7 +88,7 @@ static void edges_that_end_are_laid_side_by_side(void **state)
     (void)state;
     WrField *field = random_table(WR_WRAP_CLAMP, WR_WRAP_CLAMP);
     for (int s = 0; s < WR_SCHEME_COUNT; s++) {
-        const WrCertificate c = wr_certificate_table(field, (WrScheme)s);
+        const WrCertificate c = wr_certificate_table(field, (WrScheme)s, NULL);
         for (int in_u = 0; in_u < 2; in_u++) {
             const WrCertificateEdge *edge = in_u ? &c.u : &c.v;
             const double factor = s == WR_SCHEME_CATMULL ? 1.25 : 1;
@@ -113,7 +113,7 @@ static void level_ground_is_smooth_whatever_its_height(void **state)
         const WrWrap wrap = clamp ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
         WrField *field = wr_field_new(5, 1, wrap, WR_WRAP_PERIODIC, 12345.678f, NULL);
         for (int s = 0; s < WR_SCHEME_COUNT; s++) {
-            const WrCertificate c = wr_certificate_table(field, (WrScheme)s);
+            const WrCertificate c = wr_certificate_table(field, (WrScheme)s, NULL);
             assert_int_equal(wr_certificate_order(&c), 2);
         }
         wr_field_free(field);
@@ -143,7 +143,8 @@ static void the_words_tell_the_first_that_jumps(void **state)
 {
     (void)state;
     WrText text = { 0 };
-    WrCertificate c = { { .order = 2 }, { .order = 2 } };
+    const WrSeamEdge meets = { .order = 2 };
+    WrCertificate c = { { .order = 2 }, { .order = 2 }, { meets, meets } };
     wr_certificate_text(&c, &text);
     assert_string_equal(wr_text_get(&text), "seam C2");
     c.v = (WrCertificateEdge){ .ends = true, .order = -1, .jump = { 0.3, 5, 7 } };
@@ -155,6 +156,14 @@ static void the_words_tell_the_first_that_jumps(void **state)
     wr_text_clear(&text);
     wr_certificate_text(&c, &text);
     assert_string_equal(wr_text_get(&text), "seam C1, F'' jumps by up to 12.3");
+    c.pattern.v = (WrSeamEdge){
+        .measured = true, .order = -1, .across = { 0.3 }, .inside = { 0.05 }, .ratio = { 6 }
+    };
+    wr_text_clear(&text);
+    wr_certificate_text(&c, &text);
+    assert_string_equal(wr_text_get(&text),
+                        "seam in u C1, F'' jumps by up to 12.3; in v none, height differs by 0.3 "
+                        "across the edge, by 0.05 across the worst line inside: 6 times");
     wr_text_fini(&text);
 }
 

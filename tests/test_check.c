@@ -78,7 +78,7 @@ static WrCheck check_as(const char *path, int kind)
 {
     WrCheck check;
     WrError err = { "" };
-    if (!wr_check_file(path, kind, &check, &err)) fail_msg("%s", err.text);
+    if (!wr_check_file(path, kind, WR_CODING_AUTO, &check, &err)) fail_msg("%s", err.text);
     return check;
 }
 
@@ -108,9 +108,9 @@ static void edges_that_meet_are_seamless_and_others_are_told(void **state)
         WrCheck good = check_sheet(&whole, NULL), bad = check_sheet(&cut, NULL);
         assert_true(good.kind == WR_CHECK_HEIGHT && good.width == W && good.height == H);
         assert_true(good.problems == 0 && good.u.judged && good.v.judged);
-        assert_true(good.depth == bits[k] && good.u.ratio < 1.2 && good.v.ratio < 1.2);
+        assert_true(good.depth == bits[k] && good.u.test.order == 2 && good.v.test.order == 2);
         assert_int_equal(bad.problems, BIT(WR_CHECK_SEAM_U));
-        assert_true(bad.u.seam && !bad.u.repeats && bad.u.ratio > 2 && !bad.v.seam);
+        assert_true(bad.u.seam && !bad.u.repeats && bad.u.test.order == -1 && !bad.v.seam);
     }
 }
 
@@ -291,11 +291,11 @@ static void hostile_files_are_errors(void **state)
     const char *const names[] = { "cut.png", "huge.png", "none.png", "/dev/zero", "." };
     for (int i = 0; i < 5; i++) {
         err.text[0] = '\0';
-        assert_false(wr_check_file(names[i], -1, &check, &err));
+        assert_false(wr_check_file(names[i], -1, WR_CODING_AUTO, &check, &err));
         assert_non_null(strstr(err.text, names[i]));
     }
-    assert_false(wr_check_file("s.png", WR_CHECK_SLOPES, &check, &err));
-    assert_false(wr_check_file("s.png", WR_CHECK_NORMAL, &check, &err));
+    assert_false(wr_check_file("s.png", WR_CHECK_SLOPES, WR_CODING_AUTO, &check, &err));
+    assert_false(wr_check_file("s.png", WR_CHECK_NORMAL, WR_CODING_AUTO, &check, &err));
 }
 
 int main(void)

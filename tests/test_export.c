@@ -795,17 +795,19 @@ static void the_report_reads_as_a_sentence(void **state)
 {
     (void)state;
     WrText text = { 0 };
-    WrExportReport report = { .width = 8,
-                              .height = 4,
-                              .channels = 1,
-                              .depth = 16,
-                              .clipped = 1,
-                              .low = -0.5,
-                              .high = 1.25,
-                              .ranged = true,
-                              .code_high = 1,
-                              .zero_code = -1,
-                              .seam = { { .order = 2 }, { .order = 2 } } };
+    WrExportReport report = {
+        .width = 8,
+        .height = 4,
+        .channels = 1,
+        .depth = 16,
+        .clipped = 1,
+        .low = -0.5,
+        .high = 1.25,
+        .ranged = true,
+        .code_high = 1,
+        .zero_code = -1,
+        .seam = { .u.order = 2, .v.order = 2, .pattern = { { .order = 2 }, { .order = 2 } } }
+    };
     wr_export_report_text(&report, &text);
     assert_string_equal(wr_text_get(&text), "8x4, 16 bits, heights -0.5 to 1.25, codes are 0 to 1; "
                                             "1 texel outside the range, clipped; seam C2");

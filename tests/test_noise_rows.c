@@ -114,10 +114,9 @@ static void hc59_perlin_noise_is_exactly_0_at_lattice_points(void **state)
 static void hc60_noise_goes_on_below_0_and_comes_back_after_1(void **state)
 {
     (void)state;
-    static const char *const rows[] = {
-        "perlin", "gradient", "value", "simplex", "sheared", "torus"
-    };
-    for (int k = 0; k < 6; k++) {
+    static const char *const rows[] = { "perlin",  "gradient", "value", "simplex",
+                                        "sheared", "torus",    "cubes" };
+    for (int k = 0; k < 7; k++) {
         WrNoiseMaker m;
         must_make(rows[k], NULL, 512, 512, &m);
         for (int n = 0; n < 20; n++) {

@@ -72,7 +72,7 @@ static void maps_of_all_formats_are_read_within_their_bound(void **state)
                                           found  ? WR_GREEN_AUTO
                                           : down ? WR_GREEN_DOWN
                                                  : WR_GREEN_UP,
-                                          0, &told, NULL);
+                                          0, WR_CODING_AUTO, &told, NULL);
         assert_non_null(map);
         assert_true(told.green_down == down && !told.undecided && told.channels == channels);
         assert_true(told.away == 0 && !told.centred && !told.converted);
@@ -100,7 +100,7 @@ static void of_a_sum_of_profiles_the_sign_is_undecided(void **state)
     for (int k = 0; k < 8; k++) {
         WrNormalTold told;
         WrImage *file = map_of(1, bits[k % 4], k / 4, 3);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_AUTO, 0, &told, NULL);
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_AUTO, 0, WR_CODING_AUTO, &told, NULL);
         if (!(told.undecided && !told.green_down)) fail_msg("%d bits", bits[k % 4]);
         wr_image_free(map);
         wr_image_free(file);
@@ -118,14 +118,14 @@ static void codes_that_are_flat_at_the_middle_are_centred(void **state)
         file->type = k ? WR_PIXEL_U16 : WR_PIXEL_U8;
         for (int i = 0; i < 48; i++) file->data[i] = (float)((i % 3 < 2 ? middle : last) / last);
         file->data[0] = 1, file->data[2] = (float)(middle / last); /* straight along u */
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, &told, NULL);
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         assert_true(told.centred && told.away == 1);
         assert_true(map->data[3] == 0 && map->data[4] == 0 && map->data[5] == 1);
         assert_true(map->data[0] > 0.99f && map->data[1] == 0);
         wr_image_free(map);
         for (int i = 0; i < 24; i++) /* half of them 127: now 0 lies between */
             if (i % 3 < 2) file->data[i] = (float)((middle - 1) / last);
-        map = wr_normal_map_read(file, WR_GREEN_UP, 0, &told, NULL);
+        map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         assert_false(told.centred);
         assert_near((double)map->data[3], -1 / last, 1e-7);
         wr_image_free(map);
@@ -145,7 +145,7 @@ static void what_looks_away_is_clamped_and_counted(void **state)
         WrImage *file = wr_image_new(5, 1, 3, NULL);
         file->type = WR_PIXEL_U16;
         memcpy(file->data, texels, sizeof texels);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, channels, &told, NULL);
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, channels, WR_CODING_AUTO, &told, NULL);
         assert_int_equal(told.away, channels == 3 ? 4 : 2);
         for (int t = 0; t < 5; t++) {
             const float *n = map->data + 3 * t;
@@ -163,7 +163,7 @@ static void what_looks_away_is_clamped_and_counted(void **state)
     WrError err = { "" };
     WrNormalTold told;
     WrImage *grey = wr_image_new(2, 2, 1, NULL);
-    assert_null(wr_normal_map_read(grey, WR_GREEN_UP, 0, &told, &err));
+    assert_null(wr_normal_map_read(grey, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, &err));
     assert_non_null(strstr(err.text, "channels"));
     wr_image_free(grey);
 }
@@ -179,7 +179,7 @@ static void a_colour_conversion_is_told(void **state)
             const double x = (double)file->data[i];
             file->data[i] = (float)(k == 1 ? pow(x, 2.2) : pow(x, 1 / 2.2));
         }
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, &told, NULL);
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         assert_int_equal(told.converted, k > 0);
         wr_image_free(map);
         wr_image_free(file);

@@ -191,7 +191,7 @@ static void both_directions_of_green_are_found(void **state)
     for (int k = 0; k < 4; k++) {
         WrImage *image = map_of(surfaces[k / 2], 64, k % 2 == 0);
         WrNormals n;
-        assert_true(wr_normals_decode(image, WR_NORMALS_AUTO, &n, NULL));
+        assert_true(wr_normals_decode(image, WR_CODING_AUTO, &n, NULL));
         double r = wr_normals_upward(&n);
         if (k % 2 == 0 ? r < 0.5 : r > -0.5) fail_msg("map %d: %g", k, r);
         wr_normals_flip(&n);
@@ -219,7 +219,7 @@ static void flat_maps_of_either_middle_code_are_flat(void **state)
         for (int k = 0; k < 96; k++)
             image->data[k] = k % 3 == 2 ? 1.0f : (float)(cases[c].code / cases[c].most);
         WrNormals n;
-        assert_true(wr_normals_decode(image, WR_NORMALS_AUTO, &n, NULL));
+        assert_true(wr_normals_decode(image, WR_CODING_AUTO, &n, NULL));
         for (int k = 0; k < 32; k++) assert_true(n.p[k] == 0.0 && n.q[k] == 0.0);
         assert_true(wr_normals_upward(&n) == 0.0);
         wr_normals_fini(&n);
@@ -239,7 +239,7 @@ static void floats_are_read_as_they_are_or_as_codes(void **state)
                 image->data[3 * k + a] = as_codes ? 0.5f * n[a] + 0.5f : n[a];
         }
         WrNormals n;
-        assert_true(wr_normals_decode(image, WR_NORMALS_AUTO, &n, NULL));
+        assert_true(wr_normals_decode(image, WR_CODING_AUTO, &n, NULL));
         assert_near(n.p[5], -0.75, 1e-6);
         assert_near(n.q[5], 0.0, 1e-6);
         wr_normals_fini(&n);
@@ -257,7 +257,7 @@ static void normals_that_do_not_face_up_are_flat_and_counted(void **state)
     image->type = WR_PIXEL_F32;
     memcpy(image->data, odd, sizeof odd);
     WrNormals n;
-    assert_true(wr_normals_decode(image, WR_NORMALS_SIGNED, &n, NULL));
+    assert_true(wr_normals_decode(image, WR_CODING_SIGNED, &n, NULL));
     assert_int_equal(n.unknown, 3);
     assert_int_equal(n.steep, 1);
     assert_true(n.p[0] == 0.0 && n.p[1] == 0.0 && n.p[2] == -100.0 && n.p[3] == 0.0);
@@ -265,7 +265,7 @@ static void normals_that_do_not_face_up_are_flat_and_counted(void **state)
     wr_image_free(image);
     WrError err;
     image = wr_image_new(4, 4, 1, NULL);
-    assert_false(wr_normals_decode(image, WR_NORMALS_AUTO, &n, &err));
+    assert_false(wr_normals_decode(image, WR_CODING_AUTO, &n, &err));
     assert_non_null(strstr(err.text, "2 channels"));
     wr_image_free(image);
 }

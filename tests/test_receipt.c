@@ -201,6 +201,7 @@ static void the_sentence_tells_what_was_seen(void **state)
     report.seen = true;
     report.worst = 0.00123;
     report.seam.u.order = report.seam.v.order = 2;
+    report.seam.pattern.u.order = report.seam.pattern.v.order = 2;
     wr_export_report_text(&report, &text);
     assert_string_equal(wr_text_get(&text), "8x4, 16 bits, +Y (green up); read back: wrong by at "
                                             "most 0.00123 degrees; seam C2");

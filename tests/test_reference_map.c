@@ -33,7 +33,7 @@ static WrImage *random_map(int w, int h, int bits, int channels, uint64_t seed)
 static void put_map(WrScene *scene, WrImage *file, WrGreen green, int channels)
 {
     WrNormalTold told;
-    scene->normals.image = wr_normal_map_read(file, green, channels, &told, NULL);
+    scene->normals.image = wr_normal_map_read(file, green, channels, WR_CODING_AUTO, &told, NULL);
     assert_non_null(scene->normals.image);
     scene->normals.strength = 1;
     wr_image_free(file);
@@ -100,7 +100,7 @@ static void turn_by(WrScene *scene, int k)
     WrImage *file = random_map(19, 23, 16, 3, 9);
     for (int i = 0; i < 3 * 19 * 23; i += 3) file->data[i + 1 + k % 2] = 1 - file->data[i];
     wr_image_free(scene->normals.image);
-    scene->normals.image = wr_normal_map_read_object(file, k % 8 == 1, &told, NULL);
+    scene->normals.image = wr_normal_map_read_object(file, k % 8 == 1, WR_CODING_AUTO, &told, NULL);
     scene->normals.object = true;
     wr_image_free(file);
 }
@@ -222,9 +222,10 @@ static void one_triangle_turns_the_map_as_by_hand(void **state)
             file->data[i + cases[which].channel] = 0.6f, file->data[i + 2] = 0.8f;
         scene->normals.object = cases[which].frame == WR_FRAME_OBJECT;
         scene->normals.frame = scene->normals.object ? WR_FRAME_AUTO : cases[which].frame;
-        scene->normals.image = scene->normals.object
-                                   ? wr_normal_map_read_object(file, false, &told, NULL)
-                                   : wr_normal_map_read(file, WR_GREEN_UP, 0, &told, NULL);
+        scene->normals.image =
+            scene->normals.object
+                ? wr_normal_map_read_object(file, false, WR_CODING_AUTO, &told, NULL)
+                : wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         scene->normals.strength = 1;
         if (k >= 10) scene->bump = WR_BUMP_INVARIANT, scene->dials.aa = WR_AA_FILTER;
         scene->posed = true, scene->rotate_deg = (WrVec3){ 0, -15, 0 };

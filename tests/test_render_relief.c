@@ -42,7 +42,7 @@ static void take_map(WrScene *scene, WrImage *file, bool down, bool found)
                                               found  ? WR_GREEN_AUTO
                                               : down ? WR_GREEN_DOWN
                                                      : WR_GREEN_UP,
-                                              0, &told, NULL);
+                                              0, WR_CODING_AUTO, &told, NULL);
     assert_true(scene->normals.image && told.green_down == down);
     scene->normals.strength = 1;
     wr_image_free(file);

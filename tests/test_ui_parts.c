@@ -502,9 +502,9 @@ static void waves_that_fit_the_cell_have_no_seam(void **state)
 {
     (void)state;
     WrField *field = table_of(512, 200, waves);
-    WrSeam seam = wr_seam_measure(field, 256);
-    assert_true(seam.u.wraps && seam.v.wraps);
-    assert_false(seam.u.jumps || seam.u.creases || seam.v.jumps || seam.v.creases);
+    WrSeam seam = wr_seam_measure(field, NULL);
+    assert_true(seam.u.measured && seam.v.measured && !seam.u.ends && !seam.v.ends);
+    assert_true(seam.u.order == 2 && seam.v.order == 2);
     wr_field_free(field);
 }
 
@@ -512,12 +512,13 @@ static void a_slope_that_does_not_fit_jumps_by_what_is_missing(void **state)
 {
     (void)state;
     WrField *field = table_of(256, 256, slope_in_u);
-    WrSeam seam = wr_seam_measure(field, 256);
-    assert_true(seam.u.jumps);
-    assert_near(seam.u.jump, 1.0, 1e-3); /* from 1 back to 0 */
-    assert_near(seam.u.jump_most, 1.0, 1e-3);
-    assert_near(seam.u.jump_inside, 0.0, 1e-5);
-    assert_false(seam.v.jumps || seam.v.creases);
+    WrSeam seam = wr_seam_measure(field, NULL);
+    assert_int_equal(seam.u.order, -1);
+    assert_near(seam.u.across[WR_SEAM_STEP], 255.0 / 256,
+                1e-3); /* from 1 back to 0, and 1/256 inside */
+    assert_near(seam.u.inside[WR_SEAM_STEP], 1.0 / 256, 1e-5);
+    assert_near(seam.u.inside[WR_SEAM_BEND], 0.0, 1e-5);
+    assert_int_equal(seam.v.order, 2);
     wr_field_free(field);
 }
 
@@ -525,10 +526,11 @@ static void a_ridge_on_the_edge_is_a_crease_and_no_jump(void **state)
 {
     (void)state;
     WrField *field = table_of(256, 64, ridge);
-    WrSeam seam = wr_seam_measure(field, 256);
-    assert_true(seam.u.creases);
-    assert_near(seam.u.crease, 8.0 / 256, 0.05 * 8.0 / 256); /* slope 4 to slope -4, per texel */
-    assert_true(seam.u.jump < 0.01 * seam.u.crease);
+    WrSeam seam = wr_seam_measure(field, NULL);
+    assert_int_equal(seam.u.order, 0);
+    /* slope 4 to slope -4, per texel */
+    assert_near(seam.u.across[WR_SEAM_SLOPE], 8.0 / 256, 0.05 * 8.0 / 256);
+    assert_true(seam.u.across[WR_SEAM_STEP] < 0.01 * seam.u.across[WR_SEAM_SLOPE]);
     wr_field_free(field);
 }
 
@@ -538,9 +540,11 @@ static void an_axis_that_ends_has_no_seam_to_measure(void **state)
     WrField *field = wr_field_new(64, 64, WR_WRAP_CLAMP, WR_WRAP_PERIODIC, 0, NULL);
     WrField *tiny = wr_field_new(1, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 0; j < 64; j++) wr_field_set(field, 0, j, 9.0f);
-    assert_false(wr_seam_measure(field, 256).u.wraps || wr_seam_measure(field, 256).u.jumps);
-    assert_true(wr_seam_measure(field, 256).v.wraps);
-    assert_false(wr_seam_measure(tiny, 256).u.wraps || wr_seam_measure(tiny, 256).v.wraps);
+    /* its ends are laid side by side, as another program that repeats it does: 9 against 0 */
+    const WrSeam seam = wr_seam_measure(field, NULL), none = wr_seam_measure(tiny, NULL);
+    assert_true(seam.u.ends && !seam.v.ends && seam.v.order == 2);
+    assert_false(none.u.measured || none.v.measured);
+    assert_true(none.u.order == 2 && none.v.order == 2);
     wr_field_free(tiny);
     wr_field_free(field);
 }

@@ -42,19 +42,20 @@ struct WrCli {
     int do_count;
     const char **ats; /* --at, in order */
     int at_count;
-    const char *noise; /* --noise: a command line; NULL: none */
-    int threads;       /* 0: one a processor */
-    const char *isa;   /* NULL: auto */
-    const char *out;   /* -o */
-    const char *kind;  /* --as */
-    bool watch;        /* --watch */
-    bool sized;        /* --size was given */
-    int width, height; /* of it; 512x512 */
-    bool framed;       /* --frames was given */
-    int first, last;   /* of --frames */
-    int of;            /* --of; 0: not given */
-    double fps;        /* --fps; 0: not given */
-    bool looped;       /* --loop was given */
+    const char *noise;  /* --noise: a command line; NULL: none */
+    int threads;        /* 0: one a processor */
+    const char *isa;    /* NULL: auto */
+    const char *out;    /* -o */
+    const char *coding; /* --coding */
+    const char *kind;   /* --as */
+    bool watch;         /* --watch */
+    bool sized;         /* --size was given */
+    int width, height;  /* of it; 512x512 */
+    bool framed;        /* --frames was given */
+    int first, last;    /* of --frames */
+    int of;             /* --of; 0: not given */
+    double fps;         /* --fps; 0: not given */
+    bool looped;        /* --loop was given */
     int loop;
     bool missing;    /* --missing */
     double memory;   /* --memory, MB; 0: not given */

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "export/check.h"
+#include "field/certificate.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,16 +21,14 @@ static void add_edge(WrText *text, const char *name, const WrCheckEdge *edge)
 {
     wr_text_addf(text, "  %-8s ", name);
     if (!edge->judged) {
-        wr_text_add(text, "too few texels to tell\n");
+        wr_text_add(text, "not judged: too few texels, or not the edge of a cell\n");
         return;
     }
     wr_text_addf(text, "%s: ", edge->seam ? "A SEAM" : "seamless");
-    if (edge->jump > 0 || edge->inside > 0)
-        wr_text_addf(text, "breaks by up to %.3g, inside by up to %.3g; ", edge->jump,
-                     edge->inside);
-    wr_text_addf(text, "%.3g of the worst, more than at %.3g %% of the lines%s\n", edge->ratio,
-                 100 * edge->rank,
-                 edge->repeats ? "; the last line is the first one again: leave it out" : "");
+    wr_seam_text(&edge->test, text);
+    if (edge->told) wr_text_add(text, "; but its label says that the pattern is torn");
+    if (edge->repeats) wr_text_add(text, "; the last line is the first one again: leave it out");
+    wr_text_add(text, "\n");
 }
 
 static void add_numbers(WrText *text, const WrCheck *check)
@@ -55,6 +54,9 @@ static void add_normals(WrText *text, const WrCheck *check)
                  !n->green_known ? "up or down cannot be told"
                  : n->green_down ? "down (-Y)"
                                  : "up (+Y)");
+    if (check->depth == 32 && check->kind == WR_CHECK_NORMAL)
+        wr_text_addf(text, "  coding   %s\n",
+                     n->own ? "signed: the vectors' own numbers" : "unit: 0..1 stands for -1..1");
     if (n->lengths) wr_text_addf(text, "  lengths  1, off by up to %.3g\n", n->off);
     if (n->curl_known)
         wr_text_addf(text, "  curl     %.3g (0: of a height, 1: of none)\n", n->curl);
@@ -119,13 +121,16 @@ static const char *truth(bool yes)
 
 static void json_edge(WrText *text, const char *name, const WrCheckEdge *edge)
 {
+    const WrSeamEdge *test = &edge->test;
+    const int k = wr_seam_worst(test);
     wr_text_addf(text, ",\"%s\":{\"seamless\":%s", name,
                  edge->judged ? truth(!edge->seam) : "null");
-    json_number(text, "break", edge->jump);
-    json_number(text, "inside", edge->inside);
-    json_number(text, "ratio", edge->ratio);
-    json_number(text, "rank", edge->rank);
-    wr_text_addf(text, ",\"repeats\":%s}", truth(edge->repeats));
+    json_string(text, "order", edge->judged ? wr_certificate_word(test->order) : NULL);
+    json_number(text, "break", test->across[k]);
+    json_number(text, "inside", test->inside[k]);
+    json_number(text, "ratio", test->ratio[k]);
+    json_number(text, "rank", test->rank);
+    wr_text_addf(text, ",\"told\":%s,\"repeats\":%s}", truth(edge->told), truth(edge->repeats));
 }
 
 static void json_numbers(WrText *text, const WrCheckNumbers *n)
@@ -153,6 +158,7 @@ static void json_normals(WrText *text, const WrCheck *check)
                  !n->green_known ? "null"
                  : n->green_down ? "\"down\""
                                  : "\"up\"");
+    wr_text_addf(text, ",\"coding\":\"%s\"", n->own ? "signed" : "unit");
     json_number(text, "off", n->lengths ? n->off : NAN);
     json_number(text, "curl", n->curl_known ? n->curl : NAN);
     wr_text_addf(text, ",\"away\":%lld}", (long long)n->away);
@@ -191,6 +197,18 @@ static bool find_kind(const WrCli *cli, int *kind, WrError *err)
     return wr_fail(err, "--as %.60s: must be height, normal, slopes or colour", cli->kind);
 }
 
+static bool find_coding(const WrCli *cli, WrCoding *coding, WrError *err)
+{
+    *coding = WR_CODING_AUTO;
+    for (int i = 0; cli->coding && wr_codings[i]; i++)
+        if (strcmp(cli->coding, wr_codings[i]) == 0) {
+            *coding = (WrCoding)i;
+            return true;
+        }
+    return !cli->coding ||
+           wr_fail(err, "--coding %.60s: must be auto, unit or signed", cli->coding);
+}
+
 static bool check_line(const WrCli *cli, WrError *err)
 {
     for (int i = 0; i < cli->word_count; i++)
@@ -201,12 +219,12 @@ static bool check_line(const WrCli *cli, WrError *err)
 }
 
 /* One file; what is wrong with it, or with reading it, is 1. */
-static int check_one(const WrCli *cli, const char *path, int kind)
+static int check_one(const WrCli *cli, const char *path, int kind, WrCoding coding)
 {
     WrCheck check;
     WrError err = { "" };
     WrText text = { 0 };
-    const bool read = wr_check_file(path, kind, &check, &err);
+    const bool read = wr_check_file(path, kind, coding, &check, &err);
     int status = read ? WR_EXIT_DONE : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     if (status == WR_EXIT_INTERRUPTED) return status;
     if (read && cli->json) add_object(&text, path, &check);
@@ -227,10 +245,12 @@ int wr_cli_check(const WrCli *cli)
 {
     WrError err;
     int kind, status = WR_EXIT_DONE;
+    WrCoding coding;
     if (!check_line(cli, &err)) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
-    if (!find_kind(cli, &kind, &err)) return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    if (!find_kind(cli, &kind, &err) || !find_coding(cli, &coding, &err))
+        return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     for (int i = 0; i < cli->word_count && status != WR_EXIT_INTERRUPTED; i++) {
-        const int one = check_one(cli, cli->words[i], kind);
+        const int one = check_one(cli, cli->words[i], kind, coding);
         if (one != WR_EXIT_DONE) status = one;
     }
     return status;

@@ -58,6 +58,13 @@ static bool set_kind(WrCli *cli, const char *value, WrError *err)
     return true;
 }
 
+static bool set_coding(WrCli *cli, const char *value, WrError *err)
+{
+    (void)err;
+    cli->coding = value;
+    return true;
+}
+
 static bool set_size(WrCli *cli, const char *value, WrError *err)
 {
     const char *x = strchr(value, 'x');
@@ -242,6 +249,8 @@ static const struct Option {
       "stay, and write again when FILE or what it reads changes", .flag = offsetof(WrCli, watch) },
     { "--as", NULL, "KIND", WR_OPTION_CHECK,
       "what the files are: height, normal, slopes or colour (found out)", .set = set_kind },
+    { "--coding", NULL, "CODING", WR_OPTION_CHECK,
+      "of normals in floats: unit (0..1 stands for -1..1), signed or auto", .set = set_coding },
     { "--size", NULL, "WxH", WR_OPTION_SIZE, "of the picture in pixels (512x512)",
       .set = set_size },
     { "--size", NULL, "WxH", WR_OPTION_ACCURACY, "of the pictures in pixels (256x256)",

@@ -30,7 +30,7 @@ const WrSubcommand wr_subcommands[] = {
       "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "
       "those of your own, NAME.set in the folder sets of your settings.",
       wr_cli_export },
-    { "check", "check FILE... [--as KIND] [--json]",
+    { "check", "check FILE... [--as KIND] [--coding CODING] [--json]",
       "whether pictures are seamless cells, and what they hold",
       BIT(CHECK) | BIT(JSON) | BIT(ALL_WORDS),
       "Of any picture, whoever made it: do opposite edges meet, beside the breaks inside; how fine "

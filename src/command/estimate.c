@@ -327,6 +327,7 @@ static const Price prices[] = {
     NOISE("simplex", 160, 160),
     NOISE("sheared", 8, 110),
     NOISE("torus", 280, 280),
+    NOISE("cubes", 450, 450),
     { "formula", "fourier", terms, .ns = 100, .bytes = 8.2 },
     { "formula", "poly", terms, .ns = 5.5, .bytes = 8.2 },
     { "rim", NULL, edge, .ns = 150, .more = 650, .bytes = 20 },

@@ -124,7 +124,10 @@ static void note_codes(WrText *text, const WrImage *file, const WrNormalTold *to
     const double last = wr_pixel_last(file->type);
     wr_text_addf(text, "%dx%d, %d channels of ", file->width, file->height, told->channels);
     if (last > 0) wr_text_addf(text, "%d bits", last > 255 ? 16 : 8);
-    else wr_text_addf(text, "floats%s", told->own ? ", the vectors' own" : " in 0..1");
+    else
+        wr_text_addf(text, "floats, %s",
+                     told->own ? "the vectors' own (coding=signed)"
+                               : "coded in 0..1 (coding=unit)");
     if (told->channels == 2) wr_text_add(text, ", z rebuilt");
     if (told->centred) wr_text_addf(text, "; code %d stands for 0", (int)(last + 1) / 2);
 }
@@ -156,14 +159,16 @@ static WrImage *read_normals(WrSession *session, const WrCall *call, const char 
 {
     const int channels = wr_call_choice(call, "channels");
     const WrGreen asked = (WrGreen)wr_call_choice(call, "green");
+    const WrCoding coding = (WrCoding)wr_call_choice(call, "coding");
     const bool labelled = file->label.green != 0;
     WrGreen green = asked;
     WrNormalTold told;
     if (green == WR_GREEN_AUTO && labelled)
         green = file->label.green < 0 ? WR_GREEN_DOWN : WR_GREEN_UP;
-    WrImage *image = map->object
-                         ? wr_normal_map_read_object(file, green == WR_GREEN_DOWN, &told, err)
-                         : wr_normal_map_read(file, green, channels ? channels + 1 : 0, &told, err);
+    WrImage *image =
+        map->object
+            ? wr_normal_map_read_object(file, green == WR_GREEN_DOWN, coding, &told, err)
+            : wr_normal_map_read(file, green, channels ? channels + 1 : 0, coding, &told, err);
     if (!image) return NULL;
     map->channels = told.channels;
     map->green_down = told.green_down;
@@ -237,7 +242,9 @@ static bool change_space(WrSession *session, const WrCall *call, WrNormalMap *ma
 /* What a line without a file changes of the map that is there. */
 static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *map, WrError *err)
 {
-    static const char *const of_file[] = { "channels", "channel", "part", "sha256", NULL };
+    static const char *const of_file[] = {
+        "channels", "coding", "channel", "part", "sha256", NULL
+    };
     if (!map->image) return wr_fail(err, "the object has no normal map: name a file");
     if (!wr_refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
     if (!change_green(call, map, err) || !change_space(session, call, map, err)) return false;
@@ -249,8 +256,9 @@ static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *
 
 static bool run_normals(WrSession *session, WrCall *call, WrError *err)
 {
-    static const char *const of_map[] = { "space",  "frame",   "green", "channels", "strength",
-                                          "repeat", "channel", "part",  "sha256",   NULL };
+    static const char *const of_map[] = { "space",  "frame",    "green",  "channels",
+                                          "coding", "strength", "repeat", "channel",
+                                          "part",   "sha256",   NULL };
     const WrArg *file = wr_call_arg(call, "FILE|off");
     const char *name = file->given ? file->text : NULL;
     const bool off = name && (strcmp(name, "off") == 0 || strcmp(name, "none") == 0);
@@ -325,6 +333,13 @@ static const WrArgSpec args_normals[] = {
       .words = channel_counts,
       .fallback_text = "auto",
       .help = "3: all are read; 2: z is rebuilt from x and y; auto: as many as there are" },
+    { .name = "coding",
+      .type = WR_ARG_CHOICE,
+      .words = wr_codings,
+      .fallback_text = "auto",
+      .help =
+          "of floats: unit: 0..1 stands for -1..1; signed: the vectors' own numbers; auto: what "
+          "is nearer to vectors of length 1" },
     { .name = "strength",
       .type = WR_ARG_NUMBER,
       .low = -100,
@@ -363,8 +378,8 @@ const WrCommand wr_command_normalmap = {
     .details =
         "Its slopes are added to those of the table. What `export normal` writes of a table with "
         "cell=1,1 turns the normal as the table does. A picture of normals is data, and never "
-        "colour-converted; 8-bit and 16-bit codes are 2 c/M - 1, float numbers their own or, where "
-        "all lie in 0..1 and are nearer to unit vectors so, 2 c - 1. Where most texels are 128,128 "
+        "colour-converted; 8-bit and 16-bit codes are 2 c/M - 1, float numbers by coding. "
+        "Where most texels are 128,128 "
         "(32768 of 16 bits) that code stands for 0. A note tells what was taken. Beyond its ends "
         "it goes on as the table does. It is saved inside the document.",
     .example = "normalmap rivets.png green=down strength=1"

@@ -5,15 +5,12 @@
 #include "base/progress.h"
 #include "export/export.h"
 #include "field/field.h"
-#include "field/seam.h"
 #include "image/image.h"
 #include "scene/normal_map.h"
 
 #include <math.h>
 #include <string.h>
 
-#define JUDGED 8         /* texels of an axis */
-#define LOOKS 2048       /* along an edge, and lines inside */
 #define NORMAL_OFF 0.15  /* from length 1 on average, at most, to be taken for normals */
 #define NORMAL_AWAY 0.05 /* share */
 #define CURLED                                                                                     \
@@ -24,46 +21,49 @@ const char *const wr_check_problems[] = { WR_CHECK_PROBLEMS(WR_WORD) NULL };
 
 /* ---- edges ---- */
 
-/* One colour as a table that goes round. */
-static WrField *field_of(const WrCheckPicture *p, int colour, WrError *err)
+/* One colour as a table that goes round; without the border that repeats the first column and row. */
+static WrField *field_of(const WrCheckPicture *p, int colour, bool border, WrError *err)
 {
-    const int w = p->image->width, h = p->image->height;
+    const int w = p->image->width - border, h = p->image->height - border;
+    const size_t step = (size_t)p->image->channels;
+    if (w < 1 || h < 1) {
+        wr_fail(err, "a picture of one row or column cannot have a border");
+        return NULL;
+    }
     WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, err);
     float *row = wr_alloc_unset((size_t)w, sizeof *row);
     for (int j = 0; field && j < h; j++) {
-        const float *from = p->image->data + (size_t)j * (size_t)w * (size_t)p->image->channels;
-        for (int i = 0; i < w; i++) row[i] = from[i * p->image->channels + colour];
+        const float *from = p->image->data + (size_t)j * (size_t)p->image->width * step;
+        for (int i = 0; i < w; i++) row[i] = from[(size_t)i * step + (size_t)colour];
         wr_field_write(field, 0, j, w, 1, row, (size_t)w);
     }
     wr_free(row);
     return field;
 }
 
-static double ratio_of(double over, double inside, double noise)
+static double worst_ratio(const WrSeamEdge *e)
 {
-    return over > 0 ? over / (inside + noise) : 0;
+    return e->ratio[wr_seam_worst(e)];
 }
 
-/* noise: rounding of the numbers; a single break is a sum of four of them, of weights 1, 3, 3, 1 halves. */
-static double worst_ratio(const WrSeamEdge *e, double noise)
+static void take_worse(const WrSeamEdge *e, WrCheckEdge *edge)
 {
-    const double jump = fmax(ratio_of(e->jump, e->jump_inside, noise / 2),
-                             ratio_of(e->jump_most, e->jump_most_inside, noise));
-    const double crease = fmax(ratio_of(e->crease, e->crease_inside, noise / 2),
-                               ratio_of(e->crease_most, e->crease_most_inside, noise));
-    return fmax(jump, crease);
+    if (e->measured && edge->judged &&
+        (e->order > edge->test.order ||
+         (e->order == edge->test.order && worst_ratio(e) <= worst_ratio(&edge->test))))
+        return;
+    edge->judged = e->measured;
+    edge->test = *e;
 }
 
-static void take_worse(const WrSeamEdge *e, int size, double noise, WrCheckEdge *edge)
+/* Of the axis that is `axis` in the label. */
+static void judge(const WrImageLabel *label, int axis, WrCheckEdge *edge)
 {
-    const double ratio = worst_ratio(e, noise);
-    edge->judged = size >= JUDGED;
-    if (!edge->judged || ratio < edge->ratio) return;
-    edge->ratio = ratio;
-    edge->rank = e->rank;
-    edge->jump = e->jump_most;
-    edge->inside = e->jump_most_inside;
-    edge->seam = ratio > WR_SEAM_CLEARLY;
+    edge->seam = edge->judged && wr_seam_shows(&edge->test);
+    if (!label->edged || !edge->judged) return;
+    if (label->edge[axis] >= 1)
+        edge->seam = edge->seam && worst_ratio(&edge->test) > WR_CHECK_SURELY;
+    else if (!edge->seam) edge->seam = edge->told = true;
 }
 
 /* Is the last column (row) the first one again? */
@@ -83,17 +83,20 @@ static bool is_repeated(const WrCheckPicture *p, bool columns)
 
 static bool check_edges(const WrCheckPicture *p, WrCheck *check, WrError *err)
 {
-    const double size = fmax(fabs(check->numbers.low), fabs(check->numbers.high));
-    const double noise = wr_check_step(&check->numbers) + 1e-6 * size;
-    for (int c = 0; c < p->colours; c++) {
+    const WrImageLabel *label = &p->image->label;
+    const WrSeamOptions how = { .copies = { label->copies[0], label->copies[1] },
+                                .noise = wr_check_step(&check->numbers) };
+    for (int c = 0; c < p->colours && !label->open; c++) {
         if (wr_progress_stopped()) return wr_fail(err, "cancelled");
-        WrField *field = field_of(p, c, err);
+        WrField *field = field_of(p, c, label->border, err);
         if (!field) return false;
-        const WrSeam seam = wr_seam_measure(field, LOOKS);
+        const WrSeam seam = wr_seam_measure(field, &how);
         wr_field_free(field);
-        take_worse(&seam.u, check->width, noise, &check->u);
-        take_worse(&seam.v, check->height, noise, &check->v);
+        take_worse(&seam.u, &check->u);
+        take_worse(&seam.v, &check->v);
     }
+    judge(label, 0, &check->u);
+    judge(label, 1, &check->v);
     check->u.repeats = check->u.seam && is_repeated(p, true);
     check->v.repeats = check->v.seam && is_repeated(p, false);
     return true;
@@ -144,16 +147,19 @@ static void take_told(const WrNormalTold *told, WrCheckNormals *normals)
     normals->green_known = !told->undecided;
     normals->green_down = told->green_down;
     normals->lengths = told->channels == 3;
+    normals->own = told->own;
+    normals->centred = told->centred;
     normals->off = told->off;
-    normals->away = told->away;
+    normals->away = told->away - told->level;
     normals->converted = told->converted;
 }
 
-static bool check_normals(const WrImage *image, int kind, WrCheck *check, WrError *err)
+static bool check_normals(const WrImage *image, int kind, WrCoding coding, WrCheck *check,
+                          WrError *err)
 {
     WrNormalTold told = { 0 };
     const bool could = kind == WR_CHECK_NORMAL || (kind < 0 && image->channels >= 3);
-    WrImage *map = could ? wr_normal_map_read(image, WR_GREEN_AUTO, 0, &told, err) : NULL;
+    WrImage *map = could ? wr_normal_map_read(image, WR_GREEN_AUTO, 0, coding, &told, err) : NULL;
     if (could && !map) return false;
     check->kind = kind < 0 ? kind_of(image, &told, check) : (WrCheckKind)kind;
     const bool codes = check->numbers.bits < 32;
@@ -180,7 +186,7 @@ static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
         normals->data[3 * i + 1] = (float)(-q * unit);
         normals->data[3 * i + 2] = (float)unit;
     }
-    WrImage *map = wr_normal_map_read(normals, WR_GREEN_AUTO, 3, &told, err);
+    WrImage *map = wr_normal_map_read(normals, WR_GREEN_AUTO, 3, WR_CODING_SIGNED, &told, err);
     if (map) {
         take_told(&told, &check->normals);
         check->normals.lengths = false; /* made here */
@@ -194,11 +200,14 @@ static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
 
 /* ---- what is wrong ---- */
 
-/* How far rounding moves a length from 1: half a code of 2/M in each number, one where 0 has a code of its own. */
+/* How far rounding moves a length from 1, in each number: half a code of 2/M, a whole one where 0 has a code of its own.
+ * Codes that were made without such a 0 and are read with it (most of the map is flat) are up to half a code more off, and
+ * one whole code near -1. */
 static double most_off(const WrCheck *check)
 {
     if (check->numbers.half) return 2e-3;
-    return check->numbers.bits < 32 ? 2 * sqrt(3) / ((1 << check->numbers.bits) - 1) : 1e-4;
+    const double halves = check->normals.centred ? 3 : 2;
+    return check->numbers.bits < 32 ? halves * sqrt(3) / ((1 << check->numbers.bits) - 1) : 1e-4;
 }
 
 static bool labels_lie(const WrImage *image, const WrCheck *check)
@@ -229,7 +238,8 @@ static void find_problems(const WrImage *image, WrCheck *check)
 
 /* ---- files ---- */
 
-static bool check_image(const WrImage *image, int colours, int kind, WrCheck *check, WrError *err)
+static bool check_image(const WrImage *image, int colours, int kind, WrCoding coding,
+                        WrCheck *check, WrError *err)
 {
     const WrCheckPicture picture = { image, colours };
     check->width = image->width;
@@ -240,7 +250,8 @@ static bool check_image(const WrImage *image, int colours, int kind, WrCheck *ch
     check->label = label_of(&image->label);
     wr_check_numbers(&picture, &check->numbers);
     const bool slopes = kind == WR_CHECK_SLOPES;
-    if (!(slopes ? check_slopes(image, check, err) : check_normals(image, kind, check, err)) ||
+    if (!(slopes ? check_slopes(image, check, err)
+                 : check_normals(image, kind, coding, check, err)) ||
         !check_edges(&picture, check, err))
         return false;
     find_problems(image, check);
@@ -297,7 +308,7 @@ static int colours_of(const WrImage *image, int kind)
     return kind == WR_CHECK_SLOPES || kind == WR_CHECK_NORMAL ? image->channels : 1;
 }
 
-bool wr_check_file(const char *path, int kind, WrCheck *check, WrError *err)
+bool wr_check_file(const char *path, int kind, WrCoding coding, WrCheck *check, WrError *err)
 {
     *check = (WrCheck){ 0 };
     WrImage *image = wr_image_read(path, err);
@@ -313,7 +324,7 @@ bool wr_check_file(const char *path, int kind, WrCheck *check, WrError *err)
         wr_image_free(image);
         return wr_fail(err, "%s: slopes are two channels of floats; it has none such", path);
     }
-    const bool good = check_image(image, colours_of(image, kind), kind, check, err);
+    const bool good = check_image(image, colours_of(image, kind), kind, coding, check, err);
     wr_image_free(image);
     return good;
 }

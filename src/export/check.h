@@ -3,9 +3,11 @@
    Layer 6. Read as all pictures are (image/image.h), by the reader process; nothing of the file is believed but its
    numbers.
 
-   Edges     the break over an edge beside the largest one inside (field/seam.h): of the height, by root mean squares
-             and by the largest single one, and of the slope likewise; the worst of these four, of all colours. 1.5
-             times what is inside and more is a seam. Axes of fewer than 8 texels are not judged.
+   Edges     by the seam test of the certificate (field/seam.h), for each colour; the worst one. Of a sheet of several
+             copies, as a label of ours tells, the cell's edges; of a picture with its border the cell without it. A label
+             also says how the edges met before the picture was coded: a seam that it tells of is one, and where it tells
+             of none the numbers must be WR_CHECK_SURELY times what is inside. Axes of fewer than 8 texels, atlases and
+             maps of whole surfaces are not judged.
    Numbers   how many different ones (told up to 65536), and the fewest bits that hold them all: b bits are codes
              round(k M/(2^b - 1)), or k 2^(B - b) of B bits; floats k/255, k/65535 and half precision. Not judged
              where there are fewer than 8 besides black and white.
@@ -18,6 +20,8 @@
              Two floats that the file does not call grey and coverage are taken for the slopes p and q themselves. */
 #pragma once
 #include "base/rows.h"
+#include "field/seam.h"
+#include "image/coding.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -47,13 +51,15 @@ extern const char *const wr_check_kinds[];
 typedef enum WrCheckProblem { WR_CHECK_PROBLEMS(WR_WORD_ID) WR_CHECK_PROBLEM_COUNT } WrCheckProblem;
 extern const char *const wr_check_problems[];
 
+#define WR_CHECK_SURELY                                                                            \
+    3 /* times what is inside: a seam in spite of a label of ours that tells of none */
+
 typedef struct WrCheckEdge {
-    bool judged;         /* has texels enough */
-    bool seam;           /* clearly more than inside */
-    bool repeats;        /* a seam, since the last line is the first one again */
-    double jump, inside; /* the largest break of the height, in the file's numbers */
-    double ratio;        /* of the worst of the four */
-    double rank;         /* share of the lines inside that break less, 0..1 */
+    bool judged;     /* has texels enough */
+    bool seam;       /* the height steps or the slope breaks there */
+    bool told;       /* a seam as the file's own label tells; its numbers do not show it */
+    bool repeats;    /* a seam, since the last line is the first one again */
+    WrSeamEdge test; /* of the worst colour, in the file's numbers */
 } WrCheckEdge;
 
 #define WR_CHECK_DISTINCT 65536 /* numbers that are told apart */
@@ -69,6 +75,8 @@ typedef struct WrCheckNumbers {
 
 typedef struct WrCheckNormals {
     bool green_known, green_down;
+    bool own;     /* floats that are the vectors' own numbers, not coded in 0..1 */
+    bool centred; /* the code above the middle stands for 0, as in most texels */
     bool lengths; /* has three numbers a vector */
     double off;   /* the largest distance of a length from 1 */
     bool curl_known;
@@ -89,5 +97,6 @@ typedef struct WrCheck {
     unsigned problems;      /* bits 1 << WrCheckProblem */
 } WrCheck;
 
-/* kind: what it is, where somebody knows; -1: found out. False and an error where it cannot be read. */
-bool wr_check_file(const char *path, int kind, WrCheck *check, WrError *err);
+/* kind: what it is, where somebody knows; -1: found out. coding: of normals in floats. False and an error where it cannot
+ * be read. */
+bool wr_check_file(const char *path, int kind, WrCoding coding, WrCheck *check, WrError *err);

@@ -14,11 +14,13 @@
 typedef struct WrField WrField;
 typedef struct WrScene WrScene;
 
-#define WR_EXPORT_ATTRIBUTES 16 /* at most */
+#define WR_EXPORT_ATTRIBUTES 20 /* at most */
 
 struct WrExportJob {
     const WrExportKind *kind;
     const WrField *field;
+    const WrField *cell; /* field, before it was laid out as a sheet */
+    int copies[2];       /* of the cell in the field, side by side in u and in v; 0: 1 */
     const WrScene *scene;
     WrExportOptions options; /* depth and scheme settled */
     WrPool *pool;            /* may be NULL */

@@ -125,10 +125,12 @@ static bool lay(Sheet *s, WrError *err)
     case WR_LAY_HALF_DROP:
         if (h % 2) return wr_fail(err, "lay=half-drop: %d rows have no half: make them even", h);
         o->cell_w *= 2;
+        s->job->copies[0] = 2;
         return make(s, 2 * w, h, half_drop_row, err);
     case WR_LAY_BRICK:
         if (w % 2) return wr_fail(err, "lay=brick: %d columns have no half: make them even", w);
         o->cell_h *= 2;
+        s->job->copies[1] = 2;
         return make(s, w, 2 * h, brick_row, err);
     case WR_LAY_HEX:
         o->cell_h = SQRT3 * o->cell_w;
@@ -145,6 +147,8 @@ static bool repeat(Sheet *s, WrError *err)
     const int m = o->repeat_u > 1 ? o->repeat_u : 1, n = o->repeat_v > 1 ? o->repeat_v : 1;
     if (m == 1 && n == 1) return true;
     o->cell_w *= m, o->cell_h *= n;
+    s->job->copies[0] = m * (s->job->copies[0] ? s->job->copies[0] : 1);
+    s->job->copies[1] = n * (s->job->copies[1] ? s->job->copies[1] : 1);
     return make(s, m * wr_field_width(now(s)), n * wr_field_height(now(s)), repeat_row, err);
 }
 

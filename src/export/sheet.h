@@ -9,7 +9,7 @@ typedef struct WrExportJob WrExportJob;
 typedef struct WrField WrField;
 typedef struct WrText WrText;
 
-/* The table that the job's options lay out of its own, and the size of its cell in the options; a formula's heights are
+/* The table that the job's options lay out of its own, the size of its cell in the options, the copies in the job; a formula's heights are
  * sampled into it. NULL where nothing is to be laid out, and *good stays; NULL and an error where it cannot. */
 WrField *wr_export_sheet(WrExportJob *job, bool *good, WrError *err);
 

@@ -82,6 +82,21 @@ static const char *kind_told(const WrExportJob *job)
     return axes[1] > 0 ? "normal+y" : "normal-y";
 }
 
+/* How the pattern's edges meet, in u and in v, and how many cells are laid side by side; "open" where the picture is not
+ * one cell. */
+static void describe_edges(WrExportJob *job)
+{
+    const WrSeam *pattern = &job->report.seam.pattern;
+    const bool cell = !job->kind->on_surface && !job->options.atlas;
+    WrText *edges = wr_export_attribute(job, "wrinkle:edges");
+    wr_text_addf(edges, "%s,%s", cell ? wr_certificate_word(pattern->u.order) : "open",
+                 cell ? wr_certificate_word(pattern->v.order) : "open");
+    if (job->copies[0] > 1 || job->copies[1] > 1)
+        wr_text_addf(wr_export_attribute(job, "wrinkle:copies"), "%d,%d",
+                     job->copies[0] > 1 ? job->copies[0] : 1,
+                     job->copies[1] > 1 ? job->copies[1] : 1);
+}
+
 static void describe(WrExportJob *job)
 {
     wr_text_add(wr_export_attribute(job, "wrinkle:kind"), kind_told(job));
@@ -99,6 +114,7 @@ static void describe(WrExportJob *job)
                        job->options.strength * job->scene->height);
     wr_text_add(wr_export_attribute(job, "wrinkle:seam"),
                 wr_certificate_word(wr_certificate_order(&job->report.seam)));
+    describe_edges(job);
     job->kind->describe(job);
 }
 

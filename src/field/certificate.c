@@ -155,12 +155,13 @@ static WrCertificateEdge certify(const Strip *strip, bool ends)
     return edge;
 }
 
-WrCertificate wr_certificate_table(const WrField *field, WrScheme scheme)
+WrCertificate wr_certificate_table(const WrField *field, WrScheme scheme, const WrSeamOptions *seam)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
     const Strip u = { field, scheme, true, w, h }, v = { field, scheme, false, h, w };
     return (WrCertificate){ certify(&u, wr_field_wrap_u(field) != WR_WRAP_PERIODIC),
-                            certify(&v, wr_field_wrap_v(field) != WR_WRAP_PERIODIC) };
+                            certify(&v, wr_field_wrap_v(field) != WR_WRAP_PERIODIC),
+                            wr_seam_measure(field, seam) };
 }
 
 /* ---- a formula ---- */
@@ -202,19 +203,26 @@ static WrCertificateEdge certify_polynomial(const WrAnalytic *analytic, bool in_
 
 WrCertificate wr_certificate_formula(const WrAnalytic *analytic)
 {
-    if (analytic->kind == WR_ANALYTIC_POLY)
-        return (WrCertificate){ certify_polynomial(analytic, true),
-                                certify_polynomial(analytic, false) };
-    /* whole periods in the cell */
-    return (WrCertificate){ { .order = 2 }, { .order = 2 } };
+    const bool polynomial = analytic->kind == WR_ANALYTIC_POLY; /* else whole periods in the cell */
+    const WrCertificateEdge whole = { .order = 2 };
+    WrCertificate out = { polynomial ? certify_polynomial(analytic, true) : whole,
+                          polynomial ? certify_polynomial(analytic, false) : whole,
+                          { { 0 }, { 0 } } };
+    out.pattern.u.order = out.u.order;
+    out.pattern.v.order = out.v.order;
+    return out;
 }
 
 /* ---- words ---- */
 
-int wr_certificate_order(const WrCertificate *certificate)
+static int lower(int a, int b)
 {
-    const int u = certificate->u.order, v = certificate->v.order;
-    return u < v ? u : v;
+    return a < b ? a : b;
+}
+
+int wr_certificate_order(const WrCertificate *c)
+{
+    return lower(lower(c->u.order, c->v.order), lower(c->pattern.u.order, c->pattern.v.order));
 }
 
 const char *wr_certificate_word(int order)
@@ -223,22 +231,27 @@ const char *wr_certificate_word(int order)
     return words[order + 1];
 }
 
-/* What is the first to jump. */
-static void add_edge(const WrCertificateEdge *edge, WrText *text)
+/* What breaks first: the pattern, or the scheme. */
+static void add_edge(const WrCertificateEdge *edge, const WrSeamEdge *pattern, WrText *text)
 {
     static const char *const names[] = { "F", "F'", "F''" };
-    wr_text_add(text, wr_certificate_word(edge->order));
-    if (edge->order + 1 < WR_CERTIFICATE_ORDERS)
+    const bool torn = pattern->order < edge->order;
+    wr_text_add(text, wr_certificate_word(torn ? pattern->order : edge->order));
+    if (torn) {
+        wr_text_add(text, ", ");
+        wr_seam_text(pattern, text);
+    } else if (edge->order + 1 < WR_CERTIFICATE_ORDERS) {
         wr_text_addf(text, ", %s jumps by up to %.3g", names[edge->order + 1],
                      edge->jump[edge->order + 1]);
+    }
     if (edge->ends) wr_text_add(text, ", the axis ends");
 }
 
 void wr_certificate_text(const WrCertificate *certificate, WrText *text)
 {
     WrText u = { 0 }, v = { 0 };
-    add_edge(&certificate->u, &u);
-    add_edge(&certificate->v, &v);
+    add_edge(&certificate->u, &certificate->pattern.u, &u);
+    add_edge(&certificate->v, &certificate->pattern.v, &v);
     if (strcmp(wr_text_get(&u), wr_text_get(&v)) == 0) {
         wr_text_addf(text, "seam %s", wr_text_get(&u));
     } else {

@@ -1,7 +1,11 @@
-/* certificate.h - how smoothly F goes on where a cell's edges meet, by the scheme at hand.
+/* certificate.h - seam certificate of a cell: how smoothly F goes on where its edges meet, by the pattern and by the scheme.
    Layer 1.
 
-   What is measured is the stretch between the last texel's centre and the first one's, its ends counted in: there stand
+   The pattern is judged by its texels (field/seam.h): a photograph that is torn at its edge has no smoothness there,
+   whatever the scheme. Of a pattern that meets, the scheme says how smooth the join is. The certificate's class is the
+   lower one of both.
+
+   Of the scheme is measured the stretch between the last texel's centre and the first one's, its ends counted in: there stand
    the edge itself and the scheme's own joints on both sides of it, at every texel's centre (of `nearest` the edge alone).
    On an axis that repeats, the edge lies within a piece of the scheme, so nothing jumps there but `nearest`; the joints
    are the scheme's: of T before, at and after one
@@ -16,6 +20,7 @@
    catmull at most 1.25 times as large, which is counted in. */
 #pragma once
 #include "field/scheme.h"
+#include "field/seam.h"
 
 #include <stdbool.h>
 
@@ -33,13 +38,16 @@ typedef struct WrCertificateEdge {
 typedef struct WrCertificate {
     WrCertificateEdge u; /* where the right edge meets the left one */
     WrCertificateEdge v; /* where the bottom meets the top */
+    WrSeam pattern;      /* of a formula the exact orders alone */
 } WrCertificate;
 
-WrCertificate wr_certificate_table(const WrField *field, WrScheme scheme);
+/* seam: how the pattern is measured; NULL: one cell of floats. */
+WrCertificate wr_certificate_table(const WrField *field, WrScheme scheme,
+                                   const WrSeamOptions *seam);
 WrCertificate wr_certificate_formula(const WrAnalytic *analytic);
-/* Of both edges. */
+/* Of both edges, scheme and pattern: the lowest. */
 int wr_certificate_order(const WrCertificate *certificate);
 const char *wr_certificate_word(int order); /* "none", "C0", "C1", "C2" */
 /* "seam C1, F'' jumps by up to 12.3"; of edges that differ each: "seam C2 in u; in v none, F jumps by up to 0.3, the
-   axis ends". */
+   axis ends". Of a torn pattern "seam none, height differs by 0.31 across the edge, by 0.05 ...". */
 void wr_certificate_text(const WrCertificate *certificate, WrText *text);

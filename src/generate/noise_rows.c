@@ -43,7 +43,9 @@ static const char *const sources[] = { SOURCES(WR_WORD) NULL };
                    "each octave has so many times more cells; rounded to whole cells"),            \
         WR_P_CHOICE("mode", "Sum", WR_OCTAVES_FBM, wr_octaves_words, "how octaves are summed"),    \
         WR_P_SEED,                                                                                 \
-        WR_P_SWITCH("scatter", "Scattered", 1, "each octave is moved by an amount of its own"),    \
+        WR_P_SWITCH("scatter", "Scattered", 1,                                                     \
+                    "each octave has random numbers and an offset of its own; off: all have the "  \
+                    "same, g(s^k t)/r^k literally"),                                               \
         WR_P_NUMBER("warp", "Warp", 0, -64, 64, 1, "cells",                                        \
                     "how far places are moved by a noise of their own"),                           \
         WR_P_WHOLE("warp_cells", "Cells of the warp", 0, 0, 8192, 32, "0: as many as cells"),      \
@@ -129,6 +131,7 @@ static WrOctaves octaves_of(const Described *d, int width, int height)
     o.step = wr_param_number(p, "step");
     o.seed = wr_param_seed(p);
     o.scatter = wr_param_whole(p, "scatter") == 1;
+    o.one_lattice = !o.scatter;
     o.ridge_offset = wr_param_number(p, "ridge_offset");
     o.ridge_gain = wr_param_number(p, "ridge_gain");
     count_cells(d, "cells", width, height, o.cells);
@@ -370,6 +373,7 @@ MAKE(2, value)
 MAKE(3, simplex)
 MAKE(4, sheared)
 MAKE(5, torus)
+MAKE(6, cubes)
 
 const WrGenerator wr_noise_rows[] = {
     { "noise", "perlin", "Perlin", "slopes from a fixed set, 0 at lattice points", "replace",
@@ -387,5 +391,7 @@ const WrGenerator wr_noise_rows[] = {
       "replace", plane_params, make_sheared },
     { "noise", "torus", "Torus", "4D simplex noise on a torus", "replace", plane_params,
       make_torus },
+    { "noise", "cubes", "Torus of cubes", "4D Perlin noise on a torus", "replace", plane_params,
+      make_cubes },
     { .family = NULL },
 };

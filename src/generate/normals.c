@@ -14,35 +14,6 @@
 
 /* ---- decoding ---- */
 
-/* How far a pixel is from a unit normal, its numbers taken as scale x + offset. */
-static double misfit(const float *c, int channels, double scale, double offset)
-{
-    double sum = 0.0;
-    for (int a = 0; a < 3 && a < channels; a++) {
-        double x = scale * (double)c[a] + offset;
-        sum += x * x;
-    }
-    double much = channels == 2 ? sum - 1.0 : fabs(sum - 1.0); /* of two, the third is unknown */
-    return much > 0.0 ? much < 1.0 ? much : 1.0 : 0.0;
-}
-
-/* Floats below 0 are normals as they are; others where they are nearer to unit length so. */
-static bool is_signed(const WrImage *image, WrNormalCodes codes)
-{
-    if (image->type != WR_PIXEL_F32) return false;
-    if (codes != WR_NORMALS_AUTO) return codes == WR_NORMALS_SIGNED;
-    size_t count = (size_t)image->width * (size_t)image->height;
-    double as_is = 0.0, as_codes = 0.0;
-    for (size_t k = 0; k < count; k++) {
-        const float *c = image->data + k * (size_t)image->channels;
-        if (!wr_sheet_goes_on(k)) break;
-        if (c[0] < -0.01f || c[1] < -0.01f) return true;
-        as_is += misfit(c, image->channels, 1.0, 0.0);
-        as_codes += misfit(c, image->channels, 2.0, -1.0);
-    }
-    return as_is < as_codes;
-}
-
 static double axis_of(double c, double most, bool as_is)
 {
     if (as_is) return c;
@@ -90,7 +61,7 @@ static bool begin(const WrImage *image, WrNormals *out, WrError *err)
     return out->q != NULL;
 }
 
-bool wr_normals_decode(const WrImage *image, WrNormalCodes codes, WrNormals *out, WrError *err)
+bool wr_normals_decode(const WrImage *image, WrCoding coding, WrNormals *out, WrError *err)
 {
     if (image->channels < 2)
         return wr_fail(err, "a normal map has 2 channels or more; this picture has 1: photo and "
@@ -98,7 +69,11 @@ bool wr_normals_decode(const WrImage *image, WrNormalCodes codes, WrNormals *out
     size_t count = (size_t)image->width * (size_t)image->height;
     WrNormals made;
     if (!begin(image, &made, err)) return false;
-    bool as_is = is_signed(image, codes);
+    if (!wr_coding_find(image, image->channels < 3 ? 2 : 3, coding, &made.coding, err)) {
+        wr_normals_fini(&made);
+        return false;
+    }
+    const bool as_is = made.coding == WR_CODING_SIGNED;
     bool going = true;
     for (size_t k = 0; k < count && going; k++) {
         going = wr_sheet_goes_on(k);

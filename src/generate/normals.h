@@ -5,6 +5,7 @@
 #include "base/rows.h"
 #include "generate/fft_plane.h"
 #include "generate/terrain.h"
+#include "image/coding.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -14,7 +15,7 @@ typedef struct WrGenerateJob WrGenerateJob;
 typedef struct WrImage WrImage;
 
 /* Slopes: no normals, but height over width to the right and up; bump slopes: per texel to the right and down, channels
- * b1_dhds and b2_dhdt. Of normals unsigned: 0..1 stands for -1..1; signed: as they are, in files of floats alone. */
+ * b1_dhds and b2_dhdt. Of normals unsigned and signed are the codings unit and signed by their old names. */
 #define WR_NORMAL_CODES(X)                                                                         \
     X(WR_NORMALS_AUTO, "auto")                                                                     \
     X(WR_NORMALS_UNSIGNED, "unsigned")                                                             \
@@ -27,13 +28,14 @@ typedef enum WrNormalCodes { WR_NORMAL_CODES(WR_WORD_ID) } WrNormalCodes;
 typedef struct WrNormals {
     int width, height;
     double *p, *q;   /* [height][width], owned: to the right, and DOWN the rows */
+    WrCoding coding; /* that was taken, of normals */
     int64_t unknown; /* texels whose normal does not face up: slope 0 */
     int64_t steep;   /* slopes that were brought down to 100 */
 } WrNormals;
 
 /* Decode a map of 2 (z follows) to 4 channels. In integer files the two codes beside the middle stand for 0
- * both, so that a flat map is flat. Errors: one channel, no memory. */
-bool wr_normals_decode(const WrImage *image, WrNormalCodes codes, WrNormals *out, WrError *err);
+ * both, so that a flat map is flat. Errors: one channel, no memory, coding=signed of codes. */
+bool wr_normals_decode(const WrImage *image, WrCoding coding, WrNormals *out, WrError *err);
 /* The same of slopes: the first two channels times these factors, to the right and down. */
 bool wr_normals_from_slopes(const WrImage *image, double right, double down, WrNormals *out,
                             WrError *err);

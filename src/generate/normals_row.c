@@ -31,8 +31,12 @@ const WrParam wr_params_normals[] = {
     WR_P_CHOICE("slopes", "Slopes", SLOPES_AUTO, ways,
                 "of a smooth surface, or central differences between texels, as many tools write "
                 "them; auto: what fits the map better"),
-    WR_P_CHOICE("codes", "Codes", WR_NORMALS_AUTO, codes,
-                "of files of floats; slopes, bump-slopes: no normals, but these"),
+    WR_P_CHOICE(
+        "codes", "Codes", WR_NORMALS_AUTO, codes,
+        "slopes, bump-slopes: no normals, but these; unsigned, signed: old names of coding="),
+    WR_P_CHOICE("coding", "Coding", WR_CODING_AUTO, wr_codings,
+                "of floats: unit, 0..1 stands for -1..1; signed, the vectors' own numbers; auto: "
+                "what is nearer to vectors of length 1"),
     { .name = "cell",
       .label = "Cell",
       .help = "size of the map in scene units, as in export",
@@ -177,12 +181,22 @@ static bool decode_bump_slopes(const WrParams *p, const WrImage *first, WrNormal
     return good;
 }
 
-static bool decode(const WrParams *p, const WrImage *image, WrNormals *out, WrError *err)
+static bool decode(const WrParams *p, const WrImage *image, const WrGenerateJob *job,
+                   WrNormals *out, WrError *err)
 {
     const WrNormalCodes code = codes_of(p, image);
     if (code == WR_NORMALS_BUMP_SLOPES) return decode_bump_slopes(p, image, out, err);
-    const bool good = code == WR_NORMALS_SLOPES ? wr_normals_from_slopes(image, 1, -1, out, err)
-                                                : wr_normals_decode(image, code, out, err);
+    const WrCoding coding = code == WR_NORMALS_UNSIGNED ? WR_CODING_UNIT
+                            : code == WR_NORMALS_SIGNED ? WR_CODING_SIGNED
+                                                        : (WrCoding)wr_param_whole(p, "coding");
+    const bool slopes = code == WR_NORMALS_SLOPES;
+    const bool good = slopes ? wr_normals_from_slopes(image, 1, -1, out, err)
+                             : wr_normals_decode(image, coding, out, err);
+    if (good && !slopes && image->type == WR_PIXEL_F32)
+        wr_generate_note(job, "floats taken as %s",
+                         out->coding == WR_CODING_UNIT
+                             ? "coded, 0..1 for -1..1; coding=signed takes them as they are"
+                             : "the vectors' own numbers; coding=unit takes 0..1 for -1..1");
     if (!good) wr_error_prefix(err, "%s: ", wr_param_value(p, "file")->text);
     return good;
 }
@@ -194,7 +208,7 @@ bool wr_picture_normals(const WrParamValue *values, const WrGenerateJob *job, Wr
     WrNormals normals = { .p = NULL };
     WrImage *image = wr_picture_read(&p, "channel", false, job, err);
     const bool good =
-        image && decode(&p, image, &normals, err) && make(&p, &normals, job, out, err);
+        image && decode(&p, image, job, &normals, err) && make(&p, &normals, job, out, err);
     wr_image_free(image);
     wr_normals_fini(&normals);
     return good;

@@ -71,12 +71,12 @@ static bool hc137(WrHardGauge *g, WrError *err)
     WrNormalTold told;
     WrImage *file = blank(WR_PIXEL_U8, 3);
     for (int i = 0; i < 3 * TEXELS; i++) file->data[i] = (float)((i % 3 < 2 ? 128 : 255) / 255.0);
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, &told, err);
+    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
     wr_hard_holds(g, WR_HARD_DOUBLE, told.centred && map->data[0] == 0 && map->data[1] == 0);
     bool good = shoot_map(g, map, 1, 1, WR_AA_POINT, true, err);
     for (int i = 0; i < 3 * TEXELS; i += 6)
         file->data[i] = file->data[i + 1] = (float)(127 / 255.0);
-    map = wr_normal_map_read(file, WR_GREEN_UP, 0, &told, err);
+    map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
     wr_hard_holds(g, WR_HARD_DOUBLE, !told.centred);
     for (int i = 0; i < 3 * TEXELS; i += 3) {
         const double lean = hypot((double)map->data[i], (double)map->data[i + 1]);
@@ -99,7 +99,7 @@ static bool hc138(WrHardGauge *g, WrError *err)
         const double x = 2 * (double)file->data[i] - 1, y = 2 * (double)file->data[i + 1] - 1;
         beyond += x * x + y * y >= 1 - WR_NORMAL_LEAST * WR_NORMAL_LEAST;
     }
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 2, &told, err);
+    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &told, err);
     for (int i = 0; i < 3 * TEXELS; i += 3) wr_hard_holds(g, WR_HARD_DOUBLE, tame(map->data + i));
     wr_hard_holds(g, WR_HARD_DOUBLE, told.away == beyond && beyond > 0);
     wr_image_free(file);
@@ -118,7 +118,7 @@ static bool hc139(WrHardGauge *g, WrError *err)
         const double x = 2 * (double)t[0] - 1, y = 2 * (double)t[1] - 1, z = 2 * (double)t[2] - 1;
         away += z / sqrt(x * x + y * y + z * z) < WR_NORMAL_LEAST;
     }
-    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, &told, err);
+    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
     for (int i = 0; i < TEXELS; i++) {
         const float *t = file->data + 3 * i, *n = map->data + 3 * i;
         const double x = 2 * (double)t[0] - 1, y = 2 * (double)t[1] - 1;
@@ -152,7 +152,7 @@ static bool hc140(WrHardGauge *g, WrError *err)
     for (int apart = 0; apart < 2; apart++) {
         WrNormalTold told;
         WrImage *file = waves(apart, 1);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_AUTO, 0, &told, err);
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_AUTO, 0, WR_CODING_AUTO, &told, err);
         wr_hard_holds(g, WR_HARD_DOUBLE,
                       apart ? told.undecided && !told.green_down
                             : !told.undecided && told.green_down);
@@ -168,7 +168,7 @@ static bool hc141(WrHardGauge *g, WrError *err)
     for (int k = 0; k < 3; k++) {
         WrNormalTold told;
         WrImage *file = waves(false, powers[k]);
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, &told, err);
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
         wr_hard_holds(g, WR_HARD_DOUBLE, told.converted == (k > 0));
         wr_image_free(map);
         wr_image_free(file);
@@ -189,7 +189,7 @@ static bool hc142(WrHardGauge *g, WrError *err)
             file->data[3 * i + 1] = wr_hard_random(g) < 0.5 ? -1 : 1;
             file->data[3 * i + 2] = 0;
         }
-        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, &told, err);
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, err);
         for (int i = 0; i < 3 * TEXELS; i += 3)
             wr_hard_holds(g, WR_HARD_DOUBLE, tame(map->data + i));
         good = shoot_map(g, map, 100, k % 2 ? 1e9 : 3, k / 2 ? WR_AA_MOMENTS : WR_AA_FILTER, false,

@@ -85,7 +85,7 @@ static bool hc61(WrHardGauge *g, WrError *err)
         for (int a = 0; a < 3; a++) in[a] += in[a] < 0.0 ? 12.0 : 0.0;
         const double f = wr_noise_at(&noise, out, slope);
         wr_hard_holds(g, WR_HARD_DOUBLE, f == wr_noise_at(&noise, in, NULL));
-        WrNoise endless = noise_of(kind, dim, kind == WR_NOISE_TORUS ? 12 : 0);
+        WrNoise endless = noise_of(kind, dim, wr_noises[kind].repeat[dim - 1].always ? 12 : 0);
         wr_hard_holds(g, WR_HARD_DOUBLE,
                       isfinite(wr_noise_at(&endless, out, slope)) && isfinite(slope[0]));
     }

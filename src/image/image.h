@@ -38,8 +38,13 @@ typedef struct WrImageLabel {
     bool turned; /* bump slopes: their slopes have the other sign */
     double
         uvslopes; /* bump slopes: over the cell and divided by this, whoever wrote them; 0: per texel */
-    bool wrapped;     /* tells what lies beyond the edges: the next one holds */
-    bool clamp[2];    /* u, v */
+    bool wrapped;  /* tells what lies beyond the edges: the next one holds */
+    bool clamp[2]; /* u, v */
+    bool edged;    /* tells how its pattern's edges meet: the next four hold */
+    bool open;     /* the picture is not one cell: an atlas, a map over a whole surface */
+    bool border;   /* the last column and row are the first ones again */
+    int edge[2]; /* u, v: -1 the height steps, 0 the slope breaks, 1, 2 they meet (field/seam.h) */
+    int copies[2];    /* of the cell, side by side */
     char refused[96]; /* "wrinkle:range=nan,1": what made no sense and was not used; "" */
 } WrImageLabel;
 

@@ -133,6 +133,46 @@ static void read_green(const Source *from, WrImageLabel *label)
     if (!label->green) refuse(label, "wrinkle:convention", word);
 }
 
+/* "C2,none" */
+static bool read_orders(const char *word, int edge[2])
+{
+    static const char *const words[] = { "none", "C0", "C1", "C2" };
+    const char *comma = strchr(word, ',');
+    if (!comma) return false;
+    for (int k = 0; k < 2; k++) {
+        const char *one = k ? comma + 1 : word;
+        const size_t length = k ? strlen(one) : (size_t)(comma - word);
+        int i = 0;
+        while (i < 4 && (strlen(words[i]) != length || strncmp(words[i], one, length) != 0)) i++;
+        if (i == 4) return false;
+        edge[k] = i - 1;
+    }
+    return true;
+}
+
+static void read_copies(const Source *from, WrImageLabel *label)
+{
+    const char *word = text_of(from, "wrinkle:copies");
+    double u, v;
+    label->copies[0] = label->copies[1] = 1;
+    if (!word) return;
+    if (pair(word, &u, &v) && u >= 1 && v >= 1 && u <= WR_IMAGE_MAX && v <= WR_IMAGE_MAX &&
+        u == floor(u) && v == floor(v))
+        label->copies[0] = (int)u, label->copies[1] = (int)v;
+    else refuse(label, "wrinkle:copies", word);
+}
+
+static void read_edges(const Source *from, WrImageLabel *label)
+{
+    const char *word = text_of(from, "wrinkle:edges"), *border = text_of(from, "wrinkle:border");
+    if (!word) return;
+    label->open = strcmp(word, "open,open") == 0;
+    label->edged = label->open || read_orders(word, label->edge);
+    label->border = border && strcmp(border, "on") == 0;
+    if (label->edged) read_copies(from, label);
+    else refuse(label, "wrinkle:edges", word);
+}
+
 void wr_image_label_read(WrLabelText *text, const void *source, WrPixelType type,
                          WrImageLabel *label)
 {
@@ -141,6 +181,7 @@ void wr_image_label_read(WrLabelText *text, const void *source, WrPixelType type
     const char *kind = text_of(from, "wrinkle:kind");
     read_bump_slopes(from, label);
     if (!kind) return;
+    read_edges(from, label);
     if (strcmp(kind, "height") == 0) {
         label->kind = WR_LABEL_HEIGHT;
         if (type != WR_PIXEL_F32) read_range(from, wr_pixel_last(type), label);

@@ -53,6 +53,13 @@ const WrNoiseInfo wr_noises[WR_NOISE_KIND_COUNT] = {
                                  .repeat = { [1] = { .works = true,
                                                      .always = true,
                                                      .step = { 1, 1 } } } },
+    [WR_ROW(WR_NOISE_CUBES)] = { .name = "cubes",
+                                 .label = "Perlin on a torus",
+                                 .help = "4D Perlin noise on a torus: the cubes that 4D simplices "
+                                         "are cheaper than.",
+                                 .repeat = { [1] = { .works = true,
+                                                     .always = true,
+                                                     .step = { 1, 1 } } } },
 };
 WR_ROWS_END(wr_noises, WR_NOISE_KIND_COUNT);
 #undef ANY
@@ -228,19 +235,27 @@ double wr_noise_bound(const WrNoise *noise)
     return value + sqrt(slope2) * half_diagonal;
 }
 
-/* What a blend so far amounts to: f and its gradient. */
-typedef struct Blend {
-    double f, d[WR_NOISE_AXES];
-} Blend;
-
 /* The blend of p and q along an axis: f = p + alpha (q - p), so that
  * df/da = p_a + alpha (q_a - p_a) + alpha' (q - p), and without the last term along the other axes. */
-static Blend blend(const Blend *p, const Blend *q, int dim, int axis, double alpha, double rate)
+static WrNoiseBlend blend(const WrNoiseBlend *p, const WrNoiseBlend *q, int dim, int axis,
+                          double alpha, double rate)
 {
-    Blend out = { .f = p->f + alpha * (q->f - p->f) };
+    WrNoiseBlend out = { .f = p->f + alpha * (q->f - p->f) };
     for (int b = 0; b < dim; b++) out.d[b] = p->d[b] + alpha * (q->d[b] - p->d[b]);
     out.d[axis] += rate * (q->f - p->f);
     return out;
+}
+
+double wr_noise_blend(const WrFadeInfo *fade, int dim, const double *x, WrNoiseBlend *corner,
+                      double *slope)
+{
+    for (int a = 0; a < dim; a++) {
+        const double alpha = wr_fade_alpha(fade, x[a]), rate = wr_fade_slope(fade, x[a]);
+        for (int k = 0; k < 1 << (dim - 1 - a); k++)
+            corner[k] = blend(&corner[2 * k], &corner[2 * k + 1], dim, a, alpha, rate);
+    }
+    for (int a = 0; a < dim; a++) slope[a] = corner[0].d[a];
+    return corner[0].f;
 }
 
 /* Value, gradient and perlin noise: one blend along each axis in turn of the 2^d corners' planes
@@ -258,7 +273,7 @@ static double cells(const WrNoise *noise, const double *t, double *slope)
         far[a] = near[a] + 1;
         if (noise->lattice.period[a] && far[a] == (uint32_t)noise->lattice.period[a]) far[a] = 0;
     }
-    Blend corner[1 << WR_NOISE_AXES];
+    WrNoiseBlend corner[1 << WR_NOISE_AXES];
     for (int k = 0; k < 1 << dim; k++) {
         uint32_t c[WR_NOISE_AXES];
         for (int a = 0; a < dim; a++) c[a] = k >> a & 1 ? far[a] : near[a];
@@ -266,13 +281,7 @@ static double cells(const WrNoise *noise, const double *t, double *slope)
         for (int a = 0; a < dim; a++)
             corner[k].f += corner[k].d[a] * (k >> a & 1 ? x[a] - 1.0 : x[a]);
     }
-    for (int a = 0; a < dim; a++) {
-        double alpha = wr_fade_alpha(fade, x[a]), rate = wr_fade_slope(fade, x[a]);
-        for (int k = 0; k < 1 << (dim - 1 - a); k++)
-            corner[k] = blend(&corner[2 * k], &corner[2 * k + 1], dim, a, alpha, rate);
-    }
-    for (int a = 0; a < dim; a++) slope[a] = corner[0].d[a];
-    return corner[0].f;
+    return wr_noise_blend(fade, dim, x, corner, slope);
 }
 
 double wr_noise_at(const WrNoise *noise, const double *t, double *slope)
@@ -287,6 +296,7 @@ double wr_noise_at(const WrNoise *noise, const double *t, double *slope)
     case WR_NOISE_SIMPLEX: return wr_noise_simplex(noise, reduced, slope);
     case WR_NOISE_SHEARED: return wr_noise_sheared(noise, reduced, slope);
     case WR_NOISE_TORUS: return wr_noise_torus(noise, reduced, slope);
+    case WR_NOISE_CUBES: return wr_noise_cubes(noise, reduced, slope);
     default: return cells(noise, reduced, slope);
     }
 }

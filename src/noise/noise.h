@@ -11,6 +11,7 @@
    | simplex  | c sum max(0, 1/2 - |t - p_k|^2)^4 g_k . (t - p_k)      | 2, 3 | 3D: multiples of 3   | 1      |
    | sheared  | the same on triangles of base 1 and height 1, with 4/5 | 2    | y even               | 1      |
    | torus    | 4D simplex on a torus, circumferences the periods      | 2    | any period, always   | 1      |
+   | cubes    | the same with 4D perlin, on 16 corners instead of 5    | 2    | any period, always   | 1      |
 
    Bounds hold for hashed lattices; for data see wr_noise_bound.
 
@@ -40,6 +41,7 @@ typedef enum WrNoiseKind {
     WR_NOISE_SIMPLEX,
     WR_NOISE_SHEARED,
     WR_NOISE_TORUS,
+    WR_NOISE_CUBES,
     WR_NOISE_KIND_COUNT
 } WrNoiseKind;
 

@@ -110,10 +110,12 @@ static void place_octave(const WrOctaves *octaves, int i, int axis, double n, Wr
         offset = (double)((h >> 20) | 1U) / 64.0;
     }
     if (octaves->tile) {
-        int cells = repeat_cells(octaves, axis, n);
-        octave->noise.lattice.period[axis] = cells;
+        const int cells = repeat_cells(octaves, axis, n);
+        const int first = repeat_cells(octaves, axis, octaves->cells[axis]);
+        const int period = octaves->one_lattice && cells % first == 0 ? first : cells;
+        octave->noise.lattice.period[axis] = period;
         octave->frequency[axis] = cells;
-        octave->offset[axis] = wr_noise_reduce(offset, cells);
+        octave->offset[axis] = wr_noise_reduce(offset, period);
     } else {
         octave->noise.lattice.period[axis] = 0;
         octave->frequency[axis] = n;
@@ -156,9 +158,10 @@ bool wr_octaves_plan(const WrOctaves *octaves, const int *texels, WrOctavesPlan 
         WrOctave *octave = &made.octave[i];
         octave->noise = (WrNoise){ .kind = octaves->kind, .fade = octaves->fade, .dim = made.dim };
         octave->noise.lattice.source = octaves->source;
+        const uint32_t lattice = octaves->one_lattice ? 0 : (uint32_t)i;
         octave->noise.lattice.seed = octaves->source == WR_LATTICE_LECTURE
-                                         ? (octaves->seed + (uint32_t)i) % 1000U
-                                         : wr_mix32(octaves->seed + 0x9e3779b9U * (uint32_t)i);
+                                         ? (octaves->seed + lattice) % 1000U
+                                         : wr_mix32(octaves->seed + 0x9e3779b9U * lattice);
         octave->amplitude = amplitude;
         for (int a = 0; a < made.dim; a++) {
             place_octave(octaves, i, a, n[a], octave);

@@ -3,7 +3,8 @@
 
      N(p) = sum over i of r^-i f_i(s^i n0 p + offset_i)          the lecture; fractional Brownian motion
 
-   Each octave has a lattice and a seed of its own. A sum that tiles repeats exactly with period 1 in
+   Each octave has a lattice and a seed of its own, unless `one_lattice` asks for the lecture's literal sum, in which every
+   octave is the same f at another scale. A sum that tiles repeats exactly with period 1 in
    each coordinate: octave i has n_i = round(n0 s^i) cells per period (rounded to what its kind can
    repeat), used both as frequency and as modulus, so that any s tiles and whole s keeps its octaves
    exact multiples (HC68). One that does not tile has n0 s^i cells per unit of length, unrounded.
@@ -53,8 +54,11 @@ typedef struct WrOctaves {
     uint32_t seed;            /* any */
     const double *offsets;    /* [count][dim] cells, |offset| <= 1e9, borrowed for the call; NULL:
                                     by `scatter` */
-    bool scatter;        /* no offsets given: each octave gets its own from the seed, so that the
+    bool scatter; /* no offsets given: each octave gets its own from the seed, so that the
                             octaves' lattice points do not meet at the origin; false: none */
+    bool
+        one_lattice; /* every octave has the seed and the period of the first: N(p) = sum r^-i f(s^i n0 p).
+                            Where n_i is no multiple of n_0 (s not whole), the period is n_i all the same */
     double ridge_offset; /* ridged: 0..10; 1 for ridges of height 1 where f is 0 */
     double ridge_gain;   /* ridged: 0..100 */
 } WrOctaves;
@@ -66,9 +70,10 @@ WrOctaves wr_octaves_default(int dim);
 /* One octave, ready to be evaluated: t = frequency p + offset. */
 typedef struct WrOctave {
     WrNoise noise;
-    double frequency[WR_NOISE_AXES]; /* cells per unit of p; tile: whole, the lattice's period */
-    double offset[WR_NOISE_AXES];    /* cells; tile: brought into one period */
-    double amplitude;                /* r^-i */
+    double frequency
+        [WR_NOISE_AXES]; /* cells per unit of p; tile: whole, a multiple of the lattice's period */
+    double offset[WR_NOISE_AXES]; /* cells; tile: brought into one period */
+    double amplitude;             /* r^-i */
 } WrOctave;
 
 typedef struct WrOctavesPlan {

@@ -13,7 +13,7 @@
    dimension: on a face, where rounding may choose either simplex, the corners that differ count
    exactly or all but nothing (HC67). */
 
-#define MOST 4 /* dimensions */
+#define MOST WR_NOISE_DIMENSIONS
 
 typedef struct Skew {
     double f, g;
@@ -125,9 +125,39 @@ double wr_noise_sheared(const WrNoise *noise, const double *t, double *slope)
     return f * scale;
 }
 
+/* Perlin noise on the cubes of 4D. With unit gradients it is at most sqrt(4)/2 = 1 (wr_noise_perlin_scale); the set's have
+ * length sqrt(3). */
+static double cubes(const WrLattice *lattice, const double *t, double *slope)
+{
+    static const double scale = 0.57735026918962576;
+    double base[MOST], x[MOST];
+    WrNoiseBlend corner[1 << MOST];
+    for (int a = 0; a < MOST; a++) {
+        base[a] = floor(t[a]);
+        x[a] = t[a] - base[a];
+    }
+    for (int k = 0; k < 1 << MOST; k++) {
+        uint32_t c[MOST];
+        for (int a = 0; a < MOST; a++) c[a] = (uint32_t)((int64_t)base[a] + (k >> a & 1));
+        const double *g = wr_lattice_gradient(MOST, wr_lattice_hash(lattice->seed, c, MOST));
+        corner[k].f = 0.0;
+        for (int a = 0; a < MOST; a++) {
+            corner[k].d[a] = scale * g[a];
+            corner[k].f += corner[k].d[a] * (x[a] - (k >> a & 1));
+        }
+    }
+    return wr_noise_blend(&wr_fades[WR_FADE_QUINTIC], MOST, x, corner, slope);
+}
+
+static double simplices(const WrLattice *lattice, const double *t, double *slope)
+{
+    return simplex(MOST, lattice, t, slope);
+}
+
 /* A period of P cells becomes a circle of circumference P: with R = P/(2 pi) and angle 2 pi t/P,
  * (p, q) = R (cos, sin) and df/dt = -sin df/dp + cos df/dq. */
-double wr_noise_torus(const WrNoise *noise, const double *t, double *slope)
+static double on_torus(const WrNoise *noise, const double *t, double *slope,
+                       double (*four)(const WrLattice *, const double *, double *))
 {
     double p[4], d[4], sine[2], cosine[2];
     WrLattice plain = { .seed = noise->lattice.seed };
@@ -137,7 +167,17 @@ double wr_noise_torus(const WrNoise *noise, const double *t, double *slope)
         p[2 * a] = radius * cosine[a];
         p[2 * a + 1] = radius * sine[a];
     }
-    double f = simplex(4, &plain, p, d);
+    double f = four(&plain, p, d);
     for (int a = 0; a < 2; a++) slope[a] = cosine[a] * d[2 * a + 1] - sine[a] * d[2 * a];
     return f;
+}
+
+double wr_noise_torus(const WrNoise *noise, const double *t, double *slope)
+{
+    return on_torus(noise, t, slope, simplices);
+}
+
+double wr_noise_cubes(const WrNoise *noise, const double *t, double *slope)
+{
+    return on_torus(noise, t, slope, cubes);
 }

@@ -142,7 +142,8 @@ static Axes triangle_axes(const WrTileJob *job, const Strip *strip, int i)
         out.n = v_mad(out.n, read_vec(c + 3), share[k]);
     }
     if (job->plan->map_frame == WR_FRAME_LECTURE) {
-        out.t = unit_of(out.t), out.b = unit_of(out.b);
+        /* the lecture divides each of the three by its length, N like T and B */
+        out.t = unit_of(out.t), out.b = unit_of(out.b), out.n = unit_of(out.n);
     } else { /* b.x holds the sign */
         out.b = v_scale(v_cross(out.n, out.t), out.b.x);
     }

@@ -195,7 +195,11 @@ bool wr_reference_mesh_axes(const WrReferenceMesh *mesh, const WrReferenceHit *h
         sign += l[k] * own->sign;
     }
     if (mesh->mikk) axes->b = v3_scale(v3_cross(axes->n, axes->t), sign);
-    else axes->t = v3_unit(axes->t, none), axes->b = v3_unit(axes->b, none);
+    else {
+        axes->t = v3_unit(axes->t, none);
+        axes->b = v3_unit(axes->b, none);
+        axes->n = v3_unit(axes->n, none);
+    }
     return v3_len(axes->t) > 0 && v3_len(axes->b) > 0;
 }
 

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <string.h>
 
+#define LEVEL_CODES                                                                                \
+    2.1            /* of 2/M: how far codes of z that stand for 0 are from it, centred or not */
 #define LOOK 16384 /* texels between two looks at whether it should stop */
 
 /* ---- numbers ------------------------------------------------------------------------------------- */
@@ -29,22 +31,6 @@ static size_t texels_of(const WrImage *image)
 static const float *texel_of(const Reading *r, size_t i)
 {
     return r->from->data + i * (size_t)r->from->channels;
-}
-
-/* Are all numbers in 0..1, and, of three, 2 c - 1 nearer to a unit vector than c? */
-static bool is_remapped(const Reading *r)
-{
-    double own = 0, remapped = 0;
-    for (size_t i = 0; i < texels_of(r->from); i++) {
-        double squares[2] = { 0 };
-        for (int c = 0; c < r->channels; c++) {
-            const double x = (double)texel_of(r, i)[c];
-            if (!(x >= 0 && x <= 1)) return false;
-            squares[0] += x * x, squares[1] += (2 * x - 1) * (2 * x - 1);
-        }
-        own += fabs(squares[0] - 1), remapped += fabs(squares[1] - 1);
-    }
-    return r->channels < 3 || remapped <= own;
 }
 
 /* Has more than half of it the code above the middle in x and y? */
@@ -109,8 +95,11 @@ static void read_vector(const Reading *r, size_t i, float out[3], WrNormalTold *
         told->away++;
         return;
     }
+    const bool level = r->last && fabs(z) < LEVEL_CODES / r->last;
     x /= length, y /= length, z /= length;
-    told->away += put_vector(x, y, z, r->object, out);
+    const bool away = put_vector(x, y, z, r->object, out);
+    told->away += away;
+    told->level += away && level;
 }
 
 void wr_normal_map_slopes(const float n[3], double *p, double *q)
@@ -161,13 +150,15 @@ static bool find_down(const WrImage *image, double step, WrNormalTold *told)
 }
 
 /* All texels of what the reading has been told. */
-static WrImage *read_vectors(Reading *r, WrNormalTold *told, WrError *err)
+static WrImage *read_vectors(Reading *r, WrCoding coding, WrNormalTold *told, WrError *err)
 {
+    WrCoding found;
+    if (!wr_coding_find(r->from, r->channels, coding, &found, err)) return NULL;
     WrImage *to = wr_image_new(r->from->width, r->from->height, 3, err);
     if (!to) return NULL;
     to->type = WR_PIXEL_F32;
     r->last = (int)wr_pixel_last(r->from->type);
-    r->remap = r->last || is_remapped(r);
+    r->remap = found == WR_CODING_UNIT;
     r->centred = !r->object && is_centred(r);
     told->channels = r->channels;
     told->own = !r->remap;
@@ -212,8 +203,8 @@ WrImage *wr_normal_map_raised(const WrImage *map, int64_t *away, WrError *err)
     return to;
 }
 
-WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, WrNormalTold *told,
-                            WrError *err)
+WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, WrCoding coding,
+                            WrNormalTold *told, WrError *err)
 {
     const int colours = from->channels > 3 ? 3 : from->channels;
     Reading r = { .from = from, .channels = channels ? channels : colours };
@@ -223,7 +214,7 @@ WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, Wr
                 r.channels < 2 ? 2 : r.channels, from->channels);
         return NULL;
     }
-    WrImage *to = read_vectors(&r, told, err);
+    WrImage *to = read_vectors(&r, coding, told, err);
     if (!to) return NULL;
     const double step = r.last ? 2.0 / r.last : 1e-6;
     told->green_down = green == WR_GREEN_AUTO ? find_down(to, step, told) : green == WR_GREEN_DOWN;
@@ -231,8 +222,8 @@ WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, Wr
     return to;
 }
 
-WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrNormalTold *told,
-                                   WrError *err)
+WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrCoding coding,
+                                   WrNormalTold *told, WrError *err)
 {
     Reading r = { .from = from, .channels = 3, .object = true };
     *told = (WrNormalTold){ 0 };
@@ -241,7 +232,7 @@ WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrNorma
                 from->channels);
         return NULL;
     }
-    WrImage *to = read_vectors(&r, told, err);
+    WrImage *to = read_vectors(&r, coding, told, err);
     told->green_down = green_down;
     if (to && green_down) turn_green(to);
     return to;

@@ -182,7 +182,7 @@ static void measure(WrSheetLook *look, WrPool *pool)
         wr_export_histogram(look->document, unit ? 0 : -HUGE_VAL, unit ? 1 : HUGE_VAL);
     look->seam = scene->analytic.kind != WR_ANALYTIC_OFF
                      ? wr_certificate_formula(&scene->analytic)
-                     : wr_certificate_table(field, scene->scheme);
+                     : wr_certificate_table(field, scene->scheme, NULL);
     for (int i = 0; i < look->set->maps.count; i++) {
         const WrSetMap *map = &look->set->maps.data[i];
         if (!map->kind->write)

@@ -4,6 +4,7 @@
 #include "ui/gui/words.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/layout.h"
+#include "ui/desk/settings.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
@@ -23,41 +24,48 @@
 
 static WrColour colour_of(const WrSeamEdge *edge)
 {
-    return !edge->wraps    ? WR_COLOUR_GRAB
-           : edge->jumps   ? WR_COLOUR_RAISE
-           : edge->creases ? CREASED
-                           : QUIET;
+    return edge->ends          ? WR_COLOUR_GRAB
+           : edge->order == -1 ? WR_COLOUR_RAISE
+           : edge->order == 0  ? CREASED
+                               : QUIET;
 }
 
 static const char *word_of(const WrSeamEdge *edge)
 {
-    return !edge->wraps    ? wr_words("the table ends there")
-           : edge->jumps   ? wr_words("the height jumps")
-           : edge->creases ? wr_words("the slope breaks")
-                           : wr_words("smooth");
+    return edge->ends          ? wr_words("the table ends there")
+           : edge->order == -1 ? wr_words("the height jumps")
+           : edge->order == 0  ? wr_words("the slope breaks")
+                               : wr_words("smooth");
 }
 
 static void add_numbers(WrText *tip, const WrSeamEdge *edge)
 {
-    if (!edge->wraps) return;
+    if (!edge->measured) return;
     wr_text_addf(tip,
-                 wr_words("\n   step %.3g, at most %.3g; inside up to %.3g\n"
-                          "   change of slope %.3g a texel; inside up to %.3g"),
-                 edge->jump, edge->jump_most, edge->jump_inside, edge->crease, edge->crease_inside);
+                 wr_words("\n   height %.3g across the edge, %.3g across the worst line inside"
+                          "\n   slope %.3g a texel, inside %.3g"),
+                 edge->across[WR_SEAM_STEP], edge->inside[WR_SEAM_STEP],
+                 edge->across[WR_SEAM_SLOPE], edge->inside[WR_SEAM_SLOPE]);
 }
 
-/* Measured when the table rests: a stroke wraps and makes no seams. */
+/* Measured as the canvas lays the copies, when the table rests: a stroke wraps and makes no seams. */
 static void measure(WrApp *app)
 {
     const WrField *field = wr_app_field(app);
     const WrScene *scene = wr_app_scene(app);
-    const uint64_t key = (wr_field_key(field) * 31 + wr_session_revision(app->session)) * 8 +
-                         (uint64_t)scene->scheme;
+    const WrTiling tiling = app->settings->tiling;
+    const WrSeamOptions lay = { .shift = {
+                                    tiling == WR_TILING_HALF_DROP ? wr_field_height(field) / 2 : 0,
+                                    tiling == WR_TILING_BRICK ? wr_field_width(field) / 2 : 0 } };
+    const uint64_t key = ((wr_field_key(field) * 31 + wr_session_revision(app->session)) * 8 +
+                          (uint64_t)scene->scheme) *
+                             4 +
+                         (uint64_t)tiling;
     if (key == app->seam_key || wr_session_in_stroke(app->session)) return;
-    *app->seam = wr_seam_measure(field, 256);
     *app->certificate = scene->analytic.kind != WR_ANALYTIC_OFF
                             ? wr_certificate_formula(&scene->analytic)
-                            : wr_certificate_table(field, scene->scheme);
+                            : wr_certificate_table(field, scene->scheme, &lay);
+    *app->seam = app->certificate->pattern;
     app->seam_key = key;
 }
 
