@@ -4,7 +4,7 @@
 
 /* Every kind, dimension and fade, repeating where it can after periods that differ by axis, and not
  * repeating where that is allowed. Returns how many there are. */
-#define NOISE_CASES 60
+#define NOISE_CASES 61
 static inline int noise_cases(WrNoise *out)
 {
     static const int periods[WR_NOISE_AXES] = { 6, 12, 9 };

@@ -237,6 +237,48 @@ static void greens_lengths_and_curls_are_found(void **state)
     }
 }
 
+/* Most of a map is flat, so that its code 128 stands for 0; a steep disc stands in it. What rounding makes of unit vectors is
+ * no wrong length, and a blue of 128 does not look away. */
+static void a_steep_disc_in_flat_ground_is_good(void **state)
+{
+    (void)state;
+    static const double slopes[] = { 0.7, 4, 60, 400 };
+    for (int k = 0; k < 8; k++) {
+        Sheet s = { .channels = 3, .bits = k < 4 ? 8 : 16 };
+        for (int t = 0; t < W * H; t++) {
+            const double x = t % W - 18.3, y = (double)((t - t % W) / W) - 25.7,
+                         r = sqrt(x * x + y * y), slope = r < 11 ? slopes[k % 4] * r / 11 : 0;
+            const double length = sqrt(1 + slope * slope);
+            s.numbers[3 * t] = slope * x / r / length / 2 + 0.5;
+            s.numbers[3 * t + 1] = -slope * y / r / length / 2 + 0.5;
+            s.numbers[3 * t + 2] = 1 / length / 2 + 0.5;
+        }
+        WrCheck check = check_sheet(&s, NULL);
+        assert_int_equal(check.kind, WR_CHECK_NORMAL);
+        if (check.problems & (BIT(WR_CHECK_LENGTH) | BIT(WR_CHECK_AWAY)))
+            fail_msg("slope %g: problems %x, off %.4g", slopes[k % 4], check.problems,
+                     check.normals.off);
+    }
+}
+
+/* Sharp veins in smooth stone, cut where they do not meet: a few texels inside are as sharp as the seam is all along. */
+static void a_cut_through_marble_is_a_seam(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        Sheet s = { .channels = 1, .bits = k % 2 ? 8 : 16 };
+        const double size = k < 6 ? 1 : 0.77, sharp = 0.2 + 0.15 * (k / 2 % 3);
+        for (int t = 0; t < W * H; t++) {
+            const double u = centre_u(t) * size, v = centre_v(t);
+            const double turns =
+                u + 2 * v + 0.3 * sin(2 * WR_PI * (2 * u + v)) + 0.2 * cos(2 * WR_PI * (u - 3 * v));
+            s.numbers[t] = 0.9 - 0.8 * pow(fabs(sin(WR_PI * turns)), sharp);
+        }
+        const unsigned want = k < 6 ? 0 : BIT(WR_CHECK_SEAM_U);
+        assert_int_equal(check_sheet(&s, NULL).problems, want);
+    }
+}
+
 static void labels_that_lie_are_told(void **state)
 {
     (void)state;
@@ -308,6 +350,8 @@ int main(void)
         cmocka_unit_test(numbers_are_counted),
         cmocka_unit_test(what_is_not_finite_is_told),
         cmocka_unit_test(greens_lengths_and_curls_are_found),
+        cmocka_unit_test(a_steep_disc_in_flat_ground_is_good),
+        cmocka_unit_test(a_cut_through_marble_is_a_seam),
         cmocka_unit_test(labels_that_lie_are_told),
         cmocka_unit_test(slopes_and_colours_are_told_apart),
         cmocka_unit_test(hostile_files_are_errors),

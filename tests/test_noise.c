@@ -407,7 +407,7 @@ static void what_does_not_fit_together_is_refused_with_a_reason(void **state)
     const WrNoise value = { .kind = WR_NOISE_VALUE, .dim = 2 };
     WrNoise bad = value;
     bad.kind = (WrNoiseKind)99;
-    assert_refused(bad, "noise kind 99: must be 0..5");
+    assert_refused(bad, "noise kind 99: must be 0..6");
     bad = value, bad.fade = (WrFade)-1;
     assert_refused(bad, "fade -1: must be 0..2");
     bad = value, bad.dim = 4;

@@ -13,7 +13,7 @@ static WrOctavesPlan plan_of(const WrOctaves *octaves)
 }
 
 /* Kinds and dimensions that tile. */
-#define TILING 12
+#define TILING 13
 static int tiling_sums(WrOctaves *out)
 {
     int count = 0;
@@ -55,6 +55,57 @@ static void the_sum_is_the_lectures_series(void **state)
     }
     for (int i = 1; i < 5; i++)
         assert_true(plan.octave[i].noise.lattice.seed != plan.octave[i - 1].noise.lattice.seed);
+}
+
+/* With one lattice for all octaves the sum is g(t) + g(2t)/2 + g(4t)/4 + ... of one g with n cells, as the lecture writes
+   it; g is here evaluated at each place by itself. */
+static void one_lattice_is_the_lectures_literal_sum(void **state)
+{
+    (void)state;
+    TestRandom r = { 3 };
+    static const WrNoiseKind kinds[] = { WR_NOISE_VALUE,   WR_NOISE_GRADIENT, WR_NOISE_PERLIN,
+                                         WR_NOISE_SHEARED, WR_NOISE_TORUS,    WR_NOISE_CUBES };
+    for (int k = 0; k < 18; k++) {
+        const WrNoiseKind kind = kinds[k % 6];
+        const double step = 2 + k / 6 % 2;
+        const int n = 8;
+        WrOctaves octaves = wr_octaves_default(2);
+        octaves.kind = kind;
+        octaves.count = 4;
+        octaves.step = octaves.ratio = step;
+        octaves.cells[0] = octaves.cells[1] = n;
+        octaves.scatter = false;
+        octaves.one_lattice = true;
+        WrOctavesPlan plan = plan_of(&octaves);
+        octaves.count = 1;
+        const WrNoise g = plan_of(&octaves).octave[0].noise;
+        assert_int_equal(g.lattice.period[0], n);
+        for (int i = 0; i < 200; i++) {
+            double p[2] = { test_random(&r), test_random(&r) }, sum = 0;
+            for (int o = 0; o < 4; o++) {
+                const double t[2] = { n * p[0] * pow(step, o), n * p[1] * pow(step, o) };
+                sum += wr_noise_at(&g, t, NULL) / pow(step, o);
+            }
+            assert_near(wr_octaves_at(&plan, p, NULL), sum, 1e-9);
+            p[0] += 1, p[1] -= 1; /* and it tiles */
+            assert_near(wr_octaves_at(&plan, p, NULL), sum, 1e-9);
+        }
+    }
+    /* at the origin all octaves stand on one lattice point: value noise is 1 + 1/2 + 1/4 times its height there */
+    WrOctaves value = wr_octaves_default(2);
+    value.kind = WR_NOISE_VALUE;
+    value.count = 3;
+    value.scatter = false;
+    value.one_lattice = true;
+    const WrOctavesPlan plan = plan_of(&value);
+    const double origin[2] = { 0, 0 };
+    assert_near(wr_octaves_at(&plan, origin, NULL),
+                1.75 * wr_noise_at(&plan.octave[0].noise, origin, NULL), 1e-12);
+    /* a step that is not whole tiles all the same */
+    value.step = 1.7;
+    const WrOctavesPlan odd = plan_of(&value);
+    const double a[2] = { 0.3, 0.1 }, b[2] = { 1.3, -0.9 };
+    assert_near(wr_octaves_at(&odd, a, NULL), wr_octaves_at(&odd, b, NULL), 1e-9);
 }
 
 static void modes_are_their_formulas_and_stay_within_the_bound(void **state)
@@ -419,6 +470,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_sum_is_the_lectures_series),
+        cmocka_unit_test(one_lattice_is_the_lectures_literal_sum),
         cmocka_unit_test(modes_are_their_formulas_and_stay_within_the_bound),
         cmocka_unit_test(slopes_are_those_of_the_sums),
         cmocka_unit_test(hc62_octaves_beyond_half_a_cell_a_texel_are_dropped),

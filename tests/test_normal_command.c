@@ -77,7 +77,7 @@ static void what_was_taken_is_told(void **state)
     expect_told(&said, "2 channels of 16 bits, z rebuilt; green down, found from its slopes");
     assert_true(map_of(s)->green_down && map_of(s)->laid.own && map_of(s)->laid.ru == 1);
     must_run(s, "normalmap floats.exr");
-    expect_told(&said, "floats, the vectors' own; green down, found");
+    expect_told(&said, "floats, the vectors' own (coding=signed); green down, found");
     assert_false(map_of(s)->laid.own); /* another file's settings are its own */
     must_run(s, "normalmap flat.png");
     expect_told(&said, "code 128 stands for 0; green up, undecided");

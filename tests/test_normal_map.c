@@ -133,6 +133,91 @@ static void codes_that_are_flat_at_the_middle_are_centred(void **state)
     }
 }
 
+/* Vectors on a ring about the axis, coded or not, in floats. */
+static WrImage *ring_of_floats(bool coded, double lean)
+{
+    WrImage *file = wr_image_new(40, 10, 3, NULL);
+    file->type = WR_PIXEL_F32;
+    for (int i = 0; i < 400; i++) {
+        const double turn = 0.1 * i,
+                     n[3] = { lean * cos(turn), lean * sin(turn), sqrt(1 - lean * lean) };
+        for (int c = 0; c < 3; c++) file->data[3 * i + c] = (float)(coded ? n[c] / 2 + 0.5 : n[c]);
+    }
+    return file;
+}
+
+/* How far the vectors that are read are from the ring's, in degrees. */
+static double worst_angle(const WrImage *map, double lean)
+{
+    double worst = 0;
+    for (int i = 0; i < 400; i++) {
+        const double turn = 0.1 * i,
+                     n[3] = { lean * cos(turn), lean * sin(turn), sqrt(1 - lean * lean) };
+        double square = 0;
+        for (int c = 0; c < 3; c++) square += pow((double)map->data[3 * i + c] - n[c], 2);
+        worst = fmax(worst, 2 * asin(sqrt(square) / 2) * 57.29577951308232);
+    }
+    return worst;
+}
+
+/* Bakes in floats have a blue of 1.00001, filters leave numbers a little below 0: neither makes vectors of codes. */
+static void floats_are_read_by_their_distribution(void **state)
+{
+    (void)state;
+    static const double leans[] = { 0.01, 0.2, 0.6, 0.95 };
+    for (int k = 0; k < 16; k++) {
+        const bool coded = k % 2, stray = k / 2 % 2;
+        const double lean = leans[k / 4];
+        WrNormalTold told;
+        WrImage *file = ring_of_floats(coded, lean);
+        if (stray) { /* of one texel in forty */
+            for (int i = 0; i < 400; i += 40)
+                file->data[3 * i + 2] *= 1.00002f, file->data[3 * i] -= 1e-5f;
+            if (coded) file->data[2] = 1.00001f;
+        }
+        WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
+        assert_int_equal(told.own, !coded);
+        /* the stray blue of texel 0 alone leaves its own angle */
+        if (!stray && worst_angle(map, lean) > 1e-3)
+            fail_msg("case %d: off by %.3g degrees", k, worst_angle(map, lean));
+        wr_image_free(map);
+        map = wr_normal_map_read(file, WR_GREEN_UP, 0, coded ? WR_CODING_UNIT : WR_CODING_SIGNED,
+                                 &told, NULL);
+        assert_int_equal(told.own, !coded);
+        wr_image_free(map);
+        wr_image_free(file);
+    }
+}
+
+/* A choice counts whatever the numbers are; codes have none. */
+static void a_coding_that_is_told_is_taken(void **state)
+{
+    (void)state;
+    WrNormalTold told;
+    WrError err = { "" };
+    WrImage *file = ring_of_floats(true, 0.2);
+    WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_SIGNED, &told, NULL);
+    assert_true(told.own && map->data[0] > 0.3f); /* 0.6, 0.5, 0.99 as it is */
+    wr_image_free(map);
+    file->type = WR_PIXEL_U8;
+    assert_null(wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_SIGNED, &told, &err));
+    assert_non_null(strstr(err.text, "coding=signed needs a file of floats"));
+    map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_UNIT, &told, NULL);
+    assert_false(told.own);
+    wr_image_free(map);
+    /* two channels: slopes of both signs are vectors' own numbers, those about one half are codes */
+    file->type = WR_PIXEL_F32;
+    map = wr_normal_map_read(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &told, NULL);
+    assert_false(told.own);
+    wr_image_free(map);
+    wr_image_free(file);
+    file = ring_of_floats(false, 0.2);
+    map = wr_normal_map_read(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &told, NULL);
+    assert_true(told.own);
+    wr_image_free(map);
+    wr_image_free(file);
+}
+
 /* HC138, HC139: beyond the rim, behind, without a direction. */
 static void what_looks_away_is_clamped_and_counted(void **state)
 {
@@ -192,6 +277,8 @@ int main(void)
         cmocka_unit_test(maps_of_all_formats_are_read_within_their_bound),
         cmocka_unit_test(of_a_sum_of_profiles_the_sign_is_undecided),
         cmocka_unit_test(codes_that_are_flat_at_the_middle_are_centred),
+        cmocka_unit_test(floats_are_read_by_their_distribution),
+        cmocka_unit_test(a_coding_that_is_told_is_taken),
         cmocka_unit_test(what_looks_away_is_clamped_and_counted),
         cmocka_unit_test(a_colour_conversion_is_told),
     };

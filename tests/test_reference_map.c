@@ -265,6 +265,68 @@ static void one_triangle_turns_the_map_as_by_hand(void **state)
     }
 }
 
+/* A fold: normals at the corners lean apart by 50 degrees, so that their mean is shorter than 1 between them. The lecture's
+   n' = 0.6 T + 0.8 N takes each of length 1; with the mean as it is, the map would lean by 2 degrees more. */
+static void a_fold_takes_the_normal_of_length_1(void **state)
+{
+    static const float p[3][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+    static const float uv[3][2] = { { 0.5f, 0 }, { 1, 0.5f }, { 0, 1 } };
+    static const int32_t corners[1][3] = { { 0, 1, 2 } };
+    const double lean = 50 / 57.29577951308232;
+    const float n[3][3] = { { 0, 0, 1 }, { 0, 0, 1 }, { 0, (float)sin(lean), (float)cos(lean) } };
+    (void)state;
+    const WrTrianglesSource source = { .points = p,
+                                       .normals = n,
+                                       .uv = uv,
+                                       .corners = corners,
+                                       .point_count = 3,
+                                       .triangle_count = 1 };
+    WrScene *scene = scene_of("mesh");
+    wr_scene_set_triangles(scene, wr_triangles_new(&source, NULL), "a.obj", NULL);
+    WrImage *file = wr_image_new(2, 2, 3, NULL);
+    file->type = WR_PIXEL_F32;
+    for (int i = 0; i < 12; i += 3) file->data[i] = 0.6f, file->data[i + 2] = 0.8f;
+    scene->normals.frame = WR_FRAME_LECTURE;
+    put_map(scene, file, WR_GREEN_UP, 0);
+    scene->posed = true, scene->rotate_deg = (WrVec3){ 0, -15, 0 };
+    static float normals[40 * 40][3];
+    WrField *field = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    WrRenderer *renderer = wr_renderer_new(NULL, "auto", NULL);
+    const WrFrameRequest request = { .field = field,
+                                     .scene = scene,
+                                     .width = 40,
+                                     .height = 40,
+                                     .turn_deg = 15,
+                                     .normals = normals[0] };
+    WrFrame frame;
+    int seen = 0;
+    assert_true(wr_renderer_frame(renderer, &request, &frame, NULL));
+    for (int i = 0; i < 40 * 40; i++) {
+        WrProbe probe;
+        if (!(frame.rgba[4 * i + 3] > 0)) continue;
+        if (!wr_reference_probe(field, scene, 40, 40, 15, i % 40 + 0.5, i / 40 + 0.5, &probe,
+                                NULL) ||
+            !probe.hit)
+            continue;
+        /* (u, v) = (1/2, 0) + b (1/2, 1/2) + c (-1/2, 1): b and c are the shares of the second and third corner */
+        const double du = probe.u - 0.5, b = (2 * du + probe.v) * 2 / 3, c = probe.v - b / 2;
+        const double mean[3] = { 0, c * sin(lean), 1 - c + c * cos(lean) };
+        const double length = sqrt(mean[1] * mean[1] + mean[2] * mean[2]), t = 1 / sqrt(5);
+        double want[3] = { 0.6 * 2 * t, -0.6 * t + 0.8 * mean[1] / length, 0.8 * mean[2] / length };
+        const double unit = sqrt(want[0] * want[0] + want[1] * want[1] + want[2] * want[2]);
+        const double got[3] = { probe.perturbed.x, probe.perturbed.y, probe.perturbed.z };
+        for (int k = 0; k < 3; k++) {
+            assert_near(got[k], want[k] / unit, 1e-6);
+            assert_near((double)normals[i][k], want[k] / unit, 2e-5);
+        }
+        seen++;
+    }
+    assert_true(seen > 100);
+    wr_renderer_free(renderer);
+    wr_field_free(field);
+    wr_scene_free(scene);
+}
+
 /* The probe of a pixel has the normal of the picture, and the intensity. */
 static void a_probe_has_the_map(void **state)
 {
@@ -397,6 +459,7 @@ int main(void)
         cmocka_unit_test(pictures_have_the_references_normals),
         cmocka_unit_test(objects_that_hide_each_other_have_them_too),
         cmocka_unit_test(one_triangle_turns_the_map_as_by_hand),
+        cmocka_unit_test(a_fold_takes_the_normal_of_length_1),
         cmocka_unit_test(a_probe_has_the_map),
         cmocka_unit_test(filtered_maps_come_near_the_reference),
     };

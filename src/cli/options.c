@@ -30,13 +30,6 @@ static bool set_threads(WrCli *cli, const char *value, WrError *err)
     return wr_fail(err, "--threads %.40s: must be a whole number, 1..256", value);
 }
 
-static bool set_isa(WrCli *cli, const char *value, WrError *err)
-{
-    (void)err;
-    cli->isa = value;
-    return true;
-}
-
 static bool set_do(WrCli *cli, const char *value, WrError *err)
 {
     (void)err;
@@ -48,20 +41,6 @@ static bool set_out(WrCli *cli, const char *value, WrError *err)
 {
     if (!*value) return wr_fail(err, "-o: the file name is empty");
     cli->out = value;
-    return true;
-}
-
-static bool set_kind(WrCli *cli, const char *value, WrError *err)
-{
-    (void)err;
-    cli->kind = value;
-    return true;
-}
-
-static bool set_coding(WrCli *cli, const char *value, WrError *err)
-{
-    (void)err;
-    cli->coding = value;
     return true;
 }
 
@@ -142,13 +121,6 @@ static bool set_at(WrCli *cli, const char *value, WrError *err)
     return true;
 }
 
-static bool set_noise(WrCli *cli, const char *value, WrError *err)
-{
-    (void)err;
-    cli->noise = value;
-    return true;
-}
-
 static bool set_face(WrCli *cli, const char *value, WrError *err)
 {
     if (parse_whole(value, strlen(value), 0, 5, &cli->face)) return true;
@@ -169,24 +141,10 @@ static bool set_thumbnails(WrCli *cli, const char *value, WrError *err)
     return true;
 }
 
-static bool set_collection(WrCli *cli, const char *value, WrError *err)
-{
-    (void)err;
-    cli->collection = value;
-    return true;
-}
-
 static bool set_map(WrCli *cli, const char *value, WrError *err)
 {
     if (!*value) return wr_fail(err, "--map: the file name is empty");
     cli->map = value;
-    return true;
-}
-
-static bool set_axis(WrCli *cli, const char *value, WrError *err)
-{
-    (void)err;
-    cli->axis = value;
     return true;
 }
 
@@ -240,17 +198,21 @@ static const struct Option {
     WrOption bit;
     const char *help;
     SetOption set;
-    size_t flag; /* where set is NULL: of the member that becomes true */
+    size_t
+        member; /* where set is NULL: of the text that becomes the value, or of what becomes true */
 } options[] = {
     { "-o", "--output", "OUT", WR_OPTION_OUT, "the file to write", .set = set_out },
     { "--as", NULL, "KIND", WR_OPTION_AS, "what to export; `wrinkle help export` lists the kinds",
-      .set = set_kind },
+      .member = offsetof(WrCli, kind) },
     { "--watch", NULL, NULL, WR_OPTION_AS,
-      "stay, and write again when FILE or what it reads changes", .flag = offsetof(WrCli, watch) },
+      "stay, and write again when FILE or what it reads changes",
+      .member = offsetof(WrCli, watch) },
     { "--as", NULL, "KIND", WR_OPTION_CHECK,
-      "what the files are: height, normal, slopes or colour (found out)", .set = set_kind },
+      "what the files are: height, normal, slopes or colour (found out)",
+      .member = offsetof(WrCli, kind) },
     { "--coding", NULL, "CODING", WR_OPTION_CHECK,
-      "of normals in floats: unit (0..1 stands for -1..1), signed or auto", .set = set_coding },
+      "of normals in floats: unit (0..1 stands for -1..1), signed or auto",
+      .member = offsetof(WrCli, coding) },
     { "--size", NULL, "WxH", WR_OPTION_SIZE, "of the picture in pixels (512x512)",
       .set = set_size },
     { "--size", NULL, "WxH", WR_OPTION_ACCURACY, "of the pictures in pixels (256x256)",
@@ -259,10 +221,10 @@ static const struct Option {
       .set = set_angle },
     { "--full", NULL, NULL, WR_OPTION_FULL,
       "run what the plan would leave out too: the yardstick that it is measured by",
-      .flag = offsetof(WrCli, full) },
+      .member = offsetof(WrCli, full) },
     { "--measure", NULL, NULL, WR_OPTION_EXPLAIN,
       "render with each effect forced the other way too, and tell what it costs or saves",
-      .flag = offsetof(WrCli, measure) },
+      .member = offsetof(WrCli, measure) },
     { "--map", NULL, "FILE", WR_OPTION_MAP,
       "write a picture of where each effect ran; of --illusion: outline red, shading green, shadow "
       "blue",
@@ -280,17 +242,19 @@ static const struct Option {
       .set = set_loop },
     { "--missing", NULL, NULL, WR_OPTION_RENDER,
       "leave out what is there already, whole and of that size and kind, whatever it shows",
-      .flag = offsetof(WrCli, missing) },
+      .member = offsetof(WrCli, missing) },
     { "--memory", NULL, "MB", WR_OPTION_RENDER,
       "for a picture's rows while it is written, 64 of them at least (64)", .set = set_memory },
     { "--at", NULL, "U,V", WR_OPTION_AT, "a point; repeatable; - reads them from standard input",
       .set = set_at },
     { "--noise", NULL, "COMMAND", WR_OPTION_NOISE,
-      "the noise of such a command at the points, in place of the surface", .set = set_noise },
+      "the noise of such a command at the points, in place of the surface",
+      .member = offsetof(WrCli, noise) },
     { "--face", NULL, "N", WR_OPTION_FACE, "of a surface of several faces, the cube: 0..5",
       .set = set_face },
     { "--collection", NULL, "NAME", WR_OPTION_SHEET,
-      "only these: user, wrinkle, mypaint2, mypaint1, or mypaint for both", .set = set_collection },
+      "only these: user, wrinkle, mypaint2, mypaint1, or mypaint for both",
+      .member = offsetof(WrCli, collection) },
     { "--sheet", NULL, "FILE", WR_OPTION_SHEET, "write a picture with a stroke of each preset",
       .set = set_sheet },
     { "--thumbnails", NULL, "FOLDER", WR_OPTION_SHEET,
@@ -298,10 +262,10 @@ static const struct Option {
       .set = set_thumbnails },
     { "--settings", NULL, NULL, WR_OPTION_SHEET,
       "what each setting of MyPaint's presets means for heights, as a table",
-      .flag = offsetof(WrCli, settings) },
+      .member = offsetof(WrCli, settings) },
     { "--axis", NULL, "NAME", WR_OPTION_ACCURACY,
       "only this one: derivative, normal, antialiasing, visibility, light or arithmetic",
-      .set = set_axis },
+      .member = offsetof(WrCli, axis) },
     { "--runs", NULL, "N", WR_OPTION_ACCURACY, "timed runs of each rung, 3..64 (9)",
       .set = set_runs },
     { "--budget", NULL, "SECONDS", WR_OPTION_ACCURACY,
@@ -317,32 +281,32 @@ static const struct Option {
       .set = set_tolerance },
     { "--illusion", NULL, NULL, WR_OPTION_ACCURACY,
       "instead: how far bump mapping is from displacement: outline, shading and shadow",
-      .flag = offsetof(WrCli, illusion) },
+      .member = offsetof(WrCli, illusion) },
     { "--hard-cases", NULL, NULL, WR_OPTION_ACCURACY,
       "instead: every hard case, what must hold, and the worst that was measured",
-      .flag = offsetof(WrCli, hard_cases) },
+      .member = offsetof(WrCli, hard_cases) },
     { "--beyond", NULL, NULL, WR_OPTION_RECOVER,
       "go on behind what is damaged or fails; without it, the document up to there",
-      .flag = offsetof(WrCli, beyond) },
+      .member = offsetof(WrCli, beyond) },
     { "--script", NULL, NULL, WR_OPTION_RECOVER,
       "instead: all commands that can be read, as text, to OUT or standard output",
-      .flag = offsetof(WrCli, script) },
+      .member = offsetof(WrCli, script) },
     { "--in-place", NULL, NULL, WR_OPTION_RECOVER,
       "save to the document's own file, if that is still what it was",
-      .flag = offsetof(WrCli, in_place) },
+      .member = offsetof(WrCli, in_place) },
     { "--markdown", NULL, NULL, WR_OPTION_MARKDOWN,
       "as the guide has it: of a VERB, of all verbs, subcommands or effects",
-      .flag = offsetof(WrCli, markdown) },
-    { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", .flag = offsetof(WrCli, json) },
+      .member = offsetof(WrCli, markdown) },
+    { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", .member = offsetof(WrCli, json) },
     { "--do", NULL, "COMMAND", WR_OPTION_COMMON,
       "run a command after FILE is loaded; repeatable, in order", .set = set_do },
     { "--threads", NULL, "N", WR_OPTION_COMMON, "to work on (one a processor)",
       .set = set_threads },
     { "--isa", NULL, "NAME", WR_OPTION_COMMON, "instructions for pictures: ref v1 v2 v3 v4 auto",
-      .set = set_isa },
-    { "--help", "-h", NULL, WR_OPTION_COMMON, "this text", .flag = offsetof(WrCli, help) },
+      .member = offsetof(WrCli, isa) },
+    { "--help", "-h", NULL, WR_OPTION_COMMON, "this text", .member = offsetof(WrCli, help) },
     { "--version", NULL, NULL, WR_OPTION_COMMON, "of the program",
-      .flag = offsetof(WrCli, version) },
+      .member = offsetof(WrCli, version) },
 };
 #define OPTION_COUNT ((int)(sizeof options / sizeof *options))
 
@@ -439,7 +403,9 @@ static bool take_option(WrCli *cli, int argc, char **argv, int *i, int *status, 
     if (o->value && !value) value = argv[++*i];
     *status = WR_EXIT_FAILED; /* a value that is wrong */
     if (o->set) return o->set(cli, value, err);
-    return *(bool *)((char *)cli + o->flag) = true;
+    if (!o->value) return *(bool *)((char *)cli + o->member) = true;
+    *(const char **)((char *)cli + o->member) = value;
+    return true;
 }
 
 /* A lone word that is neither a subcommand nor like a file name is a mistyped subcommand. */

@@ -117,7 +117,7 @@ static bool is_grey(const WrImage *image)
 static bool looks_normal(const WrImage *image, const WrNormalTold *told)
 {
     const double texels = (double)image->width * (double)image->height;
-    return told->off_mean < NORMAL_OFF && (double)told->away < NORMAL_AWAY * texels;
+    return told->off_mean < NORMAL_OFF && (double)(told->away - told->level) < NORMAL_AWAY * texels;
 }
 
 static const char *label_of(const WrImageLabel *label)

@@ -247,18 +247,6 @@ static void set_grid(WrExportJob *job)
         job->u[i] = !border ? (i + 0.5) / w : (double)(ring ? i % w : i) / w;
 }
 
-/* Cells in other rows than their edges', as in an atlas or a hexagonal sheet, are judged before they are laid out. */
-static WrCertificate certify(const WrExportJob *job)
-{
-    if (job->analytic) return wr_certificate_formula(&job->scene->analytic);
-    const WrExportOptions *o = &job->options;
-    const WrScheme scheme = o->scheme < 0 ? job->scene->scheme : (WrScheme)o->scheme;
-    const WrSeamOptions seam = { .copies = { job->copies[0], job->copies[1] } };
-    WrCertificate out = wr_certificate_table(job->field, scheme, &seam);
-    if (o->lay == WR_LAY_HEX || o->atlas) out.pattern = wr_seam_measure(job->cell, NULL);
-    return out;
-}
-
 static bool write_one(WrExportJob *job, const char *path, WrError *err)
 {
     set_grid(job);
@@ -269,7 +257,7 @@ static bool write_one(WrExportJob *job, const char *path, WrError *err)
                                     .convention = convention_of(job->kind, job->options.axes),
                                     .depth = job->options.depth,
                                     .half = job->options.half };
-    job->report.seam = certify(job);
+    job->report.seam = wr_export_certify(job);
     return job->picture       ? wr_export_fill_picture(job, err)
            : job->kind->write ? job->kind->write(job, path, err)
                               : wr_export_write(job, path, err);

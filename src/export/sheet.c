@@ -9,6 +9,7 @@
 #include "field/field.h"
 #include "field/ops.h"
 #include "field/scheme.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <string.h>
@@ -198,6 +199,18 @@ WrField *wr_export_sheet(WrExportJob *job, bool *good, WrError *err)
     if (*good) return s.field;
     wr_field_free(s.field);
     return NULL;
+}
+
+/* Cells in other rows than their edges', as in an atlas or a hexagonal sheet, are judged before they are laid out. */
+WrCertificate wr_export_certify(const WrExportJob *job)
+{
+    if (job->analytic) return wr_certificate_formula(&job->scene->analytic);
+    const WrExportOptions *o = &job->options;
+    const WrScheme scheme = o->scheme < 0 ? job->scene->scheme : (WrScheme)o->scheme;
+    const WrSeamOptions seam = { .copies = { job->copies[0], job->copies[1] } };
+    WrCertificate out = wr_certificate_table(job->field, scheme, &seam);
+    if (o->lay == WR_LAY_HEX || o->atlas) out.pattern = wr_seam_measure(job->cell, NULL);
+    return out;
 }
 
 /* ---- levels as files ---- */

@@ -256,8 +256,8 @@ bool wr_seam_shows(const WrSeamEdge *edge)
 
 void wr_seam_text(const WrSeamEdge *edge, WrText *text)
 {
-    static const char *const names[] = { "height differs", "slope breaks",
-                                         "second difference jumps" };
+    static const char *const names[] = { "height differs", "slope changes",
+                                         "second difference changes" };
     const int k = wr_seam_worst(edge);
     if (edge->across[k] <= 0 && edge->inside[k] <= 0) {
         wr_text_add(text, "level ground");
