@@ -196,6 +196,37 @@ static void small_tables_are_not_measured(void **state)
     wr_field_free(field);
 }
 
+/* Noise on a ring: random waves that close. Few lines are inside, so that one at the edge may well be the worst by chance. */
+static void small_seamless_tables_have_no_seam(void **state)
+{
+    (void)state;
+    TestRandom random = { 5 };
+    int flagged = 0, cut_seen = 0;
+    for (int k = 0; k < 400; k++) {
+        const int size = 8 + k % 5 * 4;
+        double phase[9], high[9];
+        for (int i = 0; i < 9; i++)
+            phase[i] = TURN * test_random(&random), high[i] = test_random(&random) - 0.5;
+        WrField *field = wr_field_new(size, size, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+        for (int cut = 0; cut < 2; cut++) {
+            for (int j = 0; j < size; j++)
+                for (int i = 0; i < size; i++) {
+                    const double u = (cut ? 0.6 : 1) * (i + 0.5) / size, v = (j + 0.5) / size;
+                    double f = 0;
+                    for (int n = 0; n < 9; n++)
+                        f += high[n] * sin(TURN * ((n % 3 + 1) * u + (n / 3) * v) + phase[n]);
+                    wr_field_set(field, i, j, (float)f);
+                }
+            const WrSeam seam = wr_seam_measure(field, NULL);
+            if (cut) cut_seen += wr_seam_shows(&seam.u);
+            else flagged += wr_seam_shows(&seam.u) || wr_seam_shows(&seam.v);
+        }
+        wr_field_free(field);
+    }
+    if (flagged > 4) fail_msg("%d of 400 seamless tables have a seam", flagged);
+    if (cut_seen < 300) fail_msg("%d of 400 cuts have a seam", cut_seen);
+}
+
 /* ---- the certificate ---- */
 
 static void a_certificate_is_no_better_than_its_pattern(void **state)
@@ -236,6 +267,7 @@ int main(void)
         cmocka_unit_test(a_lay_is_judged_as_it_is_laid),
         cmocka_unit_test(rounding_to_codes_is_no_seam),
         cmocka_unit_test(small_tables_are_not_measured),
+        cmocka_unit_test(small_seamless_tables_have_no_seam),
         cmocka_unit_test(a_certificate_is_no_better_than_its_pattern),
         cmocka_unit_test(the_text_never_divides_by_nothing),
     };

@@ -161,11 +161,11 @@ static void take_ratio(WrSeamEdge *edge, int k, const Line *seam, const Line *in
 
 /* A step in steep ground differs by less than the ground itself does. Its second difference shows it: that is larger
  * than any change of slope inside, and three times the step. */
-static bool hidden_step(const Line *seam, const Line *inside, double noise)
+static bool hidden_step(const WrSeamEdge *edge, const Line *seam, const Line *inside, double noise)
 {
     for (int m = 0; m < MEANS; m++)
-        if (quotient(seam, WR_SEAM_BEND, inside, WR_SEAM_BEND, m, noise) > WR_SEAM_CLEARLY &&
-            quotient(seam, WR_SEAM_BEND, inside, WR_SEAM_SLOPE, m, noise) > WR_SEAM_CLEARLY &&
+        if (quotient(seam, WR_SEAM_BEND, inside, WR_SEAM_BEND, m, noise) > edge->limit &&
+            quotient(seam, WR_SEAM_BEND, inside, WR_SEAM_SLOPE, m, noise) > edge->limit &&
             4 * seam->of[WR_SEAM_STEP][m] > seam->of[WR_SEAM_BEND][m])
             return true;
     return false;
@@ -176,7 +176,7 @@ static bool repeats(const Axis *a, const WrSeamEdge *edge)
 {
     bool level = true;
     float first[4], t[4];
-    if (edge->ratio[WR_SEAM_BEND] <= WR_SEAM_CLEARLY) return false;
+    if (edge->ratio[WR_SEAM_BEND] <= edge->limit) return false;
     read_edge(a, 0, first);
     for (int k = 0; k < a->length; k++) {
         read_edge(a, k, t);
@@ -188,11 +188,11 @@ static bool repeats(const Axis *a, const WrSeamEdge *edge)
 
 static int order_of(const WrSeamEdge *edge, const Line *seam, const Line *inside, double noise)
 {
-    if (edge->ratio[WR_SEAM_STEP] > WR_SEAM_CLEARLY) return -1;
-    if (edge->ratio[WR_SEAM_SLOPE] > WR_SEAM_CLEARLY) return 0;
-    if (hidden_step(seam, inside, noise)) return -1;
+    if (edge->ratio[WR_SEAM_STEP] > edge->limit) return -1;
+    if (edge->ratio[WR_SEAM_SLOPE] > edge->limit) return 0;
+    if (hidden_step(edge, seam, inside, noise)) return -1;
     if (edge->repeats) return 0;
-    return edge->ratio[WR_SEAM_BEND] > WR_SEAM_CLEARLY ? 1 : 2;
+    return edge->ratio[WR_SEAM_BEND] > edge->limit ? 1 : 2;
 }
 
 /* What rounding to float leaves of numbers so large. */
@@ -228,6 +228,7 @@ static WrSeamEdge measure(const WrField *field, bool along_v, const WrSeamOption
     if (!edge.measured) return edge;
     const double noise = o->noise + float_noise(&a);
     const Line seam = measure_edge(&a), inside = measure_inside(&a, &seam, &edge.rank);
+    edge.limit = WR_SEAM_CLEARLY + WR_SEAM_FEW / fewer(a.size - 3);
     for (int k = 0; k < WR_SEAM_DIFFERENCES; k++) take_ratio(&edge, k, &seam, &inside, noise);
     edge.repeats = repeats(&a, &edge);
     edge.order = order_of(&edge, &seam, &inside, noise);
@@ -244,7 +245,7 @@ int wr_seam_worst(const WrSeamEdge *edge)
 {
     static const int by_order[] = { WR_SEAM_STEP, WR_SEAM_SLOPE, WR_SEAM_BEND };
     const double *r = edge->ratio;
-    if (edge->order < 1 && r[edge->order + 1] <= WR_SEAM_CLEARLY) return WR_SEAM_BEND;
+    if (edge->order < 1 && r[edge->order + 1] <= edge->limit) return WR_SEAM_BEND;
     if (edge->order < 2) return by_order[edge->order + 1];
     return r[WR_SEAM_STEP] >= r[WR_SEAM_SLOPE] ? WR_SEAM_STEP : WR_SEAM_SLOPE;
 }
