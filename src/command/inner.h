@@ -164,7 +164,8 @@ bool wr_session_reads_back(WrSession *session, const char *path, WrError *err);
 /* ---- what commands change ---- */
 
 /* The triangles of `surface terrain file=`, and what is told of them; what its layer= does. */
-WrTriangles *wr_terrain_read(const char *path, const WrShape *shape, WrError *err);
+WrTriangles *wr_terrain_read(WrSession *session, const char *path, const WrShape *shape,
+                             WrError *err);
 void wr_terrain_note(WrSession *session, const char *path, const WrTriangles *mesh);
 bool wr_terrain_names_layer(const WrCall *call);
 bool wr_terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene, WrError *err);

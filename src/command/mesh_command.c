@@ -160,10 +160,10 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
 
 /* ---- the command's part ---- */
 
-static WrTriangles *read_held(const WrCall *call, const WrShape *shape, const char *path,
-                              WrError *err)
+static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrShape *shape,
+                              const char *path, WrError *err)
 {
-    if (shape->kind == WR_SURFACE_terrain) return wr_terrain_read(path, shape, err);
+    if (shape->kind == WR_SURFACE_terrain) return wr_terrain_read(session, path, shape, err);
     if (shape->kind == WR_SURFACE_mesh) return read_triangles(path, err);
     return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
 }
@@ -190,7 +190,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
     WrTriangles *mesh = NULL;
     char hex[65];
     WrSha256Work *hash = wr_sha256_begin(path);
-    mesh = read_held(call, shape, path, err);
+    mesh = read_held(session, call, shape, path, err);
     WrError why = { "" };
     char ending[16];
     const bool parts = strcmp(wr_path_ending(path, ending), "gltf") == 0;

@@ -97,6 +97,10 @@ void wr_session_note_read(WrSession *session, const char *path, const WrImage *i
     if (image->taken[0])
         wr_session_note(session, "%s: took %s (channel= and part= take others)", path,
                         image->taken);
+    if (image->note[0]) wr_session_note(session, "%s: %s", path, image->note);
+    if (image->filled)
+        wr_session_note(session, "%s: %lld missing values filled from their neighbours", path,
+                        (long long)image->filled);
     if (image->replaced)
         wr_session_note(session, "%s: %lld values were not finite and became 0", path,
                         (long long)image->replaced);

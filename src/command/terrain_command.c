@@ -12,6 +12,7 @@
 #include "surface/terrain.h"
 #include "surface/triangles.h"
 
+#include <math.h>
 #include <string.h>
 
 static const float *row_of_image(const void *ctx, int j, float *room)
@@ -44,10 +45,36 @@ static WrTriangles *made_of(WrTerrain terrain, const WrShape *shape, WrError *er
     return made;
 }
 
-WrTriangles *wr_terrain_read(const char *path, const WrShape *shape, WrError *err)
+/* Elevations in metres on a surface of a few units are a needle: the height that makes them half as tall as wide. */
+static void note_needle(WrSession *session, const char *path, const WrImage *image,
+                        const WrShape *shape)
 {
-    WrImage *image = wr_image_read(path, err);
+    const size_t channels = (size_t)image->channels,
+                 count = (size_t)image->width * (size_t)image->height;
+    float low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        const float z = wr_image_luma(image->data + i * channels, (int)channels);
+        if (z < low) low = z;
+        if (z > high) high = z;
+    }
+    const double span = (double)high - (double)low, side = fmin(shape->value[0], shape->value[1]);
+    if (!(fabs(shape->value[2]) * span > 5 * side)) return;
+    wr_session_note(
+        session,
+        "%s: its values go from %g to %g, so height=%g makes a ground %g tall and %g wide; "
+        "height=%.2g makes it half as tall as wide",
+        path, (double)low, (double)high, shape->value[2], fabs(shape->value[2]) * span, side,
+        0.5 * side / span);
+}
+
+WrTriangles *wr_terrain_read(WrSession *session, const char *path, const WrShape *shape,
+                             WrError *err)
+{
+    const WrImageWish wish = { .elevation = true };
+    WrImage *image = wr_image_read_wish(path, &wish, err);
     if (!image) return NULL;
+    wr_session_note_read(session, path, image);
+    note_needle(session, path, image, shape);
     const WrTerrain terrain = {
         .row = row_of_image, .ctx = image, .w = image->width, .h = image->height
     };

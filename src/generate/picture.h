@@ -15,11 +15,6 @@ typedef struct WrParamValue WrParamValue;
 typedef struct WrParams WrParams;
 typedef struct WrRelief WrRelief;
 
-/* Fill texels that are not numbers (NaN) from their neighbours, smoothly: means of ever coarser levels,
- * evened out on the way back. Texels that are there keep their bits. Returns how many were filled; -1 where
- * there is nothing to fill from, and a picture of NaN stays as it was; -2 where memory is gone, with err. */
-int64_t wr_picture_fill(WrSheet *sheet, WrError *err);
-
 /* How a picture is made to meet itself on the axes where the sheet is periodic.
    blend: take away the smoothest function that has all of the jump at the edges: the periodic component of Moisan
    (J. Math. Imaging Vis. 39, 2011). Texels stay in their places; a slope across the whole picture goes.
@@ -79,6 +74,8 @@ const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *imag
 /* The picture of a row that has `file`, `part` and channels by that name; says what was taken of it. */
 WrImage *wr_picture_read(const WrParams *params, const char *channels, bool keep_lost,
                          const WrGenerateJob *job, WrError *err);
+/* Notes of how reading departed from the file's pixels. */
+void wr_picture_note(const char *path, const WrImage *image, const WrGenerateJob *job);
 #define WR_P_SEAMLESS(value)                                                                       \
     WR_P_CHOICE("seamless", "Seamless", value, wr_seamless_words,                                  \
                 "how its edges are made to meet: blend evens out, cut overlaps and cuts")

@@ -87,6 +87,7 @@ bool wr_picture_paste(const WrParamValue *values, const WrGenerateJob *job, WrRe
     const int mirror = wr_param_whole(&p, "mirror");
     WrImage *image = wr_image_read(wr_param_value(&p, "file")->text, err);
     if (!image) return false;
+    wr_picture_note(wr_param_value(&p, "file")->text, image, job);
     const double w = image->width, h = image->height, scale = size > 0.0 ? size / w : 1.0;
     bool good = check_size(scale, image, size, err);
     if (good && wr_picture_label(&p, image, job)) wr_image_apply_range(image);

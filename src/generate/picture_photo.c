@@ -63,7 +63,16 @@ WrImage *wr_picture_read(const WrParams *params, const char *channels_, bool kee
     if (image && image->taken[0])
         wr_generate_note(job, "%s: took %s (%s= and part= take others)", path, image->taken,
                          channels_);
+    if (image) wr_picture_note(path, image, job);
     return image;
+}
+
+void wr_picture_note(const char *path, const WrImage *image, const WrGenerateJob *job)
+{
+    if (image->note[0]) wr_generate_note(job, "%s: %s", path, image->note);
+    if (image->filled)
+        wr_generate_note(job, "%s: %lld missing values filled from their neighbours", path,
+                         (long long)image->filled);
 }
 
 const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *image,

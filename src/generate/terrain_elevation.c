@@ -6,6 +6,7 @@
 #include "generate/picture.h"
 #include "generate/terrain.h"
 #include "generate/terrain_raw.h"
+#include "image/fill_missing.h"
 #include "image/image.h"
 #include "image/sidecar.h"
 
@@ -135,7 +136,7 @@ static bool fill_holes(const WrParams *p, Elevation *e, const char *path, const 
         if (wanted && e->can_lack && (*z == -9999.0 || *z == -32768.0)) lost = true;
         if (lost) *z = NAN;
     }
-    int64_t filled = wr_picture_fill(&e->sheet, err);
+    int64_t filled = wr_fill_missing(e->sheet.width, e->sheet.height, e->sheet.z, err);
     if (filled == -1) return wr_fail(err, "%s: no elevation is known anywhere in it", path);
     if (filled > 0)
         wr_generate_note(job, "%lld of %zu elevations are not known: filled from their neighbours",

@@ -31,11 +31,13 @@ static int find_in_layer(const WrImagePart *part, const char *layer, int length,
     return -1;
 }
 
-/* R, G, B, A of a layer, or its Y, A. */
+/* R, G, B, A of a layer; X, Y, Z, which is one vector (Blender's normals and positions); or its Y, A. */
 static bool take_layer(const WrImagePart *part, const char *layer, int length, WrChannelChoice *out)
 {
-    static const char *const sets[2][4] = { { "R", "G", "B", NULL }, { "Y", NULL } };
-    for (int set = 0; set < 2; set++) {
+    static const char *const sets[3][4] = { { "R", "G", "B", NULL },
+                                            { "X", "Y", "Z", NULL },
+                                            { "Y", NULL } };
+    for (int set = 0; set < 3; set++) {
         WrChannelChoice choice = { 0 };
         bool all = true;
         for (int k = 0; sets[set][k] && all; k++) {

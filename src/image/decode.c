@@ -102,7 +102,7 @@ WrImagePart wr_decoder_part(const WrDecoder *decoder, int part)
 
 const char *wr_decoder_attribute(const WrDecoder *decoder, int part, const char *name)
 {
-    if (decoder->plain) return NULL;
+    if (decoder->plain) return wr_plain_attribute(decoder->plain, name);
     return decoder->library->attribute(decoder->reader, part, name);
 }
 

@@ -23,5 +23,5 @@ typedef struct WrImageFormat {
 const WrImageFormat *wr_image_format(const char *path, WrError *err);
 
 /* OpenImageIO's name of the format by a file's first bytes; NULL when they tell nothing. */
-#define WR_IMAGE_SNIFF 24
+#define WR_IMAGE_SNIFF 34
 const char *wr_image_sniff(const unsigned char *bytes, size_t count);

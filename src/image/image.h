@@ -57,8 +57,13 @@ typedef struct WrImage {
     int channels;      /* 1..4: grey, grey + alpha, RGB, RGB + alpha */
     WrPixelType type;  /* what the file held (half counts as F32) */
     int64_t replaced;  /* texels that were NaN or infinite and became 0 */
-    float *data;       /* [height][width][channels], owned */
+    int64_t
+        filled; /* values that the file marks as missing (GDAL's no-data, FITS's BLANK, voids of signed
+                          elevations), filled from their neighbours */
+    float *data; /* [height][width][channels], owned */
     WrImageLabel label;
+    char note
+        [200]; /* how reading departs from the file's pixels: "its data window, 15x10 at 8,5, ..."; "" */
     char taken
         [400]; /* "diffuse.R, diffuse.G, diffuse.B of its channels Z, ..., in part 1 of 2", where a file
                         has more than was read; else "" */
@@ -86,7 +91,9 @@ typedef struct WrImageWish {
         *channel; /* "Depth.Z", several, "a,b", or a layer of them, "diffuse"; NULL, "": as above */
     const char
         *part; /* its number, from 1, or its name; a frame of an animation; NULL, "": the first */
-    bool keep_lost; /* what is not finite stays so (`replaced` counts it none the less) */
+    bool
+        keep_lost; /* what is not finite stays so (`replaced` counts it none the less), and missing values are NaN */
+    bool elevation; /* of floats, -9999 and -32768 mark missing values, too */
 } WrImageWish;
 WrImage *wr_image_read_wish(const char *path, const WrImageWish *wish, WrError *err);
 /* The same of a file that is in memory; name stands in messages, and its ending counts as a path's. */

@@ -3,7 +3,7 @@
    - a damaged TIFF succeeds everywhere and only leaves an error message: after every call a message counts
      as failure;
    - limits on sizes are enforced by few readers: the checks here are the ones that hold;
-   - integer codes pass through float factors: they are read as they are and divided here;
+   - integer codes pass through float factors, and more of what a header says is ignored: oiio_values.hpp;
    - alpha is multiplied into colours unless told otherwise;
    - libjpeg ends the whole program when it cannot write: it never gets to see that a disk is full;
    - EXR of several parts and TIFF are written to a file that the library opens, and it misses failures at
@@ -15,11 +15,13 @@ extern "C" {
 #include "image/oiio_disk.hpp"
 #include "image/oiio_fail.hpp"
 #include "image/oiio_tiff.hpp"
+#include "image/oiio_values.hpp"
 #include "system/fd.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -27,6 +29,11 @@ extern "C" {
 #include <new>
 #include <string>
 #include <vector>
+
+/* Of OpenImageIO/tiffutils.h, which wants libtiff's headers. */
+OIIO_NAMESPACE_BEGIN
+OIIO_API bool decode_exif(string_view exif, ImageSpec &spec);
+OIIO_NAMESPACE_END
 
 using namespace OIIO;
 
@@ -50,7 +57,9 @@ struct WrCodecReader {
     std::vector<ImageSpec> specs;
     std::vector<std::vector<const char *>> names;
     std::vector<WrCodecPart> parts;
-    std::vector<char> codes; /* scratch */
+    std::vector<Values> values; /* of each part */
+    std::vector<char> codes;    /* scratch */
+    std::vector<float> window;  /* rows of a data window, where it is not the picture */
     std::vector<float> band; /* of a tiled file: rows [band_y, band_y + band_rows) of band_part */
     int band_part = -1, band_y = 0, band_rows = 0, band_channels = 0;
     bool levels = false; /* parts are levels of the first */
@@ -90,28 +99,71 @@ static void unpack_description(ImageSpec &spec)
     }
 }
 
+/* The orientation that EXIF tells in a WebP file: a chunk that the library skips. 0: none. */
+static int webp_orientation(int fd)
+{
+    unsigned char head[12];
+    if (wr_fd_read_at(fd, head, 12, 0) != 12 || std::memcmp(head + 8, "WEBP", 4) != 0) return 0;
+    for (int64_t at = 12, chunks = 0; chunks < 4096; chunks++) {
+        unsigned char chunk[8];
+        if (wr_fd_read_at(fd, chunk, 8, at) != 8) return 0;
+        const uint32_t size = uint32_t(chunk[4]) | uint32_t(chunk[5]) << 8 |
+                              uint32_t(chunk[6]) << 16 | uint32_t(chunk[7]) << 24;
+        if (std::memcmp(chunk, "EXIF", 4) == 0 && size > 8 && size <= 65536) {
+            std::string bytes(size, 0);
+            if (wr_fd_read_at(fd, &bytes[0], size, at + 8) != int64_t(size)) return 0;
+            if (bytes.compare(0, 6, std::string("Exif\0\0", 6)) == 0) bytes.erase(0, 6);
+            ImageSpec exif;
+            decode_exif(bytes, exif);
+            return exif.get_int_attribute("Orientation");
+        }
+        at += 8 + int64_t(size) + (size & 1);
+    }
+    return 0;
+}
+
+/* How the values of a part are read, and what the reader of the picture should know of it, in `note`. */
+static bool choose_values(const WrCodecReader &reader, const ImageSpec &spec, Values &values,
+                          WrImagePart &part, std::string &note, char *reason)
+{
+    const std::string format = reader.in->format_name();
+    std::string problem;
+    choose_numbers(spec, format, values);
+    if (format == "fits") choose_fits(spec, values);
+    const int directory = reader.levels ? 0 : static_cast<int>(reader.parts.size());
+    if (format == "tiff" && !choose_tiff(spec, reader.fd, directory, values, note, problem))
+        return fail(reason, problem);
+    choose_window(spec, format, values, part.width, part.height, note);
+    if (part.width <= WR_IMAGE_MAX && part.height <= WR_IMAGE_MAX) return true;
+    return fail(reason, "display window of " + size_text(part.width, part.height) +
+                            ": each side must be 1.." + std::to_string(WR_IMAGE_MAX));
+}
+
 static bool add_part(WrCodecReader &reader, ImageSpec spec, char *reason)
 {
     if (!check_spec(spec, reason)) return false;
     unpack_description(spec);
-    spec.attribute("wrinkle:orientation", std::to_string(spec.get_int_attribute("Orientation")));
+    WrCodecPart part = {};
+    Values values;
+    std::string note;
+    if (!choose_values(reader, spec, values, part.part, note, reason)) return false;
+    int orientation = spec.get_int_attribute("Orientation");
+    if (!orientation && !std::strcmp(reader.in->format_name(), "webp"))
+        orientation = webp_orientation(reader.fd);
+    spec.attribute("wrinkle:orientation", std::to_string(orientation));
+    if (!note.empty()) spec.attribute("wrinkle:note", note);
+    if (values.has_no_data) spec.attribute("wrinkle:no-data", "1");
     /* A number in files of bump slopes; texts are all that is asked for. */
     char text[32];
     std::snprintf(text, sizeof text, "%.9g", double(spec.get_float_attribute("uvslopes_scale")));
     spec.attribute("wrinkle:uvslopes", text);
-    WrCodecPart part = {};
-    part.part.width = spec.width;
-    part.part.height = spec.height;
     part.part.channels = spec.nchannels;
     part.part.type = WR_PIXEL_F32;
-    if (spec.channelformats.empty() && spec.format == TypeDesc::UINT8) {
-        part.part.type = WR_PIXEL_U8;
-        part.divisor = 255.0;
-    } else if (spec.channelformats.empty() && spec.format == TypeDesc::UINT16) {
-        part.part.type = WR_PIXEL_U16;
-        part.divisor = 65535.0;
-    }
+    if (values.divisor == 255.0) part.part.type = WR_PIXEL_U8;
+    else if (values.divisor == 65535.0) part.part.type = WR_PIXEL_U16;
+    part.divisor = part.part.type == WR_PIXEL_F32 ? 0.0 : values.divisor;
     reader.specs.push_back(spec);
+    reader.values.push_back(values);
     reader.parts.push_back(part);
     return true;
 }
@@ -242,40 +294,28 @@ static bool check_read(WrCodecReader &reader, bool ok, char *reason)
     return fail(reason, message, reader.path);
 }
 
-template <typename Code>
-static void divide(const Code *codes, size_t count, float divisor, float *out)
-{
-    for (size_t i = 0; i < count; i++) out[i] = static_cast<float>(codes[i]) / divisor;
-}
-
-/* Values of rows [y, y + rows) in data-window rows: codes of 8 and 16 bits are divided here, exactly
-   rounded; half and double become float as they are, other integers by the library. */
+/* Rows [y, y + rows) of the data window. */
 static bool read_band(WrCodecReader &reader, int part, int y, int rows, int channels, float *out,
                       char *reason)
 {
     const ImageSpec &spec = reader.specs[static_cast<size_t>(part)];
-    const WrCodecPart &is = reader.parts[static_cast<size_t>(part)];
-    size_t count =
-        static_cast<size_t>(spec.width) * static_cast<size_t>(rows) * static_cast<size_t>(channels);
-    TypeDesc type = is.divisor > 0.0 ? spec.format : TypeDesc(TypeDesc::FLOAT);
+    const Values &values = reader.values[static_cast<size_t>(part)];
+    const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(rows);
     void *to = out;
-    if (is.divisor > 0.0) {
-        reader.codes.resize(count * type.size());
+    if (is_integer(values.type)) {
+        reader.codes.resize(pixels * static_cast<size_t>(channels) * values.type.size());
         to = reader.codes.data();
     }
     int top = spec.y + y, subimage = reader.levels ? 0 : part, level = reader.levels ? part : 0;
     bool ok;
     if (spec.tile_width)
         ok = reader.in->read_tiles(subimage, level, spec.x, spec.x + spec.width, top, top + rows,
-                                   spec.z, spec.z + 1, 0, channels, type, to);
+                                   spec.z, spec.z + 1, 0, channels, values.type, to);
     else
-        ok = reader.in->read_scanlines(subimage, level, top, top + rows, spec.z, 0, channels, type,
-                                       to);
+        ok = reader.in->read_scanlines(subimage, level, top, top + rows, spec.z, 0, channels,
+                                       values.type, to);
     if (!check_read(reader, ok, reason)) return false;
-    if (is.part.type == WR_PIXEL_U8 && is.divisor > 0.0)
-        divide(static_cast<const unsigned char *>(to), count, 255.0f, out);
-    else if (is.divisor > 0.0)
-        divide(static_cast<const unsigned short *>(to), count, 65535.0f, out);
+    if (to != out || changes_floats(values)) decode_values(to, pixels, channels, values, out);
     return true;
 }
 
@@ -308,13 +348,50 @@ static bool read_tiled(WrCodecReader &reader, int part, int y, int rows, int cha
     return true;
 }
 
+static bool read_data(WrCodecReader &reader, int part, int y, int rows, int channels, float *out,
+                      char *reason)
+{
+    if (reader.specs[static_cast<size_t>(part)].tile_width)
+        return read_tiled(reader, part, y, rows, channels, out, reason);
+    return read_band(reader, part, y, rows, channels, out, reason);
+}
+
+/* Rows [y, y + rows) of a picture whose data window is another: 0 where there is no data. */
+static bool read_windowed(WrCodecReader &reader, int part, int y, int rows, int channels,
+                          float *out, char *reason)
+{
+    const Values &values = reader.values[static_cast<size_t>(part)];
+    const int width = reader.parts[static_cast<size_t>(part)].part.width;
+    const size_t each = static_cast<size_t>(channels);
+    std::fill_n(out, static_cast<size_t>(width) * static_cast<size_t>(rows) * each, 0.0f);
+    const int top = std::max(y, values.y), bottom = std::min(y + rows, values.y + values.height);
+    const int left = std::max(0, values.x), right = std::min(width, values.x + values.width);
+    if (top >= bottom || left >= right) return true;
+    const size_t row = static_cast<size_t>(values.width) * each;
+    reader.window.resize(row * static_cast<size_t>(bottom - top));
+    if (!read_data(reader, part, top - values.y, bottom - top, channels, reader.window.data(),
+                   reason))
+        return false;
+    for (int j = top; j < bottom; j++)
+        std::memcpy(out + (static_cast<size_t>(j - y) * static_cast<size_t>(width) +
+                           static_cast<size_t>(left)) *
+                              each,
+                    reader.window.data() + static_cast<size_t>(j - top) * row +
+                        static_cast<size_t>(left - values.x) * each,
+                    static_cast<size_t>(right - left) * each * sizeof(float));
+    return true;
+}
+
 static bool reader_read(WrCodecReader *reader, int part, int y, int rows, int channels, float *out,
                         char *reason)
 {
     return guarded(reason, [&] {
-        if (reader->specs[static_cast<size_t>(part)].tile_width)
-            return read_tiled(*reader, part, y, rows, channels, out, reason);
-        return read_band(*reader, part, y, rows, channels, out, reason);
+        const Values &values = reader->values[static_cast<size_t>(part)];
+        const WrImagePart &is = reader->parts[static_cast<size_t>(part)].part;
+        const bool whole = values.x == 0 && values.y == 0 && values.width == is.width &&
+                           values.height == is.height;
+        return whole ? read_data(*reader, part, y, rows, channels, out, reason)
+                     : read_windowed(*reader, part, y, rows, channels, out, reason);
     });
 }
 

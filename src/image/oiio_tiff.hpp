@@ -1,13 +1,20 @@
-/* oiio_tiff.hpp - what libtiff could not write. C++, part of the module alone.
+/* oiio_tiff.hpp - libtiff behind OpenImageIO: write errors that it hides, and tags that it does not read. C++, part of
+   the module alone.
    Private to this room.
 
    libtiff tells nobody but a handler what goes wrong when it closes a file. OpenImageIO brings it along; its one
    function that is needed is declared here. */
 #pragma once
+extern "C" {
+#include "system/fd.h"
+}
+
 #include <cerrno>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 extern "C" void *TIFFSetErrorHandlerExt(void (*handler)(void *, const char *, const char *,
                                                         va_list)) __attribute__((weak));
@@ -34,4 +41,53 @@ inline void on_tiff_error(void *, const char *from, const char *format, va_list 
 inline void listen_to_tiff()
 {
     if (TIFFSetErrorHandlerExt) TIFFSetErrorHandlerExt(on_tiff_error);
+}
+
+/* libtiff is in the process with OpenImageIO; its headers need not be installed for three functions. */
+extern "C" {
+struct tiff;
+struct tiff *TIFFFdOpen(int fd, const char *name, const char *mode) __attribute__((weak));
+int TIFFSetDirectory(struct tiff *file, uint32_t directory) __attribute__((weak));
+int TIFFGetField(struct tiff *file, uint32_t tag, ...) __attribute__((weak));
+void TIFFClose(struct tiff *file) __attribute__((weak));
+}
+
+#define TIFF_GDAL_NODATA 42113U /* a number as text */
+#define TIFF_MODEL_PIXEL_SCALE 33550U
+#define TIFF_MODEL_TRANSFORMATION 34264U
+
+/* GDAL's no-data value of a directory, "" where it has none. Returns whether the directory is georeferenced or has that
+   value: its numbers are measurements. */
+inline bool tiff_no_data(int fd, int directory, std::string &text)
+{
+    if (!TIFFFdOpen || !TIFFSetDirectory || !TIFFGetField || !TIFFClose) return false;
+    /* A copy shares its position with the original, from which OpenImageIO reads. */
+    const int64_t position = wr_fd_tell(fd);
+    int copy = wr_fd_copy(fd);
+    if (copy < 0) return false;
+    wr_fd_seek(copy, 0);
+    struct tiff *file = TIFFFdOpen(copy, "picture", "r"); /* takes the copy over */
+    if (!file) {
+        wr_fd_close(copy);
+        wr_fd_seek(fd, position);
+        return false;
+    }
+    bool measured = false;
+    if (TIFFSetDirectory(file, static_cast<uint32_t>(directory))) {
+        /* Tags that libtiff has no row for are given with their count. */
+        uint32_t count = 0;
+        const char *found = nullptr;
+        const void *numbers = nullptr;
+        if (TIFFGetField(file, TIFF_GDAL_NODATA, &count, &found) && found && count > 0 &&
+            count < 64) {
+            text.assign(found, strnlen(found, count));
+            measured = true;
+        }
+        if (TIFFGetField(file, TIFF_MODEL_PIXEL_SCALE, &count, &numbers) ||
+            TIFFGetField(file, TIFF_MODEL_TRANSFORMATION, &count, &numbers))
+            measured = true;
+    }
+    wr_fd_seek(fd, position);
+    TIFFClose(file);
+    return measured;
 }

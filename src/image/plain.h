@@ -1,5 +1,6 @@
 /* plain.h - pictures of formats so plain that they are read here, without a library: PNM of numbers (P2, P3, P5,
-   P6; OpenImageIO gives half of 16-bit codes one too low), GIMP's patterns (.pat) and SRTM elevations (.hgt).
+   P6; OpenImageIO gives half of 16-bit codes one too low), GIMP's patterns (.pat), SRTM elevations (.hgt) and run-length
+   BMP (OpenImageIO refuses the end of line before the end of the bitmap, which ImageMagick writes).
    Part of what reads strangers' files: the reader process, or reading "inside".
    Private to this room. */
 #pragma once
@@ -17,5 +18,7 @@ WrPlain *wr_plain_open(int fd, bool *memory, WrError *err);
 void wr_plain_close(WrPlain *plain); /* NULL is fine */
 
 WrImagePart wr_plain_part(const WrPlain *plain);
+/* "wrinkle:no-data" where NaN marks missing values; else NULL. */
+const char *wr_plain_attribute(const WrPlain *plain, const char *name);
 /* Rows and the first `channels` channels as WrImage has them. What an elevation does not know is NaN. */
 bool wr_plain_read(WrPlain *plain, int y, int rows, int channels, float *out, WrError *err);

@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "image/choose.h"
+#include "image/fill_missing.h"
 #include "image/read_inner.h"
 #include "image/told.h"
 
@@ -22,6 +23,8 @@ struct WrImageRows {
     int first;  /* files give their first channels: as many as reach the last that is wanted */
     int turned; /* as TIFF and EXIF count; 1: as it is. Others are read whole and turned */
     bool keep, ranged;
+    bool fills; /* NaN marks missing values, filled when all rows are there */
+    bool elevation;
     WrImage head;
     float *all;    /* rows of the first channels, where those that are wanted are not just these */
     WrImage *band; /* rows [y, y + its height) */
@@ -66,6 +69,33 @@ static bool find_part(const WrImageFile *file, const char *wish, int *part, WrEr
             return true;
         }
     return wr_fail(err, "part '%.60s': there is no such; it has %d, from 1", wish, count);
+}
+
+/* Numbers that elevation models write where nothing is known, besides what a header declares. */
+static void mark_missing(float *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (values[i] == -9999.0f || values[i] == -32768.0f || fabsf(values[i]) > 1e30f)
+            values[i] = NAN;
+}
+
+/* Missing values of each channel from their neighbours; a channel of nothing else becomes 0. */
+static bool fill_image(WrImage *image, WrError *err)
+{
+    const size_t pixels = (size_t)image->width * (size_t)image->height,
+                 each = (size_t)image->channels;
+    double *z = wr_try_alloc(pixels, sizeof *z, "a picture's missing values", err);
+    bool good = z != NULL;
+    for (size_t c = 0; good && c < each; c++) {
+        for (size_t i = 0; i < pixels; i++) z[i] = (double)image->data[i * each + c];
+        const int64_t filled = wr_fill_missing(image->width, image->height, z, err);
+        good = filled != -2;
+        if (filled > 0) image->filled += filled;
+        for (size_t i = 0; filled > 0 && i < pixels; i++) image->data[i * each + c] = (float)z[i];
+    }
+    wr_free(z);
+    if (good) image->replaced = replace_bad_pixels(image->data, pixels, image->channels, false);
+    return good;
 }
 
 static void tell(const WrImageFile *file, int index, const WrChannelChoice *choice, WrImage *image)
@@ -138,7 +168,9 @@ static bool read_band(WrImageRows *rows, int y, int count, float *out, WrError *
     if (!wr_image_file_read_first(rows->file, rows->part, y, count, rows->first, in, err))
         return false;
     if (rows->all) gather(in, pixels, rows->first, &rows->choice, out);
-    rows->head.replaced += replace_bad_pixels(out, pixels, rows->choice.count, rows->keep);
+    if (rows->elevation) mark_missing(out, pixels * (size_t)rows->choice.count);
+    rows->head.replaced +=
+        replace_bad_pixels(out, pixels, rows->choice.count, rows->keep || rows->fills);
     tell_zero(rows, count, out);
     return true;
 }
@@ -178,6 +210,8 @@ static WrImage *turn(WrImage *image, int turned, WrError *err)
         out->type = image->type;
         out->replaced = image->replaced;
         out->label = image->label;
+        out->filled = image->filled;
+        memcpy(out->note, image->note, sizeof out->note);
         memcpy(out->taken, image->taken, sizeof out->taken);
         for (int y = 0; y < out->height; y++)
             for (int x = 0; x < out->width; x++)
@@ -252,6 +286,11 @@ WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageWish *wish, WrEr
                             .type = rows->is.type };
     const Part of = { file, rows->part };
     wr_image_label_read(attribute_of, &of, rows->is.type, &rows->head.label);
+    rows->elevation = wish->elevation && rows->is.type == WR_PIXEL_F32;
+    rows->fills = !rows->keep &&
+                  (rows->elevation || wr_image_file_attribute(file, rows->part, "wrinkle:no-data"));
+    const char *note = wr_image_file_attribute(file, rows->part, "wrinkle:note");
+    snprintf(rows->head.note, sizeof rows->head.note, "%s", note ? note : "");
     tell(file, rows->part, &rows->choice, &rows->head);
     return rows;
 }
@@ -297,18 +336,24 @@ WrImage *wr_image_rows_whole(WrImageRows *rows, WrError *err)
     }
     if (image) {
         image->replaced = rows->head.replaced;
+        memcpy(image->note, rows->head.note, sizeof image->note);
         memcpy(image->taken, rows->head.taken, sizeof image->taken);
-        if (rows->turned > 1) image = turn(image, rows->turned, err);
+        if (rows->fills && !fill_image(image, err)) {
+            wr_image_free(image);
+            image = NULL;
+        }
+        if (image) rows->head.replaced = image->replaced, rows->head.filled = image->filled;
+        if (image && rows->turned > 1) image = turn(image, rows->turned, err);
     }
     if (!image) name_file(rows, err);
     else if (rows->ranged) wr_image_apply_range(image);
     return image;
 }
 
-/* None yet; or all, turned. */
+/* None yet; or all, turned or filled. */
 static WrImage *begin_band(WrImageRows *rows, WrError *err)
 {
-    if (rows->turned > 1) return wr_image_rows_whole(rows, err);
+    if (rows->turned > 1 || rows->fills) return wr_image_rows_whole(rows, err);
     WrImage *band = new_image(rows, band_rows(rows), err);
     if (band) band->height = 0;
     else name_file(rows, err);

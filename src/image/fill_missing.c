@@ -1,7 +1,8 @@
-#include "generate/picture.h"
+#include "image/fill_missing.h"
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <math.h>
 
@@ -12,6 +13,12 @@ typedef struct Level {
     int width, height;
     double *z;
 } Level;
+
+/* Whether to go on with value k: whether the work was cancelled is read only now and then. */
+static bool goes_on(size_t k)
+{
+    return k % 16384 != 0 || !wr_progress_stopped();
+}
 
 static bool is_hole(double z)
 {
@@ -52,7 +59,7 @@ static double mean_around(const Level *l, int i, int j)
 static bool grow(Level *fine, const Level *coarse, int64_t *filled, WrError *err)
 {
     size_t count = (size_t)fine->width * (size_t)fine->height, holes = 0, k = 0;
-    for (size_t n = 0; n < count && wr_sheet_goes_on(n); n++) holes += is_hole(fine->z[n]);
+    for (size_t n = 0; n < count && goes_on(n); n++) holes += is_hole(fine->z[n]);
     *filled = (int64_t)holes;
     if (wr_progress_stopped()) return wr_fail(err, "cancelled");
     if (holes == 0) return true;
@@ -66,19 +73,19 @@ static bool grow(Level *fine, const Level *coarse, int64_t *filled, WrError *err
             hole[k++] = at;
         }
     for (int sweep = 0; sweep < SWEEPS; sweep++)
-        for (k = 0; k < holes && wr_sheet_goes_on(k); k++)
+        for (k = 0; k < holes && goes_on(k); k++)
             fine->z[hole[k]] = mean_around(fine, (int)(hole[k] % (size_t)fine->width),
                                            (int)(hole[k] / (size_t)fine->width));
     wr_free(hole);
     return true;
 }
 
-int64_t wr_picture_fill(WrSheet *sheet, WrError *err)
+int64_t wr_fill_missing(int width, int height, double *z, WrError *err)
 {
-    Level level[LEVELS] = { { sheet->width, sheet->height, sheet->z } };
+    Level level[LEVELS] = { { width, height, z } };
     int64_t filled = 0, unused;
-    size_t count = (size_t)sheet->width * (size_t)sheet->height, holes = 0;
-    for (size_t n = 0; n < count && wr_sheet_goes_on(n); n++) holes += is_hole(sheet->z[n]);
+    size_t count = (size_t)width * (size_t)height, holes = 0;
+    for (size_t n = 0; n < count && goes_on(n); n++) holes += is_hole(z[n]);
     if (wr_progress_stopped()) {
         wr_fail(err, "cancelled");
         return -2;
