@@ -28,6 +28,8 @@ static const double finer_most[LEVELS] = { 0, 0.85, 0.85, 0.75, 0.7 };
 #define LEARNT_LOW 0.4
 #define LEARNT_HIGH 4.0
 
+#define HIDDEN 0.125 /* of the squares along a side of a neighbour: one of its BLOCK pixels */
+
 /* Probing: which picks, at which level; of what the picture takes such a part, for all of them. */
 #define PROBED 3
 static const int probe_level[PROBED] = { 2, 3, 3 };
@@ -92,7 +94,42 @@ static Change off_here(const Study *study, const Block *block)
     return times(off, fmax(LEARNT_LOW, fmin(LEARNT_HIGH, right)), 1);
 }
 
-static Change off_samples(const Study *study, const Block *block, int level)
+/* What a neighbour's pixels along the common side, or in the common corner, changed from the level below. At a level that it
+   has not seen, half as much for each further level. */
+static Change beside(const Block *other, int u, int v, int level)
+{
+    const int seen = level < 1 ? 1 : level < other->level ? level : other->level;
+    if (seen == 0 || !other->shown) return (Change){ 0, 0 };
+    const Change *across = &other->side[seen][u < 0 ? RIGHT : LEFT];
+    const Change *along = &other->side[seen][v < 0 ? LOWER : UPPER];
+    const Change common = u == 0   ? *along
+                          : v == 0 ? *across
+                                   : (Change){ fmin(across->squares, along->squares),
+                                               fmin(across->most, along->most) };
+    const int above = level > seen ? level - seen : 0;
+    return times(common, pow(0.25, above), pow(0.5, above));
+}
+
+/* An edge of the picture that passes through a neighbour (an outline, a crease, the end of the relief or a pole) may end in a
+   corner or along a side of this block where none of its samples meets it: then its own levels agree on the same wrong
+   colour. What is hidden there is no more than what the neighbour's nearest pixels change. */
+static Change hidden(const Study *study, const Block *block, int level)
+{
+    const int64_t b = block - study->block;
+    const int at_u = (int)(b % study->blocks_u), at_v = (int)(b / study->blocks_u);
+    Change most = { 0, 0 };
+    for (int v = -1; v <= 1; v++)
+        for (int u = -1; u <= 1; u++) {
+            if ((u == 0 && v == 0) || at_u + u < 0 || at_u + u >= study->blocks_u || at_v + v < 0 ||
+                at_v + v >= study->blocks_v)
+                continue;
+            most = larger(most, beside(block + (int64_t)v * study->blocks_u + u, u, v, level));
+        }
+    return times(most, HIDDEN, 1);
+}
+
+/* By its own pictures alone. */
+static Change off_seen(const Study *study, const Block *block, int level)
 {
     const Change here = off_here(study, block);
     if (level == block->level) return here;
@@ -106,6 +143,11 @@ static Change off_samples(const Study *study, const Block *block, int level)
     const int above = level - block->level;
     const Change step = times(block->step[block->level], pow(0.25, above), pow(0.5, above));
     return larger(step, off_above(here, above));
+}
+
+static Change off_samples(const Study *study, const Block *block, int level)
+{
+    return larger(off_seen(study, block, level), hidden(study, block, level));
 }
 
 Change wr_study_off(const Study *study, const Block *block, int pair, int level)

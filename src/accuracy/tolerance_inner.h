@@ -41,6 +41,8 @@ typedef struct Corner {
     int x, y, w, h; /* of a block, pixels */
 } Corner;
 
+enum { LEFT, RIGHT, UPPER, LOWER, SIDES }; /* of a block, its outermost pixels */
+
 enum { NOTHING = 1, OBJECT = 2 }; /* what pixels show; and both */
 
 typedef struct Block {
@@ -53,6 +55,7 @@ typedef struct Block {
     float *rgba[LEVELS]; /* BLOCK_FLOATS each, owned; NULL: not rendered, or not needed any more */
     signed char pair_of[LEVELS]; /* that the picture was made with */
     Change change[LEVELS];       /* [n]: from level n - 1 to n */
+    Change side[LEVELS][SIDES];  /* of that the part along each side; 0 where change was foretold */
     Change
         step[LEVELS]; /* what an outline that runs with the pixels' rows may hide at that level */
     Change formula[PAIRS_MAX]; /* what cheaper slopes and normals change, one sample a pixel */
@@ -114,6 +117,8 @@ bool wr_study_formula(Study *study, int pair, WrError *err);
 /* Each block's picture at its pick, rendered where it is missing, in study->frame. */
 bool wr_study_compose(Study *study, WrError *err);
 Change wr_block_change(const float *a, const float *b);
+/* Compare a block's pictures of a level and the one below: block->change and block->side of that level. */
+void wr_block_compare(Block *block, int level);
 void wr_study_fini(Study *study);
 
 /* ---- tolerance_survey.c ---- */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #define MARGIN_RMS 0.93 /* parts of the tolerance to keep to */
-#define MARGIN_MAX 0.85
+#define MARGIN_MAX 0.75
 #define SCATTERED                                                                                  \
     0.12 /* of the time: blocks of several settings lie scattered, and short rows are slower */
 

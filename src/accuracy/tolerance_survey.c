@@ -199,7 +199,7 @@ static void sort_blocks(Study *study)
         block->shown = block->edge || seen[b] == OBJECT;
         block->lined = seen[b] == (NOTHING | OBJECT);
         block->level = block->rgba[1] != NULL;
-        if (block->level > 0) block->change[1] = wr_block_change(block->rgba[0], block->rgba[1]);
+        if (block->level > 0) wr_block_compare(block, 1);
         study->pixels += block->covered;
     }
     for (int64_t b = 0; b < study->count; b++)

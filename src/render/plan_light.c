@@ -38,6 +38,20 @@ WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const cha
     return say(WR_VERDICT_RUN, why, "a light shines and specular is not 0");
 }
 
+/* Is all but the model's highlight Lambert's diffuse light? The compiler asks it of each new model. */
+static bool is_lambert_below(WrReflect model)
+{
+    switch (model) {
+    case WR_REFLECT_BLINN_PHONG:
+    case WR_REFLECT_PHONG:
+    case WR_REFLECT_TORRANCE_SPARROW: return true;
+    case WR_REFLECT_OREN_NAYAR:
+    case WR_REFLECT_GGX:
+    case WR_REFLECT_COUNT: break;
+    }
+    return false;
+}
+
 /* Why Blinn-Phong's stages do what another model would, or NULL. */
 static const char *same_model(const WrPlan *plan, const WrScene *scene)
 {
@@ -45,8 +59,7 @@ static const char *same_model(const WrPlan *plan, const WrScene *scene)
     const WrMaterial *m = &scene->material;
     if (m->model == WR_REFLECT_OREN_NAYAR && m->roughness == 0 && !roughens(scene))
         return "facets of roughness 0 are matt as a whole: Lambert's";
-    if (m->model != WR_REFLECT_OREN_NAYAR && m->model != WR_REFLECT_GGX && !shines)
-        return "without a highlight it is Lambert's";
+    if (is_lambert_below(m->model) && !shines) return "without a highlight it is Lambert's";
     return NULL;
 }
 
