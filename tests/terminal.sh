@@ -32,7 +32,7 @@ says() {
         sleep 0.1
     done
     [[ $2 != run ]] || # others have no lines that are foretold
-        grep -qE 'note: noise perlin: about [0-9.]+ (s|min|h), [0-9.]+ [MG]B' said || complain "$*: no estimate before: $(cat said)"
+        grep -qE 'note: noise perlin: needs [0-9.]+ [MG]B of memory' said || complain "$*: its memory is not told before: $(cat said)"
     kill -KILL -- "-$talk" 2>/dev/null
     { wait "$talk"; } 2>/dev/null
     talk=''
@@ -44,6 +44,6 @@ says "$program" render -o "'f##.png'" --size 8192x8192 --frames 1-2 --do "'dials
 # ---- into a file ----
 printf 'table 1024x1024\nnoise perlin cells=64 octaves=12 warp=0.3\n' >short.wrinkle
 "$program" run short.wrinkle >out 2>err || complain "it failed: $(cat err)"
-! grep -qE 'about|left$' err || complain "a file is told of it: $(cat err)"
+! grep -qE 'needs|left$' err || complain "a file is told of it: $(cat err)"
 
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }

@@ -18,8 +18,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define FORETOLD_SECONDS 2.0 /* what takes less is not announced */
-
 static void state_fini(WrSessionState *state)
 {
     wr_document_free(state->document);
@@ -289,9 +287,9 @@ static void foretell(WrSession *session, const WrCall *call)
     char text[WR_ESTIMATE_TEXT];
     wr_session_estimate_call(session, call, &estimate);
     wr_estimate_print(&estimate, text);
-    if (estimate.seconds > FORETOLD_SECONDS)
-        wr_session_note(session, "%s%s%s: %s", call->command->name, call->form >= 0 ? " " : "",
-                        call->form_name, text);
+    if (text[0])
+        wr_session_note(session, "%s%s%s: needs %s of memory", call->command->name,
+                        call->form >= 0 ? " " : "", call->form_name, text);
 }
 
 /* How a scene's only object is turned is a view; of several each is turned by an edit: `rotate` is that one then. */

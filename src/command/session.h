@@ -33,7 +33,7 @@ typedef struct WrSessionOptions {
     WrPool *pool;    /* borrowed; NULL: one thread */
     WrNoteSink note; /* may be NULL */
     void *note_ctx;
-    bool foretell; /* a note before what will take more than a moment: how long, how much memory */
+    bool foretell; /* a note before what needs much memory: how much */
     bool outputs;  /* perform output commands (only `wrinkle run` and the window do); otherwise
                              they are skipped with a note */
     bool

@@ -10,8 +10,9 @@
 #include <float.h>
 #include <string.h>
 
-#define ROWS 16  /* of a piece of work */
-#define BATCH 64 /* pieces between two reports */
+#define ROWS 16            /* of a piece of work, at most ... */
+#define PIECE_TEXELS 16384 /* ... and texels, where they are more than a row */
+#define BATCH 64           /* pieces between two reports */
 
 bool wr_sheet_new(WrSheet *sheet, int width, int height, const WrWrap wrap[2], WrError *err)
 {
@@ -143,6 +144,7 @@ bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrRelief *o
 
 typedef struct Run {
     int height, from; /* rows; pieces done before */
+    int rows_of;      /* rows of a piece */
     const WrProgress *progress;
     WrSheetRows rows;
     const void *ctx;
@@ -152,16 +154,19 @@ static void run_rows(int index, int worker, void *ctx)
 {
     (void)worker;
     const Run *run = ctx;
-    int first = (run->from + index) * ROWS;
-    int end = first + ROWS < run->height ? first + ROWS : run->height;
+    int first = (run->from + index) * run->rows_of;
+    int end = first + run->rows_of < run->height ? first + run->rows_of : run->height;
     if (!wr_progress_cancelled(run->progress)) run->rows(run->ctx, first, end);
 }
 
 bool wr_sheet_run(int height, const WrGenerateJob *job, bool report, WrSheetRows rows,
                   const void *ctx, WrError *err)
 {
-    int pieces = (height + ROWS - 1) / ROWS;
-    Run run = { height, 0, job->progress, rows, ctx };
+    /* Wide tables have pieces of fewer rows, so that work of any size stops as soon. */
+    const int fit = PIECE_TEXELS / wr_field_width(job->like);
+    const int each = fit < 1 ? 1 : fit < ROWS ? fit : ROWS;
+    int pieces = (height + each - 1) / each;
+    Run run = { height, 0, each, job->progress, rows, ctx };
     for (; run.from < pieces; run.from += BATCH) {
         int count = pieces - run.from < BATCH ? pieces - run.from : BATCH;
         if (report && !wr_progress_step(job->progress, (double)run.from / pieces)) break;

@@ -17,15 +17,6 @@
 
 #define REFUSED_SECONDS 2.0 /* it says that something was refused */
 
-/* What the estimate leaves, until progress says better. */
-static void time_left(const WrBusy *busy, double took, char text[WR_PROGRESS_LEFT])
-{
-    wr_progress_left(busy->furthest, took, text);
-    int rest = (int)fmin(busy->expected - took + 0.5, 1e6);
-    if (!text[0] && rest > 0)
-        snprintf(text, WR_PROGRESS_LEFT, "~%d:%02d left", rest / 60, rest % 60);
-}
-
 /* What it does, or what it has to say of what was asked for meanwhile. */
 static void say(const WrApp *app, bool refused, double wide)
 {
@@ -85,7 +76,7 @@ static void bar(WrApp *app, bool refused, double now)
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, seconds);
     wr_gui_same_line(12);
     wr_gui_move_to(end + wr_gui_px(70));
-    time_left(busy, took, left);
+    wr_progress_left(busy->furthest, took, left);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, busy->cancelled ? "cancelling" : left);
     wr_gui_same_line(12);
     wr_gui_move_to(end + wr_gui_px(160));

@@ -27,7 +27,6 @@ struct WrBusy {
     bool is_done;
     char *what;        /* owned */
     double since;      /* clock */
-    double expected;   /* seconds, estimated before; 0: not known */
     double furthest;   /* fraction: bars do not go back */
     double refused_at; /* clock */
     bool cancelled, closes;

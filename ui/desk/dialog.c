@@ -48,7 +48,7 @@ void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION
     char about[WR_ESTIMATE_TEXT] = "";
     if (wr_session_estimate(app->session, line, &estimate, NULL))
         wr_estimate_print(&estimate, about);
-    snprintf(text, WR_EXPECTATION, "%s%s", about[0] ? "Takes " : "", about);
+    snprintf(text, WR_EXPECTATION, "%s%s", about[0] ? "Needs " : "", about);
     add_time_left(app, text);
 }
 

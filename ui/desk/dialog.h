@@ -46,7 +46,7 @@ SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
 /* The buttons at the end of a dialog: 1 done, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
-/* "Takes about 12 s, 300 MB", where that is more than a moment, and how much of a trial of it is left; else "". */
+/* "Needs 300 MB", where that is worth a word, and how much of a trial of it is left; else "". */
 #define WR_EXPECTATION 96
 void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION]);
 /* The same after a dialog's buttons: beside them, or below where there is no room; so they stay where they are. */

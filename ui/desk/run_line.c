@@ -12,7 +12,6 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "command/estimate.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "system/clock.h"
@@ -55,13 +54,6 @@ static void is_done(WrApp *app, void *ctx, bool ok, const WrError *err)
     wr_app_title(app);
     wr_app_redraw(app);
     free_line(line);
-}
-
-static double seconds_of(const WrApp *app, const Line *line)
-{
-    WrEstimate estimate;
-    if (line->made || !wr_session_estimate(app->session, line->text, &estimate, NULL)) return 0.0;
-    return estimate.seconds;
 }
 
 /* ---- while something else runs ---- */
@@ -125,11 +117,9 @@ static bool run_command(WrApp *app, const char *text, const WrDocument *made, co
     if (app->drawn_at == 0.0) {
         ok = run_line(app->session, line, &err);
     } else {
-        const WrBusy busy = { .kind = WR_BUSY_EDIT,
-                              .what = line->words,
-                              .work = run_line,
-                              .ctx = line,
-                              .expected = seconds_of(app, line) };
+        const WrBusy busy = {
+            .kind = WR_BUSY_EDIT, .what = line->words, .work = run_line, .ctx = line
+        };
         if (!wr_busy_begin(app, &busy)) {
             if (app->in_frame) { /* the picture goes on, and the loop ends it */
                 app->busy->after = is_done;
