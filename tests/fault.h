@@ -28,6 +28,9 @@ typedef enum FaultMode {
     FAULT_KILL,  /* before the call */
     FAULT_TORN,  /* when half of it is written */
     FAULT_PLANT, /* before a file is created somebody puts a link to `victim` in its place; open alone */
+    FAULT_FLIP,  /* one bit of what is written to the disk is another there; success is reported */
+    FAULT_DROP,  /* nothing is written to the disk; success is reported */
+    FAULT_STUCK, /* it fails, and so does every later call of the kind */
     FAULT_MODES
 } FaultMode;
 

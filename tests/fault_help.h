@@ -29,6 +29,8 @@ static inline bool fault_fits(FaultKind kind, FaultMode mode)
 {
     if (mode == FAULT_ERROR || mode == FAULT_KILL) return true;
     if (mode == FAULT_PLANT) return kind == FAULT_OPEN;
+    if (mode == FAULT_STUCK) return kind == FAULT_RENAME || kind == FAULT_LINK;
+    if (mode == FAULT_FLIP || mode == FAULT_DROP) return kind == FAULT_WRITE;
     return kind == FAULT_WRITE && (mode == FAULT_SHORT || mode == FAULT_TORN);
 }
 

@@ -20,8 +20,8 @@
 
 SHOWN const char *const wr_fault_kinds[FAULT_KINDS] = { "open",   "write", "truncate", "sync",
                                                         "rename", "link",  "unlink",   "close" };
-SHOWN const char *const wr_fault_modes[FAULT_MODES] = { "count", "error", "short",
-                                                        "kill",  "torn",  "plant" };
+SHOWN const char *const wr_fault_modes[FAULT_MODES] = { "count", "error", "short", "kill", "torn",
+                                                        "plant", "flip",  "drop",  "stuck" };
 SHOWN const char *const wr_fault_places[FAULT_PLACES] = { "part", "journal", "memory", "folder",
                                                           "other" };
 SHOWN const char *const wr_fault_stages[FAULT_STAGES] = { "before", "writing", "synced",
@@ -175,13 +175,25 @@ static bool place_of(int fd, FaultPlace *place)
     return true;
 }
 
+/* Of the modes that report success. */
+static bool is_silent(void)
+{
+    return state->mode == FAULT_FLIP || state->mode == FAULT_DROP;
+}
+
 /* Count a call; true if it is the one, and the program is still there to see it fail. */
 static bool is_the_one(FaultKind kind, FaultPlace place)
 {
+    /* A memory file is memory, which is trusted; the calls that reach the disk are counted alone. */
+    if (is_silent() && place == FAULT_MEMORY) return false;
     int64_t n = __atomic_add_fetch(&state->counts[kind], 1, __ATOMIC_RELAXED);
     __atomic_add_fetch(&state->seen[kind][place], 1, __ATOMIC_RELAXED);
     if (state->mode == FAULT_COUNT || (int)kind != state->kind) return false;
     if (state->mode == FAULT_SHORT && n == state->n + 1 && state->fell) {
+        errno = state->error;
+        return true;
+    }
+    if (state->mode == FAULT_STUCK && n > state->n) {
         errno = state->error;
         return true;
     }
@@ -231,12 +243,29 @@ static ssize_t torn(ssize_t written)
     return written;
 }
 
+/* Write with one bit flipped in the middle, or nothing. `at`: negative where the descriptor's place is meant. */
+static ssize_t silently(int fd, const void *bytes, size_t length, off_t at)
+{
+    if (state->mode == FAULT_DROP || length == 0) {
+        if (at < 0) syscall(SYS_lseek, fd, (off_t)length, SEEK_CUR);
+        return (ssize_t)length;
+    }
+    char *other = malloc(length);
+    memcpy(other, bytes, length);
+    other[length / 2] ^= 1;
+    ssize_t done = at < 0 ? syscall(SYS_write, fd, other, length)
+                          : syscall(SYS_pwrite64, fd, other, length, at);
+    free(other);
+    return done;
+}
+
 /* ---- the calls ---- */
 
 SHOWN ssize_t write(int fd, const void *bytes, size_t length);
 SHOWN ssize_t write(int fd, const void *bytes, size_t length)
 {
     if (!fails(FAULT_WRITE, fd)) return syscall(SYS_write, fd, bytes, length);
+    if (is_silent()) return silently(fd, bytes, length, -1);
     ssize_t half = falls_short(length);
     return half < 0 ? half : torn(syscall(SYS_write, fd, bytes, half));
 }
@@ -245,6 +274,7 @@ SHOWN ssize_t pwrite(int fd, const void *bytes, size_t length, off_t at);
 SHOWN ssize_t pwrite(int fd, const void *bytes, size_t length, off_t at)
 {
     if (!fails(FAULT_WRITE, fd)) return syscall(SYS_pwrite64, fd, bytes, length, at);
+    if (is_silent()) return silently(fd, bytes, length, at);
     ssize_t half = falls_short(length);
     return half < 0 ? half : torn(syscall(SYS_pwrite64, fd, bytes, half, at));
 }
@@ -259,6 +289,7 @@ SHOWN ssize_t writev(int fd, const struct iovec *parts, int count);
 SHOWN ssize_t writev(int fd, const struct iovec *parts, int count)
 {
     if (!fails(FAULT_WRITE, fd)) return syscall(SYS_writev, fd, parts, count);
+    if (is_silent() && count > 0) return silently(fd, parts[0].iov_base, parts[0].iov_len, -1);
     ssize_t half = count > 0 ? falls_short(parts[0].iov_len) : -1;
     return half < 0 ? half : torn(syscall(SYS_write, fd, parts[0].iov_base, half));
 }
@@ -268,7 +299,7 @@ SHOWN ssize_t copy_file_range(int from, off_t *from_at, int to, off_t *to_at, si
 SHOWN ssize_t copy_file_range(int from, off_t *from_at, int to, off_t *to_at, size_t length,
                               unsigned flags)
 {
-    if (fails(FAULT_WRITE, to)) return -1;
+    if (fails(FAULT_WRITE, to) && !is_silent()) return -1;
     return syscall(SYS_copy_file_range, from, from_at, to, to_at, length, flags);
 }
 
@@ -277,7 +308,9 @@ SHOWN size_t fwrite(const void *bytes, size_t size, size_t count, FILE *file)
 {
     size_t (*real)(const void *, size_t, size_t, FILE *);
     *(void **)&real = dlsym(RTLD_NEXT, "fwrite");
-    return fails(FAULT_WRITE, fileno(file)) ? 0 : real(bytes, size, count, file);
+    if (!fails(FAULT_WRITE, fileno(file))) return real(bytes, size, count, file);
+    if (!is_silent()) return 0;
+    return silently(fileno(file), bytes, size * count, -1) < 0 ? 0 : count;
 }
 
 SHOWN int fputs(const char *text, FILE *file);
@@ -285,7 +318,9 @@ SHOWN int fputs(const char *text, FILE *file)
 {
     int (*real)(const char *, FILE *);
     *(void **)&real = dlsym(RTLD_NEXT, "fputs");
-    return fails(FAULT_WRITE, fileno(file)) ? EOF : real(text, file);
+    if (!fails(FAULT_WRITE, fileno(file))) return real(text, file);
+    if (!is_silent()) return EOF;
+    return silently(fileno(file), text, strlen(text), -1) < 0 ? EOF : 0;
 }
 
 SHOWN int ftruncate(int fd, off_t length);

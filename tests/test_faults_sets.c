@@ -152,17 +152,18 @@ static FaultState count_calls(void)
 }
 
 /* How often the calls that a fault may be planted in come. All of names and syncing of the first group, of others
- * every other kill; of writing a tenth. */
+ * every other kill and all renames that fail from some one on; of writing a tenth. */
 static void try_faults(const FaultState *counted, bool old, FaultTally *tally)
 {
     for (int kind = 0; kind < FAULT_KINDS; kind++)
         for (int64_t n = 1; n <= counted->counts[kind] - (kind == FAULT_UNLINK && !old ? 1 : 0);
              n++)
-            for (int mode = FAULT_ERROR; mode <= FAULT_TORN; mode++) {
+            for (int mode = FAULT_ERROR; mode < FAULT_MODES; mode++) {
                 const bool names = kind == FAULT_RENAME || kind == FAULT_LINK ||
                                    kind == FAULT_UNLINK || kind == FAULT_SYNC;
-                if (fault_fits((FaultKind)kind, (FaultMode)mode) &&
-                    ((names && (now == groups || (old && mode == FAULT_KILL && n % 2 == 0))) ||
+                if (mode != FAULT_PLANT && fault_fits((FaultKind)kind, (FaultMode)mode) &&
+                    ((names && (now == groups || mode == FAULT_STUCK ||
+                                (old && mode == FAULT_KILL && n % 2 == 0))) ||
                      fault_is_wanted(tally->cases + n, old)))
                     run_fault((FaultKind)kind, n, (FaultMode)mode, old, tally);
             }

@@ -86,7 +86,6 @@ static bool put_drawing(WrFileTarget *target, int drawing, bool png, WrError *er
         return false;
     bool good = check_whole(target->path, bytes, length, png, err) &&
                 wr_file_put(target, bytes, length, err);
-    if (good) wr_file_verified(target);
     wr_free(bytes);
     return good;
 }

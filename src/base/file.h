@@ -1,6 +1,7 @@
 /* file.h - whole files in, and files out that are there whole or not at all.
    Layer 0. */
 #pragma once
+#include "base/sink.h"
 #include "system/fd.h"
 
 #include <stdbool.h>
@@ -30,28 +31,32 @@ int wr_file_create(const char *path, WrError *err);
    that `length` does not count. */
 bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, WrError *err);
 
-/* A file being replaced. What is written goes to `fd`, a file of its own in the same folder that nobody
-   else can read, guess or have put there; once it is whole and has been read back, commit gives it the
-   target's name. The target keeps its mode, owner and list of rights as far as we may give them; if it is
+/* A file being replaced. What is written goes to a file of its own in the same folder that nobody else can read, guess
+   or have put there; commit gives it the target's name once it is whole and holds the very bytes that were handed over:
+   their checksums are kept (xxHash) and compared with those of what the file gives back. So a disk that loses or
+   changes something is noticed for every kind of file in this one place; that a picture decodes to the right
+   values is for whoever writes it to see. The target keeps its mode, owner and list of rights as far as we may give them; if it is
    a symbolic link, it stays one: the file behind it is replaced. A kill leaves that file behind, under
    a name that tells the process; wr_file_sweep removes it. */
 typedef struct WrFileTarget {
     char *path;      /* what the user named, links resolved */
     char *temporary; /* ".NAME.PID-HOST-RANDOM.part.ending" beside it */
-    int fd;        /* of the temporary file, to be written and read; libraries that take nothing but
-                        names get wr_fd_name (system/fd.h) */
-    bool verified; /* wr_file_verified */
+    int fd; /* of the temporary file, to be read. What is written to it past wr_file_write_at fails commit */
+    struct WrFileSums *sums; /* of what was handed over */
 } WrFileTarget;
 
 /* Refuses a target that is a folder, or whose folder does not exist or cannot be written, before any
    work is done. Sweeps the folder. From the first call on a limit on file sizes is an error, no signal. */
 bool wr_file_begin(WrFileTarget *target, const char *path, WrError *err);
-/* Write bytes and read them back. */
+/* The one way in: bytes at an offset, before the end or behind it; what nobody writes is 0. False and errno. */
+bool wr_file_write_at(WrFileTarget *target, const void *bytes, size_t length, int64_t at);
+/* At the end; false and an error that names the file. */
 bool wr_file_put(WrFileTarget *target, const void *bytes, size_t length, WrError *err);
-/* The caller has read back what was written, and it is right. Nothing is committed without. */
-void wr_file_verified(WrFileTarget *target);
-/* Sync the temporary file, give it the target's rights and name, and sync the folder. On failure the target
-   is as it was and the temporary file is gone. Releases the target either way. */
+/* The target as a sink; it outlives that. */
+WrSink wr_file_sink(WrFileTarget *target);
+/* Compare all bytes with what was handed over, sync the temporary file, give it the target's rights and name, and sync
+   the folder. On failure the target is as it was and the temporary file is gone. Releases the target either way.
+   Errors: those of the system; "does not read back as it was written"; "cancelled", where there is much to read. */
 bool wr_file_commit(WrFileTarget *target, WrError *err);
 /* Remove the temporary file, if any; the target stays as it was. Fine on a zeroed target. */
 void wr_file_abort(WrFileTarget *target);
@@ -72,7 +77,8 @@ const char *wr_file_why_told(const char *reason, char text[WR_FILE_WHY]);
  * wr_file_sweep, that is the next program that writes or opens something there, gives the rest their names too.
  *
  * Threads  a group belongs to one, and there is one group at a time
- * Errors   those of writing; then every target is as it was
+ * Errors   those of writing; then every target is as it was, but for those that the error names: the disk did not let
+ *          what stood there be put back
  * Links to files of another folder get their files as well, but a kill may come between those and the others. */
 typedef struct WrFileGroup WrFileGroup;
 WrFileGroup *wr_file_group_begin(void);

@@ -21,6 +21,7 @@
 typedef struct Member {
     char *temporary, *path; /* owned */
     char *before;           /* where what stood there waits meanwhile; owned; NULL: nothing did */
+    bool linked;            /* that is a second name of it, and not the only one */
     bool placed;
 } Member;
 
@@ -54,6 +55,7 @@ bool wr_file_group_takes(WrFileTarget *target)
     if (!here) return false;
     const Member member = { .temporary = target->temporary, .path = target->path };
     wr_array_push(&here->members, member);
+    wr_file_sums_free(target->sums);
     *target = (WrFileTarget){ .fd = -1 };
     return true;
 }
@@ -139,41 +141,74 @@ static void drop_list(WrFileGroup *group)
 
 /* ---- names ---- */
 
-/* What stands there gets a second name; where the disk knows none, that one alone. */
-static bool keep_before(Member *m)
+/* What stands there gets a second name, before anything is renamed: this needs room in the folder, a rename over a name
+   that is there hardly does. Where the file system has no second names, place renames it. */
+static bool link_before(Member *m)
 {
     if (!wr_path_is_there(m->path)) return true;
-    char *folder = wr_path_folder(m->path), *kept = wr_file_hidden_name(folder, "before", "");
+    char *folder = wr_path_folder(m->path);
+    m->before = wr_file_hidden_name(folder, "before", "");
     wr_free(folder);
-    m->before = kept;
-    return kept && (wr_path_link(m->path, kept) || wr_path_rename(m->path, kept));
+    if (!m->before) return false;
+    m->linked = wr_path_link(m->path, m->before);
+    return m->linked || errno == EPERM || errno == EOPNOTSUPP || errno == ENOSYS || errno == EMLINK;
 }
 
 static bool place(Member *m)
 {
-    m->placed = keep_before(m) && wr_path_rename(m->temporary, m->path);
+    if (m->before && !m->linked && !wr_path_rename(m->path, m->before)) return false;
+    m->placed = wr_path_rename(m->temporary, m->path);
     return m->placed;
 }
 
-/* As it was; of a file whose second name was all that was made, that goes. */
-static void put_back(const Member *m)
+/* Give what stood there its name again. A disk that refuses to rename may still link and unlink; the name is empty for a
+   moment then. */
+static bool name_before(const Member *m)
 {
-    if (m->before) wr_path_rename(m->before, m->path), take_away(m->before);
-    else if (m->placed) take_away(m->path);
+    return wr_path_rename(m->before, m->path) ||
+           (m->linked && wr_path_remove(m->path) &&
+            (wr_path_link(m->before, m->path) || wr_path_rename(m->before, m->path)));
+}
+
+/* As it was. False: the new file stands there, or nothing, and what stood there keeps its other name. */
+static bool put_back(Member *m)
+{
+    const bool moved = m->placed || (m->before && !m->linked && wr_path_is_there(m->before));
+    bool good = true;
+    if (moved && m->before) good = name_before(m);
+    else if (m->placed) good = wr_path_remove(m->path) || wr_path_remove(m->path);
+    if (good && m->before) take_away(m->before);
+    return good;
+}
+
+/* The error becomes "A: cannot be written (why); new, though: B, C". */
+static void put_all_back(WrFileGroup *group, WrError *err)
+{
+    WrText new = { 0 };
+    for (int k = group->members.count - 1; k >= 0; k--) {
+        Member *m = &group->members.data[k];
+        if (!put_back(m)) wr_text_addf(&new, "%s%.80s", new.length ? ", " : "", name_of(m->path));
+    }
+    if (new.length && err) {
+        const WrError first = *err;
+        wr_fail(err, "%s; these could not be put back and are new: %s", first.text, new.data);
+    }
+    wr_text_fini(&new);
 }
 
 static bool place_all(WrFileGroup *group, WrError *err)
 {
-    for (int i = 0; i < group->members.count; i++) {
-        Member *m = &group->members.data[i];
-        char why[WR_FILE_WHY];
-        if (place(m)) continue;
-        wr_fail(err, "%s: cannot be written (%s)", m->path, wr_file_why(errno, why));
-        drop_list(group); /* first, so that nobody goes on with it */
-        for (int k = i; k >= 0; k--) put_back(&group->members.data[k]);
-        return false;
-    }
-    return true;
+    Member *const first = group->members.data, *const behind = first + group->members.count;
+    Member *m = first;
+    char why[WR_FILE_WHY];
+    while (m < behind && link_before(m)) m++;
+    if (m == behind)
+        for (m = first; m < behind && place(m);) m++;
+    if (m == behind) return true;
+    wr_fail(err, "%s: cannot be written (%s)", m->path, wr_file_why(errno, why));
+    drop_list(group); /* first, so that nobody goes on with it */
+    put_all_back(group, err);
+    return false;
 }
 
 static void forget_before(const WrFileGroup *group)

@@ -4,6 +4,7 @@
 #include "base/file_inner.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "system/fd.h"
 #include "system/path.h"
@@ -192,6 +193,7 @@ static void release(WrFileTarget *target)
     if (target->path && target->fd >= 0) wr_fd_close(target->fd);
     wr_free(target->path);
     wr_free(target->temporary);
+    wr_file_sums_free(target->sums);
     *target = (WrFileTarget){ 0 };
 }
 
@@ -202,7 +204,7 @@ bool wr_file_begin(WrFileTarget *target, const char *path, WrError *err)
     wr_file_outlive_size_limit();
     char *real = resolve_links(path, err);
     if (!real) return false;
-    *target = (WrFileTarget){ .path = real, .fd = -1 };
+    *target = (WrFileTarget){ .path = real, .fd = -1, .sums = wr_file_sums_new() };
     char *folder = wr_path_folder(real);
     bool good = check_place(path, real, folder, err);
     if (good) wr_file_sweep(folder);
@@ -212,28 +214,26 @@ bool wr_file_begin(WrFileTarget *target, const char *path, WrError *err)
     return good;
 }
 
-bool wr_file_put(WrFileTarget *target, const void *bytes, size_t length, WrError *err)
+bool wr_file_write_at(WrFileTarget *target, const void *bytes, size_t length, int64_t at)
 {
-    const char *from = bytes;
-    char block[65536];
-    if (!wr_fd_write(target->fd, bytes, length)) return fail_by_system(target, err);
-    int64_t end = wr_fd_tell(target->fd), at = end - (int64_t)length;
-    if (end < (int64_t)length) return wr_file_fail(target, "its size is wrong", err);
-    while (at < end) {
-        size_t want = (size_t)(end - at) < sizeof block ? (size_t)(end - at) : sizeof block;
-        int64_t n = wr_fd_read_at(target->fd, block, want, at);
-        if (n < 0) return fail_by_system(target, err);
-        if (n == 0 || memcmp(block, from, (size_t)n) != 0)
-            return wr_file_fail(target, "it does not read back as it was written", err);
-        from += n;
-        at += n;
-    }
-    return true;
+    return wr_file_sums_note(target->sums, target->fd, bytes, length, at) &&
+           wr_fd_write_at(target->fd, bytes, length, at);
 }
 
-void wr_file_verified(WrFileTarget *target)
+bool wr_file_put(WrFileTarget *target, const void *bytes, size_t length, WrError *err)
 {
-    target->verified = true;
+    return wr_file_write_at(target, bytes, length, wr_file_sums_end(target->sums)) ||
+           fail_by_system(target, err);
+}
+
+static bool sink_write(void *to, const void *bytes, size_t length, int64_t at)
+{
+    return wr_file_write_at(to, bytes, length, at);
+}
+
+WrSink wr_file_sink(WrFileTarget *target)
+{
+    return (WrSink){ sink_write, target };
 }
 
 void wr_file_sync_folder(const char *path)
@@ -256,9 +256,23 @@ static bool give_rights(const WrFileTarget *target)
     return good;
 }
 
+static bool check_bytes(const WrFileTarget *target, WrError *err)
+{
+    if (wr_file_sums_check(target->sums, target->fd)) return true;
+    if (wr_progress_stopped()) return wr_fail(err, "cancelled");
+    if (errno != EIO) return fail_by_system(target, err);
+    return wr_file_fail(target,
+                        "it does not read back as it was written: the disk may be failing: write "
+                        "to another",
+                        err);
+}
+
 bool wr_file_commit(WrFileTarget *target, WrError *err)
 {
-    WR_ASSERT(target->verified);
+    if (!check_bytes(target, err)) {
+        wr_file_abort(target);
+        return false;
+    }
     bool good = give_rights(target) && wr_fd_sync(target->fd);
     int fd = target->fd;
     target->fd = -1;
@@ -297,6 +311,5 @@ bool wr_file_write(const char *path, const void *bytes, size_t length, WrError *
         wr_file_abort(&target);
         return false;
     }
-    wr_file_verified(&target);
     return wr_file_commit(&target, err);
 }

@@ -18,6 +18,41 @@ WrHash wr_hash_bytes(const void *bytes, size_t count, WrHash seed)
     return (WrHash){ h.low64, h.high64 };
 }
 
+struct WrHashStream {
+    XXH3_state_t *state; /* the library's, which has it aligned */
+};
+
+WrHashStream *wr_hash_stream_new(void)
+{
+    WrHashStream *stream = wr_alloc(1, sizeof *stream);
+    stream->state = XXH3_createState();
+    WR_ASSERT(stream->state);
+    wr_hash_stream_begin(stream);
+    return stream;
+}
+
+void wr_hash_stream_begin(WrHashStream *stream)
+{
+    XXH3_128bits_reset(stream->state);
+}
+
+void wr_hash_stream_add(WrHashStream *stream, const void *bytes, size_t count)
+{
+    XXH3_128bits_update(stream->state, bytes, count);
+}
+
+WrHash wr_hash_stream_get(const WrHashStream *stream)
+{
+    XXH128_hash_t h = XXH3_128bits_digest(stream->state);
+    return (WrHash){ h.low64, h.high64 };
+}
+
+void wr_hash_stream_free(WrHashStream *stream)
+{
+    if (stream) XXH3_freeState(stream->state);
+    wr_free(stream);
+}
+
 bool wr_hash_equal(WrHash a, WrHash b)
 {
     return a.low == b.low && a.high == b.high;

@@ -14,6 +14,14 @@ typedef struct WrHash {
 
 /* XXH3, 128 bits: the same on every processor. seed chains one hash into the next. */
 WrHash wr_hash_bytes(const void *bytes, size_t count, WrHash seed);
+/* The same with seed 0 of bytes that come in pieces. Begin anew as often as wanted; get leaves it as it is. */
+typedef struct WrHashStream WrHashStream;
+WrHashStream *wr_hash_stream_new(void);
+void wr_hash_stream_begin(WrHashStream *stream);
+void wr_hash_stream_add(WrHashStream *stream, const void *bytes, size_t count);
+WrHash wr_hash_stream_get(const WrHashStream *stream);
+void wr_hash_stream_free(WrHashStream *stream); /* NULL is fine */
+
 bool wr_hash_equal(WrHash a, WrHash b);
 /* 32 hex digits and a NUL. */
 void wr_hash_print(WrHash hash, char text[33]);

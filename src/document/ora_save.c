@@ -431,9 +431,9 @@ static bool fill_archive(Saving *to, WrError *err)
            add_pictures_of_all(to, err);
 }
 
-static bool write_archive(Saving *to, int fd, WrError *err)
+static bool write_archive(Saving *to, WrFileTarget *target, WrError *err)
 {
-    to->sink = (WrOraSink){ .fd = fd };
+    to->sink = (WrOraSink){ .to = wr_file_sink(target) };
     to->archive = wr_ora_sink_open(&to->sink, err);
     if (!to->archive) return false;
     char why[WR_FILE_WHY];
@@ -478,10 +478,9 @@ bool wr_ora_save(const WrDocument *document, const char *scene_text, const char 
     Saving *to = wr_alloc(1, sizeof *to);
     to->document = document;
     wr_text_add(&to->scene, scene_text);
-    bool good = write_archive(to, target.fd, err) && verify_archive(to, path, target.fd, err);
+    bool good = write_archive(to, &target, err) && verify_archive(to, path, target.fd, err);
     if (good && wr_progress_stopped()) good = wr_fail(err, "cancelled");
-    if (good) wr_file_verified(&target);
-    else wr_error_prefix(err, "%s: cannot be written: ", path);
+    if (!good) wr_error_prefix(err, "%s: cannot be written: ", path);
     for (int i = 0; i < to->entries.count; i++) {
         wr_free(to->entries.data[i]->name);
         wr_free(to->entries.data[i]->bytes);

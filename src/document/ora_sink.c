@@ -3,7 +3,6 @@
 #include "document/ora_zip.h"
 
 #include "base/error.h"
-#include "system/fd.h"
 
 #include <errno.h>
 #include <string.h>
@@ -28,7 +27,7 @@ static zip_int64_t answer_stat(void *data, zip_uint64_t length)
 
 static zip_int64_t write_bytes(WrOraSink *sink, const char *bytes, zip_uint64_t length)
 {
-    if (!sink->error && !wr_fd_write_at(sink->fd, bytes, (size_t)length, sink->at))
+    if (!sink->error && !sink->to.write(sink->to.to, bytes, (size_t)length, sink->at))
         sink->error = errno;
     if (sink->error) return -1;
     sink->at += (int64_t)length;

@@ -1,6 +1,8 @@
 /* ora_zip.h - reading entries of a stranger's zip archive within limits, and where an archive of ours goes.
    Layer 5. Private to this room. */
 #pragma once
+#include "base/sink.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -20,9 +22,9 @@ void wr_ora_zip_close(WrOraZip *zip); /* NULL is fine */
 bool wr_ora_zip_read(WrOraZip *zip, const char *name, size_t most, char **bytes, size_t *length,
                      WrError *err);
 
-/* An open, empty file that an archive is written to. */
+/* Where an archive is written to. */
 typedef struct WrOraSink {
-    int fd; /* the caller's */
+    WrSink to; /* empty */
     int64_t at, end;
     int error; /* errno of the first failure */
 } WrOraSink;

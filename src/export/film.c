@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "export/film_inner.h"
 
+#include <errno.h>
 #include <string.h>
 
 #define PATIENCE 300.0 /* seconds: one frame of the largest size takes some */
@@ -63,6 +64,7 @@ const WrFilmKind wr_film_kinds[] = {
       .most_fps = MOST_FPS,
       .most_side = 8192,
       .wrong = 8.0,
+      .rereads = true, /* +faststart */
       .coding = { "-vf", REC709, "-c:v", "libx264", "-crf", "16", TAGS, "-colorspace", "bt709",
                   "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4" } },
 };
@@ -126,7 +128,9 @@ static bool start(WrFilm *film, WrError *err)
              o->loop == 0   ? 0
              : o->loop == 1 ? film->kind->first_loop
                             : o->loop - (film->kind->first_loop < 0));
-    wr_text_addf(&out, "file:%s", film->target.temporary);
+    char name[WR_FD_NAME];
+    wr_fd_name(WR_FD_OUT, name);
+    wr_text_addf(&out, "file:%s", name);
     const char *const before[] = { "ffmpeg",
                                    "-nostdin",
                                    "-hide_banner",
@@ -154,7 +158,7 @@ static bool start(WrFilm *film, WrError *err)
         add(&line, strcmp(*word, "LOOP") == 0 ? loop : *word);
     add(&line, "-y");
     add(&line, wr_text_get(&out));
-    const bool good = wr_tool_start(&film->tool, line.words, false, o->patience, err);
+    const bool good = wr_tool_start(&film->tool, line.words, film->spool.fd, o->patience, err);
     wr_text_fini(&out);
     return good;
 }
@@ -175,6 +179,7 @@ static WrFilm *new_film(const WrFilmKind *kind, const WrFilmOptions *options)
     film->width = even(kind, options->width);
     film->height = even(kind, options->height);
     film->channels = options->alpha ? 4 : 3;
+    film->spool.fd = -1;
     film->tool = (WrTool){ .channel = -1, .complaints = -1 };
     return film;
 }
@@ -187,6 +192,8 @@ static bool allocate(WrFilm *film, WrError *err)
         if (!film->padded) return false;
     }
     film->read = wr_try_alloc(bytes, 1, "a frame", err);
+    if (film->read && !wr_spool_open(&film->spool))
+        return wr_fail(err, "a film: no memory file can be had (%s)", strerror(errno));
     return film->read != NULL;
 }
 
@@ -205,6 +212,7 @@ void wr_film_drop(WrFilm *film)
 {
     if (!film) return;
     wr_tool_drop(&film->tool);
+    wr_spool_close(&film->spool);
     wr_file_abort(&film->target);
     wr_free(film->padded);
     wr_free(film->read);
@@ -227,6 +235,17 @@ static const uint8_t *padded(WrFilm *film, const uint8_t *pixels)
     return film->padded;
 }
 
+/* What ffmpeg has written goes on to the disk. */
+static bool pass_on(WrFilm *film, bool ended, WrError *err)
+{
+    char why[WR_FILE_WHY];
+    const WrSink to = wr_file_sink(&film->target);
+    if (!ended && film->kind->rereads) return true;
+    if ((ended ? wr_spool_end : wr_spool_move)(&film->spool, &to)) return true;
+    if (wr_progress_stopped()) return wr_fail(err, "cancelled");
+    return wr_fail(err, "cannot be written (%s)", wr_file_why(errno, why));
+}
+
 bool wr_film_add(WrFilm *film, const uint8_t *pixels, WrError *err)
 {
     WrFilmSums sums;
@@ -236,7 +255,7 @@ bool wr_film_add(WrFilm *film, const uint8_t *pixels, WrError *err)
     pixels = padded(film, pixels);
     wr_film_sum(pixels, film->width, film->height, film->channels, &sums);
     wr_array_push(&film->sums, sums);
-    if (wr_tool_put(&film->tool, pixels, bytes, err)) return true;
+    if (wr_tool_put(&film->tool, pixels, bytes, err) && pass_on(film, false, err)) return true;
     if (!wr_progress_stopped()) wr_error_prefix(err, "%s: ", film->target.path);
     return false;
 }
@@ -250,9 +269,7 @@ static bool finish(WrFilm *film, WrFilmReport *report, WrError *err)
     if (film->sums.count == 0) return wr_fail(err, "a film needs a frame");
     if (!wr_tool_finish(&film->tool, err)) return false;
     wr_tool_drop(&film->tool);
-    if (!wr_film_check(film, report, err)) return false;
-    wr_file_verified(&film->target);
-    return true;
+    return pass_on(film, true, err) && wr_film_check(film, report, err);
 }
 
 bool wr_film_end(WrFilm *film, WrFilmReport *report, WrError *err)

@@ -2,8 +2,9 @@
    memory here. One row in wr_film_kinds a format.
    Layer 6.
 
-   ffmpeg is found where the user's programs are, gets the frames through a pipe, and writes a file beside the target
-   (base/file.h), which takes its name when it is whole and was read back: by ffmpeg again, all frames, their number, and
+   ffmpeg is found where the user's programs are, gets the frames through a pipe, and writes a file in memory
+   (base/spool.h). Its bytes go through the one door of all files (base/file.h) to a file beside the target, which takes its
+   name when it is whole and was read back: its bytes beside those that ffmpeg wrote, and by ffmpeg again, all frames, their number, and
    the mean colours of a grid of cells in each beside those that were handed over (of animated WebP, which ffmpeg does
    not read, the time of all frames, and the colours of the first and the last). It ends with this program, however
    that ends. Frames are 8-bit sRGB, and tagged so where a format has tags; H.264 has brightness and colour by Rec. 709's matrix, colour at half the resolution, and so
@@ -26,6 +27,7 @@ typedef struct WrFilmKind {
     double most_fps; /* that players keep to */
     int most_side;   /* pixels */
     bool by_reader;  /* it is not read back by ffmpeg */
+    bool rereads;    /* ffmpeg reads the whole file once more before it ends */
     double wrong;    /* codes: how far a cell's mean may be off when it is read back */
     /* What ffmpeg is told between the frames and the file, ends in NULL; LOOP stands for the number that its -loop or
      * -plays takes */

@@ -97,7 +97,7 @@ static bool read_back(WrFilm *film, WrFilmReport *report, WrError *err)
         "-pix_fmt",     film->channels == 4 ? "rgba" : "rgb24",
         "pipe:1",       NULL
     };
-    bool good = wr_tool_start(&tool, line, true, film->options.patience, err);
+    bool good = wr_tool_start(&tool, line, -1, film->options.patience, err);
     if (good) good = read_frames(film, &tool, report, err) && wr_tool_finish(&tool, err);
     wr_tool_drop(&tool);
     wr_text_fini(&in);

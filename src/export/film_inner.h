@@ -3,6 +3,7 @@
 #pragma once
 #include "base/array.h"
 #include "base/file.h"
+#include "base/spool.h"
 #include "export/film.h"
 #include "system/child.h"
 
@@ -20,8 +21,9 @@ typedef struct WrTool {
     WrChildEnd end;
 } WrTool;
 
-/* Start ffmpeg; arguments end in NULL. gives: what it writes comes through the channel, else it reads from it. */
-bool wr_tool_start(WrTool *tool, const char *const *arguments, bool gives, double patience,
+/* Start ffmpeg; arguments end in NULL. out: an open file that becomes its standard output, and it reads from the channel;
+ * -1: what it writes there comes through the channel. */
+bool wr_tool_start(WrTool *tool, const char *const *arguments, int out, double patience,
                    WrError *err);
 /* All of the bytes; false also when cancelled, or when it takes nothing for longer than its patience. */
 bool wr_tool_put(WrTool *tool, const void *bytes, size_t length, WrError *err);
@@ -41,6 +43,7 @@ struct WrFilm {
     const WrFilmKind *kind;
     WrFilmOptions options;
     WrFileTarget target;
+    WrSpool spool; /* that ffmpeg writes to */
     WrTool tool;
     int width, height; /* of the file */
     int channels;

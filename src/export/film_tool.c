@@ -12,7 +12,7 @@
 
 #define LOOK_MS 20 /* between two looks at the cancel */
 
-bool wr_tool_start(WrTool *tool, const char *const *arguments, bool gives, double patience,
+bool wr_tool_start(WrTool *tool, const char *const *arguments, int out, double patience,
                    WrError *err)
 {
     int ends[2] = { -1, -1 };
@@ -22,11 +22,12 @@ bool wr_tool_start(WrTool *tool, const char *const *arguments, bool gives, doubl
         wr_tool_drop(tool);
         return false;
     }
+    const bool gives = out < 0;
     const int nowhere = gives ? wr_fd_open_nowhere() : -1;
     const WrChildStart it = { .program = "ffmpeg",
                               .arguments = arguments,
                               .in = gives ? nowhere : ends[1],
-                              .out = gives ? ends[1] : tool->complaints,
+                              .out = gives ? ends[1] : out,
                               .err = tool->complaints,
                               .search = true,
                               .bound = true };

@@ -71,7 +71,7 @@ static bool write_strip(const Strips *s, int y, int rows, WrError *err)
     const size_t count = (size_t)rows * s->row;
     s->job->kind->rows(s->job, y, rows, s->bytes);
     if (s->job->options.big != is_big_here()) turn_round(s->bytes, count, s->each);
-    return wr_fd_write(s->target->fd, s->bytes, count * s->each) || fail_by_system(s, err);
+    return wr_file_put(s->target, s->bytes, count * s->each, err);
 }
 
 static bool see_strip(const Strips *s, int y, int rows, WrError *err)
@@ -114,7 +114,6 @@ static bool write_numbers(WrExportJob *job, WrFileTarget *target, WrError *err)
                       each_strip(&s, see_strip, 0.7, 1, err);
     wr_free(s.bytes);
     wr_free(s.values);
-    if (good) wr_file_verified(target);
     return good;
 }
 

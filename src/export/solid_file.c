@@ -154,6 +154,5 @@ bool wr_solid_write(const WrSolid *solid, const char *ending, const char *path, 
         wr_file_abort(&out.target);
         return false;
     }
-    wr_file_verified(&out.target);
     return wr_file_commit(&out.target, err);
 }

@@ -6,6 +6,7 @@
    The callers have checked the file's existence and kind; these functions check what the file says of
    itself before anything is allocated for it. */
 #pragma once
+#include "base/sink.h"
 #include "image/image.h"
 
 #include <stdbool.h>
@@ -39,10 +40,10 @@ typedef struct WrCodec {
     bool (*read)(WrCodecReader *reader, int part, int y, int rows, int channels, float *out,
                  char *reason);
 
-    /* file: open for writing, empty, the caller's; where wr_oiio_by_name, the library opens it again and not
-       all failures are told. */
-    WrCodecWriter *(*create)(int file, const char *format, const WrImageOut *parts, int count,
-                             char *reason);
+    /* to: empty; outlives the writer. spool: an empty memory file, the caller's, which is written in the sink's place where
+       wr_oiio_by_name: the library opens it by its name and does not report all failures; else -1. */
+    WrCodecWriter *(*create)(const WrSink *to, int spool, const char *format,
+                             const WrImageOut *parts, int count, char *reason);
     /* Rows of the present part, downwards. */
     bool (*write)(WrCodecWriter *writer, int y, int rows, const void *pixels, char *reason);
     /* Go on with the next part. */

@@ -481,7 +481,7 @@ static bool check_write(WrCodecWriter &writer, bool ok, char *reason)
     return fail(reason, message, writer.path);
 }
 
-static bool create_file(WrCodecWriter &writer, int file, const char *format,
+static bool create_file(WrCodecWriter &writer, const WrSink &to, const char *format,
                         const WrImageOut *parts, int count, char *reason)
 {
     static const TypeDesc types[] = { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::FLOAT };
@@ -504,7 +504,7 @@ static bool create_file(WrCodecWriter &writer, int file, const char *format,
         writer.types.push_back(type);
     }
     if (!wr_oiio_by_name(format, parts, count)) {
-        writer.disk = std::make_unique<Disk>(file);
+        writer.disk = std::make_unique<Disk>(to);
         if (!writer.out->set_ioproxy(writer.disk.get()))
             return fail(reason, "the format cannot be written to a file of ours");
     }
@@ -517,14 +517,14 @@ static bool create_file(WrCodecWriter &writer, int file, const char *format,
     return true;
 }
 
-static WrCodecWriter *writer_create(int file, const char *format, const WrImageOut *parts,
-                                    int count, char *reason)
+static WrCodecWriter *writer_create(const WrSink *to, int spool, const char *format,
+                                    const WrImageOut *parts, int count, char *reason)
 {
     WrCodecWriter *created = nullptr;
     guarded(reason, [&] {
         auto writer = std::make_unique<WrCodecWriter>();
-        writer->path = name_of(file);
-        if (!create_file(*writer, file, format, parts, count, reason)) return false;
+        writer->path = name_of(spool);
+        if (!create_file(*writer, *to, format, parts, count, reason)) return false;
         created = writer.release();
         return true;
     });

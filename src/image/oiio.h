@@ -7,11 +7,11 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define WR_OIIO_VERSION 5
+#define WR_OIIO_VERSION 6
 #define WR_OIIO_SYMBOL "wr_oiio_table"
 
 /* Whether the library does not write such a file through what we hand it, but opens it itself: EXR of several
-   parts, and TIFF, which reads back what it wrote. */
+   parts, and TIFF, which reads back what it wrote (the library's own reading of what we hand it gives nothing). */
 static inline bool wr_oiio_by_name(const char *format, const WrImageOut *parts, int count)
 {
     return (count > 1 && !parts[0].levels) || strcmp(format, "tiff") == 0;

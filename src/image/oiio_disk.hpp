@@ -1,7 +1,7 @@
 /* oiio_disk.hpp - the file that a picture library writes to. C++, part of the module alone.
    Private to this room. */
 #pragma once
-#include "system/fd.h"
+#include "base/sink.h"
 
 #include <OpenImageIO/filesystem.h>
 
@@ -9,12 +9,11 @@
 #include <cstring>
 #include <vector>
 
-/* An open file of the caller's for a library to write that takes everything and remembers the first
-   failure. */
+/* A sink of the caller's for a library to write that takes everything and remembers the first failure. */
 class Disk : public OIIO::Filesystem::IOProxy
 {
   public:
-    explicit Disk(int to) : IOProxy("", Write), file(to), block(1 << 16)
+    explicit Disk(const WrSink &to) : IOProxy("", Write), sink(to), block(1 << 16)
     {
     }
     const char *proxytype() const override
@@ -56,14 +55,14 @@ class Disk : public OIIO::Filesystem::IOProxy
     /* What is held back goes to the file; what comes next goes to where the library is now. */
     void empty()
     {
-        if (held > 0 && !error && !wr_fd_write_at(file, block.data(), held, at)) error = errno;
+        if (held > 0 && !error && !sink.write(sink.to, block.data(), held, at)) error = errno;
         held = 0;
         at = m_pos;
     }
     int error = 0; /* errno of the first failure */
 
   private:
-    int file;
+    WrSink sink;
     std::vector<char> block; /* bytes that belong at `at` and were not written yet */
     size_t held = 0;
     int64_t at = 0, end = 0;

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "system/fd.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -15,8 +14,9 @@
 #define LEVEL 4
 
 struct WrCodecWriter {
-    int fd;
-    int error; /* errno of the write that failed */
+    WrSink sink;
+    int64_t at; /* bytes that were given to it */
+    int error;  /* errno of the write that failed */
     uint8_t *block;
     size_t held;
     WrPngTrouble trouble;
@@ -29,10 +29,12 @@ struct WrCodecWriter {
 
 static void empty(WrCodecWriter *writer)
 {
-    if (writer->held > 0 && !wr_fd_write(writer->fd, writer->block, writer->held)) {
+    const WrSink *to = &writer->sink;
+    if (writer->held > 0 && !to->write(to->to, writer->block, writer->held, writer->at)) {
         writer->error = errno;
         png_error(writer->png, "the file cannot be written");
     }
+    writer->at += (int64_t)writer->held;
     writer->held = 0;
 }
 
@@ -113,14 +115,15 @@ static void release(WrCodecWriter *writer)
     wr_free(writer);
 }
 
-WrCodecWriter *wr_png_create(int file, const char *format, const WrImageOut *parts, int count,
-                             char *reason)
+WrCodecWriter *wr_png_create(const WrSink *to, int spool, const char *format,
+                             const WrImageOut *parts, int count, char *reason)
 {
+    (void)spool;
     (void)format;
     (void)count;
     WrCodecWriter *writer = wr_alloc(1, sizeof *writer);
     WrText description = { 0 };
-    writer->fd = file;
+    writer->sink = *to;
     writer->block = wr_alloc(BLOCK, 1);
     writer->png =
         png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &writer->trouble, wr_png_fail, wr_png_warn,

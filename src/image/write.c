@@ -2,7 +2,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/text.h"
+#include "base/spool.h"
 #include "image/decode.h"
 #include "image/oiio.h"
 #include "image/verify.h"
@@ -10,10 +10,8 @@
 #include "system/process.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 
-#define SPOOL_MB 1024 /* files of more go to the disk at once (choose_spool) */
 #define PIECE_BYTES (1 << 20)
 
 void wr_image_warm_writing(void)
@@ -47,14 +45,14 @@ static bool check_parts(const char *path, const WrImageOut *parts, int count, Wr
     return true;
 }
 
-/* A limit on file sizes holds for memory files as well, where libraries do not always tell of it. */
+/* A limit on file sizes holds for memory files as well, where libraries do not always report it. */
 static bool is_cut(int fd)
 {
     WrFileInfo info;
-    return wr_fd_info(fd, &info) && (uint64_t)info.bytes >= wr_process_file_limit();
+    return fd >= 0 && wr_fd_info(fd, &info) && (uint64_t)info.bytes >= wr_process_file_limit();
 }
 
-/* reason: of the library, which may have the system's in it. */
+/* file: that was written, or -1. reason: of the library, which may have the system's in it. */
 static bool fail_write(WrError *err, const char *path, int file, const char *reason)
 {
     char text[WR_FILE_WHY];
@@ -65,7 +63,9 @@ static bool fail_write(WrError *err, const char *path, int file, const char *rea
 
 typedef struct Writing {
     const char *path;
-    int file;
+    int file;      /* where the bytes end up, if that is a file; -1 */
+    WrSink sink;   /* of that */
+    WrSpool spool; /* before it, where the library writes by name; fd -1: none */
     const WrCodec *library;
     WrCodecWriter *writer;
     float *values; /* scratch: a strip as a reader gives it */
@@ -93,9 +93,21 @@ static int packed_rows(const char *format)
     return strcmp(format, "png") == 0 ? 1 : strcmp(format, "tiff") == 0 ? 32 : 16;
 }
 
+static bool fail_writing(const Writing *to, const char *reason, WrError *err)
+{
+    return fail_write(err, to->path, to->spool.fd >= 0 ? to->spool.fd : to->file, reason);
+}
+
+static bool spooled(const Writing *to, bool good, WrError *err)
+{
+    char why[WR_FILE_WHY];
+    if (good) return true;
+    if (errno == ECANCELED) return wr_fail(err, "cancelled");
+    return fail_write(err, to->path, to->file, wr_file_why(errno, why));
+}
+
 /* A strip, in pieces so small that it soon looks whether it should stop. row: bytes. */
-static bool write_strip(const Writing *to, int y, int rows, const void *pixels, size_t row,
-                        WrError *err)
+static bool write_strip(Writing *to, int y, int rows, const void *pixels, size_t row, WrError *err)
 {
     char reason[WR_CODEC_REASON] = "";
     int piece = WR_IMAGE_STRIP;
@@ -105,9 +117,9 @@ static bool write_strip(const Writing *to, int y, int rows, const void *pixels, 
         const char *from = (const char *)pixels + (size_t)first * row;
         if (wr_progress_stopped()) return wr_fail(err, "cancelled");
         if (!to->library->write(to->writer, y + first, count, from, reason))
-            return fail_write(err, to->path, to->file, reason);
+            return fail_writing(to, reason, err);
     }
-    return true;
+    return to->spool.fd < 0 || spooled(to, wr_spool_move(&to->spool, &to->sink), err);
 }
 
 static bool write_part(Writing *to, const WrImageOut *part, WrHash *digest, WrError *err)
@@ -133,90 +145,57 @@ static bool write_part(Writing *to, const WrImageOut *part, WrHash *digest, WrEr
     return ok;
 }
 
-/* file: open for writing, empty. digests: [count], of what was written. */
-static bool write_file(const char *path, int file, const char *format, const WrImageOut *parts,
-                       int count, WrHash *digests, WrError *err)
+static bool write_parts(Writing *to, const char *format, const WrImageOut *parts, int count,
+                        WrHash *digests, WrError *err)
 {
     char reason[WR_CODEC_REASON] = "";
-    Writing to = { .path = path,
-                   .file = file,
-                   .library = wr_codec(format, err),
-                   .packed = parts[0].levels ? WR_IMAGE_TILE : packed_rows(format) };
-    if (!to.library) return false;
-    to.writer = to.library->create(file, format, parts, count, reason);
-    if (!to.writer) return fail_write(err, path, file, reason);
+    to->writer = to->library->create(&to->sink, to->spool.fd, format, parts, count, reason);
+    if (!to->writer) return fail_writing(to, reason, err);
     bool ok = true;
     for (int i = 0; i < count && ok; i++) {
         WrProgressPart share;
         const WrProgress *whole = wr_progress_enter(&share, (double)i / count, (i + 1.0) / count);
-        if (i > 0 && !to.library->next(to.writer, reason)) ok = fail_write(err, path, file, reason);
-        ok = ok && write_part(&to, &parts[i], &digests[i], err);
+        if (i > 0 && !to->library->next(to->writer, reason)) ok = fail_writing(to, reason, err);
+        ok = ok && write_part(to, &parts[i], &digests[i], err);
         wr_progress_set(whole);
     }
-    bool whole = to.library->finish(to.writer, ok, reason);
-    if (ok && !whole) ok = fail_write(err, path, file, reason);
+    bool whole = to->library->finish(to->writer, ok, reason);
+    if (ok && !whole) ok = fail_writing(to, reason, err);
     if (ok && wr_progress_stopped()) ok = wr_fail(err, "cancelled"); /* rows may be missing */
     return ok;
 }
 
-/* Bytes that the parts' values take; a file is seldom larger. */
-static double raw_bytes(const WrImageOut *parts, int count)
+/* sink: empty. file: that it writes to, or -1. digests: [count], of what was written. */
+static bool write_file(const char *path, WrSink sink, int file, const char *format,
+                       const WrImageOut *parts, int count, WrHash *digests, WrError *err)
 {
-    double sum = 0;
-    for (int i = 0; i < count; i++)
-        sum += (double)parts[i].width * parts[i].height * parts[i].channels *
-               (double)type_bytes(parts[i].type);
-    return sum;
-}
-
-/* Where a library that opens its file itself writes to: a memory file, whose bytes then go to the disk where we
-   see every failure; what is too large for that goes there at once, and only reading it back tells. */
-static int choose_spool(const WrFileTarget *target, const char *format, const WrImageOut *parts,
-                        int count)
-{
-    const char *setting = getenv("WRINKLE_SPOOL_MB");
-    double most = SPOOL_MB;
-    if (setting && !wr_number_parse(setting, strlen(setting), &most)) most = SPOOL_MB;
-    if (!wr_oiio_by_name(format, parts, count) || raw_bytes(parts, count) > most * 1e6)
-        return target->fd;
-    int fd = wr_fd_memory("wrinkle picture");
-    return fd >= 0 ? fd : target->fd;
-}
-
-static bool copy_file(int from, const WrFileTarget *target, WrError *err)
-{
-    static const size_t size = 1 << 18;
-    char *block = wr_alloc(size, 1), why[WR_FILE_WHY];
-    bool good = true;
-    int64_t at = 0;
-    for (int64_t n = 1; good && n != 0; at += n > 0 ? n : 0) {
-        if (wr_progress_stopped()) good = wr_fail(err, "cancelled");
-        if (!good) break;
-        n = wr_fd_read_at(from, block, size, at);
-        good = n >= 0 && (n == 0 || wr_fd_write(target->fd, block, (size_t)n));
-        if (!good) wr_file_fail(target, wr_file_why(errno, why), err);
-    }
-    wr_free(block);
-    return good;
+    char why[WR_FILE_WHY];
+    Writing to = { .path = path,
+                   .file = file,
+                   .sink = sink,
+                   .spool = { .fd = -1 },
+                   .library = wr_codec(format, err),
+                   .packed = parts[0].levels ? WR_IMAGE_TILE : packed_rows(format) };
+    if (!to.library) return false;
+    if (wr_oiio_by_name(format, parts, count) && !wr_spool_open(&to.spool))
+        return fail_write(err, path, -1, wr_file_why(errno, why));
+    bool ok = write_parts(&to, format, parts, count, digests, err);
+    if (ok && to.spool.fd >= 0) ok = spooled(&to, wr_spool_end(&to.spool, &to.sink), err);
+    wr_spool_close(&to.spool);
+    return ok;
 }
 
 static bool write_target(WrFileTarget *target, const char *path, const WrImageFormat *format,
                          const WrImageOut *parts, int count, WrHash *digests, WrError *err)
 {
     WrError inner = { "" };
-    int spool = choose_spool(target, format->library, parts, count);
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.7); /* reading it back is the rest */
-    bool good = write_file(path, spool, format->library, parts, count, digests, err) &&
-                (spool == target->fd || copy_file(spool, target, err));
+    bool good = write_file(path, wr_file_sink(target), target->fd, format->library, parts, count,
+                           digests, err);
     wr_progress_set(whole);
-    if (spool != target->fd) wr_fd_close(spool);
-    if (!good) return false;
-    if (wr_image_verify(path, target->fd, format, parts, count, digests, &inner)) {
-        wr_file_verified(target);
-        return true;
-    }
-    return fail_write(err, path, target->fd, inner.text);
+    return good && (wr_image_verify(path, target->fd, format, parts, count, digests, &inner) ||
+                    fail_write(err, path, target->fd, inner.text));
 }
 
 bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrError *err)
@@ -233,25 +212,42 @@ bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrErro
     return false;
 }
 
-/* Everything that was written to a memory file. */
-static bool take_bytes(const char *name, int fd, char **bytes, size_t *length, WrError *err)
+/* A sink in memory. */
+typedef struct Bytes {
+    char *data;
+    size_t length, room;
+} Bytes;
+
+#define BYTES_MOST ((size_t)1 << 40) /* no encoder goes as far */
+
+static bool bytes_write(void *to, const void *bytes, size_t length, int64_t at)
 {
-    WrFileInfo info;
-    if (!wr_fd_info(fd, &info)) return wr_fail(err, "%s: %s", name, strerror(errno));
-    size_t want = (size_t)info.bytes, have = 0;
-    char *block = wr_try_alloc(want + 1, 1, name, err);
-    if (!block) return false;
-    while (have < want) {
-        int64_t n = wr_fd_read_at(fd, block + have, want - have, (int64_t)have);
-        if (n <= 0) {
-            wr_free(block);
-            return wr_fail(err, "%s: %s", name, strerror(n < 0 ? errno : EIO));
-        }
-        have += (size_t)n;
+    Bytes *all = to;
+    if (at < 0 || (uint64_t)at > BYTES_MOST || length > BYTES_MOST) return errno = EFBIG, false;
+    const size_t from = (size_t)at, end = from + length;
+    if (end > all->room) {
+        const size_t room = end + end / 2;
+        char *data = wr_try_alloc(room, 1, "a picture in memory", NULL);
+        if (!data) return errno = ENOMEM, false;
+        if (all->length) memcpy(data, all->data, all->length);
+        wr_free(all->data);
+        all->data = data;
+        all->room = room;
     }
-    *bytes = block;
-    *length = want;
+    memcpy(all->data + from, bytes, length);
+    if (end > all->length) all->length = end;
     return true;
+}
+
+static bool verify_bytes(const char *name, const Bytes *all, const WrImageFormat *format,
+                         const WrImageOut *part, const WrHash *digest, WrError *err)
+{
+    WrError inner = { "" };
+    int fd = wr_fd_in_memory(name, all->data, all->length, err);
+    if (fd < 0) return false;
+    const bool good = wr_image_verify(name, fd, format, part, 1, digest, &inner);
+    wr_fd_close(fd);
+    return good || fail_write(err, name, -1, inner.text);
 }
 
 bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes, size_t *length,
@@ -259,18 +255,17 @@ bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes
 {
     if (!check_parts(name, part, 1, err)) return false;
     const WrImageFormat *format = wr_image_format(name, err);
-    if (strcmp(format->library, "tiff") == 0)
-        return wr_fail(err, "%s: TIFF files cannot be written into memory", name);
-    int fd = wr_fd_memory("wrinkle picture");
-    if (fd < 0) return wr_fail(err, "%s: %s", name, strerror(errno));
-    WrError inner = { "" };
+    Bytes all = { 0 };
+    const WrSink sink = { bytes_write, &all };
     WrHash digest = { 0 };
-    bool ok = write_file(name, fd, format->library, part, 1, &digest, err);
-    if (ok && !wr_image_verify(name, fd, format, part, 1, &digest, &inner))
-        ok = fail_write(err, name, fd, inner.text);
-    ok = ok && take_bytes(name, fd, bytes, length, err);
-    wr_fd_close(fd);
-    return ok;
+    if (!write_file(name, sink, -1, format->library, part, 1, &digest, err) ||
+        !verify_bytes(name, &all, format, part, &digest, err)) {
+        wr_free(all.data);
+        return false;
+    }
+    *bytes = all.data;
+    *length = all.length;
+    return true;
 }
 
 typedef struct Pixels {

@@ -94,6 +94,9 @@ bool wr_fd_cut(int fd, int64_t length);
    cannot, nothing was copied; -1: it failed on the way. */
 int wr_fd_copy_blocks(int from, int to);
 
+/* Give back the room of bytes that nobody will read again, which become 0; where that cannot be, nothing happens. */
+void wr_fd_forget(int fd, int64_t at, int64_t length);
+
 bool wr_fd_sync(int fd);       /* bytes and facts are on the disk */
 bool wr_fd_sync_bytes(int fd); /* the bytes, and what finding them needs */
 

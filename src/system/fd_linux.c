@@ -31,6 +31,11 @@ int wr_fd_copy_blocks(int from, int to)
     }
 }
 
+void wr_fd_forget(int fd, int64_t at, int64_t length)
+{
+    fallocate(fd, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, (off_t)at, (off_t)length);
+}
+
 int wr_fd_memory(const char *name)
 {
     return memfd_create(name, MFD_CLOEXEC);

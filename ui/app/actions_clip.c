@@ -131,7 +131,6 @@ static bool save_bytes(const char *path, const char *bytes, size_t length, WrErr
         wr_file_abort(&target);
         return false;
     }
-    wr_file_verified(&target);
     return wr_file_commit(&target, err);
 }
 
