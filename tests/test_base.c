@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "base/spool.h"
 #include "base/text.h"
 #include "base/vec.h"
 
@@ -618,9 +619,132 @@ static void what_a_folder_passes_on_a_new_file_has(void **state)
     assert_int_equal(mode_in_folder_with(&plain, 3, 0), 0640);
 }
 
+/* ---- checksums of what is written ---- */
+
+#define MOST 3000000 /* bytes of a file in these tests */
+
+/* Writes of any length at any place, as encoders and archives make them: the file is what a copy in memory is. */
+static void bytes_written_in_any_order_are_checked(void **state)
+{
+    (void)state;
+    WrError err;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX", *bytes;
+    size_t length;
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.bin");
+    TestRandom random = { 11 };
+    uint8_t *model = calloc(MOST, 1), *piece = malloc(MOST);
+    for (int run = 0; run < 30; run++) {
+        WrFileTarget target;
+        int64_t end = 0;
+        memset(model, 0, MOST);
+        assert_true(wr_file_begin(&target, path, &err));
+        for (int k = 0; k < 60; k++) {
+            const int64_t most = run % 3 == 0 ? 700000 : run % 3 == 1 ? 40 : 5000;
+            const int64_t many = 1 + (int64_t)(test_random(&random) * (double)most);
+            int64_t at = test_random(&random) < 0.5
+                             ? end /* or over what is there, or behind it */
+                             : (int64_t)(test_random(&random) * 1.2 * (double)end);
+            if (at + many > MOST) at = MOST - many;
+            for (int64_t i = 0; i < many; i++) piece[i] = (uint8_t)test_random_u64(&random);
+            memcpy(model + at, piece, (size_t)many);
+            assert_true(wr_file_write_at(&target, piece, (size_t)many, at));
+            if (at + many > end) end = at + many;
+        }
+        if (!wr_file_commit(&target, &err)) fail_msg("run %d: %s", run, err.text);
+        assert_true(wr_file_read(path, MOST, &bytes, &length, &err));
+        assert_int_equal(length, end);
+        assert_memory_equal(bytes, model, length);
+        wr_free(bytes);
+    }
+    free(model);
+    free(piece);
+    unlink(path);
+    rmdir(folder);
+    wr_free(path);
+}
+
+/* One bit of 600 000 bytes is another, at the beginning, inside, at the end; or the file is longer, or shorter. */
+static void a_byte_that_changes_on_the_disk_fails_the_commit(void **state)
+{
+    (void)state;
+    static const int64_t places[] = { 0, 1, 262143, 262144, 300000, 599999, 600000, -1 };
+    WrError err;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.bin"), *zeros = calloc(600000, 1);
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        WrFileTarget target;
+        assert_true(wr_file_write(path, "old", 3, &err));
+        assert_true(wr_file_begin(&target, path, &err));
+        assert_true(wr_file_put(&target, zeros, 600000, &err));
+        if (places[i] < 0) assert_int_equal(ftruncate(target.fd, 599999), 0);
+        else assert_int_equal(pwrite(target.fd, "\1", 1, (off_t)places[i]), 1);
+        assert_false(wr_file_commit(&target, &err));
+        assert_non_null(strstr(err.text, "cannot be written (it does not read back as it was"));
+        struct stat info;
+        assert_true(stat(path, &info) == 0 && info.st_size == 3);
+    }
+    /* What is changed before a later write covers its neighbours is not taken for what was written. */
+    WrFileTarget target;
+    assert_true(wr_file_begin(&target, path, &err));
+    assert_true(wr_file_put(&target, zeros, 600000, &err));
+    assert_int_equal(pwrite(target.fd, "\1", 1, 270000), 1);
+    assert_false(wr_file_write_at(&target, "header", 6, 280000));
+    assert_int_equal(errno, EIO);
+    wr_file_abort(&target);
+    free(zeros);
+    unlink(path);
+    rmdir(folder);
+    wr_free(path);
+}
+
+/* More than the head of a spool goes on while it is written; its writer then returns to the head. */
+static void a_spool_passes_on_what_lies_behind_its_head(void **state)
+{
+    (void)state;
+    WrError err;
+    const int64_t whole = WR_SPOOL_HEAD + (20 << 20) + 12345, step = 3 << 20;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX", *bytes;
+    size_t length;
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.bin");
+    uint32_t *model = malloc((size_t)whole + 4);
+    for (int64_t i = 0; i < whole / 4 + 1; i++) model[i] = wr_mix32((uint32_t)i);
+    WrFileTarget target;
+    WrSpool spool;
+    assert_true(wr_file_begin(&target, path, &err) && wr_spool_open(&spool));
+    const WrSink to = wr_file_sink(&target);
+    for (int64_t at = 0; at < whole; at += step) {
+        const int64_t left = whole - at;
+        assert_true(wr_fd_write(spool.fd, (char *)model + at, (size_t)(left < step ? left : step)));
+        assert_true(wr_spool_move(&spool, &to));
+    }
+    assert_true(spool.moved > WR_SPOOL_HEAD); /* some has gone on, and its memory is given back: */
+    struct stat info;
+    assert_int_equal(fstat(spool.fd, &info), 0);
+    assert_true((int64_t)info.st_blocks * 512 < whole - (8 << 20));
+    memcpy(model, "patched!", 8);
+    assert_true(wr_fd_write_at(spool.fd, "patched!", 8, 0));
+    assert_true(wr_spool_end(&spool, &to));
+    wr_spool_close(&spool);
+    if (!wr_file_commit(&target, &err)) fail_msg("%s", err.text);
+    assert_true(wr_file_read(path, (size_t)whole, &bytes, &length, &err));
+    assert_int_equal(length, whole);
+    assert_true(memcmp(bytes, model, length) == 0);
+    wr_free(bytes);
+    free(model);
+    unlink(path);
+    rmdir(folder);
+    wr_free(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bytes_written_in_any_order_are_checked),
+        cmocka_unit_test(a_byte_that_changes_on_the_disk_fails_the_commit),
+        cmocka_unit_test(a_spool_passes_on_what_lies_behind_its_head),
         cmocka_unit_test(numbers_print_shortest_and_read_back),
         cmocka_unit_test(words_that_are_no_numbers_are_refused),
         cmocka_unit_test(invalid_utf8_never_reaches_json),

@@ -66,7 +66,7 @@ static WrDocument *make_document(int width, int height)
 static void save(const WrDocument *document, const char *scene, const char *path)
 {
     WrError err = { "" };
-    if (!wr_ora_save(document, scene, path, &err)) fail_msg("%s", err.text);
+    if (!wr_ora_save(document, scene, path, NULL, &err)) fail_msg("%s", err.text);
 }
 
 static WrLoaded load(const char *path, WrText *notes)
@@ -405,6 +405,55 @@ static void a_file_of_ours_from_another_program_keeps_its_pictures(void **state)
     drop(&loaded);
 }
 
+/* Subtract leaves as difference, the nearest that there is, and comes back as itself where our attributes are gone. */
+static void difference_comes_back_as_subtract(void **state)
+{
+    (void)state;
+    static const char xml[] = "<image w='3' h='1'><stack>"
+                              "<layer name='a' composite-op='svg:difference' src='data/a.png'/>"
+                              "<layer name='b' src='data/a.png'/></stack></image>";
+    static const uint8_t codes[3] = { 0, 51, 255 };
+    Part parts[] = { TYPE,
+                     { "stack.xml", xml, 0, ZIP_CM_DEFLATE },
+                     png("data/a.png", 3, 1, 1, codes) };
+    write_archive("difference.ora", parts, 3);
+    wr_free((char *)parts[2].bytes);
+    WrText notes = { 0 };
+    WrLoaded loaded = load("difference.ora", &notes);
+    const WrLayer *top = &loaded.document->layers[1];
+    assert_int_equal(top->blend, WR_BLEND_SUBTRACT);
+    assert_near(wr_field_get(top->heights, 1, 0), 0.2, 1e-7);
+    assert_non_null(strstr(wr_text_get(&notes), "difference is read as subtract"));
+    wr_text_fini(&notes);
+    drop(&loaded);
+}
+
+/* The composite is for others: it is no layer of ours, and does not count as one. */
+static void the_composite_for_others_is_passed_over(void **state)
+{
+    (void)state;
+    WrDocument *document = wr_document_new();
+    wr_document_start_over(document,
+                           wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.25f, NULL));
+    while (document->layer_count < WR_LAYERS_MAX)
+        wr_document_insert(document, document->layer_count,
+                           wr_layer_new("l", document->layers[0].heights));
+    document->layers[1].opacity = 0.5f;
+    document->layers[1].blend = WR_BLEND_REPLACE;
+    document->active = 3;
+    const WrHash before = wr_document_hash(document, "");
+    WrText note = { 0 };
+    WrError err = { "" };
+    if (!wr_ora_save(document, "", "composite.ora", &note, &err)) fail_msg("%s", err.text);
+    assert_non_null(strstr(wr_text_get(&note), "shows them the composite"));
+    WrLoaded loaded = load("composite.ora", NULL);
+    assert_int_equal(loaded.document->layer_count, WR_LAYERS_MAX);
+    assert_true(wr_hash_equal(before, wr_document_hash(loaded.document, "")));
+    wr_text_fini(&note);
+    drop(&loaded);
+    wr_document_free(document);
+}
+
 /* ---- hostile files ---- */
 
 static void expect_refused(const char *path, const char *word)
@@ -571,7 +620,7 @@ static void a_newer_version_loads_and_says_so(void **state)
 {
     (void)state;
     static const char xml[] =
-        "<image w='1' h='1' xmlns:k='" WR_ORA_NAMESPACE "' k:version='6'><stack>"
+        "<image w='1' h='1' xmlns:k='" WR_ORA_NAMESPACE "' k:version='7'><stack>"
         "<layer src='data/a.png' k:blend='burn' k:glow='3'/></stack></image>";
     static const uint8_t code = 255;
     Part parts[] = { TYPE,
@@ -581,7 +630,7 @@ static void a_newer_version_loads_and_says_so(void **state)
     wr_free((char *)parts[2].bytes);
     WrText notes = { 0 };
     WrLoaded loaded = load("new.ora", &notes);
-    assert_true(loaded.newer_version == 6.0);
+    assert_true(loaded.newer_version == 7.0);
     assert_non_null(strstr(wr_text_get(&notes), "its blend mode is not known here"));
     assert_true(wr_field_get(loaded.document->layers[0].heights, 0, 0) == 1.0f);
     wr_text_fini(&notes);
@@ -606,16 +655,16 @@ static void a_failed_save_leaves_the_old_file_and_nothing_else(void **state)
     WrError err = { "" };
     mkdir("target.ora", 0777);
     int before = files_here();
-    assert_false(wr_ora_save(document, "", "target.ora", &err));
+    assert_false(wr_ora_save(document, "", "target.ora", NULL, &err));
     assert_non_null(strstr(err.text, "is a folder"));
-    assert_false(wr_ora_save(document, "", "nowhere/a.ora", &err));
+    assert_false(wr_ora_save(document, "", "nowhere/a.ora", NULL, &err));
     assert_non_null(strstr(err.text, "folder does not exist"));
     assert_int_equal(files_here(), before);
     /* A device that is always full stands for the full disk, where there is one to mount. */
     mkdir("disk", 0777);
     if (system("mount -t tmpfs -o size=16k tmpfs disk 2>/dev/null") == 0) {
         assert_true(wr_file_write("disk/a.ora", "precious", 8, &err));
-        bool saved = wr_ora_save(document, "", "disk/a.ora", &err);
+        bool saved = wr_ora_save(document, "", "disk/a.ora", NULL, &err);
         char *bytes;
         size_t length;
         assert_true(wr_file_read("disk/a.ora", 100, &bytes, &length, NULL));
@@ -642,6 +691,8 @@ int main(void)
         cmocka_unit_test(previews_show_heights_over_the_stated_range),
         cmocka_unit_test(a_strangers_layers_become_heights_and_coverage),
         cmocka_unit_test(a_file_of_ours_from_another_program_keeps_its_pictures),
+        cmocka_unit_test(difference_comes_back_as_subtract),
+        cmocka_unit_test(the_composite_for_others_is_passed_over),
         cmocka_unit_test(lists_of_layers_that_are_hostile_are_refused),
         cmocka_unit_test(archives_that_are_hostile_are_refused),
         cmocka_unit_test(what_is_no_archive_is_refused),

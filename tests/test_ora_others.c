@@ -57,6 +57,13 @@ static void attribute(const char *element, const char *name, char *value, size_t
     snprintf(value, size, "%.*s", (int)strcspn(at, "\""), at);
 }
 
+/* How it blends, and what its user has hidden. */
+typedef struct Stranger {
+    double
+        gamma; /* of the scale on which greys are blended: 1, codes as they are; 2.2, light, as MyPaint has it */
+    bool hides_composite;
+} Stranger;
+
 /* Compositing and Blending Level 1, grey; b premultiplied. */
 static void join(const char *operation, double s, double alpha, double *b, double *b_alpha)
 {
@@ -75,25 +82,32 @@ static void join(const char *operation, double s, double alpha, double *b, doubl
     *b_alpha = alpha + (1 - alpha) * *b_alpha;
 }
 
+static bool is_composite(const char *layer)
+{
+    const char *at = strstr(layer, " wrinkle:composite=\"on\"");
+    return at && at < strstr(layer, "/>");
+}
+
 /* Joins the layers below the topmost one first. Returns how many are shown. */
-static int compose(zip_t *archive, const char *layer, double *grey, double *alpha)
+static int compose(zip_t *archive, const char *layer, Stranger by, double *grey, double *alpha)
 {
     char src[40], operation[40], opacity[40], visibility[40];
     const char *next = strstr(layer + 1, "<layer ");
-    int shown = next ? compose(archive, next, grey, alpha) : 0;
+    int shown = next ? compose(archive, next, by, grey, alpha) : 0;
     attribute(layer, "src", src, sizeof src);
     attribute(layer, "composite-op", operation, sizeof operation);
     attribute(layer, "opacity", opacity, sizeof opacity);
     attribute(layer, "visibility", visibility, sizeof visibility);
     if (strcmp(visibility, "hidden") == 0) return shown;
+    if (by.hides_composite && is_composite(layer)) return shown;
     if (shown == 0) { /* some programs show nothing of what is added to nothing */
         assert_string_equal(operation, "svg:src-over");
         assert_true(atof(opacity) == 1);
     }
     WrImage *image = picture(archive, src);
     for (int i = 0; i < COUNT; i++)
-        join(operation, image->data[4 * i], image->data[4 * i + 3] * atof(opacity), &grey[i],
-             &alpha[i]);
+        join(operation, pow(image->data[4 * i], by.gamma), image->data[4 * i + 3] * atof(opacity),
+             &grey[i], &alpha[i]);
     wr_image_free(image);
     return shown + 1;
 }
@@ -121,12 +135,35 @@ static WrField *random_cover(TestRandom *random)
     return field;
 }
 
-/* Heights that no sum takes out of the range; factors mean the same to others only where black is height 0. */
-static WrDocument *random_document(uint64_t seed, bool negative)
+typedef enum Kind {
+    PLAIN, /* heights that no sum takes out of the range, and those that are factors 0 or more */
+    NEGATIVE, /* likewise, some below 0, and no factors: those mean the same only where black is height 0 */
+    WHOLE, /* each texel of a layer is there or is not, and nothing is added */
+    ANY,   /* every blend, whatever it meets */
+    KINDS
+} Kind;
+
+static WrBlend random_blend(Kind kind, TestRandom *random)
 {
     static const WrBlend blends[] = { WR_BLEND_MULTIPLY, WR_BLEND_ADD,     WR_BLEND_MAX,
                                       WR_BLEND_MIN,      WR_BLEND_MIX,     WR_BLEND_REPLACE,
                                       WR_BLEND_ADD,      WR_BLEND_SUBTRACT };
+    static const WrBlend whole[] = { WR_BLEND_MULTIPLY, WR_BLEND_MAX, WR_BLEND_MIN, WR_BLEND_MIX,
+                                     WR_BLEND_REPLACE };
+    if (kind == ANY) return (WrBlend)(test_random(random) * WR_BLEND_COUNT);
+    if (kind == WHOLE) return whole[(int)(test_random(random) * 5)];
+    return blends[(kind == NEGATIVE) + (int)(test_random(random) * 7)];
+}
+
+static void make_whole(WrField *field)
+{
+    for (int j = 0; field && j < HEIGHT; j++)
+        for (int i = 0; i < WIDTH; i++) wr_field_set(field, i, j, wr_field_get(field, i, j) > 0.5f);
+}
+
+static WrDocument *random_document(uint64_t seed, Kind kind)
+{
+    const bool negative = kind == NEGATIVE || kind == ANY;
     TestRandom random = { seed };
     double low = negative ? -0.3 : 0.0;
     WrDocument *document = wr_document_new();
@@ -135,14 +172,20 @@ static WrDocument *random_document(uint64_t seed, bool negative)
     int count = 1 + (int)(5 * test_random(&random));
     for (int i = 1; i < count; i++) {
         WrLayer layer = wr_layer_new("layer", document->layers[0].heights);
-        layer.blend = blends[negative + (int)(test_random(&random) * 7)];
-        bool sum = layer.blend == WR_BLEND_ADD || layer.blend == WR_BLEND_SUBTRACT;
+        layer.blend = random_blend(kind, &random);
+        layer.radius = 0.1f;
+        bool sum = kind != ANY && (layer.blend == WR_BLEND_ADD || layer.blend == WR_BLEND_SUBTRACT);
         wr_field_free(layer.heights);
         wr_field_free(layer.cover);
         layer.heights = random_field(sum ? 0 : low, sum ? 0.04 : 0.6, &random);
         layer.cover = random_cover(&random);
         if (test_random(&random) < 0.3) layer.mask = random_field(0, 1, &random);
         if (test_random(&random) < 0.5) layer.opacity = (float)test_random(&random);
+        if (kind == WHOLE) {
+            make_whole(layer.cover);
+            make_whole(layer.mask);
+            layer.opacity = 1;
+        }
         layer.visible = test_random(&random) > 0.2;
         wr_document_insert(document, i, layer);
     }
@@ -165,18 +208,18 @@ static bool shows_any(const WrDocument *document)
 /* ---- tests ---- */
 
 /* Grey and alpha of each layer are rounded to 16 bits. */
-static void check_picture(zip_t *archive, int layers)
+static void check_picture(zip_t *archive, int layers, Stranger by)
 {
     static double grey[COUNT], alpha[COUNT];
     size_t length;
     memset(grey, 0, sizeof grey);
     memset(alpha, 0, sizeof alpha);
     char *xml = entry(archive, "stack.xml", &length);
-    compose(archive, strstr(xml, "<layer "), grey, alpha);
+    compose(archive, strstr(xml, "<layer "), by, grey, alpha);
     WrImage *merged = picture(archive, "mergedimage.png");
     for (int i = 0; i < COUNT; i++) {
         assert_near(alpha[i], 1, 1e-12);
-        assert_near(grey[i], merged->data[4 * i], (1.5 * layers + 1) / 65535);
+        assert_near(pow(grey[i], 1 / by.gamma), merged->data[4 * i], (1.5 * layers + 1) / 65535);
     }
     wr_image_free(merged);
     free(xml);
@@ -185,19 +228,28 @@ static void check_picture(zip_t *archive, int layers)
 static void others_see_the_picture_that_we_have(void **state)
 {
     (void)state;
-    int seen = 0;
-    for (uint64_t seed = 1; seed <= 60; seed++) {
+    int seen = 0, composites[KINDS] = { 0 };
+    for (uint64_t seed = 1; seed <= 80; seed++) {
         WrError err = { "" };
-        WrDocument *document = random_document(seed, seed % 2);
+        const Kind kind = (Kind)(seed % KINDS);
+        WrDocument *document = random_document(seed, kind);
         WrHash before = wr_document_hash(document, "");
-        if (!wr_ora_save(document, "", "a.ora", &err)) fail_msg("%s", err.text);
+        if (!wr_ora_save(document, "", "a.ora", NULL, &err)) fail_msg("%s", err.text);
         WrLoaded loaded = { 0 };
         int64_t replaced;
         if (!wr_ora_load("a.ora", &loaded, &replaced, NULL, &err)) fail_msg("%s", err.text);
         assert_true(wr_hash_equal(before, wr_document_hash(loaded.document, "")));
         zip_t *archive = zip_open("a.ora", ZIP_RDONLY, NULL);
+        size_t length;
+        char *xml = entry(archive, "stack.xml", &length);
+        composites[kind] += strstr(xml, "wrinkle:composite") != NULL;
+        free(xml);
         if (shows_any(document)) {
-            check_picture(archive, document->layer_count);
+            const int layers = document->layer_count;
+            check_picture(archive, layers, (Stranger){ 1, false });
+            check_picture(archive, layers, (Stranger){ 2.2, false });
+            /* Who hides the composite and blends codes as they are has the picture from the layers. */
+            if (kind != ANY) check_picture(archive, layers, (Stranger){ 1, true });
             seen++;
         }
         zip_discard(archive);
@@ -205,7 +257,9 @@ static void others_see_the_picture_that_we_have(void **state)
         wr_free(loaded.scene_text);
         wr_document_free(document);
     }
-    assert_true(seen > 40);
+    assert_true(seen > 55);
+    assert_true(composites[PLAIN] > 5 && composites[NEGATIVE] > 5 && composites[ANY] > 5);
+    assert_int_equal(composites[WHOLE], 0);
 }
 
 static uint32_t number_at(const uint8_t *at)
@@ -237,7 +291,7 @@ static void every_picture_of_16_bits_names_its_profile(void **state)
     (void)state;
     WrError err = { "" };
     WrDocument *document = random_document(3, false);
-    if (!wr_ora_save(document, "", "a.ora", &err)) fail_msg("%s", err.text);
+    if (!wr_ora_save(document, "", "a.ora", NULL, &err)) fail_msg("%s", err.text);
     zip_t *archive = zip_open("a.ora", ZIP_RDONLY, NULL);
     check_profile(archive, "mergedimage.png");
     for (int i = 0; i < document->layer_count; i++) {

@@ -97,10 +97,12 @@ static const char *name_of(const WrCli *cli)
     return slash ? slash + 1 : cli->file ? cli->file : "";
 }
 
+/* The table and its plots take their places together. */
 static bool write_files(const WrCli *cli, const WrLadder *ladder, WrError *err)
 {
     WrText csv = { 0 };
     bool good = true;
+    WrFileGroup *group = wr_file_group_begin();
     if (cli->csv) {
         wr_report_csv(ladder, &csv);
         good = wr_file_write(cli->csv, wr_text_get(&csv), csv.length, err);
@@ -108,7 +110,9 @@ static bool write_files(const WrCli *cli, const WrLadder *ladder, WrError *err)
     for (int i = 0; good && i < cli->plot_count; i++)
         good = wr_report_plot(ladder, name_of(cli), cli->plots[i], err);
     wr_text_fini(&csv);
-    return good;
+    if (good) return wr_file_group_commit(group, err);
+    wr_file_group_abort(group);
+    return false;
 }
 
 /* ---- the measurements ---- */

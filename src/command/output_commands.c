@@ -76,9 +76,12 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     wr_session_kept_text(session, &text);
     char ending[16];
     bool ora = strcmp(wr_path_ending(path, ending), "ora") == 0;
-    bool good = (ora ? wr_ora_save : wr_document_save)(session->state.document, wr_text_get(&text),
-                                                       path, err);
+    WrText note = { 0 };
+    bool good = ora ? wr_ora_save(session->state.document, wr_text_get(&text), path, &note, err)
+                    : wr_document_save(session->state.document, wr_text_get(&text), path, err);
     wr_text_fini(&text);
+    if (note.length) wr_session_note(session, "%s", note.data);
+    wr_text_fini(&note);
     if (!good) return false;
     char *kept = wr_strdup(path); /* may be the old name itself */
     wr_free(session->state.path);

@@ -58,6 +58,7 @@ typedef struct Turning {
     double step_deg; /* a frame */
     bool chosen;     /* the dials, for all of them */
     int there;       /* frames that were left out */
+    int written;     /* files that took their places */
     WrFilm *film;    /* NULL: files */
     uint8_t *pixels; /* of a film's frame; owned */
     bool alpha;
@@ -104,7 +105,8 @@ static bool write_frame(Turning *turning, int frame, WrError *err)
     else
         good = (turning->chosen || choose_for_all(turning, err)) &&
                wr_session_render(turning->session, path, order->width, order->height,
-                                 angle_of(turning, frame), err);
+                                 angle_of(turning, frame), err) &&
+               ++turning->written;
     wr_text_fini(&name);
     return good;
 }
@@ -170,6 +172,14 @@ static bool make_files(Turning *turning, WrError *err)
     const bool good = all_frames(turning, 1.0, err);
     if (turning->there > 0)
         wr_session_note(turning->session, "%d of %d frames were there", turning->there,
+                        turning->order->last - turning->order->first + 1);
+    /* Each frame is of use by itself, and may have taken long: those that are done stay. */
+    if (!good && turning->written > 0)
+        wr_session_note(turning->session,
+                        "%s: %d of %d frames are new, the others as they were; `wrinkle render "
+                        "--missing` draws "
+                        "what is missing",
+                        turning->path, turning->written,
                         turning->order->last - turning->order->first + 1);
     return good;
 }

@@ -6,13 +6,16 @@
    "Thumbnails/thumbnail.png". Those are for others, so that their composite-ops give the picture that ours
    give: grey from black to white over the range of heights that wrinkle:range states, alpha = coverage times
    mask (what adds, subtracts and multiplies is scaled as its operation wants it). The lowest layer that is
-   shown is opaque, joined with the ground, and svg:src-over. Our own heights lie beside them as float32
+   shown is opaque, joined with the ground, and svg:src-over. Where some program would blend the layers to another picture
+   (many blend in linear light; no composite-op smooths, filters, or takes factors of heights below 0), a topmost layer
+   shows the composite, as mergedimage.png does, and hides the others; this program passes it over. Our own heights lie beside them as float32
    EXR files, named by attributes of the namespace WR_ORA_NAMESPACE, which others pass over:
 
      image   wrinkle:version  wrinkle:wrap  wrinkle:range  wrinkle:active  wrinkle:solo (layers counted from 1
              at the bottom; 0: none)  wrinkle:scene  wrinkle:selection  wrinkle:colour
              wrinkle:normals (names of entries)
-     layer   wrinkle:heights  wrinkle:cover  wrinkle:mask (names of entries)  wrinkle:blend  wrinkle:radius
+     layer   wrinkle:composite (on: of that topmost layer, and nothing else)
+             wrinkle:heights  wrinkle:cover  wrinkle:mask (names of entries)  wrinkle:blend  wrinkle:radius
              wrinkle:name (bytes in hex, where XML cannot hold the name)  wrinkle:opacity  wrinkle:visible (of
              the lowest one and beside a layer that is alone, where others are told otherwise)
 
@@ -27,14 +30,16 @@
 typedef struct WrText WrText;
 
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
-#define WR_ORA_VERSION 5
+#define WR_ORA_VERSION 6
+#define WR_ORA_VERSION_FILTERS 5 /* of a file without a composite */
 #define WR_ORA_VERSION_FACETS 4  /* of a file without filter layers */
 #define WR_ORA_VERSION_CELL 3    /* of a file without what came after (age.h) */
 #define WR_ORA_VERSION_OBJECTS 2 /* of a file without a size of its cell, and what came with it */
 #define WR_ORA_VERSION_PLAIN 1   /* of a file without normal maps or different meshes */
 
-/* Save as a whole replacement (base/file.h). scene_text: one canonical command a line. */
-bool wr_ora_save(const WrDocument *document, const char *scene_text, const char *path,
+/* Save as a whole replacement (base/file.h). scene_text: one canonical command a line. note: takes a sentence where the file
+   holds a composite for others; may be NULL. */
+bool wr_ora_save(const WrDocument *document, const char *scene_text, const char *path, WrText *note,
                  WrError *err);
 
 /* Does the file begin like an OpenRaster file? False also for missing files; never waits on a pipe. */

@@ -237,7 +237,11 @@ static bool read_settings(Loading *in, const WrOraLayer *from, WrLayer *layer, W
     layer->visible = from->own_visible ? strcmp(from->own_visible, "on") == 0 : from->visible;
     layer->locked = from->locked;
     layer->blend = wr_ora_blend(from->operation, &exact);
-    if (!exact && !from->blend) note(in, layer->name, "its blend mode is not known here: replace");
+    if (!exact && !from->blend)
+        note(in, layer->name,
+             layer->blend == WR_BLEND_SUBTRACT
+                 ? "difference is read as subtract: the same where it is not above what lies below"
+                 : "its blend mode is not known here: replace");
     if (from->blend) {
         int blend = wr_blend_find(from->blend);
         if (blend < 0 && in->newer)

@@ -21,6 +21,7 @@
 #include <errno.h>
 #include <string.h>
 
+#define MERGED "mergedimage.png"
 #define DOS_DATE 0x21 /* 1 January 1980: no file tells when it was saved */
 
 /* Pictures are made when the archive comes to them, so that only one is in memory at a time. */
@@ -46,6 +47,7 @@ typedef struct Saving {
     WR_ARRAY(Entry *) entries;
     WrText stack, scene;
     WrImage *mesh;      /* the scene's meshes, as a picture; owned; or NULL */
+    bool composite;     /* others get a topmost layer that shows all */
     int lowest;         /* index of the lowest layer that is shown, -1: none */
     WrField *ground;    /* what that one makes of the empty ground; owned */
     int packed;         /* entries whose pictures were made */
@@ -385,7 +387,7 @@ static bool add_image_attributes(Saving *to, WrError *err)
                  "h=\"%d\" xmlns:wrinkle=\"" WR_ORA_NAMESPACE "\" wrinkle:version=\"%d\" "
                  "wrinkle:wrap=\"%s\" wrinkle:range=\"%s,%s\" wrinkle:active=\"%d\" "
                  "wrinkle:solo=\"%d\" wrinkle:scene=\"data/scene.wrinkle\"",
-                 wr_field_width(f), wr_field_height(f), wr_ora_version(document),
+                 wr_field_width(f), wr_field_height(f), wr_ora_version(document, to->composite),
                  wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)),
                  wr_number_print_float(to->range.low, low),
                  wr_number_print_float(to->range.high, high), document->active + 1,
@@ -409,9 +411,14 @@ static bool add_pictures_of_all(Saving *to, WrError *err)
         wr_free(thumbnail.name);
         return false;
     }
-    return add_preview(to, (Entry){ .name = wr_strdup("mergedimage.png"), .heights = f }, err) &&
+    return add_preview(to, (Entry){ .name = wr_strdup(MERGED), .heights = f }, err) &&
            add_entry(to, thumbnail, err);
 }
+
+#define COMPOSITE                                                                                  \
+    "    <layer name=\"Composite (hide it to edit the layers below)\" src=\"" MERGED               \
+    "\" x=\"0\" y=\"0\" opacity=\"1\" visibility=\"visible\" composite-op=\"svg:src-over\" "       \
+    "edit-locked=\"true\" wrinkle:composite=\"on\"/>\n"
 
 static bool fill_archive(Saving *to, WrError *err)
 {
@@ -420,9 +427,11 @@ static bool fill_archive(Saving *to, WrError *err)
     wr_filters_forget();
     find_ground(to);
     choose_range(to);
+    to->composite = !wr_ora_agrees(to->document, to->lowest, &to->range);
     if (!wr_filters_carried(err)) return false;
     if (!add_text(to, "mimetype", type, sizeof type - 1, err) || !add_image_attributes(to, err))
         return false;
+    if (to->composite) wr_text_add(&to->stack, COMPOSITE);
     for (int i = to->document->layer_count - 1; i >= 0; i--)
         if (!add_layer(to, i, err)) return false;
     wr_text_add(&to->stack, "  </stack>\n</image>\n");
@@ -471,7 +480,8 @@ static bool verify_archive(const Saving *to, const char *name, int fd, WrError *
     return good;
 }
 
-bool wr_ora_save(const WrDocument *document, const char *scene_text, const char *path, WrError *err)
+bool wr_ora_save(const WrDocument *document, const char *scene_text, const char *path, WrText *note,
+                 WrError *err)
 {
     WrFileTarget target;
     if (!wr_file_begin(&target, path, err)) return false;
@@ -492,8 +502,17 @@ bool wr_ora_save(const WrDocument *document, const char *scene_text, const char 
     wr_field_free(to->ground);
     wr_free(to->thumbnail);
     wr_image_free(to->mesh);
+    const bool composite = to->composite;
     wr_free(to);
-    if (good) return wr_file_commit(&target, err);
+    if (good) {
+        good = wr_file_commit(&target, err);
+        if (good && composite && note)
+            wr_text_addf(note,
+                         "%s: other programs blend some of these layers differently: a topmost "
+                         "layer shows them the composite; hide it there to edit the others",
+                         path);
+        return good;
+    }
     wr_file_abort(&target);
     return false;
 }

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 typedef struct WrError WrError;
+typedef struct WrDocument WrDocument;
 typedef struct WrField WrField;
 
 typedef struct WrOraRange {
@@ -28,6 +29,10 @@ WrOraShowing wr_ora_showing(WrBlend blend);
 /* Grey and straight alpha of a texel, both 0..1. cover and mask outside 0..1 count as 0 or 1. */
 void wr_ora_show(WrOraShowing showing, const WrOraRange *range, float height, float cover,
                  float mask, double *grey, double *alpha);
+
+/* Whether every program that shows the layers from `lowest` on, the lowest that is shown (-1: none is), has the picture
+ * that we have: whatever scale it blends greys on, and wherever its operations mean the same as ours. */
+bool wr_ora_agrees(const WrDocument *document, int lowest, const WrOraRange *range);
 
 /* A small picture of heights, RGBA, 256 pixels along a side at most; the caller's (wr_free). NULL and an
  * error if memory is gone. */

@@ -40,13 +40,18 @@ WrBlend wr_ora_blend(const char *operation, bool *exact)
         const char *operation;
         WrBlend blend;
     } known[] = {
-        { "svg:src-over", WR_BLEND_REPLACE },  { "svg:plus", WR_BLEND_ADD },
-        { "svg:lighten", WR_BLEND_MAX },       { "svg:darken", WR_BLEND_MIN },
+        { "svg:src-over", WR_BLEND_REPLACE },
+        { "svg:plus", WR_BLEND_ADD },
+        { "svg:lighten", WR_BLEND_MAX },
+        { "svg:darken", WR_BLEND_MIN },
         { "svg:multiply", WR_BLEND_MULTIPLY },
+        /* The same where the layer is not above what lies below it. */
+        { "svg:difference", WR_BLEND_SUBTRACT },
     };
-    *exact = true;
-    for (size_t i = 0; operation && i < sizeof known / sizeof *known; i++)
+    for (size_t i = 0; operation && i < sizeof known / sizeof *known; i++) {
+        *exact = known[i].blend != WR_BLEND_SUBTRACT;
         if (strcmp(operation, known[i].operation) == 0) return known[i].blend;
+    }
     *exact = operation == NULL; /* the format's own default */
     return WR_BLEND_REPLACE;
 }
@@ -166,6 +171,7 @@ static void begin_group(Reading *reading, const char **attributes)
 
 static void add_layer(Reading *reading, const char **attributes)
 {
+    if (is(find(attributes, OURS "composite"), "on")) return; /* of all the others, for others */
     if (reading->stack->layers.count >= WR_LAYERS_MAX) {
         char why[64];
         snprintf(why, sizeof why, "has more than %d layers", WR_LAYERS_MAX);
@@ -195,13 +201,14 @@ static void add_layer(Reading *reading, const char **attributes)
     wr_array_push(&reading->stack->layers, layer);
 }
 
-int wr_ora_version(const WrDocument *document)
+int wr_ora_version(const WrDocument *document, bool composite)
 {
     const WrScene *scene = document->scene;
     const bool new =
         wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
     const WrSceneAge age = wr_scene_age(scene);
-    if (wr_document_filters(document)) return WR_ORA_VERSION;
+    if (composite) return WR_ORA_VERSION;
+    if (wr_document_filters(document)) return WR_ORA_VERSION_FILTERS;
     if (age == WR_SCENE_OF_FACETS) return WR_ORA_VERSION_FACETS;
     if (age == WR_SCENE_OF_CELL) return WR_ORA_VERSION_CELL;
     return new ? WR_ORA_VERSION_OBJECTS : WR_ORA_VERSION_PLAIN;

@@ -57,4 +57,5 @@ void wr_ora_add_name(WrText *xml, const char *name);
 #define WR_ORA_PICTURE_NAME 64
 const char *wr_ora_picture_name(const char *prefix, int object, int which, const char *suffix,
                                 char buffer[WR_ORA_PICTURE_NAME]);
-int wr_ora_version(const WrDocument *document); /* of a file of it */
+/* Of a file of it. composite: with a layer for others that shows all. */
+int wr_ora_version(const WrDocument *document, bool composite);

@@ -1,7 +1,8 @@
 /* Descriptors: what any POSIX system gets.
-   Missing here: files in memory (they lie in the folder for temporary files, without a name, and a full disk shows), a
-   size that nobody can change (so no rows of a picture are shared with a process that reads strangers' files), copies
-   that share blocks. Between the making of a descriptor and its mark, a program that another thread starts gets it. */
+   Missing here: files in memory (they lie in the folder for temporary files, without a name, and a full disk shows; room
+   in the middle of them is not given back), a size that nobody can change (so no rows of a picture are shared with a
+   process that reads strangers' files), copies that share blocks. Between the making of a descriptor and its mark, a
+   program that another thread starts gets it. */
 #include "system/fd.h"
 
 #include <errno.h>
