@@ -1,4 +1,5 @@
-/* Whether other programs blend a document's layers to the picture that we have (ora_show.h). */
+/* What other programs are told of a whole document: its range of greys, and whether they blend its layers to the picture
+   that we have (ora_show.h). */
 #include "base/error.h"
 #include "base/memory.h"
 #include "document/document.h"
@@ -6,6 +7,22 @@
 #include "field/field.h"
 
 #define BAND 16 /* rows that are read at a time */
+
+static void widen(WrOraRange *range, const WrField *field)
+{
+    float low, high;
+    wr_field_range(field, &low, &high);
+    range->low = low < range->low ? low : range->low;
+    range->high = high > range->high ? high : range->high;
+}
+
+WrOraRange wr_ora_range(const WrDocument *document)
+{
+    WrOraRange range = { .low = 0.0f, .high = 1.0f };
+    widen(&range, wr_document_field(document));
+    for (int i = 0; i < document->layer_count; i++) widen(&range, document->layers[i].heights);
+    return range;
+}
 
 /* All of it 0 or less, or 1 or more; NULL is 1. */
 static bool is_whole(const WrField *field)

@@ -290,23 +290,6 @@ static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
     return !to->mesh || add_image(to, to->mesh, wr_strdup("data/mesh.exr"), "wrinkle:mesh", 1, err);
 }
 
-static void widen(Saving *to, const WrField *field)
-{
-    float low, high;
-    wr_field_range(field, &low, &high);
-    to->range.low = low < to->range.low ? low : to->range.low;
-    to->range.high = high > to->range.high ? high : to->range.high;
-}
-
-/* 0..1 as long as all heights are in it, so that what came from pictures keeps its codes. */
-static void choose_range(Saving *to)
-{
-    to->range.low = 0.0f;
-    to->range.high = 1.0f;
-    widen(to, wr_document_field(to->document));
-    for (int i = 0; i < to->document->layer_count; i++) widen(to, to->document->layers[i].heights);
-}
-
 /* The lowest layer that is shown, and what it makes of the ground. */
 static void find_ground(Saving *to)
 {
@@ -324,11 +307,10 @@ static void find_ground(Saving *to)
     wr_document_free(alone);
 }
 
-static bool add_field(Saving *to, const char *attribute, char *name, const WrField *field,
-                      WrError *err)
+static bool add_field(Saving *to, const char *attribute, char *name, const WrField *f, WrError *err)
 {
     wr_ora_add_attribute(&to->stack, attribute, name);
-    return add_floats(to, name, field, err);
+    return add_floats(to, name, f, err);
 }
 
 /* What others go by, and ours beside it where that is not the same. */
@@ -426,7 +408,7 @@ static bool fill_archive(Saving *to, WrError *err)
     wr_srgb_profile(to->profile);
     wr_filters_forget();
     find_ground(to);
-    choose_range(to);
+    to->range = wr_ora_range(to->document);
     to->composite = !wr_ora_agrees(to->document, to->lowest, &to->range);
     if (!wr_filters_carried(err)) return false;
     if (!add_text(to, "mimetype", type, sizeof type - 1, err) || !add_image_attributes(to, err))
@@ -502,11 +484,11 @@ bool wr_ora_save(const WrDocument *document, const char *scene_text, const char 
     wr_field_free(to->ground);
     wr_free(to->thumbnail);
     wr_image_free(to->mesh);
-    const bool composite = to->composite;
+    const bool tells = to->composite && note;
     wr_free(to);
     if (good) {
         good = wr_file_commit(&target, err);
-        if (good && composite && note)
+        if (good && tells)
             wr_text_addf(note,
                          "%s: other programs blend some of these layers differently: a topmost "
                          "layer shows them the composite; hide it there to edit the others",

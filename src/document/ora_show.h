@@ -13,6 +13,9 @@ typedef struct WrOraRange {
     float low, high; /* heights that are black and white; low < high */
 } WrOraRange;
 
+/* 0..1 as long as all heights are in it, so that what came from pictures keeps its codes; else wider. */
+WrOraRange wr_ora_range(const WrDocument *document);
+
 /* What the picture of a layer shows, so that its composite-op, which knows nothing of heights below 0 and
    scales, gives the greys of what the layer gives. R is the range from low to high, c the coverage, m the
    mask. */
