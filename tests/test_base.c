@@ -714,7 +714,7 @@ static void a_spool_passes_on_what_lies_behind_its_head(void **state)
     WrFileTarget target;
     WrSpool spool;
     assert_true(wr_file_begin(&target, path, &err) && wr_spool_open(&spool));
-    const WrSink to = wr_file_sink(&target);
+    const WrByteSink to = wr_file_sink(&target);
     for (int64_t at = 0; at < whole; at += step) {
         const int64_t left = whole - at;
         assert_true(wr_fd_write(spool.fd, (char *)model + at, (size_t)(left < step ? left : step)));

@@ -53,7 +53,7 @@ bool wr_file_write_at(WrFileTarget *target, const void *bytes, size_t length, in
 /* At the end; false and an error that names the file. */
 bool wr_file_put(WrFileTarget *target, const void *bytes, size_t length, WrError *err);
 /* The target as a sink; it outlives that. */
-WrSink wr_file_sink(WrFileTarget *target);
+WrByteSink wr_file_sink(WrFileTarget *target);
 /* Compare all bytes with what was handed over, sync the temporary file, give it the target's rights and name, and sync
    the folder. On failure the target is as it was and the temporary file is gone. Releases the target either way.
    Errors: those of the system; "does not read back as it was written"; "cancelled", where there is much to read. */

@@ -231,9 +231,9 @@ static bool sink_write(void *to, const void *bytes, size_t length, int64_t at)
     return wr_file_write_at(to, bytes, length, at);
 }
 
-WrSink wr_file_sink(WrFileTarget *target)
+WrByteSink wr_file_sink(WrFileTarget *target)
 {
-    return (WrSink){ sink_write, target };
+    return (WrByteSink){ sink_write, target };
 }
 
 void wr_file_sync_folder(const char *path)

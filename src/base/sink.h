@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef struct WrSink {
+typedef struct WrByteSink {
     /* All of the bytes, at an offset that may lie before or behind the end; false and errno. */
     bool (*write)(void *to, const void *bytes, size_t length, int64_t at);
     void *to; /* the caller's */
-} WrSink;
+} WrByteSink;

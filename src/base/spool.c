@@ -23,7 +23,7 @@ void wr_spool_close(WrSpool *spool)
 }
 
 /* Bytes [from, to) of the memory file. */
-static bool copy(const WrSpool *spool, int64_t from, int64_t end, const WrSink *to)
+static bool copy(const WrSpool *spool, int64_t from, int64_t end, const WrByteSink *to)
 {
     char *block = wr_alloc_unset((size_t)BLOCK, 1);
     bool good = true;
@@ -39,7 +39,7 @@ static bool copy(const WrSpool *spool, int64_t from, int64_t end, const WrSink *
     return good;
 }
 
-static bool move_up_to(WrSpool *spool, int64_t end, const WrSink *to)
+static bool move_up_to(WrSpool *spool, int64_t end, const WrByteSink *to)
 {
     if (!copy(spool, spool->moved, end, to)) return false;
     wr_fd_forget(spool->fd, spool->moved, end - spool->moved);
@@ -47,7 +47,7 @@ static bool move_up_to(WrSpool *spool, int64_t end, const WrSink *to)
     return true;
 }
 
-bool wr_spool_move(WrSpool *spool, const WrSink *to)
+bool wr_spool_move(WrSpool *spool, const WrByteSink *to)
 {
     WrFileInfo info;
     if (!wr_fd_info(spool->fd, &info)) return false;
@@ -55,7 +55,7 @@ bool wr_spool_move(WrSpool *spool, const WrSink *to)
     return end - spool->moved < LEAST || move_up_to(spool, end, to);
 }
 
-bool wr_spool_end(WrSpool *spool, const WrSink *to)
+bool wr_spool_end(WrSpool *spool, const WrByteSink *to)
 {
     WrFileInfo info;
     if (!wr_fd_info(spool->fd, &info)) return false;

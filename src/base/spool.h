@@ -18,8 +18,9 @@ typedef struct WrSpool {
 
 bool wr_spool_open(WrSpool *spool); /* false and errno */
 /* What was written so far, but for the head and the last few bytes, which may not be complete. */
-bool wr_spool_move(WrSpool *spool,
-                   const WrSink *to); /* false and errno; errno ECANCELED: it was told to stop */
+bool wr_spool_move(
+    WrSpool *spool,
+    const WrByteSink *to); /* false and errno; errno ECANCELED: it was told to stop */
 /* All that is left; nobody writes any more. */
-bool wr_spool_end(WrSpool *spool, const WrSink *to);
+bool wr_spool_end(WrSpool *spool, const WrByteSink *to);
 void wr_spool_close(WrSpool *spool); /* fine twice, and when it was never opened (fd -1) */

@@ -24,7 +24,7 @@ bool wr_ora_zip_read(WrOraZip *zip, const char *name, size_t most, char **bytes,
 
 /* Where an archive is written to. */
 typedef struct WrOraSink {
-    WrSink to; /* empty */
+    WrByteSink to; /* empty */
     int64_t at, end;
     int error; /* errno of the first failure */
 } WrOraSink;

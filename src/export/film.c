@@ -239,7 +239,7 @@ static const uint8_t *padded(WrFilm *film, const uint8_t *pixels)
 static bool pass_on(WrFilm *film, bool ended, WrError *err)
 {
     char why[WR_FILE_WHY];
-    const WrSink to = wr_file_sink(&film->target);
+    const WrByteSink to = wr_file_sink(&film->target);
     if (!ended && film->kind->rereads) return true;
     if ((ended ? wr_spool_end : wr_spool_move)(&film->spool, &to)) return true;
     if (wr_progress_stopped()) return wr_fail(err, "cancelled");

@@ -42,7 +42,7 @@ typedef struct WrCodec {
 
     /* to: empty; outlives the writer. spool: an empty memory file, the caller's, which is written in the sink's place where
        wr_oiio_by_name: the library opens it by its name and does not report all failures; else -1. */
-    WrCodecWriter *(*create)(const WrSink *to, int spool, const char *format,
+    WrCodecWriter *(*create)(const WrByteSink *to, int spool, const char *format,
                              const WrImageOut *parts, int count, char *reason);
     /* Rows of the present part, downwards. */
     bool (*write)(WrCodecWriter *writer, int y, int rows, const void *pixels, char *reason);

@@ -481,7 +481,7 @@ static bool check_write(WrCodecWriter &writer, bool ok, char *reason)
     return fail(reason, message, writer.path);
 }
 
-static bool create_file(WrCodecWriter &writer, const WrSink &to, const char *format,
+static bool create_file(WrCodecWriter &writer, const WrByteSink &to, const char *format,
                         const WrImageOut *parts, int count, char *reason)
 {
     static const TypeDesc types[] = { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::FLOAT };
@@ -517,7 +517,7 @@ static bool create_file(WrCodecWriter &writer, const WrSink &to, const char *for
     return true;
 }
 
-static WrCodecWriter *writer_create(const WrSink *to, int spool, const char *format,
+static WrCodecWriter *writer_create(const WrByteSink *to, int spool, const char *format,
                                     const WrImageOut *parts, int count, char *reason)
 {
     WrCodecWriter *created = nullptr;

@@ -13,7 +13,7 @@
 class Disk : public OIIO::Filesystem::IOProxy
 {
   public:
-    explicit Disk(const WrSink &to) : IOProxy("", Write), sink(to), block(1 << 16)
+    explicit Disk(const WrByteSink &to) : IOProxy("", Write), sink(to), block(1 << 16)
     {
     }
     const char *proxytype() const override
@@ -62,7 +62,7 @@ class Disk : public OIIO::Filesystem::IOProxy
     int error = 0; /* errno of the first failure */
 
   private:
-    WrSink sink;
+    WrByteSink sink;
     std::vector<char> block; /* bytes that belong at `at` and were not written yet */
     size_t held = 0;
     int64_t at = 0, end = 0;

@@ -17,7 +17,7 @@ const WrCodecPart *wr_png_part(const WrCodecReader *reader, int part);
 const char *wr_png_attribute(const WrCodecReader *reader, int part, const char *name);
 bool wr_png_read(WrCodecReader *reader, int part, int y, int rows, int channels, float *out,
                  char *reason);
-WrCodecWriter *wr_png_create(const WrSink *to, int spool, const char *format,
+WrCodecWriter *wr_png_create(const WrByteSink *to, int spool, const char *format,
                              const WrImageOut *parts, int count, char *reason);
 bool wr_png_write(WrCodecWriter *writer, int y, int rows, const void *pixels, char *reason);
 bool wr_png_next(WrCodecWriter *writer, char *reason); /* never: there is one part */

@@ -14,7 +14,7 @@
 #define LEVEL 4
 
 struct WrCodecWriter {
-    WrSink sink;
+    WrByteSink sink;
     int64_t at; /* bytes that were given to it */
     int error;  /* errno of the write that failed */
     uint8_t *block;
@@ -29,7 +29,7 @@ struct WrCodecWriter {
 
 static void empty(WrCodecWriter *writer)
 {
-    const WrSink *to = &writer->sink;
+    const WrByteSink *to = &writer->sink;
     if (writer->held > 0 && !to->write(to->to, writer->block, writer->held, writer->at)) {
         writer->error = errno;
         png_error(writer->png, "the file cannot be written");
@@ -115,7 +115,7 @@ static void release(WrCodecWriter *writer)
     wr_free(writer);
 }
 
-WrCodecWriter *wr_png_create(const WrSink *to, int spool, const char *format,
+WrCodecWriter *wr_png_create(const WrByteSink *to, int spool, const char *format,
                              const WrImageOut *parts, int count, char *reason)
 {
     (void)spool;

@@ -63,9 +63,9 @@ static bool fail_write(WrError *err, const char *path, int file, const char *rea
 
 typedef struct Writing {
     const char *path;
-    int file;      /* where the bytes end up, if that is a file; -1 */
-    WrSink sink;   /* of that */
-    WrSpool spool; /* before it, where the library writes by name; fd -1: none */
+    int file;        /* where the bytes end up, if that is a file; -1 */
+    WrByteSink sink; /* of that */
+    WrSpool spool;   /* before it, where the library writes by name; fd -1: none */
     const WrCodec *library;
     WrCodecWriter *writer;
     float *values; /* scratch: a strip as a reader gives it */
@@ -166,7 +166,7 @@ static bool write_parts(Writing *to, const char *format, const WrImageOut *parts
 }
 
 /* sink: empty. file: that it writes to, or -1. digests: [count], of what was written. */
-static bool write_file(const char *path, WrSink sink, int file, const char *format,
+static bool write_file(const char *path, WrByteSink sink, int file, const char *format,
                        const WrImageOut *parts, int count, WrHash *digests, WrError *err)
 {
     char why[WR_FILE_WHY];
@@ -256,7 +256,7 @@ bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes
     if (!check_parts(name, part, 1, err)) return false;
     const WrImageFormat *format = wr_image_format(name, err);
     Bytes all = { 0 };
-    const WrSink sink = { bytes_write, &all };
+    const WrByteSink sink = { bytes_write, &all };
     WrHash digest = { 0 };
     if (!write_file(name, sink, -1, format->library, part, 1, &digest, err) ||
         !verify_bytes(name, &all, format, part, &digest, err)) {
