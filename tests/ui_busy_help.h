@@ -8,6 +8,7 @@
 #include "command/session.h"
 #include "system/clock.h"
 
+#include "ui/app/input.h"
 #include "ui/desk/busy_inner.h"
 
 #include <SDL.h>
@@ -41,7 +42,7 @@ static inline bool untaken(const Long *work)
 {
     for (int i = 0; i < work->count; i++)
         if (SDL_HasEvent(work->events[i].type)) return true;
-    return false;
+    return wr_input_waits(work->app);
 }
 
 static inline bool take_long(WrSession *session, void *ctx, WrError *err)

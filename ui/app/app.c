@@ -3,6 +3,7 @@
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
 #include "ui/app/hand_events.h"
+#include "ui/app/input.h"
 #include "ui/app/loop.h"
 #include "ui/app/rest.h"
 #include "ui/app/settings_hand.h"
@@ -96,6 +97,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->files = wr_files_new(app->file_event);
     wr_files_choose_way(app->files, (WrFileWay)app->settings->dialogs);
     wr_files_set_window(app->files, app->window);
+    app->hand->input = wr_input_new();
     app->pen = wr_pen_new(app->window);
     wr_tablet_start(app);
     app->keys = wr_keys_new();
@@ -161,6 +163,7 @@ void wr_app_end(WrApp *app)
     wr_gui_free(app->gui);
     wr_files_free(app->files);
     wr_pen_free(app->pen);
+    wr_input_free(app->hand->input);
     wr_dynamics_free(app);
     wr_tablet_free(app);
     wr_keys_free(app->keys);
@@ -315,7 +318,9 @@ static void draw(WrApp *app, double now)
     wr_gui_frame_begin(app->gui, width, height, now - app->drawn_at);
     wr_app_draw_parts(app, true);
     wr_thumbs_update(app);
+    wr_input_take(app); /* it came while the picture before this one was on the screen */
     wr_gui_frame_end(app->gui);
+    wr_input_shown(app);
     wr_hand_look(app);
     set_cursor(app);
     app->drawn_at = now;
@@ -344,6 +349,7 @@ static int wait_time(WrApp *app, double now)
 {
     double next = 1e300;
     if (wr_strokes_waits(app)) return 0;
+    if (wr_input_waits(app) && app->redraw == 0) return 0;
     if (wr_pen_replaying(app->pen)) next = now + 0.002;
     if (app->redraw > 0 && app->visible) next = app->drawn_at + frame_seconds(app);
     for (const WrPart *const *p = app->roster->parts; *p; p++) {
@@ -384,19 +390,33 @@ static void tell_refused(WrApp *app)
                         "until it is done");
 }
 
+/* All events whose turn it is. True if there was one. */
+static bool handle_input(WrApp *app)
+{
+    SDL_Event event;
+    bool any = false;
+    while (wr_input_next(app, &event)) {
+        handle(app, &event);
+        wr_input_handled(app, &event);
+        any = true;
+        wr_input_take(app);
+    }
+    return any;
+}
+
 /* Wait for what is due, and do what the user asks for. */
 static void take_events(WrApp *app)
 {
-    SDL_Event event;
     int wait = wait_time(app, wr_clock_seconds());
-    if (wait < 0 ? SDL_WaitEvent(&event) : SDL_WaitEventTimeout(&event, wait)) {
-        do handle(app, &event);
-        while (SDL_PollEvent(&event));
-        take_pens(app);
-    } else if (take_pens(app)) {
-        /* a picture was asked for */
-    } else if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) ||
-               app->messages->list.count > 0 || app->busy || works(app)) {
+    if (wait < 0) SDL_WaitEvent(NULL);
+    else if (wait > 0) SDL_WaitEventTimeout(NULL, wait);
+    wr_input_take(app);
+    bool came = handle_input(app);
+    /* Those of pens stand behind events that wait. */
+    if (!wr_input_waits(app) && take_pens(app)) came = true;
+    if (came) return;
+    if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || app->messages->list.count > 0 ||
+        app->busy || works(app)) {
         if (app->redraw == 0) app->redraw = 1;
     }
 }

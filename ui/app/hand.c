@@ -1,6 +1,7 @@
 /* Pointer and keys: who gets an event, and what the pointer holds meanwhile. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/hand_events.h"
+#include "ui/app/input.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/action.h"
 #include "ui/desk/action_list.h"
@@ -42,7 +43,7 @@
 static WrPointer pointer_at(const WrApp *app, double x, double y, int button)
 {
     WrPointer at = {
-        .x = x, .y = y, .pressure = 1.0, .button = button, .mods = wr_key_mods(SDL_GetModState())
+        .x = x, .y = y, .pressure = 1.0, .button = button, .mods = wr_input_mods(app)
     };
     wr_view_to_uv(app->view, x, y, &at.u, &at.v);
     return at;
@@ -305,19 +306,19 @@ static void mouse_button(WrApp *app, const SDL_MouseButtonEvent *event, bool dow
 static void wheel(WrApp *app, const SDL_MouseWheelEvent *event)
 {
     int x, y;
-    SDL_GetMouseState(&x, &y);
+    wr_input_pointer(app, &x, &y);
     if ((blocked(app) && !shows_effect(app)) || wr_gui_owns_point(app->gui, x, y)) return;
     double steps =
         (double)event->preciseY * (event->direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0);
     const WrTool *tool = wr_tool_now(app);
     if (wr_layout_inside(&app->layout->canvas, x, y)) {
         if (!blocked(app) && tool->wheel && tool->wheel(app, steps)) return;
-        if (SDL_GetModState() & KMOD_SHIFT)
+        if (wr_input_mods(app) & WR_MOD_SHIFT)
             wr_view_turn_at(app->view, x, y, app->view->turn + WHEEL_DEG * steps);
         else wr_view_zoom_at(app->view, x, y, app->view->zoom * exp2(steps / 3.0));
         app->hand->at = pointer_at(app, x + 0.5, y + 0.5, app->hand->button);
     } else if (!blocked(app) && wr_layout_inside(&app->layout->patch, x, y)) {
-        if (SDL_GetModState() & KMOD_CTRL) wr_patch_wheel_angle(app, steps);
+        if (wr_input_mods(app) & WR_MOD_CTRL) wr_patch_wheel_angle(app, steps);
         else wr_patch_wheel(app, steps);
     }
 }

@@ -1,5 +1,6 @@
 #include "ui/app/rest.h"
 #include "ui/accuracy/accuracy.h"
+#include "ui/app/input.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/later.h"
 #include "ui/desk/layout.h"
@@ -86,7 +87,7 @@ static bool is_calm(WrApp *app, bool busy)
     return !busy && !(patch && app->layout->patch.w > 0) && !(app->redraw > 0 && app->visible) &&
            !wr_strokes_waits(app) && !wr_accuracy_under_way(app) &&
            !(wr_gui_busy(app->gui) && !held) && !wr_pen_replaying(app->pen) &&
-           wr_pen_waiting(app->pen) == 0 && !wr_later_waits(app, NULL);
+           wr_pen_waiting(app->pen) == 0 && !wr_input_waits(app) && !wr_later_waits(app, NULL);
 }
 
 void wr_rest_step(WrApp *app, bool busy)

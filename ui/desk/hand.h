@@ -42,7 +42,10 @@ static inline bool wr_grab_on_patch(WrGrab grab)
            grab == WR_GRAB_HANDLE;
 }
 
+typedef struct WrInput WrInput;
+
 typedef struct WrHand {
+    WrInput *input;  /* events that wait for their turn (ui/app/input.h); owned */
     WrPointer at;    /* newest position */
     WrPointer start; /* where the grab began */
     WrGrab grab;

@@ -34,6 +34,11 @@ void wr_gui_release_all(WrGui *gui);
 /* A press there would go to a widget: by the windows of the last frame, so that it is right even for
    events that arrive in one bundle with the motion before them. */
 bool wr_gui_owns_point(const WrGui *gui, int x, int y);
+/* A name of the widget, the panel or the menu at that pixel of the picture on the screen; another one when another thing
+   stands there, or another menu or dialog is open. 0: a view, and nothing is open. */
+unsigned wr_gui_widget_at(const WrGui *gui, int x, int y);
+/* A number field that was clicked is typed into without waiting for a double click. True if there is one. */
+bool wr_gui_type_now(WrGui *gui);
 bool wr_gui_holds_mouse(const WrGui *gui); /* a widget is being dragged */
 bool wr_gui_wants_text(const WrGui *gui);  /* a text field has the keyboard */
 /* A widget waits for time to pass (a click that may become a double click, a tip): draw again soon. */

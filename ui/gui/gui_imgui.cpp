@@ -1,5 +1,5 @@
 /* The widget library's context: style, events, frames. */
-#include "ui/gui/gui_imgui.h"
+#include "ui/gui/gui_imgui_focus.h"
 #include "ui/gui/kept.h"
 
 extern "C" {
@@ -226,6 +226,59 @@ try {
 }
 WR_CAUGHT(false)
 
+/* ---- what is on the screen ---- */
+
+static bool is_hidden(const ImGuiWindow *window)
+{
+    return window->HiddenFramesCanSkipItems > 0 || window->HiddenFramesCannotSkipItems > 0;
+}
+
+static void note_shown(WrGui *gui)
+{
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    gui->shown_count = 0;
+    gui->shown_top = g.OpenPopupStack.Size > 0 ? g.OpenPopupStack.back().PopupId : 0;
+    for (const ImGuiWindow *window : g.Windows) {
+        const bool owns = window->Active && !is_hidden(window) && !wr_gui_is_list(window) &&
+                          !(window->Flags & ImGuiWindowFlags_NoMouseInputs);
+        if (!owns || gui->shown_count == WR_GUI_SHOWN) continue;
+        const ImRect r = window->Rect();
+        gui->shown[gui->shown_count++] =
+            WrShownWindow{ window->ID, r.Min.x, r.Min.y, r.Max.x, r.Max.y };
+    }
+}
+
+static bool covers(const WrShownWindow &window, float x, float y)
+{
+    return x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
+}
+
+extern "C" unsigned wr_gui_widget_at(const WrGui *gui, int px, int py)
+try {
+    const float x = (float)px, y = (float)py;
+    const WrShownWindow *window = nullptr;
+    for (int i = gui->shown_count - 1; i >= 0 && !window; i--)
+        if (covers(gui->shown[i], x, y)) window = &gui->shown[i];
+    ImGuiID id = window ? window->id : 0;
+    for (int i = 0; window && i < gui->focus.count; i++) {
+        const WrKeyStop *s = &gui->focus.stops[i];
+        const ImGuiWindow *list =
+            s->part == window->id ? ImGui::FindWindowByID(s->window) : nullptr;
+        if (list && x >= s->x0 && x < s->x1 && y >= s->y0 && y < s->y1 &&
+            list->OuterRectClipped.Contains(ImVec2(x, y)))
+            id = s->id;
+    }
+    return id ^ gui->shown_top * 31u;
+}
+WR_CAUGHT(0)
+
+extern "C" bool wr_gui_type_now(WrGui *gui)
+{
+    if (gui->armed == 0) return false;
+    gui->armed_since = -1e9;
+    return true;
+}
+
 extern "C" bool wr_gui_holds_mouse(const WrGui *)
 {
     return ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::GetIO().MouseDown[0];
@@ -233,7 +286,10 @@ extern "C" bool wr_gui_holds_mouse(const WrGui *)
 
 extern "C" bool wr_gui_wants_text(const WrGui *)
 {
-    return ImGui::GetIO().WantTextInput;
+    /* Between two frames the library's own flag is that of the frame before the last. */
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    return g.WithinFrameScope ? g.IO.WantTextInput
+                              : g.WantTextInputNextFrame == 1 && g.ActiveId != 0;
 }
 
 extern "C" bool wr_gui_busy(const WrGui *gui)
@@ -258,9 +314,7 @@ extern "C" bool wr_gui_popup_open_now(const WrGui *)
 static bool window_comes(const ImGuiContext &g)
 {
     for (const ImGuiWindow *window : g.Windows)
-        if (window->Active &&
-            (window->HiddenFramesCanSkipItems > 0 || window->HiddenFramesCannotSkipItems > 0))
-            return true;
+        if (window->Active && is_hidden(window)) return true;
     return false;
 }
 
@@ -343,6 +397,8 @@ try {
     ImGui::PopFont();
     wr_gui_focus_end(gui);
     ImGui::Render();
+    note_shown(gui);
+    if (gui->armed_since < 0) gui->armed = 0; /* it was to be typed into, and is gone */
     double sizes = fitted_sizes(*ImGui::GetCurrentContext());
     gui->fits = sizes != gui->fitted;
     gui->fitted = sizes;

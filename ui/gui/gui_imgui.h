@@ -62,6 +62,14 @@ struct WrTyped {
     char letters[SDL_TEXTINPUTEVENT_TEXT_SIZE]; /* UTF-8; "" for a key */
 };
 
+#define WR_GUI_SHOWN 64 /* windows, menus and dialogs of a picture */
+
+/* One of them, as it is on the screen. */
+struct WrShownWindow {
+    ImGuiID id;
+    float x0, y0, x1, y1; /* pixels of the window */
+};
+
 struct WrGui {
     SDL_Renderer *renderer; /* borrowed */
     ImGuiContext *context;  /* owned */
@@ -108,8 +116,11 @@ struct WrGui {
     /* the row that is open, in pixels of the window; and the one that is dragged */
     float row_left, row_right, row_top, row_height;
     ImGuiID row_drag;
-    ImDrawList *pad; /* that drawing goes to; NULL: to the views */
-    bool as_it_is;   /* texts are the user's own and are not looked up */
+    ImDrawList *pad;                   /* that drawing goes to; NULL: to the views */
+    bool as_it_is;                     /* texts are the user's own and are not looked up */
+    WrShownWindow shown[WR_GUI_SHOWN]; /* of the picture on the screen, the lowest first */
+    int shown_count;
+    ImGuiID shown_top; /* the newest menu or dialog that is open there; 0: none */
     WrFocus focus;
 };
 

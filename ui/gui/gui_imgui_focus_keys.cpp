@@ -267,7 +267,7 @@ static bool wants(const WrGui *gui, const SDL_Keysym *key)
 {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     const WrFocus *focus = &gui->focus;
-    const bool typing = g.IO.WantTextInput, shown = focus->shown || focus->waiting_count > 0;
+    const bool typing = wr_gui_wants_text(gui), shown = focus->shown || focus->waiting_count > 0;
     if (key->mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)) return false;
     if (key->scancode == SDL_SCANCODE_TAB) return shown || typing || g.OpenPopupStack.Size > 0;
     if (typing) return false;

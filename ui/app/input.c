@@ -1,0 +1,233 @@
+#include "ui/app/input.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/keys.h"
+#include "ui/gui/gui.h"
+
+#include "base/array.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+/* Which events wait for a picture. */
+typedef enum WrInputHold {
+    WR_INPUT_FREE,
+    WR_INPUT_TYPING, /* all but keys and letters: the widgets keep the order of those themselves */
+    WR_INPUT_WHEEL,  /* all but turns of the wheel */
+    WR_INPUT_ALL
+} WrInputHold;
+
+typedef struct WrInputItem {
+    SDL_Event event;
+    unsigned widget; /* of a press: what was on the screen at its place */
+} WrInputItem;
+
+struct WrInput {
+    WR_ARRAY(WrInputItem) items;
+    int first;   /* of items that were not handled */
+    int waiting; /* how many there are; atomic: tests read it from another thread */
+    WrInputHold hold;
+    bool key_before; /* the event before was a key that went down: its letters belong to it */
+    bool dropped[8]; /* buttons whose press was dropped: so is their release */
+    SDL_Keymod mods; /* at the newest key event that was handled */
+    int x, y;        /* at the newest motion or button that was handled */
+};
+
+WrInput *wr_input_new(void)
+{
+    return wr_alloc(1, sizeof(WrInput));
+}
+
+void wr_input_free(WrInput *input)
+{
+    if (!input) return;
+    for (int i = input->first; i < input->items.count; i++)
+        if (input->items.data[i].event.type == SDL_DROPFILE)
+            SDL_free(input->items.data[i].event.drop.file);
+    wr_array_free(&input->items);
+    wr_free(input);
+}
+
+bool wr_input_waits(const WrApp *app)
+{
+    return __atomic_load_n(&app->hand->input->waiting, __ATOMIC_ACQUIRE) > 0;
+}
+
+void wr_input_take(WrApp *app)
+{
+    WrInput *input = app->hand->input;
+    WrInputItem item = { .widget = 0 };
+    if (input->first == input->items.count) input->first = input->items.count = 0;
+    const int before = input->items.count;
+    SDL_PumpEvents();
+    __atomic_fetch_add(&input->waiting, 1,
+                       __ATOMIC_RELEASE); /* more than none, while they change hands */
+    while (SDL_PeepEvents(&item.event, 1, SDL_GETEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT) > 0) {
+        item.widget = item.event.type == SDL_MOUSEBUTTONDOWN
+                          ? wr_gui_widget_at(app->gui, item.event.button.x, item.event.button.y)
+                          : 0;
+        wr_array_push(&input->items, item);
+    }
+    __atomic_fetch_add(&input->waiting, input->items.count - before - 1, __ATOMIC_RELEASE);
+}
+
+/* ---- what an event does to the focus ---- */
+
+static bool is_modifier(SDL_Scancode code)
+{
+    return code >= SDL_SCANCODE_LCTRL && code <= SDL_SCANCODE_RGUI;
+}
+
+/* A key whose effect stays within the text that is being typed. */
+static bool edits_text(const SDL_Keysym *key)
+{
+    const SDL_Scancode code = key->scancode;
+    const bool leaves = code == SDL_SCANCODE_RETURN || code == SDL_SCANCODE_KP_ENTER ||
+                        code == SDL_SCANCODE_ESCAPE || code == SDL_SCANCODE_TAB ||
+                        (code >= SDL_SCANCODE_F1 && code <= SDL_SCANCODE_F12);
+    return !leaves && !(key->mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI));
+}
+
+static bool widgets_listen(const WrApp *app)
+{
+    return wr_gui_wants_text(app->gui) || wr_gui_popup_open_now(app->gui) ||
+           app->dialog->now != WR_DIALOG_NONE;
+}
+
+static WrInputHold after_key(const WrApp *app, const SDL_KeyboardEvent *key)
+{
+    if (is_modifier(key->keysym.scancode)) return WR_INPUT_FREE;
+    if (wr_gui_wants_text(app->gui) && edits_text(&key->keysym)) return WR_INPUT_TYPING;
+    /* A key that is held, such as one for the brush's size, opens nothing at its second time. */
+    return key->repeat && !widgets_listen(app) ? WR_INPUT_FREE : WR_INPUT_ALL;
+}
+
+static WrInputHold after_button(const WrApp *app, const SDL_MouseButtonEvent *button)
+{
+    const bool on_view = !wr_gui_owns_point(app->gui, button->x, button->y) &&
+                         !wr_gui_holds_mouse(app->gui) && !widgets_listen(app);
+    return on_view ? WR_INPUT_FREE : WR_INPUT_ALL;
+}
+
+static WrInputHold hold_after(const WrApp *app, const SDL_Event *event)
+{
+    switch (event->type) {
+    case SDL_KEYDOWN: return after_key(app, &event->key);
+    case SDL_TEXTINPUT: return wr_gui_wants_text(app->gui) ? WR_INPUT_TYPING : WR_INPUT_FREE;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP: return after_button(app, &event->button);
+    case SDL_MOUSEWHEEL: {
+        int x, y;
+        wr_input_pointer(app, &x, &y);
+        return wr_gui_owns_point(app->gui, x, y) ? WR_INPUT_WHEEL : WR_INPUT_FREE;
+    }
+    default: return WR_INPUT_FREE;
+    }
+}
+
+/* ---- whose turn it is ---- */
+
+static bool of_keys(const SDL_Event *event)
+{
+    return event->type == SDL_KEYDOWN || event->type == SDL_KEYUP || event->type == SDL_TEXTINPUT;
+}
+
+static bool passes(const WrInput *input, const SDL_Event *event)
+{
+    if (event->type == SDL_TEXTINPUT && input->key_before) return true;
+    switch (input->hold) {
+    case WR_INPUT_FREE: return true;
+    case WR_INPUT_TYPING: return of_keys(event);
+    case WR_INPUT_WHEEL: return event->type == SDL_MOUSEWHEEL;
+    case WR_INPUT_ALL: break;
+    }
+    return false;
+}
+
+/* A number field that was clicked takes keys at once, though the click might have become a double click. */
+static bool begins_typing(WrApp *app, const SDL_Event *event)
+{
+    const bool key = event->type == SDL_KEYDOWN && !is_modifier(event->key.keysym.scancode);
+    if (!key || !wr_gui_type_now(app->gui)) return false;
+    app->hand->input->hold = WR_INPUT_ALL;
+    wr_app_redraw(app);
+    return true;
+}
+
+/* A press on a place where another widget stands by now, and its release. */
+static bool is_stale(WrApp *app, const WrInputItem *item)
+{
+    WrInput *input = app->hand->input;
+    const SDL_MouseButtonEvent *button = &item->event.button;
+    const int which = button->button & 7;
+    bool stale = false;
+    if (item->event.type == SDL_MOUSEBUTTONDOWN)
+        stale = input->dropped[which] =
+            item->widget != wr_gui_widget_at(app->gui, button->x, button->y);
+    else if (item->event.type == SDL_MOUSEBUTTONUP) {
+        stale = input->dropped[which];
+        input->dropped[which] = false;
+    }
+    return stale;
+}
+
+bool wr_input_next(WrApp *app, SDL_Event *event)
+{
+    WrInput *input = app->hand->input;
+    if (!app->visible) input->hold = WR_INPUT_FREE; /* no picture will come */
+    while (wr_input_waits(app)) {
+        const WrInputItem item = input->items.data[input->first];
+        if (!passes(input, &item.event) || begins_typing(app, &item.event)) return false;
+        input->first++;
+        __atomic_fetch_sub(&input->waiting, 1, __ATOMIC_RELEASE);
+        if (is_stale(app, &item)) continue;
+        *event = item.event;
+        return true;
+    }
+    return false;
+}
+
+void wr_input_handled(WrApp *app, const SDL_Event *event)
+{
+    WrInput *input = app->hand->input;
+    if (event->type == SDL_KEYDOWN || event->type == SDL_KEYUP)
+        input->mods = (SDL_Keymod)event->key.keysym.mod;
+    if (event->type == SDL_MOUSEMOTION) input->x = event->motion.x, input->y = event->motion.y;
+    if (event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_MOUSEBUTTONUP)
+        input->x = event->button.x, input->y = event->button.y;
+    const WrInputHold hold = hold_after(app, event);
+    if (hold > input->hold) input->hold = hold;
+    input->key_before = of_keys(event) && event->type != SDL_KEYUP;
+}
+
+void wr_input_shown(WrApp *app)
+{
+    app->hand->input->key_before = false;
+    if (!wr_gui_unsettled(app->gui)) app->hand->input->hold = WR_INPUT_FREE;
+}
+
+/* ---- state at the event that is being handled ---- */
+
+static bool any_waits(const WrInput *input, bool keys)
+{
+    for (int i = input->first; i < input->items.count; i++) {
+        const SDL_Event *event = &input->items.data[i].event;
+        const bool pointer = event->type == SDL_MOUSEMOTION || event->type == SDL_MOUSEBUTTONDOWN ||
+                             event->type == SDL_MOUSEBUTTONUP;
+        if (keys ? event->type == SDL_KEYDOWN || event->type == SDL_KEYUP : pointer) return true;
+    }
+    return false;
+}
+
+int wr_input_mods(const WrApp *app)
+{
+    const WrInput *input = app->hand->input;
+    return wr_key_mods(any_waits(input, true) ? input->mods : SDL_GetModState());
+}
+
+void wr_input_pointer(const WrApp *app, int *x, int *y)
+{
+    const WrInput *input = app->hand->input;
+    if (any_waits(input, false)) *x = input->x, *y = input->y;
+    else SDL_GetMouseState(x, y);
+}
