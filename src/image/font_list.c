@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "base/file.h"
 #include "image/font.h"
 #include "image/font_config.h"
 #include "image/font_list.h"
@@ -169,6 +170,14 @@ static int by_name(const char *a, const char *b)
     return letter(*a) - letter(*b);
 }
 
+/* Its outlines are often installed beside the same ones as OpenType, which has more letters. */
+static bool is_type1(const char *path)
+{
+    char ending[16];
+    wr_path_ending(path, ending);
+    return strcmp(ending, "t1") == 0 || strcmp(ending, "pfb") == 0 || strcmp(ending, "pfa") == 0;
+}
+
 static int compare(const void *a, const void *b)
 {
     const Listed *x = a, *y = b;
@@ -177,6 +186,8 @@ static int compare(const void *a, const void *b)
     if (way == 0) way = (x->width > y->width) - (x->width < y->width);
     if (way == 0) way = (x->weight > y->weight) - (x->weight < y->weight);
     if (way == 0) way = (x->slant > y->slant) - (x->slant < y->slant);
+    if (way == 0) way = strcmp(x->face.style, y->face.style);
+    if (way == 0) way = is_type1(x->face.path) - is_type1(y->face.path);
     if (way == 0) way = strcmp(x->face.path, y->face.path);
     return way ? way : x->face.face - y->face.face;
 }
@@ -201,13 +212,14 @@ void wr_font_entry_fini(WrFontEntry *entry)
     wr_free(entry->sample);
 }
 
-/* A variable font is told of several times. */
+/* A variable font is listed several times, and a Type 1 font may repeat one that stands before it. */
 static bool listed_before(const WrFontList *list, const WrFontEntry *entry)
 {
     for (int i = list->count - 1; i >= 0; i--) {
         if (by_name(list->data[i].family, entry->family) != 0) return false;
         if (list->data[i].face == entry->face && strcmp(list->data[i].path, entry->path) == 0)
             return true;
+        if (is_type1(entry->path) && strcmp(list->data[i].style, entry->style) == 0) return true;
     }
     return false;
 }
