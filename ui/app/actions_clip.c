@@ -138,9 +138,11 @@ static bool save_bytes(const char *path, const char *bytes, size_t length, WrErr
 static bool find_picture(WrText *path, WrError *err)
 {
     char *bytes = NULL, *text;
+    const char *ending;
     size_t length;
-    if (wr_clip_picture(&bytes, &length)) {
-        bool good = new_path(path, "png", err) && save_bytes(wr_text_get(path), bytes, length, err);
+    if (wr_clip_picture(&bytes, &length, &ending)) {
+        bool good =
+            new_path(path, ending, err) && save_bytes(wr_text_get(path), bytes, length, err);
         wr_free(bytes);
         return good;
     }

@@ -19,7 +19,7 @@ typedef WR_ARRAY(char) Bytes;
 typedef struct Asking {
     Display *display;
     Window window;
-    Atom clipboard, png, incr, property;
+    Atom clipboard, type, incr, property; /* type: of the picture that is asked for */
     double until;
     Bytes got;
 } Asking;
@@ -51,10 +51,10 @@ static bool take(Asking *ask, Atom *type, unsigned long *count)
                            AnyPropertyType, type, &format, count, &rest, &data) != Success)
         return false;
     bool fits = format == 8 && (size_t)ask->got.count + *count <= BYTES_MOST;
-    for (unsigned long i = 0; fits && *type == ask->png && i < *count; i++)
+    for (unsigned long i = 0; fits && *type == ask->type && i < *count; i++)
         wr_array_push(&ask->got, (char)data[i]);
     if (data) XFree(data);
-    return *type == ask->incr || (fits && *type == ask->png);
+    return *type == ask->incr || (fits && *type == ask->type);
 }
 
 static bool take_all(Asking *ask)
@@ -78,36 +78,68 @@ static bool ask(Asking *ask)
 {
     if (XGetSelectionOwner(ask->display, ask->clipboard) == None) return false;
     XSelectInput(ask->display, ask->window, PropertyChangeMask);
-    XConvertSelection(ask->display, ask->clipboard, ask->png, ask->property, ask->window,
+    XConvertSelection(ask->display, ask->clipboard, ask->type, ask->property, ask->window,
                       CurrentTime);
     XFlush(ask->display);
     return take_all(ask);
 }
 
-static bool is_png(const Bytes *bytes)
+/* What the clipboard is asked for, the best first: a name of the format, a file's ending and first bytes. */
+static const struct {
+    const char *type, *ending, *magic;
+    int length; /* of magic */
+} formats[] = { { "image/png", "png", "\x89PNG\r\n\x1a\n", 8 },
+                { "image/tiff", "tif", "II*\0", 4 },
+                { "image/tiff", "tif", "MM\0*", 4 },
+                { "image/bmp", "bmp", "BM", 2 },
+                { "image/x-bmp", "bmp", "BM", 2 },
+                { "image/x-MS-bmp", "bmp", "BM", 2 },
+                { "image/jpeg", "jpg", "\xff\xd8\xff", 3 } };
+
+#define FORMATS ((int)(sizeof formats / sizeof *formats))
+
+static bool is_format(const Bytes *bytes, int i)
 {
-    static const char magic[] = "\x89PNG\r\n\x1a\n";
-    return bytes->count > 8 && memcmp(bytes->data, magic, 8) == 0;
+    return bytes->count > formats[i].length &&
+           memcmp(bytes->data, formats[i].magic, (size_t)formats[i].length) == 0;
 }
 
-bool wr_clip_picture(char **bytes, size_t *length)
+/* Asks for the formats in turn. The index of the one that came, -1: none. */
+static int ask_all(Asking *asking)
 {
-    Asking asking = { .display = XOpenDisplay(NULL), .until = wr_clock_seconds() + WAIT_SECONDS };
+    for (int i = 0; i < FORMATS; i++) {
+        if (i > 0 && strcmp(formats[i].type, formats[i - 1].type) == 0) continue;
+        asking->got.count = 0;
+        asking->type = XInternAtom(asking->display, formats[i].type, False);
+        asking->until = wr_clock_seconds() + WAIT_SECONDS;
+        if (!ask(asking)) {
+            if (wr_clock_seconds() >= asking->until) return -1; /* its owner does not answer */
+            continue;
+        }
+        for (int k = i; k < FORMATS && strcmp(formats[k].type, formats[i].type) == 0; k++)
+            if (is_format(&asking->got, k)) return k;
+    }
+    return -1;
+}
+
+bool wr_clip_picture(char **bytes, size_t *length, const char **ending)
+{
+    Asking asking = { .display = XOpenDisplay(NULL) };
     if (!asking.display) return false;
     Display *d = asking.display;
     asking.window = XCreateSimpleWindow(d, DefaultRootWindow(d), 0, 0, 1, 1, 0, 0, 0);
     asking.clipboard = XInternAtom(d, "CLIPBOARD", False);
-    asking.png = XInternAtom(d, "image/png", False);
     asking.incr = XInternAtom(d, "INCR", False);
     asking.property = XInternAtom(d, "WRINKLE_PICTURE", False);
-    bool good = ask(&asking) && is_png(&asking.got);
+    const int format = ask_all(&asking);
     XDestroyWindow(d, asking.window);
     XCloseDisplay(d);
-    if (good) {
-        *bytes = asking.got.data;
-        *length = (size_t)asking.got.count;
-    } else {
+    if (format < 0) {
         wr_array_free(&asking.got);
+        return false;
     }
-    return good;
+    *bytes = asking.got.data;
+    *length = (size_t)asking.got.count;
+    *ending = formats[format].ending;
+    return true;
 }
