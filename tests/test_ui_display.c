@@ -62,9 +62,23 @@ static void the_word_says_what_becomes_of_pens(void **state)
     }
 }
 
+static void a_window_that_nobody_sees_is_found_out(void **state)
+{
+    (void)state;
+    assert_true(wr_display_unseen(NULL, "dummy"));
+    assert_true(wr_display_unseen(NULL, "offscreen"));
+    assert_true(wr_display_unseen("x11,wayland", "offscreen"));
+    assert_false(wr_display_unseen("dummy", "dummy")); /* asked for: by tests */
+    assert_false(wr_display_unseen("offscreen,x11", "offscreen"));
+    assert_false(wr_display_unseen(NULL, "x11"));
+    assert_false(wr_display_unseen(NULL, "wayland"));
+    assert_false(wr_display_unseen(NULL, "KMSDRM"));
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(xwayland_is_chosen_where_there_is_one),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(a_window_that_nobody_sees_is_found_out),
+                                        cmocka_unit_test(xwayland_is_chosen_where_there_is_one),
                                         cmocka_unit_test(the_word_says_what_becomes_of_pens) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -92,6 +92,17 @@ static void choose_display(void)
     if (driver && !SDL_GetHint(SDL_HINT_VIDEODRIVER)) SDL_SetHint(SDL_HINT_VIDEODRIVER, driver);
 }
 
+/* SDL falls back on a driver that shows nothing where there is no display: nobody could see or close that window. */
+static bool has_display(void)
+{
+    if (!wr_display_unseen(SDL_GetHint(SDL_HINT_VIDEODRIVER), SDL_GetCurrentVideoDriver()))
+        return true;
+    SDL_SetError(
+        "there is no display (neither DISPLAY nor WAYLAND_DISPLAY names one that answers); "
+        "`wrinkle render` makes pictures without a window");
+    return false;
+}
+
 static void tell_display(WrApp *app)
 {
     const WrDisplayEnv env = wr_display_env();
@@ -108,7 +119,7 @@ bool wr_window_open(WrApp *app)
     /* SDL turns these into SDL_QUIT, but only where nobody else has taken them. */
     wr_process_drop_interrupts();
     choose_display();
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0 || !open_screen(app)) return false;
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0 || !has_display() || !open_screen(app)) return false;
     tell_display(app);
     SDL_SetWindowMinimumSize(app->window, 640, 420);
     SDL_SetRenderDrawBlendMode(app->renderer, SDL_BLENDMODE_BLEND);

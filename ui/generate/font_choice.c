@@ -137,7 +137,7 @@ static void forget(WrApp *app)
 
 void wr_font_choice_free(WrApp *app)
 {
-    WrFontChoice *choice = app->generate->fonts;
+    WrFontChoice *choice = app->generate ? app->generate->fonts : NULL;
     if (!choice) return;
     forget(app);
     wr_job_free(choice->job);

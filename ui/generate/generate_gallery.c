@@ -162,7 +162,7 @@ void wr_gallery_forget(WrApp *app)
 
 void wr_gallery_free(WrApp *app)
 {
-    WrGallery *gallery = app->generate->gallery;
+    WrGallery *gallery = app->generate ? app->generate->gallery : NULL;
     if (!gallery) return;
     wr_gallery_forget(app);
     wr_job_free(gallery->job);

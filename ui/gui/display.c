@@ -26,6 +26,15 @@ const char *wr_display_driver(const WrDisplayEnv *env)
     return said(env->x11) ? "x11,wayland" : "wayland,x11";
 }
 
+bool wr_display_unseen(const char *asked, const char *opened)
+{
+    static const char *const unseen[] = { "dummy", "offscreen", "evdev" };
+    if (!opened || (asked && strstr(asked, opened))) return false;
+    for (size_t i = 0; i < sizeof unseen / sizeof *unseen; i++)
+        if (strcmp(opened, unseen[i]) == 0) return true;
+    return false;
+}
+
 const char *wr_display_word(const WrDisplayEnv *env, const char *opened)
 {
     const bool native = opened && strcmp(opened, "wayland") == 0;
