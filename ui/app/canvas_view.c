@@ -173,6 +173,17 @@ void wr_canvas_view_overlay(WrApp *app)
 
 /* ---- the view ---- */
 
+#define FIT_MARGIN 0.36 /* enough of the copies around the cell that seams are seen */
+
+/* Nobody has zoomed or moved the view since it was fitted into its room. */
+static bool is_fitted(const WrCanvasView *view)
+{
+    WrCanvasView fitted = *view;
+    wr_view_fit(&fitted, FIT_MARGIN);
+    return fitted.zoom == view->zoom && fitted.centre_x == view->centre_x &&
+           fitted.centre_y == view->centre_y;
+}
+
 void wr_app_place_view(WrApp *app)
 {
     WrCanvasView *view = app->view;
@@ -180,6 +191,9 @@ void wr_app_place_view(WrApp *app)
     const WrField *field = wr_app_field(app);
     int w = wr_field_width(field), h = wr_field_height(field);
     if (w != view->table_w || h != view->table_h) app->view_placed = false;
+    if ((room->w != view->w || room->h != view->h) && room->w > 0 && app->view_placed &&
+        app->hand->grab == WR_GRAB_NONE && is_fitted(view))
+        app->view_placed = false; /* the window has another size: fit again */
     view->x = room->x;
     view->y = room->y;
     view->w = room->w > 0 ? room->w : 1;
@@ -190,7 +204,7 @@ void wr_app_place_view(WrApp *app)
         wr_field_wrap_u(field) == WR_WRAP_PERIODIC && wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
     view->tiling = wraps ? app->settings->tiling : WR_TILING_STRAIGHT;
     if (app->view_placed || room->w == 0) return;
-    wr_view_fit(view, 0.36); /* with enough of the copies around it that seams are seen */
+    wr_view_fit(view, FIT_MARGIN);
     app->view_placed = true;
 }
 

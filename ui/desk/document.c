@@ -52,6 +52,7 @@ void wr_app_changed_document(WrApp *app)
         if ((*p)->another) (*p)->another(app);
     wr_app_live_end(app);
     app->view_placed = false;
+    app->settings->tiling = WR_TILING_STRAIGHT; /* another lay was chosen for another pattern */
     app->hand->grab = WR_GRAB_NONE;
     wr_app_take_notes(app);
     wr_app_title(app);

@@ -53,7 +53,9 @@ static void effect(WrApp *app, int i, const WrPlanRow *e)
         wr_gui_tip("Nanoseconds a pixel, measured in the last picture");
     }
     wr_gui_space(-6);
-    if (e->run) snprintf(text, sizeof text, "%s", wr_words(e->reason));
+    /* The proof is of the planner's own decision, not of an effect that the user turned off. */
+    if (e->run || e->verdict == WR_VERDICT_RUN)
+        snprintf(text, sizeof text, "%s", wr_words(e->reason));
     else snprintf(text, sizeof text, "%s: %s", wr_words(proofs[e->proof]), wr_words(e->reason));
     wr_gui_text_wrapped(WR_FONT_SMALL, e->run ? WR_COLOUR_LABEL : WR_COLOUR_FAINT, text);
     wr_gui_tip(e->rule);

@@ -74,7 +74,7 @@ static void describe(const WrRecoverable *r, char *name, size_t name_size, char 
     struct tm parts;
     time_t t = (time_t)r->written;
     const char *slash = strrchr(r->document, '/');
-    if (wr_clock_local(t, &parts)) strftime(when, sizeof when, "%e %B %Y, %H:%M", &parts);
+    if (wr_clock_local(t, &parts)) strftime(when, sizeof when, "%Y-%m-%d %H:%M", &parts);
     snprintf(name, name_size, "%.120s",
              r->document[0] == '\0' ? wr_words("never saved")
              : slash                ? slash + 1
