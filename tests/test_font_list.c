@@ -54,6 +54,7 @@ static void make_fonts(void)
     copy_damaged(SANS, "fonts/torn.ttf", -1);
     copy_damaged(BOLD, "fonts/garbled.ttf", 37);
     copy_damaged("fonts/one.ttf", "fonts/a\nline.ttf", 0);
+    copy_damaged(SANS, "fonts/a.pfb", 0); /* the same face, as if it were Type 1 */
     assert_true(wr_file_write("fonts/empty.ttf", "", 0, &err));
     assert_true(wr_file_write("fonts/text.ttf", "no font", 7, &err));
     const int length =
@@ -107,6 +108,7 @@ static void whole_fonts_are_listed_by_family_and_no_others(void **state)
     assert_true(sans < bold && bold < indian); /* by name */
     assert_null(named(&list, "a\nline.ttf"));
     assert_null(named(&list, "empty.ttf"));
+    assert_null(named(&list, "a.pfb"));
     assert_null(named(&list, "text.ttf"));
     for (int i = 0; i < list.count; i++) assert_true(list.data[i].family[0] != '\0');
     wr_font_list_fini(&list);

@@ -315,6 +315,15 @@ key ctrl+v
 rest
 key Return
 becomes 'picture paste *clipboard/copy-*.png*size=48*' "a picture of another program is pasted"
+# ... also where it offers no PNG
+for kind in tiff:tif bmp:bmp jpeg:jpg; do
+    convert -size 40x24 gradient:black-white "picture.${kind#*:}"
+    xclip -selection clipboard -t "image/${kind%:*}" -i "picture.${kind#*:}"
+    key ctrl+v
+    rest
+    key Return
+    becomes "picture paste *clipboard/copy-*.${kind#*:}*size=40*" "a picture offered as ${kind%:*} is pasted"
+done
 xdotool key ctrl+q
 settle
 xdotool key d

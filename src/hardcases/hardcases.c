@@ -106,6 +106,7 @@ bool wr_hardcase_run(const WrHardCase *row, const WrHardRequest *request, WrHard
 bool wr_hardcases_run(const WrHardRequest *request, WrHardReport *out, WrError *err)
 {
     const double start = wr_clock_seconds();
+    const WrProgress *whole = request->progress ? request->progress : wr_progress_here();
     WrHardReport *report = wr_alloc(1, sizeof *report);
     bool good = true;
     for (int i = 0; i < WR_HARDCASES && good; i++) {
@@ -113,7 +114,12 @@ bool wr_hardcases_run(const WrHardRequest *request, WrHardReport *out, WrError *
             good = wr_fail(err, "cancelled");
             break;
         }
+        /* What a case runs reports its own way from 0 to 1, which is one part of the whole here. */
+        WrProgressPart part;
+        const WrProgress *outer = wr_progress_set(wr_progress_part(
+            &part, whole, (double)i / WR_HARDCASES, (double)(i + 1) / WR_HARDCASES));
         good = wr_hardcase_run(wr_hardcase(i), request, &report->results[i], err);
+        wr_progress_set(outer);
         if (good) report->count[report->results[i].verdict]++;
     }
     report->seconds = wr_clock_seconds() - start;

@@ -8,6 +8,7 @@
 #include "base/text.h"
 
 #include <SDL.h>
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -234,12 +235,27 @@ static void say_key(WrKey key, char *buffer, size_t size)
     if (key.code == SDLK_UNKNOWN) drop_plus(buffer);
 }
 
+/* The key to press on this keyboard. A bracket that its layout lacks is the key at the place where a US keyboard has it.
+ * False: no key does it, because a sign is reached with AltGr or Shift alone, or the key at that place does another thing. */
+static bool on_this_layout(const WrKeyMap *map, WrKey key, WrKey *pressed)
+{
+    const bool sign = key.code > SDLK_SPACE && key.code < 127 && !isalnum((int)key.code);
+    *pressed = key;
+    if (!sign || SDL_GetScancodeFromKey(key.code) != SDL_SCANCODE_UNKNOWN) return true;
+    if (key.code != SDLK_LEFTBRACKET && key.code != SDLK_RIGHTBRACKET) return false;
+    pressed->code = SDL_GetKeyFromScancode(
+        key.code == SDLK_LEFTBRACKET ? SDL_SCANCODE_LEFTBRACKET : SDL_SCANCODE_RIGHTBRACKET);
+    return pressed->code != SDLK_UNKNOWN && !find(map, pressed->code, key.mods);
+}
+
 char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32])
 {
     buffer[0] = '\0';
     for (int i = 0; i < map->bindings.count; i++) {
+        WrKey pressed;
         if (strcmp(map->bindings.data[i].action, action) != 0) continue;
-        say_key(map->bindings.data[i].key, buffer, 32);
+        if (!on_this_layout(map, map->bindings.data[i].key, &pressed)) continue;
+        say_key(pressed, buffer, 32);
         break;
     }
     return buffer;
@@ -250,8 +266,10 @@ void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out)
     char name[64];
     bool any = false;
     for (int i = 0; i < map->bindings.count; i++) {
+        WrKey pressed;
         if (strcmp(map->bindings.data[i].action, action) != 0) continue;
-        say_key(map->bindings.data[i].key, name, sizeof name);
+        if (!on_this_layout(map, map->bindings.data[i].key, &pressed)) continue;
+        say_key(pressed, name, sizeof name);
         wr_text_addf(out, "%s%s", any ? "  " : "", name);
         any = true;
     }

@@ -35,9 +35,9 @@ bool wr_keys_read(WrKeyMap *map, const char *text, WrError *err);
 const char *wr_keys_find(const WrKeyMap *map, SDL_Keysym sym);
 /* Is exactly this held (WR_MOD_ bits) for an action of the hand? */
 bool wr_keys_hold(const WrKeyMap *map, const char *action, int held);
-/* The first key of an action as text, "" if none. Returns buffer. */
+/* The first key of an action that this keyboard's layout has, as text, "" if none. Returns buffer. */
 char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32]);
-/* All keys of an action, separated by two spaces. */
+/* All such keys of an action, separated by two spaces. */
 void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out);
 
 /* ---- changing them ---- */

@@ -77,7 +77,7 @@ static uint32_t code(double x)
     return (uint32_t)(x < 0.0 ? 0.0 : x > 1.0 ? 255.0 : floor(x * 255.0 + 0.5));
 }
 
-/* Mean of a box of pixels; alpha over the ground of fields. */
+/* Mean of a box of pixels as grey, since a brush paints heights and no colours; alpha over the ground of fields. */
 static uint32_t box_mean(const WrImage *image, int x0, int y0, int x1, int y1)
 {
     double sum[3] = { 0 };
@@ -91,7 +91,8 @@ static uint32_t box_mean(const WrImage *image, int x0, int y0, int x1, int y1)
                 sum[k] += alpha * (double)p[c >= 3 ? k : 0] + (1.0 - alpha) * (0x1f / 255.0);
         }
     double n = (double)(x1 - x0) * (y1 - y0);
-    return 0xff000000u | code(sum[0] / n) << 16 | code(sum[1] / n) << 8 | code(sum[2] / n);
+    const uint32_t grey = code((0.2126 * sum[0] + 0.7152 * sum[1] + 0.0722 * sum[2]) / n);
+    return 0xff000000u | grey << 16 | grey << 8 | grey;
 }
 
 /* The middle square of a picture, shrunk (or grown) to side x side. */
