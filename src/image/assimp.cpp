@@ -27,7 +27,7 @@ extern "C" {
 
 struct WrAssimpMesh {
     bool whole;
-    std::vector<float> points;
+    std::vector<double> points;
     std::vector<int32_t> corners;
     std::vector<float> looks; /* 5 a point */
     std::vector<int32_t> firsts;
@@ -207,9 +207,9 @@ static bool add_mesh(WrAssimpMesh &out, const aiMesh &mesh, const double m[12],
             continue;
         }
         for (int row = 0; row < 3; row++)
-            out.points.push_back(static_cast<float>(
-                m[4 * row] * static_cast<double>(p.x) + m[4 * row + 1] * static_cast<double>(p.y) +
-                m[4 * row + 2] * static_cast<double>(p.z) + m[4 * row + 3]));
+            out.points.push_back(m[4 * row] * static_cast<double>(p.x) +
+                                 m[4 * row + 1] * static_cast<double>(p.y) +
+                                 m[4 * row + 2] * static_cast<double>(p.z) + m[4 * row + 3]);
     }
     for (unsigned i = 0; i < mesh.mNumFaces; i++) {
         const aiFace &face = mesh.mFaces[i];
@@ -307,7 +307,7 @@ static int32_t mesh_triangles(const WrAssimpMesh *mesh)
     return static_cast<int32_t>(mesh->corners.size() / 3);
 }
 
-static const float *point_data(const WrAssimpMesh *mesh)
+static const double *point_data(const WrAssimpMesh *mesh)
 {
     return mesh->points.data();
 }

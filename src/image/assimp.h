@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define WR_ASSIMP_VERSION 2
+#define WR_ASSIMP_VERSION 3
 #define WR_ASSIMP_REASON 320
 #define WR_ASSIMP_SYMBOL "wr_assimp_table"
 #define WR_ASSIMP_NO_MEMORY "not enough memory" /* a reason that callers look for */
@@ -22,7 +22,7 @@ typedef struct WrAssimpTable {
                           int64_t most_triangles, bool whole, char *reason);
     int32_t (*points)(const WrAssimpMesh *mesh);
     int32_t (*triangles)(const WrAssimpMesh *mesh);
-    const float *(*point_data)(const WrAssimpMesh *mesh);    /* [points][3] */
+    const double *(*point_data)(const WrAssimpMesh *mesh);   /* [points][3] */
     const int32_t *(*corner_data)(const WrAssimpMesh *mesh); /* [triangles][3], indices of points */
     /* Of a whole one: [points][5], a normal (0: none) and u, v (not a number: none). */
     const float *(*look_data)(const WrAssimpMesh *mesh);

@@ -9,21 +9,6 @@
 
 #include <string.h>
 
-#define DEPTH 64
-
-json_object *wr_gltf_parse(const char *text, size_t length)
-{
-    json_tokener *tokener = json_tokener_new_ex(DEPTH);
-    if (!tokener) return NULL;
-    json_object *root = json_tokener_parse_ex(tokener, text, (int)length);
-    if (json_tokener_get_error(tokener) != json_tokener_success) {
-        json_object_put(root);
-        root = NULL;
-    }
-    json_tokener_free(tokener);
-    return root;
-}
-
 /* Buffer i's uri, or NULL where it has none, or its bytes with it. */
 static const char *part_of(json_object *buffers, size_t i, json_object **buffer)
 {

@@ -30,32 +30,6 @@ static void close_gltf(Gltf *file)
     wr_free(file->bytes);
 }
 
-static size_t number_at(const char *at)
-{
-    const unsigned char *b = (const unsigned char *)at;
-    return (size_t)b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
-}
-
-/* GLB: a head of 12 bytes, then chunks of length, kind and bytes: the JSON first, the buffer second. */
-static bool find_chunks(Gltf *file, const char **json, size_t *length, WrError *err)
-{
-    const char *end = file->bytes + file->length, *at = file->bytes + 12;
-    if (file->length < 20 || number_at(file->bytes + 4) != 2)
-        return wr_fail(err, "%s: a GLB of a version that is not 2, or cut off", file->path);
-    *length = number_at(at);
-    if (memcmp(at + 4, "JSON", 4) != 0 || *length > (size_t)(end - at - 8))
-        return wr_fail(err, "%s: its first chunk is no JSON, or longer than the file", file->path);
-    *json = at + 8;
-    at += 8 + *length;
-    if (end - at < 8) return true;
-    file->bin_length = number_at(at);
-    if (memcmp(at + 4, "BIN\0", 4) != 0) file->bin_length = 0;
-    else if (file->bin_length > (size_t)(end - at - 8))
-        return wr_fail(err, "%s: its buffer is longer than the file", file->path);
-    else file->bin = at + 8;
-    return true;
-}
-
 static bool open_gltf(const char *path, Gltf *file, WrError *err)
 {
     char ending[16];
@@ -64,14 +38,16 @@ static bool open_gltf(const char *path, Gltf *file, WrError *err)
     if (strcmp(ending, "gltf") != 0 && strcmp(ending, "glb") != 0)
         return wr_fail(err, "%s: must be a .gltf or a .glb file", path);
     if (!wr_file_read(path, WR_MESH_FILE_MAX, &file->bytes, &file->length, err)) return false;
-    const char *json = file->bytes;
-    size_t length = file->length;
-    const bool packed = length >= 4 && memcmp(json, "glTF", 4) == 0;
-    bool good = !packed || find_chunks(file, &json, &length, err);
+    WrGltfChunks chunks;
+    const char *wrong = wr_gltf_chunks(file->bytes, file->length, &chunks);
+    const size_t length = chunks.json_length;
+    bool good = !wrong || wr_fail(err, "%s: %s", path, wrong);
+    file->bin = chunks.bin;
+    file->bin_length = chunks.bin_length;
     if (good && length > WR_GLTF_JSON_MAX)
         good = wr_fail(err, "%s: its JSON has %zu bytes: must be up to %lu", path, length,
                        WR_GLTF_JSON_MAX);
-    if (good) file->root = wr_gltf_parse(json, length);
+    if (good) file->root = wr_gltf_parse(chunks.json, length);
     if (good && !json_object_is_type(file->root, json_type_object))
         good = wr_fail(err, "%s: is damaged: its JSON cannot be read", path);
     if (!good) close_gltf(file);
@@ -80,34 +56,9 @@ static bool open_gltf(const char *path, Gltf *file, WrError *err)
 
 /* ---- JSON ---- */
 
-/* The member of that kind, or NULL. */
-static json_object *member(json_object *of, const char *name, json_type kind)
-{
-    json_object *out;
-    if (!json_object_is_type(of, json_type_object) || !json_object_object_get_ex(of, name, &out))
-        return NULL;
-    return json_object_is_type(out, kind) ? out : NULL;
-}
-
-static json_object *element(json_object *of, int index)
-{
-    if (!json_object_is_type(of, json_type_array) || index < 0 ||
-        (size_t)index >= json_object_array_length(of))
-        return NULL;
-    return json_object_array_get_idx(of, (size_t)index);
-}
-
 static json_object *item_of(const Gltf *file, const char *list, int index)
 {
-    return element(member(file->root, list, json_type_array), index);
-}
-
-/* A whole number of 0 .. 2^31 - 1; `missing` where there is none, -1 where it is another. */
-static int64_t index_in(json_object *of, const char *name, int64_t missing)
-{
-    json_object *x = member(of, name, json_type_int);
-    const int64_t value = x ? json_object_get_int64(x) : missing;
-    return value >= 0 && value <= INT32_MAX ? value : x ? -1 : missing;
+    return wr_gltf_element(wr_gltf_member(file->root, list, json_type_array), index);
 }
 
 static bool has(json_object *of, const char *name)
@@ -150,16 +101,17 @@ static void leave(WrGltfLook *look, const char *what)
 }
 
 /* The image behind a reference to a texture; -1 where there is none that is laid as it is. */
-static int image_of(const Gltf *file, json_object *reference, const char *what, WrGltfLook *look)
+static int image_of(const Gltf *file, json_object *material, json_object *reference,
+                    const char *what, WrGltfLook *look)
 {
     char words[96];
     if (!reference) return -1;
-    const int64_t texture = index_in(reference, "index", -1);
+    const int64_t texture = wr_gltf_index(reference, "index", -1);
     json_object *of = texture < 0 ? NULL : item_of(file, "textures", (int)texture);
-    const int64_t image = index_in(of, "source", -1);
-    json_object *moved = member(reference, "extensions", json_type_object);
-    const char *why = index_in(reference, "texCoord", 0) != 0 ? "by another set of coordinates"
-                      : has(moved, "KHR_texture_transform")   ? "moved by a transform"
+    const int64_t image = wr_gltf_index(of, "source", -1);
+    const char *why = wr_gltf_set(reference) != 0 ? "by another set of coordinates"
+                      : !wr_gltf_same_transform(reference, wr_gltf_mapped(material))
+                          ? "moved by another transform than the model's (u,v)"
                       : !of || !item_of(file, "images", (int)image) ? "which is not there"
                                                                     : NULL;
     if (!why) return (int)image;
@@ -171,15 +123,15 @@ static int image_of(const Gltf *file, json_object *reference, const char *what, 
 static void leave_others(json_object *material, WrGltfLook *look)
 {
     static const double black[3] = { 0, 0, 0 };
-    json_object *glow = member(material, "emissiveFactor", json_type_array);
+    json_object *glow = wr_gltf_member(material, "emissiveFactor", json_type_array);
     bool glows = has(material, "emissiveTexture");
     for (int k = 0; k < 3 && glow; k++)
-        glows |= json_object_get_double(element(glow, k)) != black[k];
+        glows |= json_object_get_double(wr_gltf_element(glow, k)) != black[k];
     if (glows) leave(look, "emissive light");
     if (has(material, "occlusionTexture")) leave(look, "its picture of occlusion");
-    json_object *mode = member(material, "alphaMode", json_type_string);
+    json_object *mode = wr_gltf_member(material, "alphaMode", json_type_string);
     if (mode && strcmp(json_object_get_string(mode), "OPAQUE") != 0) leave(look, "transparency");
-    json_object *more = member(material, "extensions", json_type_object);
+    json_object *more = wr_gltf_member(material, "extensions", json_type_object);
     if (!more) return;
     json_object_object_foreach(more, name, value)
     {
@@ -195,13 +147,13 @@ static void leave_others(json_object *material, WrGltfLook *look)
 
 static bool read_factors(const Gltf *file, json_object *pbr, WrGltfLook *look, WrError *err)
 {
-    json_object *colour = member(pbr, "baseColorFactor", json_type_array);
+    json_object *colour = wr_gltf_member(pbr, "baseColorFactor", json_type_array);
     double *const to[4] = { &look->colour[0], &look->colour[1], &look->colour[2], &look->alpha };
     if (colour && json_object_array_length(colour) != 4)
         return wr_fail(err, "%s: baseColorFactor of %zu numbers: must be 4", file->path,
                        json_object_array_length(colour));
     for (int k = 0; k < 4 && colour; k++) {
-        json_object *x = element(colour, k);
+        json_object *x = wr_gltf_element(colour, k);
         if (!x)
             return wr_fail(err, "%s: baseColorFactor null: must be a number of 0..1", file->path);
         if (!share_of(file, "baseColorFactor", x, to[k], err)) return false;
@@ -212,19 +164,19 @@ static bool read_factors(const Gltf *file, json_object *pbr, WrGltfLook *look, W
 
 static bool read_material(const Gltf *file, json_object *material, WrGltfLook *look, WrError *err)
 {
-    json_object *pbr = member(material, "pbrMetallicRoughness", json_type_object);
-    json_object *normal = member(material, "normalTexture", json_type_object);
-    json_object *name = member(material, "name", json_type_string), *scale;
+    json_object *pbr = wr_gltf_member(material, "pbrMetallicRoughness", json_type_object);
+    json_object *normal = wr_gltf_member(material, "normalTexture", json_type_object);
+    json_object *name = wr_gltf_member(material, "name", json_type_string), *scale;
     if (name) snprintf(look->name, sizeof look->name, "%s", json_object_get_string(name));
     if (!read_factors(file, pbr, look, err)) return false;
     if ((scale = any(normal, "scale"))) look->normal_scale = json_object_get_double(scale);
     if ((scale && !is_number(scale)) || !(fabs(look->normal_scale) <= 100))
         return wr_fail(err, "%s: normalTexture scale %.40s: must be a number of -100..100",
                        file->path, json_object_to_json_string(scale));
-    look->base = image_of(file, member(pbr, "baseColorTexture", json_type_object), "colours", look);
-    look->facets = image_of(file, member(pbr, "metallicRoughnessTexture", json_type_object),
+    look->base = image_of(file, material, wr_gltf_member(pbr, "baseColorTexture", json_type_object), "colours", look);
+    look->facets = image_of(file, material, wr_gltf_member(pbr, "metallicRoughnessTexture", json_type_object),
                             "metalness and roughness", look);
-    look->normal = image_of(file, normal, "normals", look);
+    look->normal = image_of(file, material, normal, "normals", look);
     leave_others(material, look);
     return true;
 }
@@ -232,11 +184,11 @@ static bool read_material(const Gltf *file, json_object *material, WrGltfLook *l
 /* The material of the first triangles that have one; else 0. */
 static int first_used(const Gltf *file)
 {
-    json_object *meshes = member(file->root, "meshes", json_type_array), *mesh, *body;
-    for (int i = 0; (mesh = element(meshes, i)); i++) {
-        json_object *bodies = member(mesh, "primitives", json_type_array);
-        for (int k = 0; (body = element(bodies, k)); k++) {
-            const int64_t material = index_in(body, "material", -1);
+    json_object *meshes = wr_gltf_member(file->root, "meshes", json_type_array), *mesh, *body;
+    for (int i = 0; (mesh = wr_gltf_element(meshes, i)); i++) {
+        json_object *bodies = wr_gltf_member(mesh, "primitives", json_type_array);
+        for (int k = 0; (body = wr_gltf_element(bodies, k)); k++) {
+            const int64_t material = wr_gltf_index(body, "material", -1);
             if (material >= 0) return (int)material;
         }
     }
@@ -247,7 +199,7 @@ static int find_material(json_object *materials, const char *which)
 {
     char *end;
     for (int i = 0; i < (int)json_object_array_length(materials); i++) {
-        json_object *name = member(element(materials, i), "name", json_type_string);
+        json_object *name = wr_gltf_member(wr_gltf_element(materials, i), "name", json_type_string);
         if (name && strcmp(json_object_get_string(name), which) == 0) return i;
     }
     const long number = strtol(which, &end, 10);
@@ -258,7 +210,7 @@ bool wr_gltf_look(const char *path, const char *which, WrGltfLook *out, WrError 
 {
     Gltf file;
     if (!open_gltf(path, &file, err)) return false;
-    json_object *materials = member(file.root, "materials", json_type_array);
+    json_object *materials = wr_gltf_member(file.root, "materials", json_type_array);
     const int count = materials ? (int)json_object_array_length(materials) : 0;
     *out = (WrGltfLook){ .colour = { 1, 1, 1 },
                          .alpha = 1,
@@ -270,7 +222,7 @@ bool wr_gltf_look(const char *path, const char *which, WrGltfLook *out, WrError 
                          .normal = -1 };
     bool good = count > 0 || wr_fail(err, "%s: has no materials", path);
     const int index = !good ? -1 : which ? find_material(materials, which) : first_used(&file);
-    json_object *material = good ? element(materials, index) : NULL;
+    json_object *material = good ? wr_gltf_element(materials, index) : NULL;
     if (good && !json_object_is_type(material, json_type_object))
         good = which ? wr_fail(err, "%s: has no material \"%.60s\" (it has %d)", path, which, count)
                      : wr_fail(err, "%s: its triangles name material %lld of %d", path, index + 1LL,
@@ -299,41 +251,13 @@ bool wr_gltf_names_picture(const char *name, size_t *length, int *image)
     return strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0;
 }
 
-static int digit_of(char c)
-{
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
-/* RFC 4648, 4. False where it is none. */
-static bool decode_base64(const char *text, WrText *out)
-{
-    unsigned word = 0;
-    int bits = 0;
-    const size_t digits = strcspn(text, "=");
-    if (strspn(text + digits, "=") != strlen(text + digits)) return false;
-    for (size_t i = 0; i < digits; i++) {
-        const int digit = digit_of(text[i]);
-        if (digit < 0) return false;
-        word = (word << 6 | (unsigned)digit) & 0xffffffU;
-        bits += 6;
-        if (bits < 8) continue;
-        bits -= 8;
-        const char byte = (char)(word >> bits & 0xff);
-        wr_text_add_n(out, &byte, 1);
-    }
-    return true;
-}
-
 /* What a URI names: data of its own, or a file beside or below. */
 static bool fetch(const Gltf *file, const char *uri, WrText *out, WrError *err)
 {
     const char *comma = strncmp(uri, "data:", 5) == 0 ? strchr(uri, ',') : NULL;
     if (strncmp(uri, "data:", 5) == 0) {
         const bool coded = comma && comma - uri >= 12 && memcmp(comma - 7, ";base64", 7) == 0;
-        return (coded && decode_base64(comma + 1, out)) ||
+        return (coded && wr_gltf_base64(comma + 1, out)) ||
                wr_fail(err, "%s: a data: URI is not of base64, or damaged", file->path);
     }
     WrText name = { 0 };
@@ -357,10 +281,10 @@ static bool fetch(const Gltf *file, const char *uri, WrText *out, WrError *err)
 static bool view_bytes(const Gltf *file, int view, WrText *out, WrError *err)
 {
     json_object *of = item_of(file, "bufferViews", view);
-    const int64_t index = index_in(of, "buffer", -1), from = index_in(of, "byteOffset", 0);
-    const int64_t length = index_in(of, "byteLength", -1);
+    const int64_t index = wr_gltf_index(of, "buffer", -1), from = wr_gltf_index(of, "byteOffset", 0);
+    const int64_t length = wr_gltf_index(of, "byteLength", -1);
     json_object *buffer = index < 0 ? NULL : item_of(file, "buffers", (int)index);
-    json_object *uri = member(buffer, "uri", json_type_string);
+    json_object *uri = wr_gltf_member(buffer, "uri", json_type_string);
     WrText fetched = { 0 };
     const char *bytes = file->bin;
     size_t have = file->bin_length;
@@ -385,8 +309,8 @@ bool wr_gltf_picture(const char *path, int image, char **bytes, size_t *length, 
     WrText out = { 0 };
     if (!open_gltf(path, &file, err)) return false;
     json_object *of = item_of(&file, "images", image);
-    json_object *uri = member(of, "uri", json_type_string);
-    const int64_t view = index_in(of, "bufferView", -1);
+    json_object *uri = wr_gltf_member(of, "uri", json_type_string);
+    const int64_t view = wr_gltf_index(of, "bufferView", -1);
     bool good = of || wr_fail(err, "%s: has no image %d", path, image);
     if (good && uri) good = fetch(&file, json_object_get_string(uri), &out, err);
     else if (good && view >= 0) good = view_bytes(&file, (int)view, &out, err);

@@ -1,14 +1,15 @@
 #include "image/mesh_make.h"
 
 #include "base/error.h"
-#include "base/memory.h"
 #include "base/text.h"
 #include "image/assimp.h"
+#include "image/gltf_mesh.h"
+#include "image/mesh_build.h"
 #include "image/module.h"
 #include "image/obj.h"
 #include "image/ply.h"
+#include "image/stl.h"
 
-#include <math.h>
 #include <string.h>
 
 static const WrAssimpTable *library(WrError *err)
@@ -26,85 +27,82 @@ bool wr_mesh_load(WrError *err)
     return library(err) != NULL;
 }
 
-static bool check_points(const float *points, int32_t count, WrError *err)
+/* ---- by the library ---- */
+
+static bool take_points(const WrAssimpTable *table, const WrAssimpMesh *mesh, WrMeshBuild *build,
+                        WrError *err)
 {
+    const int32_t count = table->points(mesh);
+    const double *points = table->point_data(mesh);
+    const float *looks = table->look_data(mesh); /* a normal and (u,v) of each */
+    if (!wr_mesh_build_reserve(build, count, table->triangles(mesh), err)) return false;
     for (int32_t i = 0; i < count; i++) {
-        const float *p = points + 3 * (size_t)i;
-        if (fabsf(p[0]) <= 1e30f && fabsf(p[1]) <= 1e30f && fabsf(p[2]) <= 1e30f) continue;
-        return wr_fail(err, "point %d is %g,%g,%g: must be finite, within 1e30 of 0", (int)i + 1,
-                       (double)p[0], (double)p[1], (double)p[2]);
+        const float *look = build->whole ? looks + 5 * (size_t)i : NULL;
+        if (!wr_mesh_build_point(build, points + 3 * (size_t)i, look, look ? look + 3 : NULL, err))
+            return false;
     }
     return true;
 }
 
-static void add(WrText *block, const void *from, size_t bytes)
+static bool take_triangles(const WrAssimpTable *table, const WrAssimpMesh *mesh, WrMeshBuild *build,
+                           WrError *err)
 {
-    wr_text_add_n(block, from, bytes);
+    const int32_t count = table->triangles(mesh), parts = table->parts(mesh);
+    const int32_t *corner = table->corner_data(mesh);
+    for (int32_t i = 0, part = 0; i < count; i++, corner += 3) {
+        const char *name;
+        for (; part < parts && table->part(mesh, part, &name) <= i; part++)
+            wr_mesh_build_part(build, name, strlen(name));
+        if (!wr_mesh_build_triangle(build, corner[0], corner[1], corner[2], err)) return false;
+    }
+    return true;
 }
 
-/* Normals, then (u,v), which the library's border has side by side. */
-static void add_looks(WrText *block, const float *looks, size_t points)
+static bool read_by_library(const void *bytes, size_t length, const char *ending,
+                            WrMeshBuild *build, WrError *err)
 {
-    for (size_t i = 0; i < points; i++) add(block, looks + 5 * i, 3 * sizeof *looks);
-    for (size_t i = 0; i < points; i++) add(block, looks + 5 * i + 3, 2 * sizeof *looks);
+    char reason[WR_ASSIMP_REASON] = "";
+    const WrAssimpTable *table = library(err);
+    if (!table) return false;
+    WrAssimpMesh *mesh = table->read(bytes, length, ending, WR_MESH_POINTS_MAX,
+                                     WR_MESH_TRIANGLES_MAX, build->whole, reason);
+    if (!mesh) {
+        build->memory = strcmp(reason, WR_ASSIMP_NO_MEMORY) == 0;
+        return wr_fail(err, "%s", reason);
+    }
+    const bool good =
+        take_points(table, mesh, build, err) && take_triangles(table, mesh, build, err);
+    table->close(mesh);
+    return good;
 }
 
-/* Neighbours of one name are one part; past the most that are told apart, all that follow. */
-static int32_t make_parts(const WrAssimpTable *table, const WrAssimpMesh *mesh, WrMeshPart *parts)
-{
-    const int32_t most = table->parts(mesh), end = table->triangles(mesh);
-    int32_t count = 0;
-    for (int32_t i = 0; i < most; i++) {
-        const char *name, *next;
-        WrMeshPart part = { .first = table->part(mesh, i, &name) };
-        part.count = (i + 1 < most ? table->part(mesh, i + 1, &next) : end) - part.first;
-        snprintf(part.name, sizeof part.name, "%s", name);
-        const bool same = count > 0 && strcmp(parts[count - 1].name, part.name) == 0;
-        if (part.count == 0) continue;
-        if (same || count == WR_MESH_PARTS_MAX) parts[count - 1].count += part.count;
-        else parts[count++] = part;
-    }
-    return count;
-}
+/* ---- all kinds ---- */
 
-static void add_whole(const WrAssimpTable *table, const WrAssimpMesh *mesh, WrMeshHead head,
-                      WrText *block)
+/* By the bytes where they say it, else by the ending; what has no reader of its own is the library's. */
+static bool read_kind(const void *bytes, size_t length, const char *ending, WrMeshBuild *build,
+                      WrError *err)
 {
-    WrMeshPart *parts = NULL;
-    const size_t points = (size_t)head.points, triangles = (size_t)head.triangles;
-    if (head.whole) {
-        parts = wr_alloc(WR_MESH_PARTS_MAX, sizeof *parts);
-        head.parts = make_parts(table, mesh, parts);
+    if (wr_ply_is(bytes, length) || strcmp(ending, "ply") == 0)
+        return wr_ply_read(bytes, length, build, err);
+    if (strcmp(ending, "stl") == 0) return wr_stl_read(bytes, length, build, err);
+    if ((strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0) && wr_gltf_is(bytes, length))
+        return wr_gltf_read(bytes, length, build, err);
+    if (!*ending || strcmp(ending, "obj") == 0) {
+        if (wr_obj_read(bytes, length, build)) return true;
+        const bool whole = build->whole;
+        wr_mesh_build_fini(build);
+        build->whole = whole;
     }
-    add(block, &head, sizeof head);
-    add(block, table->point_data(mesh), 12 * points);
-    add(block, table->corner_data(mesh), 12 * triangles);
-    if (head.whole) {
-        add_looks(block, table->look_data(mesh), points);
-        add(block, parts, (size_t)head.parts * sizeof *parts);
-    }
-    wr_free(parts);
+    return read_by_library(bytes, length, ending, build, err);
 }
 
 bool wr_mesh_make(const void *bytes, size_t length, const char *ending, bool whole, WrText *block,
                   bool *memory, WrError *err)
 {
-    char reason[WR_ASSIMP_REASON] = "";
-    if (!wr_ply_check(bytes, length, err)) return false;
-    const bool obj = !*ending || strcmp(ending, "obj") == 0;
-    if (obj && wr_obj_make(bytes, length, whole, block)) return true;
-    const WrAssimpTable *table = library(err);
-    if (!table) return false;
-    WrAssimpMesh *mesh = table->read(bytes, length, ending, WR_MESH_POINTS_MAX,
-                                     WR_MESH_TRIANGLES_MAX, whole, reason);
-    if (!mesh) {
-        if (memory) *memory = strcmp(reason, WR_ASSIMP_NO_MEMORY) == 0;
-        return wr_fail(err, "%s", reason);
-    }
-    const WrMeshHead head = { table->points(mesh), table->triangles(mesh), whole, 0 };
-    bool good = check_points(table->point_data(mesh), head.points, err);
-    if (good && head.triangles == 0) good = wr_fail(err, "holds no triangle");
-    if (good) add_whole(table, mesh, head, block);
-    table->close(mesh);
+    WrMeshBuild build = { .whole = whole };
+    const bool good = read_kind(bytes, length, ending, &build, err) &&
+                      wr_mesh_build_finish(&build, block, err);
+    if (memory) *memory = !good && build.memory;
+    wr_mesh_build_fini(&build);
     return good;
 }

@@ -12,6 +12,7 @@ typedef struct WrText WrText;
 
 /* A mesh as bytes: this, then the points, then the corners; of a whole one then the normals, the (u,v) and the parts. */
 typedef struct WrMeshHead {
+    double origin[3];
     int32_t points, triangles, whole, parts;
 } WrMeshHead;
 
