@@ -197,10 +197,35 @@ static void release(WrFileTarget *target)
     *target = (WrFileTarget){ 0 };
 }
 
+static bool is_control(char c)
+{
+    return ((unsigned char)c < 0x20 && c != '\t') || c == 0x7f;
+}
+
+/* Commands are lines of text, so a file whose name has a line break or another control character could not be opened again.
+   The message shows ? in its place, to stay one line. */
+static bool check_letters(const char *path, WrError *err)
+{
+    char shown[120];
+    snprintf(shown, sizeof shown, "%s", path);
+    unsigned found = 0;
+    for (const char *c = path; *c; c++)
+        if (is_control(*c)) found = (unsigned char)*c;
+    if (!found) return true;
+    for (char *c = shown; *c; c++)
+        if (is_control(*c)) *c = '?';
+    return wr_fail(
+        err,
+        "%s: the name of a file to write holds the control character 0x%02x, such as a line break; "
+        "choose a name without",
+        shown, found);
+}
+
 bool wr_file_begin(WrFileTarget *target, const char *path, WrError *err)
 {
     *target = (WrFileTarget){ 0 };
     if (!*path) return wr_fail(err, "the name of the file to write is empty");
+    if (!check_letters(path, err)) return false;
     wr_file_outlive_size_limit();
     char *real = resolve_links(path, err);
     if (!real) return false;

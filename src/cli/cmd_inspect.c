@@ -19,6 +19,7 @@
 #include "surface/patches.h"
 #include "surface/surface.h"
 #include "surface/terrain.h"
+#include "surface/triangles_at.h"
 
 #include <errno.h>
 #include <float.h>
@@ -26,7 +27,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Everything that the formulas know of one point, in double, object space. */
+/* All quantities of the formulas at one point, in double, object space. */
 typedef struct Quantities {
     double u, v, f, fu, fv, tilt_deg;
     WrSurfacePoint point;
@@ -43,23 +44,18 @@ static WrVec3 scaled_d(const Quantities *q)
     return v3_scale(v3_unit(q->d, zero), size <= DBL_MAX ? size : DBL_MAX);
 }
 
-/* field: the table of the object at hand. */
-static void compute(const WrScene *scene, const WrField *field, int face, double u, double v,
-                    Quantities *q)
+/* The object's place is in q->u, q->v and q->point. field: the table of the object. */
+static void compute(const WrScene *scene, const WrField *field, Quantities *q)
 {
+    const double u = q->u, v = q->v;
     WrSurfacePoint *p = &q->point;
-    *q = (Quantities){ .u = u, .v = v };
-    const WrPatches *ground = scene->shape.kind == WR_SURFACE_terrain && scene->triangles
-                                  ? scene->triangles->patches
-                                  : NULL;
-    if (ground) wr_terrain_at(ground, u, v, p);
-    else wr_surface_at(&scene->shape, face, u, v, p);
     wr_scene_slopes(scene, field, p, u, v, &q->f, &q->fu, &q->fv);
     q->a = wr_bump_axis(p->pu, p->pv, q->fu, q->fv);
     q->d = wr_bump_d(p->n_unit, p->pu, p->pv, q->fu, q->fv);
     q->turned = scene->bump == WR_BUMP_INVARIANT;
     q->d_prime = scaled_d(q);
-    const bool blinn = ground && scene->bump == WR_BUMP_EXACT; /* as pictures of it have it */
+    const bool blinn =
+        scene->triangles && scene->bump == WR_BUMP_EXACT; /* as pictures of it have it */
     q->n_perturbed = wr_bump_normal(blinn ? WR_BUMP_BLINN : scene->bump, p->n, p->n_unit, p->pu,
                                     p->pv, p->n_u, p->n_v, q->f, q->fu, q->fv);
     /* N as it was is n as it was, not N made unit anew, which may be off in the last digit. */
@@ -251,23 +247,74 @@ static bool parse_point(const char *text, double *u, double *v, WrError *err)
     return wr_fail(err, "%.60s: must be U,V, two numbers", text);
 }
 
+#define PLACES 64 /* of one (u,v), at most, that are printed */
+
+static void note_beyond(const WrShape *shape, double u, double v)
+{
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    const bool out_u = !info->closed_u && !(u >= 0 && u <= 1);
+    const bool out_v = !info->closed_v && !(v >= 0 && v <= 1);
+    char text[160];
+    if ((!out_u && !out_v) || wr_shape_endless(shape)) return;
+    snprintf(text, sizeof text, "--at %g,%g: the %s ends at 0 and 1; its formula was continued", u,
+             v, info->name);
+    wr_cli_note(text);
+}
+
+/* The places that have (u,v): of a mesh or a set of patches any number, else one. Returns how many there are, of which the
+ * first PLACES are in `out`. */
+static int64_t find_places(const WrCli *cli, const WrScene *scene, double u, double v,
+                           WrSurfacePoint out[PLACES])
+{
+    const WrTriangles *held = scene->triangles;
+    if (held && scene->shape.kind != WR_SURFACE_terrain) {
+        WrTrianglesPlace places[PLACES];
+        const int64_t count = wr_triangles_find(held, u, v, PLACES, places);
+        for (int i = 0; i < PLACES && i < count; i++) wr_triangles_at(held, &places[i], &out[i]);
+        return count;
+    }
+    note_beyond(&scene->shape, u, v);
+    if (held) wr_terrain_at(held->patches, u, v, &out[0]);
+    else
+        wr_surface_at(&scene->shape, wr_surface_face(&scene->shape, cli->face, u, v), u, v,
+                      &out[0]);
+    return 1;
+}
+
+static bool inspect_places(const WrCli *cli, const WrDocument *document, double u, double v,
+                           WrText *text, WrError *err)
+{
+    const WrScene *scene = document->scene;
+    WrSurfacePoint at[PLACES];
+    char note[120];
+    const int64_t count = find_places(cli, scene, u, v, at);
+    if (count == 0)
+        return wr_fail(err, "%g,%g: the %s has no place with these texture coordinates", u, v,
+                       wr_surfaces[scene->shape.kind]->name);
+    if (count > 1) {
+        snprintf(note, sizeof note, "--at %g,%g: %lld places have these texture coordinates", u, v,
+                 (long long)count);
+        wr_cli_note(note);
+    }
+    WrTables *tables = wr_document_tables(document, document->scene, NULL, cli->pool);
+    const WrField *field = wr_tables_at_hand(tables, document->scene, wr_document_field(document));
+    for (int i = 0; i < PLACES && i < count; i++) {
+        Quantities q = { .u = u, .v = v, .point = at[i] };
+        compute(scene, field, &q);
+        add_point(text, cli->json, scene, &q);
+    }
+    wr_tables_free(tables);
+    return true;
+}
+
 /* noise: of --noise, or NULL */
 static bool inspect_one(const WrCli *cli, const WrDocument *document, const WrNoiseMaker *noise,
                         const char *at, WrText *text, WrError *err)
 {
-    Quantities q;
     double u, v;
     if (!parse_point(at, &u, &v, err)) return false;
-    if (noise) {
-        add_noise(text, cli->json, noise, u, v);
-        return true;
-    }
-    WrTables *tables = wr_document_tables(document, document->scene, NULL, cli->pool);
-    const WrField *all = wr_document_field(document);
-    const int face = wr_surface_face(&document->scene->shape, cli->face, u, v);
-    compute(document->scene, wr_tables_at_hand(tables, document->scene, all), face, u, v, &q);
-    wr_tables_free(tables);
-    add_point(text, cli->json, document->scene, &q);
+    if (!noise) return inspect_places(cli, document, u, v, text, err);
+    add_noise(text, cli->json, noise, u, v);
     return true;
 }
 

@@ -13,6 +13,8 @@
 #include "surface/patches.h"
 #include "surface/triangles.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #define OVERLAP_CELLS 512 /* along u and v */
@@ -31,7 +33,29 @@ static WrTrianglePart *parts_of(const WrMesh *mesh)
     return parts;
 }
 
-static WrTriangles *read_triangles(const char *path, WrError *err)
+/* Places of a file that have been moved to the origin, and by how much. */
+static void note_origin(WrSession *session, const char *path, const WrMesh *mesh)
+{
+    WrText text = { 0 };
+    double away = 0;
+    for (int k = 0; k < 3; k++) away = fmax(away, fabs(mesh->origin[k]));
+    if (!(away > 0)) return;
+    wr_text_addf(&text, "%s: lies far from its file's origin: ", path);
+    for (int k = 0; k < 3; k++) {
+        if (k > 0) wr_text_add(&text, ",");
+        wr_text_add_number(&text, mesh->origin[k]);
+    }
+    wr_text_add(&text, " was subtracted from its points");
+    if (mesh->single)
+        wr_text_addf(&text,
+                     "; this format is read in single precision, so that relief below %.2g "
+                     "is lost: save it as PLY or OBJ",
+                     away * FLT_EPSILON);
+    wr_session_note(session, "%s", wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+static WrTriangles *read_triangles(WrSession *session, const char *path, WrError *err)
 {
     WrMesh mesh;
     if (!wr_mesh_read_whole(path, &mesh, err)) return NULL;
@@ -45,7 +69,8 @@ static WrTriangles *read_triangles(const char *path, WrError *err)
                                        .parts = parts,
                                        .part_count = mesh.part_count };
     WrTriangles *made = wr_triangles_new(&source, err);
-    if (!made) wr_error_prefix(err, "%s: ", path);
+    if (made) note_origin(session, path, &mesh);
+    else wr_error_prefix(err, "%s: ", path);
     wr_free(parts);
     wr_mesh_fini(&mesh);
     return made;
@@ -164,7 +189,7 @@ static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrSh
                               const char *path, WrError *err)
 {
     if (shape->kind == WR_SURFACE_terrain) return wr_terrain_read(session, path, shape, err);
-    if (shape->kind == WR_SURFACE_mesh) return read_triangles(path, err);
+    if (shape->kind == WR_SURFACE_mesh) return read_triangles(session, path, err);
     return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
 }
 

@@ -173,9 +173,11 @@ static bool read_material(const Gltf *file, json_object *material, WrGltfLook *l
     if ((scale && !is_number(scale)) || !(fabs(look->normal_scale) <= 100))
         return wr_fail(err, "%s: normalTexture scale %.40s: must be a number of -100..100",
                        file->path, json_object_to_json_string(scale));
-    look->base = image_of(file, material, wr_gltf_member(pbr, "baseColorTexture", json_type_object), "colours", look);
-    look->facets = image_of(file, material, wr_gltf_member(pbr, "metallicRoughnessTexture", json_type_object),
-                            "metalness and roughness", look);
+    look->base = image_of(file, material, wr_gltf_member(pbr, "baseColorTexture", json_type_object),
+                          "colours", look);
+    look->facets =
+        image_of(file, material, wr_gltf_member(pbr, "metallicRoughnessTexture", json_type_object),
+                 "metalness and roughness", look);
     look->normal = image_of(file, material, normal, "normals", look);
     leave_others(material, look);
     return true;
@@ -281,7 +283,8 @@ static bool fetch(const Gltf *file, const char *uri, WrText *out, WrError *err)
 static bool view_bytes(const Gltf *file, int view, WrText *out, WrError *err)
 {
     json_object *of = item_of(file, "bufferViews", view);
-    const int64_t index = wr_gltf_index(of, "buffer", -1), from = wr_gltf_index(of, "byteOffset", 0);
+    const int64_t index = wr_gltf_index(of, "buffer", -1),
+                  from = wr_gltf_index(of, "byteOffset", 0);
     const int64_t length = wr_gltf_index(of, "byteLength", -1);
     json_object *buffer = index < 0 ? NULL : item_of(file, "buffers", (int)index);
     json_object *uri = wr_gltf_member(buffer, "uri", json_type_string);

@@ -34,8 +34,9 @@ typedef struct Bytes {
 
 static json_object *item_of(const Gltf *file, const char *list, int64_t index)
 {
-    return index < 0 ? NULL
-                     : wr_gltf_element(wr_gltf_member(file->root, list, json_type_array), (int)index);
+    return index < 0
+               ? NULL
+               : wr_gltf_element(wr_gltf_member(file->root, list, json_type_array), (int)index);
 }
 
 /* ---- bytes ---- */
@@ -45,7 +46,8 @@ static bool find_buffer(Gltf *file, int64_t index, Bytes *out, WrError *err)
     json_object *buffer = item_of(file, "buffers", index);
     json_object *uri = wr_gltf_member(buffer, "uri", json_type_string);
     if (!buffer || index >= BUFFERS)
-        return wr_fail(err, "is damaged: it names buffer %lld, which is not there", (long long)index);
+        return wr_fail(err, "is damaged: it names buffer %lld, which is not there",
+                       (long long)index);
     if (!uri) {
         *out = (Bytes){ file->chunks.bin, file->chunks.bin_length };
         return (index == 0 && out->at) ||
@@ -53,8 +55,10 @@ static bool find_buffer(Gltf *file, int64_t index, Bytes *out, WrError *err)
     }
     const char *text = json_object_get_string(uri), *comma = strchr(text, ',');
     if (strncmp(text, "data:", 5) != 0)
-        return wr_fail(err, "cannot be read by itself: it keeps a part in another file, \"%.80s\"; "
-                            "save it as one file (.glb, .obj, .ply, .stl)", text);
+        return wr_fail(err,
+                       "cannot be read by itself: it keeps a part in another file, \"%.80s\"; "
+                       "save it as one file (.glb, .obj, .ply, .stl)",
+                       text);
     WrText *bytes = &file->buffers[index];
     if (!bytes->length && (!comma || !wr_gltf_base64(comma + 1, bytes)))
         return wr_fail(err, "is damaged: buffer %lld is not of base64", (long long)index);
@@ -70,13 +74,16 @@ static bool find_view(Gltf *file, int64_t index, Bytes *out, int64_t *stride, Wr
     const int64_t length = wr_gltf_index(view, "byteLength", -1);
     Bytes bytes = { 0 };
     if (!view || from < 0 || length < 0)
-        return wr_fail(err, "is damaged: bufferView %lld is not there, or has no length", (long long)index);
+        return wr_fail(err, "is damaged: bufferView %lld is not there, or has no length",
+                       (long long)index);
     if (all && json_object_object_get_ex(all, "EXT_meshopt_compression", &packed))
-        return wr_fail(err, "needs the extension EXT_meshopt_compression, which is not read; save it "
-                            "without compression");
+        return wr_fail(err,
+                       "needs the extension EXT_meshopt_compression, which is not read; save it "
+                       "without compression");
     if (!find_buffer(file, wr_gltf_index(view, "buffer", -1), &bytes, err)) return false;
     if ((size_t)from > bytes.length || (size_t)length > bytes.length - (size_t)from)
-        return wr_fail(err, "is damaged: bufferView %lld names bytes %lld to %lld of a buffer of %zu",
+        return wr_fail(err,
+                       "is damaged: bufferView %lld names bytes %lld to %lld of a buffer of %zu",
                        (long long)index, (long long)from, (long long)(from + length), bytes.length);
     *out = (Bytes){ bytes.at + from, (size_t)length };
     *stride = wr_gltf_index(view, "byteStride", 0);
@@ -121,14 +128,17 @@ static bool read_source(Gltf *file, Source source, double *out, WrError *err)
     const int64_t size = (int64_t)components[kind].bytes * source.parts;
     if (stride == 0) stride = size;
     if (stride < size || source.offset < 0 || (size_t)source.offset > bytes.length ||
-        (source.count > 0 && source.offset + stride * (source.count - 1) + size > (int64_t)bytes.length))
+        (source.count > 0 &&
+         source.offset + stride * (source.count - 1) + size > (int64_t)bytes.length))
         return wr_fail(err, "is damaged: %lld numbers do not fit into bufferView %lld of %zu bytes",
-                       (long long)(source.count * source.parts), (long long)source.view, bytes.length);
+                       (long long)(source.count * source.parts), (long long)source.view,
+                       bytes.length);
     const double most = source.normalised ? components[kind].most : 0;
     for (int64_t i = 0; i < source.count; i++)
         for (int k = 0; k < source.parts; k++) {
             const double x = component_at(bytes.at + source.offset + stride * i +
-                                              (int64_t)components[kind].bytes * k, source.type);
+                                              (int64_t)components[kind].bytes * k,
+                                          source.type);
             *out++ = !(most > 0) ? x : x < -most ? -1 : x / most;
         }
     return true;
@@ -142,7 +152,8 @@ static bool is_component(int64_t type)
 }
 
 /* The values that a sparse accessor has in place of others. */
-static bool read_sparse(Gltf *file, json_object *sparse, Source source, Numbers *numbers, WrError *err)
+static bool read_sparse(Gltf *file, json_object *sparse, Source source, Numbers *numbers,
+                        WrError *err)
 {
     json_object *where = wr_gltf_member(sparse, "indices", json_type_object);
     json_object *values = wr_gltf_member(sparse, "values", json_type_object);
@@ -188,8 +199,8 @@ static bool read_accessor(Gltf *file, int64_t index, int parts, Numbers *out, Wr
                             .normalised = json_object_get_boolean(normalised) };
     if (!kind || strcmp(json_object_get_string(kind), kinds[parts - 1]) != 0 ||
         !is_component(source.type) || source.count < 0)
-        return wr_fail(err, "is damaged: accessor %lld is not there, or not of type %s", (long long)index,
-                       kinds[parts - 1]);
+        return wr_fail(err, "is damaged: accessor %lld is not there, or not of type %s",
+                       (long long)index, kinds[parts - 1]);
     if (source.count > 3 * (int64_t)WR_MESH_POINTS_MAX)
         return wr_fail(err, "more than %d points", WR_MESH_POINTS_MAX);
     *out = (Numbers){ .count = source.count, .parts = parts };
@@ -248,9 +259,11 @@ static void own_matrix(json_object *node, double out[12])
     take_array(node, "rotation", 4, q);
     take_array(node, "scale", 3, scale);
     const double x = q[0], y = q[1], z = q[2], w = q[3];
-    const double turn[9] = { 1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
-                             2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
-                             2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y) };
+    const double turn[9] = { 1 - 2 * (y * y + z * z), 2 * (x * y - z * w),
+                             2 * (x * z + y * w),     2 * (x * y + z * w),
+                             1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+                             2 * (x * z - y * w),     2 * (y * z + x * w),
+                             1 - 2 * (x * x + y * y) };
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++)
             out[4 * row + column] = turn[3 * row + column] * scale[column];
@@ -297,8 +310,9 @@ static bool read_body(Gltf *file, json_object *primitive, Body *body, WrError *e
     const int64_t points = wr_gltf_index(attributes, "POSITION", -1);
     const int64_t corners = wr_gltf_index(primitive, "indices", -1);
     if (is_packed(file, primitive, attributes))
-        return wr_fail(err, "needs the extension KHR_draco_mesh_compression, which is not read; save it "
-                            "without compression");
+        return wr_fail(err,
+                       "needs the extension KHR_draco_mesh_compression, which is not read; save it "
+                       "without compression");
     if (points < 0) return true; /* nothing is shown of it */
     if (!read_accessor(file, points, 3, &body->points, err)) return false;
     const int64_t count = body->points.count;
@@ -315,22 +329,27 @@ static void move_uv(const double m[6], const double *uv, float out[2])
     out[1] = (float)(1 - (m[3] * uv[0] + m[4] * uv[1] + m[5]));
 }
 
-static bool add_points(WrMeshBuild *build, const Body *body, const double m[12], const double uv_m[6],
-                       WrError *err)
+static bool add_points(WrMeshBuild *build, const Body *body, const double m[12],
+                       const double uv_m[6], WrError *err)
 {
     double c[9];
     const double sign = cofactors(m, c) < 0 ? -1 : 1;
     if (!wr_mesh_build_reserve(build, body->points.count, 0, err)) return false;
     for (int64_t i = 0; i < body->points.count; i++) {
-        const double *p = body->points.at + 3 * i, *n = body->normals.at ? body->normals.at + 3 * i : NULL;
+        const double *p = body->points.at + 3 * i,
+                     *n = body->normals.at ? body->normals.at + 3 * i : NULL;
         double to[3];
         float normal[3] = { 0, 0, 0 }, uv[2];
         for (int row = 0; row < 3; row++) {
-            to[row] = m[4 * row] * p[0] + m[4 * row + 1] * p[1] + m[4 * row + 2] * p[2] + m[4 * row + 3];
-            if (n) normal[row] = (float)(sign * (c[3 * row] * n[0] + c[3 * row + 1] * n[1] + c[3 * row + 2] * n[2]));
+            to[row] =
+                m[4 * row] * p[0] + m[4 * row + 1] * p[1] + m[4 * row + 2] * p[2] + m[4 * row + 3];
+            if (n)
+                normal[row] = (float)(sign * (c[3 * row] * n[0] + c[3 * row + 1] * n[1] +
+                                              c[3 * row + 2] * n[2]));
         }
         if (body->uv.at) move_uv(uv_m, body->uv.at + 2 * i, uv);
-        if (!wr_mesh_build_point(build, to, n ? normal : NULL, body->uv.at ? uv : NULL, err)) return false;
+        if (!wr_mesh_build_point(build, to, n ? normal : NULL, body->uv.at ? uv : NULL, err))
+            return false;
     }
     return true;
 }
@@ -361,7 +380,8 @@ static bool add_triangles(Gltf *file, const Body *body, int64_t mode, int32_t fi
                                (long long)body->points.count - 1);
             to[k] = first + (int32_t)point;
         }
-        if (!wr_mesh_build_triangle(file->build, to[0], to[mirrored ? 2 : 1], to[mirrored ? 1 : 2], err))
+        if (!wr_mesh_build_triangle(file->build, to[0], to[mirrored ? 2 : 1], to[mirrored ? 1 : 2],
+                                    err))
             return false;
     }
     return true;
@@ -371,25 +391,29 @@ static bool add_triangles(Gltf *file, const Body *body, int64_t mode, int32_t fi
 static void name_part(Gltf *file, json_object *mesh, json_object *material)
 {
     json_object *name = wr_gltf_member(material, "name", json_type_string);
-    if (!name || !json_object_get_string_len(name)) name = wr_gltf_member(mesh, "name", json_type_string);
+    if (!name || !json_object_get_string_len(name))
+        name = wr_gltf_member(mesh, "name", json_type_string);
     const char *text = name ? json_object_get_string(name) : "";
     wr_mesh_build_part(file->build, text, strlen(text));
 }
 
-static bool add_body(Gltf *file, json_object *mesh, json_object *primitive, const double m[12], WrError *err)
+static bool add_body(Gltf *file, json_object *mesh, json_object *primitive, const double m[12],
+                     WrError *err)
 {
     json_object *material = item_of(file, "materials", wr_gltf_index(primitive, "material", -1));
     const int64_t mode = wr_gltf_index(primitive, "mode", 4);
     const int32_t first = file->build->point_count;
     double c[9], uv_m[6];
     Body body = { .points = { 0 } };
-    if (++file->bodies > BODIES_MOST) return wr_fail(err, "more than %d placings of meshes", BODIES_MOST);
+    if (++file->bodies > BODIES_MOST)
+        return wr_fail(err, "more than %d placings of meshes", BODIES_MOST);
     if (mode < 4 || mode > 6) return true; /* points and lines have no area */
     wr_gltf_transform(wr_gltf_mapped(material), uv_m);
     name_part(file, mesh, material);
-    bool good = read_body(file, primitive, &body, err) &&
-                (!body.points.at || (add_points(file->build, &body, m, uv_m, err) &&
-                                     add_triangles(file, &body, mode, first, cofactors(m, c) < 0, err)));
+    bool good =
+        read_body(file, primitive, &body, err) &&
+        (!body.points.at || (add_points(file->build, &body, m, uv_m, err) &&
+                             add_triangles(file, &body, mode, first, cofactors(m, c) < 0, err)));
     free_body(&body);
     return good;
 }
@@ -412,9 +436,11 @@ static bool enter(Walk *walk, json_object *list, const double to[12], WrError *e
     const size_t count = list ? json_object_array_length(list) : 0;
     for (size_t i = count; i-- > 0;) { /* the first is taken first */
         json_object *item = wr_gltf_element(list, (int)i);
-        const int64_t node = json_object_is_type(item, json_type_int) ? json_object_get_int64(item) : -1;
+        const int64_t node =
+            json_object_is_type(item, json_type_int) ? json_object_get_int64(item) : -1;
         if (node < 0 || node >= walk->nodes)
-            return wr_fail(err, "is damaged: it names node %lld, which is not there", (long long)node);
+            return wr_fail(err, "is damaged: it names node %lld, which is not there",
+                           (long long)node);
         if (walk->met[node])
             return wr_fail(err, "is damaged: node %lld stands in two places", (long long)node);
         walk->met[node] = true;
@@ -453,7 +479,8 @@ static json_object *roots_of(Gltf *file, int64_t nodes)
     json_object *out = json_object_new_array();
     bool *child = wr_alloc((size_t)nodes + 1, sizeof *child);
     for (int64_t i = 0; i < nodes; i++) {
-        json_object *list = wr_gltf_member(item_of(file, "nodes", i), "children", json_type_array), *item;
+        json_object *list = wr_gltf_member(item_of(file, "nodes", i), "children", json_type_array),
+                    *item;
         for (int k = 0; (item = wr_gltf_element(list, k)); k++) {
             const int64_t at = json_object_get_int64(item);
             if (at >= 0 && at < nodes) child[at] = true;
@@ -487,8 +514,10 @@ static bool add_nodes(Gltf *file, WrError *err)
 static bool is_harmless(const char *name)
 {
     static const char *const begins[] = {
-        "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_", "KHR_xmp",
-        "KHR_animation_", "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression"
+        "KHR_materials_",         "KHR_texture_",          "EXT_texture_",
+        "MSFT_texture_",          "KHR_lights_",           "KHR_xmp",
+        "KHR_animation_",         "KHR_mesh_quantization", "KHR_draco_mesh_compression",
+        "EXT_meshopt_compression"
     }; /* the last two are refused where a mesh needs them */
     for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
         if (strncmp(name, begins[i], strlen(begins[i])) == 0) return true;
@@ -499,9 +528,11 @@ static bool check_extensions(Gltf *file, WrError *err)
 {
     json_object *list = wr_gltf_member(file->root, "extensionsRequired", json_type_array), *item;
     for (int i = 0; (item = wr_gltf_element(list, i)); i++) {
-        const char *name = json_object_is_type(item, json_type_string) ? json_object_get_string(item) : "";
+        const char *name =
+            json_object_is_type(item, json_type_string) ? json_object_get_string(item) : "";
         if (!is_harmless(name))
-            return wr_fail(err, "needs the extension %.60s, which is not read; save it without", name);
+            return wr_fail(err, "needs the extension %.60s, which is not read; save it without",
+                           name);
     }
     return true;
 }

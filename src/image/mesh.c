@@ -51,6 +51,7 @@ static bool check_block(const char *block, size_t length, WrMesh *mesh)
     mesh->corners = (const int32_t(*)[3])(const void *)corners;
     mesh->point_count = head.points;
     mesh->triangle_count = head.triangles;
+    mesh->single = head.single != 0;
     for (int k = 0; k < 3; k++) {
         if (!(fabs(head.origin[k]) <= 1e30)) return false;
         mesh->origin[k] = head.origin[k];

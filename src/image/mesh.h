@@ -22,7 +22,8 @@ typedef struct WrMeshPart {
 /* All that a file holds, each part where the file puts it, in the file's own unit and axes. Where a body lies so far from
    the file's origin that 32-bit floats would round its relief, `origin` has been subtracted from its coordinates. */
 typedef struct WrMesh {
-    double origin[3];            /* add it to get the file's coordinates; 0,0,0 of a body that is near */
+    double origin[3]; /* add it to get the file's coordinates; 0,0,0 of a body that is near */
+    bool single;      /* the coordinates were read as 32-bit floats */
     const float (*points)[3];    /* [point_count] x, y, z; finite, within 1e30 of 0 */
     const int32_t (*corners)[3]; /* [triangle_count] indices of points; polygons are cut up */
     int32_t point_count, triangle_count;

@@ -60,8 +60,8 @@ static bool points_room(WrMeshBuild *build, int64_t more, WrError *err)
     const size_t room = doubled(build->point_room, need, WR_MESH_POINTS_MAX);
     const int32_t count = build->point_count;
     if (!GROW(build, points, count, room, err) || !GROW(build, next, count, room, err) ||
-        (build->whole && (!GROW(build, normals, count, room, err) ||
-                          !GROW(build, uv, count, room, err))))
+        (build->whole &&
+         (!GROW(build, normals, count, room, err) || !GROW(build, uv, count, room, err))))
         return false;
     build->point_room = room;
     return true;
@@ -150,7 +150,8 @@ static bool count_in_part(WrMeshBuild *build, WrError *err)
 
 bool wr_mesh_build_triangle(WrMeshBuild *build, int32_t a, int32_t b, int32_t c, WrError *err)
 {
-    if (!triangles_room(build, 1, err) || (build->whole && !count_in_part(build, err))) return false;
+    if (!triangles_room(build, 1, err) || (build->whole && !count_in_part(build, err)))
+        return false;
     int32_t *to = build->corners[build->triangle_count++];
     to[0] = a, to[1] = b, to[2] = c;
     return true;
@@ -269,8 +270,9 @@ static bool clip_ears(WrMeshBuild *build, const int32_t *c, const Flat *p, int32
     for (int32_t i = 0; i < count; i++) left[i] = i;
     for (int32_t n = count, i = 0, tried = 0; n >= 3;) {
         if (build->work > WORK_MOST)
-            return wr_fail(err, "a dented polygon of %d corners would take too long to cut; "
-                                "save triangles",
+            return wr_fail(err,
+                           "a dented polygon of %d corners would take too long to cut; "
+                           "save triangles",
                            (int)count);
         if (n > 3 && tried < n && !is_ear(build, p, left, n, i)) {
             tried++;
@@ -358,6 +360,7 @@ bool wr_mesh_build_finish(const WrMeshBuild *build, WrText *block, WrError *err)
     WrMeshHead head = { .points = build->point_count,
                         .triangles = build->triangle_count,
                         .whole = build->whole,
+                        .single = build->single,
                         .parts = build->whole ? build->part_count : 0 };
     find_origin(build, head.origin);
     add(block, &head, sizeof head);

@@ -15,8 +15,9 @@ typedef struct WrText WrText;
 
 /* Zero-initialise, set `whole`; fini frees. */
 typedef struct WrMeshBuild {
-    bool whole;  /* with normals, (u,v) and parts; else those are dropped */
-    bool memory; /* a failure was one of memory */
+    bool whole;              /* with normals, (u,v) and parts; else those are dropped */
+    bool single;             /* the coordinates were 32-bit floats already */
+    bool memory;             /* a failure was one of memory */
     char part[WR_MESH_NAME]; /* of the triangles that follow; set by wr_mesh_build_part */
     double (*points)[3];
     float (*normals)[3]; /* only of a whole one; 0: none */

@@ -33,6 +33,7 @@ static bool take_points(const WrAssimpTable *table, const WrAssimpMesh *mesh, Wr
                         WrError *err)
 {
     const int32_t count = table->points(mesh);
+    build->single = true;
     const double *points = table->point_data(mesh);
     const float *looks = table->look_data(mesh); /* a normal and (u,v) of each */
     if (!wr_mesh_build_reserve(build, count, table->triangles(mesh), err)) return false;
@@ -100,8 +101,8 @@ bool wr_mesh_make(const void *bytes, size_t length, const char *ending, bool who
                   bool *memory, WrError *err)
 {
     WrMeshBuild build = { .whole = whole };
-    const bool good = read_kind(bytes, length, ending, &build, err) &&
-                      wr_mesh_build_finish(&build, block, err);
+    const bool good =
+        read_kind(bytes, length, ending, &build, err) && wr_mesh_build_finish(&build, block, err);
     if (memory) *memory = !good && build.memory;
     wr_mesh_build_fini(&build);
     return good;

@@ -13,7 +13,7 @@ typedef struct WrText WrText;
 /* A mesh as bytes: this, then the points, then the corners; of a whole one then the normals, the (u,v) and the parts. */
 typedef struct WrMeshHead {
     double origin[3];
-    int32_t points, triangles, whole, parts;
+    int32_t points, triangles, whole, parts, single, unused;
 } WrMeshHead;
 
 #define WR_MESH_PARTS_MAX 4096

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define NOTHING (-1)
-#define CORNERS_MOST 65536           /* of one polygon */
+#define CORNERS_MOST 65536            /* of one polygon */
 #define NO_MATERIAL "DefaultMaterial" /* as good as none */
 
 /* Indices of a place, of (u,v) and of a normal, or NOTHING. */
@@ -22,7 +22,7 @@ typedef struct Obj {
     double (*v)[3];
     float (*vt)[2], (*vn)[3];
     int32_t v_count, vt_count, vn_count, face_count;
-    int32_t *first; /* of each place: 1 + its latest point */
+    int32_t *first;   /* of each place: 1 + its latest point */
     int32_t *polygon; /* [CORNERS_MOST] */
     char object[WR_MESH_NAME], material[WR_MESH_NAME];
 } Obj;
@@ -165,9 +165,9 @@ static bool read_face(Obj *obj, WrScan *line)
     const char *name = obj->material[0] ? obj->material : obj->object;
     for (; line->at < line->end; count++) {
         if (count == CORNERS_MOST || !take_corner(obj, line, &c)) return false;
-        obj->polygon[count] = wr_mesh_build_wedge(
-            obj->build, &obj->first[c.v], obj->v[c.v], c.vn < 0 ? NULL : obj->vn[c.vn],
-            c.vt < 0 ? NULL : obj->vt[c.vt], NULL);
+        obj->polygon[count] = wr_mesh_build_wedge(obj->build, &obj->first[c.v], obj->v[c.v],
+                                                  c.vn < 0 ? NULL : obj->vn[c.vn],
+                                                  c.vt < 0 ? NULL : obj->vt[c.vt], NULL);
         if (obj->polygon[count] < 0) return false;
     }
     if (count < 3) return false;
@@ -210,7 +210,9 @@ static bool read_line(Obj *obj, WrScan line)
     static const struct {
         const char *word;
         bool (*read)(Obj *obj, WrScan *line);
-    } kinds[] = { { "f", read_face }, { "v", read_place }, { "vt", read_uv }, { "vn", read_normal } };
+    } kinds[] = {
+        { "f", read_face }, { "v", read_place }, { "vt", read_uv }, { "vn", read_normal }
+    };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         if (!take_word(&line, kinds[i].word)) continue;
         cut_remark(&line);

@@ -22,8 +22,8 @@ typedef enum Type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES 
 static const struct {
     const char *name, *other;
     int bytes;
-} types[TYPES] = { { "char", "int8", 1 },     { "uchar", "uint8", 1 },    { "short", "int16", 2 },
-                   { "ushort", "uint16", 2 }, { "int", "int32", 4 },      { "uint", "uint32", 4 },
+} types[TYPES] = { { "char", "int8", 1 },     { "uchar", "uint8", 1 },   { "short", "int16", 2 },
+                   { "ushort", "uint16", 2 }, { "int", "int32", 4 },     { "uint", "uint32", 4 },
                    { "float", "float32", 4 }, { "double", "float64", 8 } };
 
 /* What a property is used as; a number of `Role` is its place in the values of an entry. */
@@ -126,8 +126,10 @@ static bool find_type(const char *name, Type *type, WrError *err)
             *type = (Type)i;
             return true;
         }
-    return wr_fail(err, "is damaged: its header has a property of type \"%s\"; types are char, uchar, "
-                        "short, ushort, int, uint, float, double", name);
+    return wr_fail(err,
+                   "is damaged: its header has a property of type \"%s\"; types are char, uchar, "
+                   "short, ushort, int, uint, float, double",
+                   name);
 }
 
 static bool read_format(Ply *ply, WrScan *line, WrError *err)
@@ -137,8 +139,10 @@ static bool read_format(Ply *ply, WrScan *line, WrError *err)
     ply->text = strcmp(kind, "ascii") == 0;
     ply->big = strcmp(kind, "binary_big_endian") == 0;
     return ply->text || ply->big || strcmp(kind, "binary_little_endian") == 0 ||
-           wr_fail(err, "is damaged: format \"%s\": must be ascii, binary_little_endian or "
-                        "binary_big_endian", kind);
+           wr_fail(err,
+                   "is damaged: format \"%s\": must be ascii, binary_little_endian or "
+                   "binary_big_endian",
+                   kind);
 }
 
 static bool read_element(Ply *ply, WrScan *line, WrError *err)
@@ -152,7 +156,8 @@ static bool read_element(Ply *ply, WrScan *line, WrError *err)
     if (!next_word(line, element->name) || !next_word(line, count) ||
         !wr_number_parse(count, strlen(count), &value) || !(value >= 0 && value <= 1e15) ||
         value > floor(value))
-        return wr_fail(err, "is damaged: element %d of its header has no name or no count", ply->element_count);
+        return wr_fail(err, "is damaged: element %d of its header has no name or no count",
+                       ply->element_count);
     element->count = (int64_t)value;
     return true;
 }
@@ -172,10 +177,12 @@ static bool read_property(Ply *ply, WrScan *line, WrError *err)
     property->list = whole && strcmp(type, "list") == 0;
     if (property->list) whole = next_word(line, count) && next_word(line, type);
     if (!whole || !next_word(line, name))
-        return wr_fail(err, "is damaged: element %s of its header has a property without type or name", element->name);
+        return wr_fail(err,
+                       "is damaged: element %s of its header has a property without type or name",
+                       element->name);
     for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
-        if (strcmp(element->name, roles[i].element) == 0 &&
-            strcmp(name, roles[i].property) == 0 && property->list == (roles[i].role >= CORNERS))
+        if (strcmp(element->name, roles[i].element) == 0 && strcmp(name, roles[i].property) == 0 &&
+            property->list == (roles[i].role >= CORNERS))
             property->role = roles[i].role;
     return find_type(type, &property->type, err) &&
            (!property->list || find_type(count, &property->count, err));
@@ -257,7 +264,8 @@ static bool take_length(Ply *ply, const Property *property, size_t *out, WrError
     double count = 0;
     if (!take_value(ply, property->count, &count, err)) return false;
     const double least = ply->text ? 2 : types[property->type].bytes; /* a digit and a blank */
-    if (!(count >= 0) || count > floor(count) || (count - (ply->text ? 1 : 0)) * least > (double)left_of(ply))
+    if (!(count >= 0) || count > floor(count) ||
+        (count - (ply->text ? 1 : 0)) * least > (double)left_of(ply))
         return wr_fail(err, "is damaged: %s %lld has a list of %g numbers, with %zu bytes left",
                        ply->element->name, (long long)ply->entry, count, left_of(ply));
     *out = (size_t)count;

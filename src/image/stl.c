@@ -8,8 +8,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#define HEAD 84   /* bytes: a title of 80, the count of triangles */
-#define RECORD 50 /* bytes: a normal, three points, two bytes of no meaning */
+#define HEAD 84    /* bytes: a title of 80, the count of triangles */
+#define RECORD 50  /* bytes: a normal, three points, two bytes of no meaning */
 #define CORNERS 64 /* of a facet that is written out; the format has 3 */
 
 /* ---- binary ---- */
@@ -44,10 +44,12 @@ static bool add_record(WrMeshBuild *build, const char *at, WrError *err)
 static bool read_binary(const char *bytes, size_t length, WrMeshBuild *build, WrError *err)
 {
     if (length < HEAD)
-        return wr_fail(err, "is cut off: %zu bytes, where an STL file has %d and more", length, HEAD);
+        return wr_fail(err, "is cut off: %zu bytes, where an STL file has %d and more", length,
+                       HEAD);
     const uint32_t count = number_at(bytes + 80);
     if (count > (length - HEAD) / RECORD)
-        return wr_fail(err, "says that it holds %u triangles in %zu bytes; it is damaged or cut off",
+        return wr_fail(err,
+                       "says that it holds %u triangles in %zu bytes; it is damaged or cut off",
                        (unsigned)count, length - HEAD);
     if (!wr_mesh_build_reserve(build, 3 * (int64_t)count, count, err)) return false;
     for (uint32_t i = 0; i < count; i++)
@@ -115,8 +117,8 @@ static bool add_vertex(Stl *stl, WrError *err)
     if (stl->facet == 0) return wr_fail(err, "is damaged: it has a vertex before any facet");
     if (!take_three(stl, "vertex", p, err)) return false;
     if (stl->count == CORNERS)
-        return wr_fail(err, "is damaged: facet %lld has more than %d corners", (long long)stl->facet,
-                       CORNERS);
+        return wr_fail(err, "is damaged: facet %lld has more than %d corners",
+                       (long long)stl->facet, CORNERS);
     stl->corners[stl->count++] = stl->build->point_count;
     return wr_mesh_build_point(stl->build, p, stl->normal, NULL, err);
 }
@@ -124,8 +126,8 @@ static bool add_vertex(Stl *stl, WrError *err)
 static bool end_facet(Stl *stl, WrError *err)
 {
     if (stl->count < 3)
-        return wr_fail(err, "is damaged: facet %lld has %d corners: must be 3", (long long)stl->facet,
-                       (int)stl->count);
+        return wr_fail(err, "is damaged: facet %lld has %d corners: must be 3",
+                       (long long)stl->facet, (int)stl->count);
     const bool good = wr_mesh_build_polygon(stl->build, stl->corners, stl->count, err);
     stl->count = 0;
     return good;

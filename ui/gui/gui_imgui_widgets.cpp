@@ -231,7 +231,8 @@ static double rested()
 static bool wants_tip(ImGuiID id, const char *text)
 {
     if (text && wr_gui_tells_all) wr_gui_said(text);
-    if (!text || !text[0] || !(wr_gui_focused(id) || ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)))
+    if (!text || !text[0] ||
+        !(wr_gui_focused(id) || ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)))
         return false;
     if (ImGui::IsMouseDown(0)) return false;
     const bool rests = rested() >= (double)TIP_SECONDS;
