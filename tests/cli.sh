@@ -74,6 +74,21 @@ expect 1 inspect --face 7
 expect 1 inspect --face 1
 expect 1 inspect --at 1
 expect 1 inspect --at 0.5,x
+expect 1 render -o $'a\nb.png'
+has err 'a?b.png: the name of a file to write holds the control character 0x0a'
+[ ! -e $'a\nb.png' ] || complain 'a file whose name has a line break was written'
+expect 0 inspect --at 1.5,0.5 --json
+has err 'the plane ends at 0 and 1'
+# a rectangle of 2 x 1 whose left half and right half have the same (u,v): two places
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt .5 0\nvt .5 1\nvt 0 1\n%s\n%s\n' \
+    'f 1/1 2/2 5/3 4/4' 'f 2/1 3/2 6/3 5/4' >twice.obj
+expect 0 inspect --at 0.25,0.25 --json --do 'surface mesh file=twice.obj'
+[ "$(jq -c .P out | tr '\n' ' ')" = '[0.5,0.25,0] [1.5,0.25,0] ' ] || complain "places of a mesh: $(cat out)"
+[ "$(jq -c .Pu out | sort -u)" = '[2,0,0]' ] || complain "Pu of a mesh: $(cat out)"
+has err '2 places have these texture coordinates'
+expect 1 inspect --at 0.75,0.25 --do 'surface mesh file=twice.obj'
+has err 'no place with these texture coordinates'
+rm twice.obj
 expect 1 export --as nosuch -o a.png
 has err 'nosuch'
 expect 1 export --as height nosuch=1 -o a.png
