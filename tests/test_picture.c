@@ -3,6 +3,7 @@
 #include "generate_help.h"
 
 #include "generate/picture.h"
+#include "image/fill_missing.h"
 #include "image/image.h"
 
 static const WrWrap ring[] = { WR_WRAP_PERIODIC, WR_WRAP_PERIODIC };
@@ -152,7 +153,7 @@ static void holes_take_heights_between_those_around_them(void **state)
     for (int j = 10; j < 20; j++)
         for (int i = 20; i < 30; i++) s.z[j * 50 + i] = NAN;
     s.z[0] = NAN;
-    assert_int_equal(wr_picture_fill(&s, NULL), 101);
+    assert_int_equal(wr_fill_missing(s.width, s.height, s.z, NULL), 101);
     for (int j = 0; j < 37; j++)
         for (int i = 0; i < 50; i++) {
             bool hole = (i >= 20 && i < 30 && j >= 10 && j < 20) || (i == 0 && j == 0);
@@ -167,9 +168,9 @@ static void a_picture_of_holes_is_told(void **state)
     (void)state;
     WrSheet s = ground_of(5, 4, 0.01);
     for (int k = 0; k < 20; k++) s.z[k] = NAN;
-    assert_int_equal(wr_picture_fill(&s, NULL), -1);
+    assert_int_equal(wr_fill_missing(s.width, s.height, s.z, NULL), -1);
     s.z[7] = 3.0;
-    assert_int_equal(wr_picture_fill(&s, NULL), 19);
+    assert_int_equal(wr_fill_missing(s.width, s.height, s.z, NULL), 19);
     for (int k = 0; k < 20; k++) assert_true(s.z[k] == 3.0);
     wr_sheet_fini(&s);
 }

@@ -294,6 +294,20 @@ static bool check_read(WrCodecReader &reader, bool ok, char *reason)
     return fail(reason, message, reader.path);
 }
 
+/* The library's reader of FITS counts rows from 1: row 0 lies beyond the file's last, and its first was never read. */
+static bool read_fits_rows(WrCodecReader &reader, int part, int top, int rows, int channels,
+                           TypeDesc type, void *out)
+{
+    const ImageSpec &spec = reader.specs[static_cast<size_t>(part)];
+    const size_t row =
+        static_cast<size_t>(spec.width) * static_cast<size_t>(channels) * type.size();
+    bool ok = channels == spec.nchannels && reader.in->seek_subimage(part, 0);
+    for (int j = 0; ok && j < rows; j++)
+        ok = reader.in->read_scanline(top + j + 1, 0, type,
+                                      static_cast<char *>(out) + static_cast<size_t>(j) * row);
+    return ok;
+}
+
 /* Rows [y, y + rows) of the data window. */
 static bool read_band(WrCodecReader &reader, int part, int y, int rows, int channels, float *out,
                       char *reason)
@@ -311,6 +325,8 @@ static bool read_band(WrCodecReader &reader, int part, int y, int rows, int chan
     if (spec.tile_width)
         ok = reader.in->read_tiles(subimage, level, spec.x, spec.x + spec.width, top, top + rows,
                                    spec.z, spec.z + 1, 0, channels, values.type, to);
+    else if (!std::strcmp(reader.in->format_name(), "fits"))
+        ok = read_fits_rows(reader, part, top, rows, channels, values.type, to);
     else
         ok = reader.in->read_scanlines(subimage, level, top, top + rows, spec.z, 0, channels,
                                        values.type, to);
