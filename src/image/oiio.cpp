@@ -133,7 +133,10 @@ static bool choose_values(const WrCodecReader &reader, const ImageSpec &spec, Va
     const int directory = reader.levels ? 0 : static_cast<int>(reader.parts.size());
     if (format == "tiff" && !choose_tiff(spec, reader.fd, directory, values, note, problem))
         return fail(reason, problem);
-    choose_window(spec, format, values, part.width, part.height, note);
+    const ImageSpec &first = reader.specs.empty() ? spec : reader.specs[0];
+    const bool shares = first.x == spec.x && first.y == spec.y && first.width == spec.width &&
+                        first.height == spec.height;
+    choose_window(spec, shares ? format : "", values, part.width, part.height, note);
     if (part.width <= WR_IMAGE_MAX && part.height <= WR_IMAGE_MAX) return true;
     return fail(reason, "display window of " + size_text(part.width, part.height) +
                             ": each side must be 1.." + std::to_string(WR_IMAGE_MAX));

@@ -137,7 +137,9 @@ inline std::string size_text(int width, int height)
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-/* OpenEXR: the picture is the display window; pixels are stored of the data window, which may be smaller or larger. */
+/* OpenEXR: the picture is the display window; pixels are stored of the data window, which may be smaller or larger. All parts
+   of a file share one display window, so it counts only where a part has the first one's data window: others, such as those
+   of our documents, are pictures of their own size. */
 inline void choose_window(const OIIO::ImageSpec &spec, const std::string &format, Values &values,
                           int &width, int &height, std::string &note)
 {
