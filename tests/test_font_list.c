@@ -38,7 +38,8 @@ static void copy_damaged(const char *from, const char *to, int every)
     if (!wr_file_read(from, 1 << 24, &bytes, &length, &err)) fail_msg("%s", err.text);
     for (size_t i = 0; every > 0 && i < length; i += (size_t)every) bytes[i] ^= 0x5a;
     if (every < 0) length /= 3;
-    FILE *file = fopen(to, "wb"); /* other programs write names with line breaks; this one refuses to */
+    FILE *file =
+        fopen(to, "wb"); /* other programs write names with line breaks; this one refuses to */
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, length, file), length);
     fclose(file);
