@@ -180,6 +180,21 @@ static void missing_elevations_are_filled(void **state)
     wr_image_free(image);
 }
 
+/* Three voids in ground of 100 to 381: -32768 in 32 bits without a tag; the tag "nan"; the least float, which the tag gives
+   with six digits. */
+static void no_data_is_found_however_it_is_written(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "void_int32.tif", "no_data_nan.tif", "no_data_short.tif" };
+    const WrImageWish plain = { 0 };
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        WrImage *image = read_case(names[k], &plain);
+        check_range(image, 100, 381);
+        assert_int_equal(image->filled, 3);
+        wr_image_free(image);
+    }
+}
+
 /* IDs 0 to 97; and a FITS header with BZERO 32768: the stored -25408, -27276 are 7360, 5492. */
 static void integers_are_the_numbers_of_their_header(void **state)
 {
@@ -238,6 +253,7 @@ int main(void)
         cmocka_unit_test(smallest_is_white_at_every_depth),
         cmocka_unit_test(a_depth_that_is_not_read_is_named),
         cmocka_unit_test(missing_elevations_are_filled),
+        cmocka_unit_test(no_data_is_found_however_it_is_written),
         cmocka_unit_test(integers_are_the_numbers_of_their_header),
         cmocka_unit_test(an_exr_is_its_display_window),
         cmocka_unit_test(webp_is_turned_and_run_length_bmp_read),

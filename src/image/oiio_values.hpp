@@ -54,8 +54,11 @@ inline double number_of(const OIIO::ImageSpec &spec, const char *name, double fa
     const OIIO::ParamValue *found = spec.find_attribute(name);
     if (!found) return fallback;
     const bool real = found->type() == OIIO::TypeFloat;
-    const double value = real ? static_cast<double>(found->get_float())
-                              : std::strtod(found->get_string().c_str(), nullptr);
+    std::string text = real ? "" : found->get_string();
+    for (char &letter : text) /* FITS may write an exponent as Fortran does: 1.0D1 */
+        if (letter == 'D' || letter == 'd') letter = 'E';
+    const double value =
+        real ? static_cast<double>(found->get_float()) : std::strtod(text.c_str(), nullptr);
     return std::isfinite(value) ? value : fallback;
 }
 
@@ -118,14 +121,14 @@ inline bool choose_tiff(const OIIO::ImageSpec &spec, int fd, int directory, Valu
     }
     char *end = nullptr;
     const double no_data = text.empty() ? 0.0 : std::strtod(text.c_str(), &end);
-    if (end && end != text.c_str() && !std::isnan(no_data)) {
+    if (end && end != text.c_str()) { /* "nan": what is NaN is missing */
         values.has_no_data = true;
         values.no_data = no_data;
         if (values.divisor > 0.0) { /* compared after the division */
             values.no_data =
                 values.invert ? 1.0 - no_data / values.divisor : no_data / values.divisor;
         }
-    } else if (spec.format == OIIO::TypeDesc::INT16) {
+    } else if (spec.format == OIIO::TypeDesc::INT16 || spec.format == OIIO::TypeDesc::INT32) {
         values.has_no_data = true; /* SRTM and most elevation models */
         values.no_data = -32768.0;
     }
@@ -157,6 +160,13 @@ inline void choose_window(const OIIO::ImageSpec &spec, const std::string &format
            std::to_string(values.x) + "," + std::to_string(values.y) +
            ", is not its display window, " + size_text(width, height) +
            ": cut to it, and 0 where there is no data";
+}
+
+/* GDAL writes the largest floats with few digits: beyond 1e30 the sign decides. */
+inline bool is_no_data(float x, double no_data)
+{
+    if (std::fabs(no_data) > 1e30) return no_data > 0.0 ? x > 1e30f : x < -1e30f;
+    return x == static_cast<float>(no_data);
 }
 
 /* Rows as the library gives them become values of WrImage. */
@@ -206,8 +216,7 @@ inline void decode_values(const void *codes, size_t pixels, int channels, const 
         if (!values.restore.empty() && values.restore[static_cast<size_t>(c)] > 0.0f)
             x = std::rint(x * values.restore[static_cast<size_t>(c)]);
         if (c == values.alpha ? values.restore_alpha : values.invert) x = 1.0f - x;
-        if (values.has_no_data && c != values.alpha && x == static_cast<float>(values.no_data))
-            x = NAN;
+        if (values.has_no_data && c != values.alpha && is_no_data(x, values.no_data)) x = NAN;
         else if (values.scale != 1.0 || values.offset != 0.0)
             x = static_cast<float>(values.scale * static_cast<double>(x) + values.offset);
         out[i] = x;
