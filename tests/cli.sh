@@ -54,6 +54,44 @@ expect 2 rendr
 has err 'did you mean render'
 expect 2 render --sise 4x4 -o a.png
 has err 'did you mean --size'
+expect 2 rendr nosuch.wrinkle -o a.png --size 4x4
+has err 'did you mean render'
+expect 2 dab 0.5,0.5
+has err "it is a command of scripts: \`wrinkle render --do 'dab"
+expect 2 render --out a.png
+has err 'did you mean -o, --output'
+expect 2 check --jsn a.png
+has err 'did you mean --json'
+expect 2 bench --quik
+has err 'did you mean --quick'
+expect 2 export --size 4x4
+has err 'render, explain, accuracy'
+expect 1 export --as hieght -o a.png
+has err 'did you mean height?'
+expect 1 export --as normal -o a.png
+has err 'did you mean normal+y or normal-y?'
+expect 1 check --as nromal a.png
+has err 'did you mean normal?'
+expect 1 check --coding sgined a.png
+has err 'did you mean signed?'
+expect 1 accuracy --axis lihgt
+has err 'did you mean light?'
+expect 1 inspect --isa v33
+has err 'did you mean v3?'
+
+# Each option of each subcommand with two letters swapped, one missing, one doubled: the right one is suggested.
+while read -r command name; do
+    for typed in "${name:0:3}${name:4:1}${name:3:1}${name:5}" "${name:0:3}${name:4}" "${name:0:3}${name:3:1}${name:3}"; do
+        grep -qE -- "(^  |, )$typed( |\$)" "help.$command" && continue
+        expect 2 "$command" "$typed"
+        grep -qE -- "did you mean [^?]*$name|has no option $typed " err || complain "$command $typed: $(cat err)"
+    done
+done < <(for command in run render export check inspect explain accuracy recover brushes help; do
+    "$program" "$command" --help >"help.$command"
+    grep -oE '^  (-o, )?--[a-z-]+' "help.$command" | sed "s/.*--/$command --/"
+done)
+rm -f help.*
+
 expect 2 render
 has err '-o OUT'
 expect 2 render -o
@@ -109,7 +147,9 @@ expect 1 run nosuch.wrinkle
 expect 1 inspect -- --strange
 expect 1 inspect /
 expect 1 inspect --do 'fil 1'
-has err 'did you mean fill'
+has err 'wrinkle: --do: unknown command "fil": did you mean fill'
+expect 1 inspect --do 'fill 1' --do 'fil 1' --do 'fill 2'
+has err 'wrinkle: --do 2 of 3: unknown command "fil"'
 empty 'errors'
 
 # ---- --do, in order, before or after FILE ----
@@ -370,6 +410,16 @@ rm -f t*.png
 # ---- help ----
 expect 0 help
 has out 'stroke'
+expect 0 help bump mode
+has out 'mode='
+expect 0 help adjust blur bump scheme
+has out 'sigma='
+has out 'scheme='
+expect 1 help bump moed
+has err 'did you mean mode?'
+expect 0 help fill bump
+has out 'example: fill'
+has out 'example: bump'
 expect 0 help render
 has out 'size=WxH'
 expect 0 help --json

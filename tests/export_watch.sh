@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# export --watch: a set follows a script that is written, replaced and away for a moment; a wrong script ends it with a
-# message over the old files, an interrupt without; it sleeps meanwhile.  export_watch.sh PROGRAM
+# export --watch: a set follows a script that is written, replaced and away for a moment; a wrong script leaves the
+# old files, with a message, and the next right one replaces them; an interrupt ends it; it sleeps meanwhile.  export_watch.sh PROGRAM
 set -uo pipefail
 program=$1
 folder=$(mktemp -d) && cd "$folder" || exit 1
@@ -49,12 +49,43 @@ sleep 1
 [[ $(awk '{ print $14 + $15 }' "/proc/$child/stat") -le $((ticks + 2)) ]] || complain 'it does not sleep'
 sum=$(sha256sum out/*)
 printf 'table 37x20\nnonsense\n' >tile.wrinkle
-wait "$child"
-[[ $? == 1 ]] || complain 'it does not end with 1'
-child=
-grep -q '^wrinkle: tile.wrinkle:2: unknown command "nonsense"' err || complain "it says: $(tail -n 1 err)"
+until_true waits 6
+grep -q '^wrinkle: tile.wrinkle:2: unknown command "nonsense"' err || complain "it says: $(tail -n 2 err)"
+grep -q 'note: watching: the files written last stay' err || complain 'it does not say what stays'
 [[ $(sha256sum out/*) == "$sum" ]] || complain 'an error changed files'
 [[ -z $(find . -name '.?*') ]] || complain "something stays: $(find . -name '.?*')"
+printf 'table 37x20\nimage nowhere.png\n' >tile.wrinkle # another error, then the old content: nothing to write
+until_true waits 7
+printf 'table 37x20\n' >tile.wrinkle
+expect 4 8 37
+printf 'table 39x20\n' >tile.wrinkle
+expect 5 9 39
+rm -r out && : >out # a folder that cannot be written to is no end either, and the same content is tried again
+printf 'table 41x20\n' >tile.wrinkle
+until_true waits 10
+rm out && mkdir out
+printf 'table 41x20 # once more\n' >tile.wrinkle
+expect 6 11 41
+kill -TERM "$child"
+wait "$child"
+child=
+
+# A script that is wrong from the beginning is waited for; a shell line that is wrong is not.
+printf 'table 43x\n' >tile.wrinkle
+(trap - INT; exec "$program" export tile.wrinkle --as unreal -o out --watch >told 2>err) &
+child=$!
+until_true waits 1
+printf 'table 43x20\n' >tile.wrinkle
+expect 1 2 43
+kill -TERM "$child"
+wait "$child"
+child=
+timeout 60 "$program" export tile.wrinkle --as unrael -o out --watch >told 2>err
+[[ $? == 1 ]] && grep -q 'did you mean unreal' err || complain "a wrong kind: $(cat err)"
+timeout 60 "$program" export tile.wrinkle --as unreal --do nonsense -o out --watch >told 2>err
+[[ $? == 1 ]] && grep -q 'unknown command "nonsense"' err || complain "a wrong --do: $(cat err)"
+timeout 60 "$program" export none.wrinkle --as unreal -o out --watch >told 2>err
+[[ $? == 1 ]] && grep -q 'none.wrinkle: No such file' err || complain "no file: $(cat err)"
 
 # What the script reads is looked at too: a picture in another folder, a brush's tip behind a link.
 picture() { "$program" export --do "table $1" --do "dab 0.5,0.5 radius=$2 strength=1" --as height depth=8 -o "$3" 2>/dev/null >&2; }
@@ -70,6 +101,12 @@ picture 9x9 3 other/tip.png
 expect 3 3 23
 picture 25x20 4 new.png && mv new.png other/p.png
 expect 4 4 25
+printf 'no picture' >other/p.png # reported once, not again and again
+until_true waits 5
+sleep 1
+[[ $(grep -c '^wrinkle: tile.wrinkle:1: image' err) == 1 ]] || complain "a broken picture: $(cat err)"
+picture 27x20 4 new.png && mv new.png other/p.png
+expect 5 6 27
 kill -TERM "$child"
 wait "$child"
 child=

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/rows.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "system/path.h"
 
@@ -250,22 +251,28 @@ static int find(const WrLibrary *library, const char *name)
     return -1;
 }
 
+/* The names that presets are called by: three for each. */
+static const char *called(const void *ctx, int i)
+{
+    const WrLibrary *library = ctx;
+    if (i / 3 >= library->found.count) return NULL;
+    const WrPresetEntry *entry = &library->found.data[i / 3].entry;
+    return i % 3 == 0 ? entry->name : i % 3 == 1 ? tail(entry->name) : entry->id;
+}
+
+static const char *id_called(const WrLibrary *library, int i)
+{
+    return library->found.data[i / 3].entry.id;
+}
+
 static bool fail_find(const WrLibrary *library, const char *name, WrError *err)
 {
-    const char *nearest = NULL;
-    int best = 1 + (int)strlen(name) / 3;
-    for (int i = 0; i < library->found.count; i++) {
-        const WrPresetEntry *entry = &library->found.data[i].entry;
-        const char *called[] = { entry->name, tail(entry->name), entry->id };
-        for (int k = 0; k < 3; k++) {
-            int distance = wr_text_distance(name, called[k]);
-            if (distance > best || (distance == best && nearest)) continue;
-            best = distance;
-            nearest = entry->id;
-        }
-    }
-    if (nearest)
-        return wr_fail(err, "brush preset '%.80s' is not there; did you mean %s?", name, nearest);
+    int places[WR_NEAREST_MAX];
+    const int count = wr_nearest(name, called, library, places);
+    if (count > 0)
+        return wr_fail(err, "brush preset '%.80s' is not there; did you mean %s%s%s?", name,
+                       id_called(library, places[0]), count > 1 ? " or " : "",
+                       count > 1 ? id_called(library, places[1]) : "");
     return wr_fail(err,
                    "brush preset '%.80s' is not there: must be one of the %d of the library, "
                    "or a .myb file",

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "brush/preset_inner.h"
 
@@ -172,25 +173,25 @@ static bool read_settings(WrPreset *preset, json_object *settings, Place at, WrE
 
 /* ---- "wrinkle" ---- */
 
+static const char *mode_name(const void *ctx, int i)
+{
+    (void)ctx;
+    return i < WR_BRUSH_MODE_COUNT ? wr_brush_modes[i].name : NULL;
+}
+
 static bool read_mode(WrPreset *preset, json_object *value, Place at, WrError *err)
 {
-    WrText names = { 0 };
     const char *text =
         json_object_is_type(value, json_type_string) ? json_object_get_string(value) : "";
-    for (int i = 0; i < WR_BRUSH_MODE_COUNT; i++) {
+    for (int i = 0; i < WR_BRUSH_MODE_COUNT; i++)
         if (strcmp(text, wr_brush_modes[i].name) == 0) {
             preset->own.mode = (WrBrushMode)i;
             preset->gives_mode = true;
-            wr_text_fini(&names);
             return true;
         }
-        wr_text_addf(&names, "%s%s", i > 0 ? ", " : "one of ", wr_brush_modes[i].name);
-    }
-    char what[48];
-    wr_fail(err, "%.100s: wrinkle: mode: %s: must be %s", at.file, excerpt(value, what),
-            wr_text_get(&names));
-    wr_text_fini(&names);
-    return false;
+    char found[48], what[200];
+    snprintf(what, sizeof what, "%.100s: wrinkle: mode: %s", at.file, excerpt(value, found));
+    return wr_fail_word(err, what, text, mode_name, NULL);
 }
 
 static bool read_bool(json_object *value, Place at, bool *flag, WrError *err)

@@ -108,7 +108,8 @@ typedef enum WrOption {
     WR_OPTION_EXPLAIN,   /* --measure */
     WR_OPTION_MAP,       /* --map */
     WR_OPTION_CHECK,     /* --as, of pictures */
-    WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
+    WR_OPTION_ALL_WORDS, /* no option: takes any number of words */
+    WR_OPTION_OWN,       /* no option: checks unknown options itself, as words */
     WR_OPTION_COMMON     /* of every subcommand */
 } WrOption;
 
@@ -134,6 +135,10 @@ bool wr_cli_option(const WrSubcommand *command, bool common, int i, const char *
 WrSession *wr_cli_load(const WrCli *cli, bool outputs, WrError *err);
 /* An empty one, with notes going to standard error. */
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err);
+/* The place of a word in a list. False with an error that names the option and suggests a word: "--as hieght: ..." */
+bool wr_cli_find_word(const char *option, const char *word,
+                      const char *(*list)(const void *ctx, int i), const void *ctx, int *place,
+                      WrError *err);
 /* Refuse an --isa that does not exist or that this processor lacks, before any work. */
 bool wr_cli_check_isa(const WrCli *cli, WrError *err);
 bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err);

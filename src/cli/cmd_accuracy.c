@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/suggest.h"
 #include "cli/cli.h"
 #include "cli/contest.h"
 #include "cli/illusion_run.h"
@@ -21,6 +22,11 @@
 #define SIDE 256       /* pixels, without --size: there the reference takes seconds, not minutes */
 #define FULL_SCALE 0.1 /* linear intensity that is white in a difference picture: the same in all */
 #define LARGEST 4096   /* pixels along a side of the reference */
+
+/* The words that --axis takes: what the labels of the axes begin with. */
+static const char *const axis_words[] = { "derivative", "normal", "antialiasing",
+                                          "visibility", "light",  "arithmetic",
+                                          NULL };
 
 /* The axis that a word begins ("antialiasing", "derivative"); WR_AXIS_COUNT without a word; -1. */
 static int find_axis(const char *word)
@@ -77,12 +83,9 @@ static void report_progress(void *ctx, double fraction)
 static bool check_line(const WrCli *cli, WrError *err)
 {
     WrFileInfo info;
+    int axis;
     if (find_axis(cli->axis) < 0)
-        return wr_fail(
-            err,
-            "--axis %.40s: must be derivative, normal, antialiasing, visibility, light or "
-            "arithmetic",
-            cli->axis);
+        return wr_cli_find_word("--axis", cli->axis, wr_word_of_array, axis_words, &axis, err);
     if (cli->sized && (cli->width > LARGEST || cli->height > LARGEST))
         return wr_fail(err, "--size %dx%d: the reference takes at most %d along a side", cli->width,
                        cli->height, LARGEST);

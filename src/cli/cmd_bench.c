@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "cli/bench.h"
 #include "cli/bench_sections.h"
@@ -14,17 +15,22 @@ typedef struct Options {
     uint64_t sections; /* bit i: wr_bench_sections[i] */
 } Options;
 
+/* The parts, then the other words that `bench` takes. */
+static const char *word_at(const void *ctx, int i)
+{
+    static const char *const others[] = { "generate", "brushes", "window",  "all",
+                                          "--lines",  "--exact", "--quick", NULL };
+    (void)ctx;
+    int parts = 0;
+    while (wr_bench_sections[parts].name) parts++;
+    return i < parts ? wr_bench_sections[i].name : others[i - parts];
+}
+
 static bool unknown_word(const char *word, WrError *err)
 {
-    WrText parts = { 0 };
-    for (int i = 0; wr_bench_sections[i].name; i++)
-        wr_text_addf(&parts, "%s, ", wr_bench_sections[i].name);
-    wr_fail(err,
-            "bench: unknown word %.60s: must be generate, brushes, window, all, %s--lines, --exact "
-            "or --quick",
-            word, wr_text_get(&parts));
-    wr_text_fini(&parts);
-    return false;
+    char what[100];
+    snprintf(what, sizeof what, "bench: unknown word %.60s", word);
+    return wr_fail_word(err, what, word, word_at, NULL);
 }
 
 static bool read_word(const char *word, Options *options, WrError *err)

@@ -108,17 +108,6 @@ static bool tell_each(const WrCli *cli, const WrBrushList *list, WrText *text, W
 
 /* ---- the subcommand ---- */
 
-static bool check_line(const WrCli *cli, WrError *err)
-{
-    for (int i = 0; i < cli->word_count; i++)
-        if (cli->words[i][0] == '-')
-            return wr_fail(err, "brushes: unknown option %.60s: see `wrinkle brushes --help`",
-                           cli->words[i]);
-    if (cli->collection && cli->word_count > 0)
-        return wr_fail(err, "brushes: either --collection or names, not both");
-    return true;
-}
-
 /* The table of brushes/README.md. */
 static void settings_table(WrText *text)
 {
@@ -152,7 +141,10 @@ static bool answer(const WrCli *cli, const WrBrushList *list, WrText *text, WrEr
 int wr_cli_brushes(const WrCli *cli)
 {
     WrError err = { "" };
-    if (!check_line(cli, &err)) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
+    if (cli->collection && cli->word_count > 0) {
+        wr_fail(&err, "brushes: either --collection or names, not both");
+        return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
+    }
     WrText text = { 0 };
     WrBrushList list = { .library = wr_library_new() };
     /* Thumbnails without names are those that ship with the program. */

@@ -1,6 +1,7 @@
 #include "cli/cli.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "export/check.h"
 #include "field/certificate.h"
@@ -191,31 +192,17 @@ static void add_object(WrText *text, const char *path, const WrCheck *check)
 static bool find_kind(const WrCli *cli, int *kind, WrError *err)
 {
     *kind = -1;
-    for (int i = 0; cli->kind && wr_check_kinds[i]; i++)
-        if (strcmp(cli->kind, wr_check_kinds[i]) == 0) *kind = i;
-    if (!cli->kind || *kind >= 0) return true;
-    return wr_fail(err, "--as %.60s: must be height, normal, slopes or colour", cli->kind);
+    return !cli->kind ||
+           wr_cli_find_word("--as", cli->kind, wr_word_of_array, wr_check_kinds, kind, err);
 }
 
 static bool find_coding(const WrCli *cli, WrCoding *coding, WrError *err)
 {
-    *coding = WR_CODING_AUTO;
-    for (int i = 0; cli->coding && wr_codings[i]; i++)
-        if (strcmp(cli->coding, wr_codings[i]) == 0) {
-            *coding = (WrCoding)i;
-            return true;
-        }
-    return !cli->coding ||
-           wr_fail(err, "--coding %.60s: must be auto, unit or signed", cli->coding);
-}
-
-static bool check_line(const WrCli *cli, WrError *err)
-{
-    for (int i = 0; i < cli->word_count; i++)
-        if (cli->words[i][0] == '-' && cli->words[i][1])
-            return wr_fail(err, "check: unknown option %.60s: see `wrinkle check --help`",
-                           cli->words[i]);
-    return cli->word_count > 0 || wr_fail(err, "check: needs a FILE, or several");
+    int found = WR_CODING_AUTO;
+    bool good = !cli->coding || wr_cli_find_word("--coding", cli->coding, wr_word_of_array,
+                                                 wr_codings, &found, err);
+    *coding = (WrCoding)found;
+    return good;
 }
 
 /* One file; what is wrong with it, or with reading it, is 1. */
@@ -246,7 +233,10 @@ int wr_cli_check(const WrCli *cli)
     WrError err;
     int kind, status = WR_EXIT_DONE;
     WrCoding coding;
-    if (!check_line(cli, &err)) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
+    if (cli->word_count == 0) {
+        wr_fail(&err, "check: needs a FILE, or several");
+        return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
+    }
     if (!find_kind(cli, &kind, &err) || !find_coding(cli, &coding, &err))
         return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     for (int i = 0; i < cli->word_count && status != WR_EXIT_INTERRUPTED; i++) {

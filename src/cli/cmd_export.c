@@ -35,17 +35,21 @@ static bool read_options(const WrCli *cli, const WrExportKind *kind, WrExportOpt
     return true;
 }
 
+/* The kinds, then the sets. */
+static const char *kind_or_set(const void *ctx, int i)
+{
+    const WrSetNames *sets = ctx;
+    if (i < WR_EXPORT_KIND_COUNT) return wr_export_kinds[i].name;
+    i -= WR_EXPORT_KIND_COUNT;
+    return i < sets->names.count ? sets->names.data[i] : NULL;
+}
+
 /* Neither kind nor set. */
 static bool fail_unknown(const char *name, WrError *err)
 {
-    WrText names = { 0 };
     WrSetNames sets = wr_set_names();
-    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
-        wr_text_addf(&names, "%s%s", i ? ", " : "", wr_export_kinds[i].name);
-    for (int i = 0; i < sets.names.count; i++)
-        wr_text_addf(&names, "%s%s", i ? ", " : "; or a set: ", sets.names.data[i]);
-    wr_fail(err, "--as %.60s: unknown kind: must be one of %s", name, wr_text_get(&names));
-    wr_text_fini(&names);
+    int unused;
+    wr_cli_find_word("--as", name, kind_or_set, &sets, &unused, err);
     wr_set_names_free(&sets);
     return false;
 }
@@ -56,11 +60,13 @@ typedef struct Input {
     WrFileStamp stamp;
 } Input;
 
-/* Of the export before, while a file is watched. */
+/* The export before, while a file is watched. */
 typedef struct Last {
-    bool there;
+    bool written;           /* files were written at least once */
+    bool there;             /* the files on the disk are those of `hash` */
+    bool unread;            /* FILE could not be read, or one of its commands failed */
     WrHash hash;            /* of the document */
-    WR_ARRAY(Input) inputs; /* besides FILE itself */
+    WR_ARRAY(Input) inputs; /* besides FILE itself, of the last FILE that could be read */
 } Last;
 
 static void forget_inputs(Last *last)
@@ -69,7 +75,17 @@ static void forget_inputs(Last *last)
     wr_array_free(&last->inputs);
 }
 
-/* The document is what it was: its files are, too. */
+/* As wr_cli_load, and notes whether FILE itself is what failed. */
+static WrSession *load(const WrCli *cli, Last *last, WrError *err)
+{
+    WrSession *session = wr_cli_session(cli, false, err);
+    last->unread = session && cli->file && !wr_session_open(session, cli->file, err);
+    if (session && !last->unread && wr_cli_run_dos(cli, session, err)) return session;
+    wr_session_free(session);
+    return NULL;
+}
+
+/* Is the document what it was? Then its files are, too. Keeps what it is made of. */
 static bool is_last(const WrSession *session, Last *last)
 {
     const WrHash hash = wr_session_hash(session);
@@ -79,7 +95,7 @@ static bool is_last(const WrSession *session, Last *last)
         const WrSessionInput input = wr_session_input(session, i);
         wr_array_push(&last->inputs, ((Input){ wr_strdup(input.path), input.stamp }));
     }
-    last->there = true;
+    last->there = same;
     last->hash = hash;
     return same;
 }
@@ -90,7 +106,7 @@ static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, 
     WrExportOptions options = wr_export_default();
     WrExportReport written;
     if (!read_options(cli, kind, &options, err)) return false;
-    WrSession *session = wr_cli_load(cli, false, err);
+    WrSession *session = load(cli, last, err);
     if (!session) return false;
     const bool same = is_last(session, last);
     bool good = same || wr_export(kind, wr_session_document(session), &options, cli->pool, cli->out,
@@ -122,7 +138,7 @@ static int take_name(const WrCli *cli, const char *words[WR_SET_WORDS + 1], WrTe
 static bool export_maps(const WrCli *cli, const WrSet *set, Last *last, WrText *report,
                         WrError *err)
 {
-    WrSession *session = wr_cli_load(cli, false, err);
+    WrSession *session = load(cli, last, err);
     if (!session) return false;
     WrText name = { 0 };
     const char *words[WR_SET_WORDS + 1];
@@ -160,8 +176,13 @@ static int export_once(const WrCli *cli, Last *last)
 {
     WrError err;
     WrText report = { 0 };
-    int status = export_as(cli, last, &report, &err) ? wr_cli_print(cli, &report)
-                                                     : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    int status;
+    if (export_as(cli, last, &report, &err)) {
+        last->there = last->written = true;
+        status = wr_cli_print(cli, &report);
+    } else {
+        status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    }
     wr_text_fini(&report);
     return status;
 }
@@ -206,6 +227,27 @@ static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileStamp *stamp
     return true;
 }
 
+/* As export_once. What failed is not tried again before one of the files is another than it was at this try. */
+static int export_again(const WrCli *cli, Last *last)
+{
+    const int count = last->inputs.count;
+    WrFileStamp *stamps = wr_alloc((size_t)count + 1, sizeof *stamps);
+    for (int i = 0; i < count; i++) stamps[i] = wr_file_stamp(last->inputs.data[i].path);
+    const int status = export_once(cli, last);
+    for (int i = 0; last->unread && i < count; i++) last->inputs.data[i].stamp = stamps[i];
+    wr_free(stamps);
+    return status;
+}
+
+/* A mistake in FILE is not the end: the files that were written last stay, and it is read again when it changes. A mistake
+   of the shell line is: it shows at the first try. */
+static bool goes_on(const WrCli *cli, const Last *last, int status)
+{
+    if (status == WR_EXIT_DONE) return true;
+    if (status != WR_EXIT_FAILED) return false;
+    return last->written || (last->unread && wr_file_stamp(cli->file).there);
+}
+
 static int watch_file(const WrCli *cli)
 {
     WrError err;
@@ -217,12 +259,15 @@ static int watch_file(const WrCli *cli)
         return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     }
     int status = export_once(cli, &last);
-    while (status == WR_EXIT_DONE) {
+    while (goes_on(cli, &last, status)) {
         for (int i = 0; i < last.inputs.count; i++) wr_watch_add(watch, last.inputs.data[i].path);
-        wr_cli_note("watching: writes again when the file changes; an interrupt ends it");
+        wr_cli_note(status == WR_EXIT_DONE
+                        ? "watching: writes again when the file changes; an interrupt ends it"
+                        : "watching: the files written last stay; tries again when the file "
+                          "changes; an interrupt ends it");
         if (!wait_for_change(cli, watch, &stamp, &last, &err))
             status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);
-        else status = export_once(cli, &last);
+        else status = export_again(cli, &last);
     }
     forget_inputs(&last);
     wr_watch_free(watch);

@@ -32,6 +32,30 @@ static int print_markdown(const WrCli *cli)
     return status;
 }
 
+/* Is word i a form or an argument of the command before it, rather than a verb or a subcommand? */
+static bool is_part(const WrCli *cli, const WrCommand *command, int i)
+{
+    if (!command || i >= cli->word_count) return false;
+    const char *word = cli->words[i];
+    return wr_help_has_part(command, word) || (!wr_command_find(word) && !wr_subcommand_find(word));
+}
+
+/* A verb, and the words behind it that are parts of it; *i is moved past them. */
+static bool add_verb(const WrCli *cli, int *i, WrText *text, WrError *err)
+{
+    const char *verb = cli->words[*i];
+    const WrCommand *command = wr_command_find(verb);
+    if (!is_part(cli, command, *i + 1)) {
+        if (!wr_help_command(verb, text, err)) return false;
+        if (wr_subcommand_find(verb))
+            wr_text_addf(text, "\n  The subcommand: see `wrinkle %s --help`.\n", verb);
+        return true;
+    }
+    for (; is_part(cli, command, *i + 1); ++*i)
+        if (!wr_help_part(command, cli->words[*i + 1], text, err)) return false;
+    return true;
+}
+
 int wr_cli_help_command(const WrCli *cli)
 {
     if (cli->markdown) return print_markdown(cli);
@@ -40,17 +64,10 @@ int wr_cli_help_command(const WrCli *cli)
     int status = WR_EXIT_DONE;
     for (int i = 0; i < cli->word_count && status == WR_EXIT_DONE; i++) {
         const char *word = cli->words[i];
-        if (word[0] == '-') {
-            wr_fail(&err, "help: unknown option %.60s: see `wrinkle help --help`", word);
-            status = WR_EXIT_USAGE;
-        } else if (wr_command_find(word) || !wr_subcommand_find(word)) {
-            if (i > 0) wr_text_add(&text, "\n");
-            if (!wr_help_command(word, &text, &err)) status = WR_EXIT_FAILED;
-            else if (wr_subcommand_find(word))
-                wr_text_addf(&text, "\n  The subcommand: see `wrinkle %s --help`.\n", word);
-        } else {
+        if (i > 0) wr_text_add(&text, "\n");
+        if (!wr_command_find(word) && wr_subcommand_find(word))
             wr_cli_help(wr_subcommand_find(word), &text);
-        }
+        else if (!add_verb(cli, &i, &text, &err)) status = WR_EXIT_FAILED;
     }
     if (status == WR_EXIT_DONE && cli->json) { /* words are checked, then the whole table comes */
         wr_text_clear(&text);

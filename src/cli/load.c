@@ -1,14 +1,31 @@
 #include "cli/cli.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "command/session.h"
 #include "render/frame.h"
 #include "system/process.h"
+
+#include <stdio.h>
+#include <string.h>
 
 static void print_note(void *ctx, const char *text)
 {
     (void)ctx;
     wr_cli_note(text);
+}
+
+bool wr_cli_find_word(const char *option, const char *word, WrWordList list, const void *ctx,
+                      int *place, WrError *err)
+{
+    char what[100];
+    for (int i = 0; list(ctx, i); i++)
+        if (strcmp(word, list(ctx, i)) == 0) {
+            *place = i;
+            return true;
+        }
+    snprintf(what, sizeof what, "%s %.60s", option, word);
+    return wr_fail_word(err, what, word, list, ctx);
 }
 
 bool wr_cli_check_isa(const WrCli *cli, WrError *err)
@@ -38,7 +55,8 @@ bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err)
 {
     for (int i = 0; i < cli->do_count; i++)
         if (!wr_session_run(session, cli->dos[i], err)) {
-            wr_error_prefix(err, "--do: ");
+            if (cli->do_count > 1) wr_error_prefix(err, "--do %d of %d: ", i + 1, cli->do_count);
+            else wr_error_prefix(err, "--do: ");
             return false;
         }
     return true;

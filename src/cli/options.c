@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "command/call.h"
 #include "system/path.h"
@@ -335,14 +336,70 @@ static const struct Option *find_option(const char *word, unsigned bits, const c
     return row ? row : find_row(word, ~0u, value);
 }
 
-static const char *option_name(const void *ctx, int i)
+/* Spelling i of the options that a subcommand takes: the name of each, then its other name; *row: whose it is. */
+static const char *find_spelling(const WrSubcommand *command, int i, const struct Option **row)
 {
-    const WrSubcommand *command = ctx;
-    for (int k = 0; k < OPTION_COUNT; k++)
-        if ((options[k].bit == WR_OPTION_COMMON || command->options >> options[k].bit & 1) &&
-            i-- == 0)
-            return options[k].name;
+    for (int k = 0; k < OPTION_COUNT; k++) {
+        const struct Option *o = *row = &options[k];
+        if (o->bit != WR_OPTION_COMMON && !(command->options >> o->bit & 1)) continue;
+        if (i-- == 0) return o->name;
+        if (o->other && i-- == 0) return o->other;
+    }
     return NULL;
+}
+
+static const char *option_spelling(const void *ctx, int i)
+{
+    const struct Option *row;
+    return find_spelling(ctx, i, &row);
+}
+
+/* "--size", or with both spellings "-o, --output". */
+static bool suggest_option(const WrSubcommand *command, const char *word, WrText *text)
+{
+    const struct Option *row;
+    char name[64];
+    int places[WR_NEAREST_MAX];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word); /* of --name=value */
+    int count = wr_nearest(name, option_spelling, command, places);
+    for (int k = 0; k < count; k++) {
+        find_spelling(command, places[k], &row);
+        wr_text_addf(text, "%s%s%s%s", k ? " or " : "", row->name, row->other ? ", " : "",
+                     row->other ? row->other : "");
+    }
+    return count > 0;
+}
+
+/* The subcommands that have this option: "render or accuracy". */
+static void add_takers(const char *word, WrText *text)
+{
+    const struct Option *row;
+    const size_t length = strcspn(word, "=");
+    for (const WrSubcommand *c = wr_subcommands; c->name; c++)
+        for (int i = 0;; i++) {
+            const char *name = find_spelling(c, i, &row);
+            if (!name) break;
+            if (strlen(name) == length && strncmp(name, word, length) == 0)
+                wr_text_addf(text, "%s%s", text->length ? ", " : "", c->name);
+        }
+}
+
+static bool fail_option(const WrSubcommand *command, const char *word, WrError *err)
+{
+    WrText near = { 0 }, takers = { 0 };
+    add_takers(word, &takers);
+    if (takers.length)
+        wr_fail(err, "%s: has no option %.60s (only: %s): see `wrinkle %s --help`", command->name,
+                word, wr_text_get(&takers), command->name);
+    else if (suggest_option(command, word, &near))
+        wr_fail(err, "%s: unknown option %.60s: did you mean %s? See `wrinkle %s --help`",
+                command->name, word, wr_text_get(&near), command->name);
+    else
+        wr_fail(err, "%s: unknown option %.60s: see `wrinkle %s --help`", command->name, word,
+                command->name);
+    wr_text_fini(&takers);
+    wr_text_fini(&near);
+    return false;
 }
 
 static const char *subcommand_name(const void *ctx, int i)
@@ -353,12 +410,12 @@ static const char *subcommand_name(const void *ctx, int i)
 
 /* ---- words ---- */
 
-/* The first word that is no option: names the subcommand if it can. Its place in argv, or 0. */
-static int find_subcommand(int argc, char **argv)
+/* The first word that is no option, which may name the subcommand. Its place in argv, or 0. */
+static int find_first_word(int argc, char **argv)
 {
     for (int i = 1; i < argc; i++) {
         const char *value;
-        if (argv[i][0] != '-' || !argv[i][1]) return wr_subcommand_find(argv[i]) ? i : 0;
+        if (argv[i][0] != '-' || !argv[i][1]) return i;
         if (strcmp(argv[i], "--") == 0) return 0;
         const struct Option *o = find_option(argv[i], ~0u, &value);
         if (o && o->value && !value) i++;
@@ -391,13 +448,8 @@ static bool take_option(WrCli *cli, int argc, char **argv, int *i, int *status, 
     unsigned bits = cli->command->options;
     const struct Option *o = find_option(word, bits, &value);
     bool taken = o && (o->bit == WR_OPTION_COMMON || bits >> o->bit & 1);
-    if (!taken && bits >> WR_OPTION_ALL_WORDS & 1) return take_word(cli, word, err);
-    if (!taken) {
-        const char *near = wr_nearest_word(word, option_name, cli->command);
-        return wr_fail(err, "%s: unknown option %.60s%s%s: see `wrinkle %s --help`",
-                       cli->command->name, word, near ? ": did you mean " : "", near ? near : "",
-                       cli->command->name);
-    }
+    if (!taken && bits >> WR_OPTION_OWN & 1) return take_word(cli, word, err);
+    if (!taken) return fail_option(cli->command, word, err);
     if (o->value && !value && *i + 1 >= argc)
         return wr_fail(err, "%s: needs a value, %s", o->name, o->value);
     if (o->value && !value) value = argv[++*i];
@@ -408,20 +460,30 @@ static bool take_option(WrCli *cli, int argc, char **argv, int *i, int *status, 
     return true;
 }
 
-/* A lone word that is neither a subcommand nor like a file name is a mistyped subcommand. */
-static bool check_default(const WrCli *cli, WrError *err)
+/* A first word that is neither a subcommand nor like a file's name is a mistyped subcommand, or the verb of a script. */
+static bool check_first_word(const char *word, WrError *err)
 {
     WrFileInfo info;
-    const char *word = cli->file;
-    if (!word || strpbrk(word, "./") || wr_path_info(word, &info)) return true;
-    const char *near = wr_nearest_word(word, subcommand_name, NULL);
-    return wr_fail(err, "unknown subcommand \"%.60s\"%s%s: see `wrinkle --help`", word,
-                   near ? ": did you mean " : "", near ? near : "");
+    WrText near = { 0 };
+    if (wr_subcommand_find(word) || strpbrk(word, "./") || wr_path_info(word, &info)) return true;
+    if (wr_command_find(word))
+        wr_fail(
+            err,
+            "unknown subcommand \"%.60s\": it is a command of scripts: `wrinkle render --do '%s "
+            "...' -o OUT`, or see `wrinkle help %s`",
+            word, word, word);
+    else if (wr_suggest(word, subcommand_name, NULL, &near))
+        wr_fail(err, "unknown subcommand \"%.60s\": did you mean %s? See `wrinkle --help`", word,
+                wr_text_get(&near));
+    else wr_fail(err, "unknown subcommand \"%.60s\": see `wrinkle --help`", word);
+    wr_text_fini(&near);
+    return false;
 }
 
 bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err)
 {
-    int verb = find_subcommand(argc, argv);
+    const int first = find_first_word(argc, argv);
+    const int verb = first && wr_subcommand_find(argv[first]) ? first : 0;
     size_t room = (size_t)argc + 1;
     bool only_words = false, good = true;
     cli->command = verb ? wr_subcommand_find(argv[verb]) : &wr_subcommands[0];
@@ -431,6 +493,8 @@ bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err)
     cli->ats = wr_alloc(room, sizeof *cli->ats);
     cli->plots = wr_alloc(room, sizeof *cli->plots);
     cli->tolerances = wr_alloc(room, sizeof *cli->tolerances);
+    *status = WR_EXIT_USAGE;
+    good = !first || check_first_word(argv[first], err);
     for (int i = 1; i < argc && good; i++) {
         *status = WR_EXIT_USAGE;
         if (i == verb) continue;
@@ -441,8 +505,6 @@ bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err)
     }
     if (!good) return false;
     *status = WR_EXIT_USAGE;
-    bool asks = cli->help || cli->version;
-    if (!verb && !asks && !only_words && !check_default(cli, err)) return false;
     if (!verb) cli->command = cli->help ? NULL : cli->command;
     return true;
 }

@@ -92,7 +92,7 @@ const WrSubcommand wr_subcommands[] = {
     { "bench",
       "bench [PART...|all|generate|brushes|window] [--quick] [--exact] [--lines] [--size WxH] "
       "[--json]",
-      "the program's own benchmark", BIT(SIZE) | BIT(JSON) | BIT(ALL_WORDS),
+      "the program's own benchmark", BIT(SIZE) | BIT(JSON) | BIT(ALL_WORDS) | BIT(OWN),
       "Pictures, documents, brushes and the window; with generate alone what fills a table, beside "
       "gegl\n"
       "and oiiotool where they are installed, with brushes alone dabs beside libmypaint,\n"

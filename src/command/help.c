@@ -3,8 +3,10 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/rows.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "command/call.h"
+#include "command/parse_fail.h"
 #include "scene/dials.h"
 #include "scene/scene.h"
 
@@ -204,20 +206,132 @@ static void add_common(WrText *text, const WrCommand *command)
     add_arguments(text, command, -1, command->more, count);
 }
 
-static const char *name_at(const void *ctx, int i)
+static bool is_called(const WrArgSpec *spec, const char *name)
 {
-    (void)ctx;
-    return i < wr_command_count ? wr_commands[i]->name : NULL;
+    return strcmp(spec->name, name) == 0 || (spec->also && strcmp(spec->also, name) == 0);
+}
+
+/* Does this form of the command have an argument of that name? */
+static bool has_argument(const WrCommand *command, int form, const char *name)
+{
+    WrArgSpec specs[WR_ARGS_MAX];
+    int count = wr_command_specs(command, form, specs);
+    for (int i = 0; i < count; i++)
+        if (is_called(&specs[i], name)) return true;
+    return false;
+}
+
+bool wr_help_has_part(const WrCommand *command, const char *part)
+{
+    WrForm row;
+    if (!command->form) return has_argument(command, -1, part);
+    for (int i = 0; command->form(i, &row); i++)
+        if (strcmp(row.name, part) == 0 || has_argument(command, i, part)) return true;
+    return false;
+}
+
+/* The words that wr_help_has_part accepts: forms, then the arguments of each form. */
+typedef struct Parts {
+    const WrCommand *command;
+    WrForm form;
+    WrArgSpec specs[WR_ARGS_MAX];
+} Parts;
+
+static const char *part_at(const void *ctx, int i)
+{
+    Parts *parts = (Parts *)ctx;
+    const WrCommand *command = parts->command;
+    int forms = 0;
+    while (command->form && command->form(forms, &parts->form)) {
+        if (i-- == 0) return parts->form.name;
+        forms++;
+    }
+    for (int f = command->form ? 0 : -1; f < forms; f++) {
+        int count = wr_command_specs(command, f, parts->specs);
+        if (i < count) return parts->specs[i].name;
+        i -= count;
+    }
+    return NULL;
+}
+
+static bool fail_part(const WrCommand *command, const char *part, WrError *err)
+{
+    Parts parts = { .command = command };
+    WrText near = { 0 };
+    char excerpt[WR_EXCERPT_SIZE];
+    wr_excerpt(part, excerpt);
+    if (wr_suggest(part, part_at, &parts, &near))
+        wr_fail(err, "help %s: unknown argument \"%s\": did you mean %s?", command->name, excerpt,
+                wr_text_get(&near));
+    else
+        wr_fail(err, "help %s: unknown argument \"%s\": `wrinkle help %s` lists them all",
+                command->name, excerpt, command->name);
+    wr_text_fini(&near);
+    return false;
+}
+
+/* The rows of one argument, as `help` shows them. */
+static void add_named_arguments(WrText *text, const WrCommand *command, int form, const char *name)
+{
+    WrArgSpec specs[WR_ARGS_MAX];
+    int count = wr_command_specs(command, form, specs);
+    for (int i = 0; i < count; i++)
+        if (is_called(&specs[i], name)) add_argument(text, command, form, &specs[i]);
+}
+
+/* One argument of all forms: those that have the same rows are named together above them. */
+static void add_argument_of_forms(WrText *text, const WrCommand *command, const char *name)
+{
+    WrText rows = { 0 }, done = { 0 }, other = { 0 };
+    WrForm row;
+    for (int i = 0; command->form(i, &row); i++) {
+        if (!has_argument(command, i, name)) continue;
+        wr_text_clear(&rows);
+        add_named_arguments(&rows, command, i, name);
+        if (strstr(wr_text_get(&done), wr_text_get(&rows))) continue;
+        wr_text_add(&done, wr_text_get(&rows));
+        WrText forms = { 0 };
+        wr_text_addf(&forms, "%s %s", command->name, row.name);
+        for (int k = i + 1; command->form(k, &row); k++) {
+            wr_text_clear(&other);
+            add_named_arguments(&other, command, k, name);
+            if (strcmp(wr_text_get(&other), wr_text_get(&rows)) == 0)
+                wr_text_addf(&forms, ", %s", row.name);
+        }
+        wr_text_add(text, "  ");
+        add_wrapped(text, wr_text_get(&forms), 2, 4, 96);
+        wr_text_add(text, wr_text_get(&rows));
+        wr_text_fini(&forms);
+    }
+    wr_text_fini(&other);
+    wr_text_fini(&done);
+    wr_text_fini(&rows);
+}
+
+bool wr_help_part(const WrCommand *command, const char *part, WrText *text, WrError *err)
+{
+    WrForm row;
+    if (!wr_help_has_part(command, part)) return fail_part(command, part, err);
+    int form = wr_command_form(command, part, &row);
+    if (form >= 0) {
+        add_form(text, command, form);
+        if (command->more) add_common(text, command);
+    } else if (command->form) {
+        add_argument_of_forms(text, command, part);
+    } else {
+        wr_text_addf(text, "  %s\n", command->name);
+        add_named_arguments(text, command, -1, part);
+    }
+    return true;
 }
 
 bool wr_help_command(const char *name, WrText *text, WrError *err)
 {
     const WrCommand *command = wr_command_find(name);
     if (!command) {
-        char excerpt[WR_EXCERPT_SIZE];
-        const char *near = wr_nearest_word(name, name_at, NULL);
-        return wr_fail(err, "help: unknown command \"%s\": %s%s", wr_excerpt(name, excerpt),
-                       near ? "did you mean " : "`wrinkle help` lists them all", near ? near : "");
+        wr_fail_verb(name, err);
+        wr_error_prefix(err, "help: ");
+        return false;
     }
     wr_text_addf(text, "%s - %s (%s)\n\n", command->name, command->help,
                  wr_class_names[command->kind]);

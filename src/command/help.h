@@ -10,6 +10,11 @@ void wr_help_overview(WrText *text);
 /* One command: what it takes, with ranges and defaults. Fails for an unknown name. */
 bool wr_help_command(const char *name, WrText *text, WrError *err);
 
+/* Is this the name of a form of the command, or of an argument of one? */
+bool wr_help_has_part(const WrCommand *command, const char *part);
+/* One form of a command with its arguments, or one argument in each form that has it. Fails for an unknown part. */
+bool wr_help_part(const WrCommand *command, const char *part, WrText *text, WrError *err);
+
 /* The same as a part of a page of the guide, in Markdown: a heading, then a table of arguments. */
 bool wr_help_markdown(const char *name, WrText *text, WrError *err);
 /* All verbs with their classes, as a table in Markdown. */

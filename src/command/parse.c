@@ -1,4 +1,5 @@
 #include "command/call.h"
+#include "command/parse_fail.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -77,114 +78,6 @@ static bool check_bytes(const char *line, WrError *err)
     return true;
 }
 
-/* ---- did you mean ---- */
-
-const char *wr_nearest_word(const char *word, const char *(*list)(const void *ctx, int i),
-                            const void *ctx)
-{
-    size_t length = strlen(word);
-    int limit = length < 3 ? 1 : length < 6 ? 2 : 3, best = limit + 1;
-    const char *nearest = NULL;
-    for (int i = 0; list(ctx, i); i++) {
-        int d = wr_text_distance(word, list(ctx, i));
-        if (d < best && d < (int)strlen(list(ctx, i))) {
-            best = d;
-            nearest = list(ctx, i);
-        }
-    }
-    return nearest;
-}
-
-static const char *command_name(const void *ctx, int i)
-{
-    (void)ctx;
-    return i < wr_command_count ? wr_commands[i]->name : NULL;
-}
-
-static bool fail_verb(const char *verb, WrError *err)
-{
-    char excerpt[WR_EXCERPT_SIZE];
-    const char *near = wr_nearest_word(verb, command_name, NULL);
-    if (near)
-        return wr_fail(err, "unknown command \"%s\": did you mean %s?", wr_excerpt(verb, excerpt),
-                       near);
-    return wr_fail(err, "unknown command \"%s\": `wrinkle help` lists them all",
-                   wr_excerpt(verb, excerpt));
-}
-
-static const char *argument_name(const void *ctx, int i)
-{
-    const WrCall *call = ctx;
-    for (int k = 0; k < call->count; k++)
-        if (!call->specs[k].positional && i-- == 0) return call->specs[k].name;
-    return NULL;
-}
-
-/* "dab", "light point". */
-static void add_title(WrText *text, const WrCall *call)
-{
-    wr_text_add(text, call->command->name);
-    if (*call->form_name) wr_text_addf(text, " %s", call->form_name);
-}
-
-static bool fail_name(const WrCall *call, const char *name, WrError *err)
-{
-    char excerpt[WR_EXCERPT_SIZE];
-    WrText names = { 0 }, title = { 0 };
-    for (int i = 0; argument_name(call, i); i++)
-        wr_text_addf(&names, "%s%s=", i ? " " : "", argument_name(call, i));
-    add_title(&title, call);
-    const char *near = wr_nearest_word(name, argument_name, call);
-    if (!names.length)
-        wr_fail(err,
-                "%s: unknown name \"%s\": it takes no names (a file name that holds a = goes in "
-                "quotes)",
-                wr_text_get(&title), wr_excerpt(name, excerpt));
-    else if (near)
-        wr_fail(err, "%s: unknown name \"%s\": did you mean %s=? It takes %s", wr_text_get(&title),
-                wr_excerpt(name, excerpt), near, wr_text_get(&names));
-    else
-        wr_fail(err, "%s: unknown name \"%s\": it takes %s", wr_text_get(&title),
-                wr_excerpt(name, excerpt), wr_text_get(&names));
-    wr_text_fini(&names);
-    wr_text_fini(&title);
-    return false;
-}
-
-/* A command whose forms are listed, and room for one. */
-typedef struct FormList {
-    const WrCommand *command;
-    WrForm *form;
-} FormList;
-
-static const char *form_name(const void *ctx, int i)
-{
-    const FormList *list = ctx;
-    return list->command->form(i, list->form) ? list->form->name : NULL;
-}
-
-static bool fail_form(const WrCommand *command, const char *word, WrError *err)
-{
-    WrForm form;
-    const FormList list = { command, &form };
-    WrText names = { 0 };
-    for (int i = 0; form_name(&list, i); i++)
-        wr_text_addf(&names, "%s%s", i ? ", " : "", form_name(&list, i));
-    char excerpt[WR_EXCERPT_SIZE];
-    const char *near = word ? wr_nearest_word(word, form_name, &list) : NULL;
-    if (!word)
-        wr_fail(err, "%s: %s is missing: one of %s", command->name, command->form_word,
-                wr_text_get(&names));
-    else if (near)
-        wr_fail(err, "%s: unknown %s \"%s\": did you mean %s? It must be one of %s", command->name,
-                command->form_word, wr_excerpt(word, excerpt), near, wr_text_get(&names));
-    else
-        wr_fail(err, "%s: unknown %s \"%s\": must be one of %s", command->name, command->form_word,
-                wr_excerpt(word, excerpt), wr_text_get(&names));
-    wr_text_fini(&names);
-    return false;
-}
-
 /* ---- a line ---- */
 
 /* Values that hold where none are given. */
@@ -218,34 +111,43 @@ static WrArg *next_positional(WrCall *call)
 
 static WrArg *find_named(WrCall *call, const char *name)
 {
-    for (int i = 0; i < call->count; i++)
-        if (!call->specs[i].positional && strcmp(call->specs[i].name, name) == 0)
+    for (int i = 0; i < call->count; i++) {
+        const WrArgSpec *spec = &call->specs[i];
+        if ((!spec->positional && strcmp(spec->name, name) == 0) ||
+            (spec->also && strcmp(spec->also, name) == 0))
             return &call->args[i];
+    }
     return NULL;
 }
 
-/* Put one word where it belongs. */
-static bool assign(WrCall *call, const char *name, const char *value, WrError *err)
+/* A value of this argument. Where it may be left out, and the value cannot be for it but for one with a name, that name is
+   what is missing. */
+static bool take_argument(WrCall *call, WrArg *arg, const char *value, WrError *err)
 {
+    const WrArgSpec *spec = &call->specs[arg - call->args];
     WrText where = { 0 };
-    char excerpt[WR_EXCERPT_SIZE];
-    bool good = false;
-    add_title(&where, call);
-    WrArg *arg = name ? find_named(call, name) : next_positional(call);
-    if (!arg && name) {
-        fail_name(call, name, err);
-    } else if (!arg) {
-        wr_fail(err, "%s: \"%s\" is one value too many", wr_text_get(&where),
-                wr_excerpt(value, excerpt));
-    } else if (arg->given) {
-        wr_fail(err, "%s: %s= is given twice", wr_text_get(&where), name);
-    } else {
-        const WrArgSpec *spec = &call->specs[arg - call->args];
-        wr_text_addf(&where, ": %s", spec->name);
-        good = wr_arg_parse(spec, wr_text_get(&where), value, arg, err);
-    }
+    wr_call_add_title(call, &where);
+    wr_text_addf(&where, ": %s", spec->name);
+    bool good = wr_arg_parse(spec, wr_text_get(&where), value, arg, err);
     wr_text_fini(&where);
+    if (!good && spec->positional && !spec->required && wr_belongs_to_name(call, value))
+        return wr_fail_extra(call, NULL, value, err);
     return good;
+}
+
+/* Put one word where it belongs. *last: the argument of the word before, then of this one. */
+static bool assign(WrCall *call, const char *name, const char *value, WrArg **last, WrError *err)
+{
+    WrArg *arg = name ? find_named(call, name) : next_positional(call);
+    if (!arg && name) return wr_fail_name(call, name, value, err);
+    if (!arg) return wr_fail_extra(call, *last, value, err);
+    *last = arg;
+    if (!arg->given) return take_argument(call, arg, value, err);
+    WrText title = { 0 };
+    wr_call_add_title(call, &title);
+    wr_fail(err, "%s: %s= is given twice", wr_text_get(&title), name);
+    wr_text_fini(&title);
+    return false;
 }
 
 /* Read the words from p; where *form_word is set, the first value without a name is skipped: it named
@@ -253,13 +155,14 @@ static bool assign(WrCall *call, const char *name, const char *value, WrError *e
 static bool read_words(WrCall *call, const char *p, bool skip_form, WrError *err)
 {
     WrText value = { 0 };
+    WrArg *last = NULL;
     bool good = true;
     for (p = skip_blanks(p); good && *p && *p != '#'; p = skip_blanks(p)) {
         char *name = take_name(&p);
         good = take_value(&p, &value, err);
         if (!good) wr_error_prefix(err, "%s: ", call->command->name);
         else if (!name && skip_form) skip_form = false;
-        else good = assign(call, name, wr_text_get(&value), err);
+        else good = assign(call, name, wr_text_get(&value), &last, err);
         wr_free(name);
     }
     wr_text_fini(&value);
@@ -286,14 +189,7 @@ static bool check_missing(const WrCall *call, bool open, WrError *err)
         const WrArgSpec *spec = &call->specs[i];
         if (!spec->required || call->args[i].given) continue;
         if (open && spec->type == WR_ARG_LIST) continue;
-        WrText right = { 0 }, title = { 0 };
-        wr_arg_expectation(spec, &right);
-        add_title(&title, call);
-        wr_fail(err, "%s: %s%s is missing (%s): must be %s", wr_text_get(&title), spec->name,
-                spec->positional ? "" : "=", spec->help, wr_text_get(&right));
-        wr_text_fini(&right);
-        wr_text_fini(&title);
-        return false;
+        return wr_fail_missing(call, spec, err);
     }
     return true;
 }
@@ -310,7 +206,7 @@ static WrCall *begin_call(const WrCommand *command, const char *rest, WrError *e
     } else {
         int index = word.length ? wr_command_form(command, wr_text_get(&word), &form) : -1;
         if (index >= 0) call = new_call(command, index, form.name);
-        else fail_form(command, word.length ? wr_text_get(&word) : NULL, err);
+        else wr_fail_form(command, word.length ? wr_text_get(&word) : NULL, rest, err);
     }
     wr_text_fini(&word);
     return call;
@@ -329,7 +225,7 @@ bool wr_call_parse(const char *line, bool open, WrCall **out, WrError *err)
     if (take_value(&p, &verb, err)) {
         const WrCommand *command = wr_command_find(wr_text_get(&verb));
         if (command) call = begin_call(command, p, err);
-        else fail_verb(wr_text_get(&verb), err);
+        else wr_fail_verb(wr_text_get(&verb), err);
     }
     wr_text_fini(&verb);
     if (!call) return false;
@@ -353,7 +249,7 @@ void wr_call_free(WrCall *call)
 void wr_call_print(const WrCall *call, WrText *text)
 {
     if (!call->command) return;
-    add_title(text, call);
+    wr_call_add_title(call, text);
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < call->count; i++) {
             const WrArgSpec *spec = &call->specs[i];

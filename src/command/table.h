@@ -55,6 +55,7 @@ typedef WrParamPart WrComponent;
 
 typedef struct WrArgSpec {
     const char *name; /* of a positional: how help shows it ("u,v"); NULL ends a list */
+    const char *also; /* another name that a line may give it, such as an earlier one; NULL: none */
     WrArgType type;
     bool positional; /* by place; else name=value */
     bool required;
@@ -128,8 +129,3 @@ int wr_command_specs(const WrCommand *command, int form, WrArgSpec out[WR_ARGS_M
 void wr_arg_fallback_print(const WrArgSpec *spec, WrText *text);
 /* What would be right: "a number, 0..1e9 texels", "one of none, blinn, ...". */
 void wr_arg_expectation(const WrArgSpec *spec, WrText *text);
-
-/* The word of a list (ends with NULL) that is nearest to `word`, or NULL if none is near: for "did you
-   mean". */
-const char *wr_nearest_word(const char *word, const char *(*list)(const void *ctx, int i),
-                            const void *ctx);

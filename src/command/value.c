@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/rows.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "document/document.h"
 #include "surface/surface.h"
@@ -126,6 +127,11 @@ void wr_arg_fallback_print(const WrArgSpec *spec, WrText *text)
         if (i > 0) wr_text_add(text, i % width == 0 ? ";" : spec->type == WR_ARG_SIZE ? "x" : ",");
         wr_text_add_number(text, spec->fallback[i]);
     }
+}
+
+static const char *choice_word(const void *ctx, int i)
+{
+    return wr_arg_word(ctx, i);
 }
 
 /* "dab: radius=-1: must be a number, 0..1e9 texels" */
@@ -252,7 +258,11 @@ static bool parse_choice(const WrArgSpec *spec, const char *where, const char *v
             arg->rows = 1;
             return true;
         }
-    fail_value(spec, where, value, err);
+    WrText what = { 0 };
+    char excerpt[WR_EXCERPT_SIZE];
+    wr_text_addf(&what, "%s%s%s", where, spec->positional ? " " : "=", wr_excerpt(value, excerpt));
+    wr_fail_word(err, wr_text_get(&what), value, choice_word, spec);
+    wr_text_fini(&what);
     return false;
 }
 

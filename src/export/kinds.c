@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/rows.h"
+#include "base/suggest.h"
 #include "export/contact.h"
 #include "export/job.h"
 #include "export/lines.h"
@@ -57,6 +58,12 @@ static bool set_cell(WrExportOptions *options, const char *value, WrError *err)
     return true;
 }
 
+static const char *scheme_name(const void *ctx, int i)
+{
+    (void)ctx;
+    return i < WR_SCHEME_COUNT ? wr_schemes[i].name : NULL;
+}
+
 static bool set_scheme(WrExportOptions *options, const char *value, WrError *err)
 {
     int scheme = wr_scheme_find(value);
@@ -64,12 +71,9 @@ static bool set_scheme(WrExportOptions *options, const char *value, WrError *err
         options->scheme = scheme;
         return true;
     }
-    WrText names = { 0 };
-    for (int i = 0; i < WR_SCHEME_COUNT; i++)
-        wr_text_addf(&names, "%s%s", i ? ", " : "", wr_schemes[i].name);
-    wr_fail(err, "scheme '%.40s': must be one of %s", value, wr_text_get(&names));
-    wr_text_fini(&names);
-    return false;
+    char what[80];
+    snprintf(what, sizeof what, "scheme '%.40s'", value);
+    return wr_fail_word(err, what, value, scheme_name, NULL);
 }
 
 /* Whether there is one of that name is seen when it is exported. */

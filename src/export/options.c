@@ -2,6 +2,7 @@
 #include "export/options.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "export/export.h"
 #include "field/ops.h"
@@ -76,18 +77,14 @@ bool wr_export_parse_size(const char *value, double low, double high, int *a, in
 static bool set_word(const char *name, const char *const *words, const char *value, int *out,
                      WrError *err)
 {
-    WrText all = { 0 };
-    for (int k = 0; words[k]; k++) {
+    char what[80];
+    for (int k = 0; words[k]; k++)
         if (strcmp(words[k], value) == 0) {
-            wr_text_fini(&all);
             *out = k;
             return true;
         }
-        wr_text_addf(&all, "%s%s", k ? ", " : "", words[k]);
-    }
-    wr_fail(err, "%s '%.40s': must be one of %s", name, value, wr_text_get(&all));
-    wr_text_fini(&all);
-    return false;
+    snprintf(what, sizeof what, "%s '%.40s'", name, value);
+    return wr_fail_word(err, what, value, wr_word_of_array, words);
 }
 
 bool wr_export_set_lay(WrExportOptions *options, const char *value, WrError *err)
@@ -187,18 +184,18 @@ const WrExportKind *wr_export_find(const char *name)
     return NULL;
 }
 
+static const char *option_name(const void *ctx, int i)
+{
+    const WrExportKind *kind = ctx;
+    return kind->options[i].name;
+}
+
 bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const char *name,
                       const char *value, WrError *err)
 {
-    WrText names = { 0 };
-    for (const WrExportOptionInfo *option = kind->options; option->name; option++) {
-        if (strcmp(option->name, name) == 0) {
-            wr_text_fini(&names);
-            return option->set(options, value, err);
-        }
-        wr_text_addf(&names, "%s%s", names.length ? ", " : "", option->name);
-    }
-    wr_fail(err, "%s has no option '%.40s'; it has %s", kind->name, name, wr_text_get(&names));
-    wr_text_fini(&names);
-    return false;
+    for (const WrExportOptionInfo *option = kind->options; option->name; option++)
+        if (strcmp(option->name, name) == 0) return option->set(options, value, err);
+    char what[100];
+    snprintf(what, sizeof what, "%s: unknown name \"%.40s\"", kind->name, name);
+    return wr_fail_word(err, what, name, option_name, kind);
 }

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/rows.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "export/job.h"
 #include "scene/scene.h"
@@ -30,6 +31,12 @@ static const Filling fillings[] = {
 
 /* ---- options ---- */
 
+static const char *filling_word(const void *ctx, int i)
+{
+    (void)ctx;
+    return i < FILLINGS ? fillings[i].word : i == FILLINGS ? "a number 0..1" : NULL;
+}
+
 static bool fill_channel(const char *name, int channel, WrExportOptions *options, const char *value,
                          WrError *err)
 {
@@ -44,11 +51,9 @@ static bool fill_channel(const char *name, int channel, WrExportOptions *options
         *pack = (WrExportPack){ .filling = WR_PACK_NUMBER, .number = number };
         return true;
     }
-    WrText words = { 0 };
-    for (int i = 0; i < FILLINGS; i++) wr_text_addf(&words, "%s, ", fillings[i].word);
-    wr_fail(err, "%s '%.40s': must be one of %sor a number 0..1", name, value, wr_text_get(&words));
-    wr_text_fini(&words);
-    return false;
+    char what[80];
+    snprintf(what, sizeof what, "%s '%.40s'", name, value);
+    return wr_fail_word(err, what, value, filling_word, NULL);
 }
 
 bool wr_export_set_red(WrExportOptions *options, const char *value, WrError *err)

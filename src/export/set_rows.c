@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/rows.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "export/export.h"
 #include "export/sets.h"
@@ -84,17 +85,22 @@ void wr_set_free(WrSet *set)
 
 /* ---- one line ---- */
 
+/* The words that a line may begin with: the kinds, and "about". */
+static const char *line_word(const void *ctx, int i)
+{
+    (void)ctx;
+    return i < WR_EXPORT_KIND_COUNT    ? wr_export_kinds[i].name
+           : i == WR_EXPORT_KIND_COUNT ? "about"
+                                       : NULL;
+}
+
 static bool find_kind(const char *word, WrSetMap *map, WrError *err)
 {
     map->kind = wr_export_find(word);
     if (map->kind) return true;
-    WrText names = { 0 };
-    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
-        wr_text_addf(&names, "%s%s", i ? ", " : "", wr_export_kinds[i].name);
-    wr_fail(err, "'%.40s' is no kind of map: must be about, or one of %s", word,
-            wr_text_get(&names));
-    wr_text_fini(&names);
-    return false;
+    char what[80];
+    snprintf(what, sizeof what, "'%.40s' is no kind of map", word);
+    return wr_fail_word(err, what, word, line_word, NULL);
 }
 
 /* "T_*_N.png", of this folder and seen in it. */
@@ -283,17 +289,22 @@ static WrSet *read_row(const WrSetRow *row, WrError *err)
     return set;
 }
 
+static const char *set_name(const void *ctx, int i)
+{
+    const WrSetNames *names = ctx;
+    return i < names->names.count ? names->names.data[i] : NULL;
+}
+
 static void fail_unknown(const char *name, WrError *err)
 {
-    WrText list = { 0 };
     WrSetNames names = wr_set_names();
     char *folder = wr_config_path("sets");
-    for (int i = 0; i < names.names.count; i++)
-        wr_text_addf(&list, "%s%s", i ? ", " : "", names.names.data[i]);
-    wr_fail(err, "%.60s: unknown set: must be one of %s; or a file NAME" SET_ENDING " in %s", name,
-            wr_text_get(&list), folder ? folder : "the folder of your settings");
+    WrText what = { 0 };
+    wr_text_addf(&what, "%.60s: unknown set, and there is no %.60s" SET_ENDING " in %.160s", name,
+                 name, folder ? folder : "the folder of your settings");
+    wr_fail_word(err, wr_text_get(&what), name, set_name, &names);
+    wr_text_fini(&what);
     wr_free(folder);
-    wr_text_fini(&list);
     wr_set_names_free(&names);
 }
 

@@ -2,9 +2,11 @@
 
 #include "base/cpu.h"
 #include "base/error.h"
+#include "base/suggest.h"
 #include "render/kern_tables.h"
 #include "render/kern_wide.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* WR_NATIVE_LEVEL (CMakeLists.txt): 0 compiles every set; 1 to 4 the plain set and that level's only. */
@@ -33,13 +35,20 @@ static const struct {
 };
 #define LEVEL_COUNT ((int)(sizeof levels / sizeof *levels))
 
+static const char *const level_names[] = { "auto", "ref", "v1", "v2", "v3", "v4", NULL };
+
 static bool is_level_name(const char *isa)
 {
-    static const char *const names[] = { "ref", "v1", "v2", "v3", "v4" };
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (strcmp(isa, names[i]) == 0) return true;
-    }
+    for (int i = 0; level_names[i]; i++)
+        if (strcmp(isa, level_names[i]) == 0) return true;
     return false;
+}
+
+static bool fail_level(const char *isa, WrError *err)
+{
+    char what[80];
+    snprintf(what, sizeof what, "isa %.60s", isa);
+    return wr_fail_word(err, what, isa, wr_word_of_array, level_names);
 }
 
 /* The row of that name, or -1 and an error. */
@@ -56,7 +65,7 @@ static int find_level(const char *isa, WrError *err)
     }
     if (is_level_name(isa))
         wr_fail(err, "isa %s: not in this build; configure it with -DWR_KERNELS=all", isa);
-    else wr_fail(err, "isa %s: must be ref, v1, v2, v3, v4 or auto", isa);
+    else fail_level(isa, err);
     return -1;
 }
 

@@ -1,0 +1,193 @@
+#include "base/suggest.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+#include <ctype.h>
+#include <string.h>
+
+/* Scores are twice the edits, so that the beginning of a word has a place between one edit and two. */
+#define SCORE_OF_BEGINNING 3
+#define SHORTEST_BEGINNING 2
+
+/* Words of Blender, Krita, Substance, ImageMagick and POV-Ray, and the words that mean the same here. A list may have
+   some of them; a word here may stand for different things in different lists. */
+static const struct {
+    const char *typed, *meant[4]; /* unused places: NULL */
+} habits[] = {
+    { "albedo", { "colour" } },
+    { "ao", { "occlusion" } },
+    { "background-color", { "background" } },
+    { "basecolor", { "colour" } },
+    { "bg", { "background" } },
+    { "box", { "cube" } },
+    { "brightness", { "strength" } },
+    { "brush", { "stroke", "dab", "preset" } },
+    { "bumpmap", { "height", "bump" } },
+    { "canvas", { "table" } },
+    { "circle", { "ellipse" } },
+    { "delete", { "remove", "clear" } },
+    { "dest", { "-o" } },
+    { "diameter", { "size", "radius" } },
+    { "directory", { "folder" } },
+    { "displace", { "displacement", "displaced", "warp" } },
+    { "distance", { "spacing", "reach", "radius" } },
+    { "donut", { "torus" } },
+    { "draw", { "stroke", "shape" } },
+    { "env", { "environment" } },
+    { "file", { "-o" } },
+    { "flip", { "mirror", "flip-u", "flip-v" } },
+    { "format", { "--as", "depth" } },
+    { "frequency", { "cells", "across" } },
+    { "gaussian", { "blur" } },
+    { "gloss", { "shininess" } },
+    { "glossiness", { "shininess" } },
+    { "hdri", { "environment" } },
+    { "heightmap", { "height", "image" } },
+    { "intensity", { "strength" } },
+    { "kind", { "--as" } },
+    { "lamp", { "light" } },
+    { "load", { "open", "image" } },
+    { "location", { "at" } },
+    { "metallic", { "metalness", "metal" } },
+    { "negate", { "invert" } },
+    { "new", { "table", "add" } },
+    { "normal", { "normal+y", "normal-y" } },
+    { "normal-map", { "normal+y", "normal-y", "normalmap" } },
+    { "paint", { "stroke" } },
+    { "pixels", { "size" } },
+    { "pos", { "at" } },
+    { "position", { "at" } },
+    { "quality", { "samples" } },
+    { "rect", { "rectangle" } },
+    { "resolution", { "--size", "size" } },
+    { "rotation", { "turn", "rotate", "angle" } },
+    { "scale", { "size", "radius", "cells" } },
+    { "sharpness", { "hardness" } },
+    { "sky", { "environment", "background" } },
+    { "smooth", { "blur" } },
+    { "softness", { "hardness", "size" } },
+    { "spp", { "samples" } },
+    { "sun", { "directional" } },
+    { "texture", { "colour" } },
+    { "tiles", { "repeat" } },
+    { "tiling", { "repeat", "replicate" } },
+    { "to", { "-o" } },
+    { "transparency", { "opacity" } },
+    { "type", { "--as", "mode", "kind" } },
+    { "wavelength", { "cells" } },
+    { "weight", { "opacity", "strength" } },
+    { "world", { "environment" } },
+    { "zoom", { "size", "fov" } },
+};
+
+const char *wr_word_of_array(const void *ctx, int i)
+{
+    return ((const char *const *)ctx)[i];
+}
+
+static void fold(const char *word, char out[WR_WORD_MAX + 1])
+{
+    int n = 0;
+    for (; word[n] && n < WR_WORD_MAX; n++) out[n] = (char)tolower((unsigned char)word[n]);
+    out[n] = '\0';
+}
+
+static int most_edits(size_t length)
+{
+    return length < 5 ? 1 : length < 8 ? 2 : 3;
+}
+
+/* Without the dashes of an option, which all options begin with. */
+static const char *letters_of(const char *word)
+{
+    return word + strspn(word, "-");
+}
+
+static bool begins(const char *word, const char *whole)
+{
+    size_t length = strlen(word);
+    return strlen(letters_of(word)) >= SHORTEST_BEGINNING && strlen(whole) > length &&
+           strncmp(word, whole, length) == 0;
+}
+
+/* -1: too far. A word is never suggested that has no letter in common with what was typed. */
+static int score_of(const char *word, const char *candidate)
+{
+    int edits = wr_text_distance(word, candidate);
+    bool near =
+        edits <= most_edits(strlen(letters_of(word))) && edits < (int)strlen(letters_of(candidate));
+    int score = near ? 2 * edits : -1;
+    if (begins(word, candidate) && (!near || score > SCORE_OF_BEGINNING))
+        score = SCORE_OF_BEGINNING;
+    return score;
+}
+
+/* The places of the words that habits[row] gives, at most WR_NEAREST_MAX, those first that it names first. */
+static int find_meant(const char *const meant[4], WrWordList list, const void *ctx,
+                      int places[WR_NEAREST_MAX])
+{
+    int count = 0;
+    for (int k = 0; k < 4 && meant[k]; k++)
+        for (int i = 0; list(ctx, i) && count < WR_NEAREST_MAX; i++)
+            if (strcmp(list(ctx, i), meant[k]) == 0) {
+                places[count++] = i;
+                break;
+            }
+    return count;
+}
+
+/* `typed` is folded. */
+static int find_habit(const char *typed, WrWordList list, const void *ctx,
+                      int places[WR_NEAREST_MAX])
+{
+    for (size_t row = 0; row < sizeof habits / sizeof *habits; row++)
+        if (strcmp(habits[row].typed, letters_of(typed)) == 0)
+            return find_meant(habits[row].meant, list, ctx, places);
+    return 0;
+}
+
+int wr_nearest(const char *word, WrWordList list, const void *ctx, int places[WR_NEAREST_MAX])
+{
+    char typed[WR_WORD_MAX + 1], candidate[WR_WORD_MAX + 1], nearest[WR_WORD_MAX + 1] = "";
+    int best = -1, count = 0, habit[WR_NEAREST_MAX] = { 0 };
+    fold(word, typed);
+    for (int i = 0; list(ctx, i); i++) {
+        fold(list(ctx, i), candidate);
+        int score = score_of(typed, candidate);
+        if (score < 0 || (best >= 0 && score > best)) continue;
+        if (score != best) count = 0;
+        else if (strcmp(candidate, nearest) == 0) continue; /* the same word twice in the list */
+        best = score;
+        strcpy(nearest, candidate);
+        if (count < WR_NEAREST_MAX) places[count] = i;
+        count++;
+    }
+    if (count > 0 && best <= 2) return count <= WR_NEAREST_MAX ? count : 0;
+    int meant = find_habit(typed, list, ctx, habit);
+    if (meant > 0) memcpy(places, habit, sizeof habit);
+    return meant > 0 ? meant : count <= WR_NEAREST_MAX ? count : 0;
+}
+
+bool wr_suggest(const char *word, WrWordList list, const void *ctx, WrText *text)
+{
+    int places[WR_NEAREST_MAX];
+    int count = wr_nearest(word, list, ctx, places);
+    for (int k = 0; k < count; k++)
+        wr_text_addf(text, "%s%s", k ? " or " : "", list(ctx, places[k]));
+    return count > 0;
+}
+
+bool wr_fail_word(WrError *err, const char *what, const char *word, WrWordList list,
+                  const void *ctx)
+{
+    WrText names = { 0 }, near = { 0 };
+    for (int i = 0; list(ctx, i); i++) wr_text_addf(&names, "%s%s", i ? ", " : "", list(ctx, i));
+    if (wr_suggest(word, list, ctx, &near))
+        wr_fail(err, "%s: did you mean %s? It must be one of %s", what, wr_text_get(&near),
+                wr_text_get(&names));
+    else wr_fail(err, "%s: must be one of %s", what, wr_text_get(&names));
+    wr_text_fini(&near);
+    wr_text_fini(&names);
+    return false;
+}

@@ -1,0 +1,328 @@
+#include "command/parse_fail.h"
+
+#include "base/error.h"
+#include "base/suggest.h"
+#include "base/text.h"
+
+#include <ctype.h>
+#include <string.h>
+
+#define NAMED_MOST 3 /* arguments that one message suggests */
+#define FORMS_MOST 2 /* forms of other commands */
+
+/* ---- lists of names ---- */
+
+static const char *command_name(const void *ctx, int i)
+{
+    (void)ctx;
+    return i < wr_command_count ? wr_commands[i]->name : NULL;
+}
+
+/* The arguments that a line gives by name. */
+static const char *argument_name(const void *ctx, int i)
+{
+    const WrCall *call = ctx;
+    for (int k = 0; k < call->count; k++)
+        if (!call->specs[k].positional && i-- == 0) return call->specs[k].name;
+    return NULL;
+}
+
+/* A command whose forms are listed, and room for one. */
+typedef struct FormList {
+    const WrCommand *command;
+    WrForm *form;
+} FormList;
+
+static const char *form_name(const void *ctx, int i)
+{
+    const FormList *list = ctx;
+    return list->command->form(i, list->form) ? list->form->name : NULL;
+}
+
+/* ", " between items, " or " before the last of `count`. */
+static const char *joint(int i, int count)
+{
+    return i == 0 ? "" : i == count - 1 ? " or " : ", ";
+}
+
+/* "surface sphere or solid sphere": the commands that have a form of this name. False if none has, or too many. */
+static bool add_commands_of_form(const char *name, WrText *text)
+{
+    int found[FORMS_MOST], count = 0;
+    WrForm form;
+    for (int i = 0; i < wr_command_count; i++)
+        if (wr_commands[i]->form && wr_command_form(wr_commands[i], name, &form) >= 0) {
+            if (count == FORMS_MOST) return false;
+            found[count++] = i;
+        }
+    for (int k = 0; k < count; k++)
+        wr_text_addf(text, "%s%s %s", joint(k, count), wr_commands[found[k]]->name, name);
+    return count > 0;
+}
+
+/* ---- titles ---- */
+
+void wr_call_add_title(const WrCall *call, WrText *text)
+{
+    wr_text_add(text, call->command->name);
+    if (*call->form_name) wr_text_addf(text, " %s", call->form_name);
+}
+
+/* "it takes radius= strength=", or that it takes no names. */
+static void add_names(const WrCall *call, WrText *text)
+{
+    for (int i = 0; argument_name(call, i); i++)
+        wr_text_addf(text, "%s%s=", i ? " " : "", argument_name(call, i));
+}
+
+/* ---- verbs and forms ---- */
+
+bool wr_fail_verb(const char *verb, WrError *err)
+{
+    char excerpt[WR_EXCERPT_SIZE];
+    WrText near = { 0 };
+    wr_excerpt(verb, excerpt);
+    if (add_commands_of_form(verb, &near) || wr_suggest(verb, command_name, NULL, &near))
+        wr_fail(err, "unknown command \"%s\": did you mean %s?", excerpt, wr_text_get(&near));
+    else if (strchr(verb, '='))
+        wr_fail(err, "unknown command \"%s\": the command comes first, then its names with values",
+                excerpt);
+    else wr_fail(err, "unknown command \"%s\": `wrinkle help` lists them all", excerpt);
+    wr_text_fini(&near);
+    return false;
+}
+
+/* The form that `rest` holds as "form=" or "=form"; -1. */
+static int form_with_sign(const WrCommand *command, const char *rest, WrForm *form)
+{
+    for (int i = 0; command->form(i, form); i++) {
+        const size_t length = strlen(form->name);
+        for (const char *at = rest; (at = strstr(at, form->name)); at++) {
+            const char before = at > rest ? at[-1] : ' ', after = at[length];
+            if ((before == ' ' && after == '=') ||
+                (before == '=' && (after == ' ' || after == '\0')))
+                return i;
+        }
+    }
+    return -1;
+}
+
+bool wr_fail_form(const WrCommand *command, const char *word, const char *rest, WrError *err)
+{
+    WrForm form;
+    const FormList list = { command, &form };
+    WrText names = { 0 }, near = { 0 };
+    char excerpt[WR_EXCERPT_SIZE] = "";
+    for (int i = 0; form_name(&list, i); i++)
+        wr_text_addf(&names, "%s%s", i ? ", " : "", form_name(&list, i));
+    if (word) wr_excerpt(word, excerpt);
+    if (!word && form_with_sign(command, rest, &form) >= 0)
+        wr_fail(err, "%s: \"%s\" stands without =: did you mean %s %s? It must be one of %s",
+                command->name, form.name, command->name, form.name, wr_text_get(&names));
+    else if (!word)
+        wr_fail(err, "%s: %s is missing: one of %s", command->name, command->form_word,
+                wr_text_get(&names));
+    else if (wr_suggest(word, form_name, &list, &near) || add_commands_of_form(word, &near))
+        wr_fail(err, "%s: unknown %s \"%s\": did you mean %s? It must be one of %s", command->name,
+                command->form_word, excerpt, wr_text_get(&near), wr_text_get(&names));
+    else
+        wr_fail(err, "%s: unknown %s \"%s\": must be one of %s", command->name, command->form_word,
+                excerpt, wr_text_get(&names));
+    wr_text_fini(&near);
+    wr_text_fini(&names);
+    return false;
+}
+
+/* ---- values ---- */
+
+static bool accepts(const WrArgSpec *spec, const char *value)
+{
+    WrArg arg = { .choice = -1 };
+    bool good = wr_arg_parse(spec, "", value, &arg, NULL);
+    wr_arg_fini(&arg);
+    return good;
+}
+
+static bool is_wordy(WrArgType type)
+{
+    return type == WR_ARG_PATH || type == WR_ARG_TEXT || type == WR_ARG_NAME ||
+           type == WR_ARG_PRESET || type == WR_ARG_LAYER;
+}
+
+static const char *choice_word(const void *ctx, int i)
+{
+    return wr_arg_word(ctx, i);
+}
+
+/* How surely an argument is meant by a value without a name, surest first. */
+typedef enum Rank {
+    RANK_REQUIRED, /* it must be given, and takes the value */
+    RANK_WORD,     /* a choice that has the word */
+    RANK_NUMBERS,  /* takes the numbers */
+    RANK_MISTYPED, /* a choice that has a word like it */
+    RANK_TEXT,     /* takes any text */
+    RANK_NONE
+} Rank;
+
+static Rank rank_of(const WrCall *call, int i, const char *value)
+{
+    const WrArgSpec *spec = &call->specs[i];
+    int places[WR_NEAREST_MAX];
+    if (spec->positional || call->args[i].given || spec->type == WR_ARG_SHA256) return RANK_NONE;
+    if (accepts(spec, value))
+        return spec->required                ? RANK_REQUIRED
+               : spec->type == WR_ARG_CHOICE ? RANK_WORD
+               : is_wordy(spec->type)        ? RANK_TEXT
+                                             : RANK_NUMBERS;
+    bool mistyped = spec->type == WR_ARG_CHOICE && wr_nearest(value, choice_word, spec, places) > 0;
+    return mistyped ? RANK_MISTYPED : RANK_NONE;
+}
+
+static Rank best_rank(const WrCall *call, const char *value)
+{
+    Rank best = RANK_NONE;
+    for (int i = 0; i < call->count; i++) {
+        Rank rank = rank_of(call, i, value);
+        if (rank < best) best = rank;
+    }
+    return best;
+}
+
+bool wr_belongs_to_name(const WrCall *call, const char *value)
+{
+    return best_rank(call, value) <= RANK_NUMBERS;
+}
+
+/* "height=0.1 or width=0.1": the arguments of that rank, the first few of them. */
+static void add_named(const WrCall *call, const char *value, Rank rank, WrText *text)
+{
+    int found[NAMED_MOST], count = 0;
+    for (int i = 0; i < call->count && count < NAMED_MOST; i++)
+        if (rank_of(call, i, value) == rank) found[count++] = i;
+    for (int k = 0; k < count; k++) {
+        const WrArgSpec *spec = &call->specs[found[k]];
+        wr_text_addf(text, "%s%s=", joint(k, count), spec->name);
+        if (rank == RANK_MISTYPED) wr_suggest(value, choice_word, spec, text);
+        else wr_text_add_word(text, value);
+    }
+}
+
+/* The text that `last` began and `value` goes on, in quotes: "font=\"DejaVu Sans\"". */
+static void add_quoted(const WrCall *call, const WrArg *last, const char *value, WrText *text)
+{
+    const WrArgSpec *spec = &call->specs[last - call->args];
+    WrText whole = { 0 };
+    wr_text_addf(&whole, "%s %s", last->text, value);
+    if (!spec->positional) wr_text_addf(text, "%s=", spec->name);
+    wr_text_add_word(text, wr_text_get(&whole));
+    wr_text_fini(&whole);
+}
+
+bool wr_fail_extra(const WrCall *call, const WrArg *last, const char *value, WrError *err)
+{
+    WrText title = { 0 }, names = { 0 }, right = { 0 };
+    char excerpt[WR_EXCERPT_SIZE];
+    const bool number = isdigit((unsigned char)*value) || strchr("+-.", *value);
+    const bool after_text =
+        last && last->text && is_wordy(call->specs[last - call->args].type) && !number;
+    Rank rank = best_rank(call, value);
+    wr_call_add_title(call, &title);
+    add_names(call, &names);
+    wr_excerpt(value, excerpt);
+    if (after_text && rank > RANK_WORD) {
+        add_quoted(call, last, value, &right);
+        wr_fail(err, "%s: \"%s\" is one value too many: a text with spaces goes in quotes: %s",
+                wr_text_get(&title), excerpt, wr_text_get(&right));
+    } else if (rank < RANK_NONE && *value) {
+        add_named(call, value, rank, &right);
+        wr_fail(err, "%s: \"%s\" needs a name: did you mean %s? It takes %s", wr_text_get(&title),
+                excerpt, wr_text_get(&right), wr_text_get(&names));
+    } else if (names.length) {
+        wr_fail(err, "%s: \"%s\" is one value too many: further ones need a name: %s",
+                wr_text_get(&title), excerpt, wr_text_get(&names));
+    } else {
+        wr_fail(err, "%s: \"%s\" is one value too many", wr_text_get(&title), excerpt);
+    }
+    wr_text_fini(&right);
+    wr_text_fini(&names);
+    wr_text_fini(&title);
+    return false;
+}
+
+/* ---- names ---- */
+
+/* Does the text hold this word, whole? */
+static bool holds_word(const char *text, const char *word)
+{
+    const size_t length = strlen(word);
+    for (const char *at = text; length > 2 && (at = strstr(at, word)); at++)
+        if ((at == text || !isalnum((unsigned char)at[-1])) && !isalnum((unsigned char)at[length]))
+            return true;
+    return false;
+}
+
+/* The one argument whose help holds the word, such as R= of a sphere for "radius"; NULL for none or several. */
+static const WrArgSpec *explained_by(const WrCall *call, const char *word)
+{
+    const WrArgSpec *found = NULL;
+    for (int i = 0; i < call->count; i++) {
+        if (call->specs[i].positional || !holds_word(call->specs[i].help, word)) continue;
+        if (found) return NULL;
+        found = &call->specs[i];
+    }
+    return found;
+}
+
+/* A place without a name that is free, and takes the value. */
+static const WrArgSpec *place_for(const WrCall *call, const char *value)
+{
+    for (int i = 0; i < call->count; i++)
+        if (call->specs[i].positional && !call->args[i].given)
+            return accepts(&call->specs[i], value) ? &call->specs[i] : NULL;
+    return NULL;
+}
+
+bool wr_fail_name(const WrCall *call, const char *name, const char *value, WrError *err)
+{
+    char excerpt[WR_EXCERPT_SIZE];
+    WrText names = { 0 }, title = { 0 }, near = { 0 };
+    add_names(call, &names);
+    wr_call_add_title(call, &title);
+    wr_excerpt(name, excerpt);
+    const WrArgSpec *place = place_for(call, value), *other = explained_by(call, name);
+    const bool nearly = wr_suggest(name, argument_name, call, &near);
+    if (!nearly && place && (place->required || !other)) {
+        WrText word = { 0 };
+        wr_text_add_word(&word, value);
+        wr_fail(err, "%s: unknown name \"%s\": %s has none: did you mean %s %s?",
+                wr_text_get(&title), excerpt, place->name, wr_text_get(&title), wr_text_get(&word));
+        wr_text_fini(&word);
+    } else if (!names.length) {
+        wr_fail(err,
+                "%s: unknown name \"%s\": it takes no names (a file name that holds a = goes in "
+                "quotes)",
+                wr_text_get(&title), excerpt);
+    } else if (nearly || other) {
+        wr_fail(err, "%s: unknown name \"%s\": did you mean %s=? It takes %s", wr_text_get(&title),
+                excerpt, nearly ? wr_text_get(&near) : other->name, wr_text_get(&names));
+    } else {
+        wr_fail(err, "%s: unknown name \"%s\": it takes %s", wr_text_get(&title), excerpt,
+                wr_text_get(&names));
+    }
+    wr_text_fini(&near);
+    wr_text_fini(&names);
+    wr_text_fini(&title);
+    return false;
+}
+
+bool wr_fail_missing(const WrCall *call, const WrArgSpec *spec, WrError *err)
+{
+    WrText right = { 0 }, title = { 0 };
+    wr_arg_expectation(spec, &right);
+    wr_call_add_title(call, &title);
+    wr_fail(err, "%s: %s%s is missing (%s): must be %s", wr_text_get(&title), spec->name,
+            spec->positional ? "" : "=", spec->help, wr_text_get(&right));
+    wr_text_fini(&right);
+    wr_text_fini(&title);
+    return false;
+}
