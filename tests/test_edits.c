@@ -250,6 +250,33 @@ static void offsetting_all_layers_rolls_the_composite(void **state)
     wr_session_free(s);
 }
 
+/* Between -1 and 1 a shift is a share of the side, rounded to whole texels: a third of 90, a sixth of 60; else texels. */
+static void offsets_take_shares_of_the_side(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line;
+        int du, dv;
+    } rows[] = { { "adjust offset du=0.5 dv=-0.25 layers=all", 45, -15 },
+                 { "adjust offset du=0.333333333 layers=all", 30, 0 },
+                 { "adjust offset du=-0.01 dv=0.99 layers=all", -1, 59 },
+                 { "adjust offset du=1 dv=-1 layers=all", 1, -1 } };
+    for (int k = 0; k < 4; k++) {
+        WrSession *s = rich();
+        must_run(s, "select none");
+        WrField *before = wr_field_share(wr_document_field(doc(s)));
+        must_run(s, rows[k].line);
+        for (int j = 0; j < 60; j++)
+            for (int i = 0; i < 90; i++)
+                assert_true(f_at(s, (i + rows[k].du + 90) % 90, (j - rows[k].dv + 60) % 60) ==
+                            wr_field_get(before, i, j));
+        wr_field_free(before);
+        must_fail(s, "adjust offset du=1.5", "or a share of the side between -1 and 1");
+        must_fail(s, "adjust crop x=0.5", "a whole number");
+        wr_session_free(s);
+    }
+}
+
 static void resizing_takes_layers_masks_and_selection_along(void **state)
 {
     (void)state;
@@ -302,6 +329,7 @@ int main(void)
         cmocka_unit_test(an_edit_within_a_selection_shares_the_tiles_that_it_leaves),
         cmocka_unit_test(four_quarter_turns_restore_every_bit),
         cmocka_unit_test(offsetting_all_layers_rolls_the_composite),
+        cmocka_unit_test(offsets_take_shares_of_the_side),
         cmocka_unit_test(resizing_takes_layers_masks_and_selection_along),
         cmocka_unit_test(table_starts_over_with_one_layer),
     };

@@ -289,6 +289,49 @@ static void a_sheared_mesh_has_the_frame_of_mikktspace(void **state)
     wr_document_free(document);
 }
 
+/* Three texels for each of the table's: every third centre is one of the table's, and has its normal. */
+static void maps_have_any_size(void **state)
+{
+    (void)state;
+    static const float points[3][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+    static const float uv[3][2] = { { 0.1f, 0.1f }, { 0.9f, 0.2f }, { 0.2f, 0.8f } };
+    static const int32_t corners[1][3] = { { 0, 1, 2 } };
+    static const char *const kinds[] = { "normal-object", "normal-baked" };
+    char size[32];
+    WrExportReport report;
+    WrDocument *document = new_document();
+    snprintf(size, sizeof size, "size=%dx%d", 3 * WIDTH, 3 * HEIGHT);
+    for (int k = 0; k < 2; k++) {
+        if (k == 1) set_mesh(document->scene, points, uv, 3, corners, 1);
+        else wr_shape_default(WR_SURFACE_sphere, &document->scene->shape);
+        const char *padding = k == 1 ? "padding=0" : NULL;
+        WrImage *own =
+            exported(document, kinds[k], "own.exr", (const char *[3]){ padding }, &report);
+        WrImage *large =
+            exported(document, kinds[k], "large.exr", (const char *[3]){ size, padding }, &report);
+        assert_int_equal(report.width, 3 * WIDTH);
+        assert_int_equal(large->width, 3 * WIDTH);
+        assert_int_equal(large->height, 3 * HEIGHT);
+        int bumped_texels = 0;
+        for (int j = 0; j < HEIGHT; j++)
+            for (int i = 0; i < WIDTH; i++)
+                for (int c = 0; c < 3; c++) {
+                    const float a = own->data[3 * (j * WIDTH + i) + c];
+                    assert_near(large->data[3 * ((3 * j + 1) * 3 * WIDTH + 3 * i + 1) + c], a,
+                                1e-6);
+                    bumped_texels += c == 0 && a != 0.5f;
+                }
+        assert_true(bumped_texels > WIDTH * HEIGHT / 5);
+        wr_image_free(own);
+        wr_image_free(large);
+        WrImage *small = exported(document, kinds[k], "small.png",
+                                  (const char *[3]){ "size=5x1", padding }, &report);
+        assert_int_equal(small->width * small->height, 5);
+        wr_image_free(small);
+    }
+    wr_document_free(document);
+}
+
 /* An island gets rings about it, across the map's edge too, and nothing beyond them. */
 static void padding_goes_as_far_as_it_is_told(void **state)
 {
@@ -469,6 +512,7 @@ int main(void)
         cmocka_unit_test(surfaces_without_one_chart_are_refused),
         cmocka_unit_test(mirrored_parts_have_the_cells_own_map),
         cmocka_unit_test(a_sheared_mesh_has_the_frame_of_mikktspace),
+        cmocka_unit_test(maps_have_any_size),
         cmocka_unit_test(padding_goes_as_far_as_it_is_told),
         cmocka_unit_test(bytes_in_memory_are_the_formulas_for_any_ends_and_threads),
         cmocka_unit_test(a_picture_of_one_channel_is_grey_as_its_file),

@@ -26,7 +26,7 @@ void wr_help_markdown_cell(WrText *text, const char *words);
  *   {"commands":[{"name","class","help","details","example","usage","args":[ARG...],
  *                 "form_word","forms":[{"name","help","args":[ARG...]}...]}...],
  *    "surfaces":[{"name","label","help","params":[ARG...]}...]}
- *   ARG: {"name","type","positional","required","default","keeps","low","high","above","whole",
+ *   ARG: {"name","type","positional","required","default","keeps","low","high","above","whole","share",
  *         "components","counts","parts","rows","choices","meanings","unit","shape","help"}
  * args of a command with forms are those that all forms share. default is a number, a list of numbers
  * (of lists, for lists) or a string, null without one; keeps: an argument that is left out keeps what

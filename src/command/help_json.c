@@ -101,6 +101,7 @@ static void add_range(WrText *text, const WrArgSpec *spec)
         add_number(text, "high", spec->high);
         if (spec->above) add_bool(text, "above", true);
         add_bool(text, "whole", spec->whole || spec->type == WR_ARG_SIZE);
+        if (spec->share) add_bool(text, "share", true);
     }
     add_number(text, "components", wr_arg_width(spec));
     if (spec->type != WR_ARG_LIST) return;

@@ -10,6 +10,7 @@ static WrArgSpec argument(const WrOpParam *param)
                        .high = param->high,
                        .above = param->above,
                        .whole = param->whole,
+                       .share = param->share,
                        .fallback = &param->fallback,
                        .unit = *param->unit ? param->unit : NULL,
                        .help = param->help };

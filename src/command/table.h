@@ -62,7 +62,8 @@ typedef struct WrArgSpec {
     double low, high; /* closed range of each number (of a size: of each side) */
     bool above;       /* `low` itself is excluded */
     bool whole;       /* whole numbers only (a size always is) */
-    int components;   /* numbers of a tuple, of each tuple of a list; others: 0 */
+    bool share; /* whole texels along a side; a number between -1 and 1 is a share of that side */
+    int components; /* numbers of a tuple, of each tuple of a list; others: 0 */
     const WrComponent
         *parts; /* [components] ranges of their own instead of low, high; NULL: none */
     unsigned

@@ -116,6 +116,7 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
     }
     if (!spec->parts) add_range(text, spec->low, spec->high, spec->above);
     if (spec->unit) wr_text_addf(text, " %s", spec->unit);
+    if (spec->share) wr_text_add(text, ", or a share of the side between -1 and 1");
 }
 
 void wr_arg_fallback_print(const WrArgSpec *spec, WrText *text)
@@ -159,7 +160,7 @@ static bool in_range(const WrArgSpec *spec, int part, double value)
     }
     if (!(value >= low && value <= high)) return false;
     if (spec->above && value == low) return false;
-    return !whole || value == floor(value);
+    return !whole || value == floor(value) || (spec->share && fabs(value) < 1);
 }
 
 /* One number of a tuple, [text, text + length). */

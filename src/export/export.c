@@ -237,7 +237,9 @@ static const char *convention_of(const WrExportKind *kind, const int axes[3])
 /* Where the table, or what was laid of it, is sampled. */
 static void set_grid(WrExportJob *job)
 {
-    const int w = wr_field_width(job->field), h = wr_field_height(job->field);
+    const bool sized = job->options.map_w > 0;
+    const int w = sized ? job->options.map_w : wr_field_width(job->field);
+    const int h = sized ? job->options.map_h : wr_field_height(job->field);
     const bool border = job->options.border, ring = wr_field_wrap_u(job->field) == WR_WRAP_PERIODIC;
     job->width = w + border;
     job->height = h + border;

@@ -112,6 +112,7 @@ typedef struct WrExportOptions {
     int axes[3];     /* normals: what red, green and blue hold, 1 x, 2 y, 3 z, below 0 its opposite;
                         all 0: as the kind has it */
     int padding;     /* baked normals: rings of texels about what is covered, 0..64 */
+    int map_w, map_h; /* maps of a surface or a mesh: texels, 1..WR_FIELD_MAX; 0: the table's */
     double strength; /* normals: slopes times this, finite, not 0 */
     int scheme;      /* normals: a WrScheme, or -1 for the scene's */
     const char *

@@ -200,6 +200,12 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
             set_object, true                                                                       \
     }
 
+#define MAP_SIZE                                                                                   \
+    {                                                                                              \
+        "size", "WIDTHxHEIGHT", "of the map in texels; left out: the table's",                     \
+            wr_export_set_map_size                                                                 \
+    }
+
 #define AXES                                                                                       \
     {                                                                                              \
         "axes", "+x+y+z, opengl or directx",                                                       \
@@ -263,7 +269,7 @@ const WrExportKind wr_export_kinds[] = {
     { .name = "normal-object",
       .label = "normal map along the object's axes",
       .help = "the surface's own normals as the bump turns them, for one object as it is",
-      .options = { DEPTH, DITHER, OBJECT, AXES },
+      .options = { DEPTH, DITHER, OBJECT, AXES, MAP_SIZE },
       .channels = 3,
       .green = 1.0,
       .on_surface = true,
@@ -278,6 +284,7 @@ const WrExportKind wr_export_kinds[] = {
                    DITHER,
                    OBJECT,
                    AXES,
+                   MAP_SIZE,
                    { "padding", "TEXELS", "about the islands of (u,v), 0..64; left out: 8",
                      wr_export_set_padding } },
       .channels = 3,

@@ -1,9 +1,11 @@
 #include "export/map_options.h"
 
 #include "export/job.h"
+#include "export/options.h"
 
 #include "base/error.h"
 #include "base/text.h"
+#include "field/field.h"
 #include "field/maps.h"
 #include "field/occlusion.h"
 
@@ -189,6 +191,13 @@ bool wr_export_set_padding(WrExportOptions *options, const char *value, WrError 
         return wr_fail(err, "padding '%.40s': must be a whole number of texels, 0..64", value);
     options->padding = (int)rings;
     return true;
+}
+
+bool wr_export_set_map_size(WrExportOptions *options, const char *value, WrError *err)
+{
+    if (wr_export_parse_size(value, 1, WR_FIELD_MAX, &options->map_w, &options->map_h)) return true;
+    return wr_fail(err, "size '%.40s': must be WIDTHxHEIGHT in texels, 1..%d each", value,
+                   WR_FIELD_MAX);
 }
 
 bool wr_export_set_strength(WrExportOptions *options, const char *value, WrError *err)

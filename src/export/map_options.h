@@ -99,5 +99,6 @@ WrExportSet wr_set_directions, wr_set_reach, wr_set_toward, wr_set_steepest, wr_
 
 /* Of normals. */
 bool wr_export_set_axes(WrExportOptions *options, const char *value, WrError *err);
+bool wr_export_set_map_size(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_padding(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_strength(WrExportOptions *options, const char *value, WrError *err);

@@ -52,6 +52,12 @@ static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
 #define CELLS(fallback_)                                                                           \
     WHOLE("cells", "Cells", "of the coarsest noise, across the table; upwards about as large",     \
           fallback_, 1, 8192, 64)
+#define SHIFT(name_, label_, help_)                                                                \
+    {                                                                                              \
+        .name = name_, .label = label_, .help = help_, .unit = "texels", .low = -WR_FIELD_MAX,     \
+        .high = WR_FIELD_MAX, .soft_low = -WR_FIELD_MAX, .soft_high = WR_FIELD_MAX, .whole = true, \
+        .share = true                                                                              \
+    }
 #define SEED WHOLE("seed", "Seed", "another number, another noise", 1, 0, 4294967295.0, 100)
 #define WORDS(name_, label_, help_, fallback_, words)                                              \
     {                                                                                              \
@@ -68,9 +74,7 @@ const WrOpInfo wr_ops[] = {
       .help = "move all texels, those that leave on one side coming in on the other",
       .moves = true,
       .run = wr_op_offset,
-      .params = { TEXELS("du", "To the right", "texels to the right", 0, -WR_FIELD_MAX,
-                         WR_FIELD_MAX),
-                  TEXELS("dv", "Up", "texels upwards", 0, -WR_FIELD_MAX, WR_FIELD_MAX) } },
+      .params = { SHIFT("du", "To the right", "to the right"), SHIFT("dv", "Up", "upwards") } },
     { .name = "flip-u",
       .label = "Flip left to right",
       .help = "mirror the table, left for right",

@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "field/field.h"
 
+#include <math.h>
+
 /* Result texel (i, j) is input texel (i + du, j + dv). */
 typedef struct Shift {
     int du, dv;
@@ -17,10 +19,17 @@ static void make_shifted(const WrOpJob *job, const void *ctx, WrOpBlock b, float
     wr_op_read(job->in, b.i + shift->du, b.j + shift->dv, b.count_i, b.count_j, out, pitch);
 }
 
+/* Texels: a number between -1 and 1 is a share of the side, rounded to whole texels. */
+static int texels_of(double shift, int side)
+{
+    return (int)(fabs(shift) < 1.0 ? round(shift * side) : shift);
+}
+
 /* param: du, dv. A shift to the right or upwards looks to the left or downwards, and rows run down. */
 WrField *wr_op_offset(WrOpJob *job, const double *param)
 {
-    Shift shift = { -(int)param[0], (int)param[1] };
+    Shift shift = { -texels_of(param[0], wr_field_width(job->in)),
+                    texels_of(param[1], wr_field_height(job->in)) };
     WrOpWork work = { .make = make_shifted, .ctx = &shift, .reach = -1, .moves = true };
     return wr_op_build_same(job, &work);
 }

@@ -43,13 +43,15 @@ static bool check_number(const WrOpInfo *op, const WrOpParam *param, double valu
 {
     bool inside =
         value >= param->low && value <= param->high && (!param->above || value > param->low);
-    if (inside && (!param->whole || value == floor(value))) return true;
+    if (inside && (!param->whole || value == floor(value) || (param->share && fabs(value) < 1)))
+        return true;
     if (param->choices)
         return wr_fail(err, "%s: %s %g: must be the number of one of its words, 0..%g", op->name,
                        param->name, value, param->high);
-    return wr_fail(err, "%s: %s %g: must be %s%s %g..%g%s%s", op->name, param->name, value,
+    return wr_fail(err, "%s: %s %g: must be %s%s %g..%g%s%s%s", op->name, param->name, value,
                    param->whole ? "a whole number" : "a number", param->above ? " above" : ",",
-                   param->low, param->high, *param->unit ? " " : "", param->unit);
+                   param->low, param->high, *param->unit ? " " : "", param->unit,
+                   param->share ? ", or a share of the side between -1 and 1" : "");
 }
 
 static bool check_one(const WrOpInfo *op, const WrOpParam *param, const double *value, WrError *err)
