@@ -41,6 +41,12 @@ run_page() {
 all=0
 run_page "$source/README.md"
 [[ $all -ge 8 ]] || fail "only $all commands found in the README"
+# The point that the README inspects shows something: the bump tilts the normal there, along u and along v.
+ln -s "$source/samples" samples
+shown=$(bash -c "$(sed -n 's/^    \(wrinkle inspect .*\)/\1/p' "$source/README.md")" 2>err |
+    awk '$1 == "tilt_deg" && $2 > 5 { n++ } ($1 == "Fu" || $1 == "Fv") && $2 != 0 { n++ } END { print n + 0 }')
+[[ $shown == 3 ]] || fail "its wrinkle inspect shows flat ground: $(cat err)"
+rm samples
 mkdir guide && cd guide || exit 1
 folder=$folder/guide
 for page in "$guide"/*.md; do run_page "$page"; done

@@ -33,7 +33,7 @@ static void sets_files_and_settings_are_taken(void **state)
     assert_int_equal(of(s)->kind, WR_SURROUND_OFF);
     must_fail(s, "environment turn=3", "no surroundings");
     must_fail(s, "environment off strength=2", "strength");
-    must_fail(s, "environment sky channel=R", "channel");
+    must_fail(s, "environment sky layer=R", "layer");
     must_fail(s, "environment missing.exr", "missing.exr");
     must_run(s, "environment studio turn=12.5");
     must_run(s, "environment strength=0.7");

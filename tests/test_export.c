@@ -717,12 +717,12 @@ static void options_out_of_range_are_errors_that_name_them(void **state)
                 { "height", "range", "0,inf", "auto" },
                 { "height", "range", "0,1,2", "auto" },
                 { "height", "dither", "yes", "on or off" },
-                { "height", "signs", "plain", "no option 'signs'; it has depth, range, cell" },
+                { "height", "signs", "plain", "must be one of depth, range, cell" },
                 { "normal+y", "cell", "0,1", "above 0" },
                 { "normal+y", "cell", "1", "above 0" },
                 { "normal-y", "cell", "1,-1", "above 0" },
                 { "normal-y", "scheme", "cubic", "bilinear" },
-                { "normal-y", "range", "auto", "no option" } };
+                { "normal-y", "range", "auto", "unknown name" } };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         WrExportOptions options = wr_export_default(), before = options;
         WrError err = { "" };

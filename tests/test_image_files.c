@@ -428,7 +428,7 @@ static void commands_choose_and_tell_what_they_took(void **state)
         strstr(said.text, "took diffuse.R, diffuse.G, diffuse.B of its channels Depth.Z"));
     must_run(s, "image scene.exr channel=Depth.Z");
     for (int k = 0; k < 15; k++) assert_near(f_at(s, k % 5, k / 5), k / 5 + k % 5 / 4.0, 1e-6);
-    assert_non_null(strstr(wr_session_last_command(s), "channel=Depth.Z"));
+    assert_non_null(strstr(wr_session_last_command(s), "layer=Depth.Z"));
     must_run(s, "terrain elevation scene.exr channel=diffuse.G values=real");
     assert_near(f_at(s, 2, 1), 20 + 1 + 0.5, 1e-5);
     must_fail(s, "image scene.exr channel=Depth", "Depth.Z");

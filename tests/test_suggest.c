@@ -84,6 +84,7 @@ static void check_list(WrWordList list, const void *ctx, Ask ask, const void *as
             if (another || !isalpha((unsigned char)*typed)) continue;
             WrError err = { "accepted" };
             ask(ask_ctx, typed, &err);
+            if (strcmp(err.text, "another name") == 0) continue;
             check_answer(word, typed, list, ctx, &err, tally);
         }
     }
@@ -172,7 +173,10 @@ static void ask_name(const void *ctx, const char *typed, WrError *err)
     const Form *form = ctx;
     char line[300];
     for (int k = 0; k < form->count; k++)
-        if (form->specs[k].also && strcmp(form->specs[k].also, typed) == 0) return;
+        if (form->specs[k].also && strcmp(form->specs[k].also, typed) == 0) {
+            wr_fail(err, "another name");
+            return;
+        }
     snprintf(line, sizeof line, "%s %s %s=1", form->command->name,
              form->index >= 0 ? form->row.name : "", typed);
     parse(line, err);

@@ -21,10 +21,14 @@
         .shape = "ru,rv", .low = 0, .high = WR_SELECT_REACH,                                       \
         .help = "half its width and height, in parts of the cell as u and v"                       \
     }
+/* The place of an ellipse. */
+#define WR_ARG_MIDDLE                                                                              \
+    .name = "at", .type = WR_ARG_TUPLE, .required = true, .components = 2, .shape = "u,v",         \
+    .low = -WR_SELECT_REACH, .high = WR_SELECT_REACH, .help = "its middle"
 /* What is connected, and as high as a place. */
 #define WR_ARGS_FLOOD(of)                                                                          \
-    { PLACE("u,v"), .type = WR_ARG_TUPLE, .components = 2,                                         \
-      .low = -1e6,  .high = 1e6,          .help = "where it begins" },                             \
+    { PLACE("u,v"), .also = "at", .type = WR_ARG_TUPLE,     .components = 2,                       \
+      .low = -1e6,  .high = 1e6,  .help = "where it begins" },                                     \
         { .name = "tolerance",                                                                     \
           .type = WR_ARG_NUMBER,                                                                   \
           .low = 0,                                                                                \
@@ -38,7 +42,8 @@
     }
 /* What of a picture file is taken (WrImageWish). */
 #define WR_ARGS_OF_FILE                                                                            \
-    { .name = "channel",                                                                           \
+    { .name = "layer",                                                                             \
+      .also = "channel",                                                                           \
       .type = WR_ARG_TEXT,                                                                         \
       .shape = "NAME",                                                                             \
       .help = "of an EXR file: a channel (Depth.Z) or a layer of them (diffuse); left out, its "   \

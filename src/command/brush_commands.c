@@ -34,8 +34,9 @@ static bool run_stroke(WrSession *session, WrCall *call, WrError *err)
     return good;
 }
 
-static const WrArgSpec args_dab[] = { { PLACE("u,v"), .type = WR_ARG_TUPLE, .components = 2,
-                                        .low = -1e9, .high = 1e9, .help = "the centre; v up" },
+static const WrArgSpec args_dab[] = { { PLACE("u,v"), .also = "at", .type = WR_ARG_TUPLE,
+                                        .components = 2, .low = -1e9, .high = 1e9,
+                                        .help = "the centre; v up" },
                                       { 0 } };
 
 static const WrComponent sample_parts[] = {

@@ -106,7 +106,7 @@ static bool take_light(WrSession *session, WrCall *call, const char *name, WrEnv
 /* What belongs to a file stands in a line that names one, and off takes nothing. */
 static bool check_line(const WrCall *call, const WrScene *now, const char *name, WrError *err)
 {
-    static const char *const of_file[] = { "channel", "part", "sha256" };
+    static const char *const of_file[] = { "layer", "part", "sha256" };
     static const char *const of_light[] = { "turn", "strength" };
     const WrSurroundKind kind = name ? kind_of(name) : WR_SURROUND_OFF;
     if (!name && now->environment.kind == WR_SURROUND_OFF)

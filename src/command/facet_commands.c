@@ -65,7 +65,7 @@ static void print_metalness(const WrScene *scene, WrText *text)
 /* What a line without a file changes of the picture that is there. */
 static bool change(WrSession *session, const WrCall *call, WrFacetKind kind, WrError *err)
 {
-    static const char *const of_file[] = { "channel", "part", "sha256", NULL };
+    static const char *const of_file[] = { "layer", "part", "sha256", NULL };
     const WrScene *now = session->state.document->scene;
     if (!now->facets[kind].image)
         return wr_fail(err, "the object has no picture of %s: name a file", verbs[kind]);
@@ -81,7 +81,7 @@ static WrImage *read_numbers(WrSession *session, WrCall *call, const char *name,
 {
     const int which = kind == WR_FACET_ROUGHNESS ? WR_OBJECT_ROUGHNESS : WR_OBJECT_METALNESS;
     WrImage *file = wr_find_laid(session, call, name, which, err);
-    const bool asked = session->loading || wr_call_given(call, "channel");
+    const bool asked = session->loading || wr_call_given(call, "layer");
     WrImage *numbers = file ? numbers_of(file, channel_of(file, kind, asked), err) : NULL;
     wr_image_free(file);
     return numbers;
@@ -89,7 +89,7 @@ static WrImage *read_numbers(WrSession *session, WrCall *call, const char *name,
 
 static bool run(WrSession *session, WrCall *call, WrFacetKind kind, WrError *err)
 {
-    static const char *const of_map[] = { "sha256", "repeat", "channel", "part", NULL };
+    static const char *const of_map[] = { "sha256", "repeat", "layer", "part", NULL };
     const WrArg *file = wr_call_arg(call, "FILE|off");
     const char *name = file->given ? file->text : NULL;
     const bool off = name && strcmp(name, "off") == 0;

@@ -149,6 +149,7 @@ const char *wr_generator_argument(const WrGenerator *generator, const char *plai
 static WrArgSpec argument(const WrParam *p)
 {
     WrArgSpec spec = { .name = p->name,
+                       .also = p->also,
                        .type = WR_ARG_NUMBER,
                        .positional = p->positional,
                        .low = p->low,

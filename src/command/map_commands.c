@@ -61,7 +61,7 @@ static void print_colour(const WrScene *scene, WrText *text)
 /* What a line without a file changes of the picture that is there. */
 static bool change_colour(WrSession *session, const WrCall *call, WrError *err)
 {
-    static const char *const of_file[] = { "channel", "part", "sha256", NULL };
+    static const char *const of_file[] = { "layer", "part", "sha256", NULL };
     const WrScene *now = session->state.document->scene;
     if (!now->colour || now->colouring.count > 0)
         return wr_fail(err, "the object has no colour picture: name a file");
@@ -74,7 +74,7 @@ static bool change_colour(WrSession *session, const WrCall *call, WrError *err)
 
 static bool run_colour(WrSession *session, WrCall *call, WrError *err)
 {
-    static const char *const of_colour[] = { "sha256", "repeat", "channel", "part", NULL };
+    static const char *const of_colour[] = { "sha256", "repeat", "layer", "part", NULL };
     const WrArg *file = wr_call_arg(call, "FILE|off");
     const char *name = file->given ? file->text : NULL;
     const bool off = name && strcmp(name, "off") == 0;
@@ -242,9 +242,7 @@ static bool change_space(WrSession *session, const WrCall *call, WrNormalMap *ma
 /* What a line without a file changes of the map that is there. */
 static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *map, WrError *err)
 {
-    static const char *const of_file[] = {
-        "channels", "coding", "channel", "part", "sha256", NULL
-    };
+    static const char *const of_file[] = { "channels", "coding", "layer", "part", "sha256", NULL };
     if (!map->image) return wr_fail(err, "the object has no normal map: name a file");
     if (!wr_refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
     if (!change_green(call, map, err) || !change_space(session, call, map, err)) return false;
@@ -257,7 +255,7 @@ static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *
 static bool run_normals(WrSession *session, WrCall *call, WrError *err)
 {
     static const char *const of_map[] = { "space",  "frame",    "green",  "channels",
-                                          "coding", "strength", "repeat", "channel",
+                                          "coding", "strength", "repeat", "layer",
                                           "part",   "sha256",   NULL };
     const WrArg *file = wr_call_arg(call, "FILE|off");
     const char *name = file->given ? file->text : NULL;

@@ -67,7 +67,7 @@ static WrField *select_rect(WrSession *session, const WrCall *call, WrError *err
 
 static WrField *select_ellipse(WrSession *session, const WrCall *call, WrError *err)
 {
-    WrSelectPoint c = point(call, "centre"), r = point(call, "radii");
+    WrSelectPoint c = point(call, "at"), r = point(call, "radii");
     WrSelectPoint a = { c.u - r.u, c.v - r.v }, b = { c.u + r.u, c.v + r.v };
     return wr_select_ellipse(like(session), a, b, session->options.pool, err);
 }
@@ -252,9 +252,10 @@ static const WrForm select_forms[] = {
                                   "a rectangle; a corner beyond 0 or 1 crosses the table's edge",
                               .args = { POINT("from", "a corner"), POINT("to", "the corner across"),
                                         JOIN } },
-    [WR_ROW(SELECT_ELLIPSE)] = { .name = "ellipse",
-                                 .help = "an ellipse, its sides along u and v",
-                                 .args = { POINT("centre", "its middle"), WR_ARG_RADII, JOIN } },
+    [WR_ROW(
+        SELECT_ELLIPSE)] = { .name = "ellipse",
+                             .help = "an ellipse, its sides along u and v",
+                             .args = { { WR_ARG_MIDDLE, .also = "centre" }, WR_ARG_RADII, JOIN } },
     [WR_ROW(SELECT_LASSO)] = { .name = "lasso",
                                .help = "a polygon",
                                .args = { { .name = "points",
@@ -329,5 +330,5 @@ const WrCommand wr_command_select = {
     .help = "choose where edits act",
     .details = "Shapes wrap round periodic edges, and their edges are smooth. An edit under a "
                "selection s leaves old + s (new - old), and where s is 0 every bit as it was.",
-    .example = "select ellipse centre=0.5,0.5 radii=0.3,0.2"
+    .example = "select ellipse at=0.5,0.5 radii=0.3,0.2"
 };

@@ -88,7 +88,7 @@ bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, cons
 
 WrImageWish wr_call_wish(WrCall *call)
 {
-    return (WrImageWish){ .channel = wr_call_arg(call, "channel")->text,
+    return (WrImageWish){ .channel = wr_call_arg(call, "layer")->text,
                           .part = wr_call_arg(call, "part")->text };
 }
 

@@ -40,7 +40,7 @@ static bool rectangle(const WrField *like, const WrCall *call, double tolerance,
 static bool ellipse(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
                     WrError *err)
 {
-    return wr_figure_ellipse(like, point(call, "middle"), point(call, "radii"),
+    return wr_figure_ellipse(like, point(call, "at"), point(call, "radii"),
                              wr_call_number(call, "turn"), tolerance, out, err);
 }
 
@@ -248,7 +248,7 @@ static WrField *cover_plain(WrSession *session, const WrField *field, const WrCa
     bool straight =
         maker == rectangle || maker == ellipse ? wr_call_number(call, "turn") == 0.0 : false;
     if (straight && maker == ellipse) {
-        WrSelectPoint m = point(call, "middle"), r = point(call, "radii");
+        WrSelectPoint m = point(call, "at"), r = point(call, "radii");
         WrSelectPoint a = { m.u - r.u, m.v - r.v }, b = { m.u + r.u, m.v + r.v };
         if (fabs(m.u) + r.u <= WR_SELECT_REACH && fabs(m.v) + r.v <= WR_SELECT_REACH)
             return wr_select_ellipse(field, a, b, pool, err);
@@ -346,7 +346,9 @@ static const WrForm shape_forms[] = {
                                             PAINT } },
     [WR_ROW(SHAPE_ELLIPSE)] = { .name = "ellipse",
                                 .help = "about a point",
-                                .args = { POINT("middle", "its middle"), WR_ARG_RADII, TURN,
+                                .args = { { WR_ARG_MIDDLE, .also = "middle" },
+                                          WR_ARG_RADII,
+                                          TURN,
                                           PAINT } },
     [WR_ROW(SHAPE_POLYGON)] = { .name = "polygon",
                                 .help = "through points, closed; inside is where a ray meets it an "
@@ -389,5 +391,5 @@ const WrCommand wr_command_shape = {
         "modes that move heights cannot fill. Shapes wrap round periodic edges and keep their "
         "form "
         "in a cell that is not square.",
-    .example = "shape ellipse middle=0.5,0.5 radii=0.3,0.2 paint=fill strength=0.5"
+    .example = "shape ellipse at=0.5,0.5 radii=0.3,0.2 paint=fill strength=0.5"
 };

@@ -41,6 +41,7 @@ typedef struct WrParamPart {
 
 typedef struct WrParam {
     const char *name;  /* as in commands; NULL ends the list */
+    const char *also;  /* another name that commands accept; NULL: none */
     const char *label; /* for people */
     const char *help;  /* a few words */
     const char *unit;  /* "texels", "degrees", "table units", "" */

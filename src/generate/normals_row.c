@@ -23,7 +23,7 @@ static const char *const codes[] = { WR_NORMAL_CODES(WR_WORD) NULL };
 
 const WrParam wr_params_normals[] = {
     WR_P_FILE("of the normal map"),
-    WR_P_CHANNELS("channel"),
+    WR_P_CHANNELS("layer", "channel"),
     WR_P_CHOICE("y", "Green", Y_AUTO, ys,
                 "where green points: up (+Y), down (-Y), or as the map itself shows"),
     WR_P_CHOICE("edges", "Edges", EDGES_AUTO, edges,
@@ -206,7 +206,7 @@ bool wr_picture_normals(const WrParamValue *values, const WrGenerateJob *job, Wr
 {
     const WrParams p = { wr_params_normals, values };
     WrNormals normals = { .p = NULL };
-    WrImage *image = wr_picture_read(&p, "channel", false, job, err);
+    WrImage *image = wr_picture_read(&p, "layer", false, job, err);
     const bool good =
         image && decode(&p, image, job, &normals, err) && make(&p, &normals, job, out, err);
     wr_image_free(image);

@@ -51,9 +51,9 @@
     WR_P_WHOLE("seed", "Seed", 1, 0, 4294967295.0, 999, "another number, another of its kind")
 #define WR_P_ORIGIN                                                                                \
     {                                                                                              \
-        .name = "origin", .label = "Origin", .help = "where its corner lies", .unit = "",          \
-        .kind = WR_PARAM_TUPLE, .low = -1e6, .high = 1e6, .soft_low = 0, .soft_high = 1,           \
-        .shape = "u,v", .components = 2                                                            \
+        .name = "origin", .also = "at", .label = "Origin", .help = "where its corner lies",        \
+        .unit = "", .kind = WR_PARAM_TUPLE, .low = -1e6, .high = 1e6, .soft_low = 0,               \
+        .soft_high = 1, .shape = "u,v", .components = 2                                            \
     }
 #define WR_P_END                                                                                   \
     {                                                                                              \

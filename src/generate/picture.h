@@ -48,8 +48,9 @@ double wr_picture_light(double code);
         .positional = true                                                                         \
     }
 /* What of a file is taken. */
-#define WR_P_CHANNELS(name_)                                                                       \
+#define WR_P_CHANNELS(name_, also_)                                                                \
     { .name = name_,                                                                               \
+      .also = also_,                                                                               \
       .label = "Channels",                                                                         \
       .help = "of an EXR file: a channel (Depth.Z) or a layer of them (diffuse)",                  \
       .unit = "",                                                                                  \

@@ -25,7 +25,7 @@ static const char *const lights[] = { LIGHTS(WR_WORD) NULL };
 
 const WrParam wr_params_photo[] = {
     WR_P_FILE("of the picture"),
-    WR_P_CHANNELS("layer"),
+    WR_P_CHANNELS("layer", NULL),
     WR_P_CHOICE("channel", "Channel", LUMINANCE, channels, "what counts as height"),
     WR_P_CHOICE("light", "Light", LINEAR, lights,
                 "linear: codes of 8 and 16 bits are sRGB; code: they are numbers"),

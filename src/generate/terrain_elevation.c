@@ -24,7 +24,7 @@ static const char *const meanings[] = { MEANINGS(WR_WORD) NULL };
 
 const WrParam wr_params_elevation[] = {
     WR_P_FILE("a picture, SRTM elevations (.hgt), or bare numbers (.r16, .raw, .r32)"),
-    WR_P_CHANNELS("channel"),
+    WR_P_CHANNELS("layer", "channel"),
     { .name = "size",
       .label = "Size",
       .help = "columns x rows of bare numbers; left out, they are a square",
@@ -105,7 +105,7 @@ static bool apply_label(const WrParams *p, WrImage *image, const WrGenerateJob *
 static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[2],
                          const WrGenerateJob *job, Elevation *out, WrError *err)
 {
-    WrImage *image = wr_picture_read(p, "channel", true, job, err);
+    WrImage *image = wr_picture_read(p, "layer", true, job, err);
     if (!image) return false;
     bool good = wr_sheet_new(&out->sheet, image->width, image->height, wrap, err);
     out->labelled = good && apply_label(p, image, job);

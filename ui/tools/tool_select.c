@@ -178,7 +178,7 @@ static void write_box(const WrApp *app, const WrPointer *at, WrSelectPoint shift
         wr_text_add(line, " to=");
         add_point(line, b.u, b.v);
     } else {
-        wr_text_add(line, "select ellipse centre=");
+        wr_text_add(line, "select ellipse at=");
         add_point(line, (a.u + b.u) / 2, (a.v + b.v) / 2);
         wr_text_add(line, " radii=");
         add_point(line, fabs(b.u - a.u) / 2, fabs(b.v - a.v) / 2);

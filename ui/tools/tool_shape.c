@@ -105,7 +105,7 @@ static void commit(WrApp *app, const double box[4])
     b = (WrSelectPoint){ b.u + home.u, b.v + home.v };
     if (is_round(app)) {
         wr_text_add(&line, "shape ellipse");
-        add_pair(&line, "middle", (a.u + b.u) / 2, (a.v + b.v) / 2);
+        add_pair(&line, "at", (a.u + b.u) / 2, (a.v + b.v) / 2);
         add_pair(&line, "radii", fabs(b.u - a.u) / 2, fabs(b.v - a.v) / 2);
     } else {
         wr_text_add(&line, "shape rectangle");
