@@ -68,6 +68,20 @@ expect 2 export --size 4x4
 has err 'render, explain, accuracy'
 expect 1 export --as hieght -o a.png
 has err 'did you mean height?'
+expect 1 export --as ambient_occlusion -o a.png
+has err 'did you mean occlusion?'
+expect 2 export --as height --depth 16 -o a.png
+has err 'did you mean depth=VALUE'
+expect 2 render --samples 16 -o a.png
+has err "did you mean --do 'dials samples=...'"
+expect 2 render a.exr b.png
+has err 'did you mean -o b.png?'
+expect 1 render --do dab 0.5,0.5 -o a.png
+has err "goes in quotes: --do 'dab 0.5,0.5'"
+expect 1 render --do 'environment studoi' -o a.png
+has err 'did you mean studio?'
+expect 2 version
+has err 'did you mean --version?'
 expect 1 export --as normal -o a.png
 has err 'did you mean normal+y or normal-y?'
 expect 1 check --as nromal a.png

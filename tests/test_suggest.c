@@ -332,6 +332,21 @@ static void lines_of_newcomers_are_answered(void **state)
         { "object add cup location=0,0,1", "did you mean at=?" },
         { "adjust bricks", "did you mean pattern bricks?" },
         { "material color=1,0,0", "did you mean colour=?" },
+        { "material colour=#ff0000", "# begins a comment" },
+        { "dab 0.5,0.5 radius = 10", "write radius=VALUE, without spaces" },
+        { "dab 0.5,0.5 --radius 10", "write radius=VALUE, without spaces" },
+        { "dab 0.5,0.5 size=10", "did you mean radius=?" },
+        { "dab x=0.5 y=0.5", "u,v stands without a name: must be 2 numbers" },
+        { "dab 0.5,0.5 mode=add", "did you mean raise?" },
+        { "stroke points=0,0 1,1", "after a semicolon: ...;1,1" },
+        { "text 'Hello World'", "goes in quotes: \"Hello World\"" },
+        { "rotate y=45", "x,y,z stands without a name: must be 3 numbers" },
+        { "camera fov=40", "did you mean camera perspective or camera save?" },
+        { "background 1,1,1", "did you mean background plain colour=1,1,1?" },
+        { "layer 2", "unknown ACTION \"2\": must be one of" },
+        { "surface ball", "did you mean sphere?" },
+        { "noise perlin scale=5", "did you mean cells=?" },
+        { "image pic.png fit", "write fit=VALUE" },
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         WrError err = { "accepted" };

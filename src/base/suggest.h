@@ -14,7 +14,7 @@ const char *wr_word_of_array(const void *ctx, int i);
 #define WR_NEAREST_MAX 2
 
 /* The places in the list of the words that are nearest to `word` in edits: insertions, deletions, changes and swaps of
- * neighbours. Capitals count as small letters. A word may differ by a third of its letters, by 3 at most. A word that
+ * neighbours. Capitals count as small letters, _ as -. A word may differ by a third of its letters, by 3 at most. A word that
  * `word` begins ("out" of "output") is between one edit and two. If no word is within one edit, words of the list that mean in
  * this program what `word` means in another ("intensity" for strength). Returns how many there are: 0 if none is near,
  * or if more than WR_NEAREST_MAX are equally near. */

@@ -133,6 +133,8 @@ bool wr_cli_option(const WrSubcommand *command, bool common, int i, const char *
 /* A session with FILE loaded (an empty document without one) and every --do run. outputs: perform output
  * commands among the --do lines. The caller owns it; NULL and an error on failure. */
 WrSession *wr_cli_load(const WrCli *cli, bool outputs, WrError *err);
+/* Load FILE, if one is named. */
+bool wr_cli_open(const WrCli *cli, WrSession *session, WrError *err);
 /* An empty one, with notes going to standard error. */
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err);
 /* The place of a word in a list. False with an error that names the option and suggests a word: "--as hieght: ..." */

@@ -79,7 +79,7 @@ static void forget_inputs(Last *last)
 static WrSession *load(const WrCli *cli, Last *last, WrError *err)
 {
     WrSession *session = wr_cli_session(cli, false, err);
-    last->unread = session && cli->file && !wr_session_open(session, cli->file, err);
+    last->unread = session && !wr_cli_open(cli, session, err);
     if (session && !last->unread && wr_cli_run_dos(cli, session, err)) return session;
     wr_session_free(session);
     return NULL;

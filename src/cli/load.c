@@ -4,6 +4,7 @@
 #include "base/suggest.h"
 #include "command/session.h"
 #include "render/frame.h"
+#include "system/path.h"
 #include "system/process.h"
 
 #include <stdio.h>
@@ -62,12 +63,25 @@ bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err)
     return true;
 }
 
+bool wr_cli_open(const WrCli *cli, WrSession *session, WrError *err)
+{
+    WrFileInfo info;
+    if (!cli->file || wr_session_open(session, cli->file, err)) return true;
+    if (cli->do_count > 0 && !strchr(cli->dos[cli->do_count - 1], ' ') &&
+        !wr_path_info(cli->file, &info))
+        wr_fail(
+            err,
+            "%.200s: No such file or directory: a command with spaces goes in quotes: --do '%.60s "
+            "%.60s'",
+            cli->file, cli->dos[cli->do_count - 1], cli->file);
+    return false;
+}
+
 WrSession *wr_cli_load(const WrCli *cli, bool outputs, WrError *err)
 {
     WrSession *session = wr_cli_session(cli, outputs, err);
     if (!session) return NULL;
-    if ((cli->file && !wr_session_open(session, cli->file, err)) ||
-        !wr_cli_run_dos(cli, session, err)) {
+    if (!wr_cli_open(cli, session, err) || !wr_cli_run_dos(cli, session, err)) {
         wr_session_free(session);
         return NULL;
     }

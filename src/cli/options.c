@@ -6,6 +6,7 @@
 #include "base/suggest.h"
 #include "base/text.h"
 #include "command/call.h"
+#include "export/export.h"
 #include "system/path.h"
 
 #include <limits.h>
@@ -384,6 +385,35 @@ static void add_takers(const char *word, WrText *text)
         }
 }
 
+/* Is "--depth" or "--depth=16" a setting of a kind of export, which takes it as depth=16? */
+static bool is_kind_setting(const char *word)
+{
+    const char *name = word + strspn(word, "-");
+    const size_t length = strcspn(name, "=");
+    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
+        for (const WrExportOptionInfo *o = wr_export_kinds[i].options; o->name; o++)
+            if (strlen(o->name) == length && strncmp(o->name, name, length) == 0) return true;
+    return false;
+}
+
+/* "--do 'dials samples=...'": the one command, one form of it, that has an argument of an option's name. */
+static bool add_commands_of_argument(const char *word, WrText *text)
+{
+    const char *name = word + strspn(word, "-");
+    const size_t length = strcspn(name, "=");
+    WrArgSpec specs[WR_ARGS_MAX];
+    int found = 0;
+    for (int i = 0; i < wr_command_count; i++) {
+        if (wr_commands[i]->form || wr_commands[i]->kind == WR_CLASS_OUTPUT) continue;
+        const int count = wr_command_specs(wr_commands[i], -1, specs);
+        for (int k = 0; k < count; k++)
+            if (!specs[k].positional && strlen(specs[k].name) == length &&
+                strncmp(specs[k].name, name, length) == 0 && found++ == 0)
+                wr_text_addf(text, "--do '%s %s=...'", wr_commands[i]->name, specs[k].name);
+    }
+    return found == 1;
+}
+
 static bool fail_option(const WrSubcommand *command, const char *word, WrError *err)
 {
     WrText near = { 0 }, takers = { 0 };
@@ -394,6 +424,13 @@ static bool fail_option(const WrSubcommand *command, const char *word, WrError *
     else if (suggest_option(command, word, &near))
         wr_fail(err, "%s: unknown option %.60s: did you mean %s? See `wrinkle %s --help`",
                 command->name, word, wr_text_get(&near), command->name);
+    else if (command->options >> WR_OPTION_AS & 1 && is_kind_setting(word))
+        wr_fail(err, "%s: unknown option %.60s: did you mean %.*s=VALUE, without dashes?",
+                command->name, word, (int)strcspn(word + strspn(word, "-"), "="),
+                word + strspn(word, "-"));
+    else if (add_commands_of_argument(word, &near))
+        wr_fail(err, "%s: unknown option %.60s: did you mean %s?", command->name, word,
+                wr_text_get(&near));
     else
         wr_fail(err, "%s: unknown option %.60s: see `wrinkle %s --help`", command->name, word,
                 command->name);
@@ -426,7 +463,7 @@ static int find_first_word(int argc, char **argv)
 /* name=value, as export takes it. */
 static bool is_setting(const char *word)
 {
-    size_t n = strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789");
+    size_t n = strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_-0123456789");
     return n > 0 && word[n] == '=';
 }
 
@@ -437,6 +474,14 @@ static bool take_word(WrCli *cli, const char *word, WrError *err)
         cli->words[cli->word_count++] = word;
         return true;
     }
+    if (cli->file && bits >> WR_OPTION_OUT & 1 && !cli->out)
+        return wr_fail(err, "%.100s: one file at a time, after %.100s: did you mean -o %.100s?",
+                       word, cli->file, word);
+    if (cli->file && cli->do_count > 0)
+        return wr_fail(err,
+                       "%.100s: one file at a time, after %.100s: a command with spaces goes in "
+                       "quotes, as --do 'dab 0.5,0.5'",
+                       word, cli->file);
     if (cli->file) return wr_fail(err, "%.100s: one file at a time, after %.100s", word, cli->file);
     cli->file = word;
     return true;
@@ -451,13 +496,22 @@ static bool take_option(WrCli *cli, int argc, char **argv, int *i, int *status, 
     if (!taken && bits >> WR_OPTION_OWN & 1) return take_word(cli, word, err);
     if (!taken) return fail_option(cli->command, word, err);
     if (o->value && !value && *i + 1 >= argc)
-        return wr_fail(err, "%s: needs a value, %s", o->name, o->value);
+        return wr_fail(err, "%s: needs a value, %s: %s", o->name, o->value, o->help);
     if (o->value && !value) value = argv[++*i];
     *status = WR_EXIT_FAILED; /* a value that is wrong */
     if (o->set) return o->set(cli, value, err);
     if (!o->value) return *(bool *)((char *)cli + o->member) = true;
     *(const char **)((char *)cli + o->member) = value;
     return true;
+}
+
+/* Is it a common option without its dashes? */
+static bool option_of_word(const char *word)
+{
+    for (int i = 0; i < OPTION_COUNT; i++)
+        if (options[i].bit == WR_OPTION_COMMON && strcmp(options[i].name + 2, word) == 0)
+            return true;
+    return false;
 }
 
 /* A first word that is neither a subcommand nor like a file's name is a mistyped subcommand, or the verb of a script. */
@@ -472,6 +526,8 @@ static bool check_first_word(const char *word, WrError *err)
             "unknown subcommand \"%.60s\": it is a command of scripts: `wrinkle render --do '%s "
             "...' -o OUT`, or see `wrinkle help %s`",
             word, word, word);
+    else if (option_of_word(word))
+        wr_fail(err, "unknown subcommand \"%.60s\": did you mean --%.60s?", word, word);
     else if (wr_suggest(word, subcommand_name, NULL, &near))
         wr_fail(err, "unknown subcommand \"%.60s\": did you mean %s? See `wrinkle --help`", word,
                 wr_text_get(&near));

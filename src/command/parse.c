@@ -159,7 +159,10 @@ static bool read_words(WrCall *call, const char *p, bool skip_form, WrError *err
     bool good = true;
     for (p = skip_blanks(p); good && *p && *p != '#'; p = skip_blanks(p)) {
         char *name = take_name(&p);
-        good = take_value(&p, &value, err);
+        good =
+            (!name || *p != '#' ||
+             wr_fail(err, "%s= has no value: # begins a comment, unless it is in quotes", name)) &&
+            take_value(&p, &value, err);
         if (!good) wr_error_prefix(err, "%s: ", call->command->name);
         else if (!name && skip_form) skip_form = false;
         else good = assign(call, name, wr_text_get(&value), &last, err);

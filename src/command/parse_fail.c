@@ -1,8 +1,10 @@
 #include "command/parse_fail.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/suggest.h"
 #include "base/text.h"
+#include "system/path.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -92,6 +94,28 @@ bool wr_fail_verb(const char *verb, WrError *err)
     return false;
 }
 
+/* "camera perspective or camera save": the forms that have an argument of the name of length `length`. */
+static bool add_forms_of_argument(const WrCommand *command, const char *name, size_t length,
+                                  WrText *text)
+{
+    WrForm form;
+    WrArgSpec specs[WR_ARGS_MAX];
+    int found = 0;
+    for (int i = 0; found < FORMS_MOST && command->form(i, &form); i++) {
+        int count = wr_command_specs(command, i, specs);
+        for (int k = 0; k < count; k++)
+            if (!specs[k].positional && strlen(specs[k].name) == length &&
+                strncmp(specs[k].name, name, length) == 0) {
+                wr_text_addf(text, "%s%s %s", found++ ? " or " : "", command->name, form.name);
+                break;
+            }
+    }
+    return found > 0;
+}
+
+/* "light directional to=-1,1,2": the first form with an argument that takes this value. */
+static bool add_form_for_value(const WrCommand *command, const char *value, WrText *text);
+
 /* The form that `rest` holds as "form=" or "=form"; -1. */
 static int form_with_sign(const WrCommand *command, const char *rest, WrForm *form)
 {
@@ -119,10 +143,15 @@ bool wr_fail_form(const WrCommand *command, const char *word, const char *rest, 
     if (!word && form_with_sign(command, rest, &form) >= 0)
         wr_fail(err, "%s: \"%s\" stands without =: did you mean %s %s? It must be one of %s",
                 command->name, form.name, command->name, form.name, wr_text_get(&names));
+    else if (!word && add_forms_of_argument(command, rest + strspn(rest, " \t"),
+                                            strcspn(rest + strspn(rest, " \t"), "= \t"), &near))
+        wr_fail(err, "%s: %s is missing: did you mean %s? It must be one of %s", command->name,
+                command->form_word, wr_text_get(&near), wr_text_get(&names));
     else if (!word)
         wr_fail(err, "%s: %s is missing: one of %s", command->name, command->form_word,
                 wr_text_get(&names));
-    else if (wr_suggest(word, form_name, &list, &near) || add_commands_of_form(word, &near))
+    else if (wr_suggest(word, form_name, &list, &near) || add_commands_of_form(word, &near) ||
+             add_form_for_value(command, word, &near))
         wr_fail(err, "%s: unknown %s \"%s\": did you mean %s? It must be one of %s", command->name,
                 command->form_word, excerpt, wr_text_get(&near), wr_text_get(&names));
     else
@@ -193,11 +222,11 @@ bool wr_belongs_to_name(const WrCall *call, const char *value)
     return best_rank(call, value) <= RANK_NUMBERS;
 }
 
-/* "height=0.1 or width=0.1": the arguments of that rank, the first few of them. */
-static void add_named(const WrCall *call, const char *value, Rank rank, WrText *text)
+/* "height=0.1 or width=0.1": the arguments of that rank, the first `most` of them, at most NAMED_MOST. */
+static void add_named(const WrCall *call, const char *value, Rank rank, int most, WrText *text)
 {
     int found[NAMED_MOST], count = 0;
-    for (int i = 0; i < call->count && count < NAMED_MOST; i++)
+    for (int i = 0; i < call->count && count < most; i++)
         if (rank_of(call, i, value) == rank) found[count++] = i;
     for (int k = 0; k < count; k++) {
         const WrArgSpec *spec = &call->specs[found[k]];
@@ -207,12 +236,50 @@ static void add_named(const WrCall *call, const char *value, Rank rank, WrText *
     }
 }
 
+static bool add_form_for_value(const WrCommand *command, const char *value, WrText *text)
+{
+    WrForm form;
+    if (!isdigit((unsigned char)*value) && !strchr("+-.", *value)) return false;
+    WrCall *call = wr_alloc(1, sizeof *call);
+    bool found = false;
+    for (int i = 0; !found && command->form(i, &form); i++) {
+        call->count = wr_command_specs(command, i, call->specs);
+        bool placed = false; /* the value could be meant for a place without a name */
+        for (int k = 0; k < call->count; k++) placed |= call->specs[k].positional;
+        Rank rank = best_rank(call, value);
+        found = !placed && rank <= RANK_NUMBERS;
+        if (!found) continue;
+        wr_text_addf(text, "%s %s ", command->name, form.name);
+        add_named(call, value, rank, 1, text);
+    }
+    wr_free(call);
+    return found;
+}
+
+/* The argument whose name `value` is, or begins with before a colon, or with dashes in front: a name whose value stands
+   apart. NULL: none. */
+static const WrArgSpec *name_apart(const WrCall *call, const char *value)
+{
+    const char *name = value + strspn(value, "-");
+    const size_t length = strcspn(name, ":");
+    for (int i = 0; i < call->count; i++) {
+        const WrArgSpec *spec = &call->specs[i];
+        if (!spec->positional && strlen(spec->name) == length &&
+            strncmp(spec->name, name, length) == 0)
+            return spec;
+    }
+    return NULL;
+}
+
 /* The text that `last` began and `value` goes on, in quotes: "font=\"DejaVu Sans\"". */
 static void add_quoted(const WrCall *call, const WrArg *last, const char *value, WrText *text)
 {
     const WrArgSpec *spec = &call->specs[last - call->args];
     WrText whole = { 0 };
-    wr_text_addf(&whole, "%s %s", last->text, value);
+    /* Quotes of the shell's kind are none here. */
+    const size_t length = strlen(value);
+    const bool single = *last->text == '\'' && length > 0 && value[length - 1] == '\'';
+    wr_text_addf(&whole, "%s %.*s", last->text + single, (int)(length - single), value);
     if (!spec->positional) wr_text_addf(text, "%s=", spec->name);
     wr_text_add_word(text, wr_text_get(&whole));
     wr_text_fini(&whole);
@@ -229,12 +296,21 @@ bool wr_fail_extra(const WrCall *call, const WrArg *last, const char *value, WrE
     wr_call_add_title(call, &title);
     add_names(call, &names);
     wr_excerpt(value, excerpt);
-    if (after_text && rank > RANK_WORD) {
+    const WrArgSpec *apart = name_apart(call, value);
+    if (apart) {
+        wr_arg_expectation(apart, &right);
+        wr_fail(err, "%s: \"%s\" stands apart from its value: write %s=VALUE, without spaces: %s",
+                wr_text_get(&title), excerpt, apart->name, wr_text_get(&right));
+    } else if (last && call->specs[last - call->args].type == WR_ARG_LIST &&
+               accepts(&call->specs[last - call->args], value)) {
+        wr_fail(err, "%s: \"%s\" is one value too many: %s= goes on after a semicolon: ...;%s",
+                wr_text_get(&title), excerpt, call->specs[last - call->args].name, excerpt);
+    } else if (after_text && rank > RANK_WORD) {
         add_quoted(call, last, value, &right);
         wr_fail(err, "%s: \"%s\" is one value too many: a text with spaces goes in quotes: %s",
                 wr_text_get(&title), excerpt, wr_text_get(&right));
     } else if (rank < RANK_NONE && *value) {
-        add_named(call, value, rank, &right);
+        add_named(call, value, rank, NAMED_MOST, &right);
         wr_fail(err, "%s: \"%s\" needs a name: did you mean %s? It takes %s", wr_text_get(&title),
                 excerpt, wr_text_get(&right), wr_text_get(&names));
     } else if (names.length) {
@@ -251,22 +327,20 @@ bool wr_fail_extra(const WrCall *call, const WrArg *last, const char *value, WrE
 
 /* ---- names ---- */
 
-/* Does the text hold this word, whole? */
-static bool holds_word(const char *text, const char *word)
+/* Does the text begin with this word, whole, or with "the" and this word? */
+static bool begins_with_word(const char *text, const char *word)
 {
     const size_t length = strlen(word);
-    for (const char *at = text; length > 2 && (at = strstr(at, word)); at++)
-        if ((at == text || !isalnum((unsigned char)at[-1])) && !isalnum((unsigned char)at[length]))
-            return true;
-    return false;
+    if (strncmp(text, "the ", 4) == 0) text += 4;
+    return length > 2 && strncmp(text, word, length) == 0 && !isalnum((unsigned char)text[length]);
 }
 
-/* The one argument whose help holds the word, such as R= of a sphere for "radius"; NULL for none or several. */
+/* The one argument whose help begins with the word, such as R= of a sphere for "radius"; NULL for none or several. */
 static const WrArgSpec *explained_by(const WrCall *call, const char *word)
 {
     const WrArgSpec *found = NULL;
     for (int i = 0; i < call->count; i++) {
-        if (call->specs[i].positional || !holds_word(call->specs[i].help, word)) continue;
+        if (call->specs[i].positional || !begins_with_word(call->specs[i].help, word)) continue;
         if (found) return NULL;
         found = &call->specs[i];
     }
@@ -282,6 +356,31 @@ static const WrArgSpec *place_for(const WrCall *call, const char *value)
     return NULL;
 }
 
+/* A place that must be filled, is not, and has a part of this name: "x,y,z" for "y"; or any, as the last resort. */
+static const WrArgSpec *empty_place(const WrCall *call, const char *part)
+{
+    for (int i = 0; i < call->count; i++) {
+        const WrArgSpec *spec = &call->specs[i];
+        if (!spec->positional || call->args[i].given) continue;
+        const char *at = strstr(spec->name, part);
+        const size_t length = strlen(part);
+        const bool holds =
+            at && (at == spec->name || at[-1] == ',') && (at[length] == ',' || at[length] == '\0');
+        if (holds || spec->required) return spec;
+    }
+    return NULL;
+}
+
+/* "cells= or size=": the names that are near. */
+static bool add_near_names(const WrCall *call, const char *name, WrText *text)
+{
+    int places[WR_NEAREST_MAX];
+    const int count = wr_nearest(name, argument_name, call, places);
+    for (int k = 0; k < count; k++)
+        wr_text_addf(text, "%s%s=", k ? " or " : "", argument_name(call, places[k]));
+    return count > 0;
+}
+
 bool wr_fail_name(const WrCall *call, const char *name, const char *value, WrError *err)
 {
     char excerpt[WR_EXCERPT_SIZE];
@@ -290,21 +389,29 @@ bool wr_fail_name(const WrCall *call, const char *name, const char *value, WrErr
     wr_call_add_title(call, &title);
     wr_excerpt(name, excerpt);
     const WrArgSpec *place = place_for(call, value), *other = explained_by(call, name);
-    const bool nearly = wr_suggest(name, argument_name, call, &near);
+    const bool nearly = add_near_names(call, name, &near);
+    const WrArgSpec *empty = empty_place(call, name);
+    if (!nearly && other) wr_text_addf(&near, "%s=", other->name);
     if (!nearly && place && (place->required || !other)) {
         WrText word = { 0 };
         wr_text_add_word(&word, value);
         wr_fail(err, "%s: unknown name \"%s\": %s has none: did you mean %s %s?",
                 wr_text_get(&title), excerpt, place->name, wr_text_get(&title), wr_text_get(&word));
         wr_text_fini(&word);
+    } else if (!nearly && !other && empty) {
+        WrText right = { 0 };
+        wr_arg_expectation(empty, &right);
+        wr_fail(err, "%s: unknown name \"%s\": %s stands without a name: must be %s",
+                wr_text_get(&title), excerpt, empty->name, wr_text_get(&right));
+        wr_text_fini(&right);
     } else if (!names.length) {
         wr_fail(err,
                 "%s: unknown name \"%s\": it takes no names (a file name that holds a = goes in "
                 "quotes)",
                 wr_text_get(&title), excerpt);
     } else if (nearly || other) {
-        wr_fail(err, "%s: unknown name \"%s\": did you mean %s=? It takes %s", wr_text_get(&title),
-                excerpt, nearly ? wr_text_get(&near) : other->name, wr_text_get(&names));
+        wr_fail(err, "%s: unknown name \"%s\": did you mean %s? It takes %s", wr_text_get(&title),
+                excerpt, wr_text_get(&near), wr_text_get(&names));
     } else {
         wr_fail(err, "%s: unknown name \"%s\": it takes %s", wr_text_get(&title), excerpt,
                 wr_text_get(&names));
@@ -325,4 +432,21 @@ bool wr_fail_missing(const WrCall *call, const WrArgSpec *spec, WrError *err)
     wr_text_fini(&right);
     wr_text_fini(&title);
     return false;
+}
+
+void wr_call_add_hint(const WrCall *call, WrError *err)
+{
+    WrFileInfo info;
+    for (int i = 0; err && i < call->count; i++) {
+        const WrArgSpec *spec = &call->specs[i];
+        if (spec->type != WR_ARG_PATH || !spec->words || !wr_call_names_file(call, i)) continue;
+        WrText near = { 0 };
+        if (!wr_path_info(call->args[i].text, &info) &&
+            wr_suggest(call->args[i].text, wr_word_of_array, spec->words, &near)) {
+            const size_t length = strlen(err->text);
+            snprintf(err->text + length, sizeof err->text - length, ": did you mean %s?",
+                     wr_text_get(&near));
+        }
+        wr_text_fini(&near);
+    }
 }

@@ -20,5 +20,8 @@ bool wr_belongs_to_name(const WrCall *call, const char *value);
 /* An argument that must be given is not. */
 bool wr_fail_missing(const WrCall *call, const WrArgSpec *spec, WrError *err);
 
+/* Behind the message of a call that failed: the word that a file name may be mistyped for, where there is no such file. */
+void wr_call_add_hint(const WrCall *call, WrError *err);
+
 /* "dab", "light point": what a message about this call begins with. */
 void wr_call_add_title(const WrCall *call, WrText *text);

@@ -6,6 +6,7 @@
 #include "command/commands.h"
 #include "command/estimate.h"
 #include "command/inner.h"
+#include "command/parse_fail.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "render/frame.h"
@@ -317,6 +318,7 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
     if (session->options.foretell && !session->opening) foretell(session, call);
     bool good = run_call(session, call, err);
     if (!good && wr_progress_stopped()) wr_fail(err, "cancelled"); /* whatever was left half done */
+    if (!good) wr_call_add_hint(call, err);
     if (!good) name_command(err, call->command->name);
     wr_call_free(call);
     return good;

@@ -60,6 +60,15 @@ const char *wr_excerpt(const char *bytes, char buffer[WR_EXCERPT_SIZE])
 
 /* ---- what would be right ---- */
 
+/* Powers of ten from a million on as such: "1e9". */
+static void add_limit(WrText *text, double limit)
+{
+    const int power = fabs(limit) >= 1e6 ? (int)lround(log10(fabs(limit))) : 0;
+    if (power > 0 && power < 23 && fabs(limit) == pow(10.0, power))
+        wr_text_addf(text, "%s1e%d", limit < 0 ? "-" : "", power);
+    else wr_text_add_number(text, limit);
+}
+
 static void add_range(WrText *text, double low, double high, bool above)
 {
     if (low == -WR_BIG_HEIGHT && high == WR_BIG_HEIGHT) {
@@ -68,14 +77,14 @@ static void add_range(WrText *text, double low, double high, bool above)
     }
     if (above) {
         wr_text_add(text, "above ");
-        wr_text_add_number(text, low);
+        add_limit(text, low);
         wr_text_add(text, ", up to ");
     } else {
-        wr_text_add_number(text, low);
+        add_limit(text, low);
         wr_text_add(text, "..");
     }
     if (high == WR_BIG_HEIGHT) wr_text_add(text, "3.4e38");
-    else wr_text_add_number(text, high);
+    else add_limit(text, high);
 }
 
 static void add_choices(WrText *text, const WrArgSpec *spec)
@@ -92,14 +101,14 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
         wr_text_addf(text, "%s, two whole numbers, each ", spec->shape ? spec->shape : "WxH");
         break;
     case WR_ARG_TUPLE:
-        wr_text_addf(text, "%d %snumbers parted by commas", spec->components,
+        wr_text_addf(text, "%d %snumbers separated by commas", spec->components,
                      spec->whole ? "whole " : "");
         if (!spec->parts) wr_text_add(text, ", each ");
         break;
     case WR_ARG_LIST:
         if (spec->rows_low == spec->rows_high)
-            wr_text_addf(text, "%d tuples parted by semicolons", spec->rows_low);
-        else wr_text_add(text, "tuples parted by semicolons");
+            wr_text_addf(text, "%d tuples separated by semicolons", spec->rows_low);
+        else wr_text_add(text, "tuples separated by semicolons");
         if (!spec->parts) wr_text_addf(text, ", each of %d numbers ", spec->components);
         break;
     case WR_ARG_CHOICE:

@@ -154,13 +154,13 @@ static const WrExportKind *next_kind(const char **list, char word[40])
 bool wr_export_set_contact_maps(WrExportOptions *options, const char *value, WrError *err)
 {
     char word[40];
-    if (!*value) return wr_fail(err, "maps: must be kinds of maps, parted by semicolons");
+    if (!*value) return wr_fail(err, "maps: must be kinds of maps, separated by semicolons");
     for (const char *at = value; *at;) {
         const WrExportKind *kind = next_kind(&at, word);
         if (!kind || !is_shown(kind))
             return wr_fail(err,
                            "maps '%.40s': must be kinds of maps such as height;normal+y, "
-                           "parted by semicolons",
+                           "separated by semicolons",
                            word);
     }
     options->contact_maps = value;

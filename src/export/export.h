@@ -109,12 +109,12 @@ typedef struct WrExportOptions {
     double low, high;    /* range given: F of code 0 and of the last code, low < high */
     double amplitude; /* range signed: the height of the last code; 0: the largest that there is */
     double cell_w, cell_h; /* size of the unit cell in the unit of the scene's; 0: the scene's */
-    int axes[3];     /* normals: what red, green and blue hold, 1 x, 2 y, 3 z, below 0 its opposite;
+    int axes[3]; /* normals: what red, green and blue hold, 1 x, 2 y, 3 z, below 0 its opposite;
                         all 0: as the kind has it */
-    int padding;     /* baked normals: rings of texels about what is covered, 0..64 */
+    int padding; /* baked normals: rings of texels about what is covered, 0..64 */
     int map_w, map_h; /* maps of a surface or a mesh: texels, 1..WR_FIELD_MAX; 0: the table's */
-    double strength; /* normals: slopes times this, finite, not 0 */
-    int scheme;      /* normals: a WrScheme, or -1 for the scene's */
+    double strength;  /* normals: slopes times this, finite, not 0 */
+    int scheme;       /* normals: a WrScheme, or -1 for the scene's */
     const char *
         object; /* whose table; borrowed; NULL: of all layers, scheme and formula of the object at hand */
     double full; /* curvature: what is white, 1 / scene unit; 0: the largest that there is */

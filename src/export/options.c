@@ -131,7 +131,7 @@ bool wr_export_set_atlas(WrExportOptions *options, const char *value, WrError *e
     for (const char *at = value; at; at = strchr(at, ';') ? strchr(at, ';') + 1 : NULL)
         if (!memchr(at, '.', strcspn(at, ";")))
             return wr_fail(err,
-                           "atlas '%.80s': must be files with their endings, parted by "
+                           "atlas '%.80s': must be files with their endings, separated by "
                            "semicolons",
                            value);
     options->atlas = value;
