@@ -44,14 +44,20 @@
 
 #include <SDL.h>
 
-typedef struct Walk {
+/* Opens place `which` of a kind of places; false past the last, or where there is none. */
+typedef struct Walk Walk;
+typedef bool WalkOpen(Walk *walk, int which);
+
+struct Walk {
     WrApp *app;
     WrPool *pool;
     WrSession *session;
     WrAppOptions options;
-    char where[120];                  /* what is shown */
-    void (*shown)(struct Walk *walk); /* is told of each place; NULL: a picture of it is made */
-} Walk;
+    char where[120]; /* the place that is open */
+    WalkOpen *open;  /* opens it again: open(walk, which) */
+    int which;
+    void (*shown)(Walk *walk); /* called at each place; NULL: a picture of it is made */
+};
 
 static inline void walk_run(Walk *walk, const char *line)
 {
@@ -59,7 +65,16 @@ static inline void walk_run(Walk *walk, const char *line)
     if (!wr_session_run(walk->session, line, &err)) fail_msg("%s: %s", line, err.text);
 }
 
-/* A document that has something of everything, in a window that speaks a language. */
+/* A document that has something of everything. */
+static inline void walk_fill(Walk *walk)
+{
+    static const char *const lines[] = { "table 64x48", "surface torus", "layer add",
+                                         "pattern bricks",
+                                         "layer mask 2 from=height low=0.2 high=0.9" };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) walk_run(walk, lines[i]);
+}
+
+/* That document, in a window that speaks a language. */
 static inline void walk_open(Walk *walk, const char *language)
 {
     WrError err = { "" };
@@ -70,10 +85,7 @@ static inline void walk_open(Walk *walk, const char *language)
     walk->pool = wr_pool_new(1);
     const WrSessionOptions how = { .pool = walk->pool, .outputs = true };
     walk->session = wr_session_new(&how);
-    static const char *const lines[] = { "table 64x48", "surface torus", "layer add",
-                                         "pattern bricks",
-                                         "layer mask 2 from=height low=0.2 high=0.9" };
-    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) walk_run(walk, lines[i]);
+    walk_fill(walk);
     walk->options = (WrAppOptions){
         .session = walk->session, .threads = 1, .file_given = true, .width = 1280, .height = 800
     };
@@ -114,29 +126,62 @@ static inline void walk_show(Walk *walk, const char *format, const char *what)
     else walk_frame(walk);
 }
 
-static inline void walk_tabs(Walk *walk)
+/* All places of a kind, in turn. */
+static inline void walk_each(Walk *walk, WalkOpen *open, void (*close)(Walk *walk))
+{
+    walk->open = open;
+    for (walk->which = 0; open(walk, walk->which); walk->which++) {
+        if (walk->shown) walk->shown(walk);
+        else walk_frame(walk);
+        if (close) close(walk);
+    }
+    walk->open = NULL;
+}
+
+static inline bool walk_name(Walk *walk, const char *format, const char *what)
+{
+    snprintf(walk->where, sizeof walk->where, format, what);
+    return true;
+}
+
+static inline bool walk_open_tab(Walk *walk, int which)
 {
     WrApp *app = walk->app;
-    for (int i = 0; i <= app->roster->tab_count; i++) {
-        app->settings->tab = i;
-        app->accuracy->inspector.shown = i % 2 == 1;
-        walk_show(walk, "tab %s",
-                  i < app->roster->tab_count ? app->roster->tabs[i].label : "Layers");
-    }
-    app->settings->tab = 0;
+    if (which > app->roster->tab_count) return false;
+    app->settings->tab = which;
+    app->accuracy->inspector.shown = which % 2 == 1;
+    return walk_name(walk, "tab %s",
+                     which < app->roster->tab_count ? app->roster->tabs[which].label : "Layers");
+}
+
+static inline void walk_tabs(Walk *walk)
+{
+    walk_each(walk, walk_open_tab, NULL);
+    walk->app->settings->tab = 0;
+}
+
+static inline bool walk_open_tool(Walk *walk, int which)
+{
+    if (which >= walk->app->roster->tool_count) return false;
+    wr_tool_choose(walk->app, which);
+    return walk_name(walk, "tool %s", walk->app->roster->tools[which]->action);
 }
 
 static inline void walk_tools(Walk *walk)
 {
-    for (int i = 0; i < walk->app->roster->tool_count; i++) {
-        wr_tool_choose(walk->app, i);
-        walk_show(walk, "tool %s", walk->app->roster->tools[i]->action);
-    }
+    walk_each(walk, walk_open_tool, NULL);
     wr_tool_choose(walk->app, 0);
 }
 
+static inline void walk_close_dialog(Walk *walk)
+{
+    walk_frame(walk); /* it has measured itself */
+    if (walk->app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(walk->app);
+    wr_app_try_end(walk->app); /* as its Cancel does */
+}
+
 /* Each by the action that opens it where there is one, so that it has what it needs. */
-static inline void walk_dialogs(Walk *walk)
+static inline bool walk_open_dialog(Walk *walk, int which)
 {
     static const char *const actions[] = {
         "new",          "open",        "save_as",       "export",         "maps",
@@ -144,61 +189,92 @@ static inline void walk_dialogs(Walk *walk)
         "preset_save",  "select_grow", "select_shrink", "select_feather", "select_height",
         "select_slope", "mask_height", "mask_slope",    "table_size",     "fill",
         "grid",         "hard_cases",  "tablet",        "about",          "help",
-        "import",       NULL
+        "import"
     };
+    if (which >= (int)(sizeof actions / sizeof *actions)) return false;
+    wr_action_run(walk->app, actions[which]);
+    return walk_name(walk, "dialog of %s", actions[which]);
+}
+
+static inline bool walk_open_adjust(Walk *walk, int which)
+{
+    char name[64];
+    if (!wr_ops[which].name) return false;
+    snprintf(name, sizeof name, "adjust_%.50s", wr_ops[which].name);
+    wr_action_run(walk->app, name);
+    return walk_name(walk, "dialog of %s", name);
+}
+
+static inline bool walk_open_preset(Walk *walk, int which)
+{
+    return which == 0 && walk_name(walk, "preset %s", "soft");
+}
+
+static inline bool walk_open_curves(Walk *walk, int which)
+{
+    int i = 0; /* of those that are used */
+    for (; i < wr_preset_setting_count(); i++)
+        if (wr_preset_setting(i)->use != WR_SETTING_IGNORED && which-- == 0) break;
+    if (i == wr_preset_setting_count()) return false;
+    wr_dialog_dynamics_open(walk->app, i);
+    return walk_name(walk, "curves of %s", wr_preset_setting(i)->name);
+}
+
+static inline bool walk_open_unsaved(Walk *walk, int which)
+{
+    if (which > 0) return false;
+    wr_dialog_open(walk->app, WR_DIALOG_UNSAVED);
+    return walk_name(walk, "dialog %s", "unsaved");
+}
+
+static inline void walk_dialogs(Walk *walk)
+{
     WrApp *app = walk->app;
-    for (const char *const *a = actions; *a; a++) {
-        wr_action_run(app, *a);
-        walk_show(walk, "dialog of %s", *a);
-        walk_frame(walk);
-        if (app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(app);
-    }
-    for (const WrOpInfo *op = wr_ops; op->name; op++) {
-        char name[64];
-        snprintf(name, sizeof name, "adjust_%.50s", op->name);
-        wr_action_run(app, name);
-        walk_show(walk, "dialog of %s", name);
-        walk_frame(walk); /* it has measured itself */
-        if (app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(app);
-    }
+    walk_each(walk, walk_open_dialog, walk_close_dialog);
+    walk_each(walk, walk_open_adjust, walk_close_dialog);
     const WrLibrary *library = wr_shelf_library(app); /* ours come first; each has curves */
     if (wr_library_count(library) > 0) wr_shelf_choose(app, wr_library_entry(library, 0)->id);
     assert_non_null(app->shelf->preset);
-    walk_show(walk, "preset %s", "soft");
-    for (int i = 0; i < wr_preset_setting_count(); i++) {
-        if (wr_preset_setting(i)->use == WR_SETTING_IGNORED) continue;
-        wr_dialog_dynamics_open(app, i);
-        walk_show(walk, "curves of %s", wr_preset_setting(i)->name);
-    }
+    walk_each(walk, walk_open_preset, NULL);
+    walk_each(walk, walk_open_curves, NULL);
     wr_dialog_close(app);
     wr_shelf_choose(app, WR_ROUND);
-    wr_dialog_open(app, WR_DIALOG_UNSAVED);
-    walk_show(walk, "dialog %s", "unsaved");
-    wr_dialog_close(app);
+    walk_each(walk, walk_open_unsaved, walk_close_dialog);
+}
+
+static inline bool walk_open_generator(Walk *walk, int which)
+{
+    for (const WrFamily *f = wr_families; f->name; f++)
+        for (const WrGenerator *g = f->rows; g->family; g++) {
+            if (which-- > 0) continue;
+            char name[WR_GENERATE_ACTION];
+            wr_generate_action(g, name);
+            wr_action_run(walk->app, name);
+            return walk_name(walk, "generator %s", name);
+        }
+    return false;
 }
 
 static inline void walk_generators(Walk *walk)
 {
-    for (const WrFamily *f = wr_families; f->name; f++)
-        for (const WrGenerator *g = f->rows; g->family; g++) {
-            char name[WR_GENERATE_ACTION];
-            wr_generate_action(g, name);
-            wr_action_run(walk->app, name);
-            walk_show(walk, "generator %s", name);
-        }
+    walk_each(walk, walk_open_generator, NULL);
     wr_tool_choose(walk->app, 0);
+}
+
+static inline bool walk_open_surface(Walk *walk, int which)
+{
+    if (which >= WR_SURFACE_COUNT) return false;
+    WrError err;
+    char line[64];
+    wr_tab_show(walk->app, "Scene");
+    snprintf(line, sizeof line, "surface %s", wr_surfaces[which]->name);
+    wr_session_run(walk->session, line, &err); /* those that need a file stay as they were */
+    return walk_name(walk, "surface %s", wr_surfaces[which]->name);
 }
 
 static inline void walk_surfaces(Walk *walk)
 {
-    wr_tab_show(walk->app, "Scene");
-    for (int i = 0; i < WR_SURFACE_COUNT; i++) {
-        WrError err;
-        char line[64];
-        snprintf(line, sizeof line, "surface %s", wr_surfaces[i]->name);
-        wr_session_run(walk->session, line, &err); /* those that need a file stay as they were */
-        walk_show(walk, "surface %s", wr_surfaces[i]->name);
-    }
+    walk_each(walk, walk_open_surface, NULL);
 }
 
 static inline void walk_all(Walk *walk)

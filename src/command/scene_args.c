@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "command/args.h"
+#include "command/param_text.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 
@@ -66,11 +67,7 @@ void wr_scene_print_value(const WrSceneParam *param, const void *owner, WrText *
 {
     double values[3];
     wr_scene_param_get(param, owner, values);
-    if (param->components == 0) wr_text_add(text, wr_off_on[values[0] != 0]);
-    for (int i = 0; i < param->components; i++) {
-        if (i > 0) wr_text_add(text, ",");
-        wr_text_add_number(text, values[i]);
-    }
+    wr_param_text(param, values, text);
 }
 
 void wr_print_word(const char *name, const char *word, WrText *text)

@@ -50,6 +50,8 @@ typedef struct WrKeyStop {
 
 /* Those of the newest picture of the window. Valid until the next. */
 const WrKeyStop *wr_gui_stops(const WrGui *gui, int *count);
+/* Moves the ring to a stop of the newest picture, as Tab would; false: there is no such stop, or it cannot be reached. */
+bool wr_gui_focus_on(WrGui *gui, unsigned id);
 unsigned wr_gui_focus_now(const WrGui *gui); /* what the ring is round; 0: none is shown */
 unsigned wr_gui_under_pointer(void);         /* the widget that a press would be for; 0: none */
 

@@ -313,6 +313,14 @@ extern "C" const WrKeyStop *wr_gui_stops(const WrGui *gui, int *count)
     return gui->focus.stops;
 }
 
+extern "C" bool wr_gui_focus_on(WrGui *gui, unsigned id)
+{
+    const WrKeyStop *stop = wr_gui_find_stop(&gui->focus, id);
+    if (!stop || !wr_gui_reachable(*ImGui::GetCurrentContext(), stop)) return false;
+    wr_gui_go_to(&gui->focus, stop);
+    return true;
+}
+
 extern "C" unsigned wr_gui_focus_now(const WrGui *gui)
 {
     return gui->focus.shown ? gui->focus.at : 0;

@@ -16,6 +16,15 @@ extern "C" {
 
 /* ---- value <-> place in the field ---- */
 
+/* The nearest value of the hard range. */
+static double allowed(const WrNumber *spec, double value)
+{
+    const bool hard = spec->hard_low != 0 || spec->hard_high != 0;
+    const double low = hard ? spec->hard_low : spec->low;
+    const double high = hard ? spec->hard_high : spec->high;
+    return value < low ? low : value > high ? high : value;
+}
+
 static double place_of(const WrNumber *spec, double value)
 {
     double t = spec->logarithmic ? log((value > spec->low ? value : spec->low) / spec->low) /
@@ -44,7 +53,7 @@ static double value_at(const WrNumber *spec, double t)
     t = t < 0 ? 0 : t > 1 ? 1 : t;
     double value = spec->logarithmic ? spec->low * pow(spec->high / spec->low, t)
                                      : spec->low + t * (spec->high - spec->low);
-    return round_as_shown(spec, value);
+    return allowed(spec, round_as_shown(spec, value));
 }
 
 static bool read_value(const WrNumber *spec, const char *text, double *value)
@@ -54,9 +63,7 @@ static bool read_value(const WrNumber *spec, const char *text, double *value)
     if (length > 0 && (text[length - 1] == 'e' || text[length - 1] == 'E')) length--;
     double typed;
     if (!wr_number_parse(text, length, &typed)) return false;
-    bool hard = spec->hard_low != 0 || spec->hard_high != 0;
-    double low = hard ? spec->hard_low : spec->low, high = hard ? spec->hard_high : spec->high;
-    *value = typed < low ? low : typed > high ? high : typed;
+    *value = allowed(spec, typed);
     return true;
 }
 
@@ -123,6 +130,13 @@ static void draw_field(const WrNumber *spec, ImVec2 at, ImVec2 end, double value
     if (tight) ImGui::PopFont();
 }
 
+static WrEdit reset(const WrNumber *spec, double *value)
+{
+    const double before = *value;
+    *value = allowed(spec, spec->reset);
+    return *value != before ? WR_EDIT_DONE : WR_EDIT_NONE;
+}
+
 /* The field while it is not being typed into. */
 static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *spec, double *value)
 {
@@ -140,8 +154,7 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
         gui->moved = false;
         if (ImGui::IsMouseDoubleClicked(0)) {
             gui->armed = gui->dragging = 0;
-            edit = *value != spec->reset ? WR_EDIT_DONE : WR_EDIT_NONE;
-            *value = spec->reset;
+            edit = reset(spec, value);
         }
     }
     if (gui->dragging == item) {
@@ -180,7 +193,7 @@ static double stepped(const WrNumber *spec, double value, int way, bool fine)
     if (next == round_as_shown(spec, value) && spec->decimals >= 0)
         next = round_as_shown(spec, value + (double)way * pow(10.0, -spec->decimals));
     const double low = fmin(spec->low, value), high = fmax(spec->high, value);
-    return next < low ? low : next > high ? high : next;
+    return allowed(spec, next < low ? low : next > high ? high : next);
 }
 
 /* Arrows change it, live while one is held; Enter types into it; Backspace and Delete reset it. */
@@ -191,9 +204,7 @@ static WrEdit by_keys(WrGui *gui, ImGuiID item, const WrNumber *spec, double *va
     if (wr_gui_focus_pressed(item)) start_typing(gui, item, spec, *value);
     if (wr_gui_focus_key(item, SDL_SCANCODE_BACKSPACE) ||
         wr_gui_focus_key(item, SDL_SCANCODE_DELETE)) {
-        const bool other = *value != spec->reset;
-        *value = spec->reset;
-        return other ? WR_EDIT_DONE : WR_EDIT_NONE;
+        return reset(spec, value);
     }
     if (way) {
         const double from = focus->stepped == item ? gui->drag_value : *value;

@@ -121,16 +121,41 @@ void wr_filter_edit(WrApp *app)
 
 /* ---- parameters ---- */
 
-/* What a slider spans: never more texels than there are. */
-static WrNumber spec_of(const WrApp *app, const WrOpParam *param)
+static void bound(WrNumber *spec, double low, double high)
 {
+    spec->hard_low = low;
+    spec->hard_high = fmax(low, high);
+    spec->low = fmin(fmax(spec->low, low), spec->hard_high);
+    spec->high = fmin(spec->high, spec->hard_high);
+}
+
+/* Where an operation refuses a combination of values, the other values limit each: a rectangle stays inside the table,
+   a low value below the high one. */
+static void bound_by_others(const WrApp *app, int index, WrNumber *spec)
+{
+    const WrField *field = wr_app_field(app);
+    const double *v = app->adjust->param;
+    const double size[2] = { wr_field_width(field), wr_field_height(field) };
+    if (strcmp(app->adjust->op->name, "crop") == 0) {
+        const bool corner = index < 2;
+        const double other = v[corner ? index + 2 : index - 2];
+        bound(spec, spec->hard_low, size[index % 2] - other);
+    } else if (strcmp(app->adjust->op->name, "clamp") == 0) {
+        bound(spec, index == 0 ? spec->hard_low : v[0], index == 0 ? v[1] : spec->hard_high);
+    }
+}
+
+/* What a slider spans: never more texels than there are. */
+static WrNumber spec_of(const WrApp *app, int index)
+{
+    const WrOpParam *param = &app->adjust->op->params[index];
     const WrField *field = wr_app_field(app);
     double w = wr_field_width(field), h = wr_field_height(field), most = w > h ? w : h;
     WrNumber spec = { .low = param->soft_low,
                       .high = param->soft_high,
                       .hard_low = param->low,
                       .hard_high = param->high,
-                      .reset = param->fallback,
+                      .reset = beginning(app, param),
                       .decimals = param->whole ? 0 : 3,
                       .unit =
                           strlen(param->unit) > 0 && strlen(param->unit) < 8 ? param->unit : NULL,
@@ -141,6 +166,7 @@ static WrNumber spec_of(const WrApp *app, const WrOpParam *param)
                                                                     : fmax(64.0, 2.0 * most);
         spec.low = param->low < 0.0 ? -spec.high : param->low;
     }
+    bound_by_others(app, index, &spec);
     if (!(spec.low < spec.high)) spec.high = spec.low + 1.0;
     return spec;
 }
@@ -171,7 +197,7 @@ static bool parameters(WrApp *app)
             changed |= choice(param, &app->adjust->param[i]);
             continue;
         }
-        WrNumber spec = spec_of(app, param);
+        WrNumber spec = spec_of(app, i);
         changed |= wr_gui_number(param->name, 0, &spec, &app->adjust->param[i]) != WR_EDIT_NONE;
     }
     return changed;

@@ -14,14 +14,16 @@
 static void flag(WrApp *app, WrSceneParamId id, const char *label, const char *tip)
 {
     const WrSceneParam *param = &wr_scene_params[id];
-    double value[3];
-    wr_scene_param_get(param, wr_app_scene(app), value);
-    bool on = value[0] != 0;
+    double values[3];
+    wr_scene_param_get(param, wr_app_scene(app), values);
+    bool on = values[0] != 0;
     const bool changed = wr_gui_check(label, &on);
     wr_gui_tip(tip);
     if (!changed) return;
     WrText line = { 0 };
-    wr_text_addf(&line, "%s %s=%s", param->command, param->name, on ? "on" : "off");
+    values[0] = on;
+    wr_text_add(&line, param->command);
+    wr_param_line(&line, param, values);
     wr_scene_run(app, &line);
 }
 

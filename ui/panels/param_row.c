@@ -1,10 +1,9 @@
 #include "ui/panels/param_row.h"
-#include "ui/desk/line.h"
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 
 #include "base/text.h"
-#include "base/vec.h"
+#include "command/param_text.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 
@@ -26,8 +25,8 @@ WrNumber wr_param_slider(const WrSceneParam *param)
 
 void wr_param_line(WrText *line, const WrSceneParam *param, const double *values)
 {
-    if (param->components == 1) wr_line_number(line, param->name, values[0]);
-    else wr_line_vec(line, param->name, (WrVec3){ values[0], values[1], values[2] });
+    wr_text_addf(line, " %s=", param->name);
+    wr_param_text(param, values, line);
 }
 
 static void run(WrApp *app, const WrSceneParam *param, const double *values)
