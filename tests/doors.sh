@@ -54,7 +54,7 @@ fi
 
 # A line of a script for each command that takes a file; FILE stands for its name. TEXT@ENDING: through a link
 # of that ending, by which the program chooses how to read.
-lines=('open FILE' 'image FILE' 'colour FILE' 'normalmap FILE' 'picture photo FILE' 'picture normals FILE' 'picture paste FILE'
+lines=('open FILE' 'image FILE' 'colour FILE' 'normalmap FILE' 'picture photo FILE' 'picture normals FILE' 'picture paste FILE' 'layer paste FILE'
        'terrain elevation FILE' 'terrain elevation FILE@r16' 'terrain elevation FILE@r32' 'solid mesh FILE'
        'solid mesh FILE@ply' 'solid mesh FILE@gltf' 'text ab file=FILE' 'text ab file=FILE@ttf'
        'text ab fallback=FILE missing=sign' 'text ab fallback3=FILE'

@@ -230,8 +230,7 @@ static void wrong_lines_are_refused_by_number(void **state)
     const struct {
         const char *text, *says;
     } wrong[] = {
-        { "# a\nnorml *_N.png",
-          "bad.set:2: 'norml' is no kind of map: must be one of height" },
+        { "# a\nnorml *_N.png", "bad.set:2: 'norml' is no kind of map: must be one of height" },
         { "height", "bad.set:1: height: needs a file's name" },
         { "height ../*_x.png", "without a folder" },
         { "height /tmp/*_x.png", "without a folder" },

@@ -246,6 +246,53 @@ static void what_is_cut_over_both_edges_is_pasted_over_them(void **state)
     wr_session_free(s);
 }
 
+/* At its own place a copy covers the old heights in the proportion in which they were selected, over both edges, whatever
+   is selected now. */
+static void a_copy_becomes_a_layer_at_its_place(void **state)
+{
+    (void)state;
+    const WrSessionOptions options = { .outputs = true };
+    WrSession *s = wr_session_new(&options);
+    must_run(s, "table 150x90");
+    must_run(s, "noise value cells=37 seed=3");
+    must_run(s, "select ellipse centre=0.95,0.1 radii=0.2,0.2");
+    must_run(s, "select feather by=4");
+    WrField *old = wr_field_share(layer(s, 1)->heights),
+            *chosen = wr_field_share(doc(s)->selection);
+    WrSelectBox box = { 0 };
+    assert_true(wr_select_box(chosen, &box));
+    must_run(s, "copy place.exr");
+    must_run(s, "select none");
+    must_run(s, "fill 0.25");
+    must_run(s, "select rect from=0.4,0.4 to=0.5,0.5");
+    const int before = wr_session_history_position(s);
+    char line[160];
+    snprintf(line, sizeof line, "layer paste place.exr at=%.17g,%.17g",
+             (box.i + 0.5 * box.count_i) / 150, 1 - (box.j + 0.5 * box.count_j) / 90);
+    must_run(s, line);
+    assert_int_equal(wr_session_history_position(s), before + 1);
+    assert_int_equal(doc(s)->layer_count, 2);
+    assert_int_equal(doc(s)->active, 1);
+    assert_null(doc(s)->selection);
+    const WrField *all = wr_document_field(doc(s));
+    for (int j = 0; j < 90; j++)
+        for (int i = 0; i < 150; i++) {
+            const double w = (double)wr_field_get(chosen, i, j);
+            assert_near(wr_field_get(all, i, j),
+                        0.25 + w * ((double)wr_field_get(old, i, j) - 0.25), 1e-6);
+        }
+    must_run(s, "undo");
+    assert_int_equal(doc(s)->layer_count, 1);
+    assert_non_null(doc(s)->selection);
+    must_fail(s, "layer paste missing.exr", "missing.exr");
+    must_fail(s, "layer paste place.exr size=100000", "must be");
+    must_run(s, "layer set 1 lock=on"); /* it is not the locked layer that changes */
+    must_run(s, "layer paste place.exr");
+    wr_field_free(old);
+    wr_field_free(chosen);
+    wr_session_free(s);
+}
+
 static void the_box_of_a_selection_goes_over_edges(void **state)
 {
     (void)state;
@@ -319,6 +366,7 @@ int main(void)
         cmocka_unit_test(what_shrinks_is_averaged),
         cmocka_unit_test(what_is_copied_can_be_pasted_to_the_bit),
         cmocka_unit_test(what_is_cut_over_both_edges_is_pasted_over_them),
+        cmocka_unit_test(a_copy_becomes_a_layer_at_its_place),
         cmocka_unit_test(the_box_of_a_selection_goes_over_edges),
         cmocka_unit_test(what_cannot_be_moved_is_refused),
         cmocka_unit_test(partly_covered_heights_stay_as_high),

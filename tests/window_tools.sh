@@ -298,12 +298,11 @@ has_copied() { compgen -G 'state/wrinkle/clipboard/copy-*.exr' >/dev/null; }
 until_true 120 "the copy" has_copied
 rest
 key ctrl+v
-rest
-key Return
-becomes 'picture paste *clipboard/copy-*' "what was copied is pasted"
+becomes 'layer paste *clipboard/copy-*-at-*_0.5.exr at=*,0.5*' "what was copied is pasted as a layer in its place"
 home
 save_as pasted.exr
-near "$(height pasted.exr 0.1 0.1)" 1 || complain "a mask that hides all shows $(height pasted.exr 0.1 0.1)"
+near "$(height pasted.exr 0.1 0.1)" 1 || complain "beside what was pasted is $(height pasted.exr 0.1 0.1)"
+key ctrl+z
 # ... what is cut out of the lower layer is gone, and a picture of another program is pasted
 key ctrl+x
 becomes 'layer clear*' "what is cut is cleared"
@@ -312,17 +311,13 @@ copies() { compgen -G "state/wrinkle/clipboard/copy-*.$1" | wc -l; }
 convert -size 48x32 gradient:black-white picture.png
 xclip -selection clipboard -t image/png -i picture.png
 key ctrl+v
-rest
-key Return
-becomes 'picture paste *clipboard/copy-*.png*size=48*' "a picture of another program is pasted"
+becomes 'layer paste *clipboard/copy-*.png at=*' "a picture of another program is pasted"
 # ... also where it offers no PNG
 for kind in tiff:tif bmp:bmp jpeg:jpg; do
     convert -size 40x24 gradient:black-white "picture.${kind#*:}"
     xclip -selection clipboard -t "image/${kind%:*}" -i "picture.${kind#*:}"
     key ctrl+v
-    rest
-    key Return
-    becomes "picture paste *clipboard/copy-*.${kind#*:}*size=40*" "a picture offered as ${kind%:*} is pasted"
+    becomes "layer paste *clipboard/copy-*.${kind#*:} at=*" "a picture offered as ${kind%:*} is pasted"
 done
 xdotool key ctrl+q
 settle

@@ -204,9 +204,7 @@ done_with
 task 'copied, pasted, moved'
 search 'Copy'
 search 'Paste'
-stroke 240 500 255 510
-key Return
-became 'picture paste *'
+became 'layer paste *'
 search 'Free transform'
 stroke 240 500 270 540
 key Return

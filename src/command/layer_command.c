@@ -6,6 +6,7 @@
 #include "command/args.h"
 #include "command/commands.h"
 #include "command/layer_mask.h"
+#include "command/layer_paste.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "scene/objects.h"
@@ -236,6 +237,17 @@ static bool layer_clear(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+static bool layer_paste(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    WrText name = { 0 };
+    if (!check_room(document, err)) return false;
+    free_name(document, &name);
+    const WrLayer layer = wr_layer_new(wr_text_get(&name), document->layers[0].heights);
+    wr_text_fini(&name);
+    return wr_layer_paste(session, call, layer, err);
+}
+
 static bool layer_mask(WrSession *session, WrCall *call, WrError *err)
 {
     int index;
@@ -256,6 +268,7 @@ enum {
     LAYER_CLEAR,
     LAYER_SOLO,
     LAYER_MASK,
+    LAYER_PASTE,
     LAYER_FORMS
 };
 
@@ -273,6 +286,7 @@ static LayerHandler *const handlers[] = {
     [WR_ROW(LAYER_CLEAR)] = layer_clear,
     [WR_ROW(LAYER_SOLO)] = layer_solo,
     [WR_ROW(LAYER_MASK)] = layer_mask,
+    [WR_ROW(LAYER_PASTE)] = layer_paste,
 };
 WR_ROWS_END(handlers, LAYER_FORMS);
 
@@ -383,6 +397,10 @@ static const WrForm layer_forms[] = {
     [WR_ROW(LAYER_MASK)] = { .name = "mask",
                              .help = "how much of a layer shows, texel by texel",
                              .args = { LAYER_N, WR_MASK_ARGS } },
+    [WR_ROW(LAYER_PASTE)] = { .name = "paste",
+                              .help = "a picture as a new layer above the active one, which covers "
+                                      "what lies below; nothing is selected then",
+                              .args = { WR_PASTE_ARGS } },
 };
 WR_ROWS_END(layer_forms, LAYER_FORMS);
 

@@ -48,7 +48,8 @@ typedef struct WrOpParam {
     double soft_low, soft_high; /* what a slider spans, within the range */
     bool whole;                 /* whole numbers only */
     bool above;                 /* `low` itself is excluded */
-    bool share; /* of whole texels along a side: a number between -1 and 1 is a share of that side */
+    bool
+        share; /* of whole texels along a side: a number between -1 and 1 is a share of that side */
     const char *const
         *choices; /* words, ends with NULL; the value is the word's index. NULL: a number */
     const double

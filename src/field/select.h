@@ -94,8 +94,8 @@ WrField *wr_select_shrink(const WrField *a, double r, WrPool *pool, WrError *err
 /* Blur by a Gaussian of `sigma` texels, the table operation "blur"; the result stays in 0..1. */
 WrField *wr_select_feather(const WrField *a, double sigma, WrPool *pool, WrError *err);
 
-/* The smallest box that holds all texels that are selected at all, from texel (i, j), row j from the top; it may go over
- * periodic edges. False: there is none. */
+/* The smallest box that holds all texels that are not 0, of a selection those selected at all, of any other field its
+ * content; from texel (i, j), row j from the top; it may go over periodic edges. False: there is none. */
 typedef struct WrSelectBox {
     int i, j, count_i, count_j;
 } WrSelectBox;

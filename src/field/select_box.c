@@ -1,4 +1,4 @@
-/* The smallest box round what is selected. */
+/* The smallest box round the texels that are not 0. */
 #include "field/select.h"
 
 #include "base/memory.h"
@@ -10,10 +10,11 @@ static void mark(const WrField *selection, bool *columns, bool *rows)
     for (int ty = 0; ty < wr_field_tiles_v(selection); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(selection); tx++) {
             const float *tile = wr_field_tile(selection, tx, ty);
-            float level = wr_field_level(selection);
+            const float level = wr_field_level(selection);
+            if (!tile && level == 0.0f) continue;
             for (int k = 0; k < WR_TILE * WR_TILE; k++) {
                 int i = tx * WR_TILE + k % WR_TILE, j = ty * WR_TILE + k / WR_TILE;
-                if (i >= width || j >= height || !((tile ? tile[k] : level) > 0.0f)) continue;
+                if (i >= width || j >= height || (tile ? tile[k] : level) == 0.0f) continue;
                 columns[i] = rows[j] = true;
             }
         }

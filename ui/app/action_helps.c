@@ -24,7 +24,7 @@ const char *const wr_action_helps[] = {
     ROW(cut, "Copy the selected heights and clear them"),
     ROW(copy, "Copy the selected heights of the active layer"),
     ROW(copy_shown, "Copy the selected heights as all layers together give them"),
-    ROW(paste, "Put copied heights, or a picture, down to be moved and turned"),
+    ROW(paste, "Adds copied heights, or a picture, as a new layer"),
     ROW(search, "Find anything that can be done by a word of its name"),
     ROW(preferences, "Keys, colours, size, tablet, memory and folders of the window"),
     ROW(brush, "Paint: drag on the table to raise or lower it"),

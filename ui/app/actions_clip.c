@@ -5,6 +5,7 @@
 #include "ui/desk/desk.h"
 #include "ui/desk/line.h"
 #include "ui/desk/messages.h"
+#include "ui/desk/session_view.h"
 #include "ui/generate/generate_hand.h"
 #include "ui/pen/clip.h"
 
@@ -14,7 +15,10 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/call.h"
+#include "document/document.h"
 #include "document/journal.h"
+#include "field/field.h"
+#include "field/select.h"
 #include "generate/generator.h"
 #include "image/image.h"
 #include "system/clock.h"
@@ -73,8 +77,8 @@ static void forget_old(const char *path)
     wr_array_free(&names);
 }
 
-/* A path for a new copy, with that ending. */
-static bool new_path(WrText *path, const char *ending, WrError *err)
+/* A path for a new copy, with that ending. tail: between the date and the ending. */
+static bool new_path(WrText *path, const char *tail, const char *ending, WrError *err)
 {
     struct tm date;
     char name[80];
@@ -82,18 +86,51 @@ static bool new_path(WrText *path, const char *ending, WrError *err)
     forget_old(wr_text_get(path));
     wr_clock_universal((int64_t)time(NULL), &date);
     strftime(name, sizeof name, "/copy-%Y%m%d-%H%M%S", &date);
-    wr_text_addf(path, "%s-%06d.%s", name,
-                 (int)(1e6 * (wr_clock_seconds() - floor(wr_clock_seconds()))), ending);
+    wr_text_addf(path, "%s-%06d%s.%s", name,
+                 (int)(1e6 * (wr_clock_seconds() - floor(wr_clock_seconds()))), tail, ending);
     return true;
+}
+
+/* ---- where a copy was ---- */
+
+/* The file's name keeps the place, so that any window can paste in place: "copy-DATE-at-U-V.exr". */
+static const char place_mark[] = "-at-";
+
+/* The middle of what is selected, of the table without a selection. */
+static void add_place(const WrApp *app, WrText *tail)
+{
+    const WrField *field = wr_app_field(app), *selection = wr_app_document(app)->selection;
+    const double w = wr_field_width(field), h = wr_field_height(field);
+    WrSelectBox box = { 0, 0, (int)w, (int)h };
+    if (selection && !wr_select_box(selection, &box)) return;
+    const double u = (box.i + 0.5 * box.count_i) / w, v = 1.0 - (box.j + 0.5 * box.count_j) / h;
+    wr_text_add(tail, place_mark);
+    wr_text_add_number(tail, u - floor(u));
+    wr_text_add(tail, "_");
+    wr_text_add_number(tail, v - floor(v));
+}
+
+/* at: u, v. False: it is no copy of ours. */
+static bool find_place(const char *path, double at[2])
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *mark = strstr(name, place_mark);
+    if (!mark || strncmp(name, "copy-", 5) != 0) return false;
+    mark += sizeof place_mark - 1;
+    const char *second = strchr(mark, '_'), *dot = strrchr(mark, '.');
+    return second && dot && dot > second &&
+           wr_number_parse(mark, (size_t)(second - mark), &at[0]) &&
+           wr_number_parse(second + 1, (size_t)(dot - second - 1), &at[1]);
 }
 
 /* ---- copy, cut ---- */
 
 static bool copy(WrApp *app, const char *of)
 {
-    WrText path = { 0 }, line = { 0 };
+    WrText path = { 0 }, line = { 0 }, tail = { 0 };
     WrError err;
-    bool good = new_path(&path, "exr", &err);
+    add_place(app, &tail);
+    bool good = new_path(&path, wr_text_get(&tail), "exr", &err);
     if (!good) wr_app_fail(app, &err);
     wr_text_add(&line, "copy ");
     wr_text_add_word(&line, wr_text_get(&path));
@@ -103,6 +140,7 @@ static bool copy(WrApp *app, const char *of)
     if (good) wr_app_say(app, "Copied");
     wr_text_fini(&path);
     wr_text_fini(&line);
+    wr_text_fini(&tail);
     return good;
 }
 
@@ -142,7 +180,7 @@ static bool find_picture(WrText *path, WrError *err)
     size_t length;
     if (wr_clip_picture(&bytes, &length, &ending)) {
         bool good =
-            new_path(path, ending, err) && save_bytes(wr_text_get(path), bytes, length, err);
+            new_path(path, "", ending, err) && save_bytes(wr_text_get(path), bytes, length, err);
         wr_free(bytes);
         return good;
     }
@@ -153,30 +191,68 @@ static bool find_picture(WrText *path, WrError *err)
     return is_path || wr_fail(err, "the clipboard holds neither heights nor a picture");
 }
 
-/* Where it was copied from is not known any more; it comes to the middle of what is seen. */
-void wr_act_paste(WrApp *app)
+/* Where a copy was; else the middle of what the canvas shows. */
+static void add_at(const WrApp *app, const char *path, WrText *line)
 {
-    WrText path = { 0 }, line = { 0 };
-    WrError err;
-    double x, y;
+    double at[2];
     const WrCanvasView *v = app->view;
-    if (!find_picture(&path, &err)) {
-        wr_app_fail(app, &err);
-        wr_text_fini(&path);
-        return;
+    if (!find_place(path, at)) {
+        double x, y;
+        wr_view_to_texel(v, v->x + v->w / 2.0, v->y + v->h / 2.0, &x, &y);
+        at[0] = wr_line_round(x / v->table_w - floor(x / v->table_w), 6);
+        at[1] = 1.0 - y / v->table_h;
+        at[1] = wr_line_round(at[1] - floor(at[1]), 6);
     }
-    wr_view_to_texel(v, v->x + v->w / 2.0, v->y + v->h / 2.0, &x, &y);
-    double at_u = x / v->table_w, at_v = 1.0 - y / v->table_h;
-    wr_text_add(&line, "picture paste ");
-    wr_text_add_word(&line, wr_text_get(&path));
-    WrImageRows *rows = wr_image_rows_open(wr_text_get(&path), &(WrImageWish){ 0 }, &err);
-    if (rows) wr_line_number(&line, "size", wr_image_rows_head(rows)->width);
+    wr_line_number(line, "at", at[0]);
+    wr_text_add(line, ",");
+    wr_text_add_number(line, at[1]);
+}
+
+/* A picture that is larger than the table is shrunk into it. */
+static bool add_size(const WrApp *app, const char *path, WrText *line, WrError *err)
+{
+    WrImageRows *rows = wr_image_rows_open(path, &(WrImageWish){ 0 }, err);
+    if (!rows) return false;
+    const double w = wr_image_rows_head(rows)->width, h = wr_image_rows_head(rows)->height;
+    const double by = fmin(app->view->table_w / w, app->view->table_h / h);
+    if (by < 1.0) wr_line_number(line, "size", floor(w * by));
     wr_image_rows_close(rows);
-    wr_line_number(&line, "at", wr_line_round(at_u - floor(at_u), 6));
-    wr_text_add(&line, ",");
-    wr_text_add_number(&line, wr_line_round(at_v - floor(at_v), 6));
+    return true;
+}
+
+/* Onto a mask a picture is placed by hand, as any generator's work; heights become a layer at once. */
+static void paste_on_mask(WrApp *app, const char *path)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "picture paste ");
+    wr_text_add_word(&line, path);
+    add_at(app, path, &line);
     wr_generate_open(app, wr_generator_find("picture", "paste"));
     if (wr_generate_load(app, wr_text_get(&line))) wr_generate_changed(app);
-    wr_text_fini(&path);
     wr_text_fini(&line);
+}
+
+static bool paste_layer(WrApp *app, const char *path, WrError *err)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "layer paste ");
+    wr_text_add_word(&line, path);
+    add_at(app, path, &line);
+    const bool good = add_size(app, path, &line, err);
+    if (good && wr_app_run_line(app, wr_text_get(&line)))
+        wr_app_say(app, "Pasted as a new layer; Free transform moves it");
+    wr_text_fini(&line);
+    return good;
+}
+
+void wr_act_paste(WrApp *app)
+{
+    WrText path = { 0 };
+    WrError err;
+    const WrDocument *document = wr_app_document(app);
+    bool good = find_picture(&path, &err);
+    if (good && document->layers[document->active].on_mask) paste_on_mask(app, wr_text_get(&path));
+    else good = good && paste_layer(app, wr_text_get(&path), &err);
+    if (!good) wr_app_fail(app, &err);
+    wr_text_fini(&path);
 }

@@ -253,7 +253,8 @@ static SDL_SystemCursor cursor_for(const WrApp *app)
     if (hand->on_canvas && (hand->grab == WR_GRAB_PAN || hand->space))
         return SDL_SYSTEM_CURSOR_SIZEALL;
     if (hand->on_canvas) return SDL_SYSTEM_CURSOR_CROSSHAIR;
-    if (hand->grab == WR_GRAB_PATCH_PAINT || (hand->on_patch && wr_patch_paints(app)))
+    if (hand->grab == WR_GRAB_PATCH_PAINT ||
+        (hand->on_patch && wr_patch_paints(app) && !wr_patch_control_under(app, &hand->at)))
         return SDL_SYSTEM_CURSOR_CROSSHAIR;
     if (hand->on_patch)
         return hand->grab == WR_GRAB_NONE ? SDL_SYSTEM_CURSOR_HAND : SDL_SYSTEM_CURSOR_SIZEALL;

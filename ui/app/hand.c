@@ -113,7 +113,7 @@ static void press_patch(WrApp *app, const WrPointer *at)
     if (at->button == SDL_BUTTON_LEFT && wr_accuracy_on_line(app, at->x, at->y)) {
         app->hand->grab = WR_GRAB_SPLIT;
     } else if (at->button == SDL_BUTTON_LEFT && wr_patch_paints(app) &&
-               !wr_patch_cube_under(app, at)) {
+               !wr_patch_control_under(app, at)) {
         if (app->busy && !wr_busy_lets_wait(app) && wr_busy_refuse(app)) return;
         if (!app->busy && !wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods))
             wr_patch_choose(app, at); /* a command, which ends what is held */

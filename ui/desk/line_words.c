@@ -205,6 +205,8 @@ void wr_line_words(const char *line, WrText *out)
     else if (strcmp(verb, "dab") == 0) brush_words(&w, "Dab", out);
     else if (kind && strcmp(verb, "text") == 0)
         wr_text_addf(out, "%s: %.40s", wr_words("Text"), kind);
+    else if (kind && strcmp(verb, "layer") == 0 && strcmp(kind, "paste") == 0)
+        wr_text_add(out, wr_words("Pasted"));
     else if (strcmp(verb, "layer") == 0 && layer_deed(&w))
         wr_text_addf(out, wr_words(layer_deed(&w)), plain(&w, 2));
     else if (op) wr_text_add(out, wr_words(op->label));

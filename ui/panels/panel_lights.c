@@ -21,19 +21,6 @@
 
 #include <stdio.h>
 
-static void light_line(WrText *line, const WrLight *light, int index)
-{
-    const char *form = wr_light_names[light->kind];
-    const WrSceneParam *param;
-    wr_text_addf(line, "light %s", form);
-    for (int i = 0; (param = wr_scene_param("light", form, i)) != NULL; i++) {
-        double values[3];
-        wr_scene_param_get(param, light, values);
-        wr_param_line(line, param, values);
-    }
-    if (index >= 0) wr_text_addf(line, " index=%d", index + 1);
-}
-
 /* True if the line was run: the lights are others now. */
 static bool one_light(WrApp *app, int i)
 {
@@ -74,7 +61,7 @@ static bool one_light(WrApp *app, int i)
     if (!chosen && !thrown && a != WR_EDIT_DONE && b != WR_EDIT_DONE && c != WR_EDIT_DONE)
         return false;
     WrText line = { 0 };
-    light_line(&line, &light, i);
+    wr_line_light(&line, &light, i);
     wr_scene_run(app, &line);
     return true;
 }

@@ -23,7 +23,7 @@ static void flag(WrApp *app, WrSceneParamId id, const char *label, const char *t
     WrText line = { 0 };
     values[0] = on;
     wr_text_add(&line, param->command);
-    wr_param_line(&line, param, values);
+    wr_line_param(&line, param, values);
     wr_scene_run(app, &line);
 }
 

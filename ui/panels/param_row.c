@@ -3,7 +3,6 @@
 #include "ui/desk/session_view.h"
 
 #include "base/text.h"
-#include "command/param_text.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 
@@ -23,12 +22,6 @@ WrNumber wr_param_slider(const WrSceneParam *param)
                        .tip = param->help };
 }
 
-void wr_param_line(WrText *line, const WrSceneParam *param, const double *values)
-{
-    wr_text_addf(line, " %s=", param->name);
-    wr_param_text(param, values, line);
-}
-
 static void run(WrApp *app, const WrSceneParam *param, const double *values)
 {
     WrText line = { 0 };
@@ -36,7 +29,7 @@ static void run(WrApp *app, const WrSceneParam *param, const double *values)
     if (param->form) wr_text_addf(&line, " %s", param->form);
     else if (strcmp(param->command, "camera") == 0)
         wr_text_addf(&line, " %s", wr_camera_names[wr_app_scene(app)->camera.orthographic]);
-    wr_param_line(&line, param, values);
+    wr_line_param(&line, param, values);
     wr_scene_run(app, &line);
 }
 

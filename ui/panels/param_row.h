@@ -17,5 +17,3 @@ WrEdit wr_param_vector(const char *label, const char *const id[3], const WrNumbe
 /* Its vector so, and one command at the end. */
 void wr_param_vector_row(WrApp *app, const WrSceneParam *param, const char *label,
                          const char *const id[3], const WrNumber *spec);
-/* Appends " name=value": a number, several, or a switch. values: [3] */
-void wr_param_line(WrText *line, const WrSceneParam *param, const double *values);

@@ -91,5 +91,7 @@ bool wr_patch_place(const WrApp *app, WrPlacement *out);
 void wr_patch_free(WrApp *app);
 double wr_patch_next_time(const WrApp *app); /* clock at which update must run; 0: only on events */
 bool wr_patch_paints(const WrApp *app);      /* the pointer over the patch would paint */
+/* The orientation cube or a lamp lies there, over the object: a press is for it, though the patch is painted on. */
+bool wr_patch_control_under(const WrApp *app, const WrPointer *at);
 
 extern const WrPart wr_part_patch;

@@ -5,6 +5,7 @@
 #include "ui/desk/keys.h"
 #include "ui/desk/layout.h"
 #include "ui/desk/line.h"
+#include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/patch/patch.h"
@@ -72,6 +73,11 @@ static int light_under(const WrApp *app, const WrPointer *p)
     return -1;
 }
 
+bool wr_patch_control_under(const WrApp *app, const WrPointer *at)
+{
+    return wr_patch_cube_under(app, at) || light_under(app, at) >= 0;
+}
+
 /* Put the light that is held where (x, y) says; its distance stays. */
 static void move_light(WrApp *app, double x, double y)
 {
@@ -92,13 +98,8 @@ static void commit_light(WrApp *app)
 {
     if (!app->live) return;
     const WrLight *light = &app->live->lights[app->patch->light];
-    bool point = light->kind == WR_LIGHT_POINT;
     WrText line = { 0 };
-    wr_text_addf(&line, "light %s", wr_light_names[light->kind]);
-    wr_line_vec(&line, point ? "at" : "to", light->where);
-    wr_line_vec(&line, "colour", light->colour);
-    wr_line_number(&line, "strength", light->strength);
-    wr_text_addf(&line, " index=%d", app->patch->light + 1);
+    wr_line_light(&line, light, app->patch->light);
     wr_app_live_end(app);
     wr_app_run_line(app, wr_text_get(&line));
     wr_text_fini(&line);

@@ -264,7 +264,8 @@ static void overlay_clipped(WrApp *app)
 {
     const WrHand *hand = app->hand;
     bool painting = hand->grab == WR_GRAB_PATCH_PAINT;
-    bool over = painting || (hand->on_patch && hand->grab == WR_GRAB_NONE && wr_patch_paints(app));
+    bool over = painting || (hand->on_patch && hand->grab == WR_GRAB_NONE && wr_patch_paints(app) &&
+                             !wr_patch_control_under(app, &hand->at));
     bool resting = !app->settings->turning || wr_patch_paints(app);
     bool marks = hand->on_canvas && resting;
     WrPatchSpot spot;

@@ -29,10 +29,25 @@
 #define NEAR_UNITS 9.0   /* of a handle */
 #define SNAP_UNITS 6.0   /* from the cell's edges and middles */
 #define SNAP_DEGREES 2.0 /* from quarter turns */
+#define NEARLY_ALL 0.9   /* of an axis */
 
 static const WrTransformValues still = { .scale = { 1.0, 1.0 } };
 
 /* ---- the piece ---- */
+
+/* Where the active layer has content; an axis that it fills nearly, or a layer without any, is taken whole. */
+static WrSelectBox content_box(const WrDocument *document)
+{
+    const WrLayer *layer = &document->layers[document->active];
+    const int w = wr_field_width(layer->heights), h = wr_field_height(layer->heights);
+    WrSelectBox box = { 0, 0, w, h };
+    const WrField *content = layer->on_mask ? layer->mask : layer->cover ? layer->cover : NULL;
+    if (!wr_select_box(content ? content : layer->heights, &box))
+        return (WrSelectBox){ 0, 0, w, h };
+    if (box.count_i > NEARLY_ALL * w) box.i = 0, box.count_i = w;
+    if (box.count_j > NEARLY_ALL * h) box.j = 0, box.count_j = h;
+    return box;
+}
 
 static void measure(WrApp *app)
 {
@@ -49,6 +64,7 @@ static void measure(WrApp *app)
                                .leave = hand->leave,
                                .all = hand->all };
     if (document->selection) hand->any = wr_select_box(document->selection, &hand->box);
+    else if (!hand->all) hand->box = content_box(document);
 }
 
 static bool is_still(const WrTransformHand *hand)
@@ -78,13 +94,28 @@ static void add_pair(WrText *line, const char *name, double a, double b)
     wr_text_add_number(line, b);
 }
 
-static void write_line(const WrTransformHand *hand, WrText *line)
+/* The command turns and scales about the middle of the selection, of the table without one: the frame's middle, where
+   that is another point, is named. */
+static void add_middle(const WrApp *app, WrText *line)
 {
+    const WrTransformHand *hand = app->transform;
+    const double w = app->view->table_w, h = app->view->table_h;
+    const double x = hand->box.i + 0.5 * hand->box.count_i,
+                 y = hand->box.j + 0.5 * hand->box.count_j;
+    if (wr_app_document(app)->selection || (x == 0.5 * w && y == 0.5 * h)) return;
+    if (hand->now.turn == 0.0 && hand->now.scale[0] == 1.0 && hand->now.scale[1] == 1.0) return;
+    add_pair(line, "about", x / w, 1.0 - y / h);
+}
+
+static void write_line(const WrApp *app, WrText *line)
+{
+    const WrTransformHand *hand = app->transform;
     const WrTransformValues *v = &hand->now;
     wr_text_add(line, "transform");
     if (v->move[0] != 0.0 || v->move[1] != 0.0) add_pair(line, "move", v->move[0], v->move[1]);
     if (v->turn != 0.0) wr_line_number(line, "turn", v->turn);
     if (v->scale[0] != 1.0 || v->scale[1] != 1.0) add_pair(line, "scale", v->scale[0], v->scale[1]);
+    add_middle(app, line);
     if (hand->leave) wr_text_add(line, " leave=on");
     if (hand->all) wr_text_add(line, " layers=all");
 }
@@ -109,7 +140,7 @@ static void changed(WrApp *app)
         wr_app_try_end(app);
         return;
     }
-    write_line(hand, &line);
+    write_line(app, &line);
     WrTrialAsk ask = { .line = wr_text_get(&line) };
     wr_app_try(app, &ask);
     wr_text_fini(&line);
@@ -129,7 +160,7 @@ static void apply(WrApp *app)
     WrTransformHand *hand = app->transform;
     WrText line = { 0 };
     if (is_still(hand)) return;
-    write_line(hand, &line);
+    write_line(app, &line);
     wr_app_try_end(app);
     hand->now = still;
     wr_app_run_slow(app, wr_text_get(&line));
@@ -424,6 +455,12 @@ static void switches(WrApp *app, double width)
     wr_gui_tip("What is selected stays where it is too");
     wr_gui_same_line(10);
     wr_gui_check("all layers", &hand->all);
+    if (all != hand->all) { /* another frame, the values stay */
+        const WrTransformValues now = hand->now;
+        hand->measured = false;
+        measure(app);
+        hand->now = now;
+    }
     if (leave != hand->leave || all != hand->all) changed(app);
 }
 
