@@ -23,7 +23,7 @@ refuse() {
     [[ -z $(ls -A) ]] || complain "$* left files"
 }
 
-refuse 1 'must be derivative, normal' --axis colour
+refuse 1 'must be one of derivative, normal' --axis colour
 refuse 1 'at most 4096' --size 5000x10
 refuse 1 'is no folder' --differences nosuch
 refuse 1 'rms=VALUE or max=VALUE' --size 16x16 --tolerance time=8ms

@@ -71,7 +71,7 @@ refuse() {
     [[ $? == 2 && ! -s out ]] || complain "not refused: ${*:2}"
     grep -qF -- "$1" err || complain "'${*:2}' does not say: $1, but: $(cat err)"
 }
-refuse 'must be generate, brushes, window, all, surfaces, schemes' scheme
+refuse 'did you mean schemes? It must be one of surfaces, schemes' scheme
 refuse 'window has neither' window --lines
 refuse 'brushes stands alone' window brushes
 refuse 'stands alone' generate schemes

@@ -67,6 +67,7 @@ static const char *const lines[] = {
     "layer merge 3",
     "layer flatten",
     "layer clear 1",
+    "layer paste big.exr at=0.5,0.5",
     "layer mask 2 from=selection",
     "layer mask 3 from=inverse",
     "layer mask 2 from=height low=0.2",

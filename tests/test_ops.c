@@ -48,7 +48,7 @@ static void parameters_out_of_range_are_refused_with_name_and_value(void **state
                                       NAN,
                                       INFINITY,
                                       -INFINITY,
-                                      bad->whole ? 0.5 : NAN };
+                                      bad->whole && !bad->share ? 0.5 : NAN };
             for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
                 double param[WR_OP_VALUES];
                 for (int q = 0; q < WR_OP_PARAMS; q++) param[q] = wr_ops[k].params[q].fallback;

@@ -89,8 +89,8 @@ bool wr_erode_thermal(WrSheet *sheet, const WrThermal *how, const WrGenerateJob 
     for (int n = 0; good && n < how->rounds; n++) {
         r.from = sheet;
         r.to = &other;
-        good = wr_sheet_run(sheet->height, job, false, weigh_rows, &r, err) &&
-               wr_sheet_run(sheet->height, job, false, flow_rows, &r, err);
+        good = wr_sheet_run(sheet, job, false, weigh_rows, &r, err) &&
+               wr_sheet_run(sheet, job, false, flow_rows, &r, err);
         double *swap = sheet->z;
         sheet->z = other.z;
         other.z = swap;

@@ -159,14 +159,14 @@ static void run_rows(int index, int worker, void *ctx)
     if (!wr_progress_cancelled(run->progress)) run->rows(run->ctx, first, end);
 }
 
-bool wr_sheet_run(int height, const WrGenerateJob *job, bool report, WrSheetRows rows,
+bool wr_sheet_run(const WrSheet *sheet, const WrGenerateJob *job, bool report, WrSheetRows rows,
                   const void *ctx, WrError *err)
 {
     /* Wide tables have pieces of fewer rows, so that work of any size stops as soon. */
-    const int fit = PIECE_TEXELS / wr_field_width(job->like);
+    const int fit = PIECE_TEXELS / sheet->width;
     const int each = fit < 1 ? 1 : fit < ROWS ? fit : ROWS;
-    int pieces = (height + each - 1) / each;
-    Run run = { height, 0, each, job->progress, rows, ctx };
+    int pieces = (sheet->height + each - 1) / each;
+    Run run = { sheet->height, 0, each, job->progress, rows, ctx };
     for (; run.from < pieces; run.from += BATCH) {
         int count = pieces - run.from < BATCH ? pieces - run.from : BATCH;
         if (report && !wr_progress_step(job->progress, (double)run.from / pieces)) break;

@@ -48,10 +48,10 @@ static inline int wr_sheet_index(int i, int n, WrWrap wrap)
     return i < 0 ? i + n : i;
 }
 
-/* Call rows(ctx, first, end) for bands of a sheet of that height until all are done, on the pool. report:
+/* Call rows(ctx, first, end) for bands of the sheet's rows until all are done, on the pool. report:
  * tell the progress from 0 to 1. Errors: "cancelled". */
 typedef void (*WrSheetRows)(const void *ctx, int first, int end);
-bool wr_sheet_run(int height, const WrGenerateJob *job, bool report, WrSheetRows rows,
+bool wr_sheet_run(const WrSheet *sheet, const WrGenerateJob *job, bool report, WrSheetRows rows,
                   const void *ctx, WrError *err);
 
 /* ---- rows: parameters and functions, by file ---- */

@@ -259,7 +259,7 @@ bool wr_terrain_fractal(const WrParamValue *values, const WrGenerateJob *job, Wr
         for (int k = 0; k < f->octaves; k++) move(&f->octave[k], f);
         for (int a = 0; a < 2; a++) move(&f->bend[a], f);
         span(f);
-        good = wr_sheet_run(sheet.height, job, true, fill_rows, f, err);
+        good = wr_sheet_run(&sheet, job, true, fill_rows, f, err);
     }
     if (good) {
         shape(&p, &sheet);

@@ -106,7 +106,7 @@ bool wr_terrain_terraces(const WrParamValue *values, const WrGenerateJob *job, W
                    .up = wr_origin(wr_field_height(job->like), origin->number[1]) };
     bool good = wr_sheet_read(&sheet, job->like, err) && plan(&t, &p, err);
     if (good) wr_sheet_range(&sheet, &t.low, &t.high);
-    if (good && t.high > t.low) good = wr_sheet_run(sheet.height, job, true, cut_rows, &t, err);
+    if (good && t.high > t.low) good = wr_sheet_run(&sheet, job, true, cut_rows, &t, err);
     good = good && wr_sheet_relief(&sheet, job, out, err);
     wr_sheet_fini(&sheet);
     return good;
