@@ -49,8 +49,8 @@ rest
 xdotool mousemove $((X + cx + 60)) $((Y + cy + 60))
 rest
 xdotool mouseup 1
-becomes 'shape ellipse middle=*radii=*paint=outline*' "an ellipse by a drag"
-read -r u v rim < <(newest | sed -E 's/.*middle=([0-9.]+),([0-9.]+) radii=([0-9.]+),.*/\1 \2 \3/')
+becomes 'shape ellipse at=*radii=*paint=outline*' "an ellipse by a drag"
+read -r u v rim < <(newest | sed -E 's/.*at=([0-9.]+),([0-9.]+) radii=([0-9.]+),.*/\1 \2 \3/')
 home
 save_as ellipse.exr
 near "$(height ellipse.exr "$u" "$v")" 0.5 || complain "an outline changes the ellipse's middle"
