@@ -296,6 +296,55 @@ static void a_layer_of_its_own_shows_alone(void **state)
     wr_session_free(session);
 }
 
+/* Covered pixels of a picture, as a copy of all of it. */
+static float *picture_of(WrSession *session, int64_t *covered)
+{
+    WrFrame frame;
+    WrError err;
+    if (!wr_session_frame(session, 60, 40, 0, &frame, &err)) fail_msg("%s", err.text);
+    const size_t count = 60 * 40 * 4;
+    float *copy = malloc(count * sizeof *copy);
+    memcpy(copy, frame.rgba, count * sizeof *copy);
+    *covered = frame.covered;
+    return copy;
+}
+
+static void a_floor_is_seen_from_above_only(void **state)
+{
+    (void)state;
+    static const char *const cameras[][2] = {
+        { "camera perspective eye=0,-2,5 target=0,0,0",
+          "camera perspective eye=0,2,5 target=0,0,0" },
+        { "camera orthographic eye=0,-2,5 target=0,0,0 size=4",
+          "camera orthographic eye=0,2,5 target=0,0,0 size=4" }
+    };
+    for (int k = 0; k < 2; k++) {
+        WrSession *with = session_of((const char *[]){ "surface sphere", "ground on", NULL });
+        WrSession *without = session_of(
+            (const char *[]){ "surface sphere", "ground on", "object hide ground", NULL });
+        int64_t all, ball;
+        must_run(with, cameras[k][0]);
+        must_run(without, cameras[k][0]);
+        float *a = picture_of(with, &all), *b = picture_of(without, &ball);
+        assert_true(ball > 100);
+        assert_memory_equal(a, b, 60 * 40 * 4 * sizeof *a);
+        free(a);
+        must_run(with, cameras[k][1]);
+        a = picture_of(with, &all);
+        assert_true(all > ball + 400);
+        free(a);
+        free(b);
+        must_run(with, "object choose ground"); /* one that turns with the others is no floor */
+        must_run(with, "object set still=off");
+        must_run(with, cameras[k][0]);
+        a = picture_of(with, &all);
+        assert_true(all > ball + 400);
+        free(a);
+        wr_session_free(with);
+        wr_session_free(without);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -307,6 +356,7 @@ int main(void)
         cmocka_unit_test(files_bring_them_back),
         cmocka_unit_test(pictures_count_once_whichever_object_is_at_hand),
         cmocka_unit_test(a_layer_of_its_own_shows_alone),
+        cmocka_unit_test(a_floor_is_seen_from_above_only),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

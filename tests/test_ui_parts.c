@@ -58,46 +58,61 @@ static void assert_range(const double range[2], double low, double high)
         fail_msg("the range is %g .. %g, not %g .. %g", range[0], range[1], low, high);
 }
 
+/* From an empty range. */
+static void assert_own(double low, double high, double black, double white)
+{
+    double range[2] = { 0 };
+    wr_range_follow(range, low, high, WR_RANGE_RESTS);
+    assert_range(range, black, white);
+}
+
 static void a_range_shows_a_new_table_in_the_middle_and_signs_around_it(void **state)
 {
     (void)state;
-    double range[2] = { 0 };
-    wr_range_follow(range, 0, 0, false);
-    assert_range(range, -0.5, 0.5);
-    wr_range_follow(range, 3, 3, false);
-    assert_range(range, -6, 6); /* level, but not white */
-    wr_range_follow(range, 0.25, 0.75, false);
-    assert_range(range, 0.25, 0.75);
-    wr_range_follow(range, -0.25, 0.125, false);
-    assert_range(range, -0.25, 0.25); /* zero is mid-grey */
-    wr_range_follow(range, 0, 1, false);
-    assert_range(range, 0, 1);
-    wr_range_follow(range, -0.055, 0.9375, false);
-    assert_range(range, -0.055, 0.9375); /* slight dents do not wash the bumps out */
-    wr_range_follow(range, -0.5, 0, false);
-    assert_range(range, -0.5, 0.5); /* a level table that was lowered */
+    assert_own(0, 0, -0.5, 0.5);
+    assert_own(3, 3, -6, 6); /* level, but not white */
+    assert_own(0.25, 0.75, 0.25, 0.75);
+    assert_own(-0.25, 0.125, -0.25, 0.25); /* zero is mid-grey */
+    assert_own(0, 1, 0, 1);
+    assert_own(-0.055, 0.9375, -0.055, 0.9375); /* slight dents do not wash the bumps out */
+    assert_own(-0.5, 0, -0.5, 0.5);             /* a level table that was lowered */
+}
+
+/* What was on the table before keeps its grey, but for what room the new heights must have. */
+static void a_range_moves_only_the_end_that_is_passed(void **state)
+{
+    (void)state;
+    double range[2] = { 0, 1 };
+    wr_range_follow(range, -0.3, 1, WR_RANGE_RESTS); /* a stroke below 0 */
+    assert_range(range, -0.3, 1);
+    wr_range_follow(range, 0, 1, WR_RANGE_RESTS); /* taken back */
+    assert_range(range, -0.3, 1);
+    wr_range_follow(range, -5, 7, WR_RANGE_STAYS); /* a stamp hovers */
+    assert_range(range, -0.3, 1);
+    wr_range_follow(range, 0.4, 0.45, WR_RANGE_WIDENS);
+    assert_range(range, -0.3, 1);
+    wr_range_follow(range, 0.4, 0.45, WR_RANGE_RESTS); /* next to nothing would be seen */
+    assert_range(range, 0.4, 0.45);
+    wr_range_follow(range, 0.4, 0.4, WR_RANGE_RESTS); /* all of it is one grey in any case */
+    assert_range(range, 0.4, 0.45);
 }
 
 static void a_range_only_widens_while_something_is_painted(void **state)
 {
     (void)state;
     double range[2] = { 0 }, before;
-    wr_range_follow(range, 0, 0, true);
+    wr_range_follow(range, 0, 0, WR_RANGE_WIDENS);
     int changes = 0;
     for (int i = 0; i <= 1000; i++) { /* a stroke that goes up */
         before = range[1];
-        wr_range_follow(range, 0, i / 100.0, true);
-        assert_true(range[0] <= 0 && range[1] >= i / 100.0 && range[1] >= before);
+        wr_range_follow(range, 0, i / 100.0, WR_RANGE_WIDENS);
+        assert_true(range[0] == -0.5 && range[1] >= i / 100.0 && range[1] >= before);
         changes += range[1] != before;
     }
-    assert_in_range(changes, 1, 16); /* not with each dab */
+    assert_in_range(changes, 1, 20); /* not with each dab */
     before = range[1];
-    wr_range_follow(range, 0, 1, true); /* taken back meanwhile */
+    wr_range_follow(range, 0, 10, WR_RANGE_RESTS); /* the button is let go: nothing jumps */
     assert_true(range[1] == before);
-    wr_range_follow(range, 0, 1, false);
-    assert_range(range, 0, 1);
-    wr_range_follow(range, -0.375, 1, true); /* well below zero: zero to the middle, at once */
-    assert_true(range[0] == -range[1] && range[1] >= 1);
 }
 
 /* ---- icons ---- */
@@ -775,6 +790,7 @@ int main(void)
         cmocka_unit_test(a_search_takes_all_words_in_any_order_and_case),
         cmocka_unit_test(the_beginning_of_a_label_counts_more_than_its_middle),
         cmocka_unit_test(a_range_shows_a_new_table_in_the_middle_and_signs_around_it),
+        cmocka_unit_test(a_range_moves_only_the_end_that_is_passed),
         cmocka_unit_test(a_range_only_widens_while_something_is_painted),
         cmocka_unit_test(every_icon_has_a_word_where_its_font_is_missing),
         cmocka_unit_test(every_driver_has_a_way_to_the_screen_that_it_knows),

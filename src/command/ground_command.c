@@ -145,6 +145,7 @@ const WrCommand wr_command_ground = {
     .details = "It is an object of the name " GROUND
                ": a plane that looks up, goes on to the horizon and stands still "
                "(`object set still=on`) while the turntable turns the others. The chosen object "
-               "stays the chosen one; choose the ground to give it a surface or bumps of its own.",
+               "stays the chosen one; choose the ground to give it a surface or bumps of its own. "
+               "Seen from below a plane that stands still is left out of the picture.",
     .example = "ground on colour=0.3,0.25,0.2"
 };

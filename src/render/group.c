@@ -88,7 +88,7 @@ static void bring_parts(WrRenderer *renderer, const WrFrameRequest *request)
     group->whole = false;
     group->count = 0;
     for (int i = 0; i < wr_scene_object_count(scene) && group->count < WR_OBJECTS_MAX; i++) {
-        if (wr_scene_object(scene, i)->hidden) continue;
+        if (!wr_scene_shows(scene, i, aspect)) continue;
         take_renderer(group, group->count, i, renderer);
         Part *part = &group->parts[group->count++];
         wr_scene_free(part->scene);

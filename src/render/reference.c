@@ -232,7 +232,7 @@ static bool make_set(Set *set, const WrReferenceRequest *request, WrPool *pool, 
     const WrScene *scene = request->scene;
     bool good = true;
     for (int i = 0; i < wr_scene_object_count(scene) && good; i++) {
-        if (wr_scene_object(scene, i)->hidden) continue;
+        if (!wr_scene_shows(scene, i, (double)request->width / request->height)) continue;
         const WrField *own = request->fields ? request->fields[i] : NULL;
         WrScene *part = wr_scene_part(scene, i, (double)request->width / request->height);
         set->part[set->count] = part;

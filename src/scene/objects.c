@@ -259,6 +259,23 @@ void wr_scene_hold_camera(WrScene *scene, const WrScene *like, double aspect)
     if (camera->orthographic) camera->size = 2 * place.half_height / place.widen;
 }
 
+bool wr_scene_shows(const WrScene *scene, int i, double aspect)
+{
+    WrPlacement place;
+    const WrScene *object = wr_scene_object(scene, i);
+    if (object->hidden) return false;
+    if (!object->still || object->shape.kind != WR_SURFACE_plane || scene->other_count == 0)
+        return true;
+    WrScene *part = wr_scene_part(scene, i, aspect);
+    const bool placed = wr_scene_place(part, 0, aspect, &place, NULL);
+    wr_scene_free(part);
+    if (!placed) return true;
+    const double *m = place.rotation;
+    const WrVec3 front = { m[2], m[5], m[8] }; /* a plane faces along its own z */
+    return place.orthographic ? v3_dot(front, place.forward) <= 0
+                              : v3_dot(front, v3_sub(place.eye, place.position)) >= 0;
+}
+
 WrScene *wr_scene_part(const WrScene *scene, int i, double aspect)
 {
     WrScene *part = under(scene, wr_scene_object(scene, i));

@@ -20,6 +20,9 @@ const char *wr_scene_object_label(const WrScene *scene, int i, char buffer[WR_OB
 /* The object of that name or label; its index, or -1. */
 int wr_scene_object_find(const WrScene *scene, const char *name);
 int wr_scene_shown_count(const WrScene *scene); /* objects that are not hidden */
+/* Is object i in a picture of that aspect? Not if it is hidden; and a floor, a plane that stands still among other objects,
+   only as long as the camera is in front of it: from below it would hide all that stands on it. */
+bool wr_scene_shows(const WrScene *scene, int i, double aspect);
 
 /* These give a new scene, the caller's, of count 1. */
 WrScene *wr_scene_choose(const WrScene *scene, int i);

@@ -14,6 +14,7 @@ static const WrSurfaceInfo patches_row = {
     .held = true,
     .open = true,
     .faces = 1,
+    .pose_deg = { -66, 0, -14 }, /* sets such as the teapot stand along z */
     .inversion = WR_INVERT_TRIANGLES,
     .at = patches_at_d,
     .radius = mesh_radius,

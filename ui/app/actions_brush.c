@@ -14,6 +14,7 @@
 #include "ui/tools/tool_rows.h"
 #include "ui/tools/tool_stamp.h"
 #include "ui/jobs/files.h"
+#include "ui/tools/brush_strength.h"
 
 #include "brush/brush.h"
 
@@ -71,9 +72,10 @@ static void scale_strength(WrApp *app, double factor)
         brush->opacity = clamp(rint((brush->opacity + step) * 20.0) / 20.0, 0.05, 1.0);
         return;
     }
-    double s = clamp(brush->strength * factor, 1e-4, 1e6);
+    double *strength = wr_strength_setting(app);
+    double s = clamp(*strength * factor, 1e-4, wr_paints_mask(app) ? 1.0 : 1e6);
     double unit = pow(10.0, floor(log10(s)) - 1.0), digits = rint(s / unit);
-    brush->strength = unit < 1.0 ? digits / rint(1.0 / unit) : digits * unit;
+    *strength = unit < 1.0 ? digits / rint(1.0 / unit) : digits * unit;
 }
 
 void wr_act_strength_up(WrApp *app)
@@ -91,9 +93,10 @@ void wr_act_swap_mode(WrApp *app)
 {
     WrBrush *brush = &app->settings->brush;
     double other = app->settings->other_strength, own = brush->strength;
+    const bool heights = !wr_paints_mask(app);
     brush->mode = brush->mode == WR_BRUSH_RAISE ? WR_BRUSH_LOWER : WR_BRUSH_RAISE;
-    brush->strength = other > 0.0 ? other : own;
-    app->settings->other_strength = own;
+    if (heights && other > 0.0) brush->strength = other;
+    if (heights) app->settings->other_strength = own;
 }
 
 void wr_act_level_mode(WrApp *app)
@@ -107,6 +110,7 @@ void wr_act_reset_values(WrApp *app)
     WrBrush *brush = &app->settings->brush, own = wr_shelf_own(app);
     if (!wr_tool_now(app)->mode) brush->mode = own.mode;
     brush->strength = own.strength;
+    app->settings->mask_strength = 1.0;
     brush->to = own.to;
     brush->opacity = own.opacity;
     brush->flow = own.flow;

@@ -64,6 +64,7 @@ static void choose_way(WrApp *app, int way)
 {
     WrCanvasLook *look = &app->settings->look;
     look->automatic = way == 0;
+    if (way == 0) wr_canvas_fit_range(app->canvas);
     if (way == 0) return;
     look->low = way == 1 ? 0.0 : app->range->low;
     look->high = way == 1 ? 1.0 : app->range->high;

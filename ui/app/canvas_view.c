@@ -18,6 +18,7 @@
 #include "ui/tools/stroke_hand.h"
 #include "ui/tools/symmetry.h"
 #include "ui/tools/tool.h"
+#include "ui/tools/tool_stamp.h"
 #include "ui/views/grid.h"
 #include "ui/views/marks.h"
 #include "ui/views/panel_seam.h"
@@ -34,10 +35,11 @@
 #define MEANS_BUDGET 0.012 /* seconds a picture may take for the means of large tables */
 #define GRID_FROM 8.0      /* zoom from which texels get a grid */
 
-/* The range rests when the table does. */
-static bool is_held(const WrApp *app)
+static WrRangeHold range_hold(const WrApp *app)
 {
-    return app->hand->grab != WR_GRAB_NONE || app->brush->jobs.count > 0;
+    if (app->stamp->trying) return WR_RANGE_STAYS;
+    const bool held = app->hand->grab != WR_GRAB_NONE || app->brush->jobs.count > 0;
+    return held ? WR_RANGE_WIDENS : WR_RANGE_RESTS;
 }
 
 /* The map that is wanted in the table's place; NULL: none, or none yet. second: what goes with it, or NULL. */
@@ -82,7 +84,7 @@ void wr_canvas_view_draw(WrApp *app)
     WrCanvasRange range;
     app->canvas_unfinished =
         wr_canvas_draw(app->canvas, wr_gui_kept(app->gui), app->view, map ? map : field,
-                       map ? second : NULL, &look, is_held(app), MEANS_BUDGET, &range);
+                       map ? second : NULL, &look, range_hold(app), MEANS_BUDGET, &range);
     app->map_shown = map != NULL;
     if (map && range.table_low != app->map_range->table_low) wr_app_redraw(app);
     if (map) *app->map_range = range;
@@ -221,9 +223,16 @@ static void forget(WrApp *app)
     wr_canvas_forget(app->canvas);
 }
 
+static void another(WrApp *app)
+{
+    wr_canvas_fit_range(app->canvas);
+}
+
 static bool works(WrApp *app)
 {
     return wr_canvas_map_busy(app->canvas_map) || wr_canvas_map_busy(app->canvas_second);
 }
 
-const WrPart wr_part_canvas = { .draw = draw, .works = works, .forget = forget };
+const WrPart wr_part_canvas = {
+    .draw = draw, .works = works, .another = another, .forget = forget
+};

@@ -100,6 +100,9 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_ROUGHNESS)] = wr_map_take_roughness,
     [WR_ROW(WR_FILE_METALNESS)] = wr_map_take_metalness,
     [WR_ROW(WR_FILE_SURROUND)] = wr_light_take_surround,
+    [WR_ROW(WR_FILE_MESH)] = wr_surface_take_mesh,
+    [WR_ROW(WR_FILE_PATCHES)] = wr_surface_take_patches,
+    [WR_ROW(WR_FILE_TERRAIN)] = wr_surface_take_terrain,
     [WR_ROW(WR_FILE_GLTF)] = wr_file_take_gltf,
     [WR_ROW(WR_FILE_PRESET)] = wr_shelf_take,
 };

@@ -36,6 +36,7 @@ struct WrCanvas {
     WrCanvasView view, flat; /* of the picture held, and not turned */
     WrCanvasLook look;
     double low, high;
+    double follows[2]; /* the automatic range; empty: to be chosen anew */
     float table_low, table_high;
     bool valid, flooded;
     WR_ARRAY(SDL_Point) dirty; /* tiles */
@@ -46,6 +47,11 @@ WrCanvas *wr_canvas_new(void)
     WrCanvas *canvas = wr_alloc(1, sizeof *canvas);
     for (int k = 0; k < 2; k++) canvas->cells[k] = wr_cells_new();
     return canvas;
+}
+
+void wr_canvas_fit_range(WrCanvas *canvas)
+{
+    canvas->follows[0] = canvas->follows[1] = 0.0;
 }
 
 void wr_canvas_forget(WrCanvas *canvas)
@@ -338,15 +344,14 @@ static bool has_buffers(const WrCanvas *canvas, const WrCanvasView *view)
            (canvas->turned != NULL) == (view->turn != 0.0) && canvas->view.table_w == view->table_w;
 }
 
-static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, bool held)
+static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, WrRangeHold hold)
 {
     double shown[2] = { look->low, look->high };
     wr_cells_range(canvas->cells[0], &canvas->table_low, &canvas->table_high);
     if (look->automatic) {
-        bool follows = held && canvas->look.automatic && canvas->texture;
-        shown[0] = follows ? canvas->low : 0.0;
-        shown[1] = follows ? canvas->high : 0.0;
-        wr_range_follow(shown, (double)canvas->table_low, (double)canvas->table_high, held);
+        wr_range_follow(canvas->follows, (double)canvas->table_low, (double)canvas->table_high,
+                        hold);
+        memcpy(shown, canvas->follows, sizeof shown);
     }
     double low = shown[0], high = shown[1];
     if (!(high - low > 1e-30)) high = low + 1e-30; /* never divide by nothing */
@@ -393,8 +398,8 @@ static void paint(WrCanvas *canvas, const WrField *field, int level, double dead
 }
 
 bool wr_canvas_draw(WrCanvas *canvas, WrKept *kept, const WrCanvasView *view, const WrField *field,
-                    const WrField *second, const WrCanvasLook *look, bool held, double budget,
-                    WrCanvasRange *range)
+                    const WrField *second, const WrCanvasLook *look, WrRangeHold hold,
+                    double budget, WrCanvasRange *range)
 {
     int level = wr_cells_level(view->zoom);
     canvas->kept = kept;
@@ -405,7 +410,7 @@ bool wr_canvas_draw(WrCanvas *canvas, WrKept *kept, const WrCanvasView *view, co
     if (whole || is_rough(canvas) || !wr_view_same(&canvas->view, view)) canvas->valid = false;
     canvas->view = *view;
     canvas->flat = wr_view_flat(view);
-    choose_range(canvas, look, held);
+    choose_range(canvas, look, hold);
     for (int k = 0; k < 2; k++) wr_cells_forget_rough(canvas->cells[k]);
     if (!canvas->valid || canvas->dirty.count > 0)
         paint(canvas, field, level, wr_clock_seconds() + budget);

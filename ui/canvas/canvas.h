@@ -1,6 +1,7 @@
 /* canvas.h - the picture of the table on the canvas: grey or false colour, repeated in all directions,
    box-filtered at every zoom, kept in a texture of which only what changed is made anew. */
 #pragma once
+#include "ui/canvas/canvas_range.h"
 #include "ui/canvas/view.h"
 
 #include <SDL.h>
@@ -56,10 +57,12 @@ double wr_canvas_contour_step(const WrCanvas *canvas);
 
 /* Bring the picture up to date and draw it into the view's rectangle. Takes at most about `budget`
  * seconds for the means of large tables; true if it would be better with another call. second: slopes along v, where `field`
- * holds those along u; else NULL. kept: borrowed until the next call. held: it is being painted, so that a range that follows it only widens. */
+ * holds those along u; else NULL. kept: borrowed until the next call. hold: of an automatic range. */
 bool wr_canvas_draw(WrCanvas *canvas, WrKept *kept, const WrCanvasView *view, const WrField *field,
-                    const WrField *second, const WrCanvasLook *look, bool held, double budget,
-                    WrCanvasRange *range);
+                    const WrField *second, const WrCanvasLook *look, WrRangeHold hold,
+                    double budget, WrCanvasRange *range);
+/* The automatic range becomes the table's own with the next picture. */
+void wr_canvas_fit_range(WrCanvas *canvas);
 /* The colour of a height, 0xffRRGGBB, as in the last picture. */
 uint32_t wr_canvas_colour(const WrCanvas *canvas, double height);
 /* The renderer lost its textures: make them anew. */

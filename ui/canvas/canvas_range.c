@@ -1,22 +1,33 @@
 #include "ui/canvas/canvas_range.h"
 
 #include <math.h>
+#include <stdbool.h>
 
-#define LEVEL_REACH 0.5 /* heights from zero that a level table shows, at least */
-#define ROOM 0.25       /* more than it must, as a part of the range */
+#define LEVEL_REACH 0.5  /* heights from zero that a level table shows, at least */
+#define ROOM 0.25        /* more than it must, as a part of the range */
+#define USED_LEAST 0.125 /* of the range by the table */
 #define SLIGHT                                                                                     \
     0.25 /* dents that are so much shallower than the bumps are high do not cost half of the greys */
 
-void wr_range_follow(double range[2], double low, double high, bool held)
+static void own_range(double range[2], double low, double high)
 {
-    bool level = !(high > low), signs = level || low < fmin(0.0, -SLIGHT * high);
+    const bool level = !(high > low), signs = level || low < fmin(0.0, -SLIGHT * high);
     double reach = fmax(fabs(low), fabs(high));
     if (level) reach = fmax(LEVEL_REACH, 2.0 * reach);
-    double rest[2] = { signs ? -reach : low, signs ? reach : high };
-    bool inside = rest[0] >= range[0] && rest[1] <= range[1];
-    if (held && inside && range[0] < range[1]) return;
-    double more = held ? ROOM * (rest[1] - rest[0]) : 0.0;
-    bool below = held && (signs || rest[0] < range[0]);
-    range[0] = rest[0] - (below ? more : 0.0);
-    range[1] = rest[1] + more;
+    range[0] = signs ? -reach : low;
+    range[1] = signs ? reach : high;
+}
+
+void wr_range_follow(double range[2], double low, double high, WrRangeHold hold)
+{
+    const double span = range[1] - range[0];
+    const bool spare = high > low && high - low < USED_LEAST * span;
+    if (!(span > 0.0) || (spare && hold == WR_RANGE_RESTS)) {
+        own_range(range, low, high);
+        return;
+    }
+    if (hold == WR_RANGE_STAYS) return;
+    const double more = hold == WR_RANGE_WIDENS ? ROOM * span : 0.0;
+    if (low < range[0]) range[0] = low - more;
+    if (high > range[1]) range[1] = high + more;
 }

@@ -1,12 +1,18 @@
-/* canvas_range.h - which heights the canvas shows as black and white where the range follows the table. Pure
-   numbers; tested without a window. */
+/* canvas_range.h - heights that the canvas shows as black and white where the range is automatic. Pure numbers; tested
+   without a window. */
 #pragma once
-#include <stdbool.h>
 
-/* Bring range (black, white) up to date for a table that goes from low to high.
+typedef enum WrRangeHold {
+    WR_RANGE_RESTS,  /* nothing is in progress */
+    WR_RANGE_WIDENS, /* something is being painted */
+    WR_RANGE_STAYS   /* the table is a preview that follows the pointer */
+} WrRangeHold;
+
+/* Update range (black, white) for a table whose heights are low..high.
  *
- * At rest it is the table's own. Where the table is level or goes well below zero, zero is mid-grey: so that on a new
- * table both raising and lowering are seen, and the sign of a height too.
- * held: something is being painted. It then only widens, at once and by more than it must, so that neither the
- * picture flickers nor is made anew with each dab. */
-void wr_range_follow(double range[2], double low, double high, bool held);
+ * An empty range (black >= white) becomes the table's own. There zero is mid-grey where the table is level or goes well
+ * below zero, so that raising and lowering both show.
+ * Else the picture stays as it is as far as it can: a height beyond the range moves that end only, and the other keeps
+ * its grey. A range of which the table uses less than an eighth becomes the table's own, at rest.
+ * WR_RANGE_WIDENS: an end moves by more than it must, so that the picture is not made anew with each dab. */
+void wr_range_follow(double range[2], double low, double high, WrRangeHold hold);

@@ -26,6 +26,7 @@ WrSettings wr_settings_default(void)
         .grid_parts = 8,
         .turning = true,
         .brush = wr_brush_default(),
+        .mask_strength = 1.0,
         .lock_size = false,
         .symmetry = { .mirror_u = true,
                       .radial = 1,
@@ -118,6 +119,7 @@ static int brush_rows(WrSettings *s, Row *rows)
         { "jitter_place", &s->brush.jitter_place, NULL, NULL, 0, 1e9 },
         { "jitter_angle", &s->brush.jitter_angle_deg, NULL, NULL, 0, 180 },
         { "jitter_size", &s->brush.jitter_size, NULL, NULL, 0, 1 },
+        { "mask_strength", &s->mask_strength, NULL, NULL, 0, 1 },
         { "other_strength", &s->other_strength, NULL, NULL, -1e30, 1e30 },
         { "lock_size", NULL, NULL, &s->lock_size, 0, 1 },
     };

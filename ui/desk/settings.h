@@ -55,6 +55,7 @@ typedef struct WrSettings {
     WrCanvasLook look;
     /* The files that the brush comes from, owned, NULL: none; as WrBrushSources. */
     char *preset, *tip, *set;
+    double mask_strength;  /* of the brush on masks, 0..1 */
     double other_strength; /* of lowering while raising, and the other way round; 0: the same */
     bool lock_size;        /* another preset keeps the size */
     char *favourites[WR_FAVOURITES_MAX]; /* ids of presets, owned; NULL ends them */

@@ -81,6 +81,9 @@ static const struct {
     [WR_ROW(WR_FILE_ROUGHNESS)] = { "Choose a picture of roughness", "Choose", NULL },
     [WR_ROW(WR_FILE_METALNESS)] = { "Choose a picture of metalness", "Choose", NULL },
     [WR_ROW(WR_FILE_SURROUND)] = { "Choose a picture of surroundings", "Choose", NULL },
+    [WR_ROW(WR_FILE_MESH)] = { "Choose a mesh", "Choose", NULL },
+    [WR_ROW(WR_FILE_PATCHES)] = { "Choose a set of patches", "Choose", NULL },
+    [WR_ROW(WR_FILE_TERRAIN)] = { "Choose a picture of elevations", "Choose", NULL },
     [WR_ROW(WR_FILE_GLTF)] = { "Take the materials of a glTF", "Take", NULL },
     [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* its name is typed */
 };

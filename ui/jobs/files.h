@@ -22,8 +22,11 @@ typedef enum WrFilePurpose {
     WR_FILE_ROUGHNESS,
     WR_FILE_METALNESS,
     WR_FILE_SURROUND,
-    WR_FILE_GLTF,   /* its materials and pictures */
-    WR_FILE_PRESET, /* never asked for by itself: a preset's name is typed */
+    WR_FILE_MESH, /* the chosen object's surface, */
+    WR_FILE_PATCHES,
+    WR_FILE_TERRAIN, /* and the ground's form */
+    WR_FILE_GLTF,    /* its materials and pictures */
+    WR_FILE_PRESET,  /* never asked for by itself: a preset's name is typed */
     WR_FILE_PURPOSES
 } WrFilePurpose;
 

@@ -9,6 +9,7 @@
 #include "ui/gui/words.h"
 #include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panels.h"
+#include "ui/tools/brush_strength.h"
 #include "ui/tools/option.h"
 #include "ui/tools/shelf.h"
 #include "ui/tools/tuning.h"
@@ -52,14 +53,7 @@ static void basic(WrApp *app)
                       .reset = own.hardness,
                       .decimals = 2,
                       .tip = "How far from the middle it works in full" };
-    WrNumber strength = { .low = 0.001,
-                          .high = 1,
-                          .hard_low = -1e30,
-                          .hard_high = 1e30,
-                          .reset = own.strength,
-                          .decimals = -1,
-                          .logarithmic = true,
-                          .tip = "How much one stroke changes the height at its middle" };
+    const WrNumber strength = wr_strength_slider(app);
     WrNumber to = { .low = 0,
                     .high = 1,
                     .hard_low = -1e30,
@@ -77,7 +71,7 @@ static void basic(WrApp *app)
     double diameter = 2.0 * b->radius;
     if (number("Size", &size, &diameter)) b->radius = diameter / 2.0;
     number("Hardness", &hard, &b->hardness);
-    if (uses & WR_USES_STRENGTH) number("Strength", &strength, &b->strength);
+    if (uses & WR_USES_STRENGTH) number("Strength", &strength, wr_strength_setting(app));
     if (uses & WR_USES_TO) number("Height", &to, &b->to);
     if (uses & WR_USES_REACH) number("Reach", &reach, &b->reach);
     percent("Opacity", "Of the whole stroke: it never does more than this part", &b->opacity);

@@ -1,14 +1,18 @@
 /* The scene: every field shows what the document has, changes the preview while it is dragged, and runs
    one command when it is let go. */
 #include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/words.h"
+#include "ui/jobs/files.h"
 #include "ui/panels/panel_scene.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
+#include "base/file.h"
+#include "base/memory.h"
 #include "base/rows.h"
 #include "base/text.h"
 #include "command/call.h"
@@ -18,10 +22,13 @@
 #include "surface/data.h"
 #include "surface/patches.h"
 #include "surface/surface.h"
+#include "system/path.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#define GLYPH 24
 
 /* ---- surface ---- */
 
@@ -110,6 +117,49 @@ static void form_layer(WrApp *app)
     wr_scene_run(app, &line);
 }
 
+/* ---- its file ---- */
+
+static void take_file(WrApp *app, WrSurfaceKind kind, const char *path)
+{
+    WrShape shape = wr_app_scene(app)->shape;
+    int table;
+    file_of(app, kind, &table);
+    if (shape.kind != kind) wr_shape_default(kind, &shape); /* another was chosen meanwhile */
+    run_file(app, &shape, NULL, path, table);
+}
+
+void wr_surface_take_mesh(WrApp *app, const char *path)
+{
+    take_file(app, WR_SURFACE_mesh, path);
+}
+
+void wr_surface_take_patches(WrApp *app, const char *path)
+{
+    take_file(app, WR_SURFACE_patches, path);
+}
+
+void wr_surface_take_terrain(WrApp *app, const char *path)
+{
+    take_file(app, WR_SURFACE_terrain, path);
+}
+
+/* Asks for a file, beginning with the one that is there, else among the patch sets that ship with the program. */
+static void browse(WrApp *app, const char *file)
+{
+    const WrSurfaceKind kind = wr_app_scene(app)->shape.kind;
+    const WrFilePurpose purpose = kind == WR_SURFACE_patches   ? WR_FILE_PATCHES
+                                  : kind == WR_SURFACE_terrain ? WR_FILE_TERRAIN
+                                                               : WR_FILE_MESH;
+    WrText shipped = { 0 };
+    const char *from = *file ? file : NULL;
+    if (!from && kind == WR_SURFACE_patches && wr_data_find("samples/teapot.bpt", &shipped))
+        from = wr_text_get(&shipped);
+    char *folder = from ? wr_path_folder(from) : NULL;
+    if (!wr_files_ask(app->files, purpose, folder, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_free(folder);
+    wr_text_fini(&shipped);
+}
+
 /* What a mesh, patches or a terrain are read from. */
 static void surface_file(WrApp *app)
 {
@@ -122,11 +172,16 @@ static void surface_file(WrApp *app)
     if (hand->file_key != key) snprintf(hand->file, sizeof hand->file, "%s", file);
     hand->file_key = key;
     wr_gui_label("File");
-    const bool done = wr_gui_text_field("##surface file", 0, hand->file, sizeof hand->file, false);
+    const double room = wr_gui_available() - wr_gui_px(GLYPH + 4);
+    const bool done =
+        wr_gui_text_field("##surface file", room, hand->file, sizeof hand->file, false);
     const bool left = wr_gui_field_left();
     wr_gui_tip(shape->kind == WR_SURFACE_terrain   ? "A picture: black is low, white is high"
                : shape->kind == WR_SURFACE_patches ? "A text of bicubic patches, such as teapot.bpt"
                                                    : "OBJ, PLY, STL, glTF and others");
+    wr_gui_same_line(4);
+    if (wr_gui_glyph("browse", WR_ICON_FOLDER, GLYPH, WR_COLOUR_LABEL)) browse(app, file);
+    wr_gui_tip("Choose a file");
     if (left && wr_gui_escape_pressed()) hand->file_key = 0; /* taken anew */
     else if ((done || left) && *hand->file && strcmp(hand->file, file) != 0)
         run_file(app, shape, NULL, hand->file, table);
@@ -144,6 +199,8 @@ static void surface_file(WrApp *app)
     wr_text_addf(&line, "surface patches table=%s", wr_patch_tables[table]);
     wr_scene_run(app, &line);
 }
+
+/* ---- its values ---- */
 
 /* What a surface is given by in words, each in a field that runs the command when it is left changed. */
 static void surface_texts(WrApp *app)

@@ -22,6 +22,10 @@ void wr_panel_maps(WrApp *app);
 void wr_panel_colouring(WrApp *app);                       /* a part of that */
 void wr_map_take_colour(WrApp *app, const char *path);     /* of a file that was chosen */
 void wr_light_take_surround(WrApp *app, const char *path); /* likewise */
+/* The chosen object becomes that mesh, set of patches or ground. */
+void wr_surface_take_mesh(WrApp *app, const char *path);
+void wr_surface_take_patches(WrApp *app, const char *path);
+void wr_surface_take_terrain(WrApp *app, const char *path);
 void wr_map_take_normals(WrApp *app, const char *path);
 void wr_map_take_roughness(WrApp *app, const char *path);
 void wr_map_take_metalness(WrApp *app, const char *path);

@@ -11,6 +11,7 @@
 #include "ui/gui/theme.h"
 #include "ui/gui/words.h"
 #include "ui/pen/steady.h"
+#include "ui/tools/brush_strength.h"
 #include "ui/tools/shelf.h"
 #include "ui/tools/thumbs.h"
 #include "ui/tools/tool.h"
@@ -65,16 +66,8 @@ void wr_option_hardness(WrApp *app, double width)
 
 void wr_option_strength(WrApp *app, double width)
 {
-    WrNumber spec = { .low = 0.001,
-                      .high = 1,
-                      .hard_low = -1e30,
-                      .hard_high = 1e30,
-                      .reset = wr_shelf_own(app).strength,
-                      .decimals = -1,
-                      .logarithmic = true,
-                      .tip = "How much one stroke changes the height at its middle, in units of "
-                             "the table." };
-    wr_gui_number("strength", width, &spec, &app->settings->brush.strength);
+    const WrNumber spec = wr_strength_slider(app);
+    wr_gui_number("strength", width, &spec, wr_strength_setting(app));
 }
 
 static void percent(const char *id, double width, const char *tip, double *part)

@@ -13,6 +13,7 @@
 #include "ui/desk/settings.h"
 #include "ui/tools/brush_line.h"
 #include "ui/gui/words.h"
+#include "ui/tools/brush_strength.h"
 #include "ui/tools/shelf.h"
 #include "ui/views/overlay.h"
 
@@ -49,19 +50,20 @@ static uint64_t new_seed(WrApp *app)
 }
 
 /* Lowers what raises, and the other way round, with the strength that was last used for it. */
-static void invert(const WrSettings *settings, WrBrush *brush)
+static void invert(const WrApp *app, WrBrush *brush)
 {
+    const double other = app->settings->other_strength;
     if (brush->mode != WR_BRUSH_RAISE && brush->mode != WR_BRUSH_LOWER) return;
     brush->mode = brush->mode == WR_BRUSH_RAISE ? WR_BRUSH_LOWER : WR_BRUSH_RAISE;
-    if (settings->other_strength != 0.0) brush->strength = settings->other_strength;
+    if (other != 0.0 && !wr_paints_mask(app)) brush->strength = other;
 }
 
 WrBrush wr_strokes_brush(WrApp *app, const WrPointer *at)
 {
-    WrBrush brush = app->settings->brush;
+    WrBrush brush = wr_brush_now(app);
     if (at->eraser) brush.mode = WR_BRUSH_ERASE;
     else if (wr_keys_hold(app->keys, WR_ACT(hold_smooth), at->mods)) brush.mode = WR_BRUSH_SMOOTH;
-    else if (wr_keys_hold(app->keys, WR_ACT(hold_invert), at->mods)) invert(app->settings, &brush);
+    else if (wr_keys_hold(app->keys, WR_ACT(hold_invert), at->mods)) invert(app, &brush);
     brush.seed = wr_brush_chances(&brush) ? new_seed(app) : 0;
     return brush;
 }

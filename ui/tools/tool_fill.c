@@ -6,6 +6,7 @@
 #include "ui/desk/line.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
+#include "ui/tools/brush_strength.h"
 #include "ui/tools/option.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
@@ -19,7 +20,7 @@
 
 static void paint_line(const WrApp *app, WrText *line)
 {
-    const WrBrush *brush = &app->settings->brush;
+    const WrBrush now = wr_brush_now(app), *brush = &now;
     unsigned uses = wr_brush_modes[brush->mode].uses;
     wr_line_number(line, "strength", brush->strength);
     wr_text_addf(line, " mode=%s", wr_brush_modes[brush->mode].name);

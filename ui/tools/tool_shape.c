@@ -11,6 +11,7 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/tools/brush_line.h"
+#include "ui/tools/brush_strength.h"
 #include "ui/tools/option.h"
 #include "ui/tools/shelf.h"
 #include "ui/tools/tool.h"
@@ -34,7 +35,7 @@
 void wr_draw_brush_line(const WrApp *app, WrText *line, bool symmetric)
 {
     const WrBrushSources *files = app->brush_files;
-    WrBrush brush = app->settings->brush;
+    WrBrush brush = wr_brush_now(app);
     WrBrush base = brush.preset ? wr_preset_brush(brush.preset) : wr_brush_default();
     WrBrushNames names = { files->preset, files->set, files->tip };
     if (!symmetric) brush.symmetry = (WrSymmetry){ 0 };

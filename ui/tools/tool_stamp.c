@@ -22,6 +22,7 @@
 #include "ui/tools/tool_rows.h"
 #include "ui/views/overlay.h"
 #include "ui/jobs/trial.h"
+#include "ui/tools/brush_strength.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -50,7 +51,7 @@ static double radius_of(const WrApp *app)
 
 static WrBrush brush_of(const WrApp *app)
 {
-    WrBrush brush = app->settings->brush;
+    WrBrush brush = wr_brush_now(app);
     brush.preset = NULL;
     brush.tip = app->stamp->tip;
     brush.radius = radius_of(app);
