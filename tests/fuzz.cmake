@@ -45,7 +45,7 @@ function(wr_fuzz name)
 endfunction()
 
 wr_fuzz(journal document/journal_folder.c document/journal_line.c document/recover.c base/error.c
-        base/file.c base/file_open.c base/hash.c base/memory.c base/progress.c base/stamp.c base/text.c)
+        base/file.c base/file_open.c base/hash.c base/memory.c base/progress.c base/file_identity.c base/text.c)
 
 set(tip_sources brush/tip.c brush/tip_gbr.c brush/tip_gih.c brush/tip_smooth.c base/error.c base/exactmath.c
     base/memory.c base/text.c)

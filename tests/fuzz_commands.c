@@ -3,7 +3,7 @@
    hold) run without harm. */
 #include "base/error.h"
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/session.h"
 
 #include <stdint.h>

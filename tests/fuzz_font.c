@@ -4,7 +4,7 @@
    font of each kind with the fuzzer's bytes laid over it. */
 #include "base/error.h"
 #include "base/text.h"
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -6,8 +6,8 @@
 #include "base/pool.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "render/frame.h"
-#include "render/kern.h"
+#include "render/frame/frame.h"
+#include "render/kernels/kern.h"
 #include "scene/scene.h"
 
 #include <math.h>

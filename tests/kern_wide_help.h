@@ -6,8 +6,8 @@
 #include "base/kernmath.h"
 #include "base/memory.h"
 #include "base/vec.h"
-#include "render/kern.h"
-#include "render/kern_wide.h"
+#include "render/kernels/kern.h"
+#include "render/simd/simd_kernels.h"
 
 #define FAST_BOUND 2e-4 /* scene/dials.h: of 1, or of the value if that is larger */
 

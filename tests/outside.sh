@@ -65,7 +65,7 @@ sets=$(grep -oE '"file": "[^"]*/render/kern_(ref|v[1-4])\.c"' "$folder/native/co
 configure wrong -DWR_KERNELS=some -DWR_TESTS=OFF && complain "WR_KERNELS=some is configured"
 for level in 0 1 2 3 4; do
     "${CC:-cc}" -std=c17 -Wall -Wextra -Werror -fsyntax-only -fopenmp-simd -DWR_NATIVE_LEVEL=$level -I"$source/src" \
-        "$source/src/render/kern.c" || complain "kern.c does not compile for level $level alone"
+        "$source/src/render/kernels/kern.c" || complain "kern.c does not compile for level $level alone"
 done
 
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }

@@ -27,7 +27,7 @@ BEGIN {
     may["cli"] = may["command"] "command hardcases "
     # The rooms of the window, from the ground up: each knows those before it.
     ui = may["command"] "command hardcases "
-    count = split("gui pen jobs canvas preview desk views tools patch generate accuracy help panels app", floor)
+    count = split("toolkit input jobs canvas preview state views tools patch generate accuracy help panels app", floor)
     for (i = 1; i <= count; i++) {
         may["ui/" floor[i]] = ui below
         below = below "ui/" floor[i] " "
@@ -83,7 +83,7 @@ bad=$?
 
 # What is drawn on the window, and what textures hold, goes through one room, which knows what changed; ui/app/window.c tries
 # whether there is a picture at all.
-if find ui -name '*.c' -o -name '*.cpp' | grep -v '^ui/gui/\|^ui/app/window.c$' | sort |
+if find ui -name '*.c' -o -name '*.cpp' | grep -v '^ui/toolkit/\|^ui/app/window.c$' | sort |
     xargs grep -nE '\bSDL_(UpdateTexture|LockTexture|UnlockTexture|RenderCopy|RenderFill|RenderDraw|RenderGeometry|RenderClear|RenderPresent)'; then
     printf 'only ui/gui draws and changes textures\n'
     bad=1

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Each form of an error that the window says in other words (ui/gui/sentences.c) is one that some text of the source has, or that
+# Each form of an error that the window says in other words (ui/toolkit/sentences.c) is one that some text of the source has, or that
 # the system says. A form that no text fits any more is named.  sentences.sh SOURCE-FOLDER
 set -euo pipefail
 source=$1
@@ -26,7 +26,7 @@ sub texts_of {
 }
 while (my $file = <STDIN>) { chomp $file; $text{$_} = 1 for texts_of($file); }
 for my $number (qw(ENOENT EACCES EISDIR ENOTDIR ENOSPC EROFS ENAMETOOLONG)) { $! = Errno->can($number)->(); $text{"$!"} = 1; }
-{ local $/; open my $from, "<", "ui/gui/sentences.c" or die; @forms = <$from> =~ /FORM\("((?:[^"\\]|\\.)*)"\)/g; }
+{ local $/; open my $from, "<", "ui/toolkit/sentences.c" or die; @forms = <$from> =~ /FORM\("((?:[^"\\]|\\.)*)"\)/g; }
 die "the source was not read\n" unless @forms > 60 && keys %text > 1500;
 # A text fits whole; or what follows a colon of it, or tells what would be right; or it is what comes before the last part. Or all
 # that stands between parts are texts, of which such a sentence is put together.
@@ -38,7 +38,7 @@ for my $form (@forms) {
     next if grep { index($_, $longest) >= 0 && /(?:^|: |must be )$want$/ } keys %text;
     next if $form =~ /^(.+)%s$/ && $text{$1};
     next if !grep { $_ ne "" && !$text{$_} } @pieces;
-    print "no text of the source fits the form \"$form\" of ui/gui/sentences.c\n";
+    print "no text of the source fits the form \"$form\" of ui/toolkit/sentences.c\n";
     $lost = 1;
 }
 exit $lost;

@@ -5,7 +5,7 @@
 #include "command/session.h"
 #include "document/document.h"
 #include "scene/scene.h"
-#include "surface/tangents.h"
+#include "surface/tangent_frames.h"
 
 #include <stdio.h>
 

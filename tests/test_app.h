@@ -9,10 +9,10 @@
 #include "system/clock.h"
 
 #include "ui/app/loop.h"
-#include "ui/app/store.h"
-#include "ui/desk/app_options.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/document.h"
+#include "ui/app/app_store.h"
+#include "ui/state/app_options.h"
+#include "ui/state/app_state.h"
+#include "ui/state/document.h"
 
 #include <SDL.h>
 

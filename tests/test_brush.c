@@ -4,7 +4,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "brush/brush.h"
-#include "brush/kern.h"
+#include "brush/brush_kernels.h"
 #include "field/field.h"
 
 #include <float.h>

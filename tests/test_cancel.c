@@ -11,7 +11,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/session.h"
 #include "generate/generator.h"
 #include "system/clock.h"

@@ -25,7 +25,7 @@ static WrField *rough(int w, int h)
 
 static WrMapJob job_of(WrScheme scheme)
 {
-    const WrGround ground = { NULL, NULL, scheme, 0.11, 1.5, 1 };
+    const WrDerivatives ground = { NULL, NULL, scheme, 0.11, 1.5, 1 };
     WrMapJob job = wr_map_default(&ground);
     job.directions = 8, job.reach = 20, job.sigma = 3;
     return job;

@@ -3,11 +3,11 @@
 
 #include "field/field.h"
 
-#include "ui/canvas/ants.h"
+#include "ui/canvas/marching_ants.h"
 #include "ui/canvas/canvas.h"
-#include "ui/canvas/canvas_ink.h"
+#include "ui/canvas/canvas_colors.h"
 #include "ui/canvas/view.h"
-#include "ui/gui/kept.h"
+#include "ui/toolkit/retained_frame.h"
 
 #include <SDL.h>
 
@@ -118,7 +118,7 @@ static void what_is_under_the_pointer_stays_there(void **state)
 typedef struct Shown {
     SDL_Surface *surface;
     SDL_Renderer *renderer;
-    WrKept *kept;
+    WrRetainedFrame *kept;
     WrCanvas *canvas;
 } Shown;
 
@@ -129,14 +129,14 @@ static Shown show_new(void)
                 .canvas = wr_canvas_new() };
     s.renderer = SDL_CreateSoftwareRenderer(s.surface);
     assert_non_null(s.renderer);
-    s.kept = wr_kept_new(s.renderer);
+    s.kept = wr_retained_frame_new(s.renderer);
     return s;
 }
 
 static void show_free(Shown *s)
 {
     wr_canvas_free(s->canvas);
-    wr_kept_free(s->kept);
+    wr_retained_frame_free(s->kept);
     SDL_DestroyRenderer(s->renderer);
     SDL_FreeSurface(s->surface);
 }
@@ -147,10 +147,10 @@ static void show(Shown *s, const WrCanvasView *view, const WrField *field)
     WrCanvasRange range;
     bool unfinished = true;
     while (unfinished) {
-        wr_kept_clear(s->kept, 0xff123456u);
+        wr_retained_frame_clear(s->kept, 0xff123456u);
         unfinished =
             wr_canvas_draw(s->canvas, s->kept, view, field, NULL, &look, false, 1.0, &range);
-        wr_kept_end(s->kept);
+        wr_retained_frame_end(s->kept);
     }
 }
 
@@ -242,9 +242,9 @@ static void outlines_follow_the_copies(void **state)
     for (int k = 0; k < 60; k++) {
         WrCanvasView view = random_view(&r, 37, 53);
         view.zoom = 1 + test_random(&r);
-        WrAnts ants = { 0 };
+        WrMarchingAnts ants = { 0 };
 
-        wr_ants_add(&ants, corners, 4, 0, 0, &view, true, true);
+        wr_marching_ants_add(&ants, corners, 4, 0, 0, &view, true, true);
         assert_true(ants.pixels.count > 50);
         for (int i = 0; i < ants.pixels.count; i++) {
             const SDL_Point *at = &ants.pixels.data[i].at;
@@ -257,7 +257,7 @@ static void outlines_follow_the_copies(void **state)
             if (off * view.zoom > 1.0) fail_msg("an ant is %g pixels off", off * view.zoom);
         }
 
-        wr_ants_free(&ants);
+        wr_marching_ants_free(&ants);
     }
 }
 
@@ -348,13 +348,13 @@ static void normals_have_the_colours_of_a_map(void **state)
     Shown s = show_new();
     WrField *p = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 1, NULL);
     WrField *q = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    wr_kept_clear(s.kept, 0xff123456u);
+    wr_retained_frame_clear(s.kept, 0xff123456u);
     wr_canvas_draw(s.canvas, s.kept, &view, p, q, &look, false, 1, &range);
-    wr_kept_end(s.kept);
+    wr_retained_frame_end(s.kept);
     assert_int_equal(pixel(&s, 100, 100), 0xff2580da); /* 127.5 (1 - 1/sqrt 2, 1, 1 + 1/sqrt 2) */
-    wr_kept_clear(s.kept, 0xff123456u);
+    wr_retained_frame_clear(s.kept, 0xff123456u);
     wr_canvas_draw(s.canvas, s.kept, &view, q, p, &look, false, 1, &range);
-    wr_kept_end(s.kept);
+    wr_retained_frame_end(s.kept);
     assert_int_equal(pixel(&s, 100, 100), 0xff8025da);
     wr_field_free(p);
     wr_field_free(q);

@@ -12,22 +12,22 @@
 #include "surface/patches.h"
 #include "surface/terrain.h"
 
-static WrColouring ramp(void)
+static WrHeightColormap ramp(void)
 {
-    return (WrColouring){ .count = 4,
-                          .stops = { { 0.1, { 0.2, 0.4, 0.9 } },
-                                     { 0.35, { 0.7, 0.1, 0.3 } },
-                                     { 0.35, { 0.05, 0.55, 0.15 } },
-                                     { 0.8, { 2.5, 0.25, 0.6 } } },
-                          .steep = true,
-                          .steep_rgb = { 0.33, 0.21, 0.11 },
-                          .slope = { 20, 47 } };
+    return (WrHeightColormap){ .count = 4,
+                               .stops = { { 0.1, { 0.2, 0.4, 0.9 } },
+                                          { 0.35, { 0.7, 0.1, 0.3 } },
+                                          { 0.35, { 0.05, 0.55, 0.15 } },
+                                          { 0.8, { 2.5, 0.25, 0.6 } } },
+                               .steep = true,
+                               .steep_rgb = { 0.33, 0.21, 0.11 },
+                               .slope = { 20, 47 } };
 }
 
 static void colour_at(double height, double slope, double out[3])
 {
-    const WrColouring own = ramp();
-    wr_colouring_at(&own, height, slope, out);
+    const WrHeightColormap own = ramp();
+    wr_height_colormap_at(&own, height, slope, out);
 }
 
 static void stops_are_met_and_steps_are_steps(void **state)
@@ -75,8 +75,8 @@ static void a_plane_has_the_colours_of_its_heights(void **state)
     assert_true(wr_terrain_points(&terrain, &points, &columns, &rows, NULL));
     WrTriangles *made =
         wr_patches_new((const float(*)[48])points, columns * rows, WR_PATCH_SPLIT, NULL);
-    const WrColouring own = ramp();
-    WrImage *image = wr_colouring_form(&own, made->patches, rise, 53, 19, NULL);
+    const WrHeightColormap own = ramp();
+    WrImage *image = wr_height_colormap_form(&own, made->patches, rise, 53, 19, NULL);
     for (int k = 0; k < 53 * 19; k++) {
         const double u = (k % 53 + 0.5) / 53;
         if (u < 0.12 || u > 0.88 || fabs(u - 0.35) < 0.01) continue;
@@ -94,9 +94,9 @@ static void a_table_has_the_colours_of_its_heights_and_slopes(void **state)
     WrField *field = wr_field_new(W, H, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     TestRandom random = { 5 };
     for (int k = 0; k < W * H; k++) wr_field_set(field, k % W, k / W, (float)test_random(&random));
-    const WrColouring own = ramp();
+    const WrHeightColormap own = ramp();
     const double height = 0.017;
-    WrImage *image = wr_colouring_table(&own, field, height, NULL);
+    WrImage *image = wr_height_colormap_table(&own, field, height, NULL);
     assert_int_equal(image->width, W);
     assert_int_equal(image->height, H);
     for (int k = 0; k < W * H; k++) {
@@ -134,12 +134,12 @@ static void hollows_have_their_colour(void **state)
     WrField *field = wr_field_new(W, H, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     TestRandom random = { 77 };
     for (int k = 0; k < W * H; k++) wr_field_set(field, k % W, k / W, (float)test_random(&random));
-    WrColouring own = ramp();
+    WrHeightColormap own = ramp();
     own.steep = false;
-    WrImage *plain = wr_colouring_table(&own, field, 1, NULL);
+    WrImage *plain = wr_height_colormap_table(&own, field, 1, NULL);
     own.hollow = true, own.within = 1.9, own.depth[0] = 0.07, own.depth[1] = 0.31;
     own.hollow_rgb[0] = 0.02, own.hollow_rgb[1] = 0.63, own.hollow_rgb[2] = 1.4;
-    WrImage *image = wr_colouring_table(&own, field, 1, NULL);
+    WrImage *image = wr_height_colormap_table(&own, field, 1, NULL);
     int untouched = 0, alone = 0;
     for (int k = 0; k < W * H; k++) {
         const double below =
@@ -169,7 +169,7 @@ static void it_takes_the_place_of_a_colour_picture(void **state)
     (void)state;
     WrSession *s = session_of((const char *const[]){ "table 30x20", "noise perlin cells=4", NULL });
     must_run(s, "colouring ramp steep=0.1,0.2,0.3");
-    assert_int_equal(scene_in(s)->colouring.of, WR_COLOURING_TABLE);
+    assert_int_equal(scene_in(s)->colouring.of, WR_HEIGHT_COLORMAP_TABLE);
     assert_int_equal(scene_in(s)->colour->width, 30);
     const WrImage *first = scene_in(s)->colour;
     must_run(s, "camera orbit 5,5"); /* nothing that it goes by */

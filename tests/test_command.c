@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "brush/brush.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/help.h"
 #include "command/session.h"
 

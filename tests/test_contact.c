@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "document/document.h"
 #include "export/export.h"
-#include "export/sets.h"
+#include "export/map_sets.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "system/path.h"

@@ -3,7 +3,7 @@
 #include "test_ops_tables.h"
 
 #include "base/error.h"
-#include "field/curve.h"
+#include "field/monotone_curve.h"
 
 static WrCurve curve_of(const double *points, int count)
 {

@@ -30,21 +30,21 @@ static void sets_files_and_settings_are_taken(void **state)
     (void)state;
     write_sky("sky.exr", false);
     WrSession *s = wr_session_new(NULL);
-    assert_int_equal(of(s)->kind, WR_SURROUND_OFF);
+    assert_int_equal(of(s)->kind, WR_ENVIRONMENT_MAP_OFF);
     must_fail(s, "environment turn=3", "no surroundings");
     must_fail(s, "environment off strength=2", "strength");
     must_fail(s, "environment sky layer=R", "layer");
     must_fail(s, "environment missing.exr", "missing.exr");
     must_run(s, "environment studio turn=12.5");
     must_run(s, "environment strength=0.7");
-    assert_true(of(s)->kind == WR_SURROUND_STUDIO && of(s)->turn_deg == 12.5);
+    assert_true(of(s)->kind == WR_ENVIRONMENT_MAP_STUDIO && of(s)->turn_deg == 12.5);
     must_run(s, "environment sky.exr turn=-7");
-    assert_true(of(s)->kind == WR_SURROUND_FILE && of(s)->turn_deg == -7);
+    assert_true(of(s)->kind == WR_ENVIRONMENT_MAP_FILE && of(s)->turn_deg == -7);
     assert_true(of(s)->strength == 0.7 && of(s)->light->image->width == 12);
     must_run(s, "undo");
-    assert_true(of(s)->kind == WR_SURROUND_STUDIO && of(s)->turn_deg == 12.5);
+    assert_true(of(s)->kind == WR_ENVIRONMENT_MAP_STUDIO && of(s)->turn_deg == 12.5);
     must_run(s, "environment off");
-    assert_true(of(s)->kind == WR_SURROUND_OFF && !of(s)->light && of(s)->strength == 1);
+    assert_true(of(s)->kind == WR_ENVIRONMENT_MAP_OFF && !of(s)->light && of(s)->strength == 1);
     wr_session_free(s);
 }
 

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "command/estimate.h"
 #include "command/session.h"
-#include "command/table.h"
+#include "command/command_table.h"
 #include "field/field.h"
 
 #include <fcntl.h>

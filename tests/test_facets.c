@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/pool.h"
 #include "image/image.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "scene/scene.h"
 
 enum { W = 61, H = 47 };
@@ -23,7 +23,7 @@ static WrImage *numbers(int w, int h, uint64_t seed)
 static void lay(WrScene *scene, WrFacetKind kind, WrImage *image, double ru, double rv)
 {
     scene->facets[kind].image = image;
-    scene->facets[kind].laid = (WrLaid){ .own = true, .ru = ru, .rv = rv };
+    scene->facets[kind].laid = (WrTextureSample){ .own = true, .ru = ru, .rv = rv };
 }
 
 static WrReference truth_of(const WrScene *scene, const WrField *field, int samples)
@@ -112,8 +112,8 @@ static void an_even_picture_is_the_number(void **state)
     for (int k = 0; k < 4; k++) {
         WrScene *scene = worn(WR_REFLECT_GGX, "sphere"), *same;
         const double rough = 0.5, metal = k & 1 ? 0.83 : 0;
-        wr_environment_set(&scene->environment, WR_SURROUND_STUDIO,
-                           wr_surround_built(WR_SURROUND_STUDIO, NULL), NULL, NULL);
+        wr_environment_set(&scene->environment, WR_ENVIRONMENT_MAP_STUDIO,
+                           wr_environment_map_built(WR_ENVIRONMENT_MAP_STUDIO, NULL), NULL, NULL);
         scene->material.energy = (WrEnergy)(k / 2);
         same = wr_scene_clone(scene);
         same->material.roughness = rough, same->material.metalness = metal;

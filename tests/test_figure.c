@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "field/field.h"
-#include "field/figure.h"
+#include "field/shape_outline.h"
 
 static WrField *table(int w, int h)
 {
@@ -12,7 +12,7 @@ static WrField *table(int w, int h)
 }
 
 /* The shoelace formula, in texels; anticlockwise is positive. */
-static double area(const WrField *like, const WrFigure *figure)
+static double area(const WrField *like, const WrShapeOutline *figure)
 {
     double sum = 0;
     for (int i = 0; i < figure->count; i++) {
@@ -31,10 +31,10 @@ static void rectangles_with_round_corners_have_their_area(void **state)
         double corner, turn;
     } ways[] = { { 0, 0 }, { 0, 33 }, { 12, 0 }, { 12, -70 }, { 1000, 10 } };
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
-        WrFigure f;
-        assert_true(wr_figure_rectangle(like, (WrSelectPoint){ 0.6, 0.1 },
-                                        (WrSelectPoint){ 0.1, 0.5 }, ways[i].corner, ways[i].turn,
-                                        1e-4, &f, &err));
+        WrShapeOutline f;
+        assert_true(wr_shape_outline_rectangle(like, (WrSelectPoint){ 0.6, 0.1 },
+                                               (WrSelectPoint){ 0.1, 0.5 }, ways[i].corner,
+                                               ways[i].turn, 1e-4, &f, &err));
         double r = fmin(ways[i].corner, 40); /* 200 x 80 texels */
         assert_near(area(like, &f), 200 * 80 - (4 - WR_PI) * r * r, 1e-4 * 600);
         assert_true(f.closed);
@@ -45,7 +45,7 @@ static void rectangles_with_round_corners_have_their_area(void **state)
         }
         assert_near(u, 0.35, 1e-9); /* turned about its middle */
         assert_near(v, 0.3, 1e-9);
-        wr_figure_fini(&f);
+        wr_shape_outline_fini(&f);
     }
     wr_field_free(like);
 }
@@ -55,9 +55,9 @@ static void ellipses_keep_their_area_and_form_when_turned_in_a_cell_that_is_not_
     (void)state;
     WrField *like = table(300, 900);
     WrError err;
-    WrFigure f;
-    assert_true(wr_figure_ellipse(like, (WrSelectPoint){ 0.5, 0.25 }, (WrSelectPoint){ 0.2, 0.1 },
-                                  30, 1e-4, &f, &err));
+    WrShapeOutline f;
+    assert_true(wr_shape_outline_ellipse(like, (WrSelectPoint){ 0.5, 0.25 },
+                                         (WrSelectPoint){ 0.2, 0.1 }, 30, 1e-4, &f, &err));
     assert_near(area(like, &f), WR_PI * 60 * 90, 0.1);
     double sine = 0.5, cosine = sqrt(0.75);
     for (int k = 0; k < f.count; k++) {
@@ -67,7 +67,7 @@ static void ellipses_keep_their_area_and_form_when_turned_in_a_cell_that_is_not_
     }
     assert_near(300 * (f.points[0].u - 0.5), 60 * cosine, 1e-9); /* begins at its right end */
     assert_near(900 * (f.points[0].v - 0.25), 60 * sine, 1e-9);  /* anticlockwise, v up */
-    wr_figure_fini(&f);
+    wr_shape_outline_fini(&f);
     wr_field_free(like);
 }
 
@@ -79,7 +79,7 @@ static WrSelectPoint bezier(const WrSelectPoint p[4], double t)
 }
 
 /* The distance of a point from the figure's pieces, in texels of a 512 x 256 table. */
-static double distance(const WrFigure *f, WrSelectPoint p)
+static double distance(const WrShapeOutline *f, WrSelectPoint p)
 {
     double best = 1e30;
     for (int i = 0; i + 1 < f->count; i++) {
@@ -100,11 +100,11 @@ static void bezier_curves_are_met_within_the_tolerance(void **state)
     TestRandom random = { 3 };
     for (int round = 0; round < 30; round++) {
         WrSelectPoint p[7];
-        WrFigure f;
+        WrShapeOutline f;
         double tolerance = round % 2 ? 0.125 : 0.01, worst = 0;
         for (int i = 0; i < 7; i++)
             p[i] = (WrSelectPoint){ 3 * test_random(&random) - 1, 3 * test_random(&random) - 1 };
-        assert_true(wr_figure_path(like, p, 7, false, tolerance, &f, &err));
+        assert_true(wr_shape_outline_path(like, p, 7, false, tolerance, &f, &err));
         for (int k = 0; k < 2; k++)
             for (int i = 0; i <= 300; i++)
                 worst = fmax(worst, distance(&f, bezier(p + 3 * k, i / 300.0)));
@@ -112,14 +112,14 @@ static void bezier_curves_are_met_within_the_tolerance(void **state)
         assert_true(f.count < 1 + 2 * sqrt(4000 / tolerance)); /* and not by brute force */
         assert_memory_equal(&f.points[0], &p[0], sizeof *p);
         assert_memory_equal(&f.points[f.count - 1], &p[6], sizeof *p);
-        wr_figure_fini(&f);
+        wr_shape_outline_fini(&f);
     }
     /* x = 3w t^2 - 2w t^3, y = 3h t (1 - t): the area under it is 3/5 w h */
     WrSelectPoint arch[4] = { { 0, 0 }, { 0, 0.5 }, { 0.25, 0.5 }, { 0.25, 0 } };
-    WrFigure f;
-    assert_true(wr_figure_path(like, arch, 4, true, 1e-4, &f, &err));
+    WrShapeOutline f;
+    assert_true(wr_shape_outline_path(like, arch, 4, true, 1e-4, &f, &err));
     assert_near(area(like, &f), -0.6 * 128 * 128, 0.1); /* clockwise */
-    wr_figure_fini(&f);
+    wr_shape_outline_fini(&f);
     wr_field_free(like);
 }
 
@@ -129,20 +129,20 @@ static void shapes_out_of_range_are_refused(void **state)
     WrField *like = table(64, 64);
     WrSelectPoint p[4] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 65 } }, o = { 0, 0 };
     WrError err;
-    WrFigure f = { 0 };
-    assert_false(wr_figure_rectangle(like, o, (WrSelectPoint){ NAN, 0 }, 0, 0, 1, &f, &err));
-    assert_false(wr_figure_rectangle(like, o, p[2], -1, 0, 1, &f, &err));
-    assert_false(wr_figure_rectangle(like, o, p[2], 0, INFINITY, 1, &f, &err));
-    assert_false(wr_figure_ellipse(like, o, (WrSelectPoint){ -1, 1 }, 0, 1, &f, &err));
-    assert_false(wr_figure_ellipse(like, o, p[2], 0, 0, &f, &err));
-    assert_false(wr_figure_polygon(p, 2, &f, &err));
-    assert_false(wr_figure_polygon(p, 4, &f, &err));
+    WrShapeOutline f = { 0 };
+    assert_false(wr_shape_outline_rectangle(like, o, (WrSelectPoint){ NAN, 0 }, 0, 0, 1, &f, &err));
+    assert_false(wr_shape_outline_rectangle(like, o, p[2], -1, 0, 1, &f, &err));
+    assert_false(wr_shape_outline_rectangle(like, o, p[2], 0, INFINITY, 1, &f, &err));
+    assert_false(wr_shape_outline_ellipse(like, o, (WrSelectPoint){ -1, 1 }, 0, 1, &f, &err));
+    assert_false(wr_shape_outline_ellipse(like, o, p[2], 0, 0, &f, &err));
+    assert_false(wr_shape_outline_polygon(p, 2, &f, &err));
+    assert_false(wr_shape_outline_polygon(p, 4, &f, &err));
     assert_non_null(strstr(err.text, "65"));
     p[3].v = 1;
-    assert_true(wr_figure_polygon(p, 4, &f, &err));
-    wr_figure_fini(&f);
-    assert_false(wr_figure_path(like, p, 3, false, 1, &f, &err));
-    assert_false(wr_figure_path(like, p, 5, false, 1, &f, &err));
+    assert_true(wr_shape_outline_polygon(p, 4, &f, &err));
+    wr_shape_outline_fini(&f);
+    assert_false(wr_shape_outline_path(like, p, 3, false, 1, &f, &err));
+    assert_false(wr_shape_outline_path(like, p, 5, false, 1, &f, &err));
     assert_null(f.points);
     wr_field_free(like);
 }

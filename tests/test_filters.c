@@ -6,7 +6,7 @@
 #include "base/pool.h"
 #include "base/text.h"
 #include "document/document.h"
-#include "document/tables.h"
+#include "document/object_tables.h"
 #include "field/field.h"
 #include "field/ops.h"
 

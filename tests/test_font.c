@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H

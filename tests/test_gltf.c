@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "command/recovery.h"
 #include "command/session.h"
 #include "image/gltf.h"

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "image/gltf_look.h"
+#include "image/gltf_material.h"
 #include "image/image.h"
 #include "scene/scene.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/pool.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "scene/scene.h"
 
 enum { W = 61, H = 47 };
@@ -48,11 +48,11 @@ static double differ(const WrScene *scene, const WrField *field, double enough, 
     return (double)off / *shown;
 }
 
-static WrScene *grainy(WrGrainKind kind, const char *surface, int number)
+static WrScene *grainy(WrSolidTextureKind kind, const char *surface, int number)
 {
     WrScene *scene = scene_of(surface);
     scene->grain = wr_grains[kind].usual;
-    scene->grain.axis = (WrGrainAxis)((kind + (unsigned)number) % WR_GRAIN_AXES);
+    scene->grain.axis = (WrSolidTextureAxis)((kind + (unsigned)number) % WR_SOLID_TEXTURE_AXES);
     scene->grain.rings *= 0.8137, scene->grain.cells *= 1.193;
     scene->height = 0; /* the reference has slopes of its own */
     scene->posed = true;
@@ -66,10 +66,10 @@ static void pictures_are_the_references(void **state)
     (void)state;
     static const char *const surfaces[] = { "sphere", "cylinder", "cube", "torus" };
     WrField *field = bumpy_field(16, 16);
-    for (int kind = WR_GRAIN_WOOD; kind < WR_GRAIN_KINDS; kind++)
+    for (int kind = WR_SOLID_TEXTURE_WOOD; kind < WR_SOLID_TEXTURE_KINDS; kind++)
         for (int s = 0; s < 4; s++)
             for (int in_double = 0; in_double < 2; in_double++) {
-                WrScene *scene = grainy((WrGrainKind)kind, surfaces[s], s);
+                WrScene *scene = grainy((WrSolidTextureKind)kind, surfaces[s], s);
                 int shown;
                 if (in_double) scene->dials.shading = WR_SHADING_DOUBLE;
                 const double off = differ(scene, field, in_double ? 1e-5 : 1e-3, &shown);
@@ -86,12 +86,12 @@ static void bumps_are_the_references(void **state)
 {
     (void)state;
     WrField *field = bumpy_field(16, 16);
-    for (int kind = WR_GRAIN_WOOD; kind < WR_GRAIN_KINDS; kind++)
+    for (int kind = WR_SOLID_TEXTURE_WOOD; kind < WR_SOLID_TEXTURE_KINDS; kind++)
         for (int in_double = 0; in_double < 2; in_double++) {
             WrScene *scene =
-                grainy((WrGrainKind)kind, kind % 2 == 0 ? "sphere" : "cube", 1 + in_double);
+                grainy((WrSolidTextureKind)kind, kind % 2 == 0 ? "sphere" : "cube", 1 + in_double);
             int shown;
-            scene->grain.drives = WR_GRAIN_COLOURS | WR_GRAIN_BUMPS;
+            scene->grain.drives = WR_SOLID_TEXTURE_COLOURS | WR_SOLID_TEXTURE_BUMPS;
             scene->grain.edge = 0.137 * in_double;
             scene->grain.height = kind % 2 == 0 ? 0.0237 : -0.0173;
             if (in_double) scene->dials.shading = WR_SHADING_DOUBLE;
@@ -114,9 +114,10 @@ static void roughness_is_the_references(void **state)
     WrField *field = bumpy_field(16, 16);
     for (int k = 0; k < 12; k++) {
         const bool in_double = k / 3 % 2;
-        WrScene *scene = grainy(k % 2 ? WR_GRAIN_NOISE : WR_GRAIN_GRANITE, "sphere", k % 3);
+        WrScene *scene =
+            grainy(k % 2 ? WR_SOLID_TEXTURE_NOISE : WR_SOLID_TEXTURE_GRANITE, "sphere", k % 3);
         int shown;
-        scene->grain.drives = WR_GRAIN_ROUGHENS;
+        scene->grain.drives = WR_SOLID_TEXTURE_ROUGHENS;
         scene->grain.roughness[0] = 0.137, scene->grain.roughness[1] = 0.83;
         scene->material.model = models[k % 3];
         scene->material.energy = (WrEnergy)(k / 6);
@@ -149,10 +150,10 @@ static double apart(const WrScene *a, const WrScene *b, const WrField *field)
 
 static WrScene *under_sky(double roughness)
 {
-    WrScene *scene = grainy(WR_GRAIN_WOOD, "sphere", 0);
-    scene->grain = wr_grains[WR_GRAIN_OFF].usual;
-    wr_environment_set(&scene->environment, WR_SURROUND_STUDIO,
-                       wr_surround_built(WR_SURROUND_STUDIO, NULL), NULL, NULL);
+    WrScene *scene = grainy(WR_SOLID_TEXTURE_WOOD, "sphere", 0);
+    scene->grain = wr_grains[WR_SOLID_TEXTURE_OFF].usual;
+    wr_environment_set(&scene->environment, WR_ENVIRONMENT_MAP_STUDIO,
+                       wr_environment_map_built(WR_ENVIRONMENT_MAP_STUDIO, NULL), NULL, NULL);
     scene->light_count = 0;
     scene->material.model = WR_REFLECT_GGX, scene->material.metalness = 0.83;
     scene->material.specular = 1;
@@ -169,8 +170,8 @@ static void rungs_of_the_blur_meet(void **state)
     WrField *field = bumpy_field(16, 16);
     for (int k = 0; k < 4; k++) {
         WrScene *all = under_sky(at[k]), *by = under_sky(0.9);
-        by->grain = wr_grains[WR_GRAIN_WOOD].usual;
-        by->grain.drives = WR_GRAIN_ROUGHENS;
+        by->grain = wr_grains[WR_SOLID_TEXTURE_WOOD].usual;
+        by->grain.drives = WR_SOLID_TEXTURE_ROUGHENS;
         by->grain.roughness[0] = by->grain.roughness[1] = at[k];
         const double off = apart(all, by, field);
         if (!(off <= (k < 2 ? 2e-3 : 0.03))) fail_msg("roughness %g: %g apart", at[k], off);
@@ -240,11 +241,12 @@ static void filtered_ones_are_nearer(void **state)
 {
     (void)state;
     WrField *field = bumpy_field(16, 16);
-    for (int kind = WR_GRAIN_WOOD; kind < WR_GRAIN_KINDS; kind++)
+    for (int kind = WR_SOLID_TEXTURE_WOOD; kind < WR_SOLID_TEXTURE_KINDS; kind++)
         for (int s = 0; s < 2; s++) {
-            WrScene *scene = grainy((WrGrainKind)kind, s ? "plane" : "sphere", s);
+            WrScene *scene = grainy((WrSolidTextureKind)kind, s ? "plane" : "sphere", s);
             for (int c = 0; c < 3; c++) scene->grain.light[c] = 1, scene->grain.dark[c] = 0;
-            scene->grain.rings = 13.7, scene->grain.cells = kind == WR_GRAIN_WOOD ? 2.3 : 9.3;
+            scene->grain.rings = 13.7,
+            scene->grain.cells = kind == WR_SOLID_TEXTURE_WOOD ? 2.3 : 9.3;
             scene->material.ambient = 1, scene->material.diffuse = scene->material.specular = 0;
             WrReference r = truth_of(scene, field, 16);
             const Far point = far_from(scene, field, &r);
@@ -265,9 +267,9 @@ static void grazing_is_no_worse(void **state)
 {
     (void)state;
     WrField *field = bumpy_field(16, 16);
-    for (int kind = WR_GRAIN_GRANITE; kind < WR_GRAIN_KINDS; kind++)
+    for (int kind = WR_SOLID_TEXTURE_GRANITE; kind < WR_SOLID_TEXTURE_KINDS; kind++)
         for (int k = 0; k < 3; k++) {
-            WrScene *scene = grainy((WrGrainKind)kind, "plane", k);
+            WrScene *scene = grainy((WrSolidTextureKind)kind, "plane", k);
             scene->rotate_deg = (WrVec3){ -77 + 5 * k, 13, 7 };
             for (int c = 0; c < 3; c++) scene->grain.light[c] = 1, scene->grain.dark[c] = 0;
             scene->grain.cells = 3.7 * (k + 1);
@@ -291,8 +293,8 @@ static void adaptive_spares_samples(void **state)
     (void)state;
     int spared = 0;
     WrField *field = bumpy_field(16, 16);
-    for (int kind = WR_GRAIN_WOOD; kind < WR_GRAIN_KINDS; kind++) {
-        WrScene *scene = grainy((WrGrainKind)kind, kind % 2 ? "sphere" : "plane", 0);
+    for (int kind = WR_SOLID_TEXTURE_WOOD; kind < WR_SOLID_TEXTURE_KINDS; kind++) {
+        WrScene *scene = grainy((WrSolidTextureKind)kind, kind % 2 ? "sphere" : "plane", 0);
         enum { WIDE = 211, HIGH = 189 };
         scene->grain.rings = 0.83, scene->grain.cells = 0.71, scene->grain.octaves = 1;
         scene->grain.share = 0.43;
@@ -324,7 +326,7 @@ static void ground_without_end_is_its_mean(void **state)
 {
     (void)state;
     WrField *field = bumpy_field(16, 16);
-    WrScene *scene = grainy(WR_GRAIN_CHECKER, "plane", 0);
+    WrScene *scene = grainy(WR_SOLID_TEXTURE_CHECKER, "plane", 0);
     scene->shape.value[2] = 1;
     scene->rotate_deg = (WrVec3){ -90, 0, 0 };
     scene->grain.rings = 40;
@@ -355,8 +357,8 @@ static void turning_leaves_the_grains_bits(void **state)
 {
     (void)state;
     WrField *field = bumpy_field(16, 16);
-    for (int kind = WR_GRAIN_WOOD; kind < WR_GRAIN_KINDS; kind++) {
-        WrScene *scene = grainy((WrGrainKind)kind, "sphere", 0);
+    for (int kind = WR_SOLID_TEXTURE_WOOD; kind < WR_SOLID_TEXTURE_KINDS; kind++) {
+        WrScene *scene = grainy((WrSolidTextureKind)kind, "sphere", 0);
         scene->material.ambient = 1, scene->material.diffuse = scene->material.specular = 0;
         scene->camera.fit = false, scene->camera.target = (WrVec3){ 0, 0, 0 };
         scene->rotate_deg = (WrVec3){ 0, 0, 0 }, scene->camera.eye = (WrVec3){ 0, 0, 3.7 };

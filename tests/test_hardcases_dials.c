@@ -10,7 +10,7 @@
 #include "command/session.h"
 #include "document/document.h"
 #include "hardcases/hardcases.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 
 enum { SIZE = 48, PIXELS = SIZE * SIZE };

@@ -10,7 +10,7 @@
 #include "base/pool.h"
 #include "base/text.h"
 #include "command/session.h"
-#include "command/table.h"
+#include "command/command_table.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "image/image.h"

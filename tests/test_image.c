@@ -8,7 +8,7 @@
 #include "base/pool.h"
 #include "image/decode.h"
 #include "image/image.h"
-#include "image/verify.h"
+#include "image/readback.h"
 
 #include <fcntl.h>
 #include <float.h>

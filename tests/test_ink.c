@@ -5,26 +5,27 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "export/ink.h"
+#include "export/vector_drawing.h"
 
 /* The same drawing into a file of either kind: lines of two pens, a bend, places below 0, a word. */
 static void draw(const char *path, int width, int height)
 {
     WrError err;
-    WrInk *ink = wr_ink_new(path, width, height, &err);
+    WrVectorDrawing *ink = wr_vector_drawing_new(path, width, height, &err);
     TestRandom random = { 11 };
     assert_non_null(ink);
     for (int line = 0; line < 40; line++) {
-        WrInkPoint points[5];
-        if (line % 10 == 0) wr_ink_pen(ink, 0.35 + line, line / 40.0);
+        WrVectorDrawingPoint points[5];
+        if (line % 10 == 0) wr_vector_drawing_pen(ink, 0.35 + line, line / 40.0);
         for (int i = 0; i < 5; i++)
-            points[i] = (WrInkPoint){ (float)(test_random(&random) * 1.2 * width - 0.1 * width),
-                                      (float)(test_random(&random) * height) };
-        wr_ink_line(ink, points, 2 + line % 4);
+            points[i] =
+                (WrVectorDrawingPoint){ (float)(test_random(&random) * 1.2 * width - 0.1 * width),
+                                        (float)(test_random(&random) * height) };
+        wr_vector_drawing_line(ink, points, 2 + line % 4);
     }
-    wr_ink_word(ink, "-0.5 (a\\b)", 100.25, 50, 14, 1.0);
-    if (!wr_ink_write(ink, &err)) fail_msg("%s", err.text);
-    wr_ink_free(ink);
+    wr_vector_drawing_word(ink, "-0.5 (a\\b)", 100.25, 50, 14, 1.0);
+    if (!wr_vector_drawing_write(ink, &err)) fail_msg("%s", err.text);
+    wr_vector_drawing_free(ink);
 }
 
 static void read_all(const char *path, char **text, size_t *length)

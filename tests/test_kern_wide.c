@@ -3,7 +3,7 @@
    test_kern_wide_look.c. */
 #include "kern_wide_help.h"
 
-#include "render/srgb_codes.h"
+#include "render/frame/srgb_encode.h"
 
 /* ---- codes ---- */
 
@@ -132,8 +132,8 @@ static void spheres_are_those_of_the_stages(void **state)
             bool dark;
             if (!sets.wide->narrow(light, &s.shine)) continue;
             met_by_stages(&sets, &s, gx, gy, count, want);
-            WrBall ball;
-            wr_ball_make(&ball, &s.rays, &s.shape, light);
+            WrSphereRows ball;
+            wr_sphere_rows_make(&ball, &s.rays, &s.shape, light);
             if (!sets.wide->sphere(round & 1 ? &ball : NULL, &s.rays, &s.shape, gx, gy, count, true,
                                    got))
                 continue;
@@ -172,7 +172,7 @@ static void make_broad(TestRandom *random, Scenery *s)
 }
 
 /* What comes of it where red tells all, and where a picture's colours come between. */
-static void expect_smooth(const Sets *sets, const Scenery *s, const WrBall *ball, float gx,
+static void expect_smooth(const Sets *sets, const Scenery *s, const WrSphereRows *ball, float gx,
                           float gy, int count, const WrStrip *want, WrStrip *got)
 {
     WrStrip *all = wr_alloc(1, sizeof *all);
@@ -206,9 +206,9 @@ static void smooth_spheres_are_those_of_the_stages(void **state)
             const float gx = (float)(int)(400 * test_random(&random));
             const float gy = (float)(int)(500 * test_random(&random));
             const int count = 1 + (int)(WR_SPAN * test_random(&random));
-            WrBall ball;
+            WrSphereRows ball;
             bool dark;
-            wr_ball_make(&ball, &s.rays, &s.shape, &s.light);
+            wr_sphere_rows_make(&ball, &s.rays, &s.shape, &s.light);
             met_by_stages(&sets, &s, gx, gy, count, want);
             sets.ref->bump[WR_BUMP_NONE](&s.rays, want);
             sets.ref->shade[0][s.rays.perspective][1][0](&s.rays, &s.light, &s.shine, &s.material,

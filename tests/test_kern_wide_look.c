@@ -2,7 +2,7 @@
    "ref". */
 #include "kern_wide_help.h"
 
-#include "render/pyramid.h"
+#include "render/textures/slope_pyramid.h"
 
 /* A colour picture, seen once and several times, in single numbers. */
 static void colours_are_those_of_the_stages(void **state)

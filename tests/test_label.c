@@ -2,7 +2,7 @@
 #include "test.h"
 
 #include "base/error.h"
-#include "image/label.h"
+#include "image/caption.h"
 
 enum { W = 120, H = 40 };
 

@@ -8,7 +8,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/session.h"
 #include "system/clock.h"
 

@@ -3,7 +3,7 @@
 
 #include "base/text.h"
 
-#include "ui/desk/line_words.h"
+#include "ui/state/line_words.h"
 
 #include <string.h>
 

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/progress.h"
-#include "export/ink.h"
-#include "export/lines.h"
+#include "export/vector_drawing.h"
+#include "export/line_drawing.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,8 +29,8 @@ static void a_flat_table_from_above_is_a_plain_grid(void **state)
     assert_true(wr_lines_draw(heights, 16, 16, &view, NULL, &drawing, &err));
     assert_int_equal(drawing.stretch_count, 5 + 3);
     for (int s = 0; s < drawing.stretch_count; s++) {
-        const WrInkPoint *p = drawing.points + drawing.stretches[s].first;
-        const WrInkPoint *last = p + drawing.stretches[s].count - 1;
+        const WrVectorDrawingPoint *p = drawing.points + drawing.stretches[s].first;
+        const WrVectorDrawingPoint *last = p + drawing.stretches[s].count - 1;
         for (int i = 0; i < drawing.stretches[s].count; i++)
             assert_true(fabs((double)(s < 5 ? p[i].y - p->y : p[i].x - p->x)) < 1e-4);
         /* 15/16 of a cell long in 300 x 200 less 4 % at either end: the height rules */
@@ -140,18 +140,19 @@ static void a_picture_of_lines_looks_at_the_cancel_too(void **state)
 {
     (void)state;
     enum { POINTS = 10000, HIGH = 300 };
-    WrInkPoint *points = calloc(POINTS, sizeof *points);
+    WrVectorDrawingPoint *points = calloc(POINTS, sizeof *points);
     WrError err;
-    for (int i = 0; i < POINTS; i++) points[i] = (WrInkPoint){ (float)(i % 400), (float)(i % 299) };
-    WrInk *ink = wr_ink_new("/nowhere/at/all.png", 400, HIGH, &err);
+    for (int i = 0; i < POINTS; i++)
+        points[i] = (WrVectorDrawingPoint){ (float)(i % 400), (float)(i % 299) };
+    WrVectorDrawing *ink = wr_vector_drawing_new("/nowhere/at/all.png", 400, HIGH, &err);
     assert_non_null(ink);
     int64_t before = wr_progress_looks();
-    wr_ink_line(ink, points, POINTS);
+    wr_vector_drawing_line(ink, points, POINTS);
     assert_true(wr_progress_looks() - before >= POINTS / 256);
     before = wr_progress_looks();
-    assert_false(wr_ink_write(ink, &err)); /* there is no such folder */
+    assert_false(wr_vector_drawing_write(ink, &err)); /* there is no such folder */
     assert_true(wr_progress_looks() - before >= HIGH);
-    wr_ink_free(ink);
+    wr_vector_drawing_free(ink);
     free(points);
 }
 

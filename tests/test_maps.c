@@ -39,7 +39,7 @@ typedef struct Made {
 
 static Made made_of(const WrField *field, WrScheme scheme)
 {
-    const WrGround ground = { field, NULL, scheme, 0.37, 1.3, 0.8 };
+    const WrDerivatives ground = { field, NULL, scheme, 0.37, 1.3, 0.8 };
     Made made = { wr_map_default(&ground), wr_field_width(field), wr_field_height(field), NULL };
     made.out = wr_alloc((size_t)made.w * (size_t)made.h, sizeof(float));
     return made;
@@ -60,7 +60,7 @@ static void make(Made *made, WrFieldMapKind kind, WrPool *pool)
 /* Slopes at a place by the scheme itself, in scene units. */
 static void slopes_at(const Made *made, double x, double y, double *p, double *q)
 {
-    const WrGround *g = &made->job.ground;
+    const WrDerivatives *g = &made->job.ground;
     const double u = (x + 0.5) / made->w, v = 1 - (y + 0.5) / made->h;
     double fu, fv;
     wr_field_sample(g->field, g->scheme, 1, &u, &v, NULL, &fu, &fv);

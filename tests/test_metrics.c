@@ -3,7 +3,7 @@
 
 #include "accuracy/metrics.h"
 #include "base/memory.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 #define W 40
 #define H 30

@@ -1,11 +1,11 @@
-/* Modules and lists that are loaded when they are needed (base/aside.h): who waits for one that takes long can be told to
+/* Modules and lists that are loaded when they are needed (base/once_async.h): who waits for one that takes long can be told to
    stop, and the one that was loaded meanwhile serves the next. */
 #include "test.h"
 #include "test_folder.h"
 
 #include "base/progress.h"
 #include "image/font.h"
-#include "image/module.h"
+#include "image/module_path.h"
 
 #include <fcntl.h>
 #include <pthread.h>
@@ -111,10 +111,10 @@ static void warming_returns_at_once_and_loads_once(void **state)
     put_module("slow2.so");
     static WrModule module; /* it may be loading when the test has failed */
     name_module(&module, "slow2.so");
-    for (int i = 0; i < 3; i++) wr_aside_begin(&module.loading);
+    for (int i = 0; i < 3; i++) wr_once_async_begin(&module.loading);
     make_file("go");
     assert_non_null(wr_module_table(&module, &err)); /* nobody could stop this one: it waits too */
-    wr_aside_begin(&module.loading);
+    wr_once_async_begin(&module.loading);
     assert_int_equal(loadings(), 1);
 }
 

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "command/session.h"
 #include "document/document.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 #define SIDE 256
 

@@ -1,7 +1,7 @@
 /* The noise's inner loops: every instruction set that this processor has gives the bits of the plain one. */
 #include "test.h"
 
-#include "noise/kern.h"
+#include "noise/octave_kernels.h"
 
 #include <math.h>
 #include <string.h>

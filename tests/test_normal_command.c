@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "base/text.h"
 #include "image/image.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/normal_map.h"
 #include "scene/objects.h"
 #include "scene/scene.h"

@@ -5,8 +5,8 @@
 
 #include "base/text.h"
 #include "image/image.h"
-#include "document/tables.h"
-#include "render/frame.h"
+#include "document/object_tables.h"
+#include "render/frame/frame.h"
 #include "scene/objects.h"
 
 static const char *const three[] = { "table 70x33",

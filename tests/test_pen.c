@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 
-#include "ui/pen/pen_inner.h"
+#include "ui/input/pen_internal.h"
 
 #include <unistd.h>
 

@@ -418,20 +418,20 @@ static void one_behind(Stage *stage)
 
 static void wooden(Stage *stage)
 {
-    stage->scene->grain = wr_grains[WR_GRAIN_WOOD].usual;
+    stage->scene->grain = wr_grains[WR_SOLID_TEXTURE_WOOD].usual;
 }
 
 static void wooden_white(Stage *stage)
 {
     wooden(stage);
-    WrGrain *grain = &stage->scene->grain;
+    WrSolidTexture *grain = &stage->scene->grain;
     for (int c = 0; c < 3; c++) grain->light[c] = grain->dark[c] = 1;
 }
 
 static void wooden_even(Stage *stage)
 {
     wooden(stage);
-    WrGrain *grain = &stage->scene->grain;
+    WrSolidTexture *grain = &stage->scene->grain;
     for (int c = 0; c < 3; c++) grain->light[c] = grain->dark[c] = 0.37;
 }
 
@@ -443,7 +443,7 @@ static void wooden_round(Stage *stage)
 
 static void checkered_through(Stage *stage)
 {
-    stage->scene->grain = wr_grains[WR_GRAIN_CHECKER].usual;
+    stage->scene->grain = wr_grains[WR_SOLID_TEXTURE_CHECKER].usual;
 }
 
 static void wooden_far(Stage *stage)
@@ -458,7 +458,7 @@ static void roughened(Stage *stage)
 {
     wooden(stage);
     of_facets(stage);
-    stage->scene->grain.drives = WR_GRAIN_ROUGHENS;
+    stage->scene->grain.drives = WR_SOLID_TEXTURE_ROUGHENS;
 }
 
 static void worn(Stage *stage)
@@ -484,7 +484,7 @@ static void roughened_dull(Stage *stage)
 static void embossed(Stage *stage)
 {
     wooden(stage);
-    stage->scene->grain.drives = WR_GRAIN_BUMPS;
+    stage->scene->grain.drives = WR_SOLID_TEXTURE_BUMPS;
 }
 
 static void embossed_flat(Stage *stage)
@@ -600,11 +600,12 @@ static void metal_black(Stage *stage)
 static void surround(Stage *stage, float step, double strength)
 {
     WrImage *image = wr_image_new(8, 4, 3, NULL);
-    WrSurroundTold told;
+    WrEnvironmentMapTold told;
     for (int i = 0; i < 8 * 4 * 3; i++) image->data[i] = 0.3f + step * (float)(i / 3 % 8);
     image->type = WR_PIXEL_F32;
     WrEnvironment *to = &stage->scene->environment;
-    wr_environment_set(to, WR_SURROUND_FILE, wr_surround_new(image, &told, NULL), "sky", NULL);
+    wr_environment_set(to, WR_ENVIRONMENT_MAP_FILE, wr_environment_map_new(image, &told, NULL),
+                       "sky", NULL);
     to->strength = strength;
     wr_image_free(image);
 }

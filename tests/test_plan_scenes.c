@@ -6,8 +6,8 @@
 
 #include "base/file.h"
 #include "image/image.h"
-#include "render/frame_inner.h"
-#include "render/kern.h"
+#include "render/frame/frame_internal.h"
+#include "render/kernels/kern.h"
 
 #include <float.h>
 
@@ -223,9 +223,9 @@ static void all_at_once(Stage *stage)
 /* Solid noise that turns normals, of which a pixel holds many cells, or few. */
 static void noise_far(Stage *stage)
 {
-    WrGrain *grain = &stage->scene->grain;
-    *grain = wr_grains[WR_GRAIN_NOISE].usual;
-    grain->drives = WR_GRAIN_BUMPS;
+    WrSolidTexture *grain = &stage->scene->grain;
+    *grain = wr_grains[WR_SOLID_TEXTURE_NOISE].usual;
+    grain->drives = WR_SOLID_TEXTURE_BUMPS;
     grain->cells = 200;
     stage->scene->height = 0;
     stage->scene->dials.aa = WR_AA_FILTER;
@@ -239,7 +239,7 @@ static void noise_near(Stage *stage)
 
 static void wood_of_no_amplitude(Stage *stage)
 {
-    stage->scene->grain = wr_grains[WR_GRAIN_WOOD].usual;
+    stage->scene->grain = wr_grains[WR_SOLID_TEXTURE_WOOD].usual;
     stage->scene->grain.amount = 0;
     stage->scene->height = 0;
 }
@@ -247,11 +247,11 @@ static void wood_of_no_amplitude(Stage *stage)
 static void constant_surroundings(Stage *stage)
 {
     WrImage *image = wr_image_new(4, 2, 3, NULL);
-    WrSurroundTold told;
+    WrEnvironmentMapTold told;
     for (int i = 0; i < 24; i++) image->data[i] = 0.37f;
     image->type = WR_PIXEL_F32;
-    wr_environment_set(&stage->scene->environment, WR_SURROUND_FILE,
-                       wr_surround_new(image, &told, NULL), "sky", NULL);
+    wr_environment_set(&stage->scene->environment, WR_ENVIRONMENT_MAP_FILE,
+                       wr_environment_map_new(image, &told, NULL), "sky", NULL);
     stage->scene->environment.strength = 0.7;
     wr_image_free(image);
 }

@@ -1,7 +1,7 @@
 /* The plot of error against time: every name in the picture, none over another, each number tied to its own point. */
 #include "test.h"
 
-#include "accuracy/plot_place.h"
+#include "accuracy/plot_labels.h"
 #include "accuracy/report.h"
 #include "base/memory.h"
 

@@ -4,7 +4,7 @@
 #include "test_folder.h"
 
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "image/oiio.h"
 #include "image/png_codec.h"
 #include "system/fd.h"

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <dbus/dbus.h>
 

@@ -128,7 +128,8 @@ static void a_wrong_relief_part_is_refused_by_member_and_range(void **state)
 {
     (void)state;
     refuse_relief("[]", "wrinkle: []: must be an object");
-    refuse_relief("{\"mode\": \"rise\"}", "mode: \"rise\": did you mean raise? It must be one of raise, lower");
+    refuse_relief("{\"mode\": \"rise\"}",
+                  "mode: \"rise\": did you mean raise? It must be one of raise, lower");
     refuse_relief("{\"mode\": 1}", "mode: 1: must be one of");
     refuse_relief("{\"flow\": 2}", "wrinkle: flow: 2: must be a number from 0 to 1");
     refuse_relief("{\"flow\": \"x\"}", "wrinkle: flow: \"x\": must be a number from 0 to 1");

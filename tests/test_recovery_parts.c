@@ -5,7 +5,7 @@
 #include "recovery_help.h"
 
 #include "base/error.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "command/recovery.h"
 #include "command/session.h"
 

@@ -6,8 +6,8 @@
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "render/reference.h"
-#include "render/reference_shade.h"
+#include "render/reference/reference.h"
+#include "render/reference/reference_shade.h"
 #include "scene/scene.h"
 #include "base/vec.h"
 

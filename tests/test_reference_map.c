@@ -5,7 +5,7 @@
 #include "test_render_scenes.h"
 
 #include "image/image.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "scene/normal_map.h"
 #include "scene/objects.h"
 
@@ -120,7 +120,8 @@ static WrScene *scene_number(int k)
     scene->height = k % 2 ? 0.004 : 0;
     scene->scheme = WR_SCHEME_BSPLINE_FIT; /* the reference's */
     scene->normals.strength = k % 5 == 4 ? -0.3 : 0.4;
-    if (k % 3 == 1) scene->normals.laid = (WrLaid){ .own = true, .ru = 1.5, .rv = k % 2 ? 1 : -2 };
+    if (k % 3 == 1)
+        scene->normals.laid = (WrTextureSample){ .own = true, .ru = 1.5, .rv = k % 2 ? 1 : -2 };
     scene->bump = k % 7 == 5 ? WR_BUMP_INVARIANT : k % 7 == 3 ? WR_BUMP_EXACT : WR_BUMP_BLINN;
     if (k >= 12) turn_by(scene, k / 2 + k / 12);
     if (k % 7 != 5 && scene->height != 0) scene->bump = WR_BUMP_EXACT; /* the truth */
@@ -372,7 +373,7 @@ static void filtered_maps_come_near_the_reference(void **state)
             wr_scene_set_triangles(scene, mesh_grid(on_sphere, 48, 24, true), "a.obj", NULL);
         put_map(scene, random_map(190, 170, 16, 3, 5), WR_GREEN_UP, 0);
         scene->normals.strength = 0.1;
-        scene->normals.laid = (WrLaid){ .own = true, .ru = 2, .rv = 2 };
+        scene->normals.laid = (WrTextureSample){ .own = true, .ru = 2, .rv = 2 };
         scene->material.specular = 0;
         WrField *field = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
         if (k / 3) scene->dials.footprint = WR_FOOTPRINT_ANISOTROPIC;

@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "field/analytic.h"
 #include "field/field.h"
-#include "render/reference.h"
-#include "render/reference_shade.h"
+#include "render/reference/reference.h"
+#include "render/reference/reference_shade.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 

@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "base/vec.h"
-#include "render/reference.h"
-#include "render/reference_shade.h"
+#include "render/reference/reference.h"
+#include "render/reference/reference_shade.h"
 
 static WrScene *displaced_of(const char *surface, double height)
 {

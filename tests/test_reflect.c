@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "render/kern.h"
-#include "render/reference.h"
+#include "render/kernels/kern.h"
+#include "render/reference/reference.h"
 #include "scene/scene.h"
 
 static const WrKernelsd *kernels;

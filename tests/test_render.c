@@ -5,7 +5,7 @@
 #include "test_render_scenes.h"
 
 #include "field/field.h"
-#include "render/kern.h"
+#include "render/kernels/kern.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 

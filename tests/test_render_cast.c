@@ -5,7 +5,7 @@
 #include "test_mesh_grids.h"
 
 #include "field/horizon.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "scene/objects.h"
 #include "surface/triangles.h"
 

@@ -3,7 +3,7 @@
 #include "test.h"
 #include "test_render_scenes.h"
 
-#include "render/reference.h"
+#include "render/reference/reference.h"
 
 #define SIZE 90
 

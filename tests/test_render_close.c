@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "field/field.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "scene/scene.h"
 #include "base/vec.h"
 

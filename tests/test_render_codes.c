@@ -3,8 +3,8 @@
 #include "test.h"
 #include "test_render_cases.h"
 
-#include "render/kern.h"
-#include "render/srgb_codes.h"
+#include "render/kernels/kern.h"
+#include "render/frame/srgb_encode.h"
 
 /* ---- the codes themselves ---- */
 
@@ -69,8 +69,8 @@ static const WrFrameCodes ways[] = {
 static void bring_sky(WrScene *scene)
 {
     WrError err = { "" };
-    wr_environment_set(&scene->environment, WR_SURROUND_SKY,
-                       wr_surround_built(WR_SURROUND_SKY, &err), NULL, NULL);
+    wr_environment_set(&scene->environment, WR_ENVIRONMENT_MAP_SKY,
+                       wr_environment_map_built(WR_ENVIRONMENT_MAP_SKY, &err), NULL, NULL);
     scene->environment.turn_deg = 33.3;
 }
 
@@ -236,7 +236,7 @@ static void what_lies_behind_is_what_each_ray_meets(void **state)
                               d.x * sin(angle) + d.z * cos(angle) };
         double rgb[3];
         if (covered[i]) continue;
-        wr_surround_at(scene->environment.light, back, rgb);
+        wr_environment_map_at(scene->environment.light, back, rgb);
         for (int c = 0; c < 3; c++) {
             const double light = 0.83 * rgb[c] * pow(2, 0.6);
             const double seen = light > 0.5 ? 1 - 1 / (4 * light) : light;

@@ -6,8 +6,8 @@
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/pool.h"
-#include "render/kern.h"
-#include "render/raster.h"
+#include "render/kernels/kern.h"
+#include "render/visibility/raster.h"
 #include "scene/scene.h"
 
 #include <float.h>

@@ -4,7 +4,7 @@
 #include "test_render_scenes.h"
 
 #include "image/image.h"
-#include "render/kern.h"
+#include "render/kernels/kern.h"
 
 static const char *const surfaces[] = { "sphere", "plane",  "cube", "torus",
                                         "cone",   "bezier", "curl", "cylinder" };

@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "field/field.h"
-#include "render/kern.h"
-#include "render/rounded.h"
+#include "render/kernels/kern.h"
+#include "render/textures/quantized_heights.h"
 #include "scene/scene.h"
 
 #define SIDE 72
@@ -417,18 +417,20 @@ static void rounded_tables_are_refreshed_to_the_bits_of_new_ones(void **state)
     (void)state;
     for (int h = WR_HEIGHTS_HALF; h < WR_HEIGHTS_COUNT; h++) {
         WrField *field = bumpy_field(200, 150);
-        WrRounded kept = { 0 };
+        WrQuantizedHeights kept = { 0 };
         for (int step = 0; step < 6; step++) {
             float low, high, value = step == 3 ? 9.0f : 0.1f * (float)step;
             wr_field_set(field, 39 * step, 20 * step, value);
             wr_field_range(field, &low, &high);
-            WrRounded fresh = { 0 };
-            const WrField *a = wr_rounded_bring(&kept, field, (WrHeights)h, low, high, NULL);
-            const WrField *b = wr_rounded_bring(&fresh, field, (WrHeights)h, low, high, NULL);
+            WrQuantizedHeights fresh = { 0 };
+            const WrField *a =
+                wr_quantized_heights_bring(&kept, field, (WrHeights)h, low, high, NULL);
+            const WrField *b =
+                wr_quantized_heights_bring(&fresh, field, (WrHeights)h, low, high, NULL);
             assert_true(wr_hash_equal(wr_field_hash(a), wr_field_hash(b)));
-            wr_rounded_drop(&fresh);
+            wr_quantized_heights_drop(&fresh);
         }
-        wr_rounded_drop(&kept);
+        wr_quantized_heights_drop(&kept);
         wr_field_free(field);
     }
 }

@@ -2,8 +2,8 @@
 #include "test.h"
 #include "test_render_scenes.h"
 
-#include "render/kern.h"
-#include "render/plan.h"
+#include "render/kernels/kern.h"
+#include "render/plan/plan.h"
 #include "scene/objects.h"
 
 static WrScene *displaced_of(const char *surface, double height)

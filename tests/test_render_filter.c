@@ -5,9 +5,9 @@
 #include "base/memory.h"
 #include "base/error.h"
 #include "field/field.h"
-#include "render/kern.h"
-#include "render/pyramid.h"
-#include "render/view.h"
+#include "render/kernels/kern.h"
+#include "render/textures/slope_pyramid.h"
+#include "render/visibility/view.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 
@@ -320,7 +320,7 @@ static void far_away_the_filtered_table_is_smooth(void **state)
 }
 
 /* E29 with pyramids: an edit reaches farther on coarse levels. The last case: rows of a sphere that go to loops of several stages
-   (render/kern_wide.h), whose bits are not promised. */
+   (render/simd/simd_kernels.h), whose bits are not promised. */
 static void a_resting_filtered_view_is_refreshed_to_the_bits_of_a_new_picture(void **state)
 {
     (void)state;

@@ -4,8 +4,8 @@
 #include "test.h"
 #include "test_render_scenes.h"
 
-#include "render/knots.h"
-#include "render/pipe.h"
+#include "render/visibility/sparse_hits.h"
+#include "render/pipeline/pipeline.h"
 
 #include <float.h>
 
@@ -16,7 +16,7 @@ typedef struct Seen {
     WrPlan plan;
     WrView view;
     WrViewMesh mesh;
-    WrKnots knots;
+    WrSparseHits knots;
     const WrKernels *kernels;
     const WrWide *wide;
     WrWideSheet sheet;
@@ -56,19 +56,19 @@ static bool see(Seen *seen, int first, int rows, TestRandom *random)
                          seen->pool);
     if (seen->crumpled) crumple(seen, random);
     const bool sheet = wr_wide_sheet(scene->shape.kind, &seen->view.shape, &seen->sheet);
-    WrKnotsAsk how = { .kernels = seen->kernels,
-                       .wide = seen->wide,
-                       .sheet = sheet ? &seen->sheet : NULL,
-                       .newton = seen->mesh.newton,
-                       .first = first,
-                       .rows = rows };
+    WrSparseHitsAsk how = { .kernels = seen->kernels,
+                            .wide = seen->wide,
+                            .sheet = sheet ? &seen->sheet : NULL,
+                            .newton = seen->mesh.newton,
+                            .first = first,
+                            .rows = rows };
     how.newton.last = 0x1p-15f;
-    return wr_knots_bring(&seen->knots, &seen->mesh, &seen->view, &how, seen->pool);
+    return wr_sparse_hits_bring(&seen->knots, &seen->mesh, &seen->view, &how, seen->pool);
 }
 
 static void forget(Seen *seen)
 {
-    wr_knots_fini(&seen->knots);
+    wr_sparse_hits_fini(&seen->knots);
     wr_view_mesh_fini(&seen->mesh);
     wr_view_fini(&seen->view);
     wr_scene_free(seen->scene);
@@ -169,7 +169,7 @@ static void check_sheet(const Seen *seen, int x, int y, int count, WrStrip *stri
 {
     const double *by = wr_view_grid(&seen->view, 1)->rays_d.qx;
     const double step = v3_len((WrVec3){ by[0], by[1], by[2] }); /* a sample */
-    wr_knots_row(&seen->knots, seen->wide, x, y, count, 3, strip);
+    wr_sparse_hits_row(&seen->knots, seen->wide, x, y, count, 3, strip);
     for (int i = 3; i < 3 + count; i++) {
         const WrSurfacePoint at = place_at(seen, strip->u[i], strip->v[i]);
         const double size = v3_len(at.pu) + v3_len(at.pv);
@@ -188,7 +188,8 @@ static void check_run(const Seen *seen, int x, int y, TestRandom *random, WrStri
 {
     enum { BEFORE = 9 }; /* samples in the strip, which stay */
     int end = x + 1;
-    while (end < W - 8 && end - x < 240 && wr_knots_at(&seen->knots, end, y) == WR_KNOTS_SHEET)
+    while (end < W - 8 && end - x < 240 &&
+           wr_sparse_hits_at(&seen->knots, end, y) == WR_SPARSE_HITS_SHEET)
         end++;
     const int from = x + (int)(8 * test_random(random)), count = end - from;
     float run[WR_KNOT_NUMBERS][WR_SPAN];
@@ -198,13 +199,13 @@ static void check_run(const Seen *seen, int x, int y, TestRandom *random, WrStri
     if (count <= 0) return;
     for (int k = 0; k < WR_KNOT_NUMBERS; k++)
         for (int i = 0; i < BEFORE; i++) of[k][i] = 77;
-    wr_knots_row(&seen->knots, seen->wide, from, y, count, BEFORE, strip);
+    wr_sparse_hits_row(&seen->knots, seen->wide, from, y, count, BEFORE, strip);
     for (int k = 0; k < WR_KNOT_NUMBERS; k++)
         for (int i = 0; i < BEFORE; i++) assert_true(of[k][i] == 77);
     for (int k = 0; k < WR_KNOT_NUMBERS; k++)
         memcpy(run[k], of[k] + BEFORE, (size_t)count * sizeof(float));
     for (int i = 0; i < count; i++) {
-        wr_knots_row(&seen->knots, seen->wide, from + i, y, 1, 0, strip);
+        wr_sparse_hits_row(&seen->knots, seen->wide, from + i, y, 1, 0, strip);
         for (int k = 0; k < WR_KNOT_NUMBERS; k++)
             if (memcmp(&run[k][i], of[k], sizeof(float)) != 0)
                 fail_msg("number %d of sample %d of a run of %d: %g, not %g", k, i, count,
@@ -221,12 +222,12 @@ typedef struct Kinds {
 static void check_tile(const Seen *seen, const WrDepthTile *tile, int kind, int x, int y)
 {
     const size_t at = (size_t)(y - tile->y) * (size_t)tile->w + (size_t)(x - tile->x);
-    if (kind == WR_KNOTS_DEPTH) {
+    if (kind == WR_SPARSE_HITS_DEPTH) {
         assert_true((tile->close[at] > -FLT_MAX) == (seen->count[y][x] > 0));
         return;
     }
-    assert_true(tile->close[at] == (kind >= WR_KNOTS_BETWEEN ? 0.0f : -FLT_MAX));
-    if (kind < WR_KNOTS_BETWEEN || seen->crumpled) return;
+    assert_true(tile->close[at] == (kind >= WR_SPARSE_HITS_BETWEEN ? 0.0f : -FLT_MAX));
+    if (kind < WR_SPARSE_HITS_BETWEEN || seen->crumpled) return;
     const double off = off_ray(seen, place_at(seen, tile->u[at], tile->v[at]).p, x, y);
     if (!(off < 1))
         fail_msg("%s: guess %d, %d is %g samples off", wr_surfaces[seen->scene->shape.kind]->name,
@@ -236,15 +237,15 @@ static void check_tile(const Seen *seen, const WrDepthTile *tile, int kind, int 
 static void check_block(const Seen *seen, const WrDepthTile *tile, int x, int y, Kinds *kinds,
                         WrStrip *strip)
 {
-    const int kind = wr_knots_at(&seen->knots, x, y), x1 = x + 8 < W ? x + 8 : W;
-    const int layers = kind == WR_KNOTS_NOTHING ? 0 : 1;
-    kinds->nothing += kind == WR_KNOTS_NOTHING, kinds->deep += kind == WR_KNOTS_DEPTH;
-    kinds->sheet += kind == WR_KNOTS_SHEET, kinds->between += kind >= WR_KNOTS_BETWEEN;
+    const int kind = wr_sparse_hits_at(&seen->knots, x, y), x1 = x + 8 < W ? x + 8 : W;
+    const int layers = kind == WR_SPARSE_HITS_NOTHING ? 0 : 1;
+    kinds->nothing += kind == WR_SPARSE_HITS_NOTHING, kinds->deep += kind == WR_SPARSE_HITS_DEPTH;
+    kinds->sheet += kind == WR_SPARSE_HITS_SHEET, kinds->between += kind >= WR_SPARSE_HITS_BETWEEN;
     for (int j = y; j < y + 8 && j < H; j++) {
         for (int i = x; i < x1 && !seen->crumpled; i++) check_tile(seen, tile, kind, i, j);
-        if (kind == WR_KNOTS_SHEET && !seen->crumpled) check_sheet(seen, x, j, x1 - x, strip);
+        if (kind == WR_SPARSE_HITS_SHEET && !seen->crumpled) check_sheet(seen, x, j, x1 - x, strip);
     }
-    for (int j = y; j < y + 8 && kind != WR_KNOTS_DEPTH; j++)
+    for (int j = y; j < y + 8 && kind != WR_SPARSE_HITS_DEPTH; j++)
         for (int i = x; i < x + 8; i++)
             if (seen->count[j][i] != layers)
                 fail_msg("%s: %d triangles cover sample %d, %d of a block of kind %d",
@@ -278,13 +279,13 @@ static void look_at(Seen *seen, int first, int rows, TestRandom *random, Kinds *
                          .v = v,
                          .k = 1,
                          .kernels = seen->kernels };
-    wr_knots_tell(&seen->knots, &tile);
+    wr_sparse_hits_tell(&seen->knots, &tile);
     wr_view_mesh_raster(&seen->mesh, &seen->view, &tile);
-    wr_knots_fill(&seen->knots, seen->wide, &tile);
+    wr_sparse_hits_fill(&seen->knots, seen->wide, &tile);
     for (int y = first - first % 8 + 8; y + 8 < first + rows - Y; y += 8) {
         for (int x = 8; x + 8 < X + WIDE; x += 8) check_block(seen, &tile, x, y, kinds, strip);
         const int x = 8 * (int)(30 * test_random(random));
-        if (wr_knots_at(&seen->knots, x, y) == WR_KNOTS_SHEET)
+        if (wr_sparse_hits_at(&seen->knots, x, y) == WR_SPARSE_HITS_SHEET)
             check_run(seen, x, y + (int)(8 * test_random(random)), random, strip);
     }
 }
@@ -310,7 +311,7 @@ static void blocks_show_what_they_are_told_to(void **state)
             seen->finer = k % 5 == 1 ? -2 : seen->crumpled ? -5 : 0;
             seen->mesh = (WrViewMesh){ .mu = 0 };
             assert_true(see(seen, first, rows, &random));
-            assert_int_equal(seen->knots.top, first / WR_KNOT - WR_KNOTS_AROUND);
+            assert_int_equal(seen->knots.top, first / WR_KNOT - WR_SPARSE_HITS_AROUND);
             count_layers(seen);
             look_at(seen, first, rows, &random, &kinds, strip);
             forget(seen);

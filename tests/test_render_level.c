@@ -2,8 +2,8 @@
 #include "test.h"
 #include "test_render_scenes.h"
 
-#include "render/level.h"
-#include "render/table.h"
+#include "render/textures/slope_bounds.h"
+#include "render/textures/height_copies.h"
 
 /* Level but for a few texels, often beside a tile's border or the table's end. */
 static WrField *spotted_field(int w, int h, TestRandom *random)

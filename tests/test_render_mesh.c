@@ -4,8 +4,8 @@
 #include "test_render_scenes.h"
 #include "test_mesh_grids.h"
 
-#include "render/kern.h"
-#include "render/reference.h"
+#include "render/kernels/kern.h"
+#include "render/reference/reference.h"
 #include "surface/triangles.h"
 
 /* ---- meshes ---- */

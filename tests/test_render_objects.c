@@ -2,8 +2,8 @@
 #include "test.h"
 #include "test_render_sets.h"
 
-#include "render/kern.h"
-#include "render/reference.h"
+#include "render/kernels/kern.h"
+#include "render/reference/reference.h"
 #include "scene/objects.h"
 
 /* Ry(turn) Rz Ry Rx of the pose, written out. */

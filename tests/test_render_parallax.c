@@ -3,8 +3,8 @@
 #include "test.h"
 #include "test_render_scenes.h"
 
-#include "render/kern.h"
-#include "render/plan.h"
+#include "render/kernels/kern.h"
+#include "render/plan/plan.h"
 #include "scene/objects.h"
 
 /* Waves of a few texels' length up to `most` a period. */

@@ -4,8 +4,8 @@
 #include "test_render_scenes.h"
 #include "test_patch_sets.h"
 
-#include "render/kern.h"
-#include "render/reference.h"
+#include "render/kernels/kern.h"
+#include "render/reference/reference.h"
 
 typedef struct Way {
     WrAntialias aa;

@@ -5,7 +5,7 @@
 #include "test_render_scenes.h"
 
 #include "image/image.h"
-#include "render/kern.h"
+#include "render/kernels/kern.h"
 #include "scene/normal_map.h"
 
 #define SIDE 96

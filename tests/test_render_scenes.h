@@ -8,8 +8,8 @@
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/pool.h"
-#include "render/frame.h"
-#include "render/reference.h"
+#include "render/frame/frame.h"
+#include "render/reference/reference.h"
 
 static inline WrField *bumpy_field(int w, int h)
 {

@@ -3,7 +3,7 @@
 #include "test_render_scenes.h"
 
 #include "field/field.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "scene/scene.h"
 #include "base/exactmath.h"
 

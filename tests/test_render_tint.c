@@ -4,8 +4,8 @@
 #include "test_render_scenes.h"
 
 #include "image/image.h"
-#include "render/kern.h"
-#include "render/tint.h"
+#include "render/kernels/kern.h"
+#include "render/textures/color_mips.h"
 
 static WrImage *checker(int width, int height)
 {
@@ -25,21 +25,21 @@ static WrImage *random_image(int width, int height, int channels, uint64_t seed)
 
 /* ---- the pyramid ----------------------------------------------------------------------------------- */
 
-static const float *texel_of(const WrTint *tint, int level, int i, int j)
+static const float *texel_of(const WrColorMips *tint, int level, int i, int j)
 {
     const WrPyramidLevel *at = &tint->pyramid.level[level];
     return at->data + (size_t)((j + 1) * at->pitch + i + 1) * 4;
 }
 
-static WrTint tint_of(const WrImage *image, WrWrap wrap, WrPool *pool)
+static WrColorMips tint_of(const WrImage *image, WrWrap wrap, WrPool *pool)
 {
-    WrTint tint = { 0 };
-    assert_true(wr_tint_bring(&tint, image, wrap, wrap, NULL));
-    assert_true(wr_tint_bring_pyramid(&tint, pool, NULL));
+    WrColorMips tint = { 0 };
+    assert_true(wr_color_mips_bring(&tint, image, wrap, wrap, NULL));
+    assert_true(wr_color_mips_bring_pyramid(&tint, pool, NULL));
     return tint;
 }
 
-static void check_apron(const WrTint *tint, int level, bool round)
+static void check_apron(const WrColorMips *tint, int level, bool round)
 {
     const int w = tint->pyramid.level[level].width, h = tint->pyramid.level[level].height;
     for (int j = -1; j <= h; j++)
@@ -64,7 +64,7 @@ static void every_level_of_any_size_keeps_the_mean_and_the_phase(void **state)
             for (int c = 0; c < 3; c++)
                 mean[c] += (double)image->data[i * image->channels + c % image->channels] / (w * h);
         }
-        WrTint tint = tint_of(image, s & 1 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC, NULL);
+        WrColorMips tint = tint_of(image, s & 1 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC, NULL);
         for (int level = 1; level < tint.pyramid.levels; level++) {
             const WrPyramidLevel *at = &tint.pyramid.level[level];
             double sum[3] = { 0 }, in_phase = 0, across = 0;
@@ -78,7 +78,7 @@ static void every_level_of_any_size_keeps_the_mean_and_the_phase(void **state)
             if (at->width >= 3) assert_true(fabs(across) < 1e-4 * in_phase);
             check_apron(&tint, level, !(s & 1));
         }
-        wr_tint_drop(&tint);
+        wr_color_mips_drop(&tint);
         wr_image_free(image);
     }
 }
@@ -88,14 +88,14 @@ static void threads_make_the_bits_of_one(void **state)
     (void)state;
     WrImage *image = random_image(301, 77, 3, 9);
     WrPool *pool = wr_pool_new(5);
-    WrTint one = tint_of(image, WR_WRAP_PERIODIC, NULL);
-    WrTint five = tint_of(image, WR_WRAP_PERIODIC, pool);
+    WrColorMips one = tint_of(image, WR_WRAP_PERIODIC, NULL);
+    WrColorMips five = tint_of(image, WR_WRAP_PERIODIC, pool);
     for (int level = 1; level < one.pyramid.levels; level++)
         for (int j = 0; j < one.pyramid.level[level].height; j++)
             assert_memory_equal(texel_of(&one, level, 0, j), texel_of(&five, level, 0, j),
                                 (size_t)one.pyramid.level[level].width * 16);
-    wr_tint_drop(&one);
-    wr_tint_drop(&five);
+    wr_color_mips_drop(&one);
+    wr_color_mips_drop(&five);
     wr_pool_free(pool);
     wr_image_free(image);
 }

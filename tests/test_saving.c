@@ -3,7 +3,7 @@
 #include "test.h"
 #include "test_render_scenes.h"
 
-#include "accuracy/saving.h"
+#include "accuracy/effect_savings.h"
 #include "accuracy/tolerance.h"
 
 #define SIDE 48

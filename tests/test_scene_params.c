@@ -3,16 +3,16 @@
 #include "test_session_help.h"
 
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"
-#include "render/frame.h"
-#include "render/plan.h"
+#include "render/frame/frame.h"
+#include "render/plan/plan.h"
 #include "scene/param.h"
-#include "scene/preset.h"
+#include "scene/material_preset.h"
 #include "scene/scene.h"
 
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "brush/brush.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"

@@ -60,7 +60,7 @@ static void a_still_stays_as_it_was(void **state)
     must_run(session, "undo");
     describe(session, &before);
     assert_int_equal(wr_session_history_count(session), STEPS);
-    WrSession *still = wr_session_still(session);
+    WrSession *still = wr_session_snapshot(session);
     must_show(still, &before);
     must_run(session, "camera from right"); /* the present state is looked at in another way */
     must_show(still, &before);
@@ -85,7 +85,7 @@ static void nothing_runs_in_a_still(void **state)
 {
     (void)state;
     WrError err = { "" };
-    WrSession *session = some_session(), *still = wr_session_still(session);
+    WrSession *session = some_session(), *still = wr_session_snapshot(session);
     must_fail(still, "fill 0.37", "not while");
     must_fail(still, "undo", "not while");
     assert_false(wr_session_go(still, 0, &err));

@@ -14,7 +14,7 @@
 
 #include "ui/canvas/outline.h"
 #include "ui/preview/preview.h"
-#include "ui/jobs/trial.h"
+#include "ui/jobs/edit_preview.h"
 
 #include <malloc.h>
 
@@ -24,7 +24,7 @@
 typedef struct Soak {
     WrSession *session;
     WrPreview *preview;
-    WrTrial *trial;
+    WrEditPreview *trial;
     WrOutliner *outliner;
     TestRandom random;
     int events;
@@ -95,11 +95,11 @@ static void special_strokes(Soak *soak)
 /* A dialog that tries an operation before it is run. */
 static void try_blur(Soak *soak)
 {
-    WrTrialAsk ask = { .op = wr_op_find("blur"), .param = { 2.0 } };
-    wr_trial_ask(soak->trial, doc(soak->session), &ask);
-    while (wr_trial_busy(soak->trial, NULL, NULL)) SDL_Delay(1);
-    (void)wr_trial_field(soak->trial);
-    wr_trial_end(soak->trial);
+    WrEditPreviewAsk ask = { .op = wr_op_find("blur"), .param = { 2.0 } };
+    wr_edit_preview_ask(soak->trial, doc(soak->session), &ask);
+    while (wr_edit_preview_busy(soak->trial, NULL, NULL)) SDL_Delay(1);
+    (void)wr_edit_preview_field(soak->trial);
+    wr_edit_preview_end(soak->trial);
     must_run(soak->session, "adjust blur sigma=2");
 }
 
@@ -175,7 +175,7 @@ static void nothing_but_the_text_of_the_steps_grows(void **state)
     int rounds = all && *all == '1' ? 100 : 16, settled = rounds / 2;
     Soak soak = { .session = wr_session_new(NULL),
                   .preview = wr_preview_new(2, "auto", SDL_USEREVENT),
-                  .trial = wr_trial_new(2, SDL_USEREVENT) };
+                  .trial = wr_edit_preview_new(2, SDL_USEREVENT) };
     char line[64];
     double budget = getenv("WR_SOAK") ? atof(getenv("WR_SOAK")) : BUDGET;
     snprintf(line, sizeof line, "history budget=%.0f", budget);
@@ -193,7 +193,7 @@ static void nothing_but_the_text_of_the_steps_grows(void **state)
     double grown = end.used - half.used - (end.lines - half.lines);
     if (half.used > 0 && budget <= BUDGET) /* a sanitizer's malloc does not say */
         assert_true(grown < SLACK);
-    wr_trial_free(soak.trial);
+    wr_edit_preview_free(soak.trial);
     wr_preview_free(soak.preview);
     wr_session_free(soak.session);
 }

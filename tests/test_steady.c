@@ -5,9 +5,9 @@
 #include "test_session_help.h"
 
 #include "base/pool.h"
-#include "render/frame.h"
-#include "render/kern.h"
-#include "render/kern_wide.h"
+#include "render/frame/frame.h"
+#include "render/kernels/kern.h"
+#include "render/simd/simd_kernels.h"
 #include "document/document.h"
 #include "scene/scene.h"
 

@@ -4,10 +4,10 @@
 #include "base/error.h"
 #include "base/suggest.h"
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/help.h"
 #include "export/export.h"
-#include "export/sets.h"
+#include "export/map_sets.h"
 
 #include <ctype.h>
 #include <string.h>

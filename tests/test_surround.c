@@ -4,15 +4,15 @@
 #include "test_render_scenes.h"
 
 #include "image/image.h"
-#include "shade/blur.h"
-#include "shade/surround.h"
+#include "shade/environment_blur.h"
+#include "shade/environment_map.h"
 
 typedef double Sky(WrVec3 d, int c);
 
 /* Surroundings of w x h texels; data: what each direction sends. */
-static WrSurround *surroundings(int w, int h, Sky *sky)
+static WrEnvironmentMap *surroundings(int w, int h, Sky *sky)
 {
-    WrSurroundTold told;
+    WrEnvironmentMapTold told;
     WrError err = { "" };
     WrImage *image = wr_image_new(w, h, 3, &err);
     image->type = WR_PIXEL_F32;
@@ -20,8 +20,8 @@ static WrSurround *surroundings(int w, int h, Sky *sky)
         for (int i = 0; i < w; i++)
             for (int c = 0; c < 3; c++)
                 image->data[3 * (j * w + i) + c] =
-                    (float)sky(wr_surround_direction((i + 0.5) / w, 1 - (j + 0.5) / h), c);
-    WrSurround *s = wr_surround_new(image, &told, &err);
+                    (float)sky(wr_environment_map_direction((i + 0.5) / w, 1 - (j + 0.5) / h), c);
+    WrEnvironmentMap *s = wr_environment_map_new(image, &told, &err);
     wr_image_free(image);
     if (!s) fail_msg("%s", err.text);
     return s;
@@ -30,16 +30,17 @@ static WrSurround *surroundings(int w, int h, Sky *sky)
 static const double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
 /* E / pi of a normal, up to that order. */
-static double light_up_to(const WrSurround *s, const double axes[9], int order, WrVec3 n, int c)
+static double light_up_to(const WrEnvironmentMap *s, const double axes[9], int order, WrVec3 n,
+                          int c)
 {
     double f[3][WR_FORM_TERMS];
-    wr_surround_form(s, axes, 1, order, f);
+    wr_environment_map_form(s, axes, 1, order, f);
     const double *k = f[c];
     return k[0] + k[1] * n.x + k[2] * n.y + k[3] * n.z + k[4] * n.x * n.x + k[5] * n.y * n.y +
            k[6] * n.z * n.z + k[7] * n.x * n.y + k[8] * n.y * n.z + k[9] * n.z * n.x;
 }
 
-static double light_of(const WrSurround *s, const double axes[9], WrVec3 n, int c)
+static double light_of(const WrEnvironmentMap *s, const double axes[9], WrVec3 n, int c)
 {
     return light_up_to(s, axes, 2, n, c);
 }
@@ -75,7 +76,7 @@ static void fewer_orders_leave_out_what_is_beyond_them(void **state)
 {
     (void)state;
     TestRandom random = { 5 };
-    WrSurround *one = surroundings(151, 73, linear);
+    WrEnvironmentMap *one = surroundings(151, 73, linear);
     for (int k = 0; k < 20; k++) {
         const WrVec3 n = random_direction(&random);
         for (int c = 0; c < 3; c++) {
@@ -85,15 +86,15 @@ static void fewer_orders_leave_out_what_is_beyond_them(void **state)
             assert_near(light_up_to(one, unturned, 1, n, c), turned, 2e-3);
         }
     }
-    wr_surround_free(one);
+    wr_environment_map_free(one);
 }
 
 static void harmonics_are_those_of_the_closed_forms(void **state)
 {
     (void)state;
     TestRandom random = { 3 };
-    WrSurround *one = surroundings(151, 73, linear), *two = surroundings(146, 71, banded);
-    WrSurround *dome = surroundings(512, 256, half);
+    WrEnvironmentMap *one = surroundings(151, 73, linear), *two = surroundings(146, 71, banded);
+    WrEnvironmentMap *dome = surroundings(512, 256, half);
     for (int k = 0; k < 40; k++) {
         const WrVec3 n = random_direction(&random);
         const double x = v3_dot(n, east);
@@ -106,9 +107,9 @@ static void harmonics_are_those_of_the_closed_forms(void **state)
         }
         assert_near(light_of(dome, unturned, n, 0), 0.5 * (1 + n.y), 0.03); /* order 4 is lost */
     }
-    wr_surround_free(one);
-    wr_surround_free(two);
-    wr_surround_free(dome);
+    wr_environment_map_free(one);
+    wr_environment_map_free(two);
+    wr_environment_map_free(dome);
 }
 
 static int lit_texel;
@@ -116,7 +117,7 @@ static int lit_texel;
 static double sun(WrVec3 d, int c)
 {
     double u, v;
-    wr_surround_place(d, &u, &v);
+    wr_environment_map_place(d, &u, &v);
     (void)c;
     return (int)(512 * u) == 301 && (int)(256 * (1 - v)) == lit_texel ? 1e5 : 0;
 }
@@ -127,8 +128,8 @@ static void a_sun_is_within_the_bounds(void **state)
     (void)state;
     TestRandom random = { 5 };
     for (lit_texel = 3; lit_texel < 256; lit_texel += 97) {
-        WrSurround *s = surroundings(512, 256, sun);
-        const WrVec3 at = wr_surround_direction(301.5 / 512, 1 - (lit_texel + 0.5) / 256);
+        WrEnvironmentMap *s = surroundings(512, 256, sun);
+        const WrVec3 at = wr_environment_map_direction(301.5 / 512, 1 - (lit_texel + 0.5) / 256);
         const double angle =
             4 * WR_PI / 512 * sin(WR_PI / 512) * sin(WR_PI * (lit_texel + 0.5) / 256);
         const double all = 1e5 * angle;
@@ -140,7 +141,7 @@ static void a_sun_is_within_the_bounds(void **state)
             if (!(off >= -19.0 / 480 - 1e-5 && off <= 3.0 / 32 + 1e-5))
                 fail_msg("%g off at %g", off, c);
         }
-        wr_surround_free(s);
+        wr_environment_map_free(s);
     }
 }
 
@@ -158,7 +159,7 @@ static void poles_and_seam_are_continuous(void **state)
     (void)state;
     TestRandom random = { 9 };
     for (int k = 0; k < 5; k++) {
-        WrSurround *s = surroundings(sizes[k][0], sizes[k][1], speckled);
+        WrEnvironmentMap *s = surroundings(sizes[k][0], sizes[k][1], speckled);
         for (int i = 0; i < 50; i++) {
             const double t = 2 * WR_PI * test_random(&random), h = 2 * test_random(&random) - 1;
             const double e = 1e-9, y = i % 2 ? 1 : -1;
@@ -167,8 +168,8 @@ static void poles_and_seam_are_continuous(void **state)
                                        { { 0, h, 1 }, { -0.0, h, 1 } } };
             for (int m = 0; m < 3; m++) {
                 double a[3], b[3];
-                wr_surround_at(s, near[m][0], a);
-                wr_surround_at(s, near[m][1], b);
+                wr_environment_map_at(s, near[m][0], a);
+                wr_environment_map_at(s, near[m][1], b);
                 for (int c = 0; c < 3; c++) {
                     assert_near(a[c], b[c], 1e-6);
                     assert_true(a[c] >= 0 && a[c] <= 1);
@@ -176,9 +177,9 @@ static void poles_and_seam_are_continuous(void **state)
             }
         }
         double middle[3];
-        wr_surround_at(s, (WrVec3){ 0, 0, 0 }, middle);
+        wr_environment_map_at(s, (WrVec3){ 0, 0, 0 }, middle);
         assert_true(isfinite(middle[0]));
-        wr_surround_free(s);
+        wr_environment_map_free(s);
     }
 }
 
@@ -186,15 +187,16 @@ static void places_are_the_directions_inverse(void **state)
 {
     (void)state;
     TestRandom random = { 11 };
-    const WrVec3 right = wr_surround_direction(0.75, 0.5), ahead = wr_surround_direction(0.5, 0.5);
+    const WrVec3 right = wr_environment_map_direction(0.75, 0.5),
+                 ahead = wr_environment_map_direction(0.5, 0.5);
     assert_near(right.x, 1, 1e-15);
     assert_near(ahead.z, -1, 1e-15);
-    assert_near(wr_surround_direction(0.3, 1).y, 1, 1e-15);
+    assert_near(wr_environment_map_direction(0.3, 1).y, 1, 1e-15);
     for (int i = 0; i < 100; i++) {
         const WrVec3 d = random_direction(&random);
         double u, v;
-        wr_surround_place(v3_scale(d, 3.7), &u, &v);
-        assert_near(v3_len(v3_sub(wr_surround_direction(u, v), d)), 0, 1e-14);
+        wr_environment_map_place(v3_scale(d, 3.7), &u, &v);
+        assert_near(v3_len(v3_sub(wr_environment_map_direction(u, v), d)), 0, 1e-14);
     }
 }
 
@@ -204,28 +206,28 @@ static void what_is_no_light_is_told(void **state)
     (void)state;
     static const float numbers[] = { NAN, -3, INFINITY, 1e30f, -INFINITY, 2.5f };
     WrImage *image = wr_image_new(3, 2, 1, NULL);
-    WrSurroundTold told;
+    WrEnvironmentMapTold told;
     memcpy(image->data, numbers, sizeof numbers);
     image->type = WR_PIXEL_F32;
-    WrSurround *s = wr_surround_new(image, &told, NULL);
+    WrEnvironmentMap *s = wr_environment_map_new(image, &told, NULL);
     assert_int_equal(told.lost, 3); /* of each of the three colours */
     assert_int_equal(told.below, 6);
     assert_int_equal(told.above, 6);
     const float *got = s->image->data;
     assert_true(got[0] == 0 && got[3] == 0 && got[6] == 1e9f && got[9] == 1e9f && got[15] == 2.5f);
     for (int i = 0; i < WR_HARMONICS; i++) assert_true(isfinite(s->harmonic[i][2]));
-    wr_surround_free(s);
+    wr_environment_map_free(s);
     image->type = WR_PIXEL_U8;
     image->data[0] = 0.5f;
-    s = wr_surround_new(image, &told, NULL);
+    s = wr_environment_map_new(image, &told, NULL);
     assert_near((double)s->image->data[0], 0.21404114, 1e-6); /* decoded from sRGB */
-    wr_surround_free(s);
+    wr_environment_map_free(s);
     wr_image_free(image);
 }
 
 /* ---- pictures ---- */
 
-static WrScene *scene_under(WrSurround *light, int model, int energy)
+static WrScene *scene_under(WrEnvironmentMap *light, int model, int energy)
 {
     WrScene *scene = scene_of("sphere");
     WrMaterial *m = &scene->material;
@@ -240,7 +242,7 @@ static WrScene *scene_under(WrSurround *light, int model, int energy)
     scene->bump = WR_BUMP_EXACT;
     scene->posed = true;
     scene->rotate_deg = (WrVec3){ 23, 41, 7 };
-    wr_environment_set(&scene->environment, WR_SURROUND_FILE, light, "sky", NULL);
+    wr_environment_set(&scene->environment, WR_ENVIRONMENT_MAP_FILE, light, "sky", NULL);
     return scene;
 }
 
@@ -335,13 +337,14 @@ static double facets_mean(double alpha)
 }
 
 /* A linear sky stays one. */
-static void expect_blurred(const WrSurround *s, const WrGloss *g, double mean, WrPool *pool)
+static void expect_blurred(const WrEnvironmentMap *s, const WrEnvironmentBrdf *g, double mean,
+                           WrPool *pool)
 {
     const int w = wr_blur_width(g, 16);
     float *blurred = wr_alloc((size_t)w * (size_t)w / 2, 3 * sizeof *blurred);
-    assert_true(wr_surround_blur(s, g, w, pool, blurred, NULL));
+    assert_true(wr_environment_map_blur(s, g, w, pool, blurred, NULL));
     for (int i = 0; i < w * w / 2; i += 37) {
-        const WrVec3 d = wr_surround_direction((i % w + 0.5) / w, 1 - (i / w + 0.5) * 2 / w);
+        const WrVec3 d = wr_environment_map_direction((i % w + 0.5) / w, 1 - (i / w + 0.5) * 2 / w);
         assert_near((double)blurred[3 * i + 1], 1.4 + 0.5 * mean * v3_dot(d, east), 5e-4);
     }
     wr_free(blurred);
@@ -352,25 +355,27 @@ static void lobes_have_their_closed_forms(void **state)
     (void)state;
     static const double alphas[] = { 1.0 / 61, 0.0437, 0.11, 0.25, 0.83 };
     WrPool *pool = wr_pool_new(2);
-    WrSurround *s = surroundings(211, 96, linear);
+    WrEnvironmentMap *s = surroundings(211, 96, linear);
     double order[3];
     for (int k = 0; k < 5; k++) {
-        const WrGloss g = { .lobe = WR_LOBE_FACETS, .alpha = alphas[k], .gated = true };
+        const WrEnvironmentBrdf g = { .lobe = WR_LOBE_FACETS, .alpha = alphas[k], .gated = true };
         wr_blur_orders(&g, 3, order);
         assert_near(order[0], 1, 1e-14);
         assert_near(order[1], facets_mean(alphas[k]), 1e-5);
         if (k > 1) expect_blurred(s, &g, order[1], pool);
     }
-    const WrGloss all = { .lobe = WR_LOBE_FACETS, .alpha = 1, .gated = true }; /* HC101 */
-    const WrGloss power = { .lobe = WR_LOBE_POWER, .alpha = 0.2, .power = 11.3, .gated = true };
-    const WrGloss half_power = { .lobe = WR_LOBE_HALF, .alpha = 0.3, .power = 21.7 };
+    const WrEnvironmentBrdf all = { .lobe = WR_LOBE_FACETS, .alpha = 1, .gated = true }; /* HC101 */
+    const WrEnvironmentBrdf power = {
+        .lobe = WR_LOBE_POWER, .alpha = 0.2, .power = 11.3, .gated = true
+    };
+    const WrEnvironmentBrdf half_power = { .lobe = WR_LOBE_HALF, .alpha = 0.3, .power = 21.7 };
     wr_blur_orders(&all, 2, order);
     assert_near(order[1], 2.0 / 3, 1e-6);
     wr_blur_orders(&power, 2, order);
     assert_near(order[1], 12.3 / 13.3, 1e-5); /* of c^s the mean of c is (s + 1) / (s + 2) */
     wr_blur_orders(&half_power, 2, order);    /* x^p of x = (1 + c) / 2 */
     assert_near(order[1], 2 * (21.7 / 2 + 1) / (21.7 / 2 + 2) - 1, 1e-5);
-    wr_surround_free(s);
+    wr_environment_map_free(s);
     wr_pool_free(pool);
 }
 
@@ -395,7 +400,8 @@ static void a_white_furnace_is_white(void **state)
     static const double within[] = { 2e-6, 2e-4, 5e-3, 0.13 }; /* rough metal loses light */
     WrField *field = bumpy_field(16, 16);
     for (int k = 0; k < 8; k++) {
-        WrSurround *from = k % 2 ? surroundings(37, 18, nearly_white) : surroundings(1, 1, white);
+        WrEnvironmentMap *from =
+            k % 2 ? surroundings(37, 18, nearly_white) : surroundings(1, 1, white);
         WrScene *scene = scene_under(from, models[k / 2], 0);
         scene->material.colour = (WrVec3){ 1, 1, 1 };
         scene->material.specular = k / 2 > 1 ? 1 : 0;
@@ -414,19 +420,19 @@ static void a_white_furnace_is_white(void **state)
 
 static Shot turned_by(double turn_deg, int columns, const WrField *field)
 {
-    WrSurround *from = surroundings(128, 64, speckled);
+    WrEnvironmentMap *from = surroundings(128, 64, speckled);
     WrImage *image = wr_image_new(128, 64, 3, NULL);
-    WrSurroundTold told;
+    WrEnvironmentMapTold told;
     image->type = WR_PIXEL_F32;
     for (int i = 0; i < 128 * 64; i++)
         memcpy(image->data + 3 * i, from->image->data + 3 * (i / 128 * 128 + (i + columns) % 128),
                3 * sizeof(float));
-    WrScene *scene = scene_under(wr_surround_new(image, &told, NULL), 0, 0);
+    WrScene *scene = scene_under(wr_environment_map_new(image, &told, NULL), 0, 0);
     scene->environment.turn_deg = turn_deg;
     Shot shot = shoot(scene, field, 31, 27, 1, "auto", false);
     wr_scene_free(scene);
     wr_image_free(image);
-    wr_surround_free(from);
+    wr_environment_map_free(from);
     return shot;
 }
 

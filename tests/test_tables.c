@@ -1,7 +1,7 @@
 /* Tables that the compiler counts have words and functions in every row; lists that end by themselves do too. */
 #include "test.h"
 
-#include "command/table.h"
+#include "command/command_table.h"
 #include "document/blend.h"
 #include "document/document_file.h"
 #include "export/export.h"

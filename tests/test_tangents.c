@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "surface/tangents.h"
+#include "surface/tangent_frames.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "test.h"
 
 #include "base/hash.h"
-#include "field/taps.h"
+#include "field/filter_kernels.h"
 
 #include <float.h>
 #include <math.h>

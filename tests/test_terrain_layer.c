@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "brush/brush.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"

@@ -2,7 +2,7 @@
    test_scheme.c, A3 to A5, A9 and A10 in test_bump.c, A11 and A12 of noise in test_noise.c. */
 #include "test.h"
 
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "test_render_scenes.h"
 
 /* A waving plane that fills the picture, lit without a highlight and everywhere: I is smooth in every

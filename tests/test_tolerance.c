@@ -9,7 +9,7 @@
 #include "base/pool.h"
 #include "base/text.h"
 #include "command/session.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 
 #include <stdlib.h>

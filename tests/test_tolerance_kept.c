@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/session.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 
 #include <unistd.h>

@@ -6,7 +6,7 @@
 #include "accuracy/metrics.h"
 #include "accuracy/tolerance.h"
 #include "base/text.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 
 #include <math.h>

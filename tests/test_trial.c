@@ -10,7 +10,7 @@
 #include "system/clock.h"
 
 #include "ui/canvas/outline.h"
-#include "ui/jobs/trial.h"
+#include "ui/jobs/edit_preview.h"
 
 #include <unistd.h>
 
@@ -28,11 +28,11 @@ static const char *const painted[] = { "table 256x192", "grid cells=4x3 width=6 
                                        "stroke points=0.1,0.2;0.9,0.7 radius=20 strength=2",
                                        "select rect from=0.3,0.1 to=1.2,0.6" };
 
-static void wait_until_done(WrTrial *trial)
+static void wait_until_done(WrEditPreview *trial)
 {
     double began = wr_clock_seconds();
-    while (wr_trial_busy(trial, NULL, NULL) && wr_clock_seconds() - began < 20) usleep(500);
-    assert_false(wr_trial_busy(trial, NULL, NULL));
+    while (wr_edit_preview_busy(trial, NULL, NULL) && wr_clock_seconds() - began < 20) usleep(500);
+    assert_false(wr_edit_preview_busy(trial, NULL, NULL));
 }
 
 static void assert_same_heights(const WrField *a, const WrField *b)
@@ -42,32 +42,34 @@ static void assert_same_heights(const WrField *a, const WrField *b)
 }
 
 /* Try, then do: the composite that was shown is the one that comes, bit for bit. */
-static void try_then_run(const WrTrialAsk *ask, const char *line)
+static void try_then_run(const WrEditPreviewAsk *ask, const char *line)
 {
     WrError err;
     WrSession *session = session_of(painted, 5);
-    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
+    WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
     WrHash before = wr_session_hash(session);
-    wr_trial_ask(trial, wr_session_document(session), ask);
+    wr_edit_preview_ask(trial, wr_session_document(session), ask);
     wait_until_done(trial);
     WrHash after = wr_session_hash(session);
     assert_memory_equal(&before, &after, sizeof before);
-    const WrField *tried = wr_trial_field(trial);
+    const WrField *tried = wr_edit_preview_field(trial);
     assert_non_null(tried);
     if (!wr_session_run(session, line, &err)) fail_msg("%s: %s", line, err.text);
     assert_same_heights(tried, wr_document_field(wr_session_document(session)));
-    wr_trial_end(trial);
-    assert_null(wr_trial_field(trial));
-    wr_trial_free(trial);
+    wr_edit_preview_end(trial);
+    assert_null(wr_edit_preview_field(trial));
+    wr_edit_preview_free(trial);
     wr_session_free(session);
 }
 
 static void an_operation_that_is_tried_comes_out_as_its_command(void **state)
 {
     (void)state;
-    try_then_run(&(WrTrialAsk){ .op = wr_op_find("blur"), .param = { 5 } }, "adjust blur sigma=5");
-    try_then_run(&(WrTrialAsk){ .op = wr_op_find("invert"), .param = { 1 }, .all_layers = true },
-                 "adjust invert about=zero layers=all");
+    try_then_run(&(WrEditPreviewAsk){ .op = wr_op_find("blur"), .param = { 5 } },
+                 "adjust blur sigma=5");
+    try_then_run(
+        &(WrEditPreviewAsk){ .op = wr_op_find("invert"), .param = { 1 }, .all_layers = true },
+        "adjust invert about=zero layers=all");
 }
 
 /* Coverage goes along where texels only move. */
@@ -75,12 +77,12 @@ static void an_offset_that_is_tried_moves_what_layers_say_too(void **state)
 {
     (void)state;
     try_then_run(
-        &(WrTrialAsk){ .op = wr_op_find("offset"), .param = { 100, 31 }, .all_layers = true },
+        &(WrEditPreviewAsk){ .op = wr_op_find("offset"), .param = { 100, 31 }, .all_layers = true },
         "adjust offset du=100 dv=31 layers=all");
     /* where that overshoots, what a layer says stays within 0 to 1 */
-    try_then_run(&(WrTrialAsk){ .op = wr_op_find("warp"),
-                                .param = { 23.7, 9, 3, 0, 7 },
-                                .all_layers = true },
+    try_then_run(&(WrEditPreviewAsk){ .op = wr_op_find("warp"),
+                                      .param = { 23.7, 9, 3, 0, 7 },
+                                      .all_layers = true },
                  "adjust warp amount=23.7 cells=9 octaves=3 seed=7 layers=all");
 }
 
@@ -88,7 +90,8 @@ static void a_layers_settings_that_are_tried_come_out_as_their_command(void **st
 {
     (void)state;
     try_then_run(
-        &(WrTrialAsk){ .layer = 1, .blend = WR_BLEND_SMOOTH_MAX, .opacity = 0.5f, .radius = 0.25f },
+        &(WrEditPreviewAsk){
+            .layer = 1, .blend = WR_BLEND_SMOOTH_MAX, .opacity = 0.5f, .radius = 0.25f },
         "layer set 2 blend=smooth-max opacity=0.5 radius=0.25");
 }
 
@@ -102,7 +105,7 @@ static void a_generator_that_is_tried_comes_out_as_its_command(void **state)
         "formula fourier terms=3,0,0.5;0,5,0.25,90,0 blend=multiply"
     };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
-        try_then_run(&(WrTrialAsk){ .line = lines[i] }, lines[i]);
+        try_then_run(&(WrEditPreviewAsk){ .line = lines[i] }, lines[i]);
 }
 
 static void take_note(void *ctx, const char *text)
@@ -117,17 +120,17 @@ static void what_a_generator_notes_is_told_with_what_it_shows(void **state)
     char said[256] = "", expected[260];
     static const char line[] = "noise perlin cells=64 octaves=10";
     WrSession *session = wr_session_new(&(WrSessionOptions){ .note = take_note, .note_ctx = said });
-    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
-    wr_trial_ask(trial, wr_session_document(session), &(WrTrialAsk){ .line = line });
+    WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
+    wr_edit_preview_ask(trial, wr_session_document(session), &(WrEditPreviewAsk){ .line = line });
     wait_until_done(trial);
     assert_true(wr_session_run(session, line, &err));
     assert_true(said[0]);
     snprintf(expected, sizeof expected, "%s\n", said);
-    assert_string_equal(wr_trial_notes(trial), expected);
-    assert_true(wr_trial_seconds(trial) > 0.0);
-    wr_trial_end(trial);
-    assert_string_equal(wr_trial_notes(trial), "");
-    wr_trial_free(trial);
+    assert_string_equal(wr_edit_preview_notes(trial), expected);
+    assert_true(wr_edit_preview_seconds(trial) > 0.0);
+    wr_edit_preview_end(trial);
+    assert_string_equal(wr_edit_preview_notes(trial), "");
+    wr_edit_preview_free(trial);
     wr_session_free(session);
 }
 
@@ -153,15 +156,15 @@ static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
     WrError err;
     static const char line[] = "pattern grid across=8 rows=8 width=24 bevel=8";
     WrSession *session = session_of((const char *const[]){ "table 1024x1024" }, 1);
-    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
-    WrTrialAsk ask = { .line = line, .rough = true };
-    wr_trial_ask(trial, wr_session_document(session), &ask);
+    WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
+    WrEditPreviewAsk ask = { .line = line, .rough = true };
+    wr_edit_preview_ask(trial, wr_session_document(session), &ask);
     wait_until_done(trial);
-    assert_true(wr_trial_rough(trial)); /* the exact one begins when this is taken */
-    WrField *rough = wr_field_share(wr_trial_field(trial));
+    assert_true(wr_edit_preview_rough(trial)); /* the exact one begins when this is taken */
+    WrField *rough = wr_field_share(wr_edit_preview_field(trial));
     wait_until_done(trial);
-    assert_false(wr_trial_rough(trial));
-    WrField *exact = wr_field_share(wr_trial_field(trial));
+    assert_false(wr_edit_preview_rough(trial));
+    WrField *exact = wr_field_share(wr_edit_preview_field(trial));
     assert_true(wr_session_run(session, line, &err));
     assert_same_heights(exact, wr_document_field(wr_session_document(session)));
     assert_int_equal(wr_field_width(rough), 1024);
@@ -169,7 +172,7 @@ static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
     assert_true(mean_difference(rough, exact) < 0.02);
     wr_field_free(rough);
     wr_field_free(exact);
-    wr_trial_free(trial);
+    wr_edit_preview_free(trial);
     wr_session_free(session);
 }
 
@@ -183,16 +186,17 @@ static void a_line_that_is_wrong_is_said_to_be(void **state)
                   { "dab 0.5,0.5", "generator" },
                   { "", "generator" } };
     WrSession *session = session_of(painted, 5);
-    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
+    WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         WrError err = { "" };
-        wr_trial_ask(trial, wr_session_document(session), &(WrTrialAsk){ .line = wrong[i].line });
+        wr_edit_preview_ask(trial, wr_session_document(session),
+                            &(WrEditPreviewAsk){ .line = wrong[i].line });
         wait_until_done(trial);
-        assert_null(wr_trial_field(trial));
-        assert_true(wr_trial_error(trial, &err));
+        assert_null(wr_edit_preview_field(trial));
+        assert_true(wr_edit_preview_error(trial, &err));
         if (!strstr(err.text, wrong[i].says)) fail_msg("%s: %s", wrong[i].line, err.text);
     }
-    wr_trial_free(trial);
+    wr_edit_preview_free(trial);
     wr_session_free(session);
 }
 
@@ -201,15 +205,15 @@ static void a_trial_that_fails_says_why_once(void **state)
     (void)state;
     WrError err = { "" };
     WrSession *session = session_of(painted, 5);
-    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
-    wr_trial_ask(trial, wr_session_document(session),
-                 &(WrTrialAsk){ .op = wr_op_find("blur"), .param = { -1 } });
+    WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
+    wr_edit_preview_ask(trial, wr_session_document(session),
+                        &(WrEditPreviewAsk){ .op = wr_op_find("blur"), .param = { -1 } });
     wait_until_done(trial);
-    assert_null(wr_trial_field(trial));
-    assert_true(wr_trial_error(trial, &err));
+    assert_null(wr_edit_preview_field(trial));
+    assert_true(wr_edit_preview_error(trial, &err));
     assert_non_null(strstr(err.text, "sigma"));
-    assert_false(wr_trial_error(trial, &err));
-    wr_trial_free(trial);
+    assert_false(wr_edit_preview_error(trial, &err));
+    wr_edit_preview_free(trial);
     wr_session_free(session);
 }
 

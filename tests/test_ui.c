@@ -6,11 +6,11 @@
 #include "base/vec.h"
 
 #include "ui/canvas/canvas_cells.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/line.h"
+#include "ui/state/keys.h"
+#include "ui/state/layout.h"
+#include "ui/state/line.h"
 #include "ui/preview/rotation.h"
-#include "ui/desk/settings.h"
+#include "ui/state/settings.h"
 #include "ui/canvas/view.h"
 
 /* ---- view ---- */

@@ -7,17 +7,17 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "system/clock.h"
 
-#include "ui/desk/action.h"
-#include "ui/desk/busy_inner.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/messages.h"
-#include "ui/desk/settings.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/state/action.h"
+#include "ui/state/busy_internal.h"
+#include "ui/state/dialog.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/messages.h"
+#include "ui/state/settings.h"
+#include "ui/tools/stroke_input.h"
 
 #include <string.h>
 #include <unistd.h>

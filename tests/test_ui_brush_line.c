@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "ui/tools/brush_line.h"
 

@@ -2,7 +2,7 @@
    from the specification, resources as xrdb keeps them; damaged ones. */
 #include "test.h"
 
-#include "ui/gui/desktop.h"
+#include "ui/toolkit/desktop.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* By which system of windows the window opens, for each kind of session. */
 #include "test.h"
 
-#include "ui/gui/display.h"
+#include "ui/toolkit/display.h"
 
 typedef struct Row {
     WrDisplayEnv env; /* driver, x11, wayland, session */

@@ -5,8 +5,8 @@
 
 #include "window_walk.h"
 
-#include "ui/desk/later.h"
-#include "ui/gui/focus.h"
+#include "ui/state/deferred_actions.h"
+#include "ui/toolkit/focus.h"
 
 #define STOPS_MOST 1500
 
@@ -348,7 +348,7 @@ static void keys_lead_through_the_menus(void **state)
         for (int i = 0; i < 4 && run == 0; i++) walk_frame(&walk);
         if (run == 1) break;
         walk.app->visible = false; /* what waits for a picture that is seen does not */
-        wr_later_run(walk.app);
+        wr_deferred_run(walk.app);
         walk.app->visible = true;
         assert_int_equal(look->colours, WR_CANVAS_SIGNED);
         assert_false(wr_gui_popup_open_now(gui));

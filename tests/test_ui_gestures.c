@@ -9,16 +9,16 @@
 
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/action.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
+#include "ui/state/action.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_cube.h"
 #include "ui/patch/patch_paint.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/tool_transform.h"
 
 #include <math.h>

@@ -8,11 +8,11 @@
 
 #include "base/hash.h"
 #include "base/text.h"
-#include "ui/desk/action.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/settings.h"
+#include "ui/state/action.h"
+#include "ui/state/busy.h"
+#include "ui/state/dialog.h"
+#include "ui/state/layout.h"
+#include "ui/state/settings.h"
 
 #include <malloc.h>
 

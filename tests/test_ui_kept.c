@@ -4,16 +4,16 @@
 #include "test_app.h"
 
 #include "ui/app/app.h"
-#include "ui/desk/action.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/damage.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/kept.h"
+#include "ui/state/action.h"
+#include "ui/state/busy.h"
+#include "ui/state/dialog.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/roster.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/dirty_rects.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/retained_frame.h"
 
 /* ---- rectangles ---- */
 
@@ -60,25 +60,25 @@ static void what_changed_is_covered_by_rectangles_that_do_not_overlap(void **sta
     (void)state;
     TestRandom r = { 61 };
     static Square before[DOWN * ACROSS], now[DOWN * ACROSS];
-    WrDamage *damage = wr_damage_new();
+    WrDirtyRects *damage = wr_dirty_rects_new();
     int none = 0, few = 0;
     for (int k = 0; k < 400; k++) {
-        SDL_Rect rects[WR_DAMAGE_RECTS], whole[2] = { some_box(&r), some_box(&r) };
+        SDL_Rect rects[WR_DIRTY_RECTS_RECTS], whole[2] = { some_box(&r), some_box(&r) };
         const SDL_Rect touched = some_box(&r), room = { 0, 0, WIDE, TALL };
         const bool touch = k % 5 == 4;
         memset(now, 0, sizeof now);
-        wr_damage_begin(damage, WIDE, TALL);
+        wr_dirty_rects_begin(damage, WIDE, TALL);
         /* Things that are mostly those of the picture before. */
         TestRandom same = { 7 + (uint64_t)(k / 4) };
         for (int i = 0; i < 5; i++) {
             const SDL_Rect box = some_box(k % 4 == 1 && i == 4 ? &r : &same);
             const uint64_t what = (uint64_t)box.x * 1009 + (uint64_t)box.y;
-            wr_damage_add(damage, &box, what);
+            wr_dirty_rects_add(damage, &box, what);
             note(now, &box, what);
         }
-        if (touch) wr_damage_touch(damage, &touched);
-        const int count = wr_damage_end(damage, whole, 2, rects);
-        assert_true(count >= 0 && count <= WR_DAMAGE_RECTS);
+        if (touch) wr_dirty_rects_touch(damage, &touched);
+        const int count = wr_dirty_rects_end(damage, whole, 2, rects);
+        assert_true(count >= 0 && count <= WR_DIRTY_RECTS_RECTS);
         if (k == 0) assert_true(count == 1 && SDL_RectEquals(&rects[0], &room));
         none += count == 0;
         few += count > 1;
@@ -103,12 +103,12 @@ static void what_changed_is_covered_by_rectangles_that_do_not_overlap(void **sta
         }
         memcpy(before, now, sizeof now);
     }
-    SDL_Rect rects[WR_DAMAGE_RECTS], all = { 0, 0, 99, 55 };
-    wr_damage_begin(damage, 99, 55);
-    assert_int_equal(wr_damage_end(damage, NULL, 0, rects), 1);
+    SDL_Rect rects[WR_DIRTY_RECTS_RECTS], all = { 0, 0, 99, 55 };
+    wr_dirty_rects_begin(damage, 99, 55);
+    assert_int_equal(wr_dirty_rects_end(damage, NULL, 0, rects), 1);
     assert_true(SDL_RectEquals(&rects[0], &all));
     assert_true(none > 50 && few > 20); /* pictures that are as they were; several places at once */
-    wr_damage_free(damage);
+    wr_dirty_rects_free(damage);
 }
 
 /* ---- one thing changed ---- */
@@ -119,7 +119,7 @@ static void what_changed_is_covered_by_rectangles_that_do_not_overlap(void **sta
 typedef struct Drawing {
     SDL_Surface *surface;
     SDL_Renderer *renderer;
-    WrKept *kept;
+    WrRetainedFrame *kept;
     SDL_Texture *letters, *picture;
     WrGuiVertex vertices[4 * SHAPES];
     uint16_t indices[6 * SHAPES];
@@ -168,17 +168,18 @@ static void some_shape(TestRandom *r, Drawing *d, int i)
 
 static void draw(Drawing *d)
 {
-    wr_kept_clear(d->kept, 0xff305070u);
-    wr_kept_fill(d->kept, &d->fill, d->argb);
-    wr_kept_copy(d->kept, d->picture, NULL, &d->copy);
-    wr_kept_points(d->kept, d->points, 5, d->argb);
+    wr_retained_frame_clear(d->kept, 0xff305070u);
+    wr_retained_frame_fill(d->kept, &d->fill, d->argb);
+    wr_retained_frame_copy(d->kept, d->picture, NULL, &d->copy);
+    wr_retained_frame_points(d->kept, d->points, 5, d->argb);
     for (int half = 0; half < 2; half++)
-        wr_kept_command(d->kept, &(WrGuiCommand){ .texture = half ? d->picture : d->letters,
-                                                  .vertices = d->vertices,
-                                                  .indices = d->indices + half * 3 * SHAPES,
-                                                  .index_count = 3 * SHAPES,
-                                                  .clip = d->clip[half] });
-    wr_kept_end(d->kept);
+        wr_retained_frame_command(d->kept,
+                                  &(WrGuiCommand){ .texture = half ? d->picture : d->letters,
+                                                   .vertices = d->vertices,
+                                                   .indices = d->indices + half * 3 * SHAPES,
+                                                   .index_count = 3 * SHAPES,
+                                                   .clip = d->clip[half] });
+    wr_retained_frame_end(d->kept);
 }
 
 /* One thing becomes another. */
@@ -219,7 +220,7 @@ static void whatever_changes_in_a_picture_is_drawn(void **state)
     d.surface = SDL_CreateRGBSurfaceWithFormat(0, 341, 203, 32, SDL_PIXELFORMAT_RGB888);
     d.renderer = SDL_CreateSoftwareRenderer(d.surface);
     assert_non_null(d.renderer);
-    d.kept = wr_kept_new(d.renderer);
+    d.kept = wr_retained_frame_new(d.renderer);
     SDL_Texture **textures[2] = { &d.letters, &d.picture };
     for (int k = 0; k < 2; k++) {
         *textures[k] = SDL_CreateTexture(d.renderer, SDL_PIXELFORMAT_ABGR8888,
@@ -242,11 +243,11 @@ static void whatever_changes_in_a_picture_is_drawn(void **state)
         if (i > 0) change(&r, &d);
         draw(&d);
         memcpy(kept, d.surface->pixels, bytes);
-        wr_kept_draw_whole(d.kept);
+        wr_retained_frame_draw_whole(d.kept);
         if (memcmp(kept, d.surface->pixels, bytes) != 0) fail_msg("picture %d", i);
     }
     free(kept);
-    wr_kept_free(d.kept);
+    wr_retained_frame_free(d.kept);
     SDL_DestroyRenderer(d.renderer);
     SDL_FreeSurface(d.surface);
 }
@@ -283,7 +284,7 @@ static void compare(WrApp *app)
     const size_t count = (size_t)w * (size_t)h;
     read_pixels(app, seen.partial);
     seen.differed += memcmp(seen.partial, seen.whole, 4 * count) != 0;
-    wr_kept_draw_whole(wr_gui_kept(app->gui));
+    wr_retained_frame_draw_whole(wr_gui_kept(app->gui));
     read_pixels(app, seen.whole);
     const bool same = memcmp(seen.partial, seen.whole, 4 * count) == 0;
     for (size_t i = 0; !same && i < count; i++)

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "ui/desk/keys.h"
+#include "ui/state/keys.h"
 
 #include <string.h>
 
@@ -22,11 +22,11 @@ static void a_key_is_taken_from_its_owner(void **state)
     char label[32];
     WrKeyMap *map = wr_keys_new();
     assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Y")), "redo");
-    wr_keys_give(map, "fill", key_of("Ctrl+Y"));
+    wr_keymap_bind(map, "fill", key_of("Ctrl+Y"));
     assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Y")), "fill");
     assert_string_equal(wr_keys_label(map, "fill", label), "Ctrl+Y");
     assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Shift+Z")), "redo"); /* its others stay */
-    wr_keys_give(map, "fill", key_of("Shift+F11")); /* and its own old ones go */
+    wr_keymap_bind(map, "fill", key_of("Shift+F11")); /* and its own old ones go */
     assert_null(wr_keys_owner(map, key_of("Ctrl+Y")));
     wr_keys_take(map, "fill");
     assert_null(wr_keys_owner(map, key_of("Shift+F11")));
@@ -48,7 +48,7 @@ static void a_file_says_what_the_map_does(void **state)
             strcmp(keys[i], "Ctrl+#") == 0 ? (WrKey){ SDLK_HASH, WR_MOD_CTRL } : key_of(keys[i]);
         WrKeyMap *map = wr_keys_new(), *read = wr_keys_new();
         assert_true(wr_keys_read(map, old, &err));
-        wr_keys_give(map, "fill", key);
+        wr_keymap_bind(map, "fill", key);
         wr_keys_edit(map, "fill", old, &out);
         const char *text = wr_text_get(&out);
         assert_non_null(strstr(text, "# mine\n\nundo: F5 # both\nredo:F6\nfill: "));

@@ -5,8 +5,8 @@
 #include "base/memory.h"
 #include "system/clock.h"
 
-#include "ui/app/store.h"
-#include "ui/desk/messages.h"
+#include "ui/app/app_store.h"
+#include "ui/state/messages.h"
 #include "ui/preview/preview.h"
 
 #include <math.h>

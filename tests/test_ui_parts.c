@@ -11,19 +11,19 @@
 #include "field/seam.h"
 #include "system/clock.h"
 
-#include "ui/canvas/ants.h"
+#include "ui/canvas/marching_ants.h"
 #include "ui/canvas/canvas_range.h"
-#include "ui/gui/gui_icons.h"
+#include "ui/toolkit/gui_icons.h"
 #include "ui/jobs/job.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/layout.h"
+#include "ui/state/action_list.h"
+#include "ui/state/keys.h"
+#include "ui/state/layout.h"
 #include "ui/preview/rotation.h"
-#include "ui/gui/screen.h"
-#include "ui/desk/search.h"
-#include "ui/desk/settings.h"
+#include "ui/toolkit/screen.h"
+#include "ui/state/search.h"
+#include "ui/state/settings.h"
 #include "ui/canvas/thumb.h"
-#include "ui/tools/tuning.h"
+#include "ui/tools/preset_overrides.h"
 
 #include <unistd.h>
 
@@ -125,7 +125,7 @@ static void every_icon_has_a_word_where_its_font_is_missing(void **state)
     char *text;
     size_t length;
     int count = 0;
-    assert_true(wr_file_read(WR_SOURCE_DIR "/ui/gui/gui.h", 1 << 20, &text, &length, &err));
+    assert_true(wr_file_read(WR_SOURCE_DIR "/ui/toolkit/gui.h", 1 << 20, &text, &length, &err));
     for (char *at = text; (at = strstr(at, "#define WR_ICON_")); at++, count++) {
         unsigned bytes[3];
         const char *code = strchr(at, '"');
@@ -587,8 +587,8 @@ static void an_outline_is_drawn_on_every_copy_that_is_seen(void **state)
 {
     (void)state;
     WrCanvasView view = ants_view();
-    WrAnts ants = { 0 };
-    wr_ants_add(&ants, square, 4, 0, 0, &view, false, false);
+    WrMarchingAnts ants = { 0 };
+    wr_marching_ants_add(&ants, square, 4, 0, 0, &view, false, false);
     int one = ants.pixels.count;
     assert_int_equal(one, 160); /* four sides of 40 pixels */
     for (int i = 0; i < one; i++) {
@@ -600,14 +600,14 @@ static void an_outline_is_drawn_on_every_copy_that_is_seen(void **state)
         assert_near((double)ants.pixels.data[i].along, i, 1e-3);
     }
     ants.pixels.count = 0;
-    wr_ants_add(&ants, square, 4, 0, 0, &view, true, true);
+    wr_marching_ants_add(&ants, square, 4, 0, 0, &view, true, true);
     int whole = ants.pixels.count;
     assert_true(whole > 5 * one && whole < 9 * one); /* 580 x 460 pixels hold 2.9 x 2.3 cells */
     for (int i = 0; i < whole; i++) {
         SDL_Point p = ants.pixels.data[i].at;
         assert_true(p.x >= 10 && p.x < 590 && p.y >= 20 && p.y < 480);
     }
-    wr_ants_free(&ants);
+    wr_marching_ants_free(&ants);
 }
 
 /* A band round the table: its edges are lines without ends. */
@@ -620,8 +620,8 @@ static void hc73_an_outline_that_runs_round_the_table_goes_on_over_the_edge(void
         for (int i = 0; i < 100; i++) wr_field_set(band, i, j, 1.0f);
     WrOutline outline = { 0 };
     assert_true(wr_select_outline(band, &outline, NULL));
-    WrAnts ants = { 0 };
-    wr_ants_trace(&ants, &outline, &view, true, true);
+    WrMarchingAnts ants = { 0 };
+    wr_marching_ants_trace(&ants, &outline, &view, true, true);
     static bool seen[460][580];
     memset(seen, 0, sizeof seen);
     for (int i = 0; i < ants.pixels.count; i++)
@@ -634,7 +634,7 @@ static void hc73_an_outline_that_runs_round_the_table_goes_on_over_the_edge(void
         full += dots > 0;
     }
     assert_true(full >= 4 && full <= 6); /* two edges on each of two to three copies */
-    wr_ants_free(&ants);
+    wr_marching_ants_free(&ants);
     wr_outline_fini(&outline);
     wr_field_free(band);
 }
@@ -643,16 +643,16 @@ static void a_huge_outline_is_cut_off_and_says_so(void **state)
 {
     (void)state;
     WrCanvasView view = ants_view();
-    WrAnts ants = { 0 };
+    WrMarchingAnts ants = { 0 };
     TestRandom r = { 5 };
     int count = 60000;
     WrSelectPoint *points = wr_alloc((size_t)count, sizeof *points);
     for (int i = 0; i < count; i++) points[i] = (WrSelectPoint){ test_random(&r), test_random(&r) };
-    wr_ants_add(&ants, points, count, 0, 0, &view, true, true);
+    wr_marching_ants_add(&ants, points, count, 0, 0, &view, true, true);
     assert_true(ants.cut);
-    assert_int_equal(ants.pixels.count, WR_ANTS_MAX);
+    assert_int_equal(ants.pixels.count, WR_MARCHING_ANTS_MAX);
     wr_free(points);
-    wr_ants_free(&ants);
+    wr_marching_ants_free(&ants);
 }
 
 /* Zoomed far in, a side of millions of pixels costs what is seen of it. */
@@ -664,12 +664,12 @@ static void only_what_is_seen_of_a_long_side_is_walked(void **state)
     view.zoom = 128;
     view.centre_x = view.centre_y = 8192;
     static const WrSelectPoint big[] = { { 0.5, -40 }, { 0.5, 40 }, { -40, 40 } };
-    WrAnts ants = { 0 };
+    WrMarchingAnts ants = { 0 };
     double began = wr_clock_seconds();
-    wr_ants_add(&ants, big, 3, 0, 0, &view, false, false);
+    wr_marching_ants_add(&ants, big, 3, 0, 0, &view, false, false);
     assert_true(wr_clock_seconds() - began < 0.5);
     assert_true(abs(ants.pixels.count - 460) <= 2);
-    wr_ants_free(&ants);
+    wr_marching_ants_free(&ants);
 }
 
 /* ---- work in the background ---- */

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/pool.h"
 #include "field/field.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 #include "base/vec.h"
 

@@ -3,8 +3,8 @@
 #include "test_session_help.h"
 
 #include "base/memory.h"
-#include "ui/preview/clipped.h"
-#include "ui/preview/picture_put.h"
+#include "ui/preview/overexposure.h"
+#include "ui/preview/picture_upload.h"
 #include "ui/preview/preview.h"
 
 #define SIDE 96
@@ -156,9 +156,9 @@ static void pixels_that_are_full_in_a_colour_are_counted_and_striped(void **stat
         full += bgra[4 * k] == 255 || bgra[4 * k + 1] == 255 || bgra[4 * k + 2] == 255;
     memcpy(before, bgra, sizeof bgra);
     assert_true(full > 20 && full < 200);
-    assert_near(wr_clipped(bgra, WIDE, TALL, false) * WIDE * TALL, full, 1e-9);
+    assert_near(wr_overexposed(bgra, WIDE, TALL, false) * WIDE * TALL, full, 1e-9);
     assert_memory_equal(before, bgra, sizeof bgra);
-    assert_near(wr_clipped(bgra, WIDE, TALL, true) * WIDE * TALL, full, 1e-9);
+    assert_near(wr_overexposed(bgra, WIDE, TALL, true) * WIDE * TALL, full, 1e-9);
     for (int k = 0; k < WIDE * TALL; k++) {
         const uint8_t *a = bgra + 4 * k, *b = before + 4 * k;
         if (b[0] == 255 || b[1] == 255 || b[2] == 255) assert_true(a[1] == 0 && a[0] != b[0]);

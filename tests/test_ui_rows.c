@@ -1,5 +1,5 @@
 /* Every row of every panel, option bar and dialog is changed once by keys and once by the pointer; an error message fails.
-   The rows come from the window's list of widgets (ui/gui/focus.h), the kinds of lights, surfaces, materials and so on from
+   The rows come from the window's list of widgets (ui/toolkit/focus.h), the kinds of lights, surfaces, materials and so on from
    their tables, so that a new row is tested without a line here. */
 #include "test.h"
 
@@ -7,12 +7,12 @@
 
 #include "scene/objects.h"
 #include "scene/scene.h"
-#include "shade/reflect.h"
+#include "shade/reflection.h"
 
-#include "ui/desk/busy.h"
-#include "ui/desk/later.h"
-#include "ui/desk/messages.h"
-#include "ui/gui/focus.h"
+#include "ui/state/busy.h"
+#include "ui/state/deferred_actions.h"
+#include "ui/state/messages.h"
+#include "ui/toolkit/focus.h"
 
 #include <time.h>
 
@@ -37,11 +37,11 @@ static void settle(Walk *walk)
     for (int i = 0; i < 40; i++) {
         walk_frame(walk);
         app->visible = false; /* deferred work does not wait for a drawn picture */
-        wr_later_run(app);
+        wr_deferred_run(app);
         app->visible = true;
         wr_busy_tend(app);
         wr_busy_settle(app);
-        if (i > 1 && !app->busy && !wr_gui_unsettled(app->gui) && !wr_later_waits(app, NULL))
+        if (i > 1 && !app->busy && !wr_gui_unsettled(app->gui) && !wr_deferred_waits(app, NULL))
             return;
     }
 }

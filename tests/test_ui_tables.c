@@ -2,12 +2,12 @@
 #include "test.h"
 
 #include "ui/app/roster_list.h"
-#include "ui/desk/action.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/roster.h"
+#include "ui/state/action.h"
+#include "ui/state/dialog.h"
+#include "ui/state/roster.h"
 #include "ui/tools/tool.h"
-#include "ui/desk/action_list.h"
-#include "ui/generate/generate_hand.h"
+#include "ui/state/action_list.h"
+#include "ui/generate/generate_state.h"
 #include "ui/jobs/files.h"
 
 #include "field/ops.h"

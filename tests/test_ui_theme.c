@@ -3,9 +3,9 @@
 #include "test.h"
 
 #include "accuracy/metrics.h"
-#include "render/frame.h"
-#include "render/ran.h"
-#include "ui/gui/theme.h"
+#include "render/frame/frame.h"
+#include "render/plan/effect_heatmap.h"
+#include "ui/toolkit/theme.h"
 
 #include <math.h>
 
@@ -174,11 +174,11 @@ static void scales_rise_for_all_eyes(void **state)
 static void what_ran_is_told_apart_by_all_eyes(void **state)
 {
     (void)state;
-    WrRanCounts counts = { { 0 } };
+    WrHeatmapCounts counts = { { 0 } };
     uint8_t rgb[256][3];
     WrColour kinds[16];
     int count = 0;
-    wr_ran_colours(&counts, rgb);
+    wr_heatmap_colours(&counts, rgb);
     for (int b = 0; b < WR_MAP_SAMPLES; b++) {
         bool known = false;
         for (int i = 0; i < count; i++) known = known || kinds[i] == packed(rgb[b]);

@@ -3,9 +3,9 @@
 #include "test.h"
 #include "test_app.h"
 
-#include "ui/desk/dialog.h"
-#include "ui/desk/layout.h"
-#include "ui/gui/gui.h"
+#include "ui/state/dialog.h"
+#include "ui/state/layout.h"
+#include "ui/toolkit/gui.h"
 #include "ui/panels/panel_search.h"
 
 #include "document/document.h"

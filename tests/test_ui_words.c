@@ -3,11 +3,11 @@
 
 #include "window_walk.h"
 
-#include "command/table.h"
+#include "command/command_table.h"
 
 #include "ui/app/roster_list.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/keys.h"
+#include "ui/state/action_list.h"
+#include "ui/state/keys.h"
 #include "ui/panels/panel_search.h"
 
 #include <dirent.h>

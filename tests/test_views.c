@@ -8,8 +8,8 @@
 #include "base/memory.h"
 #include "command/session.h"
 #include "command/recovery.h"
-#include "command/table.h"
-#include "document/views.h"
+#include "command/command_table.h"
+#include "document/view_history.h"
 #include "scene/scene.h"
 
 #include <glob.h>

@@ -2,9 +2,9 @@
 #include "test.h"
 
 #include "base/memory.h"
-#include "base/rows.h"
-#include "ui/gui/sentences.h"
-#include "ui/gui/words.h"
+#include "base/enum_rows.h"
+#include "ui/toolkit/sentences.h"
+#include "ui/toolkit/words.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -103,7 +103,7 @@ home() {
 }
 
 # rest: wait until the window has dealt with every event so far and has nothing left to compute or to draw
-# (ui/app/rest.h), or has ended; however long that takes on a busy machine.
+# (ui/app/idle_probe.h), or has ended; however long that takes on a busy machine.
 answers() { grep -c '^at rest ' err; }
 has_answered() { is_gone || [[ $(answers) -gt $1 ]]; }
 rest() {

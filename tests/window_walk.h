@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "brush/preset.h"
 #include "command/session.h"
@@ -18,28 +18,28 @@
 #include "ui/app/app.h"
 #include "ui/app/canvas_view.h"
 #include "ui/app/loop.h"
-#include "ui/app/store.h"
-#include "ui/desk/action.h"
-#include "ui/desk/app_options.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/document.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/replace.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/generate/generate_hand.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/words.h"
+#include "ui/app/app_store.h"
+#include "ui/state/action.h"
+#include "ui/state/app_options.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/document.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/replace.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/generate/generate_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/words.h"
 #include "ui/jobs/files.h"
 #include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panel_status.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
-#include "ui/tools/shelf.h"
+#include "ui/tools/preset_browser.h"
 #include "ui/tools/tool.h"
 
 #include <SDL.h>
@@ -232,13 +232,15 @@ static inline void walk_dialogs(Walk *walk)
     WrApp *app = walk->app;
     walk_each(walk, walk_open_dialog, walk_close_dialog);
     walk_each(walk, walk_open_adjust, walk_close_dialog);
-    const WrLibrary *library = wr_shelf_library(app); /* ours come first; each has curves */
-    if (wr_library_count(library) > 0) wr_shelf_choose(app, wr_library_entry(library, 0)->id);
+    const WrLibrary *library =
+        wr_preset_browser_library(app); /* ours come first; each has curves */
+    if (wr_library_count(library) > 0)
+        wr_preset_browser_choose(app, wr_library_entry(library, 0)->id);
     assert_non_null(app->shelf->preset);
     walk_each(walk, walk_open_preset, NULL);
     walk_each(walk, walk_open_curves, NULL);
     wr_dialog_close(app);
-    wr_shelf_choose(app, WR_ROUND);
+    wr_preset_browser_choose(app, WR_ROUND);
     walk_each(walk, walk_open_unsaved, walk_close_dialog);
 }
 

@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
-#include "render/frame.h"
-#include "render/reference_moved.h"
-#include "render/view.h"
+#include "render/frame/frame.h"
+#include "render/reference/reference_displacement_change.h"
+#include "render/visibility/view.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 

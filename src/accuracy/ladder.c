@@ -1,5 +1,5 @@
 /* Measure the rungs: times interleaved, errors against the reference. */
-#include "accuracy/ladder_inner.h"
+#include "accuracy/ladder_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,7 +1,7 @@
 /* Rungs of arithmetic that contradict their own meaning: more bits, and farther from the reference. That is never
    an approximation's price, it is a fault of the program, and it is told as one. */
-#include "accuracy/ladder_inner.h"
-#include "base/rows.h"
+#include "accuracy/ladder_internal.h"
+#include "base/enum_rows.h"
 #include "scene/scene.h"
 
 #include <math.h>

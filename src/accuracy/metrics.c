@@ -1,7 +1,7 @@
 #include "accuracy/metrics.h"
 
 #include "base/memory.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "shade/bump.h"
 
 #include <math.h>

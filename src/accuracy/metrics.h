@@ -1,7 +1,7 @@
 /* metrics.h - how far a picture is from the reference.
    Layer 6. Linear intensity; R, G and B count alike. Sums in double, in pairs, in a fixed order. */
 #pragma once
-#include "render/reference.h"
+#include "render/reference/reference.h"
 
 #include <stdint.h>
 

@@ -1,6 +1,6 @@
 /* Error against time as a script for gnuplot. Under the plot stands the front as a list, each setting whole: its lines
    are broken and the picture made higher, so that every name is in it. */
-#include "accuracy/plot_place.h"
+#include "accuracy/plot_labels.h"
 #include "accuracy/report.h"
 
 #include "base/memory.h"

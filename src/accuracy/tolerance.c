@@ -1,7 +1,7 @@
 /* A tolerance: blocks climb until it holds. */
 #include "accuracy/tolerance.h"
 
-#include "accuracy/tolerance_inner.h"
+#include "accuracy/tolerance_internal.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"

@@ -29,7 +29,7 @@
    an outline can hide. */
 #pragma once
 #include "base/hash.h"
-#include "render/plan.h"
+#include "render/plan/plan.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -48,7 +48,7 @@ typedef struct WrChoicePart {
     int level;       /* of samples: 1, 2, 4, 8, 16 a side */
     double price;    /* of a sample, with their slopes and normal */
     int64_t blocks;  /* how many there are; those without any of the object are not counted */
-    unsigned kinds;  /* of which kinds of blocks, two bits a kind (tolerance_inner.h) */
+    unsigned kinds;  /* of which kinds of blocks, two bits a kind (tolerance_internal.h) */
     char where[160]; /* "edges, some of the liveliest insides" */
 } WrChoicePart;
 

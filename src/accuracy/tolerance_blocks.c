@@ -1,5 +1,5 @@
 /* A picture as blocks, each with its pictures of one level after the other. */
-#include "accuracy/tolerance_inner.h"
+#include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,6 +1,6 @@
 /* What a block is off, from what one level changes in the one before; and a look at a few blocks far finer, lest two
    levels agree on the same wrong thing. */
-#include "accuracy/tolerance_inner.h"
+#include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

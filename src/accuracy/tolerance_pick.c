@@ -1,5 +1,5 @@
 /* The cheapest pair and level for each block that together keep to the tolerance. */
-#include "accuracy/tolerance_inner.h"
+#include "accuracy/tolerance_internal.h"
 
 #include "base/memory.h"
 

@@ -1,7 +1,7 @@
 /* What samples take, counted and not clocked: so the same picture gets the same dials wherever and whenever it is
    made. */
-#include "accuracy/tolerance_inner.h"
-#include "base/rows.h"
+#include "accuracy/tolerance_internal.h"
+#include "base/enum_rows.h"
 
 /* Nanoseconds of one sample on one thread, by regression over all surfaces, slopes and normals at 512 x 512. What
    matters is how they compare. */

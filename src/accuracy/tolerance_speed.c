@@ -1,5 +1,5 @@
 /* How long a price takes on this machine: measured once and kept, so that the same time buys the same dials. */
-#include "accuracy/tolerance_inner.h"
+#include "accuracy/tolerance_internal.h"
 
 #include "base/cpu.h"
 #include "base/error.h"

@@ -1,7 +1,7 @@
 /* The first look at a picture: one sample a pixel everywhere, 2 x 2 at outlines and on a few of the insides. What
    2 x 2 would change on the others is foretold from how their neighbouring pixels differ, which a smooth inside
    does not do: most of a calm picture is never rendered a second time. */
-#include "accuracy/tolerance_inner.h"
+#include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

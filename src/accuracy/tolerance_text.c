@@ -2,7 +2,7 @@
      2 256x256 turn=0 table=HASH scene=HASH met=yes rms=0.003 max=0.1 parts=central,exact,1,0,3;... blocks=a12b.4
    parts: slopes, normal, level, mesh, kinds. blocks: row by row, a letter for the part, '.' for none, and how many
    of them follow each other. Text that begins with 1 has blocks of twice the side. */
-#include "accuracy/tolerance_inner.h"
+#include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,7 +1,7 @@
 /* One choice for all frames of a turn: chosen on a few of them that lie spread over it, each block with the dearest
    setting that it got on any; looked at on frames between those, where what it is off costs a part of a frame to
    tell. */
-#include "accuracy/tolerance_inner.h"
+#include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

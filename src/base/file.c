@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/stamp.h"
+#include "base/file_identity.h"
 #include "base/text.h"
 #include "system/fd.h"
 #include "system/path.h"

@@ -4,7 +4,7 @@
    first and a last one that tell that it is whole. */
 #include "base/array.h"
 #include "base/error.h"
-#include "base/file_inner.h"
+#include "base/file_internal.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "system/fd.h"

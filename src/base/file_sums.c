@@ -1,4 +1,4 @@
-/* Checksums of what was handed to a file (file_inner.h).
+/* Checksums of what was handed to a file (file_internal.h).
 
    The file is a list of extents without gaps, in the order of their offsets, each with its checksum. What is written at
    the end makes the last extent longer, up to EXTENT bytes. What is written over earlier bytes (an encoder's header, the
@@ -6,7 +6,7 @@
    bytes that stand in the file were compared with the checksum of the whole. So every byte is compared once at least
    with what was handed over, and none is held in memory. */
 #include "base/array.h"
-#include "base/file_inner.h"
+#include "base/file_internal.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/progress.h"

@@ -1,7 +1,7 @@
 /* Files that take the place of others: there whole or not at all. Everything that the program writes goes
    through here. */
 #include "base/error.h"
-#include "base/file_inner.h"
+#include "base/file_internal.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -9,7 +9,7 @@
 #include "system/fd.h"
 #include "system/path.h"
 #include "system/process.h"
-#include "system/rights.h"
+#include "system/file_permissions.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -1,7 +1,7 @@
 #include "base/memory.h"
 
 #include "base/error.h"
-#include "system/pages.h"
+#include "system/large_pages.h"
 #include "system/thread.h"
 
 #include <stdint.h>

@@ -2,7 +2,7 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
-#include "brush/make.h"
+#include "brush/stroke_resolve.h"
 #include "brush/paint.h"
 #include "field/field.h"
 
@@ -53,7 +53,7 @@ void wr_brush_dab(WrField *field, const WrBrush *brush, double u, double v)
 /* Tiles of a shape in a row of tiles, for several threads. */
 typedef struct Filling {
     const WrMaker *maker;
-    WrMake makes[WR_FIELD_MAX / WR_TILE];
+    WrStrokeResolve makes[WR_FIELD_MAX / WR_TILE];
     int count;
 } Filling;
 
@@ -61,7 +61,7 @@ static void fill_one(int index, int worker, void *ctx)
 {
     (void)worker;
     const Filling *filling = ctx;
-    WrMake make = filling->makes[index];
+    WrStrokeResolve make = filling->makes[index];
     const WrMaker *maker = filling->maker;
     /* whole blocks, of which texels beyond the table's edge get nothing */
     float *inside = NULL, *target = NULL;
@@ -73,12 +73,12 @@ static void fill_one(int index, int worker, void *ctx)
         make.cover = inside;
         make.count = (make.count / WR_BRUSH_BLOCK + 1) * WR_BRUSH_BLOCK;
     }
-    if (maker->targets.kind != WR_TARGET_NONE) {
+    if (maker->targets.kind != WR_BLEND_TARGET_NONE) {
         target = wr_alloc(WR_TILE * WR_TILE, sizeof *target);
-        wr_target_tile(&maker->targets, make.tx, make.ty, target);
+        wr_blend_target_tile(&maker->targets, make.tx, make.ty, target);
         make.target = target;
     }
-    wr_make(maker, &make);
+    wr_stroke_resolve(maker, &make);
     wr_free(target);
     wr_free(inside);
 }
@@ -92,13 +92,13 @@ static void fill_row(Filling *filling, const WrField *coverage, int ty, const fl
         const float *cover = wr_field_tile(coverage, tx, ty);
         int width = wr_field_width(coverage) - tx * WR_TILE;
         int height = wr_field_height(coverage) - ty * WR_TILE;
-        WrMake make = { .tx = tx,
-                        .ty = ty,
-                        .high_y = (height < WR_TILE ? height : WR_TILE) - 1,
-                        .count = width < WR_TILE ? width : WR_TILE,
-                        .cover = cover ? cover : flat };
-        if (!wr_make_needed(maker, &make)) continue;
-        wr_make_open(maker, &make);
+        WrStrokeResolve make = { .tx = tx,
+                                 .ty = ty,
+                                 .high_y = (height < WR_TILE ? height : WR_TILE) - 1,
+                                 .count = width < WR_TILE ? width : WR_TILE,
+                                 .cover = cover ? cover : flat };
+        if (!wr_stroke_resolve_needed(maker, &make)) continue;
+        wr_stroke_resolve_open(maker, &make);
         filling->makes[filling->count++] = make;
     }
     wr_pool_run(filling->count > 4 ? maker->ground.pool : NULL, filling->count, fill_one, filling);

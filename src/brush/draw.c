@@ -13,16 +13,16 @@ bool wr_draw_by_motions(const WrBrush *b)
            (b->pressure == WR_PRESSURE_STRENGTH || b->pressure == WR_PRESSURE_NONE);
 }
 
-static WrCoverRule rule_of(const WrBrush *b)
+static WrCoverageRule rule_of(const WrBrush *b)
 {
-    if (b->buildup) return WR_COVER_SUM;
-    return b->preset || b->flow < 1.0 ? WR_COVER_OVER : WR_COVER_MAX;
+    if (b->buildup) return WR_COVERAGE_SUM;
+    return b->preset || b->flow < 1.0 ? WR_COVERAGE_OVER : WR_COVERAGE_MAX;
 }
 
 void wr_draw_init(WrDraw *draw, const WrBrushGround *ground, const WrBrush *brush)
 {
     *draw = (WrDraw){ 0 };
-    wr_cover_init(&draw->cover, ground, brush, rule_of(brush));
+    wr_coverage_init(&draw->cover, ground, brush, rule_of(brush));
     draw->moves =
         wr_mode_work(brush->mode)->move || (brush->preset && wr_preset_smudges(brush->preset));
     WrCopy *copies = wr_alloc(WR_COPIES_MAX, sizeof *copies);
@@ -32,7 +32,7 @@ void wr_draw_init(WrDraw *draw, const WrBrushGround *ground, const WrBrush *brus
 
 void wr_draw_fini(WrDraw *draw)
 {
-    wr_cover_fini(&draw->cover);
+    wr_coverage_fini(&draw->cover);
     wr_mover_fini(&draw->mover);
     wr_free(draw->copies);
     draw->copies = NULL;
@@ -49,7 +49,7 @@ static void add_texel(WrDraw *draw, double x, double y, double pressure)
 {
     WrDabShape shape;
     if (wr_shape_of_texel(draw->cover.maker.ground.field, x, y, pressure, &shape))
-        wr_cover_add(&draw->cover, &shape);
+        wr_coverage_add(&draw->cover, &shape);
 }
 
 /* A line one texel wide: one texel for each column that it passes, or row if it is steep. */
@@ -100,7 +100,7 @@ void wr_draw_motion(WrDraw *draw, double x, double y, double dx, double dy, doub
             draw_line(draw, cx, cy, cdx, cdy, pressure_start, pressure_end - pressure_start);
         else if (wr_shape_of_motion(maker->ground.field, &maker->brush, cx, cy, cdx, cdy,
                                     pressure_start, pressure_end, &shape))
-            wr_cover_add(&draw->cover, &shape);
+            wr_coverage_add(&draw->cover, &shape);
     }
 }
 
@@ -121,7 +121,7 @@ void wr_draw_dab(WrDraw *draw, const WrDab *dab)
             wr_move_dab(&draw->mover, &draw->cover, &shape, dab->radius,
                         c->a * fine.dx + c->b * fine.dy, c->c * fine.dx + c->d * fine.dy, dab->drag,
                         dab->dragged);
-        else wr_cover_add(&draw->cover, &shape);
+        else wr_coverage_add(&draw->cover, &shape);
     }
 }
 
@@ -133,5 +133,5 @@ double wr_draw_height(WrDraw *draw, double x, double y, double radius)
 
 bool wr_draw_finish(WrDraw *draw, double until)
 {
-    return !draw->moves && wr_cover_make(&draw->cover, until);
+    return !draw->moves && wr_coverage_make(&draw->cover, until);
 }

@@ -1,13 +1,13 @@
 /* draw.h - motions and dabs put onto a table, once for each copy that symmetry makes.
    Layer 2, inside this room. */
 #pragma once
-#include "brush/cover.h"
-#include "brush/move.h"
+#include "brush/coverage.h"
+#include "brush/displace_modes.h"
 
 #include <stdbool.h>
 
 typedef struct WrDraw {
-    WrCover cover; /* its maker knows ground and brush */
+    WrCoverage cover; /* its maker knows ground and brush */
     WrMover mover;
     bool moves;     /* dabs change what they find; else they cover */
     WrCopy *copies; /* owned */
@@ -24,5 +24,5 @@ void wr_draw_motion(WrDraw *draw, double x, double y, double dx, double dy, doub
                     double pressure_end);
 void wr_draw_dab(WrDraw *draw, const WrDab *dab);
 double wr_draw_height(WrDraw *draw, double x, double y, double radius);
-/* Make the heights of what was drawn, as wr_cover_make does. */
+/* Make the heights of what was drawn, as wr_coverage_make does. */
 bool wr_draw_finish(WrDraw *draw, double until);

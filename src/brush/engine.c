@@ -15,8 +15,8 @@
 
 #include "base/exactmath.h"
 #include "base/hash.h"
-#include "brush/engine_inner.h"
-#include "brush/preset_inner.h"
+#include "brush/engine_internal.h"
+#include "brush/preset_internal.h"
 
 #define LN2 0.69314718055994530942
 #define LARGE 512.0         /* texels: radii above are scaled down; the library stops at 1000 */

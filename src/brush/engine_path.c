@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "brush/engine_inner.h"
+#include "brush/engine_internal.h"
 
 #define STRIDE 8.0      /* radii and dabs: a call moves no farther, */
 #define NEAR_DAB 4e-6   /* dabs: closer than float can tell them apart */

@@ -1,6 +1,6 @@
 /* The inputs of libmypaint 1.6, in its own order: what of pen and motion can turn a setting. low and high are what a
    curve is drawn over; most inputs go beyond these now and then. */
-#include "brush/preset_inner.h"
+#include "brush/preset_internal.h"
 
 #include "base/error.h"
 

@@ -3,7 +3,7 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "system/path.h"

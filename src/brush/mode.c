@@ -1,9 +1,9 @@
 #include "brush/mode.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <math.h>
 
-#include "brush/move.h"
+#include "brush/displace_modes.h"
 
 const WrModeWork *wr_mode_work(WrBrushMode mode)
 {
@@ -134,15 +134,15 @@ const WrBrushModeInfo wr_brush_modes[WR_BRUSH_MODE_COUNT] = {
     [WR_ROW(WR_BRUSH_CUT)] = { "cut", "Cut peaks", "cuts what stands above a given height down to it",
         false, WR_USES_TO, 0.1, WORK(.cover = cover_cut) },
     [WR_ROW(WR_BRUSH_ERASE)] = { "erase", "Erase", "takes away what the layer does to those below",
-        false, 0, 0.1, WORK(.cover = cover_target, .target = WR_TARGET_BELOW, .lowers_mark = true) },
+        false, 0, 0.1, WORK(.cover = cover_target, .target = WR_BLEND_TARGET_BELOW, .lowers_mark = true) },
     [WR_ROW(WR_BRUSH_CLONE)] = { "clone", "Clone", "brings the heights from another place",
-        false, WR_USES_SOURCE, 0.1, WORK(.cover = cover_target, .target = WR_TARGET_SHIFTED) },
+        false, WR_USES_SOURCE, 0.1, WORK(.cover = cover_target, .target = WR_BLEND_TARGET_SHIFTED) },
     [WR_ROW(WR_BRUSH_SHARPEN)] = { "sharpen", "Sharpen", "moves the height away from the mean around it",
-        false, WR_USES_REACH, 0.1, WORK(.cover = cover_sharpen, .target = WR_TARGET_SHARP) },
+        false, WR_USES_REACH, 0.1, WORK(.cover = cover_sharpen, .target = WR_BLEND_TARGET_SHARP) },
     [WR_ROW(WR_BRUSH_DILATE)] = { "dilate", "Dilate", "widens what is high: to the largest height around",
-        false, WR_USES_REACH, 0.1, WORK(.cover = cover_target, .target = WR_TARGET_LARGEST) },
+        false, WR_USES_REACH, 0.1, WORK(.cover = cover_target, .target = WR_BLEND_TARGET_LARGEST) },
     [WR_ROW(WR_BRUSH_ERODE)] = { "erode", "Erode", "widens what is low: to the smallest height around",
-        false, WR_USES_REACH, 0.1, WORK(.cover = cover_target, .target = WR_TARGET_SMALLEST) },
+        false, WR_USES_REACH, 0.1, WORK(.cover = cover_target, .target = WR_BLEND_TARGET_SMALLEST) },
     [WR_ROW(WR_BRUSH_SMOOTH)] = { "smooth", "Smooth", "lets heights flow to lower ones nearby; their mean stays",
         true, WR_USES_REACH, 0.25, WORK(.move = wr_move_smooth) },
     [WR_ROW(WR_BRUSH_LEVEL)] = { "level", "Level", "brings heights to the plane that fits them best",

@@ -2,19 +2,19 @@
    Layer 2, inside this room. */
 #pragma once
 #include "brush/brush.h"
-#include "brush/kern.h"
+#include "brush/brush_kernels.h"
 
 #include <stdbool.h>
 
 /* Where a covering mode's `target` comes from; of the table as it was when the stroke began. */
-typedef enum WrTargetKind {
-    WR_TARGET_NONE,
-    WR_TARGET_BELOW,   /* what lies below the layer */
-    WR_TARGET_SHIFTED, /* the height at the clone's source */
-    WR_TARGET_SHARP,   /* as far beyond the height as the mean within reach is before it */
-    WR_TARGET_LARGEST, /* within reach */
-    WR_TARGET_SMALLEST
-} WrTargetKind;
+typedef enum WrBlendTargetKind {
+    WR_BLEND_TARGET_NONE,
+    WR_BLEND_TARGET_BELOW,   /* what lies below the layer */
+    WR_BLEND_TARGET_SHIFTED, /* the height at the clone's source */
+    WR_BLEND_TARGET_SHARP,   /* as far beyond the height as the mean within reach is before it */
+    WR_BLEND_TARGET_LARGEST, /* within reach */
+    WR_BLEND_TARGET_SMALLEST
+} WrBlendTargetKind;
 
 typedef struct WrModeArgs {
     double strength; /* finite */
@@ -26,18 +26,18 @@ typedef struct WrModeArgs {
 /* out[i] = what the height start[i] becomes where the part is part[i] >= 0: of selection, opacity and the
  * stroke's coverage; at most 1 unless args->grows. Where it is 0, start's bits. Finite. target: NULL
  * unless the mode has a kind. count: whole blocks. */
-typedef void (*WrCoverMode)(const WrModeArgs *args, const float *start, const float *part,
-                            const float *target, int count, float *out);
+typedef void (*WrCoverageMode)(const WrModeArgs *args, const float *start, const float *part,
+                               const float *target, int count, float *out);
 
-struct WrMoveBox; /* move.h */
+struct WrMoveBox; /* displace_modes.h */
 /* Change the heights of a dab's box. */
 typedef void (*WrMoveMode)(struct WrMoveBox *box);
 /* Of a dab's radius and its way from the one before, in texels. */
 typedef double (*WrMoveMargin)(double radius, double way_x, double way_y);
 
 typedef struct WrModeWork {
-    WrCoverMode cover; /* NULL for moving modes */
-    WrTargetKind target;
+    WrCoverageMode cover; /* NULL for moving modes */
+    WrBlendTargetKind target;
     WrMoveMode move;     /* NULL for covering ones */
     WrMoveMargin margin; /* moving: texels beside the dab that it reads; NULL: one */
     bool first_height;   /* `to` is the height under the stroke's first sample */

@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "brush/move.h"
+#include "brush/displace_modes.h"
 
 #define PULL 0.2 /* of the distance to the path, that one dab of pinch draws heights inwards */
 

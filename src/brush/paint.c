@@ -81,8 +81,9 @@ bool wr_paint_is_plain(const WrBrush *brush)
 {
     const WrModeWork *work = wr_mode_work(brush->mode);
     const WrSymmetry *s = &brush->symmetry;
-    return wr_draw_by_motions(brush) && work->target == WR_TARGET_NONE && !work->first_height &&
-           !s->mirror_u && !s->mirror_v && s->radial <= 1 && s->repeat_u <= 1 && s->repeat_v <= 1;
+    return wr_draw_by_motions(brush) && work->target == WR_BLEND_TARGET_NONE &&
+           !work->first_height && !s->mirror_u && !s->mirror_v && s->radial <= 1 &&
+           s->repeat_u <= 1 && s->repeat_v <= 1;
 }
 
 /* A single dab makes heights in place. */

@@ -1,6 +1,6 @@
 #include "base/error.h"
 #include "base/exactmath.h"
-#include "brush/preset_inner.h"
+#include "brush/preset_internal.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "base/hash.h"
 #include "base/suggest.h"
 #include "base/text.h"
-#include "brush/preset_inner.h"
+#include "brush/preset_internal.h"
 
 #include <json-c/json.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/text.h"
-#include "brush/preset_inner.h"
+#include "brush/preset_internal.h"
 
 #include <math.h>
 #include <string.h>

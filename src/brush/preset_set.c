@@ -1,7 +1,7 @@
 /* Presets made from others by a text: base values, "slow_tracking=2", and curves, "opaque:pressure=0,0|0.4,0.1|1,1". */
 #include "base/error.h"
 #include "base/text.h"
-#include "brush/preset_inner.h"
+#include "brush/preset_internal.h"
 
 #include <math.h>
 #include <string.h>

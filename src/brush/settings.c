@@ -1,7 +1,7 @@
 /* The settings of libmypaint 1.6, in its own order, and what each means for heights. low and high are the
    library's, but tighter where a stroke could become endless (dabs_per_..._radius) or paint nothing
    (hardness: at 0 the whole dab is edge). */
-#include "brush/preset_inner.h"
+#include "brush/preset_internal.h"
 
 #include "base/error.h"
 

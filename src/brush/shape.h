@@ -3,7 +3,7 @@
 #pragma once
 #include "brush/brush.h"
 #include "brush/dab.h"
-#include "brush/kern.h"
+#include "brush/brush_kernels.h"
 #include "brush/tip.h"
 
 #include <stdbool.h>
@@ -43,5 +43,5 @@ bool wr_shape_of_dab(const WrField *field, const WrTip *tip, const WrDab *dab, c
 /* The columns *low .. *high outside of which it does not reach on row y, a little wide and not rounded;
  * false if it misses the row. */
 bool wr_shape_span(const WrDabShape *shape, double y, double *low, double *high);
-/* fresh[i] = coverage of texel (x + i, y); count as in kern.h. */
+/* fresh[i] = coverage of texel (x + i, y); count as in brush_kernels.h. */
 void wr_shape_row(const WrDabShape *shape, double y, double x, int count, float *fresh);

@@ -2,7 +2,7 @@
 #include "brush/draw.h"
 #include "brush/engine.h"
 #include "brush/paint.h"
-#include "brush/spaced.h"
+#include "brush/dab_spacing.h"
 #include "field/field.h"
 #include "system/clock.h"
 

@@ -1,4 +1,4 @@
-#include "brush/tip_inner.h"
+#include "brush/tip_internal.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"

@@ -1,7 +1,7 @@
 /* GIMP's .gbr: one picture. Big-endian numbers of 32 bits: length of the header, version, width, height,
    bytes a pixel (1: grey, 255 is full paint; 4: RGBA), in version 2 also "GIMP" and the spacing in per
    cent of the width; then the name and a NUL to the header's end, then the pixels, the top row first. */
-#include "brush/tip_inner.h"
+#include "brush/tip_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

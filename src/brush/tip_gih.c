@@ -2,7 +2,7 @@
    pictures as .gbr files one after the other. The words that count: dim (ranks), rank0.. (how many along
    each), sel0.. or selection (how the next one is chosen). The cells lie in ranks as the digits of a
    number do, rank 0 first. */
-#include "brush/tip_inner.h"
+#include "brush/tip_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -9,7 +9,7 @@
    Where codes differ by over 1.5 from one pixel to the next there is an edge or a grain, no stair: such
    pixels keep their code, and the smaller pictures have a hole (NaN) there, so that nothing spreads over
    an edge: what is black beside one stays exactly black. */
-#include "brush/tip_inner.h"
+#include "brush/tip_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -4,7 +4,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "brush/brush.h"
-#include "brush/peer.h"
+#include "brush/bench_libmypaint.h"
 #include "cli/bench.h"
 #include "field/field.h"
 #include "system/clock.h"

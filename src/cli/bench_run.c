@@ -6,7 +6,7 @@
 #include "cli/bench.h"
 #include "command/session.h"
 #include "field/field.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 #include "system/clock.h"
 

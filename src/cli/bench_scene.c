@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/hash.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "cli/bench.h"
 #include "field/field.h"
 #include "image/image.h"

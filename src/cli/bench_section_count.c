@@ -7,7 +7,7 @@
    pixel; of anything else no number is told. */
 #include "cli/bench_sections.h"
 #include "image/image.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "cli/bench.h"
 #include "cli/bench_sections.h"
 #include "field/field.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 #include "system/clock.h"
 

@@ -3,7 +3,7 @@
    Layer 7, private to bench_section*.c and cmd_bench.c. */
 #pragma once
 #include "cli/bench_peak.h"
-#include "render/plan.h"
+#include "render/plan/plan.h"
 
 #include <stdbool.h>
 #include <stdint.h>

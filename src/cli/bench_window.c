@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "system/clock.h"
-#include "system/pages.h"
+#include "system/large_pages.h"
 #include "system/path.h"
 #include "system/process.h"
 

@@ -6,7 +6,7 @@
 #include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 #include "cli/brush_sample.h"
 #include "cli/brushes.h"
 #include "image/image.h"
-#include "image/label.h"
+#include "image/caption.h"
 #include "system/process.h"
 
 #include <string.h>

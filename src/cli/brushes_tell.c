@@ -1,7 +1,7 @@
 /* One preset in words. */
 #include "cli/brushes.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "brush/tip.h"
 

@@ -1,14 +1,14 @@
 #include "cli/cli.h"
 
-#include "accuracy/saving.h"
+#include "accuracy/effect_savings.h"
 #include "accuracy/tolerance.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "cli/explain_map.h"
 #include "command/session.h"
-#include "render/frame.h"
-#include "render/plan.h"
-#include "render/ran.h"
+#include "render/frame/frame.h"
+#include "render/plan/plan.h"
+#include "render/plan/effect_heatmap.h"
 #include "scene/dials.h"
 
 /* {"blocks":n,"share":0.12,"where":"edges","bump":"mode=...","dials":"aa=..."} */
@@ -81,8 +81,8 @@ typedef struct Told {
     const WrPlan *plan;
     const WrChoice *choice;
     const WrFrame *frame;
-    const WrSaving *savings; /* [WR_EFFECT_COUNT]; NULL: not asked for */
-    const WrRanCounts *map;  /* likewise */
+    const WrSaving *savings;    /* [WR_EFFECT_COUNT]; NULL: not asked for */
+    const WrHeatmapCounts *map; /* likewise */
 } Told;
 
 static void add_json_seconds(WrText *text, const char *name, bool there, double seconds)
@@ -231,7 +231,7 @@ static bool explain(const WrCli *cli, WrSession *session, WrText *text, WrError 
     WrFrame frame;
     WrPlan plan;
     WrSaving savings[WR_EFFECT_COUNT];
-    WrRanCounts map;
+    WrHeatmapCounts map;
     if (!wr_session_frame(session, cli->width, cli->height, 0, &frame, err)) return false;
     plan = *frame.plan; /* of the first picture, whatever is drawn after it */
     if (cli->measure && !wr_session_savings(session, cli->width, cli->height, 0, savings, err))

@@ -5,12 +5,12 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/stamp.h"
+#include "base/file_identity.h"
 #include "base/text.h"
 #include "command/session.h"
 #include "export/export.h"
-#include "export/sets.h"
-#include "system/watch.h"
+#include "export/map_sets.h"
+#include "system/file_watch.h"
 
 #include <errno.h>
 #include <string.h>

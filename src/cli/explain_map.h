@@ -5,14 +5,14 @@
 
 typedef struct WrCli WrCli;
 typedef struct WrError WrError;
-typedef struct WrRanCounts WrRanCounts;
+typedef struct WrHeatmapCounts WrHeatmapCounts;
 typedef struct WrSession WrSession;
 typedef struct WrText WrText;
 
 /* Is cli->map a name that such a picture can have? */
 bool wr_map_check(const WrCli *cli, WrError *err);
 /* Draw the session's picture, and write what each of its pixels took to cli->map. */
-bool wr_map_write(const WrCli *cli, WrSession *session, WrRanCounts *counts, WrError *err);
+bool wr_map_write(const WrCli *cli, WrSession *session, WrHeatmapCounts *counts, WrError *err);
 /* A line, or an element of an array, for each colour that is there. */
-void wr_map_legend(const WrRanCounts *counts, WrText *text);
-void wr_map_legend_json(const WrRanCounts *counts, WrText *text);
+void wr_map_legend(const WrHeatmapCounts *counts, WrText *text);
+void wr_map_legend_json(const WrHeatmapCounts *counts, WrText *text);

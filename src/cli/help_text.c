@@ -3,8 +3,8 @@
 #include "base/text.h"
 #include "command/help.h"
 #include "export/export.h"
-#include "export/sets.h"
-#include "render/plan.h"
+#include "export/map_sets.h"
+#include "render/plan/plan.h"
 
 #include <stdio.h>
 #include <string.h>

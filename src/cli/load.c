@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/suggest.h"
 #include "command/session.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "system/path.h"
 #include "system/process.h"
 

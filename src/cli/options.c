@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/suggest.h"
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "export/export.h"
 #include "system/path.h"
 

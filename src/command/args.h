@@ -2,7 +2,7 @@
    rooms.
    Layer 6, private to src/command. */
 #pragma once
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include <stdbool.h>
 

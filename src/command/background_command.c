@@ -1,5 +1,5 @@
 /* What stands behind the objects. */
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"

@@ -1,12 +1,12 @@
 /* From where the scene is looked at: placed, moved, and kept under names. */
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
 #include "command/scene_args.h"
 #include "document/document.h"
-#include "scene/aim.h"
+#include "scene/camera_control.h"
 #include "scene/named_view.h"
 #include "scene/param.h"
 #include "scene/scene.h"
@@ -159,20 +159,22 @@ static bool run_move(WrCall *call, WrScene *scene, WrError *err)
 {
     const double *by;
     switch (call->form) {
-    case FORM_FROM: wr_aim_side(scene, (WrSide)wr_call_choice(call, "SIDE")); return true;
+    case FORM_FROM:
+        wr_camera_control_side(scene, (WrSide)wr_call_choice(call, "SIDE"));
+        return true;
     case FORM_ORBIT:
         by = wr_call_arg(call, "right,up")->numbers;
-        wr_aim_orbit(scene, by[0], by[1]);
+        wr_camera_control_orbit(scene, by[0], by[1]);
         return true;
     case FORM_PAN:
         by = wr_call_arg(call, "right,up")->numbers;
-        return wr_aim_pan(scene, by[0], by[1], wr_call_number(call, "aspect"), err);
+        return wr_camera_control_pan(scene, by[0], by[1], wr_call_number(call, "aspect"), err);
     case FORM_DOLLY:
-        return wr_aim_dolly(scene, wr_call_number(call, "factor"), wr_call_number(call, "aspect"),
-                            err);
+        return wr_camera_control_dolly(scene, wr_call_number(call, "factor"),
+                                       wr_call_number(call, "aspect"), err);
     case FORM_FILL:
         by = wr_call_arg(call, "turn")->numbers;
-        return wr_aim_fill(scene, wr_call_number(call, "aspect"), by[0], by[1], err);
+        return wr_camera_control_fill(scene, wr_call_number(call, "aspect"), by[0], by[1], err);
     case FORM_SAVE: return run_save(call, scene, err);
     case FORM_USE:
     case FORM_FORGET: return run_named(call, scene, err);

@@ -1,10 +1,10 @@
 /* `colouring`: colours by height, slope and cavity, and the picture that is made of them, anew whenever what they go by has changed. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
@@ -27,7 +27,7 @@ enum { FORM_RAMP, FORM_OFF, COLOURING_FORMS };
 static const WrPatches *form_of(const WrScene *object)
 {
     const bool form =
-        object->colouring.of == WR_COLOURING_FORM && object->shape.kind == WR_SURFACE_terrain;
+        object->colouring.of == WR_HEIGHT_COLORMAP_FORM && object->shape.kind == WR_SURFACE_terrain;
     return form && object->triangles ? object->triangles->patches : NULL;
 }
 
@@ -50,7 +50,7 @@ static WrImage *made_by_table(const WrSession *session, const WrScene *object, W
     WrField *own =
         layer >= 0 ? wr_document_layer_alone(document, layer, session->options.pool) : NULL;
     const WrField *field = own ? own : wr_document_composite(document, session->options.pool);
-    WrImage *made = wr_colouring_table(&object->colouring, field, object->height, err);
+    WrImage *made = wr_height_colormap_table(&object->colouring, field, object->height, err);
     wr_field_free(own);
     return made;
 }
@@ -63,24 +63,25 @@ static int side_of(int size)
 static WrImage *made_by_form(const WrSession *session, const WrScene *object, WrError *err)
 {
     const WrField *like = session->state.document->layers[0].heights;
-    return wr_colouring_form(&object->colouring, form_of(object), object->shape.value[2],
-                             side_of(wr_field_width(like)), side_of(wr_field_height(like)), err);
+    return wr_height_colormap_form(&object->colouring, form_of(object), object->shape.value[2],
+                                   side_of(wr_field_width(like)), side_of(wr_field_height(like)),
+                                   err);
 }
 
-bool wr_colouring_lags(const WrSession *session, const WrScene *object)
+bool wr_height_colormap_lags(const WrSession *session, const WrScene *object)
 {
     return object->colouring.count > 0 && object->colouring.key != key_of(session, object);
 }
 
-bool wr_colouring_make(const WrSession *session, WrScene *object, WrError *err)
+bool wr_height_colormap_make(const WrSession *session, WrScene *object, WrError *err)
 {
     const bool form = form_of(object) != NULL;
     WrImage *made = form ? made_by_form(session, object, err) : made_by_table(session, object, err);
     if (!made) return false;
     wr_image_free(object->colour);
-    wr_laid_fini(&object->colour_laid);
+    wr_texture_sample_fini(&object->colour_laid);
     object->colour = made;
-    object->colour_laid = (WrLaid){ .own = form, .ru = form, .rv = form };
+    object->colour_laid = (WrTextureSample){ .own = form, .ru = form, .rv = form };
     object->colouring.key = key_of(session, object);
     return true;
 }
@@ -97,7 +98,7 @@ static void print_rgb(const double rgb[3], WrText *text)
 
 static void print_colouring(const WrScene *scene, WrText *text)
 {
-    const WrColouring *own = &scene->colouring;
+    const WrHeightColormap *own = &scene->colouring;
     if (own->count == 0) return;
     wr_text_add(text, "colouring ramp stops=");
     for (int i = 0; i < own->count; i++) {
@@ -124,10 +125,10 @@ static void print_colouring(const WrScene *scene, WrText *text)
         wr_text_add(text, " within=");
         wr_text_add_number(text, own->within);
     }
-    wr_text_addf(text, " of=%s\n", wr_colouring_names[own->of]);
+    wr_text_addf(text, " of=%s\n", wr_height_colormap_names[own->of]);
 }
 
-static bool take_stops(const WrArg *list, WrColouring *to, WrError *err)
+static bool take_stops(const WrArg *list, WrHeightColormap *to, WrError *err)
 {
     for (int i = 0; i < list->rows; i++) {
         const double *row = list->numbers + 4 * (size_t)i;
@@ -140,7 +141,7 @@ static bool take_stops(const WrArg *list, WrColouring *to, WrError *err)
     return true;
 }
 
-static bool take_hollows(const WrCall *call, WrColouring *to, WrError *err)
+static bool take_hollows(const WrCall *call, WrHeightColormap *to, WrError *err)
 {
     if (wr_call_given(call, "cavity")) {
         to->hollow = true;
@@ -156,11 +157,11 @@ static bool take_hollows(const WrCall *call, WrColouring *to, WrError *err)
 
 static bool take_ramp(const WrSession *session, const WrCall *call, WrScene *scene, WrError *err)
 {
-    WrColouring *to = &scene->colouring;
+    WrHeightColormap *to = &scene->colouring;
     const bool terrain = scene->shape.kind == WR_SURFACE_terrain;
     if (to->count == 0) {
-        wr_colouring_default(to);
-        to->of = terrain ? WR_COLOURING_FORM : WR_COLOURING_TABLE;
+        wr_height_colormap_default(to);
+        to->of = terrain ? WR_HEIGHT_COLORMAP_FORM : WR_HEIGHT_COLORMAP_TABLE;
     }
     if (wr_call_given(call, "stops") && !take_stops(wr_call_arg(call, "stops"), to, err))
         return false;
@@ -173,8 +174,8 @@ static bool take_ramp(const WrSession *session, const WrCall *call, WrScene *sce
     if (to->slope[1] < to->slope[0])
         return wr_fail(err, "slope=%g,%g: the second must not be less", to->slope[0], to->slope[1]);
     if (!take_hollows(call, to, err)) return false;
-    if (wr_call_given(call, "of")) to->of = (WrColouringOf)wr_call_choice(call, "of");
-    if (to->of == WR_COLOURING_FORM && !terrain && !session->loading)
+    if (wr_call_given(call, "of")) to->of = (WrHeightColormapOf)wr_call_choice(call, "of");
+    if (to->of == WR_HEIGHT_COLORMAP_FORM && !terrain && !session->loading)
         return wr_fail(err, "of=form: only a terrain has one (`surface terrain`)");
     to->key = 0;
     return true;

@@ -1,7 +1,7 @@
 /* The one list of commands. */
 #include "command/commands.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "command/args.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
    its printer are too.
    Layer 6, private to src/command. */
 #pragma once
-#include "command/table.h"
+#include "command/command_table.h"
 
 extern const WrCommand wr_command_table, wr_command_fill, wr_command_grid, wr_command_image,
     wr_command_dab, wr_command_stroke, wr_command_shape, wr_command_flood, wr_command_ramp,

@@ -1,6 +1,6 @@
 /* The surroundings as a light. */
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/args.h"
@@ -19,9 +19,10 @@ static const char *const set_words[] = { "off", "studio", "sky", "raking", NULL 
 void wr_print_environment(const WrScene *scene, bool named, WrText *text)
 {
     const WrEnvironment *own = &scene->environment;
-    if (own->kind == WR_SURROUND_OFF) return;
+    if (own->kind == WR_ENVIRONMENT_MAP_OFF) return;
     wr_text_add(text, "environment");
-    if (own->kind != WR_SURROUND_FILE) wr_text_addf(text, " %s", wr_surround_names[own->kind]);
+    if (own->kind != WR_ENVIRONMENT_MAP_FILE)
+        wr_text_addf(text, " %s", wr_environment_map_names[own->kind]);
     else if (named) wr_text_add(text, " "), wr_text_add_word(text, own->path);
     wr_print_word("channel", own->channel, text);
     wr_print_word("part", own->part, text);
@@ -35,7 +36,7 @@ static void print_environment(const WrScene *scene, WrText *text)
     wr_print_environment(scene, true, text);
 }
 
-static void note_told(WrSession *session, const char *name, const WrSurroundTold *told)
+static void note_told(WrSession *session, const char *name, const WrEnvironmentMapTold *told)
 {
     if (told->lost)
         wr_session_note(session, "%s: %lld numbers that are none became 0", name,
@@ -47,7 +48,7 @@ static void note_told(WrSession *session, const char *name, const WrSurroundTold
                         (long long)told->above);
     if (told->reduced > 1)
         wr_session_note(session, "%s: more than %d texels wide: each is the mean of %d x %d", name,
-                        WR_SURROUND_WIDTH, told->reduced, told->reduced);
+                        WR_ENVIRONMENT_MAP_WIDTH, told->reduced, told->reduced);
 }
 
 /* Inside a document the picture that it carries, else the file's. The caller frees it. */
@@ -69,33 +70,33 @@ static WrImage *find_picture(WrSession *session, WrCall *call, const char *name,
     return image;
 }
 
-static WrSurround *read_file(WrSession *session, WrCall *call, const char *name, WrError *err)
+static WrEnvironmentMap *read_file(WrSession *session, WrCall *call, const char *name, WrError *err)
 {
-    WrSurroundTold told;
+    WrEnvironmentMapTold told;
     WrImage *image = find_picture(session, call, name, err);
     if (!image) return NULL;
-    WrSurround *light = wr_surround_new(image, &told, err);
+    WrEnvironmentMap *light = wr_environment_map_new(image, &told, err);
     wr_image_free(image);
     if (light) note_told(session, name, &told);
     return light;
 }
 
-static WrSurroundKind kind_of(const char *name)
+static WrEnvironmentMapKind kind_of(const char *name)
 {
     for (int i = 0; set_words[i]; i++)
-        if (strcmp(name, set_words[i]) == 0) return (WrSurroundKind)i;
-    return WR_SURROUND_FILE;
+        if (strcmp(name, set_words[i]) == 0) return (WrEnvironmentMapKind)i;
+    return WR_ENVIRONMENT_MAP_FILE;
 }
 
 static bool take_light(WrSession *session, WrCall *call, const char *name, WrEnvironment *to,
                        WrError *err)
 {
-    const WrSurroundKind kind = kind_of(name);
-    const bool file = kind == WR_SURROUND_FILE;
-    WrSurround *light = NULL;
+    const WrEnvironmentMapKind kind = kind_of(name);
+    const bool file = kind == WR_ENVIRONMENT_MAP_FILE;
+    WrEnvironmentMap *light = NULL;
     if (file) light = read_file(session, call, name, err);
-    else if (kind != WR_SURROUND_OFF) light = wr_surround_built(kind, err);
-    if (!light && kind != WR_SURROUND_OFF) return false;
+    else if (kind != WR_ENVIRONMENT_MAP_OFF) light = wr_environment_map_built(kind, err);
+    if (!light && kind != WR_ENVIRONMENT_MAP_OFF) return false;
     wr_environment_set(to, kind, light, file ? name : NULL,
                        file ? wr_call_arg(call, "sha256")->text : NULL);
     const WrImageWish wish = wr_call_wish(call);
@@ -108,14 +109,14 @@ static bool check_line(const WrCall *call, const WrScene *now, const char *name,
 {
     static const char *const of_file[] = { "layer", "part", "sha256" };
     static const char *const of_light[] = { "turn", "strength" };
-    const WrSurroundKind kind = name ? kind_of(name) : WR_SURROUND_OFF;
-    if (!name && now->environment.kind == WR_SURROUND_OFF)
+    const WrEnvironmentMapKind kind = name ? kind_of(name) : WR_ENVIRONMENT_MAP_OFF;
+    if (!name && now->environment.kind == WR_ENVIRONMENT_MAP_OFF)
         return wr_fail(err, "there are no surroundings: name some");
     for (int i = 0; i < 3; i++)
-        if (kind != WR_SURROUND_FILE && wr_call_given(call, of_file[i]))
+        if (kind != WR_ENVIRONMENT_MAP_FILE && wr_call_given(call, of_file[i]))
             return wr_fail(err, "only a line that names a file takes %s=", of_file[i]);
     for (int i = 0; i < 2; i++)
-        if (name && kind == WR_SURROUND_OFF && wr_call_given(call, of_light[i]))
+        if (name && kind == WR_ENVIRONMENT_MAP_OFF && wr_call_given(call, of_light[i]))
             return wr_fail(err, "off takes no %s=", of_light[i]);
     return true;
 }

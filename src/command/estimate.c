@@ -3,7 +3,7 @@
 #include "command/estimate.h"
 
 #include "base/error.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "scene/scene.h"

@@ -2,7 +2,7 @@
    takes is told while it runs (wr_progress_left).
    Layer 6. */
 #pragma once
-#include "command/call.h"
+#include "command/command_line.h"
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 /* generate.h - what a command line of one of the generators' families describes: `pattern bricks across=6`.
    Layer 6. */
 #pragma once
-#include "command/call.h"
+#include "command/command_line.h"
 
 #include <stdbool.h>
 
@@ -12,7 +12,7 @@ typedef struct WrLayer WrLayer;
 typedef struct WrParamValue WrParamValue;
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
-typedef struct WrRelief WrRelief;
+typedef struct WrNormalMips WrNormalMips;
 
 /* The generator that the line names, or NULL if its verb is no family. */
 const WrGenerator *wr_call_generator(const WrCall *call);
@@ -31,5 +31,5 @@ char *wr_generator_text(const char *text);
 
 /* What the line's generator made joins a layer, as the line's other arguments say, within `selection` (NULL:
  * everywhere). False: cancelled, and the layer is half done. */
-bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *selection,
+bool wr_call_join(const WrCall *call, const WrNormalMips *relief, const WrField *selection,
                   WrLayer *layer, WrPool *pool, const WrProgress *progress, WrError *err);

@@ -1,5 +1,5 @@
 /* The command gltf: the material of a glTF file, on the object at hand. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -8,7 +8,7 @@
 #include "command/args.h"
 #include "command/commands.h"
 #include "document/document.h"
-#include "image/gltf_look.h"
+#include "image/gltf_material.h"
 #include "scene/scene.h"
 
 #include <string.h>

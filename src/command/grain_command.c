@@ -5,15 +5,15 @@
 #include "command/scene_args.h"
 #include "document/document.h"
 #include "scene/scene.h"
-#include "shade/grain.h"
+#include "shade/solid_texture.h"
 
 #include <string.h>
 
 /* Is there none, and were none of its numbers ever touched? */
-static bool untouched(const WrGrain *grain)
+static bool untouched(const WrSolidTexture *grain)
 {
-    const WrGrain *usual = &wr_grains[WR_GRAIN_OFF].usual;
-    return grain->kind == WR_GRAIN_OFF && grain->axis == usual->axis &&
+    const WrSolidTexture *usual = &wr_grains[WR_SOLID_TEXTURE_OFF].usual;
+    return grain->kind == WR_SOLID_TEXTURE_OFF && grain->axis == usual->axis &&
            grain->drives == usual->drives &&
            memcmp(grain->light, usual->light, sizeof grain->light) == 0 &&
            memcmp(grain->dark, usual->dark, sizeof grain->dark) == 0 &&
@@ -26,11 +26,12 @@ static bool untouched(const WrGrain *grain)
 
 static void print_grain(const WrScene *scene, WrText *text)
 {
-    const WrGrain *grain = &scene->grain;
+    const WrSolidTexture *grain = &scene->grain;
     if (untouched(grain)) return;
-    wr_text_addf(text, "grain %s axis=%s", wr_grains[grain->kind].name, wr_grain_axes[grain->axis]);
-    if (grain->drives != WR_GRAIN_COLOURS)
-        wr_text_addf(text, " drives=%s", wr_grain_drives[grain->drives]);
+    wr_text_addf(text, "grain %s axis=%s", wr_grains[grain->kind].name,
+                 wr_solid_texture_axes[grain->axis]);
+    if (grain->drives != WR_SOLID_TEXTURE_COLOURS)
+        wr_text_addf(text, " drives=%s", wr_solid_texture_drives[grain->drives]);
     wr_scene_print_params("grain", NULL, scene, text);
     wr_text_add(text, "\n");
 }
@@ -40,10 +41,10 @@ static bool run_grain(WrSession *session, WrCall *call, WrError *err)
     (void)err;
     const WrArg *kind = wr_call_arg(call, "KIND");
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    WrGrain *grain = &scene->grain;
+    WrSolidTexture *grain = &scene->grain;
     if (kind->given && kind->choice != (int)grain->kind) *grain = wr_grains[kind->choice].usual;
     wr_scene_take(call, NULL, scene);
-    if (wr_call_given(call, "axis")) grain->axis = (WrGrainAxis)wr_call_choice(call, "axis");
+    if (wr_call_given(call, "axis")) grain->axis = (WrSolidTextureAxis)wr_call_choice(call, "axis");
     if (wr_call_given(call, "drives")) grain->drives = 1 + wr_call_choice(call, "drives");
     wr_session_replace_scene(session, scene);
     return true;
@@ -51,17 +52,17 @@ static bool run_grain(WrSession *session, WrCall *call, WrError *err)
 
 static const char *axis_choice(int i)
 {
-    return i < WR_GRAIN_AXES ? wr_grain_axes[i] : NULL;
+    return i < WR_SOLID_TEXTURE_AXES ? wr_solid_texture_axes[i] : NULL;
 }
 
 static const char *drive_choice(int i)
 {
-    return i + 1 < WR_GRAIN_DRIVES ? wr_grain_drives[i + 1] : NULL;
+    return i + 1 < WR_SOLID_TEXTURE_DRIVES ? wr_solid_texture_drives[i + 1] : NULL;
 }
 
 static const char *kind_choice(int i)
 {
-    return i < WR_GRAIN_KINDS ? wr_grains[i].name : NULL;
+    return i < WR_SOLID_TEXTURE_KINDS ? wr_grains[i].name : NULL;
 }
 
 static bool row_grain(WrForm *out)

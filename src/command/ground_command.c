@@ -1,11 +1,11 @@
 /* A floor under the objects: an object of the scene like others, which stands still. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "command/args.h"
 #include "command/commands.h"
 #include "document/document.h"
-#include "scene/aim.h"
+#include "scene/camera_control.h"
 #include "scene/objects.h"
 #include "surface/surface.h"
 
@@ -58,7 +58,7 @@ static bool run_on(const WrCall *call, const WrScene *scene, int index, WrScene 
 {
     double height;
     if (wr_call_given(call, "height")) height = wr_call_number(call, "height");
-    else if (!wr_aim_lowest(scene, &height, err)) return false;
+    else if (!wr_camera_control_lowest(scene, &height, err)) return false;
     WrScene *made = index < 0 ? new_ground(scene) : wr_scene_choose(scene, index);
     made->at.y = height;
     made->hidden = false;

@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/suggest.h"
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/parse_fail.h"
 #include "scene/dials.h"
 #include "scene/scene.h"

@@ -1,7 +1,7 @@
 /* help.h - the command table as text for people and as JSON for programs.
    Layer 6. */
 #pragma once
-#include "command/table.h"
+#include "command/command_table.h"
 
 #include <stdbool.h>
 

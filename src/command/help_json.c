@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "surface/surface.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "command/layer_mask.h"
 
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "field/select.h"

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "field/field.h"
@@ -17,7 +17,7 @@ static void note(void *ctx, const char *text)
 }
 
 /* The generator's work, with the line's values in its own. */
-static bool make(WrSession *session, const WrCall *call, const char *path, WrRelief *out,
+static bool make(WrSession *session, const WrCall *call, const char *path, WrNormalMips *out,
                  WrError *err)
 {
     const WrGenerator *generator = wr_generator_find("picture", "paste");
@@ -40,7 +40,7 @@ static bool make(WrSession *session, const WrCall *call, const char *path, WrRel
 bool wr_layer_paste(WrSession *session, WrCall *call, WrLayer layer, WrError *err)
 {
     WrDocument *document = session->state.document;
-    WrRelief relief = { NULL, NULL };
+    WrNormalMips relief = { NULL, NULL };
     char *path = wr_session_input_path(session, wr_call_arg(call, "FILE")->text);
     const bool good =
         wr_session_check_sha256(call, path, err) && make(session, call, path, &relief, err);

@@ -1,7 +1,7 @@
 /* Lights. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"

@@ -9,7 +9,7 @@
 #include "command/scene_args.h"
 #include "document/document.h"
 #include "document/document_file.h"
-#include "scene/preset.h"
+#include "scene/material_preset.h"
 #include "scene/scene.h"
 
 #include <math.h>

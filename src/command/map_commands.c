@@ -5,12 +5,12 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-#include "command/laid_args.h"
+#include "command/texture_args.h"
 #include "command/scene_args.h"
 #include "document/document.h"
 #include "document/document_file.h"
 #include "base/hash.h"
-#include "scene/laid.h"
+#include "scene/texture_sample.h"
 #include "scene/normal_map.h"
 #include "scene/scene.h"
 
@@ -266,7 +266,7 @@ static bool run_normals(WrSession *session, WrCall *call, WrError *err)
     bool good = true;
     if (off) {
         wr_image_free(map->image);
-        wr_laid_fini(&map->laid);
+        wr_texture_sample_fini(&map->laid);
         *map = (WrNormalMap){ 0 };
     } else {
         good = name ? take_normals(session, call, name, map, err)

@@ -8,7 +8,7 @@
 #include "command/commands.h"
 #include "document/document.h"
 #include "export/export.h"
-#include "export/sets.h"
+#include "export/map_sets.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* The mesh of `surface mesh file=`: read, told of, carried by documents. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/file.h"

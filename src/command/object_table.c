@@ -1,6 +1,6 @@
 /* `object set table=FILE`: a table of an object's own, which becomes a layer that is hidden and that the object wears. So it
    is painted on, masked, undone and saved as any other, and a document stays one file with one size of tables. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/file.h"

@@ -1,7 +1,7 @@
 /* op_args.h - the parameters of table operations as arguments of commands.
    Layer 6, private to src/command. */
 #pragma once
-#include "command/call.h"
+#include "command/command_line.h"
 #include "field/ops.h"
 
 /* One argument a parameter. Returns how many. */

@@ -3,7 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"

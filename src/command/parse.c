@@ -1,4 +1,4 @@
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/parse_fail.h"
 
 #include "base/error.h"

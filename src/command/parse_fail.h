@@ -1,7 +1,7 @@
 /* parse_fail.h - error messages for lines that do not parse. All of them derive from the table of commands.
    Layer 6, private to src/command. Each function writes `err` and returns false. */
 #pragma once
-#include "command/call.h"
+#include "command/command_line.h"
 
 #include <stdbool.h>
 

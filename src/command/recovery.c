@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "document/recover.h"
 
 #include <stdarg.h>
@@ -115,8 +115,8 @@ static bool last_is_safe(Replay *r, const char *line)
     WrError why = { "" };
     Try attempt = { r->session, line };
     switch (wr_journal_trial(try_line, &attempt, TRIAL_SECONDS, 0, &why)) {
-    case WR_TRIAL_TRUE: return true;
-    case WR_TRIAL_FALSE:
+    case WR_EDIT_PREVIEW_TRUE: return true;
+    case WR_EDIT_PREVIEW_FALSE:
         wr_text_addf(r->report, "the last command failed and was left out: %s\n", why.text);
         r->done++; /* it did so then, or would have: nothing of it was in the document */
         return false;

@@ -1,7 +1,7 @@
 /* Which documents can be recovered. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "command/recovery.h"
 #include "document/recover.h"
 

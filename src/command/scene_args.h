@@ -3,7 +3,7 @@
    Layer 6, private to src/command. */
 #pragma once
 #include "base/vec.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "surface/surface.h"
 
 typedef struct WrSceneParam WrSceneParam;

@@ -1,7 +1,7 @@
 /* The scene as the canonical lines that restore it from a new document. Every setting is written out,
    defaults too, so that a document means the same whatever the defaults of a later version are. Only
    the light of a new document, the surface's own pose and a missing picture have no line. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "command/scene_args.h"
 
 #include "base/text.h"

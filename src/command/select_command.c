@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "command/args.h"
 #include "command/commands.h"
 #include "document/document.h"

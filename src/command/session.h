@@ -6,9 +6,9 @@
    the journal and all files. A script keeps what its finished lines did, as after any other failure.
    Layer 6. A session belongs to one thread; snapshots of it may be read by any. */
 #pragma once
-#include "accuracy/saving.h"
+#include "accuracy/effect_savings.h"
 #include "accuracy/tolerance.h"
-#include "base/stamp.h"
+#include "base/file_identity.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -56,7 +56,7 @@ void wr_session_free(WrSession *session);
 
 /* All that can be read of it as it is now, however another thread changes the session meanwhile: the document, the history,
    its file, whether the journal is safe. Nothing runs in it. It costs no more than the number of steps. The caller owns it. */
-WrSession *wr_session_still(const WrSession *session);
+WrSession *wr_session_snapshot(const WrSession *session);
 
 /* Change options.outputs. */
 void wr_session_set_outputs(WrSession *session, bool outputs);

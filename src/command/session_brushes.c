@@ -1,6 +1,6 @@
 /* Presets and tips that commands name: read once, and again only where their files change, so that a stroke
    begins without touching the disk but for one look at the file's date. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/file.h"

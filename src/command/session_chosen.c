@@ -1,11 +1,11 @@
 /* The dials that a tolerance chose, as a document keeps them. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/memory.h"
 #include "base/text.h"
 #include "document/document.h"
-#include "document/tables.h"
-#include "render/frame.h"
+#include "document/object_tables.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Drawing a whole stroke at once, cancellable. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/progress.h"

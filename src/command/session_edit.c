@@ -1,5 +1,5 @@
 /* What commands change in a document, and what keeps them from it. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/file.h"

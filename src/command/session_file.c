@@ -1,5 +1,5 @@
 /* Sessions and files: scripts, documents, pictures. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/file.h"

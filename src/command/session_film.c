@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "document/document.h"
 #include "export/film.h"
 

@@ -1,5 +1,5 @@
 /* What of a strangers' picture the session remembers: its hash, its part, its note. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "document/document_file.h"
 #include "image/gltf.h"
-#include "image/gltf_look.h"
+#include "image/gltf_material.h"
 #include "image/image.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 /* The journal of a session: each command is on disk before it runs. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/file.h"

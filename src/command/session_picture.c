@@ -4,9 +4,9 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "document/document.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/scene.h"
 #include "system/path.h"
 

@@ -1,5 +1,5 @@
 /* A stroke in progress: an open command. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 

@@ -1,5 +1,5 @@
 /* How the document is looked at: views, the way back through them, and the lines that bring them back. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/memory.h"
 #include "document/document.h"

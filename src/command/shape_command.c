@@ -2,13 +2,13 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "brush/preset.h"
 #include "command/args.h"
 #include "command/brush_args.h"
 #include "command/commands.h"
 #include "field/field.h"
-#include "field/figure.h"
+#include "field/shape_outline.h"
 #include "field/ramp.h"
 #include "field/select.h"
 
@@ -26,22 +26,22 @@ static WrSelectPoint point(const WrCall *call, const char *name)
 
 /* ---- the four shapes: from a call to a figure ---- */
 
-typedef bool Maker(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
+typedef bool Maker(const WrField *like, const WrCall *call, double tolerance, WrShapeOutline *out,
                    WrError *err);
 
-static bool rectangle(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
-                      WrError *err)
+static bool rectangle(const WrField *like, const WrCall *call, double tolerance,
+                      WrShapeOutline *out, WrError *err)
 {
-    return wr_figure_rectangle(like, point(call, "a"), point(call, "b"),
-                               wr_call_number(call, "corner"), wr_call_number(call, "turn"),
-                               tolerance, out, err);
+    return wr_shape_outline_rectangle(like, point(call, "a"), point(call, "b"),
+                                      wr_call_number(call, "corner"), wr_call_number(call, "turn"),
+                                      tolerance, out, err);
 }
 
-static bool ellipse(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
+static bool ellipse(const WrField *like, const WrCall *call, double tolerance, WrShapeOutline *out,
                     WrError *err)
 {
-    return wr_figure_ellipse(like, point(call, "at"), point(call, "radii"),
-                             wr_call_number(call, "turn"), tolerance, out, err);
+    return wr_shape_outline_ellipse(like, point(call, "at"), point(call, "radii"),
+                                    wr_call_number(call, "turn"), tolerance, out, err);
 }
 
 static WrSelectPoint *points_of(const WrArg *list)
@@ -52,25 +52,25 @@ static WrSelectPoint *points_of(const WrArg *list)
     return points;
 }
 
-static bool polygon(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
+static bool polygon(const WrField *like, const WrCall *call, double tolerance, WrShapeOutline *out,
                     WrError *err)
 {
     (void)like;
     (void)tolerance;
     const WrArg *list = wr_call_arg(call, "points");
     WrSelectPoint *points = points_of(list);
-    bool good = wr_figure_polygon(points, list->rows, out, err);
+    bool good = wr_shape_outline_polygon(points, list->rows, out, err);
     wr_free(points);
     return good;
 }
 
-static bool path(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
+static bool path(const WrField *like, const WrCall *call, double tolerance, WrShapeOutline *out,
                  WrError *err)
 {
     const WrArg *list = wr_call_arg(call, "points");
     WrSelectPoint *points = points_of(list);
     bool closed = wr_call_choice(call, "closed") == 1;
-    bool good = wr_figure_path(like, points, list->rows, closed, tolerance, out, err);
+    bool good = wr_shape_outline_path(like, points, list->rows, closed, tolerance, out, err);
     wr_free(points);
     return good;
 }
@@ -178,7 +178,7 @@ static WrSample sample_at(const void *ctx, int i)
         WrSample){ .u = trace->points.data[i].u, .v = trace->points.data[i].v, .pressure = 1.0 };
 }
 
-static bool draw_outline(WrPainting *painting, const WrFigure *figure, WrError *err)
+static bool draw_outline(WrPainting *painting, const WrShapeOutline *figure, WrError *err)
 {
     const WrField *field = painting->ground.field;
     Trace trace = { .width = wr_field_width(field), .height = wr_field_height(field) };
@@ -198,7 +198,7 @@ static bool draw_outline(WrPainting *painting, const WrFigure *figure, WrError *
 /* ---- insides ---- */
 
 /* The figure's points as a copy of the symmetry has them, near the table on periodic axes. */
-static void move_points(const WrField *field, const WrFigure *figure, const WrCopy *copy,
+static void move_points(const WrField *field, const WrShapeOutline *figure, const WrCopy *copy,
                         WrSelectPoint *out)
 {
     double width = wr_field_width(field), height = wr_field_height(field), du = 0.0, dv = 0.0;
@@ -214,7 +214,7 @@ static void move_points(const WrField *field, const WrFigure *figure, const WrCo
 }
 
 /* The union of all copies; NULL and an error when cancelled or out of range. */
-static WrField *cover_copies(WrSession *session, const WrField *field, const WrFigure *figure,
+static WrField *cover_copies(WrSession *session, const WrField *field, const WrShapeOutline *figure,
                              const WrCopy *copies, int count, WrError *err)
 {
     WrSelectPoint *points = wr_alloc((size_t)figure->count, sizeof *points);
@@ -241,7 +241,7 @@ static WrField *cover_copies(WrSession *session, const WrField *field, const WrF
 
 /* Where nothing turns or mirrors it, rectangles and ellipses are covered more exactly than by points. */
 static WrField *cover_plain(WrSession *session, const WrField *field, const WrCall *call,
-                            const WrFigure *figure, WrError *err)
+                            const WrShapeOutline *figure, WrError *err)
 {
     WrPool *pool = session->options.pool;
     Maker *maker = makers[call->form];
@@ -259,7 +259,7 @@ static WrField *cover_plain(WrSession *session, const WrField *field, const WrCa
 }
 
 static bool fill_inside(WrSession *session, const WrPainting *painting, const WrCall *call,
-                        const WrFigure *figure, WrError *err)
+                        const WrShapeOutline *figure, WrError *err)
 {
     const WrField *field = painting->ground.field;
     const WrBrush *brush = &painting->held.brush;
@@ -279,14 +279,14 @@ static bool fill_inside(WrSession *session, const WrPainting *painting, const Wr
 /* ---- the command ---- */
 
 /* The inside's points are so many as the precision wants, or as a polygon may have. */
-static bool make_figure(const WrField *like, const WrCall *call, bool fill, WrFigure *figure,
+static bool make_figure(const WrField *like, const WrCall *call, bool fill, WrShapeOutline *figure,
                         WrError *err)
 {
     double tolerance = fill ? FILL_TOLERANCE : OUTLINE_TOLERANCE;
     if (!makers[call->form](like, call, tolerance, figure, err)) return false;
     while (fill && figure->count > WR_SELECT_POINTS && tolerance < 0.1) {
         tolerance *= 4.0;
-        wr_figure_fini(figure);
+        wr_shape_outline_fini(figure);
         if (!makers[call->form](like, call, tolerance, figure, err)) return false;
     }
     return true;
@@ -295,14 +295,14 @@ static bool make_figure(const WrField *like, const WrCall *call, bool fill, WrFi
 static bool run_shape(WrSession *session, WrCall *call, WrError *err)
 {
     WrPainting painting;
-    WrFigure figure = { 0 };
+    WrShapeOutline figure = { 0 };
     bool fill = wr_call_choice(call, "paint") == 1;
     if (!wr_painting_begin(session, call, &painting, err)) return false;
     bool good = make_figure(painting.ground.field, call, fill, &figure, err);
     if (good)
         good = fill ? fill_inside(session, &painting, call, &figure, err)
                     : draw_outline(&painting, &figure, err);
-    wr_figure_fini(&figure);
+    wr_shape_outline_fini(&figure);
     wr_painting_end(session, &painting);
     return good;
 }

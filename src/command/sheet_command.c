@@ -1,6 +1,6 @@
 /* What the export sheet was told last, so that a document keeps it. */
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"

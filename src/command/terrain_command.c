@@ -1,5 +1,5 @@
 /* `surface terrain`: ground whose form is a picture's heights, or those of a layer of the document, which it follows. */
-#include "command/inner.h"
+#include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -162,9 +162,9 @@ static bool follow_object(WrSession *session, int i, int form, WrError *err)
 {
     const WrScene *scene = session->state.document->scene;
     WrScene *object = wr_scene_clone(wr_scene_object(scene, i)), *all = object;
-    const bool good =
-        (form < 0 || take_form(session, object, form, err)) &&
-        (!wr_colouring_lags(session, object) || wr_colouring_make(session, object, err));
+    const bool good = (form < 0 || take_form(session, object, form, err)) &&
+                      (!wr_height_colormap_lags(session, object) ||
+                       wr_height_colormap_make(session, object, err));
     if (!good) {
         wr_scene_free(object);
         return false;
@@ -183,7 +183,7 @@ bool wr_session_follow(WrSession *session, WrError *err)
         const WrScene *object = wr_scene_object(session->state.document->scene, i);
         int form = -1;
         if (!lags(session->state.document, i, &form)) form = -1;
-        if (form < 0 && !wr_colouring_lags(session, object)) continue;
+        if (form < 0 && !wr_height_colormap_lags(session, object)) continue;
         if (!follow_object(session, i, form, err)) return false;
     }
     return true;

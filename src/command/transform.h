@@ -1,7 +1,7 @@
 /* transform.h - what a `transform` line does to a document, for the command and for trials of it.
    Layer 6. */
 #pragma once
-#include "command/call.h"
+#include "command/command_line.h"
 
 #include <stdbool.h>
 

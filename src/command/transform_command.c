@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "command/args.h"
 #include "command/commands.h"
 #include "command/transform.h"
@@ -12,7 +12,7 @@
 #include "field/field.h"
 #include "field/select.h"
 #include "generate/generator.h"
-#include "generate/place.h"
+#include "generate/transform_piece.h"
 
 #include <math.h>
 
@@ -67,8 +67,8 @@ static Texel over(WrBlend blend, Texel below, Texel piece)
     return (Texel){ (float)height, (float)all };
 }
 
-static void join_rows(const Moving *m, WrLayer *layer, const WrRelief *piece, const WrField *cover,
-                      int j, float *rows)
+static void join_rows(const Moving *m, WrLayer *layer, const WrNormalMips *piece,
+                      const WrField *cover, int j, float *rows)
 {
     const int n = wr_field_width(layer->heights);
     float *h = rows, *c = rows + n, *ph = rows + 2 * (size_t)n, *pc = rows + 3 * (size_t)n,
@@ -99,7 +99,7 @@ static bool any_in_row(const WrField *field, int j, float *row)
 }
 
 /* cover: what the piece says something about; NULL: all of it. */
-static bool join(const Moving *m, WrLayer *layer, const WrRelief *piece, const WrField *cover,
+static bool join(const Moving *m, WrLayer *layer, const WrNormalMips *piece, const WrField *cover,
                  WrError *err)
 {
     float *rows = wr_try_alloc((size_t)wr_field_width(layer->heights), 5 * sizeof *rows,
@@ -117,7 +117,7 @@ static bool join(const Moving *m, WrLayer *layer, const WrRelief *piece, const W
 
 /* ---- one table ---- */
 
-static bool place(Moving *m, const WrField *what, WrRelief *out, WrError *err)
+static bool place(Moving *m, const WrField *what, WrNormalMips *out, WrError *err)
 {
     m->placing.heights = what;
     m->placing.weight = m->selection;
@@ -136,20 +136,20 @@ static void take_out(const Moving *m, WrField **field)
 /* A mask goes with its whole layer; where nothing comes to lie it shows all. */
 static bool move_mask(Moving *m, WrLayer *layer, WrError *err)
 {
-    WrRelief piece = { NULL, NULL };
+    WrNormalMips piece = { NULL, NULL };
     if (!layer->mask || m->selection || m->leave) return true;
     if (!place(m, layer->mask, &piece, err)) return false;
     WrField *white = flat(layer->mask, 1.0f);
     wr_field_free(layer->mask);
     layer->mask = wr_edit_within(white, piece.heights, piece.cover);
     wr_field_free(white);
-    wr_relief_fini(&piece);
+    wr_normal_mips_fini(&piece);
     return true;
 }
 
 static bool move_layer(Moving *m, WrLayer *layer, WrError *err)
 {
-    WrRelief piece = { NULL, NULL }, cover = { NULL, NULL };
+    WrNormalMips piece = { NULL, NULL }, cover = { NULL, NULL };
     if (layer->filter.op) return move_mask(m, layer, err);
     bool good = place(m, layer->heights, &piece, err) &&
                 (!layer->cover || place(m, layer->cover, &cover, err));
@@ -158,8 +158,8 @@ static bool move_layer(Moving *m, WrLayer *layer, WrError *err)
         if (layer->cover) take_out(m, &layer->cover);
     }
     good = good && join(m, layer, &piece, cover.heights, err) && move_mask(m, layer, err);
-    wr_relief_fini(&piece);
-    wr_relief_fini(&cover);
+    wr_normal_mips_fini(&piece);
+    wr_normal_mips_fini(&cover);
     return good;
 }
 
@@ -217,12 +217,12 @@ static bool set_up(Moving *m, const WrCall *call, const WrDocument *document, Wr
 /* The selection goes along. */
 static bool move_selection(Moving *m, WrDocument *document, WrError *err)
 {
-    WrRelief piece = { NULL, NULL };
+    WrNormalMips piece = { NULL, NULL };
     if (!m->selection) return true;
     if (!place(m, m->selection, &piece, err)) return false;
     wr_field_free(document->selection);
     document->selection = wr_field_share(piece.cover);
-    wr_relief_fini(&piece);
+    wr_normal_mips_fini(&piece);
     return true;
 }
 

@@ -1,9 +1,9 @@
-#include "command/call.h"
+#include "command/command_line.h"
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "document/document.h"

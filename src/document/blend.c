@@ -1,6 +1,6 @@
 /* Span loops without branches: each choice is a ?: of scalars, which compilers turn into masks. */
 #include "document/blend.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <float.h>
 #include <math.h>

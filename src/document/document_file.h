@@ -40,7 +40,7 @@ typedef struct WrImageRows WrImageRows;
 
 #define WR_DOCUMENT_VERSION 9
 #define WR_DOCUMENT_VERSION_FACETS 8 /* of a file without filter layers */
-#define WR_DOCUMENT_VERSION_CELL 7   /* of a file without what came after (age.h) */
+#define WR_DOCUMENT_VERSION_CELL 7   /* of a file without what came after (format_version.h) */
 #define WR_DOCUMENT_VERSION_SURROUND                                                               \
     6 /* of a file without a size of its cell, and what came with it */
 #define WR_DOCUMENT_VERSION_OBJECTS 5 /* of a file without surroundings */

@@ -3,9 +3,9 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
-#include "document/age.h"
+#include "document/format_version.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "document/image_rows.h"
@@ -152,7 +152,7 @@ static int version_of(const Saving *to)
     if (wr_document_filters(to->document)) return WR_DOCUMENT_VERSION;
     if (age == WR_SCENE_OF_FACETS) return WR_DOCUMENT_VERSION_FACETS;
     if (age == WR_SCENE_OF_CELL) return WR_DOCUMENT_VERSION_CELL;
-    if (scene->environment.kind != WR_SURROUND_OFF) return WR_DOCUMENT_VERSION_SURROUND;
+    if (scene->environment.kind != WR_ENVIRONMENT_MAP_OFF) return WR_DOCUMENT_VERSION_SURROUND;
     if (wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene))
         return WR_DOCUMENT_VERSION_OBJECTS;
     if (to->mesh) return WR_DOCUMENT_VERSION_MESH;
@@ -264,7 +264,8 @@ const WrObjectPictureInfo wr_object_pictures[WR_OBJECT_PICTURES] = {
 /* Built-in surroundings are made again. */
 static WrImage *surroundings(const WrScene *scene)
 {
-    return scene->environment.kind == WR_SURROUND_FILE ? scene->environment.light->image : NULL;
+    return scene->environment.kind == WR_ENVIRONMENT_MAP_FILE ? scene->environment.light->image
+                                                              : NULL;
 }
 
 WrImage *wr_object_picture(const WrScene *scene, int object, int which)

@@ -1,7 +1,7 @@
 #include "document/journal_line.h"
 
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 
 #include <inttypes.h>

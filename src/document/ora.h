@@ -33,7 +33,7 @@ typedef struct WrText WrText;
 #define WR_ORA_VERSION 6
 #define WR_ORA_VERSION_FILTERS 5 /* of a file without a composite */
 #define WR_ORA_VERSION_FACETS 4  /* of a file without filter layers */
-#define WR_ORA_VERSION_CELL 3    /* of a file without what came after (age.h) */
+#define WR_ORA_VERSION_CELL 3    /* of a file without what came after (format_version.h) */
 #define WR_ORA_VERSION_OBJECTS 2 /* of a file without a size of its cell, and what came with it */
 #define WR_ORA_VERSION_PLAIN 1   /* of a file without normal maps or different meshes */
 

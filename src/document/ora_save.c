@@ -14,7 +14,7 @@
 #include "document/ora_zip.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "image/profile.h"
+#include "image/icc_profile.h"
 #include "scene/objects.h"
 #include "system/fd.h"
 

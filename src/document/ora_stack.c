@@ -1,9 +1,9 @@
 #include "document/ora_stack.h"
 
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
-#include "document/age.h"
+#include "document/format_version.h"
 #include "document/document.h"
 #include "document/ora.h"
 

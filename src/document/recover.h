@@ -115,13 +115,13 @@ bool wr_journal_claim_remove(WrJournalClaim *claim, WrError *err);
 bool wr_journal_kept_file(const char *journal_path, const char *sha256, const char *named,
                           WrText *path, WrError *err);
 
-typedef enum WrTrialEnd {
-    WR_TRIAL_TRUE,    /* the function returned true */
-    WR_TRIAL_FALSE,   /* it returned false: *err has its message */
-    WR_TRIAL_CRASHED, /* a signal, or an exit, ended it: *err says which */
-    WR_TRIAL_TIMEOUT, /* it took too long and was killed */
-    WR_TRIAL_UNABLE   /* no child could be started: nothing is known */
-} WrTrialEnd;
+typedef enum WrEditPreviewEnd {
+    WR_EDIT_PREVIEW_TRUE,    /* the function returned true */
+    WR_EDIT_PREVIEW_FALSE,   /* it returned false: *err has its message */
+    WR_EDIT_PREVIEW_CRASHED, /* a signal, or an exit, ended it: *err says which */
+    WR_EDIT_PREVIEW_TIMEOUT, /* it took too long and was killed */
+    WR_EDIT_PREVIEW_UNABLE   /* no child could be started: nothing is known */
+} WrEditPreviewEnd;
 
 /* Run function(ctx) in a forked child and say how that ended. Nothing that it does to memory shows
  * here; what it does to files does, so it must do nothing to files. Its standard output and error
@@ -132,6 +132,6 @@ typedef enum WrTrialEnd {
  * Threads  the child has only the thread that called: the function may use no lock, pool or library
  *          that other threads of this program may hold at that moment. `wrinkle recover` calls this
  *          before any thread is started. */
-typedef bool (*WrTrialFunction)(void *ctx, WrError *err);
-WrTrialEnd wr_journal_trial(WrTrialFunction function, void *ctx, double seconds, size_t bytes,
-                            WrError *err);
+typedef bool (*WrEditPreviewFunction)(void *ctx, WrError *err);
+WrEditPreviewEnd wr_journal_trial(WrEditPreviewFunction function, void *ctx, double seconds,
+                                  size_t bytes, WrError *err);

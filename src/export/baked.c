@@ -13,7 +13,7 @@
 #include "field/field.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
-#include "surface/tangents.h"
+#include "surface/tangent_frames.h"
 #include "surface/triangles.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Bump slopes: a height, its two slopes and their products, per texel, on every level down to one texel. What is above
  * level 0 is the mean of what it covers, so that moments of slopes stay moments. */
-#include "export/levels.h"
+#include "export/mip_files.h"
 
 #include "base/memory.h"
 #include "export/job.h"

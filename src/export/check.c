@@ -1,4 +1,4 @@
-#include "export/check_inner.h"
+#include "export/check_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -19,7 +19,7 @@
              are 0 but for rounding, as of f(u) + g(v).
              Two floats that the file does not call grey and coverage are taken for the slopes p and q themselves. */
 #pragma once
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/seam.h"
 #include "image/coding.h"
 

@@ -1,5 +1,5 @@
 /* Are slopes those of one height? */
-#include "export/check_inner.h"
+#include "export/check_internal.h"
 
 #include "image/image.h"
 #include "scene/normal_map.h"

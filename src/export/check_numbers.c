@@ -1,5 +1,5 @@
 /* How many different numbers a picture has, and how few bits hold them. */
-#include "export/check_inner.h"
+#include "export/check_internal.h"
 
 #include "base/memory.h"
 #include "image/image.h"

@@ -4,13 +4,13 @@
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "field/analytic.h"
-#include "field/ground.h"
+#include "field/derivatives.h"
 #include "scene/scene.h"
 
 #include <math.h>
 
 /* What a kind makes of a row, [width] numbers a channel, one channel after the other; how many were not finite. */
-typedef int64_t Derive(const WrExportJob *job, const WrGroundRow *row, double *out);
+typedef int64_t Derive(const WrExportJob *job, const WrDerivativesRow *row, double *out);
 
 static int64_t settle(double *x)
 {
@@ -19,7 +19,7 @@ static int64_t settle(double *x)
     return 1;
 }
 
-static int64_t both_slopes(const WrExportJob *job, const WrGroundRow *row, double *out)
+static int64_t both_slopes(const WrExportJob *job, const WrDerivativesRow *row, double *out)
 {
     int64_t replaced = 0;
     for (int i = 0; i < job->width; i++) {
@@ -29,7 +29,7 @@ static int64_t both_slopes(const WrExportJob *job, const WrGroundRow *row, doubl
     return replaced;
 }
 
-static int64_t steepness(const WrExportJob *job, const WrGroundRow *row, double *out)
+static int64_t steepness(const WrExportJob *job, const WrDerivativesRow *row, double *out)
 {
     int64_t replaced = 0;
     for (int i = 0; i < job->width; i++) {
@@ -41,13 +41,13 @@ static int64_t steepness(const WrExportJob *job, const WrGroundRow *row, double 
 
 /* Rows under way. */
 typedef struct Rows {
-    WrGroundBand *band;
-    WrGroundRow row;
+    WrDerivativesBand *band;
+    WrDerivativesRow row;
     int y;
 } Rows;
 
 /* Beside the texels' centres, where stencils do not reach. */
-static void border_row(const WrExportJob *job, int y, const WrGroundRow *row)
+static void border_row(const WrExportJob *job, int y, const WrDerivativesRow *row)
 {
     const double height = job->scene->height, v = wr_export_row_v(job, y);
     for (int i = 0; i < job->width; i++) {
@@ -62,21 +62,22 @@ static void border_row(const WrExportJob *job, int y, const WrGroundRow *row)
 
 static Rows open_rows(const WrExportJob *job, int y, int rows)
 {
-    const WrGround ground = wr_export_ground(job, NULL);
-    return (Rows){ job->options.border ? NULL : wr_ground_open(&ground, 0, y, job->width, rows),
-                   wr_ground_row_new(job->width, false), y };
+    const WrDerivatives ground = wr_export_ground(job, NULL);
+    return (Rows){ job->options.border ? NULL
+                                       : wr_derivatives_open(&ground, 0, y, job->width, rows),
+                   wr_derivatives_row_new(job->width, false), y };
 }
 
 static void close_rows(Rows *rows)
 {
-    if (rows->band) wr_ground_close(rows->band);
-    wr_ground_row_free(&rows->row);
+    if (rows->band) wr_derivatives_close(rows->band);
+    wr_derivatives_row_free(&rows->row);
 }
 
 static int64_t derive_row(const WrExportJob *job, const Rows *rows, int y, Derive *derive,
                           double *out)
 {
-    if (rows->band) wr_ground_row(rows->band, y - rows->y, &rows->row);
+    if (rows->band) wr_derivatives_row(rows->band, y - rows->y, &rows->row);
     else border_row(job, y, &rows->row);
     return derive(job, &rows->row, out);
 }

@@ -2,9 +2,9 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "export/ink.h"
+#include "export/vector_drawing.h"
 #include "export/job.h"
-#include "export/lines.h"
+#include "export/line_drawing.h"
 
 #include <math.h>
 
@@ -60,17 +60,17 @@ bool wr_export_drawing_write(WrExportJob *job, const char *path, WrError *err)
     job->report.width = o->drawing_w;
     job->report.height = o->drawing_h;
     job->report.lines = drawing.stretch_count;
-    WrInk *ink = wr_ink_new(path, o->drawing_w, o->drawing_h, err);
+    WrVectorDrawing *ink = wr_vector_drawing_new(path, o->drawing_w, o->drawing_h, err);
     if (ink) {
-        wr_ink_pen(ink, o->pen, 1.0);
+        wr_vector_drawing_pen(ink, o->pen, 1.0);
         for (int s = 0; s < drawing.stretch_count && !wr_progress_stopped(); s++)
-            wr_ink_line(ink, drawing.points + drawing.stretches[s].first,
-                        drawing.stretches[s].count);
+            wr_vector_drawing_line(ink, drawing.points + drawing.stretches[s].first,
+                                   drawing.stretches[s].count);
     }
-    bool good =
-        ink && (!wr_progress_stopped() || wr_fail(err, "cancelled")) && wr_ink_write(ink, err);
+    bool good = ink && (!wr_progress_stopped() || wr_fail(err, "cancelled")) &&
+                wr_vector_drawing_write(ink, err);
     wr_progress_set(whole);
-    wr_ink_free(ink);
+    wr_vector_drawing_free(ink);
     wr_drawing_fini(&drawing);
     return good;
 }

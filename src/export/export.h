@@ -62,7 +62,7 @@
    millimetres: open sheets get a back, tubes are filled or get a wall. Decimated: no sample of the table lies farther from
    its triangle than the error that was asked for, and the report says how far the farthest does. */
 #pragma once
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/certificate.h"
 
 #include <stdbool.h>
@@ -89,7 +89,7 @@ typedef enum WrExportGround {
 
 /* What a channel of a packed picture holds. */
 typedef struct WrExportPack {
-    int filling; /* 0: as usual; a map of packed.c, counted from 1; or NUMBER */
+    int filling; /* 0: as usual; a map of channel_packing.c, counted from 1; or NUMBER */
     double number;
 } WrExportPack;
 #define WR_PACK_NUMBER (-1)
@@ -222,7 +222,7 @@ typedef struct WrExportKind {
     WrExportOptionInfo options[WR_EXPORT_OPTIONS + 1]; /* a NULL name ends the list */
     int channels;                                      /* of a picture; 0 of a body */
     bool floats;                                       /* no codes: the file must hold floats */
-    bool levels;                      /* of levels, each the means of what it covers (levels.h) */
+    bool levels; /* of levels, each the means of what it covers (mip_files.h) */
     const char *const *channel_names; /* [channels]; NULL: the usual ones */
     double green;                     /* normals: sign of the second component */
     bool on_surface;    /* it is of the scene's surface, in scene units, not of the cell */
@@ -268,7 +268,7 @@ bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExp
                WrPool *pool, const char *path, WrExportReport *report, WrError *err);
 
 /* The levels of a kind that has such without a file; the first is made, as the others are made of it, but not kept, as where
- * one is written. levels: the caller's, wr_levels_free (levels.h); borrowed is nothing. Errors: options out of range, no memory, "cancelled" */
+ * one is written. levels: the caller's, wr_levels_free (mip_files.h); borrowed is nothing. Errors: options out of range, no memory, "cancelled" */
 typedef struct WrLevels WrLevels;
 bool wr_export_levels(const WrExportKind *kind, const WrDocument *document,
                       const WrExportOptions *options, WrPool *pool, WrLevels *levels, WrError *err);

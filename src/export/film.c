@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
-#include "export/film_inner.h"
+#include "export/film_internal.h"
 
 #include <errno.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* A finished film is read back before it takes its name: by ffmpeg, every frame; of animated WebP, which ffmpeg does not
    read, the pieces of the file, and its first and last frame by the reader of pictures. */
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
-#include "export/film_inner.h"
+#include "export/film_internal.h"
 #include "image/image.h"
 
 #include <math.h>

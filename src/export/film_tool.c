@@ -1,7 +1,7 @@
 /* ffmpeg at work: bytes in or out, without ever waiting where nobody could cancel. */
 #include "base/error.h"
 #include "base/progress.h"
-#include "export/film_inner.h"
+#include "export/film_internal.h"
 #include "system/channel.h"
 #include "system/clock.h"
 #include "system/fd.h"

@@ -28,7 +28,7 @@ struct WrExportJob {
     char channel_names[WR_EXPORT_CHANNELS][WR_EXPORT_NAME]; /* of kinds that count them */
     float *map;                      /* [height][width][channels] of kinds that make it whole */
     struct WrExportPicture *picture; /* this is wanted, and no file; NULL: a file */
-    bool numbers;                    /* a file of numbers alone (numbers.h) */
+    bool numbers;                    /* a file of numbers alone (raw_file.h) */
     bool analytic;                   /* F is the scene's formula, not the table */
     double *u;                       /* [width] texel centres */
     WrExportReport report;           /* pieces add their counts atomically */
@@ -91,8 +91,8 @@ void wr_export_describe_slopes(WrExportJob *job);
 int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out);
 
 /* What the maps of a table are made of. field: heights of a formula, sampled; owned by the caller; NULL: the table. */
-typedef struct WrGround WrGround;
-WrGround wr_export_ground(const WrExportJob *job, const WrField *field);
+typedef struct WrDerivatives WrDerivatives;
+WrDerivatives wr_export_ground(const WrExportJob *job, const WrField *field);
 /* Smallest and largest number of the map into the report. */
 void wr_export_map_range(WrExportJob *job, const char *quantity);
 /* Codes of a map about 0 in the middle, from -full to full. */
@@ -114,7 +114,7 @@ bool wr_export_displacement_make(WrExportJob *job, WrError *err);
 bool wr_export_mask_make(WrExportJob *job, WrError *err);
 bool wr_export_wear_make(WrExportJob *job, WrError *err);
 
-/* packed.c */
+/* channel_packing.c */
 int wr_export_packed_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NAME]);
 bool wr_export_packed_make(WrExportJob *job, WrError *err);
 void wr_export_packed_describe(WrExportJob *job);

@@ -1,12 +1,12 @@
 #include "base/error.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/suggest.h"
-#include "export/contact.h"
+#include "export/contact_sheet.h"
 #include "export/job.h"
-#include "export/lines.h"
+#include "export/line_drawing.h"
 #include "export/map_options.h"
 #include "export/options.h"
-#include "export/packed.h"
+#include "export/channel_packing.h"
 #include "field/scheme.h"
 
 #include <math.h>

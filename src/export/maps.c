@@ -8,7 +8,7 @@
 #include "field/maps.h"
 #include "field/occlusion.h"
 #include "scene/scene.h"
-#include "shade/reflect.h"
+#include "shade/reflection.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,14 +16,14 @@
 
 /* ---- what they share ----------------------------------------------------------------------------- */
 
-WrGround wr_export_ground(const WrExportJob *job, const WrField *field)
+WrDerivatives wr_export_ground(const WrExportJob *job, const WrField *field)
 {
-    return (WrGround){ .field = field ? field : job->field,
-                       .formula = job->analytic ? &job->scene->analytic : NULL,
-                       .scheme = (WrScheme)job->options.scheme,
-                       .height = job->scene->height,
-                       .cell_w = job->options.cell_w,
-                       .cell_h = job->options.cell_h };
+    return (WrDerivatives){ .field = field ? field : job->field,
+                            .formula = job->analytic ? &job->scene->analytic : NULL,
+                            .scheme = (WrScheme)job->options.scheme,
+                            .height = job->scene->height,
+                            .cell_w = job->options.cell_w,
+                            .cell_h = job->options.cell_h };
 }
 
 static bool hold_map(WrExportJob *job, WrError *err)

@@ -1,7 +1,7 @@
 /* Normals along the object's axes: those of the scene's surface as its bump turns them, a texel's centre each. */
 #include "base/error.h"
 #include "export/job.h"
-#include "scene/laid.h"
+#include "scene/texture_sample.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 #include "surface/surface.h"

@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "export/ink.h"
+#include "export/vector_drawing.h"
 #include "export/job.h"
 #include "field/analytic.h"
 #include "field/scheme.h"
@@ -49,52 +49,53 @@ static double y_of(const Chart *chart, double f)
     return chart->y1 + (chart->y0 - chart->y1) * (f - chart->low) / (chart->high - chart->low);
 }
 
-static void line(WrInk *ink, double x0, double y0, double x1, double y1)
+static void line(WrVectorDrawing *ink, double x0, double y0, double x1, double y1)
 {
-    const WrInkPoint ends[2] = { { (float)x0, (float)y0 }, { (float)x1, (float)y1 } };
-    wr_ink_line(ink, ends, 2);
+    const WrVectorDrawingPoint ends[2] = { { (float)x0, (float)y0 }, { (float)x1, (float)y1 } };
+    wr_vector_drawing_line(ink, ends, 2);
 }
 
-static void word_number(WrInk *ink, double number, double x, double y, double anchor)
+static void word_number(WrVectorDrawing *ink, double number, double x, double y, double anchor)
 {
     WrText text = { 0 };
     wr_text_addf(&text, "%.6g", number + 0.0);
-    wr_ink_word(ink, wr_text_get(&text), x, y, SIZE, anchor);
+    wr_vector_drawing_word(ink, wr_text_get(&text), x, y, SIZE, anchor);
     wr_text_fini(&text);
 }
 
-static void draw_grid(const WrExportOptions *o, WrInk *ink, const Chart *chart)
+static void draw_grid(const WrExportOptions *o, WrVectorDrawing *ink, const Chart *chart)
 {
     double step = step_of(chart->high - chart->low, 5);
     for (double f = ceil(chart->low / step) * step; f <= chart->high && !wr_progress_stopped();
          f += step) {
         double value = rint(f / step) * step, y = y_of(chart, value);
-        wr_ink_pen(ink, 1.0, fabs(value) < 0.5 * step ? 0.45 : 0.12);
+        wr_vector_drawing_pen(ink, 1.0, fabs(value) < 0.5 * step ? 0.45 : 0.12);
         line(ink, chart->x0, y, chart->x1, y);
-        wr_ink_pen(ink, 1.0, 0.97);
+        wr_vector_drawing_pen(ink, 1.0, 0.97);
         word_number(ink, value, chart->x0 - 8.0, y + 0.35 * SIZE, 1.0);
     }
     for (int i = 0; i <= o->grid && !wr_progress_stopped(); i++) {
         double t = (double)i / o->grid, x = chart->x0 + t * (chart->x1 - chart->x0);
-        wr_ink_pen(ink, 1.0, 0.12);
+        wr_vector_drawing_pen(ink, 1.0, 0.12);
         line(ink, x, chart->y0, x, chart->y1);
-        wr_ink_pen(ink, 1.0, 0.97);
+        wr_vector_drawing_pen(ink, 1.0, 0.97);
         if (o->grid <= 16 || i % ((o->grid + 15) / 16) == 0)
             word_number(ink, t, x, chart->y1 + 1.6 * SIZE, 0.5);
     }
-    wr_ink_word(ink, o->along_v ? "v" : "u", chart->x1, chart->y1 + 2.9 * SIZE, SIZE, 1.0);
-    wr_ink_word(ink, "F", chart->x0 - 8.0, chart->y0 - 0.8 * SIZE, SIZE, 1.0);
+    wr_vector_drawing_word(ink, o->along_v ? "v" : "u", chart->x1, chart->y1 + 2.9 * SIZE, SIZE,
+                           1.0);
+    wr_vector_drawing_word(ink, "F", chart->x0 - 8.0, chart->y0 - 0.8 * SIZE, SIZE, 1.0);
 }
 
-static void draw_curve(const WrExportOptions *o, WrInk *ink, const Chart *chart)
+static void draw_curve(const WrExportOptions *o, WrVectorDrawing *ink, const Chart *chart)
 {
-    WrInkPoint *points = wr_alloc((size_t)chart->samples, sizeof *points);
+    WrVectorDrawingPoint *points = wr_alloc((size_t)chart->samples, sizeof *points);
     for (int i = 0; i < chart->samples; i++)
-        points[i] =
-            (WrInkPoint){ (float)(chart->x0 + (chart->x1 - chart->x0) * i / (chart->samples - 1)),
-                          (float)y_of(chart, chart->f[i]) };
-    wr_ink_pen(ink, o->pen * 1.5, 1.0);
-    wr_ink_line(ink, points, chart->samples);
+        points[i] = (WrVectorDrawingPoint){ (float)(chart->x0 + (chart->x1 - chart->x0) * i /
+                                                                    (chart->samples - 1)),
+                                            (float)y_of(chart, chart->f[i]) };
+    wr_vector_drawing_pen(ink, o->pen * 1.5, 1.0);
+    wr_vector_drawing_line(ink, points, chart->samples);
     wr_free(points);
 }
 
@@ -111,7 +112,7 @@ bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err)
 {
     WrExportOptions *o = &job->options;
     if (o->scheme < 0) o->scheme = (int)job->scene->scheme;
-    WrInk *ink = wr_ink_new(path, o->drawing_w, o->drawing_h, err);
+    WrVectorDrawing *ink = wr_vector_drawing_new(path, o->drawing_w, o->drawing_h, err);
     if (!ink) return false;
     Chart chart = { .x0 = 4.5 * SIZE,
                     .y0 = 2.0 * SIZE,
@@ -128,8 +129,9 @@ bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err)
     give_room(&chart);
     draw_grid(o, ink, &chart);
     draw_curve(o, ink, &chart);
-    bool good = wr_progress_stopped() ? wr_fail(err, "cancelled") : wr_ink_write(ink, err);
-    wr_ink_free(ink);
+    bool good =
+        wr_progress_stopped() ? wr_fail(err, "cancelled") : wr_vector_drawing_write(ink, err);
+    wr_vector_drawing_free(ink);
     wr_free(chart.f);
     return good;
 }

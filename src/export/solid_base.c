@@ -1,6 +1,6 @@
 /* The squares that a relief begins with, and which of their sides are one. */
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "export/solid.h"
 #include "scene/scene.h"
 

@@ -1,12 +1,12 @@
 /* One export as a picture file: its rows, its label, its levels. */
-#include "export/levels.h"
+#include "export/mip_files.h"
 
 #include "base/error.h"
 #include "base/kernmath.h"
 #include "base/memory.h"
 #include "document/document_file.h"
 #include "export/job.h"
-#include "export/numbers.h"
+#include "export/raw_file.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/scene.h"

@@ -362,7 +362,7 @@ double wr_horizon_sky(const double *slope, int directions, const double n[3])
     return 2 * sum / directions;
 }
 
-void wr_opening_make(WrOpening *opening, int directions, double across, double down)
+void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double across, double down)
 {
     double angle[WR_HORIZON_MOST];
     opening->directions = directions;
@@ -381,7 +381,8 @@ void wr_opening_make(WrOpening *opening, int directions, double across, double d
     }
 }
 
-double wr_opening_sky(const WrOpening *opening, const float *slope, double along_i, double along_j)
+double wr_occlusion_map_sky(const WrOcclusionMap *opening, const float *slope, double along_i,
+                            double along_j)
 {
     /* On the surface, by the two directions along the axes. */
     const int quarter = opening->directions / 4;
@@ -398,7 +399,7 @@ double wr_opening_sky(const WrOpening *opening, const float *slope, double along
 }
 
 typedef struct OpeningJob {
-    const WrOpening *opening;
+    const WrOcclusionMap *opening;
     const WrHorizon *horizon;
     const float *heights;
     double sign;
@@ -421,12 +422,14 @@ static void open_row(int j, int worker, void *ctx)
             slope[k] = wr_horizon_at(job->horizon, i, j, k);
         const double x = (double)row[(i + 1) % w] - (double)row[(i + w - 1) % w];
         const double y = (double)below[i] - (double)above[i];
-        out[i] = (float)wr_opening_sky(job->opening, slope, job->sign * x / 2, job->sign * y / 2);
+        out[i] =
+            (float)wr_occlusion_map_sky(job->opening, slope, job->sign * x / 2, job->sign * y / 2);
     }
 }
 
-void wr_opening_table(const WrOpening *opening, const WrHorizon *horizon, const WrField *field,
-                      double sign, const unsigned char *changed, WrPool *pool, float *out)
+void wr_occlusion_map_table(const WrOcclusionMap *opening, const WrHorizon *horizon,
+                            const WrField *field, double sign, const unsigned char *changed,
+                            WrPool *pool, float *out)
 {
     const int w = horizon->width, h = horizon->height;
     float *heights = wr_alloc((size_t)w * (size_t)h, sizeof *heights);

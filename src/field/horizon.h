@@ -85,17 +85,19 @@ double wr_horizon_sky(const double *slope, int directions, const double n[3]);
 
 /* What a table's relief leaves open of the sky at each texel: WrHorizon's directions on a surface where a texel is `across`
    and `down` long, in units of height. */
-typedef struct WrOpening {
+typedef struct WrOcclusionMap {
     int directions;
     double cosine[WR_HORIZON_MOST], sine[WR_HORIZON_MOST]; /* of the direction on the surface */
     double share[WR_HORIZON_MOST]; /* of the whole circle, that it stands for */
     double steep[WR_HORIZON_MOST]; /* times the table's slope: the horizon's tangent */
-} WrOpening;
+} WrOcclusionMap;
 
-void wr_opening_make(WrOpening *opening, int directions, double across, double down);
+void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double across, double down);
 /* As wr_horizon_sky, of one texel's slopes: n by the slopes of F along i and j, heights over texels. */
-double wr_opening_sky(const WrOpening *opening, const float *slope, double along_i, double along_j);
+double wr_occlusion_map_sky(const WrOcclusionMap *opening, const float *slope, double along_i,
+                            double along_j);
 /* The same of each texel of the table that the horizon is of, its first column and row again after the last:
    out[height + 1][width + 1]. changed: as wr_horizon_update has it, of texels whose numbers are not there yet; NULL: all. */
-void wr_opening_table(const WrOpening *opening, const WrHorizon *horizon, const WrField *field,
-                      double sign, const unsigned char *changed, WrPool *pool, float *out);
+void wr_occlusion_map_table(const WrOcclusionMap *opening, const WrHorizon *horizon,
+                            const WrField *field, double sign, const unsigned char *changed,
+                            WrPool *pool, float *out);

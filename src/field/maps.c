@@ -15,7 +15,7 @@
 #define ROWS 16     /* of a map that one piece makes */
 #define COLUMNS 256 /* of a box's sums, so that they stay near */
 
-WrMapJob wr_map_default(const WrGround *ground)
+WrMapJob wr_map_default(const WrDerivatives *ground)
 {
     return (WrMapJob){ .ground = *ground, .directions = 16, .sigma = 8, .box = 9 };
 }
@@ -23,7 +23,7 @@ WrMapJob wr_map_default(const WrGround *ground)
 /* ---- texel by texel ------------------------------------------------------------------------------ */
 
 /* What is made of a row; count of numbers in out. */
-typedef void Derive(const WrMapJob *job, const WrGroundRow *row, int count, double *out);
+typedef void Derive(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out);
 
 typedef struct Making {
     const WrMapJob *job;
@@ -54,20 +54,21 @@ static void derive_piece(int index, int worker, void *ctx)
     const WrMapPart *part = m->part;
     const int y = index * ROWS, rows = part->h - y < ROWS ? part->h - y : ROWS;
     int64_t replaced = 0;
-    WrGroundRow row = wr_ground_row_new(part->w, m->bends);
-    WrGroundBand *band = wr_ground_open(&m->job->ground, part->x, part->y + y, part->w, rows);
+    WrDerivativesRow row = wr_derivatives_row_new(part->w, m->bends);
+    WrDerivativesBand *band =
+        wr_derivatives_open(&m->job->ground, part->x, part->y + y, part->w, rows);
     double *made = wr_alloc((size_t)part->w, sizeof *made);
     (void)worker;
     for (int j = 0; j < rows; j++) {
         const size_t at = (size_t)(y + j) * part->pitch;
-        wr_ground_row(band, j, &row);
+        wr_derivatives_row(band, j, &row);
         if (m->derive) m->derive(m->job, &row, part->w, made);
         replaced += put(m->derive ? made : row.p, part->w, m->out + at);
         if (m->second) replaced += put(row.q, part->w, m->second + at);
     }
     wr_free(made);
-    wr_ground_close(band);
-    wr_ground_row_free(&row);
+    wr_derivatives_close(band);
+    wr_derivatives_row_free(&row);
     __atomic_fetch_add(&m->replaced, replaced, __ATOMIC_RELAXED);
 }
 
@@ -79,14 +80,14 @@ static bool run_rows(Making *m, WrPool *pool, int64_t *replaced, WrError *err)
     return true;
 }
 
-static void curvature(const WrMapJob *job, const WrGroundRow *row, int count, double *out)
+static void curvature(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out)
 {
     (void)job;
     for (int i = 0; i < count; i++)
-        out[i] = wr_ground_convexity(row->p[i], row->q[i], row->r[i], row->s[i], row->t[i]);
+        out[i] = wr_derivatives_convexity(row->p[i], row->q[i], row->r[i], row->s[i], row->t[i]);
 }
 
-static void slope(const WrMapJob *job, const WrGroundRow *row, int count, double *out)
+static void slope(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out)
 {
     (void)job;
     for (int i = 0; i < count; i++) {
@@ -96,7 +97,7 @@ static void slope(const WrMapJob *job, const WrGroundRow *row, int count, double
 }
 
 /* The circle's end is its beginning, also where only rounding to float would make it 360. */
-static void direction(const WrMapJob *job, const WrGroundRow *row, int count, double *out)
+static void direction(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out)
 {
     (void)job;
     for (int i = 0; i < count; i++) {
@@ -107,13 +108,13 @@ static void direction(const WrMapJob *job, const WrGroundRow *row, int count, do
     }
 }
 
-static void slope_u(const WrMapJob *job, const WrGroundRow *row, int count, double *out)
+static void slope_u(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out)
 {
     (void)job;
     memcpy(out, row->p, (size_t)count * sizeof *out);
 }
 
-static void slope_v(const WrMapJob *job, const WrGroundRow *row, int count, double *out)
+static void slope_v(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out)
 {
     (void)job;
     memcpy(out, row->q, (size_t)count * sizeof *out);
@@ -158,7 +159,7 @@ static bool make_direction(const WrMapJob *job, const WrMapPart *part, WrPool *p
 
 static WrOcclusion occlusion_of(const WrMapJob *job)
 {
-    const WrGround *g = &job->ground;
+    const WrDerivatives *g = &job->ground;
     return (WrOcclusion){ g->field,
                           g->height,
                           g->cell_w / wr_field_width(g->field),
@@ -191,7 +192,7 @@ static WrField *cut_out(const WrField *field, const WrMapPart *part, int more, W
     WrField *cut = wr_field_new(w, h, WR_WRAP_CLAMP, WR_WRAP_CLAMP, wr_field_level(field), err);
     float *row = cut ? wr_alloc_unset((size_t)w, sizeof *row) : NULL;
     for (int j = 0; cut && j < h; j++) {
-        wr_ground_read_held(field, part->x - more, part->y - more + j, w, row);
+        wr_derivatives_read_held(field, part->x - more, part->y - more + j, w, row);
         wr_field_write(cut, 0, j, w, 1, row, (size_t)w);
     }
     wr_free(row);
@@ -246,7 +247,7 @@ typedef struct Sums {
     double *at[4]; /* [rows][COLUMNS] each */
 } Sums;
 
-static void sum_row(const WrGroundRow *row, int box, int count, const Sums *sums, int j)
+static void sum_row(const WrDerivativesRow *row, int box, int count, const Sums *sums, int j)
 {
     for (int i = 0; i < count; i++) {
         double p = 0, q = 0, pp = 0, qq = 0;
@@ -278,14 +279,14 @@ static void rough_block(Making *m, int x, int y, int columns, int rows)
 {
     const WrMapJob *job = m->job;
     const int less = job->box / 2, wide = columns + 2 * less, tall = rows + 2 * less;
-    WrGroundRow row = wr_ground_row_new(wide, false);
-    WrGroundBand *band =
-        wr_ground_open(&job->ground, m->part->x + x - less, m->part->y + y - less, wide, tall);
+    WrDerivativesRow row = wr_derivatives_row_new(wide, false);
+    WrDerivativesBand *band =
+        wr_derivatives_open(&job->ground, m->part->x + x - less, m->part->y + y - less, wide, tall);
     double *all = wr_alloc_unset(4 * (size_t)tall * COLUMNS, sizeof *all);
     Sums sums;
     for (int c = 0; c < 4; c++) sums.at[c] = all + (size_t)c * (size_t)tall * COLUMNS;
     for (int j = 0; j < tall; j++) {
-        wr_ground_row(band, j, &row);
+        wr_derivatives_row(band, j, &row);
         sum_row(&row, job->box, columns, &sums, j);
     }
     int64_t replaced = 0;
@@ -295,8 +296,8 @@ static void rough_block(Making *m, int x, int y, int columns, int rows)
             replaced += put(&rough, 1, m->out + (size_t)(y + j) * m->part->pitch + (size_t)(x + i));
         }
     wr_free(all);
-    wr_ground_close(band);
-    wr_ground_row_free(&row);
+    wr_derivatives_close(band);
+    wr_derivatives_row_free(&row);
     __atomic_fetch_add(&m->replaced, replaced, __ATOMIC_RELAXED);
 }
 

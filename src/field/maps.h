@@ -4,7 +4,7 @@
    | map       | a texel holds                                                                     |
    | occlusion | what its plane sees of the sky, 0..1 (occlusion.h)                                |
    | cavity    | min(0, F - blurred F) height, scene units: how deep it lies in what is about it   |
-   | curvature | minus the mean curvature (ground.h), 1 / scene unit: ridges above 0, grooves below |
+   | curvature | minus the mean curvature (derivatives.h), 1 / scene unit: ridges above 0, grooves below |
    | slope     | the angle of its plane, degrees 0..90                                             |
    | direction | downhill, degrees 0..360 anticlockwise from u; 0 where it is level                |
    | roughness | root of alpha, at most 1: alpha^2 = base^2 + the sum of the variances of both slopes over a box about it, |
@@ -14,7 +14,7 @@
 
    A table that is moved by whole texels over its periodic axes gives the moved map, to the bit, on any number of threads. */
 #pragma once
-#include "field/ground.h"
+#include "field/derivatives.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -23,7 +23,7 @@ typedef struct WrError WrError;
 typedef struct WrPool WrPool;
 
 typedef struct WrMapJob {
-    WrGround ground; /* heights are those of its field, also where slopes are of its formula */
+    WrDerivatives ground; /* heights are those of its field, also where slopes are of its formula */
     int directions, reach; /* occlusion */
     double sigma;          /* cavity, texels, > 0 */
     int box;               /* roughness: texels along a side, odd, 1..WR_FIELD_MAP_BOX */
@@ -32,7 +32,7 @@ typedef struct WrMapJob {
 
 #define WR_FIELD_MAP_BOX 255
 
-WrMapJob wr_map_default(const WrGround *ground);
+WrMapJob wr_map_default(const WrDerivatives *ground);
 
 typedef struct WrFieldMap {
     const char *name;

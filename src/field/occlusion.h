@@ -9,7 +9,7 @@
 
    A table that is moved by whole texels over its periodic axes gives the moved map, to the bit, on any number of threads. */
 #pragma once
-#include "field/ground.h"
+#include "field/derivatives.h"
 
 #include <stdbool.h>
 #include <stddef.h>

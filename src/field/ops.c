@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "field/field.h"
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 #include "noise/octaves.h"
 
 #include <math.h>

@@ -15,8 +15,8 @@
    - Heights that would pass float's range are clamped to it. Filters are exact as stated while heights
      are under 1e37. */
 #pragma once
-#include "base/rows.h"
-#include "field/curve.h"
+#include "base/enum_rows.h"
+#include "field/monotone_curve.h"
 
 #include <stdbool.h>
 

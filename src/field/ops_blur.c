@@ -7,11 +7,11 @@
  *
  * A block is read with an apron of R texels, filtered along u, then along v: all of it stays in the second-level cache, what
  * is filtered at once in the first. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/exactmath.h"
 #include "field/field.h"
-#include "field/taps.h"
+#include "field/filter_kernels.h"
 
 #include <math.h>
 #include <string.h>

@@ -13,11 +13,11 @@
  * (a rolled table gives rolled heights, a flat place stays flat), so they are sums of whole numbers, which
  * doubles hold exactly: heights are counted in steps of 2^-40 of the largest |F|, rounded up to a power of two,
  * and each box's result is rounded to whole steps again. A box has less than 2^12 texels. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/memory.h"
 #include "field/field.h"
-#include "field/taps.h"
+#include "field/filter_kernels.h"
 
 #include <math.h>
 

@@ -2,13 +2,13 @@
    same thread, since a filter then has what it read for the one above; of what differs tiles are made at once. They are put
    into the table one after the other, since that may copy nodes of the tree. Which blocks make a batch does not show in any
    height. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "field/field.h"
-#include "field/taps.h"
+#include "field/filter_kernels.h"
 
 #include <math.h>
 #include <stdint.h>

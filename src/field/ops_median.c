@@ -5,7 +5,7 @@
  * tile like a plough, right, down, left, down; each step takes in the texels of one edge and drops those
  * of the other. How many members lie in words before a current one is kept up to date, and the
  * median's word is never far. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/progress.h"
 

@@ -4,7 +4,7 @@
  * larger of two overlapping runs whose length is a power of two; the largest of all such runs in a row
  * are made once for each input row (each from the one before), and then compared into the output rows
  * that see this row. Nothing but comparisons, so the result is exact; eroding is dilating -F. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include <math.h>
 

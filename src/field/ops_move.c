@@ -1,5 +1,5 @@
 /* Operations that only carry texels to other places: offset, flips, quarter turns, crop. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/error.h"
 #include "field/field.h"

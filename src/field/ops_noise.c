@@ -4,7 +4,7 @@
    Warp: out(p) = in(p + amount w(p)), w the two noises over the bound of their sums, so that no height comes from
    farther away than `amount` texels along an axis; between texels by Catmull-Rom's cubic (or a bilinear), written as
    differences from the texel at p's left top, so that a level place stays as it is. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/error.h"
 #include "base/hash.h"

@@ -1,5 +1,5 @@
 /* What operations need besides the builder: reports, batches, reading with repeated edges, planes. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -9,7 +9,7 @@
  *
  * A block of the result goes through its input rows once: each is filtered along u and added to the
  * output rows that see it, so that not even a shrink of 16384 rows to one needs much memory. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/exactmath.h"
 #include "base/memory.h"

@@ -12,7 +12,7 @@
  *
  * The heights are floats: a limit under half a unit in the last place of the heights is as good as 0, and
  * along a long slope the roundings of its steps add up. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "field/field.h"
 

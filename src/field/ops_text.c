@@ -1,5 +1,5 @@
 /* Values of operations: their defaults, their ranges, and how they are written. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/error.h"
 #include "base/text.h"

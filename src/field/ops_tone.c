@@ -1,5 +1,5 @@
 /* Operations on each height by itself: levels, invert, normalise, add, multiply, clamp. */
-#include "field/ops_inner.h"
+#include "field/ops_internal.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"

@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/progress.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/field.h"
-#include "field/select_inner.h"
+#include "field/select_internal.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 #include "field/scheme.h"
 
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/field.h"
 
 #include <math.h>

@@ -7,10 +7,10 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/field.h"
 #include "field/ops.h"
-#include "field/select_inner.h"
+#include "field/select_internal.h"
 
 #include <math.h>
 #include <string.h>

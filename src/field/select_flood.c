@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "field/field.h"
-#include "field/select_inner.h"
+#include "field/select_internal.h"
 
 #include <math.h>
 #include <string.h>

@@ -10,7 +10,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "field/field.h"
-#include "field/select_inner.h"
+#include "field/select_internal.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "field/field.h"
-#include "field/select_inner.h"
+#include "field/select_internal.h"
 
 #include <math.h>
 

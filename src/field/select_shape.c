@@ -5,7 +5,7 @@
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "field/field.h"
-#include "field/select_inner.h"
+#include "field/select_internal.h"
 
 #include <math.h>
 

@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/pool.h"
 #include "field/field.h"
-#include "field/select_inner.h"
+#include "field/select_internal.h"
 
 #include <math.h>
 #include <string.h>

@@ -48,4 +48,5 @@ bool wr_erode_rain(WrSheet *sheet, const WrRain *rain, const WrGenerateJob *job,
 /* The table under a job, ready to be worked on: smaller for a coarse preview. */
 bool wr_erode_begin(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
 /* The sheet as what comes out; of a smaller one, what has changed is added to the table. Releases it. */
-bool wr_erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrRelief *out, WrError *err);
+bool wr_erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrNormalMips *out,
+                  WrError *err);

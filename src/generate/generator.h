@@ -67,11 +67,11 @@ typedef struct WrParamValue {
 } WrParamValue;
 
 /* What comes out: heights, and where it says something. */
-typedef struct WrRelief {
+typedef struct WrNormalMips {
     WrField *heights; /* owned */
     WrField *cover;   /* 0..1, owned; NULL: 1 everywhere */
-} WrRelief;
-void wr_relief_fini(WrRelief *relief);
+} WrNormalMips;
+void wr_normal_mips_fini(WrNormalMips *relief);
 
 typedef struct WrGenerateJob {
     const WrField
@@ -100,7 +100,8 @@ typedef struct WrGenerator {
     const char *blend;     /* how it joins the layer unless told: "replace", "add", "max" */
     const WrParam *params; /* ends with name NULL */
     /* values: [params], checked against their rows. out: untouched on failure; caller owns it. */
-    bool (*make)(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out, WrError *err);
+    bool (*make)(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+                 WrError *err);
 } WrGenerator;
 
 typedef struct WrFamily {
@@ -126,4 +127,4 @@ int wr_generator_param_find(const WrGenerator *generator, const char *name); /* 
 void wr_generator_defaults(const WrGenerator *generator, WrParamValue *values);
 /* Checks the values against the row (names what, the value, what would be right), then makes it. */
 bool wr_generator_make(const WrGenerator *generator, const WrParamValue *values,
-                       const WrGenerateJob *job, WrRelief *out, WrError *err);
+                       const WrGenerateJob *job, WrNormalMips *out, WrError *err);

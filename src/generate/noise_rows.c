@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/field.h"
-#include "generate/build.h"
+#include "generate/tile_builder.h"
 #include "generate/param.h"
 #include "noise/grid.h"
 
@@ -335,7 +335,7 @@ static void say(const WrGenerateJob *job, const WrNoiseMaker *m, const WrParams 
 }
 
 static bool make(const WrGenerator *row, const WrParamValue *values, const WrGenerateJob *job,
-                 WrRelief *out, WrError *err)
+                 WrNormalMips *out, WrError *err)
 {
     int width = wr_field_width(job->like), height = wr_field_height(job->like);
     Filling filling = { .line = NULL };
@@ -362,8 +362,8 @@ static bool make(const WrGenerator *row, const WrParamValue *values, const WrGen
 
 /* A row's function knows its own row. */
 #define MAKE(index, name)                                                                          \
-    static bool make_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,   \
-                            WrError *err)                                                          \
+    static bool make_##name(const WrParamValue *values, const WrGenerateJob *job,                  \
+                            WrNormalMips *out, WrError *err)                                       \
     {                                                                                              \
         return make(&wr_noise_rows[index], values, job, out, err);                                 \
     }

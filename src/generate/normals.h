@@ -2,7 +2,7 @@
    same with free edges on a sheet.
    Layer 4, private to this room. */
 #pragma once
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "generate/fft_plane.h"
 #include "generate/terrain.h"
 #include "image/coding.h"

@@ -7,8 +7,8 @@
    times across the table, so that the pattern closes; and since a place is all that it knows, a moved
    origin rolls it bit for bit. */
 #pragma once
-#include "base/rows.h"
-#include "generate/build.h"
+#include "base/enum_rows.h"
+#include "generate/tile_builder.h"
 #include "generate/param.h"
 #include "noise/noise.h"
 
@@ -21,7 +21,7 @@ typedef double (*WrPatternAt)(const void *ctx, double x, double y);
 /* Fill a relief: height times the mean of samples x samples places in each texel (1: at its centre, for
  * patterns that are antialiased by themselves; in a coarse preview always). Reads height and origin. */
 bool wr_pattern_make(const WrParams *params, const WrGenerateJob *job, WrPatternAt at,
-                     const void *ctx, int samples, WrRelief *out, WrError *err);
+                     const void *ctx, int samples, WrNormalMips *out, WrError *err);
 #define WR_PATTERN_SAMPLES 4
 
 /* ---- cells ---- */
@@ -129,7 +129,7 @@ double wr_piece(const WrPieces *pieces, double d, double px, double py, int i, i
 /* sin(2 pi turns) to 1e-7, for detail that is drawn many times a texel; |turns| < 1e9. */
 double wr_ripple(double turns);
 /* Noise of -1..1, two octaves, at a place. */
-double wr_grain(const WrNoise grain[2], const WrPieces *pieces, double x, double y);
+double wr_solid_texture(const WrNoise grain[2], const WrPieces *pieces, double x, double y);
 /* A noise that repeats after so many cells. */
 WrNoise wr_pattern_noise(uint32_t seed, double cells_u, double cells_v);
 
@@ -137,8 +137,8 @@ WrNoise wr_pattern_noise(uint32_t seed, double cells_u, double cells_v);
 
 #define WR_PATTERN(name)                                                                           \
     extern const WrParam wr_params_##name[];                                                       \
-    bool wr_pattern_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
-                           WrError *err)
+    bool wr_pattern_##name(const WrParamValue *values, const WrGenerateJob *job,                   \
+                           WrNormalMips *out, WrError *err)
 
 WR_PATTERN(bricks); /* pattern_wall.c */
 WR_PATTERN(tiles);

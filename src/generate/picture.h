@@ -1,7 +1,7 @@
 /* picture.h - heights out of pictures.
    Layer 4, private to this room. */
 #pragma once
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "generate/terrain.h"
 
 #include <stdbool.h>
@@ -13,7 +13,7 @@ typedef struct WrImage WrImage;
 typedef struct WrImageLabel WrImageLabel;
 typedef struct WrParamValue WrParamValue;
 typedef struct WrParams WrParams;
-typedef struct WrRelief WrRelief;
+typedef struct WrNormalMips WrNormalMips;
 
 /* How a picture is made to meet itself on the axes where the sheet is periodic.
    blend: take away the smoothest function that has all of the jump at the edges: the periodic component of Moisan
@@ -85,8 +85,8 @@ void wr_picture_note(const char *path, const WrImage *image, const WrGenerateJob
 
 #define WR_PICTURE(name)                                                                           \
     extern const WrParam wr_params_##name[];                                                       \
-    bool wr_picture_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
-                           WrError *err)
+    bool wr_picture_##name(const WrParamValue *values, const WrGenerateJob *job,                   \
+                           WrNormalMips *out, WrError *err)
 WR_PICTURE(photo);   /* picture_photo.c */
 WR_PICTURE(normals); /* normals_row.c */
 WR_PICTURE(paste);   /* picture_paste.c */

@@ -2,9 +2,9 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
-#include "generate/build.h"
+#include "generate/tile_builder.h"
 #include "generate/picture.h"
-#include "generate/place.h"
+#include "generate/transform_piece.h"
 #include "image/image.h"
 
 #include <math.h>
@@ -79,7 +79,7 @@ static bool check_size(double scale, const WrImage *image, double size, WrError 
                    WR_PLACE_SCALE, WR_PLACE_SCALE, image->width);
 }
 
-bool wr_picture_paste(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+bool wr_picture_paste(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                       WrError *err)
 {
     const WrParams p = { wr_params_paste, values };

@@ -188,7 +188,7 @@ static bool check(const WrParams *p, const WrImage *image, const char *path, WrE
     return true;
 }
 
-bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                       WrError *err)
 {
     const WrParams p = { wr_params_photo, values };

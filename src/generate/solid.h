@@ -59,7 +59,7 @@ bool wr_solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPl
 
 /* Draw the scene at the parameters' height (which `rise` texels of z stand for), cut at the ground. */
 bool wr_solid_draw(const WrParams *params, WrZScene *scene, double rise, const WrGenerateJob *job,
-                   WrRelief *out, WrError *err);
+                   WrNormalMips *out, WrError *err);
 
 /* A net of triangles to be placed. */
 typedef struct WrSolidNet {
@@ -71,14 +71,14 @@ typedef struct WrSolidNet {
 /* Copies of a net that stand on the ground with their lowest point. The points are turned about the
  * origin. */
 bool wr_solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
-                       WrRelief *out, WrError *err);
+                       WrNormalMips *out, WrError *err);
 
 /* ---- the rows that have files of their own ---- */
 
 extern const WrParam wr_params_solid_mesh[], wr_params_solid_letters[], wr_params_solid_surface[];
-bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                    WrError *err);
-bool wr_solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+bool wr_solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                       WrError *err);
-bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                       WrError *err);

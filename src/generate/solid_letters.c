@@ -2,9 +2,9 @@
  * 1978, figure 7: the date). */
 #include "base/error.h"
 #include "base/memory.h"
-#include "generate/build.h"
+#include "generate/tile_builder.h"
 #include "generate/solid.h"
-#include "generate/text_lay.h"
+#include "generate/text_layout.h"
 #include "image/font.h"
 
 #define CHORD 0.02 /* texels that straight pieces may differ from the outlines' curves */
@@ -104,7 +104,7 @@ static void box_range(const WrZSolid *solid, double range[2])
 }
 
 static bool draw(const WrParams *params, const WrZLetters *letters, const WrGenerateJob *job,
-                 WrRelief *out, WrError *err)
+                 WrNormalMips *out, WrError *err)
 {
     WrSolidPlace *places = NULL;
     int64_t count;
@@ -129,7 +129,7 @@ static bool draw(const WrParams *params, const WrZLetters *letters, const WrGene
     return good;
 }
 
-bool wr_solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+bool wr_solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                       WrError *err)
 {
     const WrParams params = { wr_params_solid_letters, values };

@@ -1,7 +1,7 @@
 /* Meshes of files, seen from above. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "generate/build.h"
+#include "generate/tile_builder.h"
 #include "generate/solid.h"
 #include "image/mesh.h"
 
@@ -41,7 +41,7 @@ static bool fit(const WrMesh *mesh, double size, double (*points)[3])
     return true;
 }
 
-bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                    WrError *err)
 {
     const WrParams params = { wr_params_solid_mesh, values };

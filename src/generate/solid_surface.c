@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "generate/build.h"
+#include "generate/tile_builder.h"
 #include "generate/solid.h"
 #include "surface/data.h"
 #include "surface/surface.h"
@@ -232,7 +232,7 @@ static bool make_net(const WrShape *shape, double size, double error, Net *net, 
     return true;
 }
 
-bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                       WrError *err)
 {
     const WrParams params = { wr_params_solid_surface, values };

@@ -4,7 +4,7 @@
 #pragma once
 #include "base/progress.h"
 #include "field/wrap.h"
-#include "generate/build.h"
+#include "generate/tile_builder.h"
 #include "generate/param.h"
 
 #include <stdbool.h>
@@ -37,7 +37,8 @@ bool wr_sheet_resize(WrSheet *sheet, int width, int height, const WrGenerateJob 
 /* As a new table, rounded to float: beyond its range clamped, not a number 0. */
 WrField *wr_sheet_field(const WrSheet *sheet, WrError *err);
 /* The sheet, of the job's size, as what comes out. */
-bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrRelief *out, WrError *err);
+bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrNormalMips *out,
+                     WrError *err);
 
 /* The neighbour of texel i of n, `step` beyond -n..n away: round the ring, or the last texel. */
 static inline int wr_sheet_index(int i, int n, WrWrap wrap)
@@ -58,8 +59,8 @@ bool wr_sheet_run(const WrSheet *sheet, const WrGenerateJob *job, bool report, W
 
 #define WR_TERRAIN(name)                                                                           \
     extern const WrParam wr_params_##name[];                                                       \
-    bool wr_terrain_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
-                           WrError *err)
+    bool wr_terrain_##name(const WrParamValue *values, const WrGenerateJob *job,                   \
+                           WrNormalMips *out, WrError *err)
 WR_TERRAIN(fractal);   /* terrain_fractal.c */
 WR_TERRAIN(terraces);  /* terrain_terraces.c */
 WR_TERRAIN(thermal);   /* erode_thermal.c */

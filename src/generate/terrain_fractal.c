@@ -15,7 +15,7 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/field.h"
 #include "noise/grid.h"
 
@@ -234,7 +234,7 @@ static void shape(const WrParams *p, WrSheet *sheet)
     }
 }
 
-bool wr_terrain_fractal(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+bool wr_terrain_fractal(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                         WrError *err)
 {
     const WrParams p = { wr_params_fractal, values };

@@ -2,7 +2,7 @@
    (.r16, .raw, .r32).
    Layer 4, private to this room. */
 #pragma once
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -11,9 +11,9 @@
    neither the order of outlines nor where the table begins can change a bit. */
 #pragma once
 #include "base/array.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/wrap.h"
-#include "generate/build.h"
+#include "generate/tile_builder.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -108,4 +108,4 @@ typedef struct WrTextFinish {
 float wr_text_height(const WrTextFinish *finish, double cover, bool centre, double distance);
 /* The relief of a shape: heights, and the covered part of each texel as cover. */
 bool wr_text_relief(WrTextShape *shape, const WrTextFinish *finish, const WrGenerateJob *job,
-                    WrRelief *out, WrError *err);
+                    WrNormalMips *out, WrError *err);

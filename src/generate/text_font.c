@@ -3,8 +3,8 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "generate/build.h"
-#include "generate/text_lay.h"
+#include "generate/tile_builder.h"
+#include "generate/text_layout.h"
 
 #include <string.h>
 

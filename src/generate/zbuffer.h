@@ -102,7 +102,8 @@ typedef struct WrZScene {
 /* What is hidden below others costs next to nothing, however large it is and however often it stands there.
  * Errors: coordinates that are not finite or beyond WR_Z_REACH, with the first one's number; more than
  * WR_Z_ENTRIES pieces; no memory; cancelled. */
-bool wr_zbuffer_draw(const WrZScene *scene, const WrGenerateJob *job, WrRelief *out, WrError *err);
+bool wr_zbuffer_draw(const WrZScene *scene, const WrGenerateJob *job, WrNormalMips *out,
+                     WrError *err);
 
 /* Squares of 8 x 8 texels in which this process has drawn solids so far, for tests that count work. */
 int64_t wr_zbuffer_squares(void);

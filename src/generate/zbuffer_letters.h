@@ -7,7 +7,7 @@
    bevel - sqrt(bevel^2 - (bevel - d)^2) (round) or bevel - d (chamfer). The distance is the true one to the
    nearest outline, so thin strokes get a ridge and nothing ever folds over. */
 #pragma once
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <stdbool.h>
 

@@ -4,8 +4,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/rows.h"
-#include "hardcases/hardcases_inner.h"
+#include "base/enum_rows.h"
+#include "hardcases/hardcases_internal.h"
 #include "system/clock.h"
 
 #include <string.h>

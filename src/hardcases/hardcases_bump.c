@@ -1,5 +1,5 @@
 /* Hard cases of the formulas that bend the normal: beyond focal distances, extreme slopes, nothing at all. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"

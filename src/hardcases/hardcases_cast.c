@@ -1,5 +1,5 @@
 /* Hard cases of shadows that objects throw. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "field/field.h"
 #include "scene/objects.h"

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "scene/colouring.h"
+#include "scene/height_colormap.h"
 #include "scene/scene.h"
 #include "surface/terrain.h"
 
@@ -147,36 +147,36 @@ static bool is_colour(const double rgb[3], const double of[3])
 }
 
 /* Four stops, the middle two at one height. */
-static void give_stops(WrHardGauge *g, WrColouring *out)
+static void give_stops(WrHardGauge *g, WrHeightColormap *out)
 {
     const double low = wr_hard_between(g, -2, 0), high = low + pow(10, wr_hard_between(g, -12, 2));
     const double heights[] = { low, high, high, high + 0.3 };
-    *out = (WrColouring){ .count = 4 };
+    *out = (WrHeightColormap){ .count = 4 };
     for (int k = 0; k < 4; k++) {
         out->stops[k].height = heights[k];
         for (int c = 0; c < 3; c++) out->stops[k].rgb[c] = wr_hard_random(g);
     }
 }
 
-static void check_stops(WrHardGauge *g, const WrColouring *of)
+static void check_stops(WrHardGauge *g, const WrHeightColormap *of)
 {
     static const double beyond[] = { 0.1, 1e30, INFINITY };
     const WrStop *stops = of->stops;
     double rgb[3];
     for (int k = 0; k < 3; k++) {
-        wr_colouring_at(of, stops[0].height - beyond[k], 0, rgb);
+        wr_height_colormap_at(of, stops[0].height - beyond[k], 0, rgb);
         wr_hard_holds(g, WR_HARD_DOUBLE, is_colour(rgb, stops[0].rgb));
-        wr_colouring_at(of, stops[3].height + beyond[k], 0, rgb);
+        wr_height_colormap_at(of, stops[3].height + beyond[k], 0, rgb);
         wr_hard_holds(g, WR_HARD_DOUBLE, is_colour(rgb, stops[3].rgb));
     }
-    wr_colouring_at(of, stops[1].height, 0, rgb);
+    wr_height_colormap_at(of, stops[1].height, 0, rgb);
     wr_hard_holds(g, WR_HARD_DOUBLE, is_colour(rgb, stops[2].rgb));
     for (int k = 0; k < 8; k++) { /* straight between the first two */
         const double t = wr_hard_random(g);
         const double at = stops[0].height + t * (stops[1].height - stops[0].height);
         if (!(at < stops[1].height)) continue;
         const double s = (at - stops[0].height) / (stops[1].height - stops[0].height);
-        wr_colouring_at(of, at, 0, rgb);
+        wr_height_colormap_at(of, at, 0, rgb);
         for (int c = 0; c < 3; c++)
             wr_hard_holds(g, WR_HARD_DOUBLE,
                           fabs(rgb[c] - (stops[0].rgb[c] * (1 - s) + stops[1].rgb[c] * s)) < 1e-12);
@@ -184,29 +184,29 @@ static void check_stops(WrHardGauge *g, const WrColouring *of)
 }
 
 /* From an angle on that is the one from which it is alone: a step. */
-static void check_steep(WrHardGauge *g, WrColouring *of)
+static void check_steep(WrHardGauge *g, WrHeightColormap *of)
 {
     const double angle = wr_hard_between(g, 5, 85), height = of->stops[3].height + 1;
     double rgb[3];
     of->steep = true;
     of->slope[0] = of->slope[1] = angle;
     for (int c = 0; c < 3; c++) of->steep_rgb[c] = 2 + wr_hard_random(g);
-    wr_colouring_at(of, height, nextafter(angle, 0), rgb);
+    wr_height_colormap_at(of, height, nextafter(angle, 0), rgb);
     wr_hard_holds(g, WR_HARD_DOUBLE, is_colour(rgb, of->stops[3].rgb));
-    wr_colouring_at(of, height, angle, rgb);
+    wr_height_colormap_at(of, height, angle, rgb);
     for (int c = 0; c < 3; c++)
         wr_hard_holds(g, WR_HARD_DOUBLE, fabs(rgb[c] - of->steep_rgb[c]) < 1e-12);
 }
 
 /* Cliffs as high as a float are steep, not NaN; the table rolled has the picture rolled, to the bit. */
-static bool check_table(WrHardGauge *g, const WrColouring *of, WrError *err)
+static bool check_table(WrHardGauge *g, const WrHeightColormap *of, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 13, 9, WR_WRAP_PERIODIC);
     wr_field_set(field, 0, 4, 3e38f);
     wr_field_set(field, 2, 4, -3e38f);
     WrField *rolled = wr_hard_rolled(field, 5, 4);
-    WrImage *a = wr_colouring_table(of, field, 1, err);
-    WrImage *b = a ? wr_colouring_table(of, rolled, 1, err) : NULL;
+    WrImage *a = wr_height_colormap_table(of, field, 1, err);
+    WrImage *b = a ? wr_height_colormap_table(of, rolled, 1, err) : NULL;
     for (int k = 0; b && k < 13 * 9; k++) {
         const int from = (k % 13 + 5) % 13 + 13 * ((k / 13 + 4) % 9);
         const float *to = b->data + (size_t)3 * (size_t)k;
@@ -228,7 +228,7 @@ bool wr_hard_hc178(WrHardGauge *g, WrError *err)
 {
     bool good = true;
     for (int k = 0; k < 60 && good; k++) {
-        WrColouring of;
+        WrHeightColormap of;
         give_stops(g, &of);
         check_stops(g, &of);
         check_steep(g, &of);

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
-#include "render/reference_mesh.h"
+#include "render/reference/reference_mesh.h"
 #include "scene/scene.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 /* The hard case of exact normals at focal distances, where the raised surface has lost a tangent. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "field/field.h"

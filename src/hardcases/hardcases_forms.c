@@ -1,5 +1,5 @@
 /* Hard cases of surfaces that are given by exponents and by words: superellipsoids, profiles, formulas. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/text.h"

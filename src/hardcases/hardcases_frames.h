@@ -1,8 +1,8 @@
 /* hardcases_frames.h - the measurements of meshes and their tangent frames: HC28 to HC31 and HC126 to HC136, in two files.
    Layer 6, private to this room. */
 #pragma once
-#include "hardcases/hardcases_inner.h"
-#include "surface/tangents.h"
+#include "hardcases/hardcases_internal.h"
+#include "surface/tangent_frames.h"
 
 #include <stdbool.h>
 

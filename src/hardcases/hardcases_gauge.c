@@ -1,5 +1,5 @@
 /* What the measurements of the hard cases share: comparisons, points, tables, look-ups, pictures. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"

@@ -1,16 +1,16 @@
 /* Hard cases of solid textures. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "noise/octaves.h"
-#include "render/grain_fill.h"
-#include "shade/grain.h"
+#include "render/textures/solid_texture_setup.h"
+#include "shade/solid_texture.h"
 
 #include <string.h>
 
 /* A pattern by one number of each precision, its colours 0 and 1: what it is at p. */
-static WrGrain bare(WrGrainKind kind)
+static WrSolidTexture bare(WrSolidTextureKind kind)
 {
-    WrGrain grain = wr_grains[kind].usual;
+    WrSolidTexture grain = wr_grains[kind].usual;
     for (int c = 0; c < 3; c++) grain.light[c] = 0, grain.dark[c] = 1;
     return grain;
 }
@@ -25,7 +25,7 @@ static double in_float(WrHardGauge *g, int set, const WrKernGraind *of, WrVec3 p
     WrStrip *s = g->strip;
     WrKernGrain grain;
     WrRays rays = { .d0 = { 0, 0, -1 }, .toward = { 0, 0, 1 } };
-    wr_grain_kern_narrow(of, &grain);
+    wr_solid_texture_kern_narrow(of, &grain);
     for (int c = 0; c < 3 && px; c++)
         rays.qx[c] = (float)px->right[c], rays.qy[c] = (float)px->down[c];
     s->count = 1;
@@ -67,21 +67,21 @@ static double near_float(WrHardGauge *g, double low, double high)
 static bool hc117(WrHardGauge *g, WrError *err)
 {
     WrKernGraind board, wood;
-    WrGrain grain = bare(WR_GRAIN_CHECKER);
+    WrSolidTexture grain = bare(WR_SOLID_TEXTURE_CHECKER);
     (void)err;
     grain.rings = 1;
-    wr_grain_kern_fill(&grain, grain.kind, false, false, 1, &board);
+    wr_solid_texture_kern_fill(&grain, grain.kind, false, false, 1, &board);
     for (int i = 0; i < 64; i++) {
         const WrVec3 p = { near_float(g, -9, 9), near_float(g, -9, 9), near_float(g, -9, 9) };
         const int cells = (int)(floor(p.x) + floor(p.y) + floor(p.z));
         near_all(g, &board, p, NULL, cells % 2 != 0 ? 1 : 0, 1);
     }
-    grain = bare(WR_GRAIN_WOOD);
-    grain.drives = WR_GRAIN_BUMPS | WR_GRAIN_COLOURS;
+    grain = bare(WR_SOLID_TEXTURE_WOOD);
+    grain.drives = WR_SOLID_TEXTURE_BUMPS | WR_SOLID_TEXTURE_COLOURS;
     for (int i = 0; i < 24; i++) {
         const Pixel px = { { i & 1 ? 0 : 1e-3, 0, 0 }, { 0, 1e-3, 0 } };
         const WrVec3 p = { 0, i & 2 ? 0 : -1e-30, near_float(g, -3, 3) };
-        wr_grain_kern_fill(&grain, grain.kind, true, i & 4, 1, &wood);
+        wr_solid_texture_kern_fill(&grain, grain.kind, true, i & 4, 1, &wood);
         for (int set = 0; set < g->all; set++) {
             const double got = in_float(g, set, &wood, p, &px);
             wr_hard_holds(g, WR_HARD_FLOAT, got >= 0 && got <= 1);
@@ -104,10 +104,10 @@ static long double pulses(long double t, long double d)
 /* Rings whose edges are w wide, at the distance t. */
 static void ring(WrHardGauge *g, double t, double w, double share, double want, double by)
 {
-    WrGrain grain = bare(WR_GRAIN_WOOD);
+    WrSolidTexture grain = bare(WR_SOLID_TEXTURE_WOOD);
     WrKernGraind of;
     grain.rings = 1, grain.share = share, grain.amount = 0;
-    wr_grain_kern_fill(&grain, grain.kind, false, false, 1, &of);
+    wr_solid_texture_kern_fill(&grain, grain.kind, false, false, 1, &of);
     of.edge = (double)(float)w;
     near_all(g, &of, (WrVec3){ t, 0, 0.3 }, NULL, want, by);
     const double wide = in_double(g, 0, &of, (WrVec3){ t, 0, 0 }, NULL);
@@ -151,10 +151,10 @@ static bool hc120(WrHardGauge *g, WrError *err)
 {
     (void)err;
     for (int i = 0; i < 100; i++) {
-        WrGrain grain = bare((WrGrainKind)(1 + i % (WR_GRAIN_KINDS - 1)));
+        WrSolidTexture grain = bare((WrSolidTextureKind)(1 + i % (WR_SOLID_TEXTURE_KINDS - 1)));
         WrKernGraind of;
-        grain.axis = (WrGrainAxis)(i % WR_GRAIN_AXES);
-        wr_grain_kern_fill(&grain, grain.kind, true, false, 1, &of);
+        grain.axis = (WrSolidTextureAxis)(i % WR_SOLID_TEXTURE_AXES);
+        wr_solid_texture_kern_fill(&grain, grain.kind, true, false, 1, &of);
         const WrVec3 p = { near_float(g, -2, 2), near_float(g, -2, 2), near_float(g, -2, 2) };
         const Pixel other = { { near_float(g, -1, 1), 0.1, 0 }, { 0, near_float(g, -1, 1), 0.2 } };
         const double first = in_float(g, 0, &of, p, NULL), wide = in_double(g, 0, &of, p, NULL);
@@ -170,24 +170,24 @@ static bool hc120(WrHardGauge *g, WrError *err)
 
 static bool hc121(WrHardGauge *g, WrError *err)
 {
-    static const WrGrainKind kinds[] = { WR_GRAIN_GRANITE, WR_GRAIN_NOISE };
+    static const WrSolidTextureKind kinds[] = { WR_SOLID_TEXTURE_GRANITE, WR_SOLID_TEXTURE_NOISE };
     const Pixel far = { { 1e3, 0, 0 }, { 0, 1e3, 0 } };
     (void)err;
     for (int k = 0; k < 2; k++) {
-        WrGrain grain = bare(kinds[k]);
+        WrSolidTexture grain = bare(kinds[k]);
         WrOctavesPlan noise;
         WrKernGraind of;
         enum { PLACES = 20000 };
         double sum = 0;
         grain.octaves = 6 - k;
-        wr_grain_noise(&grain, &noise);
+        wr_solid_texture_noise(&grain, &noise);
         for (int i = 0; i < PLACES; i++) {
             const double p[3] = { wr_hard_between(g, -50, 50), wr_hard_between(g, -50, 50),
                                   wr_hard_between(g, -50, 50) };
             const double moved = grain.amount * wr_octaves_at(&noise, p, NULL);
             sum += fmin(fmax(k == 0 ? moved : 0.5 + 0.5 * moved, 0), 1) / PLACES;
         }
-        wr_grain_kern_fill(&grain, grain.kind, true, true, 1, &of);
+        wr_solid_texture_kern_fill(&grain, grain.kind, true, true, 1, &of);
         near_all(g, &of, (WrVec3){ 0.3, 0.4, 0.5 }, &far, sum, 1);
     }
     return true;

@@ -1,5 +1,5 @@
 /* Hard cases of what shadows the relief. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "field/field.h"

@@ -2,7 +2,7 @@
    list of their rows.
    Layer 6, private to this room. */
 #pragma once
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include <stdbool.h>
 

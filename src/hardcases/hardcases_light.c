@@ -1,5 +1,5 @@
 /* Hard cases of highlights, of means over samples, and of pictures. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/kernmath.h"

@@ -1,8 +1,8 @@
 /* hardcases_look.h - heights and slopes as the renderer looks them up, for measuring.
    Layer 6, private to this room. */
 #pragma once
-#include "hardcases/hardcases_inner.h"
-#include "render/table.h"
+#include "hardcases/hardcases_internal.h"
+#include "render/textures/height_copies.h"
 
 #include <stdbool.h>
 

@@ -1,9 +1,9 @@
 /* Hard cases of normal maps: codes, signs, and slopes that are too steep. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "field/field.h"
 #include "image/image.h"
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "scene/normal_map.h"
 #include "scene/scene.h"
 
@@ -40,7 +40,8 @@ static bool shoot_map(WrHardGauge *g, WrImage *map, double strength, double repe
     scene->shape = wr_hard_shape(wanted_flat ? WR_SURFACE_plane : WR_SURFACE_sphere);
     scene->dials.aa = aa;
     scene->normals = (WrNormalMap){ .image = map, .strength = strength };
-    if (repeat != 1) scene->normals.laid = (WrLaid){ .own = true, .ru = repeat, .rv = repeat };
+    if (repeat != 1)
+        scene->normals.laid = (WrTextureSample){ .own = true, .ru = repeat, .rv = repeat };
     for (int way = 0; way < WR_HARD_WAYS && good; way++) {
         const WrFrameRequest request = {
             .field = field, .scene = scene, .width = 40, .height = 40

@@ -1,5 +1,5 @@
 /* Hard cases of single noises: lattice points, far and negative places, hashes, faces of simplices. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "noise/grid.h"

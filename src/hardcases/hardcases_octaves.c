@@ -1,5 +1,5 @@
 /* Hard cases of sums of noise: octaves too fine for the table, sums that do not converge, creases, tiling. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "noise/grid.h"

@@ -1,5 +1,5 @@
 /* Hard cases of dabs and strokes. Heights are floats; how they change is worked out in double. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "brush/brush.h"

@@ -1,5 +1,5 @@
 /* Hard cases of sets of bicubic patches: tables across edges that are turned and mirrored, what a set does not show. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

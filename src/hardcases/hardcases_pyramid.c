@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "field/field.h"
-#include "render/pyramid.h"
+#include "render/textures/slope_pyramid.h"
 
 #include <string.h>
 

@@ -1,12 +1,12 @@
 /* Hard cases of displaced surfaces. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
-#include "render/dice.h"
-#include "render/plan.h"
-#include "render/view.h"
+#include "render/tessellation/dice.h"
+#include "render/plan/plan.h"
+#include "render/visibility/view.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"

@@ -1,5 +1,5 @@
 /* Light and pictures in double, by the reference renderer. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,10 +1,10 @@
 /* Hard cases of reflection models. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "field/field.h"
 #include "scene/scene.h"
-#include "shade/reflect.h"
+#include "shade/reflection.h"
 
 /* One lamp of strength 1 on one place. */
 typedef struct Place {

@@ -1,5 +1,5 @@
 /* Hard cases of the sides that a perturbed normal may turn to: away from the eye, away from the light, edge on. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "field/field.h"

@@ -1,5 +1,5 @@
 /* Hard cases of what is in the picture: near planes, insides, shared edges, tiny patches; and of turning. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"

@@ -1,7 +1,7 @@
 /* hardcases_stretch.h - what objects that are stretched, mirrored or flat must keep to.
    Layer 6, private to the room. */
 #pragma once
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 bool wr_hard_hc33(WrHardGauge *gauge, WrError *err);
 bool wr_hard_hc34(WrHardGauge *gauge, WrError *err);

@@ -1,5 +1,5 @@
 /* Hard cases of points and normals: poles, tips, collapsed edges, extreme lengths. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"

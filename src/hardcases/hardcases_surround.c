@@ -1,11 +1,11 @@
 /* Hard cases of surroundings. */
-#include "hardcases/hardcases_inner.h"
+#include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/image.h"
-#include "render/mirror.h"
-#include "shade/blur.h"
+#include "render/environment/env_lookup.h"
+#include "shade/environment_blur.h"
 
 typedef double Sky(WrVec3 d);
 
@@ -30,22 +30,22 @@ static double sun(WrVec3 d)
 }
 
 /* Surroundings of w x h texels; the caller's. */
-static WrSurround *around(int w, int h, Sky *sky, WrError *err)
+static WrEnvironmentMap *around(int w, int h, Sky *sky, WrError *err)
 {
-    WrSurroundTold told;
+    WrEnvironmentMapTold told;
     WrImage *image = wr_image_new(w, h, 1, err);
     if (!image) return NULL;
     image->type = WR_PIXEL_F32;
     for (int i = 0; i < w * h; i++)
         image->data[i] =
-            (float)sky(wr_surround_direction((i % w + 0.5) / w, 1 - (i / w + 0.5) / h));
-    WrSurround *made = wr_surround_new(image, &told, err);
+            (float)sky(wr_environment_map_direction((i % w + 0.5) / w, 1 - (i / w + 0.5) / h));
+    WrEnvironmentMap *made = wr_environment_map_new(image, &told, err);
     wr_image_free(image);
     return made;
 }
 
 /* What a mirror shows by the kernels that looks along d. */
-static double mirrored(WrHardGauge *g, int set, const WrMirror *m, WrVec3 d)
+static double mirrored(WrHardGauge *g, int set, const WrEnvLookup *m, WrVec3 d)
 {
     WrStrip *s = g->strip;
     const WrKernMirror how = { .axes = { 1, 0, 0, 0, 1, 0, 0, 0, 1 },
@@ -66,12 +66,12 @@ static double mirrored(WrHardGauge *g, int set, const WrMirror *m, WrVec3 d)
 static const double straight[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
 /* Diffuse light of a normal by the kernels. */
-static double lit(WrHardGauge *g, int set, const WrSurround *from, WrVec3 n)
+static double lit(WrHardGauge *g, int set, const WrEnvironmentMap *from, WrVec3 n)
 {
     WrStrip *s = g->strip;
     double form[3][WR_FORM_TERMS];
     WrKernSurround how = { .kd = 1 };
-    wr_surround_form(from, straight, 1, 2, form);
+    wr_environment_map_form(from, straight, 1, 2, form);
     for (int i = 0; i < WR_FORM_TERMS; i++) how.form[0][i] = (float)form[0][i];
     s->count = 1;
     s->bx[0] = (float)n.x, s->by[0] = (float)n.y, s->bz[0] = (float)n.z;
@@ -88,12 +88,12 @@ static WrVec3 random_unit(WrHardGauge *g)
 }
 
 /* The same from both sides of a place where longitudes jump. */
-static void look_twice(WrHardGauge *g, const WrSurround *from, const WrMirror *m, WrVec3 a,
+static void look_twice(WrHardGauge *g, const WrEnvironmentMap *from, const WrEnvLookup *m, WrVec3 a,
                        WrVec3 b)
 {
     double x[3], y[3];
-    wr_surround_at(from, a, x);
-    wr_surround_at(from, b, y);
+    wr_environment_map_at(from, a, x);
+    wr_environment_map_at(from, b, y);
     wr_hard_near(g, WR_HARD_DOUBLE, x[1], y[1]);
     for (int set = 0; set < g->all; set++)
         wr_hard_near(g, WR_HARD_FLOAT, mirrored(g, set, m, a), mirrored(g, set, m, b));
@@ -101,10 +101,10 @@ static void look_twice(WrHardGauge *g, const WrSurround *from, const WrMirror *m
 
 static bool hc111(WrHardGauge *g, WrError *err)
 {
-    WrMirror m = { 0 };
-    WrSurround *from = around(37, 18, rough, err);
-    if (!from || !wr_mirror_bring(&m, from, NULL, 0, g->pool, err)) {
-        wr_surround_free(from);
+    WrEnvLookup m = { 0 };
+    WrEnvironmentMap *from = around(37, 18, rough, err);
+    if (!from || !wr_env_lookup_bring(&m, from, NULL, 0, g->pool, err)) {
+        wr_environment_map_free(from);
         return false;
     }
     for (int i = 0; i < 40; i++) {
@@ -113,8 +113,8 @@ static bool hc111(WrHardGauge *g, WrError *err)
         look_twice(g, from, &m, (WrVec3){ 0, y, 0 }, (WrVec3){ e * cos(t), y, e * sin(t) });
         look_twice(g, from, &m, (WrVec3){ e, h, r }, (WrVec3){ -e, h, r });
     }
-    wr_mirror_drop(&m);
-    wr_surround_free(from);
+    wr_env_lookup_drop(&m);
+    wr_environment_map_free(from);
     return true;
 }
 
@@ -122,33 +122,33 @@ static bool hc112(WrHardGauge *g, WrError *err)
 {
     static const int sizes[][2] = { { 1, 1 }, { 1, 7 }, { 9, 1 }, { 13, 5 }, { 2, 3 } };
     for (int k = 0; k < 5; k++) {
-        WrMirror m = { 0 };
-        WrSurround *from = around(sizes[k][0], sizes[k][1], rough, err);
-        if (!from || !wr_mirror_bring(&m, from, NULL, 0, g->pool, err)) {
-            wr_surround_free(from);
+        WrEnvLookup m = { 0 };
+        WrEnvironmentMap *from = around(sizes[k][0], sizes[k][1], rough, err);
+        if (!from || !wr_env_lookup_bring(&m, from, NULL, 0, g->pool, err)) {
+            wr_environment_map_free(from);
             return false;
         }
         for (int i = 0; i < 20; i++) {
             const WrVec3 d = i ? random_unit(g) : (WrVec3){ 0, 1, 0 };
             double at[3];
-            wr_surround_at(from, d, at);
+            wr_environment_map_at(from, d, at);
             wr_hard_holds(g, WR_HARD_DOUBLE, at[0] >= 0 && at[0] <= 1);
             for (int set = 0; set < g->all; set++)
                 wr_hard_holds(g, WR_HARD_FLOAT, fabs(mirrored(g, set, &m, d) - at[0]) <= 1e-4);
         }
-        wr_mirror_drop(&m);
-        wr_surround_free(from);
+        wr_env_lookup_drop(&m);
+        wr_environment_map_free(from);
     }
     return true;
 }
 
 static bool hc113(WrHardGauge *g, WrError *err)
 {
-    WrSurround *from = around(512, 256, sun, err);
+    WrEnvironmentMap *from = around(512, 256, sun, err);
     if (!from) return false;
     const double all = 2 * sqrt(3.14159265358979323846) * from->harmonic[0][0];
     double form[3][WR_FORM_TERMS];
-    wr_surround_form(from, straight, 1, 2, form);
+    wr_environment_map_form(from, straight, 1, 2, form);
     for (int i = 0; i < 200; i++) {
         const WrVec3 n = random_unit(g);
         const double want = fmax(0, v3_dot(n, east)) * (all - 0.4 * 3.14159265358979323846) /
@@ -161,27 +161,27 @@ static bool hc113(WrHardGauge *g, WrError *err)
                           got - want <= 3.0 / 32 * all / 3.1 && want - got <= 0.04 * all / 3.1);
         }
     }
-    wr_surround_free(from);
+    wr_environment_map_free(from);
     return true;
 }
 
 static bool hc114(WrHardGauge *g, WrError *err)
 {
     static const float strange[] = { NAN, -NAN, INFINITY, -INFINITY, 3e38f, -1, -0.0f, 0.5f };
-    WrSurroundTold told;
+    WrEnvironmentMapTold told;
     WrImage *image = wr_image_new(8, 4, 3, err);
     if (!image) return false;
     image->type = WR_PIXEL_F32;
     for (int i = 0; i < 8 * 4 * 3; i++) image->data[i] = strange[i * 5 / 3 % 8];
-    WrMirror m = { 0 };
-    const WrGloss wide = { .lobe = WR_LOBE_FACETS, .alpha = 0.3, .gated = true };
-    WrSurround *from = wr_surround_new(image, &told, err);
+    WrEnvLookup m = { 0 };
+    const WrEnvironmentBrdf wide = { .lobe = WR_LOBE_FACETS, .alpha = 0.3, .gated = true };
+    WrEnvironmentMap *from = wr_environment_map_new(image, &told, err);
     wr_image_free(image);
-    const bool good = from && wr_mirror_bring(&m, from, &wide, 16, g->pool, err);
+    const bool good = from && wr_env_lookup_bring(&m, from, &wide, 16, g->pool, err);
     for (int i = 0; i < 40 && good; i++) {
         const WrVec3 d = random_unit(g);
         double at[3];
-        wr_surround_at(from, d, at);
+        wr_environment_map_at(from, d, at);
         wr_hard_holds(g, WR_HARD_DOUBLE, at[2] >= 0 && at[2] <= 1.001e9);
         for (int set = 0; set < g->all; set++) {
             const double mirror = mirrored(g, set, &m, d), diffuse = lit(g, set, from, d);
@@ -190,23 +190,23 @@ static bool hc114(WrHardGauge *g, WrError *err)
         }
     }
     if (good) wr_hard_holds(g, WR_HARD_DOUBLE, told.lost > 0 && told.below > 0 && told.above > 0);
-    wr_mirror_drop(&m);
-    wr_surround_free(from);
+    wr_env_lookup_drop(&m);
+    wr_environment_map_free(from);
     return good;
 }
 
 static bool hc115(WrHardGauge *g, WrError *err)
 {
-    WrSurround *from = around(37, 18, one, err);
+    WrEnvironmentMap *from = around(37, 18, one, err);
     bool good = from != NULL;
     for (int k = 0; k < 4 && good; k++) {
-        WrMirror m = { 0 };
-        const WrGloss wide = { .lobe = k % 2 ? WR_LOBE_POWER : WR_LOBE_FACETS,
-                               .alpha = 0.07 + 0.31 * k,
-                               .power = 7.3,
-                               .gated = true };
+        WrEnvLookup m = { 0 };
+        const WrEnvironmentBrdf wide = { .lobe = k % 2 ? WR_LOBE_POWER : WR_LOBE_FACETS,
+                                         .alpha = 0.07 + 0.31 * k,
+                                         .power = 7.3,
+                                         .gated = true };
         double order[1];
-        good = wr_mirror_bring(&m, from, &wide, 16, g->pool, err);
+        good = wr_env_lookup_bring(&m, from, &wide, 16, g->pool, err);
         wr_blur_orders(&wide, 1, order);
         wr_hard_near(g, WR_HARD_DOUBLE, order[0] * 0.73, 0.73);
         for (int i = 0; i < 20 && good; i++)
@@ -215,9 +215,9 @@ static bool hc115(WrHardGauge *g, WrError *err)
                 wr_hard_near(g, WR_HARD_FLOAT, mirrored(g, set, &m, d), 0.73);
                 wr_hard_near(g, WR_HARD_FLOAT, lit(g, set, from, d), 0.73);
             }
-        wr_mirror_drop(&m);
+        wr_env_lookup_drop(&m);
     }
-    wr_surround_free(from);
+    wr_environment_map_free(from);
     return good;
 }
 
@@ -234,9 +234,9 @@ static double linear(WrVec3 d)
     return 1 + 0.9 * v3_dot(d, east);
 }
 
-static WrGloss facets_of(double alpha)
+static WrEnvironmentBrdf facets_of(double alpha)
 {
-    return (WrGloss){ .lobe = WR_LOBE_FACETS, .alpha = alpha, .power = 1, .gated = true };
+    return (WrEnvironmentBrdf){ .lobe = WR_LOBE_FACETS, .alpha = alpha, .power = 1, .gated = true };
 }
 
 static bool hc101(WrHardGauge *g, WrError *err)
@@ -245,32 +245,32 @@ static bool hc101(WrHardGauge *g, WrError *err)
     const double flat[] = { 1, 2.0 / 3, 1.0 / 4, 0, -1.0 / 24 }; /* of max(0, c) */
     double order[5];
     for (int i = 0; i < 4; i++) {
-        const WrGloss gloss = facets_of(near[i]);
+        const WrEnvironmentBrdf gloss = facets_of(near[i]);
         wr_blur_orders(&gloss, 5, order);
         for (int l = 0; l < 5; l++) /* the slope at 1 is below 1 */
             wr_hard_off(g, WR_HARD_DOUBLE, fmax(0, fabs(order[l] - flat[l]) - (1 - near[i])));
     }
     for (int i = 0; i < 20; i++) {
         const double alpha = wr_hard_between(g, 0.2, 0.97), mu = wr_hard_between(g, 0.02, 1);
-        const WrGloss gloss = facets_of(alpha);
+        const WrEnvironmentBrdf gloss = facets_of(alpha);
         double e[2];
         wr_blur_orders(&gloss, 2, order);
         wr_hard_off(g, WR_HARD_DOUBLE, fabs(order[1] - slope_kept(alpha)));
         wr_ggx_albedo(1, mu, e);
         wr_hard_off(g, WR_HARD_FLOAT, fabs(e[0] + e[1] - (1 - mu * log(1 + 1 / mu))));
     }
-    WrSurround *from = around(64, 32, linear, err);
-    WrMirror m = { 0 };
-    const WrGloss gloss = facets_of(1);
-    bool good = from && wr_mirror_bring(&m, from, &gloss, 16, g->pool, err);
+    WrEnvironmentMap *from = around(64, 32, linear, err);
+    WrEnvLookup m = { 0 };
+    const WrEnvironmentBrdf gloss = facets_of(1);
+    bool good = from && wr_env_lookup_bring(&m, from, &gloss, 16, g->pool, err);
     for (int i = 0; i < 20 && good; i++)
         for (int set = 0; set < g->all; set++) {
             const WrVec3 d = random_unit(g);
             const double want = 1 + 0.9 * 2 / 3 * v3_dot(d, east);
             wr_hard_off(g, WR_HARD_FLOAT, fabs(mirrored(g, set, &m, d) - want));
         }
-    wr_mirror_drop(&m);
-    wr_surround_free(from);
+    wr_env_lookup_drop(&m);
+    wr_environment_map_free(from);
     return good;
 }
 
@@ -280,8 +280,8 @@ static bool hc116(WrHardGauge *g, WrError *err)
     for (int i = 0; i < 40; i++) {
         const double turn = floor(wr_hard_between(g, -180, 180) * 64) / 64;
         double a[9], b[9];
-        wr_surround_turn(turn, a);
-        wr_surround_turn(turn + 360.0 * (i - 20), b);
+        wr_environment_map_turn(turn, a);
+        wr_environment_map_turn(turn + 360.0 * (i - 20), b);
         for (int k = 0; k < 9; k++) {
             wr_hard_near(g, WR_HARD_DOUBLE, a[k], b[k]);
             wr_hard_near(g, WR_HARD_FLOAT, (double)(float)a[k], (double)(float)b[k]);

@@ -6,7 +6,7 @@
    below 0 by more than rounding count as a distance of 1 from unit. The smaller sum is taken, unit if both are equal. So a
    blue of 1.00001, as bakes in floats have, or a few numbers below 0 by a filter's overshoot, decide nothing. */
 #pragma once
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <stdbool.h>
 

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "image/codec.h"
 #include "image/format.h"
-#include "image/plain.h"
+#include "image/simple_formats.h"
 #include "image/png.h"
 #include "system/fd.h"
 
@@ -18,7 +18,7 @@ struct WrDecoder {
     WrPlain *plain;
 };
 
-/* The format by the file's first bytes, else by its ending; "plain" for what plain.h reads. */
+/* The format by the file's first bytes, else by its ending; "plain" for what simple_formats.h reads. */
 static const char *format_of(const unsigned char *bytes, size_t count, const char *ending)
 {
     const char *format = wr_image_sniff(bytes, count);

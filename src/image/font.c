@@ -1,12 +1,12 @@
 /* Asking the reader process for a shaped text, and fonts by name. */
 #include "base/error.h"
 #include "base/file.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
-#include "image/font_inner.h"
-#include "image/reader.h"
+#include "image/font_internal.h"
+#include "image/reader_client.h"
 #include "system/fd.h"
-#include "system/map.h"
+#include "system/file_map.h"
 #include "system/path.h"
 
 #include <errno.h>

@@ -1,7 +1,7 @@
 /* font.h - text as outlines: font files of all kinds, bitmap and outline, shaped for any script.
    Layer 1.
 
-   A font file is read and text is shaped by it in the reader process (wire.h), since fonts come from
+   A font file is read and text is shaped by it in the reader process (reader_protocol.h), since fonts come from
    strangers; what it answers is checked here number by number. All of it is whole numbers in the font's
    own units, so that no library's rounding can reach a height: sizes, places and curves come after,
    here, by + - * / sqrt alone.
@@ -10,7 +10,7 @@
    directions by FriBidi; bitmaps in PCF, BDF, PSF 1 and 2, all also compressed by gzip. */
 #pragma once
 #include "base/array.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -52,7 +52,7 @@ char *wr_font_find(int index, double size, WrError *err);
  * letters ("sans", "serif-bold", any of wr_font_names). Which ones depends on the machine: what is to be
  * replayed must keep their names. paths: up to `most`; the caller frees each with wr_free. Returns how
  * many; 0 also where fontconfig does not work, and where it is cancelled while that makes its list of fonts
- * (base/aside.h). Any thread. */
+ * (base/once_async.h). Any thread. */
 int wr_font_lenders(const uint32_t *characters, int count, const char *kind, const char *language,
                     int most, char *paths[]);
 

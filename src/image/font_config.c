@@ -1,6 +1,6 @@
 #include "image/font_config.h"
 
-#include "base/aside.h"
+#include "base/once_async.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "system/child.h"
@@ -47,6 +47,6 @@ static bool load(void *ctx, WrError *err)
 
 bool wr_font_config(WrError *err)
 {
-    static WrAside list = { .work = load };
-    return wr_aside_wait(&list, err);
+    static WrOnceAsync list = { .work = load };
+    return wr_once_async_wait(&list, err);
 }

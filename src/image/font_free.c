@@ -1,6 +1,6 @@
 /* Fonts that FreeType reads; outlines in the font's own units, never scaled or hinted, so that no rounding
    of that library shows. OpenType fonts are shaped by HarfBuzz, at a scale of one unit. */
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include "base/error.h"
 

@@ -1,4 +1,4 @@
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include "base/error.h"
 #include "base/text.h"

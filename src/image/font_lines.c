@@ -1,5 +1,5 @@
 /* A text cut into lines, and lines into parts by direction (Unicode's bidirectional algorithm). */
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include "base/error.h"
 

@@ -1,5 +1,5 @@
 /* Reading fonts, in whichever process: unpacked, then by their kind. */
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include "base/error.h"
 #include "base/text.h"

@@ -1,6 +1,6 @@
 /* From glyphs to polygons: curves made straight, dots traced round, letters put in their places. All by
    + - * / sqrt, in a fixed order. */
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include "base/error.h"
 

@@ -1,5 +1,5 @@
 /* A shaped text as one block, and checking a block that may come from anywhere. */
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include "base/text.h"
 

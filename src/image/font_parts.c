@@ -1,7 +1,7 @@
 /* Lines cut into parts of one direction, one script and one font. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include <hb.h>
 

@@ -1,6 +1,6 @@
 /* PSF, the console's fonts, of both versions: a header, dots of equally large glyphs, and perhaps a table
    that tells for each glyph the characters that it stands for. */
-#include "image/font_inner.h"
+#include "image/font_internal.h"
 
 #include "base/error.h"
 

@@ -1,5 +1,5 @@
 #include "image/gltf.h"
-#include "image/gltf_inner.h"
+#include "image/gltf_internal.h"
 
 #include "base/error.h"
 #include "base/file.h"

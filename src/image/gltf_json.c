@@ -1,4 +1,4 @@
-#include "image/gltf_inner.h"
+#include "image/gltf_internal.h"
 
 #include "base/text.h"
 

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "image/gltf_inner.h"
+#include "image/gltf_internal.h"
 #include "image/mesh_build.h"
 
 #include <math.h>

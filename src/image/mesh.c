@@ -5,8 +5,8 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "image/gltf.h"
-#include "image/mesh_make.h"
-#include "image/reader.h"
+#include "image/mesh_decode.h"
+#include "image/reader_client.h"
 #include "system/fd.h"
 
 #include <math.h>

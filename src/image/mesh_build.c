@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "image/mesh_make.h"
+#include "image/mesh_decode.h"
 
 #include <math.h>
 #include <string.h>

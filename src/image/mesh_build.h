@@ -50,6 +50,6 @@ bool wr_mesh_build_triangle(WrMeshBuild *build, int32_t a, int32_t b, int32_t c,
 bool wr_mesh_build_polygon(WrMeshBuild *build, const int32_t *corners, int32_t count, WrError *err);
 /* A strip of triangles: corners i, i+1, i+2, every other one turned. Those with two equal corners are left out. */
 bool wr_mesh_build_strip(WrMeshBuild *build, const int32_t *corners, int32_t count, WrError *err);
-/* The mesh as bytes (mesh_make.h), appended. Errors: no triangle; a point that is not finite or beyond 1e30 (the first
+/* The mesh as bytes (mesh_decode.h), appended. Errors: no triangle; a point that is not finite or beyond 1e30 (the first
  * is named). */
 bool wr_mesh_build_finish(const WrMeshBuild *build, WrText *block, WrError *err);

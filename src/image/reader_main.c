@@ -1,13 +1,13 @@
-/* The reader process: reads strangers' picture files, so that a hostile one harms nobody else. See wire.h
+/* The reader process: reads strangers' picture files, so that a hostile one harms nobody else. See reader_protocol.h
    for what it is told and what it answers. It forks for each file, so that no file meets what another one left
    behind; of a file itself it looks at the first bytes alone, which tell whether the picture library is needed. That is
    loaded once: when a file needs it, or as soon as there is nothing else to do. */
 #include "base/array.h"
 #include "image/decode.h"
-#include "image/mesh_make.h"
+#include "image/mesh_decode.h"
 #include "image/oiio.h"
-#include "image/serve.h"
-#include "image/wire.h"
+#include "image/reader_child.h"
+#include "image/reader_protocol.h"
 #include "system/channel.h"
 #include "system/child.h"
 #include "system/fd.h"

@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "image/image.h"
-#include "image/read_inner.h"
-#include "image/told.h"
+#include "image/read_internal.h"
+#include "image/image_info.h"
 #include "system/path.h"
 
 #include <json-c/json.h>

@@ -3,10 +3,10 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "image/choose.h"
+#include "image/channel_choice.h"
 #include "image/fill_missing.h"
-#include "image/read_inner.h"
-#include "image/told.h"
+#include "image/read_internal.h"
+#include "image/image_info.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "base/spool.h"
 #include "image/decode.h"
 #include "image/oiio.h"
-#include "image/verify.h"
+#include "image/readback.h"
 #include "system/fd.h"
 #include "system/process.h"
 

@@ -1,7 +1,7 @@
 #include "noise/grid.h"
 
 #include "base/error.h"
-#include "noise/kern.h"
+#include "noise/octave_kernels.h"
 
 #include <math.h>
 

@@ -1,11 +1,11 @@
-#include "noise/kern.h"
+#include "noise/octave_kernels.h"
 
 #include "base/error.h"
 
 #include <math.h>
 #include <string.h>
 
-/* One octave over a piece of a grid (grid.h), with the loops of kern.h. */
+/* One octave over a piece of a grid (grid.h), with the loops of octave_kernels.h. */
 
 static uint32_t reduced_index(double whole, int period)
 {

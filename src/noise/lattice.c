@@ -1,7 +1,7 @@
 #include "noise/lattice.h"
 
 #include "base/exactmath.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <math.h>
 #include <string.h>

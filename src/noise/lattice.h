@@ -8,7 +8,7 @@
    overflows (HC61). */
 #pragma once
 #include "base/hash.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <stdint.h>
 

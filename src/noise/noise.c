@@ -1,8 +1,8 @@
 #include "noise/noise.h"
 
 #include "base/error.h"
-#include "base/rows.h"
-#include "noise/inner.h"
+#include "base/enum_rows.h"
+#include "noise/noise_internal.h"
 
 #include <math.h>
 #include <string.h>

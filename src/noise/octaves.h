@@ -18,7 +18,7 @@
    For r = s slopes do not fall off: the rms slope grows as the square root of the number of octaves
    while the rms height has long converged. For bumps choose r > s, or few octaves. */
 #pragma once
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "noise/noise.h"
 
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "noise/inner.h"
+#include "noise/noise_internal.h"
 
 #include "base/exactmath.h"
 

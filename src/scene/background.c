@@ -1,6 +1,6 @@
 #include "scene/background.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "image/image.h"
 
 #include <string.h>

@@ -21,7 +21,7 @@ typedef struct WrCamera {
 extern const char *const wr_camera_names[2];
 
 /* How a scene is looked at: the orientation of its one object and the camera. Not part of the work: it has a
-   history of its own (document/views.h). */
+   history of its own (document/view_history.h). */
 typedef struct WrSceneView {
     bool of_one; /* the scene holds one object; of several each is turned by an edit of its own */
     bool posed;  /* as in WrScene; of one object */

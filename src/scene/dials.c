@@ -1,7 +1,7 @@
 /* The table of dials. */
 #include "scene/dials.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "scene/scene.h"
 

@@ -23,7 +23,7 @@ typedef enum WrAntialias {
 
 /* filter, moments: the shape of a pixel's footprint in the table: the parallelogram of one pixel's steps to
    the right and down. Up to one texel the table itself is looked up, by the scene's scheme, with the bits of
-   `point`; above, box means of central differences, whatever the scheme (render/pyramid.h). */
+   `point`; above, box means of central differences, whatever the scheme (render/textures/slope_pyramid.h). */
 typedef enum WrFootprint {
     WR_FOOTPRINT_ISOTROPIC,   /* a square of the longer side: one look-up between two mip levels */
     WR_FOOTPRINT_ANISOTROPIC, /* up to 16 look-ups of the shorter side along the longer */

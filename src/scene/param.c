@@ -1,6 +1,6 @@
 #include "scene/param.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "scene/scene.h"
 
 #include <string.h>

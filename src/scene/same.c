@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* What it is laid by; the picture itself is the caller's to compare. */
-static bool same_laid(const WrLaid *a, const WrLaid *b)
+static bool same_laid(const WrTextureSample *a, const WrTextureSample *b)
 {
     return a->own == b->own && a->ru == b->ru && a->rv == b->rv;
 }

@@ -1,7 +1,7 @@
 #include "scene/scene.h"
 
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/named_view.h"
@@ -46,7 +46,7 @@ WrScene *wr_scene_new(void)
     wr_scene_params_reset(scene->lights, true);
     scene->light_count = 1;
     scene->dials = wr_dials_default();
-    scene->grain = wr_grains[WR_GRAIN_OFF].usual;
+    scene->grain = wr_grains[WR_SOLID_TEXTURE_OFF].usual;
     return scene;
 }
 
@@ -59,21 +59,21 @@ static void *copied(const void *block, int count, size_t size)
     return copy;
 }
 
-static WrLaid laid_copy(const WrLaid *laid)
+static WrTextureSample laid_copy(const WrTextureSample *laid)
 {
-    WrLaid copy = *laid;
+    WrTextureSample copy = *laid;
     copy.path = wr_strdup(laid->path);
     copy.channel = wr_strdup(laid->channel);
     copy.part = wr_strdup(laid->part);
     return copy;
 }
 
-void wr_laid_fini(WrLaid *laid)
+void wr_texture_sample_fini(WrTextureSample *laid)
 {
     wr_free(laid->path);
     wr_free(laid->channel);
     wr_free(laid->part);
-    *laid = (WrLaid){ 0 };
+    *laid = (WrTextureSample){ 0 };
 }
 
 WrScene *wr_scene_clone(const WrScene *scene)
@@ -156,12 +156,12 @@ double wr_scene_relief(const WrScene *scene)
 void wr_scene_drop_colour(WrScene *scene)
 {
     wr_image_free(scene->colour);
-    wr_laid_fini(&scene->colour_laid);
+    wr_texture_sample_fini(&scene->colour_laid);
     scene->colour = NULL;
-    scene->colouring = (WrColouring){ 0 };
+    scene->colouring = (WrHeightColormap){ 0 };
 }
 
-void wr_scene_repeat(const WrScene *scene, const WrLaid *laid, double *ru, double *rv)
+void wr_scene_repeat(const WrScene *scene, const WrTextureSample *laid, double *ru, double *rv)
 {
     *ru = laid->own ? laid->ru : scene->replicate_u;
     *rv = laid->own ? laid->rv : scene->replicate_v;
@@ -180,12 +180,12 @@ void wr_scene_free(WrScene *scene)
     wr_surface_data_free((WrSurfaceData *)scene->shape.data);
     wr_free(scene->analytic.terms);
     if (scene->colour) wr_image_free(scene->colour);
-    wr_laid_fini(&scene->colour_laid);
+    wr_texture_sample_fini(&scene->colour_laid);
     if (scene->normals.image) wr_image_free(scene->normals.image);
-    wr_laid_fini(&scene->normals.laid);
+    wr_texture_sample_fini(&scene->normals.laid);
     for (int k = 0; k < WR_FACET_KINDS; k++) {
         wr_image_free(scene->facets[k].image);
-        wr_laid_fini(&scene->facets[k].laid);
+        wr_texture_sample_fini(&scene->facets[k].laid);
     }
     wr_free(scene->name);
     wr_free(scene->layer);
@@ -289,12 +289,12 @@ WrReflectance wr_scene_reflectance(const WrMaterial *m)
     return (WrReflectance){ m->model, m->energy, m->shininess, m->roughness, m->metalness, m->ior };
 }
 
-void wr_scene_gloss(const WrMaterial *m, WrGloss *gloss)
+void wr_scene_gloss(const WrMaterial *m, WrEnvironmentBrdf *gloss)
 {
     const WrReflectance of = wr_scene_reflectance(m);
     WrMatter matter;
     wr_matter_init(&matter, &of);
-    wr_gloss_init(gloss, &of, &matter, m->specular, m->tint, m->gate);
+    wr_environment_brdf_init(gloss, &of, &matter, m->specular, m->tint, m->gate);
 }
 
 void wr_scene_matter(const WrMaterial *m, WrMatter *matter)

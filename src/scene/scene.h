@@ -11,16 +11,16 @@
 #include "field/scheme.h"
 #include "scene/background.h"
 #include "scene/camera.h"
-#include "scene/colouring.h"
+#include "scene/height_colormap.h"
 #include "scene/dials.h"
 #include "scene/environment.h"
 #include "scene/normal_frame.h"
-#include "scene/sheet.h"
-#include "scene/tone.h"
+#include "scene/export_settings.h"
+#include "scene/tone_mapping.h"
 #include "shade/bump_mode.h"
-#include "shade/gloss.h"
-#include "shade/grain.h"
-#include "shade/reflect.h"
+#include "shade/environment_brdf.h"
+#include "shade/solid_texture.h"
+#include "shade/reflection.h"
 #include "surface/surface.h"
 
 #include <stdbool.h>
@@ -50,7 +50,7 @@ typedef struct WrMaterial {
     double shininess;                  /* s: 0..1e6 */
     WrVec3 colour;                     /* C, linear RGB; does not tint the highlight */
     bool gate;                         /* highlight only where n'.l > 0 */
-    /* How the two are formed (shade/reflect.h); of these numbers the model's own count. */
+    /* How the two are formed (shade/reflection.h); of these numbers the model's own count. */
     WrReflect model;
     WrEnergy energy;
     double roughness, metalness, ior;
@@ -76,20 +76,20 @@ typedef struct WrTolerance {
 } WrTolerance;
 
 /* Where a picture that is laid over u and v is from, and how often it is laid. */
-typedef struct WrLaid {
+typedef struct WrTextureSample {
     char *path;           /* as the command named it; owned; NULL without */
     char *channel, *part; /* of the file that were asked for, likewise */
     char sha256[65];
     bool own; /* it is laid as often as the next say; else as often as the table */
     double ru, rv;
-} WrLaid;
+} WrTextureSample;
 
 /* A normal map on the object. */
 typedef struct WrNormalMap {
     /* Shared; NULL: there is none. Three channels, unit vectors. Of the tangent plane: x along u, y along v, z > 0;
        else along the object's axes. */
     WrImage *image;
-    WrLaid laid;
+    WrTextureSample laid;
     int channels;        /* of the file that were read: 2 or 3 */
     bool green_down;     /* the file's second number ran against v */
     bool object;         /* of the object's axes; else of the tangent plane, in that frame */
@@ -101,7 +101,7 @@ typedef struct WrNormalMap {
 typedef enum WrFacetKind { WR_FACET_ROUGHNESS, WR_FACET_METALNESS, WR_FACET_KINDS } WrFacetKind;
 typedef struct WrFacetMap {
     WrImage *image; /* shared; one channel, 0..1; NULL: the material's number holds everywhere */
-    WrLaid laid;
+    WrTextureSample laid;
 } WrFacetMap;
 
 /* How large the unit cell is for other programs: what exports, solids and labels go by. Pictures do not. */
@@ -124,15 +124,15 @@ struct WrScene {
     double replicate_u, replicate_v;
     WrAnalytic analytic; /* replaces the table while its kind is not OFF; terms owned */
     WrMaterial material;
-    WrGrain grain;   /* the solid texture that it is cut out of */
-    WrImage *colour; /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
-    WrLaid colour_laid;
-    WrColouring colouring; /* what that is made by, if by any (its path is NULL then) */
+    WrSolidTexture grain; /* the solid texture that it is cut out of */
+    WrImage *colour;      /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
+    WrTextureSample colour_laid;
+    WrHeightColormap colouring; /* what that is made by, if by any (its path is NULL then) */
     WrNormalMap normals;
     WrFacetMap facets[WR_FACET_KINDS];
     /* Of a shape that is a mesh (wr_scene_set_triangles): */
     WrTriangles *triangles; /* shared; NULL: the square of two (wr_triangles_square) */
-    char *triangles_path;   /* as WrLaid's */
+    char *triangles_path;   /* as WrTextureSample's */
     char triangles_sha256[65];
     char *
         form_layer; /* of a terrain: the document's layer whose heights it has; owned; NULL: a file's */
@@ -199,10 +199,10 @@ bool wr_scene_same_normals(const WrScene *a, const WrScene *b);
 /* Take a shape; what it borrows is shared from now on. */
 void wr_scene_set_shape(WrScene *scene, const WrShape *shape);
 
-void wr_scene_drop_colour(WrScene *scene); /* no colour picture, and no colouring */
-void wr_laid_fini(WrLaid *laid);           /* frees what it owns; it is none then */
+void wr_scene_drop_colour(WrScene *scene);          /* no colour picture, and no colouring */
+void wr_texture_sample_fini(WrTextureSample *laid); /* frees what it owns; it is none then */
 /* How often a picture of the scene is laid over u and v. */
-void wr_scene_repeat(const WrScene *scene, const WrLaid *laid, double *ru, double *rv);
+void wr_scene_repeat(const WrScene *scene, const WrTextureSample *laid, double *ru, double *rv);
 
 /* The near plane's depth before the eye, in radii of the object: what lies nearer is not seen. */
 #define WR_NEAR_PLANE 1e-10
@@ -282,4 +282,4 @@ void wr_scene_heights(const WrScene *scene, const WrField *field, int count, con
 void wr_scene_matter(const WrMaterial *material, WrMatter *matter);
 WrReflectance wr_scene_reflectance(const WrMaterial *material);
 /* What it does with surroundings. */
-void wr_scene_gloss(const WrMaterial *material, WrGloss *gloss);
+void wr_scene_gloss(const WrMaterial *material, WrEnvironmentBrdf *gloss);

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/exactmath.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 WR_ROWS(wr_bumps);
 const WrBumpInfo wr_bumps[WR_BUMP_COUNT] = {

@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "surface/patches_inner.h"
+#include "surface/patches_internal.h"
 #include "surface/surface.h"
-#include "surface/triangles_inner.h"
+#include "surface/triangles_internal.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* How patches lie beside each other: shared edges, loops of open ones, and the chart of the table that follows. */
-#include "surface/patches_inner.h"
+#include "surface/patches_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "surface/triangles_inner.h"
+#include "surface/triangles_internal.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "surface/patches.h"
-#include "surface/triangles_inner.h"
+#include "surface/triangles_internal.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* A mesh as numbers in a row, for documents. */
-#include "surface/triangles_inner.h"
+#include "surface/triangles_internal.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,5 +1,5 @@
 /* The order of a mesh's triangles, and the arrays that stay. */
-#include "surface/triangles_inner.h"
+#include "surface/triangles_internal.h"
 
 #include "base/error.h"
 #include "base/hash.h"

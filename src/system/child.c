@@ -1,6 +1,6 @@
 #include "system/child.h"
 
-#include "system/child_inner.h"
+#include "system/child_internal.h"
 
 #include <errno.h>
 #include <signal.h>

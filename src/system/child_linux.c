@@ -1,5 +1,5 @@
 /* Processes: what Linux and its C library have of their own. */
-#include "system/child_inner.h"
+#include "system/child_internal.h"
 
 #include "system/fd.h"
 

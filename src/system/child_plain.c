@@ -1,7 +1,7 @@
 /* Processes: what any POSIX system gets. Missing here: closing all that a started program should not get (what is opened
    here has the mark for that; what a library opens may lack it, and the reader closes everything by itself), a session of
    its own from the start (the reader makes one), an end with the thread that started it. */
-#include "system/child_inner.h"
+#include "system/child_internal.h"
 
 #include "system/fd.h"
 

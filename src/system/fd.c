@@ -1,6 +1,6 @@
 #include "system/fd.h"
 
-#include "system/fd_inner.h"
+#include "system/fd_internal.h"
 
 #include <errno.h>
 #include <fcntl.h>

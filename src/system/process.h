@@ -40,7 +40,7 @@ void wr_process_limit(WrLimit what, uint64_t most);
    it ends whatever it does. */
 void wr_process_limit_time(unsigned seconds);
 
-/* Whether a child can be kept from all that it is not given (system/cage.h). */
+/* Whether a child can be kept from all that it is not given (system/sandbox.h). */
 bool wr_process_has_cage(void);
 
 /* ---- the end ---- */

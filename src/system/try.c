@@ -1,5 +1,5 @@
 /* Trying something in a copy of the process, so that its crash is only the copy's. */
-#include "system/child_inner.h"
+#include "system/child_internal.h"
 
 #include "system/clock.h"
 #include "system/fd.h"

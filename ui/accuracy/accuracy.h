@@ -3,14 +3,14 @@
    while the view rests and somebody looks; what is outdated is cancelled. */
 #pragma once
 #include "ui/accuracy/accuracy_work.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 #include "ui/preview/preview.h"
 #include "ui/jobs/job.h"
 
 #include "hardcases/hardcases.h"
 #include "base/error.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "scene/dials.h"
 
 #include <SDL.h>
@@ -124,7 +124,7 @@ struct WrAccuracy {
 /* Which map it takes, of those that are measured by the reference. */
 WrProbeMap wr_accuracy_map_of(WrPatchLook look);
 
-/* ---- accuracy_hand.c ---- */
+/* ---- accuracy_input.c ---- */
 void wr_accuracy_new(WrApp *app);
 void wr_accuracy_free(WrApp *app);
 /* Take what is done, begin what is due; once before each picture. */

@@ -3,10 +3,10 @@
 
 #include "base/text.h"
 #include "base/vec.h"
-#include "document/tables.h"
+#include "document/object_tables.h"
 #include "field/field.h"
-#include "render/reference.h"
-#include "scene/laid.h"
+#include "render/reference/reference.h"
+#include "scene/texture_sample.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "shade/bump.h"

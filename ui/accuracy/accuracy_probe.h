@@ -3,7 +3,7 @@
 #pragma once
 #include "ui/accuracy/accuracy_work.h"
 
-#include "render/reference.h"
+#include "render/reference/reference.h"
 
 #include <stdbool.h>
 

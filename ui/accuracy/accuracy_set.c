@@ -1,11 +1,11 @@
 /* Setting dials: of A, the scene, by commands like any other change of it; of B, which is nobody's but the
    window's. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/scene_line.h"
-#include "ui/desk/session_view.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
+#include "ui/state/scene_line.h"
+#include "ui/state/session_view.h"
 #include "ui/preview/accuracy_choice.h"
 
 #include "accuracy/ladder.h"

@@ -3,22 +3,22 @@
 #include "ui/accuracy/accuracy_plan.h"
 #include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/kept.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/app_state.h"
+#include "ui/state/layout.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/retained_frame.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/patch/patch.h"
 #include "ui/preview/preview.h"
 
 #include "accuracy/metrics.h"
 #include "base/array.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "system/clock.h"
 
 #include <SDL.h>
@@ -187,9 +187,10 @@ static void draw_split(WrApp *app)
     WrAccuracy *a = app->accuracy;
     SDL_Rect left = { room->x, room->y, line_x(app) - room->x, room->h };
     SDL_Rect right = { left.x + left.w, room->y, room->w - left.w, room->h };
-    WrKept *kept = wr_gui_kept(app->gui);
-    wr_kept_copy(kept, a->pair[0].texture, &(SDL_Rect){ 0, 0, left.w, left.h }, &left);
-    wr_kept_copy(kept, a->pair[1].texture, &(SDL_Rect){ left.w, 0, right.w, right.h }, &right);
+    WrRetainedFrame *kept = wr_gui_kept(app->gui);
+    wr_retained_frame_copy(kept, a->pair[0].texture, &(SDL_Rect){ 0, 0, left.w, left.h }, &left);
+    wr_retained_frame_copy(kept, a->pair[1].texture, &(SDL_Rect){ left.w, 0, right.w, right.h },
+                           &right);
 }
 
 void wr_accuracy_draw(WrApp *app)
@@ -207,9 +208,10 @@ void wr_accuracy_draw(WrApp *app)
         if (!pair_ready(a)) return;
         a->flicker_shown =
             a->hold_b || wr_accuracy_flicker(wr_clock_seconds(), a->flicker_since, &next);
-        wr_kept_copy(wr_gui_kept(app->gui), a->pair[a->flicker_shown].texture, NULL, room);
+        wr_retained_frame_copy(wr_gui_kept(app->gui), a->pair[a->flicker_shown].texture, NULL,
+                               room);
     } else if (map_ready(a)) {
-        wr_kept_copy(wr_gui_kept(app->gui), a->map.texture, NULL, room);
+        wr_retained_frame_copy(wr_gui_kept(app->gui), a->map.texture, NULL, room);
     }
 }
 
@@ -332,12 +334,12 @@ static void draw_scale(const WrApp *app)
 #define RAN_LINES 12 /* at most */
 
 /* The colour in words, and what ran there; false: there is no such line. */
-static bool ran_line(const WrPreviewPicture *picture, int i, WrRanLine *line, WrText *text)
+static bool ran_line(const WrPreviewPicture *picture, int i, WrHeatmapLine *line, WrText *text)
 {
-    if (i >= RAN_LINES || !wr_ran_line(&picture->counts, i, line)) return false;
-    wr_ran_colour(line, text);
+    if (i >= RAN_LINES || !wr_heatmap_line(&picture->counts, i, line)) return false;
+    wr_heatmap_colour(line, text);
     wr_text_add(text, ": ");
-    wr_ran_words(line, text);
+    wr_heatmap_words(line, text);
     return true;
 }
 
@@ -348,7 +350,7 @@ static void draw_ran(const WrApp *app)
     const double s = wr_gui_scale(), pad = 10 * s, high = wr_gui_line_height(WR_FONT_SMALL) + 4 * s;
     const double swatch = 12 * s, most = room->w - 56 * s;
     WrText text[RAN_LINES] = { { 0 } };
-    WrRanLine line[RAN_LINES];
+    WrHeatmapLine line[RAN_LINES];
     double wide = 0;
     int count = 0;
     while (picture->ran && ran_line(picture, count, &line[count], &text[count])) {

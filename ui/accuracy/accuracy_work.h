@@ -8,7 +8,7 @@
 #include "accuracy/ladder.h"
 #include "accuracy/metrics.h"
 #include "base/error.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 
 #include <stdbool.h>
 #include <stdint.h>

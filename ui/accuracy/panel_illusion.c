@@ -2,10 +2,10 @@
    what follows from them. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plot.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/jobs/job.h"
 
 #include "accuracy/illusion.h"

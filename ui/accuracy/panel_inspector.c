@@ -1,13 +1,13 @@
 /* The inspector: every quantity of the formulas under the pointer, on the patch or on the table. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_probe.h"
-#include "ui/desk/action.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/action.h"
+#include "ui/state/action_list.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 
 #include "scene/scene.h"
 

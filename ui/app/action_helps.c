@@ -1,9 +1,9 @@
 /* What each action does, in a line: in menus, beside what the pointer or the keys are at, and in the search, which finds them by
    these words too. And which of them may be done while a command runs. */
 #include "ui/app/roster_list.h"
-#include "ui/desk/action_list.h"
+#include "ui/state/action_list.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #define ROW(name, help) [WR_ROW(WR_ACTION_##name)] = (help)
 WR_ROWS(wr_action_helps);

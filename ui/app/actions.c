@@ -5,26 +5,26 @@
 #include "ui/app/roster_list.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/action.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/document.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/line.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/generate/generate_hand.h"
+#include "ui/state/action.h"
+#include "ui/state/action_list.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/document.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/line.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/generate/generate_state.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/patch/patch.h"
-#include "ui/tools/shelf.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/tools/preset_browser.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/tool.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/session.h"
 #include "field/field.h"
@@ -313,7 +313,7 @@ const WrAction wr_actions[] = {
     ROW(reset_values, "Reset the brush's values", wr_act_reset_values, NULL, NULL),
     ROW(brushes, "Brushes", wr_act_brushes, NULL, NULL),
     ROW(round_brush, "Round brush", wr_act_round_brush, NULL, wr_is_round_brush),
-    ROW(preset_last, "Brush used before", wr_shelf_last, NULL, NULL),
+    ROW(preset_last, "Brush used before", wr_preset_browser_last, NULL, NULL),
     ROW(preset_next, "Next favourite brush", wr_act_preset_next, NULL, NULL),
     ROW(preset_previous, "Favourite brush before", wr_act_preset_previous, NULL, NULL),
     ROW(favourite, "Brush is a favourite", wr_act_favourite, NULL, wr_is_favourite),
@@ -406,7 +406,7 @@ const WrAction wr_actions[] = {
     ROW(look_signed, "Blue below zero, orange above", wr_act_look_signed, NULL, wr_is_signed),
     ROW(look_contours, "Contour lines", wr_act_look_contours, NULL, wr_is_contours),
     ROW(look_relief, "Relief, lit", wr_act_look_relief, NULL, wr_is_relief),
-    ROW(look_normals, "Normals of the table", wr_act_look_normals, NULL, wr_is_normals),
+    ROW(look_normals, "Normals of the table", wr_act_look_normals, NULL, wr_canvas_shows_normals),
     ROW(look_occlusion, "Occlusion of the table", wr_act_look_occlusion, NULL, wr_is_occlusion),
     ROW(look_curvature, "Curvature: grooves blue, ridges orange", wr_act_look_curvature, NULL,
         wr_is_curvature),

@@ -1,6 +1,6 @@
 /* actions.h - actions of the hand, layers and selections, for the table in actions.c; nobody else includes it. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include <stdbool.h>
 

@@ -1,10 +1,10 @@
 /* Actions of the Accuracy panel, for the table in actions.c. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_probe.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/settings.h"
+#include "ui/state/app_state.h"
+#include "ui/state/layout.h"
+#include "ui/state/roster.h"
+#include "ui/state/settings.h"
 
 #include "base/text.h"
 

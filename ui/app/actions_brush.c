@@ -1,14 +1,14 @@
 /* Actions of the brush: its values and modes, presets, symmetry, key maps. */
 #include "ui/app/actions.h"
 #include "ui/canvas/canvas.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/messages.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/settings.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/keys.h"
+#include "ui/state/messages.h"
+#include "ui/state/roster.h"
+#include "ui/state/settings.h"
 #include "ui/panels/panel_dynamics.h"
-#include "ui/tools/shelf.h"
+#include "ui/tools/preset_browser.h"
 #include "ui/tools/symmetry.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
@@ -107,7 +107,7 @@ void wr_act_level_mode(WrApp *app)
 /* Mode and strength as the brush began. */
 void wr_act_reset_values(WrApp *app)
 {
-    WrBrush *brush = &app->settings->brush, own = wr_shelf_own(app);
+    WrBrush *brush = &app->settings->brush, own = wr_preset_browser_own(app);
     if (!wr_tool_now(app)->mode) brush->mode = own.mode;
     brush->strength = own.strength;
     app->settings->mask_strength = 1.0;
@@ -163,29 +163,29 @@ bool wr_is_erase_mode(const WrApp *app)
 
 void wr_act_preset_next(WrApp *app)
 {
-    wr_shelf_step(app, 1);
+    wr_preset_browser_step(app, 1);
 }
 
 void wr_act_preset_previous(WrApp *app)
 {
-    wr_shelf_step(app, -1);
+    wr_preset_browser_step(app, -1);
 }
 
 void wr_act_favourite(WrApp *app)
 {
-    const char *id = wr_shelf_chosen(app);
+    const char *id = wr_preset_browser_chosen(app);
     bool liked = wr_settings_favourite(app->settings, id) >= 0;
     wr_settings_set_favourite(app->settings, id, !liked);
 }
 
 bool wr_is_favourite(const WrApp *app)
 {
-    return wr_settings_favourite(app->settings, wr_shelf_chosen(app)) >= 0;
+    return wr_settings_favourite(app->settings, wr_preset_browser_chosen(app)) >= 0;
 }
 
 void wr_act_round_brush(WrApp *app)
 {
-    wr_shelf_choose(app, WR_ROUND);
+    wr_preset_browser_choose(app, WR_ROUND);
 }
 
 bool wr_is_round_brush(const WrApp *app)
@@ -210,7 +210,7 @@ void wr_act_brush_curves(WrApp *app)
 
 void wr_act_preset_save(WrApp *app)
 {
-    const char *id = wr_shelf_chosen(app), *slash = strrchr(id, '/');
+    const char *id = wr_preset_browser_chosen(app), *slash = strrchr(id, '/');
     SDL_utf8strlcpy(app->shelf->name, slash ? slash + 1 : "my brush", sizeof app->shelf->name);
     wr_dialog_open(app, WR_DIALOG_PRESET);
 }

@@ -1,9 +1,9 @@
 /* Actions of layers and selections: each is one command line. */
 #include "ui/app/actions.h"
 #include "ui/canvas/outline.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/session_view.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/session_view.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panels.h"

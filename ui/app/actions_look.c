@@ -1,9 +1,9 @@
 #include "ui/app/actions_look.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/focus.h"
+#include "ui/state/app_state.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/focus.h"
 
 void wr_act_look_grey(WrApp *app)
 {
@@ -56,7 +56,7 @@ void wr_act_look_normals(WrApp *app)
     app->settings->look.shown = WR_CANVAS_BENT;
 }
 
-bool wr_is_normals(const WrApp *app)
+bool wr_canvas_shows_normals(const WrApp *app)
 {
     return app->settings->look.shown == WR_CANVAS_BENT;
 }

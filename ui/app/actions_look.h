@@ -27,7 +27,7 @@ bool wr_is_contours(const WrApp *app);
 void wr_act_look_relief(WrApp *app);
 bool wr_is_relief(const WrApp *app);
 void wr_act_look_normals(WrApp *app);
-bool wr_is_normals(const WrApp *app);
+bool wr_canvas_shows_normals(const WrApp *app);
 void wr_act_look_occlusion(WrApp *app);
 bool wr_is_occlusion(const WrApp *app);
 void wr_act_look_curvature(WrApp *app);

@@ -2,37 +2,37 @@
 #include "ui/app/app.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
-#include "ui/app/hand_events.h"
+#include "ui/app/input_targets.h"
 #include "ui/app/input.h"
 #include "ui/app/loop.h"
-#include "ui/app/rest.h"
-#include "ui/app/settings_hand.h"
-#include "ui/app/store.h"
+#include "ui/app/idle_probe.h"
+#include "ui/app/settings_sync.h"
+#include "ui/app/app_store.h"
 #include "ui/app/timing.h"
 #include "ui/app/window.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/canvas_map.h"
 #include "ui/canvas/outline.h"
-#include "ui/desk/app_options.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/document.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/later.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/messages.h"
-#include "ui/desk/replace.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
+#include "ui/state/app_options.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/document.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/state/deferred_actions.h"
+#include "ui/state/layout.h"
+#include "ui/state/messages.h"
+#include "ui/state/replace.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
 #include "ui/generate/font_choice.h"
 #include "ui/generate/generate_gallery.h"
-#include "ui/generate/generate_hand.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/generate/generate_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/help/guide.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_status.h"
@@ -43,16 +43,16 @@
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
-#include "ui/pen/pen.h"
+#include "ui/input/pen.h"
 #include "ui/preview/preview.h"
-#include "ui/tools/shelf.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/tools/preset_browser.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/thumbs.h"
 #include "ui/tools/tool_stamp.h"
 #include "ui/views/marks.h"
 #include "ui/jobs/files.h"
 #include "ui/jobs/thread.h"
-#include "ui/jobs/trial.h"
+#include "ui/jobs/edit_preview.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -87,7 +87,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->file_event = app->ready_event + 1;
     app->job_event = app->ready_event + 2;
     app->rest_event = app->ready_event + 3;
-    app->trial = wr_trial_new(app->options->threads, app->job_event);
+    app->trial = wr_edit_preview_new(app->options->threads, app->job_event);
     app->marks->outliner = wr_outliner_new(app->options->threads, app->job_event);
     app->layers->dragged = app->layers->renamed = -1;
     app->canvas = wr_canvas_new();
@@ -117,7 +117,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
                              .solid_error = 0.05 };
     app->visible = true;
     wr_app_read_keys(app);
-    wr_shelf_start(app);
+    wr_preset_browser_start(app);
     wr_generate_new(app);
     wr_accuracy_new(app);
     wr_app_start(app);
@@ -127,7 +127,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     wr_app_title(app);
     if (!app->latency) wr_dialog_recover_open(app);
     SDL_ShowWindow(app->window);
-    app->rest = app->latency ? NULL : wr_rest_new(app->rest_event);
+    app->rest = app->latency ? NULL : wr_idle_probe_new(app->rest_event);
     SDL_StartTextInput();
     wr_app_redraw(app);
     return true;
@@ -137,18 +137,18 @@ void wr_app_end(WrApp *app)
 {
     wr_app_start_end(app);
     wr_busy_stop(app);
-    wr_rest_free(app->rest);
+    wr_idle_probe_free(app->rest);
     wr_preview_free(app->preview);
     wr_accuracy_free(app);
-    wr_trial_free(app->trial);
+    wr_edit_preview_free(app->trial);
     wr_marks_free(app);
     wr_recovery_free(app->recovery);
-    wr_later_free(app);
+    wr_deferred_free(app);
     wr_busy_free(app);
     wr_patch_paint_free(app);
     if (app->renderer) wr_patch_free(app);
     wr_thumbs_free(app);
-    wr_shelf_free(app);
+    wr_preset_browser_free(app);
     wr_stamp_forget(app);
     wr_sheet_free(app);
     wr_presets_free(app);
@@ -197,7 +197,7 @@ static void handle(WrApp *app, const SDL_Event *event)
     if (is_hand(event)) app->fitted = true;
     if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
     if (event->type == app->rest_event) {
-        wr_rest_asked(app);
+        wr_idle_probe_asked(app);
         return;
     }
     while (wr_pen_next_before(app->pen, event, &pen)) wr_hand_pen(app, &pen);
@@ -334,7 +334,7 @@ static void draw(WrApp *app, double now)
 /* Something is being computed in the background: its bar moves. */
 static bool works(WrApp *app)
 {
-    bool any = wr_trial_busy(app->trial, NULL, NULL);
+    bool any = wr_edit_preview_busy(app->trial, NULL, NULL);
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->works && (*p)->works(app)) any = true;
     return any;
@@ -430,7 +430,7 @@ void wr_app_step(WrApp *app)
     tell_refused(app);
     if (!app->busy) wr_app_tend(app);
     wr_strokes_work(app);
-    wr_later_run(app);
+    wr_deferred_run(app);
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->update) (*p)->update(app);
     const double now = wr_clock_seconds();
@@ -440,7 +440,7 @@ void wr_app_step(WrApp *app)
         wr_timing_note(app, wr_clock_seconds() - now);
     }
     wr_settings_tend(app);
-    wr_rest_step(app, app->busy || works(app));
+    wr_idle_probe_step(app, app->busy || works(app));
 }
 
 int wr_app_run(const WrAppOptions *options)

@@ -1,7 +1,7 @@
 /* app.h - the window: paint a table on the left, watch it wrinkle a turning patch on the right.
    Layer 7. The only header of ui/ that others include. */
 #pragma once
-#include "ui/desk/app_options.h"
+#include "ui/state/app_options.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,14 +1,14 @@
 #include "ui/app/canvas_chip.h"
 #include "ui/canvas/canvas.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/app_state.h"
+#include "ui/state/layout.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/maps.h"
 
 #include <SDL.h>

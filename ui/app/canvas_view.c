@@ -1,21 +1,21 @@
 /* The table's view: its picture, and what lies on it. */
 #include "ui/app/canvas_view.h"
 #include "ui/app/canvas_chip.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/canvas_map.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/document.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/state/document.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/preview/preview.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/symmetry.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_stamp.h"
@@ -49,8 +49,9 @@ static const WrField *map_of(WrApp *app, const WrField *field, const WrField **s
     const WrScene *scene = wr_app_document(app)->scene;
     const WrCanvasShown now = app->settings->look.shown;
     if (now == WR_CANVAS_HEIGHTS || wr_app_shows_mask(app)) return NULL;
-    const WrGround ground = { NULL,          NULL,         scene->scheme, wr_scene_relief(scene),
-                              scene->cell.w, scene->cell.h };
+    const WrDerivatives ground = { NULL,          NULL,
+                                   scene->scheme, wr_scene_relief(scene),
+                                   scene->cell.w, scene->cell.h };
     WrMapJob job = wr_map_default(&ground);
     job.directions = 8; /* near things only, so that little is made anew while it is painted */
     job.reach = 48;

@@ -1,7 +1,7 @@
 /* canvas_view.h - the canvas' view: the picture and what lies on it. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 
 void wr_app_place_view(WrApp *app);
 void wr_canvas_view_draw(WrApp *app);    /* the picture */

@@ -1,8 +1,8 @@
 #include "ui/app/input.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/keys.h"
-#include "ui/gui/gui.h"
+#include "ui/state/dialog.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/toolkit/gui.h"
 
 #include "base/array.h"
 #include "base/memory.h"

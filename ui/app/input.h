@@ -4,7 +4,7 @@
    are. A press counts for the widget that was on the screen when the press came: if another one has taken that place
    since, the press is dropped. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include <SDL.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 /* loop.h - one window's life. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include <stdbool.h>
 

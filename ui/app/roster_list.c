@@ -1,19 +1,19 @@
 /* The roster of this program: all dialogs, tabs, parts and files' purposes. */
 #include "ui/app/roster_list.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
-#include "ui/app/hand_events.h"
+#include "ui/app/input_targets.h"
 #include "ui/app/loop.h"
-#include "ui/app/thrift.h"
+#include "ui/app/idle_trim.h"
 #include "ui/app/tool_list.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/document.h"
-#include "ui/desk/replace.h"
-#include "ui/desk/roster.h"
+#include "ui/state/dialog.h"
+#include "ui/state/document.h"
+#include "ui/state/replace.h"
+#include "ui/state/roster.h"
 #include "ui/generate/font_choice.h"
 #include "ui/generate/generate_gallery.h"
-#include "ui/generate/generate_hand.h"
+#include "ui/generate/generate_state.h"
 #include "ui/help/panel_help.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_dynamics.h"
@@ -26,8 +26,8 @@
 #include "ui/panels/panel_presets.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
-#include "ui/tools/shelf.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/tools/preset_browser.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/thumbs.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_clone.h"
@@ -104,7 +104,7 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_PATCHES)] = wr_surface_take_patches,
     [WR_ROW(WR_FILE_TERRAIN)] = wr_surface_take_terrain,
     [WR_ROW(WR_FILE_GLTF)] = wr_file_take_gltf,
-    [WR_ROW(WR_FILE_PRESET)] = wr_shelf_take,
+    [WR_ROW(WR_FILE_PRESET)] = wr_preset_browser_take,
 };
 WR_ROWS_END(takes, WR_FILE_PURPOSES);
 

@@ -1,7 +1,7 @@
 /* roster_list.h - the roster of all that there is, and the actions in it. */
 #pragma once
-#include "ui/desk/action.h"
-#include "ui/desk/roster.h"
+#include "ui/state/action.h"
+#include "ui/state/roster.h"
 
 extern const WrRoster wr_roster;
 extern const WrAction wr_actions[];         /* ends with name NULL */

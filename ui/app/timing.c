@@ -1,6 +1,6 @@
 /* How long the window's pictures take, for who asks. */
 #include "ui/app/timing.h"
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 #include "ui/preview/preview.h"
 
 #include "base/text.h"

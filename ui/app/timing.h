@@ -1,6 +1,6 @@
 /* timing.h - how long the window's own pictures take, for WRINKLE_TIMING. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 typedef struct WrTiming { /* of the window's own pictures */
     int pictures;

@@ -1,6 +1,6 @@
 /* The one list of tools, in the order of the strip: a new tool is a file with its row, and a line here. */
 #include "ui/app/tool_list.h"
-#include "ui/generate/generate_hand.h"
+#include "ui/generate/generate_state.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 

@@ -1,17 +1,17 @@
 /* The window on the desktop: opened in whatever way the display knows, and kept on the screen. */
 #include "ui/app/window.h"
 #include "system/process.h"
-#include "ui/desk/app_options.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/document.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/desktop.h"
-#include "ui/gui/display.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/screen.h"
+#include "ui/state/app_options.h"
+#include "ui/state/app_state.h"
+#include "ui/state/document.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/roster.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/desktop.h"
+#include "ui/toolkit/display.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/screen.h"
 
 #include <SDL.h>
 #include <math.h>

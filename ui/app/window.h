@@ -1,6 +1,6 @@
 /* window.h - the window of the system. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include <SDL.h>
 #include <stdbool.h>

@@ -1,11 +1,11 @@
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/canvas_cells.h"
-#include "ui/canvas/canvas_ink.h"
+#include "ui/canvas/canvas_colors.h"
 #include "ui/canvas/canvas_range.h"
 #include "ui/canvas/canvas_turn.h"
 #include "ui/canvas/view.h"
-#include "ui/gui/kept.h"
-#include "ui/gui/theme.h"
+#include "ui/toolkit/retained_frame.h"
+#include "ui/toolkit/theme.h"
 
 #include "base/array.h"
 #include "base/memory.h"
@@ -21,7 +21,7 @@
 struct WrCanvas {
     WrCanvasCells *cells[2]; /* of the second: slopes along v */
     int fields;              /* that are shown together */
-    WrKept *kept;            /* that is drawn for; borrowed */
+    WrRetainedFrame *kept;   /* that is drawn for; borrowed */
     SDL_Texture *texture;
     int width, height;          /* of pixels */
     uint32_t *pixels;           /* [height][width], ARGB, not turned */
@@ -246,8 +246,8 @@ static void put(WrCanvas *canvas, SDL_Rect rect)
     }
     wr_gui_sdl_update(canvas->texture, &rect, pixels + (size_t)rect.y * (size_t)width + rect.x,
                       width * 4);
-    wr_kept_changed(canvas->kept,
-                    &(SDL_Rect){ view->x + rect.x, view->y + rect.y, rect.w, rect.h });
+    wr_retained_frame_changed(canvas->kept,
+                              &(SDL_Rect){ view->x + rect.x, view->y + rect.y, rect.w, rect.h });
 }
 
 static void paint_rect(WrCanvas *canvas, SDL_Rect rect, const WrField *field, int level,
@@ -309,7 +309,7 @@ static bool make_buffers(WrCanvas *canvas, const WrCanvasView *view, int cells)
     if (!canvas->texture || canvas->view.w != view->w || canvas->view.h != view->h) {
         wr_canvas_forget(canvas);
         canvas->texture =
-            SDL_CreateTexture(wr_kept_renderer(canvas->kept), SDL_PIXELFORMAT_ARGB8888,
+            SDL_CreateTexture(wr_retained_frame_renderer(canvas->kept), SDL_PIXELFORMAT_ARGB8888,
                               SDL_TEXTUREACCESS_STREAMING, view->w, view->h);
         if (!canvas->texture) return false;
         SDL_SetTextureBlendMode(canvas->texture, SDL_BLENDMODE_NONE);
@@ -397,9 +397,9 @@ static void paint(WrCanvas *canvas, const WrField *field, int level, double dead
     canvas->valid = true;
 }
 
-bool wr_canvas_draw(WrCanvas *canvas, WrKept *kept, const WrCanvasView *view, const WrField *field,
-                    const WrField *second, const WrCanvasLook *look, WrRangeHold hold,
-                    double budget, WrCanvasRange *range)
+bool wr_canvas_draw(WrCanvas *canvas, WrRetainedFrame *kept, const WrCanvasView *view,
+                    const WrField *field, const WrField *second, const WrCanvasLook *look,
+                    WrRangeHold hold, double budget, WrCanvasRange *range)
 {
     int level = wr_cells_level(view->zoom);
     canvas->kept = kept;
@@ -416,7 +416,7 @@ bool wr_canvas_draw(WrCanvas *canvas, WrKept *kept, const WrCanvasView *view, co
         paint(canvas, field, level, wr_clock_seconds() + budget);
     *range = (WrCanvasRange){ canvas->low, canvas->high, (double)canvas->table_low,
                               (double)canvas->table_high };
-    wr_kept_copy_told(kept, canvas->texture, NULL,
-                      &(SDL_Rect){ view->x, view->y, view->w, view->h });
+    wr_retained_frame_copy_told(kept, canvas->texture, NULL,
+                                &(SDL_Rect){ view->x, view->y, view->w, view->h });
     return is_rough(canvas);
 }

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 typedef struct WrField WrField;
-typedef struct WrKept WrKept;
+typedef struct WrRetainedFrame WrRetainedFrame;
 
 typedef struct WrCanvas WrCanvas;
 
@@ -58,9 +58,9 @@ double wr_canvas_contour_step(const WrCanvas *canvas);
 /* Bring the picture up to date and draw it into the view's rectangle. Takes at most about `budget`
  * seconds for the means of large tables; true if it would be better with another call. second: slopes along v, where `field`
  * holds those along u; else NULL. kept: borrowed until the next call. hold: of an automatic range. */
-bool wr_canvas_draw(WrCanvas *canvas, WrKept *kept, const WrCanvasView *view, const WrField *field,
-                    const WrField *second, const WrCanvasLook *look, WrRangeHold hold,
-                    double budget, WrCanvasRange *range);
+bool wr_canvas_draw(WrCanvas *canvas, WrRetainedFrame *kept, const WrCanvasView *view,
+                    const WrField *field, const WrField *second, const WrCanvasLook *look,
+                    WrRangeHold hold, double budget, WrCanvasRange *range);
 /* The automatic range becomes the table's own with the next picture. */
 void wr_canvas_fit_range(WrCanvas *canvas);
 /* The colour of a height, 0xffRRGGBB, as in the last picture. */

@@ -129,7 +129,7 @@ void wr_canvas_map_free(WrCanvasMap *map)
 
 static bool same_job(const WrMapJob *a, const WrMapJob *b)
 {
-    const WrGround *x = &a->ground, *y = &b->ground;
+    const WrDerivatives *x = &a->ground, *y = &b->ground;
     return x->scheme == y->scheme && x->height == y->height && x->cell_w == y->cell_w &&
            x->cell_h == y->cell_h && a->directions == b->directions && a->reach == b->reach &&
            a->sigma == b->sigma && a->box == b->box && a->base == b->base;

@@ -1,9 +1,9 @@
 /* font_choice.h - choosing among the fonts that are installed: a list that opens from the row of a font, each name in
    letters of its own. The list and the letters are made in the background, only of those that are seen. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
-#include "ui/generate/generate_hand.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
+#include "ui/generate/generate_state.h"
 
 #include "image/font_list.h"
 

@@ -1,11 +1,11 @@
 /* A word in a font, as a small picture. The text generator makes it, so that what is seen is what would be written, and a
    damaged font does no harm: the reader process has it. */
 #include "ui/generate/font_choice.h"
-#include "ui/jobs/trial_generate.h"
+#include "ui/jobs/edit_preview_generate.h"
 
 #include "base/error.h"
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "document/document.h"
 #include "field/field.h"
 
@@ -46,7 +46,7 @@ bool wr_font_sample(const WrFontSample *sample, WrPool *pool, const WrProgress *
     document->layers[0].heights = level;
     line_of(sample, &line);
     const bool good =
-        wr_trial_generate(document, wr_text_get(&line), false, pool, progress, &notes, &err);
+        wr_edit_preview_generate(document, wr_text_get(&line), false, pool, progress, &notes, &err);
     const WrField *made = document->layers[0].heights;
     for (int y = 0; good && y < sample->h; y++)
         for (int x = 0; x < sample->w; x++) {

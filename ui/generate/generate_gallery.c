@@ -1,14 +1,14 @@
 #include "ui/generate/generate_gallery.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/search.h"
-#include "ui/generate/generate_hand.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/gui_sdl.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
+#include "ui/state/search.h"
+#include "ui/generate/generate_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/jobs/job.h"
-#include "ui/jobs/trial_generate.h"
+#include "ui/jobs/edit_preview_generate.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -82,8 +82,8 @@ static WrDocument *made(const Work *work, const char *first, WrPool *pool,
     wr_field_free(document->layers[0].heights);
     document->layers[0].heights = level;
     bool good =
-        (!first || wr_trial_generate(document, first, true, pool, progress, &notes, &err)) &&
-        wr_trial_generate(document, work->line, true, pool, progress, &notes, &err);
+        (!first || wr_edit_preview_generate(document, first, true, pool, progress, &notes, &err)) &&
+        wr_edit_preview_generate(document, work->line, true, pool, progress, &notes, &err);
     if (good) wr_field_range(document->layers[0].heights, &low, &high);
     wr_text_fini(&notes);
     if (good && low < high) return document;

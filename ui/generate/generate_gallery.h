@@ -1,8 +1,8 @@
 /* generate_gallery.h - small pictures of what all generators make, to choose one by: a list that opens from
    the Generate tab. They are made in the background, one after the other, while it is open. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 
 typedef struct WrGallery WrGallery;
 

@@ -1,16 +1,16 @@
 /* Presets of generators, in presets.wrinkle in the settings folder: the name as a comment, the command below
    it; so the file is also a script. Lines that are not understood are kept as they are. */
-#include "ui/desk/desk.h"
-#include "ui/desk/messages.h"
-#include "ui/desk/settings.h"
-#include "ui/generate/generate_hand.h"
+#include "ui/state/app_state.h"
+#include "ui/state/messages.h"
+#include "ui/state/settings.h"
+#include "ui/generate/generate_state.h"
 
 #include "base/array.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/generate.h"
 #include "generate/generator.h"
 #include "system/path.h"

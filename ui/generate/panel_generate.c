@@ -1,12 +1,12 @@
 /* The Generate tab, made from the generators' table: which one, its presets, what it has to say. */
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
 #include "ui/generate/generate_gallery.h"
-#include "ui/generate/generate_hand.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/jobs/trial.h"
+#include "ui/generate/generate_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/jobs/edit_preview.h"
 
 #include "base/array.h"
 #include "base/memory.h"
@@ -145,7 +145,7 @@ static const char *notes(const WrApp *app)
 {
     const WrGenerateHand *hand = app->generate;
     if (hand->err.text[0]) return hand->blamed >= 0 && hand->blame_seen ? "" : hand->blame;
-    return hand->active && app->trying ? wr_trial_notes(app->trial) : "";
+    return hand->active && app->trying ? wr_edit_preview_notes(app->trial) : "";
 }
 
 static void tell(const WrApp *app, const char *text)
@@ -203,8 +203,8 @@ static void foot(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
     double fraction, seconds;
-    bool busy = hand->active && app->trying && wr_trial_busy(app->trial, &fraction, &seconds) &&
-                seconds > 0.3;
+    bool busy = hand->active && app->trying &&
+                wr_edit_preview_busy(app->trial, &fraction, &seconds) && seconds > 0.3;
     wr_busy_hold(app);
     wr_gui_disable(hand->err.text[0] != '\0');
     if (wr_gui_button(hand->active ? "Apply" : "Apply again", true)) wr_generate_commit(app);

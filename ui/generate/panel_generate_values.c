@@ -1,14 +1,14 @@
 /* The middle of the Generate tab: the values of the generator in hand, and how it joins what is there. What is
    wrong with one is said below it. */
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/line.h"
-#include "ui/desk/session_view.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/line.h"
+#include "ui/state/session_view.h"
 #include "ui/generate/font_choice.h"
-#include "ui/generate/generate_hand.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/generate/generate_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/jobs/files.h"
 
 #include "document/blend.h"

@@ -1,13 +1,13 @@
 /* The places that a generator goes by, such as a path for letters: on the canvas Ctrl and a click adds one or
    takes it away, a drag moves it. They are kept as they are written, "u,v;u,v;...". */
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/line.h"
-#include "ui/desk/session_view.h"
-#include "ui/generate/generate_hand.h"
-#include "ui/gui/gui.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/state/line.h"
+#include "ui/state/session_view.h"
+#include "ui/generate/generate_state.h"
+#include "ui/toolkit/gui.h"
 #include "ui/views/overlay.h"
 
 #include "base/text.h"

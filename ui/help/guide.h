@@ -1,6 +1,6 @@
 /* guide.h - the help of the window: the pages of ui/guide, and the keys as they are set. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 typedef struct WrText WrText;
 

@@ -1,7 +1,7 @@
 #include "ui/help/guide_flow.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/gui_page.h"
-#include "ui/gui/theme.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_page.h"
+#include "ui/toolkit/theme.h"
 #include "ui/help/guide_page.h"
 #include "ui/help/guide_picture.h"
 

@@ -1,6 +1,6 @@
 /* guide_flow.h - a page of the guide laid out in a width, and drawn. */
 #pragma once
-#include "ui/gui/gui_page.h"
+#include "ui/toolkit/gui_page.h"
 #include "ui/help/guide_page.h"
 #include "ui/help/guide_picture.h"
 

@@ -1,10 +1,10 @@
 /* The keys, told in the order in which one comes to need them; those that are not told of follow. */
-#include "ui/desk/action.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/roster.h"
-#include "ui/gui/words.h"
+#include "ui/state/action.h"
+#include "ui/state/action_list.h"
+#include "ui/state/app_state.h"
+#include "ui/state/keys.h"
+#include "ui/state/roster.h"
+#include "ui/toolkit/words.h"
 #include "ui/help/guide.h"
 
 #include "base/text.h"

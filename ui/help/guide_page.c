@@ -1,5 +1,5 @@
 #include "ui/help/guide_page.h"
-#include "ui/desk/search.h"
+#include "ui/state/search.h"
 
 #include "base/array.h"
 #include "base/memory.h"

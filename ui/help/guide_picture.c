@@ -1,5 +1,5 @@
 #include "ui/help/guide_picture.h"
-#include "ui/gui/gui_sdl.h"
+#include "ui/toolkit/gui_sdl.h"
 #include "ui/jobs/job.h"
 
 #include "base/array.h"

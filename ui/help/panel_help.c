@@ -1,9 +1,9 @@
 /* The guide, and what this program is. */
 #include "ui/help/panel_help.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/help/guide.h"
 
 #include <math.h>

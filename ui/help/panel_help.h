@@ -1,5 +1,5 @@
 /* panel_help.h - the dialog of the guide, and what this program is. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 void wr_dialog_help(WrApp *app);

@@ -1,7 +1,7 @@
 /* files.h - asking for a file: with the desktop's own dialog (its portal, portal.h, or zenity or kdialog, run without a
    shell), while the window stays alive, or with a plain panel of our own. */
 #pragma once
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <SDL.h>
 #include <stdbool.h>

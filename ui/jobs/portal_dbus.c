@@ -4,7 +4,7 @@
 
 #include "base/progress.h"
 #include "system/clock.h"
-#include "system/object.h"
+#include "system/shared_object.h"
 #include "system/path.h"
 #include "system/process.h"
 

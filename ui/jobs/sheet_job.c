@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "field/ops.h"

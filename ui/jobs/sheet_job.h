@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "export/picture.h"
-#include "export/sets.h"
-#include "scene/sheet.h"
+#include "export/map_sets.h"
+#include "scene/export_settings.h"
 
 #include <stdbool.h>
 

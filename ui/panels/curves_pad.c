@@ -1,11 +1,11 @@
 /* The curve of `curves` over the heights' histogram, its points moved by hand. */
-#include "ui/desk/desk.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/points_pad.h"
 
-#include "field/curve.h"
+#include "field/monotone_curve.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /* The heights' histogram above the dialog of levels: what becomes low and high is dragged on it. */
-#include "ui/desk/desk.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/panels/panel_adjust.h"
 
 #include "document/document.h"

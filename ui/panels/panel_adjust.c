@@ -1,16 +1,16 @@
 /* The dialog of a table operation, made from its row: canvas and patch show what it would do, on a
    snapshot, and only Apply runs the command. */
 #include "ui/panels/panel_adjust.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/line.h"
-#include "ui/desk/messages.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
-#include "ui/jobs/trial.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/line.h"
+#include "ui/state/messages.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
+#include "ui/jobs/edit_preview.h"
 
 #include "base/error.h"
 #include "base/text.h"
@@ -34,10 +34,10 @@ const WrOpInfo *wr_action_op(const char *name)
 
 static void ask(WrApp *app)
 {
-    WrTrialAsk trial = { .op = app->adjust->op,
-                         .all_layers = app->adjust->layers == 1,
-                         .filters = app->adjust->filters,
-                         .layer = app->adjust->layer };
+    WrEditPreviewAsk trial = { .op = app->adjust->op,
+                               .all_layers = app->adjust->layers == 1,
+                               .filters = app->adjust->filters,
+                               .layer = app->adjust->layer };
     memcpy(trial.param, app->adjust->param, sizeof trial.param);
     app->adjust->asked_at = wr_session_revision(app->session);
     wr_app_try(app, &trial);
@@ -267,11 +267,11 @@ static void expectation(const WrApp *app)
 static void progress(WrApp *app)
 {
     double fraction, seconds;
-    bool shown = wr_trial_busy(app->trial, &fraction, &seconds) && seconds > 0.2;
+    bool shown = wr_edit_preview_busy(app->trial, &fraction, &seconds) && seconds > 0.2;
     if (!shown) return;
     wr_gui_progress(wr_gui_available() - wr_gui_px(64), fraction);
     wr_gui_same_line(8);
-    if (wr_gui_chip(NULL, "Stop")) wr_trial_stop(app->trial);
+    if (wr_gui_chip(NULL, "Stop")) wr_edit_preview_stop(app->trial);
 }
 
 void wr_dialog_adjust(WrApp *app)
@@ -301,7 +301,7 @@ void wr_dialog_adjust(WrApp *app)
                             : op->reshapes ? "The whole table changes, selected or not."
                                            : "Only what is selected changes.");
     if (changed) ask(app);
-    if (wr_trial_error(app->trial, &err)) wr_app_fail(app, &err);
+    if (wr_edit_preview_error(app->trial, &err)) wr_app_fail(app, &err);
     int answer = wr_dialog_buttons(app, "Apply", true);
     if (answer == 0) expectation(app);
     progress(app);

@@ -1,9 +1,9 @@
 /* panel_adjust.h - the dialog of a table operation. */
 #pragma once
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
-#include "ui/gui/gui.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
+#include "ui/toolkit/gui.h"
 #include "ui/panels/points_pad.h"
 
 #include "document/document.h"

@@ -1,18 +1,18 @@
 /* All values of the brush in hand, and what of a preset's own settings matters to heights. */
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
-#include "base/rows.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "base/enum_rows.h"
+#include "ui/state/dialog.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/panels/panel_dynamics.h"
 #include "ui/panels/panels.h"
 #include "ui/tools/brush_strength.h"
 #include "ui/tools/option.h"
-#include "ui/tools/shelf.h"
-#include "ui/tools/tuning.h"
+#include "ui/tools/preset_browser.h"
+#include "ui/tools/preset_overrides.h"
 
 #include "brush/brush.h"
 #include "brush/preset.h"
@@ -38,7 +38,7 @@ static void percent(const char *label, const char *tip, double *part)
 
 static void basic(WrApp *app)
 {
-    WrBrush *b = &app->settings->brush, own = wr_shelf_own(app);
+    WrBrush *b = &app->settings->brush, own = wr_preset_browser_own(app);
     unsigned uses = wr_brush_modes[b->mode].uses;
     WrNumber size = { .low = 1,
                       .high = 1000,
@@ -86,7 +86,7 @@ static void basic(WrApp *app)
 
 static void dabs(WrApp *app)
 {
-    WrBrush *b = &app->settings->brush, own = wr_shelf_own(app);
+    WrBrush *b = &app->settings->brush, own = wr_preset_browser_own(app);
     bool preset = b->preset != NULL;
     WrNumber spacing = { .low = 0,
                          .high = 2,
@@ -119,7 +119,7 @@ static void dabs(WrApp *app)
 
 static void chance(WrApp *app)
 {
-    WrBrush *b = &app->settings->brush, own = wr_shelf_own(app);
+    WrBrush *b = &app->settings->brush, own = wr_preset_browser_own(app);
     WrNumber place = { .low = 0,
                        .high = 4,
                        .hard_high = 100,
@@ -218,7 +218,8 @@ static void setting(WrApp *app, int index)
     wr_gui_tip("What pen and motion add to it, as curves");
     wr_gui_pop_id();
     if (edit != WR_EDIT_NONE)
-        wr_shelf_tune(app, info->name, value == own ? (double)NAN : rint(value * 1e4) / 1e4);
+        wr_preset_browser_tune(app, info->name,
+                               value == own ? (double)NAN : rint(value * 1e4) / 1e4);
 }
 
 static void preset_settings(WrApp *app)
@@ -231,7 +232,7 @@ static void preset_settings(WrApp *app)
         snprintf(text, sizeof text,
                  changed > 1 ? wr_words("Take back %d changes") : wr_words("Take back %d change"),
                  changed);
-        if (wr_gui_chip(WR_ICON_BACK, text)) wr_shelf_tune_all(app, NULL);
+        if (wr_gui_chip(WR_ICON_BACK, text)) wr_preset_browser_tune_all(app, NULL);
     }
     for (int g = 0; g < GROUPS; g++) {
         if (!wr_gui_fold(groups[g], false)) continue;
@@ -251,7 +252,7 @@ void wr_panel_brush(WrApp *app)
 
 void wr_dialog_preset(WrApp *app)
 {
-    WrShelf *shelf = app->shelf;
+    WrPresetBrowser *shelf = app->shelf;
     char name[sizeof shelf->name];
     if (!wr_gui_dialog_begin("Save the brush as a preset", 380)) return;
     wr_gui_text_wrapped(
@@ -268,6 +269,6 @@ void wr_dialog_preset(WrApp *app)
         answer = 1;
         wr_dialog_close(app);
     }
-    if (answer > 0) wr_shelf_ask_save(app, name);
+    if (answer > 0) wr_preset_browser_ask_save(app, name);
     wr_gui_dialog_end();
 }

@@ -1,14 +1,14 @@
 /* The Brushes tab: presets as pictures, by collection and group, with a search; below them the values of
    the brush in hand. Where there is no room for both, one of them at a time. */
-#include "ui/desk/action.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/search.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/action.h"
+#include "ui/state/action_list.h"
+#include "ui/state/app_state.h"
+#include "ui/state/search.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/panels/panels.h"
-#include "ui/tools/shelf.h"
+#include "ui/tools/preset_browser.h"
 #include "ui/tools/thumbs.h"
 
 #include "base/array.h"
@@ -94,16 +94,16 @@ static bool belongs(const WrApp *app, const Groups *g, const WrPresetEntry *entr
 
 static void preset_menu(WrApp *app)
 {
-    WrShelf *shelf = app->shelf;
+    WrPresetBrowser *shelf = app->shelf;
     char id[sizeof shelf->pressed];
     if (!wr_gui_popup_begin("preset")) return;
     memcpy(id, shelf->pressed, sizeof id);
     bool liked = wr_settings_favourite(app->settings, id) >= 0;
     if (wr_gui_menu_item(liked ? "No favourite any more" : "Favourite", NULL, liked, true))
         wr_settings_set_favourite(app->settings, id, !liked);
-    if (wr_gui_menu_item("Choose", NULL, false, true)) wr_shelf_choose(app, id);
+    if (wr_gui_menu_item("Choose", NULL, false, true)) wr_preset_browser_choose(app, id);
     bool own = strncmp(id, "user/", 5) == 0;
-    if (wr_gui_menu_item("Delete", NULL, false, own)) wr_shelf_delete(app, id);
+    if (wr_gui_menu_item("Delete", NULL, false, own)) wr_preset_browser_delete(app, id);
     wr_gui_popup_end();
 }
 
@@ -130,7 +130,8 @@ static void tile(WrApp *app, Flow *flow, int index, const char *id, const char *
     wr_gui_push_id(index + 2);
     SDL_Texture *picture =
         wr_gui_will_see(flow->side) ? wr_thumb_of(app, index, (int)flow->side) : NULL;
-    int pressed = wr_gui_tile("tile", picture, flow->side, same(id, wr_shelf_chosen(app)), liked);
+    int pressed =
+        wr_gui_tile("tile", picture, flow->side, same(id, wr_preset_browser_chosen(app)), liked);
     char tip[300];
     snprintf(tip, sizeof tip, "%.200s%s%.60s", name, entry && entry->group ? "\n" : "",
              entry && entry->group ? entry->group : "");
@@ -138,7 +139,7 @@ static void tile(WrApp *app, Flow *flow, int index, const char *id, const char *
     wr_gui_tip(tip);
     wr_gui_as_it_is(false);
     wr_gui_pop_id();
-    if (pressed == 1) wr_shelf_choose(app, id);
+    if (pressed == 1) wr_preset_browser_choose(app, id);
     if (pressed != 2) return;
     snprintf(app->shelf->pressed, sizeof app->shelf->pressed, "%s", id);
     wr_gui_popup_open("preset");
@@ -148,7 +149,7 @@ static void used_last(WrApp *app, Flow *flow)
 {
     for (int i = 0; i < WR_USED_MAX && app->settings->used[i]; i++) {
         char *id = wr_strdup(app->settings->used[i]); /* choosing moves the list */
-        int index = wr_shelf_find(app, id);
+        int index = wr_preset_browser_find(app, id);
         if (index >= 0 || same(id, WR_ROUND))
             tile(app, flow, index, id, index < 0 ? "Round brush" : strchr(id, '/') + 1);
         wr_free(id);
@@ -157,7 +158,7 @@ static void used_last(WrApp *app, Flow *flow)
 
 static void tiles(WrApp *app, const Groups *groups)
 {
-    const WrLibrary *library = wr_shelf_library(app);
+    const WrLibrary *library = wr_preset_browser_library(app);
     double gap = wr_gui_px(4), room = wr_gui_available() + gap;
     Flow flow = { .columns = (int)(room / (wr_gui_px(TILE_UNITS) + gap) + 0.5) };
     flow.columns = flow.columns > 0 ? flow.columns : 1;
@@ -188,7 +189,7 @@ static void tiles(WrApp *app, const Groups *groups)
 static void head(WrApp *app, const Groups *groups, bool both)
 {
     static const char *const parts[] = { "Presets", "This brush" };
-    WrShelf *shelf = app->shelf;
+    WrPresetBrowser *shelf = app->shelf;
     if (!both) {
         wr_gui_segments("part", parts, NULL, 2, &shelf->part);
         if (shelf->part == 1) return;
@@ -214,7 +215,7 @@ static SDL_Rect cut_top(SDL_Rect *room, int height)
 /* Under the pictures: what is in hand, and what can be done with it. */
 static void foot(WrApp *app)
 {
-    const char *id = wr_shelf_chosen(app), *slash = strchr(id, '/');
+    const char *id = wr_preset_browser_chosen(app), *slash = strchr(id, '/');
     bool liked = wr_settings_favourite(app->settings, id) >= 0;
     double wide = wr_gui_available() - wr_gui_px(3 * 30);
     wr_gui_text_cut(WR_FONT_BOLD, WR_COLOUR_STRONG, slash ? slash + 1 : "Round brush", wide);
@@ -233,7 +234,7 @@ static void foot(WrApp *app)
     bool own = strncmp(id, "user/", 5) == 0;
     wr_gui_disable(!own);
     if (wr_gui_glyph("delete", WR_ICON_DELETE, 24, own ? WR_COLOUR_LABEL : WR_COLOUR_OFF))
-        wr_shelf_delete(app, id);
+        wr_preset_browser_delete(app, id);
     wr_gui_enable();
     wr_gui_tip(own ? "Delete this preset" : "Only presets of your own can be deleted");
 }
@@ -241,7 +242,7 @@ static void foot(WrApp *app)
 void wr_panel_brushes(WrApp *app, SDL_Rect room)
 {
     Groups groups = { .count = 0 };
-    find_groups(wr_shelf_library(app), &groups);
+    find_groups(wr_preset_browser_library(app), &groups);
     bool both = room.h >= wr_gui_px(BOTH_UNITS);
     int part = both ? 0 : app->shelf->part;
     SDL_Rect top = cut_top(&room, wr_gui_px(12) + (both || part == 1 ? 1 : 2) * wr_gui_px(34));

@@ -1,10 +1,10 @@
 /* The scene's panel: how large the unit cell is for other programs. */
-#include "ui/desk/desk.h"
-#include "ui/desk/line.h"
-#include "ui/desk/scene_line.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/words.h"
+#include "ui/state/app_state.h"
+#include "ui/state/line.h"
+#include "ui/state/scene_line.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/words.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 

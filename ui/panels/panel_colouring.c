@@ -1,9 +1,9 @@
 /* Colours by height, slope and cavity: a row for each stop, with its height and its colour. Every act is a command line. */
-#include "ui/desk/desk.h"
-#include "ui/desk/scene_line.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/words.h"
+#include "ui/state/app_state.h"
+#include "ui/state/scene_line.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/words.h"
 #include "ui/panels/panels.h"
 
 #include "base/text.h"
@@ -21,7 +21,7 @@ static void add_rgb(WrText *line, const double rgb[3])
 }
 
 /* Let go: the whole ramp as one line. */
-static void run_ramp(WrApp *app, const WrColouring *own)
+static void run_ramp(WrApp *app, const WrHeightColormap *own)
 {
     WrText line = { 0 };
     wr_text_add(&line, "colouring ramp stops=");
@@ -42,12 +42,12 @@ static void run_ramp(WrApp *app, const WrColouring *own)
         wr_text_addf(&line, " depth=%.4f,%.4f within=%.2f", own->depth[0],
                      fmax(own->depth[0], own->depth[1]), own->within);
     }
-    wr_text_addf(&line, " of=%s", wr_colouring_names[own->of]);
+    wr_text_addf(&line, " of=%s", wr_height_colormap_names[own->of]);
     wr_scene_run(app, &line);
 }
 
 /* A stop stays between its neighbours. */
-static WrEdit height_field(WrColouring *own, int i, double width)
+static WrEdit height_field(WrHeightColormap *own, int i, double width)
 {
     const bool first = i == 0, last = i + 1 == own->count;
     double *height = &own->stops[i].height;
@@ -71,7 +71,7 @@ static WrEdit more(WrEdit a, WrEdit b)
     return a == WR_EDIT_DONE || b == WR_EDIT_DONE ? WR_EDIT_DONE : a == WR_EDIT_NONE ? b : a;
 }
 
-static WrEdit stop_row(WrColouring *own, int i)
+static WrEdit stop_row(WrHeightColormap *own, int i)
 {
     char label[24];
     snprintf(label, sizeof label, wr_words("Stop %d"), i + 1);
@@ -85,7 +85,7 @@ static WrEdit stop_row(WrColouring *own, int i)
     return more(a, b);
 }
 
-static WrEdit steep_rows(WrColouring *own)
+static WrEdit steep_rows(WrHeightColormap *own)
 {
     static const WrNumber spec = { .low = 0,
                                    .high = 90,
@@ -113,7 +113,7 @@ static WrEdit steep_rows(WrColouring *own)
 /* Off is a depth that nothing has, so that the colour comes back as it was. */
 #define NO_DEPTH 1e6
 
-static WrEdit hollow_rows(WrColouring *own)
+static WrEdit hollow_rows(WrHeightColormap *own)
 {
     static const WrNumber depth = { .low = 0,
                                     .high = 0.5,
@@ -149,7 +149,7 @@ static WrEdit hollow_rows(WrColouring *own)
     return more(more(a, b), more(c, wr_gui_number("within", 0, &within, &own->within)));
 }
 
-static WrEdit ramp_rows(WrApp *app, WrColouring *own)
+static WrEdit ramp_rows(WrApp *app, WrHeightColormap *own)
 {
     static const char *const of[WR_COLOURINGS] = { "The form", "The table" };
     WrEdit done = WR_EDIT_NONE;
@@ -157,7 +157,7 @@ static WrEdit ramp_rows(WrApp *app, WrColouring *own)
     const bool terrain = wr_app_scene(app)->shape.kind == WR_SURFACE_terrain;
     if (terrain) wr_gui_label("Heights of");
     if (terrain && wr_gui_choice("colouring of", 0, of, WR_COLOURINGS, &which)) {
-        own->of = (WrColouringOf)which;
+        own->of = (WrHeightColormapOf)which;
         done = WR_EDIT_DONE;
     }
     for (int i = 0; i < own->count; i++) done = more(done, stop_row(own, i));
@@ -177,7 +177,7 @@ static WrEdit ramp_rows(WrApp *app, WrColouring *own)
 
 void wr_panel_colouring(WrApp *app)
 {
-    WrColouring own = wr_app_scene(app)->colouring;
+    WrHeightColormap own = wr_app_scene(app)->colouring;
     WrText line = { 0 };
     bool on = own.count > 0;
     wr_gui_push_id(3);

@@ -1,14 +1,14 @@
 #include "ui/panels/panel_dynamics.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/messages.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/action_list.h"
+#include "ui/state/dialog.h"
+#include "ui/state/keys.h"
+#include "ui/state/messages.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/panels/points_pad.h"
-#include "ui/tools/shelf.h"
-#include "ui/tools/tuning.h"
+#include "ui/tools/preset_browser.h"
+#include "ui/tools/preset_overrides.h"
 
 #include "base/array.h"
 #include "base/memory.h"
@@ -100,7 +100,7 @@ static void take_back(WrApp *app)
     if (d->before.count == 0) return;
     char *set = d->before.data[--d->before.count];
     d->hand = (WrPointsHand){ 0 };
-    wr_shelf_tune_all(app, set);
+    wr_preset_browser_tune_all(app, set);
     wr_free(set);
 }
 
@@ -111,7 +111,7 @@ static void put(WrApp *app, const char *text)
     WrText set = { 0 };
     name_of(app->dynamics, name);
     wr_tuning_put_text(app->brush_files->set, name, text, &set);
-    wr_shelf_tune_all(app, wr_text_get(&set));
+    wr_preset_browser_tune_all(app, wr_text_get(&set));
     wr_text_fini(&set);
 }
 

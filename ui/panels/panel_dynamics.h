@@ -1,7 +1,7 @@
 /* panel_dynamics.h - the dialog in which the curves of a preset are drawn: what pressure, speed and other inputs add to a
    setting. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include <SDL.h>
 #include <stdbool.h>

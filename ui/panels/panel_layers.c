@@ -1,21 +1,21 @@
 /* The layers: top layer first. Every act is a command line. */
 #include "ui/panels/panel_layers.h"
-#include "ui/desk/action.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/line.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
-#include "ui/jobs/trial.h"
+#include "ui/state/action.h"
+#include "ui/state/action_list.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/keys.h"
+#include "ui/state/line.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
+#include "ui/jobs/edit_preview.h"
 #include "ui/panels/panels.h"
 
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "command/session.h"
 #include "document/blend.h"
 #include "document/document.h"
@@ -40,7 +40,7 @@ void wr_panel_layers_forget(WrApp *app)
 static void try_layer(WrApp *app, int index, double opacity, double radius)
 {
     const WrLayer *layer = &wr_app_document(app)->layers[index];
-    WrTrialAsk ask = {
+    WrEditPreviewAsk ask = {
         .layer = index, .blend = layer->blend, .opacity = (float)opacity, .radius = (float)radius
     };
     wr_app_try(app, &ask);

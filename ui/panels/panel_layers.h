@@ -1,8 +1,8 @@
 /* panel_layers.h - the list of layers. */
 #pragma once
 #include "ui/panels/thumb_list.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 
 #include "base/array.h"
 #include "document/document.h"

@@ -1,21 +1,21 @@
 /* The scene's panel: lights. */
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/line.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/scene_line.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/words.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/line.h"
+#include "ui/state/roster.h"
+#include "ui/state/scene_line.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/words.h"
 #include "ui/jobs/files.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "base/vec.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 
@@ -132,9 +132,10 @@ void wr_light_take_surround(WrApp *app, const char *path)
     wr_scene_run(app, &line);
 }
 
-static void choose_surround(WrApp *app, WrSurroundKind kind)
+static void choose_surround(WrApp *app, WrEnvironmentMapKind kind)
 {
-    if (kind != WR_SURROUND_FILE) wr_light_take_surround(app, wr_surround_names[kind]);
+    if (kind != WR_ENVIRONMENT_MAP_FILE)
+        wr_light_take_surround(app, wr_environment_map_names[kind]);
     else if (!wr_files_ask(app->files, WR_FILE_SURROUND, NULL, ""))
         wr_dialog_open(app, WR_DIALOG_FILE);
 }
@@ -142,21 +143,21 @@ static void choose_surround(WrApp *app, WrSurroundKind kind)
 static void surroundings(WrApp *app)
 {
     WR_ROWS(kinds);
-    static const char *const kinds[WR_SURROUND_KINDS] = {
-        [WR_ROW(WR_SURROUND_OFF)] = "None",
-        [WR_ROW(WR_SURROUND_STUDIO)] = "Studio",
-        [WR_ROW(WR_SURROUND_SKY)] = "Sky",
-        [WR_ROW(WR_SURROUND_RAKING)] = "Raking",
-        [WR_ROW(WR_SURROUND_FILE)] = "A picture \xe2\x80\xa6",
+    static const char *const kinds[WR_ENVIRONMENT_MAP_KINDS] = {
+        [WR_ROW(WR_ENVIRONMENT_MAP_OFF)] = "None",
+        [WR_ROW(WR_ENVIRONMENT_MAP_STUDIO)] = "Studio",
+        [WR_ROW(WR_ENVIRONMENT_MAP_SKY)] = "Sky",
+        [WR_ROW(WR_ENVIRONMENT_MAP_RAKING)] = "Raking",
+        [WR_ROW(WR_ENVIRONMENT_MAP_FILE)] = "A picture \xe2\x80\xa6",
     };
-    WR_ROWS_END(kinds, WR_SURROUND_KINDS);
+    WR_ROWS_END(kinds, WR_ENVIRONMENT_MAP_KINDS);
     const WrEnvironment *now = &wr_app_scene(app)->environment;
     int kind = (int)now->kind;
     wr_gui_space(8);
     wr_gui_heading("SURROUNDINGS");
     wr_gui_label("Kind");
-    if (wr_gui_choice("surroundings", 0, kinds, WR_SURROUND_KINDS, &kind)) {
-        choose_surround(app, (WrSurroundKind)kind);
+    if (wr_gui_choice("surroundings", 0, kinds, WR_ENVIRONMENT_MAP_KINDS, &kind)) {
+        choose_surround(app, (WrEnvironmentMapKind)kind);
         return;
     }
     wr_gui_tip(
@@ -165,7 +166,7 @@ static void surroundings(WrApp *app)
             : "Light from all sides, beside the lights: seen where the material "
               "shines. A picture: by longitude and latitude, such as HDR and EXR. Shift and the "
               "right button turn them on the patch");
-    if (now->kind == WR_SURROUND_OFF) return;
+    if (now->kind == WR_ENVIRONMENT_MAP_OFF) return;
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_TURN]);
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_STRENGTH]);
 }

@@ -1,18 +1,18 @@
 /* Pictures on the object at hand: its colours, its normals, its roughness and metalness. Every act is a command line. */
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/line.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/scene_line.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/line.h"
+#include "ui/state/roster.h"
+#include "ui/state/scene_line.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/jobs/files.h"
 #include "ui/panels/panels.h"
 
 #include "base/text.h"
-#include "command/call.h"
+#include "command/command_line.h"
 #include "image/image.h"
 #include "scene/scene.h"
 
@@ -25,25 +25,25 @@
 typedef struct Map {
     const char *verb, *label, *choose, *remove, *none;
     WrFilePurpose purpose;
-    WrLaid *(*laid)(WrScene *scene);
+    WrTextureSample *(*laid)(WrScene *scene);
 } Map;
 
-static WrLaid *colour_laid(WrScene *scene)
+static WrTextureSample *colour_laid(WrScene *scene)
 {
     return &scene->colour_laid;
 }
 
-static WrLaid *normals_laid(WrScene *scene)
+static WrTextureSample *normals_laid(WrScene *scene)
 {
     return &scene->normals.laid;
 }
 
-static WrLaid *roughness_laid(WrScene *scene)
+static WrTextureSample *roughness_laid(WrScene *scene)
 {
     return &scene->facets[WR_FACET_ROUGHNESS].laid;
 }
 
-static WrLaid *metalness_laid(WrScene *scene)
+static WrTextureSample *metalness_laid(WrScene *scene)
 {
     return &scene->facets[WR_FACET_METALNESS].laid;
 }
@@ -110,7 +110,7 @@ static const char *name_of(const char *path)
 }
 
 /* The file's name, and what opens another or takes it off. */
-static void file_row(WrApp *app, const Map *map, const WrImage *image, const WrLaid *laid)
+static void file_row(WrApp *app, const Map *map, const WrImage *image, const WrTextureSample *laid)
 {
     const char *path = image && laid->path ? laid->path : "";
     wr_gui_label(map->label);
@@ -133,7 +133,7 @@ static void file_row(WrApp *app, const Map *map, const WrImage *image, const WrL
 }
 
 /* As often as the table, once, or so often. */
-static void repeat_row(WrApp *app, const Map *map, const WrLaid *laid)
+static void repeat_row(WrApp *app, const Map *map, const WrTextureSample *laid)
 {
     static const char *const ways[] = { "As the table", "Once", "So often" };
     static const char *const words[] = { "table", "once", "2,2" };
@@ -161,7 +161,7 @@ static void repeat_row(WrApp *app, const Map *map, const WrLaid *laid)
     wr_gui_same_line(8);
     const WrEdit edit_v = wr_gui_number("rv", half, &spec, &rv);
     if (edit_u == WR_EDIT_NONE && edit_v == WR_EDIT_NONE) return;
-    WrLaid *own = map->laid(wr_app_live(app));
+    WrTextureSample *own = map->laid(wr_app_live(app));
     own->ru = ru, own->rv = rv;
     if (edit_u != WR_EDIT_DONE && edit_v != WR_EDIT_DONE) return;
     WrText value = { 0 };

@@ -1,10 +1,10 @@
 /* The scene's panel: bump and material. */
-#include "ui/desk/action.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/scene_line.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
+#include "ui/state/action.h"
+#include "ui/state/action_list.h"
+#include "ui/state/app_state.h"
+#include "ui/state/scene_line.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
 #include "ui/panels/panel_presets.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
@@ -14,7 +14,7 @@
 #include "scene/param.h"
 #include "scene/scene.h"
 #include "shade/bump_mode.h"
-#include "shade/reflect.h"
+#include "shade/reflection.h"
 
 /* ---- bump ---- */
 

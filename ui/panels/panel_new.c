@@ -1,15 +1,15 @@
 /* A new document in one dialog: how large, of which shape, on what, and what it begins with. */
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/document.h"
-#include "ui/desk/later.h"
-#include "ui/desk/new_lines.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/document.h"
+#include "ui/state/deferred_actions.h"
+#include "ui/state/new_lines.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/jobs/files.h"
 #include "ui/panels/panels.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "document/document_file.h"
 #include "surface/surface.h"
@@ -97,7 +97,7 @@ void wr_dialog_new(WrApp *app)
     if (wr_dialog_buttons(app, "Make it", true) > 0) {
         WrText lines = { 0 };
         wr_new_lines(form, wr_document_wrap_name(form->wrap), &lines);
-        wr_later(app, wr_app_new_of, wr_text_get(&lines));
+        wr_deferred(app, wr_app_new_of, wr_text_get(&lines));
         wr_text_fini(&lines);
     }
     wr_gui_dialog_end();

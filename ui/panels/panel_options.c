@@ -1,9 +1,9 @@
 /* The option row under the menu: the tool in hand, and what it puts there. */
-#include "ui/desk/action.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/layout.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/action.h"
+#include "ui/state/app_state.h"
+#include "ui/state/layout.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/panels/panels.h"
 #include "ui/tools/tool.h"
 

@@ -1,14 +1,14 @@
 /* What the planner decided for the last picture, with its reasons and prices. */
-#include "ui/desk/desk.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/app_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
 #include "ui/preview/preview.h"
 
-#include "base/rows.h"
-#include "render/plan.h"
+#include "base/enum_rows.h"
+#include "render/plan/plan.h"
 
 #include <stdio.h>
 

@@ -1,22 +1,22 @@
 /* What the window is like, and which keys do what: each change holds at once and is written at once. */
 #include "ui/panels/panel_preferences.h"
-#include "ui/desk/action.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/search.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/gui_icons.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/action.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/keys.h"
+#include "ui/state/roster.h"
+#include "ui/state/search.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_icons.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/jobs/files.h"
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "system/path.h"
 
@@ -140,7 +140,7 @@ static void give(WrApp *app, const char *action, WrKey key)
     char other[64] = "", label[32];
     const char *owner = wr_keys_owner(app->keys, key);
     if (owner && strcmp(owner, action) != 0) snprintf(other, sizeof other, "%.63s", owner);
-    wr_keys_give(app->keys, action, key);
+    wr_keymap_bind(app->keys, action, key);
     wr_keys_label(app->keys, action, label);
     settle(app, action, other[0] ? other : NULL, label);
 }

@@ -1,7 +1,7 @@
 /* panel_preferences.h - what the window is like, and which keys do what. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/keys.h"
+#include "ui/state/app_state.h"
+#include "ui/state/keys.h"
 
 #include <stdbool.h>
 

@@ -1,18 +1,18 @@
 /* Materials to begin with: a sphere of each, rendered as the patch is, one in each picture of the window. */
 #include "ui/panels/panel_presets.h"
-#include "ui/desk/scene_line.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/gui_sdl.h"
-#include "ui/gui/theme.h"
+#include "ui/state/scene_line.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/theme.h"
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/session.h"
 #include "image/image.h"
-#include "render/frame.h"
-#include "scene/preset.h"
+#include "render/frame/frame.h"
+#include "scene/material_preset.h"
 
 #include <SDL.h>
 #include <string.h>

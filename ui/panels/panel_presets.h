@@ -1,7 +1,7 @@
 /* panel_presets.h - the list of materials as pictures, opened from the scene's tab. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 
 /* The row that names the material at hand and opens the list; the list itself while it is open. */
 void wr_panel_presets(WrApp *app);

@@ -1,8 +1,8 @@
 /* The profile of a surface of revolution as a curve with points to drag; each drag is one command. */
-#include "ui/desk/desk.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/panels/panel_scene.h"
 
 #include "base/text.h"

@@ -1,20 +1,20 @@
 /* What a program that crashed left behind: take it back, give it up, or leave it for later. */
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/document.h"
-#include "ui/desk/later.h"
-#include "ui/desk/messages.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/document.h"
+#include "ui/state/deferred_actions.h"
+#include "ui/state/messages.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/panels/panels.h"
 
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "command/inner.h"
+#include "command/session_internal.h"
 #include "command/recovery.h"
 #include "system/clock.h"
 
@@ -228,7 +228,7 @@ static void recover_buttons(WrApp *app, bool key)
         wr_gui_same_line(8);
     }
     if (!now && !beyond) return;
-    wr_later(app, beyond ? recover_beyond : recover_upto, r->journal);
+    wr_deferred(app, beyond ? recover_beyond : recover_upto, r->journal);
     wr_dialog_close(app);
 }
 

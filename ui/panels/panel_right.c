@@ -1,13 +1,13 @@
 /* The panel on the right: one tab at a time above, the layers below; where there is no room for both,
    the layers are a tab too. What needs many rows takes the layers' place where they leave it only a few. */
 #include "ui/accuracy/accuracy.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/layout.h"
+#include "ui/state/roster.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panels.h"
 

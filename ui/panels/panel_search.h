@@ -1,6 +1,6 @@
 /* panel_search.h - finding an action by typing. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 typedef struct WrFinder { /* the search for actions */
     char text[600];

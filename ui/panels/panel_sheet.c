@@ -1,14 +1,14 @@
 /* The export sheet. */
 #include "ui/panels/panel_sheet.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/gui_sdl.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_sdl.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "field/field.h"
 
 #include <math.h>

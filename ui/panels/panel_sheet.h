@@ -1,8 +1,8 @@
 /* panel_sheet.h - the export sheet: which maps leave, for which program, how they look; and, as long as it is asked for,
    writing them again after each pause of the hand. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 #include "ui/jobs/sheet_job.h"
 
 typedef struct WrSheetState {

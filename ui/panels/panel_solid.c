@@ -1,11 +1,11 @@
 /* The scene's panel: what the relief does besides turning normals, and the solid that the object is cut out of. */
-#include "ui/desk/scene_line.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
+#include "ui/state/scene_line.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 #include "base/text.h"
 #include "scene/param.h"
 #include "scene/scene.h"
@@ -45,15 +45,15 @@ static void relief(WrApp *app)
 }
 
 /* Is the number one that this solid goes by? */
-static bool counts(const WrGrain *grain, WrSceneParamId id)
+static bool counts(const WrSolidTexture *grain, WrSceneParamId id)
 {
-    const WrGrainInfo *info = &wr_grains[grain->kind];
+    const WrSolidTextureInfo *info = &wr_grains[grain->kind];
     switch (id) {
     case WR_SCENE_PARAM_GRAIN_LIGHT:
-    case WR_SCENE_PARAM_GRAIN_DARK: return grain->drives & WR_GRAIN_COLOURS;
-    case WR_SCENE_PARAM_GRAIN_HEIGHT: return grain->drives & WR_GRAIN_BUMPS;
+    case WR_SCENE_PARAM_GRAIN_DARK: return grain->drives & WR_SOLID_TEXTURE_COLOURS;
+    case WR_SCENE_PARAM_GRAIN_HEIGHT: return grain->drives & WR_SOLID_TEXTURE_BUMPS;
     case WR_SCENE_PARAM_GRAIN_ROUGH_LIGHT:
-    case WR_SCENE_PARAM_GRAIN_ROUGH_DARK: return grain->drives & WR_GRAIN_ROUGHENS;
+    case WR_SCENE_PARAM_GRAIN_ROUGH_DARK: return grain->drives & WR_SOLID_TEXTURE_ROUGHENS;
     case WR_SCENE_PARAM_GRAIN_EDGE: return info->stepped;
     case WR_SCENE_PARAM_GRAIN_RINGS: return info->ringed;
     case WR_SCENE_PARAM_GRAIN_SHARE: return info->shared;
@@ -77,30 +77,31 @@ static void choose(WrApp *app, const char *id, const char *const *names, int cou
 
 static void solid(WrApp *app)
 {
-    static const char *const axes[WR_GRAIN_AXES] = { "X", "Y", "Z" };
-    static const char *const drives[WR_GRAIN_DRIVES - 1] = {
+    static const char *const axes[WR_SOLID_TEXTURE_AXES] = { "X", "Y", "Z" };
+    static const char *const drives[WR_SOLID_TEXTURE_DRIVES - 1] = {
         "Colour", "Roughness", "Colour, roughness", "Bump", "Colour, bump", "Roughness, bump", "All"
     };
-    const char *titles[WR_GRAIN_KINDS], *words[WR_GRAIN_KINDS];
-    const WrGrain *grain = &wr_app_scene(app)->grain;
-    const WrGrainInfo *info = &wr_grains[grain->kind];
-    for (int i = 0; i < WR_GRAIN_KINDS; i++)
+    const char *titles[WR_SOLID_TEXTURE_KINDS], *words[WR_SOLID_TEXTURE_KINDS];
+    const WrSolidTexture *grain = &wr_app_scene(app)->grain;
+    const WrSolidTextureInfo *info = &wr_grains[grain->kind];
+    for (int i = 0; i < WR_SOLID_TEXTURE_KINDS; i++)
         titles[i] = wr_grains[i].title, words[i] = wr_grains[i].name;
     wr_gui_space(8);
     wr_gui_heading("SOLID TEXTURE");
     wr_gui_label("Cut out of");
-    choose(app, "grain", titles, WR_GRAIN_KINDS, (int)grain->kind, "grain ", words);
+    choose(app, "grain", titles, WR_SOLID_TEXTURE_KINDS, (int)grain->kind, "grain ", words);
     wr_gui_tip("A pattern that goes through the object and stays where it is while that turns; its "
                "colours are multiplied with the material's");
-    if (wr_app_scene(app)->grain.kind == WR_GRAIN_OFF) return;
+    if (wr_app_scene(app)->grain.kind == WR_SOLID_TEXTURE_OFF) return;
     wr_gui_label("Drives");
-    choose(app, "drives", drives, WR_GRAIN_DRIVES - 1, grain->drives - 1,
-           "grain drives=", wr_grain_drives + 1);
+    choose(app, "drives", drives, WR_SOLID_TEXTURE_DRIVES - 1, grain->drives - 1,
+           "grain drives=", wr_solid_texture_drives + 1);
     wr_gui_tip("What the pattern changes: the colour, the roughness of facets, and heights that "
                "turn the normal");
     if (info->ringed && info->noisy) {
         wr_gui_label("Axis");
-        choose(app, "axis", axes, WR_GRAIN_AXES, (int)grain->axis, "grain axis=", wr_grain_axes);
+        choose(app, "axis", axes, WR_SOLID_TEXTURE_AXES, (int)grain->axis,
+               "grain axis=", wr_solid_texture_axes);
     }
     for (int id = WR_SCENE_PARAM_GRAIN_LIGHT; id <= WR_SCENE_PARAM_GRAIN_ROUGH_DARK; id++)
         if (counts(grain, (WrSceneParamId)id)) wr_param_row(app, &wr_scene_params[id]);

@@ -2,21 +2,21 @@
 #include "ui/panels/panel_status.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/messages.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/generate/generate_hand.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/messages.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/generate/generate_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_sheet.h"
 #include "ui/preview/preview.h"
 #include "ui/views/marks.h"
-#include "ui/jobs/trial.h"
+#include "ui/jobs/edit_preview.h"
 
 #include "base/exactmath.h"
 #include "command/session.h"
@@ -28,7 +28,7 @@
 #include "system/clock.h"
 #include "system/process.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -356,7 +356,7 @@ static bool work(WrApp *app)
         if (wr_gui_chip(NULL, "Cancel")) wr_sheet_cancel(app);
         return true;
     }
-    bool tried = wr_trial_busy(app->trial, &fraction, &seconds) && seconds > MOMENT_SECONDS;
+    bool tried = wr_edit_preview_busy(app->trial, &fraction, &seconds) && seconds > MOMENT_SECONDS;
     bool outlined = !tried && wr_outliner_busy(app->marks->outliner, &fraction, &seconds) &&
                     seconds > MOMENT_SECONDS;
     if (!tried && !outlined) return false;

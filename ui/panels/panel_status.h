@@ -1,6 +1,6 @@
 /* panel_status.h - the line at the bottom. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 typedef struct WrMeter {     /* memory, measured now and then */
     double at;               /* clock */

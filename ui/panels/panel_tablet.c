@@ -1,13 +1,13 @@
 /* The tablet tester: which devices there are, what comes from them, what is wrong, and their pressure
    curves. */
 #include "ui/panels/panel_tablet.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/pen/pen.h"
-#include "ui/pen/pen_curve.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/input/pen.h"
+#include "ui/input/pen_curve.h"
 
 #include "base/array.h"
 #include "base/memory.h"

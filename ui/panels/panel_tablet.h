@@ -1,9 +1,9 @@
 /* panel_tablet.h - what the two files of the tablet tester share. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/gui/gui.h"
+#include "ui/state/app_state.h"
+#include "ui/toolkit/gui.h"
 #include "ui/panels/points_pad.h"
-#include "ui/pen/pen_curve.h"
+#include "ui/input/pen_curve.h"
 
 #include "base/array.h"
 

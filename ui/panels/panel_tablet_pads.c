@@ -1,10 +1,10 @@
 /* What the tablet tester draws: the scribble, the newest numbers, the curve. */
-#include "ui/desk/desk.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/panels/panel_tablet.h"
-#include "ui/pen/pen.h"
-#include "ui/pen/pen_curve.h"
+#include "ui/input/pen.h"
+#include "ui/input/pen_curve.h"
 
 #include "base/array.h"
 #include "system/clock.h"

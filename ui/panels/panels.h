@@ -1,7 +1,7 @@
 /* panels.h - the panels and dialogs that the roster lists. */
 #pragma once
 #include "ui/canvas/outline.h"
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include <SDL.h>
 

@@ -1,7 +1,7 @@
 /* param_row.h - a row of a panel for a number or a colour of the scene, by its row in scene/param.h. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/gui/gui.h"
+#include "ui/state/app_state.h"
+#include "ui/toolkit/gui.h"
 
 typedef struct WrSceneParam WrSceneParam;
 typedef struct WrText WrText;

@@ -1,5 +1,5 @@
 #include "ui/panels/points_pad.h"
-#include "ui/gui/theme.h"
+#include "ui/toolkit/theme.h"
 
 #include <SDL.h>
 #include <math.h>

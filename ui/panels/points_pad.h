@@ -1,7 +1,7 @@
 /* points_pad.h - points of a curve that are moved by hand over a pad: dragged, added by a click, taken away by dragging them
    out of it or by Delete; arrows move the one that was touched last. What the curve is, the caller draws. */
 #pragma once
-#include "ui/gui/gui.h"
+#include "ui/toolkit/gui.h"
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 #include "ui/panels/profile_edit.h"
-#include "ui/desk/line.h"
+#include "ui/state/line.h"
 
 #include "base/text.h"
 

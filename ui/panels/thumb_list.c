@@ -1,8 +1,8 @@
 #include "ui/panels/thumb_list.h"
 #include "ui/canvas/thumb.h"
-#include "ui/desk/desk.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/gui_sdl.h"
+#include "ui/state/app_state.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/gui_sdl.h"
 
 #include "base/array.h"
 #include "command/session.h"

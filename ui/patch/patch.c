@@ -1,22 +1,22 @@
 /* The patch's view: what is wished of the preview and when, and what is drawn. */
 #include "ui/patch/patch.h"
-#include "ui/desk/action.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/messages.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/kept.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
+#include "ui/state/action.h"
+#include "ui/state/action_list.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/layout.h"
+#include "ui/state/messages.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/retained_frame.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/preview/preview.h"
 #include "ui/preview/rotation.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/views/overlay.h"
 
 #include "command/session.h"
@@ -24,7 +24,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "field/field.h"
-#include "scene/backs.h"
+#include "scene/backface_range.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "system/clock.h"
@@ -169,7 +169,7 @@ static void put_picture(WrApp *app, const WrPreviewPicture *picture, uint64_t ha
     wr_gui_sdl_update(p->texture, &part, from, 4 * picture->width);
     part.x += room->x;
     part.y += room->y;
-    wr_kept_changed(wr_gui_kept(app->gui), &part);
+    wr_retained_frame_changed(wr_gui_kept(app->gui), &part);
 }
 
 static void take_picture(WrApp *app)
@@ -291,12 +291,12 @@ void wr_patch_draw(WrApp *app)
     if (room->w <= 0) return;
     const WrPreviewPicture *picture = wr_preview_picture(app->preview);
     if (!p->texture || picture->serial == 0) {
-        wr_kept_fill(wr_gui_kept(app->gui), room, WR_COLOUR_SURROUND);
+        wr_retained_frame_fill(wr_gui_kept(app->gui), room, WR_COLOUR_SURROUND);
         return;
     }
     if (picture->serial != p->serial) take_picture(app);
-    wr_kept_copy_told(wr_gui_kept(app->gui), p->texture,
-                      &(SDL_Rect){ 0, 0, picture->width, picture->height }, room);
+    wr_retained_frame_copy_told(wr_gui_kept(app->gui), p->texture,
+                                &(SDL_Rect){ 0, 0, picture->width, picture->height }, room);
 }
 
 /* How far the picture is from its best: a ring that closes. */

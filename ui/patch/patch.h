@@ -1,13 +1,13 @@
 /* patch.h - the patch's view: what is wished of the preview and when, turning, the light, the camera. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 #include "ui/patch/patch_cube.h"
 #include "ui/patch/patch_objects.h"
 #include "ui/preview/preview.h"
 #include "ui/preview/rotation.h"
 
-#include "document/tables.h"
+#include "document/object_tables.h"
 #include "scene/camera.h"
 
 #include <SDL.h>
@@ -34,7 +34,7 @@ typedef struct WrPatch {
     double turn_deg;       /* 0..360 */
     double rock;           /* where a rocking sheet is on its way, radians (rotation.h) */
     WrScene *rock_scene;   /* own share of the scene of which this is known: */
-    bool rocks;            /* a whole turn would show backs (scene/backs.h) */
+    bool rocks;            /* a whole turn would show backs (scene/backface_range.h) */
     double turned_at;      /* clock at the last step of the turn */
     WrField *wished_field; /* own shares of what was wished for last */
     WrTables *wished_tables;

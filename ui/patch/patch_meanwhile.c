@@ -1,9 +1,9 @@
 /* The patch while a command runs beside the window: it is turned, moved and come closer to as ever, and what comes of that
    becomes a command when the other one is done. */
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/layout.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/state/layout.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_cube.h"
 

@@ -1,8 +1,8 @@
 /* patch_objects.h - the objects of a scene on the patch: chosen by a click, moved, sized and turned by the handles of
    the chosen one. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
 #include "ui/preview/patch_picks.h"
 
 #include <stdbool.h>

@@ -3,22 +3,22 @@
    (patch_pick.h). Where the next step lies elsewhere in the table than the surface's slopes there say,
    something jumped: the outline of a nearer part, another face of the cube, an edge, a seam of a
    replication that does not close. The stroke ends there and another one begins. */
-#include "ui/desk/action_list.h"
+#include "ui/state/action_list.h"
 #include "ui/patch/patch_paint.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/state/layout.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_objects.h"
-#include "ui/pen/steady.h"
+#include "ui/input/stroke_smoothing.h"
 #include "ui/preview/patch_pick.h"
 #include "ui/tools/brush_outline.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/tool_brush.h"
 
 #include "brush/brush.h"
@@ -277,7 +277,7 @@ static void overlay_clipped(WrApp *app)
         return;
     }
     double x = hand->at.x, y = hand->at.y;
-    if (painting && app->brush->steady.kind != WR_STEADY_OFF) {
+    if (painting && app->brush->steady.kind != WR_RELIGHT_OFF) {
         x = app->brush->steady.follower.x;
         y = app->brush->steady.follower.y;
         wr_brush_show_string(app);

@@ -1,7 +1,7 @@
 /* patch_paint.h - painting on the patch. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
 #include "ui/preview/patch_picks.h"
 
 #include <SDL.h>

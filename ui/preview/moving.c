@@ -1,6 +1,6 @@
 #include "ui/preview/moving.h"
 
-#include "base/rows.h"
+#include "base/enum_rows.h"
 
 #include <math.h>
 #include <stdbool.h>

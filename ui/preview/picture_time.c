@@ -1,9 +1,9 @@
 /* How long the newest picture of the patch took: one figure, the same wherever it is shown. */
 #include "ui/preview/preview.h"
-#include "ui/gui/words.h"
+#include "ui/toolkit/words.h"
 
-#include "base/rows.h"
-#include "render/frame.h"
+#include "base/enum_rows.h"
+#include "render/frame/frame.h"
 
 #include <stdio.h>
 

@@ -6,9 +6,9 @@
 #include "ui/preview/accuracy_choice.h"
 #include "ui/preview/moving.h"
 
-#include "render/frame.h"
-#include "render/plan.h"
-#include "render/ran.h"
+#include "render/frame/frame.h"
+#include "render/plan/plan.h"
+#include "render/plan/effect_heatmap.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -79,10 +79,10 @@ typedef struct WrPreviewPicture {
     double seconds; /* wall time, conversion included */
     WrStageTimes times;
     WrPlan plan;
-    bool ran;           /* it shows where each effect ran, ... */
-    WrRanCounts counts; /* ... on so many pixels */
-    double clipped;     /* share of its pixels that are full in some colour */
-    WrChosen chosen;    /* what the scene's tolerance chose for it */
+    bool ran;               /* it shows where each effect ran, ... */
+    WrHeatmapCounts counts; /* ... on so many pixels */
+    double clipped;         /* share of its pixels that are full in some colour */
+    WrChosen chosen;        /* what the scene's tolerance chose for it */
     char *
         kept; /* the same as the document keeps it (wr_choice_write); owned; NULL: nothing was chosen */
     WrMovingWay way;  /* of WR_PREVIEW_MOVING ... */

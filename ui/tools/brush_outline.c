@@ -2,14 +2,14 @@
    next dab would be, with its copies; the string of a steadied hand; the straight line that is aimed. */
 #include "ui/tools/brush_outline.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/pen/steady.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/input/stroke_smoothing.h"
+#include "ui/tools/stroke_input.h"
 
 #include "base/array.h"
 #include "base/exactmath.h"
@@ -186,8 +186,8 @@ static void show_line(const WrApp *app, const WrBrushMark *mark)
 
 void wr_brush_show_string(const WrApp *app)
 {
-    const WrSteady *s = &app->brush->steady;
-    if (!app->brush->drawing || s->kind == WR_STEADY_OFF) return;
+    const WrRelight *s = &app->brush->steady;
+    if (!app->brush->drawing || s->kind == WR_RELIGHT_OFF) return;
     wr_gui_draw_line(s->follower.x, s->follower.y, s->pointer.x, s->pointer.y, 0xb0000000u, 3.0);
     wr_gui_draw_line(s->follower.x, s->follower.y, s->pointer.x, s->pointer.y, WR_COLOUR_ACCENT,
                      1.4);
@@ -208,14 +208,14 @@ static void show_size(const WrApp *app, const WrPointer *at)
 void wr_brush_overlay(WrApp *app)
 {
     const WrPointer *at = app->hand->grab == WR_GRAB_RESIZE ? &app->hand->start : &app->hand->at;
-    const WrSteady *steady = &app->brush->steady;
+    const WrRelight *steady = &app->brush->steady;
     WrBrushMark mark = wr_brush_mark(app);
     double x, y, px = at->x, py = at->y;
     if (app->brush->straight) {
         show_line(app, &mark);
         return;
     }
-    if (app->brush->drawing && steady->kind != WR_STEADY_OFF) {
+    if (app->brush->drawing && steady->kind != WR_RELIGHT_OFF) {
         px = steady->follower.x; /* the outline is where it is drawn, not where the pointer is */
         py = steady->follower.y;
     }

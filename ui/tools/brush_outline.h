@@ -1,6 +1,6 @@
 /* brush_outline.h - what lies over the canvas while the brush is in hand. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 #include "ui/tools/brush_strength.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/tools/shelf.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/tools/preset_browser.h"
 
 #include "document/document.h"
 
@@ -30,7 +30,7 @@ WrNumber wr_strength_slider(const WrApp *app)
                        .high = 1,
                        .hard_low = -1e30,
                        .hard_high = 1e30,
-                       .reset = wr_shelf_own(app).strength,
+                       .reset = wr_preset_browser_own(app).strength,
                        .decimals = -1,
                        .logarithmic = true,
                        .tip = "How much one stroke changes the height at its middle, in units of "

@@ -1,8 +1,8 @@
 /* brush_strength.h - the strength of brushes, fills, stamps and shapes: a height while heights are painted, a share of the
    mask while a mask is. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/gui/gui.h"
+#include "ui/state/app_state.h"
+#include "ui/toolkit/gui.h"
 
 #include "brush/brush.h"
 

@@ -2,17 +2,17 @@
    not fit is behind the button at its end. */
 #include "ui/tools/option.h"
 
-#include "base/rows.h"
-#include "ui/desk/action.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
-#include "ui/gui/words.h"
-#include "ui/pen/steady.h"
+#include "base/enum_rows.h"
+#include "ui/state/action.h"
+#include "ui/state/action_list.h"
+#include "ui/state/app_state.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
+#include "ui/input/stroke_smoothing.h"
 #include "ui/tools/brush_strength.h"
-#include "ui/tools/shelf.h"
+#include "ui/tools/preset_browser.h"
 #include "ui/tools/thumbs.h"
 #include "ui/tools/tool.h"
 
@@ -43,7 +43,7 @@ static void size(WrApp *app, double width)
                       .high = 1000,
                       .hard_low = 0,
                       .hard_high = 2e9,
-                      .reset = 2.0 * wr_shelf_own(app).radius,
+                      .reset = 2.0 * wr_preset_browser_own(app).radius,
                       .decimals = -1,
                       .unit = "px",
                       .logarithmic = true,
@@ -58,7 +58,7 @@ void wr_option_hardness(WrApp *app, double width)
 {
     WrNumber spec = { .low = 0,
                       .high = 1,
-                      .reset = wr_shelf_own(app).hardness,
+                      .reset = wr_preset_browser_own(app).hardness,
                       .decimals = 2,
                       .tip = "Part of the radius that is fully covered." };
     wr_gui_number("hardness", width, &spec, &app->settings->brush.hardness);
@@ -166,12 +166,12 @@ void wr_option_pressure(WrApp *app, double width)
 static void steady(WrApp *app, double width)
 {
     WR_ROWS(names);
-    static const char *const names[WR_STEADY_COUNT] = {
-        [WR_ROW(WR_STEADY_OFF)] = "as it is",
-        [WR_ROW(WR_STEADY_SMOOTH)] = "smooth",
-        [WR_ROW(WR_STEADY_STRING)] = "on a string",
+    static const char *const names[WR_RELIGHT_COUNT] = {
+        [WR_ROW(WR_RELIGHT_OFF)] = "as it is",
+        [WR_ROW(WR_RELIGHT_SMOOTH)] = "smooth",
+        [WR_ROW(WR_RELIGHT_STRING)] = "on a string",
     };
-    WR_ROWS_END(names, WR_STEADY_COUNT);
+    WR_ROWS_END(names, WR_RELIGHT_COUNT);
     static const WrNumber spec = { .low = 2,
                                    .high = 200,
                                    .hard_low = 1,
@@ -182,13 +182,13 @@ static void steady(WrApp *app, double width)
                                    .logarithmic = true,
                                    .tip = "How far behind the pointer the brush may be" };
     WrSettings *s = app->settings;
-    wr_gui_choice("steady", width, names, WR_STEADY_COUNT, &s->steady);
+    wr_gui_choice("steady", width, names, WR_RELIGHT_COUNT, &s->steady);
     wr_gui_tip("A steadier hand: the brush follows the pointer on a smoother way, or hangs on a "
                "string behind it");
-    if (s->steady == WR_STEADY_OFF) return;
+    if (s->steady == WR_RELIGHT_OFF) return;
     wr_gui_same_line(6);
     wr_gui_number("length", 0.7 * width, &spec,
-                  s->steady == WR_STEADY_STRING ? &s->steady_string : &s->steady_smooth);
+                  s->steady == WR_RELIGHT_STRING ? &s->steady_string : &s->steady_smooth);
 }
 
 void wr_option_symmetry(WrApp *app, double width)
@@ -248,8 +248,8 @@ void wr_option_row(WrApp *app, const WrOption *items, int count)
 /* The picture of the brush; a click opens the tab. */
 static void thumbnail(WrApp *app)
 {
-    int index = wr_shelf_find(app, wr_shelf_chosen(app));
-    const char *slash = strchr(wr_shelf_chosen(app), '/');
+    int index = wr_preset_browser_find(app, wr_preset_browser_chosen(app));
+    const char *slash = strchr(wr_preset_browser_chosen(app), '/');
     double side = wr_gui_px(32);
     wr_gui_same_line(12);
     wr_gui_centre(side);
@@ -267,7 +267,8 @@ static void thumbnail(WrApp *app)
 void wr_option_brush_row(WrApp *app, const WrOption *first, int first_count)
 {
     unsigned uses = wr_option_mode_of(app)->uses;
-    bool strong = (uses & WR_USES_STRENGTH) != 0, steadies = app->settings->steady != WR_STEADY_OFF;
+    bool strong = (uses & WR_USES_STRENGTH) != 0,
+         steadies = app->settings->steady != WR_RELIGHT_OFF;
     bool forced = wr_tool_now(app)->mode != 0, round = app->settings->brush.preset == NULL;
     bool paints = wr_tool_now(app)->paints;
     const WrOption items[] = { { "", 104, 12, wr_option_mode, !forced },

@@ -1,6 +1,6 @@
 /* option.h - the row of options under the menu: what the tool in hand needs. Each tool puts its own there. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 /* The pictures that the stamp tool offers: those in the folders of brushes that are not the thumbnail of a
    preset. */
 #include "ui/tools/stamps.h"
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 #include "ui/tools/tool_stamp.h"
 
 #include "base/array.h"

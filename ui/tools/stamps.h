@@ -1,6 +1,6 @@
 /* stamps.h - pictures to stamp with, in the folders of brushes: ours, the user's and GIMP's. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 /* Looks through them at the first call; the paths are stamp.stamps. */
 void wr_stamps_find(WrApp *app);

@@ -1,6 +1,6 @@
 /* symmetry.h - the symmetry's values, axes and centre. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include <stdbool.h>
 

@@ -2,12 +2,12 @@
    picture paints one. */
 #include "ui/tools/thumbs.h"
 #include "ui/canvas/thumb.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
-#include "ui/tools/shelf.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
+#include "ui/tools/preset_browser.h"
 #include "ui/tools/tool_stamp.h"
 #include "ui/jobs/job.h"
-#include "ui/gui/gui_sdl.h"
+#include "ui/toolkit/gui_sdl.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -306,7 +306,7 @@ static void take(WrApp *app, Batch *batch)
 /* What is to be made for a slot; false if it is there no more. */
 static bool describe(WrApp *app, int place, Item *item)
 {
-    const WrLibrary *library = wr_shelf_library(app);
+    const WrLibrary *library = wr_preset_browser_library(app);
     int index = place / 2 - (place % 2 ? 0 : 1);
     if (place % 2) {
         if (index >= app->stamp->stamps.count) return false;

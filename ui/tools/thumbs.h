@@ -1,7 +1,7 @@
 /* thumbs.h - small pictures of presets and stamps, made on a thread of their own. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 
 #include <SDL.h>
 

@@ -1,9 +1,9 @@
 /* Which tool is in hand. */
 #include "ui/tools/tool.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/settings.h"
-#include "ui/tools/shelf.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
+#include "ui/state/settings.h"
+#include "ui/tools/preset_browser.h"
 
 #include "brush/brush.h"
 

@@ -1,8 +1,8 @@
 /* tool.h - what a tool of the strip on the left is, and which one is in hand. The tools themselves are in rows that
    the roster lists. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 
 #include <SDL.h>
 #include <stdbool.h>

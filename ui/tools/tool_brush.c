@@ -2,17 +2,17 @@
    by a key that is held, picking a height, sizing. */
 #include "ui/tools/tool_brush.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/pen/steady.h"
+#include "ui/state/action_list.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/input/stroke_smoothing.h"
 #include "ui/tools/brush_outline.h"
 #include "ui/tools/option.h"
-#include "ui/tools/stroke_hand.h"
+#include "ui/tools/stroke_input.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 
@@ -25,9 +25,9 @@
 
 #define SNAP_DEG 15.0
 
-static WrSteadyPoint steady_point(const WrPointer *at)
+static WrRelightPoint steady_point(const WrPointer *at)
 {
-    return (WrSteadyPoint){ at->x, at->y, at->pressure, at->tilt_x, at->tilt_y, at->seconds };
+    return (WrRelightPoint){ at->x, at->y, at->pressure, at->tilt_x, at->tilt_y, at->seconds };
 }
 
 /* As the table sees the hand: in a mirror the pen leans to the other side, and a turned table turns beneath it. */
@@ -41,7 +41,7 @@ static void sample(WrApp *app, const WrPointer *at, double u, double v)
     wr_strokes_sample(app, &seen, u, v);
 }
 
-static WrPointer pointer_of(const WrPointer *at, const WrSteadyPoint *p)
+static WrPointer pointer_of(const WrPointer *at, const WrRelightPoint *p)
 {
     WrPointer out = *at;
     out.x = p->x;
@@ -56,18 +56,18 @@ static WrPointer pointer_of(const WrPointer *at, const WrSteadyPoint *p)
 void wr_brush_steady_begin(WrApp *app, const WrPointer *at)
 {
     const WrSettings *s = app->settings;
-    double length = s->steady == WR_STEADY_STRING ? s->steady_string : s->steady_smooth;
-    WrSteadyPoint p = steady_point(at);
-    wr_steady_begin(&app->brush->steady, (WrSteadyKind)s->steady, length * wr_gui_scale(), &p);
+    double length = s->steady == WR_RELIGHT_STRING ? s->steady_string : s->steady_smooth;
+    WrRelightPoint p = steady_point(at);
+    wr_relight_begin(&app->brush->steady, (WrRelightKind)s->steady, length * wr_gui_scale(), &p);
     app->brush->way_x = app->brush->way_y = 0.0;
 }
 
 void wr_brush_steady_move(WrApp *app, const WrPointer *at,
                           void (*draw)(WrApp *app, const WrPointer *at))
 {
-    WrSteadyPoint out[WR_STEADY_POINTS], p = steady_point(at);
+    WrRelightPoint out[WR_RELIGHT_POINTS], p = steady_point(at);
     WrBrushHand *hand = app->brush;
-    int count = wr_steady_move(&hand->steady, &p, out);
+    int count = wr_relight_move(&hand->steady, &p, out);
     double dx = at->x - app->hand->at.x, dy = at->y - app->hand->at.y;
     if (hypot(dx, dy) > 0.5) {
         wr_view_step_back(app->view, dx, dy, &hand->way_x, &hand->way_y);
@@ -82,8 +82,8 @@ void wr_brush_steady_move(WrApp *app, const WrPointer *at,
 void wr_brush_steady_end(WrApp *app, const WrPointer *at,
                          void (*draw)(WrApp *app, const WrPointer *at))
 {
-    WrSteadyPoint out;
-    if (wr_steady_end(&app->brush->steady, app->settings->steady_catch_up, &out) == 0) return;
+    WrRelightPoint out;
+    if (wr_relight_end(&app->brush->steady, app->settings->steady_catch_up, &out) == 0) return;
     WrPointer to = pointer_of(at, &out);
     draw(app, &to);
 }
@@ -187,7 +187,7 @@ static bool crosses(const WrApp *app, const WrPointer *at)
 
 void wr_brush_drag(WrApp *app, const WrPointer *at)
 {
-    bool pulls = app->brush->steady.kind != WR_STEADY_OFF;
+    bool pulls = app->brush->steady.kind != WR_RELIGHT_OFF;
     if (app->brush->drawing && !app->brush->straight && !pulls && crosses(app, at)) {
         WrBrush brush = wr_strokes_brush(app, at);
         wr_strokes_end(app);

@@ -1,6 +1,6 @@
 /* tool_brush.h - the brush: gestures become strokes. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 void wr_brush_press(WrApp *app, const WrPointer *at);
 void wr_brush_drag(WrApp *app, const WrPointer *at);

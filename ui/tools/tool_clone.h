@@ -1,6 +1,6 @@
 /* tool_clone.h - where cloned heights come from. */
 #pragma once
-#include "ui/desk/roster.h"
+#include "ui/state/roster.h"
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 /* tool_select.h - a selection that is being drawn. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 
 void wr_select_cancel(WrApp *app);
 

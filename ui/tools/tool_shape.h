@@ -1,6 +1,6 @@
 /* tool_shape.h - what shapes, paths and ramps hold while they are drawn. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include "base/array.h"
 

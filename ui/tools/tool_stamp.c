@@ -3,25 +3,25 @@
    and size, let go. The wheel sizes it, Enter puts it where the pointer is, Escape gives up. */
 #include "ui/tools/tool_stamp.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/dialog.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/line.h"
-#include "ui/desk/messages.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
+#include "ui/state/action_list.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/state/line.h"
+#include "ui/state/messages.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
 #include "ui/tools/brush_line.h"
 #include "ui/tools/option.h"
 #include "ui/tools/stamps.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 #include "ui/views/overlay.h"
-#include "ui/jobs/trial.h"
+#include "ui/jobs/edit_preview.h"
 #include "ui/tools/brush_strength.h"
 
 #include "base/array.h"
@@ -133,11 +133,11 @@ static void update(WrApp *app)
         return;
     }
     WrBrush brush = brush_of(app);
-    WrTrialAsk ask = { .dab = &brush };
+    WrEditPreviewAsk ask = { .dab = &brush };
     place_of(app, &ask.u, &ask.v);
     bool same = draw->trying && app->trying && draw->tried.u == ask.u && draw->tried.v == ask.v &&
                 same_brush(&draw->tried_brush, &brush);
-    if (same || wr_trial_busy(app->trial, NULL, NULL)) return;
+    if (same || wr_edit_preview_busy(app->trial, NULL, NULL)) return;
     draw->tried = ask;
     draw->tried_brush = brush;
     draw->trying = true;

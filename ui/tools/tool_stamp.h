@@ -1,8 +1,8 @@
 /* tool_stamp.h - a stamp: a picture, or the round brush, put onto the table once. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
-#include "ui/jobs/trial.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
+#include "ui/jobs/edit_preview.h"
 
 #include "base/array.h"
 #include "brush/brush.h"
@@ -15,9 +15,9 @@ typedef struct WrStampHand {
     WrTip *tip;     /* owned; NULL: none chosen */
     char *tip_path; /* owned */
     double radius, angle_deg, first_radius, first_angle;
-    bool placed, dragged; /* it lies on the table; its turn and size were dragged */
-    double u, v;          /* where */
-    WrTrialAsk tried;     /* what was asked for last */
+    bool placed, dragged;   /* it lies on the table; its turn and size were dragged */
+    double u, v;            /* where */
+    WrEditPreviewAsk tried; /* what was asked for last */
     WrBrush tried_brush;
     bool trying;
     WR_ARRAY(char *) stamps; /* pictures to choose from, owned */

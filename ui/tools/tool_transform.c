@@ -2,15 +2,15 @@
    applies, Escape gives up. Shift keeps to an axis, to the proportions, to 15 degrees; Alt lets nothing snap. */
 #include "ui/tools/tool_transform.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/busy.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/keys.h"
-#include "ui/desk/line.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/action_list.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/state/line.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 #include "ui/tools/option.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
@@ -141,7 +141,7 @@ static void changed(WrApp *app)
         return;
     }
     write_line(app, &line);
-    WrTrialAsk ask = { .line = wr_text_get(&line) };
+    WrEditPreviewAsk ask = { .line = wr_text_get(&line) };
     wr_app_try(app, &ask);
     wr_text_fini(&line);
 }

@@ -1,6 +1,6 @@
 /* tool_transform.h - what is moved, turned and scaled by hand, until it is applied. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 #include "field/select.h"
 

@@ -1,11 +1,11 @@
 /* Moving and zooming the canvas. */
 #include "ui/tools/tool_view.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/action_list.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/hand.h"
-#include "ui/desk/keys.h"
-#include "ui/gui/gui.h"
+#include "ui/state/action_list.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/toolkit/gui.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 

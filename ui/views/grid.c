@@ -1,8 +1,8 @@
 #include "ui/views/grid.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /* grid.h - a grid of equal parts of the cell over the canvas, with a ruler along its edges, which drawn things snap to. */
 #pragma once
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/toolkit/theme.h"
 
 #include <stdbool.h>
 

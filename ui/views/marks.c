@@ -1,15 +1,15 @@
 /* The outline of the selection on every copy of the cell, as a marching dashed line. */
 #include "ui/views/marks.h"
-#include "ui/canvas/ants.h"
+#include "ui/canvas/marching_ants.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/roster.h"
-#include "ui/desk/session_view.h"
-#include "ui/desk/settings.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/kept.h"
+#include "ui/state/app_state.h"
+#include "ui/state/layout.h"
+#include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+#include "ui/state/settings.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/retained_frame.h"
 
 #include "base/array.h"
 #include "document/document.h"
@@ -47,10 +47,10 @@ void wr_marks_try(WrApp *app, const WrOutlineAsk *ask)
 }
 
 /* The pixels, white and black in turn along the line. */
-static void draw(const WrApp *app, const WrAnts *ants, int phase)
+static void draw(const WrApp *app, const WrMarchingAnts *ants, int phase)
 {
     static const uint32_t colours[2] = { 0xfffafafau, 0xff101010u };
-    WrKept *kept = wr_gui_kept(app->gui);
+    WrRetainedFrame *kept = wr_gui_kept(app->gui);
     SDL_Point chunk[512];
     double dash = DASH * wr_gui_scale();
     for (int pass = 0; pass < 2; pass++) {
@@ -61,10 +61,10 @@ static void draw(const WrApp *app, const WrAnts *ants, int phase)
             if (((int)floor(place) & 1) != pass) continue;
             chunk[count++] = ant->at;
             if (count < 512) continue;
-            wr_kept_points(kept, chunk, count, colours[pass]);
+            wr_retained_frame_points(kept, chunk, count, colours[pass]);
             count = 0;
         }
-        wr_kept_points(kept, chunk, count, colours[pass]);
+        wr_retained_frame_points(kept, chunk, count, colours[pass]);
     }
 }
 
@@ -79,7 +79,7 @@ void wr_marks_draw(WrApp *app)
     int phase = (int)fmod(marks->stepped_at / STEP_SECONDS, 8.0);
     if (outline) {
         if (serial != marks->traced || !wr_view_same(app->view, &marks->traced_view))
-            wr_ants_trace(&marks->ants, outline, app->view, wraps_u, wraps_v);
+            wr_marching_ants_trace(&marks->ants, outline, app->view, wraps_u, wraps_v);
         marks->traced = serial;
         marks->traced_view = *app->view;
         draw(app, &marks->ants, phase);
@@ -89,8 +89,8 @@ void wr_marks_draw(WrApp *app)
     if (!app->select->active) return;
     marks->shape.pixels.count = 0;
     marks->shape.cut = false;
-    wr_ants_add(&marks->shape, app->select->points.data, app->select->points.count, 0, 0, app->view,
-                wraps_u, wraps_v);
+    wr_marching_ants_add(&marks->shape, app->select->points.data, app->select->points.count, 0, 0,
+                         app->view, wraps_u, wraps_v);
     draw(app, &marks->shape, phase);
 }
 
@@ -108,8 +108,8 @@ double wr_marks_next_time(const WrApp *app)
 void wr_marks_free(WrApp *app)
 {
     wr_outliner_free(app->marks->outliner);
-    wr_ants_free(&app->marks->ants);
-    wr_ants_free(&app->marks->shape);
+    wr_marching_ants_free(&app->marks->ants);
+    wr_marching_ants_free(&app->marks->shape);
     wr_array_free(&app->select->points);
 }
 

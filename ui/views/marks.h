@@ -1,10 +1,10 @@
 /* marks.h - outlines of selections on the canvas. */
 #pragma once
-#include "ui/canvas/ants.h"
+#include "ui/canvas/marching_ants.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/roster.h"
 
 #include "base/array.h"
 #include "field/select.h"
@@ -17,7 +17,7 @@ typedef struct WrMarks {
     WrOutliner *outliner;
     bool trying;        /* the outline is of what a dialog would make, not of the selection */
     uint64_t asked_key; /* of the selection that was outlined last; 0: none */
-    WrAnts ants, shape;
+    WrMarchingAnts ants, shape;
     uint64_t traced; /* serial of the outline in ants */
     WrCanvasView traced_view;
     double stepped_at; /* clock at the last step of the march */

@@ -1,10 +1,10 @@
 /* Lines and marks on the canvas, on every copy of the cell that is seen. */
 #include "ui/views/overlay.h"
 #include "ui/canvas/view.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 
 #include "field/field.h"
 #include "field/select.h"

@@ -1,7 +1,7 @@
 /* overlay.h - lines on the canvas, on every copy of the cell. */
 #pragma once
-#include "ui/desk/desk.h"
-#include "ui/gui/theme.h"
+#include "ui/state/app_state.h"
+#include "ui/toolkit/theme.h"
 
 #include "field/select.h"
 

@@ -1,13 +1,13 @@
 /* The seam meter: a square on the canvas, one side an edge of the cell; quiet where the table goes on
    smoothly, orange where it jumps. */
 #include "ui/views/panel_seam.h"
-#include "ui/gui/words.h"
-#include "ui/desk/desk.h"
-#include "ui/desk/layout.h"
-#include "ui/desk/settings.h"
-#include "ui/desk/session_view.h"
-#include "ui/gui/gui.h"
-#include "ui/gui/theme.h"
+#include "ui/toolkit/words.h"
+#include "ui/state/app_state.h"
+#include "ui/state/layout.h"
+#include "ui/state/settings.h"
+#include "ui/state/session_view.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/theme.h"
 
 #include "base/text.h"
 #include "command/session.h"

@@ -1,5 +1,5 @@
 /* panel_seam.h - how well the cell's edges meet, on the canvas. */
 #pragma once
-#include "ui/desk/desk.h"
+#include "ui/state/app_state.h"
 
 void wr_panel_seam(WrApp *app); /* on the canvas */

@@ -10,7 +10,7 @@ cd "$root"
 mapfile -t files < <(git ls-files 'ui/*.c' 'ui/*.cpp' 2>/dev/null || find ui -name '*.c' -o -name '*.cpp')
 kept=()
 for file in "${files[@]}"; do
-    [[ $file == ui/pen/clip_x11.c ]] || kept+=("$file")
+    [[ $file == ui/input/clip_x11.c ]] || kept+=("$file")
 done
 xgettext --language=C --from-code=UTF-8 --no-location --no-wrap -o "$out" \
     -k -kwr_words -kwr_app_say:2 -kwr_gui_text:3 -kwr_gui_text_wrapped:3 -kwr_gui_text_cut:3 -kwr_gui_heading:1 \

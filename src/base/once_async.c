@@ -1,0 +1,87 @@
+#include "base/once_async.h"
+
+#include "base/progress.h"
+#include "system/process.h"
+#include "system/thread.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define LOOK_MS 20 /* between two looks at whether somebody wants it to stop */
+
+/* Of all that is done so: how many are under way is a fact of the process. */
+static WrMutex lock = WR_MUTEX_READY;
+static WrCond changed = WR_COND_READY;
+static int under_way;
+
+/* A library that is being loaded holds a lock that the program's end waits for. */
+static void leave_at_once(int status)
+{
+    wr_mutex_lock(&lock);
+    bool busy = under_way > 0;
+    wr_mutex_unlock(&lock);
+    if (!busy) return;
+    fflush(NULL);
+    wr_process_leave(status);
+}
+
+void wr_once_async_watch_end(void)
+{
+    static bool watching;
+    wr_mutex_lock(&lock);
+    if (!watching) watching = wr_process_at_end(leave_at_once);
+    wr_mutex_unlock(&lock);
+}
+
+/* The lock is held, and let go meanwhile. */
+static void work_here(WrOnceAsync *aside)
+{
+    WrError why = { "" };
+    wr_mutex_unlock(&lock);
+    bool good = aside->work(aside->ctx, &why);
+    wr_mutex_lock(&lock);
+    aside->why = why;
+    aside->done = good;
+    aside->busy = false;
+    under_way--;
+    wr_cond_wake_all(&changed);
+}
+
+static void *thread_main(void *aside)
+{
+    wr_mutex_lock(&lock);
+    work_here(aside);
+    wr_mutex_unlock(&lock);
+    return NULL;
+}
+
+/* The lock is held. Signals are for the threads that were there before. here: on this thread, as well as where there is no other to be had. */
+static void begin(WrOnceAsync *aside, bool here)
+{
+    if (aside->done || aside->busy) return;
+    aside->busy = true;
+    under_way++;
+    if (here || !wr_thread_begin_aside(thread_main, aside)) work_here(aside);
+}
+
+void wr_once_async_begin(WrOnceAsync *aside)
+{
+    wr_once_async_watch_end();
+    wr_mutex_lock(&lock);
+    begin(aside, false);
+    wr_mutex_unlock(&lock);
+}
+
+bool wr_once_async_wait(WrOnceAsync *aside, WrError *err)
+{
+    bool stopped = false;
+    wr_once_async_watch_end();
+    wr_mutex_lock(&lock);
+    begin(aside, wr_progress_here() == NULL);
+    while (aside->busy && !(stopped = wr_progress_stopped()))
+        wr_cond_wait_ms(&changed, &lock, LOOK_MS);
+    bool done = aside->done;
+    if (!done) wr_fail(err, "%s", stopped ? "cancelled" : aside->why.text);
+    wr_mutex_unlock(&lock);
+    return done;
+}

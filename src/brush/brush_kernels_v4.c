@@ -1,0 +1,4 @@
+/* The brush's loops for one instruction set; CMakeLists.txt gives the flags. */
+#define WR_BRUSH_TABLE wr_brush_kernels_v4
+#define WR_BRUSH_NAME "v4"
+#include "brush/brush_kernels_body.h"

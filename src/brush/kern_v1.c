@@ -1,4 +1,0 @@
-/* The brush's loops for one instruction set; CMakeLists.txt gives the flags. */
-#define WR_BRUSH_TABLE wr_brush_kernels_v1
-#define WR_BRUSH_NAME "v1"
-#include "brush/kern_body.h"

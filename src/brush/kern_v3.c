@@ -1,4 +1,0 @@
-/* The brush's loops for one instruction set; CMakeLists.txt gives the flags. */
-#define WR_BRUSH_TABLE wr_brush_kernels_v3
-#define WR_BRUSH_NAME "v3"
-#include "brush/kern_body.h"

@@ -1,0 +1,429 @@
+/* What a tolerance chooses, beside the best that trying everything finds. */
+#include "cli/tolerance_contest.h"
+
+#include "accuracy/ladder_internal.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "field/analytic.h"
+#include "scene/scene.h"
+#include "system/thread.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define RUNS 3       /* of a setting, at least ... */
+#define RUNS_SHORT 9 /* ... and of one that takes less than SHORT seconds */
+#define SHORT 0.02
+#define TOP_SAMPLES 16 /* a side, of the best setting */
+
+/* ---- everything ---- */
+
+typedef struct Tried {
+    WrSetting setting;
+    int way;         /* of ways */
+    double expected; /* seconds, by its slopes and normal with one sample */
+    bool known;      /* the errors */
+    bool timed;      /* seconds */
+    double seconds, rms, max;
+} Tried;
+
+/* Ways against aliasing: how many dials, which, and where. */
+static const WrSetting ways[] = {
+    { 1, { WR_DIAL_AA }, { WR_AA_POINT } },
+    { 2, { WR_DIAL_AA, WR_DIAL_FOOTPRINT }, { WR_AA_FILTER, WR_FOOTPRINT_ANISOTROPIC } },
+    { 3,
+      { WR_DIAL_AA, WR_DIAL_FOOTPRINT, WR_DIAL_MOMENTS },
+      { WR_AA_MOMENTS, WR_FOOTPRINT_ANISOTROPIC, WR_MOMENTS_LEAN } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 2 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 3 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 4 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 6 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 8 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 12 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 16 } },
+    { 3, { WR_DIAL_AA, WR_DIAL_SAMPLES, WR_DIAL_CONTRAST }, { WR_AA_ADAPTIVE, 4, 0.005 } },
+    { 3, { WR_DIAL_AA, WR_DIAL_SAMPLES, WR_DIAL_CONTRAST }, { WR_AA_ADAPTIVE, 8, 0.002 } },
+    { 3, { WR_DIAL_AA, WR_DIAL_SAMPLES, WR_DIAL_CONTRAST }, { WR_AA_ADAPTIVE, 16, 0.002 } },
+};
+#define WAY_COUNT ((int)(sizeof ways / sizeof *ways))
+
+static void put(WrSetting *setting, int dial, double value)
+{
+    setting->dial[setting->count] = dial;
+    setting->value[setting->count++] = value;
+}
+
+/* All schemes with all normals with all ways, in the caller's memory; models that are no approximation of
+   the scene's are left out. */
+static int list_all(const WrScene *scene, Tried *out)
+{
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
+    const bool invariant = scene->bump == WR_BUMP_INVARIANT;
+    int count = 0;
+    for (int scheme = 0; scheme < (table ? WR_SCHEME_COUNT : 1); scheme++)
+        for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
+            if ((mode == WR_BUMP_INVARIANT) != invariant) continue;
+            for (int way = 0; way < WAY_COUNT; way++) {
+                Tried tried = { .setting = ways[way], .way = way };
+                if (table) put(&tried.setting, WR_DIAL_SCHEME, scheme);
+                put(&tried.setting, WR_DIAL_NORMAL, mode);
+                if (out) out[count] = tried;
+                count++;
+            }
+        }
+    return count;
+}
+
+static double median(double *times, int count)
+{
+    wr_bench_sort(times, count);
+    return wr_bench_quantile(times, count, 0.5);
+}
+
+/* Does a measurement that has done so many runs want one more? */
+static bool wanted(const double *times, int done)
+{
+    return done < RUNS || (done < RUNS_SHORT && times[0] < SHORT);
+}
+
+static bool time_one(const WrBench *bench, Tried *tried, WrError *err)
+{
+    double times[RUNS_SHORT];
+    int64_t shaded;
+    int run = 0;
+    bool good = true;
+    if (tried->timed) return true;
+    WrScene *scene = wr_setting_apply(&tried->setting, bench->request->scene);
+    for (; good && wanted(times, run); run++)
+        good = wr_bench_time(bench, scene, &times[run], &shaded, err);
+    wr_scene_free(scene);
+    if (good) tried->seconds = median(times, run);
+    return tried->timed = good;
+}
+
+static bool measure_one(const WrBench *bench, const WrReference *reference, Tried *tried,
+                        WrError *err)
+{
+    WrFrame frame;
+    WrErrors errors;
+    if (tried->known) return true;
+    WrScene *scene = wr_setting_apply(&tried->setting, bench->request->scene);
+    const bool good = wr_bench_frame(bench, scene, NULL, &frame, err);
+    wr_scene_free(scene);
+    if (!good) return false;
+    wr_errors_measure(frame.rgba, NULL, reference, NULL, &errors);
+    tried->rms = errors.rms;
+    tried->max = errors.max;
+    return tried->known = true;
+}
+
+/* Samples a pixel of plain supersampling; 0 for other ways. */
+static double samples_of(const WrSetting *way)
+{
+    double grid = 1;
+    bool plain = true;
+    for (int i = 0; i < way->count; i++) {
+        if (way->dial[i] == WR_DIAL_SAMPLES) grid = way->value[i];
+        if (way->dial[i] == WR_DIAL_AA)
+            plain = way->value[i] == WR_AA_POINT || way->value[i] == WR_AA_SUPERSAMPLE;
+    }
+    return plain ? grid * grid : 0;
+}
+
+/* What each will take: so many times one sample a pixel with its slopes and normal; how many, of the ways
+   that are not plain supersampling, the last scheme and normal tell. */
+static bool expect(const WrBench *bench, Tried *tried, int count, WrError *err)
+{
+    double factor[WAY_COUNT], one = 0;
+    const int last = count - WAY_COUNT;
+    for (int way = 0; way < WAY_COUNT; way++) {
+        factor[way] = samples_of(&ways[way]);
+        if (way > 0 && factor[way] > 0) continue;
+        if (!time_one(bench, &tried[last + way], err)) return false;
+        factor[way] = tried[last + way].seconds / tried[last].seconds;
+    }
+    for (int i = 0; i < count; i++) {
+        if (tried[i].way == 0) {
+            if (!time_one(bench, &tried[i], err)) return false;
+            one = tried[i].seconds;
+        }
+        tried[i].expected = one * factor[tried[i].way];
+    }
+    return true;
+}
+
+static int by_expected(const void *a, const void *b)
+{
+    const Tried *x = a, *y = b;
+    if (x->expected != y->expected) return x->expected < y->expected ? -1 : 1;
+    return (x->way > y->way) - (x->way < y->way);
+}
+
+/* ---- one tolerance ---- */
+
+static bool within(const WrTolerance *tolerance, double rms, double max)
+{
+    return tolerance->kind == WR_TOLERANCE_RMS ? rms <= tolerance->value : max <= tolerance->value;
+}
+
+static bool find_cheapest(const Tried *tried, int count, WrContestRow *row)
+{
+    row->found = false;
+    for (int i = 0; i < count; i++) {
+        if (!tried[i].timed || !tried[i].known) continue;
+        if (!within(&row->tolerance, tried[i].rms, tried[i].max)) continue;
+        if (row->found && tried[i].seconds >= row->best_seconds) continue;
+        row->found = true;
+        row->cheapest = tried[i].setting;
+        row->best_seconds = tried[i].seconds;
+        row->best_rms = tried[i].rms;
+        row->best_max = tried[i].max;
+    }
+    return row->found;
+}
+
+#define SLACK 1.3 /* an expected time may be so many times too long */
+
+/* Is the setting `at` expected to be cheaper than what was found before it, or was nothing? */
+static bool may_win(const Tried *tried, int at, WrContestRow *row)
+{
+    return !find_cheapest(tried, at, row) || tried[at].expected < SLACK * row->best_seconds;
+}
+
+/* From cheap to dear, until every tolerance is met by something and what is left is expected to take longer
+   than that: none of those can be the cheapest. */
+static bool try_all(const WrBench *bench, const WrReference *reference, Tried *tried, int count,
+                    WrContest *contest, WrError *err)
+{
+    bool good = expect(bench, tried, count, err);
+    if (good) qsort(tried, (size_t)count, sizeof *tried, by_expected);
+    for (int i = 0; good && i < count; i++) {
+        bool open = false, contends = false;
+        for (int r = 0; r < contest->count; r++) open |= may_win(tried, i, &contest->rows[r]);
+        if (!open) break;
+        good = wr_progress_step(bench->request->progress, 0.1 + 0.8 * i / count) ||
+               wr_fail(err, "cancelled");
+        good = good && measure_one(bench, reference, &tried[i], err);
+        for (int r = 0; good && r < contest->count; r++)
+            contends |= within(&contest->rows[r].tolerance, tried[i].rms, tried[i].max) &&
+                        may_win(tried, i, &contest->rows[r]);
+        if (good && contends) good = time_one(bench, &tried[i], err);
+        contest->tried = i + 1;
+    }
+    for (int r = 0; r < contest->count; r++) find_cheapest(tried, count, &contest->rows[r]);
+    return good;
+}
+
+/* The best of all, which a time is saved from. */
+static bool time_top(const WrBench *bench, WrContest *contest, WrError *err)
+{
+    const WrScene *scene = bench->request->scene;
+    Tried top = { .setting = {
+                      2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, TOP_SAMPLES } } };
+    put(&top.setting, WR_DIAL_SCHEME, WR_SCHEME_BSPLINE_FIT);
+    if (scene->bump != WR_BUMP_INVARIANT) put(&top.setting, WR_DIAL_NORMAL, WR_BUMP_EXACT);
+    if (!time_one(bench, &top, err)) return false;
+    for (int r = 0; r < contest->count; r++) contest->rows[r].top_seconds = top.seconds;
+    return true;
+}
+
+/* From how many pictures on choosing and one less than them takes less than so many of the cheapest setting's. */
+static int pays_from(const WrContestRow *row)
+{
+    if (!row->found || row->choosing <= row->best_seconds) return 1;
+    if (row->seconds >= row->best_seconds) return 0;
+    const double count = (row->choosing - row->seconds) / (row->best_seconds - row->seconds);
+    return count < 1e6 ? (int)ceil(count) : 0;
+}
+
+/* The choice's picture and that of the cheapest setting in turn, so that drift hits both alike. Tables made anew
+   for a setting are paid once, before its time is taken. *frame: the choice's. */
+static bool time_in_turn(const WrBench *bench, const WrFrameRequest *wish, const WrChoice *choice,
+                         WrContestRow *row, WrFrame *frame, WrError *err)
+{
+    double times[RUNS_SHORT], best[RUNS_SHORT];
+    int64_t shaded;
+    int run = 0;
+    bool good = true;
+    WrScene *cheapest = row->found ? wr_setting_apply(&row->cheapest, bench->request->scene) : NULL;
+    for (; good && wanted(times, run); run++) {
+        if (cheapest) good = wr_bench_time(bench, cheapest, &best[run], &shaded, err);
+        good = good && wr_choice_frame(bench->renderer, wish, choice, frame, err);
+        const double from = wr_bench_now(bench);
+        good = good && wr_choice_frame(bench->renderer, wish, choice, frame, err);
+        times[run] = wr_bench_now(bench) - from;
+    }
+    if (good) row->seconds = median(times, run);
+    if (good && cheapest) row->best_seconds = median(best, run);
+    wr_scene_free(cheapest);
+    return good;
+}
+
+static bool measure_choice(const WrBench *bench, const WrReference *reference, WrContestRow *row,
+                           WrError *err)
+{
+    const WrLadderRequest *request = bench->request;
+    WrScene *scene = wr_scene_clone(request->scene);
+    scene->tolerance = row->tolerance;
+    WrFrameRequest wish = { .field = request->field,
+                            .scene = scene,
+                            .width = request->width,
+                            .height = request->height,
+                            .turn_deg = request->turn_deg };
+    WrChoice choice = { 0 };
+    WrFrame frame;
+    /* Once for the tables, which the single settings' times do not hold either. */
+    bool good = wr_tolerance_choose(bench->renderer, &wish, &choice, &frame, err);
+    const double start = wr_bench_now(bench);
+    good = good && wr_tolerance_choose(bench->renderer, &wish, &choice, &frame, err);
+    row->choosing = wr_bench_now(bench) - start;
+    good = good && time_in_turn(bench, &wish, &choice, row, &frame, err);
+    if (good) {
+        WrErrors errors;
+        wr_errors_measure(frame.rgba, NULL, reference, NULL, &errors);
+        row->rms = errors.rms;
+        row->max = errors.max;
+        row->held = within(&row->tolerance, errors.rms, errors.max);
+        row->resolved = within(&(WrTolerance){ row->tolerance.kind, 0.5 * row->tolerance.value },
+                               reference->last_rms, reference->last_max);
+        row->claimed = choice.met;
+        row->pays_from = pays_from(row);
+    }
+    wr_choice_fini(&choice);
+    wr_scene_free(scene);
+    return good;
+}
+
+/* ---- all of it ---- */
+
+static bool run(const WrBench *bench, WrContest *contest, WrError *err)
+{
+    const WrScene *scene = bench->request->scene;
+    const int count = list_all(scene, NULL);
+    Tried *tried = wr_alloc((size_t)count, sizeof *tried);
+    list_all(scene, tried);
+    contest->settings = count;
+    bool good = try_all(bench, &contest->reference, tried, count, contest, err) &&
+                time_top(bench, contest, err);
+    for (int i = 0; good && i < contest->count; i++)
+        good = measure_choice(bench, &contest->reference, &contest->rows[i], err);
+    wr_free(tried);
+    return good;
+}
+
+bool wr_contest_run(const WrLadderRequest *request, const WrTolerance *tolerances, int count,
+                    WrContest *out, WrError *err)
+{
+    WrContest contest = { .count = count };
+    WrPool *all = wr_pool_new(0), *one = wr_pool_new(1);
+    WrBench bench = { .request = request, .pool = request->threads == 1 ? one : all };
+    WrPin pin;
+    contest.rows = wr_alloc((size_t)count + 1, sizeof *contest.rows);
+    for (int i = 0; i < count; i++) contest.rows[i].tolerance = tolerances[i];
+    bool good = wr_bench_reference(request, all, &contest.reference, err);
+    bench.renderer = good ? wr_renderer_new(bench.pool, NULL, err) : NULL;
+    good = bench.renderer != NULL;
+    const bool pinned = good && request->threads == 1 && wr_thread_pin(&pin);
+    good = good && run(&bench, &contest, err);
+    if (pinned) wr_thread_unpin(&pin);
+    wr_renderer_free(bench.renderer);
+    wr_pool_free(one);
+    wr_pool_free(all);
+    if (!good) {
+        wr_contest_fini(&contest);
+        return false;
+    }
+    wr_contest_fini(out);
+    *out = contest;
+    return true;
+}
+
+void wr_contest_fini(WrContest *contest)
+{
+    wr_reference_fini(&contest->reference);
+    wr_free(contest->rows);
+    *contest = (WrContest){ 0 };
+}
+
+/* ---- telling ---- */
+
+static const char *verdict(const WrContestRow *row)
+{
+    if (!row->claimed) return row->held ? "held, not promised" : "not promised";
+    if (!row->resolved) return "unresolved";
+    return row->held ? "held" : "BROKEN";
+}
+
+void wr_contest_text(const WrContest *contest, const char *name, WrText *text)
+{
+    WrText setting = { 0 };
+    wr_text_addf(text,
+                 "%s: %d of %d settings tried, from cheap to dear\n%-10s %9s %9s %-18s %8s %8s %8s "
+                 "%6s %9s %8s  %s\n",
+                 name, contest->tried, contest->settings, "tolerance", "rms", "max", "verdict",
+                 "first ms", "more ms", "best ms", "ratio", "pays from", "top ms",
+                 "the cheapest single setting that meets it");
+    for (int i = 0; i < contest->count; i++) {
+        const WrContestRow *row = &contest->rows[i];
+        char number[WR_NUMBER_SIZE];
+        wr_text_clear(&setting);
+        if (row->found) wr_setting_print(&row->cheapest, &setting);
+        wr_text_addf(text, "%s=%-6s %9.2e %9.2e %-18s %8.2f %8.2f ",
+                     wr_tolerance_names[row->tolerance.kind],
+                     wr_number_print(row->tolerance.value, number), row->rms, row->max,
+                     verdict(row), 1e3 * row->choosing, 1e3 * row->seconds);
+        if (row->found)
+            wr_text_addf(text, "%8.2f %6.2f", 1e3 * row->best_seconds,
+                         row->seconds / row->best_seconds);
+        else wr_text_addf(text, "%8s %6s", "-", "-");
+        if (row->pays_from > 0) wr_text_addf(text, " %9d", row->pays_from);
+        else wr_text_addf(text, " %9s", "never");
+        wr_text_addf(text, " %8.2f  %s\n", 1e3 * row->top_seconds,
+                     row->found ? wr_text_get(&setting) : "none");
+    }
+    wr_text_fini(&setting);
+}
+
+void wr_contest_json(const WrContest *contest, const char *name, WrText *text)
+{
+    WrText setting = { 0 };
+    wr_text_add(text, "{\"document\":");
+    wr_text_add_json_string(text, name);
+    wr_text_addf(text, ",\"settings\":%d,\"tried\":%d,\"rows\":[", contest->settings,
+                 contest->tried);
+    for (int i = 0; i < contest->count; i++) {
+        const WrContestRow *row = &contest->rows[i];
+        const struct {
+            const char *name;
+            double value;
+        } numbers[] = { { "value", row->tolerance.value },
+                        { "rms", row->rms },
+                        { "max", row->max },
+                        { "seconds", row->seconds },
+                        { "choosing_seconds", row->choosing },
+                        { "top_seconds", row->top_seconds },
+                        { "pays_from", row->pays_from > 0 ? row->pays_from : NAN },
+                        { "best_seconds", row->found ? row->best_seconds : NAN },
+                        { "best_rms", row->found ? row->best_rms : NAN },
+                        { "best_max", row->found ? row->best_max : NAN } };
+        wr_text_addf(
+            text,
+            "%s{\"kind\":\"%s\",\"claimed\":%s,\"held\":%s,\"resolved\":%s,\"verdict\":\"%s\"",
+            i > 0 ? ",\n" : "", wr_tolerance_names[row->tolerance.kind],
+            row->claimed ? "true" : "false", row->held ? "true" : "false",
+            row->resolved ? "true" : "false", verdict(row));
+        for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
+            wr_text_addf(text, ",\"%s\":", numbers[n].name);
+            wr_text_add_json_number(text, numbers[n].value);
+        }
+        wr_text_clear(&setting);
+        if (row->found) wr_setting_print(&row->cheapest, &setting);
+        wr_text_add(text, ",\"cheapest\":");
+        wr_text_add_json_string(text, wr_text_get(&setting));
+        wr_text_add(text, "}");
+    }
+    wr_text_add(text, "]}\n");
+    wr_text_fini(&setting);
+}

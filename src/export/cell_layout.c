@@ -1,0 +1,231 @@
+#include "export/cell_layout.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/text.h"
+#include "export/atlas.h"
+#include "export/job.h"
+#include "field/field.h"
+#include "field/ops.h"
+#include "field/scheme.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SQRT3 1.7320508075688772
+
+/* A table under way. */
+typedef struct Sheet {
+    WrExportJob *job;
+    WrField *field; /* owned; NULL: still the job's own */
+    const WrField *from;
+    int width, height; /* of what is made */
+} Sheet;
+
+static const WrField *now(const Sheet *s)
+{
+    return s->field ? s->field : s->job->field;
+}
+
+static void take(Sheet *s, WrField *field)
+{
+    wr_field_free(s->field);
+    s->field = field;
+}
+
+/* ---- rows of a new table ---- */
+
+/* Row y of it, from s->from. */
+typedef void Row(const Sheet *s, int y, float *out);
+
+static bool make(Sheet *s, int width, int height, Row *row, WrError *err)
+{
+    const WrField *from = now(s);
+    if (width > WR_FIELD_MAX || height > WR_FIELD_MAX)
+        return wr_fail(err, "the sheet has %dx%d texels: each side must be 1..%d", width, height,
+                       WR_FIELD_MAX);
+    WrField *made =
+        wr_field_new(width, height, wr_field_wrap_u(from), wr_field_wrap_v(from), 0, err);
+    if (!made) return false;
+    Sheet own = { s->job, NULL, from, width, height };
+    float *line = wr_alloc((size_t)width, sizeof *line);
+    for (int y = 0; y < height; y++) {
+        row(&own, y, line);
+        wr_field_write(made, 0, y, width, 1, line, (size_t)width);
+    }
+    wr_free(line);
+    take(s, made);
+    return true;
+}
+
+/* Columns [i, i + count) of the old table's row j, wrapped whatever its edges are. */
+static void copy(const WrField *from, int i, int j, int count, float *out)
+{
+    const int width = wr_field_width(from), height = wr_field_height(from);
+    for (int done = 0; done < count;) {
+        const int at = (i + done) % width;
+        const int run = width - at < count - done ? width - at : count - done;
+        wr_field_read(from, at, j % height, run, 1, out + done, (size_t)run);
+        done += run;
+    }
+}
+
+static void repeat_row(const Sheet *s, int y, float *out)
+{
+    copy(s->from, 0, y, s->width, out);
+}
+
+static void half_drop_row(const Sheet *s, int y, float *out)
+{
+    const int width = wr_field_width(s->from);
+    copy(s->from, 0, y, width, out);
+    copy(s->from, 0, y + s->height / 2, width, out + width);
+}
+
+static void brick_row(const Sheet *s, int y, float *out)
+{
+    const bool second = y >= wr_field_height(s->from);
+    copy(s->from, second ? s->width / 2 : 0, y, s->width, out);
+}
+
+static void formula_row(const Sheet *s, int y, float *out)
+{
+    wr_export_heights(s->job, y, 1, out);
+}
+
+/* The cell's sides are the lattice's: one along x, the other 60 degrees from it. A point (x, y) of the rectangle of L by
+ * sqrt(3) L stands at u = x/L - y/(sqrt(3) L), v = 2y/(sqrt(3) L). */
+static void hex_row(const Sheet *s, int y, float *out)
+{
+    const size_t width = (size_t)s->width;
+    double *u = wr_alloc(3 * width, sizeof *u), *v = u + width, *f = v + width;
+    const double t = 1 - (y + 0.5) / s->height;
+    for (int i = 0; i < s->width; i++) u[i] = (i + 0.5) / s->width - t, v[i] = 2 * t;
+    wr_field_sample(s->from, (WrScheme)s->job->options.scheme, width, u, v, f, NULL, NULL);
+    for (int i = 0; i < s->width; i++) out[i] = (float)f[i];
+    wr_free(u);
+}
+
+/* ---- the steps ---- */
+
+static bool is_periodic(const WrField *field)
+{
+    return wr_field_wrap_u(field) == WR_WRAP_PERIODIC && wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
+}
+
+static bool lay(Sheet *s, WrError *err)
+{
+    WrExportOptions *o = &s->job->options;
+    const int w = wr_field_width(now(s)), h = wr_field_height(now(s));
+    if (o->lay == WR_LAY_PLAIN) return true;
+    if (!is_periodic(now(s)))
+        return wr_fail(err, "lay=%s: the table must be periodic both ways", wr_lay_names[o->lay]);
+    switch (o->lay) {
+    case WR_LAY_HALF_DROP:
+        if (h % 2) return wr_fail(err, "lay=half-drop: %d rows have no half: make them even", h);
+        o->cell_w *= 2;
+        s->job->copies[0] = 2;
+        return make(s, 2 * w, h, half_drop_row, err);
+    case WR_LAY_BRICK:
+        if (w % 2) return wr_fail(err, "lay=brick: %d columns have no half: make them even", w);
+        o->cell_h *= 2;
+        s->job->copies[1] = 2;
+        return make(s, w, 2 * h, brick_row, err);
+    case WR_LAY_HEX:
+        o->cell_h = SQRT3 * o->cell_w;
+        return make(s, w, (int)lround(SQRT3 * w), hex_row, err);
+    case WR_LAY_PLAIN:
+    case WR_LAYS: break;
+    }
+    return true;
+}
+
+static bool repeat(Sheet *s, WrError *err)
+{
+    WrExportOptions *o = &s->job->options;
+    const int m = o->repeat_u > 1 ? o->repeat_u : 1, n = o->repeat_v > 1 ? o->repeat_v : 1;
+    if (m == 1 && n == 1) return true;
+    o->cell_w *= m, o->cell_h *= n;
+    s->job->copies[0] = m * (s->job->copies[0] ? s->job->copies[0] : 1);
+    s->job->copies[1] = n * (s->job->copies[1] ? s->job->copies[1] : 1);
+    return make(s, m * wr_field_width(now(s)), n * wr_field_height(now(s)), repeat_row, err);
+}
+
+/* The power of two that is nearest by ratio. */
+static int power_near(int n)
+{
+    int power = 1;
+    while (2 * power <= WR_FIELD_MAX && (double)n * n > 2.0 * power * power) power *= 2;
+    return power;
+}
+
+static WrField *resized(const WrExportJob *job, const WrField *field, int width, int height,
+                        int filter, WrError *err)
+{
+    const double values[] = { width, height, filter };
+    const WrOpOptions options = { .pool = job->pool };
+    return wr_op_run(wr_op_find("resize"), field, values, &options, err);
+}
+
+static bool resize(Sheet *s, WrError *err)
+{
+    const WrExportOptions *o = &s->job->options;
+    int w = o->resize_w, h = o->resize_h;
+    if (w == 0) return true;
+    if (w < 0) w = power_near(wr_field_width(now(s))), h = power_near(wr_field_height(now(s)));
+    if (w == wr_field_width(now(s)) && h == wr_field_height(now(s))) return true;
+    WrField *made = resized(s->job, now(s), w, h, o->filter, err);
+    if (made) take(s, made);
+    return made != NULL;
+}
+
+WrField *wr_export_sheet(WrExportJob *job, bool *good, WrError *err)
+{
+    const WrExportOptions *o = &job->options;
+    if (o->lay == WR_LAY_PLAIN && o->repeat_u <= 1 && o->repeat_v <= 1 && o->resize_w == 0 &&
+        !o->atlas && !o->mips)
+        return NULL;
+    Sheet s = { .job = job };
+    *good = (!job->analytic || make(&s, job->width, job->height, formula_row, err)) &&
+            lay(&s, err) && repeat(&s, err) && resize(&s, err);
+    if (*good && o->atlas) {
+        WrField *atlas = wr_export_atlas(job, now(&s), err);
+        *good = atlas != NULL;
+        if (atlas) take(&s, atlas);
+    }
+    if (*good && !s.field) s.field = wr_field_share(job->field);
+    if (*good) return s.field;
+    wr_field_free(s.field);
+    return NULL;
+}
+
+/* Cells in other rows than their edges', as in an atlas or a hexagonal sheet, are judged before they are laid out. */
+WrCertificate wr_export_certify(const WrExportJob *job)
+{
+    if (job->analytic) return wr_certificate_formula(&job->scene->analytic);
+    const WrExportOptions *o = &job->options;
+    const WrScheme scheme = o->scheme < 0 ? job->scene->scheme : (WrScheme)o->scheme;
+    const WrSeamOptions seam = { .copies = { job->copies[0], job->copies[1] } };
+    WrCertificate out = wr_certificate_table(job->field, scheme, &seam);
+    if (o->lay == WR_LAY_HEX || o->atlas) out.pattern = wr_seam_measure(job->cell, NULL);
+    return out;
+}
+
+/* ---- levels as files ---- */
+
+WrField *wr_export_half(const WrExportJob *job, const WrField *field, WrError *err)
+{
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    return resized(job, field, w > 1 ? w / 2 : 1, h > 1 ? h / 2 : 1, WR_RESIZE_BOX, err);
+}
+
+void wr_export_level_name(const char *path, int level, WrText *name)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+    const size_t stem = dot && (!slash || dot > slash) ? (size_t)(dot - path) : strlen(path);
+    wr_text_clear(name);
+    wr_text_add_n(name, path, stem);
+    wr_text_addf(name, "_%d%s", level, path + stem);
+}

@@ -1,0 +1,18 @@
+/* channel_packing.h - several maps in one picture, as game engines want them: red, green, blue and alpha hold what they are told,
+   each from 0 to 1; rows of wr_export_kinds name this.
+   Layer 6. Private to this room. */
+#pragma once
+#include "export/map_options.h"
+
+WrExportSet wr_export_set_red, wr_export_set_green, wr_export_set_blue, wr_export_set_alpha;
+
+#define WR_OPTION_PACK                                                                             \
+    { "red", "MAP or 0..1",                                                                        \
+      "occlusion, roughness, smoothness (1 less roughness), metalness (the material's), height, "  \
+      "cavity, curvature, mask or wear, or a number everywhere; left out: occlusion",              \
+      wr_export_set_red },                                                                         \
+        { "green", "MAP or 0..1", "likewise; left out: roughness", wr_export_set_green },          \
+        { "blue", "MAP or 0..1", "likewise; left out: metalness", wr_export_set_blue },            \
+    {                                                                                              \
+        "alpha", "MAP or 0..1", "likewise; left out: there is none", wr_export_set_alpha           \
+    }

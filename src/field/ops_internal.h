@@ -1,0 +1,154 @@
+/* ops_internal.h - what the files of the table operations share: the job, the builder that turns blocks of
+   new heights into a table that shares its unchanged tiles, and the operations' functions.
+   Layer 1, private to ops*.c.
+
+   An operation gives a function that makes any block of the result from the input. The builder calls
+   it on the pool's threads for one batch of blocks at a time, blends with the mask, compares with what
+   was there and writes only the tiles that differ. So an operation needs scratch space for a block, not
+   for a table. */
+#pragma once
+#include <float.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/pool.h"
+#include "field/ops.h"
+#include "field/wrap.h"
+
+/* The words of what operations may be told. */
+#define WR_INVERT_ABOUTS(X) X(WR_INVERT_RANGE, "range") X(WR_INVERT_ZERO, "zero")
+enum { WR_INVERT_ABOUTS(WR_WORD_ID) };
+#define WR_WINDOWS(X) X(WR_WINDOW_ROUND, "round") X(WR_WINDOW_SQUARE, "square")
+enum { WR_WINDOWS(WR_WORD_ID) };
+#define WR_LIMIT_SIDES(X)                                                                          \
+    X(WR_SIDE_BELOW, "below") X(WR_SIDE_ABOVE, "above") X(WR_SIDE_MEAN, "mean")
+enum { WR_LIMIT_SIDES(WR_WORD_ID) };
+
+#define WR_WARP_BETWEENS(X) X(WR_WARP_CUBIC, "catmull") X(WR_WARP_LINEAR, "linear")
+enum { WR_WARP_BETWEENS(WR_WORD_ID) };
+/* Noises that tile, by their names in noise/noise.h. */
+#define WR_OP_NOISES(X)                                                                            \
+    X(WR_OP_NOISE_PERLIN, "perlin")                                                                \
+    X(WR_OP_NOISE_GRADIENT, "gradient")                                                            \
+    X(WR_OP_NOISE_VALUE, "value")                                                                  \
+    X(WR_OP_NOISE_SHEARED, "sheared")
+enum { WR_OP_NOISES(WR_WORD_ID) WR_OP_NOISE_COUNT };
+extern const char *const wr_op_noise_kinds[]; /* their words; ends with NULL */
+
+#define WR_OP_SIDE (4 * WR_TILE) /* texels along a block's side */
+
+/* One call of wr_op_run. */
+struct WrOpJob {
+    const char *name; /* for messages */
+    const WrField *in;
+    const WrField *mask;       /* NULL: everything */
+    const WrField *was, *made; /* as in WrOpOptions; NULL: everything is to be made */
+    WrPool *pool;
+    const WrProgress *progress;
+    double from, to; /* the part of the whole that the present step is, 0..1 */
+    WrError *err;
+};
+
+/* A rectangle of texels of the result. */
+typedef struct WrOpBlock {
+    int i, j, count_i, count_j; /* counts 1..WR_OP_SIDE */
+    /* The scratch is as it was left by the block above, of WR_OP_SIDE rows and the same columns. */
+    bool follows;
+} WrOpBlock;
+
+/* What the builder has to know about an operation. */
+typedef struct WrOpWork {
+    /* The new heights of a block, row by row, `pitch` floats a row. They may pass float's range.
+       scratch: `scratch` bytes that no other thread uses, 64-byte aligned, of any content (but see `follows`). */
+    void (*make)(const WrOpJob *job, const void *ctx, WrOpBlock block, float *out, size_t pitch,
+                 void *scratch);
+    const void *ctx;
+    size_t scratch;
+    /* Where in the scratch `make` leaves the block as it was, in floats; pitch 0: nowhere. */
+    struct {
+        size_t at, pitch;
+    } input;
+    int reach; /* input texels farther away than this do not matter; -1: not known */
+    int window; /* texels along a side of the square of input that alone a texel depends on, 2 reach + 1; 0: on
+                   the whole table, by its range or its sums */
+    bool moves; /* copies texels: -0 stays -0. Else a texel that comes out equal keeps its bits */
+} WrOpWork;
+
+/* The table that a result of this size starts as: a share of the input if size and edges are the same,
+   else a flat one at the input's level. NULL and an error for a size out of range. */
+WrField *wr_op_base(const WrOpJob *job, int width, int height, WrWrap wrap_u, WrWrap wrap_v);
+
+/* Make all blocks of the result and write them over `base`, which becomes the result (or is freed, and
+   NULL comes back with an error). Where `reach` is known, blocks around which the input is NULL are not
+   made: base must be flat there already, as a share is for every filter that keeps flat tables. */
+WrField *wr_op_build(const WrOpJob *job, WrField *base, const WrOpWork *work);
+
+/* The same for an operation that gives a table of the input's size and edges. */
+WrField *wr_op_build_same(const WrOpJob *job, const WrOpWork *work);
+
+/* The blocks, along tiles, that may come out otherwise than in what was made: those within `reach` of a texel
+   that differs. The caller frees them. */
+WrOpBlock *wr_op_changed_blocks(const WrOpJob *job, int reach, int *count);
+
+/* Check all values, as they stand in a WrFilter. */
+bool wr_op_check_params(const WrOpInfo *op, const double *value, WrError *err);
+
+/* Report how much of the present step is done, 0..1; false and an error when the job is cancelled. */
+bool wr_op_step(const WrOpJob *job, double fraction);
+
+/* wr_pool_run in batches, with reports between them. False and an error when cancelled. */
+bool wr_op_pieces(const WrOpJob *job, int count, WrPiece piece, void *ctx);
+
+/* As wr_field_read, but a clamped axis repeats its edge texel. */
+void wr_op_read(const WrField *field, int i, int j, int count_i, int count_j, float *out,
+                size_t pitch);
+
+/* A whole table in one piece of memory, for operations that cannot go block by block. A row starts at
+   at + j * pitch; the pitch is off the powers of two, and two floats on either side of a row are the
+   operation's to use. */
+typedef struct WrOpPlane {
+    float *block, *at; /* block: owned; at: texel (0, 0) */
+    size_t pitch;
+    int width, height;
+} WrOpPlane;
+
+/* Make room for a plane as large as the job's input. False and an error without memory. */
+bool wr_op_plane_init(WrOpPlane *plane, const WrOpJob *job);
+void wr_op_plane_fini(WrOpPlane *plane);
+
+static inline float wr_op_float(double x)
+{
+    return x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : (float)x;
+}
+
+/* Sampled Gaussian exp(-k^2 / (2 sigma^2)), k = 0..reach, divided by the sum over all -reach..reach;
+   reach = ceil(4 sigma) is returned. sigma 0..WR_OP_NARROW_SIGMA. */
+#define WR_OP_NARROW_SIGMA 16
+#define WR_OP_NARROW_REACH 64
+int wr_op_gauss(double sigma, float weight[WR_OP_NARROW_REACH + 1]);
+
+/* The blurred input for sigma above WR_OP_NARROW_SIGMA, by repeated boxes. */
+bool wr_op_blur_wide(const WrOpJob *job, double sigma, WrOpPlane *plane);
+
+/* The operations; parameters as in their rows, checked. */
+WrField *wr_op_offset(WrOpJob *job, const double *param);
+WrField *wr_op_flip_u(WrOpJob *job, const double *param);
+WrField *wr_op_flip_v(WrOpJob *job, const double *param);
+WrField *wr_op_rotate(WrOpJob *job, const double *param);
+WrField *wr_op_crop(WrOpJob *job, const double *param);
+WrField *wr_op_resize(WrOpJob *job, const double *param);
+WrField *wr_op_levels(WrOpJob *job, const double *param);
+WrField *wr_op_curves(WrOpJob *job, const double *param);
+WrField *wr_op_invert(WrOpJob *job, const double *param);
+WrField *wr_op_normalise(WrOpJob *job, const double *param);
+WrField *wr_op_add(WrOpJob *job, const double *param);
+WrField *wr_op_multiply(WrOpJob *job, const double *param);
+WrField *wr_op_clamp(WrOpJob *job, const double *param);
+WrField *wr_op_blur(WrOpJob *job, const double *param);
+WrField *wr_op_sharpen(WrOpJob *job, const double *param);
+WrField *wr_op_median(WrOpJob *job, const double *param);
+WrField *wr_op_dilate(WrOpJob *job, const double *param);
+WrField *wr_op_erode(WrOpJob *job, const double *param);
+WrField *wr_op_noise(WrOpJob *job, const double *param);
+WrField *wr_op_warp(WrOpJob *job, const double *param);
+WrField *wr_op_slope_limit(WrOpJob *job, const double *param);

@@ -1,0 +1,71 @@
+/* text_layout.h - where a text's letters stand on the table: in lines, turned, on a path, around the table.
+   Layer 4, private to this room. */
+#pragma once
+#include "base/enum_rows.h"
+#include "generate/param.h"
+#include "generate/text.h"
+#include "image/font.h"
+
+#include <stdbool.h>
+
+/* Half way between the first line's ascent and the last one's descent; of the first line. */
+#define WR_TEXT_ANCHORS(X)                                                                         \
+    X(WR_TEXT_MIDDLE, "middle")                                                                    \
+    X(WR_TEXT_BASELINE, "baseline")                                                                \
+    X(WR_TEXT_TOP, "top")                                                                          \
+    X(WR_TEXT_BOTTOM, "bottom")
+typedef enum WrTextAnchor { WR_TEXT_ANCHORS(WR_WORD_ID) } WrTextAnchor;
+
+/* Letters that the font lacks. */
+#define WR_TEXT_MISSING(X) X(WR_TEXT_BORROW, "borrow") X(WR_TEXT_SIGN, "sign")
+enum { WR_TEXT_MISSING(WR_WORD_ID) };
+
+typedef struct WrTextWish {
+    WrFontAsk ask;
+    WrFontSetting setting;
+    double at[2]; /* u, v */
+    WrTextAnchor anchor;
+    double rotate_deg;    /* anticlockwise as seen */
+    const double *points; /* [point_count][2] u, v: a path; point_count 0: none */
+    int point_count;
+    bool around;       /* along lattice[0] tables to the right and lattice[1] up */
+    double lattice[2]; /* whole numbers */
+    int repeats;       /* 0: as many as fit best */
+    bool clip;
+} WrTextWish;
+
+/* Shape a text by the fonts that the parameters name: `font`, `file`, `missing`, `fallback`, `fallback2`,
+ * `fallback3`. Where the first one lacks letters, none is named to lend them and missing=borrow, those are
+ * lent by installed fonts, and the job is told which. Notes say what came from where, and what no font has.
+ * ask: all but its fonts. */
+bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
+                   const WrGenerateJob *job, WrFontText *out, WrError *err);
+/* Rows of those parameters, and of the others that say which font. */
+#define WR_P_FONT(value)                                                                           \
+    {                                                                                              \
+        .name = "font", .label = "Font", .help = "an installed font, where no file is named",      \
+        .unit = "", .kind = WR_PARAM_CHOICE, .fallback = { value }, .words = wr_font_names         \
+    }
+#define WR_P_FONT_FILE                                                                             \
+    { .name = "file",                                                                              \
+      .label = "Font file",                                                                        \
+      .help = "a font: TrueType, OpenType, Type 1, PCF, BDF, PSF, also packed by gzip",            \
+      .unit = "",                                                                                  \
+      .kind = WR_PARAM_FILE,                                                                       \
+      .fallback_text = "" },                                                                       \
+        WR_P_WHOLE("face", "Face", 0, 0, 65535, 15, "which of a collection of fonts in one file")
+#define WR_P_MISSING(n, words)                                                                     \
+    WR_P_CHOICE(n, "Missing letters", WR_TEXT_BORROW, words,                                       \
+                "what the font lacks: from other installed fonts, or drawn as its sign for that")
+#define WR_P_FALLBACK(n, l, h)                                                                     \
+    {                                                                                              \
+        .name = (n), .label = (l), .help = (h), .unit = "", .kind = WR_PARAM_FILE,                 \
+        .fallback_text = ""                                                                        \
+    }
+
+/* Add all letters' outlines to a shape. Curves are kept within 1/64 texel. Dots of bitmap fonts at a whole
+ * number of texels each, unturned, stand exactly on texels.
+ * Errors   points at one place; around= on a table that is not periodic, or in no direction; those of
+ *          wr_text_shape_add; cancelled */
+bool wr_text_lay(const WrTextWish *wish, const WrFontText *text, const WrGenerateJob *job,
+                 WrTextShape *shape, WrError *err);

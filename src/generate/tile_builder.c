@@ -1,0 +1,147 @@
+#include "generate/tile_builder.h"
+
+#include "base/error.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "field/field.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <string.h>
+
+#define BATCH 64 /* tiles between two reports */
+#define TEXELS (WR_TILE * WR_TILE)
+
+/* Of a batch, one field's tiles: where they are made, and which came out +0 throughout. */
+typedef struct Made {
+    WrField *field;
+    float *tile[BATCH];
+    bool empty[BATCH];
+} Made;
+
+typedef struct Build {
+    WrGenerateFill fill;
+    const void *ctx;
+    const WrProgress *progress;
+    int tiles_u, first;
+    Made made[2]; /* heights, cover; no field: there is none */
+} Build;
+
+static WrGenerateBlock block_at(const Build *build, int tile)
+{
+    const WrField *field = build->made[0].field;
+    WrGenerateBlock b = { .width = wr_field_width(field), .height = wr_field_height(field) };
+    b.i = tile % build->tiles_u * WR_TILE;
+    b.j = tile / build->tiles_u * WR_TILE;
+    b.count_i = b.width - b.i < WR_TILE ? b.width - b.i : WR_TILE;
+    b.count_j = b.height - b.j < WR_TILE ? b.height - b.j : WR_TILE;
+    return b;
+}
+
+static void mend(float *texels)
+{
+    for (int k = 0; k < TEXELS; k++) {
+        float h = texels[k];
+        h = h > FLT_MAX ? FLT_MAX : h < -FLT_MAX ? -FLT_MAX : h;
+        texels[k] = h == h ? h : 0.0f;
+    }
+}
+
+/* True if all are +0. */
+static bool keep_finite(float *texels)
+{
+    uint32_t bits = 0, beyond = 0;
+#pragma omp simd reduction(| : bits, beyond)
+    for (int k = 0; k < TEXELS; k++) {
+        uint32_t word;
+        memcpy(&word, &texels[k], sizeof word);
+        bits |= word;
+        beyond |= (word & 0x7f800000U) == 0x7f800000U;
+    }
+    if (!beyond) return bits == 0;
+    mend(texels);
+    for (int k = 0; k < TEXELS; k++)
+        if (texels[k] != 0.0f || signbit(texels[k])) return false;
+    return true;
+}
+
+static void make_tile(int index, int worker, void *ctx)
+{
+    Build *build = ctx;
+    if (wr_progress_cancelled(build->progress)) return;
+    WrGenerateBlock b = block_at(build, build->first + index);
+    for (int k = 0; k < 2 && build->made[k].field; k++)
+        memset(build->made[k].tile[index], 0, sizeof(float) * TEXELS);
+    build->fill(build->ctx, &b, worker, build->made[0].tile[index],
+                build->made[1].field ? build->made[1].tile[index] : NULL);
+    for (int k = 0; k < 2 && build->made[k].field; k++)
+        build->made[k].empty[index] = keep_finite(build->made[k].tile[index]);
+}
+
+/* Tiles are made where they stay; those that are +0 throughout go without memory again. */
+static bool run_batch(Build *build, WrPool *pool, int count)
+{
+    int u = build->tiles_u;
+    for (int n = 0; n < 2 && build->made[n].field; n++)
+        for (int k = 0; k < count; k++)
+            build->made[n].tile[k] = wr_field_tile_fresh(
+                build->made[n].field, (build->first + k) % u, (build->first + k) / u);
+    if (!wr_pool_run(pool, count, make_tile, build) || wr_progress_cancelled(build->progress))
+        return false;
+    for (int n = 0; n < 2 && build->made[n].field; n++)
+        for (int k = 0; k < count; k++)
+            if (build->made[n].empty[k])
+                wr_field_tile_drop(build->made[n].field, (build->first + k) % u,
+                                   (build->first + k) / u);
+    return true;
+}
+
+static bool run(Build *build, WrPool *pool, int tiles, double from)
+{
+    for (build->first = 0; build->first < tiles; build->first += BATCH) {
+        double done = (double)build->first / tiles;
+        if (!wr_progress_step(build->progress, from + (1.0 - from) * done)) return false;
+        if (!run_batch(build, pool, tiles - build->first < BATCH ? tiles - build->first : BATCH))
+            return false;
+    }
+    return wr_progress_step(build->progress, 1.0);
+}
+
+static WrField *empty_like(const WrField *like, WrError *err)
+{
+    return wr_field_new(wr_field_width(like), wr_field_height(like), wr_field_wrap_u(like),
+                        wr_field_wrap_v(like), 0.0f, err);
+}
+
+bool wr_generate_build(const WrGenerateJob *job, WrGenerateFill fill, const void *ctx, bool covered,
+                       double from, WrNormalMips *out, WrError *err)
+{
+    WrNormalMips relief = { empty_like(job->like, err), NULL };
+    if (relief.heights && covered) relief.cover = empty_like(job->like, err);
+    Build build = { .fill = fill,
+                    .ctx = ctx,
+                    .progress = job->progress,
+                    .made = { { .field = relief.heights }, { .field = relief.cover } } };
+    bool good = relief.heights && (!covered || relief.cover);
+    if (good) {
+        build.tiles_u = wr_field_tiles_u(relief.heights);
+        good = run(&build, job->pool, build.tiles_u * wr_field_tiles_v(relief.heights), from) ||
+               wr_fail(err, "cancelled");
+    }
+    if (good) *out = relief;
+    else wr_normal_mips_fini(&relief);
+    return good;
+}
+
+void wr_generate_note(const WrGenerateJob *job, const char *format, ...)
+{
+    if (!job->note) return;
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    job->note(job->note_ctx, text);
+}

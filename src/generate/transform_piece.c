@@ -1,0 +1,221 @@
+#include "generate/transform_piece.h"
+
+#include "base/exactmath.h"
+#include "field/field.h"
+#include "generate/tile_builder.h"
+
+#include <math.h>
+
+const char *const wr_place_filters[] = { WR_PLACE_FILTERS(WR_WORD) NULL };
+
+typedef struct Placed {
+    const WrPlacing *placing;
+    bool whole;        /* texels go to texels: only bits are carried */
+    double to[2][2];   /* A */
+    double back[2][2]; /* its inverse */
+    double at[2];      /* where `from` goes, such that whole pieces lie on whole texels */
+    double soft
+        [2]; /* texels of the table in one of the source, along its axes: for the window's rim */
+    double wide[2]; /* by how much the filter is stretched along the source's axes */
+    double box[4];  /* of the piece in the table: left, top, right, bottom */
+    int period[2];  /* of the table; 0: none */
+} Placed;
+
+/* ---- where things go ---- */
+
+static void turn(double degrees, double *cosine, double *sine)
+{
+    wr_sincos_turns(degrees / 360.0, sine, cosine);
+}
+
+static void set_maps(Placed *p, const WrPlacing *placing)
+{
+    double c, s;
+    turn(placing->turn_deg, &c, &s);
+    const double *scale = placing->scale;
+    /* rows run down: anticlockwise leads from right to up, which is a row less */
+    p->to[0][0] = c * scale[0];
+    p->to[0][1] = s * scale[1];
+    p->to[1][0] = -s * scale[0];
+    p->to[1][1] = c * scale[1];
+    p->back[0][0] = c / scale[0];
+    p->back[0][1] = -s / scale[0];
+    p->back[1][0] = s / scale[1];
+    p->back[1][1] = c / scale[1];
+    for (int k = 0; k < 2; k++) {
+        p->soft[k] = fabs(scale[k]);
+        p->wide[k] = fmax(1.0, 1.0 / fabs(scale[k]));
+        p->at[k] = placing->at[k];
+    }
+    p->whole = fabs(scale[0]) == 1.0 && fabs(scale[1]) == 1.0 && (c == 0.0 || s == 0.0);
+    if (!p->whole) return;
+    /* centres are at halves, so what A leads them to is at halves plus this */
+    for (int k = 0; k < 2; k++) {
+        double lead = p->to[k][0] * placing->from[0] + p->to[k][1] * placing->from[1];
+        p->at[k] = rint(placing->at[k] - lead) + lead;
+    }
+}
+
+static void set_box(Placed *p)
+{
+    const double *w = p->placing->window;
+    for (int k = 0; k < 4; k++) p->box[k] = k < 2 ? INFINITY : -INFINITY;
+    for (int corner = 0; corner < 4; corner++) {
+        double x = w[0] + (corner & 1 ? w[2] : 0.0) - p->placing->from[0];
+        double y = w[1] + (corner & 2 ? w[3] : 0.0) - p->placing->from[1];
+        for (int k = 0; k < 2; k++) {
+            double at = p->at[k] + p->to[k][0] * x + p->to[k][1] * y;
+            p->box[k] = fmin(p->box[k], at - 1.0);
+            p->box[k + 2] = fmax(p->box[k + 2], at + 1.0);
+        }
+    }
+}
+
+/* ---- reading the source ---- */
+
+static int index_of(int i, int n, bool periodic)
+{
+    if (!periodic) return i < 0 ? 0 : i >= n ? n - 1 : i;
+    i %= n;
+    return i < 0 ? i + n : i;
+}
+
+static double source_at(const WrField *field, int i, int j)
+{
+    i = index_of(i, wr_field_width(field), wr_field_wrap_u(field) == WR_WRAP_PERIODIC);
+    j = index_of(j, wr_field_height(field), wr_field_wrap_v(field) == WR_WRAP_PERIODIC);
+    return (double)wr_field_get(field, i, j);
+}
+
+static double filter_value(WrPlaceFilter filter, double x)
+{
+    double a = fabs(x);
+    if (filter == WR_PLACE_LINEAR) return a < 1.0 ? 1.0 - a : 0.0;
+    return a < 1.0   ? 1.0 + a * a * (1.5 * a - 2.5)
+           : a < 2.0 ? 2.0 + a * (-4.0 + a * (2.5 - 0.5 * a))
+                     : 0.0;
+}
+
+#define TAPS_MAX (4 * (int)WR_PLACE_SCALE + 4)
+
+/* The texels that count at x along one axis, and their weights, whose sum is 1. */
+static int taps_at(const Placed *p, int axis, double x, int *first, double weight[TAPS_MAX])
+{
+    const WrPlaceFilter filter = p->placing->filter;
+    double wide = p->wide[axis], reach = (filter == WR_PLACE_LINEAR ? 1.0 : 2.0) * wide, sum = 0.0;
+    if (filter == WR_PLACE_NEAREST) {
+        *first = (int)floor(x);
+        weight[0] = 1.0;
+        return 1;
+    }
+    *first = (int)ceil(x - 0.5 - reach);
+    int count = (int)floor(x - 0.5 + reach) - *first + 1;
+    for (int k = 0; k < count; k++)
+        sum += weight[k] = filter_value(filter, (*first + k + 0.5 - x) / wide);
+    for (int k = 0; k < count; k++) weight[k] /= sum;
+    return count;
+}
+
+typedef struct Taps {
+    int first[2], count[2];
+    double weight[2][TAPS_MAX];
+} Taps;
+
+static double sum_of(const WrField *field, const Taps *t)
+{
+    double sum = 0.0;
+    for (int y = 0; y < t->count[1]; y++) {
+        double row = 0.0;
+        for (int x = 0; x < t->count[0]; x++)
+            row += t->weight[0][x] * source_at(field, t->first[0] + x, t->first[1] + y);
+        sum += t->weight[1][y] * row;
+    }
+    return sum;
+}
+
+static double unit(double x)
+{
+    return x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
+}
+
+/* What of a texel of the table at that place of the source lies in the window. Whole pieces take texels or leave
+ * them, by their centres. */
+static double inside(const Placed *p, const double q[2])
+{
+    double part = 1.0;
+    for (int k = 0; k < 2; k++) {
+        double from = q[k] - p->placing->window[k], to = p->placing->window[k + 2] - from;
+        double in = from < to ? from : to;
+        part *= p->whole ? in > 0.0 : unit(in * p->soft[k] + 0.5);
+    }
+    return part;
+}
+
+/* ---- texels ---- */
+
+/* The texel at (x, y), as its centre is seen from one image of the piece: true where that says more than *most. */
+static bool take(const Placed *p, double x, double y, double *most, float *height)
+{
+    double dx = x - p->at[0], dy = y - p->at[1], q[2];
+    for (int k = 0; k < 2; k++)
+        q[k] = p->placing->from[k] + p->back[k][0] * dx + p->back[k][1] * dy;
+    double part = inside(p, q);
+    if (!(part > *most)) return false;
+    const WrField *weight = p->placing->weight;
+    if (p->whole) {
+        int i = (int)floor(q[0]), j = (int)floor(q[1]); /* q is at halves but for rounding */
+        if (weight) part *= unit(source_at(weight, i, j));
+        if (!(part > *most)) return false;
+        *height = (float)source_at(p->placing->heights, i, j);
+    } else {
+        Taps taps;
+        for (int k = 0; k < 2; k++)
+            taps.count[k] = taps_at(p, k, q[k], &taps.first[k], taps.weight[k]);
+        if (weight) part *= unit(sum_of(weight, &taps));
+        if (!(part > *most)) return false;
+        *height = (float)sum_of(p->placing->heights, &taps);
+    }
+    *most = part;
+    return true;
+}
+
+/* Which images, in whole periods, reach from..to: first and last. */
+static void images(const Placed *p, int axis, double from, double to, int *first, int *last)
+{
+    *first = *last = 0;
+    int n = p->period[axis];
+    if (!n) return;
+    *first = (int)ceil((p->box[axis] - to) / n);
+    *last = (int)floor((p->box[axis + 2] - from) / n);
+}
+
+static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, float *heights,
+                       float *cover)
+{
+    const Placed *p = ctx;
+    (void)worker;
+    int u0, u1, v0, v1;
+    images(p, 0, b->i, b->i + b->count_i, &u0, &u1);
+    images(p, 1, b->j, b->j + b->count_j, &v0, &v1);
+    for (int y = 0; y < b->count_j; y++)
+        for (int x = 0; x < b->count_i; x++) {
+            double most = 0.0;
+            for (int v = v0; v <= v1; v++)
+                for (int u = u0; u <= u1; u++)
+                    take(p, b->i + x + 0.5 + (double)u * p->period[0],
+                         b->j + y + 0.5 + (double)v * p->period[1], &most,
+                         &heights[y * WR_TILE + x]);
+            cover[y * WR_TILE + x] = (float)most;
+        }
+}
+
+bool wr_place(const WrPlacing *placing, const WrGenerateJob *job, WrNormalMips *out, WrError *err)
+{
+    Placed p = { .placing = placing };
+    const WrField *like = job->like;
+    if (wr_field_wrap_u(like) == WR_WRAP_PERIODIC) p.period[0] = wr_field_width(like);
+    if (wr_field_wrap_v(like) == WR_WRAP_PERIODIC) p.period[1] = wr_field_height(like);
+    set_maps(&p, placing);
+    set_box(&p);
+    return wr_generate_build(job, fill_block, &p, true, 0.0, out, err);
+}

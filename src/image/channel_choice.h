@@ -1,0 +1,20 @@
+/* channel_choice.h - which channels of a part a picture is made of.
+   Private to this room. */
+#pragma once
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrImagePart WrImagePart;
+typedef struct WrText WrText;
+
+typedef struct WrChannelChoice {
+    int count;    /* 1..4 */
+    int index[4]; /* of the part's channels */
+} WrChannelChoice;
+
+/* channel: a channel's name ("Depth.Z") or a layer's ("diffuse": its R, G, B, A or its Y); NULL or "": the first
+ * layer of colours or of grey, else the first channel. Errors: no such; they list what there is. */
+bool wr_channels_choose(const WrImagePart *part, const char *channel, WrChannelChoice *choice,
+                        WrError *err);
+/* "diffuse.R, diffuse.G, diffuse.B of Z, diffuse.R, ..."; nothing where all were taken. */
+void wr_channels_tell(const WrImagePart *part, const WrChannelChoice *choice, WrText *text);

@@ -1,0 +1,463 @@
+#include "image/reader_client.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "image/reader_process.h"
+#include "system/channel.h"
+#include "system/child.h"
+#include "system/clock.h"
+#include "system/fd.h"
+#include "system/file_map.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define SECONDS 60               /* without a sign of life */
+#define BLOCK_SECONDS 20         /* the same for files that are read in one go */
+#define MEGABYTES 4096           /* of memory */
+#define CHUNK ((size_t)16 << 20) /* bytes of rows that travel at once, where a row is not larger */
+
+typedef struct Attribute {
+    int part;
+    char *name, *text; /* owned; text NULL: there is none */
+} Attribute;
+
+struct WrReader {
+    char *name; /* of the file, for messages */
+    int channel;
+    unsigned seconds, megabytes;
+    char *answer; /* what OPENED brought; the parts point into it */
+    WrImagePart *parts;
+    int count;
+    const char **names; /* of all channels of all parts */
+    WR_ARRAY(Attribute) attributes;
+    const char *shared; /* memory that the child writes to */
+    size_t shared_bytes;
+    bool dead; /* the child is gone, for the reason in `end` */
+    WrError end;
+};
+
+bool wr_reader_inside(void)
+{
+    const char *where = getenv("WRINKLE_READER");
+    return where && strcmp(where, "inside") == 0;
+}
+
+int wr_reader_file(const char *path, uint64_t limit, WrError *err)
+{
+    uint64_t length;
+    int fd = wr_file_open(path, limit, &length, err);
+    if (fd < 0 || length > 0) return fd;
+    wr_fail(err, "%s: is empty", path);
+    wr_fd_close(fd);
+    return -1;
+}
+
+typedef struct Answer {
+    WrWireHead head;
+    char *bytes; /* [head.length] and a NUL; NULL for length 0 */
+} Answer;
+
+/* ---- messages ---- */
+
+static unsigned setting(const char *name, unsigned otherwise)
+{
+    const char *text = getenv(name);
+    double value;
+    if (!text || !wr_number_parse(text, strlen(text), &value)) return otherwise;
+    return value >= 1 && value <= 1e6 ? (unsigned)value : otherwise;
+}
+
+/* The end of this reading, whatever comes. Closing the channel ends the child if it still lives. */
+static bool die(WrReader *reader, const char *why)
+{
+    if (reader->channel >= 0) wr_fd_close(reader->channel);
+    reader->channel = -1;
+    reader->dead = true;
+    return wr_fail(&reader->end, "%s: %s", reader->name, why);
+}
+
+static bool die_of_nonsense(WrReader *reader)
+{
+    return die(reader, "the reader's answer makes no sense; the file is damaged or hostile");
+}
+
+static bool die_of_time(WrReader *reader)
+{
+    char why[128];
+    snprintf(why, sizeof why, "gave nothing to read within %u s; the file is damaged or hostile",
+             reader->seconds);
+    return die(reader, why);
+}
+
+static bool die_of_status(WrReader *reader, const Answer *answer)
+{
+    WrWireDied told;
+    char why[160];
+    if (answer->head.length != sizeof told) return die_of_nonsense(reader);
+    memcpy(&told, answer->bytes, sizeof told);
+    const WrChildEnd end = { (WrChildWhy)told.why, told.number };
+    if (end.why == WR_CHILD_LATE) return die_of_time(reader);
+    if (end.why == WR_CHILD_KILLED)
+        return die(reader, "the reader was killed while it read this file (by hand, or for want of "
+                           "memory)");
+    const char *name = end.why == WR_CHILD_CRASHED ? wr_child_crash(end.number) : NULL;
+    snprintf(why, sizeof why, "the reader crashed on this file%s%s%s; it is damaged or hostile",
+             name ? " (" : "", name ? name : "", name ? ")" : "");
+    return die(reader, why);
+}
+
+/* What the reader says is wrong, on one line. */
+static bool fail_sentence(const WrReader *reader, Answer *answer, WrError *err)
+{
+    for (uint32_t i = 0; i < answer->head.length; i++)
+        if ((unsigned char)answer->bytes[i] < ' ' || answer->bytes[i] == 127)
+            answer->bytes[i] = ' ';
+    return wr_fail(err, "%s: %.400s", reader->name, answer->bytes ? answer->bytes : "");
+}
+
+static bool fail_memory(const WrReader *reader, WrError *err)
+{
+    return wr_fail(err, "%s: needs more than %u MB of memory to be read", reader->name,
+                   reader->megabytes);
+}
+
+/* When an answer that is waited for from now on must be there. */
+static double deadline_of(const WrReader *reader)
+{
+    return wr_clock_seconds() + reader->seconds;
+}
+
+static bool receive_whole(WrReader *reader, double deadline, Answer *answer)
+{
+    *answer = (Answer){ 0 };
+    WrWireGot got =
+        wr_wire_receive(reader->channel, &answer->head, sizeof answer->head, deadline, NULL);
+    if (got == WR_WIRE_GOT && answer->head.length > WR_WIRE_MAX) return die_of_nonsense(reader);
+    if (got == WR_WIRE_GOT && answer->head.length > 0) {
+        WrError err;
+        answer->bytes = wr_try_alloc((size_t)answer->head.length + 1, 1, "an answer", &err);
+        if (!answer->bytes) return die(reader, err.text);
+        got = wr_wire_receive(reader->channel, answer->bytes, answer->head.length, deadline, NULL);
+    }
+    if (got == WR_WIRE_LATE) return die_of_time(reader);
+    if (got == WR_WIRE_GONE) return die(reader, "the reader was killed while it read this file");
+    if (answer->head.kind == WR_WIRE_DIED) return die_of_status(reader, answer);
+    return true;
+}
+
+/* Wait for an answer of this kind. On success the caller frees answer->bytes. */
+static bool receive_by(WrReader *reader, double deadline, WrWireKind kind, Answer *answer,
+                       WrError *err)
+{
+    bool good = receive_whole(reader, deadline, answer);
+    if (good && answer->head.kind == kind) return true;
+    if (good && answer->head.kind == WR_WIRE_FAILED) fail_sentence(reader, answer, err);
+    else if (good && answer->head.kind == WR_WIRE_MEMORY) fail_memory(reader, err);
+    else {
+        if (good) die_of_nonsense(reader);
+        wr_fail(err, "%s", reader->end.text);
+    }
+    wr_free(answer->bytes);
+    answer->bytes = NULL;
+    return false;
+}
+
+static bool receive(WrReader *reader, WrWireKind kind, Answer *answer, WrError *err)
+{
+    return receive_by(reader, deadline_of(reader), kind, answer, err);
+}
+
+/* ---- opening ---- */
+
+/* The next text of a list of texts that each end in NUL, or NULL. */
+static const char *take_text(const char **at, const char *end)
+{
+    const char *text = *at, *stop = memchr(text, '\0', (size_t)(end - text));
+    if (!stop) return NULL;
+    *at = stop + 1;
+    return text;
+}
+
+static bool take_part(WrReader *reader, const char **at, const char *end, int *names)
+{
+    int32_t numbers[4];
+    if ((size_t)(end - *at) < sizeof numbers || reader->count >= WR_IMAGE_PARTS_MAX) return false;
+    memcpy(numbers, *at, sizeof numbers);
+    *at += sizeof numbers;
+    if (numbers[0] < 1 || numbers[0] > WR_IMAGE_MAX || numbers[1] < 1 ||
+        numbers[1] > WR_IMAGE_MAX || numbers[2] < 1 || numbers[2] > WR_IMAGE_CHANNELS_MAX ||
+        numbers[3] < 0 || numbers[3] > WR_PIXEL_F32)
+        return false;
+    WrImagePart part = { .name = take_text(at, end),
+                         .width = numbers[0],
+                         .height = numbers[1],
+                         .channels = numbers[2],
+                         .type = (WrPixelType)numbers[3] };
+    if (!part.name) return false;
+    reader->names = wr_realloc(reader->names, (size_t)*names, (size_t)(*names + part.channels),
+                               sizeof *reader->names);
+    for (int c = 0; c < part.channels; c++) {
+        const char *name = take_text(at, end);
+        if (!name) return false;
+        reader->names[(*names)++] = name;
+    }
+    reader->parts = wr_realloc(reader->parts, (size_t)reader->count, (size_t)reader->count + 1,
+                               sizeof *reader->parts);
+    reader->parts[reader->count++] = part;
+    return true;
+}
+
+/* The parts as reader_child.c lists them. The answer becomes the reader's. */
+static bool take_parts(WrReader *reader, const Answer *answer, int most)
+{
+    reader->answer = answer->bytes;
+    const char *at = answer->bytes, *end = at + answer->head.length;
+    int names = 0;
+    while (at != end)
+        if (!take_part(reader, &at, end, &names)) return false;
+    const char **next = reader->names;
+    for (int i = 0; i < reader->count; i++) {
+        reader->parts[i].channel_names = next;
+        next += reader->parts[i].channels;
+    }
+    return reader->count >= 1 && (most < 0 || reader->count <= most);
+}
+
+/* Have the process read the file; the reader gets its channel. */
+static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrError *err)
+{
+    int ends[2];
+    if (!wr_channel_pair(ends, false))
+        return wr_fail(err, "%s: no socket for the reader", reader->name);
+    bool sent = wr_process_order(order, fd, ends[1], err);
+    wr_fd_close(ends[1]);
+    reader->channel = ends[0];
+    reader->dead = false;
+    if (!sent) wr_error_prefix(err, "%s: ", reader->name);
+    return sent;
+}
+
+/* One try of those that have time until the deadline together. *gone: nothing came back, not even how the
+ * reader died: perhaps the process itself is gone. */
+static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, double deadline,
+                      bool *gone, WrError *err)
+{
+    Answer answer;
+    *gone = false;
+    if (!send_order(reader, order, fd, err)) return false;
+    *gone = wr_wire_wait(reader->channel, deadline) == WR_WIRE_GONE;
+    if (!receive_by(reader, deadline, WR_WIRE_OPENED, &answer, err)) return false;
+    if (take_parts(reader, &answer, order->most)) return true;
+    die_of_nonsense(reader);
+    return wr_fail(err, "%s", reader->end.text);
+}
+
+static WrReader *new_reader(const char *name, int fd, WrWireTask task, int most, WrWireOrder *order)
+{
+    WrFileInfo info;
+    double size = wr_fd_info(fd, &info) ? (double)info.bytes : 0.0;
+    WrReader *reader = wr_alloc(1, sizeof *reader);
+    reader->name = wr_strdup(name);
+    reader->channel = -1;
+    bool picture = task == WR_WIRE_PICTURE;
+    unsigned patience = picture ? SECONDS : BLOCK_SECONDS;
+    reader->seconds = setting("WRINKLE_READER_SECONDS", patience + (unsigned)(size / 1e6));
+    reader->megabytes = setting("WRINKLE_READER_MB", MEGABYTES);
+    *order = (WrWireOrder){ .version = WR_WIRE_VERSION,
+                            .task = task,
+                            .most = most,
+                            .memory = (uint64_t)reader->megabytes << 20,
+                            .seconds = (picture ? 10 : 1) * reader->seconds };
+    wr_path_ending(name, order->ending);
+    return reader;
+}
+
+WrReader *wr_reader_open(const char *name, int fd, int most, WrError *err)
+{
+    WrWireOrder order;
+    WrReader *reader = new_reader(name, fd, WR_WIRE_PICTURE, most, &order);
+    double deadline = deadline_of(reader);
+    bool gone, good = open_once(reader, &order, fd, deadline, &gone, err);
+    if (!good && gone) {
+        if (reader->channel >= 0) wr_fd_close(reader->channel);
+        good = open_once(reader, &order, fd, deadline, &gone, err);
+    }
+    if (good) return reader;
+    wr_reader_close(reader);
+    return NULL;
+}
+
+void wr_reader_close(WrReader *reader)
+{
+    if (!reader) return;
+    if (reader->channel >= 0) wr_fd_close(reader->channel);
+    wr_map_end(reader->shared, reader->shared_bytes);
+    for (int i = 0; i < reader->attributes.count; i++) {
+        wr_free(reader->attributes.data[i].name);
+        wr_free(reader->attributes.data[i].text);
+    }
+    wr_array_free(&reader->attributes);
+    wr_free(reader->parts);
+    wr_free((void *)reader->names);
+    wr_free(reader->answer);
+    wr_free(reader->name);
+    wr_free(reader);
+}
+
+int wr_reader_parts(const WrReader *reader)
+{
+    return reader->count;
+}
+
+WrImagePart wr_reader_part(const WrReader *reader, int part)
+{
+    return reader->parts[part];
+}
+
+const char *wr_reader_attribute(WrReader *reader, int part, const char *name)
+{
+    for (int i = 0; i < reader->attributes.count; i++) {
+        const Attribute *known = &reader->attributes.data[i];
+        if (known->part == part && strcmp(known->name, name) == 0) return known->text;
+    }
+    WrWireText want = { .part = part };
+    Answer answer;
+    if (reader->dead || strlen(name) >= sizeof want.name) return NULL;
+    strcpy(want.name, name);
+    if (!wr_wire_send(reader->channel, WR_WIRE_TEXT, &want, sizeof want, -1) ||
+        !receive(reader, WR_WIRE_TEXT, &answer, NULL))
+        return NULL;
+    wr_array_push(&reader->attributes, ((Attribute){ part, wr_strdup(name), answer.bytes }));
+    return answer.bytes;
+}
+
+/* ---- pixels ---- */
+
+/* Memory of at least `bytes` that the child may write to and nobody can shrink. Returns its descriptor
+ * to be sent, -1 where the child has it already, or -2 and an error. */
+static int share(WrReader *reader, size_t bytes, WrError *err)
+{
+    if (reader->shared && reader->shared_bytes >= bytes) return -1;
+    wr_map_end(reader->shared, reader->shared_bytes);
+    reader->shared = NULL;
+    int fd = wr_fd_memory_fixed("wrinkle rows", bytes);
+    const void *map = fd >= 0 ? wr_map(fd, bytes, WR_MAP_WATCH) : NULL;
+    if (!map) {
+        if (fd >= 0) wr_fd_close(fd);
+        wr_fail(err, "%s: no memory for %.0f MB of rows", reader->name, (double)bytes / 1e6);
+        return -2;
+    }
+    reader->shared = map;
+    reader->shared_bytes = bytes;
+    return fd;
+}
+
+/* Rows travel in chunks, two under way at a time: one is decoded while the other is copied. */
+typedef struct Rows {
+    int part, y, rows, channels;
+    size_t row;  /* bytes */
+    int step;    /* rows of a chunk */
+    int count;   /* chunks */
+    size_t slot; /* bytes of a chunk */
+} Rows;
+
+static int chunk_rows(const Rows *rows, int chunk)
+{
+    int left = rows->rows - chunk * rows->step;
+    return left < rows->step ? left : rows->step;
+}
+
+static bool ask(WrReader *reader, const Rows *rows, int chunk, WrError *err)
+{
+    int fd = chunk == 0 ? share(reader, 2 * rows->slot, err) : -1;
+    if (fd == -2) return false;
+    WrWireRead want = { .part = rows->part,
+                        .y = rows->y + chunk * rows->step,
+                        .rows = chunk_rows(rows, chunk),
+                        .channels = rows->channels,
+                        .at = (uint64_t)(chunk & 1) * rows->slot,
+                        .bytes = fd >= 0 ? reader->shared_bytes : 0 };
+    /* If the child is gone, its last words are still to be read. */
+    wr_wire_send(reader->channel, WR_WIRE_READ, &want, sizeof want, fd);
+    if (fd >= 0) wr_fd_close(fd);
+    return true;
+}
+
+bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, float *out,
+                    WrError *err)
+{
+    if (reader->dead) return wr_fail(err, "%s", reader->end.text);
+    Rows all = { .part = part, .y = y, .rows = rows, .channels = channels };
+    all.row = (size_t)reader->parts[part].width * (size_t)channels * sizeof(float);
+    all.step = CHUNK / all.row >= WR_IMAGE_STRIP ? WR_IMAGE_STRIP
+               : CHUNK / all.row > 1             ? (int)(CHUNK / all.row)
+                                                 : 1;
+    all.count = (rows + all.step - 1) / all.step;
+    all.slot = all.row * (size_t)all.step;
+    int asked = 0, done = 0;
+    bool good = true;
+    while (good && done < all.count) {
+        while (good && asked < all.count && asked - done < 2)
+            good = ask(reader, &all, asked++, err);
+        Answer answer;
+        good = good && receive(reader, WR_WIRE_DONE, &answer, err);
+        if (!good) break;
+        wr_free(answer.bytes);
+        memcpy((char *)out + (size_t)done * all.slot,
+               reader->shared + (size_t)(done & 1) * all.slot,
+               all.row * (size_t)chunk_rows(&all, done));
+        done++;
+    }
+    /* The answer that is still under way belongs to nobody. */
+    if (!good && asked - done > 1 && !reader->dead) {
+        Answer ignored;
+        receive_whole(reader, deadline_of(reader), &ignored);
+        wr_free(ignored.bytes);
+    }
+    return good;
+}
+
+bool wr_reader_digest(WrReader *reader, int part, int y, int rows, int channels, WrHash *digest,
+                      WrError *err)
+{
+    WrWireDigest want = { part, y, rows, channels, *digest };
+    Answer answer;
+    if (reader->dead) return wr_fail(err, "%s", reader->end.text);
+    wr_wire_send(reader->channel, WR_WIRE_DIGEST, &want, sizeof want, -1);
+    if (!receive(reader, WR_WIRE_DIGEST, &answer, err)) return false;
+    bool good = answer.head.length == sizeof *digest;
+    if (good) memcpy(digest, answer.bytes, sizeof *digest);
+    wr_free(answer.bytes);
+    return good || die_of_nonsense(reader) || wr_fail(err, "%s", reader->end.text);
+}
+
+/* ---- other files ---- */
+
+bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask, size_t ask_length,
+                     char **block, size_t *length, WrError *err)
+{
+    WrWireOrder order;
+    WrReader *reader = new_reader(name, fd, task, 1, &order);
+    Answer answer = { 0 };
+    double deadline = deadline_of(reader);
+    bool good = false, gone = true;
+    for (int attempt = 0; attempt < 2 && gone && !good; attempt++) {
+        if (reader->channel >= 0) wr_fd_close(reader->channel);
+        reader->channel = -1;
+        gone = false;
+        if (!send_order(reader, &order, fd, err)) break;
+        /* If the child is gone, its last words are still to be read. */
+        wr_wire_send(reader->channel, WR_WIRE_ASK, ask, ask_length, -1);
+        gone = wr_wire_wait(reader->channel, deadline) == WR_WIRE_GONE;
+        good = receive_by(reader, deadline, WR_WIRE_BLOCK, &answer, err);
+    }
+    if (good) {
+        *block = answer.bytes ? answer.bytes : wr_alloc(1, 1);
+        *length = answer.head.length;
+    }
+    wr_reader_close(reader);
+    return good;
+}

@@ -1,4 +1,0 @@
-/* The noise's loops for one instruction set; CMakeLists.txt gives the flags. */
-#define WR_NOISE_TABLE wr_noise_kernels_v3
-#define WR_NOISE_NAME "v3"
-#include "noise/kern_body.h"

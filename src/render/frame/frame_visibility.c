@@ -1,0 +1,190 @@
+/* What the samples of a resting view look at (uv_cache.h), and what light looks at of them (relight_cache.h): when it is known, and
+   when it is noted. */
+#include "field/field.h"
+#include "render/frame/frame_internal.h"
+#include "render/simd/simd_kernels.h"
+#include "render/pipeline/pipeline.h"
+#include "scene/objects.h"
+
+#include <stdio.h>
+
+#define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
+#define PLACES (1 << 16) /* samples along a side: in 256ths they are exact in single precision */
+
+/* Does an edit reach farther than what a tile looks at? Parallax may meet the relief anywhere; among several objects a surface
+   is moved. */
+static bool reaches_far(const WrScene *scene)
+{
+    bool any = scene->parallax || (scene->other_count > 0 && scene->displaced);
+    for (int i = 0; i < scene->other_count; i++)
+        any |= scene->others[i]->parallax || scene->others[i]->displaced;
+    return any;
+}
+
+static bool is_whole(const WrFrameRequest *request)
+{
+    return request->keep && !request->only && !request->rows;
+}
+
+bool wr_frame_may_keep(const WrFrameRequest *request)
+{
+    return is_whole(request) && !reaches_far(request->scene);
+}
+
+void wr_frame_start_notes(const WrTileJob *canvas, WrDirty *keep)
+{
+    const WrPlan *plan = canvas->plan;
+    const int k = canvas->samples, w = canvas->width * k, h = canvas->height * k;
+    const bool jittered = k > 1 && plan->spread == WR_SPREAD_JITTERED;
+    /* Of those that are refined the neighbours count; and a place has to tell its sample. */
+    const bool whole =
+        plan->sampling == WR_SAMPLING_ADAPTIVE || (jittered && (w > PLACES || h > PLACES));
+    wr_dirty_start(keep, wr_frame_tiles(canvas), canvas->tile_w, canvas->tile_h, whole);
+}
+
+bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)
+{
+    return a->wanted == b->wanted &&
+           (!a->wanted || (wr_background_equal(&a->background, &b->background) &&
+                           wr_tone_equal(&a->tone, &b->tone)));
+}
+
+/* Against the planner nothing is noted: what is drawn is not what it would be. */
+static bool is_forced(const WrFrameRequest *request)
+{
+    const WrForce *force = request->force;
+    return request->full || (force && (force[WR_EFFECT_DEPTH] || force[WR_EFFECT_NEWTON] ||
+                                       force[WR_EFFECT_BESIDE] || force[WR_EFFECT_HIDDEN]));
+}
+
+/* What the samples of a resting view look at: known from before, or noted from now on. One a pixel, in single
+   precision. */
+static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
+                        bool anew)
+{
+    const WrPlan *plan = &renderer->plan;
+    const int64_t objects = renderer->among ? renderer->among : 1;
+    WrUvCacheKey key;
+    /* Where light alone is new it is of use to the next edit. */
+    if (!renderer->mesh && renderer->steady->use != WR_RELIGHT_KNOWN)
+        wr_uv_cache_fini(&renderer->sight);
+    const bool small = objects * request->width * request->height <= SIGHT_MOST;
+    renderer->sighting = small && wr_frame_may_keep(request) && renderer->mesh &&
+                         plan->newton != 0 && plan->sampling == WR_SAMPLING_ONE &&
+                         !plan->shading_double && !is_forced(request);
+    if (!renderer->sighting || renderer->steady->use == WR_RELIGHT_KNOWN) {
+        renderer->sighting = false;
+        return false;
+    }
+    const WrTileJob job = { .plan = plan, .scene = renderer->scene };
+    wr_uv_cache_key(&key, renderer->mesh, &renderer->view, wr_tile_exact(&job), renderer->kernels);
+    key.beside = beside;
+    key.tied = wr_frame_ties(renderer);
+    if (wr_uv_cache_bring(&renderer->sight, &key)) return true;
+    renderer->sighting = renderer->sight.u != NULL && anew;
+    return false;
+}
+
+void wr_frame_bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
+                          bool anew)
+{
+    WrPlanAsk *ask = &renderer->ask;
+    ask->facts.sighted = renderer->sighted = bring_sight(renderer, request, beside, anew);
+    wr_plan_again(&renderer->plan, ask);
+}
+
+static bool is_any_forced(const WrForce *force)
+{
+    bool any = false;
+    for (int e = 0; force && e < WR_EFFECT_COUNT; e++) any |= force[e] != WR_FORCE_NONE;
+    return any;
+}
+
+/* As the planner would have it, and nothing wanted of it but its light. */
+static bool may_be_steady(const WrFrameRequest *request)
+{
+    return is_whole(request) && !request->normals && !request->map &&
+           !is_any_forced(request->force) && !request->full;
+}
+
+/* What becomes of the view's numbers, for the plan's row. hinders: why they are not kept, or NULL. */
+static void tell_steady(WrRelight *steady, const WrRelightView *view, const char *hinders)
+{
+    char bytes[40];
+    const double size = (double)wr_relight_bytes(view);
+    snprintf(bytes, sizeof bytes, "%.3g MB, %.3g bytes a sample", size * 1e-6,
+             size / ((double)view->width * view->height));
+    if (hinders) snprintf(steady->told, sizeof steady->told, "new, and not kept: %s", hinders);
+    else if (steady->use == WR_RELIGHT_KNOWN)
+        snprintf(steady->told, sizeof steady->told,
+                 "the view rests, and only its light changed: they are known (%s)", bytes);
+    else
+        snprintf(steady->told, sizeof steady->told, "new; while a view rests they are kept (%s)",
+                 bytes);
+}
+
+/* Does light of every part depend on n'? */
+static bool has_normals(const WrRelightView *view)
+{
+    bool all = true;
+    for (int i = 0; i < view->count; i++) all &= view->parts[i].plan->normals;
+    return all;
+}
+
+/* Several samples a pixel of a sphere are made anew sooner than they are read from memory. */
+static bool is_soon_anew(const WrRelightView *view)
+{
+    const WrRelightPart *only = view->parts;
+    return view->count == 1 && only->plan->samples > 1 && only->scene->light_count == 1 &&
+           wr_wide_of(view->kernels) && wr_pipe_at_once(only->plan);
+}
+
+/* Why no numbers are kept of such a view, or NULL. */
+static const char *hinders_of(const WrRelightView *view)
+{
+    const char *why = NULL;
+    for (int i = 0; i < view->count && !why; i++)
+        why = wr_relight_hinders(view->parts[i].scene, view->parts[i].plan);
+    if (!why && is_soon_anew(view)) why = "they are made anew as soon as they are read";
+    if (!why && wr_relight_bytes(view) > WR_RELIGHT_MOST)
+        why = "they would take more than " WR_RELIGHT_MOST_TEXT;
+    return why;
+}
+
+void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
+                            const WrRelightPart *parts, WrRenderer *const *owners, int count)
+{
+    WrRelight *steady = renderer->steady;
+    const int k = count > 0 ? parts[0].plan->samples : 1;
+    const WrRelightView view = { .parts = parts,
+                                 .count = count,
+                                 .kernels = renderer->kernels,
+                                 .turn_deg = request->turn_deg,
+                                 .width = k * request->width,
+                                 .height = k * request->height };
+    const char *hinders = count > 0 ? hinders_of(&view) : NULL;
+    bool anew = false;
+    for (int i = 0; i < count; i++) anew |= wr_plan_runs(parts[i].plan, WR_EFFECT_AGAIN);
+    const bool may = may_be_steady(request) && count > 0 && !hinders && anew && has_normals(&view);
+    steady->use = may ? wr_relight_bring(steady, &view) : WR_RELIGHT_NONE;
+    if (count > 0) tell_steady(steady, &view, hinders);
+    for (int i = 0; i < count; i++) {
+        WrPlanAsk *ask = &owners[i]->ask;
+        ask->facts.steady = steady->use == WR_RELIGHT_KNOWN;
+        ask->facts.steady_told = steady->told;
+        ask->facts.normals |= steady->use == WR_RELIGHT_NOTE; /* also where it is dark */
+        wr_plan_again(&owners[i]->plan, ask);
+    }
+}
+
+void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job)
+{
+    const WrRelight *steady = renderer->steady;
+    job->sight = renderer->sighting ? &renderer->sight : NULL;
+    job->seen_before = renderer->sighted;
+    if (steady->use == WR_RELIGHT_NONE) return;
+    if (steady->use == WR_RELIGHT_KNOWN) job->steady = steady;
+    else job->noting = steady;
+    job->lamps = steady->lamps;
+    job->recalls = wr_relight_groups(job->scene, job->plan);
+}

@@ -1,9 +1,0 @@
-/* The span kernels in double precision, one sample at a time; CMakeLists.txt gives the flags. */
-#define WR_KERN_PLAIN
-#define WR_KERN_DOUBLE
-#define WR_KERN_TABLE wr_kern_double_ref
-#define WR_KERN_NAME "ref"
-#define WR_KERN_EXACT true
-#include "render/kern_tables.h"
-
-#include "render/kern_body.h"

@@ -1,8 +1,0 @@
-/* The span kernels in double precision for one instruction set; CMakeLists.txt gives the flags. */
-#define WR_KERN_DOUBLE
-#define WR_KERN_TABLE wr_kern_double_v4
-#define WR_KERN_NAME "v4"
-#define WR_KERN_EXACT true
-#include "render/kern_tables.h"
-
-#include "render/kern_body.h"

@@ -1,8 +1,0 @@
-/* The fast span kernels: contraction and reordering allowed; CMakeLists.txt gives the flags. */
-#define WR_KERN_TABLE wr_kern_fast_v4
-#define WR_KERN_NAME "v4"
-#define WR_KERN_EXACT false
-#define WR_KERN_FAST
-#include "render/kern_tables.h"
-
-#include "render/kern_body.h"

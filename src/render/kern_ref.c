@@ -1,8 +1,0 @@
-/* The span kernels in plain C, one sample at a time: what all other sets must agree with. */
-#define WR_KERN_PLAIN
-#define WR_KERN_TABLE wr_kern_ref
-#define WR_KERN_NAME "ref"
-#define WR_KERN_EXACT true
-#include "render/kern_tables.h"
-
-#include "render/kern_body.h"

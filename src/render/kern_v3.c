@@ -1,7 +1,0 @@
-/* The span kernels for one instruction set; CMakeLists.txt gives the flags. */
-#define WR_KERN_TABLE wr_kern_v3
-#define WR_KERN_NAME "v3"
-#define WR_KERN_EXACT true
-#include "render/kern_tables.h"
-
-#include "render/kern_body.h"

@@ -1,3 +1,0 @@
-/* The wide kernels for one instruction set; CMakeLists.txt gives the flags. */
-#define WR_WIDE_TABLE wr_wide_v3
-#include "render/kern_wide_set_body.h"

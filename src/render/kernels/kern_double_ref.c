@@ -1,0 +1,9 @@
+/* The span kernels in double precision, one sample at a time; CMakeLists.txt gives the flags. */
+#define WR_KERN_PLAIN
+#define WR_KERN_DOUBLE
+#define WR_KERN_TABLE wr_kern_double_ref
+#define WR_KERN_NAME "ref"
+#define WR_KERN_EXACT true
+#include "render/kernels/kern_tables.h"
+
+#include "render/kernels/kern_body.h"

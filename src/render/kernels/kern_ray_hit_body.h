@@ -1,0 +1,260 @@
+/* kern_ray_hit_body.h - visibility in closed form. A part of kern_body.h. Each is written once for neighbours
+   in a row, whose rays differ by one addition, and for samples anywhere (spread). */
+
+/* The ray of sample i of the strip: of neighbours from (gx, gy) on, or wherever it stands. */
+typedef struct Ray {
+    VEC q, d;
+} Ray;
+
+ALWAYS Ray ray_of(const RAYS *rays, const STRIP *strip, int i, REAL gx, REAL gy, const bool spread)
+{
+    REAL x = spread ? strip->x[i] : gx + (REAL)i, y = spread ? strip->y[i] : gy;
+    return (Ray){ RAY_Q(rays, y, x), RAY_D(rays, y, x) };
+}
+
+/* |q + s d| = R. With m = q.d / d.d the foot of the perpendicular is f = q - m d, and
+   s = -m -+ sqrt((R^2 - f.f) / d.d): no difference of large squares. s is kept relative to the foot. Two
+   short loops: a processor looks only so far ahead, and the two roots wait for what comes before them. */
+ALWAYS int hit_sphere(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
+                      const bool spread, STRIP *strip)
+{
+    const REAL r = shape->value[0], r2 = r * r, s_min = rays->s_min;
+    REAL foot[WR_SPAN], part[WR_SPAN]; /* m; (R^2 - f.f) / d.d */
+    const int whole = WHOLE(count);
+    SIMD for (int i = 0; i < whole; i++)
+    {
+        Ray ray = ray_of(rays, strip, i, gx, gy, spread);
+        VEC q = ray.q, d = ray.d;
+        REAL dd = v_dot(d, d), m = v_dot(q, d) / dd;
+        VEC f = v_mad(q, d, -m);
+        REAL left = r2 - v_dot(f, f);
+        foot[i] = m;
+        part[i] = left / dd;
+        STORE3(strip, p, i, f);
+    }
+    SIMD for (int i = 0; i < whole; i++)
+    {
+        VEC d = ray_of(rays, strip, i, gx, gy, spread).d, f = LOAD3(strip, p, i);
+        REAL m = foot[i], half = r_sqrt(part[i] > 0.0f ? part[i] : 0.0f);
+        REAL near = -half - m > s_min ? -half : half;
+        strip->s[i] = part[i] >= 0.0f && near - m > s_min ? near : MISS;
+        VEC p = v_mad(f, d, near);
+        STORE3(strip, p, i, p);
+    }
+    return compact_points(count, spread, strip);
+}
+
+/* x^2 + y^2 = R^2, |z| <= H/2, open at both ends: the nearer root if it lies on the tube, else the other. */
+ALWAYS int hit_cylinder(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
+                        const bool spread, STRIP *strip)
+{
+    const REAL r = shape->value[0], r2 = r * r, top = 0.5f * shape->value[1];
+    const REAL s_min = rays->s_min;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        Ray ray = ray_of(rays, strip, i, gx, gy, spread);
+        VEC q = ray.q, d = ray.d;
+        REAL dd = d.x * d.x + d.y * d.y;
+        REAL inv = 1.0f / (dd > 1e-30f ? dd : 1.0f), m = (q.x * d.x + q.y * d.y) * inv;
+        REAL fx = q.x - m * d.x, fy = q.y - m * d.y;
+        REAL left = r2 - (fx * fx + fy * fy);
+        REAL half = r_sqrt((left > 0.0f ? left : 0.0f) * inv);
+        REAL s0 = -m - half, s1 = -m + half;
+        REAL z0 = r_abs(q.z + s0 * d.z), z1 = r_abs(q.z + s1 * d.z);
+        REAL second = z1 <= top && s1 > s_min ? s1 : MISS;
+        REAL s = z0 <= top && s0 > s_min ? s0 : second;
+        strip->s[i] = left >= 0.0f && dd > 1e-30f ? s : MISS;
+        VEC p = v_mad(q, d, s);
+        STORE3(strip, p, i, p);
+    }
+    return compact_points(count, spread, strip);
+}
+
+/* A ray about the cone's tip: x^2 + y^2 = k^2 w^2, k = R/H, w the depth under the tip. `foot` is its point
+   nearest the tip and m = -s there: roots are kept relative to it, so that nothing cancels however near the
+   tip rays pass (no w^2 is taken from a w^2). */
+typedef struct TipRay {
+    VEC foot; /* from the tip; z up */
+    REAL m;
+} TipRay;
+
+ALWAYS TipRay ray_of_tip(VEC q, VEC d, REAL top)
+{
+    VEC from = { q.x, q.y, q.z - top };
+    REAL m = v_dot(from, d) / v_dot(d, d);
+    return (TipRay){ v_mad(from, d, -m), m };
+}
+
+/* a s^2 + 2 b s + c = 0, roots in the stable form t / a and c / t with t = -(b +- root); root^2 =
+   b^2 - a c = (x k dz - k z dx)^2 + (y k dz - k z dy)^2 - (x dy - y dx)^2, the same without the products
+   that cancel. */
+ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
+                    const bool spread, STRIP *strip)
+{
+    const REAL h = shape->value[1], k = shape->value[0] / h, k2 = k * k, top = K_(0.5) * h;
+    const REAL s_min = rays->s_min;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        Ray ray = ray_of(rays, strip, i, gx, gy, spread);
+        VEC q = ray.q, d = ray.d;
+        TipRay tip = ray_of_tip(q, d, top);
+        VEC f = tip.foot;
+        REAL a = d.x * d.x + d.y * d.y - k2 * (d.z * d.z);
+        REAL b = f.x * d.x + f.y * d.y - k2 * (f.z * d.z);
+        REAL c = f.x * f.x + f.y * f.y - k2 * (f.z * f.z);
+        REAL ex = k * (f.x * d.z - f.z * d.x), ey = k * (f.y * d.z - f.z * d.y);
+        REAL ez = f.x * d.y - f.y * d.x;
+        REAL disc = ex * ex + ey * ey - ez * ez;
+        REAL root = r_sqrt(disc > 0.0f ? disc : 0.0f);
+        REAL t = b > 0.0f ? -b - root : -b + root;
+        REAL sa = a != 0.0f ? t / a : MISS, sc = t != 0.0f ? c / t : 0.0f;
+        REAL s0 = sa < sc ? sa : sc, s1 = sa < sc ? sc : sa;
+        REAL z0 = f.z + s0 * d.z, z1 = f.z + s1 * d.z;
+        REAL second = z1 <= 0.0f && z1 >= -h && s1 - tip.m > s_min ? s1 : MISS;
+        REAL s = z0 <= 0.0f && z0 >= -h && s0 - tip.m > s_min ? s0 : second;
+        strip->s[i] = disc >= 0.0f ? s : MISS;
+        VEC p = v_mad(f, d, s);
+        STORE3(strip, p, i, p);
+    }
+    return compact_points(count, spread, strip);
+}
+
+/* ---- from the point that the ray met: of round surfaces u, v and the frame, each only where it is asked for.
+   Points are the hits' own: of the cone from its tip. P and n come from one kernel whatever else is asked for, so that
+   they have the same bits. ---- */
+
+static inline REAL v_of_sphere(const SHAPE *shape, VEC p)
+{
+    (void)shape;
+    REAL a = r_atan2_turns(p.z, r_sqrt(p.x * p.x + p.y * p.y));
+    a = a > K_(0.5) ? a - K_(1) : a;
+    return K_(0.5) + K_(2) * a;
+}
+
+static inline REAL v_of_cylinder(const SHAPE *shape, VEC p)
+{
+    return K_(0.5) + p.z / shape->value[1];
+}
+
+static inline REAL v_of_cone(const SHAPE *shape, VEC p)
+{
+    return K_(1) + p.z / shape->value[1];
+}
+
+/* A surface's frame from a point, and its v of it. */
+typedef void FrameFrom(const SHAPE *shape, VEC p, POINT *at);
+typedef REAL VOf(const SHAPE *shape, VEC p);
+
+ALWAYS void params_strip(VOf *const v_of, const SHAPE *shape, STRIP *strip)
+{
+    const int count = WHOLE(strip->count);
+    SIMD for (int i = 0; i < count; i++)
+    {
+        VEC p = LOAD3(strip, p, i);
+        strip->u[i] = r_atan2_turns(p.y, p.x);
+        strip->v[i] = clamp01(v_of(shape, p));
+    }
+}
+
+ALWAYS void put_tangents(FrameFrom *const from, const SHAPE *shape, STRIP *strip, int i)
+{
+    POINT at;
+    from(shape, LOAD3(strip, p, i), &at);
+    STORE3(strip, pu, i, at.pu);
+    STORE3(strip, pv, i, at.pv);
+    strip->n_len[i] = at.n_len;
+}
+
+ALWAYS void tangents_strip(FrameFrom *const from, const SHAPE *shape, STRIP *strip)
+{
+    const int count = WHOLE(strip->count);
+    SIMD for (int i = 0; i < count; i++)
+    {
+        put_tangents(from, shape, strip, i);
+    }
+}
+
+ALWAYS void put_normal(FrameFrom *const from, const SHAPE *shape, STRIP *strip, int i)
+{
+    POINT at;
+    from(shape, LOAD3(strip, p, i), &at);
+    STORE3(strip, p, i, at.p);
+    STORE3(strip, n, i, at.n_unit);
+}
+
+ALWAYS void normals_strip(FrameFrom *const from, const SHAPE *shape, STRIP *strip)
+{
+    const int count = WHOLE(strip->count);
+    SIMD for (int i = 0; i < count; i++)
+    {
+        put_normal(from, shape, strip, i);
+    }
+}
+
+/* Each round surface's kernels. */
+#define ROUND_KERNELS(name)                                                                        \
+    FLAT static void kern_params_##name(const SHAPE *shape, STRIP *strip)                          \
+    {                                                                                              \
+        params_strip(v_of_##name, shape, strip);                                                   \
+    }                                                                                              \
+    FLAT static void kern_tangents_##name(const SHAPE *shape, STRIP *strip)                        \
+    {                                                                                              \
+        tangents_strip(FN(name##_from), shape, strip);                                             \
+    }                                                                                              \
+    FLAT static void kern_normals_##name(const SHAPE *shape, STRIP *strip)                         \
+    {                                                                                              \
+        normals_strip(FN(name##_from), shape, strip);                                              \
+    }
+ROUND_KERNELS(sphere)
+ROUND_KERNELS(cylinder)
+ROUND_KERNELS(cone)
+
+ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int count,
+                    const bool spread, STRIP *strip)
+{
+    const VEC o = { quad->origin[0], quad->origin[1], quad->origin[2] };
+    const VEC n = { quad->normal[0], quad->normal[1], quad->normal[2] };
+    const VEC eu = { quad->eu[0], quad->eu[1], quad->eu[2] };
+    const VEC ev = { quad->ev[0], quad->ev[1], quad->ev[2] };
+    const REAL s_min = rays->s_min;
+    const REAL u0 = quad->u0, u1 = quad->u1, v0 = quad->v0, v1 = quad->v1;
+    const REAL least = quad->least, most = quad->most;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        Ray ray = ray_of(rays, strip, i, gx, gy, spread);
+        VEC q = ray.q, d = ray.d;
+        REAL dn = v_dot(d, n);
+        REAL s = v_dot(v_sub(o, q), n) / dn; /* where dn is 0 none that counts */
+        VEC p = v_sub(v_mad(q, d, s), o);
+        REAL u = v_dot(p, eu), v = v_dot(p, ev);
+        bool in = (u >= u0) & (u <= u1) & (v >= v0) & (v <= v1);
+        bool met = (s > s_min) & (s < MISS) & (dn != 0.0f);
+        strip->u[i] = u > least ? (u < most ? u : most) : least;
+        strip->v[i] = v > least ? (v < most ? v : most) : least;
+        strip->s[i] = in & met ? s : MISS;
+    }
+    REAL *const move[] = { strip->u, strip->v, strip->x, strip->y };
+    return compact(count, strip, move, spread ? 4 : 2);
+}
+
+#define HITS(name, type, arg)                                                                      \
+    FLAT static int kern_hit_##name(const RAYS *rays, const type *arg, REAL gx, REAL gy,           \
+                                    int count, STRIP *strip)                                       \
+    {                                                                                              \
+        return hit_##name(rays, arg, gx, gy, count, false, strip);                                 \
+    }                                                                                              \
+    FLAT static int kern_hit_##name##_at(const RAYS *rays, const type *arg, int count,             \
+                                         STRIP *strip)                                             \
+    {                                                                                              \
+        return hit_##name(rays, arg, K_(0), K_(0), count, true, strip);                            \
+    }
+HITS(sphere, SHAPE, shape)
+HITS(cylinder, SHAPE, shape)
+HITS(cone, SHAPE, shape)
+HITS(quad, QUAD, quad)
+
+#define ROUND(name)                                                                                \
+    {                                                                                              \
+        kern_hit_##name, kern_hit_##name##_at, kern_params_##name, kern_tangents_##name,           \
+            kern_normals_##name                                                                    \
+    }

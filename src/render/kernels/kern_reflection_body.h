@@ -1,0 +1,165 @@
+/* kern_reflection_body.h - a lamp on strips of other models than Blinn-Phong's. A part of kern_body.h; the formulas are in
+   shade/reflection_body.h. After `light` and `view`; the colour picture's C is in the strip already. */
+
+ALWAYS Facets facets_of(const STRIP *strip, int i, bool spread, bool round, REAL a2)
+{
+    const VEC n = LOAD3(strip, b, i), none = { K_(0), K_(0), K_(0) };
+    if (!spread) return (Facets){ none, none, K_(0), K_(0), K_(0), K_(1), true };
+    return reflect_facets(n, LOAD3(strip, e, i), strip->see[i], strip->sef[i], strip->sff[i], round,
+                          a2);
+}
+
+/* left: as told. */
+ALWAYS Reflected reflect_at(const STRIP *strip, int i, const WrReflect model, const Form form,
+                            REAL left, const MATTER *m)
+{
+    const VEC n = LOAD3(strip, b, i), l = LOAD3(strip, l, i), v = LOAD3(strip, v, i);
+    const Facets wide = facets_of(strip, i, form.spread, form.round, m->alpha * m->alpha);
+    if (model == WR_REFLECT_PHONG) {
+        const REAL spread = form.spread ? strip->see[i] + strip->sff[i] : K_(0);
+        return reflect_phong(n, l, v, spread, form.kept, m);
+    }
+    if (model == WR_REFLECT_TORRANCE_SPARROW)
+        return reflect_torrance_sparrow(n, l, v, wide, form, m);
+    if (model == WR_REFLECT_OREN_NAYAR) return reflect_oren_nayar(n, l, v, form.kept, m);
+    return reflect_ggx(n, l, v, wide, form, left, m);
+}
+
+/* A lamp's colour, and the surface's own times kd. */
+typedef struct Shone {
+    REAL r, g, b, own_r, own_g, own_b;
+} Shone;
+
+ALWAYS Shone shone_of(const LIGHT *light, const MATTER *m)
+{
+    return (Shone){ light->rgb[0],        light->rgb[1],        light->rgb[2],
+                    m->kd * m->colour[0], m->kd * m->colour[1], m->kd * m->colour[2] };
+}
+
+/* What it adds to the sums of sample i. twice: also what facets throw at each other, of which `mean` is kept. */
+ALWAYS void add_reflected(Shone by, Reflected got, const bool twice, REAL mean, STRIP *strip, int i)
+{
+    REAL again_r = K_(0), again_g = K_(0), again_b = K_(0);
+    if (twice) {
+        again_r = got.again * reflect_kept(by.own_r * strip->cr[i], mean);
+        again_g = got.again * reflect_kept(by.own_g * strip->cg[i], mean);
+        again_b = got.again * reflect_kept(by.own_b * strip->cb[i], mean);
+    }
+    strip->dr[i] += by.r * (got.own + again_r);
+    strip->dg[i] += by.g * (got.own + again_g);
+    strip->db[i] += by.b * (got.own + again_b);
+    strip->sr[i] += by.r * got.white;
+    strip->sg[i] += by.g * got.white;
+    strip->sb[i] += by.b * got.white;
+}
+
+ALWAYS void reflect_strip(const LIGHT *light, const MATTER *matter, const WrReflect model,
+                          const Form form, STRIP *strip)
+{
+    const MATTER m = *matter;
+    const Shone by = shone_of(light, &m);
+    const bool twice = form.kept && model == WR_REFLECT_OREN_NAYAR;
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        const Reflected got = reflect_at(strip, i, model, form, K_(0), &m);
+        add_reflected(by, got, twice, m.mean, strip, i);
+    }
+}
+
+/* Models without facets know neither of the last two. */
+ALWAYS void reflect_as(const LIGHT *light, const MATTER *m, const WrReflect model, const bool kept,
+                       WrReflectSpread how, STRIP *strip)
+{
+    const bool facets = model == WR_REFLECT_GGX || model == WR_REFLECT_TORRANCE_SPARROW;
+    if (facets && how == WR_REFLECT_DULL)
+        reflect_strip(light, m, model, (Form){ .kept = kept, .facing = true, .dull = true }, strip);
+    else if (facets && how == WR_REFLECT_FACING)
+        reflect_strip(light, m, model, (Form){ .kept = kept, .facing = true }, strip);
+    else if (how == WR_REFLECT_LEAN)
+        reflect_strip(light, m, model, (Form){ .kept = kept, .spread = true }, strip);
+    else if (how == WR_REFLECT_ROUND)
+        reflect_strip(light, m, model, (Form){ .kept = kept, .spread = true, .round = true },
+                      strip);
+    else reflect_strip(light, m, model, (Form){ .kept = kept }, strip);
+}
+
+/* ---- what may be left out of a run (E37, E39, E40) ---- */
+
+/* Is n' of all samples seen from its front? Then nothing bends it. */
+FLAT static bool kern_faces(const STRIP *strip)
+{
+    const int count = strip->count;
+    int turned = 0;
+    SIMD_SUM(turned) for (int i = 0; i < count; i++)
+    {
+        turned += v_dot(LOAD3(strip, b, i), LOAD3(strip, v, i)) >= K_(WR_FACED_FROM) ? 0 : 1;
+    }
+    return turned == 0;
+}
+
+/* Do slopes spread nowhere? */
+FLAT static bool kern_gathered(const STRIP *strip)
+{
+    const int count = strip->count;
+    int wide = 0;
+    SIMD_SUM(wide) for (int i = 0; i < count; i++)
+    {
+        wide +=
+            (strip->suu[i] == K_(0)) & (strip->suv[i] == K_(0)) & (strip->svv[i] == K_(0)) ? 0 : 1;
+    }
+    return wide == 0;
+}
+
+#ifdef WR_KERN_PLAIN
+#define SIMD_SURVEY
+#else
+#define SIMD_SURVEY WR_PRAGMA(omp simd reduction(min : nv, vv, ll) reduction(max : na))
+#endif
+
+/* What directions of the samples are like: least n'.v, most n'.axis, least v.v0 and l.l0. */
+FLAT static void kern_survey(const REAL axis[3], const REAL v0[3], const REAL l0[3],
+                             const STRIP *strip, REAL out[4])
+{
+    const VEC a = { axis[0], axis[1], axis[2] }, to = { v0[0], v0[1], v0[2] };
+    const VEC from = { l0[0], l0[1], l0[2] };
+    const int count = strip->count;
+    REAL nv = K_(1), na = K_(-1), vv = K_(1), ll = K_(1);
+    SIMD_SURVEY for (int i = 0; i < count; i++)
+    {
+        const VEC n = LOAD3(strip, b, i), v = LOAD3(strip, v, i);
+        const REAL x = v_dot(n, v), y = v_dot(n, a), z = v_dot(v, to);
+        const REAL w = v_dot(LOAD3(strip, l, i), from);
+        nv = x < nv ? x : nv;
+        na = y > na ? y : na;
+        vv = z < vv ? z : vv;
+        ll = w < ll ? w : ll;
+    }
+    out[0] = nv, out[1] = na, out[2] = vv, out[3] = ll;
+}
+
+/* Highlights in the surface's colour to the share t. */
+FLAT static void kern_tint(REAL t, STRIP *strip)
+{
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        strip->dr[i] += t * strip->sr[i], strip->sr[i] -= t * strip->sr[i];
+        strip->dg[i] += t * strip->sg[i], strip->sg[i] -= t * strip->sg[i];
+        strip->db[i] += t * strip->sb[i], strip->sb[i] -= t * strip->sb[i];
+    }
+}
+
+#define REFLECT(name, MODEL, kept)                                                                 \
+    FLAT static void kern_##name##_##kept(const LIGHT *light, const MATTER *m,                     \
+                                          WrReflectSpread how, STRIP *strip)                       \
+    {                                                                                              \
+        reflect_as(light, m, MODEL, kept, how, strip);                                             \
+    }
+REFLECT(phong, WR_REFLECT_PHONG, 0)
+REFLECT(phong, WR_REFLECT_PHONG, 1)
+REFLECT(facets, WR_REFLECT_TORRANCE_SPARROW, 0)
+REFLECT(matt, WR_REFLECT_OREN_NAYAR, 0)
+REFLECT(matt, WR_REFLECT_OREN_NAYAR, 1)
+REFLECT(ggx, WR_REFLECT_GGX, 0)
+REFLECT(ggx, WR_REFLECT_GGX, 1)

@@ -1,0 +1,35 @@
+/* stage_displaced_body.h - the frame of a displaced surface where rays met its facets, or the relief. A part of pipeline_body.h. */
+
+/* The base's frame at u and v; P stays where the ray met the facet or the relief. */
+static void base_strip(const WrTileJob *job, int face, Strip *strip, Watch *watch)
+{
+    const size_t size = (size_t)strip->count * sizeof(REAL);
+    memcpy(strip->bx, strip->px, size);
+    memcpy(strip->by, strip->py, size);
+    memcpy(strip->bz, strip->pz, size);
+    KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
+    if (runs(job, WR_EFFECT_PARALLAX)) keep_lift(strip);
+    memcpy(strip->px, strip->bx, size);
+    memcpy(strip->py, strip->by, size);
+    memcpy(strip->pz, strip->bz, size);
+    if (job->dice) did(watch, WR_EFFECT_DISPLACED);
+    watch_lap(watch, WR_STAGE_GEOMETRY);
+}
+
+/* n' of a displaced surface is on the side of the facet that is seen, whichever side of the base that is. */
+static void face_viewer(const WrTileJob *job, const Rays *rays, Strip *strip)
+{
+    const REAL *at = rays->perspective ? rays->eye : rays->toward;
+    const REAL move = rays->perspective ? (REAL)1 : (REAL)0;
+    for (int i = 0; i < strip->count; i++) {
+        REAL n[3];
+        facet_of(&job->triangle_look, strip->triangle[i], n);
+        const REAL to = n[0] * (at[0] - move * strip->px[i]) +
+                        n[1] * (at[1] - move * strip->py[i]) + n[2] * (at[2] - move * strip->pz[i]);
+        const REAL along = n[0] * strip->bx[i] + n[1] * strip->by[i] + n[2] * strip->bz[i];
+        const REAL sign = to * along < (REAL)0 ? (REAL)-1 : (REAL)1;
+        strip->bx[i] *= sign;
+        strip->by[i] *= sign;
+        strip->bz[i] *= sign;
+    }
+}

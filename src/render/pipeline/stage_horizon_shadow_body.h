@@ -1,0 +1,67 @@
+/* stage_horizon_shadow_body.h - shadows that the relief throws on itself: a lamp is seen where it stands above the horizon of the
+   table in its direction (render/kernels/kern_horizon_body.h). A part of pipeline_body.h. */
+
+static WR_T(WrKernHorizon) horizon_of(const WrTileJob *job)
+{
+    const WrHorizon *h = job->horizon;
+    return (WR_T(WrKernHorizon)){ .slope = h->slope,
+                                  .open = job->opening->open,
+                                  .width = h->width,
+                                  .height = h->height,
+                                  .directions = h->directions,
+                                  .ru = (REAL)job->look_double.ru,
+                                  .rv = (REAL)job->look_double.rv,
+                                  .relief = (REAL)job->relief_height,
+                                  .steepest = (REAL)h->steepest };
+}
+
+/* Is what all of the samples see of the lamp known? */
+static bool recall_seen(const WrTileJob *job, const float *known, const Strip *s,
+                        REAL share[WR_SPAN], WrSeen *seen)
+{
+    int whole = 0, not = 0, told = 0;
+    for (int i = 0; i < s->count; i++) {
+        share[i] = (REAL)known[share_place(job, s, i)];
+        told += share[i] >= (REAL)0;
+        whole += !(share[i] < (REAL)1);
+        not += !(share[i] > (REAL)0);
+    }
+    *seen = whole == s->count ? WR_SEEN_WHOLE : not == s->count ? WR_SEEN_NOT : WR_SEEN_PART;
+    return told == s->count;
+}
+
+/* What the strip's samples see of a lamp. */
+static WrSeen seen_of(const WrTileJob *job, const WR_T(WrKernLight) * light, const Strip *s,
+                      REAL share[WR_SPAN], Watch *watch)
+{
+    const WR_T(WrKernHorizon) horizon = horizon_of(job);
+    float *known = job->lamps ? job->lamps[light - VIEWED(job->view, lights)].relief : NULL;
+    WrSeen seen;
+    if (known && recall_seen(job, known, s, share, &seen)) return seen;
+    did(watch, WR_EFFECT_SHADOW);
+    seen = KERNELS_OF(job)->shadow(light, &horizon, s, share);
+    for (int i = 0; i < s->count && known; i++) known[share_place(job, s, i)] = (float)share[i];
+    return seen;
+}
+
+/* The sums of the light so far, before a lamp adds to them. */
+typedef struct Sums {
+    REAL of[6][WR_SPAN];
+} Sums;
+
+static void keep_sums(const Strip *s, Sums *sums)
+{
+    const REAL *const from[6] = { s->dr, s->dg, s->db, s->sr, s->sg, s->sb };
+    for (int k = 0; k < 6; k++) memcpy(sums->of[k], from[k], (size_t)s->count * sizeof(REAL));
+}
+
+/* The lamp, which the strip has added, as far as it is seen. */
+static void shadow_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, const Sums *before,
+                         Strip *s, Watch *watch)
+{
+    REAL *const to[6] = { s->dr, s->dg, s->db, s->sr, s->sg, s->sb };
+    REAL share[WR_SPAN];
+    const bool any = seen_of(job, light, s, share, watch) != WR_SEEN_WHOLE;
+    for (int k = 0; k < 6 && any; k++) KERNELS_OF(job)->veil(share, before->of[k], s->count, to[k]);
+    watch_lap(watch, WR_STAGE_SHADOW);
+}

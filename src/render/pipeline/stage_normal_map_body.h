@@ -1,0 +1,245 @@
+/* stage_normal_map_body.h - the normal map: its slopes, or the vectors that it holds in axes of the place, as slopes that are
+   added to the table's. A part of pipeline_body.h. */
+
+/* ---- look-ups ------------------------------------------------------------------------------------ */
+
+/* Level 1 is the map itself (normal_mips.h), whose texels are not spread. */
+static void flush_map(const WrTileJob *job, const Batch *batch, Strip *strip,
+                      WrTileScratch *scratch, Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
+    (void)watch;
+    for (int i = 0; i < near->count; i++) near->level[i] = (REAL)1;
+    for (int i = 0; i < far->count; i++)
+        far->level[i] = (far->level[i] > (REAL)1 ? far->level[i] : (REAL)1) + (REAL)1;
+    if (near->count > 0) k->look_pyramid(MAP_OF(job), false, near);
+    if (far->count > 0) k->look_pyramid(MAP_OF(job), runs(job, WR_EFFECT_SPREAD), far);
+    sum_batch(batch, near, far, strip);
+    near->count = far->count = 0;
+}
+
+/* The same of vectors, which stand where slopes do. */
+static void flush_vectors(const WrTileJob *job, const Batch *batch, Strip *strip,
+                          WrTileScratch *scratch, Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    Strip *const both[2] = { NEAR_OF(scratch), FAR_OF(scratch) };
+    (void)watch;
+    for (int s = 0; s < 2; s++) {
+        Strip *at = both[s];
+        for (int i = 0; i < at->count; i++)
+            at->level[i] = s && at->level[i] > (REAL)1 ? at->level[i] + (REAL)1 : (REAL)(1 + s);
+        if (at->count > 0) k->colour_pyramid(MAP_OF(job), at);
+        for (int i = 0; i < at->count; i++) {
+            at->f[i] = at->cb[i], at->fu[i] = at->cr[i], at->fv[i] = at->cg[i];
+            at->suu[i] = at->suv[i] = at->svv[i] = 0;
+        }
+    }
+    sum_batch(batch, both[0], both[1], strip);
+    both[0]->count = both[1]->count = 0;
+}
+
+static void map_levels(const WrTileJob *job, const Rays *rays, Strip *strip)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const REAL last = (REAL)(MAP_OF(job)->pyramid->levels - 2);
+    if (job->plan->map_filtered) {
+        (met_whole(job) ? k->footprint_met : k->footprint)(rays, MAP_OF(job), 1, strip);
+        k->spread(MAP_OF(job), job->plan->map_anisotropic, strip);
+    }
+    for (int i = 0; i < strip->count; i++) {
+        if (!job->plan->map_filtered) strip->level[i] = 0, strip->taps[i] = 1;
+        else if (strip->level[i] > last) strip->level[i] = last;
+    }
+}
+
+/* ---- axes of a place ----------------------------------------------------------------------------- */
+
+typedef struct Axes {
+    VEC t, b, n;
+} Axes;
+
+static REAL length_of(VEC a)
+{
+    return (REAL)sqrt((double)v_dot(a, a));
+}
+
+/* 0 where it is 0. */
+static VEC unit_of(VEC a)
+{
+    const REAL length = length_of(a), inv = length > (REAL)0 ? (REAL)1 / length : (REAL)0;
+    return v_scale(a, inv);
+}
+
+static VEC read_vec(const float *from)
+{
+    return (VEC){ (REAL)from[0], (REAL)from[1], (REAL)from[2] };
+}
+
+/* What kernels know of a sample's place. */
+static VEC normal_of(const Strip *strip, int i)
+{
+    return (VEC){ strip->nx[i], strip->ny[i], strip->nz[i] };
+}
+
+static VEC along_u(const Strip *strip, int i)
+{
+    return (VEC){ strip->pux[i], strip->puy[i], strip->puz[i] };
+}
+
+static VEC along_v(const Strip *strip, int i)
+{
+    return (VEC){ strip->pvx[i], strip->pvy[i], strip->pvz[i] };
+}
+
+static Axes patch_axes(WrNormalFrame frame, const Strip *strip, int i)
+{
+    const VEC n = normal_of(strip, i);
+    const VEC pu = along_u(strip, i);
+    const VEC pv = along_v(strip, i);
+    if (frame == WR_FRAME_LECTURE) return (Axes){ unit_of(pu), unit_of(pv), n };
+    const VEC t = unit_of(v_mad(pu, n, -v_dot(pu, n)));
+    return (Axes){ t, v_cross(n, t), n };
+}
+
+/* The corner's place, in the kernels' unit, less `from`. */
+static VEC corner_from(const WrTriangleLook *look, int32_t corner, VEC from)
+{
+    const VEC p = read_vec(look->corners + 8 * (size_t)corner);
+    return v_sub(v_scale(p, (REAL)look->scale), from);
+}
+
+/* The shares of a triangle's second and third corner in the sample's place. */
+static void shares_of(const WrTriangleLook *look, const int32_t *corner, const Strip *strip, int i,
+                      REAL share[3])
+{
+    const VEC zero = { 0, 0, 0 }, a = corner_from(look, corner[0], zero);
+    const VEC e1 = corner_from(look, corner[1], a), e2 = corner_from(look, corner[2], a);
+    const VEC w = { strip->px[i] - a.x, strip->py[i] - a.y, strip->pz[i] - a.z };
+    const VEC cross = v_cross(e1, e2);
+    const REAL square = v_dot(cross, cross);
+    const REAL inv = square > (REAL)0 ? (REAL)1 / square : (REAL)0;
+    share[1] = v_dot(v_cross(w, e2), cross) * inv;
+    share[2] = v_dot(v_cross(e1, w), cross) * inv;
+    share[0] = (REAL)1 - share[1] - share[2];
+}
+
+/* Of a triangle: what its corners have, mixed. By MikkTSpace B is the cross product of the two as they come out. */
+static Axes triangle_axes(const WrTileJob *job, const Strip *strip, int i)
+{
+    const WrTriangleLook *look = &job->triangle_look;
+    const size_t triangle = (size_t)strip->triangle[i];
+    const int32_t *corner = look->triangles + 3 * triangle;
+    const float *frames = job->frames->corner + 3 * triangle * WR_CORNER_FRAME;
+    Axes out = { { 0, 0, 0 }, { 0, 0, 0 }, { 0, 0, 0 } };
+    REAL share[3];
+    shares_of(look, corner, strip, i, share);
+    for (int k = 0; k < 3; k++) {
+        const float *f = frames + k * WR_CORNER_FRAME, *c = look->corners + 8 * (size_t)corner[k];
+        out.t = v_mad(out.t, read_vec(f), share[k]);
+        out.b = v_mad(out.b, read_vec(f + 3), share[k]);
+        out.n = v_mad(out.n, read_vec(c + 3), share[k]);
+    }
+    if (job->plan->map_frame == WR_FRAME_LECTURE) {
+        /* the lecture divides each of the three by its length, N like T and B */
+        out.t = unit_of(out.t), out.b = unit_of(out.b), out.n = unit_of(out.n);
+    } else { /* b.x holds the sign */
+        out.b = v_scale(v_cross(out.n, out.t), out.b.x);
+    }
+    return out;
+}
+
+/* ---- from vectors to slopes ---------------------------------------------------------------------- */
+
+/* What a gradient is multiplied by, dot Pu and dot Pv, to be Fu and Fv. */
+static REAL slopes_per_gradient(const WrTileJob *job, const Strip *strip, int i, VEC g)
+{
+    const VEC n = normal_of(strip, i);
+    const VEC pu = along_u(strip, i);
+    const VEC pv = along_v(strip, i);
+    REAL k = (REAL)1;
+    if (met_whole(job)) { /* Pu and Pv are the gradients of v and u, laid across n; |N| is 1 */
+        const REAL along = v_dot(n, v_cross(pu, pv)), size = length_of(pu) * length_of(pv);
+        k = along > (REAL)1e-6 * size || -along > (REAL)1e-6 * size ? (REAL)1 / along : (REAL)0;
+    }
+    if (job->plan->bump == WR_BUMP_INVARIANT) {
+        const REAL gu = v_dot(g, pu), gv = v_dot(g, pv);
+        const REAL size = (REAL)sqrt((double)(gu * gu + gv * gv));
+        const REAL even = size > (REAL)0 ? length_of(g) / size : (REAL)0;
+        k = k < (REAL)0 ? -even : k > (REAL)0 ? even : (REAL)0;
+    }
+    return k;
+}
+
+/* The gradient whose normal is m: no steeper than reading leaves any. */
+static VEC gradient_of(VEC m, VEC n)
+{
+    const REAL z = v_dot(n, m), least = (REAL)WR_NORMAL_LEAST * length_of(m);
+    const REAL inv = z > least ? (REAL)-1 / z : least > (REAL)0 ? (REAL)-1 / least : (REAL)0;
+    return v_scale(v_mad(m, n, -z), inv);
+}
+
+/* What has become of the map's numbers of a sample goes into its slopes: p and q along t and b of the place, with their
+   covariance; or a vector of the object's axes, without. */
+static void turn_into_slopes(const WrTileJob *job, Strip *strip, int i)
+{
+    const WrNormalFrame frame = job->plan->map_frame;
+    const VEC n = normal_of(strip, i);
+    const VEC pu = along_u(strip, i);
+    const VEC pv = along_v(strip, i);
+    const VEC zero = { 0, 0, 0 };
+    const bool object = frame == WR_FRAME_OBJECT;
+    REAL p = strip->fu[i], q = strip->fv[i];
+    Axes at = { zero, zero, n };
+    if (!object) at = met_whole(job) ? triangle_axes(job, strip, i) : patch_axes(frame, strip, i);
+    if (!object && !(v_dot(at.t, at.t) > (REAL)0 && v_dot(at.b, at.b) > (REAL)0)) p = q = 0;
+    VEC m = v_mad(v_mad(at.n, at.t, -p), at.b, -q);
+    if (object) m = (VEC){ strip->fu[i], strip->fv[i], strip->f[i] };
+    VEC g = gradient_of(m, n);
+    if (object) g = v_scale(g, (REAL)job->scene->normals.strength);
+    const REAL k = slopes_per_gradient(job, strip, i, g);
+    strip->f[i] = 0;
+    strip->fu[i] = k * v_dot(g, pu);
+    strip->fv[i] = k * v_dot(g, pv);
+    /* to first order the axes carry the covariance over */
+    const REAL z = v_dot(at.n, n), by = z > (REAL)0 ? k / z : (REAL)0;
+    const REAL uu = by * v_dot(at.t, pu), uv = by * v_dot(at.b, pu);
+    const REAL vu = by * v_dot(at.t, pv), vv = by * v_dot(at.b, pv);
+    const REAL a = strip->suu[i], b = strip->suv[i], c = strip->svv[i];
+    strip->suu[i] = uu * uu * a + (REAL)2 * uu * uv * b + uv * uv * c;
+    strip->suv[i] = uu * vu * a + (uu * vv + uv * vu) * b + uv * vv * c;
+    strip->svv[i] = vu * vu * a + (REAL)2 * vu * vv * b + vv * vv * c;
+}
+
+/* ---- together ------------------------------------------------------------------------------------ */
+
+static void move_reals(REAL *to, const REAL *from, int count)
+{
+    memcpy(to, from, (size_t)count * sizeof *to);
+}
+
+/* Heights add where slopes add: the map's slopes, and what is spread about them, to what the strip has. That the two
+   may go together is left out of their covariance. What the strip has waits in the places of what `widen` fills. */
+static void look_map(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
+                     Watch *watch)
+{
+    REAL *const sums[] = { strip->f, strip->fu, strip->fv, strip->suu, strip->suv, strip->svv };
+    REAL *const kept[] = { strip->ex, strip->ey, strip->ez, strip->see, strip->sef, strip->sff };
+    const bool none = job->plan->source == WR_SOURCE_NONE, filtered = runs(job, WR_EFFECT_FILTER);
+    const WrNormalFrame frame = job->plan->map_frame;
+    did(watch, WR_EFFECT_NORMALS);
+    for (int c = 0; c < 6; c++) {
+        if (none || (c >= 3 && !filtered))
+            memset(kept[c], 0, (size_t)strip->count * sizeof *kept[c]);
+        else move_reals(kept[c], sums[c], strip->count);
+    }
+    map_levels(job, rays, strip);
+    look_along(job, rays, frame == WR_FRAME_OBJECT ? flush_vectors : flush_map, NULL, strip,
+               scratch, watch);
+    for (int i = 0; i < strip->count && frame != WR_FRAME_GRADIENT; i++)
+        turn_into_slopes(job, strip, i);
+    for (int c = 0; c < 6; c++)
+        for (int i = 0; i < strip->count; i++) sums[c][i] = kept[c][i] + sums[c][i];
+    watch_lap(watch, WR_STAGE_NORMALS);
+}

@@ -1,0 +1,296 @@
+/* stage_parallax_body.h - rays that go on from the base to the relief over its tangent plane (parallax.h). A part of
+   pipeline_body.h.
+
+   At t of its way d from the base a ray is g before the relief: side (rise t + bend t^2 - F), above 0 until it meets it.
+   Steps are no longer than g allows by the relief's steepest slopes, and no shorter than makes so many of them. */
+
+#define LAST_STEPS 8 /* every other one halves what is left, the others go by a straight line */
+
+/* The rays of a strip. */
+typedef struct March {
+    REAL a[WR_SPAN], b[WR_SPAN];         /* u and v move by them */
+    REAL rise[WR_SPAN], bend[WR_SPAN];   /* above the base, on the side that is seen; rise <= 0 */
+    REAL side[WR_SPAN];                  /* 1; of what is seen from behind -1 */
+    REAL from[WR_SPAN], to[WR_SPAN];     /* t: no farther than between them; then the last step */
+    REAL before[WR_SPAN], past[WR_SPAN]; /* g there */
+    REAL pace[WR_SPAN], least[WR_SPAN];  /* t by g, 0: not known; and t of the shortest step */
+    bool below[WR_SPAN];                 /* where it comes in, the surface ends */
+    REAL dx[WR_SPAN], dy[WR_SPAN], dz[WR_SPAN]; /* d, of any length; of shells alone */
+    bool misses[WR_SPAN];   /* where it goes out it has met nothing; then: it did */
+    int on[WR_SPAN], count; /* those that are on their way */
+    int met[WR_SPAN], met_count;
+} March;
+
+/* The first t that rise t + bend t^2 is h at. false: it never is; then where it comes nearest. */
+static bool reaches(REAL rise, REAL bend, REAL h, REAL *t)
+{
+    const REAL squared = rise * rise + 4 * bend * h;
+    const REAL down = rise - (REAL)sqrt((double)(squared > 0 ? squared : 0));
+    *t = down != 0 ? 2 * h / down : 0;
+    return squared >= 0;
+}
+
+/* No farther along an axis than it goes, or than half way round. */
+static void limit_axis(const WrParallax *p, int axis, REAL at, REAL move, int i, March *m)
+{
+    if (move == 0 && (p->closed[axis] || (at >= 0 && at <= 1))) return;
+    if (move == 0) {
+        m->to[i] = m->from[i], m->misses[i] = true;
+        return;
+    }
+    const int end = move > 0; /* where it leaves */
+    const REAL half = (REAL)0.5 / (REAL)fabs((double)move);
+    const REAL first = p->closed[axis] ? -half : ((REAL)(1 - end) - at) / move;
+    const REAL last = p->closed[axis] ? half : ((REAL)end - at) / move;
+    if (m->from[i] < first) m->from[i] = first, m->below[i] = p->ends[axis][1 - end];
+    if (m->to[i] > last) m->to[i] = last, m->misses[i] = p->ends[axis][end];
+}
+
+/* Where the ray enters and leaves the space that holds the relief. false: there is nothing to look for. */
+static bool limit_ray(const WrParallax *p, const Strip *s, int i, March *m)
+{
+    const REAL rise = m->rise[i], bend = m->bend[i];
+    const bool front = m->side[i] > 0;
+    const REAL top = (REAL)(front ? p->high : -p->low), bottom = (REAL)(front ? p->low : -p->high);
+    if (!reaches(rise, bend, top, &m->from[i]) && bend > 0) {
+        m->misses[i] = true;
+        return false;
+    }
+    if (!reaches(rise, bend, bottom, &m->to[i]) && bend > 0) {
+        m->to[i] = -rise / bend - m->from[i]; /* it goes out as it came in */
+        m->misses[i] = true;
+    }
+    limit_axis(p, 0, s->u[i], m->a[i], i, m);
+    limit_axis(p, 1, s->v[i], m->b[i], i, m);
+    if (m->from[i] < m->to[i]) return true;
+    m->misses[i] = m->misses[i] || m->below[i];
+    return false;
+}
+
+static REAL dot3(const REAL a[3], const REAL b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void ray_of(const Rays *rays, const Strip *s, int i, REAL d[3])
+{
+    for (int c = 0; c < 3; c++) d[c] = rays->d0[c] + s->x[i] * rays->dx[c] + s->y[i] * rays->dy[c];
+}
+
+/* Where a sample's ray goes over the base. false: u and v say nothing there. */
+static bool aim_ray(const WrParallax *p, const Rays *rays, const Strip *s, int i, March *m)
+{
+    const REAL pu[3] = { s->pux[i], s->puy[i], s->puz[i] };
+    const REAL pv[3] = { s->pvx[i], s->pvy[i], s->pvz[i] };
+    const REAL n[3] = { s->nx[i], s->ny[i], s->nz[i] };
+    const REAL nu[3] = { s->nux[i], s->nuy[i], s->nuz[i] };
+    const REAL nv[3] = { s->nvx[i], s->nvy[i], s->nvz[i] };
+    const REAL e = dot3(pu, pu), f = dot3(pu, pv), g = dot3(pv, pv), det = e * g - f * f;
+    REAL d[3], turn[3], way[3];
+    ray_of(rays, s, i, d);
+    const REAL du = dot3(d, pu), dv = dot3(d, pv), up = dot3(d, n);
+    m->side[i] = up > 0 ? -1 : 1;
+    m->rise[i] = m->side[i] * up;
+    m->a[i] = m->b[i] = m->bend[i] = 0;
+    if (!(det > 0)) return false;
+    m->a[i] = (g * du - f * dv) / det;
+    m->b[i] = (e * dv - f * du) / det;
+    for (int c = 0; c < 3 && p->bent; c++) {
+        turn[c] = m->a[i] * nu[c] + m->b[i] * nv[c];
+        way[c] = m->a[i] * pu[c] + m->b[i] * pv[c];
+    }
+    if (p->bent) m->bend[i] = m->side[i] * dot3(turn, way) / 2;
+    return true;
+}
+
+/* How fast a ray may go, and how short its steps may be: half a texel's, as far as there are enough of them. */
+static void pace_ray(const WrParallax *p, int i, March *m)
+{
+    const double a = fabs((double)m->a[i]), b = fabs((double)m->b[i]);
+    const double from = (double)m->from[i], to = (double)m->to[i];
+    const double turns =
+        fabs((double)m->rise[i]) + 2 * fabs((double)m->bend[i]) * fmax(fabs(from), fabs(to));
+    const double steep = (a > 0 ? p->steep[0] * a : 0) + (b > 0 ? p->steep[1] * b : 0);
+    const double texels = (to - from) * (a * p->texels[0] + b * p->texels[1]);
+    const double steps = p->texels[0] > 0 ? fmin(2 + 2 * texels, p->steps) : p->steps;
+    m->pace[i] = steep < INFINITY && turns + steep > 0 ? (REAL)(1 / (turns + steep)) : 0;
+    m->least[i] = (REAL)((to - from) / fmax(1, floor(steps)));
+}
+
+#include "render/pipeline/stage_parallax_shell_body.h"
+
+/* g at t of the rays in the list. */
+static void look_ahead(const WrTileJob *job, const Strip *s, const March *m, const int *list,
+                       int count, const REAL *t, REAL *g, WrTileScratch *scratch)
+{
+    Strip *near = NEAR_OF(scratch);
+    const bool shell = job->parallax.shell;
+    near->count = count;
+    for (int k = 0; k < count && !shell; k++) {
+        const int i = list[k];
+        near->u[k] = s->u[i] + t[i] * m->a[i];
+        near->v[k] = s->v[i] + t[i] * m->b[i];
+    }
+    if (shell) place_shell(job, s, m, list, count, t, near);
+    if (job->plan->source == WR_SOURCE_FORMULA) look_analytic(job, near);
+    else look_heights(job, near, scratch);
+    for (int k = 0; k < count; k++) {
+        const int i = list[k];
+        const REAL base =
+            shell ? m->side[i] * over_base(job, near, k) : t[i] * (m->rise[i] + t[i] * m->bend[i]);
+        g[i] = base - m->side[i] * near->f[k];
+    }
+}
+
+/* The strip's rays set out. One that is beneath the relief at once has come in below the border of a surface that ends, and
+   misses it, or stays where it is. t: where each of them ends, as far as it is known. */
+static void set_out(const WrTileJob *job, const Rays *rays, const Strip *s, March *m, REAL *t,
+                    WrTileScratch *scratch)
+{
+    const WrParallax *p = &job->parallax;
+    int left = 0;
+    m->count = m->met_count = 0;
+    for (int i = 0; i < s->count; i++) {
+        m->below[i] = m->misses[i] = false;
+        t[i] = 0;
+        if (!aim_ray(p, rays, s, i, m)) continue;
+        const bool goes = limit_ray(p, s, i, m);
+        t[i] = goes ? m->from[i] : m->to[i];
+        if (!goes) continue;
+        pace_ray(p, i, m);
+        m->on[m->count++] = i;
+    }
+    look_ahead(job, s, m, m->on, m->count, t, m->before, scratch);
+    for (int k = 0; k < m->count; k++) {
+        const int i = m->on[k];
+        if (m->before[i] > 0) m->on[left++] = i;
+        else m->misses[i] = m->below[i];
+    }
+    m->count = left;
+}
+
+/* One step of all that are on their way. */
+static void step_on(const WrTileJob *job, const Strip *s, March *m, REAL *t, REAL *g,
+                    WrTileScratch *scratch)
+{
+    int left = 0;
+    for (int k = 0; k < m->count; k++) {
+        const int i = m->on[k];
+        const REAL far = m->pace[i] * m->before[i];
+        t[i] = m->from[i] + (far > m->least[i] ? far : m->least[i]);
+        if (!(t[i] < m->to[i])) t[i] = m->to[i];
+    }
+    look_ahead(job, s, m, m->on, m->count, t, g, scratch);
+    for (int k = 0; k < m->count; k++) {
+        const int i = m->on[k];
+        const bool met = !(g[i] > 0), over = !(t[i] < m->to[i]);
+        if (met) {
+            m->to[i] = t[i], m->past[i] = g[i];
+            m->misses[i] = false;
+            m->met[m->met_count++] = i;
+        } else if (!over) {
+            m->from[i] = t[i], m->before[i] = g[i];
+            m->on[left++] = i;
+        }
+    }
+    m->count = left;
+}
+
+static REAL straight(const March *m, int i)
+{
+    const REAL all = m->before[i] - m->past[i];
+    return all > 0 ? m->from[i] + (m->to[i] - m->from[i]) * (m->before[i] / all) : m->to[i];
+}
+
+/* Where within their last step they met it. */
+static void close_in(const WrTileJob *job, const Strip *s, March *m, REAL *t, REAL *g,
+                     WrTileScratch *scratch)
+{
+    for (int step = 0; step <= LAST_STEPS; step++) {
+        for (int k = 0; k < m->met_count; k++) {
+            const int i = m->met[k];
+            t[i] = step % 2 ? (m->from[i] + m->to[i]) / 2 : straight(m, i);
+        }
+        if (step == LAST_STEPS || m->met_count == 0) break;
+        look_ahead(job, s, m, m->met, m->met_count, t, g, scratch);
+        for (int k = 0; k < m->met_count; k++) {
+            const int i = m->met[k];
+            if (g[i] > 0) m->from[i] = t[i], m->before[i] = g[i];
+            else m->to[i] = t[i], m->past[i] = g[i];
+        }
+    }
+}
+
+static REAL once_round(bool closed, REAL x)
+{
+    if (closed) return x - (REAL)floor((double)x);
+    return x > 0 ? (x < 1 ? x : 1) : 0;
+}
+
+/* Samples go to where their rays met the relief; those that met nothing are gone. s: the side that is seen. */
+static void move_samples(const WrTileJob *job, const Rays *rays, const March *m, const REAL *t,
+                         Strip *s)
+{
+    const WrParallax *p = &job->parallax;
+    const bool endless = job->view->endless;
+    int kept[WR_SPAN], count = 0;
+    for (int i = 0; i < s->count; i++) {
+        REAL d[3];
+        if (m->misses[i]) continue;
+        kept[count++] = i;
+        ray_of(rays, s, i, d);
+        s->px[i] += t[i] * d[0], s->py[i] += t[i] * d[1], s->pz[i] += t[i] * d[2];
+        s->s[i] = m->side[i];
+        if (p->shell) continue;
+        s->u[i] += t[i] * m->a[i], s->v[i] += t[i] * m->b[i];
+        if (endless) continue;
+        s->u[i] = once_round(p->closed[0], s->u[i]);
+        s->v[i] = once_round(p->closed[1], s->v[i]);
+    }
+    if (count < s->count) keep_samples(kept, count, s);
+    if (p->shell) round_of(job)->params(&VIEWED(job->view, shape), s);
+}
+
+/* The strip's samples from the base to the relief: their u, v, P. */
+static void meet_relief(const WrTileJob *job, const Rays *rays, int face, Strip *s,
+                        WrTileScratch *scratch, Watch *watch)
+{
+    const WrSurfaceKind kind = job->view->shape_d.kind;
+    March m;
+    REAL t[WR_SPAN], g[WR_SPAN];
+    if (s->count == 0) return;
+    if (job->parallax.shell) {
+        set_out_shell(job, rays, s, &m, t, scratch);
+    } else {
+        KERNELS_OF(job)->geometry[kind](&VIEWED(job->view, shape), face, s);
+        if (job->parallax.bent)
+            KERNELS_OF(job)->curvature[kind](&VIEWED(job->view, shape), face, s);
+        set_out(job, rays, s, &m, t, scratch);
+    }
+    while (m.count > 0) step_on(job, s, &m, t, g, scratch);
+    close_in(job, s, &m, t, g, scratch);
+    move_samples(job, rays, &m, t, s);
+    did(watch, WR_EFFECT_PARALLAX);
+    watch_lap(watch, WR_STAGE_PARALLAX);
+}
+
+/* How high over the base, which P is now, the rays met the relief: for what stands at its foot (stage_shadow_rays_body.h). */
+static void keep_lift(Strip *s)
+{
+    for (int i = 0; i < s->count; i++)
+        s->f[i] = (s->bx[i] - s->px[i]) * s->nx[i] + (s->by[i] - s->py[i]) * s->ny[i] +
+                  (s->bz[i] - s->pz[i]) * s->nz[i];
+}
+
+/* n' is on the side that the ray came from, whichever side of the base there that is. */
+static void face_ray(const Rays *rays, const REAL *side, Strip *s)
+{
+    const REAL *at = rays->perspective ? rays->eye : rays->toward;
+    const REAL move = rays->perspective ? (REAL)1 : (REAL)0;
+    for (int i = 0; i < s->count; i++) {
+        const REAL to = s->nx[i] * (at[0] - move * s->px[i]) +
+                        s->ny[i] * (at[1] - move * s->py[i]) + s->nz[i] * (at[2] - move * s->pz[i]);
+        const REAL sign = (to < 0) == (side[i] < 0) ? (REAL)1 : (REAL)-1;
+        s->bx[i] *= sign, s->by[i] *= sign, s->bz[i] *= sign;
+    }
+}

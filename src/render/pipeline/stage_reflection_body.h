@@ -1,0 +1,118 @@
+/* stage_reflection_body.h - a lamp by other models than Blinn-Phong's: what of it a run of samples can be spared. A part of
+   pipeline_body.h. */
+
+/* What another model's kernels go by. */
+static WR_T(WrKernMatter) matter_of(const WrMatter *m)
+{
+    WR_T(WrKernMatter) out = { .kd = (REAL)m->kd, .ks = (REAL)m->ks };
+    for (int c = 0; c < 3; c++) out.colour[c] = (REAL)m->colour[c];
+    out.shininess = (REAL)m->shininess, out.scale = (REAL)m->scale, out.alpha = (REAL)m->alpha;
+    out.ior = (REAL)m->ior, out.f0 = (REAL)m->f0, out.metal = (REAL)m->metal;
+    out.a = (REAL)m->a, out.b = (REAL)m->b;
+    out.mean = (REAL)m->mean, out.again = (REAL)m->again;
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++) out.albedo[i] = (REAL)m->albedo[i];
+    return out;
+}
+
+/* The kernel of a model that is not made of stages; NULL: it is. */
+static WR_T(WrReflectKernel) reflect_of(const WrTileJob *job)
+{
+    const WrEnergy energy = job->plan->kept ? WR_ENERGY_KEPT : WR_ENERGY_PUBLISHED;
+    return KERNELS_OF(job)->reflect[job->plan->model][energy];
+}
+
+/* Of a lamp's light, how bright a highlight is that `dials faint=` lets go; 0: none is. */
+static REAL least_of(const WrTileJob *job, const WR_T(WrKernLight) * light)
+{
+    const double most =
+        fmax((double)light->rgb[0], fmax((double)light->rgb[1], (double)light->rgb[2]));
+    return most > 0 ? (REAL)(job->plan->faint / most) : (REAL)0;
+}
+
+/* Are highlights as wide as the material has them, in the whole run? (E39; after bend_strip) */
+static bool is_narrow(const WrTileJob *job, const Strip *strip)
+{
+    if (!runs(job, WR_EFFECT_SPREAD)) return true;
+    return !runs(job, WR_EFFECT_WIDENED) && strip->gathered;
+}
+
+static double chord_of(double cosine)
+{
+    return sqrt(fmax(0, 2 - 2 * cosine)) + 1e-3; /* and what rounding takes of the cosine */
+}
+
+/* The most that a highlight can be over a run (E37). S0 = l0 + v0 is S = l + v of one sample; no other is farther from it than
+   e, so h is within y = asin(e / |S0|) of the axis, and n' no nearer to h than x - y, x its angle to the axis:
+     D is at most that of this angle,   V (n.l) at most 1 / (2 sqrt(a^2 + (1 - a^2) (n.v)^2)),   G / (n.v) at most 1 / (n.v),
+     F at most f0 + (1 - f0) (1 - v.h)^5 of v.h = (|S0| - e) / 2. */
+static double most_of(const WR_T(WrKernMatter) * m, bool schlick, double length,
+                      const REAL found[4])
+{
+    const double e = chord_of((double)found[2]) + chord_of((double)found[3]);
+    const double nv = (double)found[0], a2 = (double)m->alpha * (double)m->alpha;
+    if (!(e < 0.5 * length)) return INFINITY;
+    const double cx = fmin((double)found[1] + 1e-6, 1), sx = sqrt(1 - cx * cx);
+    const double sy = e / length, cy = sqrt(1 - sy * sy); /* the angles' sines and cosines */
+    if (!(cx < cy)) return INFINITY;
+    const double off = 1 - fmax(0, fmin(0.5 * (length - e), 1)), p = off * off * off * off * off;
+    const double c = fmax(0, cx * cy + sx * sy), w = a2 * c * c + 1 - c * c;
+    const double f0 = (double)m->f0, metal = (double)m->metal, f = f0 + (1 - f0) * p;
+    const double d = (double)m->ks * a2 / (w * w);
+    if (!schlick) return d * (double)m->scale / nv;
+    return d * 0.5 / sqrt(a2 + (1 - a2) * nv * nv) * (f * (1 - metal) + metal);
+}
+
+/* Is every sample's highlight below `least`, for certain? *faces: is n' of all seen from its front? */
+static bool is_faint(const WrTileJob *job, const WR_T(WrKernMatter) * m, const Strip *strip,
+                     bool *faces)
+{
+    const int mid = strip->count / 2;
+    const REAL v0[3] = { strip->vx[mid], strip->vy[mid], strip->vz[mid] };
+    const REAL l0[3] = { strip->lx[mid], strip->ly[mid], strip->lz[mid] };
+    REAL axis[3], found[4], sum = 0;
+    for (int k = 0; k < 3; k++) axis[k] = v0[k] + l0[k], sum += axis[k] * axis[k];
+    const double length = sqrt((double)sum);
+    for (int k = 0; k < 3; k++) axis[k] = length > 0 ? axis[k] / (REAL)length : 0;
+    KERNELS_OF(job)->survey(axis, v0, l0, strip, found);
+    *faces = (double)found[0] >= WR_FACED_FROM;
+    return *faces &&
+           most_of(m, job->plan->model == WR_REFLECT_GGX, length, found) < 0.999 * (double)m->least;
+}
+
+/* How facets are worked out in this run (E37, E39, E40). */
+static WrReflectSpread form_of(const WrTileJob *job, const WR_T(WrKernMatter) * matter,
+                               const Strip *strip)
+{
+    bool faces = false;
+    if (!is_narrow(job, strip)) return job->plan->lean ? WR_REFLECT_LEAN : WR_REFLECT_ROUND;
+    if (runs(job, WR_EFFECT_VARIED) || runs(job, WR_EFFECT_FACED) ||
+        !wr_reflects[job->plan->model].facets)
+        return WR_REFLECT_AS_IT_IS;
+    if (matter->least > 0 && is_faint(job, matter, strip, &faces)) return WR_REFLECT_DULL;
+    if (matter->least > 0 ? faces : KERNELS_OF(job)->faces(strip)) return WR_REFLECT_FACING;
+    return WR_REFLECT_AS_IT_IS;
+}
+
+/* What one light adds, by another model than Blinn-Phong's. Returns whether its highlight was spared. */
+static bool reflect_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip,
+                          Watch *watch)
+{
+    WR_T(WrKernMatter) matter = matter_of(&job->matter);
+    const bool shines = runs(job, WR_EFFECT_SPECULAR);
+    matter.least = least_of(job, light);
+    const WrReflectSpread how = form_of(job, &matter, strip);
+    if (runs(job, WR_EFFECT_VARIED))
+        KERNELS_OF(job)->reflect_vary(light, &matter, VARY_OF(job), job->plan->model,
+                                      job->plan->kept, how, strip);
+    else reflect_of(job)(light, &matter, how, strip);
+    if (runs(job, WR_EFFECT_DIFFUSE)) did(watch, WR_EFFECT_DIFFUSE);
+    if (shines) did(watch, WR_EFFECT_SPECULAR);
+    if (runs(job, WR_EFFECT_KEPT)) did(watch, WR_EFFECT_KEPT);
+    if (runs(job, WR_EFFECT_FACED)) did(watch, WR_EFFECT_FACED);
+    if (runs(job, WR_EFFECT_FAINT)) did(watch, WR_EFFECT_FAINT);
+    did(watch, WR_EFFECT_MODEL);
+    watch_lap(watch, shines ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
+    keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
+    keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
+    return how == WR_REFLECT_DULL;
+}

@@ -1,0 +1,75 @@
+/* stage_relight_store_body.h - what light looks at of a strip's samples, noted, and where what they see of lamps is kept (relight_cache.h). A
+   part of pipeline_body.h. */
+
+/* The strip's numbers of a group, so many, into `out`. */
+static int numbers_of(Strip *s, WrRelightGroup group, REAL *out[6])
+{
+    REAL *const all[][6] = { [WR_RELIGHT_BENT] = { s->bx, s->by, s->bz },
+                             [WR_RELIGHT_POINTS] = { s->px, s->py, s->pz },
+                             [WR_RELIGHT_PLACES] = { s->u, s->v },
+                             [WR_RELIGHT_NORMALS] = { s->nx, s->ny, s->nz },
+                             [WR_RELIGHT_TANGENTS] = { s->pux, s->puy, s->puz, s->pvx, s->pvy,
+                                                       s->pvz },
+                             [WR_RELIGHT_SPREAD] = { s->ex, s->ey, s->ez, s->see, s->sef, s->sff },
+                             [WR_RELIGHT_TRIANGLE] = { NULL } };
+    int count = 0;
+    while (count < 6 && all[group][count]) {
+        out[count] = all[group][count];
+        count++;
+    }
+    return count;
+}
+
+/* The sample of the grid that sample i of the strip is. */
+static int sample_x(const Strip *s, int i)
+{
+    return (int)(s->x[i] + (REAL)0.5);
+}
+
+static int sample_y(const Strip *s, int i)
+{
+    return (int)(s->y[i] + (REAL)0.5);
+}
+
+static size_t share_place(const WrTileJob *job, const Strip *s, int i)
+{
+    const WrRelight *steady = job->noting ? job->noting : job->steady;
+    return wr_relight_place(steady, sample_x(s, i), sample_y(s, i));
+}
+
+/* Nothing is known any more of what the sample sees of lamps: it shows a nearer object than before. */
+static void forget_shares(const WrTileJob *job, size_t place)
+{
+    for (int i = 0; i < job->view->light_count && job->lamps; i++) {
+        const WrRelightLamp *lamp = &job->lamps[i];
+        if (lamp->cast) lamp->cast[place] = -1;
+        if (lamp->relief) lamp->relief[place] = -1;
+    }
+}
+
+/* All that light looks at, before it does. */
+static void note_known(const WrTileJob *job, Strip *strip)
+{
+    const WrRelight *steady = job->noting;
+    size_t at[WR_SPAN];
+    int done = 0;
+    for (int i = 0; i < strip->count; i++) {
+        const int x = sample_x(strip, i), y = sample_y(strip, i);
+        const size_t place = wr_relight_place(steady, x, y);
+        at[i] = wr_relight_at(steady, x, y);
+        if (steady->owner[place]) forget_shares(job, place);
+        steady->owner[place] = (unsigned char)(job->object + 1);
+    }
+    for (int g = 0; g < WR_RELIGHT_GROUPS; g++) {
+        REAL *from[6];
+        if (!(steady->groups & WR_RELIGHT_BIT(g))) continue;
+        const int count = numbers_of(strip, (WrRelightGroup)g, from);
+        for (int k = 0; k < count; k++, done++)
+            for (int i = 0; i < strip->count; i++)
+                steady->numbers[at[i] + (size_t)done * WR_RELIGHT_BLOCK] = (float)from[k][i];
+        if (g != WR_RELIGHT_TRIANGLE) continue;
+        for (int i = 0; i < strip->count; i++) /* whole numbers below 2^24, as rasters have them */
+            steady->numbers[at[i] + (size_t)done * WR_RELIGHT_BLOCK] = (float)strip->triangle[i];
+        done++;
+    }
+}

@@ -1,0 +1,87 @@
+/* stage_shadow_rays_body.h - lamps that objects hide from one another and from themselves (shadow_rays.h). A part of pipeline_body.h. */
+
+/* The facet's normal times its area, twice. */
+static void facet_of(const WrTriangleLook *look, int32_t triangle, REAL n[3])
+{
+    const int32_t *corner = look->triangles + 3 * (size_t)triangle;
+    const float *a = look->corners + 8 * (size_t)corner[0];
+    const float *b = look->corners + 8 * (size_t)corner[1];
+    const float *c = look->corners + 8 * (size_t)corner[2];
+    REAL e[3], f[3];
+    for (int k = 0; k < 3; k++) e[k] = (REAL)(b[k] - a[k]), f[k] = (REAL)(c[k] - a[k]);
+    n[0] = e[1] * f[2] - e[2] * f[1];
+    n[1] = e[2] * f[0] - e[0] * f[2];
+    n[2] = e[0] * f[1] - e[1] * f[0];
+}
+
+/* The normal of the facet or of the surface, on the side that is seen, of the object as light sees it. */
+static WrVec3 seen_normal(const WrTileJob *job, const Strip *s, int i, WrVec3 p)
+{
+    const WrView *view = job->view;
+    const WrRaysd *rays = &view->lit.rays_d;
+    WrVec3 n = { (double)s->nx[i], (double)s->ny[i], (double)s->nz[i] };
+    if (job->dice) n = (WrVec3){ (double)s->bx[i], (double)s->by[i], (double)s->bz[i] };
+    if (met_whole(job) && !job->scene->triangles->patches) {
+        REAL facet[3];
+        facet_of(&job->triangle_look, s->triangle[i], facet);
+        n = (WrVec3){ (double)facet[0], (double)facet[1], (double)facet[2] };
+    }
+    const WrVec3 cofactor = { view->cofactor[0], view->cofactor[1], view->cofactor[2] };
+    const WrVec3 at = rays->perspective
+                          ? (WrVec3){ rays->eye[0] - p.x, rays->eye[1] - p.y, rays->eye[2] - p.z }
+                          : (WrVec3){ rays->toward[0], rays->toward[1], rays->toward[2] };
+    if (view->stretched) n = v3_times(n, cofactor);
+    n = v3_unit(n, v3_unit(at, n));
+    return v3_dot(n, at) < 0 ? v3_neg(n) : n;
+}
+
+/* Where shadow rays start: of a displaced surface at P + F n, not on a facet of the view's; what parallax shows stands on its
+   base, which is what throws shadows. */
+static WrVec3 start_of(const WrTileJob *job, int face, const Strip *s, int i)
+{
+    const WrVec3 n = { (double)s->nx[i], (double)s->ny[i], (double)s->nz[i] };
+    const WrVec3 p = { (double)s->px[i], (double)s->py[i], (double)s->pz[i] };
+    if (runs(job, WR_EFFECT_PARALLAX)) return v3_mad(p, n, -(double)s->f[i]);
+    if (!job->dice) return p;
+    WrSurfacePoint at;
+    wr_surface_at(&job->view->shape_d, face, (double)s->u[i], (double)s->v[i], &at);
+    return v3_mad(at.p, at.n_unit, (double)s->f[i]);
+}
+
+/* What sample i sees of the lamp past objects: 0..1. */
+static REAL cast_share(const WrTileJob *job, const WrKernLightd *lamp, const Strip *s, int i,
+                       int face)
+{
+    const WrVec3 where = { lamp->where[0], lamp->where[1], lamp->where[2] };
+    const WrVec3 p = start_of(job, face, s, i);
+    const WrVec3 way = v3_sub(where, p);
+    const double away = lamp->point ? v3_len(way) * job->cast_unit : INFINITY;
+    const WrVec3 l = lamp->point ? v3_unit(way, (WrVec3){ 0, 0, 1 }) : where;
+    return (REAL)wr_shadow_rays_share(job->cast, job->cast_count, v3_scale(p, job->cast_unit),
+                                      seen_normal(job, s, i, p), l, away, lamp->radius);
+}
+
+/* The lamp, which the strip has added, as far as no object hides it. */
+static void cast_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, const Sums *before,
+                       Strip *s, Watch *watch)
+{
+    const ptrdiff_t at = light - VIEWED(job->view, lights);
+    const WrKernLightd *lamp = &job->view->lights_d[at];
+    float *known = job->lamps ? job->lamps[at].cast : NULL;
+    REAL *const to[6] = { s->dr, s->dg, s->db, s->sr, s->sg, s->sb };
+    bool asked = !job->steady; /* else what is known is only put to use */
+    for (int i = 0; i < s->count && lamp->shadow; i++) {
+        bool adds = false;
+        for (int k = 0; k < 6; k++) adds |= to[k][i] != before->of[k][i];
+        if (!adds) continue;
+        float *kept = known ? &known[share_place(job, s, i)] : NULL;
+        const bool told = kept && *kept >= 0;
+        const REAL share = told ? (REAL)*kept : cast_share(job, lamp, s, i, watch->scratch->face);
+        if (kept) *kept = (float)share;
+        asked |= !told;
+        for (int k = 0; k < 6 && share < 1; k++)
+            to[k][i] = before->of[k][i] + share * (to[k][i] - before->of[k][i]);
+    }
+    if (asked) did(watch, WR_EFFECT_CAST);
+    watch_lap(watch, WR_STAGE_CAST);
+}

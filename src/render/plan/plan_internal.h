@@ -1,0 +1,101 @@
+/* plan_internal.h - what the files of the plan's rows share, and what of it the view goes by.
+   Layer 5, private to src/render. */
+#pragma once
+#include "render/plan/plan.h"
+#include "scene/scene.h"
+
+/* Beyond this r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
+#define WR_WIDE_FROM 1024.0
+
+static inline WrVerdict say(WrVerdict call, const char **why, const char *reason)
+{
+    *why = reason;
+    return call;
+}
+
+static inline bool runs(const WrPlan *plan, WrEffect effect)
+{
+    return wr_plan_runs(plan, effect);
+}
+
+static inline bool light_shines(const WrLight *light)
+{
+    const WrVec3 c = light->colour;
+    return light->strength != 0 && (c.x != 0 || c.y != 0 || c.z != 0);
+}
+
+static inline const WrSurfaceInfo *surface_of(const WrPlanAsk *ask)
+{
+    return wr_surfaces[ask->scene->shape.kind];
+}
+
+static inline bool wants_filter(const WrDials *dials)
+{
+    return dials->aa == WR_AA_FILTER || dials->aa == WR_AA_MOMENTS;
+}
+
+/* Does the solid texture drive roughness? Where a picture tells it, that does. */
+static inline bool grain_roughens(const WrScene *scene)
+{
+    return scene->grain.kind != WR_SOLID_TEXTURE_OFF &&
+           scene->grain.drives & WR_SOLID_TEXTURE_ROUGHENS &&
+           !scene->facets[WR_FACET_ROUGHNESS].image && wr_reflects[scene->material.model].roughness;
+}
+
+/* Does the material's roughness change from place to place? */
+static inline bool roughens(const WrScene *scene)
+{
+    return grain_roughens(scene) || (scene->facets[WR_FACET_ROUGHNESS].image &&
+                                     wr_reflects[scene->material.model].roughness);
+}
+
+static inline bool metal_varies(const WrScene *scene)
+{
+    return scene->material.model == WR_REFLECT_GGX && scene->facets[WR_FACET_METALNESS].image;
+}
+
+/* Is it of metal everywhere, which has no diffuse reflection? */
+static inline bool all_metal(const WrScene *scene)
+{
+    return scene->material.model == WR_REFLECT_GGX && scene->material.metalness == 1 &&
+           !metal_varies(scene);
+}
+
+/* Does light of surroundings depend on n'? */
+bool wr_plan_surround_turns(const WrPlan *plan, const WrScene *scene);
+
+/* Is what is mirrored blurred as widely as each sample calls for? */
+bool wr_plan_graded(const WrPlan *plan, const WrScene *scene);
+
+/* Does anything depend on n'? */
+static inline bool lit(const WrPlan *plan, const WrPlanAsk *ask)
+{
+    return runs(plan, WR_EFFECT_DIFFUSE) || runs(plan, WR_EFFECT_SPECULAR) || ask->facts.normals ||
+           wr_plan_surround_turns(plan, ask->scene);
+}
+
+static inline bool still(const WrScene *scene)
+{
+    return scene->replicate_u == 0 && scene->replicate_v == 0;
+}
+
+/* As WrEffectInfo has them; these are in plan_light.c, plan_reflection.c, plan_environment.c, plan_visibility.c, plan_runs.c, plan_samples.c and plan_maps.c. */
+typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
+typedef void WrSettle(WrPlan *plan, const WrPlanAsk *ask);
+WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
+    wr_decide_steady, wr_decide_parameters, wr_decide_tangents, wr_decide_hidden, wr_decide_between,
+    wr_decide_beside, wr_decide_dark, wr_decide_ground, wr_decide_colour, wr_decide_tint,
+    wr_decide_smooth, wr_decide_blocks, wr_decide_horizon, wr_decide_normals, wr_decide_diffuse,
+    wr_decide_specular, wr_decide_model, wr_decide_shadow, wr_decide_cast, wr_decide_occlusion,
+    wr_decide_filter, wr_decide_surround, wr_decide_harmonics, wr_decide_mirror, wr_decide_blur,
+    wr_decide_displaced, wr_decide_parallax, wr_decide_exact, wr_decide_curvature, wr_decide_grain,
+    wr_decide_octaves, wr_decide_faded, wr_decide_embossed, wr_decide_facets, wr_decide_varied,
+    wr_decide_samples, wr_decide_bound, wr_decide_kept, wr_decide_widened, wr_decide_faced,
+    wr_decide_faint;
+WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr_settle_normals,
+    wr_settle_facets, wr_settle_facets, wr_settle_model, wr_settle_cast, wr_settle_occlusion,
+    wr_settle_harmonics, wr_settle_blur, wr_settle_displaced, wr_settle_parallax, wr_settle_exact,
+    wr_settle_curvature, wr_settle_grain, wr_settle_samples, wr_settle_kept, wr_settle_faint;
+
+/* Which formula turns the normal: the scene's, or, of a displaced surface, its own normal's. */
+WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanAsk *ask);

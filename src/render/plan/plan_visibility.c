@@ -1,0 +1,189 @@
+/* What the plan decides about how rays meet the surface, and what of it is worked out there. */
+#include "render/plan/plan_internal.h"
+
+#include "scene/scene.h"
+#include "surface/triangles.h"
+
+/* ---- visibility ---- */
+
+static bool is_closed(const WrPlanAsk *ask)
+{
+    const WrSurfaceInfo *info = surface_of(ask);
+    if (info->held) return ask->scene->triangles && ask->scene->triangles->closed;
+    return info->convex_closed || (info->closed_u && info->closed_v);
+}
+
+static bool is_held(const WrPlanAsk *ask)
+{
+    return surface_of(ask)->inversion == WR_INVERT_TRIANGLES;
+}
+
+WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_RUN, why, "a displaced surface may fold: its back can be seen");
+    if (!is_closed(ask))
+        return say(WR_VERDICT_RUN, why, "the surface is open: its back can be seen");
+    if (!ask->facts.outside)
+        return say(WR_VERDICT_RUN, why, "the eye may be inside the body: its inner walls are seen");
+    return say(WR_VERDICT_SPARED, why, "a closed body seen from outside hides its own back");
+}
+
+WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_RUN, why, "facets of the displaced surface hide others");
+    if (surface_of(ask)->inversion != WR_INVERT_MESH && !is_held(ask))
+        return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
+    if (ask->facts.sighted || ask->facts.steady)
+        return say(WR_VERDICT_SPARED, why, "the view rests: what it looks at is known");
+    return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
+}
+
+void wr_settle_depth(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->inversion =
+        runs(plan, WR_EFFECT_DISPLACED) ? WR_INVERT_TRIANGLES : surface_of(ask)->inversion;
+    if (plan->inversion == WR_INVERT_MESH) plan->mesh = ask->dials->mesh;
+}
+
+WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (plan->inversion == WR_INVERT_TRIANGLES)
+        return say(WR_VERDICT_NONE, why,
+                   "rays meet triangles in closed form, and patches near them in a few steps");
+    if (plan->inversion != WR_INVERT_MESH)
+        return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
+    if (ask->facts.sighted || ask->facts.steady)
+        return say(WR_VERDICT_SPARED, why, "the view rests: u and v are known");
+    return say(WR_VERDICT_RUN, why, "this surface has no closed inverse");
+}
+
+void wr_settle_newton(WrPlan *plan, const WrPlanAsk *ask)
+{
+    if (!runs(plan, WR_EFFECT_NEWTON)) return;
+    plan->newton = ask->dials->newton;
+    plan->texels = ask->dials->texels;
+}
+
+WrVerdict wr_decide_perspective(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (ask->scene->camera.orthographic)
+        return say(WR_VERDICT_NONE, why, "the camera is orthographic");
+    return say(WR_VERDICT_RUN, why, "the camera is in perspective");
+}
+
+/* Not under a bound, which looks at blocks of texels beyond those that the picture reads. */
+WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_RUN, why, "an edit moves the displaced surface: facets are new");
+    if (!ask->facts.rests || runs(plan, WR_EFFECT_BOUND))
+        return say(WR_VERDICT_RUN, why, "a new picture: every tile is rendered");
+    return say(WR_VERDICT_SPARED, why, "the view rests: only tiles that an edit reached are new");
+}
+
+WrVerdict wr_decide_steady(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
+    const char *told = ask->facts.steady_told;
+    if (ask->facts.steady) return say(WR_VERDICT_SPARED, why, told);
+    return say(WR_VERDICT_RUN, why, told ? told : "points and normals are new");
+}
+
+/* ---- what of the surface ---- */
+
+static bool is_round(const WrPlanAsk *ask)
+{
+    const WrInversion inversion = surface_of(ask)->inversion;
+    return inversion == WR_INVERT_SPHERE || inversion == WR_INVERT_CYLINDER ||
+           inversion == WR_INVERT_CONE;
+}
+
+WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_RUN, why, "the displaced surface's frame goes by them");
+    if (runs(plan, WR_EFFECT_PARALLAX) && is_round(ask))
+        return say(WR_VERDICT_RUN, why, "rays go on from there to the relief");
+    if (!is_round(ask) && !is_held(ask))
+        return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
+    if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR) ||
+        runs(plan, WR_EFFECT_NORMALS) || runs(plan, WR_EFFECT_OCCLUSION) ||
+        runs(plan, WR_EFFECT_FACETS))
+        return say(WR_VERDICT_RUN, why, "table, formula or a picture is looked up there");
+    if (plan->grain != WR_SOLID_TEXTURE_OFF && plan->sampling == WR_SAMPLING_ADAPTIVE)
+        return say(WR_VERDICT_RUN, why, "how fine the solid texture is in a pixel goes by them");
+    if (runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_BOUND))
+        return say(WR_VERDICT_RUN, why, "second derivatives or bounds go by them");
+    return say(WR_VERDICT_SPARED, why, "nothing is looked up at u and v");
+}
+
+WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (runs(plan, WR_EFFECT_DISPLACED) || runs(plan, WR_EFFECT_PARALLAX) ||
+        (!is_round(ask) && !is_held(ask)))
+        return say(WR_VERDICT_NONE, why, "the surface's formula gives them with the point");
+    if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
+    if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))
+        return say(WR_VERDICT_RUN, why, "slopes turn the normal along them");
+    if (runs(plan, WR_EFFECT_TINT))
+        return say(WR_VERDICT_RUN, why, "the colour picture's footprints go by them");
+    if (plan->facets_filtered)
+        return say(WR_VERDICT_RUN, why, "footprints of pictures of roughness go by them");
+    if (runs(plan, WR_EFFECT_BOUND)) return say(WR_VERDICT_RUN, why, "bounds go by them");
+    return say(WR_VERDICT_SPARED, why, "no slope turns the normal");
+}
+
+/* ---- among several objects ---- */
+
+WrVerdict wr_decide_hidden(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
+    return say(WR_VERDICT_SPARED, why,
+               "objects are drawn from the front; where one fills a tile, what lies behind is not");
+}
+
+WrVerdict wr_decide_between(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
+    return say(WR_VERDICT_RUN, why, "objects may hide others where their outlines meet");
+}
+
+WrVerdict wr_decide_horizon(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (!wr_shape_endless(&ask->scene->shape))
+        return say(WR_VERDICT_NONE, why, "the surface ends, and so does what a pixel holds of it");
+    if (ask->scene->camera.orthographic)
+        return say(WR_VERDICT_NONE, why, "parallel rays: every pixel holds as much of the plane");
+    return say(WR_VERDICT_RUN, why, "the plane goes on to the horizon, where it fades");
+}
+
+/* ---- of a mesh out of a file ---- */
+
+static const char not_held[] = "the surface is no mesh out of a file";
+
+WrVerdict wr_decide_smooth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrTriangles *mesh = ask->scene->triangles;
+    (void)plan;
+    if (!is_held(ask)) return say(WR_VERDICT_NONE, why, not_held);
+    if (!plan->normals) return say(WR_VERDICT_SPARED, why, "no light depends on the normal");
+    if (mesh && mesh->patches) return say(WR_VERDICT_RUN, why, "normals are those of the patches");
+    if (!mesh || mesh->faceted)
+        return say(WR_VERDICT_SPARED, why, "the three normals of each triangle are the same");
+    return say(WR_VERDICT_RUN, why, "the normals of triangles' corners differ");
+}
+
+WrVerdict wr_decide_blocks(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!is_held(ask)) return say(WR_VERDICT_NONE, why, not_held);
+    if (runs(plan, WR_EFFECT_BACK))
+        return say(WR_VERDICT_RUN, why, "backs are drawn: blocks that look away may be seen");
+    return say(WR_VERDICT_SPARED, why,
+               "blocks whose normals all look away from the eye hold backs alone");
+}

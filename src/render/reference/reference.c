@@ -1,0 +1,292 @@
+#include "render/reference/reference.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "render/frame/frame.h"
+#include "render/reference/reference_shadow_rays.h"
+#include "render/reference/reference_parallax.h"
+#include "scene/objects.h"
+#include "system/clock.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SIZE_MAX_PIXELS 4096
+#define SAMPLES_MAX 64
+
+/* The objects that are shown: of each sample the nearest is seen. */
+typedef struct Set {
+    WrReferenceStage stage[WR_OBJECTS_MAX];
+    WrScene *part[WR_OBJECTS_MAX]; /* own */
+    WrReferenceCaster casters[WR_OBJECTS_MAX];
+    int count;
+} Set;
+
+/* One picture of k x k samples a pixel. */
+typedef struct Pass {
+    const Set *set;
+    const WrReferenceRequest *request;
+    int k;
+    double *rgba;   /* [height][width][4] */
+    double *normal; /* [height][width][3], or NULL: known already */
+    int64_t *lost;  /* [height] */
+} Pass;
+
+/* What changed from one picture to the next, of a row. */
+typedef struct Change {
+    double squares, most;
+    int64_t covered;
+} Change;
+
+static bool wanted(const WrReferenceRequest *request, int x, int y)
+{
+    if (!request->only) return true;
+    const int across = (request->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
+    return request->only[y / WR_FRAME_BLOCK * across + x / WR_FRAME_BLOCK] != 0;
+}
+
+/* The sum of `count` values, in pairs; they are used up. */
+static double pair_sum(double *values, int count)
+{
+    for (; count > 1; count = (count + 1) / 2) {
+        for (int i = 0; i < count / 2; i++) values[i] = values[2 * i] + values[2 * i + 1];
+        if (count % 2) values[count / 2] = values[count - 1];
+    }
+    return count > 0 ? values[0] : 0;
+}
+
+static const WrReferenceShare all = { 0, 1 };
+
+/* Of light from all sides each of a pixel's k x k samples takes a k-th: that of a lattice which has each part at k places,
+   spread evenly. */
+static WrReferenceShare share_of(int k, int i, int j)
+{
+    const int step = (int)(0.382 * k) | 1;
+    return k < 4 ? all : (WrReferenceShare){ (i + step * j) % k, k };
+}
+
+static bool sample_set(const Set *set, double x, double y, WrReferenceShare share,
+                       WrReferenceSample *out)
+{
+    bool any = false;
+    for (int i = 0; i < set->count; i++) {
+        WrReferenceSample sample;
+        if (!wr_reference_sample(&set->stage[i], x, y, share, &sample)) continue;
+        if (any && !(sample.depth < out->depth)) continue;
+        any = true;
+        *out = sample;
+    }
+    return any;
+}
+
+/* The mean of k x k intensities, premultiplied, and how many of them hit. */
+static void sample_pixel(const Pass *pass, int x, int y, double rgba[4], int64_t *lost)
+{
+    const int k = pass->k;
+    double sums[3][SAMPLES_MAX], row[3][SAMPLES_MAX];
+    double hits = 0;
+    for (int j = 0; j < k; j++) {
+        for (int i = 0; i < k; i++) {
+            WrReferenceSample sample = { .rgb = { 0, 0, 0 } };
+            if (sample_set(pass->set, x + (i + 0.5) / k, y + (j + 0.5) / k, share_of(k, i, j),
+                           &sample)) {
+                hits += sample.cover;
+                *lost += sample.lost;
+            }
+            for (int c = 0; c < 3; c++) row[c][i] = sample.rgb[c];
+        }
+        for (int c = 0; c < 3; c++) sums[c][j] = pair_sum(row[c], k);
+    }
+    for (int c = 0; c < 3; c++) rgba[c] = pair_sum(sums[c], k) / (k * k);
+    rgba[3] = hits / (k * k);
+}
+
+static void render_row(int y, int worker, void *ctx)
+{
+    (void)worker;
+    const Pass *pass = ctx;
+    const WrReferenceRequest *request = pass->request;
+    const size_t row = (size_t)y * (size_t)request->width;
+    for (int x = 0; x < request->width; x++) {
+        if (wr_cancel_asked(request->cancel)) return;
+        if (!wanted(request, x, y)) continue;
+        sample_pixel(pass, x, y, pass->rgba + 4 * (row + (size_t)x), &pass->lost[y]);
+        WrReferenceSample centre;
+        if (!pass->normal || !sample_set(pass->set, x + 0.5, y + 0.5, all, &centre)) continue;
+        double *n = pass->normal + 3 * (row + (size_t)x);
+        n[0] = centre.normal.x, n[1] = centre.normal.y, n[2] = centre.normal.z;
+    }
+}
+
+static Change compare_row(const double *a, const double *b, int width)
+{
+    Change change = { 0 };
+    for (int x = 0; x < width; x++, a += 4, b += 4) {
+        if (a[3] == 0 && b[3] == 0) continue;
+        change.covered++;
+        for (int c = 0; c < 3; c++) {
+            const double d = fabs(a[c] - b[c]);
+            change.squares += d * d;
+            change.most = d > change.most ? d : change.most;
+        }
+    }
+    return change;
+}
+
+/* RMS and largest difference of two pictures over the pixels that either covers. */
+static void compare(const WrReferenceRequest *request, const double *a, const double *b,
+                    WrReference *out)
+{
+    double *squares = wr_alloc((size_t)request->height, sizeof *squares);
+    int64_t covered = 0;
+    out->last_max = 0;
+    for (int y = 0; y < request->height; y++) {
+        const size_t row = 4 * (size_t)y * (size_t)request->width;
+        const Change change = compare_row(a + row, b + row, request->width);
+        squares[y] = change.squares;
+        covered += change.covered;
+        out->last_max = fmax(out->last_max, change.most);
+    }
+    const double sum = pair_sum(squares, request->height);
+    out->last_rms = covered > 0 ? sqrt(sum / (3 * (double)covered)) : 0;
+    wr_free(squares);
+}
+
+static bool check(const WrReferenceRequest *request, WrError *err)
+{
+    if (request->width < 1 || request->height < 1 || request->width > SIZE_MAX_PIXELS ||
+        request->height > SIZE_MAX_PIXELS)
+        return wr_fail(err, "reference picture %dx%d: each side must be 1..%d", request->width,
+                       request->height, SIZE_MAX_PIXELS);
+    const int first = request->first, most = request->most;
+    if (first < 0 || first > SAMPLES_MAX || (first & (first - 1)) != 0)
+        return wr_fail(err, "reference: %d samples a side to begin with: must be 1, 2, 4 .. %d",
+                       first, SAMPLES_MAX);
+    if (most < 0 || most > SAMPLES_MAX || (most > 0 && most < first))
+        return wr_fail(err, "reference: %d samples a side at most: must be %d..%d", most,
+                       first > 0 ? first : 1, SAMPLES_MAX);
+    if (!(request->change_rms >= 0))
+        return wr_fail(err, "reference: change %g: must be 0 or above", request->change_rms);
+    return true;
+}
+
+/* One picture at k into `rgba`, which is cleared first. */
+static bool render_pass(const Set *set, const WrReferenceRequest *request, int k, WrPool *pool,
+                        WrReference *out, double *rgba, WrError *err)
+{
+    Pass pass = { set, request, k, rgba, out->normal, NULL };
+    if (out->samples > 0) pass.normal = NULL; /* the first picture found the normals */
+    memset(rgba, 0, 4 * (size_t)request->width * (size_t)request->height * sizeof *rgba);
+    pass.lost = wr_alloc((size_t)request->height, sizeof *pass.lost);
+    wr_pool_run(pool, request->height, render_row, &pass);
+    out->lost = 0;
+    for (int y = 0; y < request->height; y++) out->lost += pass.lost[y];
+    wr_free(pass.lost);
+    if (wr_cancel_asked(request->cancel)) return wr_fail(err, "cancelled");
+    out->samples = k;
+    return true;
+}
+
+/* Without a limit of the caller's: a ray takes ten times as long where the surface is displaced, or has parallax. */
+static int most_of(const WrReferenceRequest *request)
+{
+    bool displaced = false;
+    for (int i = 0; i < wr_scene_object_count(request->scene); i++)
+        displaced = displaced || wr_reference_displaced(wr_scene_object(request->scene, i)) ||
+                    wr_reference_has_parallax(wr_scene_object(request->scene, i));
+    const int own = displaced ? 16 : 32;
+    return request->most > 0 ? request->most : request->first > own ? 64 : own;
+}
+
+/* Doubles k until the picture stands still or the limit is reached. */
+static bool refine(const Set *set, const WrReferenceRequest *request, WrPool *pool,
+                   WrReference *out, WrError *err)
+{
+    const int most = most_of(request);
+    int k = request->first > 0 ? request->first : 4;
+    while (k > most) k /= 2;
+    const size_t pixels = (size_t)request->width * (size_t)request->height;
+    double *finer = NULL;
+    if (2 * k <= most) {
+        finer = wr_try_alloc(pixels, 4 * sizeof *finer, "the reference's picture", err);
+        if (!finer) return false;
+    }
+    bool good = render_pass(set, request, k, pool, out, out->rgba, err);
+    while (good && !out->converged && 2 * out->samples <= most) {
+        good = render_pass(set, request, 2 * out->samples, pool, out, finer, err);
+        if (!good) break;
+        compare(request, out->rgba, finer, out);
+        double *coarse = out->rgba;
+        out->rgba = finer, finer = coarse;
+        out->converged = out->last_rms < request->change_rms;
+    }
+    if (out->last_rms == 0) out->converged = true; /* of a last doubling, not NAN */
+    wr_free(finer);
+    return good;
+}
+
+static bool make_set(Set *set, const WrReferenceRequest *request, WrPool *pool, WrError *err)
+{
+    const WrScene *scene = request->scene;
+    bool good = true;
+    for (int i = 0; i < wr_scene_object_count(scene) && good; i++) {
+        if (!wr_scene_shows(scene, i, (double)request->width / request->height)) continue;
+        const WrField *own = request->fields ? request->fields[i] : NULL;
+        WrScene *part = wr_scene_part(scene, i, (double)request->width / request->height);
+        set->part[set->count] = part;
+        good = wr_reference_stage_init(&set->stage[set->count++], own ? own : request->field, part,
+                                       request->turn_deg, request->width, request->height, true,
+                                       pool, err) &&
+               wr_reference_stage_raise(&set->stage[set->count - 1], own ? own : request->field,
+                                        pool, err);
+    }
+    for (int i = 0; i < set->count && good; i++) {
+        wr_reference_caster(&set->casters[i], &set->stage[i]);
+        set->stage[i].casters = set->casters, set->stage[i].caster_count = set->count;
+    }
+    return good;
+}
+
+static void free_set(Set *set)
+{
+    for (int i = 0; i < set->count; i++) {
+        wr_reference_stage_fini(&set->stage[i]);
+        wr_scene_free(set->part[i]);
+    }
+    wr_free(set);
+}
+
+bool wr_reference_render(const WrReferenceRequest *request, WrPool *pool, WrReference *out,
+                         WrError *err)
+{
+    const double started = wr_clock_seconds();
+    if (!check(request, err)) return false;
+    WrReference made = {
+        .width = request->width, .height = request->height, .last_rms = NAN, .last_max = NAN
+    };
+    const size_t pixels = (size_t)request->width * (size_t)request->height;
+    Set *set = wr_alloc(1, sizeof *set);
+    made.rgba = wr_try_alloc(pixels, 4 * sizeof *made.rgba, "the reference's picture", err);
+    if (made.rgba)
+        made.normal = wr_try_alloc(pixels, 3 * sizeof *made.normal, "the reference's normals", err);
+    bool good =
+        made.normal && make_set(set, request, pool, err) && refine(set, request, pool, &made, err);
+    free_set(set);
+    if (!good) {
+        wr_reference_fini(&made);
+        return false;
+    }
+    made.seconds = wr_clock_seconds() - started;
+    wr_reference_fini(out);
+    *out = made;
+    return true;
+}
+
+void wr_reference_fini(WrReference *reference)
+{
+    wr_free(reference->rgba);
+    wr_free(reference->normal);
+    *reference = (WrReference){ 0 };
+}

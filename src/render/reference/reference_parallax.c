@@ -1,0 +1,184 @@
+#include "render/reference/reference_parallax.h"
+
+#include "field/field.h"
+#include "render/visibility/parallax.h"
+
+#include <math.h>
+
+#define PER_CELL 6 /* steps */
+#define LEAST 48   /* of a whole way */
+#define MOST 6000  /* likewise */
+#define HALVINGS 48
+
+/* A ray over the base that it met: place(t) = base + t (a, b), height(t) = t (rise + t bend). */
+typedef struct Way {
+    const WrReferenceStage *stage;
+    double u, v, a, b, rise, bend, side;
+    double first, last; /* t */
+    bool opens, leaves; /* it comes in, or goes out, where there is no relief any more */
+} Way;
+
+bool wr_reference_has_parallax(const WrScene *scene)
+{
+    return scene->parallax && !wr_reference_displaced(scene) && scene->height != 0 &&
+           !wr_shape_without_parallax(&scene->shape);
+}
+
+/* The spline through a table stays within its range and as much again on both sides. */
+void wr_reference_parallax_init(WrReferenceStage *stage, const WrField *field,
+                                const double cells[2])
+{
+    const WrScene *scene = stage->scene;
+    const WrAnalytic *formula = &scene->analytic;
+    double low = 0, high = 0;
+    if (formula->kind != WR_ANALYTIC_OFF) {
+        for (int k = 0; k < formula->count; k++) high += fabs(formula->terms[k].a);
+        low = -high;
+    } else {
+        float least, most;
+        wr_field_range(field, &least, &most);
+        const double range = (double)most - (double)least;
+        low = (double)least - range, high = (double)most + range;
+    }
+    stage->parallax = true;
+    stage->view.beyond = wr_surfaces[scene->shape.kind]->inversion == WR_INVERT_PLANE;
+    stage->lowest = fmin(low * scene->height, high * scene->height);
+    stage->highest = fmax(low * scene->height, high * scene->height);
+    stage->cells[0] = cells[0], stage->cells[1] = cells[1];
+}
+
+/* Is the end of an axis a place where the surface ends, rather than a point of it? */
+static bool ends_there(const WrShape *shape, bool across, double end)
+{
+    WrSurfacePoint p, q;
+    wr_surface_at(shape, 0, across ? 0.23 : end, across ? end : 0.23, &p);
+    wr_surface_at(shape, 0, across ? 0.71 : end, across ? end : 0.71, &q);
+    const double apart = v3_len(v3_sub(p.p, q.p));
+    return apart > 1e-9 * (v3_len(p.p) + v3_len(q.p));
+}
+
+static double above(const Way *w, double t)
+{
+    double f, fu, fv;
+    wr_reference_height(w->stage, w->u + t * w->a, w->v + t * w->b, &f, &fu, &fv);
+    return t * (w->rise + t * w->bend) - w->side * f;
+}
+
+/* t where the height is h, on the way down. false: it is not that low, or not that high, anywhere. */
+static bool down_to(const Way *w, double h, double *t)
+{
+    const double part = w->rise * w->rise + 4 * w->bend * h;
+    const double root = sqrt(fmax(part, 0));
+    /* t = (-rise - root) / (2 bend), without what cancels */
+    *t = root - w->rise > 0 ? -2 * h / (root - w->rise) : 0;
+    return part >= 0;
+}
+
+static void clip(Way *w, const WrShape *shape, bool across)
+{
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    const double at = across ? w->v : w->u, move = across ? w->b : w->a;
+    const bool round = across ? info->closed_v : info->closed_u;
+    if (move == 0 && !round && (at < 0 || at > 1)) w->last = w->first, w->leaves = true;
+    if (move == 0) return;
+    const double far = round ? at + copysign(0.5, move) : move > 0 ? 1 : 0;
+    const double near = round ? at - copysign(0.5, move) : move > 0 ? 0 : 1;
+    if ((near - at) / move > w->first) {
+        w->first = (near - at) / move;
+        w->opens = !round && ends_there(shape, across, near);
+    }
+    if ((far - at) / move < w->last) {
+        w->last = (far - at) / move;
+        w->leaves = !round && ends_there(shape, across, far);
+    }
+}
+
+/* false: it passes by. */
+static bool limit(Way *w, const WrShape *shape)
+{
+    const double high = w->side > 0 ? w->stage->highest : -w->stage->lowest;
+    const double low = w->side > 0 ? w->stage->lowest : -w->stage->highest;
+    if (!down_to(w, high, &w->first) && w->bend > 0) return false;
+    w->leaves = !down_to(w, low, &w->last) && w->bend > 0;
+    if (w->leaves) w->last = -w->rise / w->bend - w->first;
+    clip(w, shape, false);
+    clip(w, shape, true);
+    return true;
+}
+
+/* The first t where the ray is not above the relief. */
+static bool meet(const Way *w, double *t)
+{
+    const double all = w->last - w->first;
+    const double cells =
+        fabs(w->a) * all * w->stage->cells[0] + fabs(w->b) * all * w->stage->cells[1];
+    const int steps = (int)fmin(fmax(LEAST, ceil(PER_CELL * cells)), MOST);
+    double from = w->first;
+    *t = from;
+    if (!(all > 0)) {
+        *t = w->last;
+        return !w->leaves && !w->opens;
+    }
+    if (above(w, from) <= 0) return !w->opens;
+    for (int k = 1; k <= steps; k++) {
+        double to = w->first + all * k / steps;
+        if (above(w, to) > 0) {
+            from = to;
+            continue;
+        }
+        for (int half = 0; half < HALVINGS; half++) {
+            const double mid = (from + to) / 2;
+            if (above(w, mid) > 0) from = mid;
+            else to = mid;
+        }
+        *t = to;
+        return true;
+    }
+    *t = w->last;
+    return !w->leaves;
+}
+
+static double within(bool round, double x)
+{
+    return round ? x - floor(x) : fmin(fmax(x, 0), 1);
+}
+
+/* at: the base's point at the hit. */
+static bool go_on(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit,
+                  WrSurfacePoint *at, double *side)
+{
+    const WrSurfaceInfo *info = stage->view.info;
+    const double e = v3_dot(at->pu, at->pu), f = v3_dot(at->pu, at->pv), g = v3_dot(at->pv, at->pv);
+    const double du = v3_dot(ray->d, at->pu), dv = v3_dot(ray->d, at->pv), det = e * g - f * f;
+    const double up = v3_dot(ray->d, at->n_unit);
+    double t;
+    *side = up > 0 ? -1 : 1;
+    if (!(det > 0)) return true;
+    Way w = { .stage = stage, .u = hit->u, .v = hit->v, .side = *side, .rise = *side * up };
+    w.a = (g * du - f * dv) / det, w.b = (e * dv - f * du) / det;
+    const WrVec3 way = v3_add(v3_scale(at->pu, w.a), v3_scale(at->pv, w.b));
+    const WrVec3 turn = v3_add(v3_scale(at->n_u, w.a), v3_scale(at->n_v, w.b));
+    w.bend = *side * v3_dot(turn, way) / 2;
+    if (info->flat) w.bend = 0;
+    if (!limit(&w, stage->view.shape) || !meet(&w, &t)) return false;
+    hit->s += t;
+    hit->u = within(info->closed_u, w.u + t * w.a), hit->v = within(info->closed_v, w.v + t * w.b);
+    const WrVec3 p = v3_mad(at->p, ray->d, t);
+    wr_reference_view_at(&stage->view, hit, at);
+    at->p = p;
+    return true;
+}
+
+bool wr_reference_parallax(const WrReferenceStage *stage, const WrReferenceRay *ray,
+                           WrReferenceHit *hit, WrSurfacePoint *at, double *side)
+{
+    if (!wr_parallax_has_shell(stage->view.shape)) {
+        if (!wr_reference_view_hit(&stage->view, ray, hit)) return false;
+        wr_reference_view_at(&stage->view, hit, at);
+        return go_on(stage, ray, hit, at, side);
+    }
+    if (!wr_reference_shell(stage, ray, hit, side)) return false;
+    wr_reference_view_at(&stage->view, hit, at);
+    at->p = v3_mad(ray->q, ray->d, hit->s);
+    return true;
+}

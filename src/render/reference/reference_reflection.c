@@ -1,0 +1,157 @@
+#include "render/reference/reference_reflection.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* A lamp's and the viewer's place by the normal that facets go by. */
+typedef struct Facing {
+    double nl, nv, nh, vh;
+    double c, s; /* cosine and sine of the angle between n and h */
+} Facing;
+
+static double dot(WrVec3 a, WrVec3 b)
+{
+    return v3_dot(a, b);
+}
+
+static WrVec3 unit_of(WrVec3 a)
+{
+    return v3_scale(a, 1 / sqrt(dot(a, a)));
+}
+
+/* The policy of normals that bump turned away from the viewer. */
+static WrVec3 bent_back(WrVec3 n, WrVec3 v)
+{
+    const double short_of = 1e-3 - dot(n, v);
+    return short_of > 0 ? unit_of(v3_mad(n, v, short_of)) : n;
+}
+
+/* False where facets send nothing. */
+static bool face(WrVec3 n, WrVec3 l, WrVec3 v, Facing *out)
+{
+    const WrVec3 seen = bent_back(n, v), sum = v3_add(l, v);
+    if (!(dot(sum, sum) > 1e-12) || !(dot(n, l) > 0) || !(dot(seen, l) > 0)) return false;
+    const WrVec3 h = unit_of(sum), across = v3_cross(seen, h);
+    *out = (Facing){ .nl = dot(seen, l), .nv = dot(seen, v), .nh = dot(seen, h), .vh = dot(v, h) };
+    const double side = sqrt(dot(across, across)), whole = sqrt(side * side + out->nh * out->nh);
+    out->c = out->nh / whole, out->s = side / whole;
+    return true;
+}
+
+/* Blinn 1977 after Cook's way of writing Fresnel's: g^2 = ior^2 + c^2 - 1. */
+static double fresnel(double c, double ior)
+{
+    const double gg = ior * ior + c * c - 1;
+    if (gg < 0) return 1;
+    if (ior == 1) return 0;
+    const double g = sqrt(gg), a = (g - c) / (g + c), b = (c * (g + c) - 1) / (c * (g - c) + 1);
+    return fmin(0.5 * a * a * (1 + b * b), 1);
+}
+
+static double phong(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
+{
+    const double nl = dot(n, l);
+    if (!(nl > 0)) return 0;
+    const WrVec3 r = v3_sub(v3_scale(n, 2 * nl), l), off = v3_sub(r, v);
+    const double c = dot(r, v), s = m->shininess;
+    const double strength = energy == WR_ENERGY_KEPT ? nl * (s + 2) / 2 : 1;
+    if (s == 0) return m->ks * strength;
+    if (!(c > 0)) return 0;
+    return m->ks * strength * (c > 0.5 ? exp(s * log1p(-dot(off, off) / 2)) : pow(c, s));
+}
+
+static double torrance_sparrow(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
+{
+    Facing at;
+    if (!face(n, l, v, &at)) return 0;
+    const double c = at.c, s = at.s, c3 = m->alpha * m->alpha;
+    const double root = c3 / (c * c * c3 + s * s), d = root * root;
+    const double whole = energy == WR_ENERGY_KEPT ? 1 / (4 * c3) : 1;
+    const double g = fmin(1, fmin(2 * at.nh * at.nv / at.vh, 2 * at.nh * at.nl / at.vh));
+    return m->ks * whole * d * g * fresnel(at.vh, m->ior) / at.nv;
+}
+
+/* The share that facets reflect at once, and what is left of it for more. */
+static double matt_albedo(const WrMatter *m, double mu)
+{
+    const double s = sqrt(fmax(0, 1 - mu * mu));
+    const double g = s * (acos(mu) - s * mu) + 2.0 / 3 * (s * mu * (1 + s + s * s) / (1 + s) - s);
+    return m->a * (1 + m->sigma / pi * g);
+}
+
+static void oren_nayar(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v,
+                       const double colour[3], double own[3])
+{
+    const double nl = fmin(fmax(0, dot(n, l)), 1), nv = fmin(fmax(0, dot(n, v)), 1);
+    const double q = dot(l, v) - nl * nv, most = fmax(nl, nv);
+    own[0] = own[1] = own[2] = 0;
+    if (!(nl > 0)) return;
+    if (energy == WR_ENERGY_PUBLISHED) {
+        const double rough = m->a + m->b * fmax(0, q) / most;
+        for (int c = 0; c < 3; c++) own[c] = m->kd * nl * rough;
+        return;
+    }
+    const double once = m->a * (1 + m->sigma * q / (q > 0 ? most : 1));
+    const double mean = m->a * (1 + (2.0 / 3 - 28 / (15 * pi)) * m->sigma);
+    const double left = (1 - matt_albedo(m, nl)) * (1 - matt_albedo(m, nv));
+    for (int c = 0; c < 3; c++) {
+        const double rho = fmin(fmax(0, m->kd * colour[c]), 1);
+        const double again =
+            m->sigma > 1e-6 ? left / (1 - mean) * rho * mean / (1 - rho * (1 - mean)) : 0;
+        own[c] = m->kd * nl * (once + again);
+    }
+}
+
+static double kept_albedo(const WrMatter *m, double mu)
+{
+    const double x = sqrt(fmin(fmax(0, mu), 1));
+    double sum = 0, power = 1;
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++, power *= x) sum += m->albedo[i] * power;
+    return fmin(sum, 1);
+}
+
+static void ggx(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v, double *own,
+                double *white)
+{
+    Facing at;
+    const double lit = dot(n, l), nv = dot(bent_back(n, v), v), a2 = m->alpha * m->alpha;
+    *own = *white = 0;
+    if (!(lit > 0)) return;
+    double f = m->f0, lobe = 0, p = 0;
+    const WrVec3 sum = v3_add(l, v);
+    const double off = fmax(0, 1 - 0.5 * sqrt(dot(sum, sum)));
+    p = off * off * off * off * off;
+    f += (1 - m->f0) * p;
+    if (face(n, l, v, &at)) {
+        const double c = at.c, s = at.s, root = c * c * a2 + s * s;
+        const double d = a2 / (root * root);
+        lobe = m->ks * d * at.nl * 0.5 /
+               (at.nl * sqrt(at.nv * at.nv * (1 - a2) + a2) +
+                at.nv * sqrt(at.nl * at.nl * (1 - a2) + a2));
+    }
+    const double matt = m->kd * (1 - m->metal);
+    const double left = matt == 0 ? 0
+                        : energy == WR_ENERGY_KEPT
+                            ? (1 - kept_albedo(m, lit)) * (1 - kept_albedo(m, nv)) * m->again
+                            : 1 - f;
+    *own = matt * lit * left + m->metal * (1 - p) * lobe;
+    *white = (1 - m->metal) * f * lobe + m->metal * p * lobe;
+}
+
+void wr_reference_reflect(const WrMatter *m, WrReflect model, WrEnergy energy, WrVec3 n, WrVec3 l,
+                          WrVec3 v, const double colour[3], double own[3], double *white)
+{
+    const double lambert = m->kd * fmax(0, dot(n, l));
+    *white = 0;
+    own[0] = lambert;
+    switch (model) {
+    case WR_REFLECT_PHONG: *white = phong(m, energy, n, l, v); break;
+    case WR_REFLECT_TORRANCE_SPARROW: *white = torrance_sparrow(m, energy, n, l, v); break;
+    case WR_REFLECT_OREN_NAYAR: oren_nayar(m, energy, n, l, v, colour, own); return;
+    case WR_REFLECT_GGX: ggx(m, energy, n, l, v, own, white); break;
+    case WR_REFLECT_BLINN_PHONG:
+    case WR_REFLECT_COUNT: break;
+    }
+    own[1] = own[2] = own[0];
+}

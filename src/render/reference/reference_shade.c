@@ -1,0 +1,438 @@
+#include "render/reference/reference_shade.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "render/reference/reference_solid_texture.h"
+#include "render/reference/reference_shadow_rays.h"
+#include "render/reference/reference_occlusion.h"
+#include "render/reference/reference_parallax.h"
+#include "render/reference/reference_reflection.h"
+#include "scene/texture_sample.h"
+#include "scene/scene.h"
+#include "shade/bump.h"
+
+#include <math.h>
+
+#define WAVE 12 /* cells to a wave of a formula */
+
+/* The normal that a mode stands for: of a surface that is displaced, but where it is another by intention. */
+static WrBumpMode truth_of(WrBumpMode mode)
+{
+    switch (mode) {
+    case WR_BUMP_INVARIANT: return WR_BUMP_INVARIANT;
+    case WR_BUMP_NONE:
+    case WR_BUMP_BLINN:
+    case WR_BUMP_EXACT:
+    case WR_BUMP_COUNT: break;
+    }
+    return WR_BUMP_EXACT;
+}
+
+static bool has_slopes(const WrScene *scene)
+{
+    return scene->height != 0 || (scene->normals.image && scene->normals.strength != 0);
+}
+
+/* Does the relief throw shadows, and from what height? */
+static void note_shadow(WrReferenceStage *stage, const WrField *field)
+{
+    const WrScene *scene = stage->scene;
+    int columns, rows;
+    float low, high;
+    wr_surface_cells(&scene->shape, &columns, &rows);
+    if ((!scene->material.shadow && !scene->material.occlusion) ||
+        wr_surfaces[scene->shape.kind]->held || columns * rows != 1)
+        return;
+    if (!stage->periodic_u || !stage->periodic_v) return;
+    if (scene->sizes.x != 0 || scene->sizes.y != 0 || scene->sizes.z != 0) return;
+    wr_field_range(field, &low, &high);
+    stage->relief = fabs(scene->height) * ((double)high - (double)low);
+    stage->shadow = scene->material.shadow && scene->bump != WR_BUMP_NONE ? stage->relief : 0;
+    stage->texels[0] = fabs(scene->replicate_u) * wr_field_width(field);
+    stage->texels[1] = fabs(scene->replicate_v) * wr_field_height(field);
+}
+
+#define ROUGHS 257
+
+/* What facets of each roughness come to: their integrals change so little that the nearest serves (matter_at). */
+static void note_roughness(WrReferenceStage *stage)
+{
+    const WrSolidTexture *grain = &stage->scene->grain;
+    const bool pictured = stage->scene->facets[WR_FACET_ROUGHNESS].image;
+    const bool driven =
+        grain->kind != WR_SOLID_TEXTURE_OFF && grain->drives & WR_SOLID_TEXTURE_ROUGHENS;
+    WrMaterial m = stage->scene->material;
+    if (!wr_reflects[m.model].roughness || (!pictured && !driven)) return;
+    stage->rough = wr_alloc(ROUGHS, sizeof *stage->rough);
+    const double low = pictured ? 0 : fmin(grain->roughness[0], grain->roughness[1]);
+    const double high = pictured ? 1 : fmax(grain->roughness[0], grain->roughness[1]);
+    for (int i = (int)floor(low * (ROUGHS - 1)); i <= (int)ceil(high * (ROUGHS - 1)); i++) {
+        m.roughness = (double)i / (ROUGHS - 1);
+        wr_scene_matter(&m, &stage->rough[i]);
+    }
+}
+
+/* What a picture of facets says there, bilinear. */
+static double facet_at(const WrReferenceStage *stage, WrFacetKind kind, double u, double v)
+{
+    const WrFacetMap *map = &stage->scene->facets[kind];
+    const WrTexels at = wr_texture_sample_texels(stage->scene, map->image, &map->laid,
+                                                 stage->periodic_u, stage->periodic_v, u, v);
+    double sum = 0;
+    for (int k = 0; k < 4; k++) sum += at.weight[k] * (double)at.texel[k][0];
+    return sum;
+}
+
+static double roughness_at(const WrReferenceStage *stage, WrVec3 object, double u, double v)
+{
+    const WrSolidTexture *grain = &stage->scene->grain;
+    if (stage->scene->facets[WR_FACET_ROUGHNESS].image)
+        return facet_at(stage, WR_FACET_ROUGHNESS, u, v);
+    const double g = wr_reference_grain(grain, &stage->grain, object, NULL);
+    return (1 - g) * grain->roughness[0] + g * grain->roughness[1];
+}
+
+/* The material's numbers at a place: alpha is its own, albedos between two 256ths. */
+static WrMatter matter_at(const WrReferenceStage *stage, WrVec3 object, double u, double v)
+{
+    const bool metals = stage->scene->material.model == WR_REFLECT_GGX &&
+                        stage->scene->facets[WR_FACET_METALNESS].image;
+    WrMatter out = stage->matter;
+    if (metals) out.metal = facet_at(stage, WR_FACET_METALNESS, u, v);
+    if (!stage->rough) return out;
+    const double roughness = roughness_at(stage, object, u, v);
+    const double x = fmin(roughness * (ROUGHS - 1), ROUGHS - 1), t = x - floor(x);
+    const WrMatter *low = &stage->rough[(int)floor(x)], *high = &stage->rough[(int)ceil(x)];
+    const double metal = out.metal;
+    out = *low;
+    out.metal = metal;
+    out.alpha = fmax(roughness * roughness, WR_ALPHA_LEAST), out.sigma = roughness;
+    out.a += t * (high->a - low->a), out.b += t * (high->b - low->b);
+    out.scale += t * (high->scale - low->scale), out.mean += t * (high->mean - low->mean);
+    out.again += t * (high->again - low->again);
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++)
+        out.albedo[i] += t * (high->albedo[i] - low->albedo[i]);
+    return out;
+}
+
+bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, const WrScene *scene,
+                             double turn_deg, int width, int height, bool table, WrPool *pool,
+                             WrError *err)
+{
+    const bool formula = scene->analytic.kind != WR_ANALYTIC_OFF;
+    *stage = (WrReferenceStage){ .scene = scene, .periodic_u = true, .periodic_v = true };
+    if (!field && !formula) return wr_fail(err, "a picture of a table: there is no table");
+    if (field) {
+        stage->periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC;
+        stage->periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
+    }
+    wr_scene_matter(&scene->material, &stage->matter);
+    wr_solid_texture_noise(&scene->grain, &stage->grain);
+    note_roughness(stage);
+    stage->bump = has_slopes(scene) ? truth_of(scene->bump) : WR_BUMP_NONE;
+    if (wr_surfaces[scene->shape.kind]->held && stage->bump == WR_BUMP_EXACT)
+        stage->bump = WR_BUMP_BLINN; /* triangles are flat: it is exact there */
+    if (!wr_reference_view_init(&stage->view, scene, turn_deg, width, height, err)) return false;
+    wr_reference_surround_init(&stage->surround, scene, stage->view.rotation);
+    if (!table || formula || scene->height == 0) return true;
+    note_shadow(stage, field);
+    return wr_reference_table_init(&stage->table, field, pool, err);
+}
+
+bool wr_reference_displaced(const WrScene *scene)
+{
+    return scene->displaced && scene->height != 0 && !wr_shape_unmoved(&scene->shape);
+}
+
+static void height_of(const void *ctx, double u, double v, double *f, double *fu, double *fv)
+{
+    wr_reference_height(ctx, u, v, f, fu, fv);
+}
+
+/* Cells that hold one bend of F each: texels, or so many to a wave or a power. */
+static void cells_of(const WrScene *scene, const WrField *field, double cells[2])
+{
+    double u = field ? wr_field_width(field) : 1, v = field ? wr_field_height(field) : 1;
+    const WrAnalytic *formula = &scene->analytic;
+    if (formula->kind != WR_ANALYTIC_OFF) u = v = WAVE;
+    for (int k = 0; k < formula->count && formula->kind != WR_ANALYTIC_OFF; k++) {
+        u = fmax(u, WAVE * fabs((double)formula->terms[k].i));
+        v = fmax(v, WAVE * fabs((double)formula->terms[k].j));
+    }
+    cells[0] = fabs(scene->replicate_u) * u, cells[1] = fabs(scene->replicate_v) * v;
+}
+
+bool wr_reference_stage_raise(WrReferenceStage *stage, const WrField *field, WrPool *pool,
+                              WrError *err)
+{
+    double cells[2];
+    cells_of(stage->scene, field, cells);
+    if (wr_reference_has_parallax(stage->scene)) wr_reference_parallax_init(stage, field, cells);
+    if (!wr_reference_displaced(stage->scene)) return true;
+    stage->bump = WR_BUMP_EXACT;
+    return wr_reference_raised_init(&stage->raised, &stage->scene->shape, height_of, stage, cells,
+                                    pool, err);
+}
+
+void wr_reference_stage_fini(WrReferenceStage *stage)
+{
+    wr_reference_raised_fini(&stage->raised);
+    wr_reference_view_fini(&stage->view);
+    wr_free(stage->rough);
+    wr_reference_table_fini(&stage->table);
+    wr_reference_surround_fini(&stage->surround);
+}
+
+void wr_reference_height(const WrReferenceStage *stage, double u, double v, double *f, double *fu,
+                         double *fv)
+{
+    if (stage->scene->analytic.kind != WR_ANALYTIC_OFF)
+        wr_scene_height(stage->scene, NULL, u, v, f, fu, fv);
+    else wr_reference_table_at(&stage->table, stage->scene, u, v, f, fu, fv);
+}
+
+void wr_reference_add_map(const WrReferenceStage *stage, const WrReferenceHit *hit,
+                          const WrSurfacePoint *at, double *fu, double *fv)
+{
+    WrMapAxes axes;
+    if (!stage->scene->normals.image) return;
+    const bool found = stage->view.info->held
+                           ? wr_reference_mesh_axes(&stage->view.mesh, hit, &axes)
+                           : wr_texture_sample_axes(wr_scene_frame(stage->scene), at, &axes);
+    wr_texture_sample_add_normals(stage->scene, stage->periodic_u, stage->periodic_v, at,
+                                  found ? &axes : NULL, hit->u, hit->v, fu, fv);
+}
+
+/* |a|^2 that neither overflows nor loses digits to underflow when multiplied by another like it. */
+static bool ordinary(double squared)
+{
+    return squared > 1e-60 && squared < 1e60;
+}
+
+WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, double fu,
+                           double fv)
+{
+    if (mode == WR_BUMP_NONE || (fu == 0 && fv == 0 && f == 0)) return at->n_unit;
+    const WrVec3 n = at->n_unit;
+    WrVec3 qu = at->pu, qv = at->pv;
+    if (mode == WR_BUMP_EXACT) qu = v3_mad(qu, at->n_u, f), qv = v3_mad(qv, at->n_v, f);
+    const WrVec3 tip = v3_cross(n, v3_sub(v3_scale(qv, fu), v3_scale(qu, fv)));
+    WrVec3 sum;
+    double terms; /* the square of what is added up: a sum that cancels is left to shade/bump.h */
+    const double uu = v3_dot(qu, qu), vv = v3_dot(qv, qv);
+    if (mode == WR_BUMP_INVARIANT) {
+        const double d = sqrt(v3_dot(tip, tip)), a = sqrt(fu * fu + fv * fv);
+        sum = v3_mad(n, tip, a / d);
+        terms = ordinary(d * d) && ordinary(uu) && ordinary(vv) && a > 1e-30 && a < 1e30 ? 1 : 0;
+    } else {
+        const WrVec3 flat = mode == WR_BUMP_EXACT ? v3_cross(qu, qv) : at->n;
+        sum = v3_add(flat, tip);
+        terms = uu * vv + fu * fu * vv + fv * fv * uu;
+        if (!(fabs(fu) < 1e30 && fabs(fv) < 1e30 && ordinary(uu) && ordinary(vv))) terms = 0;
+    }
+    const double squared = v3_dot(sum, sum);
+    if (terms > 0 && squared > 1e-16 * terms) return v3_scale(sum, 1 / sqrt(squared));
+    return wr_bump_unit_normal(mode, at->n, n, at->pu, at->pv, at->n_u, at->n_v, f, fu, fv);
+}
+
+double wr_reference_side(const WrReferenceView *view, const WrSurfacePoint *at)
+{
+    const WrVec3 to = view->perspective ? v3_sub(view->eye, at->p) : view->toward;
+    return v3_dot(at->n_unit, to) < 0 ? -1 : 1;
+}
+
+/* a / |a|; 0 where it is 0. */
+static WrVec3 unit(WrVec3 a)
+{
+    const double squared = v3_dot(a, a);
+    const WrVec3 zero = { 0, 0, 0 };
+    return ordinary(squared) ? v3_scale(a, 1 / sqrt(squared)) : v3_unit(a, zero);
+}
+
+/* C(u,v) of the picture, bilinear. */
+static void picture_colour(const WrReferenceStage *stage, double u, double v, double rgb[3])
+{
+    const WrScene *scene = stage->scene;
+    const bool colours = scene->colour->channels >= 3;
+    const WrTexels at = wr_texture_sample_texels(scene, scene->colour, &scene->colour_laid,
+                                                 stage->periodic_u, stage->periodic_v, u, v);
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    for (int k = 0; k < 4; k++)
+        for (int c = 0; c < 3; c++) rgb[c] += at.weight[k] * (double)at.texel[k][colours ? c : 0];
+}
+
+/* max(0, n'.h)^s of unit vectors; near 1 from 1 - n'.h = |n' - h|^2 / 2, of which a high power loses no
+   digit. */
+static double lobe(WrVec3 perturbed, WrVec3 h, double s)
+{
+    const double nh = v3_dot(perturbed, h);
+    const WrVec3 off = v3_sub(perturbed, h);
+    if (!(s > 0)) return 1;
+    if (nh > 0.5) return exp(s * log1p(-v3_dot(off, off) / 2));
+    return nh > 0 ? pow(nh, s) : 0;
+}
+
+void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, WrVec3 l, WrVec3 v,
+                       const double colour[3], double own[3], double *white)
+{
+    const WrVec3 h = v3_add(l, v);
+    const double nl = v3_dot(n, l), hh = v3_dot(h, h);
+    if (m->model != WR_REFLECT_BLINN_PHONG) {
+        wr_reference_reflect(matter, m->model, m->energy, n, l, v, colour, own, white);
+    } else {
+        *white = 0;
+        if (m->specular != 0 && (nl > 0 || !m->gate) && hh > 1e-24)
+            *white = m->specular * lobe(n, v3_scale(h, 1 / sqrt(hh)), m->shininess);
+        own[0] = own[1] = own[2] = m->diffuse * (nl > 0 ? nl : 0);
+    }
+    for (int c = 0; c < 3; c++) own[c] += m->tint * *white;
+    *white *= 1 - m->tint;
+}
+
+/* C at a place of the surface without the material's. */
+static void place_colour(const WrReferenceStage *stage, WrVec3 object, double u, double v,
+                         double rgb[3])
+{
+    rgb[0] = rgb[1] = rgb[2] = 1;
+    if (stage->scene->colour) picture_colour(stage, u, v, rgb);
+    const WrSolidTexture *grain = &stage->scene->grain;
+    if (grain->kind == WR_SOLID_TEXTURE_OFF || !(grain->drives & WR_SOLID_TEXTURE_COLOURS)) return;
+    const double g = wr_reference_grain(grain, &stage->grain, object, NULL);
+    for (int c = 0; c < 3; c++) rgb[c] *= (1 - g) * grain->light[c] + g * grain->dark[c];
+}
+
+/* n' once more, of the solid texture's heights: the surface moved along n by them (Perlin 1985). */
+static WrVec3 embossed(const WrReferenceStage *stage, WrVec3 object, double side, WrVec3 n)
+{
+    const WrSolidTexture *grain = &stage->scene->grain;
+    WrVec3 slope;
+    if (grain->kind == WR_SOLID_TEXTURE_OFF || !(grain->drives & WR_SOLID_TEXTURE_BUMPS)) return n;
+    wr_reference_grain(grain, &stage->grain, object, &slope);
+    const WrVec3 s = v3_scale(slope, side * grain->height);
+    return unit(v3_sub(n, v3_mad(s, n, -v3_dot(s, n))));
+}
+
+void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
+                        const WrReferenceHit *hit, WrVec3 perturbed, WrReferenceShare share,
+                        double rgb[3])
+{
+    const double u = hit->u, v = hit->v;
+    const WrMaterial *m = &stage->scene->material;
+    const WrReferenceView *view = &stage->view;
+    const WrVec3 p = wr_reference_stretched(view, at->p);
+    const WrVec3 to = view->perspective ? unit(v3_sub(view->lit_eye, p)) : view->lit_toward;
+    const double open =
+        stage->relief > 0 && m->occlusion ? wr_reference_open(stage, at, u, v, perturbed) : 1;
+    const double ambient = open * m->ambient;
+    double diffuse[3] = { ambient, ambient, ambient }, shine[3] = { 0, 0, 0 };
+    double colour[3];
+    place_colour(stage, at->p, u, v, colour);
+    const WrMatter matter = matter_at(stage, at->p, u, v);
+    double has[3] = { m->colour.x * colour[0], m->colour.y * colour[1], m->colour.z * colour[2] };
+    const bool kept = m->model == WR_REFLECT_GGX && m->energy == WR_ENERGY_KEPT;
+    for (int c = 0; c < 3 && kept; c++) has[c] = fmin(fmax(has[c], 0), 1);
+    for (int i = 0; i < view->light_count; i++) {
+        const WrReferenceLight *light = &view->lights[i];
+        const WrVec3 way = v3_sub(light->where, p), l = light->point ? unit(way) : light->where;
+        const double away = light->point ? v3_len(way) : INFINITY;
+        double own[3], white;
+        double seen = stage->shadow > 0 ? wr_reference_lamp_share(stage, at, u, v, perturbed, l,
+                                                                  away, light->radius, share)
+                                        : 1;
+        if (light->shadow && seen > 0)
+            seen *=
+                wr_reference_cast_share(stage, at, hit, perturbed, l, away, light->radius, share);
+        if (seen == 0) continue;
+        wr_reference_lamp(m, &matter, perturbed, l, to, has, own, &white);
+        for (int c = 0; c < 3; c++) {
+            diffuse[c] += seen * light->rgb[c] * own[c];
+            shine[c] += seen * light->rgb[c] * white;
+        }
+    }
+    double around[3], mirrored[3];
+    wr_reference_surround_light(stage, &matter, perturbed, to, has, share, around, mirrored);
+    for (int c = 0; c < 3; c++)
+        rgb[c] = has[c] * (diffuse[c] + open * around[c]) + shine[c] + mirrored[c];
+}
+
+/* How a pixel's steps move the hit along the plane, in u and v: q + s d, where s changes so that it stays on it. */
+static double step_squared(const WrReferenceRay *ray, const WrReferenceRay *step, double s,
+                           const WrSurfacePoint *at, double ru, double rv)
+{
+    const WrVec3 free = v3_mad(step->q, step->d, s);
+    const double ds = -v3_dot(free, at->n_unit) / v3_dot(ray->d, at->n_unit);
+    const WrVec3 moved = v3_mad(free, ray->d, ds);
+    const double du = ru * v3_dot(moved, at->pu) / v3_dot(at->pu, at->pu);
+    const double dv = rv * v3_dot(moved, at->pv) / v3_dot(at->pv, at->pv);
+    return du * du + dv * dv;
+}
+
+/* 1 up to a quarter of half a period, or of the plane, in a pixel; 0 from a whole one. */
+static double left_of(double squares)
+{
+    const double t = fmin(fmax((sqrt(squares) - 0.25) / 0.75, 0), 1);
+    return 1 - t * t * (3 - 2 * t);
+}
+
+/* What is left of slopes there, and what of the plane. */
+static double eased_at(const WrReferenceStage *stage, const WrReferenceRay *ray,
+                       const WrReferenceHit *hit, const WrSurfacePoint *at, double *cover)
+{
+    const WrScene *scene = stage->scene;
+    const double ru = 2 * fmax(1, fabs(scene->replicate_u)); /* of half periods */
+    const double rv = 2 * fmax(1, fabs(scene->replicate_v));
+    double periods = 0, sides = 0;
+    WrReferenceRay step[2];
+    *cover = 1;
+    if (!wr_shape_endless(stage->view.shape) || !stage->view.perspective) return 1;
+    wr_reference_view_spread(&stage->view, &step[0], &step[1]);
+    for (int k = 0; k < 2; k++) {
+        periods += step_squared(ray, &step[k], hit->s, at, ru, rv);
+        sides += step_squared(ray, &step[k], hit->s, at, 1, 1);
+    }
+    *cover = isfinite(sides) ? left_of(sides) : 0;
+    return isfinite(periods) ? left_of(periods) : 0;
+}
+
+static bool hit_stage(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit,
+                      WrSurfacePoint *at, double *side)
+{
+    if (stage->parallax) return wr_reference_parallax(stage, ray, hit, at, side);
+    const bool met = stage->raised.count > 0 ? wr_reference_raised_hit(&stage->raised, ray, hit)
+                                             : wr_reference_view_hit(&stage->view, ray, hit);
+    if (!met) return false;
+    wr_reference_view_at(&stage->view, hit, at);
+    *side = wr_reference_side(&stage->view, at);
+    return true;
+}
+
+bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceShare share,
+                         WrReferenceSample *out)
+{
+    const WrReferenceView *view = &stage->view;
+    const WrReferenceRay ray = wr_reference_view_ray(view, x, y);
+    WrReferenceHit hit;
+    WrSurfacePoint at;
+    double f = 0, fu = 0, fv = 0, side;
+    if (!hit_stage(stage, &ray, &hit, &at, &side)) return false;
+    if (stage->scene->height != 0) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
+    wr_reference_add_map(stage, &hit, &at, &fu, &fv);
+    const double eased = eased_at(stage, &ray, &hit, &at, &out->cover);
+    fu *= eased, fv *= eased;
+    const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
+    WrVec3 seen = v3_scale(perturbed, side);
+    if (stage->raised.count > 0) {
+        at.p = v3_mad(ray.q, ray.d, hit.s); /* which of an edge is not P + F n */
+        seen = v3_dot(perturbed, ray.d) > 0 ? v3_neg(perturbed) : perturbed;
+    }
+    out->normal = embossed(stage, at.p, side, seen);
+    out->lost = hit.lost;
+    out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->deep);
+    out->normal = wr_reference_normal_stretched(view, out->normal);
+    wr_reference_light(stage, &at, &hit, out->normal, share, out->rgb);
+    for (int c = 0; c < 3; c++) out->rgb[c] *= out->cover;
+    return true;
+}

@@ -1,0 +1,31 @@
+/* simd_set_body.h - the text of each kern_wide_*.c, which defines WR_WIDE_TABLE. A header without a guard, by
+   intention. */
+#include "base/kernmath.h"
+#include "render/textures/slope_pyramid.h"
+#include "render/frame/srgb_encode.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "render/simd/simd_vector_body.h"
+#ifdef WIDE
+#include "render/simd/simd_light_body.h"
+#include "render/simd/simd_sphere_uv_body.h"
+#include "render/simd/simd_sphere_rows_body.h"
+#include "render/simd/simd_sphere_body.h"
+#include "render/simd/simd_fetch_body.h"
+#include "render/simd/simd_filter_body.h"
+#include "render/simd/simd_encode_body.h"
+#include "render/simd/simd_newton_body.h"
+#include "render/simd/simd_bump_body.h"
+#include "render/simd/simd_sparse_hits_body.h"
+
+const WrWide WR_WIDE_TABLE = { narrow,       wide_shade,     wide_smooth,       wide_paint,
+                               wide_sphere,  wide_points,    wide_sphere_light, wide_central,
+                               wide_filters, wide_footprint, wide_filtered,     wide_colour,
+                               wide_codes,   wide_newton,    wide_cross,        wide_blinn,
+                               wide_between, wide_sheet_row };
+#else
+const WrWide WR_WIDE_TABLE = { 0 };
+#endif

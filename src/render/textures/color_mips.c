@@ -1,0 +1,110 @@
+#include "render/textures/color_mips.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "image/image.h"
+
+#include <string.h>
+
+void wr_color_mips_drop(WrColorMips *tint)
+{
+    wr_image_free((WrImage *)tint->source);
+    wr_free(tint->rgba);
+    wr_pyramid_drop(&tint->pyramid);
+    *tint = (WrColorMips){ 0 };
+}
+
+bool wr_color_mips_bring(WrColorMips *tint, const WrImage *image, WrWrap wrap_u, WrWrap wrap_v,
+                         WrError *err)
+{
+    if (tint->source == image && tint->wrap_u == wrap_u && tint->wrap_v == wrap_v) return true;
+    wr_color_mips_drop(tint);
+    const int w = image->width, h = image->height, c = image->channels;
+    tint->rgba =
+        wr_try_alloc((size_t)(w + 2) * (size_t)(h + 2), 4 * sizeof(float), "colour picture", err);
+    if (!tint->rgba) return false;
+    tint->source = wr_image_share(image);
+    tint->wrap_u = wrap_u, tint->wrap_v = wrap_v;
+    tint->pitch = w + 2;
+    for (int j = -1; j <= h; j++)
+        for (int i = -1; i <= w; i++) {
+            const size_t place = (size_t)wr_pyramid_fold(j, h, wrap_v) * (size_t)w +
+                                 (size_t)wr_pyramid_fold(i, w, wrap_u);
+            const float *in = image->data + place * (size_t)c;
+            float *out = tint->rgba + ((size_t)(j + 1) * (size_t)tint->pitch + (size_t)(i + 1)) * 4;
+            out[0] = in[0];
+            out[1] = c >= 3 ? in[1] : in[0];
+            out[2] = c >= 3 ? in[2] : in[0];
+        }
+    return true;
+}
+
+/* ---- the pyramid --------------------------------------------------------------------------------- */
+
+typedef struct Job {
+    WrColorMips *tint;
+    int level; /* to be made */
+} Job;
+
+/* Row j, whole or the apron's, from its first texel on; level 0 is the picture. */
+static float *row_of(const WrColorMips *tint, int level, int j)
+{
+    const WrPyramidLevel *at = &tint->pyramid.level[level];
+    return (level ? at->data : tint->rgba) + ((size_t)(j + 1) * (size_t)at->pitch + 1) * 4;
+}
+
+static void make_row(int j, int worker, void *ctx)
+{
+    (void)worker;
+    const Job *job = ctx;
+    const WrPyramidLevel *to = &job->tint->pyramid.level[job->level], *from = to - 1;
+    const WrShare v = wr_pyramid_share(j, from->height, to->height);
+    float *out = row_of(job->tint, job->level, j);
+    if (wr_progress_stopped()) return;
+    for (int i = 0; i < to->width; i++) {
+        const WrShare u = wr_pyramid_share(i, from->width, to->width);
+        double sum[3] = { 0 };
+        for (int b = 0; b < v.count; b++) {
+            const float *in = row_of(job->tint, job->level - 1, v.from + b) + 4 * u.from;
+            for (int a = 0; a < u.count; a++)
+                for (int c = 0; c < 3; c++)
+                    sum[c] += u.weight[a] * v.weight[b] * (double)in[4 * a + c];
+        }
+        for (int c = 0; c < 3; c++) out[4 * i + c] = (float)sum[c];
+    }
+}
+
+static void make_apron(const WrColorMips *tint, int level)
+{
+    const WrPyramidLevel *at = &tint->pyramid.level[level];
+    const int w = at->width, h = at->height;
+    for (int j = 0; j < h; j++) {
+        float *row = row_of(tint, level, j);
+        memcpy(row - 4, row + 4 * wr_pyramid_fold(-1, w, tint->wrap_u), 4 * sizeof *row);
+        memcpy(row + 4 * w, row + 4 * wr_pyramid_fold(w, w, tint->wrap_u), 4 * sizeof *row);
+    }
+    const size_t bytes = (size_t)at->pitch * 4 * sizeof(float);
+    const int above = wr_pyramid_fold(-1, h, tint->wrap_v),
+              below = wr_pyramid_fold(h, h, tint->wrap_v);
+    memcpy(row_of(tint, level, -1) - 4, row_of(tint, level, above) - 4, bytes);
+    memcpy(row_of(tint, level, h) - 4, row_of(tint, level, below) - 4, bytes);
+}
+
+bool wr_color_mips_bring_pyramid(WrColorMips *tint, WrPool *pool, WrError *err)
+{
+    WrPyramid *pyramid = &tint->pyramid;
+    Job job = { .tint = tint };
+    if (pyramid->levels > 0) return true;
+    if (!wr_pyramid_allocate(pyramid, WR_PYRAMID_COLOUR, tint->source->width, tint->source->height,
+                             err))
+        return false;
+    for (job.level = 1; job.level < pyramid->levels; job.level++) {
+        wr_pool_run(pool, pyramid->level[job.level].height, make_row, &job);
+        make_apron(tint, job.level);
+    }
+    if (!wr_progress_stopped()) return true;
+    wr_pyramid_drop(pyramid); /* half made */
+    return wr_fail(err, "cancelled");
+}

@@ -1,0 +1,468 @@
+#include "render/textures/height_copies.h"
+#include "render/textures/min_max.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "base/enum_rows.h"
+#include "field/field.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* How a copy is made: texels [i, i + w) x [j, j + h), indices outside the table included. */
+typedef void (*FillRect)(const WrField *field, int i, int j, int w, int h, float *out,
+                         size_t pitch);
+
+static float narrow(double x)
+{
+    return (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);
+}
+
+/* The texels of a rectangle and one more on each side. */
+typedef struct Ring {
+    float *t; /* [h + 2][pitch], owned */
+    size_t pitch;
+    double half_w, half_h; /* of the table, texels */
+} Ring;
+
+static Ring read_ring(const WrField *field, int i, int j, int w, int h)
+{
+    Ring ring = { .pitch = (size_t)w + 2,
+                  .half_w = 0.5 * wr_field_width(field),
+                  .half_h = 0.5 * wr_field_height(field) };
+    ring.t = wr_alloc(ring.pitch * ((size_t)h + 2), sizeof *ring.t);
+    wr_field_read(field, i - 1, j - 1, w + 2, h + 2, ring.t, ring.pitch);
+    return ring;
+}
+
+/* Fu = (T[i+1] - T[i-1]) W/2, Fv = (T[j-1] - T[j+1]) H/2 (rows run down); differences in double, so
+   that neither a large level nor FLT_MAX beside -FLT_MAX does harm (HC48, HC50). */
+static inline void slopes_at(const Ring *ring, int x, int y, double *fu, double *fv)
+{
+    const float *mid = ring->t + (size_t)(y + 1) * ring->pitch + (size_t)x + 1;
+    *fu = ((double)mid[1] - (double)mid[-1]) * ring->half_w;
+    *fv = ((double)*(mid - ring->pitch) - (double)mid[ring->pitch]) * ring->half_h;
+}
+
+static void fill_gradient(const WrField *field, int i, int j, int w, int h, float *out,
+                          size_t pitch)
+{
+    Ring ring = read_ring(field, i, j, w, h);
+    for (int y = 0; y < h; y++)
+        for (int x = 0; x < w; x++) {
+            double fu, fv;
+            float *slopes = out + 2 * ((size_t)y * pitch + (size_t)x);
+            slopes_at(&ring, x, y, &fu, &fv);
+            slopes[0] = narrow(fu);
+            slopes[1] = narrow(fv);
+        }
+    wr_free(ring.t);
+}
+
+/* The same in double. */
+typedef void (*FillFine)(const WrField *field, int i, int j, int w, int h, double *out,
+                         size_t pitch);
+
+static void fine_gradient(const WrField *field, int i, int j, int w, int h, double *out,
+                          size_t pitch)
+{
+    Ring ring = read_ring(field, i, j, w, h);
+    for (int y = 0; y < h; y++)
+        for (int x = 0; x < w; x++) {
+            double *slopes = out + 2 * ((size_t)y * pitch + (size_t)x);
+            slopes_at(&ring, x, y, &slopes[0], &slopes[1]);
+        }
+    wr_free(ring.t);
+}
+
+WR_ROWS(kinds);
+static const struct {
+    FillRect fill;
+    FillFine fine; /* NULL: heights, which are single-precision numbers */
+    int floats;    /* a texel */
+    int reach;     /* a texel of F changes the copy this far away */
+    const char *what;
+} kinds[WR_COPY_COUNT] = {
+    [WR_ROW(WR_COPY_HEIGHTS)] = { wr_field_read, NULL, 1, 0, "heights for the picture" },
+    [WR_ROW(WR_COPY_FITTED)] = { wr_field_read_fitted, wr_field_read_fitted_double, 1,
+                                 WR_PREFILTER_REACH, "spline coefficients" },
+    [WR_ROW(WR_COPY_GRADIENT)] = { fill_gradient, fine_gradient, 2, 1, "gradient table" },
+};
+WR_ROWS_END(kinds, WR_COPY_COUNT);
+
+static int tile_count(const WrField *field)
+{
+    return wr_field_tiles_u(field) * wr_field_tiles_v(field);
+}
+
+static bool same_layout(const WrField *a, const WrField *b)
+{
+    return a && wr_field_width(a) == wr_field_width(b) &&
+           wr_field_height(a) == wr_field_height(b) && wr_field_wrap_u(a) == wr_field_wrap_u(b) &&
+           wr_field_wrap_v(a) == wr_field_wrap_v(b);
+}
+
+void wr_table_init(WrTable *table)
+{
+    memset(table, 0, sizeof *table);
+}
+
+void wr_table_drop(WrTable *table, WrCopyKind kind)
+{
+    WrTableCopy *copy = &table->copies[kind];
+    wr_field_free(copy->seen);
+    wr_free(copy->data);
+    wr_free(copy->fine);
+    *copy = (WrTableCopy){ 0 };
+    if (kind != WR_COPY_GRADIENT) return;
+    wr_free(table->steep);
+    table->steep = NULL;
+}
+
+void wr_table_fini(WrTable *table)
+{
+    for (int kind = 0; kind < WR_COPY_COUNT; kind++) wr_table_drop(table, (WrCopyKind)kind);
+    wr_field_free(table->ranged);
+    wr_free(table->low);
+    wr_free(table->high);
+    memset(table, 0, sizeof *table);
+}
+
+/* ---- ranges ------------------------------------------------------------------------------------ */
+
+typedef struct RangeJob {
+    WrTable *table;
+    const WrField *field;
+} RangeJob;
+
+static void range_tile(int tx, int ty, void *ctx)
+{
+    RangeJob *job = ctx;
+    const WrField *field = job->field;
+    int at = ty * wr_field_tiles_u(field) + tx;
+    const float *tile = wr_field_tile(field, tx, ty);
+    float low = wr_field_level(field), high = low;
+    if (tile) {
+        int w = wr_field_width(field) - tx * WR_TILE, h = wr_field_height(field) - ty * WR_TILE;
+        low = high = tile[0];
+        for (int y = 0; y < h && y < WR_TILE; y++)
+            wr_extent_add(tile + y * WR_TILE, w < WR_TILE ? w : WR_TILE, &low, &high);
+    }
+    job->table->low[at] = low;
+    job->table->high[at] = high;
+}
+
+bool wr_table_flat(WrTable *table, const WrField *field)
+{
+    RangeJob job = { table, field };
+    int count = tile_count(field);
+    if (same_layout(table->ranged, field)) {
+        wr_field_changes(table->ranged, field, range_tile, &job);
+    } else {
+        wr_free(table->low);
+        wr_free(table->high);
+        table->low = wr_alloc((size_t)count, sizeof *table->low);
+        table->high = wr_alloc((size_t)count, sizeof *table->high);
+        for (int ty = 0; ty < wr_field_tiles_v(field) && !wr_progress_stopped(); ty++)
+            for (int tx = 0; tx < wr_field_tiles_u(field); tx++) range_tile(tx, ty, &job);
+    }
+    wr_field_free(table->ranged);
+    table->ranged = wr_progress_stopped() ? NULL : wr_field_share(field);
+    if (!table->ranged) return false;
+    for (int i = 0; i < count; i++)
+        if (table->low[i] != table->high[i] || table->low[i] != table->low[0]) return false;
+    return true;
+}
+
+void wr_table_range(const WrTable *table, float *low, float *high)
+{
+    const int count = tile_count(table->ranged);
+    float other = *high = table->high[0];
+    *low = table->low[0];
+    wr_extent_add(table->low, count, low, &other);
+    other = *low;
+    wr_extent_add(table->high, count, &other, high);
+}
+
+/* ---- copies ------------------------------------------------------------------------------------ */
+
+typedef struct CopyJob {
+    WrTable *table;
+    WrTableCopy *copy;
+    WrCopyKind kind;
+    const WrField *field;
+    bool border; /* something changed that the apron shows */
+    int changed; /* tiles */
+} CopyJob;
+
+static size_t place(const CopyJob *job, int i, int j)
+{
+    size_t at = (size_t)(j + WR_APRON) * (size_t)job->copy->pitch + (size_t)(i + WR_APRON);
+    return at * (size_t)kinds[job->kind].floats;
+}
+
+/* Fill a rectangle of a copy in double from the numbers in single precision. */
+static void widen(CopyJob *job, int i, int j, int w, int h)
+{
+    const size_t row = (size_t)w * (size_t)kinds[job->kind].floats;
+    float *t = wr_alloc(row * (size_t)h, sizeof *t);
+    kinds[job->kind].fill(job->field, i, j, w, h, t, (size_t)w);
+    for (int y = 0; y < h; y++) {
+        double *out = job->copy->fine + place(job, i, j + y);
+        for (size_t x = 0; x < row; x++) out[x] = (double)t[(size_t)y * row + x];
+    }
+    wr_free(t);
+}
+
+static void refresh(CopyJob *job, int i, int j, int w, int h)
+{
+    const WrTableCopy *copy = job->copy;
+    if (w <= 0 || h <= 0) return;
+    if (copy->data)
+        kinds[job->kind].fill(job->field, i, j, w, h, copy->data + place(job, i, j),
+                              (size_t)copy->pitch);
+    else if (copy->precision == WR_PRECISION_DOUBLE && kinds[job->kind].fine)
+        kinds[job->kind].fine(job->field, i, j, w, h, copy->fine + place(job, i, j),
+                              (size_t)copy->pitch);
+    else widen(job, i, j, w, h);
+    __atomic_fetch_add(&job->table->texels_refreshed, (int64_t)w * h, __ATOMIC_RELAXED);
+}
+
+/* Of numbers that are not negative the bits are in the same order; those of no number come last. */
+static int32_t magnitude(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return (int32_t)(bits & 0x7fffffffU);
+}
+
+/* The largest of `count` pairs, as bits. */
+static void add_steepest(const float *slopes, int count, int32_t most[2])
+{
+    int32_t u = most[0], v = most[1];
+#pragma omp simd reduction(max : u, v)
+    for (int i = 0; i < count; i++) {
+        const int32_t su = magnitude(slopes[2 * i]), sv = magnitude(slopes[2 * i + 1]);
+        u = su > u ? su : u;
+        v = sv > v ? sv : v;
+    }
+    most[0] = u, most[1] = v;
+}
+
+static bool any_slope(const double *slopes, int count)
+{
+    for (int i = 0; i < 2 * count; i++)
+        if (slopes[i] != 0.0) return true;
+    return false;
+}
+
+/* The texels of a tile along one axis, from <= to; at the ends of a clamped one two more, which look-ups near the end
+   read: what is extrapolated there may be steeper than all of the table. */
+typedef struct Reach {
+    int from, to;
+} Reach;
+
+static Reach reach_of(int tile, int size, WrWrap wrap)
+{
+    const int from = tile * WR_TILE, end = from + WR_TILE < size ? from + WR_TILE : size;
+    const int more = wrap == WR_WRAP_PERIODIC ? 0 : 2;
+    return (Reach){ tile == 0 ? -more : from, end == size ? end + more : end };
+}
+
+static void mark_steep(CopyJob *job, int tx, int ty)
+{
+    const WrField *field = job->field;
+    const Reach x = reach_of(tx, wr_field_width(field), wr_field_wrap_u(field));
+    const Reach y = reach_of(ty, wr_field_height(field), wr_field_wrap_v(field));
+    const int32_t unknown = magnitude(INFINITY);
+    int32_t most[2] = { 0, 0 };
+    for (int j = y.from; j < y.to; j++) {
+        const size_t row = place(job, x.from, j);
+        const int w = x.to - x.from;
+        if (job->copy->data) add_steepest(job->copy->data + row, w, most);
+        else if (any_slope(job->copy->fine + row, w)) most[0] = most[1] = unknown;
+    }
+    float *steep = job->table->steep[ty * wr_field_tiles_u(field) + tx];
+    for (int c = 0; c < 2; c++) {
+        most[c] = most[c] < unknown ? most[c] : unknown;
+        memcpy(&steep[c], &most[c], sizeof steep[c]);
+    }
+}
+
+/* A strip of tile rows of a full build, apron columns included. */
+static void build_strip(int strip, int worker, void *ctx)
+{
+    (void)worker;
+    CopyJob *job = ctx;
+    const int w = wr_field_width(job->field), h = wr_field_height(job->field);
+    int top = strip * WR_TILE, bottom = top + WR_TILE < h ? top + WR_TILE : h;
+    int from = strip == 0 ? -WR_APRON : top;
+    int to = bottom == h ? h + WR_APRON : bottom;
+    refresh(job, -WR_APRON, from, w + 2 * WR_APRON, to - from);
+    if (job->kind == WR_COPY_GRADIENT)
+        for (int tx = 0; tx < wr_field_tiles_u(job->field); tx++) mark_steep(job, tx, strip);
+}
+
+/* Refresh [a, b) of one axis in pieces that lie inside [0, n): a periodic axis wraps. */
+typedef struct Pieces {
+    int from[3], to[3], count;
+    bool border; /* near an end of the axis */
+} Pieces;
+
+static Pieces cut(int a, int b, int n, WrWrap wrap)
+{
+    Pieces p = { .count = 0 };
+    if (wrap == WR_WRAP_PERIODIC && b - a >= n) {
+        p.from[0] = 0, p.to[0] = n, p.count = 1;
+        return p;
+    }
+    for (int shift = -1; shift <= 1; shift++) {
+        if (shift != 0 && wrap != WR_WRAP_PERIODIC) continue;
+        int from = a + shift * n, to = b + shift * n;
+        from = from < 0 ? 0 : from;
+        to = to > n ? n : to;
+        if (from >= to) continue;
+        p.from[p.count] = from;
+        p.to[p.count++] = to;
+    }
+    return p;
+}
+
+/* What texels [a, b) of an axis of n reach: on a clamped one the last 3 also what is extrapolated from them, so the end. */
+static Pieces reach_from(int a, int b, int reach, int n, WrWrap wrap)
+{
+    const bool ends = wrap != WR_WRAP_PERIODIC;
+    const int edge = reach + WR_APRON;
+    Pieces p = cut(ends && a < 3 ? 0 : a - reach, ends && b > n - 3 ? n : b + reach, n, wrap);
+    p.border = a < edge || b > n - edge;
+    return p;
+}
+
+/* The parts of the copy that a changed tile's texels reach. */
+static void reached(const CopyJob *job, int tx, int ty, Pieces *u, Pieces *v)
+{
+    const WrField *field = job->field;
+    const int w = wr_field_width(field), h = wr_field_height(field), reach = kinds[job->kind].reach;
+    const WrFieldRect own = wr_field_difference(job->copy->seen, field, tx, ty);
+    *u = *v = (Pieces){ .count = 0 };
+    if (own.i0 == own.i1) return;
+    *u = reach_from(own.i0, own.i1, reach, w, wr_field_wrap_u(field));
+    *v = reach_from(own.j0, own.j1, reach, h, wr_field_wrap_v(field));
+}
+
+static void refresh_tile(int tx, int ty, void *ctx)
+{
+    CopyJob *job = ctx;
+    Pieces u, v;
+    if (wr_progress_stopped()) return;
+    reached(job, tx, ty, &u, &v);
+    for (int b = 0; b < v.count; b++)
+        for (int a = 0; a < u.count; a++)
+            refresh(job, u.from[a], v.from[b], u.to[a] - u.from[a], v.to[b] - v.from[b]);
+    if (u.border || v.border) job->border = true;
+}
+
+/* Once the apron is right too. */
+static void mark_tile(int tx, int ty, void *ctx)
+{
+    CopyJob *job = ctx;
+    Pieces u, v;
+    if (wr_progress_stopped()) return;
+    reached(job, tx, ty, &u, &v);
+    for (int b = 0; b < v.count; b++)
+        for (int a = 0; a < u.count; a++)
+            for (int y = v.from[b] / WR_TILE; y <= (v.to[b] - 1) / WR_TILE; y++)
+                for (int x = u.from[a] / WR_TILE; x <= (u.to[a] - 1) / WR_TILE; x++)
+                    mark_steep(job, x, y);
+}
+
+static void refresh_apron(CopyJob *job)
+{
+    const int w = wr_field_width(job->field), h = wr_field_height(job->field), a = WR_APRON;
+    refresh(job, -a, -a, w + 2 * a, a);
+    refresh(job, -a, h, w + 2 * a, a);
+    refresh(job, -a, 0, a, h);
+    refresh(job, w, 0, a, h);
+}
+
+/* What is asked of the whole table's slopes, from its tiles'. */
+static void sum_steep(WrTable *table, int count)
+{
+    const float(*steep)[2] = (const float(*)[2])table->steep;
+    float u0 = steep[0][0], u1 = u0, v0 = steep[0][1], v1 = v0;
+    int sloped = 0;
+#pragma omp simd reduction(min : u0, v0) reduction(max : u1, v1) reduction(+ : sloped)
+    for (int i = 0; i < count; i++) {
+        const float u = steep[i][0], v = steep[i][1];
+        u0 = u < u0 ? u : u0, u1 = u > u1 ? u : u1;
+        v0 = v < v0 ? v : v0, v1 = v > v1 ? v : v1;
+        sloped += (u > 0) | (v > 0);
+    }
+    table->gentlest[0] = u0, table->gentlest[1] = v0;
+    table->steepest[0] = u1, table->steepest[1] = v1;
+    table->sloped = sloped;
+}
+
+static void count_tile(int tx, int ty, void *ctx)
+{
+    (void)tx, (void)ty;
+    ((CopyJob *)ctx)->changed++;
+}
+
+static bool allocate(CopyJob *job, WrError *err)
+{
+    int w = wr_field_width(job->field), h = wr_field_height(job->field);
+    int pitch = (w + 2 * WR_APRON + 15) / 16 * 16;
+    if (pitch % 512 == 0) pitch += 16; /* rows on the same cache sets would fight */
+    wr_table_drop(job->table, job->kind);
+    const bool single = job->table->precision == WR_PRECISION_SINGLE;
+    void *data =
+        wr_try_alloc((size_t)pitch * (size_t)(h + 2 * WR_APRON),
+                     (size_t)kinds[job->kind].floats * (single ? sizeof(float) : sizeof(double)),
+                     kinds[job->kind].what, err);
+    if (!data) return false;
+    if (single) job->copy->data = data;
+    else job->copy->fine = data;
+    job->copy->precision = job->table->precision;
+    job->copy->pitch = pitch;
+    if (job->kind == WR_COPY_GRADIENT)
+        job->table->steep = wr_alloc((size_t)tile_count(job->field), sizeof *job->table->steep);
+    return true;
+}
+
+bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPool *pool,
+                    WrError *err)
+{
+    CopyJob job = { .table = table, .copy = &table->copies[kind], .kind = kind, .field = field };
+    WrTableCopy *copy = job.copy;
+    table->texels_refreshed = 0;
+    if (copy->precision != table->precision) wr_table_drop(table, kind);
+    if (same_layout(copy->seen, field)) {
+        wr_field_changes(copy->seen, field, count_tile, &job);
+        if (job.changed == 0) return true;
+    }
+    if (same_layout(copy->seen, field) && job.changed <= tile_count(field) / 2) {
+        wr_field_changes(copy->seen, field, refresh_tile, &job);
+        if (job.border) refresh_apron(&job);
+        if (kind == WR_COPY_GRADIENT) wr_field_changes(copy->seen, field, mark_tile, &job);
+    } else {
+        if (!same_layout(copy->seen, field) && !allocate(&job, err)) return false;
+        wr_pool_run(pool, wr_field_tiles_v(field), build_strip, &job);
+    }
+    if (wr_progress_stopped()) {
+        wr_table_drop(table, kind); /* half made */
+        return wr_fail(err, "cancelled");
+    }
+    if (kind == WR_COPY_GRADIENT) sum_steep(table, tile_count(field));
+    wr_field_free(copy->seen);
+    copy->seen = wr_field_share(field);
+    return true;
+}
+
+bool wr_table_slope_free(const WrTable *table)
+{
+    return table->copies[WR_COPY_GRADIENT].seen && table->sloped == 0;
+}

@@ -1,0 +1,37 @@
+/* export_settings.h - what the export sheet was told last: which maps leave, for whom, where to. It goes with the document;
+   nothing is written by it.
+   Layer 3. */
+#pragma once
+#include <stdbool.h>
+
+typedef enum WrSheetDepth {
+    WR_SHEET_AS_SET,
+    WR_SHEET_8,
+    WR_SHEET_16,
+    WR_SHEET_FLOAT,
+    WR_SHEET_DEPTHS
+} WrSheetDepth;
+typedef enum WrSheetSize {
+    WR_SHEET_TABLE,
+    WR_SHEET_HALF,
+    WR_SHEET_QUARTER,
+    WR_SHEET_POWER,
+    WR_SHEET_SIZES
+} WrSheetSize;
+typedef enum WrSheetRange {
+    WR_SHEET_RANGE_SET,
+    WR_SHEET_RANGE_AUTO,
+    WR_SHEET_RANGE_UNIT,
+    WR_SHEET_RANGE_SIGNED,
+    WR_SHEET_RANGES
+} WrSheetRange;
+
+#define WR_SHEET_WORD 48
+#define WR_SHEET_FOLDER 1024
+#define WR_SHEET_NAME 128
+
+typedef struct WrSheetAsk {
+    char as[WR_SHEET_WORD]; /* a set, or a kind of map; "": nothing was told yet */
+    char folder[WR_SHEET_FOLDER], name[WR_SHEET_NAME]; /* "": the document's */
+    int depth, size, range;                            /* WrSheetDepth, WrSheetSize, WrSheetRange */
+} WrSheetAsk;

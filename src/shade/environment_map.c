@@ -1,0 +1,403 @@
+#include "shade/environment_map.h"
+
+#include "base/error.h"
+#include "base/exactmath.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/enum_rows.h"
+#include "image/image.h"
+
+#include <math.h>
+#include <string.h>
+
+WR_ROWS(wr_environment_map_names);
+const char *const wr_environment_map_names[WR_ENVIRONMENT_MAP_KINDS] = {
+    [WR_ROW(WR_ENVIRONMENT_MAP_OFF)] = "off",   [WR_ROW(WR_ENVIRONMENT_MAP_STUDIO)] = "studio",
+    [WR_ROW(WR_ENVIRONMENT_MAP_SKY)] = "sky",   [WR_ROW(WR_ENVIRONMENT_MAP_RAKING)] = "raking",
+    [WR_ROW(WR_ENVIRONMENT_MAP_FILE)] = "file",
+};
+WR_ROWS_END(wr_environment_map_names, WR_ENVIRONMENT_MAP_KINDS);
+
+WrEnvironmentMap *wr_environment_map_share(const WrEnvironmentMap *surround)
+{
+    WrEnvironmentMap *shared = (WrEnvironmentMap *)surround; /* only the count changes */
+    if (shared) __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
+    return shared;
+}
+
+void wr_environment_map_free(WrEnvironmentMap *surround)
+{
+    if (!surround || __atomic_sub_fetch(&surround->refs, 1, __ATOMIC_ACQ_REL) > 0) return;
+    wr_image_free(surround->image);
+    wr_free(surround);
+}
+
+/* ---- directions ---- */
+
+WrVec3 wr_environment_map_direction(double u, double v)
+{
+    double s, c, sl, cl;
+    wr_sincos_turns(u - 0.5, &s, &c);
+    wr_sincos_turns(0.5 * (v - 0.5), &sl, &cl);
+    return (WrVec3){ s * cl, sl, -c * cl };
+}
+
+void wr_environment_map_place(WrVec3 d, double *u, double *v)
+{
+    const double across = sqrt(d.x * d.x + d.z * d.z);
+    *u = 0.5 + wr_atan2(d.x, -d.z) / (2 * WR_PI);
+    *v = 0.5 + (across > 0 || d.y != 0 ? wr_atan2(d.y, across) / WR_PI : 0);
+}
+
+/* Texel i, j of a channel, where rows -1 and H make the poles the mean of the row beside them. */
+static double texel(const WrEnvironmentMap *s, int i, int j, int c)
+{
+    const WrImage *image = s->image;
+    const int w = image->width, h = image->height, row = j < 0 ? 0 : j >= h ? h - 1 : j;
+    const double x =
+        (double)image->data[((size_t)row * (size_t)w + (size_t)((i + w) % w)) * 3 + (size_t)c];
+    return row == j ? x : 2 * s->pole[j >= h][c] - x;
+}
+
+void wr_environment_map_at_place(const WrEnvironmentMap *s, double u, double v, double rgb[3])
+{
+    const double x = s->image->width * u - 0.5, y = s->image->height * (1 - v) - 0.5;
+    const int i = (int)floor(x), j = (int)floor(y);
+    const double a = x - i, b = y - j;
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (1 - b) * ((1 - a) * texel(s, i, j, c) + a * texel(s, i + 1, j, c)) +
+                 b * ((1 - a) * texel(s, i, j + 1, c) + a * texel(s, i + 1, j + 1, c));
+}
+
+void wr_environment_map_at(const WrEnvironmentMap *s, WrVec3 direction, double rgb[3])
+{
+    double u, v;
+    wr_environment_map_place(direction, &u, &v);
+    wr_environment_map_at_place(s, u, v, rgb);
+}
+
+void wr_environment_map_turn(double turn_deg, double out[9])
+{
+    double s, c;
+    wr_sincos_turns(remainder(turn_deg, 360) / 360, &s, &c);
+    const double turn[9] = { c, 0, -s, 0, 1, 0, s, 0, c };
+    memcpy(out, turn, sizeof turn);
+}
+
+/* ---- harmonics ---- */
+
+/* Sums of a row over its columns, by longitude p: of 1, sin p, cos p, sin 2p, cos 2p. */
+typedef struct RowSums {
+    double of[5][3];
+} RowSums;
+
+static void add_row(RowSums *sums, const float *row, int width, const double *wave)
+{
+    *sums = (RowSums){ 0 };
+    for (int i = 0; i < width; i++)
+        for (int k = 0; k < 5; k++)
+            for (int c = 0; c < 3; c++) sums->of[k][c] += wave[5 * i + k] * (double)row[3 * i + c];
+}
+
+/* 1, sin, cos, sin 2p, cos 2p of the columns' longitudes. */
+static double *make_waves(int width)
+{
+    double *wave = wr_alloc((size_t)width, 5 * sizeof *wave);
+    for (int i = 0; i < width; i++) {
+        const double turns = (i + 0.5) / width - 0.5;
+        wave[5 * i] = 1;
+        wr_sincos_turns(turns, &wave[5 * i + 1], &wave[5 * i + 2]);
+        wr_sincos_turns(2 * turns, &wave[5 * i + 3], &wave[5 * i + 4]);
+    }
+    return wave;
+}
+
+/* x = sin p cos t, y = sin t, z = -cos p cos t; `angle` is the solid angle of a texel. */
+static void add_harmonics(const RowSums *sums, double cl, double sl, double angle,
+                          double out[WR_HARMONICS][3])
+{
+    const double k0 = 0.5 / sqrt(WR_PI), k1 = sqrt(3 / (4 * WR_PI)), k2 = 0.5 * sqrt(15 / WR_PI);
+    const double k20 = 0.25 * sqrt(5 / WR_PI), k22 = 0.5 * k2;
+    for (int c = 0; c < 3; c++) {
+        const double one = angle * sums->of[0][c], s1 = angle * sums->of[1][c];
+        const double c1 = angle * sums->of[2][c], s2 = angle * sums->of[3][c];
+        const double c2 = angle * sums->of[4][c];
+        out[0][c] += k0 * one;
+        out[1][c] += k1 * sl * one;
+        out[2][c] += k1 * -cl * c1;
+        out[3][c] += k1 * cl * s1;
+        out[4][c] += k2 * cl * sl * s1;
+        out[5][c] += k2 * sl * -cl * c1;
+        out[6][c] += k20 * (1.5 * cl * cl * (one + c2) - one);
+        out[7][c] += k2 * cl * cl * -0.5 * s2;
+        out[8][c] += k22 * (0.5 * cl * cl * (one - c2) - sl * sl * one);
+    }
+}
+
+/* The integral over the texels, each its own solid angle (4 pi / W) sin(pi / 2H) cos t. */
+static void find_harmonics(const WrImage *image, double out[WR_HARMONICS][3])
+{
+    const int w = image->width, h = image->height;
+    double *wave = make_waves(w), half, unused;
+    wr_sincos_turns(0.25 / h, &half, &unused);
+    memset(out, 0, WR_HARMONICS * sizeof *out);
+    double one[WR_HARMONICS][3] = { 0 };
+    const RowSums ones = { .of[0] = { w, w, w } };
+    for (int j = 0; j < h; j++) {
+        RowSums sums;
+        double sl, cl;
+        wr_sincos_turns(0.5 * (0.5 - (j + 0.5) / h), &sl, &cl);
+        add_row(&sums, image->data + (size_t)j * (size_t)w * 3, w, wave);
+        add_harmonics(&sums, cl, sl, 4 * WR_PI / w * half * cl, out);
+        add_harmonics(&ones, cl, sl, 4 * WR_PI / w * half * cl, one);
+    }
+    wr_free(wave);
+    for (int l = 1; l < WR_HARMONICS;
+         l++) /* what texels' middles make of the mean, which has none */
+        for (int c = 0; c < 3; c++) out[l][c] -= out[0][c] / one[0][c] * one[l][c];
+}
+
+/* Of one colour all but the first are 0. */
+static void find_even(const WrImage *image, double out[WR_HARMONICS][3])
+{
+    memset(out, 0, WR_HARMONICS * sizeof *out);
+    for (int c = 0; c < 3; c++) out[0][c] = 2 * sqrt(WR_PI) * (double)image->data[c];
+}
+
+/* The same surroundings in so many texels that each stands for its middle. */
+static WrImage *finer(const WrEnvironmentMap *s, WrError *err)
+{
+    WrImage *to = wr_image_new(256, 128, 3, err);
+    for (int j = 0; to && j < to->height; j++)
+        for (int i = 0; i < to->width; i++) {
+            double rgb[3];
+            wr_environment_map_at(
+                s, wr_environment_map_direction((i + 0.5) / to->width, 1 - (j + 0.5) / to->height),
+                rgb);
+            for (int c = 0; c < 3; c++)
+                to->data[((size_t)j * (size_t)to->width + (size_t)i) * 3 + (size_t)c] =
+                    (float)rgb[c];
+        }
+    return to;
+}
+
+static bool find_light(WrEnvironmentMap *s, WrError *err)
+{
+    if (s->even) {
+        find_even(s->image, s->harmonic);
+        return true;
+    }
+    if (s->image->width >= 128 && s->image->height >= 64) {
+        find_harmonics(s->image, s->harmonic);
+        return true;
+    }
+    WrImage *fine = finer(s, err);
+    if (!fine) return false;
+    find_harmonics(fine, s->harmonic);
+    wr_image_free(fine);
+    return true;
+}
+
+/* k, b and Q of one colour in the picture's directions. */
+static void world_form(double l[WR_HARMONICS][3], int c, double *k, double b[3], double q[9])
+{
+    const double k0 = 0.5 / sqrt(WR_PI), k1 = sqrt(3 / (4 * WR_PI)), k2 = 0.5 * sqrt(15 / WR_PI);
+    const double k20 = 0.25 * sqrt(5 / WR_PI), k22 = 0.5 * k2, one = 2.0 / 3, two = 0.25;
+    *k = k0 * l[0][c] - two * k20 * l[6][c];
+    b[0] = one * k1 * l[3][c], b[1] = one * k1 * l[1][c], b[2] = one * k1 * l[2][c];
+    q[0] = two * k22 * l[8][c], q[4] = -q[0], q[8] = two * 3 * k20 * l[6][c];
+    q[1] = q[3] = 0.5 * two * k2 * l[4][c];
+    q[5] = q[7] = 0.5 * two * k2 * l[5][c];
+    q[2] = q[6] = 0.5 * two * k2 * l[7][c];
+}
+
+/* Entry r, s of A^T Q A. */
+static double turned(const double a[9], const double q[9], int r, int s)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) sum += a[3 * i + r] * q[3 * i + k] * a[3 * k + s];
+    return sum;
+}
+
+void wr_environment_map_form(const WrEnvironmentMap *surround, const double a[9], double strength,
+                             int order, double out[3][WR_FORM_TERMS])
+{
+    double l[WR_HARMONICS][3] = { { 0 } };
+    memcpy(l, surround->harmonic, (size_t)((order + 1) * (order + 1)) * sizeof *l);
+    for (int c = 0; c < 3; c++) {
+        double k, b[3], q[9], *f = out[c];
+        world_form(l, c, &k, b, q);
+        f[0] = k;
+        for (int r = 0; r < 3; r++) {
+            f[1 + r] = a[r] * b[0] + a[3 + r] * b[1] + a[6 + r] * b[2];
+            f[4 + r] = turned(a, q, r, r);
+            f[7 + r] = 2 * turned(a, q, r, (r + 1) % 3);
+        }
+        for (int i = 0; i < WR_FORM_TERMS; i++) f[i] *= strength;
+    }
+}
+
+/* ---- out of pictures ---- */
+
+static float taken(float x, WrEnvironmentMapTold *told)
+{
+    if (isnan(x)) return told->lost++, 0;
+    if (x < 0) return told->below++, 0;
+    if (x > WR_ENVIRONMENT_MAP_MOST) return told->above++, WR_ENVIRONMENT_MAP_MOST;
+    return x;
+}
+
+static float channel(const WrImage *image, size_t pixel, int c, WrEnvironmentMapTold *told)
+{
+    const int from = image->channels < 3 ? 0 : c;
+    const float x = image->data[pixel * (size_t)image->channels + (size_t)from];
+    return taken(image->type == WR_PIXEL_F32 ? x : wr_srgb_decode(x), told);
+}
+
+/* Means of n x n texels, or of fewer at the ends. */
+static void reduce_row(const WrImage *from, int n, int j, WrImage *to, WrEnvironmentMapTold *told)
+{
+    const int below = j * n + n < from->height ? n : from->height - j * n;
+    for (int i = 0; i < to->width; i++) {
+        const int beside = i * n + n < from->width ? n : from->width - i * n;
+        double sum[3] = { 0 };
+        for (int y = 0; y < below; y++)
+            for (int x = 0; x < beside; x++)
+                for (int c = 0; c < 3; c++)
+                    sum[c] += (double)channel(
+                        from, (size_t)(j * n + y) * (size_t)from->width + (size_t)(i * n + x), c,
+                        told);
+        float *out = to->data + ((size_t)j * (size_t)to->width + (size_t)i) * 3;
+        for (int c = 0; c < 3; c++) out[c] = (float)(sum[c] / (beside * below));
+    }
+}
+
+static bool is_even(const WrImage *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height * 3;
+    for (size_t i = 3; i < count; i++)
+        if (image->data[i] != image->data[i - 3]) return false;
+    return true;
+}
+
+static void find_poles(WrEnvironmentMap *s)
+{
+    const int w = s->image->width;
+    for (int end = 0; end < 2; end++) {
+        const float *row =
+            s->image->data + (end ? (size_t)(s->image->height - 1) * (size_t)w * 3 : 0);
+        for (int i = 0; i < w; i++)
+            for (int c = 0; c < 3; c++) s->pole[end][c] += (double)row[3 * i + c] / w;
+    }
+}
+
+/* Takes the picture. */
+static WrEnvironmentMap *surround_of(WrImage *image, WrError *err)
+{
+    WrEnvironmentMap *s = wr_alloc(1, sizeof *s);
+    s->refs = 1;
+    s->image = image;
+    image->type = WR_PIXEL_F32;
+    s->even = is_even(image);
+    find_poles(s);
+    if (find_light(s, err)) return s;
+    wr_environment_map_free(s);
+    return NULL;
+}
+
+WrEnvironmentMap *wr_environment_map_new(const WrImage *image, WrEnvironmentMapTold *told,
+                                         WrError *err)
+{
+    const int n = (image->width + WR_ENVIRONMENT_MAP_WIDTH - 1) / WR_ENVIRONMENT_MAP_WIDTH;
+    const int w = (image->width + n - 1) / n, h = (image->height + n - 1) / n;
+    WrImage *to = wr_image_new(w, h, 3, err);
+    if (!to) return NULL;
+    *told = (WrEnvironmentMapTold){ .reduced = n };
+    for (int j = 0; j < h; j++) {
+        if (wr_progress_stopped()) {
+            wr_image_free(to);
+            wr_fail(err, "cancelled");
+            return NULL;
+        }
+        reduce_row(image, n, j, to, told);
+    }
+    return surround_of(to, err);
+}
+
+/* ---- built-in sets ---- */
+
+/* 0 below a, 1 above b, smooth between. */
+static double step(double a, double b, double x)
+{
+    const double t = fmin(fmax((x - a) / (b - a), 0), 1);
+    return t * t * (3 - 2 * t);
+}
+
+static void add_light(double rgb[3], double share, double r, double g, double b)
+{
+    rgb[0] += share * r, rgb[1] += share * g, rgb[2] += share * b;
+}
+
+/* A panel with soft edges about a direction, so many radii wide and high. */
+static double panel(WrVec3 d, WrVec3 middle, double wide, double high)
+{
+    const WrVec3 m = v3_unit(middle, (WrVec3){ 0, 1, 0 }), up = { 0, 1, 0 }, back = { 0, 0, 1 };
+    const WrVec3 side = v3_unit(v3_cross(fabs(m.y) > 0.99 ? back : up, m), back);
+    const WrVec3 above = v3_cross(m, side);
+    const double ahead = v3_dot(d, m), soft = 0.04;
+    if (!(ahead > 0.05)) return 0;
+    const double x = fabs(v3_dot(d, side)) / ahead, y = fabs(v3_dot(d, above)) / ahead;
+    return (1 - step(wide - soft, wide + soft, x)) * (1 - step(high - soft, high + soft, y));
+}
+
+/* A dim room with a large soft box at the upper left, a strip at the right and a card in front. */
+static void studio(WrVec3 d, double rgb[3])
+{
+    const double up = step(-0.5, 1, d.y);
+    rgb[0] = 0.05 + 0.09 * up, rgb[1] = 0.05 + 0.09 * up, rgb[2] = 0.055 + 0.095 * up;
+    add_light(rgb, step(0.1, -0.6, d.y), 0.07, 0.062, 0.055); /* the floor */
+    add_light(rgb, panel(d, (WrVec3){ -0.7, 0.8, 0.6 }, 0.55, 0.42), 6.2, 5.9, 5.5);
+    add_light(rgb, panel(d, (WrVec3){ 0.95, 0.15, 0.15 }, 0.12, 0.85), 3.1, 3.5, 4.1);
+    add_light(rgb, panel(d, (WrVec3){ 0.25, -0.25, 1 }, 0.4, 0.25), 0.35, 0.34, 0.33);
+}
+
+/* A clear day: haze above the horizon, brown ground below, the sun at the upper left. */
+static void sky(WrVec3 d, double rgb[3])
+{
+    const WrVec3 sun = v3_unit((WrVec3){ -0.5, 0.6, 0.75 }, (WrVec3){ 0, 1, 0 });
+    const double high = fmax(d.y, 0), haze = wr_exp2(-5.5 * high), c = v3_dot(d, sun);
+    rgb[0] = 0.17 + 0.55 * haze, rgb[1] = 0.33 + 0.45 * haze, rgb[2] = 0.78 + 0.2 * haze;
+    add_light(rgb, wr_exp2(-9 * (1 - c)), 0.45, 0.38, 0.26); /* brighter about the sun */
+    const double ground = step(0.012, -0.012, d.y), far = wr_exp2(6 * fmin(d.y, 0));
+    const double earth[3] = { 0.16 + 0.16 * far, 0.13 + 0.16 * far, 0.1 + 0.15 * far };
+    for (int i = 0; i < 3; i++) rgb[i] += ground * (earth[i] - rgb[i]);
+    add_light(rgb, (1 - ground) * step(0.9982, 0.9990, c), 330, 300, 250); /* 3 degrees */
+}
+
+/* Almost dark, with a long low window at the left: what lights a relief from the side. */
+static void raking(WrVec3 d, double rgb[3])
+{
+    const double up = step(-1, 1, d.y);
+    rgb[0] = 0.02 + 0.03 * up, rgb[1] = 0.022 + 0.034 * up, rgb[2] = 0.03 + 0.045 * up;
+    add_light(rgb, panel(d, (WrVec3){ -1, 0.16, 0.12 }, 0.5, 0.13), 17, 15.5, 13.5);
+    add_light(rgb, panel(d, (WrVec3){ 1, 0.3, -0.3 }, 0.3, 0.3), 0.28, 0.34, 0.45);
+}
+
+WrEnvironmentMap *wr_environment_map_built(WrEnvironmentMapKind kind, WrError *err)
+{
+    void (*const at)(WrVec3, double *) = kind == WR_ENVIRONMENT_MAP_STUDIO ? studio
+                                         : kind == WR_ENVIRONMENT_MAP_SKY  ? sky
+                                                                           : raking;
+    WrImage *to = wr_image_new(512, 256, 3, err);
+    if (!to) return NULL;
+    for (int j = 0; j < to->height; j++)
+        for (int i = 0; i < to->width; i++) {
+            double rgb[3];
+            at(wr_environment_map_direction((i + 0.5) / to->width, 1 - (j + 0.5) / to->height),
+               rgb);
+            float *out = to->data + ((size_t)j * (size_t)to->width + (size_t)i) * 3;
+            for (int c = 0; c < 3; c++) out[c] = (float)rgb[c];
+        }
+    return surround_of(to, err);
+}

@@ -1,9 +1,0 @@
-/* fd_inner.h - what the files of descriptors know of one another.
-   Private to this room. */
-#pragma once
-#include "system/fd.h"
-
-#include <sys/stat.h>
-
-void wr_fd_info_of(const struct stat *from, WrFileInfo *to);
-int wr_fd_flags(unsigned how);

@@ -1,0 +1,12 @@
+/* Where a system hands out pages as it likes. */
+#include "system/large_pages.h"
+
+void wr_pages_large(void *block, size_t bytes)
+{
+    (void)block, (void)bytes;
+}
+
+uint64_t wr_pages_free_bytes(void)
+{
+    return 0;
+}

@@ -1,5 +1,0 @@
-/* Nothing stands before the C library here: a system whose cage lets no path be opened has to answer for the one of the
-   file that is being read, as Linux does. */
-#include "system/reopen.h"
-
-_Static_assert(WR_REOPEN_FILE > 2, "beside the standard files");

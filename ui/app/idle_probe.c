@@ -1,0 +1,110 @@
+#include "ui/app/idle_probe.h"
+#include "ui/accuracy/accuracy.h"
+#include "ui/app/input.h"
+#include "ui/state/app_state.h"
+#include "ui/state/deferred_actions.h"
+#include "ui/state/layout.h"
+#include "ui/toolkit/gui.h"
+#include "ui/patch/patch.h"
+#include "ui/input/pen.h"
+#include "ui/preview/preview.h"
+#include "ui/tools/stroke_input.h"
+
+#include "base/array.h"
+#include "base/memory.h"
+#include "system/fd.h"
+#include "system/thread.h"
+
+#include <SDL.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* What a worker is done with may be taken one step later, and asks for pictures then. */
+#define CALM_STEPS 3
+
+struct WrIdleProbe {
+    Uint32 ask_event;
+    int fifo;
+    WrThread thread;
+    int asked, answered; /* questions; the window's thread */
+    int calm;            /* steps at rest in a row since the newest question */
+};
+
+static void push(const WrIdleProbe *rest)
+{
+    SDL_Event event = { .type = rest->ask_event };
+    SDL_PushEvent(&event);
+}
+
+/* The byte 'q' ends it: only the program itself writes that. */
+static void *thread_main(void *ctx)
+{
+    const WrIdleProbe *rest = ctx;
+    char byte;
+    while (wr_fd_read(rest->fifo, &byte, 1) == 1 && byte != 'q') push(rest);
+    return NULL;
+}
+
+WrIdleProbe *wr_idle_probe_new(Uint32 ask_event)
+{
+    const char *path = getenv("WRINKLE_REST");
+    int fifo = path && *path ? wr_fd_open(path, WR_OPEN_READ | WR_OPEN_WRITE) : -1;
+    if (fifo < 0) return NULL;
+    WrIdleProbe *rest = wr_alloc(1, sizeof *rest);
+    rest->ask_event = ask_event;
+    rest->fifo = fifo;
+    if (wr_thread_begin(&rest->thread, thread_main, rest)) return rest;
+    wr_fd_close(fifo);
+    wr_free(rest);
+    return NULL;
+}
+
+void wr_idle_probe_free(WrIdleProbe *rest)
+{
+    if (!rest) return;
+    if (wr_fd_write(rest->fifo, "q", 1)) wr_thread_join(rest->thread);
+    wr_fd_close(rest->fifo);
+    wr_free(rest);
+}
+
+void wr_idle_probe_asked(WrApp *app)
+{
+    WrIdleProbe *rest = app->rest;
+    if (!rest) return;
+    rest->asked++;
+    rest->calm = 0;
+    wr_pen_sync(app->pen); /* what the server had until now is in SDL's queue at the next look */
+}
+
+static bool is_calm(WrApp *app, bool busy)
+{
+    const WrPatch *p = app->patch;
+    /* A widget that is held, and two pictures in turn, may stay so for ever. */
+    bool held = wr_gui_holds_mouse(app->gui);
+    bool patch = p->outstanding || wr_patch_next_time(app) > 0.0 ||
+                 !wr_preview_settled(app->preview) ||
+                 wr_preview_picture(app->preview)->serial != p->serial;
+    return !busy && !(patch && app->layout->patch.w > 0) && !(app->redraw > 0 && app->visible) &&
+           !wr_strokes_waits(app) && !wr_accuracy_under_way(app) &&
+           !(wr_gui_busy(app->gui) && !held) && !wr_pen_replaying(app->pen) &&
+           wr_pen_waiting(app->pen) == 0 && !wr_input_waits(app) && !wr_deferred_waits(app, NULL);
+}
+
+void wr_idle_probe_step(WrApp *app, bool busy)
+{
+    WrIdleProbe *rest = app->rest;
+    if (!rest || rest->answered == rest->asked) return;
+    if (!is_calm(app, busy)) {
+        rest->calm = 0;
+        return; /* what is due or under way makes the next step */
+    }
+    if (++rest->calm < CALM_STEPS) {
+        SDL_Event nothing = { .type = app->ready_event };
+        SDL_PushEvent(&nothing);
+        return;
+    }
+    wr_pen_sync(app->pen); /* the server has the picture */
+    rest->answered = rest->asked;
+    fprintf(stderr, "at rest %d\n", rest->answered);
+    fflush(stderr);
+}

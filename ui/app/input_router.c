@@ -1,0 +1,489 @@
+/* Pointer and keys: who gets an event, and what the pointer holds meanwhile. */
+#include "ui/accuracy/accuracy.h"
+#include "ui/app/input_targets.h"
+#include "ui/app/input.h"
+#include "ui/canvas/view.h"
+#include "ui/state/action.h"
+#include "ui/state/action_list.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
+#include "ui/state/layout.h"
+#include "ui/state/roster.h"
+#include "ui/state/settings.h"
+#include "ui/generate/generate_state.h"
+#include "ui/toolkit/focus.h"
+#include "ui/toolkit/gui.h"
+#include "ui/panels/panel_dynamics.h"
+#include "ui/panels/panel_preferences.h"
+#include "ui/patch/patch.h"
+#include "ui/patch/patch_objects.h"
+#include "ui/patch/patch_paint.h"
+#include "ui/input/pen.h"
+#include "ui/input/pen_curve.h"
+#include "ui/tools/stroke_input.h"
+#include "ui/tools/symmetry.h"
+#include "ui/tools/tool.h"
+#include "ui/tools/tool_brush.h"
+#include "ui/tools/tool_select.h"
+#include "ui/tools/tool_view.h"
+#include "ui/views/marks.h"
+
+#include "system/clock.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <string.h>
+
+#define MOUSE (-1) /* in place of a pen's device */
+#define WHEEL_DEG 5.0
+
+static WrPointer pointer_at(const WrApp *app, double x, double y, int button)
+{
+    WrPointer at = {
+        .x = x, .y = y, .pressure = 1.0, .button = button, .mods = wr_input_mods(app)
+    };
+    wr_view_to_uv(app->view, x, y, &at.u, &at.v);
+    return at;
+}
+
+/* A mouse has whole pixels, which stand for their middles, and no pressure: it is made up if asked for. */
+static WrPointer mouse_at(WrApp *app, int x, int y, int button, Uint32 milliseconds, bool pressed)
+{
+    WrPointer at = pointer_at(app, x + 0.5, y + 0.5, button);
+    WrFakePressure *fake = &app->settings->fake;
+    at.seconds = milliseconds / 1e3;
+    if (pressed) fake->now = fake->held;
+    else if (app->hand->grab == WR_GRAB_NONE) return at;
+    double way = pressed ? 0.0 : hypot(at.x - app->hand->at.x, at.y - app->hand->at.y);
+    at.pressure = wr_fake_pressure(fake, way, pressed ? 0.0 : at.seconds - app->hand->fake_at);
+    app->hand->fake_at = at.seconds;
+    return at;
+}
+
+static bool blocked(const WrApp *app)
+{
+    return app->dialog->now != WR_DIALOG_NONE;
+}
+
+/* A dialog is open whose effect the canvas shows: it may be looked at from all sides. */
+static bool shows_effect(const WrApp *app)
+{
+    return blocked(app) && app->roster->dialogs[app->dialog->now].shows_effect;
+}
+
+static bool can_look(const WrApp *app, int button)
+{
+    return shows_effect(app) && button == SDL_BUTTON_MIDDLE;
+}
+
+/* ---- buttons ---- */
+
+static void press_canvas(WrApp *app, const WrPointer *at)
+{
+    WrHand *hand = app->hand;
+    const WrTool *tool = wr_tool_now(app);
+    if (at->button == SDL_BUTTON_MIDDLE || (at->button == SDL_BUTTON_LEFT && hand->space)) {
+        hand->grab = at->mods & WR_MOD_SHIFT ? WR_GRAB_TURN : WR_GRAB_PAN;
+        hand->turn_from = app->view->turn;
+        hand->space_used = true;
+        return;
+    }
+    if (at->button != SDL_BUTTON_LEFT) return;
+    if (wr_symmetry_press(app, at)) {
+        hand->grab = WR_GRAB_SYMMETRY;
+        return;
+    }
+    const bool needs_idle = tool->paints ? app->busy && !wr_busy_lets_wait(app) : !tool->meanwhile;
+    if (needs_idle && wr_busy_refuse(app)) return;
+    hand->grab = WR_GRAB_TOOL;
+    if (tool->paints && !hand->line && wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods)) {
+        /* a drag sizes the brush, a click draws a line: known when it moves, or is let go */
+        hand->grab = WR_GRAB_RESIZE;
+        app->brush->resize_radius = app->settings->brush.radius;
+        return;
+    }
+    if (tool->press) tool->press(app, at);
+}
+
+static void press_patch(WrApp *app, const WrPointer *at)
+{
+    if (at->button == SDL_BUTTON_LEFT && wr_accuracy_on_line(app, at->x, at->y)) {
+        app->hand->grab = WR_GRAB_SPLIT;
+    } else if (at->button == SDL_BUTTON_LEFT && wr_patch_paints(app) &&
+               !wr_patch_control_under(app, at)) {
+        if (app->busy && !wr_busy_lets_wait(app) && wr_busy_refuse(app)) return;
+        if (!app->busy && !wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods))
+            wr_patch_choose(app, at); /* a command, which ends what is held */
+        app->hand->grab = WR_GRAB_PATCH_PAINT;
+        wr_patch_paint_press(app, at);
+    } else if (!wr_busy_refuse(app)) {
+        wr_patch_press(app, at);
+    }
+}
+
+/* A button went down that no widget gets. */
+static void press(WrApp *app, const WrPointer *at, int device)
+{
+    WrHand *hand = app->hand;
+    int x = (int)at->x, y = (int)at->y;
+    if (hand->grab != WR_GRAB_NONE || (blocked(app) && !can_look(app, at->button))) return;
+    if (wr_gui_owns_point(app->gui, x, y)) return;
+    hand->at = hand->start = *at;
+    hand->button = at->button;
+    hand->device = device;
+    if (wr_layout_inside(&app->layout->divider, x, y)) {
+        if (at->button == SDL_BUTTON_LEFT) hand->grab = WR_GRAB_DIVIDER;
+    } else if (wr_layout_inside(&app->layout->panel_divider, x, y)) {
+        if (at->button == SDL_BUTTON_LEFT) hand->grab = WR_GRAB_PANELS;
+    } else if (wr_layout_inside(&app->layout->canvas, x, y)) {
+        press_canvas(app, at);
+    } else if (!blocked(app) && wr_layout_inside(&app->layout->patch, x, y)) {
+        press_patch(app, at);
+    }
+}
+
+/* Shift and a click without moving: a straight line from the last stroke. */
+static void finish_resize(WrApp *app, const WrPointer *at)
+{
+    if (fabs(at->x - app->hand->start.x) > 3.0) return;
+    app->settings->brush.radius = app->brush->resize_radius;
+    wr_brush_press(app, at);
+    wr_brush_release(app, at);
+}
+
+static void release(WrApp *app, const WrPointer *at)
+{
+    WrGrab grab = app->hand->grab;
+    const WrTool *tool = wr_tool_now(app);
+    app->hand->grab = WR_GRAB_NONE;
+    if (grab == WR_GRAB_TOOL && tool->release) tool->release(app, at);
+    if (grab == WR_GRAB_PATCH_PAINT) wr_patch_paint_release(app, at);
+    if (grab == WR_GRAB_RESIZE) finish_resize(app, at);
+    if (wr_grab_on_patch(grab)) {
+        app->hand->grab = grab;
+        wr_patch_release(app);
+        app->hand->grab = WR_GRAB_NONE;
+    }
+    wr_app_redraw(app);
+}
+
+static void let_go(WrApp *app, const WrPointer *at, int device)
+{
+    const WrHand *hand = app->hand;
+    if (hand->grab != WR_GRAB_NONE && at->button == hand->button && device == hand->device)
+        release(app, at);
+}
+
+/* End what is being held, keeping what was done. */
+static void end_held(WrApp *app)
+{
+    if (app->hand->grab == WR_GRAB_RESIZE) {
+        app->settings->brush.radius = app->brush->resize_radius;
+        app->hand->grab = WR_GRAB_NONE;
+    }
+    app->brush->straight = false; /* aimed, not drawn */
+    if (app->hand->grab != WR_GRAB_NONE) release(app, &app->hand->at);
+    wr_strokes_finish(app);
+}
+
+/* End it as if it had not begun. */
+static void cancel_held(WrApp *app)
+{
+    if (app->select->active) {
+        wr_select_cancel(app);
+        app->hand->grab = WR_GRAB_NONE;
+        return;
+    }
+    bool drew = app->brush->drawing || app->brush->jobs.count > 0;
+    bool aimed = app->brush->straight;
+    app->brush->straight = false;
+    wr_strokes_cancel(app);
+    if (!drew && !aimed) wr_hand_let_go(app);
+    else app->hand->grab = WR_GRAB_NONE;
+}
+
+/* ---- motion and wheel ---- */
+
+/* A height, from the canvas or from the table under the patch. */
+static void pick(WrApp *app, const WrPointer *at)
+{
+    WrPointer there = *at;
+    bool on_patch = wr_layout_inside(&app->layout->patch, (int)at->x, (int)at->y);
+    if (on_patch && !wr_patch_paint_uv(app, at, &there.u, &there.v)) return;
+    wr_brush_pick(app, &there);
+}
+
+static void drag(WrApp *app, const WrPointer *at)
+{
+    const WrTool *tool = wr_tool_now(app);
+    switch (app->hand->grab) {
+    case WR_GRAB_TOOL:
+        if (tool->drag) tool->drag(app, at);
+        break;
+    case WR_GRAB_PATCH_PAINT: wr_patch_paint_drag(app, at); break;
+    case WR_GRAB_SYMMETRY: wr_symmetry_drag(app, at); break;
+    case WR_GRAB_PICK: pick(app, at); break;
+    case WR_GRAB_PAN: wr_tool_pan_drag(app, at); break;
+    case WR_GRAB_TURN: wr_tool_turn_drag(app, at); break;
+    case WR_GRAB_RESIZE: wr_brush_resize(app, at); break;
+    case WR_GRAB_DIVIDER:
+        app->settings->divider = wr_layout_divider_at(app->layout, (int)at->x, (int)at->y);
+        break;
+    case WR_GRAB_SPLIT: wr_accuracy_drag_line(app, at->x); break;
+    case WR_GRAB_PANELS: app->settings->lower = wr_layout_lower_at(app->layout, (int)at->y); break;
+    case WR_GRAB_ORBIT:
+    case WR_GRAB_LIGHT:
+    case WR_GRAB_SURROUND:
+    case WR_GRAB_HANDLE: wr_patch_drag(app, at); break;
+    case WR_GRAB_NONE: break;
+    }
+}
+
+/* Is the pointer, at that pixel, over a view and over no widget? */
+static void look(WrApp *app, int x, int y)
+{
+    WrHand *hand = app->hand;
+    bool free = hand->grab == WR_GRAB_NONE && !blocked(app) && !wr_gui_owns_point(app->gui, x, y) &&
+                !wr_gui_holds_mouse(app->gui);
+    bool held = hand->grab != WR_GRAB_NONE;
+    hand->on_canvas = (held || free) && wr_layout_inside(&app->layout->canvas, x, y);
+    hand->on_patch = (held || free) && wr_layout_inside(&app->layout->patch, x, y);
+}
+
+static void move(WrApp *app, const WrPointer *at)
+{
+    WrHand *hand = app->hand;
+    int x = (int)at->x, y = (int)at->y;
+    if (hand->grab != WR_GRAB_NONE) drag(app, at);
+    hand->at = *at;
+    wr_view_to_uv(app->view, at->x, at->y, &hand->at.u, &hand->at.v); /* the view may have moved */
+    look(app, x, y);
+}
+
+void wr_hand_look(WrApp *app)
+{
+    WrHand *hand = app->hand;
+    bool canvas = hand->on_canvas, patch = hand->on_patch;
+    /* The view may have come, or moved, since the pointer did. */
+    if (hand->grab == WR_GRAB_NONE)
+        wr_view_to_uv(app->view, hand->at.x, hand->at.y, &hand->at.u, &hand->at.v);
+    if (hand->grab != WR_GRAB_NONE || SDL_GetMouseFocus() != app->window) return;
+    look(app, (int)hand->at.x, (int)hand->at.y);
+    if (canvas != hand->on_canvas || patch != hand->on_patch) wr_app_redraw(app);
+}
+
+/* ---- the mouse ---- */
+
+/* What only echoes a pen or a finger, whose own events say more. What the mouse holds it holds to the end:
+ * of a pen that pressed without hovering first the press may have come as the mouse's. */
+static bool is_echo(const WrApp *app, Uint32 which)
+{
+    if (which == SDL_TOUCH_MOUSEID) return true;
+    if (app->hand->grab != WR_GRAB_NONE) return app->hand->device != MOUSE;
+    return wr_pen_moves_mouse(app->pen);
+}
+
+static void mouse_moved(WrApp *app, const SDL_MouseMotionEvent *event)
+{
+    if (is_echo(app, event->which)) return;
+    WrPointer at = mouse_at(app, event->x, event->y, app->hand->button, event->timestamp, false);
+    app->hand->events++;
+    move(app, &at);
+}
+
+static void mouse_button(WrApp *app, const SDL_MouseButtonEvent *event, bool down)
+{
+    if (is_echo(app, event->which)) return;
+    WrPointer at = mouse_at(app, event->x, event->y, event->button, event->timestamp, down);
+    app->hand->events++;
+    if (down) press(app, &at, MOUSE);
+    else let_go(app, &at, MOUSE);
+}
+
+static void wheel(WrApp *app, const SDL_MouseWheelEvent *event)
+{
+    int x, y;
+    wr_input_pointer(app, &x, &y);
+    if ((blocked(app) && !shows_effect(app)) || wr_gui_owns_point(app->gui, x, y)) return;
+    double steps =
+        (double)event->preciseY * (event->direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0);
+    const WrTool *tool = wr_tool_now(app);
+    if (wr_layout_inside(&app->layout->canvas, x, y)) {
+        if (!blocked(app) && tool->wheel && tool->wheel(app, steps)) return;
+        if (wr_input_mods(app) & WR_MOD_SHIFT)
+            wr_view_turn_at(app->view, x, y, app->view->turn + WHEEL_DEG * steps);
+        else wr_view_zoom_at(app->view, x, y, app->view->zoom * exp2(steps / 3.0));
+        app->hand->at = pointer_at(app, x + 0.5, y + 0.5, app->hand->button);
+    } else if (!blocked(app) && wr_layout_inside(&app->layout->patch, x, y)) {
+        if (wr_input_mods(app) & WR_MOD_CTRL) wr_patch_wheel_angle(app, steps);
+        else wr_patch_wheel(app, steps);
+    }
+}
+
+/* ---- pens and fingers ---- */
+
+/* The tip is the left button; the barrel's second picks a height, its third pans. */
+static int pen_button(int button)
+{
+    return button == 1   ? SDL_BUTTON_LEFT
+           : button == 2 ? SDL_BUTTON_RIGHT
+           : button == 3 ? SDL_BUTTON_MIDDLE
+                         : button;
+}
+
+static void pen_down(WrApp *app, const WrPointer *at, int device)
+{
+    WrHand *hand = app->hand;
+    bool over = wr_layout_inside(&app->layout->canvas, (int)at->x, (int)at->y) ||
+                wr_layout_inside(&app->layout->patch, (int)at->x, (int)at->y);
+    if (at->button != SDL_BUTTON_RIGHT || !over) {
+        press(app, at, device);
+        return;
+    }
+    if (hand->grab != WR_GRAB_NONE || blocked(app) ||
+        wr_gui_owns_point(app->gui, (int)at->x, (int)at->y))
+        return;
+    hand->at = hand->start = *at;
+    hand->button = at->button;
+    hand->device = device;
+    hand->grab = WR_GRAB_PICK;
+    pick(app, at);
+}
+
+void wr_hand_pen(WrApp *app, const WrPenEvent *event)
+{
+    WrHand *hand = app->hand;
+    bool holds = hand->grab != WR_GRAB_NONE && hand->device == event->device;
+    app->input_at = wr_clock_seconds();
+    wr_app_redraw(app);
+    if (event->kind == WR_PEN_LOST) {
+        if (holds) wr_hand_let_go(app);
+        return;
+    }
+    if (hand->grab != WR_GRAB_NONE && !holds) return;                 /* one at a time */
+    if (event->finger && !holds && wr_pen_in_range(app->pen)) return; /* a palm */
+    int button = event->kind == WR_PEN_MOTION ? hand->button : pen_button(event->button);
+    WrPointer at = pointer_at(app, event->x, event->y, button);
+    at.pen = true;
+    at.eraser = event->eraser;
+    at.pressure = event->pressure;
+    at.tilt_x = event->tilt_x;
+    at.tilt_y = event->tilt_y;
+    at.seconds = event->seconds;
+    hand->events++;
+    if (event->kind == WR_PEN_DOWN) pen_down(app, &at, event->device);
+    else if (event->kind == WR_PEN_UP) let_go(app, &at, event->device);
+    else move(app, &at);
+}
+
+/* ---- keys ---- */
+
+static void space(WrApp *app, bool down)
+{
+    WrHand *hand = app->hand;
+    if (down && hand->on_patch) {
+        wr_action_run(app, WR_ACT(turn));
+        return;
+    }
+    if (down && !hand->space) hand->space_used = false;
+    hand->space = down;
+    /* Space may be let go before the button: the drag goes on. */
+    wr_app_redraw(app);
+}
+
+/* Keys that mean something while they are held. True if `action` is one of them. */
+static bool hold(WrApp *app, const char *action, const SDL_KeyboardEvent *event)
+{
+    WrHand *hand = app->hand;
+    if (strcmp(action, WR_ACT(straight_line)) == 0) {
+        if (hand->grab == WR_GRAB_NONE) hand->line = true;
+        hand->line_key = event->keysym.sym;
+        return true;
+    }
+    if (strcmp(action, WR_ACT(compare_hold)) == 0) {
+        app->accuracy->hold_key = event->keysym.sym;
+        app->accuracy->hold_b = true;
+        wr_app_redraw(app);
+        return true;
+    }
+    if (strcmp(action, WR_ACT(paint_patch)) == 0) {
+        if (event->repeat) return true;
+        hand->quick_key = event->keysym.sym;
+        hand->quick_at = wr_clock_seconds();
+        hand->quick_events = app->brush->strokes;
+        wr_action_run(app, action);
+        return true;
+    }
+    return false;
+}
+
+#define TAP_SECONDS 0.4
+
+/* Held for a while, or painted with meanwhile, the key for painting on the patch switches back. */
+static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
+{
+    WrHand *hand = app->hand;
+    SDL_Keycode key = event->keysym.sym;
+    if (key == SDLK_SPACE) space(app, false);
+    if (hand->line && key == hand->line_key) hand->line = false;
+    if (key == app->accuracy->hold_key) app->accuracy->hold_b = false;
+    if (hand->quick_at > 0.0 && key == hand->quick_key) {
+        bool was_held = wr_clock_seconds() - hand->quick_at > TAP_SECONDS ||
+                        app->brush->strokes != hand->quick_events;
+        hand->quick_at = 0.0;
+        if (was_held) wr_action_run(app, WR_ACT(paint_patch));
+    }
+}
+
+/* Keys that lead to other parts of the window, also out of a text that is being typed. */
+static bool leaves_text(const WrApp *app, const SDL_KeyboardEvent *event)
+{
+    const char *action = wr_keys_find(app->keys, event->keysym);
+    return action && (strcmp(action, WR_ACT(part_next)) == 0 ||
+                      strcmp(action, WR_ACT(part_back)) == 0 || strcmp(action, WR_ACT(menus)) == 0);
+}
+
+static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
+{
+    if (wr_preferences_take_key(app, event) || wr_gui_took_key(app->gui)) return;
+    if (wr_dynamics_take_key(app, event)) return;
+    if (blocked(app) || wr_gui_popup_open_now(app->gui)) return;
+    if (wr_gui_wants_text(app->gui) && !leaves_text(app, event)) return;
+    int mods = wr_key_mods((SDL_Keymod)event->keysym.mod);
+    if (event->keysym.sym == SDLK_SPACE &&
+        (mods == 0 || (mods == WR_MOD_SHIFT && app->hand->on_canvas))) {
+        if (!event->repeat) space(app, true);
+        return;
+    }
+    const WrTool *tool = wr_tool_now(app);
+    if (mods == 0 && tool->key && tool->key(app, event->keysym.sym)) return;
+    if (event->keysym.sym == SDLK_ESCAPE) {
+        cancel_held(app);
+        return;
+    }
+    const bool enters = event->keysym.sym == SDLK_RETURN || event->keysym.sym == SDLK_KP_ENTER;
+    if (enters && mods == WR_MOD_CTRL && wr_generate_writes(app)) { /* as in their field */
+        wr_generate_commit(app);
+        return;
+    }
+    const char *action = wr_keys_find(app->keys, event->keysym);
+    if (action && !hold(app, action, event)) wr_action_run(app, action);
+}
+
+void wr_hand_event(WrApp *app, const SDL_Event *event)
+{
+    switch (event->type) {
+    case SDL_MOUSEMOTION: mouse_moved(app, &event->motion); break;
+    case SDL_MOUSEBUTTONDOWN: mouse_button(app, &event->button, true); break;
+    case SDL_MOUSEBUTTONUP: mouse_button(app, &event->button, false); break;
+    case SDL_MOUSEWHEEL: wheel(app, &event->wheel); break;
+    case SDL_KEYDOWN: key_down(app, &event->key); break;
+    case SDL_KEYUP: key_up(app, &event->key); break;
+    default: break;
+    }
+}
+
+const WrPart wr_part_hand = { .let_go = end_held };

@@ -1,0 +1,59 @@
+/* The settings while the window is open: written when they changed, once a second at most, between gestures. */
+#include "ui/app/settings_sync.h"
+#include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/settings.h"
+#include "ui/tools/preset_browser.h"
+
+#include "command/session.h"
+#include "system/clock.h"
+
+#include <SDL.h>
+
+#define CHECK_SECONDS 1.0
+
+/* As they are now; its texts are the program's. */
+static WrSettings current(const WrApp *app)
+{
+    WrSettings now = *app->settings;
+    if (!now.maximized) SDL_GetWindowSize(app->window, &now.width, &now.height);
+    wr_preset_browser_remember(app, &now);
+    return now;
+}
+
+static bool write_changes(WrApp *app, bool last)
+{
+    WrSettings now = current(app);
+    if (wr_settings_equal(app->settings_known, &now)) return true;
+    if (!wr_settings_update(app->settings_known, &now, last)) return false;
+    wr_settings_take_lists(app->settings, app->settings_known); /* another window's too */
+    return true;
+}
+
+void wr_settings_begin(WrApp *app)
+{
+    *app->settings = wr_settings_default();
+    if (!app->latency) wr_settings_load(app->settings);
+    *app->settings_known = wr_settings_copy(app->settings);
+}
+
+double wr_settings_next_time(const WrApp *app)
+{
+    /* What is changed is drawn. */
+    bool due = app->settings_failed || app->drawn_at > app->settings_at;
+    bool busy = app->hand->grab != WR_GRAB_NONE || wr_session_in_stroke(app->session);
+    return due && !busy && !app->latency ? app->settings_at + CHECK_SECONDS : 0.0;
+}
+
+void wr_settings_tend(WrApp *app)
+{
+    double due = wr_settings_next_time(app), now = wr_clock_seconds();
+    if (due == 0.0 || now < due) return;
+    app->settings_failed = !write_changes(app, false);
+    app->settings_at = wr_clock_seconds();
+}
+
+void wr_settings_end(WrApp *app)
+{
+    if (!app->latency) write_changes(app, true);
+}

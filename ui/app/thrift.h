@@ -1,5 +1,0 @@
-/* thrift.h - memory that nobody uses, while nobody uses the window. */
-#pragma once
-#include "ui/desk/roster.h"
-
-extern const WrPart wr_part_thrift;

@@ -1,0 +1,151 @@
+#include "ui/canvas/canvas_colors.h"
+
+#include <math.h>
+
+#define BEYOND 0.01f /* of a code: so far off it counts as beyond */
+#define MAJOR 5      /* every so many contours one is stronger */
+#define LINES 10     /* about so many over the range */
+
+static uint32_t mix(const double a[3], const double b[3], double t)
+{
+    uint32_t out = 0xff;
+    for (int k = 0; k < 3; k++) out = out << 8 | (uint32_t)lrint(a[k] + t * (b[k] - a[k]));
+    return out;
+}
+
+static void make_marks(WrCanvasInk *ink, bool marks)
+{
+    uint32_t *palette = ink->palette;
+    bool sign = ink->colours == WR_CANVAS_SIGNED;
+    palette[WR_CANVAS_INK_CODES] = !marks ? palette[0] : sign ? 0xff101f4au : 0xff1d4a78u;
+    palette[WR_CANVAS_INK_CODES + 1] = !marks ? palette[WR_CANVAS_INK_CODES - 1]
+                                       : sign ? 0xff6b2f05u
+                                              : 0xfff0b070u;
+}
+
+/* Under contours the greys are lighter and nearer to each other, so that the lines stand out. */
+static uint32_t grey_of(int code, bool lined)
+{
+    uint32_t g = lined ? (uint32_t)(110 + code * 130 / 255) : (uint32_t)code;
+    return 0xff000000u | g << 16 | g << 8 | g;
+}
+
+static void make_palette(WrCanvasInk *ink, bool marks)
+{
+    static const double blue[3] = { 38, 92, 190 }, white[3] = { 245, 245, 245 },
+                        orange[3] = { 214, 112, 24 };
+    for (int i = 0; i < WR_CANVAS_INK_CODES; i++) {
+        double f = ink->low + (ink->high - ink->low) * i / 255.0;
+        double reach = fmax(fabs(ink->low), fabs(ink->high));
+        double t = reach > 0.0 ? f / reach : 0.0;
+        ink->palette[i] = ink->colours != WR_CANVAS_SIGNED
+                              ? grey_of(i, ink->colours == WR_CANVAS_CONTOURS)
+                          : t < 0.0 ? mix(white, blue, -t)
+                                    : mix(white, orange, t);
+    }
+    make_marks(ink, marks);
+}
+
+/* What is level stays a middle grey whatever the light, so that dents and bumps have room. */
+static void make_tones(WrCanvasInk *ink)
+{
+    double level = fmax((double)ink->light[2], 0.05), gamma = log(0.55) / log(level);
+    if (!(level < 0.95)) gamma = 4.0;
+    for (int i = 0; i <= WR_CANVAS_INK_TONES; i++) {
+        uint32_t g = (uint32_t)lrint(255.0 * pow(i / (double)WR_CANVAS_INK_TONES, gamma));
+        ink->tones[i] = 0xff000000u | g << 16 | g << 8 | g;
+    }
+}
+
+double wr_canvas_ink_step(double low, double high)
+{
+    double range = high - low;
+    if (!(range > 0.0) || !isfinite(range)) return 1.0;
+    double most = range / LINES, power = pow(10.0, floor(log10(most)));
+    double part = most / power;
+    return power * (part < 1.5 ? 1.0 : part < 3.5 ? 2.0 : part < 7.5 ? 5.0 : 10.0);
+}
+
+void wr_canvas_ink_make(WrCanvasInk *ink, const WrCanvasLook *look, double low, double high)
+{
+    double x = look->light_x, y = look->light_y, flat = x * x + y * y;
+    ink->colours = look->colours;
+    ink->low = low;
+    ink->high = high;
+    ink->step = wr_canvas_ink_step(low, high);
+    ink->light[0] = (float)x;
+    ink->light[1] = (float)y;
+    ink->light[2] = (float)sqrt(fmax(0.0, 1.0 - flat));
+    make_palette(ink, look->marks);
+    make_tones(ink);
+}
+
+/* scaled: 0 black, 255 white. */
+static int code_of(float scaled)
+{
+    if (scaled < -BEYOND) return WR_CANVAS_INK_CODES;
+    if (scaled > WR_CANVAS_INK_CODES - 1 + BEYOND) return WR_CANVAS_INK_CODES + 1;
+    float code = scaled + 0.5f;
+    code = code > 0.0f ? code : 0.0f; /* NaN too */
+    return (int)(code < WR_CANVAS_INK_CODES - 1 ? code : WR_CANVAS_INK_CODES - 1);
+}
+
+uint32_t wr_canvas_ink_colour(const WrCanvasInk *ink, double height)
+{
+    return ink->palette[code_of(
+        (float)((height - ink->low) * (WR_CANVAS_INK_CODES - 1) / (ink->high - ink->low)))];
+}
+
+/* Of the contour between two steps; 0: they are the same, or one is NaN. The stronger wins: zero, then every fifth. */
+static uint32_t line_between(double a, double b)
+{
+    double low = fmin(a, b), high = fmax(a, b);
+    if (low == high) return 0;
+    if (low < 0.0 && high >= 0.0) return 0xffc05a10u;
+    return floor(low / MAJOR) != floor(high / MAJOR) ? 0xff101010u : 0xff505860u;
+}
+
+static uint32_t stronger(uint32_t a, uint32_t b)
+{
+    return a == 0 ? b : b == 0 ? a : (a & 0xffu) < (b & 0xffu) ? a : b;
+}
+
+void wr_canvas_ink_heights(const WrCanvasInk *ink, const float *heights, float left,
+                           const float *above, int count, uint32_t *out)
+{
+    float low = (float)ink->low;
+    float scale = (float)((WR_CANVAS_INK_CODES - 1) / (ink->high - ink->low));
+    for (int i = 0; i < count; i++) out[i] = ink->palette[code_of((heights[i] - low) * scale)];
+    if (ink->colours != WR_CANVAS_CONTOURS) return;
+    double before = floor((double)left / ink->step);
+    for (int i = 0; i < count; i++) {
+        double here = floor((double)heights[i] / ink->step);
+        double over = above ? floor((double)above[i] / ink->step) : here;
+        uint32_t line = stronger(line_between(before, here), line_between(over, here));
+        if (line) out[i] = line;
+        before = here;
+    }
+}
+
+static uint32_t normal_colour(float x, float y, float z)
+{
+    uint32_t r = (uint32_t)lrintf(127.5f + 127.5f * x), g = (uint32_t)lrintf(127.5f + 127.5f * y);
+    return 0xff000000u | r << 16 | g << 8 | (uint32_t)lrintf(127.5f + 127.5f * z);
+}
+
+void wr_canvas_ink_slopes(const WrCanvasInk *ink, const float *p, const float *q, int count,
+                          uint32_t *out)
+{
+    const float *l = ink->light;
+    for (int i = 0; i < count; i++) {
+        float a = isfinite(p[i]) ? p[i] : 0.0f, b = isfinite(q[i]) ? q[i] : 0.0f;
+        float k = 1.0f / sqrtf(1.0f + a * a + b * b);
+        if (ink->colours == WR_CANVAS_NORMALS) {
+            out[i] = normal_colour(-a * k, -b * k, k);
+        } else {
+            float lit = (l[2] - a * l[0] - b * l[1]) * k;
+            lit = lit < 0.0f ? 0.0f : lit > 1.0f ? 1.0f : lit;
+            out[i] = ink->tones[(int)(lit * WR_CANVAS_INK_TONES + 0.5f)];
+        }
+    }
+}

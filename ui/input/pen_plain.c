@@ -1,0 +1,26 @@
+/* No pens: what a system gets whose tablets nobody has written a file for, in the place of pen_x11.c. Fingers are SDL's,
+   and a pen then is the mouse that the system makes of it, without pressure. */
+#include "ui/input/pen_internal.h"
+
+WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why)
+{
+    (void)pen;
+    *why = "This build does not know this system's tablets, so that pens act as mice.";
+    return NULL;
+}
+
+void wr_pen_x11_free(WrPenX11 *x11)
+{
+    (void)x11;
+}
+
+void wr_pen_x11_sync(WrPenX11 *x11)
+{
+    (void)x11;
+}
+
+void wr_pen_x11_event(WrPen *pen, const SDL_Event *event)
+{
+    (void)pen;
+    (void)event;
+}

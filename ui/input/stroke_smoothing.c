@@ -1,0 +1,104 @@
+#include "ui/input/stroke_smoothing.h"
+
+#include <math.h>
+
+#define STEP 3.0 /* pixels of the pointer's way between points of a curve */
+
+static double mix(double a, double b, double t)
+{
+    return a + t * (b - a);
+}
+
+static WrRelightPoint between(const WrRelightPoint *a, const WrRelightPoint *b, double t)
+{
+    return (WrRelightPoint){ mix(a->x, b->x, t),
+                             mix(a->y, b->y, t),
+                             mix(a->pressure, b->pressure, t),
+                             mix(a->tilt_x, b->tilt_x, t),
+                             mix(a->tilt_y, b->tilt_y, t),
+                             mix(a->seconds, b->seconds, t) };
+}
+
+void wr_relight_begin(WrRelight *steady, WrRelightKind kind, double length,
+                      const WrRelightPoint *at)
+{
+    steady->kind = length > 0.0 ? kind : WR_RELIGHT_OFF;
+    steady->length = length;
+    steady->pointer = steady->follower = *at;
+}
+
+/* The follower after the pointer went `s` pixels from `a` in the direction (mx, my). */
+static void follow_smooth(const WrRelight *steady, const WrRelightPoint *a, double mx, double my,
+                          double s, double *x, double *y)
+{
+    double length = steady->length, decay = exp(-s / length);
+    double lag = s + length * (decay - 1.0); /* of s - L + L exp(-s/L), without cancellation at 0 */
+    *x = a->x + mx * lag + (steady->follower.x - a->x) * decay;
+    *y = a->y + my * lag + (steady->follower.y - a->y) * decay;
+}
+
+/* The same on a string. True if it was dragged at all. */
+static bool follow_string(const WrRelight *steady, const WrRelightPoint *a, double mx, double my,
+                          double s, double *x, double *y)
+{
+    double length = steady->length, px = steady->follower.x, py = steady->follower.y;
+    /* from the follower to the pointer: along its way and across it */
+    double dx = a->x - px, dy = a->y - py;
+    double along = dx * mx + dy * my, across = dy * mx - dx * my;
+    double reach = length * length - across * across;
+    double half = reach > 0.0 ? sqrt(reach) : 0.0;
+    double slack = half - along; /* way until the string is taut */
+    if (s <= slack) return false;
+    if (slack > 0.0) along = half;
+    double dragged = slack > 0.0 ? s - slack : s;
+    /* Taut: along = L cos t, across = L sin t. A string that a rounding left too long is not pulled in. */
+    double t = atan2(across, along);
+    t = 2.0 * atan(tan(t / 2.0) * exp(-dragged / length));
+    double qx = a->x + mx * s, qy = a->y + my * s;
+    *x = qx - length * (cos(t) * mx - sin(t) * my);
+    *y = qy - length * (cos(t) * my + sin(t) * mx);
+    return true;
+}
+
+int wr_relight_move(WrRelight *steady, const WrRelightPoint *to,
+                    WrRelightPoint out[WR_RELIGHT_POINTS])
+{
+    const WrRelightPoint from = steady->pointer;
+    double dx = to->x - from.x, dy = to->y - from.y, way = hypot(dx, dy);
+    if (steady->kind == WR_RELIGHT_OFF) {
+        steady->pointer = steady->follower = *to;
+        out[0] = *to;
+        return 1;
+    }
+    if (!(way > 0.0)) { /* only pressure, tilt or time moved on */
+        steady->pointer = *to;
+        return 0;
+    }
+    int steps = way > STEP * WR_RELIGHT_POINTS ? WR_RELIGHT_POINTS : (int)ceil(way / STEP);
+    int count = 0;
+    for (int i = 1; i <= steps; i++) {
+        double t = (double)i / steps, x = 0.0, y = 0.0;
+        bool moved = true;
+        if (steady->kind == WR_RELIGHT_SMOOTH)
+            follow_smooth(steady, &from, dx / way, dy / way, way * t, &x, &y);
+        else moved = follow_string(steady, &from, dx / way, dy / way, way * t, &x, &y);
+        if (!moved) continue;
+        out[count] = between(&from, to, t);
+        out[count].x = x;
+        out[count].y = y;
+        count++;
+    }
+    if (count > 0) steady->follower = out[count - 1];
+    steady->pointer = *to;
+    return count;
+}
+
+int wr_relight_end(WrRelight *steady, bool catch_up, WrRelightPoint *out)
+{
+    bool comes =
+        steady->kind == WR_RELIGHT_SMOOTH || (steady->kind == WR_RELIGHT_STRING && catch_up);
+    const WrRelightPoint *p = &steady->pointer, *f = &steady->follower;
+    if (!comes || (p->x == f->x && p->y == f->y)) return 0;
+    *out = steady->follower = steady->pointer;
+    return 1;
+}

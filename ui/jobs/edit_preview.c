@@ -1,0 +1,305 @@
+#include "ui/jobs/edit_preview.h"
+#include "ui/jobs/job.h"
+#include "ui/jobs/edit_preview_generate.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "brush/brush.h"
+#include "brush/tip.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "field/ops.h"
+#include "system/clock.h"
+
+#include <SDL.h>
+#include <string.h>
+
+typedef struct Work {
+    WrDocument *document; /* a snapshot of its own, changed by the work */
+    WrEditPreviewAsk ask;
+    WrDocument
+        *again; /* the snapshot as it was, for the exact result after a rough one; NULL: none */
+    char *line; /* of a generator; ask.line points to it */
+    WrText notes;
+    double seconds;
+    WrBrush brush;  /* of a dab; ask.dab points to it */
+    WrField *field; /* the result; NULL: none */
+    WrError err;
+    bool cancelled;
+} Work;
+
+struct WrEditPreview {
+    WrJob *job;
+    WrField *field; /* newest result; owned */
+    WrError err;
+    bool failed;
+    bool rough; /* the field is */
+    WrDocument
+        *made; /* that the field is the composite of; owned; NULL: not exact, or another size */
+    WrText notes;
+    double seconds;
+};
+
+static void drop(void *arg)
+{
+    Work *work = arg;
+    wr_document_free(work->document);
+    wr_document_free(work->again);
+    wr_free(work->line);
+    wr_text_fini(&work->notes);
+    wr_field_free(work->field);
+    if (work->ask.dab) wr_tip_free((WrTip *)work->brush.tip); /* a share of its own */
+    wr_free(work);
+}
+
+/* ---- on the job's thread ---- */
+
+typedef WrField *Runner(const WrOpInfo *op, const WrField *in, const double *param,
+                        const WrOpOptions *options, WrError *err);
+
+static bool adjust_field(const Work *work, Runner *run, WrField **field, const WrOpOptions *options,
+                         WrError *err)
+{
+    if (!*field) return true;
+    WrField *made = run(work->ask.op, *field, work->ask.param, options, err);
+    if (!made) return false;
+    wr_field_free(*field);
+    *field = made;
+    return true;
+}
+
+/* As the adjust command: where texels only move, what a layer says something about moves with them. */
+static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *options, WrError *err)
+{
+    if (!layer->filter.op && !adjust_field(work, wr_op_run, &layer->heights, options, err))
+        return false;
+    return !work->ask.op->moves ||
+           (adjust_field(work, wr_op_run_unit, &layer->cover, options, err) &&
+            adjust_field(work, wr_op_run_unit, &layer->mask, options, err));
+}
+
+/* What it makes is made with the composite. */
+static bool filter(const Work *work, WrDocument *document, WrError *err)
+{
+    WrFilter made = { .op = work->ask.op };
+    memcpy(made.param, work->ask.param, sizeof made.param);
+    if (!wr_filter_check(&made, err)) return false;
+    if (work->ask.layer >= 0) document->layers[work->ask.layer].filter = made;
+    else wr_document_add_filter(document, "", &made);
+    return true;
+}
+
+static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError *err)
+{
+    WrDocument *document = work->document;
+    WrOpOptions options = { .pool = pool, .progress = progress };
+    if (work->ask.op->reshapes) {
+        work->field = wr_op_run(work->ask.op, wr_document_composite(document, pool),
+                                work->ask.param, &options, err);
+        return work->field != NULL;
+    }
+    if (work->ask.filters) return filter(work, document, err);
+    options.mask = document->selection;
+    const WrLayer *active = &document->layers[document->active];
+    if (!work->ask.all_layers && active->filter.op && !active->on_mask)
+        return wr_fail(err, "the active layer is a filter, without heights of its own");
+    if (!work->ask.all_layers) {
+        WrStandIn stand_in = { .index = 0 };
+        bool good = adjust_layer(work, wr_document_edit_begin(document, &stand_in), &options, err);
+        wr_document_edit_end(document, &stand_in);
+        return good;
+    }
+    for (int i = 0; i < document->layer_count; i++)
+        if (!adjust_layer(work, &document->layers[i], &options, err)) return false;
+    return true;
+}
+
+static void dab(Work *work, WrPool *pool)
+{
+    WrDocument *document = work->document;
+    WrStandIn stand_in = { .index = 0 };
+    const WrLayer *layer = wr_document_edit_begin(document, &stand_in);
+    WrBrushGround ground = { .field = layer->heights,
+                             .mark = layer->cover,
+                             .selection = document->selection,
+                             .pool = pool };
+    wr_brush_dab_on(&ground, &work->brush, work->ask.u, work->ask.v);
+    wr_document_edit_end(document, &stand_in);
+}
+
+static void run(void *arg, WrPool *pool, const WrProgress *progress)
+{
+    Work *work = arg;
+    const WrEditPreviewAsk *ask = &work->ask;
+    double began = wr_clock_seconds();
+    if (ask->line) {
+        bool moves = strncmp(ask->line, "transform", 9) == 0;
+        if (moves
+                ? !wr_edit_preview_transform(work->document, ask->line, pool, progress, &work->err)
+                : !wr_edit_preview_generate(work->document, ask->line, ask->rough, pool, progress,
+                                            &work->notes, &work->err)) {
+            work->cancelled = wr_progress_cancelled(progress);
+            return;
+        }
+    } else if (ask->op) {
+        if (!adjust(work, pool, progress, &work->err)) {
+            work->cancelled = wr_progress_cancelled(progress);
+            return;
+        }
+    } else if (ask->dab) {
+        dab(work, pool);
+    } else {
+        WrLayer *layer = &work->document->layers[ask->layer];
+        layer->blend = ask->blend;
+        layer->opacity = ask->opacity;
+        layer->radius = ask->radius;
+    }
+    wr_filters_forget();
+    if (!work->field) work->field = wr_field_share(wr_document_composite(work->document, pool));
+    if (!wr_filters_carried(&work->err)) {
+        wr_field_free(work->field);
+        work->field = NULL;
+    }
+    work->seconds = wr_clock_seconds() - began;
+}
+
+/* ---- the window's side ---- */
+
+WrEditPreview *wr_edit_preview_new(int threads, Uint32 done_event)
+{
+    static const WrJobKind kind = { run, drop };
+    WrEditPreview *trial = wr_alloc(1, sizeof *trial);
+    trial->job = wr_job_new(&kind, threads, done_event);
+    return trial;
+}
+
+void wr_edit_preview_free(WrEditPreview *trial)
+{
+    if (!trial) return;
+    wr_job_free(trial->job);
+    wr_field_free(trial->field);
+    wr_document_free(trial->made);
+    wr_text_fini(&trial->notes);
+    wr_free(trial);
+}
+
+static void forget_made(WrEditPreview *trial)
+{
+    wr_document_free(trial->made);
+    trial->made = NULL;
+}
+
+void wr_edit_preview_ask(WrEditPreview *trial, const WrDocument *document,
+                         const WrEditPreviewAsk *ask)
+{
+    Work *work = wr_alloc(1, sizeof *work);
+    work->document = wr_document_share(document);
+    work->ask = *ask;
+    work->ask.rough = ask->line && ask->rough;
+    if (work->ask.rough) work->again = wr_document_share(document);
+    if (ask->line) work->ask.line = work->line = wr_strdup(ask->line);
+    if (ask->dab) {
+        work->brush = *ask->dab;
+        work->brush.preset = NULL;
+        work->brush.tip = ask->dab->tip ? wr_tip_share(ask->dab->tip) : NULL;
+        work->ask.dab = &work->brush;
+    }
+    trial->failed = false;
+    forget_made(trial);
+    wr_job_start(trial->job, work);
+}
+
+void wr_edit_preview_end(WrEditPreview *trial)
+{
+    wr_job_cancel(trial->job);
+    wr_field_free(trial->field);
+    trial->field = NULL;
+    forget_made(trial);
+    trial->failed = trial->rough = false;
+    wr_text_clear(&trial->notes);
+}
+
+void wr_edit_preview_stop(WrEditPreview *trial)
+{
+    wr_job_interrupt(trial->job);
+}
+
+/* A rough result is there: now the exact one. */
+static void go_on(WrEditPreview *trial, const Work *rough)
+{
+    WrEditPreviewAsk ask = rough->ask;
+    ask.rough = false;
+    wr_edit_preview_ask(trial, rough->again, &ask);
+}
+
+static void take(WrEditPreview *trial)
+{
+    Work *work = wr_job_take(trial->job);
+    if (!work) return;
+    if (work->field) {
+        wr_field_free(trial->field);
+        trial->field = work->field;
+        work->field = NULL;
+        WrText notes = trial->notes;
+        trial->notes = work->notes;
+        work->notes = notes;
+        trial->rough = work->ask.rough;
+        bool whole = !trial->rough && !(work->ask.op && work->ask.op->reshapes);
+        forget_made(trial);
+        if (whole) trial->made = wr_document_share(work->document);
+        if (trial->rough) go_on(trial, work);
+        else trial->seconds = work->seconds;
+    } else if (!work->cancelled) {
+        trial->failed = true;
+        trial->err = work->err;
+    }
+    drop(work);
+}
+
+const WrField *wr_edit_preview_field(WrEditPreview *trial)
+{
+    take(trial);
+    return trial->field;
+}
+
+const WrDocument *wr_edit_preview_made(WrEditPreview *trial)
+{
+    take(trial);
+    return trial->made;
+}
+
+bool wr_edit_preview_busy(WrEditPreview *trial, double *fraction, double *seconds)
+{
+    return wr_job_busy(trial->job, fraction, seconds);
+}
+
+bool wr_edit_preview_rough(WrEditPreview *trial)
+{
+    take(trial);
+    return trial->field && trial->rough;
+}
+
+const char *wr_edit_preview_notes(WrEditPreview *trial)
+{
+    take(trial);
+    return wr_text_get(&trial->notes);
+}
+
+double wr_edit_preview_seconds(WrEditPreview *trial)
+{
+    take(trial);
+    return trial->seconds;
+}
+
+bool wr_edit_preview_error(WrEditPreview *trial, WrError *err)
+{
+    take(trial);
+    bool failed = trial->failed;
+    if (failed) *err = trial->err;
+    trial->failed = false;
+    return failed;
+}

@@ -1,0 +1,45 @@
+/* Actions by name. */
+#include "ui/state/action.h"
+#include "ui/state/busy.h"
+#include "ui/state/app_state.h"
+#include "ui/state/deferred_actions.h"
+#include "ui/state/roster.h"
+
+#include <string.h>
+
+const WrAction *wr_action_find(const WrApp *app, const char *name)
+{
+    for (const WrAction *a = app->roster->actions; a->name; a++)
+        if (strcmp(a->name, name) == 0) return a;
+    return NULL;
+}
+
+const char *wr_action_help(const WrApp *app, const WrAction *action)
+{
+    return app->roster->helps[action - app->roster->actions];
+}
+
+bool wr_action_can(const WrApp *app, const WrAction *action)
+{
+    if (action->edits && wr_busy_greys(app)) return false;
+    return !action->enabled || action->enabled(app);
+}
+
+static void run_now(WrApp *app, const char *name)
+{
+    const WrAction *action = wr_action_find(app, name);
+    if (action && action->edits && wr_busy_refuse(app)) return;
+    if (action && wr_action_can(app, action)) action->run(app);
+    wr_app_redraw(app);
+}
+
+void wr_action_run(WrApp *app, const char *name)
+{
+    const WrAction *action = wr_action_find(app, name);
+    if (action && action->edits && wr_busy_refuse(app)) return;
+    for (WrActionFamily *const *f = app->roster->families; !action && *f; f++)
+        if ((*f)(app, name)) break;
+    if (!action || !wr_action_can(app, action)) return;
+    if (app->in_frame) wr_deferred(app, run_now, name); /* it may take long */
+    else run_now(app, name);
+}

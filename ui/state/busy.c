@@ -1,0 +1,286 @@
+/* What may take long runs on a thread of its own while the window goes on as ever: busy.h says what holds. */
+#include "ui/state/busy_internal.h"
+#include "ui/state/app_state.h"
+#include "ui/state/dialog.h"
+#include "ui/state/document.h"
+#include "ui/state/input_router.h"
+#include "ui/state/messages.h"
+#include "ui/state/roster.h"
+#include "ui/toolkit/gui.h"
+#include "ui/toolkit/words.h"
+#include "ui/jobs/job.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "command/session.h"
+#include "system/clock.h"
+
+#include <SDL.h>
+#include <stdio.h>
+#include <string.h>
+
+#define QUIET_SECONDS 0.05 /* what takes less is not noticed */
+#define LOOKS_MS 3 /* between looks at whether it is done, as long as no events are looked at */
+
+/* ---- running ---- */
+
+static void run(void *arg, WrPool *pool, const WrProgress *progress)
+{
+    (void)pool;
+    (void)progress; /* the work finds it as its thread's own */
+    WrBusy *busy = arg;
+    busy->ok = busy->work(busy->session, busy->ctx, &busy->err);
+}
+
+static void drop(void *arg)
+{
+    (void)arg; /* it is the window's */
+}
+
+static bool is_done(WrBusy *busy)
+{
+    if (!busy->is_done) busy->is_done = wr_job_take(busy->job) != NULL;
+    return busy->is_done;
+}
+
+bool wr_busy_begin(WrApp *app, const WrBusy *like)
+{
+    static const WrJobKind kind = { run, drop };
+    WrBusy *busy = wr_alloc(1, sizeof *busy);
+    *busy = *like;
+    busy->session = app->session;
+    busy->what = wr_strdup(like->what);
+    busy->since = wr_clock_seconds();
+    busy->refused_at = -1e9;
+    busy->in_frame = app->in_frame;
+    busy->picture = app->drawn_at;
+    busy->job = wr_job_new(&kind, 1, app->job_event);
+    app->session = wr_session_snapshot(busy->session);
+    app->busy = busy;
+    wr_job_start(busy->job, busy);
+    while (!is_done(busy) && wr_clock_seconds() - busy->since < QUIET_SECONDS) SDL_Delay(1);
+    return busy->is_done;
+}
+
+void wr_busy_wait(WrApp *app)
+{
+    WrBusy *busy = app->busy;
+    while (!is_done(busy))
+        if (app->in_frame) SDL_Delay(LOOKS_MS);
+        else app->roster->step(app);
+}
+
+/* What the desktop said meanwhile is heard; the wish to close comes last, since it asks about the rest. */
+static void catch_up(const WrApp *app, const WrBusy *busy)
+{
+    if (busy->file_chosen) SDL_PushEvent(&(SDL_Event){ .type = app->file_event });
+    if (busy->closes) SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
+}
+
+bool wr_busy_end(WrApp *app, WrError *err)
+{
+    WrBusy *busy = app->busy;
+    const bool ok = busy->ok;
+    wr_session_free(app->session);
+    app->session = busy->session;
+    app->busy = NULL;
+    app->gave_up = busy->cancelled && !ok;
+    if (busy->cancelled && busy->kind != WR_BUSY_TEND) app->waits->given_up = true;
+    if (!ok && err) *err = busy->err;
+    catch_up(app, busy);
+    wr_job_free(busy->job);
+    wr_free(busy->what);
+    wr_free(busy);
+    wr_app_redraw(app);
+    return ok;
+}
+
+void wr_busy_stop(WrApp *app)
+{
+    WrError err = { "" };
+    WrBusy *busy = app->busy;
+    if (!busy) return;
+    wr_job_interrupt(busy->job);
+    while (!is_done(busy)) SDL_Delay(LOOKS_MS);
+    WrBusyDone *after = busy->after;
+    void *ctx = busy->after_ctx;
+    const bool ok = wr_busy_end(app, &err);
+    if (after) after(app, ctx, ok, &err);
+}
+
+bool wr_busy_run(WrApp *app, WrBusyKind kind, const char *what, WrBusyWork *work, void *ctx,
+                 WrError *err)
+{
+    wr_busy_settle(app);
+    app->gave_up = false;
+    if (app->busy) {
+        wr_busy_refuse(app);
+        return wr_fail(err, "%s: not while something else is being done", what);
+    }
+    if (app->drawn_at == 0.0) return work(app->session, ctx, err);
+    const WrBusy busy = { .kind = kind, .what = (char *)what, .work = work, .ctx = ctx };
+    if (!wr_busy_begin(app, &busy)) wr_busy_wait(app);
+    return wr_busy_end(app, err);
+}
+
+static void forget(WrApp *app, void *ctx, bool ok, const WrError *err)
+{
+    (void)app;
+    (void)ctx;
+    (void)ok;
+    (void)err;
+}
+
+void wr_busy_aside(WrApp *app, const char *what, WrBusyWork *work, void *ctx)
+{
+    WrError err;
+    if (app->busy) return;
+    if (app->drawn_at == 0.0) {
+        work(app->session, ctx, &err);
+        return;
+    }
+    const WrBusy busy = {
+        .kind = WR_BUSY_TEND, .what = (char *)what, .work = work, .ctx = ctx, .after = forget
+    };
+    if (wr_busy_begin(app, &busy)) wr_busy_end(app, NULL);
+}
+
+void wr_busy_fail(WrApp *app, const char *what, const WrError *err)
+{
+    if (app->gave_up) wr_app_say(app, "Cancelled: %s, nothing changed", what);
+    else wr_app_fail(app, err);
+}
+
+void wr_busy_cancel(WrBusy *busy)
+{
+    busy->cancelled = true;
+    wr_job_interrupt(busy->job);
+}
+
+/* ---- what may be done meanwhile ---- */
+
+bool wr_busy_refuses(const WrApp *app)
+{
+    return app->busy && app->busy->kind != WR_BUSY_TEND;
+}
+
+bool wr_busy_is_young(const WrApp *app)
+{
+    return app->busy && wr_clock_seconds() - app->busy->since < WR_BUSY_MOMENT;
+}
+
+bool wr_busy_greys(const WrApp *app)
+{
+    return wr_busy_refuses(app) && !wr_busy_is_young(app);
+}
+
+void wr_busy_hold(const WrApp *app)
+{
+    wr_gui_hold(wr_busy_greys(app) ? "Not while this is being done: wait or cancel" : NULL);
+}
+
+void wr_busy_hold_end(void)
+{
+    wr_gui_hold_end();
+}
+
+bool wr_busy_refuse(WrApp *app)
+{
+    if (!wr_busy_refuses(app)) return false;
+    app->busy->refused_at = wr_clock_seconds();
+    wr_app_redraw(app);
+    return true;
+}
+
+bool wr_busy_close(WrApp *app)
+{
+    if (app->busy) app->busy->closes = true;
+    if (app->busy) wr_app_redraw(app);
+    return app->busy != NULL;
+}
+
+bool wr_busy_lets_wait(const WrApp *app)
+{
+    return app->busy && app->busy->kind != WR_BUSY_ANOTHER;
+}
+
+void wr_busy_settle(WrApp *app)
+{
+    if (app->in_frame || app->waits->running) return;
+    /* What somebody waits for ends there, and not here. */
+    while (app->busy ? !wr_busy_refuses(app) && app->busy->after : app->waits->items.count > 0) {
+        if (app->busy) app->roster->step(app);
+        wr_busy_tend(app);
+    }
+}
+
+/* ---- for the loop ---- */
+
+void wr_busy_tend(WrApp *app)
+{
+    WrBusy *busy = app->busy;
+    WrError err = { "" };
+    if (app->in_frame) return;
+    if (busy && busy->after && is_done(busy)) {
+        WrBusyDone *after = busy->after;
+        void *ctx = busy->after_ctx;
+        const bool ok = wr_busy_end(app, &err);
+        after(app, ctx, ok, &err);
+    }
+    if (!app->busy) wr_waits_run(app);
+}
+
+static void open_late(WrApp *app, const char *path, bool dropped)
+{
+    if (!dropped) wr_app_open_path(app, path);
+}
+
+static void drop_file(WrApp *app, char *path)
+{
+    char words[300];
+    snprintf(words, sizeof words, wr_words("%.200s opens"),
+             strrchr(path, '/') ? strrchr(path, '/') + 1 : path);
+    wr_busy_put_off(app, words, open_late, path, false);
+    SDL_free(path);
+}
+
+/* Escape is for what is nearest: an open list, a dialog, a text, what is held; then it gives up what runs. */
+static bool gives_up(const WrApp *app, const SDL_Event *event)
+{
+    return event->type == SDL_KEYDOWN && event->key.keysym.sym == SDLK_ESCAPE &&
+           wr_busy_refuses(app) && app->dialog->now == WR_DIALOG_NONE &&
+           !wr_gui_popup_open_now(app->gui) && !wr_gui_wants_text(app->gui) &&
+           app->hand->grab == WR_GRAB_NONE;
+}
+
+bool wr_busy_event(WrApp *app, const SDL_Event *event)
+{
+    WrBusy *busy = app->busy;
+    if (!busy) return false;
+    if (event->type == app->file_event) {
+        busy->file_chosen = true;
+        return true;
+    }
+    if (event->type == SDL_DROPFILE) {
+        if (event->drop.file) drop_file(app, event->drop.file);
+        return true;
+    }
+    if (!gives_up(app, event)) return false;
+    wr_busy_cancel(busy);
+    return true;
+}
+
+bool wr_busy_look(WrApp *app, const SDL_Event *event)
+{
+    if (!app->busy || app->dialog->now != WR_DIALOG_NONE) return false;
+    int x, y;
+    SDL_GetMouseState(&x, &y);
+    if (event->type == SDL_MOUSEBUTTONDOWN) x = event->button.x, y = event->button.y;
+    const bool begins = event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_MOUSEWHEEL;
+    if (begins && wr_gui_owns_point(app->gui, x, y)) return false;
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->look && (*p)->look(app, event)) return true;
+    return false;
+}

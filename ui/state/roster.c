@@ -1,0 +1,32 @@
+/* Asking the parts of the window, whichever there are. */
+#include "ui/state/roster.h"
+#include "ui/state/app_state.h"
+#include "ui/state/settings.h"
+
+#include <string.h>
+
+int wr_tab_find(const WrApp *app, const char *label)
+{
+    for (int i = 0; i < app->roster->tab_count; i++)
+        if (strcmp(app->roster->tabs[i].label, label) == 0) return i;
+    return 0;
+}
+
+void wr_tab_show(WrApp *app, const char *label)
+{
+    app->settings->panels = true;
+    app->settings->tab = wr_tab_find(app, label);
+}
+
+void wr_hand_let_go(WrApp *app)
+{
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->let_go) (*p)->let_go(app);
+}
+
+void wr_app_settle(WrApp *app)
+{
+    wr_hand_let_go(app);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->settle) (*p)->settle(app);
+}

@@ -1,0 +1,222 @@
+/* Faces and their spacing: Inter if it is there, else what is; icons from Material Design. */
+#include "ui/toolkit/gui_imgui.h"
+#include "ui/toolkit/gui_sdl.h"
+
+extern "C" {
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "system/path.h"
+#include "ui/toolkit/gui_icons.h"
+}
+
+#include <imgui_freetype.h>
+#include <stb_truetype.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#define SYSTEM_FONTS "/usr/share/fonts"
+
+/* The first of these files that is there; below WRINKLE_FONTS if that is set. The caller frees it. */
+static char *first_readable(const char *const *paths)
+{
+    const char *folder = getenv("WRINKLE_FONTS");
+    for (; *paths; paths++) {
+        char *path =
+            folder ? wr_path_join(folder, *paths + sizeof SYSTEM_FONTS) : wr_strdup(*paths);
+        if (wr_path_can_read(path)) return path;
+        wr_free(path);
+    }
+    return nullptr;
+}
+
+static const char *const text_faces[] = { SYSTEM_FONTS "/opentype/inter/Inter-Regular.otf",
+                                          SYSTEM_FONTS "/truetype/inter/Inter-Regular.ttf",
+                                          SYSTEM_FONTS "/inter/Inter-Regular.otf",
+                                          SYSTEM_FONTS "/truetype/dejavu/DejaVuSans.ttf",
+                                          SYSTEM_FONTS "/truetype/noto/NotoSans-Regular.ttf",
+                                          SYSTEM_FONTS
+                                          "/truetype/liberation/LiberationSans-Regular.ttf",
+                                          nullptr };
+static const char *const bold_faces[] = { SYSTEM_FONTS "/opentype/inter/Inter-SemiBold.otf",
+                                          SYSTEM_FONTS "/truetype/inter/Inter-SemiBold.ttf",
+                                          SYSTEM_FONTS "/inter/Inter-SemiBold.otf",
+                                          SYSTEM_FONTS "/truetype/dejavu/DejaVuSans-Bold.ttf",
+                                          SYSTEM_FONTS "/truetype/noto/NotoSans-Bold.ttf",
+                                          SYSTEM_FONTS
+                                          "/truetype/liberation/LiberationSans-Bold.ttf",
+                                          nullptr };
+static const float face_ems[] = { 14.0f, 14.0f, 12.0f }; /* units: text, bold, small */
+static const char *const icon_faces[] = {
+    SYSTEM_FONTS "/truetype/materialdesignicons-webfont/materialdesignicons-webfont.ttf", nullptr
+};
+
+/* A face's file, and its numbers as the type's designer gave them. */
+struct Face {
+    char *bytes; /* owned; NULL: the widget library's own face */
+    size_t length;
+    stbtt_fontinfo info;
+    float em; /* pixels */
+    float
+        units; /* of a line, from the highest ascender to the lowest descender, in units of `scale` */
+    float scale; /* pixels a unit */
+};
+
+static bool open_face(Face *face, const char *path, float em)
+{
+    int ascent, descent, gap;
+    if (!path || !wr_file_read(path, 32u << 20, &face->bytes, &face->length, nullptr)) return false;
+    const auto *data = reinterpret_cast<const unsigned char *>(face->bytes);
+    int offset = stbtt_GetFontOffsetForIndex(data, 0);
+    if (offset < 0 || !stbtt_InitFont(&face->info, data, offset)) {
+        wr_free(face->bytes);
+        face->bytes = nullptr;
+        return false;
+    }
+    stbtt_GetFontVMetrics(&face->info, &ascent, &descent, &gap);
+    face->em = em;
+    face->scale = stbtt_ScaleForMappingEmToPixels(&face->info, em);
+    face->units = (float)(ascent - descent);
+    return true;
+}
+
+#if IMGUI_VERSION_NUM < 19200
+/* Advances as they were drawn (the widget library rounds each up, which spreads words), and one width for
+   all digits, so that numbers do not jitter as they change. */
+static void space_letters(ImFont *font, const Face *face)
+{
+    float digit = 0.0f;
+    for (int pass = 0; pass < 2; pass++) {
+        for (ImFontGlyph &glyph : font->Glyphs) {
+            int units, bearing, index = stbtt_FindGlyphIndex(&face->info, (int)glyph.Codepoint);
+            bool number = glyph.Codepoint >= '0' && glyph.Codepoint <= '9';
+            if (index == 0) continue; /* an icon */
+            stbtt_GetGlyphHMetrics(&face->info, index, &units, &bearing);
+            float advance = (float)units * face->scale;
+            if (pass == 0) {
+                if (number && glyph.Codepoint != '1' && advance > digit) digit = advance;
+                continue;
+            }
+            if (number) {
+                float shift = roundf((digit - advance) / 2.0f);
+                glyph.X0 += shift;
+                glyph.X1 += shift;
+                advance = digit;
+            }
+            glyph.AdvanceX = advance;
+        }
+    }
+    font->BuildLookupTable();
+}
+#else
+/* Letters are drawn as they are needed, with their own advances. */
+static void space_letters(ImFont *, const Face *)
+{
+}
+#endif
+
+/* Sizes of type are of its em; the widget library wants the height of a line. */
+static ImFont *add_face(ImFontAtlas *atlas, const Face *face)
+{
+    static const ImWchar ranges[] = { 0x20,   0x17f,  0x370,  0x3ff,  0x400,  0x45f, 0x2010,
+                                      0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0 };
+    ImFontConfig config;
+    config.OversampleH = config.OversampleV = 1;
+    config.FontDataOwnedByAtlas = false; /* it makes a copy */
+    return atlas->AddFontFromMemoryTTF(face->bytes, (int)face->length,
+                                       roundf(face->units * face->scale), &config, ranges);
+}
+
+static void add_icons(ImFontAtlas *atlas, const char *path, float size, bool merge)
+{
+    static const ImWchar used[] = {
+        0xf0e3, 0xf0e3, 0xf041, 0xf041, 0xf349, 0xf349, 0xf20a, 0xf20a, 0xf40a, 0xf40a, 0xf3e4,
+        0xf3e4, 0xf35d, 0xf35d, 0xf156, 0xf156, 0xf415, 0xf415, 0xf1c0, 0xf1c0, 0xf2d7, 0xf2d7,
+        0xf026, 0xf026, 0xf068, 0xf068, 0xf24b, 0xf24b, 0xf224, 0xf224, 0xf05d, 0xf05d, 0xf12c,
+        0xf12c, 0xf464, 0xf464, 0xf208, 0xf209, 0xf33e, 0xf340, 0xf191, 0xf191, 0xf0f8, 0xf0f8,
+        0xf045, 0xf045, 0xf489, 0xf489, 0xf556, 0xf556, 0xf562, 0xf562, 0xf1d9, 0xf1d9, 0xf4ce,
+        0xf4ce, 0xf4d2, 0xf4d2, 0xf58c, 0xf58c, 0xf2c7, 0xf2c7, 0xf18f, 0xf18f, 0xf130, 0xf131,
+        0xf560, 0xf560, 0xf5c6, 0xf5c6, 0xf559, 0xf559, 0xf266, 0xf266, 0xf0b6, 0xf0b6, 0xf62e,
+        0xf62e, 0xf193, 0xf193, 0xf465, 0xf465, 0xf1d8, 0xf1d8, 0xf1ce, 0xf1ce, 0xf573, 0xf573,
+        0xf1fe, 0xf1fe, 0xf5f4, 0xf5f4, 0xf1a6, 0xf1a6, 0
+    };
+    ImFontConfig config;
+    config.OversampleH = config.OversampleV = 1;
+    config.PixelSnapH = true;
+    config.MergeMode = merge;
+    if (merge) config.GlyphOffset.y = roundf(size * 0.06f);
+    atlas->AddFontFromFileTTF(path, size, &config, used);
+}
+
+static void add_fonts(WrGui *gui, ImFontAtlas *atlas, Face faces[WR_FONT_ICON])
+{
+    char *text = first_readable(text_faces), *bold = first_readable(bold_faces);
+    char *icons = first_readable(icon_faces);
+    gui->no_text = !text;
+    gui->no_icons = !icons;
+    for (int i = 0; i < WR_FONT_ICON; i++) {
+        float em = roundf(face_ems[i] * (float)gui->scale);
+        bool found = open_face(&faces[i], i == WR_FONT_BOLD && bold ? bold : text, em);
+        gui->fonts[i] = found ? add_face(atlas, &faces[i]) : atlas->AddFontDefault();
+        if (found && icons) add_icons(atlas, icons, roundf(em * 1.35f), true);
+    }
+    gui->fonts[WR_FONT_ICON] = gui->fonts[WR_FONT_TEXT];
+    int before = atlas->Fonts.Size;
+    if (icons) add_icons(atlas, icons, roundf(22.0f * (float)gui->scale), false);
+    if (atlas->Fonts.Size > before) gui->fonts[WR_FONT_ICON] = atlas->Fonts.back();
+    wr_free(text);
+    wr_free(bold);
+    wr_free(icons);
+}
+
+const char *wr_gui_icon(const char *icon)
+{
+    return wr_gui_current()->no_icons ? wr_icon_word(icon) : icon;
+}
+
+extern "C" const char *wr_gui_missing_fonts(const WrGui *gui)
+{
+    if (gui->no_icons && gui->no_text)
+        return "no fonts were found: install fonts-inter and fonts-materialdesignicons-webfont";
+    if (gui->no_icons)
+        return "the font of the icons is missing, words stand in for them: install "
+               "fonts-materialdesignicons-webfont";
+    return gui->no_text ? "no font for text was found: install fonts-inter" : nullptr;
+}
+
+/* Sharp stems: whole pixels upwards only, so that letters keep their distances. */
+static void choose_rasterizer(ImFontAtlas *atlas)
+{
+#if IMGUI_VERSION_NUM >= 19200
+    atlas->SetFontLoader(ImGuiFreeType::GetFontLoader());
+    atlas->FontLoaderFlags = ImGuiFreeTypeLoaderFlags_LightHinting;
+#else
+    atlas->FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
+    atlas->FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
+#endif
+}
+
+bool wr_gui_build_fonts(WrGui *gui, WrError *err)
+{
+    ImFontAtlas *atlas = ImGui::GetIO().Fonts;
+    Face faces[WR_FONT_ICON] = {};
+    atlas->Clear();
+    choose_rasterizer(atlas);
+    atlas->TexGlyphPadding = 1;
+    add_fonts(gui, atlas, faces);
+    unsigned char *pixels;
+    int width, height;
+    atlas->GetTexDataAsRGBA32(&pixels, &width, &height);
+    for (int i = 0; i < WR_FONT_ICON; i++)
+        if (faces[i].bytes) space_letters(gui->fonts[i], &faces[i]);
+    atlas->ClearInputData(); /* the faces' bytes go */
+    for (Face &face : faces) wr_free(face.bytes);
+    if (!pixels) return wr_fail(err, "no font could be drawn");
+    if (gui->atlas) SDL_DestroyTexture(gui->atlas);
+    gui->atlas = wr_gui_sdl_texture(gui->renderer, width, height, pixels);
+    if (!gui->atlas) return wr_fail(err, "a texture of %dx%d: %s", width, height, SDL_GetError());
+    atlas->ClearTexData();
+    atlas->SetTexID(wr_gui_texture_id(gui->atlas));
+    return true;
+}

@@ -1,0 +1,281 @@
+/* Keys on their way to the widget library. From 1.87 on it has a queue of key events and names of its own
+   for keys; before, an array of them by the platform's numbers. This file alone knows which. */
+#include "ui/toolkit/gui_imgui.h"
+
+extern "C" {
+#include "base/memory.h"
+}
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+    ImGuiKey imgui;
+    SDL_Scancode sdl;
+} keys[] = { { ImGuiKey_Tab, SDL_SCANCODE_TAB },
+             { ImGuiKey_LeftArrow, SDL_SCANCODE_LEFT },
+             { ImGuiKey_RightArrow, SDL_SCANCODE_RIGHT },
+             { ImGuiKey_UpArrow, SDL_SCANCODE_UP },
+             { ImGuiKey_DownArrow, SDL_SCANCODE_DOWN },
+             { ImGuiKey_PageUp, SDL_SCANCODE_PAGEUP },
+             { ImGuiKey_PageDown, SDL_SCANCODE_PAGEDOWN },
+             { ImGuiKey_Home, SDL_SCANCODE_HOME },
+             { ImGuiKey_End, SDL_SCANCODE_END },
+             { ImGuiKey_Insert, SDL_SCANCODE_INSERT },
+             { ImGuiKey_Delete, SDL_SCANCODE_DELETE },
+             { ImGuiKey_Backspace, SDL_SCANCODE_BACKSPACE },
+             { ImGuiKey_Space, SDL_SCANCODE_SPACE },
+             { ImGuiKey_Enter, SDL_SCANCODE_RETURN },
+             { ImGuiKey_Escape, SDL_SCANCODE_ESCAPE },
+#if IMGUI_VERSION_NUM >= 18700
+             { ImGuiKey_KeypadEnter, SDL_SCANCODE_KP_ENTER },
+             { ImGuiKey_D, SDL_SCANCODE_D },
+             { ImGuiKey_R, SDL_SCANCODE_R },
+             { ImGuiKey_S, SDL_SCANCODE_S },
+#else
+             { ImGuiKey_KeyPadEnter, SDL_SCANCODE_KP_ENTER },
+#endif
+             { ImGuiKey_A, SDL_SCANCODE_A },
+             { ImGuiKey_C, SDL_SCANCODE_C },
+             { ImGuiKey_V, SDL_SCANCODE_V },
+             { ImGuiKey_X, SDL_SCANCODE_X },
+             { ImGuiKey_Y, SDL_SCANCODE_Y },
+             { ImGuiKey_Z, SDL_SCANCODE_Z } };
+
+static bool is_key(int code)
+{
+    return code >= 0 && code < WR_GUI_KEYS;
+}
+
+#if IMGUI_VERSION_NUM >= 18700
+
+/* The library spreads what comes between two frames over as many frames as it takes, so that no key is
+   missed; held ones count with the key that goes down while they are. */
+
+#if IMGUI_VERSION_NUM >= 18900
+#define MOD(name) ImGuiMod_##name
+#else
+#define MOD(name) ImGuiKey_Mod##name
+#endif
+
+static ImGuiKey key_of(int code)
+{
+    for (const auto &pair : keys)
+        if (pair.sdl == code) return pair.imgui;
+    return ImGuiKey_None;
+}
+
+static void send_held(int mod)
+{
+    ImGuiIO &io = ImGui::GetIO();
+    io.AddKeyEvent(MOD(Ctrl), (mod & KMOD_CTRL) != 0);
+    io.AddKeyEvent(MOD(Shift), (mod & KMOD_SHIFT) != 0);
+    io.AddKeyEvent(MOD(Alt), (mod & KMOD_ALT) != 0);
+}
+
+void wr_gui_keys_begin()
+{
+}
+
+void wr_gui_keys_event(WrGui *gui, const SDL_KeyboardEvent *key)
+{
+    ImGuiKey known = key_of(key->keysym.scancode);
+    bool down = key->type == SDL_KEYDOWN;
+    if (down && key->keysym.scancode == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
+    send_held(key->keysym.mod);
+    if (known != ImGuiKey_None) ImGui::GetIO().AddKeyEvent(known, down);
+}
+
+void wr_gui_keys_letters(WrGui *, const char *utf8)
+{
+    ImGui::GetIO().AddInputCharactersUTF8(utf8);
+}
+
+void wr_gui_keys_release(WrGui *)
+{
+    for (const auto &pair : keys) ImGui::GetIO().AddKeyEvent(pair.imgui, false);
+    send_held(0);
+}
+
+void wr_gui_keys_frame(WrGui *)
+{
+}
+
+bool wr_gui_keys_seen(WrGui *)
+{
+    for (const auto &pair : keys)
+        if (ImGui::IsKeyDown(pair.imgui)) return true; /* its end may wait in the queue */
+    return false;
+}
+
+bool wr_gui_went_down(SDL_Scancode key)
+{
+    ImGuiKey known = key_of(key);
+    return known != ImGuiKey_None && ImGui::IsKeyPressed(known, false);
+}
+
+bool wr_gui_key_repeats(SDL_Scancode key)
+{
+    ImGuiKey known = key_of(key);
+    return known != ImGuiKey_None && ImGui::IsKeyPressed(known, true);
+}
+
+#else
+
+void wr_gui_keys_begin()
+{
+    for (const auto &pair : keys) ImGui::GetIO().KeyMap[pair.imgui] = pair.sdl;
+}
+
+/* Of what comes between two frames the library takes all letters first, none while Ctrl is down, and of the keys that
+   move and delete one. So a frame gets letters, or one such key; the rest waits for the next, which comes at once. */
+
+static bool is_held_key(int code)
+{
+    return code >= SDL_SCANCODE_LCTRL && code <= SDL_SCANCODE_RGUI;
+}
+
+/* Of a key that goes down: it does something to a text, or with it, besides what letters come of it. */
+static bool acts(const SDL_Keysym &key)
+{
+    if (key.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)) return true;
+    if (key.scancode == SDL_SCANCODE_SPACE || key.scancode < SDL_SCANCODE_RETURN) return false;
+    for (const auto &pair : keys)
+        if (pair.sdl == key.scancode) return true;
+    return false;
+}
+
+/* Of a key that goes down while a text is typed: what it does is letters, or Shift for them, so that it can go down
+   more than once in a frame. */
+static bool tells_by_letters(const SDL_Keysym &key)
+{
+    bool shift = key.scancode == SDL_SCANCODE_LSHIFT || key.scancode == SDL_SCANCODE_RSHIFT;
+    return ImGui::GetIO().WantTextInput && (shift || (!is_held_key(key.scancode) && !acts(key)));
+}
+
+static void keep(WrGui *gui, const WrTyped &typed)
+{
+    if (gui->typed_count == gui->typed_room) {
+        int room = gui->typed_room > 0 ? 2 * gui->typed_room : 64;
+        gui->typed_on = static_cast<WrTyped *>(
+            wr_realloc(gui->typed_on, (size_t)gui->typed_room, (size_t)room, sizeof typed));
+        gui->typed_room = room;
+    }
+    gui->typed_on[gui->typed_count++] = typed;
+}
+
+void wr_gui_keys_event(WrGui *gui, const SDL_KeyboardEvent *key)
+{
+    if (!is_key(key->keysym.scancode)) return;
+    keep(gui, WrTyped{ key->keysym, key->type == SDL_KEYDOWN, "" });
+}
+
+void wr_gui_keys_letters(WrGui *gui, const char *utf8)
+{
+    WrTyped typed = {};
+    snprintf(typed.letters, sizeof typed.letters, "%s", utf8);
+    if (typed.letters[0]) keep(gui, typed);
+}
+
+void wr_gui_keys_release(WrGui *gui)
+{
+    ImGuiIO &io = ImGui::GetIO();
+    memset(io.KeysDown, 0, sizeof io.KeysDown);
+    io.KeyShift = io.KeyCtrl = io.KeyAlt = false;
+    int letters = 0;
+    for (int i = 0; i < gui->typed_count; i++)
+        if (gui->typed_on[i].letters[0]) gui->typed_on[letters++] = gui->typed_on[i];
+    gui->typed_count = letters; /* they were typed, wherever the keys go now */
+    gui->typed_held = 0;
+}
+
+static void key_down(WrGui *gui, const SDL_Keysym &key)
+{
+    int code = key.scancode;
+    if (code == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
+    ImGui::GetIO().KeysDown[code] = gui->pressed_now[code] = true;
+    gui->released_late[code] = false;
+    if (!is_held_key(code)) gui->held_late |= key.mod & (KMOD_CTRL | KMOD_SHIFT | KMOD_ALT);
+}
+
+static void key_up(WrGui *gui, int code)
+{
+    if (gui->pressed_now[code])
+        gui->released_late[code] = true; /* seen for one frame, then let go */
+    else ImGui::GetIO().KeysDown[code] = false;
+}
+
+/* What the next frame is to see of them, from the first that waits: true if letters are among it. */
+static bool take_typed(WrGui *gui)
+{
+    bool letters = false, acted = false;
+    int taken = 0;
+    for (; taken < gui->typed_count; taken++) {
+        const WrTyped &typed = gui->typed_on[taken];
+        if (typed.letters[0]) {
+            if (acted) break;
+            ImGui::GetIO().AddInputCharactersUTF8(typed.letters);
+            letters = true;
+            continue;
+        }
+        if (typed.down) {
+            int code = typed.key.scancode;
+            bool down = ImGui::GetIO().KeysDown[code];
+            if (down && !gui->released_late[code])
+                continue; /* held: the library repeats it itself */
+            bool act = !is_held_key(code) && acts(typed.key);
+            /* Let go since the last frame, which it must see first; but letters of a text tell for themselves. */
+            bool anew = down || ImGui::GetIO().KeysDownDuration[code] >= 0.0f;
+            if ((anew && !tells_by_letters(typed.key)) || (act && acted) ||
+                (letters && acts(typed.key)))
+                break;
+            acted |= act;
+            key_down(gui, typed.key);
+        } else {
+            key_up(gui, typed.key.scancode);
+        }
+        gui->typed_held = typed.key.mod;
+    }
+    if (taken == 0) return letters;
+    gui->typed_count -= taken;
+    memmove(gui->typed_on, gui->typed_on + taken, (size_t)gui->typed_count * sizeof *gui->typed_on);
+    return letters;
+}
+
+/* Those held now, and those that were held while a key went down since the last frame: Ctrl+A counts even if
+   both were let go before there was one. With letters, those that were held as they came. */
+void wr_gui_keys_frame(WrGui *gui)
+{
+    if (ImGui::GetCurrentContext() != gui->context) return;
+    ImGuiIO &io = ImGui::GetIO();
+    bool letters = take_typed(gui);
+    int mod = (letters ? gui->typed_held : (int)SDL_GetModState()) | gui->held_late;
+    io.KeyShift = (mod & KMOD_SHIFT) != 0;
+    io.KeyCtrl = (mod & KMOD_CTRL) != 0;
+    io.KeyAlt = (mod & KMOD_ALT) != 0;
+    gui->held_late = 0;
+}
+
+bool wr_gui_keys_seen(WrGui *gui)
+{
+    bool dropped = gui->typed_count > 0;
+    for (int i = 0; i < WR_GUI_KEYS; i++) {
+        gui->pressed_now[i] = false;
+        if (!gui->released_late[i]) continue;
+        ImGui::GetIO().KeysDown[i] = gui->released_late[i] = false;
+        dropped = true;
+    }
+    return dropped;
+}
+
+bool wr_gui_went_down(SDL_Scancode key)
+{
+    return is_key(key) && ImGui::IsKeyPressed(key, false);
+}
+
+bool wr_gui_key_repeats(SDL_Scancode key)
+{
+    return is_key(key) && ImGui::IsKeyPressed(key, true);
+}
+
+#endif

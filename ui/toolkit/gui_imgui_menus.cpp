@@ -1,0 +1,241 @@
+/* Menus, popups, dialogs, lists and text fields. */
+#include "ui/toolkit/gui_imgui.h"
+
+#include <imgui_internal.h>
+
+#include <stdio.h>
+#include <string.h>
+
+static float px(double units)
+{
+    return (float)wr_gui_px(units);
+}
+
+extern "C" double wr_gui_menu_bar_begin(bool tight)
+try {
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(6)));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(tight ? 7 : 14), px(6)));
+    ImGui::PushStyleColor(ImGuiCol_MenuBarBg, wr_gui_colour_of(WR_COLOUR_BAR));
+    ImGui::BeginMainMenuBar();
+    ImGui::SetCursorPosX(px(5)); /* its first word over the first word of the row below */
+    return (double)ImGui::GetWindowHeight();
+}
+WR_CAUGHT(0.0)
+
+extern "C" void wr_gui_menu_bar_end(void)
+try {
+    ImGui::EndMainMenuBar();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+WR_CAUGHT()
+
+extern "C" bool wr_gui_menu_begin(const char *label)
+try {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
+    char said[320];
+    const char *shown = wr_gui_labelled(label, said);
+    const ImGuiID id = ImGui::GetID(shown);
+    ImGuiWindow *window = ImGui::GetCurrentWindow();
+    bool open = !wr_gui_tells_all && ImGui::BeginMenu(shown);
+    /* Where it is open its own window is what is current now. */
+    if (!open) wr_gui_stop(WR_STOP_MENU, false);
+    else wr_gui_stop_open(window, id);
+    if (wr_gui_tells_all) ImGui::MenuItem(shown);
+    if (!wr_gui_tells_all) wr_gui_fits_window(label);
+    ImGui::PopStyleVar();
+    return open || wr_gui_stands_in(label);
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_menu_end(void)
+{
+    if (wr_gui_tells_all) ImGui::End();
+    else ImGui::EndMenu();
+}
+
+extern "C" bool wr_gui_menu_item(const char *label, const char *keys, bool checked, bool enabled)
+try {
+    char said[320];
+    bool pressed = ImGui::MenuItem(wr_gui_labelled(label, said), keys, checked, enabled);
+    if (enabled) wr_gui_stop(WR_STOP_ITEM, false);
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_menu_separator(void)
+{
+    ImGui::Separator();
+}
+
+extern "C" void wr_gui_popup_open(const char *id)
+{
+    ImGui::OpenPopup(id);
+}
+
+extern "C" bool wr_gui_popup_begin(const char *id)
+try {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(12), px(10)));
+    bool open = wr_gui_tells_all ? wr_gui_stands_in(id) : ImGui::BeginPopup(id);
+    ImGui::PopStyleVar();
+    return open;
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_popup_close(void)
+{
+    if (!wr_gui_tells_all) ImGui::CloseCurrentPopup();
+}
+
+extern "C" void wr_gui_popup_end(void)
+{
+    if (wr_gui_tells_all) ImGui::End();
+    else ImGui::EndPopup();
+}
+
+/* title up to ## is its heading. */
+static bool dialog(const char *title, ImVec2 at, ImVec2 pivot, float width, float least, bool dim)
+{
+    ImGui::GetStyle().Colors[ImGuiCol_ModalWindowDimBg] =
+        wr_gui_vec_of(dim ? 0x60000000u : 0x00000000u);
+    ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+    ImGui::SetNextWindowSize(ImVec2(width, 0));
+    if (least > 0)
+        ImGui::SetNextWindowSizeConstraints(ImVec2(width, least), ImVec2(width, FLT_MAX));
+    if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+    float side = px(dim ? 20 : 14);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(side, px(dim ? 18 : 14)));
+    bool open = ImGui::BeginPopupModal(title, nullptr,
+                                       ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
+                                           ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar();
+    if (!open) return false;
+    char heading[128];
+    const bool named = strchr(title, '#') != nullptr;
+    if (named) snprintf(heading, sizeof heading, "%.*s", (int)strcspn(title, "#"), title);
+    wr_gui_text_wrapped(WR_FONT_BOLD, WR_COLOUR_STRONG, named ? heading : title);
+    wr_gui_space(4);
+    return true;
+}
+
+extern "C" bool wr_gui_dialog_begin(const char *title, double width_units)
+try {
+    ImVec2 size = ImGui::GetIO().DisplaySize;
+    float width = px(width_units);
+    if (width > size.x - px(32)) width = size.x - px(32);
+    return dialog(title, ImVec2(size.x / 2, size.y * 0.46f), ImVec2(0.5f, 0.5f), width, 0, true);
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_dialog_begin_at(const char *title, SDL_Rect place)
+try {
+    return dialog(title, ImVec2((float)place.x, (float)place.y), ImVec2(0, 0), (float)place.w,
+                  (float)place.h, false);
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_dialog_end(void)
+{
+    ImGui::EndPopup();
+}
+
+extern "C" bool wr_gui_escape_pressed(void)
+{
+    return !wr_gui_current()->list_open && wr_gui_went_down(SDL_SCANCODE_ESCAPE);
+}
+
+bool wr_gui_return_for_list()
+{
+    return !ImGui::GetIO().WantTextInput &&
+           (wr_gui_went_down(SDL_SCANCODE_RETURN) || wr_gui_went_down(SDL_SCANCODE_KP_ENTER));
+}
+
+extern "C" bool wr_gui_return_pressed(void)
+{
+    return !wr_gui_current()->list_open && wr_gui_return_for_list();
+}
+
+extern "C" bool wr_gui_letter_pressed(SDL_Scancode key)
+{
+    return !wr_gui_current()->list_open && !ImGui::GetIO().WantTextInput && wr_gui_went_down(key);
+}
+
+extern "C" bool wr_gui_key_pressed(SDL_Scancode key)
+{
+    return wr_gui_key_repeats(key);
+}
+
+extern "C" bool wr_gui_field_left(void)
+{
+    return ImGui::IsItemDeactivated();
+}
+
+extern "C" bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus)
+try {
+    ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
+    if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) ImGui::SetKeyboardFocusHere();
+    bool done = ImGui::InputText(
+        id, text, size, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    wr_gui_stop(WR_STOP_TEXT, false);
+    wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+    return done;
+}
+WR_CAUGHT(false)
+
+/* What is typed takes the place of what stood there, as in fields of one line. */
+static int select_all(ImGuiInputTextCallbackData *data)
+{
+    data->SelectAll();
+    static_cast<WrGui *>(data->UserData)->selecting = 0;
+    return 0;
+}
+
+extern "C" bool wr_gui_text_area(const char *id, int lines, char *text, size_t size, bool focus)
+try {
+    WrGui *gui = wr_gui_current();
+    float tall = ImGui::GetTextLineHeight() * (float)lines + 2 * ImGui::GetStyle().FramePadding.y;
+    if (focus || wr_gui_focus_pressed(ImGui::GetID(id))) {
+        ImGui::SetKeyboardFocusHere();
+        gui->selecting = ImGui::GetID(id);
+    }
+    bool pending = gui->selecting == ImGui::GetID(id);
+    bool changed = ImGui::InputTextMultiline(id, text, size, ImVec2(-1.0f, tall),
+                                             pending ? ImGuiInputTextFlags_CallbackAlways : 0,
+                                             pending ? select_all : nullptr, gui);
+    wr_gui_stop_at(WR_STOP_TEXT, ImGui::GetID(id), false, ImGui::GetItemRectMin(),
+                   ImGui::GetItemRectMax());
+    wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+    return changed;
+}
+WR_CAUGHT(false)
+
+extern "C" int wr_gui_list_row(const char *icon, const char *label, bool selected)
+try {
+    char text[1100];
+    char said[320];
+    snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "", icon ? "  " : "",
+             wr_gui_labelled(label, said));
+    bool pressed = ImGui::Selectable(text, selected, ImGuiSelectableFlags_AllowDoubleClick);
+    wr_gui_stop(WR_STOP_LIST, selected);
+    if (!pressed) return 0;
+    const ImGuiID id = ImGui::GetItemID();
+    const bool enter =
+        wr_gui_focus_key(id, SDL_SCANCODE_RETURN) || wr_gui_focus_key(id, SDL_SCANCODE_KP_ENTER);
+    return enter || ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
+}
+WR_CAUGHT(0)
+
+extern "C" void wr_gui_list_begin(const char *id, double height)
+try {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(8), px(8)));
+    ImGui::BeginChild(id, ImVec2(0, (float)height), true);
+    ImGui::PopStyleVar();
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_list_end(void)
+{
+    wr_gui_stop_scrolled();
+    ImGui::EndChild();
+}

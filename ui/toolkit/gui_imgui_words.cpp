@@ -1,0 +1,76 @@
+/* What widgets say: looked up, and looked at whether it has room. */
+#include "ui/toolkit/gui_imgui.h"
+
+#include <imgui_internal.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void (*wr_gui_cut)(const char *text, double width, double room);
+bool wr_gui_tells_all, wr_gui_unseen;
+
+extern "C" void wr_gui_as_it_is(bool on)
+{
+    wr_gui_current()->as_it_is = on;
+}
+
+const char *wr_gui_said(const char *text)
+{
+    return wr_gui_current()->as_it_is ? text : wr_words(text);
+}
+
+/* In the place of a popup that is not open, where all is told. */
+bool wr_gui_stands_in(const char *name)
+{
+    if (!wr_gui_tells_all) return false;
+    ImGui::SetNextWindowPos(ImVec2(0, 0));
+    ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
+    return true;
+}
+
+const char *wr_gui_labelled(const char *label, char (&buffer)[320])
+{
+    char seen[256];
+    const char *id = strstr(label, "##");
+    const size_t length = id ? (size_t)(id - label) : strlen(label);
+    if (length == 0 || length >= sizeof seen) return label;
+    memcpy(seen, label, length);
+    seen[length] = '\0';
+    const char *looked = id ? seen : label, *said = wr_gui_said(looked);
+    if (said == looked) return label;
+    if (id && id[2] == '#') snprintf(buffer, sizeof buffer, "%.250s%.60s", said, id);
+    else snprintf(buffer, sizeof buffer, "%.250s###%.60s", said, label);
+    return buffer;
+}
+
+void wr_gui_fits(const char *text, float width, float room)
+{
+    if (wr_gui_cut && !wr_gui_current()->as_it_is && width > room + 1.0f)
+        wr_gui_cut(text, (double)width, (double)room);
+}
+
+/* By the clip of the drawing, which is narrower than the window where it scrolls. */
+void wr_gui_fits_window(const char *text)
+{
+    if (!wr_gui_cut) return;
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    if (window->SkipItems || window->HiddenFramesCanSkipItems > 0 ||
+        window->HiddenFramesCannotSkipItems > 0)
+        return;
+    if (window->Flags & ImGuiWindowFlags_AlwaysAutoResize) return; /* it grows */
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    wr_gui_fits(text, high.x - low.x, window->ClipRect.Max.x - low.x);
+}
+
+float wr_gui_row_room(float width)
+{
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    const float room = ImGui::GetContentRegionAvail().x;
+    const ImGuiWindowFlags grows = ImGuiWindowFlags_AlwaysAutoResize;
+    if (window->Flags & (ImGuiWindowFlags_NoScrollWithMouse | grows)) return FLT_MAX; /* a bar */
+    const bool begun = fabsf(window->DC.CursorPos.y - window->DC.CursorPosPrevLine.y) < 0.5f;
+    if (width <= room || !begun) return room;
+    ImGui::NewLine();
+    return ImGui::GetContentRegionAvail().x;
+}

@@ -1,0 +1,185 @@
+/* The .mo file as GNU gettext's manual has it ("The Format of GNU MO Files"): a header of words of 32 bits, two tables of
+   (length, place) for the originals, which are sorted, and for the translations, each text with a zero behind it. */
+#include "ui/toolkit/words.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/enum_rows.h"
+#include "base/text.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAGIC 0x950412deu
+#define MOST (8u << 20) /* bytes of a file */
+
+const WrLanguage wr_languages[] = { { "", "As the system" },
+                                    { "en", "English" },
+                                    { "de", "Deutsch" } };
+const int wr_language_count = WR_LENGTH(wr_languages);
+
+void (*wr_words_missed)(const char *english);
+void (*wr_words_asked)(const char *english);
+
+/* ---- a file ---- */
+
+struct WrCatalogue {
+    char *bytes; /* owned */
+    uint32_t count, originals, translations;
+};
+
+static uint32_t word_at(const char *bytes, size_t place)
+{
+    uint32_t word;
+    memcpy(&word, bytes + place, sizeof word);
+    return word;
+}
+
+/* A table of texts lies within the file, and each text within it and ends where it says. */
+static bool is_table(const char *bytes, size_t size, uint32_t at, uint32_t count)
+{
+    if (at > size || (size_t)count * 8 > size - at) return false;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t length = word_at(bytes, at + (size_t)i * 8);
+        const uint32_t place = word_at(bytes, at + (size_t)i * 8 + 4);
+        if (place >= size || length >= size - place || bytes[place + length] != '\0') return false;
+    }
+    return true;
+}
+
+WrCatalogue *wr_catalogue_new(const char *bytes, size_t size)
+{
+    if (size < 28 || word_at(bytes, 0) != MAGIC || word_at(bytes, 4) >> 16 > 1) return NULL;
+    const uint32_t count = word_at(bytes, 8), from = word_at(bytes, 12), to = word_at(bytes, 16);
+    if (!is_table(bytes, size, from, count) || !is_table(bytes, size, to, count)) return NULL;
+    WrCatalogue *catalogue = wr_alloc(1, sizeof *catalogue);
+    *catalogue = (WrCatalogue){ wr_alloc(size, 1), count, from, to };
+    memcpy(catalogue->bytes, bytes, size);
+    return catalogue;
+}
+
+void wr_catalogue_free(WrCatalogue *catalogue)
+{
+    if (!catalogue) return;
+    wr_free(catalogue->bytes);
+    wr_free(catalogue);
+}
+
+static const char *text_at(const WrCatalogue *c, uint32_t table, uint32_t i)
+{
+    return c->bytes + word_at(c->bytes, table + (size_t)i * 8 + 4);
+}
+
+const char *wr_catalogue_find(const WrCatalogue *c, const char *english)
+{
+    if (!english[0]) return NULL; /* it stands for the head of the file */
+    uint32_t low = 0, high = c->count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        const int order = strcmp(english, text_at(c, c->originals, middle));
+        if (order == 0) {
+            const char *found = text_at(c, c->translations, middle);
+            return found[0] ? found : NULL;
+        }
+        if (order < 0) high = middle;
+        else low = middle + 1;
+    }
+    return NULL;
+}
+
+/* ---- the environment ---- */
+
+/* "de_AT.UTF-8" is German as well. */
+static const char *known(const char *name, size_t length)
+{
+    size_t bare = 0;
+    while (bare < length && name[bare] != '_' && name[bare] != '.' && name[bare] != '@') bare++;
+    for (int i = 1; i < wr_language_count; i++)
+        if (strlen(wr_languages[i].code) == bare && strncmp(name, wr_languages[i].code, bare) == 0)
+            return wr_languages[i].code;
+    return NULL;
+}
+
+static const char *said(const char *text)
+{
+    return text && text[0] ? text : NULL;
+}
+
+const char *wr_words_of(const char *language, const char *all, const char *messages,
+                        const char *lang)
+{
+    const char *locale = said(all) ? all : said(messages) ? messages : said(lang);
+    const bool plain = locale && (strcmp(locale, "C") == 0 || strcmp(locale, "POSIX") == 0);
+    if (plain) return "en"; /* LANGUAGE does not count there */
+    for (const char *at = said(language); at && *at;) {
+        const size_t length = strcspn(at, ":");
+        const char *found = known(at, length);
+        if (found) return found;
+        at += length + (at[length] == ':');
+    }
+    const char *found = locale ? known(locale, strlen(locale)) : NULL;
+    return found ? found : "en";
+}
+
+/* ---- what is spoken ---- */
+
+static struct {
+    WrCatalogue *read[WR_LENGTH(wr_languages)]; /* kept: texts out of them may be held */
+    bool tried[WR_LENGTH(wr_languages)];
+    int now; /* of wr_languages; 0: English */
+} spoken;
+
+/* Beside the program in its build folder, or where it is installed. */
+static WrCatalogue *read_file(const char *code)
+{
+    static const char *const places[] = { "locale", "../share/locale" };
+    WrCatalogue *catalogue = NULL;
+    char *folder = wr_program_folder();
+    for (size_t i = 0; folder && !catalogue && i < WR_LENGTH(places); i++) {
+        WrText path = { 0 };
+        WrError ignored;
+        char *bytes;
+        size_t size;
+        wr_text_addf(&path, "%s/%s/%s/LC_MESSAGES/wrinkle.mo", folder, places[i], code);
+        if (wr_file_read(wr_text_get(&path), MOST, &bytes, &size, &ignored)) {
+            catalogue = wr_catalogue_new(bytes, size);
+            wr_free(bytes);
+        }
+        wr_text_fini(&path);
+    }
+    wr_free(folder);
+    return catalogue;
+}
+
+void wr_words_choose(int language)
+{
+    const bool named = language > 0 && language < wr_language_count;
+    const char *code = wr_languages[named ? language : 0].code;
+    if (!named)
+        code = wr_words_of(getenv("LANGUAGE"), getenv("LC_ALL"), getenv("LC_MESSAGES"),
+                           getenv("LANG"));
+    int wanted = 0;
+    for (int i = 1; i < wr_language_count; i++)
+        if (strcmp(code, wr_languages[i].code) == 0 && strcmp(code, "en") != 0) wanted = i;
+    if (wanted && !spoken.tried[wanted]) {
+        spoken.tried[wanted] = true;
+        spoken.read[wanted] = read_file(code);
+    }
+    spoken.now = wanted && spoken.read[wanted] ? wanted : 0;
+}
+
+const char *wr_words_language(void)
+{
+    return spoken.now ? wr_languages[spoken.now].code : "en";
+}
+
+const char *wr_words(const char *english)
+{
+    if (wr_words_asked && english) wr_words_asked(english);
+    if (!spoken.now || !english) return english;
+    const char *found = wr_catalogue_find(spoken.read[spoken.now], english);
+    if (!found && wr_words_missed) wr_words_missed(english);
+    return found ? found : english;
+}
