@@ -1,4 +1,4 @@
-/* Table operations. */
+/* The command adjust: filters over whole layers, coverage, masks and selections. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -38,7 +38,8 @@ static bool run_on(const Adjusting *adjusting, WrField **field, WrError *err)
     return run_with(wr_op_run, adjusting, field, err);
 }
 
-/* The same for coverage, masks and selections, which stay in 0..1 whatever the filter overshoots. */
+/* Apply the filter to coverage, a mask or a selection; the result is clamped to 0..1 even if the filter
+   overshoots. */
 static bool run_on_part(const Adjusting *adjusting, WrField **field, WrError *err)
 {
     return run_with(wr_op_run_unit, adjusting, field, err);
@@ -86,7 +87,7 @@ static const char *const layer_choices[] = { "active", "all", NULL };
 
 /* ---- the forms ---- */
 
-/* One form an operation. */
+/* One form for each operation. */
 static bool form_adjust(int i, WrForm *out)
 {
     if (i >= wr_op_count) return false;

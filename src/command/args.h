@@ -1,31 +1,30 @@
-/* args.h - what rows of arguments are written with. Choices, surfaces and export kinds come from the tables of their
-   rooms.
-   Layer 6, private to src/command. */
+/* args.h - macros and shared choices for argument rows of the command table. Choices, surfaces and export kinds come
+   from the tables of their modules. Private to src/command. */
 #pragma once
 #include "command/session_internal.h"
 
 #include <stdbool.h>
 
-/* Numbers of a default. */
+/* Default numbers. */
 #define NUMBERS(...)                                                                               \
     (const double[])                                                                               \
     {                                                                                              \
         __VA_ARGS__                                                                                \
     }
-/* A required value without a name. */
+/* A required positional value. */
 #define PLACE(x) .name = (x), .positional = true, .required = true
-/* Half the sides of an ellipse. */
+/* Half axes of an ellipse. */
 #define WR_ARG_RADII                                                                               \
     {                                                                                              \
         .name = "radii", .type = WR_ARG_TUPLE, .required = true, .components = 2,                  \
         .shape = "ru,rv", .low = 0, .high = WR_SELECT_REACH,                                       \
         .help = "half its width and height, in parts of the cell as u and v"                       \
     }
-/* The place of an ellipse. */
+/* Centre of an ellipse. */
 #define WR_ARG_MIDDLE                                                                              \
     .name = "at", .type = WR_ARG_TUPLE, .required = true, .components = 2, .shape = "u,v",         \
     .low = -WR_SELECT_REACH, .high = WR_SELECT_REACH, .help = "its middle"
-/* What is connected, and as high as a place. */
+/* The connected region of similar height around a point. */
 #define WR_ARGS_FLOOD(of)                                                                          \
     { PLACE("u,v"), .also = "at", .type = WR_ARG_TUPLE,     .components = 2,                       \
       .low = -1e6,  .high = 1e6,  .help = "where it begins" },                                     \
@@ -40,7 +39,7 @@
         .name = "diagonal", .type = WR_ARG_CHOICE, .words = wr_off_on, .fallback_text = "off",     \
         .help = "on: texels that meet at a corner are connected too"                               \
     }
-/* What of a picture file is taken (WrImageWish). */
+/* Channel and part of a picture file (WrImageWish). */
 #define WR_ARGS_OF_FILE                                                                            \
     { .name = "layer",                                                                             \
       .also = "channel",                                                                           \
@@ -52,7 +51,7 @@
         .name = "part", .type = WR_ARG_TEXT, .shape = "N or NAME",                                 \
         .help = "of a file with several, or a frame of an animation; left out, the first"          \
     }
-/* The function that WrCommand.form asks for, of a list of forms. */
+/* WrCommand.form callback for a list of forms. */
 #define WR_FORMS(function, list)                                                                   \
     static bool function(int i, WrForm *out)                                                       \
     {                                                                                              \
@@ -60,7 +59,7 @@
         *out = (list)[i];                                                                          \
         return true;                                                                               \
     }
-/* A tuple of a list may have n numbers. */
+/* Bit of WrArgSpec.counts: a tuple of a list may have n numbers. */
 #define TUPLE_OF(n) (1u << (n))
 
 extern const char *const wr_off_on[]; /* "off", "on" */

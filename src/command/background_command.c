@@ -1,4 +1,4 @@
-/* What stands behind the objects. */
+/* The command background: the backdrop of the scene. */
 #include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/args.h"
@@ -18,7 +18,7 @@ static void print_kind(WrBackgroundKind kind, const WrScene *scene, WrText *text
     wr_text_add(text, "\n");
 }
 
-/* Colours that are not shown are kept too, by a line before; that of a new document has none. */
+/* Hidden colours are saved too, by an extra line before; a new document's colours need none. */
 static void print_background(const WrScene *scene, WrText *text)
 {
     const WrBackground *own = &scene->background;

@@ -1,4 +1,4 @@
-/* Arguments of the brush, which all that paints has. */
+/* Arguments of the brush, shared by all painting commands. */
 #include "command/brush_args.h"
 
 #include "base/text.h"
@@ -16,7 +16,7 @@ static const char *pressure_name(int i)
     return i < WR_PRESSURE_COUNT ? wr_brush_pressures[i] : NULL;
 }
 
-/* "adds strength to the height (strength)": the argument names that the mode goes by. */
+/* "adds strength to the height (strength)": description and the names of the arguments that the mode uses. */
 void wr_brush_mode_explain(int i, WrText *text)
 {
     static const struct {

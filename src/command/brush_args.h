@@ -1,18 +1,18 @@
-/* brush_args.h - arguments that all has which paints.
-   Layer 6, private to src/command. */
+/* brush_args.h - argument rows shared by all painting commands. Private to src/command. */
 #pragma once
 #include "command/args.h"
 #include "field/wrap.h"
 
 #include <stdbool.h>
 
-const char *wr_brush_mode_name(int i);           /* word i of mode=, NULL past the last */
-void wr_brush_mode_explain(int i, WrText *text); /* with the argument names that the mode goes by */
-extern const WrArgSpec wr_args_brush[];          /* ends with name NULL */
+const char *wr_brush_mode_name(int i); /* word i of mode=, NULL past the last */
+/* includes the names of the arguments that the mode uses */
+void wr_brush_mode_explain(int i, WrText *text);
+extern const WrArgSpec wr_args_brush[]; /* the last row has name NULL */
 
 /* ---- the brush ---- */
 
-/* What the covering of a region goes by. */
+/* Choice of the heights that a flood fill compares. */
 #define PAINT_ARGS                                                                                 \
     { .name = "strength",                                                                          \
       .type = WR_ARG_NUMBER,                                                                       \

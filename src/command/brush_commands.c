@@ -1,4 +1,4 @@
-/* The brush as a command: dab, stroke. */
+/* The brush as commands: dab, stroke. */
 #include "base/error.h"
 #include "base/progress.h"
 #include "command/args.h"

@@ -1,4 +1,4 @@
-/* From where the scene is looked at: placed, moved, and kept under names. */
+/* The command camera: placing, moving and named views. */
 #include "base/error.h"
 #include "base/enum_rows.h"
 #include "base/text.h"
@@ -29,7 +29,7 @@ enum {
 
 /* ---- as lines ---- */
 
-/* The number of the other kind of camera is kept too, by a line of its own before. */
+/* The parameters of the inactive camera kind are saved too, by a line of their own before. */
 void wr_print_camera(const WrScene *scene, WrText *text)
 {
     const WrSceneParam *own = &wr_scene_params[WR_SCENE_PARAM_FOV],
@@ -43,7 +43,7 @@ void wr_print_camera(const WrScene *scene, WrText *text)
     wr_text_add(text, "\n");
 }
 
-/* One line of a named view; its turn, where it is that of a scene's only object. */
+/* One line of a named view; includes the rotation if it is the one of a scene's only object. */
 static void print_named(const WrScene *like, const WrNamedView *named, WrText *text)
 {
     WrScene *scene = wr_scene_clone(like);
@@ -82,8 +82,8 @@ static void give_numbers(WrCall *call, const WrSceneParam *param, const WrScene 
     arg->given = true;
 }
 
-/* What the line does not say is as it is now; from now on the line says all, so that it means the same wherever it is
-   run. */
+/* Fill in the values that the line omits from the present camera. The stored line is complete, so that it has the
+   same meaning wherever it is run. */
 static void give_view(WrCall *call, const WrScene *scene)
 {
     const WrSceneParam *param;

@@ -1,4 +1,4 @@
-/* How large the unit cell is outside: what exports, solids and labels go by. */
+/* The command cell: physical size of the unit cell, used by exports, solids and labels. */
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"

@@ -1,4 +1,5 @@
-/* `colouring`: colours by height, slope and cavity, and the picture that is made of them, anew whenever what they go by has changed. */
+/* The command colouring: a picture coloured by height, slope and cavity, computed again when one of its inputs has
+   changed. */
 #include "command/session_internal.h"
 
 #include "base/array.h"
@@ -16,14 +17,14 @@
 
 #include <string.h>
 
-#define FORM_SIDE_MOST 512 /* texels: a form is smooth */
+#define FORM_SIDE_MOST 512 /* texels: terrain patches are smooth, more adds no detail */
 #define FORM_SIDE_LEAST 64
 
 enum { FORM_RAMP, FORM_OFF, COLOURING_FORMS };
 
-/* ---- what is made of it -------------------------------------------------------------------------- */
+/* ---- the picture --------------------------------------------------------------------------------- */
 
-/* The terrain's patches that it goes by; NULL: it goes by the table. */
+/* Terrain patches that supply the heights; NULL: the table does. */
 static const WrPatches *form_of(const WrScene *object)
 {
     const bool form =

@@ -1,78 +1,77 @@
-/* command_line.h - one command line as parsed and checked values, and back as canonical text.
-   Layer 6.
+/* command_line.h - parsed and checked values of one command line, and their canonical text.
 
    A line is   verb value... name=value...   # comment
-   Words are parted by spaces or tabs. A value may be in double quotes, in which \" and \\ stand for a
-   quote and a backslash; a # outside quotes starts a comment wherever it stands. Values and names may
-   come in any order; the printer puts values first, then names, both in the table's order, and only those
-   that were given. */
+   Words are separated by spaces or tabs. A value may be in double quotes, in which \" and \\ stand for a quote and a
+   backslash. A # outside quotes starts a comment anywhere. Values and names may come in any order. The printer writes
+   values first, then names, both in the table's order, and only those that were given. */
 #pragma once
 #include "command/command_table.h"
 
 #include <stdbool.h>
 
 typedef struct WrArg {
-    bool given;      /* false: the values are the default, or none */
-    int choice;      /* choices: index, -1 without value */
-    char *text;      /* paths, hashes; owned; NULL without value */
-    double *numbers; /* [rows][spec.components or 2 (size) or 1 (number)], owned; NULL without;
-                              numbers that a tuple of a list leaves out are 0 */
-    unsigned char *counts; /* lists: [rows] how many numbers each tuple has; owned */
-    int rows;              /* lists: tuples; others 1, or 0 without value */
-    int capacity;          /* rows allocated */
+    bool given; /* false: the values are the default, or none */
+    int choice; /* choices: index, -1 without value */
+    char *text; /* paths, hashes; owned; NULL without value */
+    /* [rows][spec.components, 2 for a size, 1 for a number]; owned; NULL without value; numbers
+       that a tuple of a list omits are 0 */
+    double *numbers;
+    unsigned char *counts; /* lists: [rows] count of numbers in each tuple; owned */
+    int rows;              /* lists: number of tuples; other types 1, or 0 without value */
+    int capacity;          /* allocated rows */
 } WrArg;
 
 struct WrCall {
-    const WrCommand *command; /* NULL: a blank line or a comment */
+    const WrCommand *command; /* NULL for a blank line or a comment */
     int form;                 /* index, -1 for a command without forms */
-    const char *form_name;    /* "" without forms */
-    int count;                /* arguments */
+    const char *form_name;    /* "" for a command without forms */
+    int count;                /* number of arguments */
     WrArgSpec specs[WR_ARGS_MAX];
     WrArg args[WR_ARGS_MAX];
 };
 
-/* Parse and check a line. On success *call is the caller's (wr_call_free); a blank line gives a call
- * whose command is NULL. open: required list arguments may be missing (the head of a stroke).
- * Errors name the command, the argument, its value and what would be right. */
+/* Parse and check a line. On success the caller owns *call (wr_call_free). A blank line returns a call whose command
+ * is NULL. open: required list arguments may be missing (the head of a stroke). Errors contain the command, the
+ * argument, its value and the allowed values. */
 bool wr_call_parse(const char *line, bool open, WrCall **call, WrError *err);
-void wr_call_free(WrCall *call); /* NULL is fine */
+void wr_call_free(WrCall *call); /* NULL is allowed */
 
-WrCommandClass wr_call_class(const WrCall *call); /* of its command, in its form */
+WrCommandClass wr_call_class(const WrCall *call); /* class of the command's form */
 
-/* The canonical line, without line end. Parsing it gives the same values; printing those the same line. */
+/* The canonical line, without line end. Parsing it returns the same values; printing those returns the same line. */
 void wr_call_print(const WrCall *call, WrText *text);
 
 /* The argument of that name; it must exist in the call's form. */
 WrArg *wr_call_arg(const WrCall *call, const char *name);
 bool wr_call_given(const WrCall *call, const char *name);
-/* The first number of an argument: given or default. */
+/* The first number of an argument, given or default. */
 double wr_call_number(const WrCall *call, const char *name);
-/* A choice's index, given or default. */
+/* Index of a choice, given or default. */
 int wr_call_choice(const WrCall *call, const char *name);
-/* Three numbers of a tuple. */
-/* Where the line gives a value, take it. */
-/* The name of the argument that holds the SHA-256 of the file that argument `index` names: NAME_sha256, or
- * sha256. NULL if it names none, or one that is not read. */
+/* Three numbers of a tuple, given or default. */
+/* Store the argument's value in *out if the line contains one; else *out is unchanged. */
+/* Name of the argument that holds the SHA-256 of the file named by argument `index`: NAME_sha256, or sha256. NULL if
+ * that argument names no file, or one that is not read. */
 const char *wr_call_hash_name(const WrCall *call, int index);
-/* Is argument `index` given, and a file's name? A preset may be one or not. */
+/* True if argument `index` is given and is a file name. A preset may be a file name or a bare name. */
 bool wr_call_names_file(const WrCall *call, int index);
-bool wr_names_preset_file(const char *word); /* it ends in .myb */
-/* Set a text argument as if the line had given it. */
+bool wr_names_preset_file(const char *word); /* true if the word ends in .myb */
+/* Set a text argument as if the line contained it. */
 void wr_call_set_text(WrCall *call, const char *name, const char *text);
 /* Append a tuple of `count` numbers to a list argument. */
 void wr_call_add_row(WrCall *call, const char *name, const double *numbers, int count);
 
-/* How many numbers a row of this argument has: 1, 2 for a size, else spec->components. */
+/* Numbers in a row of this argument: 1, 2 for a size, else spec->components. */
 int wr_arg_width(const WrArgSpec *spec);
-/* Read one value (no quotes left). *arg must be empty; on failure it stays so. `where` is put in front
-   of messages: "dab: radius". */
+/* Read one value (quotes already removed). *arg must be empty; on failure it stays empty. `where` is the prefix of
+   messages: "dab: radius". */
 bool wr_arg_parse(const WrArgSpec *spec, const char *where, const char *value, WrArg *arg,
                   WrError *err);
 void wr_arg_print(const WrArgSpec *spec, const WrArg *arg, WrText *text);
 void wr_arg_fini(WrArg *arg);
 
-/* A word as the language writes it: bare where it needs no quotes, else quoted. */
+/* A word in command syntax: bare if possible, else quoted. */
 void wr_text_add_word(WrText *text, const char *word);
-/* At most 48 bytes of a user's text for a message: whole UTF-8 characters, no control characters. */
+/* At most 48 bytes of user text for a message: whole UTF-8 characters, no control characters. */
 #define WR_EXCERPT_SIZE 56
 const char *wr_excerpt(const char *bytes, char buffer[WR_EXCERPT_SIZE]);

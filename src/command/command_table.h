@@ -1,7 +1,6 @@
-/* command_table.h - the one table of commands: names, classes, arguments with types, ranges, defaults and help,
-   and the functions that carry them out. The parser, the printer, the help, the window's dialogs and the
-   tests all go by it: a new command is a row with its arguments and functions in one file, and a line in commands.c.
-   Layer 6. */
+/* command_table.h - the command table: names, classes, arguments with types, ranges, defaults and help, and handlers.
+   The parser, the printer, the help, the window's dialogs and the tests all use it. A new command is a row with its
+   arguments and functions in one file, and one line in commands.c. */
 #pragma once
 #include "generate/generator.h"
 
@@ -14,19 +13,21 @@ typedef struct WrText WrText;
 typedef struct WrSession WrSession;
 typedef struct WrCall WrCall;
 
-#define WR_BIG_HEIGHT 3.4028234663852886e38 /* the largest float: heights are float32 */
+#define WR_BIG_HEIGHT 3.4028234663852886e38 /* largest float: heights are float32 */
 #define WR_ARGS_MAX 64                      /* arguments of one form of a command */
 #define WR_LIGHTS_MAX 256                   /* lights of a scene */
 #define WR_POINTS_MAX 1000000               /* samples of a stroke */
 #define WR_TERMS_MAX 65536                  /* terms of an analytic function */
 
 typedef enum WrCommandClass {
-    WR_CLASS_EDIT,    /* changes heights, layers or the selection: undoable, journaled */
-    WR_CLASS_SCENE,   /* what pictures show: undoable, journaled, saved with the document */
-    WR_CLASS_VIEW,    /* how pictures look at it: no step of the edits, but of a history of its own;
-                        journaled, saved with the document */
+    WR_CLASS_EDIT, /* changes heights, layers or the selection: undoable, journaled */
+    /* changes the content of pictures: undoable, journaled, saved with the document */
+    WR_CLASS_SCENE,
+    /* changes the view: no edit step, but a step of the view history; journaled, saved with the
+       document */
+    WR_CLASS_VIEW,
     WR_CLASS_OUTPUT,  /* writes files: never in a journal, never in a document */
-    WR_CLASS_HISTORY, /* goes through what was done: no step of its own, journaled as itself */
+    WR_CLASS_HISTORY, /* moves through the history: no step of its own; journaled as such */
     WR_CLASS_COUNT
 } WrCommandClass;
 
@@ -54,79 +55,82 @@ extern const char *const wr_arg_type_names[WR_ARG_TYPES]; /* "number", "size", .
 typedef WrParamPart WrComponent;
 
 typedef struct WrArgSpec {
-    const char *name; /* of a positional: how help shows it ("u,v"); NULL ends a list */
-    const char *also; /* another name that a line may give it, such as an earlier one; NULL: none */
+    const char *name; /* of a positional: its name in help ("u,v"); NULL ends a list */
+    const char *also; /* alias accepted in lines, such as a former name; NULL: none */
     WrArgType type;
-    bool positional; /* by place; else name=value */
+    bool positional; /* written without a name; else name=value */
     bool required;
     double low, high; /* closed range of each number (of a size: of each side) */
     bool above;       /* `low` itself is excluded */
     bool whole;       /* whole numbers only (a size always is) */
-    bool share; /* whole texels along a side; a number between -1 and 1 is a share of that side */
-    int components; /* numbers of a tuple, of each tuple of a list; others: 0 */
-    const WrComponent
-        *parts; /* [components] ranges of their own instead of low, high; NULL: none */
-    unsigned
-        counts; /* lists: bit n is set where a tuple may have n numbers; 0: always `components` */
-    const char *shape;            /* how it is written: "x,y,z"; NULL: by its type */
-    int rows_low, rows_high;      /* lists: how many tuples */
-    const char *(*choice)(int i); /* choices: word i, NULL past the last; or else: */
-    const char *const
-        *words; /* choices: the words, ends with NULL; of a path: those that are no file */
-    const double *fallback;               /* numbers that hold where none are given; NULL: none */
-    int fallback_rows;                    /* lists: tuples in it */
-    const char *fallback_text;            /* the same for choices */
-    void (*explain)(int i, WrText *text); /* choices: what word i means, for help; NULL: unsaid */
-    bool (*check)(const void *ctx, const char *name, const char *value, WrError *err); /* texts */
+    /* whole texels along a side; a number between -1 and 1 is a fraction of that side */
+    bool share;
+    int components; /* numbers in a tuple, or in each tuple of a list; other types: 0 */
+    /* [components] one range for each number, instead of low and high; NULL: none */
+    const WrComponent *parts;
+    unsigned counts; /* lists: bit n is set if a tuple may have n numbers; 0: always `components` */
+    /* syntax shown in help, such as "x,y,z"; NULL: derived from the type */
+    const char *shape;
+    int rows_low, rows_high;      /* lists: range of the number of tuples */
+    const char *(*choice)(int i); /* choices: word i, NULL past the last; alternative to `words` */
+    /* choices: the words, NULL-terminated; paths: words that are no file names */
+    const char *const *words;
+    const double *fallback;               /* default numbers; NULL: none */
+    int fallback_rows;                    /* lists: number of default tuples */
+    const char *fallback_text;            /* choices: default word */
+    void (*explain)(int i, WrText *text); /* choices: meaning of word i, for help; NULL: none */
+    /* texts: validation */
+    bool (*check)(const void *ctx, const char *name, const char *value, WrError *err);
     const void *check_ctx;
-    bool may_be_empty; /* texts: "" is one */
+    bool may_be_empty; /* texts: "" is allowed */
     const char *unit;  /* "texels", "degrees"; NULL: none */
-    const char *help;  /* a few words; of a text also what is allowed */
+    const char *help;  /* a few words; for a text also its allowed content */
 } WrArgSpec;
 
-/* A command such as `light` has forms (directional, point, clear): its first word names the form, and
-   each form has arguments of its own besides those that all share. */
+/* Variant of a command. The first word of a command such as `light` names the form (directional, point, clear); each
+   form has its own arguments besides the shared ones. */
 typedef struct WrForm {
     const char *name;
     const char *help;
-    WrArgSpec args[WR_ARGS_MAX]; /* ends with name NULL */
+    WrArgSpec args[WR_ARGS_MAX]; /* the last row has name NULL */
 } WrForm;
 
 typedef struct WrCommand {
     const char *name; /* NULL ends the table */
     WrCommandClass kind;
-    WrCommandClass (*class_of)(int form); /* where it is not that of all forms; or NULL */
+    WrCommandClass (*class_of)(int form); /* class by form, if the forms differ; or NULL */
     const char *help;                     /* one line */
     const char *details;                  /* sentences for `help NAME`; may be NULL */
-    const char *example;                  /* a line that parses */
-    const char *form_word; /* what the first word is called ("KIND"); NULL: no forms */
-    bool (*form)(int index, WrForm *out); /* the form's row; false past the last */
+    const char *example;                  /* a valid line */
+    const char *form_word; /* name of the first word in help ("KIND"); NULL: no forms */
+    bool (*form)(int index, WrForm *out); /* row of the form; false past the last */
     bool (*row)(
-        WrForm *out); /* the arguments of a command without forms, where another table makes them;
-                                 NULL: only args and more */
-    const WrArgSpec *args; /* ends with name NULL; shared by all forms; NULL: none */
-    const WrArgSpec *more; /* further ones, which other commands have too; or NULL */
+        WrForm *out); /* arguments of a command without forms that are generated from another table;
+                         NULL: only args and more */
+    const WrArgSpec *args; /* shared by all forms; the last row has name NULL; NULL: none */
+    const WrArgSpec *more; /* further arguments, shared with other commands; or NULL */
 
-    /* Carry out a call whose values are checked against this row. On failure the session may be left
-       half changed: the caller puts its snapshot back. */
+    /* Carry out a call whose values were checked against this row. On failure the session may be half changed: the
+       caller restores its snapshot. */
     bool (*run)(WrSession *session, WrCall *call, WrError *err);
-    /* Scene commands and views: the canonical lines that restore this part of a scene, each with its line end. */
+    /* Scene and view commands: print the canonical lines that restore this part of a scene, each with its line
+       end. */
     void (*print)(const WrScene *scene, WrText *text);
-    bool of_object; /* scene commands: it is about the object at hand, else about all */
+    bool of_object; /* scene commands: applies to the active object, else to the whole scene */
 } WrCommand;
 
-/* In the order of help; the scene's in the order in which a document keeps them. */
-extern const WrCommand *const wr_commands[]; /* ends with NULL */
+/* Commands in the order of help; scene commands in the order in which a document stores them. */
+extern const WrCommand *const wr_commands[]; /* the last entry is NULL */
 extern const int wr_command_count;
 
-const WrCommand *wr_command_find(const char *name); /* NULL if there is none */
-/* Word i of a choice, NULL past the last (0 <= i <= their number). */
+const WrCommand *wr_command_find(const char *name); /* NULL if there is no such command */
+/* Word i of a choice, NULL past the last (0 <= i <= number of words). */
 const char *wr_arg_word(const WrArgSpec *spec, int i);
-/* The form of that name; its index, or -1. */
+/* Index of the form of that name, or -1; its row goes to *out. */
 int wr_command_form(const WrCommand *command, const char *name, WrForm *out);
-/* All arguments of a form (index -1 for a command without forms), shared ones last. Returns how many. */
+/* All arguments of a form (index -1 for a command without forms), shared ones last. Returns their number. */
 int wr_command_specs(const WrCommand *command, int form, WrArgSpec out[WR_ARGS_MAX]);
-/* Where an argument is not given: "16", "0,0,1", "blinn"; "" if it has no default. */
+/* Default value as text: "16", "0,0,1", "blinn"; "" if there is none. */
 void wr_arg_fallback_print(const WrArgSpec *spec, WrText *text);
-/* What would be right: "a number, 0..1e9 texels", "one of none, blinn, ...". */
+/* Description of the allowed values: "a number, 0..1e9 texels", "one of none, blinn, ...". */
 void wr_arg_expectation(const WrArgSpec *spec, WrText *text);

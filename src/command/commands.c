@@ -1,4 +1,4 @@
-/* The one list of commands. */
+/* List of all commands. */
 #include "command/commands.h"
 
 #include "base/enum_rows.h"

@@ -1,6 +1,5 @@
-/* commands.h - the rows of the commands, each at the end of its subject's file, where its arguments, its handler and
-   its printer are too.
-   Layer 6, private to src/command. */
+/* commands.h - declarations of all command rows. Each row is at the end of the .c file that has its arguments,
+   handler and printer. Private to src/command. */
 #pragma once
 #include "command/command_table.h"
 

@@ -1,4 +1,4 @@
-/* What is selected, as a file that `picture paste` puts anywhere. */
+/* The command copy: the selection as a file for `picture paste`. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -27,7 +27,7 @@ static void read_row(const WrField *field, const WrSelectBox *box, int y, float 
     for (int x = 0; x < box->count_i; x++) out[x] = 1.0f;
 }
 
-/* Heights, and how much of each is selected and there, side by side. */
+/* Interleaved row: each height, and its weight = selection times coverage. */
 static void make_row(const Copying *copy, int y, float *parts, float *out)
 {
     const int n = copy->box.count_i;
@@ -57,7 +57,7 @@ static bool rows(void *ctx, int y, int count, void *out, WrError *err)
     return parts != NULL;
 }
 
-/* What stands on the disk is what was copied. */
+/* Read-back check: the file's values equal the copied ones. */
 static bool seen(void *ctx, int y, int count, const float *values, bool exact, WrError *err)
 {
     const Copying *copy = ctx;

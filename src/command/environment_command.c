@@ -1,4 +1,4 @@
-/* The surroundings as a light. */
+/* The command environment: image-based lighting. */
 #include "base/error.h"
 #include "base/enum_rows.h"
 #include "base/memory.h"
@@ -51,7 +51,7 @@ static void note_told(WrSession *session, const char *name, const WrEnvironmentM
                         WR_ENVIRONMENT_MAP_WIDTH, told->reduced, told->reduced);
 }
 
-/* Inside a document the picture that it carries, else the file's. The caller frees it. */
+/* While a document loads, its embedded picture, else the file's. The caller frees it. */
 static WrImage *find_picture(WrSession *session, WrCall *call, const char *name, WrError *err)
 {
     if (session->loading) {
@@ -104,7 +104,7 @@ static bool take_light(WrSession *session, WrCall *call, const char *name, WrEnv
     return true;
 }
 
-/* What belongs to a file stands in a line that names one, and off takes nothing. */
+/* File arguments require a file name; `off` accepts no other arguments. */
 static bool check_line(const WrCall *call, const WrScene *now, const char *name, WrError *err)
 {
     static const char *const of_file[] = { "layer", "part", "sha256" };

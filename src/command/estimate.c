@@ -1,5 +1,5 @@
-/* The memory that commands will need: one table, and the few ways in which it is counted. There is no table of times: a time is
-   told while a command runs, from the part of it that is done (base/progress.h). */
+/* Memory estimates of commands: one table of formulas and their parameters. There is no table of times: the remaining
+   time is extrapolated while a command runs, from the finished part (base/progress.h). */
 #include "command/estimate.h"
 
 #include "base/error.h"
@@ -12,8 +12,8 @@
 #include <string.h>
 
 #define PI 3.14159265358979323846
-#define LEAST_MB 64.0     /* less is not worth a word */
-#define TILES_BYTES 0.5e6 /* of any command that makes a table, however small */
+#define LEAST_MB 64.0     /* smaller amounts are not reported */
+#define TILES_BYTES 0.5e6 /* of any command that creates a table, however small */
 
 typedef struct Job {
     const WrCall *call;
@@ -24,10 +24,10 @@ typedef struct Job {
 typedef struct Need Need;
 typedef double Count(const Job *job, const Need *need); /* bytes */
 struct Need {
-    const char *verb, *form; /* form NULL: of all that have no row of their own */
-    Count *count;            /* NULL: it needs no memory worth a word */
-    double bytes;            /* a texel of the table, unless the count says otherwise */
-    const char *unknown;     /* it cannot be counted beforehand, and why */
+    const char *verb, *form; /* form NULL: all forms without a row of their own */
+    Count *count;            /* NULL: the amount is negligible */
+    double bytes;            /* per texel of the table, unless the formula defines another unit */
+    const char *unknown;     /* reason if there is no estimate */
 };
 
 /* ---- the values ---- */
@@ -39,7 +39,7 @@ static bool has(const Job *job, const char *name)
     return false;
 }
 
-/* Number k of an argument; 0 if the form has none of that name, or no value. */
+/* Number k of an argument; 0 if the form has no such argument, or it has no value. */
 static double number(const Job *job, const char *name, int k)
 {
     const WrArg *arg = has(job, name) ? wr_call_arg(job->call, name) : NULL;
@@ -57,14 +57,14 @@ static double largest_two(const Job *job, const char *name)
     return fmax(a * b, fmax(a * c, b * c));
 }
 
-/* ---- how memory is counted ---- */
+/* ---- formulas ---- */
 
 static double texels(const Job *job, const Need *need)
 {
     return need->bytes * job->texels;
 }
 
-/* Of one table, or of each layer's where the command works on all of them. */
+/* One table, or the table of each layer if the command works on all layers. */
 static double filter(const Job *job, const Need *need)
 {
     const double layers = choice(job, "layers") > 0.0 ? job->document->layer_count : 1.0;
@@ -76,14 +76,14 @@ static double all_layers(const Job *job, const Need *need)
     return need->bytes * job->texels * job->document->layer_count;
 }
 
-/* bytes: a texel of the new tables. */
+/* bytes: per texel of the new tables. */
 static double resizing(const Job *job, const Need *need)
 {
     const double made = number(job, "width", 0) * number(job, "height", 0);
     return need->bytes * made * job->document->layer_count;
 }
 
-/* What lies under it, seen from above, texels. */
+/* Area below the solid, seen from above, in texels. */
 static double shadow(const Job *job, bool turned)
 {
     double r = number(job, "radius", 0), tall = turned ? number(job, "length", 0) : 0.0;
@@ -102,7 +102,7 @@ static bool leans(const Job *job)
            number(job, "tilt", 0) != 0.0 || number(job, "alternate", 0) != 0.0;
 }
 
-/* bytes: a texel that a copy lies over; 440 for each copy. */
+/* bytes: per texel covered by a copy, plus 440 for each copy. */
 static double solid(const Job *job, const Need *need)
 {
     const double copies = number(job, "across", 0) * number(job, "rows", 0);
@@ -110,7 +110,7 @@ static double solid(const Job *job, const Need *need)
     return need->bytes * fmin(copies * area, job->texels) + 440.0 * copies;
 }
 
-/* 140 for each triangle. How finely a surface is cut goes by its size. */
+/* 140 bytes for each triangle. The size of a surface determines its subdivision. */
 static double net(const Job *job, const Need *need)
 {
     const double copies = number(job, "across", 0) * number(job, "rows", 0);
@@ -118,7 +118,7 @@ static double net(const Job *job, const Need *need)
     return 140.0 * triangles + need->bytes * job->texels;
 }
 
-/* bytes: a texel under the brush. */
+/* bytes: per texel under the brush. */
 static double brush(const Job *job, const Need *need)
 {
     const double r = number(job, "radius", 0);
@@ -131,7 +131,7 @@ static double brush(const Job *job, const Need *need)
     return need->bytes * fmin(PI * r * r + 2.0 * r * length, job->texels);
 }
 
-/* bytes: a pixel. A picture is held whole under a tolerance, else in bands. */
+/* bytes: per pixel. Under a tolerance the whole picture is in memory, else one band. */
 static double picture(const Job *job, const Need *need)
 {
     const double bytes = need->bytes * number(job, "size", 0) * number(job, "size", 1);
@@ -139,7 +139,7 @@ static double picture(const Job *job, const Need *need)
     return whole ? bytes : fmin(bytes, WR_PICTURE_BYTES);
 }
 
-/* 68 for each pixel of the drawing, taken as large as it is by default. */
+/* 68 bytes for each pixel of the rasterised drawing at its default size. */
 static double drawing(const Job *job, const Need *need)
 {
     return need->bytes * job->texels + 68.0 * 1024.0 * 768.0;
@@ -203,12 +203,12 @@ static const Need needs[] = {
     BODY("stl"),
     BODY("ply"),
     BODY("obj"),
-    { "maps", NULL, texels, .bytes = 24 }, /* four of them, as most sets have */
+    { "maps", NULL, texels, .bytes = 24 }, /* four maps, as in most sets */
     { "render", NULL, picture, .bytes = 17 },
     { "script", .count = NULL },
 };
 
-/* A filter layer needs as much as the operation over one table. */
+/* A filter layer needs as much memory as its operation on one table. */
 static const Need *find(const char *verb, const char *form)
 {
     const Need *any = NULL;
@@ -239,7 +239,7 @@ void wr_session_estimate_call(const WrSession *session, const WrCall *call, WrEs
                 .height = wr_field_height(field) };
     job.texels = job.width * job.height;
     const Need *need = find(call->command->name, call->form_name);
-    if (!need) return; /* scenes, views and steps through the history */
+    if (!need) return; /* scene, view and history commands */
     out->unknown = need->unknown;
     if (need->unknown || !need->count) return;
     out->bytes = need->count(&job, need) + TILES_BYTES;

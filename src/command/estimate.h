@@ -1,6 +1,5 @@
-/* estimate.h - the memory that a command will need, counted before it begins from its values and the table's size. How long it
-   takes is told while it runs (wr_progress_left).
-   Layer 6. */
+/* estimate.h - memory estimate of a command before it runs, computed from its values and the size of the tables. Time
+   estimates are made while a command runs (wr_progress_left). */
 #pragma once
 #include "command/command_line.h"
 
@@ -10,17 +9,17 @@ typedef struct WrError WrError;
 typedef struct WrSession WrSession;
 
 typedef struct WrEstimate {
-    double bytes;        /* at most at a time, beyond what is held now */
-    const char *unknown; /* why nothing is known; NULL: something is */
+    double bytes;        /* peak, beyond the memory in use now */
+    const char *unknown; /* reason for a missing estimate; NULL: there is an estimate */
 } WrEstimate;
 
-/* Nothing is changed. False: the line is none that could run. */
+/* Estimate one line; the session is not changed. False if the line is not a valid command. */
 bool wr_session_estimate(const WrSession *session, const char *line, WrEstimate *out, WrError *err);
 void wr_session_estimate_call(const WrSession *session, const WrCall *call, WrEstimate *out);
 
-/* "300 MB"; "" for less than 64 MB, or where nothing is known. */
+/* "300 MB"; "" for less than 64 MB, or without an estimate. */
 #define WR_ESTIMATE_TEXT 24
 void wr_estimate_print(const WrEstimate *estimate, char text[WR_ESTIMATE_TEXT]);
 
-/* Has the table a row of this verb's form (NULL: of all), even one that says that nothing is known? */
+/* True if the table has a row for this form of the verb (NULL: for all forms), even one without an estimate. */
 bool wr_estimate_has(const char *verb, const char *form);

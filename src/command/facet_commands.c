@@ -1,4 +1,4 @@
-/* `roughness` and `metalness`: pictures of what facets are like, in the place of the material's numbers. */
+/* The commands roughness and metalness: maps that replace the material's numbers. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -13,16 +13,16 @@
 
 #include <string.h>
 
-#define LOOK 16384 /* pixels between two looks at whether it should stop */
+#define LOOK 16384 /* pixels between two checks for cancellation */
 
-/* Which of a picture's channels it is: of one as glTF packs them G and B, of grey ones the only one. */
+/* Default channel: a glTF picture packs roughness in G and metalness in B; a grey picture has only one. */
 static int channel_of(const WrImage *from, WrFacetKind kind, bool asked)
 {
     if (asked || from->channels < 3) return 0;
     return kind == WR_FACET_ROUGHNESS ? 1 : 2;
 }
 
-/* Numbers of 0..1 as they stand in the file, never colour-converted. */
+/* Channel values 0..1 of the file, without colour conversion. */
 static WrImage *numbers_of(const WrImage *from, int channel, WrError *err)
 {
     WrImage *to = wr_image_new(from->width, from->height, 1, err);
@@ -62,7 +62,7 @@ static void print_metalness(const WrScene *scene, WrText *text)
     wr_print_facets(scene, WR_FACET_METALNESS, true, text);
 }
 
-/* What a line without a file changes of the picture that is there. */
+/* Change the settings of the present picture by a line without a file. */
 static bool change(WrSession *session, const WrCall *call, WrFacetKind kind, WrError *err)
 {
     static const char *const of_file[] = { "layer", "part", "sha256", NULL };

@@ -1,4 +1,4 @@
-/* Filling what is connected, and ramps. */
+/* Flood fills and ramps. */
 #include "base/error.h"
 #include "base/progress.h"
 #include "command/args.h"
@@ -31,7 +31,7 @@ static bool run_flood(WrSession *session, WrCall *call, WrError *err)
 
 /* ---- ramp ---- */
 
-/* heights = the blend of the ramp onto them. */
+/* Blend the ramp into the heights. */
 static bool join(WrField *heights, const WrField *ramp, WrBlend blend, const WrProgress *progress,
                  WrError *err)
 {

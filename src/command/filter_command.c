@@ -1,4 +1,4 @@
-/* Layers that are operations over those below. */
+/* Filter layers: operations over the layers below. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -41,7 +41,7 @@ bool wr_run_filter(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* One form an operation that keeps the table's size and edges. */
+/* One form for each operation that keeps the table's size and edges. */
 static bool form_filter(int i, WrForm *out)
 {
     const WrOpInfo *op = wr_ops;

@@ -1,5 +1,4 @@
-/* generate.h - what a command line of one of the generators' families describes: `pattern bricks across=6`.
-   Layer 6. */
+/* generate.h - the generator call in a command line such as `pattern bricks across=6`. */
 #pragma once
 #include "command/command_line.h"
 
@@ -14,22 +13,22 @@ typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
 typedef struct WrNormalMips WrNormalMips;
 
-/* The generator that the line names, or NULL if its verb is no family. */
+/* The generator that the line names, or NULL if its verb is not a generator family. */
 const WrGenerator *wr_call_generator(const WrCall *call);
 
-/* The values of its parameters, given or default. values: [WR_GENERATOR_PARAMS], borrowed from the call;
- * texts and file names as they are written. */
+/* Parameter values of the line, given or default. values: [WR_GENERATOR_PARAMS], borrowed from the call; texts and
+ * file names are unresolved. */
 void wr_call_values(const WrCall *call, const WrGenerator *generator, WrParamValue *values);
 
-/* The name of the argument that all generators have besides their parameters, which is `plain` ("blend",
- * "radius", "offset") unless the generator has a parameter of that name: then "blend-radius" and so on. */
+/* Name of an argument common to all generators ("blend", "radius", "offset"). If the generator has a parameter of the
+ * same name, a prefix makes it unique: "blend-radius". */
 const char *wr_generator_argument(const WrGenerator *generator, const char *plain);
 
-/* A text as a line has it, with \n for a new line and \\ for a backslash (any other stands for itself), as the
- * generator takes it. Caller frees. */
+/* Decode the escapes of a text argument: \n is a new line, \\ a backslash; a backslash before any other character is
+ * literal. The caller frees the result. */
 char *wr_generator_text(const char *text);
 
-/* What the line's generator made joins a layer, as the line's other arguments say, within `selection` (NULL:
+/* Blend the output of the line's generator into a layer, by the line's other arguments, within `selection` (NULL:
  * everywhere). False: cancelled, and the layer is half done. */
 bool wr_call_join(const WrCall *call, const WrNormalMips *relief, const WrField *selection,
                   WrLayer *layer, WrPool *pool, const WrProgress *progress, WrError *err);

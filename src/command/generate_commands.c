@@ -1,4 +1,4 @@
-/* Generators as commands: one for each family. */
+/* One command for each generator family. */
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
@@ -53,7 +53,7 @@ char *wr_generator_text(const char *text)
     return made;
 }
 
-/* Check the checksum that the line has for a parameter's file, or set it. */
+/* Check the line's checksum of a parameter's file, or set it. */
 static bool check_file(WrCall *call, const char *param, const char *path, WrError *err)
 {
     char hex[65];
@@ -62,7 +62,7 @@ static bool check_file(WrCall *call, const char *param, const char *path, WrErro
            wr_call_check_sha256(call, name ? name : "sha256", path, hex, err);
 }
 
-/* Make the line say what its generator chose. */
+/* Store a value chosen by the generator in the line. */
 static bool keep_choice(void *ctx, const char *param, const char *value, WrError *err)
 {
     WrCall *call = ctx;
@@ -81,7 +81,7 @@ static bool keep_choice(void *ctx, const char *param, const char *value, WrError
     return check_file(call, param, value, err);
 }
 
-/* Put what texts say and the paths that files have in their values' place: owned[i] where not NULL. */
+/* Resolve text escapes and file paths in the values: owned[i] if not NULL. */
 static bool resolve(WrSession *session, WrCall *call, const WrGenerator *generator,
                     WrParamValue *values, char **owned, WrError *err)
 {
@@ -202,7 +202,7 @@ static WrArgSpec argument(const WrParam *p)
     return spec;
 }
 
-/* The first file's is sha256, those of others have their names and come before it (wr_call_hash_name). */
+/* The first file's checksum is sha256=; further files have NAME_sha256=, placed before it (wr_call_hash_name). */
 static int add_checksums(const WrGenerator *g, WrArgSpec *out)
 {
     static const char *const others[][2] = { { "fallback", "fallback_sha256" },
@@ -252,7 +252,7 @@ static int add_shared(const WrGenerator *g, WrArgSpec *out)
     return count + add_checksums(g, out + count);
 }
 
-/* One form a row of the family. */
+/* One form for each row of the family. */
 static bool form_of(const WrGenerator *rows, int index, WrForm *out)
 {
     for (int i = 0; i < index; i++)

@@ -1,4 +1,4 @@
-/* What a generator made joins a layer. */
+/* Blending of a generator's output into a layer. */
 #include "command/generate.h"
 
 #include "base/error.h"
@@ -17,12 +17,12 @@
 
 #define TEXELS (WR_TILE * WR_TILE)
 
-#define BATCH 64 /* tiles that are joined together */
+#define BATCH 64 /* tiles processed in one parallel step */
 
-/* What becomes of a tile of the layer. */
+/* Result of a layer tile. */
 typedef enum Fate {
     STAYS,
-    SHARED, /* becomes the made one, by reference */
+    SHARED, /* shares the generated tile by reference */
     JOINED
 } Fate;
 
@@ -33,9 +33,9 @@ typedef struct Joining {
     const WrField *heights, *weight; /* weight NULL: 1 everywhere */
     WrField *layer;
     WrPool *pool;
-    int first; /* tile of the batch */
+    int first; /* index of the batch's first tile */
     Fate fate[BATCH];
-    float *out[BATCH];       /* of joined tiles */
+    float *out[BATCH];       /* output tiles */
     float (*result)[TEXELS]; /* [BATCH] */
 } Joining;
 
@@ -60,7 +60,7 @@ static bool is_nothing(const WrField *weight, int tx, int ty)
 
 typedef struct Place {
     int tx, ty;
-    int columns, rows; /* in use */
+    int columns, rows; /* part of a border tile inside the table */
 } Place;
 
 static Place place_of(const Joining *join, int index)
@@ -74,7 +74,7 @@ static Place place_of(const Joining *join, int index)
     return p;
 }
 
-/* What the made heights are before they join; never -0. */
+/* Generated heights plus the base height; never -0. */
 static void lift(const Joining *join, const Place *p, float *heights)
 {
     const float *made = wr_field_tile(join->heights, p->tx, p->ty);
@@ -108,8 +108,8 @@ static bool differs(const Joining *join, const Place *p, const float *old, const
     return false;
 }
 
-/* Whether the made tile itself is what comes out: it takes the old one's place, and no height is -0, which
- * would become 0. */
+/* True if the result equals the generated tile, so that it can be shared: it replaces the old one, and no height is
+ * -0, which would become 0. */
 static bool is_result(const Joining *join, const float *made)
 {
     if (!made || join->weight || join->offset != 0.0 ||
@@ -125,7 +125,7 @@ static bool is_result(const Joining *join, const float *made)
     return !minus;
 }
 
-/* A tile that comes out as it was stays the very tile. */
+/* Unchanged tiles stay shared with the old layer. */
 static void judge_tile(int index, int worker, void *ctx)
 {
     (void)worker;
@@ -151,7 +151,7 @@ static void write_tile(int index, int worker, void *ctx)
                (size_t)p.columns * sizeof(float));
 }
 
-/* The tree of tiles is this thread's alone to change. */
+/* Serial: only this thread may change the tree of tiles. */
 static void fetch_tiles(Joining *join, int count)
 {
     for (int k = 0; k < count; k++) {
@@ -179,7 +179,7 @@ static bool join_all(Joining *join, const WrProgress *progress, WrError *err)
     return true;
 }
 
-/* Where and how much it acts: coverage times selection. A new field, or NULL for everywhere. */
+/* Blend weight: coverage times selection. A new field, or NULL for 1 everywhere. */
 static WrField *weight_of(const WrField *cover, const WrField *selection)
 {
     if (!cover && !selection) return NULL;

@@ -1,4 +1,4 @@
-/* The command gltf: the material of a glTF file, on the object at hand. */
+/* The command gltf: load the material of a glTF file for the active object. */
 #include "command/session_internal.h"
 
 #include "base/error.h"
@@ -13,7 +13,7 @@
 
 #include <string.h>
 
-/* Another command's line, as a part of this one. */
+/* Run another command's line as a part of this one. */
 static bool run_line(WrSession *session, const WrText *line, WrError *err)
 {
     WrCall *call = NULL;
@@ -41,7 +41,7 @@ static bool take_numbers(WrSession *session, const WrGltfLook *look, WrError *er
     return good;
 }
 
-/* What was taken, and what was not. */
+/* Counts for the note: used and unused parts of the file. */
 typedef struct Told {
     WrText taken, left;
 } Told;
@@ -52,8 +52,8 @@ static void list(WrText *text, const char *what)
     wr_text_add(text, what);
 }
 
-/* A picture of the file, by another command; -1: none, which drops the one that was there. What cannot be read is told and
-   left out. */
+/* Load a picture of the file by running another command; -1: no picture, which removes the present one. An unreadable
+   picture is skipped with a note. */
 static bool take_picture(WrSession *session, const char *file, int image, const char *verb,
                          const char *rest, const char *what, Told *told, WrError *err)
 {
@@ -79,7 +79,7 @@ static bool take_picture(WrSession *session, const char *file, int image, const 
     return good || take_picture(session, file, -1, verb, "", what, told, err);
 }
 
-/* Factors of roughness and metalness of which pictures take the place. */
+/* Note roughness and metalness factors that a picture replaces. */
 static void note_factors(const WrScene *scene, const WrGltfLook *look, Told *told)
 {
     const double factor[WR_FACET_KINDS] = {
@@ -103,7 +103,7 @@ static bool take_pictures(WrSession *session, const char *file, const WrGltfLook
                           WrError *err)
 {
     WrText strength = { 0 };
-    /* times 0 nothing is left of a picture */
+    /* a factor of 0 cancels the picture */
     const int rough = look->roughness > 0 ? look->facets : -1;
     const int metal = look->metalness > 0 ? look->facets : -1;
     wr_text_add(&strength, " repeat=once space=tangent green=up strength=");
@@ -157,7 +157,7 @@ static bool take(WrSession *session, const char *name, const char *path, const W
     return good;
 }
 
-/* Lines of material, colour and the others say what it left. */
+/* Prints nothing: the lines of material, colour and so on hold the result. */
 static void print_gltf(const WrScene *scene, WrText *text)
 {
     (void)scene, (void)text;

@@ -1,4 +1,4 @@
-/* The solid texture that an object is cut out of. */
+/* The command grain: the solid texture of an object. */
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* Is there none, and were none of its numbers ever touched? */
+/* True if there is no solid texture and all its numbers are the defaults. */
 static bool untouched(const WrSolidTexture *grain)
 {
     const WrSolidTexture *usual = &wr_grains[WR_SOLID_TEXTURE_OFF].usual;

@@ -1,4 +1,5 @@
-/* A floor under the objects: an object of the scene like others, which stands still. */
+/* The command ground: a floor below the objects; an ordinary object of the scene that does not turn with the
+   others. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
@@ -10,12 +11,12 @@
 #include "surface/surface.h"
 
 #define GROUND "ground"
-#define WIDE 12.0 /* times the radius of what stands on it */
-#define ENDLESS 2 /* of a plane's values */
+#define WIDE 12.0 /* times the radius of the objects on it */
+#define ENDLESS 2 /* index of a plane parameter */
 
 enum { FORM_ON, FORM_OFF, GROUND_FORMS };
 
-/* Flat, matt, looking up; without the table, so that what is painted for the others does not show on it. */
+/* A flat, matt plane with its normal up. It has no table, so that painting on other objects does not show on it. */
 static WrScene *new_ground(const WrScene *scene)
 {
     WrScene *made = wr_scene_add_object(scene, false);
@@ -32,14 +33,14 @@ static WrScene *new_ground(const WrScene *scene)
     return made;
 }
 
-/* The object's own lines say it. */
+/* Prints nothing: the object's own lines hold the result. */
 static void print_nothing(const WrScene *scene, WrText *text)
 {
     (void)scene;
     (void)text;
 }
 
-/* To the horizon or not: a new one of a size that is told ends there. */
+/* Set whether the floor reaches the horizon. A new floor with a size ends there. */
 static bool set_end(const WrCall *call, bool fresh, WrScene *made, WrError *err)
 {
     double *endless = &made->shape.value[ENDLESS];

@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-/* Print the argument `name` of one canonical line, if it is given there. False if not. */
+/* Print the argument `name` of one canonical line, if the line contains it. False if not. */
 static bool print_given(const char *line, int form, const char *name, WrText *text)
 {
     WrCall *call = NULL;
@@ -27,7 +27,8 @@ static bool print_given(const char *line, int form, const char *name, WrText *te
     return found;
 }
 
-/* A new document's scene says it: in the line of that form, else in any (the cameras share their eye). */
+/* Read the value from the scene lines of a new document: from the line of that form, else from any form (the cameras
+   share their eye). */
 void wr_help_initial(const WrCommand *command, int form, const char *name, WrText *text)
 {
     if (!command->print) return;
@@ -48,7 +49,7 @@ void wr_help_initial(const WrCommand *command, int form, const char *name, WrTex
     wr_text_fini(&lines);
 }
 
-/* How a value of this type is written: "x,y,z". */
+/* Syntax of a value of this type: "x,y,z". */
 static const char *written(const WrArgSpec *spec)
 {
     if (spec->shape) return spec->shape;
@@ -60,7 +61,7 @@ static const char *written(const WrArgSpec *spec)
     }
 }
 
-/* A text's shape says in words what is allowed: too long for a usage line. */
+/* Syntax for a usage line; the shape of a text is a sentence, too long for it. */
 static const char *written_short(const WrArgSpec *spec)
 {
     return spec->type == WR_ARG_TEXT ? "" : written(spec);
@@ -96,8 +97,7 @@ void wr_help_usage(const WrCommand *command, int form, WrText *text)
     add_usage(command, form, specs, wr_command_specs(command, form, specs), text);
 }
 
-/* Text broken into lines of at most `width` columns, each after `indent` blanks; the first line goes on
-   from `column`. */
+/* Print text wrapped at `width` columns, each line after `indent` blanks; the first line starts at `column`. */
 static void add_wrapped(WrText *text, const char *words, int column, int indent, int width)
 {
     for (const char *p = words; *p;) {
@@ -117,7 +117,7 @@ static void add_wrapped(WrText *text, const char *words, int column, int indent,
     wr_text_add(text, "\n");
 }
 
-/* What each word of a choice means, a line each. */
+/* Print the meaning of each choice word, one a line. */
 static void add_meanings(WrText *text, const WrArgSpec *spec)
 {
     for (int i = 0; spec->explain && wr_arg_word(spec, i); i++) {
@@ -178,7 +178,7 @@ static void add_arguments(WrText *text, const WrCommand *command, int form, cons
             if (specs[i].positional == (pass == 0)) add_argument(text, command, form, &specs[i]);
 }
 
-/* What the forms have in common with other commands is told once, behind them all. */
+/* Print a form; arguments shared with other commands follow once, after all forms. */
 static void add_form(WrText *text, const WrCommand *command, int form)
 {
     WrArgSpec specs[WR_ARGS_MAX];
@@ -211,7 +211,7 @@ static bool is_called(const WrArgSpec *spec, const char *name)
     return strcmp(spec->name, name) == 0 || (spec->also && strcmp(spec->also, name) == 0);
 }
 
-/* Does this form of the command have an argument of that name? */
+/* True if this form of the command has an argument of that name. */
 static bool has_argument(const WrCommand *command, int form, const char *name)
 {
     WrArgSpec specs[WR_ARGS_MAX];
@@ -230,7 +230,7 @@ bool wr_help_has_part(const WrCommand *command, const char *part)
     return false;
 }
 
-/* The words that wr_help_has_part accepts: forms, then the arguments of each form. */
+/* Words accepted by wr_help_has_part: forms, then the arguments of each form. */
 typedef struct Parts {
     const WrCommand *command;
     WrForm form;
@@ -270,7 +270,7 @@ static bool fail_part(const WrCommand *command, const char *part, WrError *err)
     return false;
 }
 
-/* The rows of one argument, as `help` shows them. */
+/* Print the rows of one argument as in `help`. */
 static void add_named_arguments(WrText *text, const WrCommand *command, int form, const char *name)
 {
     WrArgSpec specs[WR_ARGS_MAX];
@@ -279,7 +279,7 @@ static void add_named_arguments(WrText *text, const WrCommand *command, int form
         if (is_called(&specs[i], name)) add_argument(text, command, form, &specs[i]);
 }
 
-/* One argument of all forms: those that have the same rows are named together above them. */
+/* Print one argument of all forms; forms with identical rows share one heading. */
 static void add_argument_of_forms(WrText *text, const WrCommand *command, const char *name)
 {
     WrText rows = { 0 }, done = { 0 }, other = { 0 };

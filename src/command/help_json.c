@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* ,"name": */
+/* Print ,"name": */
 static void add_key(WrText *text, const char *name)
 {
     char last = text->length ? text->data[text->length - 1] : '{';
@@ -40,7 +40,7 @@ static bool is_numeric(const WrArgSpec *spec)
     return spec->type <= WR_ARG_LIST;
 }
 
-/* A value's text as JSON: 5, [5,6], [[1,2],[3,4]] or "blinn". */
+/* Print a value's text as JSON: 5, [5,6], [[1,2],[3,4]] or "blinn". */
 static void add_value(WrText *text, const WrArgSpec *spec, const char *value)
 {
     WrArg arg = { .choice = -1 };
@@ -113,7 +113,7 @@ static void add_range(WrText *text, const WrArgSpec *spec)
     wr_text_addf(text, "],\"rows\":[%d,%d]", spec->rows_low, spec->rows_high);
 }
 
-/* What each word of a choice means, in their order. */
+/* Print the meanings of the choice words, in their order. */
 static void add_meanings(WrText *text, const WrArgSpec *spec)
 {
     if (!spec->explain) return;

@@ -10,7 +10,7 @@ void wr_help_markdown_cell(WrText *text, const char *words)
         else wr_text_add_n(text, p, 1);
 }
 
-/* What each word of a choice means. */
+/* Print the meanings of the choice words. */
 static void add_meanings(WrText *text, const WrArgSpec *spec)
 {
     for (int i = 0; spec->explain && wr_arg_word(spec, i); i++) {
@@ -35,7 +35,7 @@ static void add_argument(WrText *text, const WrCommand *command, int form, const
     wr_text_fini(&words);
 }
 
-/* head: of the table's first column. Nothing where there are no arguments. */
+/* head: title of the first column. Without arguments nothing is printed. */
 static void add_arguments(WrText *text, const WrCommand *command, int form, const char *head,
                           const WrArgSpec *specs, int count)
 {
@@ -71,7 +71,7 @@ bool wr_help_markdown(const char *name, WrText *text, WrError *err)
 {
     WrText plain = { 0 };
     const WrCommand *command = wr_command_find(name);
-    bool known = wr_help_command(name, &plain, err); /* says what is near */
+    bool known = wr_help_command(name, &plain, err); /* the error suggests similar names */
     wr_text_fini(&plain);
     if (!known) return false;
     wr_text_addf(text, "## %s\n\n", command->name);

@@ -1,4 +1,4 @@
-/* Going through what was done: script, undo, redo, view, history. */
+/* History commands: script, undo, redo, view, history. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -51,7 +51,7 @@ static bool run_history(WrSession *session, WrCall *call, WrError *err)
 
 /* ---- as a script ---- */
 
-/* `path` as a script in `home` (absolute, "" if unknown) names it. Points into path. */
+/* `path` relative to a script in folder `home` (absolute; "" if unknown). Points into path. */
 static const char *seen_from(const char *home, const char *path)
 {
     size_t length = strlen(home);
@@ -61,16 +61,16 @@ static const char *seen_from(const char *home, const char *path)
 
 typedef struct Script {
     WrText text;
-    const char *home; /* its folder */
+    const char *home; /* folder of the script */
 } Script;
 
-/* Files that were read carry a hash: name them so that the script finds them. */
+/* Print a line; files that were read have a checksum, and their paths become relative to the script. */
 static void add_line(void *ctx, const char *line, const char *folder)
 {
     Script *script = ctx;
     WrText *text = &script->text;
     WrCall *call = NULL;
-    if (!wr_call_parse(line, false, &call, NULL)) { /* cannot be: it ran */
+    if (!wr_call_parse(line, false, &call, NULL)) { /* impossible: the line has run */
         wr_text_addf(text, "%s\n", line);
         return;
     }
@@ -120,7 +120,7 @@ bool wr_run_view(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* The lines that bring `view`. */
+/* Send the lines that set `view`. */
 static void put_view(const WrSceneView *view, WrLineSink *sink, void *ctx)
 {
     WrText text = { 0 };
@@ -140,8 +140,8 @@ static void put_view(const WrSceneView *view, WrLineSink *sink, void *ctx)
     wr_text_fini(&text);
 }
 
-/* A view is needed where the lines end, and where a step brings one, since undoing that step brings back the
-   one before. A state that was given up is never gone back to. */
+/* A view line is needed at the end, and before a step that changes the view, since undoing that step restores the
+   earlier view. Dropped states are never restored. */
 void wr_session_lines(const WrSession *session, WrLineSink *sink, void *ctx)
 {
     const WrHistory *history = session->state.history;

@@ -1,4 +1,4 @@
-/* Layers and their masks. */
+/* The command layer: layers and their masks. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
@@ -15,7 +15,7 @@
 
 typedef bool LayerHandler(WrSession *session, WrCall *call, WrError *err);
 
-/* The layer that argument N names; the active one where N may be left out and is. */
+/* Layer of argument N; the active one if N is optional and missing. */
 static bool find(const WrSession *session, const WrCall *call, const char *name, int *index,
                  WrError *err)
 {
@@ -37,7 +37,7 @@ static bool check_room(const WrDocument *document, WrError *err)
 
 /* ---- making and removing ---- */
 
-/* "layer 3": the first number from the count on that no layer has yet. */
+/* "layer 3": a name with the first free number, starting at the count. */
 static void free_name(const WrDocument *document, WrText *text)
 {
     int number = document->layer_count + 1;
@@ -80,7 +80,7 @@ static bool layer_delete(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* At most WR_LAYER_NAME_MAX bytes of "NAME copy", whole characters. */
+/* "NAME copy", cut to WR_LAYER_NAME_MAX bytes at a character boundary. */
 static char *copy_name(const char *name)
 {
     static const char ending[] = " copy";
@@ -183,7 +183,7 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
     WrDocument *document = session->state.document;
     WrLayer *layer = &document->layers[index];
     WrScene *scene = wr_scene_rename_layer(document->scene, layer->name, name);
-    if (scene) wr_session_replace_scene(session, scene); /* objects wear it still */
+    if (scene) wr_session_replace_scene(session, scene); /* objects still use it as their table */
     wr_free(layer->name);
     layer->name = wr_strdup(name);
     return true;

@@ -1,4 +1,4 @@
-/* Masks of layers: made of the selection, of heights and slopes, filled, turned over. */
+/* Masks of layers: from the selection, heights or slopes; filled; inverted. */
 #include "command/layer_mask.h"
 
 #include "base/error.h"
@@ -44,7 +44,7 @@ static WrField *of_height(WrSession *session, const WrCall *call, WrError *err)
                             session->options.pool, err);
 }
 
-/* The scene's relief, as `select slope` has it where nothing is said of it. */
+/* Mask by slope, with the scene's height scale unless the line sets one, as in `select slope`. */
 static WrField *of_slope(WrSession *session, const WrCall *call, WrError *err)
 {
     const WrDocument *document = session->state.document;

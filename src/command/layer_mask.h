@@ -1,9 +1,8 @@
-/* layer_mask.h - `layer mask`: where a layer's mask comes from.
-   Layer 6, private to src/command. */
+/* layer_mask.h - sources of layer masks for the command `layer mask`. Private to src/command. */
 #pragma once
 #include "command/args.h"
 
-/* Give layer `index` the mask that the line says, or none. */
+/* Set or remove the mask of layer `index`, as the line states. */
 bool wr_layer_mask_make(WrSession *session, const WrCall *call, int index, WrError *err);
 
 extern const char *const wr_mask_sources[];

@@ -16,7 +16,7 @@ static void note(void *ctx, const char *text)
     wr_session_note(ctx, "%s", text);
 }
 
-/* The generator's work, with the line's values in its own. */
+/* Run the picture generator with the line's values. */
 static bool make(WrSession *session, const WrCall *call, const char *path, WrNormalMips *out,
                  WrError *err)
 {

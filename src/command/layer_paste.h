@@ -1,12 +1,12 @@
-/* layer_paste.h - `layer paste`: a picture as a new layer at a place.
-   Layer 6, private to src/command. */
+/* layer_paste.h - paste of a picture as a new layer at a position, for the command `layer paste`. Private to
+   src/command. */
 #pragma once
 #include "command/args.h"
 #include "field/field.h"
 
-/* Inserts a layer above the active one that holds the picture of the line's FILE and covers what lies below where the
-   picture's alpha says so; makes it the active layer and drops the selection. On failure the document is unchanged.
-   layer: a new layer without texels, taken. */
+/* Insert a layer above the active one. It holds the picture of the line's FILE; its coverage is the picture's alpha.
+   Makes it the active layer and clears the selection. On failure the document is unchanged. layer: a new layer
+   without texels; ownership passes to the function. */
 bool wr_layer_paste(WrSession *session, WrCall *call, WrLayer layer, WrError *err);
 
 #define WR_PASTE_ARGS                                                                              \

@@ -1,4 +1,4 @@
-/* Lights. */
+/* The command light. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
@@ -30,7 +30,7 @@ static bool put_light(WrScene *scene, WrLight light, int index, WrError *err)
         return wr_fail(err, "index=%d: there %s %d", index,
                        scene->light_count == 1 ? "is only light" : "are only lights up to",
                        scene->light_count);
-    if (index == 0 && !scene->lights_given) scene->light_count = 0; /* the default light goes */
+    if (index == 0 && !scene->lights_given) scene->light_count = 0; /* remove the default light */
     if (index == 0 && scene->light_count == WR_LIGHTS_MAX)
         return wr_fail(err, "a scene holds at most %d lights", WR_LIGHTS_MAX);
     if (index == 0) {
@@ -67,7 +67,7 @@ static bool run_light(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* One form a kind of light, and one for none. */
+/* One form for each kind of light, and one for none. */
 static bool form_light(int i, WrForm *out)
 {
     WR_ROWS(help);

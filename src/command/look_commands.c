@@ -1,4 +1,4 @@
-/* How pictures are made of it: material, dials, tolerance. */
+/* Render settings: material, dials, tolerance. */
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
@@ -203,7 +203,7 @@ static const WrArgSpec args_tolerance[] = {
     { 0 }
 };
 
-/* One argument a dial: the table's rows that this command sets. */
+/* One argument for each dial that this command sets. */
 static bool row_dials(WrForm *out)
 {
     int count = 0;

@@ -1,4 +1,4 @@
-/* Pictures that are laid on the object: its colours, its normals. */
+/* Texture maps of the object: colour and normals. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -17,11 +17,11 @@
 #include <math.h>
 #include <string.h>
 
-#define LOOK 16384 /* pixels between two looks at whether it should stop */
+#define LOOK 16384 /* pixels between two checks for cancellation */
 
 /* ---- colour ---- */
 
-/* Linear RGB, or grey as one channel, without alpha; codes of 8 and 16 bits are decoded from sRGB. */
+/* Linear RGB, or one grey channel, without alpha; 8-bit and 16-bit values are decoded from sRGB. */
 static WrImage *linear_colour(const WrImage *from, WrError *err)
 {
     int channels = from->channels < 3 ? 1 : 3;
@@ -58,7 +58,7 @@ static void print_colour(const WrScene *scene, WrText *text)
     wr_print_colour(scene, true, text);
 }
 
-/* What a line without a file changes of the picture that is there. */
+/* Change the settings of the present picture by a line without a file. */
 static bool change_colour(WrSession *session, const WrCall *call, WrError *err)
 {
     static const char *const of_file[] = { "layer", "part", "sha256", NULL };
@@ -132,7 +132,7 @@ static void note_codes(WrText *text, const WrImage *file, const WrNormalTold *to
     if (told->centred) wr_text_addf(text, "; code %d stands for 0", (int)(last + 1) / 2);
 }
 
-/* What was made of a file, and what may be wrong with it. */
+/* Note the interpretation of a normal map and possible faults in it. */
 static void note_normals(WrSession *session, const char *name, const WrImage *file, WrGreen asked,
                          bool labelled, const WrNormalTold *told)
 {
@@ -153,7 +153,7 @@ static void note_normals(WrSession *session, const char *name, const WrImage *fi
     wr_text_fini(&text);
 }
 
-/* The map of a file as the line wants it read. */
+/* Read the normal map of a file as the line states. */
 static WrImage *read_normals(WrSession *session, const WrCall *call, const char *name,
                              const WrImage *file, WrNormalMap *map, WrError *err)
 {
@@ -176,7 +176,7 @@ static WrImage *read_normals(WrSession *session, const WrCall *call, const char 
     return image;
 }
 
-/* The map of a line that names a file; the settings of another are none of its own. */
+/* Set the normal map of a line with a file; settings of the earlier map are not kept. */
 static bool take_normals(WrSession *session, WrCall *call, const char *name, WrNormalMap *map,
                          WrError *err)
 {
@@ -204,7 +204,7 @@ static bool take_normals(WrSession *session, WrCall *call, const char *name, WrN
     return true;
 }
 
-/* What its second numbers count from now on. */
+/* Change the meaning of the green channel. */
 static bool change_green(const WrCall *call, WrNormalMap *map, WrError *err)
 {
     const int green = wr_call_choice(call, "green");
@@ -220,7 +220,7 @@ static bool change_green(const WrCall *call, WrNormalMap *map, WrError *err)
     return true;
 }
 
-/* The vectors that are there, taken along other axes: what looks away from a tangent plane is brought to its horizon. */
+/* Convert the present vectors to another space; vectors below the tangent plane are moved to its horizon. */
 static bool change_space(WrSession *session, const WrCall *call, WrNormalMap *map, WrError *err)
 {
     const bool object = wr_call_choice(call, "space") == 1;
@@ -239,7 +239,7 @@ static bool change_space(WrSession *session, const WrCall *call, WrNormalMap *ma
     return true;
 }
 
-/* What a line without a file changes of the map that is there. */
+/* Change the settings of the present map by a line without a file. */
 static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *map, WrError *err)
 {
     static const char *const of_file[] = { "channels", "coding", "layer", "part", "sha256", NULL };

@@ -1,4 +1,4 @@
-/* The command maps: a set of files for another program. */
+/* The command maps: a set of map files for another program. */
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-/* The words that go on to the maps: all that is given but the names. */
+/* Words passed on to the maps: all arguments except the names. */
 typedef struct Words {
     char *words[WR_SET_WORDS + 1]; /* owned */
     int count;
@@ -77,7 +77,7 @@ static bool check_word(const void *ctx, const char *name, const char *value, WrE
     return false;
 }
 
-/* Each option that any kind has, once. */
+/* Accept a value that any kind of map accepts; the kinds of the set are checked when they are written. */
 static bool row_maps(WrForm *out)
 {
     int count = 0;

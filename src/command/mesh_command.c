@@ -1,4 +1,4 @@
-/* The mesh of `surface mesh file=`: read, told of, carried by documents. */
+/* The mesh of `surface mesh file=`: reading, notes, storage in documents. */
 #include "command/session_internal.h"
 
 #include "base/error.h"
@@ -17,12 +17,12 @@
 #include <math.h>
 #include <string.h>
 
-#define OVERLAP_CELLS 512 /* along u and v */
+#define OVERLAP_CELLS 512 /* cells of the overlap test along u and v */
 #define OVERLAP_NOTED 0.005
 
 _Static_assert(WR_MESH_NAME == WR_TRIANGLE_NAME, "names of parts");
 
-/* The file's parts as the surface knows them. The caller frees them. */
+/* The file's parts as the surface stores them. The caller frees them. */
 static WrTrianglePart *parts_of(const WrMesh *mesh)
 {
     WrTrianglePart *parts = wr_alloc((size_t)mesh->part_count, sizeof *parts);
@@ -33,7 +33,7 @@ static WrTrianglePart *parts_of(const WrMesh *mesh)
     return parts;
 }
 
-/* Places of a file that have been moved to the origin, and by how much. */
+/* Note the offset if the positions were moved to the origin. */
 static void note_origin(WrSession *session, const char *path, const WrMesh *mesh)
 {
     WrText text = { 0 };
@@ -76,7 +76,7 @@ static WrTriangles *read_triangles(WrSession *session, const char *path, WrError
     return made;
 }
 
-/* ---- what is told of it ---- */
+/* ---- notes ---- */
 
 static void add_count(WrText *text, int32_t count, const char *what)
 {
@@ -138,7 +138,7 @@ static void note_mesh(WrSession *session, const char *path, const WrTriangles *m
 
 /* ---- sets of patches, terrains ---- */
 
-#define PATCHES_BYTES (64 << 20) /* of a file of them */
+#define PATCHES_BYTES (64 << 20) /* size limit of a patch file */
 
 static WrTriangles *read_patches(const char *path, WrPatchTable table, WrError *err)
 {
@@ -157,7 +157,7 @@ static WrTriangles *read_patches(const char *path, WrPatchTable table, WrError *
     return made;
 }
 
-/* HC152: what is open, drawn together or creased is told, since none of it shows at once. */
+/* HC152: note open edges, collapsed edges and creases, since none of them is visible at once. */
 static void note_patches(WrSession *session, const char *path, const WrTriangles *mesh)
 {
     WrText text = { 0 };
@@ -183,7 +183,7 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
     wr_text_fini(&text);
 }
 
-/* ---- the command's part ---- */
+/* ---- the command ---- */
 
 static WrTriangles *read_held(WrSession *session, const WrCall *call, const WrShape *shape,
                               const char *path, WrError *err)
@@ -220,7 +220,8 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
     char ending[16];
     const bool parts = strcmp(wr_path_ending(path, ending), "gltf") == 0;
     if (!wr_sha256_end(hash, hex, &why) || (parts && !wr_input_sha256(path, hex, &why)) ||
-        !wr_call_check_sha256(call, "sha256", path, hex, &why)) { /* what it is comes first */
+        !wr_call_check_sha256(call, "sha256", path, hex,
+                              &why)) { /* the checksum is compared first */
         wr_triangles_free(mesh);
         mesh = NULL;
         wr_fail(err, "%s", why.text);
@@ -230,7 +231,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
     return mesh;
 }
 
-/* The set of patches that the object at hand has, with another table: its file may be elsewhere by now. */
+/* Reuse the patch set of the active object with another table, since its file may have moved. */
 static bool run_table(const WrSession *session, const WrCall *call, WrScene *scene, WrError *err)
 {
     const WrScene *before = session->state.document->scene;

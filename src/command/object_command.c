@@ -1,4 +1,4 @@
-/* The objects of a scene: added, chosen, placed, removed. */
+/* The command object: adding, choosing, placing and removing objects of a scene. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
@@ -29,7 +29,7 @@ enum {
 
 /* ---- as lines ---- */
 
-/* Place, size and so on, the size as one number or three. */
+/* Position, size and so on; the size as one number or three. */
 static void print_placed(const WrScene *object, WrText *text)
 {
     const WrSceneParam *p;
@@ -41,7 +41,7 @@ static void print_placed(const WrScene *object, WrText *text)
     }
 }
 
-/* What is said of the object besides its name. */
+/* All settings of the object except its name. */
 static void print_settings(const WrScene *object, WrText *text)
 {
     print_placed(object, text);
@@ -67,7 +67,7 @@ void wr_print_object(const WrScene *scene, int i, WrText *text)
     print_settings(object, text);
 }
 
-/* Of a scene's one object, whose turn is a view: nothing, where it is as in an empty document. */
+/* A scene's only object, whose rotation is a view: nothing while it is as in an empty document. */
 static void print_object(const WrScene *scene, WrText *text)
 {
     const bool plain = v3_len(scene->at) == 0 && scene->size == 1 && v3_len(scene->sizes) == 0 &&
@@ -95,7 +95,7 @@ void wr_print_chosen(const WrScene *scene, WrText *text)
 
 /* ---- finding ---- */
 
-/* The object that the line names, else the one at hand. */
+/* The object that the line names, else the active one. */
 static bool find(const WrScene *scene, const WrCall *call, int *index, WrError *err)
 {
     const WrArg *name = wr_call_arg(call, "NAME");
@@ -111,7 +111,7 @@ static bool find(const WrScene *scene, const WrCall *call, int *index, WrError *
                    wr_scene_object_label(scene, count - 1, last));
 }
 
-/* May object `own` (-1: one more) have that name? */
+/* Check that object `own` (-1: a new one) may have that name. */
 static bool check_name(const WrScene *scene, int own, const char *name, WrError *err)
 {
     const int other = wr_scene_object_find(scene, name);
@@ -142,7 +142,7 @@ static bool take_turn(const WrCall *call, WrScene *scene, WrError *err)
     return !turn->given || wr_scene_take_turn(turn->text, scene, err);
 }
 
-/* One size along all axes, or three, of which the largest counts as the object's. */
+/* One size for all axes, or three; the largest of three is the object's size. */
 static bool take_size(const WrCall *call, WrScene *scene, WrError *err)
 {
     const WrArg *arg = wr_call_arg(call, "size");
@@ -159,7 +159,7 @@ static bool take_size(const WrCall *call, WrScene *scene, WrError *err)
     return true;
 }
 
-/* What the line says of the object at hand. The scene is taken. */
+/* Apply the line to the active object. Ownership of the scene passes to the session. */
 static bool put(WrSession *session, WrCall *call, const char *name, WrScene *scene, WrError *err)
 {
     if (wr_call_given(call, "turn") && scene->other_count == 0 && !session->loading) {
@@ -251,7 +251,7 @@ static const struct {
     const char *name, *help;
     bool named;    /* NAME must be given */
     bool renames;  /* name= */
-    bool settings; /* place, size and so on */
+    bool settings; /* position, size and so on */
 } object_forms[] = {
     [WR_ROW(FORM_ADD)] = { "add", "one more, a plane as in an empty document; it is chosen", true,
                            .settings = true },

@@ -1,5 +1,5 @@
-/* `object set table=FILE`: a table of an object's own, which becomes a layer that is hidden and that the object wears. So it
-   is painted on, masked, undone and saved as any other, and a document stays one file with one size of tables. */
+/* `object set table=FILE`: a table of the object's own, stored as a hidden layer. It can therefore be painted,
+   masked, undone and saved like any layer, and a document stays one file with one table size. */
 #include "command/session_internal.h"
 
 #include "base/error.h"
@@ -24,7 +24,7 @@ static void note_size(WrSession *session, const char *path, int width, int heigh
                     wr_field_width(like), wr_field_height(like));
 }
 
-/* As a picture of one channel. */
+/* The heights as a one-channel picture. */
 static WrImage *image_of(const WrField *field, WrError *err)
 {
     const int width = wr_field_width(field), height = wr_field_height(field);
@@ -35,7 +35,7 @@ static WrImage *image_of(const WrField *field, WrError *err)
     return image;
 }
 
-/* The joined layers of a document of the other kind, whose pictures are for looking at. */
+/* The composite of an OpenRaster document, whose pictures are for display only. */
 static WrField *heights_of_ora(WrSession *session, const char *path, const WrField *like,
                                WrError *err)
 {
@@ -57,7 +57,7 @@ static WrField *heights_of_ora(WrSession *session, const char *path, const WrFie
     return made;
 }
 
-/* Of a document that is an EXR file the first part is the joined layers, as it is of any picture. */
+/* In a document that is an EXR file, the first part is the composite, as in any picture. */
 static WrField *heights_of_picture(WrSession *session, const char *path, const WrField *like,
                                    WrError *err)
 {
@@ -72,7 +72,7 @@ static WrField *heights_of_picture(WrSession *session, const char *path, const W
     return made;
 }
 
-/* "shell" of "pictures/shell.exr"; "shell 2" where a layer is called so. The caller frees it. */
+/* "shell" of "pictures/shell.exr"; "shell 2" if there is a layer of that name. The caller frees it. */
 static char *layer_name(const WrDocument *document, const char *path)
 {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;

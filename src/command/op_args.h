@@ -1,10 +1,9 @@
-/* op_args.h - the parameters of table operations as arguments of commands.
-   Layer 6, private to src/command. */
+/* op_args.h - parameters of table operations as command arguments. Private to src/command. */
 #pragma once
 #include "command/command_line.h"
 #include "field/ops.h"
 
-/* One argument a parameter. Returns how many. */
+/* Write one row for each parameter. Returns the number of rows. */
 int wr_op_args(const WrOpInfo *op, WrArgSpec *out);
-/* The operation with the values of a call whose form has these arguments. */
+/* The operation with the parameter values of a call whose form has these arguments. */
 WrFilter wr_call_filter(const WrCall *call, const WrOpInfo *op);

@@ -1,4 +1,4 @@
-/* Commands that write files: save, export, render. */
+/* Output commands: save, export, render. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -48,14 +48,14 @@ static bool run_render(WrSession *session, WrCall *call, WrError *err)
 
 /* ---- documents ---- */
 
-/* Up to date, so that what follows need not wait for it. */
+/* Update the composite, so that the following work need not wait for it. */
 static bool make_composite(WrSession *session, WrError *err)
 {
     return wr_document_whole(session->state.document, session->options.pool, err) &&
            (!wr_progress_stopped() || wr_fail(err, "cancelled"));
 }
 
-/* Do both names lead to one file? */
+/* True if both names refer to the same file. */
 static bool same_file(const char *a, const char *b)
 {
     WrFileInfo first, second;
@@ -83,7 +83,7 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     if (note.length) wr_session_note(session, "%s", note.data);
     wr_text_fini(&note);
     if (!good) return false;
-    char *kept = wr_strdup(path); /* may be the old name itself */
+    char *kept = wr_strdup(path); /* `path` may be the old name itself */
     wr_free(session->state.path);
     session->state.path = kept;
     session->state.stamp = wr_file_stamp(kept);

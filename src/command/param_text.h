@@ -1,5 +1,5 @@
-/* param_text.h - a scene parameter's value as command lines write it; shared by the command printer and the window's rows.
-   Layer 6. */
+/* param_text.h - text form of a scene parameter's value in command lines; shared by the command printer and the
+   window's rows. */
 #pragma once
 
 typedef struct WrSceneParam WrSceneParam;

@@ -15,7 +15,7 @@ static bool is_in_name(char c)
     return (unsigned char)c < 128 && (isalnum((unsigned char)c) || c == '_' || c == '-');
 }
 
-/* Take the name of "name=" at *p, or NULL (and *p stays). The caller's. */
+/* Take the name of "name=" at *p, or NULL (*p is then unchanged). The caller frees it. */
 static char *take_name(const char **p)
 {
     const char *s = *p;
@@ -32,7 +32,7 @@ static bool ends_word(char c)
     return c == '\0' || c == ' ' || c == '\t' || c == '#';
 }
 
-/* "..." with \" and \\; *p stands on the opening quote. */
+/* Read "..." with \" and \\; *p is at the opening quote. */
 static bool take_quoted(const char **p, WrText *value, WrError *err)
 {
     const char *s = *p + 1;
@@ -48,7 +48,7 @@ static bool take_quoted(const char **p, WrText *value, WrError *err)
     return true;
 }
 
-/* One word's value; *p stands on its first byte. */
+/* Read one word's value; *p is at its first byte. */
 static bool take_value(const char **p, WrText *value, WrError *err)
 {
     wr_text_clear(value);
@@ -67,7 +67,7 @@ static const char *skip_blanks(const char *p)
     return p;
 }
 
-/* One command is one line: control characters are a mistake, or a file that is not text. */
+/* A command is one line: control characters are an error, or the file is not text. */
 static bool check_bytes(const char *line, WrError *err)
 {
     for (const char *p = line; *p; p++)
@@ -80,7 +80,7 @@ static bool check_bytes(const char *line, WrError *err)
 
 /* ---- a line ---- */
 
-/* Values that hold where none are given. */
+/* Set the default values. */
 static void set_fallback(const WrArgSpec *spec, WrArg *arg)
 {
     WrText text = { 0 };
@@ -101,7 +101,7 @@ static WrCall *new_call(const WrCommand *command, int form, const char *name)
     return call;
 }
 
-/* Where the next value without a name goes; NULL past the last. */
+/* Target of the next positional value; NULL past the last. */
 static WrArg *next_positional(WrCall *call)
 {
     for (int i = 0; i < call->count; i++)
@@ -120,8 +120,8 @@ static WrArg *find_named(WrCall *call, const char *name)
     return NULL;
 }
 
-/* A value of this argument. Where it may be left out, and the value cannot be for it but for one with a name, that name is
-   what is missing. */
+/* Parse a value of this argument. If the argument is optional and the value fits only a named one, the error names
+   that one. */
 static bool take_argument(WrCall *call, WrArg *arg, const char *value, WrError *err)
 {
     const WrArgSpec *spec = &call->specs[arg - call->args];
@@ -135,7 +135,7 @@ static bool take_argument(WrCall *call, WrArg *arg, const char *value, WrError *
     return good;
 }
 
-/* Put one word where it belongs. *last: the argument of the word before, then of this one. */
+/* Assign one word to its argument. *last: argument of the previous word, then of this one. */
 static bool assign(WrCall *call, const char *name, const char *value, WrArg **last, WrError *err)
 {
     WrArg *arg = name ? find_named(call, name) : next_positional(call);
@@ -150,8 +150,7 @@ static bool assign(WrCall *call, const char *name, const char *value, WrArg **la
     return false;
 }
 
-/* Read the words from p; where *form_word is set, the first value without a name is skipped: it named
-   the form. */
+/* Read the words from p. skip_form: skip the first positional value, which named the form. */
 static bool read_words(WrCall *call, const char *p, bool skip_form, WrError *err)
 {
     WrText value = { 0 };
@@ -172,7 +171,7 @@ static bool read_words(WrCall *call, const char *p, bool skip_form, WrError *err
     return good;
 }
 
-/* The first value without a name from p on, or "" . */
+/* The first positional value from p on, or "". */
 static bool first_value(const char *p, WrText *value, WrError *err)
 {
     for (p = skip_blanks(p); *p && *p != '#'; p = skip_blanks(p)) {
@@ -197,7 +196,7 @@ static bool check_missing(const WrCall *call, bool open, WrError *err)
     return true;
 }
 
-/* A call of the verb with its form, no words read yet. */
+/* A call of the verb with its form, before its words are read. */
 static WrCall *begin_call(const WrCommand *command, const char *rest, WrError *err)
 {
     if (!command->form) return new_call(command, -1, "");

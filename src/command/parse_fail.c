@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define NAMED_MOST 3 /* arguments that one message suggests */
-#define FORMS_MOST 2 /* forms of other commands */
+#define FORMS_MOST 2 /* forms of other commands in one message */
 
 /* ---- lists of names ---- */
 
@@ -20,7 +20,7 @@ static const char *command_name(const void *ctx, int i)
     return i < wr_command_count ? wr_commands[i]->name : NULL;
 }
 
-/* The arguments that a line gives by name. */
+/* Arguments that are written by name in a line. */
 static const char *argument_name(const void *ctx, int i)
 {
     const WrCall *call = ctx;
@@ -29,7 +29,7 @@ static const char *argument_name(const void *ctx, int i)
     return NULL;
 }
 
-/* A command whose forms are listed, and room for one. */
+/* A command with its forms, and storage for one form. */
 typedef struct FormList {
     const WrCommand *command;
     WrForm *form;
@@ -41,13 +41,14 @@ static const char *form_name(const void *ctx, int i)
     return list->command->form(i, list->form) ? list->form->name : NULL;
 }
 
-/* ", " between items, " or " before the last of `count`. */
+/* List separator: ", " between items, " or " before the last of `count`. */
 static const char *joint(int i, int count)
 {
     return i == 0 ? "" : i == count - 1 ? " or " : ", ";
 }
 
-/* "surface sphere or solid sphere": the commands that have a form of this name. False if none has, or too many. */
+/* "surface sphere or solid sphere": the commands that have a form of this name. False if there are none or too
+   many. */
 static bool add_commands_of_form(const char *name, WrText *text)
 {
     int found[FORMS_MOST], count = 0;
@@ -70,7 +71,7 @@ void wr_call_add_title(const WrCall *call, WrText *text)
     if (*call->form_name) wr_text_addf(text, " %s", call->form_name);
 }
 
-/* "it takes radius= strength=", or that it takes no names. */
+/* "it takes radius= strength=", or a text for commands without named arguments. */
 static void add_names(const WrCall *call, WrText *text)
 {
     for (int i = 0; argument_name(call, i); i++)
@@ -94,7 +95,7 @@ bool wr_fail_verb(const char *verb, WrError *err)
     return false;
 }
 
-/* "camera perspective or camera save": the forms that have an argument of the name of length `length`. */
+/* "camera perspective or camera save": the forms that have an argument of this name (`length` bytes). */
 static bool add_forms_of_argument(const WrCommand *command, const char *name, size_t length,
                                   WrText *text)
 {
@@ -113,10 +114,10 @@ static bool add_forms_of_argument(const WrCommand *command, const char *name, si
     return found > 0;
 }
 
-/* "light directional to=-1,1,2": the first form with an argument that takes this value. */
+/* "light directional to=-1,1,2": the first form with an argument that accepts this value. */
 static bool add_form_for_value(const WrCommand *command, const char *value, WrText *text);
 
-/* The form that `rest` holds as "form=" or "=form"; -1. */
+/* The form that `rest` contains as "form=" or "=form"; -1 if none. */
 static int form_with_sign(const WrCommand *command, const char *rest, WrForm *form)
 {
     for (int i = 0; command->form(i, form); i++) {
@@ -183,13 +184,13 @@ static const char *choice_word(const void *ctx, int i)
     return wr_arg_word(ctx, i);
 }
 
-/* How surely an argument is meant by a value without a name, surest first. */
+/* Likelihood that a positional value is meant for an argument, best first. */
 typedef enum Rank {
-    RANK_REQUIRED, /* it must be given, and takes the value */
-    RANK_WORD,     /* a choice that has the word */
-    RANK_NUMBERS,  /* takes the numbers */
-    RANK_MISTYPED, /* a choice that has a word like it */
-    RANK_TEXT,     /* takes any text */
+    RANK_REQUIRED, /* required, and accepts the value */
+    RANK_WORD,     /* a choice that contains the word */
+    RANK_NUMBERS,  /* accepts the numbers */
+    RANK_MISTYPED, /* a choice with a similar word */
+    RANK_TEXT,     /* accepts any text */
     RANK_NONE
 } Rank;
 
@@ -222,7 +223,7 @@ bool wr_belongs_to_name(const WrCall *call, const char *value)
     return best_rank(call, value) <= RANK_NUMBERS;
 }
 
-/* "height=0.1 or width=0.1": the arguments of that rank, the first `most` of them, at most NAMED_MOST. */
+/* "height=0.1 or width=0.1": the first `most` arguments of that rank, at most NAMED_MOST. */
 static void add_named(const WrCall *call, const char *value, Rank rank, int most, WrText *text)
 {
     int found[NAMED_MOST], count = 0;
@@ -244,7 +245,7 @@ static bool add_form_for_value(const WrCommand *command, const char *value, WrTe
     bool found = false;
     for (int i = 0; !found && command->form(i, &form); i++) {
         call->count = wr_command_specs(command, i, call->specs);
-        bool placed = false; /* the value could be meant for a place without a name */
+        bool placed = false; /* the value fits a positional argument */
         for (int k = 0; k < call->count; k++) placed |= call->specs[k].positional;
         Rank rank = best_rank(call, value);
         found = !placed && rank <= RANK_NUMBERS;
@@ -256,8 +257,8 @@ static bool add_form_for_value(const WrCommand *command, const char *value, WrTe
     return found;
 }
 
-/* The argument whose name `value` is, or begins with before a colon, or with dashes in front: a name whose value stands
-   apart. NULL: none. */
+/* The argument whose name is `value`, or its beginning before a colon, or `value` without leading dashes: a name
+   separated from its value. NULL: none. */
 static const WrArgSpec *name_apart(const WrCall *call, const char *value)
 {
     const char *name = value + strspn(value, "-");
@@ -271,12 +272,12 @@ static const WrArgSpec *name_apart(const WrCall *call, const char *value)
     return NULL;
 }
 
-/* The text that `last` began and `value` goes on, in quotes: "font=\"DejaVu Sans\"". */
+/* The text of `last` and its continuation `value`, in quotes: "font=\"DejaVu Sans\"". */
 static void add_quoted(const WrCall *call, const WrArg *last, const char *value, WrText *text)
 {
     const WrArgSpec *spec = &call->specs[last - call->args];
     WrText whole = { 0 };
-    /* Quotes of the shell's kind are none here. */
+    /* Single quotes, which a shell accepts, are no quotes here. */
     const size_t length = strlen(value);
     const bool single = *last->text == '\'' && length > 0 && value[length - 1] == '\'';
     wr_text_addf(&whole, "%s %.*s", last->text + single, (int)(length - single), value);
@@ -327,7 +328,7 @@ bool wr_fail_extra(const WrCall *call, const WrArg *last, const char *value, WrE
 
 /* ---- names ---- */
 
-/* Does the text begin with this word, whole, or with "the" and this word? */
+/* True if the text begins with this whole word, or with "the" and this word. */
 static bool begins_with_word(const char *text, const char *word)
 {
     const size_t length = strlen(word);
@@ -335,7 +336,8 @@ static bool begins_with_word(const char *text, const char *word)
     return length > 2 && strncmp(text, word, length) == 0 && !isalnum((unsigned char)text[length]);
 }
 
-/* The one argument whose help begins with the word, such as R= of a sphere for "radius"; NULL for none or several. */
+/* The only argument whose help begins with the word, such as R= of a sphere for "radius"; NULL for none or
+   several. */
 static const WrArgSpec *explained_by(const WrCall *call, const char *word)
 {
     const WrArgSpec *found = NULL;
@@ -347,7 +349,7 @@ static const WrArgSpec *explained_by(const WrCall *call, const char *word)
     return found;
 }
 
-/* A place without a name that is free, and takes the value. */
+/* A free positional argument that accepts the value. */
 static const WrArgSpec *place_for(const WrCall *call, const char *value)
 {
     for (int i = 0; i < call->count; i++)
@@ -356,7 +358,7 @@ static const WrArgSpec *place_for(const WrCall *call, const char *value)
     return NULL;
 }
 
-/* A place that must be filled, is not, and has a part of this name: "x,y,z" for "y"; or any, as the last resort. */
+/* A missing required positional argument with a component of this name ("x,y,z" for "y"); else any missing one. */
 static const WrArgSpec *empty_place(const WrCall *call, const char *part)
 {
     for (int i = 0; i < call->count; i++) {
@@ -371,7 +373,7 @@ static const WrArgSpec *empty_place(const WrCall *call, const char *part)
     return NULL;
 }
 
-/* "cells= or size=": the names that are near. */
+/* "cells= or size=": similar names. */
 static bool add_near_names(const WrCall *call, const char *name, WrText *text)
 {
     int places[WR_NEAREST_MAX];

@@ -1,5 +1,5 @@
-/* parse_fail.h - error messages for lines that do not parse. All of them derive from the table of commands.
-   Layer 6, private to src/command. Each function writes `err` and returns false. */
+/* parse_fail.h - error messages for lines that do not parse. All of them derive from the command table. Each function
+   writes `err` and returns false. Private to src/command. */
 #pragma once
 #include "command/command_line.h"
 
@@ -7,21 +7,21 @@
 
 /* No command has this name. Suggests a command, or the form of one: "did you mean surface sphere?" */
 bool wr_fail_verb(const char *verb, WrError *err);
-/* The command has no form of this name. word: NULL if the line names none; `rest` is the line behind the verb, in
-   which the form may stand as a name ("adjust offset=3") or as a value ("light type=point"). */
+/* The command has no form of this name. word: NULL if the line names none. `rest` is the line after the verb; it may
+   contain the form as a name ("adjust offset=3") or as a value ("light type=point"). */
 bool wr_fail_form(const WrCommand *command, const char *word, const char *rest, WrError *err);
-/* No argument has this name. Suggests a near name, or where the value belongs. */
+/* No argument has this name. Suggests a similar name, or the argument that the value fits. */
 bool wr_fail_name(const WrCall *call, const char *name, const char *value, WrError *err);
-/* A value without a name, and no place is left for it. Suggests the names that it may be meant for; or quotes, where it
-   goes on a text that `last`, the argument before it, began. last: NULL for none. */
+/* A positional value too many. Suggests argument names for it. If the argument before it, `last`, is a text, suggests
+   quotes around both. last: NULL for none. */
 bool wr_fail_extra(const WrCall *call, const WrArg *last, const char *value, WrError *err);
-/* A value that can only be meant for an argument with a name, though a place without a name is left. */
+/* True if the value fits only a named argument, though a positional argument is still free. */
 bool wr_belongs_to_name(const WrCall *call, const char *value);
-/* An argument that must be given is not. */
+/* A required argument is missing. */
 bool wr_fail_missing(const WrCall *call, const WrArgSpec *spec, WrError *err);
 
-/* Behind the message of a call that failed: the word that a file name may be mistyped for, where there is no such file. */
+/* Append a hint to the message of a failed call: the choice word nearest to a file name that does not exist. */
 void wr_call_add_hint(const WrCall *call, WrError *err);
 
-/* "dab", "light point": what a message about this call begins with. */
+/* Message prefix for this call: "dab", "light point". */
 void wr_call_add_title(const WrCall *call, WrText *text);

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #define TRIAL_SECONDS 60.0
-#define START_PART 0.1   /* of the work: what the journal began with */
-#define SENTENCES_MAX 20 /* about single commands; the rest is counted */
+#define START_PART 0.1   /* share of the work: loading the start state */
+#define SENTENCES_MAX 20 /* about single commands; further ones are counted */
 
 /* ---- one replay ---- */
 
@@ -21,14 +21,14 @@ typedef struct Replay {
     const char *journal;
     const WrJournalRead *read;
     bool beyond;
-    bool saved;         /* it goes on from the file that was saved last */
-    int from, end;      /* lines[from..end) are to run */
-    int done;           /* of them */
-    bool cut;           /* the last command was left out though it may have run */
-    bool known;         /* what it began with is proved */
+    bool saved;         /* starts from the last saved file */
+    int from, end;      /* lines[from..end) will run */
+    int done;           /* lines that have run */
+    bool cut;           /* the last command was left out though it may have completed */
+    bool known;         /* the start state is verified */
     bool missing;       /* steps are missing: */
-    int floor, ceiling; /* history positions that undo and redo may reach all the same */
-    bool differs;       /* that was said */
+    int floor, ceiling; /* history positions that undo and redo may still reach */
+    bool differs;       /* a difference was reported */
     int sentences;      /* about single commands */
     WrText *report;
 } Replay;
@@ -45,7 +45,7 @@ static void tell(Replay *r, const char *format, ...)
     wr_text_addf(r->report, "%s\n", text);
 }
 
-/* Where it may be that the history lacks steps: what lies before cannot be told from them. */
+/* Mark a possible gap in the history: undo must not go below this position. */
 static void note_missing(Replay *r)
 {
     r->missing = true;
@@ -58,7 +58,7 @@ static bool check_hash(const WrSession *session, const WrHash *hash, const char 
     return wr_fail(err, "%s: is not what the journal began with: it was changed since", what);
 }
 
-/* The state that the journal's first command ran on. Where the first line is damaged it is a guess. */
+/* Load the state before the journal's first command. If the first line is damaged, this is a guess. */
 static bool bring_start(Replay *r, WrError *err)
 {
     static const WrHash none;
@@ -76,7 +76,7 @@ static bool bring_start(Replay *r, WrError *err)
     }
     bool hashed = !wr_hash_equal(start->hash, none);
     bool fits = hashed && check_hash(r->session, &start->hash, what, err);
-    /* An empty document may have another hash in another version of the program. */
+    /* The hash of an empty document may differ between program versions. */
     r->known = fits || !r->read->headless;
     if (!r->read->headless) return fits || !hashed || start->kind == WR_JOURNAL_EMPTY;
     if (fits) return true;
@@ -89,7 +89,7 @@ static bool bring_start(Replay *r, WrError *err)
     return true;
 }
 
-/* The file that was saved last, if it still holds that. */
+/* Load the last saved file, if its content is unchanged. */
 static bool bring_saved(Replay *r, WrError *err)
 {
     const WrJournalSave *saved = &r->read->saved;
@@ -105,11 +105,11 @@ typedef struct Try {
 static bool try_line(void *ctx, WrError *err)
 {
     Try *attempt = ctx;
-    attempt->session->options.pool = NULL; /* the child has only this thread */
+    attempt->session->options.pool = NULL; /* a forked child has only this thread */
     return wr_session_run(attempt->session, attempt->line, err);
 }
 
-/* The command that never ended: is it safe to run? */
+/* Check in a separate process that the command without a recorded end is safe to run. */
 static bool last_is_safe(Replay *r, const char *line)
 {
     WrError why = { "" };
@@ -118,7 +118,7 @@ static bool last_is_safe(Replay *r, const char *line)
     case WR_EDIT_PREVIEW_TRUE: return true;
     case WR_EDIT_PREVIEW_FALSE:
         wr_text_addf(r->report, "the last command failed and was left out: %s\n", why.text);
-        r->done++; /* it did so then, or would have: nothing of it was in the document */
+        r->done++; /* it failed then as well, or would have: the document never contained it */
         return false;
     default:
         wr_text_addf(r->report,
@@ -129,7 +129,7 @@ static bool last_is_safe(Replay *r, const char *line)
     }
 }
 
-/* The line with files that have changed or gone since replaced by the journal's copies. Caller frees. */
+/* The line with the journal's copies in place of changed or missing files. The caller frees it. */
 static char *with_copies(const char *journal, const char *line)
 {
     WrCall *call = NULL;
@@ -153,7 +153,7 @@ static char *with_copies(const char *journal, const char *line)
     return out;
 }
 
-/* undo N or redo N: how far, negative for undo. 0 if it is neither. */
+/* Step count of "undo N" or "redo N", negative for undo. 0 for any other line. */
 static int travel(const char *line)
 {
     WrCall *call = NULL;
@@ -165,7 +165,7 @@ static int travel(const char *line)
     return steps;
 }
 
-/* Go through the history with steps missing: what it undid may be just what is lost. */
+/* Move through the history with steps missing; refused if the target may be one of the missing steps. */
 static bool go_carefully(Replay *r, int index, int steps, WrError *err)
 {
     int position = wr_session_history_position(r->session), to = position + steps;
@@ -183,7 +183,7 @@ static bool run_one(Replay *r, int index, const char *text, WrError *err)
     if (steps) return go_carefully(r, index, steps, err);
     if (!wr_session_run(r->session, text, err)) return false;
     int after = wr_session_history_position(r->session);
-    if (after > before) r->ceiling = after; /* a step; views are none */
+    if (after > before) r->ceiling = after; /* a step, not a view */
     return true;
 }
 
@@ -193,7 +193,7 @@ static double done_part(const Replay *r, int index)
     return START_PART + (1.0 - START_PART) * lines;
 }
 
-/* False: it must end here. */
+/* False: recovery must stop here. */
 static bool replay_line(Replay *r, int index)
 {
     WrError why = { "" };
@@ -208,12 +208,12 @@ static bool replay_line(Replay *r, int index)
     WrProgressPart part;
     const WrProgress *whole =
         wr_progress_enter(&part, done_part(r, index), done_part(r, index + 1));
-    /* A stroke that was being drawn had already run as far as its samples go. */
+    /* A stroke in progress is safe: its recorded samples had already been drawn. */
     bool stop = last && !r->read->in_stroke && !last_is_safe(r, text);
     bool good = stop || run_one(r, index, text, &why);
     wr_progress_set(whole);
     wr_free(text);
-    if (stop || wr_progress_stopped()) return false; /* what it made may be half done */
+    if (stop || wr_progress_stopped()) return false; /* its result may be half done */
     if (!good) {
         tell(r, "command %d failed%s: %s", index + 1,
              r->beyond ? "" : ", and what came after it was left out", why.text);
@@ -228,7 +228,7 @@ static bool replay_line(Replay *r, int index)
     return true;
 }
 
-/* Into the session, whose state is fresh. */
+/* Replay into the session, whose state is fresh. */
 static bool replay(Replay *r, bool from_saved, WrError *err)
 {
     const WrJournalRead *read = r->read;
@@ -252,7 +252,7 @@ static bool replay(Replay *r, bool from_saved, WrError *err)
     return good;
 }
 
-/* ---- the whole ---- */
+/* ---- whole recovery ---- */
 
 static bool nothing_is_missing(const Replay *r)
 {
@@ -280,7 +280,7 @@ static void sum_up(Replay *r, WrRecovered *out)
         wr_text_addf(r->report, "what came after is not in the journal: %s\n", read->gap);
 }
 
-/* A replay into a fresh state; the session's own comes back where it cannot even begin. */
+/* Replay into a fresh state; the session's own state is restored if the start state cannot be loaded. */
 static bool attempt(Replay *r, WrSessionState *old, bool from_saved, WrError *err)
 {
     *old = wr_session_begin_state(r->session, wr_session_new_document(r->session));
@@ -289,8 +289,8 @@ static bool attempt(Replay *r, WrSessionState *old, bool from_saved, WrError *er
     return false;
 }
 
-/* From the file that was saved last; from the start where that file is gone or another, or where what was done
-   before the save was undone after it. */
+/* Replay from the last saved file. Replay from the start state instead if that file is gone or changed, or if steps
+   from before the save were undone after it. */
 static bool bring_back(Replay *r, WrSessionState *old, WrError *err)
 {
     const Replay fresh = *r;
@@ -309,7 +309,7 @@ static bool bring_back(Replay *r, WrSessionState *old, WrError *err)
     return could && attempt(r, old, true, err);
 }
 
-/* The session's own journal, if it keeps one, takes the old one's place. */
+/* Replace the old journal by the session's own, if it keeps one. */
 static void change_journals(WrSession *session, WrRecovered *out)
 {
     WrError trouble = { "" };
@@ -322,12 +322,13 @@ static void change_journals(WrSession *session, WrRecovered *out)
     out->claim = NULL;
 }
 
-/* The file as a document has that hash. */
+/* True if the file, loaded as a document, has that hash. */
 static bool holds(const char *path, const WrHash *hash, WrError *err)
 {
     WrSession *session = wr_session_new(NULL);
     const WrProgress *here = wr_progress_here();
-    const WrProgress quiet = { .cancel = here ? here->cancel : NULL }; /* the work itself is done */
+    /* progress is complete; this is only the check */
+    const WrProgress quiet = { .cancel = here ? here->cancel : NULL };
     wr_progress_set(&quiet);
     bool good = wr_session_load(session, path, err) && check_hash(session, hash, path, err);
     wr_progress_set(here);
@@ -340,7 +341,7 @@ static const char *own_path(const WrJournalRead *read)
     return read->saved.path ? read->saved.path : read->start.path;
 }
 
-/* The document's own file is still what the journal knows of it. */
+/* True if the document's own file is unchanged since the journal recorded it. */
 static bool own_stands(const WrJournalRead *read, WrError *err)
 {
     const char *own = own_path(read);
@@ -350,12 +351,12 @@ static bool own_stands(const WrJournalRead *read, WrError *err)
     return wr_fail(err, "%s: what it should hold is not on record", own);
 }
 
-/* The file's name comes back; where it stands as it did, saving to it loses nothing of another program. */
+/* Restore the file name. If the file is unchanged, saving over it loses no work of other programs. */
 static void take_path(WrSession *session, const WrJournalRead *read)
 {
     const char *path = own_path(read);
     session->state.path = wr_strdup(path);
-    WrFileStamp stamp = wr_file_stamp(path ? path : ""); /* of what is about to be read */
+    WrFileStamp stamp = wr_file_stamp(path ? path : ""); /* taken before the file is read */
     WrError err;
     if (path && own_stands(read, &err)) session->state.stamp = stamp;
 }
@@ -378,7 +379,7 @@ bool wr_session_recover(WrSession *session, const char *journal, bool beyond, Wr
     if (good) {
         wr_session_keep_state(session, &old);
         take_path(session, &read);
-        session->state.saved_revision = UINT64_MAX; /* no state of it was ever saved */
+        session->state.saved_revision = UINT64_MAX; /* this state was never saved */
         sum_up(&r, out);
         change_journals(session, out);
     }

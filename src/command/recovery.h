@@ -1,5 +1,4 @@
-/* recovery.h - documents of programs that ended before their work was saved.
-   Layer 6. */
+/* recovery.h - crash recovery: documents of programs that ended before their work was saved. */
 #pragma once
 #include "base/text.h"
 
@@ -10,63 +9,61 @@ typedef struct WrError WrError;
 typedef struct WrJournalClaim WrJournalClaim;
 typedef struct WrSession WrSession;
 
-/* What a program that crashed, or was killed, left behind. */
+/* A journal left by a program that crashed or was killed. */
 typedef struct WrRecoverable {
-    char *journal;           /* names it to the functions below; owned */
-    char *document;          /* the document's own file; "" if it never had one; owned */
-    double started, written; /* seconds since 1970, UTC: the journal's begin and last change */
-    int commands;            /* since the last save that can be brought back, up to any damage */
-    int beyond;              /* those behind damage */
-    int lost;                /* lines of the journal that are damaged or missing */
-    bool headless;           /* damaged is its first line too: what it began with is not known */
-    bool damaged;            /* something in it cannot be read */
-    bool unfinished;         /* the last command had not ended: it may be what crashed */
+    char *journal;           /* its path, the identifier for the functions below; owned */
+    char *document;          /* path of the document's file; "" if it never had one; owned */
+    double started, written; /* seconds since 1970, UTC: start and last change of the journal */
+    int commands;            /* recoverable commands since the last save, up to any damage */
+    int beyond;              /* commands after the damage */
+    int lost;                /* damaged or missing lines of the journal */
+    bool headless;           /* the first line is damaged too: the start state is unknown */
+    bool damaged;            /* part of the journal cannot be read */
+    bool unfinished;         /* the last command had not ended: it may have caused the crash */
     char *
-        error; /* it cannot be read at all, and why; else NULL. Then only its name, its document ("") and
-                    its last change hold; owned */
+        error; /* reason if nothing can be read; else NULL. With an error only journal, document ("") and written are
+                  valid; owned */
 } WrRecoverable;
 
-/* Those that no running program holds, newest first. The list is the caller's. A journal with nothing in
-   it is not listed. */
+/* Journals not in use by a running program, newest first. The caller owns the list. Empty journals are left out. */
 bool wr_recovery_list(WrRecoverable **list, int *count, WrError *err);
 void wr_recovery_list_free(WrRecoverable *list, int count);
 
-/* How a recovery went. */
+/* Result of a recovery. */
 typedef struct WrRecovered {
-    int commands;  /* on record since what it began with */
-    int done;      /* of them brought back */
-    bool whole;    /* that is all: nothing failed, nothing was damaged, nothing was missing */
-    bool more;     /* there is more on record, and going on beyond what is missing could bring it */
-    bool removed;  /* the old journal is gone, since a new one holds all of it */
-    WrText report; /* sentences for the user, one a line */
-    struct WrJournalClaim *claim; /* on the old journal while it is held */
+    int commands;  /* recorded since the start state */
+    int done;      /* recovered commands */
+    bool whole;    /* complete: nothing failed, was damaged or was missing */
+    bool more;     /* more commands are recorded; continuing past the damage might recover them */
+    bool removed;  /* the old journal was removed, since a new one holds all of it */
+    WrText report; /* sentences for the user, one for each line */
+    struct WrJournalClaim *claim; /* lock on the old journal while it is held */
 } WrRecovered;
 
-/* Put the document of that journal in the session's place: the file that was saved last where it still holds
- * that, else the journal's start state; then every command whose end is on record. A command that has none
- * is first tried in a process of its own; if that crashes, takes too long or fails, recovery stops before
- * it. A command that fails, and damage in the journal, end it too, unless `beyond` is set: then it goes on
- * with what follows as far as that can run, and undo and redo go no farther than to what is missing.
+/* Replace the session's document by the recovered one. Recovery starts from the last saved file if that is unchanged,
+ * else from the journal's start state. It then runs every command whose end is recorded. A command without a recorded
+ * end first runs in a separate process; if that crashes, times out or fails, recovery stops before the command. A
+ * failed command or damage in the journal also stops recovery, unless `beyond` is set: then later commands run as far
+ * as possible, and undo and redo stop at the gap.
  *
- * Afterwards the document has its file's name and counts as unsaved. If the session keeps a journal, one of
- * its own begins with a snapshot of the document, and the old one goes if all was brought back and that
- * snapshot reads back to the same. Else it stays: where the session keeps none it is held until the caller
- * has saved the document and says so. On failure the session keeps what it had and the journal stays.
- * *out is the caller's (wr_recovered_fini), on failure too. */
+ * Afterwards the document has its file's name and counts as unsaved. If the session keeps a journal, it begins a new
+ * one with a snapshot of the document. The old journal is removed if everything was recovered and that snapshot reads
+ * back identically. Otherwise it stays; a session without a journal holds it until the caller has saved the document
+ * (wr_recovered_saved). On failure the session and the journal are unchanged. The caller owns *out
+ * (wr_recovered_fini), on failure too. */
 bool wr_session_recover(WrSession *session, const char *journal, bool beyond, WrRecovered *out,
                         WrError *err);
-/* The document was saved as that file: read it back, and if all was brought back and it holds all, remove the
-   journal. False and an error if the file does not hold it; the journal stays then. */
+/* To be called after the document was saved to `path`: read the file back, and remove the journal if everything was
+   recovered and the file holds it. False and an error if the file does not; the journal then stays. */
 bool wr_recovered_saved(WrRecovered *recovered, WrSession *session, const char *path, WrError *err);
-void wr_recovered_fini(WrRecovered *recovered); /* lets go of the journal; fine on a zeroed one */
+void wr_recovered_fini(WrRecovered *recovered); /* releases the journal; a zeroed one is allowed */
 
-/* Everything in the journal that can be read as a script, with comments where something is missing. The journal
-   stays. */
+/* The readable part of the journal as a script, with comments at gaps. The journal stays. */
 bool wr_recovery_script(const char *journal, WrText *text, WrError *err);
 
-/* The file of the document that the journal is of, if it may be saved over: nobody has changed it since the
-   journal saw it. Appended to `path`; else false and an error. */
+/* Path of the journal's document file if it may be overwritten: the file is unchanged since the journal recorded it.
+   Appended to `path`; else false and an error. */
 bool wr_recovery_own_file(const char *journal, WrText *path, WrError *err);
 
-/* Remove it: what it holds is lost. */
+/* Remove the journal; its content is lost. */
 bool wr_recovery_discard(const char *journal, WrError *err);

@@ -1,11 +1,11 @@
-/* Which documents can be recovered. */
+/* List of recoverable documents. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "command/session_internal.h"
 #include "command/recovery.h"
 #include "document/recover.h"
 
-/* How a saved document was looked at since is no work that was lost. */
+/* View commands after a save are not lost work. */
 static bool changes_document(const char *line)
 {
     WrCall *call = NULL;

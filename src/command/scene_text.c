@@ -1,6 +1,6 @@
-/* The scene as the canonical lines that restore it from a new document. Every setting is written out,
-   defaults too, so that a document means the same whatever the defaults of a later version are. Only
-   the light of a new document, the surface's own pose and a missing picture have no line. */
+/* The scene as the canonical lines that restore it from a new document. Every setting is printed, defaults too, so
+   that a document keeps its meaning if a later version has other defaults. Only the default light, the surface's
+   default pose and a missing picture have no line. */
 #include "command/session_internal.h"
 #include "command/scene_args.h"
 
@@ -34,7 +34,7 @@ static void print_content(const WrCommand *command, const WrScene *scene, WrText
     else command->print(scene, text);
 }
 
-/* Lines of the object's own; its turn is told with its place. */
+/* Lines of one object; its rotation is printed with its position. */
 static void print_own(const WrScene *scene, int object, Printer *printer, WrText *text)
 {
     wr_print_object(scene, object, text);

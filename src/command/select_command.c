@@ -1,4 +1,4 @@
-/* Selections. */
+/* The command select. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -21,7 +21,7 @@
         .low = -WR_SELECT_REACH, .high = WR_SELECT_REACH, .help = help_                            \
     }
 
-/* A form's work: the new selection, or NULL and an error. */
+/* Handler of a form: returns the new selection, or NULL and an error. */
 typedef WrField *Maker(WrSession *session, const WrCall *call, WrError *err);
 
 static const WrField *like(const WrSession *session)
@@ -93,7 +93,7 @@ static WrField *select_height(WrSession *session, const WrCall *call, WrError *e
                             wr_call_number(call, "soft"), session->options.pool, err);
 }
 
-/* Left out, relief is that of the unit cell as the scene shows it: its height over the width of a texel. */
+/* Without relief=, the height scale is that of the unit cell in the scene: height divided by texel width. */
 static WrField *select_slope(WrSession *session, const WrCall *call, WrError *err)
 {
     const WrDocument *document = session->state.document;
@@ -123,7 +123,7 @@ static WrField *select_mask(WrSession *session, const WrCall *call, WrError *err
     return NULL;
 }
 
-/* ---- changes of the present one ---- */
+/* ---- changes of the present selection ---- */
 
 static const WrField *present(const WrSession *session, const WrCall *call, WrError *err)
 {
@@ -169,7 +169,7 @@ enum {
 
 WR_ROWS(makers);
 static const struct {
-    Maker *make; /* NULL: nothing selected, so edits act everywhere */
+    Maker *make; /* NULL: no selection, so edits apply everywhere */
     bool joins;  /* has mode= */
 } makers[] = {
     [WR_ROW(SELECT_ALL)] = { select_all, false },
@@ -188,7 +188,7 @@ static const struct {
 };
 WR_ROWS_END(makers, SELECT_FORMS);
 
-/* Join what was made (taken) to the present selection. */
+/* Combine a new selection (ownership passes) with the present one. */
 static WrField *join(WrSession *session, const WrCall *call, WrField *made, WrError *err)
 {
     WrSelectMode mode = (WrSelectMode)wr_call_choice(call, "mode");

@@ -90,7 +90,7 @@ void wr_session_note(WrSession *session, const char *format, ...)
 
 /* ---- running ---- */
 
-/* What relative file names of a line are relative to, as an absolute path; NULL if it names no file. */
+/* Absolute path of the folder that relative file names of a line refer to; NULL if the line names no file. */
 static char *folder_of(const WrSession *session, const WrCall *call)
 {
     bool names = false;
@@ -113,7 +113,7 @@ void wr_session_remember(WrSession *session, const WrCall *call)
     wr_text_fini(&text);
 }
 
-/* Put another document (taken) in the place of the session's, which knows how it was composited. */
+/* Replace the session's document by another one (ownership passes); its cached composite is reused. */
 static void put_document(WrSession *session, WrDocument *document)
 {
     wr_document_swap_composites(document, session->state.document);
@@ -138,13 +138,13 @@ static bool run_output(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* Where somebody wants it to stop, what a command left is only good to be thrown away, whatever it says. */
+/* After a cancellation the result is incomplete and counts as a failure, whatever the command returned. */
 static bool went_through(bool good, WrError *err)
 {
     return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
 }
 
-/* The composite of what the outermost command made, for those who want it at once. */
+/* Update the composite after the outermost command, if options.composites is set. */
 static bool make_composite(WrSession *session, WrError *err)
 {
     if (!session->options.composites || session->depth > 1 || session->opening) return true;
@@ -152,7 +152,7 @@ static bool make_composite(WrSession *session, WrError *err)
     return went_through(true, err);
 }
 
-/* The tables of layers that were made already. */
+/* Use the precomputed tables of layers. */
 static bool take_made(WrSession *session, const WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
@@ -179,7 +179,7 @@ static bool take_made(WrSession *session, const WrCall *call, WrError *err)
     return true;
 }
 
-/* What a filter makes was made already: the composite, then, is. */
+/* The filter's result was precomputed, so the composite is known too. */
 static void know_made(WrSession *session)
 {
     WrDocument *knows = wr_document_share(session->made);
@@ -198,7 +198,8 @@ static bool run_edit(WrSession *session, WrCall *call, WrError *err)
                 (takes ? take_made(session, call, err) : call->command->run(session, call, err));
     wr_document_edit_end(session->state.document, &session->stand_in);
     if (good && session->made && !takes) know_made(session);
-    good = good && wr_filters_carried(err); /* what it made of a composite is made of all of it */
+    /* a filter's result is valid only if every filter below it ran */
+    good = good && wr_filters_carried(err);
     good = went_through(good, err);
     part.from = part.to;
     part.to = 1.0;
@@ -207,7 +208,7 @@ static bool run_edit(WrSession *session, WrCall *call, WrError *err)
     return good;
 }
 
-/* Through the steps, and back again where that is cancelled. */
+/* Move through the steps, and back again if cancelled. */
 static bool run_history(WrSession *session, WrCall *call, WrError *err)
 {
     int position = wr_session_history_position(session);
@@ -218,8 +219,8 @@ static bool run_history(WrSession *session, WrCall *call, WrError *err)
     return false;
 }
 
-/* Only the outermost command is a step, and only its failure puts the old state back. A view is no step: the
-   present state is looked at in another way. */
+/* Only the outermost command is a step, and only its failure restores the old state. A view is no step: it changes
+   only the view of the present state. */
 static bool run_call(WrSession *session, WrCall *call, WrError *err)
 {
     if (!call->command) return true;
@@ -252,7 +253,7 @@ bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err)
     return wr_fail(err, "a stroke is being drawn: it must end first");
 }
 
-/* Put the verb in front of a message that does not begin with it. */
+/* Prefix a message with the verb unless it begins with it. */
 static void name_command(WrError *err, const char *verb)
 {
     size_t length = strlen(verb);
@@ -293,7 +294,8 @@ static void foretell(WrSession *session, const WrCall *call)
                         call->form >= 0 ? " " : "", call->form_name, text);
 }
 
-/* How a scene's only object is turned is a view; of several each is turned by an edit: `rotate` is that one then. */
+/* Parse a line. `rotate` is a view with a single object and an edit with several; the edit's command is then
+   substituted. */
 static bool parse(const WrSession *session, const char *line, WrCall **out, WrError *err)
 {
     if (!wr_call_parse(line, false, out, err)) return false;
@@ -317,14 +319,16 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
     if (!parse(session, line, &call, err)) return false;
     if (session->options.foretell && !session->opening) foretell(session, call);
     bool good = run_call(session, call, err);
-    if (!good && wr_progress_stopped()) wr_fail(err, "cancelled"); /* whatever was left half done */
+    if (!good && wr_progress_stopped())
+        wr_fail(err, "cancelled"); /* the half-done state was restored
+                                                                      above */
     if (!good) wr_call_add_hint(call, err);
     if (!good) name_command(err, call->command->name);
     wr_call_free(call);
     return good;
 }
 
-/* ---- through the history ---- */
+/* ---- moves through the history ---- */
 
 bool wr_session_go(WrSession *session, int state, WrError *err)
 {
@@ -332,7 +336,7 @@ bool wr_session_go(WrSession *session, int state, WrError *err)
     int steps = state - wr_session_history_position(session);
     if (state < wr_session_history_oldest(session) || state > wr_session_history_count(session) ||
         steps == 0)
-        return wr_session_go_to(session, state, err); /* which says why not */
+        return wr_session_go_to(session, state, err); /* which reports the cause */
     snprintf(line, sizeof line, "%s %d", steps < 0 ? "undo" : "redo", abs(steps));
     return wr_session_run(session, line, err);
 }
@@ -400,7 +404,7 @@ void wr_session_set_history_budget(WrSession *session, size_t bytes)
     wr_history_set_budget(session->state.history, bytes);
 }
 
-/* ---- what a session tells ---- */
+/* ---- queries ---- */
 
 const WrDocument *wr_session_document(const WrSession *session)
 {

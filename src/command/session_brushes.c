@@ -1,5 +1,5 @@
-/* Presets and tips that commands name: read once, and again only where their files change, so that a stroke
-   begins without touching the disk but for one look at the file's date. */
+/* Cache of presets and tips named by commands. Each is read again only if its files change. Starting a stroke then
+   needs no disk access except a check of the file's date. */
 #include "command/session_internal.h"
 
 #include "base/error.h"
@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-#define FILES_MAX 48 /* kept in memory */
+#define FILES_MAX 48 /* entries kept in memory */
 
 typedef struct Entry {
     bool is_tip;
@@ -19,9 +19,9 @@ typedef struct Entry {
     char *path; /* owned */
     WrFileInfo stamp;
     char sha256[65];
-    WrPreset *preset; /* owned, or: */
+    WrPreset *preset; /* owned; NULL if the entry is a tip: */
     WrTip *tip;       /* owned */
-    char *tip_path;   /* owned; of the preset's own tip; NULL: none */
+    char *tip_path;   /* owned; the preset's tip file; NULL: none */
     uint64_t used;
 } Entry;
 
@@ -55,7 +55,7 @@ void wr_session_forget_brushes(WrSession *session)
 
 /* ---- files ---- */
 
-/* All that changes when a file does. */
+/* True if none of the entry's files has changed. */
 static bool is_fresh(const Entry *entry)
 {
     WrFileInfo now;
@@ -66,8 +66,7 @@ static bool is_fresh(const Entry *entry)
            now.changed_nanoseconds == then->changed_nanoseconds;
 }
 
-/* Behind `"tip" :` the string that follows, or NULL; *p moves on. The caller frees it. A name with escapes
-   in it is left out. */
+/* The string after the next `"tip" :`, or NULL; *p advances. The caller frees it. A name with escapes is skipped. */
 static char *next_tip_name(const char **p)
 {
     static const char key[] = "\"tip\"", blanks[] = " \t\r\n";
@@ -84,8 +83,8 @@ static char *next_tip_name(const char **p)
     return NULL;
 }
 
-/* The file beside a preset that is its tip. The text is one that was read as a preset, so whatever lies
-   behind a key "tip" is at worst a file that nobody asks for. */
+/* The tip file in a preset's folder. The text was already read as a preset. A false match of the key "tip" therefore
+   yields at worst a file name that is never used. */
 static char *tip_beside(const char *text, const char *folder)
 {
     char *name, *found = NULL;
@@ -132,7 +131,7 @@ static bool read_tip(Entry *entry, WrError *err)
     return entry->tip != NULL;
 }
 
-/* ---- the kept ones ---- */
+/* ---- cache ---- */
 
 static Entry *find(WrBrushFiles *files, bool is_tip, const char *key)
 {
@@ -142,8 +141,7 @@ static Entry *find(WrBrushFiles *files, bool is_tip, const char *key)
     return NULL;
 }
 
-/* A place for one more: where `old` was, behind the others, or where the one was that nobody used for the
-   longest time. */
+/* Slot for a new entry: that of `old`, a free one, or the least recently used one. */
 static Entry *place_for(WrBrushFiles *files, Entry *old)
 {
     Entry *place = old;
@@ -154,7 +152,7 @@ static Entry *place_for(WrBrushFiles *files, Entry *old)
     return place;
 }
 
-/* The path (taken), absolute and without links where that can be said. */
+/* The path (ownership passes), absolute and without links if it can be resolved. */
 static char *absolute(char *path)
 {
     char *real = path ? wr_path_real(path) : NULL;
@@ -174,7 +172,7 @@ static bool take(WrSession *session, bool is_tip, const char *key, WrBrushFile *
         bool bare = !is_tip && !wr_names_preset_file(key);
         Entry made = { .is_tip = is_tip,
                        .path = bare ? absolute(wr_library_find(key, err)) : wr_strdup(key) };
-        /* The date first: a file that changes while it is read is then read again. */
+        /* Take the file identity before reading: a file that changes during the read is then read again. */
         bool good = made.path != NULL;
         if (good && !wr_path_info(made.path, &made.stamp)) made.stamp = (WrFileInfo){ .bytes = -1 };
         good = good && (is_tip ? read_tip(&made, err) : read_preset(&made, key, err));

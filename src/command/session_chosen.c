@@ -1,4 +1,4 @@
-/* The dials that a tolerance chose, as a document keeps them. */
+/* Storage of the dials that a tolerance chose, in a document. */
 #include "command/session_internal.h"
 
 #include "base/memory.h"
@@ -61,7 +61,7 @@ void wr_session_recall_chosen(WrSession *session, const WrFrameRequest *request)
     }
 }
 
-/* What the last picture chose, if that is still what the document is; else what the document keeps. */
+/* Dials of the last picture, if they still fit the document; else the stored ones. */
 static void add_of(WrSession *session, const WrFrameRequest *request, WrText *text)
 {
     const WrChoice *choice = &session->choice;
@@ -93,7 +93,7 @@ static void add_chosen(WrSession *session, WrText *text)
     wr_tables_free(tables);
 }
 
-/* The line of a tolerance goes on. */
+/* Append the dials to the line of a tolerance. */
 static void go_on(void *ctx, const WrCommand *command, WrText *text)
 {
     if (strcmp(command->name, "tolerance") != 0) return;

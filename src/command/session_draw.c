@@ -1,10 +1,10 @@
-/* Drawing a whole stroke at once, cancellable. */
+/* Cancellable drawing of a whole stroke. */
 #include "command/session_internal.h"
 
 #include "base/error.h"
 #include "base/progress.h"
 
-#define SLICE 0.05 /* seconds between two looks at whether somebody wants it to stop */
+#define SLICE 0.05 /* seconds between two checks for cancellation */
 
 bool wr_session_draw(const WrPainting *painting, WrSampleAt *sample, const void *ctx, int count,
                      WrError *err)

@@ -1,4 +1,4 @@
-/* What commands change in a document, and what keeps them from it. */
+/* Helpers for commands that change a document, and their checks. */
 #include "command/session_internal.h"
 
 #include "base/error.h"
@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-/* ---- files that lines read ---- */
+/* ---- input files ---- */
 
 void wr_session_note_input(WrSession *session, const char *path)
 {
@@ -71,7 +71,7 @@ bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err
     return false;
 }
 
-/* A hidden layer is seen on the objects that wear it. */
+/* True if an object uses the layer as its table; a hidden layer is then visible on it. */
 static bool is_worn(const WrDocument *document, int index)
 {
     const char *name = document->layers[index].name;
@@ -137,7 +137,7 @@ void wr_session_put_heights(WrSession *session, WrLayer *layer, WrField *heights
     wr_edit_mark(layer->cover, session->state.document->selection);
 }
 
-/* The number that a word of digits is, or 0. */
+/* Value of a word of digits, or 0. */
 static int layer_number(const char *word)
 {
     size_t length = strlen(word);

@@ -1,4 +1,4 @@
-/* Sessions and files: scripts, documents, pictures. */
+/* Session files: scripts, documents, pictures. */
 #include "command/session_internal.h"
 
 #include "base/error.h"
@@ -24,7 +24,7 @@ typedef enum LineResult { LINE_READ, LINE_END, LINE_FAILED } LineResult;
 
 typedef struct Lines {
     FILE *stream;
-    uint64_t left; /* bytes that there are, as far as known */
+    uint64_t left; /* remaining bytes, if known */
 } Lines;
 
 static int next_byte(Lines *lines)
@@ -58,7 +58,7 @@ static LineResult read_line(Lines *lines, WrText *line, WrError *err)
     return LINE_READ;
 }
 
-/* Of the whole, a line is the part that it takes of the file. */
+/* Run a line; its share of the progress is its share of the file's bytes. */
 static bool run_line(WrSession *session, const char *text, double *place, double size, WrError *err)
 {
     WrProgressPart part;
@@ -66,7 +66,7 @@ static bool run_line(WrSession *session, const char *text, double *place, double
     *place += (double)strlen(text) + 1.0;
     double end = size > *place ? size : *place;
     const WrProgress *whole = wr_progress_enter(&part, from / end, *place / end);
-    if (size == 0.0) part.progress.report = NULL; /* nobody knows how much is still to come */
+    if (size == 0.0) part.progress.report = NULL; /* the total length is unknown */
     bool good =
         wr_progress_stopped() ? wr_fail(err, "cancelled") : wr_session_run(session, text, err);
     wr_progress_set(whole);
@@ -120,8 +120,8 @@ bool wr_session_run_script(WrSession *session, const char *path, WrError *err)
 
 /* ---- opening ---- */
 
-/* Run a document's scene lines. Only scene commands may stand there: a document opens no files. lenient:
-   lines that fail are left out, with a note. */
+/* Run a document's scene lines. Only scene commands are allowed: a document opens no files. lenient: failing lines
+   are skipped with a note. */
 static bool run_scene_lines(WrSession *session, const char *text, bool lenient, WrError *err)
 {
     for (const char *p = text; *p;) {
@@ -141,7 +141,7 @@ static bool run_scene_lines(WrSession *session, const char *text, bool lenient, 
     return true;
 }
 
-/* A newer version's file: what this one does not know was passed over, so it must not be written back. */
+/* Note a file of a newer version: unknown parts were skipped, so the file must not be overwritten. */
 static void note_newer(WrSession *session, const char *path, double version)
 {
     wr_session_note(
@@ -154,7 +154,7 @@ static void note_newer(WrSession *session, const char *path, double version)
     session->state.newer_path = wr_strdup(path);
 }
 
-/* An OpenRaster file says line by line what it could not keep. */
+/* Load an OpenRaster file; its notes list the losses line by line. */
 static bool load_ora(WrSession *session, const char *path, WrLoaded *loaded, int64_t *replaced,
                      WrError *err)
 {
@@ -210,7 +210,7 @@ bool wr_session_reads_back(WrSession *session, const char *path, WrError *err)
     return good;
 }
 
-/* The command that opens the document again, for a script of what was done to it. */
+/* Store the command that opens the document again, for a script of the history. */
 static bool note_origin(WrSession *session, const char *path, WrError *err)
 {
     char hex[65], *full = wr_path_real(path);
@@ -227,7 +227,7 @@ static bool note_origin(WrSession *session, const char *path, WrError *err)
 
 static bool open_document(WrSession *session, const char *path, WrError *err)
 {
-    WrFileStamp stamp = wr_file_stamp(path); /* of what is about to be read */
+    WrFileStamp stamp = wr_file_stamp(path); /* taken before the file is read */
     if (!note_origin(session, path, err) || !wr_session_load(session, path, err)) return false;
     wr_session_rebase(session);
     session->state.path = wr_strdup(path);
@@ -257,8 +257,8 @@ static bool open_picture(WrSession *session, const char *path, WrError *err)
     return good;
 }
 
-/* Whether the file can be read, and whether it starts like an OpenEXR file: so that scripts and
-   mistakes never load the picture library. */
+/* Check that the file is readable, and whether it starts like an OpenEXR file; scripts and mistyped names then never
+   load the picture library. */
 static bool look_at_file(const char *path, bool *exr, WrError *err)
 {
     static const char magic[4] = { 0x76, 0x2f, 0x31, 0x01 };
@@ -271,7 +271,7 @@ static bool look_at_file(const char *path, bool *exr, WrError *err)
     return true;
 }
 
-/* What a program that was killed while it wrote left beside the file. */
+/* Remove temporary files that a killed program left beside the file. */
 static void sweep_beside(const char *path)
 {
     char *folder = wr_path_folder(path);

@@ -1,4 +1,4 @@
-/* Turntables: frames as files, or as one film. */
+/* Turntables as picture files or as one film. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#define FPS 25.0 /* of films that nothing is said about */
+#define FPS 25.0 /* default frame rate of films */
 
 WrTurntable wr_turntable_default(void)
 {
@@ -39,7 +39,7 @@ bool wr_turntable_check(const WrTurntable *turntable, const char *path, WrError 
     return true;
 }
 
-/* `out` with its last run of # replaced by the number, zero-padded to the run's length. */
+/* `out` with its last run of # replaced by the number, zero-padded to the length of the run. */
 static void frame_name(const char *out, int number, WrText *name)
 {
     const char *end = strrchr(out, '#') + 1, *start = end;
@@ -49,28 +49,28 @@ static void frame_name(const char *out, int number, WrText *name)
     wr_text_addf(name, "%0*d%s", (int)(end - start), number, end);
 }
 
-/* One turntable under way. */
+/* A turntable in progress. */
 typedef struct Turning {
     WrSession *session;
     const WrTurntable *order;
     const char *path;
     int total;       /* frames of the whole turn */
-    double step_deg; /* a frame */
-    bool chosen;     /* the dials, for all of them */
-    int there;       /* frames that were left out */
-    int written;     /* files that took their places */
-    WrFilm *film;    /* NULL: files */
-    uint8_t *pixels; /* of a film's frame; owned */
+    double step_deg; /* per frame */
+    bool chosen;     /* dials were chosen for all frames */
+    int there;       /* skipped existing frames */
+    int written;     /* written files */
+    WrFilm *film;    /* NULL: separate files */
+    uint8_t *pixels; /* one film frame; owned */
     bool alpha;
 } Turning;
 
-/* Each frame's angle comes from its number alone: fmod is exact, so nothing adds up (HC87). */
+/* Each frame's angle is computed from its number alone: fmod is exact, so no error accumulates (HC87). */
 static double angle_of(const Turning *turning, int frame)
 {
     return fmod(turning->order->turn_deg, 360) + fmod(frame * turning->step_deg, 360);
 }
 
-/* Under a tolerance the dials are chosen once for the whole turn, whichever of its frames are asked for here. */
+/* Under a tolerance, dials are chosen once for the whole turn, not only for the requested frames. */
 static bool choose_for_all(Turning *turning, WrError *err)
 {
     const WrTurntable *order = turning->order;
@@ -111,7 +111,7 @@ static bool write_frame(Turning *turning, int frame, WrError *err)
     return good;
 }
 
-#define DRAWN 0.95 /* of a film's work: its frames; reading it back is the rest */
+#define DRAWN 0.95 /* share of a film's work for drawing; the rest is the read-back */
 
 static bool all_frames(Turning *turning, double share, WrError *err)
 {
@@ -173,7 +173,7 @@ static bool make_files(Turning *turning, WrError *err)
     if (turning->there > 0)
         wr_session_note(turning->session, "%d of %d frames were there", turning->there,
                         turning->order->last - turning->order->first + 1);
-    /* Each frame is of use by itself, and may have taken long: those that are done stay. */
+    /* Finished frames are useful and may have taken long, so they stay. */
     if (!good && turning->written > 0)
         wr_session_note(turning->session,
                         "%s: %d of %d frames are new, the others as they were; `wrinkle render "

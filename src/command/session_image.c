@@ -1,4 +1,4 @@
-/* What of a strangers' picture the session remembers: its hash, its part, its note. */
+/* Reading of pictures for commands: checksum, part, note. */
 #include "command/session_internal.h"
 
 #include "base/error.h"
@@ -14,7 +14,7 @@
 
 /* ---- files ---- */
 
-/* The bytes of a picture in a glTF file, by its name. */
+/* Bytes of a picture in a glTF file. */
 static bool picture_bytes(const char *name, size_t length, int image, char **bytes, size_t *size,
                           WrError *err)
 {
@@ -38,7 +38,7 @@ WrImage *wr_input_image(const char *path, const WrImageWish *wish, WrError *err)
         return NULL;
     }
     if (!picture_bytes(path, length, index, &bytes, &size, err)) return NULL;
-    /* glTF has these two kinds; the name's ending stands for the kind */
+    /* glTF allows only PNG and JPEG; the extension selects the decoder */
     const bool png = size > 4 && memcmp(bytes, "\x89PNG", 4) == 0;
     const bool jpeg = size > 2 && memcmp(bytes, "\xff\xd8", 2) == 0;
     WrImage *image = NULL;

@@ -27,7 +27,7 @@ static void forget_kept(WrSession *session)
     wr_array_free(&session->kept);
 }
 
-/* A glTF is kept with its parts, as one file: they lie beside it under names that others' parts have too. */
+/* A glTF is copied as one packed file, since other files may have parts of the same names. */
 static bool keep_content(WrSession *session, const char *path, const char *sha256)
 {
     WrText text = { 0 };
@@ -40,7 +40,7 @@ static bool keep_content(WrSession *session, const char *path, const char *sha25
     return kept;
 }
 
-/* Looks for the copy only once: strokes name the same brush again and again. */
+/* Look for the copy only once, since strokes name the same brush many times. */
 static void keep(WrSession *session, const char *path, const char *sha256)
 {
     for (int i = 0; i < session->kept.count; i++)
@@ -48,7 +48,7 @@ static void keep(WrSession *session, const char *path, const char *sha256)
     if (keep_content(session, path, sha256)) wr_array_push(&session->kept, wr_strdup(sha256));
 }
 
-/* A preset looks for its tip beside itself, by its name. */
+/* Copy the tip as well: a preset refers to a tip by name in its own folder. */
 static void keep_tip_beside(WrSession *session, const char *path)
 {
     for (int i = 0; i < session->kept.count; i++)
@@ -57,7 +57,7 @@ static void keep_tip_beside(WrSession *session, const char *path)
         wr_array_push(&session->kept, wr_strdup(path));
 }
 
-/* The file that argument `index` names, and its content. False if it cannot be read, or there is none. */
+/* The file that argument `index` names, and its checksum. False if it is unreadable, or the argument names none. */
 static bool file_of(WrSession *session, const WrCall *call, int index, const char *folder,
                     WrText *path, char hex[65])
 {
@@ -84,8 +84,8 @@ static bool file_of(WrSession *session, const WrCall *call, int index, const cha
     return good;
 }
 
-/* Name the files that a line reads by whole paths and their content, and keep copies of them, so that a
-   replay depends neither on the folder nor on what becomes of the files. */
+/* Replace file names in a line by absolute paths and checksums, and keep copies of the files. A replay then depends
+   neither on the folder nor on later changes of the files. */
 static void name_files(WrSession *session, WrCall *call, const char *folder)
 {
     for (int i = 0; i < call->count; i++) {
@@ -103,7 +103,7 @@ static void name_files(WrSession *session, WrCall *call, const char *folder)
     }
 }
 
-/* The line as the journal holds it. */
+/* Form of a line in the journal. */
 static void journal_line(WrSession *session, const char *line, const char *folder, WrText *text)
 {
     WrCall *call = NULL;
@@ -116,7 +116,7 @@ static void journal_line(WrSession *session, const char *line, const char *folde
     wr_call_free(call);
 }
 
-/* A line that led to where the journal begins. */
+/* Add a line that leads to the journal's start. */
 static void put_line(void *ctx, const char *line, const char *folder)
 {
     WrSession *session = ctx;
@@ -137,7 +137,7 @@ static WrHash hash_at_start(const WrSession *session)
 
 static bool restart(WrSession *session, bool checked, WrError *err);
 
-/* Nothing was done since it was saved or opened. */
+/* True if nothing was done since the document was saved or opened. */
 static bool is_saved(const WrSession *session)
 {
     return session->state.path && wr_session_revision(session) == session->state.saved_revision;
@@ -150,7 +150,7 @@ void wr_session_journal_saved(WrSession *session)
     wr_journal_saved(session->journal, session->state.path, &hash, NULL);
 }
 
-/* What was done before the journal: the lines of a script or picture that was opened, --do, and views. */
+/* Record the history before the journal: lines of an opened script or picture, --do, and views. */
 static void add_history(WrSession *session)
 {
     wr_session_lines(session, put_line, session);
@@ -158,8 +158,8 @@ static void add_history(WrSession *session)
         wr_session_journal_saved(session);
 }
 
-/* What the document was before the first command, as a journal's start. The file that it was opened from
-   counts only as long as it is what was opened: it may have been saved over since. */
+/* Record the state before the first command as the journal's start. The document's file counts only if it is
+   unchanged since it was opened. */
 static void begin(WrSession *session)
 {
     const WrSessionState *state = &session->state;
@@ -171,7 +171,9 @@ static void begin(WrSession *session)
     if (opened)
         start = (WrJournalStart){ .kind = WR_JOURNAL_DOCUMENT, .path = state->path, .sha256 = hex };
     if (wr_history_position(state->history) == 0) start.hash = hash_at_start(session);
-    if (wr_progress_stopped()) return; /* the hash is of a part only: the next command begins it */
+    if (wr_progress_stopped())
+        return; /* the hash is incomplete: the next command begins the
+                                          journal */
     session->journal = wr_journal_begin(&options, &start);
     forget_kept(session);
     if (opened) keep(session, state->path, hex);
@@ -182,7 +184,7 @@ static void begin(WrSession *session)
     if (opened || !state->origin) add_history(session);
     else if (!restart(session, false, &why)) {
         if (wr_progress_stopped())
-            wr_session_journal_drop(session); /* the next command begins it */
+            wr_session_journal_drop(session); /* the next command begins a new one */
         else wr_journal_break(session->journal, why.text);
     }
 }
@@ -208,8 +210,8 @@ void wr_session_journal_before(WrSession *session, const WrCall *call)
     wr_text_fini(&text);
 }
 
-/* A replay knows the steps and views from the journal's start on: an undo, a redo or a view that leaves these
-   cannot be replayed, so the journal then begins anew from what it led to. */
+/* A replay has the steps and views since the journal's start. An undo, a redo or a view beyond them cannot be
+   replayed, so the journal then restarts at the resulting state. */
 static void follow(WrSession *session, bool pushed)
 {
     int position = wr_session_history_position(session);
@@ -289,7 +291,7 @@ void wr_session_journal_drop(WrSession *session)
     forget_kept(session);
 }
 
-/* Begin the journal anew from the document as it is now. checked: from a snapshot that was read back. */
+/* Restart the journal at the current document. checked: from a snapshot that is read back. */
 static bool restart(WrSession *session, bool checked, WrError *err)
 {
     WrText path = { 0 }, scene = { 0 };
@@ -300,7 +302,8 @@ static bool restart(WrSession *session, bool checked, WrError *err)
     bool good =
         wr_journal_snapshot_path(session->journal, &path, err) &&
         wr_document_save(session->state.document, wr_text_get(&scene), wr_text_get(&path), err);
-    if (good && wr_progress_stopped()) good = wr_fail(err, "cancelled"); /* so may be the hash */
+    if (good && wr_progress_stopped())
+        good = wr_fail(err, "cancelled"); /* the hash may be incomplete too */
     start.snapshot = wr_text_get(&path);
     good = good && (!checked || wr_session_reads_back(session, start.snapshot, err));
     good = good && wr_journal_restart(session->journal, &start, err);

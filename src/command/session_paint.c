@@ -1,4 +1,4 @@
-/* What paints: the brush that a line describes, and what it paints on. */
+/* Set-up of painting: brush and target layer of a line. */
 #include "command/brush_args.h"
 
 #include "base/error.h"
@@ -66,7 +66,7 @@ static bool take_symmetry(const WrCall *call, WrSymmetry *out, WrError *err)
 {
     const double *centre = wr_call_arg(call, "centre")->numbers;
     const double *repeat = wr_call_arg(call, "repeat")->numbers;
-    int mirror = wr_call_choice(call, "mirror"); /* none, u, v, uv */
+    int mirror = wr_call_choice(call, "mirror"); /* choices: none, u, v, uv */
     WrSymmetry symmetry = { .mirror_u = mirror & 1,
                             .mirror_v = mirror & 2,
                             .radial = (int)wr_call_number(call, "radial"),
@@ -107,7 +107,7 @@ static bool take_preset(WrSession *session, WrCall *call, WrHeldBrush *held, WrE
     return true;
 }
 
-/* A tip has a spacing of its own to propose. */
+/* Use a tip; its own spacing is the default. */
 static bool take_tip(WrSession *session, WrCall *call, WrHeldBrush *held, WrError *err)
 {
     if (!check_needs(call, "tip_sha256", "tip", err)) return false;
@@ -132,7 +132,7 @@ static void held_fini(WrHeldBrush *held)
     *held = (WrHeldBrush){ 0 };
 }
 
-/* A flood has no shape, and so neither preset nor tip nor symmetry. */
+/* A flood fill has no brush shape: no preset, tip or symmetry. */
 static bool has_shape(const WrCall *call)
 {
     return call->command->more == wr_args_brush;
@@ -160,14 +160,14 @@ bool wr_check_settings(const void *ctx, const char *name, const char *value, WrE
     return false;
 }
 
-/* ---- the ground ---- */
+/* ---- target ---- */
 
-/* What erasing a layer leads to:
+/* Effect of erasing on a layer, by its blend mode:
  *   add, subtract   height 0, which changes nothing below
- *   mix             the composite of the layers below, made once
- *   the others      go by the cover: it falls, and the heights stay, or what is left of them would change.
- *                   Where the cover ends at 0 they become 0 like a new layer's (wr_painting_end)
- * The layer at the bottom lies on the ground: without cover its heights go to 0. */
+ *   mix             the composite of the layers below, computed once
+ *   others          coverage falls; the heights stay, since changing them would alter the partly covered rest.
+ *                   Where coverage reaches 0 they become 0, as in a new layer (wr_painting_end)
+ * The bottom layer has nothing below it: without coverage its heights go to 0. */
 static void prepare_erasing(WrSession *session, WrLayer *layer, WrPainting *painting)
 {
     const WrDocument *document = session->state.document;
@@ -191,7 +191,7 @@ bool wr_painting_begin(WrSession *session, WrCall *call, WrPainting *painting, W
     if (!layer || !hold_brush(session, call, &made.held, err)) return false;
     wr_filters_forget();
     if (made.held.brush.mode == WR_BRUSH_ERASE) prepare_erasing(session, layer, &made);
-    if (!wr_filters_carried(err)) { /* of what lies below */
+    if (!wr_filters_carried(err)) { /* of the layers below */
         wr_field_free(made.below);
         held_fini(&made.held);
         return false;

@@ -1,5 +1,5 @@
-/* Pictures of the document: in memory, and into files by bands of rows, so that no more of a large one than a
-   band lies in memory. */
+/* Pictures of the document, in memory or written to files in bands of rows, so that a large one needs only one band
+   of memory. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-#define DRAWN 0.8 /* of a picture's work: drawing it; its file is the rest */
+#define DRAWN 0.8 /* share of a picture's work for drawing; the rest is the file */
 
 static bool make_request(WrSession *session, int width, int height, double turn_deg,
                          WrFrameRequest *out, WrError *err)
@@ -48,7 +48,7 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
     return wr_tolerance_frame(session->renderer, &request, &session->choice, frame, err);
 }
 
-/* The dials of a picture that is drawn again: under a tolerance those that were chosen for it, else NULL, its own. */
+/* Dials of a picture that is drawn again: those already chosen under a tolerance, else NULL (its own). */
 static bool choice_for(WrSession *session, const WrFrameRequest *request, const WrChoice **out,
                        WrError *err)
 {
@@ -108,20 +108,20 @@ const WrChoice *wr_session_choice(const WrSession *session)
 
 /* ---- files ---- */
 
-/* A picture on its way into a file, from above. */
+/* A picture being written to a file, from the top. */
 typedef struct Picture {
     WrSession *session;
     WrFrameRequest request;
-    WrFrame frame;      /* the rows at hand */
-    int first;          /* of them */
+    WrFrame frame;      /* rows of the present band */
+    int first;          /* first row of the band */
     int step;           /* rows of a band */
-    double drawn;       /* of a band's work: drawing it; its place in the file is the rest */
-    bool linear, alpha; /* of the file: float; codes with alpha */
+    double drawn;       /* share of a band's work for drawing; the rest is the file */
+    bool linear, alpha; /* file formats: linear float; 8-bit with alpha */
     int64_t replaced;
-    int64_t clipped; /* pixels of codes that are full in some colour */
+    int64_t clipped; /* over-exposed pixels: a channel at 255 */
 } Picture;
 
-/* Rows of a band: whole strips, as files are written; all where they fit. pixel: bytes. */
+/* Rows of a band: whole strips, as in files; the whole picture if it fits. pixel: bytes. */
 static int band_rows(const WrSession *session, int width, int height, size_t pixel)
 {
     const size_t most =
@@ -132,7 +132,7 @@ static int band_rows(const WrSession *session, int width, int height, size_t pix
     return strips > 0 ? (int)strips * WR_IMAGE_STRIP : WR_IMAGE_STRIP;
 }
 
-/* How far the picture is when that much of the band at hand is done. */
+/* Progress of the picture for a share of the present band. */
 static double done_of(const Picture *picture, double share)
 {
     return (picture->first + share * picture->frame.height) / picture->request.height;
@@ -161,7 +161,8 @@ static bool draw_band(Picture *picture, int y, WrError *err)
     return good;
 }
 
-/* Of scenes whose light is developed, or comes from all sides: elsewhere a highlight is meant to be white. */
+/* Count over-exposed pixels. Only for scenes with tone mapping or environment light: in others a highlight is meant
+   to be white. */
 static void count_clipped(Picture *picture, int rows, const uint8_t *codes)
 {
     const WrScene *scene = picture->request.scene;
@@ -173,7 +174,7 @@ static void count_clipped(Picture *picture, int rows, const uint8_t *codes)
         picture->clipped += codes[0] == 255 || codes[1] == 255 || codes[2] == 255;
 }
 
-#define CLIPPED_TOLD 0.005 /* of a picture's pixels: less is sparkle */
+#define CLIPPED_TOLD 0.005 /* share of over-exposed pixels that is reported: less is sparkle */
 
 static void tell_clipped(const Picture *picture, const char *path)
 {
@@ -211,8 +212,8 @@ static bool give_rows(void *ctx, int y, int rows, void *out, WrError *err)
            wr_fail(err, "cancelled");
 }
 
-/* What is drawn before its file is begun: the whole picture where it is held anyway. A tolerance is kept to by all
-   of it together. */
+/* Draw before the file is begun: the whole picture if it is kept in memory anyway. A tolerance applies to the picture
+   as a whole. */
 static bool draw_first(Picture *picture, WrError *err)
 {
     const WrFrameRequest *request = &picture->request;
@@ -261,7 +262,7 @@ static bool write_picture(Picture *picture, const char *path, WrError *err)
     return true;
 }
 
-/* Whether a file can be written there, before a long computation. */
+/* Check before a long computation that the file can be written. */
 static bool check_target(const char *path, WrError *err)
 {
     WrFileTarget target = { 0 };
@@ -278,7 +279,7 @@ static bool is_linear(const char *path)
     return strcmp(ending, "exr") == 0 || strcmp(ending, "tif") == 0 || strcmp(ending, "tiff") == 0;
 }
 
-/* Are its codes written without a background, with alpha? */
+/* True if the file is 8-bit with alpha and no background. */
 static bool has_alpha(const WrSession *session, const char *path)
 {
     return session->state.document->scene->background.kind == WR_BACKGROUND_NONE &&
@@ -289,7 +290,7 @@ bool wr_session_has_rendered(const WrSession *session, const char *path, int wid
 {
     static const WrImageWish as_it_is = { .keep_lost = true };
     const bool linear = is_linear(path);
-    if (!wr_path_is_there(path)) return false; /* no reader is started for it */
+    if (!wr_path_is_there(path)) return false; /* avoids starting a reader process */
     WrImageRows *rows = wr_image_rows_open(path, &as_it_is, NULL);
     if (!rows) return false;
     const WrImage *head = wr_image_rows_head(rows);

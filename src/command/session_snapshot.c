@@ -1,4 +1,4 @@
-/* What can be read of a session while another thread has it. */
+/* Read-only snapshots of a session for other threads. */
 #include "command/session_internal.h"
 
 #include "base/memory.h"
@@ -13,7 +13,7 @@ WrSession *wr_session_snapshot(const WrSession *session)
     WrSession *still = wr_alloc(1, sizeof *still);
     still->still = true;
     still->options.smooth = session->options.smooth;
-    still->options.pool = session->options.pool; /* estimates ask how many threads it has */
+    still->options.pool = session->options.pool; /* memory estimates depend on the thread count */
     still->state = (WrSessionState){ .document = wr_document_share(state->document),
                                      .history = wr_history_still(state->history),
                                      .views = wr_views_clone(state->views),

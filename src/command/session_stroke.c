@@ -30,8 +30,8 @@ bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
     return true;
 }
 
-/* The double that `value`, printed with that many decimals, reads back as: k / 10^n is correctly rounded
-   because both are whole and below 2^53. */
+/* The double that the text of `value` with n decimals reads back as. k / 10^n is correctly rounded because both are
+   integers below 2^53. */
 static double round_decimals(double value, double ten_to_n)
 {
     double k = rint(value * ten_to_n);
@@ -87,7 +87,7 @@ bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int coun
     return true;
 }
 
-/* The line of the stroke, which is no longer open. */
+/* End the open stroke and return its line. */
 static WrCall *take_call(WrSession *session)
 {
     WrCall *call = session->stroke_call;
@@ -96,7 +96,7 @@ static WrCall *take_call(WrSession *session)
     return call;
 }
 
-/* What is left, or waits, is drawn when the stroke is freed. */
+/* Queued and delayed samples are drawn when the stroke is freed. */
 bool wr_session_stroke_end(WrSession *session, WrError *err)
 {
     if (!session->stroke) return wr_fail(err, "no stroke is being drawn");

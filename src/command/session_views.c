@@ -1,4 +1,4 @@
-/* How the document is looked at: views, the way back through them, and the lines that bring them back. */
+/* View history: undo and redo of views, and the lines that restore them. */
 #include "command/session_internal.h"
 
 #include "base/memory.h"

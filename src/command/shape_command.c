@@ -1,4 +1,4 @@
-/* Shapes with the brush: rectangles, ellipses, polygons, paths. */
+/* Shapes drawn with the brush: rectangles, ellipses, polygons, paths. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -14,9 +14,9 @@
 
 #include <math.h>
 
-#define OUTLINE_TOLERANCE 0.0625 /* texels between a curve and its chords */
+#define OUTLINE_TOLERANCE 0.0625 /* texels between a curve and its chords, for outlines */
 
-#define FILL_TOLERANCE (1.0 / 1024.0) /* the same where areas count */
+#define FILL_TOLERANCE (1.0 / 1024.0) /* the same limit for filled shapes, whose area is exact */
 
 static WrSelectPoint point(const WrCall *call, const char *name)
 {
@@ -24,7 +24,7 @@ static WrSelectPoint point(const WrCall *call, const char *name)
     return (WrSelectPoint){ numbers[0], numbers[1] };
 }
 
-/* ---- the four shapes: from a call to a figure ---- */
+/* ---- the four shapes: outlines from a call ---- */
 
 typedef bool Maker(const WrField *like, const WrCall *call, double tolerance, WrShapeOutline *out,
                    WrError *err);
@@ -86,7 +86,7 @@ static Maker *const makers[] = {
 };
 WR_ROWS_END(makers, SHAPE_FORMS);
 
-/* ---- outlines ---- */
+/* ---- strokes along outlines ---- */
 
 /* An outline as the samples of a stroke. */
 typedef struct Trace {
@@ -101,7 +101,7 @@ static double distance(const Trace *trace, WrSelectPoint a, WrSelectPoint b)
     return sqrt(x * x + y * y);
 }
 
-/* Strokes join samples along the shorter way round, so no step may be as long as half a table. */
+/* Strokes join samples along the shorter way round a periodic table, so each step must be shorter than half of it. */
 static void go(Trace *trace, WrSelectPoint to)
 {
     WrSelectPoint from = trace->points.data[trace->points.count - 1];
@@ -116,7 +116,7 @@ static void go(Trace *trace, WrSelectPoint to)
     wr_array_push(&trace->points, to);
 }
 
-/* Take so many texels off the end, but never the whole. */
+/* Remove up to `by` texels from the end; the outline never vanishes. */
 static void shorten(Trace *trace, double by)
 {
     while (trace->points.count >= 2) {
@@ -152,8 +152,8 @@ static bool goes_by_dabs(const WrBrush *b)
            b->jitter_size > 0.0 || b->jitter_angle_deg > 0.0 || wr_brush_modes[b->mode].moves;
 }
 
-/* A closed outline must not have two dabs where it meets itself: spread them evenly over its length, and
-   stop just before the one that would fall on the first. */
+/* Spread the dabs of a closed outline evenly over its length and stop before the one that would coincide with the
+   first, so that the start is not painted twice. */
 static void close_evenly(Trace *trace, WrBrush *brush)
 {
     if (brush->preset) {
@@ -195,9 +195,9 @@ static bool draw_outline(WrPainting *painting, const WrShapeOutline *figure, WrE
     return good;
 }
 
-/* ---- insides ---- */
+/* ---- filled shapes ---- */
 
-/* The figure's points as a copy of the symmetry has them, near the table on periodic axes. */
+/* Points of one symmetry copy, shifted close to the table on periodic axes. */
 static void move_points(const WrField *field, const WrShapeOutline *figure, const WrCopy *copy,
                         WrSelectPoint *out)
 {
@@ -239,7 +239,7 @@ static WrField *cover_copies(WrSession *session, const WrField *field, const WrS
     return cover;
 }
 
-/* Where nothing turns or mirrors it, rectangles and ellipses are covered more exactly than by points. */
+/* Coverage without rotation or mirror copies: rectangles and ellipses have exact formulas, better than polygons. */
 static WrField *cover_plain(WrSession *session, const WrField *field, const WrCall *call,
                             const WrShapeOutline *figure, WrError *err)
 {
@@ -278,7 +278,7 @@ static bool fill_inside(WrSession *session, const WrPainting *painting, const Wr
 
 /* ---- the command ---- */
 
-/* The inside's points are so many as the precision wants, or as a polygon may have. */
+/* Build the outline; the number of points depends on the required precision, and is limited for polygons. */
 static bool make_figure(const WrField *like, const WrCall *call, bool fill, WrShapeOutline *figure,
                         WrError *err)
 {

@@ -1,4 +1,4 @@
-/* What the export sheet was told last, so that a document keeps it. */
+/* The command sheet: stored settings of the export sheet. */
 #include "base/error.h"
 #include "base/enum_rows.h"
 #include "base/text.h"
@@ -18,7 +18,7 @@ static const char *const depths[WR_SHEET_DEPTHS + 1] = { [WR_ROW(WR_SHEET_AS_SET
 static const char *const sizes[WR_SHEET_SIZES + 1] = { "table", "half", "quarter", "power" };
 static const char *const ranges[WR_SHEET_RANGES + 1] = { "set", "auto", "unit", "signed" };
 
-/* The most bytes of a text; ctx tells. */
+/* Limits the length of a text; ctx holds the limit in bytes. */
 static bool check_length(const void *ctx, const char *name, const char *value, WrError *err)
 {
     const size_t most = *(const size_t *)ctx;

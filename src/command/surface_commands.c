@@ -1,4 +1,4 @@
-/* What carries the table and how it is wrinkled: surface, rotate, analytic, bump, replicate. */
+/* Surface and bump commands: surface, rotate, analytic, bump, replicate. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
@@ -88,7 +88,7 @@ static void print_replicate(const WrScene *scene, WrText *text)
     wr_text_add(text, "\n");
 }
 
-/* HC41: on a closed surface a replication that is not whole leaves a seam. */
+/* HC41: on a closed surface a replication that is not an integer leaves a seam. */
 static void warn_seam(WrSession *session, const WrScene *scene)
 {
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
@@ -100,7 +100,7 @@ static void warn_seam(WrSession *session, const WrScene *scene)
             info->name);
 }
 
-/* What a surface's texts make; *made stays NULL without texts. */
+/* Compile a surface's texts; *made stays NULL without texts. */
 static bool make_data(const WrCall *call, WrSurfaceKind kind, WrSurfaceData **made, WrError *err)
 {
     const WrSurfaceInfo *info = wr_surfaces[kind];
@@ -121,7 +121,7 @@ static bool run_surface(WrSession *session, WrCall *call, WrError *err)
     for (int i = 0; i < call->count; i++) {
         if (!call->args[i].given) continue;
         int offset = wr_surface_param_offset(shape.kind, call->specs[i].name);
-        if (offset < 0) continue; /* a text, or a mesh's file */
+        if (offset < 0) continue; /* a text or a mesh file, not a number */
         memcpy(shape.value + offset, call->args[i].numbers,
                (size_t)call->args[i].rows * (size_t)wr_arg_width(&call->specs[i]) * sizeof(double));
     }
@@ -273,7 +273,7 @@ WR_ROWS_END(analytic_forms, ANALYTIC_FORMS);
 
 WR_FORMS(form_analytic, analytic_forms)
 
-/* A surface's parameters as arguments; numbers of 3n components are lists of n points. */
+/* A surface's parameters as arguments; numbers with 3n components are lists of n points. */
 static bool form_surface(int i, WrForm *out)
 {
     if (i >= WR_SURFACE_COUNT) return false;

@@ -1,4 +1,4 @@
-/* Commands of the table as a whole: table, fill, grid, open, image. */
+/* Commands for the whole table: table, fill, grid, open, image. */
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
@@ -25,7 +25,7 @@ static bool run_table(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* A table like the layer's, every height `level`. */
+/* A table of the layer's size and edges with constant height `level`. */
 static WrField *flat_like(const WrField *field, double level)
 {
     return wr_field_new(wr_field_width(field), wr_field_height(field), wr_field_wrap_u(field),
@@ -42,12 +42,12 @@ static bool run_fill(WrSession *session, WrCall *call, WrError *err)
 
 /* ---- grid ---- */
 
-/* Which of `count` texels along an axis of `cells` cells lie on a line: with the texel's centre at
- * i + 1/2 and boundaries at multiples of count/cells, the signed distance p to the nearest boundary is
- * an exact fraction q / (2 cells), q whole, -count <= q < count; high where -width/2 <= p < width/2. */
+/* Mark the texels on grid lines among `count` texels along an axis of `cells` cells. The texel's centre is at i + 1/2
+ * and boundaries are at multiples of count/cells. The signed distance p to the nearest boundary is an exact fraction
+ * q / (2 cells), q an integer, -count <= q < count. A texel is high where -width/2 <= p < width/2. */
 static void mark_lines(int count, int cells, double width, unsigned char *high)
 {
-    double limit = width * cells; /* of q */
+    double limit = width * cells; /* in units of q */
     for (int i = 0; i < count; i++) {
         int64_t q = (2 * (int64_t)i + 1) * cells % (2 * (int64_t)count);
         if (q >= count) q -= 2 * (int64_t)count;
@@ -105,7 +105,7 @@ static bool run_open(WrSession *session, WrCall *call, WrError *err)
     return good;
 }
 
-/* Is there nothing but one layer, so that the table may become another? */
+/* True if there is only one layer, so that the table's size may change. */
 static bool is_alone(const WrDocument *document)
 {
     return document->layer_count == 1 && !document->selection && !document->layers[0].mask;
@@ -152,7 +152,7 @@ static void turn_over(WrField *field)
     wr_free(row);
 }
 
-/* The heights that have the normals of a map of ours; a negative height turned them round. */
+/* Heights from a normal map made by this program; a negative height had inverted it. */
 static WrField *heights_of_map(WrSession *session, const WrImageLabel *label, const char *path,
                                const WrField *like, WrError *err)
 {
@@ -210,7 +210,7 @@ WrField *wr_session_heights_of(WrSession *session, WrImageRows *rows, const char
     return field;
 }
 
-/* The table that a picture makes: its size, and the edges that its label tells. */
+/* Table of a picture: its size, and the edge modes of its label. */
 static WrField *table_of(const WrDocument *document, const WrImage *image, bool labels,
                          WrError *err)
 {
@@ -222,7 +222,7 @@ static WrField *table_of(const WrDocument *document, const WrImage *image, bool 
     return wr_field_new(image->width, image->height, wrap[0], wrap[1], 0, err);
 }
 
-/* The cell is as large as its label tells, if that is more than every file does. */
+/* Set the cell size from the label, unless it is the default that every file has. */
 static void take_cell(WrSession *session, const WrImageLabel *label, const char *path)
 {
     WrCellSize cell = { label->cell[0], label->cell[1], label->mm, label->mm ? label->height : 1 };

@@ -1,4 +1,5 @@
-/* `surface terrain`: ground whose form is a picture's heights, or those of a layer of the document, which it follows. */
+/* The command `surface terrain`: a surface whose form is a height picture, or a layer of the document. Changes of the
+   layer update the form. */
 #include "command/session_internal.h"
 
 #include "base/error.h"
@@ -45,7 +46,8 @@ static WrTriangles *made_of(WrTerrain terrain, const WrShape *shape, WrError *er
     return made;
 }
 
-/* Elevations in metres on a surface of a few units are a needle: the height that makes them half as tall as wide. */
+/* Elevations in metres on a surface a few units wide make a needle. The note suggests the height scale for half as
+   tall as wide. */
 static void note_needle(WrSession *session, const char *path, const WrImage *image,
                         const WrShape *shape)
 {
@@ -90,9 +92,10 @@ void wr_terrain_note(WrSession *session, const char *path, const WrTriangles *me
                     (int)set->rows, (int)mesh->triangle_count);
 }
 
-/* ---- of a layer ---------------------------------------------------------------------------------- */
+/* ---- from a layer -------------------------------------------------------------------------------- */
 
-/* Form and bump are two layers: the form is left out of the joined heights, that nothing is there twice. */
+/* Form and bump use different layers: the form layer is hidden from the composite, so that its heights do not count
+   twice. */
 static bool hide_layer(WrSession *session, int index, const WrScene *scene, WrError *err)
 {
     const WrScene *before = session->state.document->scene;
@@ -122,7 +125,7 @@ bool wr_terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene, WrE
             !hide_layer(session, index, scene, err))
             return false;
         name = session->state.document->layers[index].name;
-    } else if (session->embedded_mesh) { /* until the layers are asked */
+    } else if (session->embedded_mesh) { /* until the layer's heights are used */
         WrTriangles *mesh = wr_scene_mesh_from_image(session->embedded_mesh, scene->chosen, err);
         if (!mesh) return false;
         wr_scene_set_triangles(scene, mesh, NULL, NULL);
@@ -131,7 +134,7 @@ bool wr_terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene, WrE
     return true;
 }
 
-/* Does object i have the form of a layer that is there, and that is another by now? Which. */
+/* True if the layer that object i takes its form from exists and has changed; *index is that layer. */
 static bool lags(const WrDocument *document, int i, int *index)
 {
     const WrScene *object = wr_scene_object(document->scene, i);
@@ -157,7 +160,7 @@ static bool take_form(WrSession *session, WrScene *object, int index, WrError *e
     return true;
 }
 
-/* Object i with another form, other colours or both. */
+/* Rebuild object i's form, its colours or both. */
 static bool follow_object(WrSession *session, int i, int form, WrError *err)
 {
     const WrScene *scene = session->state.document->scene;

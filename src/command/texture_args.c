@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Where a picture is from and how often it is laid: " FILE channel=... part=... sha256=... repeat=...". */
+/* Print source and tiling of a picture: " FILE channel=... part=... sha256=... repeat=...". */
 void wr_print_laid(const WrTextureSample *laid, bool named, WrText *text)
 {
     const double ru = laid->ru, rv = laid->rv;
@@ -31,7 +31,7 @@ void wr_print_laid(const WrTextureSample *laid, bool named, WrText *text)
     }
 }
 
-/* How often a picture is laid: as the table, once, or so often. */
+/* Parse the tiling of a picture: as the table, once, or a number of repeats. */
 static bool repeat_parse(const char *text, WrTextureSample *repeat)
 {
     const char *comma = strchr(text, ',');
@@ -52,13 +52,13 @@ bool wr_check_repeat(const void *ctx, const char *name, const char *value, WrErr
                    value);
 }
 
-/* What the line says of it; the words borrow nothing. */
+/* Store the line's repeat= value; the words are not borrowed. */
 void wr_take_repeat(const WrCall *call, WrTextureSample *laid)
 {
     if (wr_call_given(call, "repeat")) repeat_parse(wr_call_arg(call, "repeat")->text, laid);
 }
 
-/* Another file's picture: laid as the table is, unless the line says otherwise. */
+/* Set the source to another file; tiling as the table's, unless the line has repeat=. */
 void wr_take_laid(WrCall *call, const char *name, WrTextureSample *laid)
 {
     const char *hex = wr_call_arg(call, "sha256")->text;
@@ -72,7 +72,7 @@ void wr_take_laid(WrCall *call, const char *name, WrTextureSample *laid)
     wr_take_repeat(call, laid);
 }
 
-/* The picture that a line names: inside a document the one that it carries, else the file's. The caller frees it. */
+/* The picture that a line names: while a document loads, its embedded one, else the file's. The caller frees it. */
 WrImage *wr_find_laid(WrSession *session, WrCall *call, const char *name, int which, WrError *err)
 {
     if (session->loading) {
@@ -91,7 +91,7 @@ WrImage *wr_find_laid(WrSession *session, WrCall *call, const char *name, int wh
     return image;
 }
 
-/* What belongs to a file stands in a line that names none. */
+/* Arguments of a file are refused in a line without a file. */
 bool wr_refuse_without(const WrCall *call, const char *const *names, const char *why, WrError *err)
 {
     for (; *names; names++)

@@ -1,5 +1,5 @@
-/* texture_args.h - what commands that lay a picture over u and v have in common: where it is from, and how often it is laid.
-   Layer 6, private to src/command. */
+/* texture_args.h - shared arguments of commands that map a picture over u and v: source file and tiling. Private to
+   src/command. */
 #pragma once
 #include "command/args.h"
 #include "command/command_line.h"
@@ -12,17 +12,17 @@ typedef struct WrTextureSample WrTextureSample;
 typedef struct WrSession WrSession;
 typedef struct WrText WrText;
 
-/* " FILE channel=... part=... sha256=... repeat=..."; named: with the file's name. */
+/* Print " FILE channel=... part=... sha256=... repeat=..."; named: with the file name. */
 void wr_print_laid(const WrTextureSample *laid, bool named, WrText *text);
 bool wr_check_repeat(const void *ctx, const char *name, const char *value, WrError *err);
-/* How often the line has it laid, if it says so. */
+/* Store the line's repeat= value, if given. */
 void wr_take_repeat(const WrCall *call, WrTextureSample *laid);
-/* Another file's picture: laid as the table is, unless the line says otherwise. name NULL: none. */
+/* Set the source to another file; tiling as the table's, unless the line has repeat=. name NULL: no picture. */
 void wr_take_laid(WrCall *call, const char *name, WrTextureSample *laid);
-/* The picture that a line names: inside a document the one of that kind (WrObjectPicture) that it carries, else the file's.
- * The caller frees it. */
+/* The picture that a line names: while a document loads, its embedded picture of that kind (WrObjectPicture), else
+ * the file's. The caller frees it. */
 WrImage *wr_find_laid(WrSession *session, WrCall *call, const char *name, int which, WrError *err);
-/* False and "WHY NAME=" where the line gives one of those names, the last of which is NULL. */
+/* False and the error "WHY NAME=" if the line contains one of those names. The list ends with NULL. */
 bool wr_refuse_without(const WrCall *call, const char *const *names, const char *why, WrError *err);
 
 #define WR_ARGS_REPEAT                                                                             \

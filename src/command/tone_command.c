@@ -1,4 +1,4 @@
-/* How light becomes the codes of a picture. */
+/* The command tone: mapping from light to pixel values. */
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"

@@ -1,4 +1,4 @@
-/* What is selected, or whole layers, moved, turned, scaled and mirrored. */
+/* The command transform: move, rotate, scale and mirror the selection or whole layers. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -16,16 +16,16 @@
 
 #include <math.h>
 
-/* One line's work. */
+/* State of one line. */
 typedef struct Moving {
-    WrPlacing placing; /* of any table of the document; heights and weight are set for each */
+    WrPlacing placing; /* for any table of the document; heights and weight are set for each one */
     const WrField *selection;
     WrBlend blend;
     bool leave;
     WrGenerateJob job;
 } Moving;
 
-/* Those that need no more than the two heights. */
+/* Blend modes that depend only on the two heights. */
 static const WrBlend blends[] = { WR_BLEND_REPLACE, WR_BLEND_ADD, WR_BLEND_SUBTRACT,
                                   WR_BLEND_MAX,     WR_BLEND_MIN, WR_BLEND_MULTIPLY };
 
@@ -42,8 +42,8 @@ static WrField *flat(const WrField *like, float level)
 
 /* ---- joining ---- */
 
-/* A texel of the piece (h, how much of it c) over one of the layer (b, of cover cb): as a picture with transparency
- * over another, with the blend where both say something. */
+/* Compositing of a piece's texel (height h, coverage c) over a layer's (height b, coverage cb): alpha compositing,
+ * with the blend mode where both are covered. */
 typedef struct Texel {
     float height, cover;
 } Texel;
@@ -98,7 +98,7 @@ static bool any_in_row(const WrField *field, int j, float *row)
     return false;
 }
 
-/* cover: what the piece says something about; NULL: all of it. */
+/* cover: coverage of the piece; NULL: 1 everywhere. */
 static bool join(const Moving *m, WrLayer *layer, const WrNormalMips *piece, const WrField *cover,
                  WrError *err)
 {
@@ -124,7 +124,7 @@ static bool place(Moving *m, const WrField *what, WrNormalMips *out, WrError *er
     return wr_place(&m->placing, &m->job, out, err);
 }
 
-/* What was there goes, as far as it is selected. */
+/* Clear the source area, weighted by the selection. */
 static void take_out(const Moving *m, WrField **field)
 {
     WrField *nothing = flat(*field, 0.0f), *left = wr_edit_within(*field, nothing, m->selection);
@@ -133,7 +133,7 @@ static void take_out(const Moving *m, WrField **field)
     *field = left;
 }
 
-/* A mask goes with its whole layer; where nothing comes to lie it shows all. */
+/* Move the mask with its whole layer; uncovered areas show everything. */
 static bool move_mask(Moving *m, WrLayer *layer, WrError *err)
 {
     WrNormalMips piece = { NULL, NULL };
@@ -174,7 +174,7 @@ static bool check_scale(const double *scale, WrError *err)
     return true;
 }
 
-/* The piece: the selection's box, or the whole table; and its middle. */
+/* The piece: bounding box of the selection, or the whole table; and its centre. */
 static bool set_piece(Moving *m, const WrCall *call, const WrField *like, WrError *err)
 {
     const double w = wr_field_width(like), h = wr_field_height(like);
@@ -214,7 +214,7 @@ static bool set_up(Moving *m, const WrCall *call, const WrDocument *document, Wr
     return true;
 }
 
-/* The selection goes along. */
+/* Move the selection too. */
 static bool move_selection(Moving *m, WrDocument *document, WrError *err)
 {
     WrNormalMips piece = { NULL, NULL };
@@ -230,7 +230,8 @@ bool wr_call_transform(const WrCall *call, WrDocument *document, WrLayer *active
                        const WrProgress *progress, WrError *err)
 {
     Moving moving;
-    WrField *like = wr_field_share(document->layers[0].heights); /* which are replaced meanwhile */
+    /* the layers' tables are replaced meanwhile */
+    WrField *like = wr_field_share(document->layers[0].heights);
     bool good = set_up(&moving, call, document, pool, like, progress, err);
     for (int i = 0; good && i < document->layer_count; i++)
         if (!active || i == document->active)

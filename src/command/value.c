@@ -58,9 +58,9 @@ const char *wr_excerpt(const char *bytes, char buffer[WR_EXCERPT_SIZE])
     return buffer;
 }
 
-/* ---- what would be right ---- */
+/* ---- descriptions of allowed values ---- */
 
-/* Powers of ten from a million on as such: "1e9". */
+/* Powers of ten from a million on are written as such: "1e9". */
 static void add_limit(WrText *text, double limit)
 {
     const int power = fabs(limit) >= 1e6 ? (int)lround(log10(fabs(limit))) : 0;
@@ -287,7 +287,8 @@ static bool parse_text(const WrArgSpec *spec, const char *where, const char *val
         return fail_value(spec, where, value, err);
     WrError why;
     if (spec->check && !spec->check(spec->check_ctx, spec->name, value, &why)) {
-        const char *colon = strrchr(where, ':'); /* the message names the argument itself */
+        /* the message contains the argument's name itself */
+        const char *colon = strrchr(where, ':');
         return wr_fail(err, "%.*s: %s", colon ? (int)(colon - where) : 0, where, why.text);
     }
     arg->text = wr_strdup(value);
@@ -321,7 +322,7 @@ bool wr_arg_parse(const WrArgSpec *spec, const char *where, const char *value, W
     return true;
 }
 
-/* ---- back to text ---- */
+/* ---- values as text ---- */
 
 void wr_text_add_word(WrText *text, const char *word)
 {
@@ -371,10 +372,10 @@ static int arg_index(const WrCall *call, const char *name)
 
 WrArg *wr_call_arg(const WrCall *call, const char *name)
 {
-    static double zeros[4]; /* of a tuple; nobody writes into them */
+    static double zeros[4]; /* default of a tuple; read only */
     static const WrArg none = { .choice = -1, .numbers = zeros };
     int i = arg_index(call, name);
-    WR_ASSERT(i >= 0); /* tests/arguments.sh looks at every name that is asked for */
+    WR_ASSERT(i >= 0); /* tests/arguments.sh checks every name passed here */
     if (i >= 0) return (WrArg *)&call->args[i];
     return (WrArg *)&none;
 }
