@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#define CELL 16 /* texels of a side: what is marked in one is taken as one box */
+#define CELL 16 /* texels of a side: all marked texels of one cell become one box */
 
 void wr_dirty_fini(WrDirty *keep)
 {
@@ -46,7 +46,7 @@ static WrDirtyBox *patches_of(const WrDirty *keep, int tile)
     return keep->patches + (size_t)tile * (size_t)keep->across * (size_t)keep->down;
 }
 
-/* ---- noting ---- */
+/* ---- recording ---- */
 
 WrDirtyNotes wr_dirty_open(WrDirty *keep, int tile, int x, int y)
 {
@@ -58,14 +58,14 @@ WrDirtyNotes wr_dirty_open(WrDirty *keep, int tile, int x, int y)
                            .y = y - y % keep->tile_h };
 }
 
-/* How far x lies from `from` round the ends, -1/2 .. 1/2. */
+/* Signed distance from `from` to x on a circle of length 1: -1/2 .. 1/2. */
 static inline float apart(float x, float from)
 {
     const float d = x - from;
     return d > 0.5f ? d - 1.0f : d < -0.5f ? d + 1.0f : d;
 }
 
-/* All of another box, too. */
+/* Grows `box` to contain `more`. */
 static void add_box(WrDirtyBox *box, const WrDirtyBox *more)
 {
     if (is_empty(more)) return;
@@ -77,7 +77,7 @@ static void add_box(WrDirtyBox *box, const WrDirtyBox *more)
     box->high_v = fmaxf(box->high_v, dv + more->high_v);
 }
 
-/* The least and the largest of places, by how far they lie from the first one round the ends. */
+/* Smallest and largest offset of the values from the first one, on a circle of length 1. */
 static void extent_round(int count, const float *x, float *low, float *high)
 {
     *low = *high = 0;
@@ -89,7 +89,7 @@ static void extent_round(int count, const float *x, float *low, float *high)
     *low += x[0], *high += x[0];
 }
 
-/* The box with `count` places more. */
+/* Grows `box` to contain `count` more points. */
 static inline void add_places(WrDirtyBox *box, int count, const float *u, const float *v)
 {
     float u0 = u[0], u1 = u[0], v0 = v[0], v1 = v[0];
@@ -101,14 +101,14 @@ static inline void add_places(WrDirtyBox *box, int count, const float *u, const 
     add_box(box, &more);
 }
 
-/* Which patch of those beside each other holds a sample at x, of k a pixel. */
+/* Index of the patch that contains sample x, with k samples a pixel. */
 static int patch_at(float x, int k, int from, int side)
 {
     const int sample = (int)(x + 0.5f);
     return (int)((unsigned)((k == 1 ? sample : sample / k) - from) / (unsigned)side);
 }
 
-/* Samples that stand beside each other in a row, one a pixel. */
+/* Records a run of neighbouring samples in one row, one sample a pixel. */
 static void note_row(const WrDirtyNotes *notes, int x, int count, const float *u, const float *v,
                      WrDirtyBox *patch)
 {
@@ -120,7 +120,7 @@ static void note_row(const WrDirtyNotes *notes, int x, int count, const float *u
     if (run < count) add_places(patch, count - run, u + run, v + run);
 }
 
-/* How many samples from the first on stand in the same patch, whose place among the tile's that is. */
+/* Number of samples, from the first one on, that lie in the patch `column`, `row` of the tile. */
 static int run_of(const WrDirtyNotes *notes, int k, int count, const float *x, const float *y,
                   int column, int row)
 {
@@ -132,7 +132,7 @@ static int run_of(const WrDirtyNotes *notes, int k, int count, const float *x, c
     return run;
 }
 
-/* Samples anywhere in the tile, or in a row of it. */
+/* Records samples at any positions of the tile, or of one row of it. */
 static void note_samples(const WrDirtyNotes *notes, int k, int count, const float *x,
                          const float *y, const float *u, const float *v)
 {
@@ -151,7 +151,7 @@ static void note_samples(const WrDirtyNotes *notes, int k, int count, const floa
     }
 }
 
-/* [count]; single or double precision. */
+/* Converts to single precision: [count] floats or doubles, by `size`. */
 static const float *narrowed(int count, size_t size, const void *numbers, float *room)
 {
     const double *from = numbers;
@@ -197,7 +197,7 @@ typedef struct Compare {
     WrDirty *keep;
 } Compare;
 
-/* What both hold and what lies between them, the shorter way round. */
+/* Smallest box that contains both, joined across the shorter gap round the ends. */
 static WrDirtyBox joined(const WrDirtyBox *a, const WrDirtyBox *b)
 {
     WrDirtyBox box = *a;
@@ -210,14 +210,15 @@ static float area(const WrDirtyBox *box)
     return fminf(box->high_u - box->low_u, 1) * fminf(box->high_v - box->low_v, 1);
 }
 
-/* What a and b come to as one is larger by this than both apart. */
+/* Extra area of the joined box over the two separate boxes. */
 static float waste(const WrDirtyBox *a, const WrDirtyBox *b)
 {
     const WrDirtyBox box = joined(a, b);
     return area(&box) - area(a) - area(b);
 }
 
-/* A box more; with one that it fits to, or, where there are too many, with the one that it fits to best. */
+/* Adds a box. It is merged with a box that it fits; when the list is full, with the box where the waste is
+   least. */
 static void add_change(WrDirty *keep, const WrDirtyBox *box)
 {
     int best = 0;
@@ -231,7 +232,7 @@ static void add_change(WrDirty *keep, const WrDirtyBox *box)
     else keep->changed[keep->changes++] = *box;
 }
 
-/* Texels of the field, with `reach` about them. */
+/* Adds a rectangle of texels of the field, grown by `reach`. */
 static void add_rect(WrDirty *keep, const WrField *field, WrFieldRect r, int reach)
 {
     const float w = (float)wr_field_width(field), h = (float)wr_field_height(field);
@@ -255,7 +256,7 @@ static void mark(int tx, int ty, void *ctx)
     add_rect(compare->keep, compare->now, r, compare->reach);
 }
 
-/* What of a cell of the field is marked. */
+/* Bounding rectangle of the marked texels in one CELL x CELL cell of the field. */
 static WrFieldRect marked_in(const WrField *field, const unsigned char *marked, int i0, int j0)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -272,8 +273,8 @@ static WrFieldRect marked_in(const WrField *field, const unsigned char *marked, 
 void wr_dirty_add_texels(WrDirty *keep, const WrField *field, const unsigned char *marked)
 {
     for (int j = 0; j < wr_field_height(field); j += CELL)
-        for (int i = 0; i < wr_field_width(field); i += CELL)
-            add_rect(keep, field, marked_in(field, marked, i, j), 2); /* one more for rounding */
+        for (int i = 0; i < wr_field_width(field); i += CELL) /* one more texel for rounding */
+            add_rect(keep, field, marked_in(field, marked, i, j), 2);
 }
 
 bool wr_dirty_compare(WrDirty *keep, const WrField *field, int reach)
@@ -286,7 +287,7 @@ bool wr_dirty_compare(WrDirty *keep, const WrField *field, int reach)
     return true;
 }
 
-/* Do they overlap along an axis, round its ends? Both hold a place in 0..1. */
+/* True if the intervals overlap on a circle of length 1. Both contain a point in 0..1. */
 static bool overlap(float a0, float a1, float b0, float b1)
 {
     if (a1 - a0 >= 1 || b1 - b0 >= 1) return true;

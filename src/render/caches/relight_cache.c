@@ -58,7 +58,7 @@ void wr_relight_fini(WrRelight *steady)
     *steady = (WrRelight){ .parts = NULL };
 }
 
-/* ---- what it suits ---- */
+/* ---- supported scenes ---- */
 
 const char *wr_relight_hinders(const WrScene *scene, const WrPlan *plan)
 {
@@ -100,8 +100,8 @@ static unsigned all_groups(const WrRelightView *view)
 
 /* ---- comparing ---- */
 
-/* Rows that light alone decides, or material that goes by P, and what they own; and those that say which numbers are worked
-   out, which `groups` compares. */
+/* Effects that depend only on light, or on material that is a function of P, and the effects they own; and those
+   that decide which numbers are computed, which `groups` compares. */
 static const WrEffect of_light[] = { WR_EFFECT_DIFFUSE,   WR_EFFECT_SPECULAR,  WR_EFFECT_MODEL,
                                      WR_EFFECT_KEPT,      WR_EFFECT_FAINT,     WR_EFFECT_SURROUND,
                                      WR_EFFECT_MIRROR,    WR_EFFECT_BLUR,      WR_EFFECT_HARMONICS,
@@ -133,7 +133,7 @@ static bool same_plan(const WrPlan *a, const WrPlan *b)
     return wr_plan_same(&lit, b);
 }
 
-/* Is n' bent by the same solid texture, or by none? */
+/* True if both bend n' by the same solid texture, or both by none. */
 static bool same_grain(const WrRelightPart *a, const WrRelightPart *b)
 {
     return !wr_plan_runs(b->plan, WR_EFFECT_EMBOSSED) ||
@@ -155,7 +155,7 @@ static bool same(const WrRelightView *a, const WrRelightView *b)
     return all;
 }
 
-/* From now on this view is compared. */
+/* Makes this view the one that later frames are compared with. */
 static void take(WrRelight *steady, const WrRelightView *view)
 {
     WrRelightPart *parts = wr_alloc((size_t)view->count, sizeof *parts);
@@ -165,7 +165,7 @@ static void take(WrRelight *steady, const WrRelightView *view)
         *plan = *view->parts[i].plan;
         parts[i].plan = plan;
         parts[i].scene =
-            wr_scene_share(parts[i].scene); /* before the old one goes: it may be the same */
+            wr_scene_share(parts[i].scene); /* before the old one is released: it may be the same */
     }
     drop_numbers(steady);
     free_parts(steady->parts, steady->view.count);
@@ -176,7 +176,7 @@ static void take(WrRelight *steady, const WrRelightView *view)
 
 /* ---- lamps ---- */
 
-/* How fine the shares of lamps are: of the parts that have any; 0: none has. */
+/* Number of rays or directions that lamp shares are computed with, for the parts that have any; 0: none has. */
 static int fine_of(const WrRelightView *view, bool cast)
 {
     int fine = 0;
@@ -208,7 +208,7 @@ static size_t number_bytes(const WrRelightView *view)
            samples_of(view);
 }
 
-/* One that no lamp of the frame at hand uses, or a new one, of which nothing is known; NULL: no room is left. */
+/* A share that no lamp of the current frame uses, or a new one without data; NULL: out of memory. */
 static WrRelightShare *empty_share(WrRelight *steady)
 {
     const size_t count = samples_of(&steady->view);
@@ -240,7 +240,8 @@ static WrRelightShare *known_share(const WrRelight *steady, const WrLight *lamp,
     return NULL;
 }
 
-/* Those that are known first, so that none of them is taken for another lamp. */
+/* Assigns a share to each lamp. Lamps with known shares come first, so that no known share is reused for another
+   lamp. */
 static void bring_shares(WrRelight *steady, const WrScene *scene, bool cast, int fine)
 {
     for (int round = 0; round < 2; round++)
@@ -262,7 +263,7 @@ static void bring_shares(WrRelight *steady, const WrScene *scene, bool cast, int
         }
 }
 
-/* The shares of the lamps of the view at hand. */
+/* Updates the shares of the current view's lamps. */
 static void bring_lamps(WrRelight *steady, const WrRelightView *view)
 {
     const WrScene *scene = view->parts[0].scene;
@@ -276,7 +277,7 @@ static void bring_lamps(WrRelight *steady, const WrRelightView *view)
     bring_shares(steady, scene, false, directions);
 }
 
-/* ---- together ---- */
+/* ---- whole view ---- */
 
 size_t wr_relight_bytes(const WrRelightView *view)
 {

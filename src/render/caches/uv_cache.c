@@ -14,7 +14,7 @@ void wr_uv_cache_fini(WrUvCache *sight)
 void wr_uv_cache_key(WrUvCacheKey *key, const WrViewMesh *mesh, const WrView *view, bool exact,
                      const WrKernels *kernels)
 {
-    memset(key, 0, sizeof *key); /* padding too: keys are compared as bytes */
+    memset(key, 0, sizeof *key); /* clears padding as well: keys are compared as bytes */
     memcpy(&key->sight, &mesh->sight, sizeof key->sight);
     memcpy(&key->shape, &mesh->shape, sizeof key->shape);
     memcpy(&key->newton, &mesh->newton, sizeof key->newton);

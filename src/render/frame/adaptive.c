@@ -1,7 +1,9 @@
-/* Adaptive sampling (dials.h, WrRefine). By contrast: one sample a pixel; where light bends evenly the pixel follows
-   from that and its neighbours (kern_adaptive_body.h); elsewhere K of the K x K, which are all wherever those do not
-   agree with what the neighbours told. By bound: one sample, or all. A pixel that comes to K x K holds what
-   `supersample` makes of it, bit for bit; none depends on how the picture is cut into tiles. */
+/* Adaptive sampling (dials.h, WrRefine).
+
+   By contrast: first one sample a pixel. Where light varies smoothly the pixel follows from that sample and its
+   neighbours (kern_adaptive_body.h). Elsewhere K of the K x K samples are taken, and all K x K where those
+   disagree with the neighbours' prediction. By bound: one sample, or all. A pixel that ends at K x K has the
+   bits of `supersample`; no pixel depends on the division into tiles. */
 #include "render/frame/adaptive_internal.h"
 #include "render/visibility/silhouette.h"
 #include "render/pipeline/pipeline.h"
@@ -12,10 +14,11 @@
 
 #define RING WR_REFINE_RING
 #define EDGES_ALONE                                                                                \
-    0.02f /* a `contrast` of as much is for pictures in a hurry: there they are believed */
-/* Where coverage differs one sample is off by more than any contrast (kern_adaptive_body.h). */
+    0.02f /* a `contrast` this large means speed first: the first samples are trusted */
+/* Added where coverage differs: one sample is then off by more than any contrast (kern_adaptive_body.h). */
 #define OUTLINE 1e6f
-/* The mean of one place anywhere in each of K x K cells is off by about 0.29 / K^2 of the slope; four times that. */
+/* The mean of one random point in each of K x K cells has a deviation of about 0.29 / K^2 of the slope; this is
+   four times that. */
 #define JITTER 1.16
 
 static void finer_texels(const WrColourLook *look, double *w, double *h)
@@ -25,7 +28,7 @@ static void finer_texels(const WrColourLook *look, double *w, double *h)
     *h = fmax(*h, fabs(look->rv) * look->height);
 }
 
-/* Texels along u and v, of the table or of the pictures, whichever are finer; 0: none is looked up. */
+/* Texels per pixel along u and v, of the table or of the pictures, whichever are finer; 0: nothing is fetched. */
 static void count_texels(const WrTileJob *job, float texels[2])
 {
     const bool colour = wr_plan_calls(job->plan, WR_EFFECT_COLOUR);
@@ -45,11 +48,11 @@ static void count_texels(const WrTileJob *job, float texels[2])
     texels[1] = (float)fmax(mh, h > ch ? h : ch);
 }
 
-/* Has the light steps where texels meet, and not only bends (kern_adaptive_body.h)? */
+/* True if light has steps, not only kinks, where texels meet (kern_adaptive_body.h). */
 static bool slopes_jump(const WrPlan *plan)
 {
     return plan->source == WR_SOURCE_TABLE &&
-           wr_plan_calls(plan, WR_EFFECT_BUMP) && /* forced, it has no slopes */
+           wr_plan_calls(plan, WR_EFFECT_BUMP) && /* when bump is forced on, there are no slopes */
            (plan->scheme == WR_SCHEME_NEAREST || plan->scheme == WR_SCHEME_BILINEAR);
 }
 
@@ -63,7 +66,7 @@ static WrRefineRule rule_of(const WrTileJob *job, float contrast, bool rooks)
     return rule;
 }
 
-/* The rules of all objects; where nothing is seen the strictest of them. */
+/* The rules of all objects; the background uses the strictest of them. */
 static void make_rules(WrRefiner *r, const WrTileJob *jobs, int count, bool rooks)
 {
     r->nothing = (WrRefineRule){ .most = r->contrast, .some = rooks };
@@ -82,7 +85,7 @@ static bool is_looked_up(const WrRefineRule *rule)
 
 /* ---- the first samples -------------------------------------------------------------------------- */
 
-/* Nothing yet, on the tile and the ring about it. */
+/* Clears the tile and the ring around it. */
 static void empty(const WrRefiner *r)
 {
     WrTileScratch *s = r->scratch;
@@ -95,7 +98,7 @@ static void empty(const WrRefiner *r)
     }
 }
 
-/* An object's, on those pixels. */
+/* First samples of one object on those pixels. */
 static void first_of(const WrRefiner *r, const WrTileJob *job, WrTilePart on)
 {
     WrTileScratch *s = r->scratch;
@@ -122,7 +125,7 @@ static WrTilePart grown(WrTilePart part, int by)
     return (WrTilePart){ part.x - by, part.y - by, part.w + 2 * by, part.h + 2 * by };
 }
 
-/* Is all of that so near that nothing from there on is seen? */
+/* True if every sample there is nearer than `from`, so that anything behind is hidden. */
 static bool is_filled(const WrRefiner *r, float from)
 {
     for (int y = 0; y < r->part.h + 2 * RING; y++)
@@ -131,8 +134,8 @@ static bool is_filled(const WrRefiner *r, float from)
     return true;
 }
 
-/* One sample a pixel, with a ring of two pixels round the tile, also beyond the picture: so what is refined does not
-   depend on how the picture is cut into tiles. */
+/* One sample a pixel, with a ring of two pixels round the tile, also beyond the picture. So the choice of pixels
+   does not depend on the division into tiles. */
 static void first_samples(const WrRefiner *r)
 {
     const WrTilePart on = grown(r->part, r->by_bound ? 0 : RING);
@@ -162,7 +165,7 @@ static void open_by_bound(const WrRefiner *r)
     }
 }
 
-/* The pixels about a point of the picture, in 1/256 samples. */
+/* Opens the pixels around a point of the picture, given in 1/256 samples. */
 static void open_about(const WrRefiner *r, const WrRasterVertex *point)
 {
     const double per = 256.0 * r->job->samples;
@@ -181,7 +184,7 @@ static void open_tips(const WrRefiner *r, const WrTileJob *job)
     for (int k = 0; k < count; k++) open_about(r, &tips[k]);
 }
 
-/* The object that the pixel's first sample shows, its place among the scene's; -1: none. */
+/* Index of the object that the pixel's first sample shows; -1: background. */
 static int shown_at(const WrRefiner *r, int x, int y)
 {
     const WrTileScratch *s = r->scratch;
@@ -189,7 +192,7 @@ static int shown_at(const WrRefiner *r, int x, int y)
     return r->count > 1 ? s->nearest[y + RING][x + RING].object : r->objects[0]->object;
 }
 
-/* Do pixels beside it show another object? The light of one says nothing of the other's. */
+/* True if a neighbouring pixel shows another object, whose light predicts nothing for this one. */
 static bool meets_another(const WrRefiner *r, int x, int y)
 {
     const int own = shown_at(r, x, y);
@@ -199,7 +202,7 @@ static bool meets_another(const WrRefiner *r, int x, int y)
     return false;
 }
 
-/* How many texels lie along the pixels of row y, each as its object has them. */
+/* Texels per pixel along row y, each pixel by its own object. */
 static void count_row(const WrRefiner *r, int y)
 {
     WrTileScratch *s = r->scratch;
@@ -223,8 +226,8 @@ static int opened(const WrRefiner *r, int x, int y)
     const int object = r->count > 1 ? shown_at(r, x, y) : r->objects[0]->object;
     const WrRefineRule *rule = object < 0 ? &r->nothing : &r->rules[object];
     const float off = s->bound[y][x], fine = s->texels[y][x];
-    const float finest =
-        WR_FINE * sqrtf((float)r->job->samples); /* K samples are about so much nearer */
+    /* K samples lie closer together by about this factor */
+    const float finest = WR_FINE * sqrtf((float)r->job->samples);
     const bool all = !rule->some || off > OUTLINE || fine > finest;
     if (r->among && (rule->all || meets_another(r, x, y))) return WR_OPEN_ALL;
     return off <= rule->most && fine <= WR_FINE ? 0 : all ? WR_OPEN_ALL : WR_OPEN;
@@ -247,7 +250,7 @@ static void open_by_contrast(const WrRefiner *r)
     }
 }
 
-/* What strips and rays took so far, which is told elsewhere. */
+/* Seconds of strips and rays so far; they are reported separately. */
 static double told_elsewhere(const WrTileScratch *scratch)
 {
     return scratch->all_strips + scratch->whole[WR_STAGE_VISIBILITY];
@@ -263,7 +266,7 @@ static void count_covered(const WrRefiner *r, int64_t before)
             s->covered += wr_tile_pixel(r->job, i, j)[3] > 0;
 }
 
-/* r knows its objects; jobs: all of the picture. */
+/* r: its objects are set; jobs: all objects of the picture. */
 static void refine(WrRefiner *r, const WrTileJob *jobs, int count)
 {
     WrTileScratch *s = r->scratch;

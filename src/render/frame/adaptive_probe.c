@@ -1,4 +1,5 @@
-/* Does adaptive sampling pay in this view? A few small blocks of the picture are refined and counted. */
+/* Estimate of whether adaptive sampling pays in this view: a few small blocks of the picture are refined and
+   counted. */
 #include "render/pipeline/pipeline.h"
 
 #include <string.h>
@@ -6,27 +7,28 @@
 #define BLOCK_W 8 /* pixels */
 #define BLOCK_H 4
 #define AREA 3000 /* pixels of the view for each block, ... */
-#define LEAST 16  /* ... and how many there are */
+#define LEAST 16  /* ... and the least number of blocks */
 #define MOST 128
-#define HEAVY 4096 /* blocks of a mesh: each look goes through them, so it is ... */
-#define FEW 5      /* ... at so many places */
-#define SURE 12    /* after so many the answer may be clear */
+/* mesh blocks: above this each probe is slow, because it traverses them all, so only ... */
+#define HEAVY 4096
+#define FEW 5   /* ... this many probes are taken */
+#define SURE 12 /* after this many blocks the answer may be clear */
 
-/* What is spent, in samples of plain supersampling. Measured. With a mesh each sample is dearer, so that the rest counts
-   for less. */
-#define FIRST 1.9 /* a first sample, its share of the ring, and looking at it */
+/* Measured costs, in samples of plain supersampling. With a mesh each sample costs more, so the overhead counts
+   less. */
+#define FIRST 1.9 /* a first sample, its share of the ring, and the test */
 #define FIRST_MESH 1.7
 #define FIRST_BOUND 7.0 /* with a bound */
-#define MORE 1.6        /* each further sample: their places lie apart */
+#define MORE 1.6        /* each further sample: they are scattered */
 #define MORE_MESH 1.2
-#define DEPTH 0.15 /* a place in the depth tile, which is filled for all of them */
-#define GAIN 0.85  /* of plain supersampling's cost: more is not worth it */
+#define DEPTH 0.15 /* one cell of the depth tile, which is filled for all of them */
+#define GAIN 0.85  /* of plain supersampling's cost: above this the gain is too small */
 
 typedef struct Spent {
     double adaptive, plain;
 } Spent;
 
-/* The first samples of the block that met something: within it, and with the ring. */
+/* Counts the first samples of the block that hit something: inside it, and with the ring. */
 static void count_first(const WrTileScratch *scratch, int w, int h, int ring, int *within, int *all)
 {
     *within = *all = 0;
@@ -63,15 +65,15 @@ static void spend_block(const WrTileJob *job, int x, int y, WrTileScratch *scrat
                        (tiled && more > 0 ? DEPTH * cells * area : 0);
 }
 
-/* Would more blocks hardly change the answer? */
+/* True if more blocks would hardly change the answer. */
 static bool clear(const Spent *spent)
 {
     return spent->plain > 0 &&
            (spent->adaptive > 1.3 * spent->plain || spent->adaptive < 0.5 * spent->plain);
 }
 
-/* Blocks lie evenly over the view, but in no rows, in which relief may repeat: at multiples of 1/p and 1/p^2, p the plastic
-   number. */
+/* Blocks are spread evenly over the view, but not in rows, with which relief may be in step: they lie at
+   multiples of 1/p and 1/p^2, p the plastic number. */
 #define ACROSS 0xc13fa9a9U /* of 2^32 */
 #define DOWN 0x91e10da5U
 
@@ -80,7 +82,7 @@ static int place(int k, uint32_t step, int room)
     return (int)(((uint64_t)((uint32_t)(k + 1) * step) * (uint64_t)room) >> 32);
 }
 
-/* Does each look take long? Cells that have to be clipped, near the eye, are met by every one. */
+/* True if each probe is slow: cells near the eye that need clipping are visited by every one. */
 static bool is_heavy(const WrViewMesh *mesh)
 {
     const int count = mesh->blocks_u * mesh->blocks_v;
@@ -93,7 +95,7 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
 {
     const WrView *view = job->view;
     const int w = view->x1 - view->x0, h = view->y1 - view->y0;
-    if (w < 6 * BLOCK_W || h < 6 * BLOCK_W) return true; /* too little to tell */
+    if (w < 6 * BLOCK_W || h < 6 * BLOCK_W) return true; /* too small to measure */
     WrTileJob own = *job;
     Spent spent = { 0 };
     own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;

@@ -1,4 +1,4 @@
-/* More samples for pixels that are open: K of the K x K, then the others where those are not enough (adaptive.c). */
+/* Further samples for open pixels: K of the K x K, then the others where those are not enough (adaptive.c). */
 #include "render/pipeline/pipeline.h"
 #include "render/frame/adaptive_internal.h"
 #include "system/clock.h"
@@ -7,15 +7,16 @@
 #include <string.h>
 
 #define RING WR_REFINE_RING
-#define MOST WR_TILE_SAMPLES_H /* K at most */
-/* The K samples may each be off what the neighbours tell by so many times `contrast`, their mean by that. */
+#define MOST WR_TILE_SAMPLES_H /* largest K */
+/* Largest deviation of each of the K samples, and of their mean, from the neighbours' prediction, in multiples
+   of `contrast`. */
 #define SAMPLE_OFF 4.0f
-#define FINE_OFF 1.5f /* the same of pixels with many texels */
+#define FINE_OFF 1.5f /* as SAMPLE_OFF, for pixels with many texels */
 
 /* ---- more samples -------------------------------------------------------------------------------- */
 
-/* For K = 4, 8, 12, ...: one place in each row and column, such that a quarter turn keeps them: their mean is that of
-   all K x K of whatever bends evenly. */
+/* For K = 4, 8, 12, ...: one sample in each row and column, a set that a quarter turn maps to itself. For any
+   quadratic function its mean equals that of all K x K samples. */
 bool wr_refine_rooks(WrRefiner *r)
 {
     const int k = r->job->samples, quarter = k / 4;
@@ -37,20 +38,20 @@ typedef struct Batch {
     const WrTileJob *objects[WR_OBJECTS_MAX];
     int count;
     bool tiled;
-    const WrTileJob *of; /* whose the depth tile is; NULL: nobody's yet */
+    const WrTileJob *of; /* owner of the depth tile; NULL: none yet */
     WrDepthTile tile;
 } Batch;
 
-/* An object's samples that wait for a full strip, and where they go. */
+/* Samples of one object that wait for a full strip, and their destinations. */
 typedef struct Queue {
     const Batch *batch;
     const WrTileJob *job;
-    bool first;  /* nothing was drawn before it */
-    float limit; /* what shows that or nearer hides it */
+    bool first;  /* no object was drawn before it */
+    float limit; /* depth beyond which the object is hidden */
     float (*to[WR_SPAN])[4];
 } Queue;
 
-/* What a sample shows, where there are several objects. */
+/* Depth and object of a sample, where there are several objects. */
 static WrNearest *nearest_of(WrTileScratch *s, float (*sample)[4])
 {
     return &s->nearest[0][0] + (sample - &s->sample[0][0]);
@@ -79,7 +80,7 @@ static void empty_queue(Queue *queue)
     s->scatter.count = 0;
 }
 
-/* Sample (i, j) of the tile's pixel (x, y). */
+/* Queues sample (i, j) of the tile's pixel (x, y). */
 static void queue_sample(Queue *queue, const unsigned char at[2], int i, int j, float (*to)[4])
 {
     const WrRefiner *r = queue->batch->r;
@@ -97,14 +98,14 @@ static void queue_sample(Queue *queue, const unsigned char at[2], int i, int j, 
     if (++places->count == WR_SPAN) empty_queue(queue);
 }
 
-/* The samples of `count` pixels of the list, K x K each, one pixel's after the other. */
+/* The samples of `count` pixels of the list, K x K each, pixel by pixel. */
 static float (*samples_of(const WrRefiner *r, int at))[4]
 {
     const int k = r->job->samples;
     return &r->scratch->sample[0][0] + (size_t)at * (size_t)(k * k);
 }
 
-/* K of pixels that may do with them. */
+/* Queues the K first samples of pixels that may suffice with them. */
 static void queue_rooks(Queue *queue, int first, int count)
 {
     const WrRefiner *r = queue->batch->r;
@@ -117,7 +118,7 @@ static void queue_rooks(Queue *queue, int first, int count)
     }
 }
 
-/* All, or those that are none of the K; of pixels that are open still. */
+/* Queues the samples that open pixels still lack: all, or those outside the K. */
 static void queue_rest(Queue *queue, int first, int count)
 {
     const WrRefiner *r = queue->batch->r;
@@ -145,7 +146,7 @@ static void bring_tile(Batch *batch, const WrTileJob *job)
     batch->of = job;
 }
 
-/* Samples of pixels of the list, of all objects. */
+/* Draws samples of listed pixels, for all objects. */
 static void sample_pixels(Batch *batch, void (*fill)(Queue *, int, int), int first, int count)
 {
     WrTileScratch *s = batch->r->scratch;
@@ -170,7 +171,7 @@ static bool any_open(const WrRefiner *r, int first, int count, int least, int mo
     return false;
 }
 
-/* The sum of count colours, in pairs, into the first; they are overwritten. */
+/* Sum of count colours, added in pairs, into the first one; the others are overwritten. */
 static void sum_pairs(float (*x)[4], int count)
 {
     for (; count > 1; count = (count + 1) / 2) {
@@ -180,7 +181,7 @@ static void sum_pairs(float (*x)[4], int count)
     }
 }
 
-/* What the neighbours tell of light about a pixel's centre. */
+/* Linear and quadratic change of light around a pixel's centre, estimated from its neighbours. */
 typedef struct Bend {
     float x[4], y[4], xx[4], yy[4], xy[4];
 } Bend;
@@ -200,7 +201,7 @@ static Bend bend_at(const WrTileScratch *s, int x, int y)
     return b;
 }
 
-/* Is the mean of the K samples enough? Then it is the pixel's. */
+/* True if the mean of the K samples is accurate enough; it then becomes the pixel. */
 static bool rooks_agree(const WrRefiner *r, const unsigned char at[2], float (*sample)[4])
 {
     const int k = r->job->samples;
@@ -216,7 +217,7 @@ static bool rooks_agree(const WrRefiner *r, const unsigned char at[2], float (*s
             const float told = centre[c] + dx * (bend.x[c] + dx * bend.xx[c] + dy * bend.xy[c]) +
                                dy * (bend.y[c] + dy * bend.yy[c]);
             const float off = fabsf(rook[j][c] - told);
-            most = off <= most ? most : off; /* what is no number stays */
+            most = off <= most ? most : off; /* NaN is kept */
         }
         if (rook[j][3] != centre[3]) return false;
     }
@@ -231,7 +232,7 @@ static bool rooks_agree(const WrRefiner *r, const unsigned char at[2], float (*s
     return true;
 }
 
-/* The last level's number in the place of the one before. */
+/* Replaces the pixel's sample count in the effect map by the last level's. */
 static void map_samples(const WrRefiner *r, const unsigned char at[2], int k)
 {
     if (!r->job->map) return;
@@ -265,7 +266,7 @@ static void finish_all(const WrRefiner *r, int first, int count)
     }
 }
 
-/* As many pixels of the list at once as there is room for samples. */
+/* Samples as many listed pixels at once as the buffer holds. */
 static void sample_list(Batch *batch, int count)
 {
     const WrRefiner *r = batch->r;
@@ -282,7 +283,7 @@ static void sample_list(Batch *batch, int count)
     }
 }
 
-/* The open pixels of a part of the tile into the list; the part becomes their box. */
+/* Lists the open pixels of a part of the tile; the part shrinks to their bounding box. */
 static int list_open(const WrRefiner *r, WrTilePart *part)
 {
     WrTileScratch *s = r->scratch;
@@ -299,7 +300,7 @@ static int list_open(const WrRefiner *r, WrTilePart *part)
     return count;
 }
 
-/* Do samples have a depth tile, or places of a tile of their own? */
+/* True if samples need a depth tile, or positions of their own tile. */
 static bool is_tiled(const WrRefiner *r)
 {
     bool tiled = r->count > 1;
@@ -322,7 +323,7 @@ static void sample_part(const WrRefiner *r, WrTilePart part, bool tiled)
     sample_list(&batch, count);
 }
 
-/* By parts, where samples have a depth tile. */
+/* In parts, where samples need a depth tile. */
 void wr_refine_more(const WrRefiner *r)
 {
     const int k = r->job->samples;

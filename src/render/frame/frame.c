@@ -101,7 +101,7 @@ static void drop_picture(WrRenderer *renderer)
     renderer->width = renderer->height = 0;
 }
 
-/* One band takes the next one's place. */
+/* Allocates the picture. A band reuses the memory of the band before it. */
 static bool bring_memory(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const bool banded = request->rows > 0, codes = request->codes.wanted;
@@ -206,7 +206,7 @@ static bool same_view(const WrRenderer *renderer, const WrFrameRequest *request)
            last->height == request->height;
 }
 
-/* Kept while the shape stays. */
+/* Bounding radius, cached while the shape is unchanged. */
 static double radius_of(WrRenderer *renderer, const WrShape *shape)
 {
     if (renderer->radius > 0 && memcmp(&renderer->sized, shape, sizeof *shape) == 0)
@@ -224,7 +224,7 @@ static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bo
                            request->turn_deg, request->width, request->height, outside, err);
 }
 
-/* Pixels that F could move a point, where it moves any. */
+/* Largest displacement on screen by F, in pixels; 0 where it displaces nothing. */
 static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, double *rise,
                       WrError *err)
 {
@@ -234,28 +234,28 @@ static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, doubl
                         request->turn_deg, request->width, request->height, rise, err);
 }
 
-/* Texels that an edit reaches beside those that a look-up's place lies in. What pixels may need more samples is told
-   from the table between those places, too. */
+/* Texels that an edit reaches beyond the texel of a fetch. Adaptive sampling also estimates between texels, from
+   the same table. */
 static int reach_of(const WrPlan *plan)
 {
     return wr_schemes[plan->scheme].reach + (plan->sampling == WR_SAMPLING_ADAPTIVE ? 2 : 0);
 }
 
-/* Where shadows and occlusion reach beyond the edit: what it changed of the horizons. False: that is not known. */
+/* Adds the region that shadows and occlusion reach beyond the edit: the changed horizons. False: it is unknown. */
 static bool add_horizon_edit(WrRenderer *renderer)
 {
     const WrPlan *plan = &renderer->plan;
     const uint64_t shown = renderer->keep.field ? wr_field_key(renderer->keep.field) : 0;
     if (!wr_plan_runs(plan, WR_EFFECT_SHADOW) && !wr_plan_runs(plan, WR_EFFECT_OCCLUSION))
         return true;
-    if (!wr_plan_runs(plan, WR_EFFECT_BUMP)) return false; /* no tile tells what it looks at */
+    if (!wr_plan_runs(plan, WR_EFFECT_BUMP)) return false; /* no tile records its fetches */
     if (shown == renderer->horizon_key) return true;
     if (!renderer->horizon_edit || shown != renderer->horizon_before) return false;
     wr_dirty_add_texels(&renderer->keep, renderer->looked, renderer->horizon_edit);
     return true;
 }
 
-/* Does the last picture show what this request asks for, but for edits of the table? */
+/* True if the last picture fits this request, apart from edits of the table. */
 static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
                   const WrKernels *kernels)
 {
@@ -268,7 +268,7 @@ static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrP
            add_horizon_edit(renderer);
 }
 
-/* Is the view of the last picture, with its mesh, this one's? */
+/* True if view and mesh of the last picture fit this request. */
 static bool view_stands(const WrRenderer *renderer, const WrFrameRequest *request,
                         const WrPlan *before, const WrPlanAsk *ask)
 {
@@ -281,7 +281,7 @@ static bool view_stands(const WrRenderer *renderer, const WrFrameRequest *reques
     return wr_plan_same(before, &lively);
 }
 
-/* Where adaptive sampling does not pay, or no bound that it shall go by is known, all samples are taken. */
+/* Falls back to all samples where adaptive sampling does not pay or needs a bound that is unknown. */
 static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask)
 {
     WrPlan *plan = &renderer->plan;
@@ -296,13 +296,14 @@ static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request, W
     if (ask->facts.lively) wr_plan_samples(plan, ask);
 }
 
-/* View and mesh of a whole new picture. */
+/* Prepares view and mesh of a completely new picture. */
 static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
                          const WrKernels *kernels, WrError *err)
 {
     const WrScene *scene = request->scene;
     const WrPlan *plan = &renderer->plan;
-    WrScene *shared = wr_scene_share(scene); /* before the old one goes: it may be the same */
+    /* before the old one is released: it may be the same */
+    WrScene *shared = wr_scene_share(scene);
     forget_view(renderer);
     renderer->scene = shared;
     renderer->last = *request;
@@ -315,7 +316,7 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
         return false;
     }
     if (!wr_progress_stopped()) return true;
-    wr_frame_drop_meshes(renderer, NULL); /* half made */
+    wr_frame_drop_meshes(renderer, NULL); /* drops half-built meshes */
     wr_view_triangles_fini(&renderer->triangles);
     forget_view(renderer);
     return wr_fail(err, "cancelled");
@@ -360,7 +361,7 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
     return true;
 }
 
-/* Of a picture of one object. */
+/* Chooses the relight cache's use for a picture of one object. */
 static void choose_steady(WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrRelightPart part = { .scene = request->scene,
@@ -369,7 +370,7 @@ static void choose_steady(WrRenderer *renderer, const WrFrameRequest *request)
     wr_frame_choose_steady(renderer, request, &part, &renderer, 1);
 }
 
-/* The tiles of a resting view that its edits reach, or all; then what those look at is noted. */
+/* Selects the tiles of a static view that edits reach, or all; the selected tiles record their fetches again. */
 static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, FrameJob *job,
                        const WrDirty *const *own)
 {
@@ -379,7 +380,7 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
     }
     wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
     job->cancel = request->cancel;
-    if (renderer->steady->use == WR_RELIGHT_KNOWN) return; /* no tile tells what it looks at */
+    if (renderer->steady->use == WR_RELIGHT_KNOWN) return; /* no tile records its fetches */
     if (!wr_frame_may_keep(request)) return;
     wr_frame_start_notes(&job->tile, &renderer->keep);
     job->tile.seen = &renderer->keep;
@@ -391,7 +392,7 @@ void wr_frame_shown(WrRenderer *renderer)
     if (renderer->keep.patches) wr_dirty_field(&renderer->keep, renderer->looked);
 }
 
-/* A picture of one object. */
+/* Renders a picture of one object. */
 static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                          WrError *err)
 {

@@ -1,4 +1,4 @@
-/* What a frame cost, by stage and by effect. */
+/* Cost counters of a frame, by stage and by effect. */
 #include "base/memory.h"
 #include "render/frame/frame_internal.h"
 #include "system/clock.h"
@@ -26,16 +26,16 @@ void wr_frame_start_counts(WrRenderer *renderer)
     }
 }
 
-/* ---- where each stage's time goes ---- */
+/* ---- time of each stage ---- */
 
-/* What a frame's threads counted. */
+/* Sum of all threads' counters. */
 typedef struct Counts {
     int64_t tiles, shaded, filtered, tinted;
-    int64_t spared[WR_RUN_KINDS], spared_tiles[WR_RUN_KINDS]; /* as WrTileScratch has them */
+    int64_t spared[WR_RUN_KINDS], spared_tiles[WR_RUN_KINDS]; /* as in WrTileScratch */
     WrEffects ran;
 } Counts;
 
-/* What each effect cost and touched, into the plan's rows. */
+/* Writes cost and touched samples of each effect to the plan's rows. */
 static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Counts *counts)
 {
     const int64_t shaded = counts->shaded;
@@ -60,8 +60,8 @@ static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Co
         plan->rows[e].ns_per_pixel = shaded > 0 ? 1e9 * plan->rows[e].seconds / (double)shaded : 0;
 }
 
-/* A thread's stages: what its strips took is shared among theirs as it was on the sixteenth of them that is measured. What
-   is left of its tiles' time. */
+/* Adds one thread's stage times. One strip in sixteen is measured; the total time of strips is divided in that
+   ratio. Returns the rest of its tiles' time. */
 static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
 {
     double strips = 0, left = s->all;
@@ -105,7 +105,7 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
         counts.ran |= s->ran;
     }
     if (!wr_plan_runs(plan, WR_EFFECT_AGAIN))
-        frame->covered = renderer->covered; /* heights do not move the outline */
+        frame->covered = renderer->covered; /* heights do not change the outline */
     renderer->covered = frame->covered;
     counts.shaded = frame->shaded;
     account(plan, seconds, &counts);

@@ -1,4 +1,4 @@
-/* How high a table's relief stands, for its shadows and for occlusion: brought up to date with a frame. */
+/* Horizon and ambient occlusion tables of the height field, updated with each frame. */
 #include "base/memory.h"
 #include "field/field.h"
 #include "render/frame/frame_internal.h"
@@ -12,7 +12,7 @@ void wr_frame_drop_horizon(WrRenderer *renderer)
     renderer->horizon_edit = NULL;
 }
 
-/* Those of an edited table. */
+/* Updates the horizons after an edit of the table. */
 static bool update_horizon(WrRenderer *renderer, WrError *err)
 {
     WrHorizon *horizon = &renderer->horizon;
@@ -32,7 +32,7 @@ static bool update_horizon(WrRenderer *renderer, WrError *err)
     return true;
 }
 
-/* The table's horizons, after an edit those that it changed. */
+/* Updates the table's horizons; after an edit, only the changed ones. */
 bool wr_frame_bring_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const double sign = request->scene->height < 0 ? -1 : 1;

@@ -1,5 +1,5 @@
-/* frame_internal.h - what a renderer holds from frame to frame.
-   Layer 5, private to frame.c and its brothers, multi_object.c. */
+/* frame_internal.h - renderer state that is kept between frames.
+   Private to frame.c, the other frame_*.c files and multi_object.c. */
 #pragma once
 #include "field/horizon.h"
 #include "render/textures/ambient_occlusion.h"
@@ -32,82 +32,82 @@ struct WrRenderer {
     WrTable table;
     WrPyramid pyramid, range; /* of slopes; of their least and largest values */
     WrQuantizedHeights rounded;
-    WrNormalMipsBounds bounds; /* of what parallax looks up ... */
-    WrParallax parallax;       /* ... and how the last frame did, for picking */
+    WrNormalMipsBounds bounds; /* slope bounds for parallax ... */
+    WrParallax parallax;       /* ... and the last frame's parallax parameters, for picking */
     WrSphereRows balls[WR_VIEW_GRIDS];
     WrLook look;
     WrLookd look_double;
-    const WrField *looked; /* what this frame looks up: the request's field, or its rounded form */
-    WrViewMesh meshes[WR_HELD_MESHES],
-        *mesh;                 /* mesh: of the last frame; the others, of frames that hold */
-    WrViewTriangles triangles; /* of a mesh out of a file */
-    WrTriangles *square; /* what is shown of a scene whose mesh is not there; owned; or NULL */
-    WrDice dice;         /* of a displaced surface: what `triangles` has */
+    /* the field fetched by this frame: the request's, or its quantized heights */
+    const WrField *looked;
+    /* mesh: of the last frame; the others: of frames with `hold` */
+    WrViewMesh meshes[WR_HELD_MESHES], *mesh;
+    WrViewTriangles triangles; /* of a mesh file */
+    WrTriangles *square; /* replacement shown while the scene's mesh is missing; owned; or NULL */
+    WrDice dice;         /* of a displaced surface: the source of `triangles` */
     WrColorMips tint, facets[WR_FACET_KINDS];
     WrNormalMips relief;
     WrEnvLookup mirror;
-    WrEnvPrefilter grades; /* the same by rungs */
+    WrEnvPrefilter grades; /* the environment prefiltered at several roughness levels */
     WrHorizon horizon;     /* of the table with this key, times this sign */
     uint64_t horizon_key;
     double horizon_sign;
     WrField *horizon_field; /* own share of that table */
-    /* [its height][its width]: where the last edit changed the horizon (wr_horizon_update), and of which table it made this
-       one. Owned; NULL: they were made anew */
+    /* [its height][its width]: texels whose horizon the last edit changed (wr_horizon_update), and the key of
+       the table before that edit. Owned; NULL: the horizons were computed from scratch */
     unsigned char *horizon_edit;
     uint64_t horizon_before;
     WrOcclusionMapTable opening;
-    WrShadowRaysBody body; /* of the object, as it throws shadows */
-    WrShadowRays cast;     /* what can hide lamps from it */
+    WrShadowRaysBody body; /* the object as a shadow caster */
+    WrShadowRays cast;     /* objects that can hide lamps from it */
     WrFrames frames;
-    WrSparseHits knots; /* of `mesh`, if they are known */
-    WrUvCache sight;    /* of the last view that rested */
-    WrRelight own_steady,
-        *steady;             /* of one that rests but for its light: its own, or its group's */
-    WrTileScratch **scratch; /* [threads], made on first use */
+    WrSparseHits knots;            /* of `mesh`, if computed */
+    WrUvCache sight;               /* of the last static view */
+    WrRelight own_steady, *steady; /* relight cache of a static view: its own, or its group's */
+    WrTileScratch **scratch;       /* [threads], allocated on first use */
     int threads;
-    float *rgba;         /* the last picture, or the last band of it ... */
-    uint32_t *codes;     /* ... or the same as codes; each made when it is first wanted */
-    WrBackdrop backdrop; /* what lies behind them */
+    float *rgba;         /* the last picture, or its last band, as floats ... */
+    uint32_t *codes;     /* ... or as codes; each is allocated on first use */
+    WrBackdrop backdrop; /* background of the codes */
     uint32_t bins[WR_CODE_BINS + 1];
     int width, height;
-    int top, rows; /* of the picture: what rgba holds */
+    int top, rows; /* rows of the picture that rgba holds */
     int room;      /* rows that rgba has memory for */
-    bool banded;   /* it is a band */
+    bool banded;   /* rgba is a band */
     WrPlan plan;
     WrView view; /* of the last frame, for picking */
     WrScene *scene;
-    double pyramid_seconds; /* that it spent on pyramids */
+    double pyramid_seconds; /* time that it spent on pyramids */
     int samples;
-    WrShape sized; /* whose radius this is; 0: of none */
+    WrShape sized; /* the shape that the cached radius belongs to; 0: none */
     double radius;
     bool seen;     /* view and scene are set */
-    bool sighted;  /* `sight` knows what it looks at */
-    bool sighting; /* this frame uses or fills `sight` */
+    bool sighted;  /* `sight` holds this view */
+    bool sighting; /* this frame reads or fills `sight` */
     bool outside;  /* the eye of that view is outside the surface */
-    bool stands;   /* the view that this frame was decided for is the last one's */
+    bool stands;   /* the planned view equals the last one */
     WrDirty keep;
-    WrPlanAsk ask;            /* what this frame's plan was asked */
-    WrFrameRequest last;      /* of the last whole or refreshed picture; for its numbers only */
-    const WrKernels *kernels; /* of this frame, once it is prepared; then of the last */
+    WrPlanAsk ask;       /* inputs of this frame's plan */
+    WrFrameRequest last; /* of the last whole or refreshed picture; only its numbers are valid */
+    const WrKernels *kernels; /* of this frame once prepared; before, of the last one */
     int64_t covered;
     WrGroup *group; /* of several objects; NULL: none yet. Owned */
-    int among;      /* a part of a group: objects that are shown; else 0 */
+    int among;      /* for a part of a group: number of shown objects; else 0 */
 };
 
-/* A frame of tiles: of one object, or of several, whose jobs are in the order in which they are drawn. */
+/* The tiles of a frame: of one object, or of several, whose jobs are in drawing order. */
 typedef struct FrameJob {
-    WrTileJob tile;              /* of several objects: where pixels go */
+    WrTileJob tile;              /* with several objects: the target of the pixels */
     const WrTileJob *objects;    /* [count]; NULL: `tile` is the one object's */
-    const WrDirty *const *keeps; /* [keep_count]: render only what their changes touch ... */
+    const WrDirty *const *keeps; /* [keep_count]: render only tiles that their changes touch ... */
     int count, keep_count;       /* ... 0: all */
     WrTileScratch **scratch;
     int tiles_u;
-    const unsigned char *only; /* WrFrameRequest's */
+    const unsigned char *only; /* as in WrFrameRequest */
     const volatile int *cancel;
 } FrameJob;
 
-/* A picture of several objects (multi_object.c): each is a part, a renderer of its own that borrows this one's threads, scratch
-   and picture. */
+/* A picture of several objects (multi_object.c): each object is a part, a renderer of its own that borrows this
+   one's threads, scratch memory and picture. */
 bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                     WrError *err);
 bool wr_group_pick(WrRenderer *renderer, double x, double y, int *object, double *u, double *v,
@@ -116,70 +116,74 @@ void wr_group_free(WrRenderer *renderer);
 
 /* ---- frame.c ---- */
 
-/* Memory for the picture that is asked for, or, of a part, its numbers alone. */
+/* Allocates the requested picture; for a part of a group, sets only its size. */
 bool wr_frame_resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
-/* The plan of a frame of one object, and the tables that it goes by; then wr_frame_choose_steady, then all else that it
-   needs before its tiles. False where it cannot be. */
+/* Calls in this order: decide builds the plan of a frame of one object and the tables it needs; then
+   wr_frame_choose_steady; then prepare builds everything else needed before the tiles. False on error. */
 bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
-/* Then, what its samples look at: known from the last frame, or noted where every tile is anew. beside: of the other
-   objects of the picture, 0: there are none. */
+/* Next call: the uv cache is reused from the last frame, or filled where every tile is new. beside: hash of the
+   other objects of the picture, 0: there are none. */
 void wr_frame_bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
                           bool anew);
-/* Is what a resting view shows, but for its light, of use to this frame of `count` objects (relight_cache.h)? The rows that go by it
-   are decided once more, in each of the objects' renderers. */
+/* Decides whether the relight cache serves this frame of `count` objects (relight_cache.h). Plan rows that
+   depend on it are decided again in each object's renderer. */
 void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
                             const WrRelightPart *parts, WrRenderer *const *owners, int count);
-/* Make ready for noting what each tile of the picture looks at. */
+/* Prepares the dirty-region record of each tile of the picture. */
 void wr_frame_start_notes(const WrTileJob *canvas, WrDirty *keep);
-/* Both, as the frame's tiles find or fill them. */
+/* Binds uv cache and relight cache to the job: to read them or to fill them. */
 void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job);
-/* Where its tiles go, and of what size they are; request NULL: for picking. */
+/* A job with target and size of the tiles. request NULL: for picking. */
 WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request);
-/* The same, and what they look up. */
+/* A job with target, tile size and everything that tiles fetch. */
 WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request);
-/* The picture shows the table as it is now. */
+/* Marks the picture as up to date with the table. */
 void wr_frame_shown(WrRenderer *renderer);
-int wr_frame_tiles(const WrTileJob *tile); /* of the picture */
-/* Render the tiles. False if told to stop. */
+int wr_frame_tiles(const WrTileJob *tile); /* tiles of the picture */
+/* Renders the tiles. False if cancelled. */
 bool wr_frame_run(WrRenderer *renderer, FrameJob *job);
-/* May an edit be answered by the tiles alone that look at what it wrote? The request asks for it, and no edit reaches farther. */
+/* True if an edit may be answered by re-rendering only the tiles that fetched the edited texels: the request
+   allows it and no edit reaches farther. */
 bool wr_frame_may_keep(const WrFrameRequest *request);
-/* Are both wanted as the same codes: over the same background, by the same tone? Or is neither? */
+/* True if both request the same output: codes over the same background with the same tone, or both floats. */
 bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b);
 void wr_renderer_forget(
-    WrRenderer *renderer); /* all that a renderer holds but its threads' scratch */
+    WrRenderer *renderer); /* frees all caches, except the threads' scratch memory */
 
-/* Decide, make what the decision needs, and decide again once the gradient table is known. ask: its facts of the
-   table are filled in. */
+/* Decides, builds the tables that the decision needs, and decides again once the gradient table is known. ask:
+   its facts about the table are filled in. */
 bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask,
                             WrError *err);
 bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 void wr_frame_drop_tables(WrRenderer *renderer);
-/* The table's horizons, and how open it is there, where the plan goes by them. Errors: no memory; cancelled. */
+/* Updates the table's horizons, and its ambient occlusion, where the plan uses them. Errors: no memory;
+   cancelled. */
 bool wr_frame_bring_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 bool wr_frame_bring_opening(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 void wr_frame_drop_horizon(WrRenderer *renderer);
-/* What tiles look up; scale: object units -> kernel units. */
+/* Fills the fetch parameters of tiles; scale: object units -> kernel units. */
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job);
-/* Start each thread's counts at 0; then what they came to, into the frame and the plan's rows. */
+/* Start sets each thread's counters to 0; account adds them to the frame and the plan's rows. */
 void wr_frame_start_counts(WrRenderer *renderer);
 void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame);
-/* All grids but one, which may be NULL. */
+/* Frees all view meshes except one, which may be NULL. */
 void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but);
-/* Do the frame's tiles go by where the view sees one sheet of the mesh (sparse_hits.h), if there is memory? */
+/* True if the frame's tiles use sparse hits (sparse_hits.h), if there is memory. */
 bool wr_frame_ties(const WrRenderer *renderer);
-/* Bring that, and let the job go by it; without, it goes by what was noted only if that is all. */
+/* Updates the sparse hits and binds them to the job. Without them the job uses the uv cache only if that is
+   complete. */
 void wr_frame_bind_sparse_hits(WrRenderer *renderer, WrTileJob *job);
-/* The triangles that the scene shows; the renderer's, or the scene's. */
+/* The triangles that the scene shows, owned by the renderer or by the scene. */
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene);
-/* What can hide lamps from each of `count` objects, those of a picture, each with its renderer. Errors: as wr_shadow_rays_prepare. */
+/* Finds the occluders of each of a picture's `count` objects, each with its renderer. Errors: as
+   wr_shadow_rays_prepare. */
 bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
                     const WrField *const *fields, int count, const WrFrameRequest *request,
                     WrError *err);
-/* As kernels look them up. */
+/* The triangles in the form that kernels fetch. */
 WrTriangleLook wr_frame_look_up(const WrViewTriangles *triangles, double scale);
-/* Bring what the surface is rasterised from up to the view. Errors: no memory. */
+/* Updates the mesh that the surface is rasterised from for this view. Errors: no memory. */
 bool wr_frame_prepare_meshes(WrRenderer *renderer, const WrFrameRequest *request,
                              const WrKernels *kernels, WrError *err);

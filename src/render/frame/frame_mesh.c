@@ -1,4 +1,4 @@
-/* What a frame's surface is rasterised from: a grid of points that is cut for the view, or a mesh out of a file. */
+/* Geometry that a frame's surface is rasterised from: a grid cut for the view, or a mesh file. */
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
@@ -13,14 +13,14 @@
 #include <math.h>
 #include <stdio.h>
 
-/* All but one, which may be NULL. */
+/* Frees all view meshes except one, which may be NULL. */
 void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but)
 {
     for (int i = 0; i < WR_HELD_MESHES; i++)
         if (&renderer->meshes[i] != but) wr_view_mesh_fini(&renderer->meshes[i]);
 }
 
-/* How many sixteenths of a solid texture's rings, or of its finest cells, an object may hold all round. */
+/* Number of sixteenths of a solid texture's rings, or of its finest cells, around the object. */
 static double grains(const WrRenderer *renderer, const WrScene *scene)
 {
     const WrSolidTexture *grain = &scene->grain;
@@ -31,7 +31,8 @@ static double grains(const WrRenderer *renderer, const WrScene *scene)
     return 16 * 2 * WR_PI * fmax(rings, cells) / renderer->view.scale;
 }
 
-/* Passes of one picture, which hold what they make, differ in their samples: each number keeps its mesh. */
+/* The passes of one progressive picture differ in their samples a side and keep what they build: one mesh is
+   held for each number. */
 static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
                          const WrKernels *kernels)
 {
@@ -64,7 +65,7 @@ bool wr_frame_ties(const WrRenderer *renderer)
     const WrView *view = &renderer->view;
     const bool even = plan->sampling == WR_SAMPLING_ONE ||
                       (plan->sampling == WR_SAMPLING_ALL && plan->spread != WR_SPREAD_JITTERED);
-    /* Of a body that shows its back there are two sheets everywhere. */
+    /* A body that shows its back has two sheets everywhere. */
     const bool single = view->cull || wr_surfaces[view->shape_d.kind]->open;
     return renderer->mesh && wr_wide_of(renderer->kernels) && even && single && plan->newton < 0 &&
            !plan->shading_double && !view->endless &&
@@ -75,7 +76,7 @@ void wr_frame_bind_sparse_hits(WrRenderer *renderer, WrTileJob *job)
 {
     const int k = renderer->view.samples;
     if (job->steady || !wr_frame_ties(renderer)) return;
-    if (job->seen_before && !renderer->sight.partly) return; /* all was noted */
+    if (job->seen_before && !renderer->sight.partly) return; /* every sample is in the uv cache */
     const WrSparseHitsAsk ask = { .kernels = job->kernels,
                                   .wide = job->wide,
                                   .sheet = job->wide_newton ? &job->sheet : NULL,
@@ -86,7 +87,8 @@ void wr_frame_bind_sparse_hits(WrRenderer *renderer, WrTileJob *job)
         wr_sparse_hits_bring(&renderer->knots, job->mesh, &renderer->view, &ask, renderer->pool);
     if (tied) job->knots = &renderer->knots;
     if (job->sight && !job->seen_before) renderer->sight.partly = tied;
-    if (!tied && job->seen_before) job->seen_before = false, job->sight = NULL; /* it is not all */
+    /* the uv cache is incomplete */
+    if (!tied && job->seen_before) job->seen_before = false, job->sight = NULL;
 }
 
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene)
@@ -107,7 +109,8 @@ static bool make_dice(WrRenderer *renderer, const WrScene *scene, WrError *err)
     return good;
 }
 
-/* Of a displaced surface. What stands nearer than the base's ball is known to what compares several objects. */
+/* Prepares a displaced surface. Whatever lies nearer than the base's bounding sphere is known to the comparison
+   of several objects. */
 static bool prepare_dice(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -124,7 +127,7 @@ static bool prepare_dice(WrRenderer *renderer, const WrFrameRequest *request, Wr
     return true;
 }
 
-/* What the relief reaches beyond its base. */
+/* Prepares parallax: the height of the relief above and below its base. */
 static void prepare_parallax(WrRenderer *renderer, const WrScene *scene)
 {
     double range[2];

@@ -1,14 +1,14 @@
-/* Which objects of a picture can hide lamps from which, before it is planned. */
+/* Shadow casters of each object of a picture, found before it is planned. */
 #include "render/frame/frame_internal.h"
 #include "scene/objects.h"
 
-/* Against the plan, those too that cannot. */
+/* True if forced effects request even casters that cannot hide a lamp. */
 static bool wants_all(const WrFrameRequest *request)
 {
     return request->full || (request->force && request->force[WR_EFFECT_CAST] == WR_FORCE_ON);
 }
 
-/* Against the plan, not even what is displaced. */
+/* True if forced effects replace even displaced casters by their bases. */
 static bool keeps_bases(const WrFrameRequest *request)
 {
     return request->force && request->force[WR_EFFECT_DISPLACED] == WR_FORCE_OFF;

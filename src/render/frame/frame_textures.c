@@ -1,4 +1,4 @@
-/* Tables that a renderer keeps up to date: copies of heights, pyramids, the colour picture. */
+/* Tables that a renderer keeps up to date: height copies, pyramids, the colour picture. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
@@ -30,7 +30,7 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_frames_drop(&renderer->frames);
 }
 
-/* The copies of heights that the plan calls for, and none else. */
+/* Updates the height copies that the plan needs and frees the others. */
 static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bool slope_free,
                          WrError *err)
 {
@@ -78,7 +78,7 @@ static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, W
     return renderer->looked != NULL;
 }
 
-/* The share of the table's tiles that have slopes. */
+/* Share of the table's tiles with non-zero slopes. */
 static double sloped_share(const WrRenderer *renderer, const WrField *field)
 {
     const WrTable *table = &renderer->table;
@@ -158,7 +158,7 @@ static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, Wr
                                renderer->pool, err);
 }
 
-/* Do light's roughness and metalness come from a picture of that kind? */
+/* True if light reads roughness or metalness from a picture of that kind. */
 static bool wants_facets(const WrPlan *plan, const WrScene *scene, int kind)
 {
     return wr_plan_runs(plan, WR_EFFECT_FACETS) && scene->facets[kind].image &&
@@ -208,7 +208,7 @@ bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, 
     return true;
 }
 
-/* Cells side by side in the table, of which each face or patch has its own; 1, 1 where none has. */
+/* Cells of the table side by side, one for each face or patch; 1, 1 if the surface has one cell. */
 static void cells_of(const WrScene *scene, int *columns, int *rows)
 {
     const WrPatches *set = scene->triangles ? scene->triangles->patches : NULL;
@@ -216,8 +216,8 @@ static void cells_of(const WrScene *scene, int *columns, int *rows)
     if (set && set->table == WR_PATCH_OWN) *columns = set->columns, *rows = set->rows;
 }
 
-/* How long footprints may be: filters read no farther than the margin of a cell. A look-up of side s reads 3 s, the blocks
-   on both sides of its place of the next coarser level, and a texel more for slopes. */
+/* Largest footprint: filters may not read beyond the margin of a cell. A fetch of side s reads 3 s, the blocks
+   on both sides of its position in the next coarser level, and one more texel for slopes. */
 static double reach_of(const WrScene *scene, double width, double height)
 {
     int columns, rows;
@@ -249,7 +249,7 @@ static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *reque
                       .range = renderer->range.seen ? &renderer->range : NULL };
 }
 
-/* What a look-up at level 0 does, by what it was given. */
+/* Effects of a fetch at level 0, by its inputs. */
 static WrEffects looks_of(const WrFrameRequest *request, const WrRenderer *renderer,
                           const WrLookd *look)
 {
@@ -262,7 +262,7 @@ static WrEffects looks_of(const WrFrameRequest *request, const WrRenderer *rende
            (renderer->looked != request->field ? WR_EFFECT_BIT(WR_EFFECT_ROUNDED) : 0);
 }
 
-/* Was this row asked about, and left out? */
+/* True if the plan considered this effect and left it out. */
 static bool spares(const WrPlan *plan, WrEffect effect)
 {
     return plan->rows[effect].verdict == WR_VERDICT_SPARED && !wr_plan_runs(plan, effect);
@@ -294,7 +294,7 @@ static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request
     }
 }
 
-/* The same for single precision, with the copies that it reads. */
+/* Single-precision fetch parameters, with the copies that they read. */
 static WrLook narrowed(const WrLookd *look, const float *heights, const float *gradient)
 {
     return (WrLook){ .heights = heights,
@@ -315,7 +315,7 @@ static WrLook narrowed(const WrLookd *look, const float *heights, const float *g
                      .range = look->range };
 }
 
-/* A picture that is laid over u and v, and where its footprints are measured. */
+/* Fills a picture mapped over (u,v), and the frame in which footprints are measured. */
 static void fill_picture(const WrFrameRequest *request, const WrColorMips *tint,
                          const WrTextureSample *laid, bool filtered, WrPictureLook *to)
 {
@@ -350,7 +350,8 @@ static void fill_facets(const WrRenderer *renderer, const WrFrameRequest *reques
                          renderer->plan.facets_filtered, &job->facets[k]);
 }
 
-/* Slopes of heights are those of the patch's parameters; in a frame they are their own, the other way round where the map is. */
+/* Slopes of heights are derivatives by the patch's parameters. In a tangent frame they are the map's own, with
+   reversed sign where the map is mirrored. */
 static WrSlopeScale map_scale(const WrRenderer *renderer, const WrScene *scene, double ru,
                               double rv, double scale)
 {
@@ -361,7 +362,7 @@ static WrSlopeScale map_scale(const WrRenderer *renderer, const WrScene *scene, 
                            rv != 0 ? copysign(strength, strength * rv) : 0 };
 }
 
-/* The normal map: slopes of the cell, one unit a side, that stand for themselves whatever the table's height is. */
+/* The normal map: slopes over the unit cell, independent of the table's height. */
 static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                      WrTileJob *job)
 {
@@ -398,7 +399,7 @@ static void fill_grain(const WrPlan *plan, const WrSolidTexture *grain, double s
 static void fill_matter(const WrPlan *plan, const WrFrameRequest *request, WrTileJob *job)
 {
     WrMaterial m = request->scene->material;
-    if (!plan->kept) m.energy = WR_ENERGY_PUBLISHED; /* no albedo is wanted */
+    if (!plan->kept) m.energy = WR_ENERGY_PUBLISHED; /* no albedo is needed */
     wr_scene_matter(&m, &job->matter);
     if (!wr_plan_runs(plan, WR_EFFECT_DIFFUSE)) job->matter.kd = 0;
     if (!wr_plan_runs(plan, WR_EFFECT_SPECULAR)) job->matter.ks = 0;

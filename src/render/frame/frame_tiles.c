@@ -1,4 +1,4 @@
-/* The tiles of a frame: all of them, those blocks that are asked for, or the patches that edits of a resting view reach. */
+/* Tile scheduling of a frame: all tiles, the requested blocks, or the patches that edits of a static view reach. */
 #include "render/frame/frame_internal.h"
 
 #include "base/pool.h"
@@ -17,7 +17,7 @@ static void render_part(const FrameJob *job, WrTilePart part, int index, WrTileS
     else wr_tile_render(&job->tile, part, index, scratch);
 }
 
-/* Do the changes of a resting view's tables reach the tile? */
+/* True if the changes of a static view's tables reach the tile. */
 static bool touches(const FrameJob *job, int index)
 {
     bool any = job->keep_count == 0;
@@ -25,7 +25,7 @@ static bool touches(const FrameJob *job, int index)
     return any;
 }
 
-/* The tile's blocks that are asked for, those beside each other at once: long rows are faster. */
+/* Renders the requested blocks of the tile, neighbouring ones at once: long rows are faster. */
 static void render_asked(const FrameJob *job, WrTilePart tile, int index, WrTileScratch *scratch)
 {
     const int blocks = (job->tile.width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
@@ -48,7 +48,7 @@ static bool touches_patch(const FrameJob *job, int index, int column, int row)
     return any;
 }
 
-/* The tile's patches that those changes reach: runs of them, and rows of the same run at once. */
+/* Renders the tile's patches that those changes reach: runs of patches, and rows with the same runs at once. */
 static void render_touched(const FrameJob *job, WrTilePart tile, int index, WrTileScratch *scratch)
 {
     const WrDirty *keep = job->keeps[0];

@@ -1,5 +1,5 @@
-/* What the samples of a resting view look at (uv_cache.h), and what light looks at of them (relight_cache.h): when it is known, and
-   when it is noted. */
+/* Reuse of a static view's uv cache (uv_cache.h) and relight cache (relight_cache.h): when they are read and
+   when they are filled. */
 #include "field/field.h"
 #include "render/frame/frame_internal.h"
 #include "render/simd/simd_kernels.h"
@@ -11,8 +11,8 @@
 #define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
 #define PLACES (1 << 16) /* samples along a side: in 256ths they are exact in single precision */
 
-/* Does an edit reach farther than what a tile looks at? Parallax may meet the relief anywhere; among several objects a surface
-   is moved. */
+/* True if an edit can change samples that did not fetch it: parallax may hit the relief anywhere, and among
+   several objects the displaced surface moves. */
 static bool reaches_far(const WrScene *scene)
 {
     bool any = scene->parallax || (scene->other_count > 0 && scene->displaced);
@@ -36,7 +36,7 @@ void wr_frame_start_notes(const WrTileJob *canvas, WrDirty *keep)
     const WrPlan *plan = canvas->plan;
     const int k = canvas->samples, w = canvas->width * k, h = canvas->height * k;
     const bool jittered = k > 1 && plan->spread == WR_SPREAD_JITTERED;
-    /* Of those that are refined the neighbours count; and a place has to tell its sample. */
+    /* Refined pixels depend on their neighbours, and jittered positions have to identify their sample. */
     const bool whole =
         plan->sampling == WR_SAMPLING_ADAPTIVE || (jittered && (w > PLACES || h > PLACES));
     wr_dirty_start(keep, wr_frame_tiles(canvas), canvas->tile_w, canvas->tile_h, whole);
@@ -49,7 +49,7 @@ bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)
                            wr_tone_equal(&a->tone, &b->tone)));
 }
 
-/* Against the planner nothing is noted: what is drawn is not what it would be. */
+/* With forced effects nothing is recorded: the picture differs from the planned one. */
 static bool is_forced(const WrFrameRequest *request)
 {
     const WrForce *force = request->force;
@@ -57,15 +57,14 @@ static bool is_forced(const WrFrameRequest *request)
                                        force[WR_EFFECT_BESIDE] || force[WR_EFFECT_HIDDEN]));
 }
 
-/* What the samples of a resting view look at: known from before, or noted from now on. One a pixel, in single
-   precision. */
+/* Reads the uv cache of a static view, or starts to fill it. One sample a pixel, single precision. */
 static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
                         bool anew)
 {
     const WrPlan *plan = &renderer->plan;
     const int64_t objects = renderer->among ? renderer->among : 1;
     WrUvCacheKey key;
-    /* Where light alone is new it is of use to the next edit. */
+    /* If only light changed, the next edit can still use it. */
     if (!renderer->mesh && renderer->steady->use != WR_RELIGHT_KNOWN)
         wr_uv_cache_fini(&renderer->sight);
     const bool small = objects * request->width * request->height <= SIGHT_MOST;
@@ -100,14 +99,14 @@ static bool is_any_forced(const WrForce *force)
     return any;
 }
 
-/* As the planner would have it, and nothing wanted of it but its light. */
+/* True if no effect is forced and the request wants only the picture. */
 static bool may_be_steady(const WrFrameRequest *request)
 {
     return is_whole(request) && !request->normals && !request->map &&
            !is_any_forced(request->force) && !request->full;
 }
 
-/* What becomes of the view's numbers, for the plan's row. hinders: why they are not kept, or NULL. */
+/* Writes the cache's status for the plan's row. hinders: reason why nothing is stored, or NULL. */
 static void tell_steady(WrRelight *steady, const WrRelightView *view, const char *hinders)
 {
     char bytes[40];
@@ -123,7 +122,7 @@ static void tell_steady(WrRelight *steady, const WrRelightView *view, const char
                  bytes);
 }
 
-/* Does light of every part depend on n'? */
+/* True if the light of every part depends on n'. */
 static bool has_normals(const WrRelightView *view)
 {
     bool all = true;
@@ -131,7 +130,7 @@ static bool has_normals(const WrRelightView *view)
     return all;
 }
 
-/* Several samples a pixel of a sphere are made anew sooner than they are read from memory. */
+/* True for a sphere with several samples a pixel: computing it is faster than reading it from memory. */
 static bool is_soon_anew(const WrRelightView *view)
 {
     const WrRelightPart *only = view->parts;
@@ -139,7 +138,7 @@ static bool is_soon_anew(const WrRelightView *view)
            wr_wide_of(view->kernels) && wr_pipe_at_once(only->plan);
 }
 
-/* Why no numbers are kept of such a view, or NULL. */
+/* Reason why such a view is not stored, or NULL. */
 static const char *hinders_of(const WrRelightView *view)
 {
     const char *why = NULL;
@@ -172,7 +171,7 @@ void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
         WrPlanAsk *ask = &owners[i]->ask;
         ask->facts.steady = steady->use == WR_RELIGHT_KNOWN;
         ask->facts.steady_told = steady->told;
-        ask->facts.normals |= steady->use == WR_RELIGHT_NOTE; /* also where it is dark */
+        ask->facts.normals |= steady->use == WR_RELIGHT_NOTE; /* on the dark side as well */
         wr_plan_again(&owners[i]->plan, ask);
     }
 }

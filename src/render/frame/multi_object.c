@@ -1,4 +1,4 @@
-/* A picture of several objects: each is prepared as a picture of its own, then all are drawn tile by tile. */
+/* Picture of several objects: each is prepared as a picture of its own, then all are drawn tile by tile. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
@@ -8,20 +8,20 @@
 
 #include <string.h>
 
-/* One object that is shown. */
+/* One visible object. */
 typedef struct Part {
-    WrRenderer *renderer; /* owned, but for what the group's lends it */
-    WrScene *scene;       /* the object alone, as the picture has it; owned */
-    int object;           /* its place among the scene's */
+    WrRenderer *renderer; /* owned, except for memory that the group's renderer lends it */
+    WrScene *scene;       /* a scene with this object alone, as in the picture; owned */
+    int object;           /* index among the scene's objects */
 } Part;
 
 struct WrGroup {
     WrScene *scene; /* of the last picture; own share */
     double aspect;
     Part parts[WR_OBJECTS_MAX];
-    int count;       /* that are shown */
+    int count;       /* visible objects */
     int made;        /* parts that have a renderer */
-    uint64_t scenes; /* counts those that were shown */
+    uint64_t scenes; /* number of scenes shown so far */
     WrFrameRequest last;
     bool whole; /* the last picture was finished */
 };
@@ -44,7 +44,7 @@ void wr_group_free(WrRenderer *renderer)
     renderer->group = NULL;
 }
 
-/* A renderer that draws with the group's threads and memory. */
+/* Creates a renderer that uses the group's threads and memory. */
 static WrRenderer *new_part(WrRenderer *group)
 {
     WrRenderer *part = wr_alloc(1, sizeof *part);
@@ -58,7 +58,7 @@ static WrRenderer *new_part(WrRenderer *group)
     return part;
 }
 
-/* Which of the old scenes' parts has this object? Its renderer holds copies of the object's table. */
+/* Reuses the old scene's part that has this object: its renderer holds copies of the object's table. */
 static void take_renderer(WrGroup *group, int i, int object, WrRenderer *renderer)
 {
     for (int k = i; k < group->made; k++) {
@@ -74,7 +74,7 @@ static void take_renderer(WrGroup *group, int i, int object, WrRenderer *rendere
     group->parts[i] = (Part){ .renderer = new_part(renderer) };
 }
 
-/* The scene's objects that are shown, each with a renderer and a scene of its own. */
+/* Creates a renderer and a scene for each visible object. */
 static void bring_parts(WrRenderer *renderer, const WrFrameRequest *request)
 {
     WrGroup *group = renderer->group;
@@ -111,7 +111,7 @@ static WrFrameRequest request_of(const Part *part, const WrFrameRequest *request
     return own;
 }
 
-/* Light alone, if that is all that has changed. */
+/* Chooses the relight cache's use, if only light has changed. */
 static void choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
                           WrRenderer *const *owners)
 {
@@ -156,7 +156,8 @@ static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, W
     return true;
 }
 
-/* The plan of all: a row runs that runs for any, and samples are taken as they are called for where one object has them so. Where none is shown: what the object at hand would take. */
+/* Joins the plans: an effect runs if it runs for any object, and adaptive sampling is used if any object uses
+   it. With no visible object: the plan of the current object. */
 static void join_plans(WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrGroup *group = renderer->group;
@@ -171,7 +172,7 @@ static void join_plans(WrRenderer *renderer, const WrFrameRequest *request)
     }
 }
 
-/* Does the last picture show what this request asks for, but for edits of the tables? */
+/* True if the last picture fits this request, apart from edits of the tables. */
 static bool group_rests(const WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrGroup *group = renderer->group;
@@ -183,7 +184,7 @@ static bool group_rests(const WrRenderer *renderer, const WrFrameRequest *reques
     return rest;
 }
 
-/* All that decides which of the objects a sample shows. */
+/* Everything that decides which object a sample shows. */
 typedef struct Place {
     WrViewSight sight;
     WrShapef shape;
@@ -198,7 +199,7 @@ static WrHash place_of(const Part *part, WrHash before)
     const WrView *view = &own->view;
     const WrViewSight sight = wr_view_sight(view);
     Place place;
-    memset(&place, 0, sizeof place); /* padding too: its bytes are told apart */
+    memset(&place, 0, sizeof place); /* clears padding as well: its bytes are hashed */
     memcpy(&place.sight, &sight, sizeof sight);
     memcpy(&place.shape, &view->shape, sizeof place.shape);
     memcpy(place.deep, view->deep, sizeof place.deep);
@@ -212,14 +213,14 @@ static WrHash place_of(const Part *part, WrHash before)
     return wr_hash_bytes(&place, sizeof place, before);
 }
 
-/* What the samples look at, as far as it is known: while all objects stay where they are. */
+/* Reads or fills the objects' uv caches: they are valid while no object moves. */
 static void bring_sights(WrRenderer *renderer, const WrFrameRequest *request, bool anew)
 {
     WrGroup *group = renderer->group;
     WrHash all = { .low = 1 };
     for (int i = 0; i < group->count; i++) {
         all = place_of(&group->parts[i], all);
-        /* Of a mesh out of a file its triangles are not compared: what is known is so of this scene alone. */
+        /* Triangles of a mesh file are not compared: the cache is valid only for this scene. */
         if (group->parts[i].renderer->triangles.source)
             all = wr_hash_bytes(&group->scenes, sizeof group->scenes, all);
     }
@@ -229,13 +230,13 @@ static void bring_sights(WrRenderer *renderer, const WrFrameRequest *request, bo
     }
 }
 
-/* Are tiles' looks at the tables noted? */
+/* True if tiles record their fetches from the tables. */
 static bool notes_tiles(const WrRenderer *renderer, const WrFrameRequest *request, bool rests)
 {
     return wr_frame_may_keep(request) && !rests && renderer->steady->use != WR_RELIGHT_KNOWN;
 }
 
-/* Where the group's pixels go. */
+/* Target of the group's pixels. */
 static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrDials *dials = request->dials ? request->dials : &request->scene->dials;

@@ -32,7 +32,7 @@ static void give(double to[3], const double axes[9], WrVec3 d)
         to[k] = axes[3 * k] * d.x + axes[3 * k + 1] * d.y + axes[3 * k + 2] * d.z;
 }
 
-/* How the camera looks at the surroundings; false: there are none that it could. */
+/* Camera rays into the environment; false: the scene shows no environment. */
 static bool look_out(const WrScene *scene, double radius, int width, int height, WrOutlook *out)
 {
     const WrEnvironment *own = scene ? &scene->environment : NULL;
@@ -105,7 +105,7 @@ static void drop(WrBackdrop *backdrop)
     backdrop->held = NULL;
 }
 
-/* One colour, or one a row. */
+/* Fills one colour, or one for each row. */
 static void fill_rows(WrBackdrop *b, const WrBackground *ground, int height, int first, int rows,
                       const WrPixelEncoder *coder)
 {

@@ -27,7 +27,7 @@ typedef struct ResolveJob {
     uint32_t bins[WR_CODE_BINS + 1];
 } ResolveJob;
 
-/* Colours that are not premultiplied, and opaque. */
+/* Un-premultiplied, opaque colours. */
 static void part_from_alpha(const float *from, int count, float to[WR_SPAN][4])
 {
     for (int i = 0; i < count; i++) {
@@ -42,7 +42,7 @@ static uint8_t alpha_code(float alpha)
     return (uint8_t)(255.0f * (alpha > 0.0f ? alpha < 1.0f ? alpha : 1.0f : 0.0f) + 0.5f);
 }
 
-/* A row as R,G,B,A. */
+/* Writes a row as R,G,B,A. */
 static void alpha_row(int y, int worker, void *ctx)
 {
     (void)worker;

@@ -1,22 +1,23 @@
-/* srgb_encode.h - linear light as 8-bit codes of the sRGB curve (IEC 61966-2-1).
-   Layer 5, private to the renderer. */
+/* srgb_encode.h - quantization of linear light to 8-bit codes of the sRGB curve (IEC 61966-2-1). Private to the
+   renderer. */
 #pragma once
 #include <stdint.h>
 
-/* The least linear value of each code: decode((code - 1/2) / 255). */
+/* Smallest linear value of each code: decode((code - 1/2) / 255). */
 extern const float wr_srgb_borders[256];
 
-/* Linear light cut into bins: nowhere does the curve rise by more than one code in a bin (12.92 * 255 / 4096), so that
-   the code at its lower end and the place of the one border inside tell the code of any value. A float times BINS is
-   exact, and borders lie on steps of 1/STEPS of a bin: the code is that of a comparison with the border itself. */
+/* Linear light is cut into bins. The curve rises by less than one code within a bin (12.92 * 255 / 4096), so the
+   code at a bin's lower end and the position of the one border inside give the code of any value. A float times
+   BINS is exact, and borders lie on steps of 1/STEPS of a bin: the result equals a comparison with the border
+   itself. */
 #define WR_CODE_BINS 4096
 #define WR_CODE_STEPS 8388608.0f /* 2^23 */
 
-/* [WR_CODE_BINS + 1]: code | border << 8, in steps; WR_CODE_STEPS where no border is. */
+/* [WR_CODE_BINS + 1]: code | border << 8, in steps; WR_CODE_STEPS if the bin has no border. */
 void wr_code_bins_fill(uint32_t bins[WR_CODE_BINS + 1]);
 
-/* Where in the bins; of what is no number 0. Apart from what follows: a loop that looks up what it has just limited
-   does not vectorise. */
+/* Position among the bins; NaN gives 0. Separate from wr_code_at: a loop that clamps and indexes at once does
+   not vectorise. */
 static inline float wr_code_place(float x)
 {
     x = x > 0.0f ? x : 0.0f;

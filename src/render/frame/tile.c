@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The largest power of two up to x. */
+/* Largest power of two up to x. */
 static int power_below(int x)
 {
     int p = 1;
@@ -74,8 +74,8 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
     return tile;
 }
 
-/* Add the K samples of each pixel of a row in pairs: x0+x1, x2+x3, ... until one is left, so that the
-   sum of K = 2^m equal values is exact (HC92). */
+/* Adds the K samples of each pixel of a row in pairs: x0+x1, x2+x3, ... until one is left, so that the sum of K
+   = 2^m equal values is exact (HC92). */
 static void fold_row(float *row, int pixels, int samples)
 {
     for (int k = samples; k > 1; k = (k + 1) / 2) {
@@ -91,7 +91,7 @@ static void fold_row(float *row, int pixels, int samples)
     }
 }
 
-/* The sums of `pixels` pixels beside each other into the first row. */
+/* Adds k rows of samples of `pixels` neighbouring pixels into the first row. */
 static void fold(float *sample, int pixels, int k, size_t step)
 {
     for (int y = 0; y < k; y++) fold_row(sample + (size_t)y * step, pixels, k);
@@ -133,14 +133,14 @@ static WrSink row_sink(const WrTileRows *rows, int y)
                      .nearest = rows->nearest ? rows->nearest + row * rows->nearest_step : NULL };
 }
 
-/* A finished row of codes to its place, opaque: alpha told where nothing was yet. */
+/* Copies a finished row of codes, opaque. Alpha marked pixels not yet covered. */
 static void put_codes(const uint32_t *restrict from, int count, uint32_t *restrict to)
 {
 #pragma omp simd
     for (int x = 0; x < count; x++) to[x] = from[x] | 0xff000000U;
 }
 
-/* What lies behind `count` pixels from (x, y) on; mask: 0xffffff leaves its alpha 0. */
+/* Background codes of `count` pixels from (x, y) on; mask 0xffffff sets their alpha to 0. */
 static void fill_codes(const WrTileJob *job, int x, int y, int count, uint32_t mask,
                        uint32_t *restrict to)
 {
@@ -163,17 +163,17 @@ void wr_tile_behind_strip(const WrTileJob *job, const WrSink *sink, int from, in
     scratch->behind = true;
 }
 
-/* Several short rows, one after the other. */
+/* Several short rows stored one after the other. */
 typedef struct Packed {
     float rgba[WR_SPAN][4], normals[WR_SPAN][3];
     uint32_t codes[WR_SPAN];
     WrNearest nearest[WR_SPAN];
 } Packed;
 
-/* Floats of samples that are wanted: as they are packed, and where they go. */
+/* One float output of samples: its packed copy and its destination. */
 typedef struct Plane {
-    float *packed, *to; /* to NULL: not wanted */
-    size_t each, step;  /* floats a sample, and a row of `to` */
+    float *packed, *to; /* to NULL: not requested */
+    size_t each, step;  /* floats a sample, and floats a row of `to` */
 } Plane;
 #define PLANES 2
 
@@ -183,7 +183,7 @@ static void find_planes(const WrTileRows *out, Packed *packed, Plane planes[PLAN
     planes[1] = (Plane){ packed->normals[0], out->normals, 3, 3 * out->wide };
 }
 
-/* Nothing, or what other objects have left there. */
+/* Loads zeros, or the samples that other objects have left there. */
 static void bring_packed(const WrTileRows *out, int top, int rows, int width, Packed *packed,
                          const Plane planes[PLANES])
 {
@@ -200,7 +200,7 @@ static void bring_packed(const WrTileRows *out, int top, int rows, int width, Pa
                w * sizeof *packed->nearest);
 }
 
-/* All of it to its places. */
+/* Stores the packed rows at their destinations. */
 static void put_packed(const WrTileRows *out, int top, int rows, int width, const Packed *packed,
                        const Plane planes[PLANES])
 {
@@ -220,7 +220,7 @@ static void put_packed(const WrTileRows *out, int top, int rows, int width, cons
     }
 }
 
-/* What lies behind the rows, without alpha while nothing is there. */
+/* Loads the background of the rows, with alpha 0 while no object covers them. */
 static void fill_packed(const WrTileJob *job, const WrDepthTile *tile, int top, int rows,
                         uint32_t *codes)
 {
@@ -228,7 +228,7 @@ static void fill_packed(const WrTileJob *job, const WrDepthTile *tile, int top, 
         fill_codes(job, tile->x, tile->y + top + y, tile->w, 0xffffffU, codes + y * tile->w);
 }
 
-/* Where they are. */
+/* Positions of the packed samples. */
 static void place_packed(const WrDepthTile *tile, int top, int rows, WrScatter *places)
 {
     places->count = 0;
@@ -241,7 +241,7 @@ static void place_packed(const WrDepthTile *tile, int top, int rows, WrScatter *
     }
 }
 
-/* Several short rows in one strip. */
+/* Draws several short rows in one strip. */
 static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
                        WrTileScratch *scratch)
 {
@@ -292,7 +292,7 @@ void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const
     scratch->all_strips += wr_clock_seconds() - start;
 }
 
-/* One sample a pixel, straight into the picture. light false: n' alone. */
+/* Renders one sample a pixel, straight into the picture. light false: n' only. */
 static void render_point(const WrTileJob *job, WrTilePart part, bool light, WrTileScratch *scratch)
 {
     WrDepthTile tile = wr_tile_depth(job, 1, part.x, part.y, part.w, part.h, scratch);
@@ -304,7 +304,7 @@ static void render_point(const WrTileJob *job, WrTilePart part, bool light, WrTi
     wr_tile_samples(job, 1, &tile, &out, scratch);
 }
 
-/* The mean of K x K. */
+/* Renders the mean of K x K samples. */
 static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
 {
     const int k = job->samples, w = part.w * k, h = part.h * k;
@@ -316,7 +316,7 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     for (int y = 0; y < h; y++) memset(scratch->sample[y], 0, (size_t)w * sizeof(float[4]));
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
     wr_tile_samples(job, k, &tile, &out, scratch);
-    scratch->covered = covered; /* that was samples */
+    scratch->covered = covered; /* it counted samples */
     if (k > 1) wr_did(scratch, WR_EFFECT_SAMPLES);
     start = wr_clock_seconds();
     for (int y = 0; y < part.h; y++)
@@ -325,7 +325,7 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 
-/* Codes are written once: here only those beside `part`, which the object may be on. */
+/* Codes are written once: here only those beside `part`, the area that the object may cover. */
 static void clear_codes(const WrTileJob *job, WrTilePart whole, WrTilePart part)
 {
     const int left = part.x - whole.x, right = whole.x + whole.w - part.x - part.w;
@@ -359,7 +359,7 @@ void wr_tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *sc
                WR_MAP_RENDERED | wr_tile_map_samples(all), (size_t)whole.w);
 }
 
-/* The pixels from a to b, with one more at each end, that lie in the run at *from. */
+/* Clips the run at *from to the pixels from a to b, with one more at each end. */
 static void crop(double a, double b, int *from, int *count)
 {
     const int end = *from + *count;
@@ -391,7 +391,7 @@ WrTilePart wr_tile_touched(const WrTileJob *job, WrTilePart part)
     return part;
 }
 
-/* Several samples a pixel. */
+/* Renders several samples a pixel. */
 static void render_many(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
 {
     if (job->plan->sampling != WR_SAMPLING_ADAPTIVE) render_samples(job, part, scratch);
@@ -423,7 +423,7 @@ void wr_tile_code(const WrTileJob *apart, WrTilePart part, WrTileScratch *scratc
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 
-/* The same as codes, by way of the tile's own floats. */
+/* Renders several samples a pixel to codes, by way of the tile's own floats. */
 static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
 {
     const WrTileJob apart = wr_tile_apart(job, part, scratch);
@@ -431,7 +431,7 @@ static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScrat
     wr_tile_code(&apart, part, scratch);
 }
 
-/* Was the tile spared something in every run? `before`: the samples before it. */
+/* Counts the tile if every run skipped work. `before`: sample counts before the tile. */
 static void count_spared(WrTileScratch *scratch, const int64_t before[WR_RUN_KINDS])
 {
     for (int bits = 1; bits < WR_RUN_KINDS; bits++) {

@@ -1,5 +1,5 @@
-/* tile_internal.h - what a tile of one object and one of several do alike.
-   Layer 5, private to tile.c, tile_multi_object.c. */
+/* tile_internal.h - functions shared by tiles of one object and tiles of several.
+   Private to tile.c and tile_multi_object.c. */
 #pragma once
 #include "render/frame/tile.h"
 
@@ -7,44 +7,44 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Where the rows of a tile go. */
+/* Destination of a tile's rows. */
 typedef struct WrTileRows {
-    float *rgba, *normals; /* of the first row; NULL: not wanted */
-    size_t rgba_step;      /* floats a row */
-    size_t wide;           /* samples a row of the normals */
+    float *rgba, *normals; /* first row; NULL: not requested */
+    size_t rgba_step;      /* floats per row */
+    size_t wide;           /* samples per row of the normals */
     uint32_t *codes;
     size_t codes_step;
     WrNearest *nearest;
     size_t nearest_step;
-    bool over; /* other objects have been drawn there, or will be */
+    bool over; /* other objects are drawn there too, before or after */
 } WrTileRows;
 
-/* What lies behind a pixel of the picture; only where codes are wanted. */
+/* Background of a pixel of the picture; only for codes. */
 static inline const WrBehind *wr_tile_behind(const WrTileJob *job, int x, int y)
 {
     return wr_backdrop_at(job->backdrop, x, y - job->top);
 }
-/* A row of premultiplied colours, [width][4], to the picture's codes. */
+/* Encodes a row of premultiplied colours, [width][4], into the picture's codes. */
 void wr_tile_code_row(const WrTileJob *job, int x, int y, int width, const float *rgba,
                       WrTileScratch *scratch);
 
-/* What lies behind a row that is stored once, but for its samples [from, to). */
+/* Writes the background of a row that is stored once, except its samples [from, to). */
 void wr_tile_behind_strip(const WrTileJob *job, const WrSink *sink, int from, int to,
                           WrTileScratch *scratch);
-/* All samples of a tile of the grid of k a pixel. */
+/* Draws all samples of a tile in the grid of k x k samples a pixel. */
 void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
                      WrTileScratch *scratch);
-/* The part of it that the object may be on; w or h 0: none. */
+/* The part of the tile that the object may cover; w or h 0: none. */
 WrTilePart wr_tile_touched(const WrTileJob *job, WrTilePart part);
-/* What all of the tile takes whatever it shows, into its map. */
+/* Sets the cost bits that every pixel of the tile has, whatever it shows. */
 void wr_tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch);
-/* Nothing anywhere on the tile yet; of codes those beside `part` alone, which are written once. */
+/* Clears the tile; of codes only those beside `part`, because each is written once. */
 void wr_tile_clear(const WrTileJob *job, WrTilePart whole, WrTilePart part);
-/* What is nearer than that hides all of the object (E52). */
+/* Depth in front of the whole object: anything nearer hides all of it (E52). */
 float wr_tile_hidden_from(const WrTileJob *job);
-/* As the job, but into the tile's own floats; then they become codes. */
+/* wr_tile_apart: a job that renders to the tile's own floats. wr_tile_code: encodes those floats to the picture. */
 WrTileJob wr_tile_apart(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch);
 void wr_tile_code(const WrTileJob *apart, WrTilePart part, WrTileScratch *scratch);
-/* The means of a row of `width` pixels, from k rows of samples at `step` floats, which are overwritten. How many are
-   covered. */
+/* Means of a row of `width` pixels, from k rows of samples `step` floats apart, which are overwritten. Returns
+   the number of covered pixels. */
 int wr_tile_means(int k, int width, float *sample, size_t step, float *pixel);

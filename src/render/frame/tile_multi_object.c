@@ -1,4 +1,4 @@
-/* One tile of several objects: drawn from the front, each sample the nearest's (E51-E53). */
+/* Tile of several objects: drawn front to back; each sample shows the nearest object (E51-E53). */
 #include "render/pipeline/pipeline.h"
 #include "render/frame/tile_internal.h"
 #include "scene/objects.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Those whose bound meets the tile, nearest first as the jobs are. */
+/* Objects whose bound overlaps the tile, nearest first as the jobs are. */
 typedef struct Touching {
     const WrTileJob *job[WR_OBJECTS_MAX];
     WrTilePart part[WR_OBJECTS_MAX];
@@ -27,7 +27,7 @@ static void find_touching(const WrTileJob *jobs, int count, WrTilePart whole, To
     }
 }
 
-/* What any of them may be on. */
+/* Bounding rectangle of all objects on the tile. */
 static WrTilePart united(const Touching *touching)
 {
     WrTilePart all = touching->part[0];
@@ -43,7 +43,7 @@ static WrTilePart united(const Touching *touching)
     return all;
 }
 
-/* Emptied samples of a tile, k x k a pixel. */
+/* Clears the samples of a tile, k x k a pixel. */
 static void empty(int k, WrTilePart whole, bool nearest, WrTileScratch *scratch)
 {
     const size_t width = (size_t)(whole.w * k);
@@ -54,7 +54,7 @@ static void empty(int k, WrTilePart whole, bool nearest, WrTileScratch *scratch)
     }
 }
 
-/* The farthest that any sample of the tile shows; INFINITY: not all show something. */
+/* Largest depth among the tile's samples; INFINITY if one of them is background. */
 static float farthest(int k, WrTilePart whole, const WrTileScratch *scratch)
 {
     float depth = -INFINITY;
@@ -74,7 +74,7 @@ float wr_tile_hidden_from(const WrTileJob *job)
     return nearest - FLT_EPSILON * fabsf(nearest);
 }
 
-/* All objects' samples into scratch->sample, and, where wanted, n' into the picture. */
+/* Draws all objects' samples into scratch->sample and, where requested, n' into the picture. */
 static void draw(const Touching *touching, int k, WrTilePart whole, bool light, int index,
                  WrTileScratch *scratch)
 {
@@ -82,7 +82,7 @@ static void draw(const Touching *touching, int k, WrTilePart whole, bool light, 
     for (int i = 0; i < touching->count; i++) {
         const WrTileJob *job = touching->job[i];
         const WrTilePart part = touching->part[i];
-        /* What follows is no nearer: no more is seen (E52). Of samples that are known no depth is. */
+        /* All that follows lies behind: drawing can stop (E52). Samples from the relight cache have no depth. */
         if (i > 0 && !job->steady && !wr_plan_runs(job->plan, WR_EFFECT_HIDDEN) &&
             farthest(k, whole, scratch) < wr_tile_hidden_from(job))
             break;
@@ -103,7 +103,7 @@ static void draw(const Touching *touching, int k, WrTilePart whole, bool light, 
     }
 }
 
-/* Means of the samples to where the picture keeps them. */
+/* Stores the means of the samples in the picture. */
 static void resolve(const WrTileJob *canvas, WrTilePart whole, WrTileScratch *scratch)
 {
     const int k = canvas->samples;
@@ -116,7 +116,7 @@ static void resolve(const WrTileJob *canvas, WrTilePart whole, WrTileScratch *sc
     }
 }
 
-/* Samples where they are called for. */
+/* Adaptive sampling of the tile. */
 static void refine(const WrTileJob *canvas, const WrTileJob *jobs, int count, WrTilePart part,
                    int index, WrTileScratch *scratch)
 {
@@ -133,7 +133,7 @@ static void sample(const WrTileJob *canvas, const Touching *touching, WrTilePart
     const int64_t covered = scratch->covered;
     empty(k, whole, touching->count > 1, scratch);
     draw(touching, k, whole, true, index, scratch);
-    scratch->covered = covered; /* that was samples */
+    scratch->covered = covered; /* it counted samples */
     if (k > 1) wr_did(scratch, WR_EFFECT_SAMPLES);
     const double start = wr_clock_seconds();
     resolve(canvas, whole, scratch);
