@@ -24,7 +24,7 @@ static bool holds(const WrEnvLookup *mirror, const WrEnvironmentMap *surround,
            own->gated == gloss->gated && mirror->fine == fine;
 }
 
-/* Row j >= 0 of rgb, to its place. */
+/* Copies row j >= 0 of rgb into the padded table. */
 static void put_row(WrEnvLookup *mirror, int j, const float *rgb)
 {
     const int w = mirror->width;
@@ -33,7 +33,7 @@ static void put_row(WrEnvLookup *mirror, int j, const float *rgb)
         memcpy(out, rgb + (size_t)((i + w) % w) * 3, 3 * sizeof *out);
 }
 
-/* Above the first row or below the last: what makes the pole the mean of that row. */
+/* Fills the row above the first or below the last so that the pole is the mean of that row. */
 static void put_pole(WrEnvLookup *mirror, int from, int to)
 {
     const int w = mirror->width;

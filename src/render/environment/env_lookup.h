@@ -1,5 +1,5 @@
-/* env_lookup.h - the surroundings as kernels look them up in mirrored directions: as they are, or blurred by a material's lobe.
-   Layer 5, private to the renderer. Kept from frame to frame. */
+/* env_lookup.h - environment table for mirrored directions, sharp or blurred by a material's lobe. Private to
+   the renderer. Kept between frames. */
 #pragma once
 #include "shade/environment_brdf.h"
 #include "shade/environment_map.h"
@@ -9,14 +9,16 @@
 typedef struct WrPool WrPool;
 
 typedef struct WrEnvLookup {
-    WrEnvironmentMap *source; /* own share; NULL: nothing is held */
-    WrEnvironmentBrdf gloss;  /* what it is blurred by; lobe none: not */
+    WrEnvironmentMap *source; /* own share; NULL: empty */
+    WrEnvironmentBrdf gloss;  /* the lobe that blurs it; lobe none: sharp */
     double fine;
-    int width, height, pitch; /* texels; pitch: of a row with the one beside it on either side */
-    float *rgba;              /* [height + 2][pitch][4], with a row above and below, A 0; owned */
+    /* texels; pitch: row length including one neighbour texel on either side */
+    int width, height, pitch;
+    float *rgba; /* [height + 2][pitch][4], with an extra row above and below, A 0; owned */
 } WrEnvLookup;
 
-/* gloss NULL: not blurred. fine: as of wr_blur_width. Errors: no memory, cancelled: it is empty then. */
+/* Updates the table. gloss NULL: sharp. fine: as in wr_blur_width. Errors: no memory, cancelled; the table is
+   then empty. */
 bool wr_env_lookup_bring(WrEnvLookup *mirror, const WrEnvironmentMap *surround,
                          const WrEnvironmentBrdf *gloss, double fine, WrPool *pool, WrError *err);
 void wr_env_lookup_drop(WrEnvLookup *mirror);

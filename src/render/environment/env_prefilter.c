@@ -35,7 +35,7 @@ static void bring_shares(WrEnvPrefilter *grades, const WrMaterial *m)
     wr_textured_reflection_init(&grades->vary, &of, m->specular, m->tint, m->gate);
 }
 
-/* Between which rungs do widths lie? */
+/* Range of blur levels that the material's widths need. */
 static void rungs_of(const WrEnvironmentBrdf *gloss, const WrPlan *plan, int *first, int *last)
 {
     const double rung = -log2(gloss->alpha), most = WR_TEXTURED_REFLECTION_RUNGS - 1;
@@ -64,7 +64,7 @@ bool wr_env_prefilter_bring(WrEnvPrefilter *grades, const WrScene *scene, const 
     return true;
 }
 
-/* A step's terms, and 0 after them. */
+/* Copies the terms of one roughness step and pads them with 0. */
 static void put_terms(const double *terms, double *to, float *single)
 {
     for (int k = 0; k < WR_TEXTURED_REFLECTION_TERMS; k++)
@@ -80,7 +80,7 @@ static void put_step(const WrTexturedReflection *vary, int i, WrKernVaryd *wide,
     put_terms(vary->twice[i], wide->twice[i], single->twice[i]);
 }
 
-/* Shares of what is mirrored: of no metal and of metal, or of that metalness alone. */
+/* Reflected shares at step i: for non-metal and metal, or for one fixed metalness. */
 static void put_shares(const WrTexturedReflection *vary, bool alike, double metal, int i,
                        WrKernVaryd *wide, WrKernVary *single)
 {

@@ -1,6 +1,6 @@
-/* env_prefilter.h - surroundings blurred by lobes of several widths, and the shares of light at steps of roughness: for surfaces whose
-   roughness changes from sample to sample, or is widened by slopes.
-   Layer 5, private to the renderer. Kept from frame to frame. */
+/* env_prefilter.h - environment prefiltered by lobes of several widths, with the reflected shares at steps of
+   roughness. Private to the renderer. Kept between frames. For surfaces whose roughness varies from sample to
+   sample, or is widened by slopes. */
 #pragma once
 #include "render/environment/env_lookup.h"
 #include "shade/textured_reflection.h"
@@ -10,8 +10,8 @@ typedef struct WrScene WrScene;
 typedef struct WrTileJob WrTileJob;
 
 typedef struct WrEnvPrefilter {
-    WrEnvLookup rung[WR_TEXTURED_REFLECTION_RUNGS]; /* those that are called for */
-    WrReflectance of;                               /* what vary was made of */
+    WrEnvLookup rung[WR_TEXTURED_REFLECTION_RUNGS]; /* only the levels in use */
+    WrReflectance of; /* the reflectance that `vary` was computed for */
     double ks, tint;
     bool gated, there;
     WrTexturedReflection vary;
@@ -22,4 +22,4 @@ bool wr_env_prefilter_bring(WrEnvPrefilter *grades, const WrScene *scene, const 
 void wr_env_prefilter_fill(const WrEnvPrefilter *grades, const WrScene *scene, WrTileJob *job);
 void wr_env_prefilter_drop(WrEnvPrefilter *grades);
 void wr_env_prefilter_drop_rungs(
-    WrEnvPrefilter *grades); /* the shares of light, which take some time, stay */
+    WrEnvPrefilter *grades); /* frees the prefiltered tables; keeps the reflected shares */

@@ -29,7 +29,7 @@ static void narrow_all(const WrKernSurroundd *from, WrKernSurround *to)
     to->kd = (float)from->kd, to->mean = (float)from->mean;
 }
 
-/* How the mirrored direction is looked up, and what comes of it. */
+/* Parameters of the mirrored fetch and its reflectance. */
 static void fill_mirror(const WrEnvironment *from, const WrEnvironmentBrdf *gloss,
                         const double axes[9], const WrEnvLookup *mirror, WrKernMirrord *out)
 {

@@ -1,5 +1,5 @@
-/* env_setup.h - the scene's surroundings as an object's pictures need them.
-   Layer 5, private to the renderer. */
+/* env_setup.h - per-frame environment parameters for one object.
+   Private to the renderer. */
 #pragma once
 #include "render/kernels/kern.h"
 #include "shade/environment_brdf.h"
@@ -13,9 +13,9 @@ typedef struct WrEnvironmentMapLook {
     WrKernSurroundd wide;
     WrKernMirror mirror;
     WrKernMirrord mirror_wide;
-    int shares; /* of diffuse light: 0: Lambert's; 1: by n.v; 2: and what is reflected again */
+    int shares; /* diffuse terms: 0: Lambert; 1: by n.v; 2: by n.v, with interreflection */
 } WrEnvironmentMapLook;
 
-/* rotation: the object's axes -> the world, as WrPlacement has it. */
+/* Fills the parameters. rotation: the object's axes -> the world, as in WrPlacement. */
 void wr_environment_map_look(const WrScene *scene, const WrPlan *plan, const double rotation[9],
                              const WrEnvLookup *mirror, WrEnvironmentMapLook *out);

@@ -1,4 +1,4 @@
-/* The stages in single precision. */
+/* Single-precision instance of the stages. */
 #include "render/pipeline/pipeline.h"
 
 #include "base/kernmath.h"
@@ -37,6 +37,6 @@
 #define VARY_OF(job) (&(job)->vary)
 #define VIEWED(view, member) ((view)->member)
 #define HAS_WIDE     /* simd_kernels.h is in single precision */
-#define MORE_STEPS 0 /* more steps of Newton's method than single precision needs */
-#define TURN 0x1p-18 /* part of a tangent that Newton's last step may change it by */
+#define MORE_STEPS 0 /* further steps of Newton's method, compared with single precision */
+#define TURN 0x1p-18 /* largest change of a tangent by Newton's last step, relative */
 #include "render/pipeline/pipeline_body.h"

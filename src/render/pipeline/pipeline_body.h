@@ -1,5 +1,5 @@
-/* pipeline_body.h - the stages of the plan over one strip. Included by pipeline.c and pipeline_double.c, which define
-   REAL and where things of that precision are. A header without a guard, by intention. */
+/* pipeline_body.h - the stages of the plan over one strip. Included by pipeline.c and pipeline_double.c, which
+   define REAL and the names of that precision. Deliberately without a guard. */
 
 typedef WR_T(WrStrip) Strip;
 typedef WR_T(WrKernels) Kernels;
@@ -41,7 +41,7 @@ static void did(const Watch *watch, WrEffect effect)
     wr_did(watch->scratch, effect);
 }
 
-/* Samples a side of the grid that these rays are of. */
+/* Samples a side per pixel in the grid of these rays. */
 static int grid_of(const WrView *view, const Rays *rays)
 {
     int i = 0;
@@ -49,7 +49,7 @@ static int grid_of(const WrView *view, const Rays *rays)
     return view->grids[i].k;
 }
 
-/* Where the strip looked. */
+/* Records the fetches of the strip in the dirty regions. */
 static void note_looks(const WrTileJob *job, const Rays *rays, const Strip *strip,
                        const WrTileScratch *scratch)
 {
@@ -62,14 +62,14 @@ static void note_looks(const WrTileJob *job, const Rays *rays, const Strip *stri
 #include "render/pipeline/stage_fetch_body.h"
 #include "render/pipeline/stage_normal_map_body.h"
 
-/* The kernels of a surface that rays meet in closed form; NULL: of another. */
+/* Closed-form kernels of the surface; NULL: it has none. */
 static const WR_T(WrRound) * round_of(const WrTileJob *job)
 {
     const WR_T(WrRound) *round = &KERNELS_OF(job)->round[job->plan->inversion];
     return round->hit ? round : NULL;
 }
 
-/* Is light worked out? */
+/* True if light is computed. */
 static bool lit(const WrSink *sink)
 {
     return sink->rgba || sink->codes;
@@ -88,7 +88,7 @@ static bool lit(const WrSink *sink)
 #include "render/pipeline/stage_displaced_body.h"
 #include "render/pipeline/stage_frame_body.h"
 
-/* Where on the surface each pixel lies, and how far its normal turns there. */
+/* Size of each pixel on the surface, and the change of the normal across it. */
 static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
                            Strip *strip, Watch *watch)
 {
@@ -101,7 +101,7 @@ static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, con
     k->bound_normal(sphere, bumped, strip);
 }
 
-/* What each formula of the normal does. */
+/* Effects that each normal formula runs. */
 static const WrEffects normal_effects[] = {
     [WR_BUMP_NONE] = 0,
     [WR_BUMP_BLINN] = WR_EFFECT_BIT(WR_EFFECT_BUMP),
@@ -118,7 +118,7 @@ static void store_parameters(const WrSink *sink, const Strip *strip)
     }
 }
 
-/* Is n' worked out from n and the slopes at once, and nothing else looks at the tangents? */
+/* True if n' is computed directly from n and the slopes and nothing else reads the tangents. */
 static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
 {
     return job->plan->bump == WR_BUMP_BLINN && KERNELS_OF(job)->bend[job->plan->inversion] &&
@@ -128,14 +128,14 @@ static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
            !job->plan->facets_filtered && job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
 }
 
-/* P, n, and what else of the surface's frame the plan asks for. */
+/* P, n, and the other parts of the surface's frame that the plan needs. */
 static void surface_strip(const WrTileJob *job, int face, bool level, const WrSink *sink,
                           Strip *strip, Watch *watch)
 {
     const WR_T(WrRound) *round = round_of(job);
     const bool parallax = runs(job, WR_EFFECT_PARALLAX);
     if (job->dice || parallax) base_strip(job, face, strip, watch);
-    if (job->triangles || parallax) return; /* all of it came with the hit, or has come now */
+    if (job->triangles || parallax) return; /* the frame came with the hit, or was just computed */
     if (round && runs(job, WR_EFFECT_TANGENTS) && !level && !bends_at_once(job, sink)) {
         round->tangents(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
@@ -146,14 +146,14 @@ static void surface_strip(const WrTileJob *job, int face, bool level, const WrSi
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
 
-/* n' of the samples, from the table's slopes where it has any. */
+/* n' of the samples, from the table's slopes if it has any. */
 static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const WrSink *sink,
                        Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
     const Kernels *k = KERNELS_OF(job);
     const WrBumpMode bump = level ? WR_BUMP_NONE : job->plan->bump;
     REAL side[WR_SPAN];
-    memcpy(side, strip->s, (size_t)strip->count * sizeof *side); /* footprints take its place */
+    memcpy(side, strip->s, (size_t)strip->count * sizeof *side); /* footprints overwrite it */
     if (bump != WR_BUMP_NONE && job->plan->source != WR_SOURCE_NONE)
         look(job, rays, strip, scratch, watch);
     if (bump != WR_BUMP_NONE && runs(job, WR_EFFECT_NORMALS))
@@ -182,7 +182,7 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
     keep_half3(job, strip->bx, strip->by, strip->bz, strip->count, watch);
 }
 
-/* What the run is spared, once P and n are known; lit: it is known not to be dark. untold: as is_dark has it. */
+/* Work that the run can skip, once P and n are known. lit: it is known not to be dark. untold: as in is_dark. */
 static unsigned spared_of(const WrTileJob *job, const Rays *rays, bool level, bool lit,
                           const WR_T(WrRound) * untold, Strip *strip, WrTileScratch *scratch,
                           Watch *watch)
@@ -195,7 +195,7 @@ static unsigned spared_of(const WrTileJob *job, const Rays *rays, bool level, bo
     return spared;
 }
 
-/* P, n and n' of the samples, as far as light asks for them. Returns what they were spared, bits of WrRun. */
+/* P, n and n' of the samples, as far as light needs them. Returns the skipped work, bits of WrRun. */
 static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, const WrSink *sink,
                              Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
@@ -217,8 +217,8 @@ static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, c
     return spared;
 }
 
-/* All stages of the plan from the hit to the colour. quad: of a planar surface, or -1. Returns what the samples were
-   spared, bits of WrRun. */
+/* All stages of the plan from the hit to the colour. quad: of a planar surface, or -1. Returns the skipped work,
+   bits of WrRun. */
 static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
                             Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
@@ -238,7 +238,8 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
         keep_near(job, sink, strip, watch);
     }
     if (strip->count == 0) return spared;
-    if (sink->uv && sink->nearest) store_parameters(sink, strip); /* of what is not hidden */
+    /* only of samples that are not hidden */
+    if (sink->uv && sink->nearest) store_parameters(sink, strip);
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip, watch);
     watch_lap(watch, WR_STAGE_BOUND);
     if (!lit(sink)) {
@@ -254,7 +255,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
 
 #include "render/pipeline/stage_store_body.h"
 
-/* What the view made of the strip, and in what numbers. */
+/* Records the visibility effects that ran for the strip, and their precision. */
 static void note_view(const WrTileJob *job, const Rays *rays, WrTileScratch *scratch)
 {
     if (rays->perspective) wr_did(scratch, WR_EFFECT_PERSPECTIVE);
@@ -262,7 +263,7 @@ static void note_view(const WrTileJob *job, const Rays *rays, WrTileScratch *scr
     if (sizeof(REAL) == sizeof(double)) wr_did(scratch, WR_EFFECT_DOUBLE);
 }
 
-/* What the strip's pixels took. */
+/* Adds the strip's costs to the pixels' cost map. */
 static void note_map(const WrTileJob *job, const Rays *rays, unsigned spared, const Strip *strip,
                      const WrTileScratch *scratch)
 {
@@ -274,7 +275,8 @@ static void note_map(const WrTileJob *job, const Rays *rays, unsigned spared, co
     const bool tinted = !looked && runs(job, WR_EFFECT_TINT);
     for (int i = 0; i < strip->count; i++) {
         const bool wide = (filtered && scratch->wide_of[i]) || (tinted && scratch->tint_of[i]);
-        if (strip->x[i] < (REAL)-0.5 || strip->y[i] < (REAL)-0.5) continue; /* beyond the picture */
+        /* outside the picture */
+        if (strip->x[i] < (REAL)-0.5 || strip->y[i] < (REAL)-0.5) continue;
         const int bits =
             WR_MAP_COVERED | light | (looked ? WR_MAP_LOOKED : 0) | (wide ? WR_MAP_WIDE : 0);
         wr_tile_map(job, scratch, (int)(strip->x[i] + (REAL)0.5) / k,
@@ -282,7 +284,7 @@ static void note_map(const WrTileJob *job, const Rays *rays, unsigned spared, co
     }
 }
 
-/* What has become of a strip's samples, to its place and into the counts. */
+/* Stores the strip's results and counts its samples. */
 static void put_strip(const WrTileJob *job, const Rays *rays, unsigned spared, const WrSink *sink,
                       const Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
@@ -383,7 +385,7 @@ static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
     }
 }
 
-/* Places of what hit, where a later stage asks for them. */
+/* Stores the positions of the hits, if a later stage needs them. */
 static void note_places(const WrTileJob *job, const WrSink *sink, bool noted, REAL gx, REAL gy,
                         Strip *strip)
 {

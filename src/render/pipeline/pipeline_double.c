@@ -1,4 +1,4 @@
-/* The stages in double precision. */
+/* Double-precision instance of the stages. */
 #include "base/kernmath.h"
 #include "base/vec.h"
 #include "render/pipeline/pipeline.h"
@@ -34,6 +34,6 @@
 #define GRAIN_OF(job) (&(job)->grain_double)
 #define VARY_OF(job) (&(job)->vary_double)
 #define VIEWED(view, member) ((view)->member##_d)
-#define MORE_STEPS 1 /* one step of Newton's method more: twice the digits */
-#define TURN 0x1p-47 /* part of a tangent that Newton's last step may change it by */
+#define MORE_STEPS 1 /* one more step of Newton's method: it doubles the digits */
+#define TURN 0x1p-47 /* largest change of a tangent by Newton's last step, relative */
 #include "render/pipeline/pipeline_body.h"

@@ -1,5 +1,5 @@
-/* stage_ambient_occlusion_body.h - ambient light and that of surroundings, as much as the relief leaves open (render/textures/ambient_occlusion.h). A part
-   of pipeline_body.h. */
+/* stage_ambient_occlusion_body.h - ambient occlusion of ambient and environment light
+   (render/textures/ambient_occlusion.h). Part of pipeline_body.h. */
 
 static void open_share(const WrTileJob *job, const Strip *s, REAL share[WR_SPAN])
 {
@@ -7,7 +7,8 @@ static void open_share(const WrTileJob *job, const Strip *s, REAL share[WR_SPAN]
     KERNELS_OF(job)->open(&horizon, s, share);
 }
 
-/* What was added to the first of the sums since `before`, NULL: since there was nothing, is kept as far as the sky is open. */
+/* Multiplies the light added to the first sums since `before` by the unoccluded share of the sky; before NULL:
+   all of it. */
 static void open_strip(const WrTileJob *job, const Sums *before, REAL *const to[3], Strip *s,
                        Watch *watch)
 {

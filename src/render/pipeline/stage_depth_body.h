@@ -1,11 +1,11 @@
-/* stage_depth_body.h - of a strip's samples those that no other object hides. A part of pipeline_body.h. */
+/* stage_depth_body.h - depth test of a strip against other objects. Part of pipeline_body.h. */
 
 static void keep_reals(REAL *x, const int *kept, int count)
 {
     for (int i = 0; i < count; i++) x[i] = x[kept[i]];
 }
 
-/* What a strip holds when its surface is known: which samples they are, where they lie, and the surface's frame. */
+/* Compacts a strip to the kept samples: their indices, positions and surface frames. */
 static void keep_samples(const int *kept, int count, Strip *strip)
 {
     REAL *const all[] = { strip->s,   strip->u,   strip->v,   strip->px,    strip->py,  strip->pz,
@@ -19,8 +19,8 @@ static void keep_samples(const int *kept, int count, Strip *strip)
     strip->count = count;
 }
 
-/* Samples behind what another object has put there go, before anything is worked out for them (E53); the others are the
-   nearest now. */
+/* Removes samples behind the stored depth before anything is computed for them (E53); the depth of the others is
+   stored. */
 static void keep_near(const WrTileJob *job, const WrSink *sink, Strip *strip, Watch *watch)
 {
     const WrView *view = job->view;

@@ -1,6 +1,7 @@
-/* stage_displaced_body.h - the frame of a displaced surface where rays met its facets, or the relief. A part of pipeline_body.h. */
+/* stage_displaced_body.h - surface frame of displaced surfaces, at hits on facets or on the relief. Part of
+   pipeline_body.h. */
 
-/* The base's frame at u and v; P stays where the ray met the facet or the relief. */
+/* The base's frame at u and v; P stays at the hit on the facet or the relief. */
 static void base_strip(const WrTileJob *job, int face, Strip *strip, Watch *watch)
 {
     const size_t size = (size_t)strip->count * sizeof(REAL);
@@ -16,7 +17,7 @@ static void base_strip(const WrTileJob *job, int face, Strip *strip, Watch *watc
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
 
-/* n' of a displaced surface is on the side of the facet that is seen, whichever side of the base that is. */
+/* Turns n' of a displaced surface to the visible side of the facet, whichever side of the base that is. */
 static void face_viewer(const WrTileJob *job, const Rays *rays, Strip *strip)
 {
     const REAL *at = rays->perspective ? rays->eye : rays->toward;

@@ -1,5 +1,5 @@
-/* stage_fetch_body.h - heights, slopes and colours of a strip: from the formula, from the table, from the colour picture;
-   filtered over each pixel's footprint, or not. A part of pipeline_body.h. */
+/* stage_fetch_body.h - heights, slopes and colours of a strip: from the formula, the table or the colour
+   picture, filtered over each pixel's footprint or not. Part of pipeline_body.h. */
 
 /* F as a formula: one point at a time, in double. */
 static void look_analytic(const WrTileJob *job, Strip *strip)
@@ -15,7 +15,7 @@ static void look_analytic(const WrTileJob *job, Strip *strip)
 }
 
 #ifndef WR_PIPE_DOUBLE
-/* Heights in double under shading in single precision: the look-up alone is done by the other set. */
+/* Heights in double with shading in single precision: only the fetch uses the double kernels. */
 static void look_in_double(const WrTileJob *job, WrScheme scheme, Strip *strip,
                            WrTileScratch *scratch)
 {
@@ -58,14 +58,14 @@ static void look_level0(const WrTileJob *job, Strip *strip, WrTileScratch *scrat
     look_by(job, job->plan->scheme, strip, scratch);
 }
 
-/* F alone: `central` has that of `bilinear`. */
+/* F without slopes: `central` has the heights of `bilinear`. */
 static void look_heights(const WrTileJob *job, Strip *strip, WrTileScratch *scratch)
 {
     const WrScheme scheme = job->plan->scheme;
     look_by(job, scheme == WR_SCHEME_CENTRAL ? WR_SCHEME_BILINEAR : scheme, strip, scratch);
 }
 
-/* The k-th look-up of a sample lies this far along its longer side, -1/2 .. 1/2. */
+/* Offset of the k-th fetch of a sample along its footprint's longer side, -1/2 .. 1/2. */
 static REAL along(int tap, int taps)
 {
     return ((REAL)tap + (REAL)0.5) / (REAL)taps - (REAL)0.5;
@@ -79,12 +79,12 @@ static void tap_into(Strip *to, const Strip *from, int sample, REAL t)
     to->level[k] = from->level[sample];
 }
 
-/* What the look-ups of a sample have come to: mean and covariance of n of them. */
+/* Running mean and covariance of a sample's n fetches. */
 typedef struct Sum {
     REAL f, fu, fv, suu, suv, svv;
 } Sum;
 
-/* a with b's part r: the spread of the two means belongs to the whole. */
+/* Mixes a with share r of b; the distance of the two means adds to the covariance. */
 static Sum sum_mix(Sum a, Sum b, REAL r)
 {
     REAL du = b.fu - a.fu, dv = b.fv - a.fv, k = r * ((REAL)1 - r);
@@ -96,20 +96,21 @@ static Sum sum_mix(Sum a, Sum b, REAL r)
                   a.svv + r * (b.svv - a.svv) + k * dv * dv };
 }
 
-/* A batch of look-ups: each is in `near` (the table itself), in `far` (the pyramid) or, under level 1, in
-   both, in order. */
+/* A batch of fetches: each is in `near` (the table itself), in `far` (the pyramid) or, below level 1, in both,
+   in order. */
 typedef struct Batch {
     int count;
     int sample[WR_SPAN], tap[WR_SPAN];
-    const WrPictureLook *picture; /* that is looked up; NULL: none of those */
+    const WrPictureLook *picture; /* the picture to fetch from; NULL: heights */
     int grid;                     /* samples a side of a pixel */
 } Batch;
 
-/* What makes sums of a batch's look-ups; it leaves near and far empty. */
+/* Sums up a batch's fetches; leaves near and far empty. */
 typedef void Flush(const WrTileJob *job, const Batch *batch, Strip *strip, WrTileScratch *scratch,
                    Watch *watch);
 
-/* Where look-up i of the pyramid looked, of a sample at x, y of the grid of k a pixel. */
+/* Records the texels of pyramid fetch i in the dirty regions; the sample is at x, y of the grid of k x k a
+   pixel. */
 static void note_far(const WrTileJob *job, int k, REAL x, REAL y, const Strip *far, int i,
                      const WrDirtyNotes *notes)
 {
@@ -138,7 +139,7 @@ static void note_batch(const WrTileJob *job, int k, const Batch *batch, const St
     }
 }
 
-/* What the batch's look-ups come to, into the strip. */
+/* Adds the batch's fetches to the strip. */
 static void sum_batch(const Batch *batch, const Strip *near, const Strip *far, Strip *strip)
 {
     int a = 0, b = 0;
@@ -177,7 +178,7 @@ static void flush_slopes(const WrTileJob *job, const Batch *batch, Strip *strip,
     watch_lap(watch, WR_STAGE_PYRAMID);
 }
 
-/* How many samples of the strip look above level 0, or several times; each is noted. */
+/* Number of the strip's samples that fetch above level 0 or more than once; each is marked in `wide`. */
 static int count_wide(const Strip *strip, unsigned char *wide)
 {
     int count = 0;
@@ -188,7 +189,7 @@ static int count_wide(const Strip *strip, unsigned char *wide)
     return count;
 }
 
-/* Look up all along each sample's footprint. */
+/* Fetches along each sample's footprint. */
 static void look_along(const WrTileJob *job, const Rays *rays, Flush *flush,
                        const WrPictureLook *picture, Strip *strip, WrTileScratch *scratch,
                        Watch *watch)
@@ -212,7 +213,8 @@ static void look_along(const WrTileJob *job, const Rays *rays, Flush *flush,
     if (batch.count > 0) flush(job, &batch, strip, scratch, watch);
 }
 
-/* Slopes over the footprint. Where no sample of the strip is larger than a texel: the table's own (E17). */
+/* Filtered slopes over the footprint. If no footprint of the strip is larger than a texel, the table is fetched
+   directly (E17). */
 static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
                           WrTileScratch *scratch, Watch *watch)
 {
@@ -289,8 +291,9 @@ static void flush_colours(const WrTileJob *job, const Batch *batch, Strip *strip
     watch_lap(watch, facets ? WR_STAGE_FACETS : WR_STAGE_TINT);
 }
 
-/* A picture over the footprint, in its own texels, into cr, cg, cb; where no sample is larger than one: its own numbers. After
-   the table's look-ups, which it takes the places of. How many look above level 0, each noted in `wide`. */
+/* A filtered picture, with footprints in its own texels, into cr, cg, cb; unfiltered if no footprint is larger
+   than a texel. Runs after the fetches of the table, whose buffers it reuses. Returns the number of samples
+   above level 0; each is marked in `wide`. */
 static int look_wide(const WrTileJob *job, const Rays *rays, const WrPictureLook *picture,
                      bool anisotropic, unsigned char *wide, Strip *strip, WrTileScratch *scratch,
                      Watch *watch)
@@ -307,7 +310,7 @@ static int look_wide(const WrTileJob *job, const Rays *rays, const WrPictureLook
     return count;
 }
 
-/* C over the footprint (E64). */
+/* Colour C, filtered over the footprint (E64). */
 static void look_tint(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
                       Watch *watch)
 {
@@ -316,7 +319,7 @@ static void look_tint(const WrTileJob *job, const Rays *rays, Strip *strip, WrTi
                                      scratch->tint_of, strip, scratch, watch);
 }
 
-/* By vectors written by hand (simd_kernels.h), where there are such. */
+/* Fetches by the hand-written SIMD kernels (simd_kernels.h). False: there are none. */
 static bool coloured_wide(const WrTileJob *job, Strip *strip)
 {
 #ifdef HAS_WIDE
@@ -340,7 +343,7 @@ static void look_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
     watch_lap(watch, WR_STAGE_COLOUR);
 }
 
-/* Does C differ from place to place? */
+/* True if C varies over the surface. */
 static bool pictured(const WrTileJob *job)
 {
     return runs(job, WR_EFFECT_COLOUR) || runs(job, WR_EFFECT_GRAIN);
@@ -365,7 +368,7 @@ static void bring_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
     note_grain(job, watch);
 }
 
-/* Roughness and metalness where pictures tell them. Look-ups go through the colours' places. */
+/* Roughness and metalness from pictures. The fetches pass through the colour buffers. */
 static void look_facets(const WrTileJob *job, const Rays *rays, Strip *strip,
                         WrTileScratch *scratch, Watch *watch)
 {
@@ -404,7 +407,7 @@ static void bring_roughness(const WrTileJob *job, const Rays *rays, Strip *strip
     note_grain(job, watch);
 }
 
-/* n' of the solid texture's heights. */
+/* n' bent by the heights of the solid texture. */
 static void emboss(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
     KERNELS_OF(job)->grain_bump(rays, GRAIN_OF(job), strip);

@@ -1,8 +1,7 @@
-/* stage_frame_body.h - n of what Newton's method has met, and Blinn's n', where there are vectors of them. A part of
-   pipeline_body.h. */
+/* stage_frame_body.h - SIMD versions of n after Newton's method, and of Blinn's n'. Part of pipeline_body.h. */
 
 #ifdef HAS_WIDE
-/* In vectors written by hand, each. False: the stages do it. */
+/* Each uses hand-written vectors. False: the stages do the work. */
 static bool crossed_wide(const WrTileJob *job, Strip *strip)
 {
     return job->wide_newton && job->wide->cross(job->sheet.noise, strip);
@@ -24,7 +23,7 @@ static bool bent_wide(const WrTileJob *job, WrBumpMode bump, const Rays *rays, c
 }
 #endif
 
-/* n of what Newton's method has met. */
+/* n at the points that Newton's method found. */
 static void frame_strip(const WrTileJob *job, Strip *strip)
 {
     const WrSurfaceKind kind = job->view->shape_d.kind;

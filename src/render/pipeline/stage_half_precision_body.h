@@ -1,4 +1,5 @@
-/* stage_half_precision_body.h - what is kept as half precision between stages. A part of pipeline_body.h. */
+/* stage_half_precision_body.h - rounding of intermediate results to half precision between stages. Part of
+   pipeline_body.h. */
 
 static void keep_half(REAL *x, int count)
 {

@@ -1,5 +1,5 @@
-/* stage_horizon_shadow_body.h - shadows that the relief throws on itself: a lamp is seen where it stands above the horizon of the
-   table in its direction (render/kernels/kern_horizon_body.h). A part of pipeline_body.h. */
+/* stage_horizon_shadow_body.h - self-shadowing of the relief: a lamp is visible if it stands above the table's
+   horizon in its direction (render/kernels/kern_horizon_body.h). Part of pipeline_body.h. */
 
 static WR_T(WrKernHorizon) horizon_of(const WrTileJob *job)
 {
@@ -15,7 +15,7 @@ static WR_T(WrKernHorizon) horizon_of(const WrTileJob *job)
                                   .steepest = (REAL)h->steepest };
 }
 
-/* Is what all of the samples see of the lamp known? */
+/* Reads the lamp's cached visibility. False: it is unknown for some sample. */
 static bool recall_seen(const WrTileJob *job, const float *known, const Strip *s,
                         REAL share[WR_SPAN], WrSeen *seen)
 {
@@ -30,7 +30,7 @@ static bool recall_seen(const WrTileJob *job, const float *known, const Strip *s
     return told == s->count;
 }
 
-/* What the strip's samples see of a lamp. */
+/* Visibility of a lamp at the strip's samples. */
 static WrSeen seen_of(const WrTileJob *job, const WR_T(WrKernLight) * light, const Strip *s,
                       REAL share[WR_SPAN], Watch *watch)
 {
@@ -44,7 +44,7 @@ static WrSeen seen_of(const WrTileJob *job, const WR_T(WrKernLight) * light, con
     return seen;
 }
 
-/* The sums of the light so far, before a lamp adds to them. */
+/* Light sums before a lamp is added. */
 typedef struct Sums {
     REAL of[6][WR_SPAN];
 } Sums;
@@ -55,7 +55,7 @@ static void keep_sums(const Strip *s, Sums *sums)
     for (int k = 0; k < 6; k++) memcpy(sums->of[k], from[k], (size_t)s->count * sizeof(REAL));
 }
 
-/* The lamp, which the strip has added, as far as it is seen. */
+/* Multiplies the lamp's light, already added to the strip, by its visibility. */
 static void shadow_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, const Sums *before,
                          Strip *s, Watch *watch)
 {

@@ -1,11 +1,11 @@
-/* stage_infinite_plane_body.h - a plane without end: slopes ease off and the plane fades where a pixel holds much of it. A part of
-   pipeline_body.h.
+/* stage_infinite_plane_body.h - anti-aliasing of an infinite plane: slopes and the plane itself fade out where a
+   pixel covers much of it. Part of pipeline_body.h.
 
-   A pixel's step dx of the ray's way d moves the point eye + z d, on the plane of normal n, by z (dx - d (dx.n) / (d.n)), where
-   z = -eye.n / (d.n): nothing is taken from a point far away, so that eyes a hair above the plane lose no digits. In u and v
-   that is its footprint: of the picture's pixels, whatever the samples. */
+   One pixel step dx of the ray's direction d moves the point eye + z d, on the plane of normal n, by z (dx - d
+   (dx.n) / (d.n)), where z = -eye.n / (d.n). No far point is subtracted, so an eye just above the plane loses no
+   digits. The step in u and v is the footprint, of the picture's pixels, however many samples a pixel has. */
 
-/* 1 up to a quarter, 0 from 1 on, and smooth between. */
+/* 1 up to a quarter, 0 from 1 on, smooth in between. */
 static REAL ease(REAL wide)
 {
     REAL t = (wide - (REAL)0.25) / (REAL)0.75;
@@ -13,8 +13,8 @@ static REAL ease(REAL wide)
     return 1 - t * t * (3 - 2 * t);
 }
 
-/* How much a pixel holds at each sample of ru x rv, squared, in parts of it: the sum of its steps' squares. Infinite or NaN
-   where the ray goes along the plane, which counts as much. Returns how many hold so much that they ease off. */
+/* Squared size of a pixel at each sample, in units of ru x rv: the sum of its steps' squares. Infinite or NaN
+   where the ray is parallel to the plane, which counts as large. Returns the number of samples that fade. */
 static int held_by_pixels(const WrTileJob *job, const Rays *rays, const Strip *strip, REAL ru,
                           REAL rv, REAL *restrict held)
 {
@@ -41,13 +41,13 @@ static int held_by_pixels(const WrTileJob *job, const Rays *rays, const Strip *s
     return easing;
 }
 
-/* What is left where a pixel holds so much. */
+/* Weight that remains for such a pixel size. */
 static REAL eased(REAL held)
 {
     return ease(held < (REAL)1e30 ? (REAL)sqrt((double)held) : (REAL)1e15);
 }
 
-/* From half a period a pixel on, no wave of the table can be shown: their mean slope is none. */
+/* From half a period per pixel on, no wave of the table can be displayed: the mean slope is 0. */
 static void ease_slopes(const WrTileJob *job, const Rays *rays, Strip *strip)
 {
     REAL held[WR_SPAN];
@@ -61,7 +61,7 @@ static void ease_slopes(const WrTileJob *job, const Rays *rays, Strip *strip)
     }
 }
 
-/* What is stored already becomes as much of itself as covers its sample. */
+/* Multiplies the stored result by the sample's coverage. */
 static void fade_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink,
                        const Strip *strip, const Watch *watch)
 {

@@ -1,4 +1,5 @@
-/* stage_light_body.h - the lights on a strip: a single one in one pass, several stage by stage. A part of pipeline_body.h. */
+/* stage_light_body.h - lighting of a strip: a single light in one pass, several stage by stage. Part of
+   pipeline_body.h. */
 
 static void shine_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip)
 {
@@ -20,7 +21,8 @@ static void bound_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKer
     KERNELS_OF(job)->bound_light(rays, light, &shine, (REAL)(m->diffuse * most), strip);
 }
 
-/* P and n' as light sees them where the object is stretched: n' along the object's axes, unit again (HC153). */
+/* P and n' in world proportions where the object is stretched: n' along the object's axes, normalised again
+   (HC153). */
 static void stretch_strip(const WrView *view, Strip *strip)
 {
     const REAL s[3] = { (REAL)view->stretch[0], (REAL)view->stretch[1], (REAL)view->stretch[2] };
@@ -36,7 +38,7 @@ static void stretch_strip(const WrView *view, Strip *strip)
     }
 }
 
-/* What one light adds. Returns whether its highlight was spared. */
+/* Adds one light. Returns true if its highlight was skipped. */
 static bool lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
                        const WrSink *sink, Strip *strip, Watch *watch)
 {
@@ -63,7 +65,7 @@ static bool lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKern
     return false;
 }
 
-/* The same where neither the relief nor an object hides it. */
+/* Adds one light with shadows of the relief and of objects. */
 static bool shadowed_lamp(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
                           const WrSink *sink, Strip *strip, Watch *watch)
 {
@@ -71,14 +73,14 @@ static bool shadowed_lamp(const WrTileJob *job, const Rays *rays, const WR_T(WrK
     const bool shadows = runs(job, WR_EFFECT_SHADOW), casts = runs(job, WR_EFFECT_CAST);
     if (shadows || casts) keep_sums(strip, &before);
     const bool dull = lamp_strip(job, rays, light, sink, strip, watch);
-    /* Of a displaced surface the rays meet its own relief: what horizons say of that is told by them. */
+    /* For a displaced surface, shadow rays hit its own relief and replace the horizons. */
     const bool told = casts && job->dice && light->shadow;
     if (shadows && !told) shadow_strip(job, light, &before, strip, watch);
     if (casts) cast_strip(job, light, &before, strip, watch);
     return dull;
 }
 
-/* What surroundings add. */
+/* Adds the diffuse light of the environment. */
 static void surround_strip(const WrTileJob *job, Strip *strip, Watch *watch)
 {
     const WrEnvironmentMapLook *look = &job->surround;
@@ -92,7 +94,7 @@ static void surround_strip(const WrTileJob *job, Strip *strip, Watch *watch)
     keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
 }
 
-/* What is reflected of them. */
+/* Adds the reflection of the environment. */
 static void mirror_strip(const WrTileJob *job, Strip *strip, Watch *watch)
 {
     const Kernels *k = KERNELS_OF(job);
@@ -107,7 +109,7 @@ static void mirror_strip(const WrTileJob *job, Strip *strip, Watch *watch)
     keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
 }
 
-/* One light, and nothing that looks at what its stages leave: the pass that does them at once; else NULL. */
+/* The fused kernel for one light, if nothing else needs its intermediate results; else NULL. */
 static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, const WrSink *sink)
 {
     const bool shines = runs(job, WR_EFFECT_SPECULAR);
@@ -121,7 +123,7 @@ static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, c
         ->shade[VIEWED(job->view, lights)->point][rays->perspective][shines][pictured(job)];
 }
 
-/* What one lamp meets. */
+/* Material parameters for one lamp. */
 typedef struct LampMatter {
     WR_T(WrKernShine) shine;
     WR_T(WrKernMaterial) material;
@@ -145,7 +147,7 @@ static void note_light(const WrTileJob *job, Watch *watch)
 }
 
 #ifdef HAS_WIDE
-/* In vectors written by hand. False: the stages do it. */
+/* Shades with hand-written SIMD. False: the stages do the work. */
 static bool shaded_wide(const WrTileJob *job, const Rays *rays, const LampMatter *m, Strip *strip)
 {
     return job->wide &&
@@ -169,7 +171,7 @@ static void light_at_once(const WrTileJob *job, const Rays *rays, WR_T(WrShadeKe
     note_light(job, watch);
 }
 
-/* C within 0..1 of a model that keeps its energy: more would reflect more than comes (HC110). */
+/* C limited to 0..1 for an energy-conserving model: more would reflect more light than arrives (HC110). */
 static WrVec3 colour_within(const WrTileJob *job, Strip *strip)
 {
     const WrMaterial *m = &job->scene->material;
@@ -186,7 +188,7 @@ static WrVec3 colour_within(const WrTileJob *job, Strip *strip)
     return white;
 }
 
-/* The sums of all lights, stage by stage, then the colour. Returns whether no lamp's highlight was worked out. */
+/* Sums of all lights, stage by stage, then the colour. Returns true if no lamp's highlight was computed. */
 static bool light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink *sink,
                             Strip *strip, Watch *watch)
 {
@@ -232,7 +234,7 @@ static void ambient_alone(const WrTileJob *job, Strip *strip)
     KERNELS_OF(job)->ambient(&material, pictured(job), strip);
 }
 
-/* Where no light comes. */
+/* Shading of samples that no lamp reaches. */
 static void ambient_strip(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
     bring_colour(job, rays, strip, watch->scratch, watch);
@@ -257,14 +259,14 @@ static void put_colours(const Colours *from, Strip *strip)
     for (int k = 0; k < 3; k++) memcpy(c[k], from->of[k], (size_t)strip->count * sizeof(REAL));
 }
 
-/* One light in one pass, as far as it is seen, over the ambient light, as far as the sky is. */
+/* One light in one pass, times its visibility, added to the ambient light times the ambient occlusion. */
 static void veiled_at_once(const WrTileJob *job, WR_T(WrShadeKernel) shade, Strip *strip,
                            Watch *watch)
 {
     const Kernels *kernels = KERNELS_OF(job);
     REAL share[WR_SPAN], *const c[3] = { strip->cr, strip->cg, strip->cb };
     WrSeen seen = WR_SEEN_WHOLE;
-    Colours own, dark; /* the picture's, if there is one; of ambient light */
+    Colours own, dark; /* own: the picture's colours, if there is one; dark: of ambient light */
     if (runs(job, WR_EFFECT_SHADOW)) {
         seen = seen_of(job, &VIEWED(job->view, lights)[0], strip, share, watch);
         watch_lap(watch, WR_STAGE_SHADOW);
@@ -289,7 +291,7 @@ static void veiled_at_once(const WrTileJob *job, WR_T(WrShadeKernel) shade, Stri
     watch_lap(watch, WR_STAGE_SHADOW);
 }
 
-/* Returns what the samples were spared, bits of WrRun. */
+/* Lights the strip. Returns the skipped work, bits of WrRun. */
 static unsigned light_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink,
                             Strip *strip, Watch *watch)
 {

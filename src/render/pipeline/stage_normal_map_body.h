@@ -1,9 +1,9 @@
-/* stage_normal_map_body.h - the normal map: its slopes, or the vectors that it holds in axes of the place, as slopes that are
-   added to the table's. A part of pipeline_body.h. */
+/* stage_normal_map_body.h - normal mapping: the map's slopes, or its vectors in local axes converted to slopes,
+   are added to the table's slopes. Part of pipeline_body.h. */
 
-/* ---- look-ups ------------------------------------------------------------------------------------ */
+/* ---- fetches ------------------------------------------------------------------------------------- */
 
-/* Level 1 is the map itself (normal_mips.h), whose texels are not spread. */
+/* Level 1 is the map itself (normal_mips.h), whose texels have no spread. */
 static void flush_map(const WrTileJob *job, const Batch *batch, Strip *strip,
                       WrTileScratch *scratch, Watch *watch)
 {
@@ -19,7 +19,7 @@ static void flush_map(const WrTileJob *job, const Batch *batch, Strip *strip,
     near->count = far->count = 0;
 }
 
-/* The same of vectors, which stand where slopes do. */
+/* Sums up a batch of vector fetches, which use the buffers of slopes. */
 static void flush_vectors(const WrTileJob *job, const Batch *batch, Strip *strip,
                           WrTileScratch *scratch, Watch *watch)
 {
@@ -54,7 +54,7 @@ static void map_levels(const WrTileJob *job, const Rays *rays, Strip *strip)
     }
 }
 
-/* ---- axes of a place ----------------------------------------------------------------------------- */
+/* ---- local axes --------------------------------------------------------------------------------- */
 
 typedef struct Axes {
     VEC t, b, n;
@@ -65,7 +65,7 @@ static REAL length_of(VEC a)
     return (REAL)sqrt((double)v_dot(a, a));
 }
 
-/* 0 where it is 0. */
+/* Unit vector; 0 for the zero vector. */
 static VEC unit_of(VEC a)
 {
     const REAL length = length_of(a), inv = length > (REAL)0 ? (REAL)1 / length : (REAL)0;
@@ -77,7 +77,7 @@ static VEC read_vec(const float *from)
     return (VEC){ (REAL)from[0], (REAL)from[1], (REAL)from[2] };
 }
 
-/* What kernels know of a sample's place. */
+/* n of sample i as the kernels stored it. */
 static VEC normal_of(const Strip *strip, int i)
 {
     return (VEC){ strip->nx[i], strip->ny[i], strip->nz[i] };
@@ -103,14 +103,14 @@ static Axes patch_axes(WrNormalFrame frame, const Strip *strip, int i)
     return (Axes){ t, v_cross(n, t), n };
 }
 
-/* The corner's place, in the kernels' unit, less `from`. */
+/* The corner's position in kernel units, minus `from`. */
 static VEC corner_from(const WrTriangleLook *look, int32_t corner, VEC from)
 {
     const VEC p = read_vec(look->corners + 8 * (size_t)corner);
     return v_sub(v_scale(p, (REAL)look->scale), from);
 }
 
-/* The shares of a triangle's second and third corner in the sample's place. */
+/* Barycentric shares of a triangle's second and third corner at the sample. */
 static void shares_of(const WrTriangleLook *look, const int32_t *corner, const Strip *strip, int i,
                       REAL share[3])
 {
@@ -125,7 +125,8 @@ static void shares_of(const WrTriangleLook *look, const int32_t *corner, const S
     share[0] = (REAL)1 - share[1] - share[2];
 }
 
-/* Of a triangle: what its corners have, mixed. By MikkTSpace B is the cross product of the two as they come out. */
+/* Tangent frame of a triangle: interpolated from its corners. As in MikkTSpace, B is the cross product of the
+   interpolated vectors, not normalised. */
 static Axes triangle_axes(const WrTileJob *job, const Strip *strip, int i)
 {
     const WrTriangleLook *look = &job->triangle_look;
@@ -142,24 +143,25 @@ static Axes triangle_axes(const WrTileJob *job, const Strip *strip, int i)
         out.n = v_mad(out.n, read_vec(c + 3), share[k]);
     }
     if (job->plan->map_frame == WR_FRAME_LECTURE) {
-        /* the lecture divides each of the three by its length, N like T and B */
+        /* the lecture normalises all three interpolated vectors, N as well as T and B */
         out.t = unit_of(out.t), out.b = unit_of(out.b), out.n = unit_of(out.n);
-    } else { /* b.x holds the sign */
+    } else { /* b.x holds the handedness, +1 or -1 */
         out.b = v_scale(v_cross(out.n, out.t), out.b.x);
     }
     return out;
 }
 
-/* ---- from vectors to slopes ---------------------------------------------------------------------- */
+/* ---- vectors to slopes --------------------------------------------------------------------------- */
 
-/* What a gradient is multiplied by, dot Pu and dot Pv, to be Fu and Fv. */
+/* Factor by which a gradient dotted with Pu and Pv becomes Fu and Fv. */
 static REAL slopes_per_gradient(const WrTileJob *job, const Strip *strip, int i, VEC g)
 {
     const VEC n = normal_of(strip, i);
     const VEC pu = along_u(strip, i);
     const VEC pv = along_v(strip, i);
     REAL k = (REAL)1;
-    if (met_whole(job)) { /* Pu and Pv are the gradients of v and u, laid across n; |N| is 1 */
+    /* Pu and Pv are the gradients of v and u, rotated by 90 degrees about n; |N| is 1 */
+    if (met_whole(job)) {
         const REAL along = v_dot(n, v_cross(pu, pv)), size = length_of(pu) * length_of(pv);
         k = along > (REAL)1e-6 * size || -along > (REAL)1e-6 * size ? (REAL)1 / along : (REAL)0;
     }
@@ -172,7 +174,7 @@ static REAL slopes_per_gradient(const WrTileJob *job, const Strip *strip, int i,
     return k;
 }
 
-/* The gradient whose normal is m: no steeper than reading leaves any. */
+/* The gradient whose normal is m, limited to the steepest slope that the map reader allows. */
 static VEC gradient_of(VEC m, VEC n)
 {
     const REAL z = v_dot(n, m), least = (REAL)WR_NORMAL_LEAST * length_of(m);
@@ -180,8 +182,8 @@ static VEC gradient_of(VEC m, VEC n)
     return v_scale(v_mad(m, n, -z), inv);
 }
 
-/* What has become of the map's numbers of a sample goes into its slopes: p and q along t and b of the place, with their
-   covariance; or a vector of the object's axes, without. */
+/* Converts a sample's map values to slopes. Input: p and q along the local t and b, with their covariance; or a
+   vector along the object's axes, without covariance. */
 static void turn_into_slopes(const WrTileJob *job, Strip *strip, int i)
 {
     const WrNormalFrame frame = job->plan->map_frame;
@@ -202,7 +204,7 @@ static void turn_into_slopes(const WrTileJob *job, Strip *strip, int i)
     strip->f[i] = 0;
     strip->fu[i] = k * v_dot(g, pu);
     strip->fv[i] = k * v_dot(g, pv);
-    /* to first order the axes carry the covariance over */
+    /* to first order the axes transform the covariance */
     const REAL z = v_dot(at.n, n), by = z > (REAL)0 ? k / z : (REAL)0;
     const REAL uu = by * v_dot(at.t, pu), uv = by * v_dot(at.b, pu);
     const REAL vu = by * v_dot(at.t, pv), vv = by * v_dot(at.b, pv);
@@ -212,15 +214,15 @@ static void turn_into_slopes(const WrTileJob *job, Strip *strip, int i)
     strip->svv[i] = vu * vu * a + (REAL)2 * vu * vv * b + vv * vv * c;
 }
 
-/* ---- together ------------------------------------------------------------------------------------ */
+/* ---- whole strip --------------------------------------------------------------------------------- */
 
 static void move_reals(REAL *to, const REAL *from, int count)
 {
     memcpy(to, from, (size_t)count * sizeof *to);
 }
 
-/* Heights add where slopes add: the map's slopes, and what is spread about them, to what the strip has. That the two
-   may go together is left out of their covariance. What the strip has waits in the places of what `widen` fills. */
+/* Heights add where slopes add: the map's slopes and their spread are added to the strip's. The correlation of
+   the two is neglected. The strip's own values are held in buffers that `widen` fills later. */
 static void look_map(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
                      Watch *watch)
 {

@@ -1,27 +1,30 @@
-/* stage_parallax_body.h - rays that go on from the base to the relief over its tangent plane (parallax.h). A part of
+/* stage_parallax_body.h - ray march from the base to the relief above its tangent plane (parallax.h). Part of
    pipeline_body.h.
 
-   At t of its way d from the base a ray is g before the relief: side (rise t + bend t^2 - F), above 0 until it meets it.
-   Steps are no longer than g allows by the relief's steepest slopes, and no shorter than makes so many of them. */
+   At parameter t along its direction d from the base, a ray is g in front of the relief: g = side (rise t + bend
+   t^2 - F), above 0 until the hit. A step is at most as long as g allows by the relief's steepest slope, and at
+   least so long that a fixed number of steps is enough. */
 
-#define LAST_STEPS 8 /* every other one halves what is left, the others go by a straight line */
+#define LAST_STEPS 8 /* alternately bisection and secant steps */
 
-/* The rays of a strip. */
+/* March state of a strip's rays. */
 typedef struct March {
-    REAL a[WR_SPAN], b[WR_SPAN];         /* u and v move by them */
-    REAL rise[WR_SPAN], bend[WR_SPAN];   /* above the base, on the side that is seen; rise <= 0 */
-    REAL side[WR_SPAN];                  /* 1; of what is seen from behind -1 */
-    REAL from[WR_SPAN], to[WR_SPAN];     /* t: no farther than between them; then the last step */
-    REAL before[WR_SPAN], past[WR_SPAN]; /* g there */
-    REAL pace[WR_SPAN], least[WR_SPAN];  /* t by g, 0: not known; and t of the shortest step */
-    bool below[WR_SPAN];                 /* where it comes in, the surface ends */
-    REAL dx[WR_SPAN], dy[WR_SPAN], dz[WR_SPAN]; /* d, of any length; of shells alone */
-    bool misses[WR_SPAN];   /* where it goes out it has met nothing; then: it did */
-    int on[WR_SPAN], count; /* those that are on their way */
+    REAL a[WR_SPAN], b[WR_SPAN]; /* change of u and v per unit of t */
+    /* height above the base on the visible side: rise t + bend t^2; rise <= 0 */
+    REAL rise[WR_SPAN], bend[WR_SPAN];
+    REAL side[WR_SPAN];                  /* 1; on back faces -1 */
+    REAL from[WR_SPAN], to[WR_SPAN];     /* limits of t; then the last step */
+    REAL before[WR_SPAN], past[WR_SPAN]; /* g at both limits */
+    /* step in t per unit of g, 0: unknown; and the shortest step in t */
+    REAL pace[WR_SPAN], least[WR_SPAN];
+    bool below[WR_SPAN];                        /* the surface ends where the ray enters */
+    REAL dx[WR_SPAN], dy[WR_SPAN], dz[WR_SPAN]; /* d, of any length; only for shells */
+    bool misses[WR_SPAN];   /* a ray that leaves the volume hits nothing; afterwards: it missed */
+    int on[WR_SPAN], count; /* indices of the rays that still march */
     int met[WR_SPAN], met_count;
 } March;
 
-/* The first t that rise t + bend t^2 is h at. false: it never is; then where it comes nearest. */
+/* The smallest t where rise t + bend t^2 equals h. false: there is none; then the t where it comes nearest. */
 static bool reaches(REAL rise, REAL bend, REAL h, REAL *t)
 {
     const REAL squared = rise * rise + 4 * bend * h;
@@ -30,7 +33,7 @@ static bool reaches(REAL rise, REAL bend, REAL h, REAL *t)
     return squared >= 0;
 }
 
-/* No farther along an axis than it goes, or than half way round. */
+/* Limits t on one axis to the table's end, or to half a period. */
 static void limit_axis(const WrParallax *p, int axis, REAL at, REAL move, int i, March *m)
 {
     if (move == 0 && (p->closed[axis] || (at >= 0 && at <= 1))) return;
@@ -38,7 +41,7 @@ static void limit_axis(const WrParallax *p, int axis, REAL at, REAL move, int i,
         m->to[i] = m->from[i], m->misses[i] = true;
         return;
     }
-    const int end = move > 0; /* where it leaves */
+    const int end = move > 0; /* the end at which it leaves */
     const REAL half = (REAL)0.5 / (REAL)fabs((double)move);
     const REAL first = p->closed[axis] ? -half : ((REAL)(1 - end) - at) / move;
     const REAL last = p->closed[axis] ? half : ((REAL)end - at) / move;
@@ -46,7 +49,7 @@ static void limit_axis(const WrParallax *p, int axis, REAL at, REAL move, int i,
     if (m->to[i] > last) m->to[i] = last, m->misses[i] = p->ends[axis][end];
 }
 
-/* Where the ray enters and leaves the space that holds the relief. false: there is nothing to look for. */
+/* Interval of t in which the ray is inside the volume of the relief. false: it is empty. */
 static bool limit_ray(const WrParallax *p, const Strip *s, int i, March *m)
 {
     const REAL rise = m->rise[i], bend = m->bend[i];
@@ -57,7 +60,7 @@ static bool limit_ray(const WrParallax *p, const Strip *s, int i, March *m)
         return false;
     }
     if (!reaches(rise, bend, bottom, &m->to[i]) && bend > 0) {
-        m->to[i] = -rise / bend - m->from[i]; /* it goes out as it came in */
+        m->to[i] = -rise / bend - m->from[i]; /* it leaves symmetrically to its entry */
         m->misses[i] = true;
     }
     limit_axis(p, 0, s->u[i], m->a[i], i, m);
@@ -77,7 +80,7 @@ static void ray_of(const Rays *rays, const Strip *s, int i, REAL d[3])
     for (int c = 0; c < 3; c++) d[c] = rays->d0[c] + s->x[i] * rays->dx[c] + s->y[i] * rays->dy[c];
 }
 
-/* Where a sample's ray goes over the base. false: u and v say nothing there. */
+/* Motion of a sample's ray in (u,v) over the base. false: u and v are undefined there. */
 static bool aim_ray(const WrParallax *p, const Rays *rays, const Strip *s, int i, March *m)
 {
     const REAL pu[3] = { s->pux[i], s->puy[i], s->puz[i] };
@@ -103,7 +106,7 @@ static bool aim_ray(const WrParallax *p, const Rays *rays, const Strip *s, int i
     return true;
 }
 
-/* How fast a ray may go, and how short its steps may be: half a texel's, as far as there are enough of them. */
+/* Largest speed of a ray, and its shortest step: half a texel, if the number of steps suffices. */
 static void pace_ray(const WrParallax *p, int i, March *m)
 {
     const double a = fabs((double)m->a[i]), b = fabs((double)m->b[i]);
@@ -119,7 +122,7 @@ static void pace_ray(const WrParallax *p, int i, March *m)
 
 #include "render/pipeline/stage_parallax_shell_body.h"
 
-/* g at t of the rays in the list. */
+/* g at t of the listed rays. */
 static void look_ahead(const WrTileJob *job, const Strip *s, const March *m, const int *list,
                        int count, const REAL *t, REAL *g, WrTileScratch *scratch)
 {
@@ -142,8 +145,8 @@ static void look_ahead(const WrTileJob *job, const Strip *s, const March *m, con
     }
 }
 
-/* The strip's rays set out. One that is beneath the relief at once has come in below the border of a surface that ends, and
-   misses it, or stays where it is. t: where each of them ends, as far as it is known. */
+/* Starts the strip's rays. A ray that begins below the relief either entered below the edge of a surface that
+   ends, and misses it, or stays at its start. t: end of each ray, as far as it is known. */
 static void set_out(const WrTileJob *job, const Rays *rays, const Strip *s, March *m, REAL *t,
                     WrTileScratch *scratch)
 {
@@ -169,7 +172,7 @@ static void set_out(const WrTileJob *job, const Rays *rays, const Strip *s, Marc
     m->count = left;
 }
 
-/* One step of all that are on their way. */
+/* One step of all rays that still march. */
 static void step_on(const WrTileJob *job, const Strip *s, March *m, REAL *t, REAL *g,
                     WrTileScratch *scratch)
 {
@@ -202,7 +205,7 @@ static REAL straight(const March *m, int i)
     return all > 0 ? m->from[i] + (m->to[i] - m->from[i]) * (m->before[i] / all) : m->to[i];
 }
 
-/* Where within their last step they met it. */
+/* Refines the hits within the last step. */
 static void close_in(const WrTileJob *job, const Strip *s, March *m, REAL *t, REAL *g,
                      WrTileScratch *scratch)
 {
@@ -227,7 +230,7 @@ static REAL once_round(bool closed, REAL x)
     return x > 0 ? (x < 1 ? x : 1) : 0;
 }
 
-/* Samples go to where their rays met the relief; those that met nothing are gone. s: the side that is seen. */
+/* Moves samples to the hits on the relief; samples without a hit are removed. s->s: the visible side. */
 static void move_samples(const WrTileJob *job, const Rays *rays, const March *m, const REAL *t,
                          Strip *s)
 {
@@ -251,7 +254,7 @@ static void move_samples(const WrTileJob *job, const Rays *rays, const March *m,
     if (p->shell) round_of(job)->params(&VIEWED(job->view, shape), s);
 }
 
-/* The strip's samples from the base to the relief: their u, v, P. */
+/* Moves the strip's samples from the base to the relief: their u, v, P. */
 static void meet_relief(const WrTileJob *job, const Rays *rays, int face, Strip *s,
                         WrTileScratch *scratch, Watch *watch)
 {
@@ -274,7 +277,7 @@ static void meet_relief(const WrTileJob *job, const Rays *rays, int face, Strip 
     watch_lap(watch, WR_STAGE_PARALLAX);
 }
 
-/* How high over the base, which P is now, the rays met the relief: for what stands at its foot (stage_shadow_rays_body.h). */
+/* Height of the hit above the base, where P now is: for the shadow of the base (stage_shadow_rays_body.h). */
 static void keep_lift(Strip *s)
 {
     for (int i = 0; i < s->count; i++)
@@ -282,7 +285,7 @@ static void keep_lift(Strip *s)
                   (s->bz[i] - s->pz[i]) * s->nz[i];
 }
 
-/* n' is on the side that the ray came from, whichever side of the base there that is. */
+/* Turns n' to the side that the ray came from, whichever side of the base that is. */
 static void face_ray(const Rays *rays, const REAL *side, Strip *s)
 {
     const REAL *at = rays->perspective ? rays->eye : rays->toward;

@@ -1,10 +1,11 @@
-/* stage_parallax_shell_body.h - rays through the shell that holds the relief of a round base: the base grown by the highest F, which is met
-   where the base is missed, too (parallax.h). A part of pipeline_body.h, within stage_parallax_body.h.
+/* stage_parallax_shell_body.h - ray march through the shell of a round base's relief. Part of pipeline_body.h,
+   included by stage_parallax_body.h. The shell is the base grown by the highest F, so rays that miss the base
+   can hit it (parallax.h).
 
-   A ray is at foot + t d, the foot nearest to the base's middle. Of a sphere |.| - R, of a tube that of x and y alone, is how high
-   it is over the base, and u and v are those of the point: nothing is left out. */
+   A ray is foot + t d, with foot the point nearest the base's centre. Height above the base is |.| - R for a
+   sphere, and that of x and y alone for a tube; u and v are those of the point. These formulas are exact. */
 
-/* Part of a way, t; from > to: none of it; to 1e15 either way: all of it. */
+/* An interval of t; from > to: empty; -1e15..1e15: the whole ray. */
 typedef struct Part {
     REAL from, to;
 } Part;
@@ -14,21 +15,22 @@ static bool is_tube(const WrTileJob *job)
     return job->plan->inversion == WR_INVERT_CYLINDER;
 }
 
-/* Do all rays go along a tube whose relief they look for? Then its kernel, which finds where they meet its wall, finds none. */
+/* True if all rays run parallel to a tube with relief. The tube's kernel intersects the wall and would find no
+   hit. */
 static bool go_along(const WrTileJob *job, const Rays *rays)
 {
     const REAL aside = rays->d0[0] * rays->d0[0] + rays->d0[1] * rays->d0[1];
     return job->parallax.shell && is_tube(job) && !rays->perspective && !(aside > (REAL)1e-30);
 }
 
-/* All of them, to be looked at. */
+/* Makes every sample a candidate. */
 static void take_all(int count, Strip *s)
 {
     for (int i = 0; i < count; i++) s->index[i] = i;
     s->count = count;
 }
 
-/* |foot + t d|^2 = cc + 2 bb t + aa t^2, of a tube of x and y. */
+/* |foot + t d|^2 = cc + 2 bb t + aa t^2; for a tube, of x and y only. */
 typedef struct Reach {
     REAL aa, bb, cc;
 } Reach;
@@ -41,7 +43,7 @@ static Reach reach_of(const WrTileJob *job, const Strip *s, int i, const REAL d[
                     s->px[i] * s->px[i] + s->py[i] * s->py[i] + z * s->pz[i] * s->pz[i] };
 }
 
-/* Where it is no farther than r. */
+/* Interval where the distance is at most r. */
 static Part within_reach(const Reach *w, REAL r)
 {
     const Part none = { 1, -1 }, all = { -(REAL)1e15, (REAL)1e15 };
@@ -65,7 +67,7 @@ static REAL least_reach(const Reach *w, Part of)
     return squared > 0 ? (REAL)sqrt((double)squared) : 0;
 }
 
-/* Between the tube's ends. */
+/* Interval between the tube's ends. */
 static Part between_ends(REAL half, REAL z, REAL dz)
 {
     if (dz == 0) return z < -half || z > half ? (Part){ 1, -1 } : (Part){ -(REAL)1e15, (REAL)1e15 };
@@ -73,7 +75,7 @@ static Part between_ends(REAL half, REAL z, REAL dz)
     return a < b ? (Part){ a, b } : (Part){ b, a };
 }
 
-/* The ray from its foot on, which P is then. Returns how far the foot lies from where rays begin. */
+/* Moves the ray's origin, P, to its foot. Returns the distance from the ray's original start to the foot. */
 static REAL stand_at_foot(const Rays *rays, Strip *s, int i, March *m)
 {
     REAL d[3], q[3];
@@ -85,7 +87,7 @@ static REAL stand_at_foot(const Rays *rays, Strip *s, int i, March *m)
     return far;
 }
 
-/* Where it enters and leaves the shell. below: it does not come in by its wall. false: nowhere. */
+/* Interval of t in the shell. below: the ray does not enter through the wall. false: it misses the shell. */
 static bool enter_shell(const WrTileJob *job, const Rays *rays, Strip *s, int i, March *m)
 {
     const REAL near = rays->s_min - stand_at_foot(rays, s, i, m);
@@ -107,7 +109,8 @@ static bool enter_shell(const WrTileJob *job, const Rays *rays, Strip *s, int i,
     return in.from < in.to;
 }
 
-/* No farther than to the lowest F, which it cannot pass; one that began beneath the relief sees it from there. */
+/* Ends the interval at the lowest F, which a ray cannot pass; a ray that began below the relief sees it from
+   there. */
 static void leave_shell(const WrTileJob *job, const Strip *s, int i, March *m)
 {
     const REAL d[3] = { m->dx[i], m->dy[i], m->dz[i] };
@@ -115,14 +118,14 @@ static void leave_shell(const WrTileJob *job, const Strip *s, int i, March *m)
     const Part low = within_reach(&w, VIEWED(job->view, shape).value[0] + (REAL)job->parallax.low);
     if (m->side[i] < 0) {
         const Part wall = within_reach(&w, VIEWED(job->view, shell).value[0]);
-        m->misses[i] = m->to[i] < wall.to; /* by a tube's end */
+        m->misses[i] = m->to[i] < wall.to; /* leaves through a tube's end */
         if (low.from <= low.to && low.to > m->from[i]) m->from[i] = low.to;
     } else if (low.from <= low.to && low.from >= m->from[i] && low.from < m->to[i]) {
         m->to[i] = low.from, m->misses[i] = false;
     }
 }
 
-/* Places on the way, and their u and v. */
+/* Points along the rays, with their u and v. */
 static void place_shell(const WrTileJob *job, const Strip *s, const March *m, const int *list,
                         int count, const REAL *t, Strip *near)
 {
@@ -136,14 +139,14 @@ static void place_shell(const WrTileJob *job, const Strip *s, const March *m, co
     round_of(job)->params(&VIEWED(job->view, shape), near);
 }
 
-/* How high one of those places is over the base. */
+/* Height of one of those points above the base. */
 static REAL over_base(const WrTileJob *job, const Strip *near, int k)
 {
     const REAL x = near->px[k], y = near->py[k], z = is_tube(job) ? 0 : near->pz[k];
     return (REAL)sqrt((double)(x * x + y * y + z * z)) - VIEWED(job->view, shape).value[0];
 }
 
-/* How many texels their ways pass, by their beginnings, middles and ends; into `least`. */
+/* Number of texels along the rays, from start, middle and end; into `least`. */
 static void count_texels(const WrTileJob *job, const Strip *s, March *m, REAL *t,
                          WrTileScratch *scratch)
 {
@@ -167,7 +170,8 @@ static void count_texels(const WrTileJob *job, const Strip *s, March *m, REAL *t
     }
 }
 
-/* pace_ray's: u turns with (foot x d)_z / (2 pi r^2), r from the axis, v of a sphere with |foot| |d| / (pi r^2), r from the middle. */
+/* As pace_ray: u changes by (foot x d)_z / (2 pi r^2), r from the axis; v of a sphere by |foot| |d| / (pi r^2),
+   r from the centre. */
 static void pace_shell(const WrTileJob *job, const Strip *s, int i, March *m)
 {
     const WrParallax *p = &job->parallax;
@@ -193,7 +197,7 @@ static void pace_shell(const WrTileJob *job, const Strip *s, int i, March *m)
 static void look_ahead(const WrTileJob *job, const Strip *s, const March *m, const int *list,
                        int count, const REAL *t, REAL *g, WrTileScratch *scratch);
 
-/* The strip's rays set out from the shell, as from the base (set_out). */
+/* Starts the strip's rays from the shell (compare set_out, which starts them from the base). */
 static void set_out_shell(const WrTileJob *job, const Rays *rays, Strip *s, March *m, REAL *t,
                           WrTileScratch *scratch)
 {

@@ -1,8 +1,8 @@
-/* stage_raster_body.h - which samples a mesh covers, and where on the surface: by the depth buffer and Newton's method, or as
-   a resting view noted it (uv_cache.h). A part of pipeline_body.h. */
+/* stage_raster_body.h - coverage of a mesh and (u,v) of its samples: by depth buffer and Newton's method, or
+   from the uv cache (uv_cache.h). Part of pipeline_body.h. */
 
-/* Part of a tangent that the last step may change it by. What fast arithmetic rounds is near that by itself: it may be more
-   there, and normals turn by 1/32768 at most. */
+/* Largest relative change of a tangent by the last step. Fast arithmetic rounds by about that much anyway, so
+   its limit is larger, and normals turn by 1/32768 at most. */
 static double turn_of(const WrTileJob *job)
 {
     return KERNELS_OF(job)->exact ? TURN : 8 * TURN;
@@ -22,7 +22,7 @@ WrNewton wr_pipe_newton(const WrTileJob *job)
     return newton_of(job);
 }
 
-/* In vectors written by hand. False: the stages do it. */
+/* Solves with hand-written SIMD. False: the stages do the work. */
 static bool solved_wide(const WrTileJob *job, const Rays *rays, const WrNewton *how, bool resumes,
                         Strip *strip)
 {
@@ -38,7 +38,7 @@ static bool solved_wide(const WrTileJob *job, const Rays *rays, const WR_T(WrNew
 }
 #endif
 
-/* Make the parameters of what the mesh covers exact. */
+/* Refines the parameters of covered samples by Newton's method. */
 static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
     watch_lap(watch, WR_STAGE_VISIBILITY);
@@ -51,7 +51,7 @@ static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *
     watch_lap(watch, WR_STAGE_NEWTON);
 }
 
-/* The same of samples whose (u,v) were noted. */
+/* Refines samples whose (u,v) come from the uv cache. */
 static void resume(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
     watch_lap(watch, WR_STAGE_VISIBILITY);
@@ -64,7 +64,7 @@ static void resume(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *
 }
 
 #ifdef HAS_WIDE
-/* Neighbours of a row that knots alone tell, from (x, y) of the grid on, to the strip's end. */
+/* Appends samples that are interpolated from sparse hits: a run of a row, from (x, y) of the grid on. */
 static void add_tied(const WrTileJob *job, const WrDepthTile *tile, int x, int y, int count,
                      int index, Strip *strip)
 {
@@ -77,12 +77,12 @@ static void add_tied(const WrTileJob *job, const WrDepthTile *tile, int x, int y
 
 static bool met_tied(Strip *strip, Watch *watch)
 {
-    if (strip->count > 0) did(watch, WR_EFFECT_NEWTON); /* of knots */
+    if (strip->count > 0) did(watch, WR_EFFECT_NEWTON); /* of sparse hits */
     watch_lap(watch, WR_STAGE_VISIBILITY);
     return strip->count > 0;
 }
 
-/* Those of row y of the tile; false: there are none. */
+/* Interpolated samples of row y of the tile; false: there are none. */
 static bool tied_row(const WrTileJob *job, const WrDepthTile *tile, int y, Strip *strip,
                      Watch *watch)
 {
@@ -98,7 +98,7 @@ static bool tied_row(const WrTileJob *job, const WrDepthTile *tile, int y, Strip
     return met_tied(strip, watch);
 }
 
-/* The same of the scatter. */
+/* Interpolated samples of the scatter; false: there are none. */
 static bool tied_places(const WrTileJob *job, const WrDepthTile *tile, const WrScatter *places,
                         Strip *strip, Watch *watch)
 {
@@ -132,7 +132,7 @@ static bool tied_places(const WrTileJob *job, const WrDepthTile *tile, const WrS
 }
 #endif
 
-/* Where a tile's cell is noted. */
+/* Index of a tile's cell in the uv cache. */
 static size_t note_at(const WrTileJob *job, const WrDepthTile *tile, int cell)
 {
     return wr_tile_place(job, tile->x + cell % tile->w, tile->y + cell / tile->w);
@@ -145,7 +145,7 @@ static void note(const WrTileJob *job, size_t at, const Strip *strip, int i)
     job->sight->v[at] = (float)strip->ry[i];
 }
 
-/* Do knots alone tell all of the tile? */
+/* True if sparse hits cover the whole tile. */
 static bool is_told(const WrDepthTile *tile)
 {
     return tile->knots && !tile->untold;
@@ -172,7 +172,7 @@ static void locate_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTil
         note(job, note_at(job, tile, places->cell[strip->index[i]]), strip, i);
 }
 
-/* The same of what was noted. */
+/* The samples of the scatter that the uv cache holds. */
 static void recall_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile,
                         const WrScatter *places, Strip *strip, Watch *watch)
 {
@@ -192,7 +192,7 @@ static void recall_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTil
     resume(job, rays, strip, watch);
 }
 
-/* The same for the whole row y. */
+/* The samples of row y that the mesh covers. */
 static void locate_row(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile, int y,
                        Strip *strip, Watch *watch)
 {

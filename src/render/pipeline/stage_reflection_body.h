@@ -1,7 +1,7 @@
-/* stage_reflection_body.h - a lamp by other models than Blinn-Phong's: what of it a run of samples can be spared. A part of
+/* stage_reflection_body.h - microfacet lights: highlights, and early-outs for runs of samples. Part of
    pipeline_body.h. */
 
-/* What another model's kernels go by. */
+/* Kernel parameters of a model other than Blinn-Phong. */
 static WR_T(WrKernMatter) matter_of(const WrMatter *m)
 {
     WR_T(WrKernMatter) out = { .kd = (REAL)m->kd, .ks = (REAL)m->ks };
@@ -14,14 +14,14 @@ static WR_T(WrKernMatter) matter_of(const WrMatter *m)
     return out;
 }
 
-/* The kernel of a model that is not made of stages; NULL: it is. */
+/* The kernel of such a model; NULL: the model is computed in stages. */
 static WR_T(WrReflectKernel) reflect_of(const WrTileJob *job)
 {
     const WrEnergy energy = job->plan->kept ? WR_ENERGY_KEPT : WR_ENERGY_PUBLISHED;
     return KERNELS_OF(job)->reflect[job->plan->model][energy];
 }
 
-/* Of a lamp's light, how bright a highlight is that `dials faint=` lets go; 0: none is. */
+/* Brightness below which `dials faint=` omits a highlight, relative to the lamp's light; 0: never. */
 static REAL least_of(const WrTileJob *job, const WR_T(WrKernLight) * light)
 {
     const double most =
@@ -29,7 +29,7 @@ static REAL least_of(const WrTileJob *job, const WR_T(WrKernLight) * light)
     return most > 0 ? (REAL)(job->plan->faint / most) : (REAL)0;
 }
 
-/* Are highlights as wide as the material has them, in the whole run? (E39; after bend_strip) */
+/* True if no highlight in the run is wider than the material's own (E39; after bend_strip). */
 static bool is_narrow(const WrTileJob *job, const Strip *strip)
 {
     if (!runs(job, WR_EFFECT_SPREAD)) return true;
@@ -38,12 +38,14 @@ static bool is_narrow(const WrTileJob *job, const Strip *strip)
 
 static double chord_of(double cosine)
 {
-    return sqrt(fmax(0, 2 - 2 * cosine)) + 1e-3; /* and what rounding takes of the cosine */
+    return sqrt(fmax(0, 2 - 2 * cosine)) + 1e-3; /* margin for the rounding of the cosine */
 }
 
-/* The most that a highlight can be over a run (E37). S0 = l0 + v0 is S = l + v of one sample; no other is farther from it than
-   e, so h is within y = asin(e / |S0|) of the axis, and n' no nearer to h than x - y, x its angle to the axis:
-     D is at most that of this angle,   V (n.l) at most 1 / (2 sqrt(a^2 + (1 - a^2) (n.v)^2)),   G / (n.v) at most 1 / (n.v),
+/* Upper bound of a highlight over a run (E37). S0 = l0 + v0 is S = l + v of one sample; no other S is farther
+   from it than e, so h is within y = asin(e / |S0|) of the axis, and n' no nearer to h than x - y, x its angle
+   to the axis:
+     D is at most that of this angle,   V (n.l) at most 1 / (2 sqrt(a^2 + (1 - a^2) (n.v)^2)),
+     G / (n.v) at most 1 / (n.v),
      F at most f0 + (1 - f0) (1 - v.h)^5 of v.h = (|S0| - e) / 2. */
 static double most_of(const WR_T(WrKernMatter) * m, bool schlick, double length,
                       const REAL found[4])
@@ -52,7 +54,7 @@ static double most_of(const WR_T(WrKernMatter) * m, bool schlick, double length,
     const double nv = (double)found[0], a2 = (double)m->alpha * (double)m->alpha;
     if (!(e < 0.5 * length)) return INFINITY;
     const double cx = fmin((double)found[1] + 1e-6, 1), sx = sqrt(1 - cx * cx);
-    const double sy = e / length, cy = sqrt(1 - sy * sy); /* the angles' sines and cosines */
+    const double sy = e / length, cy = sqrt(1 - sy * sy); /* sine and cosine of the angle */
     if (!(cx < cy)) return INFINITY;
     const double off = 1 - fmax(0, fmin(0.5 * (length - e), 1)), p = off * off * off * off * off;
     const double c = fmax(0, cx * cy + sx * sy), w = a2 * c * c + 1 - c * c;
@@ -62,7 +64,7 @@ static double most_of(const WR_T(WrKernMatter) * m, bool schlick, double length,
     return d * 0.5 / sqrt(a2 + (1 - a2) * nv * nv) * (f * (1 - metal) + metal);
 }
 
-/* Is every sample's highlight below `least`, for certain? *faces: is n' of all seen from its front? */
+/* True if every highlight is certainly below `least`. *faces: every n' faces the viewer. */
 static bool is_faint(const WrTileJob *job, const WR_T(WrKernMatter) * m, const Strip *strip,
                      bool *faces)
 {
@@ -79,7 +81,7 @@ static bool is_faint(const WrTileJob *job, const WR_T(WrKernMatter) * m, const S
            most_of(m, job->plan->model == WR_REFLECT_GGX, length, found) < 0.999 * (double)m->least;
 }
 
-/* How facets are worked out in this run (E37, E39, E40). */
+/* Microfacet form for this run (E37, E39, E40). */
 static WrReflectSpread form_of(const WrTileJob *job, const WR_T(WrKernMatter) * matter,
                                const Strip *strip)
 {
@@ -93,7 +95,7 @@ static WrReflectSpread form_of(const WrTileJob *job, const WR_T(WrKernMatter) * 
     return WR_REFLECT_AS_IT_IS;
 }
 
-/* What one light adds, by another model than Blinn-Phong's. Returns whether its highlight was spared. */
+/* Adds one light by a model other than Blinn-Phong. Returns true if its highlight was skipped. */
 static bool reflect_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip,
                           Watch *watch)
 {

@@ -1,7 +1,7 @@
-/* stage_relight_body.h - samples of which all that light looks at is known from the picture that noted it: light alone
-   (relight_cache.h). A part of pipeline_body.h. */
+/* stage_relight_body.h - relighting of cached samples: only shading runs (relight_cache.h). Part of
+   pipeline_body.h. */
 
-/* Does light, or what it goes by, look at where the samples lie? */
+/* True if light, or one of its inputs, depends on the samples' positions. */
 static bool wants_points(const WrTileJob *job, const Rays *rays)
 {
     bool any = rays->perspective || runs(job, WR_EFFECT_GRAIN) || runs(job, WR_EFFECT_VARIED) ||
@@ -10,12 +10,12 @@ static bool wants_points(const WrTileJob *job, const Rays *rays)
     return any;
 }
 
-/* Which numbers of a block go where in a strip. */
+/* Mapping from a cache block to a strip's arrays. */
 typedef struct Recall {
     REAL *to[WR_RELIGHT_EACH];
-    int from[WR_RELIGHT_EACH]; /* of a sample's numbers */
+    int from[WR_RELIGHT_EACH]; /* index among a sample's numbers */
     int count;
-    int triangle; /* which of them tells that; or -1 */
+    int triangle; /* index of the number that holds the triangle; or -1 */
 } Recall;
 
 static Recall recall_of(const WrRelight *steady, unsigned groups, Strip *strip)
@@ -31,26 +31,26 @@ static Recall recall_of(const WrRelight *steady, unsigned groups, Strip *strip)
             how.from[how.count++] = from;
         }
         if (g != WR_RELIGHT_TRIANGLE) continue;
-        if (groups & WR_RELIGHT_BIT(g)) how.triangle = from; /* else nothing was put there */
+        if (groups & WR_RELIGHT_BIT(g)) how.triangle = from; /* otherwise it was not stored */
         from++;
     }
     return how;
 }
 
-/* A whole block's samples. */
+/* Copies all samples of a block. */
 static void copy_block(const float *restrict from, REAL *restrict to)
 {
 #pragma omp simd
     for (int i = 0; i < WR_RELIGHT_BLOCK; i++) to[i] = (REAL)from[i];
 }
 
-/* Those of a part of one. */
+/* Copies some samples of a block. */
 static void copy_some(const float *restrict from, int count, REAL *restrict to)
 {
     for (int i = 0; i < count; i++) to[i] = (REAL)from[i];
 }
 
-/* The numbers of samples of a block, from the first of them on, to the strip's end. */
+/* Appends samples of one block to the strip, starting with the first one given. */
 static void recall_block(const Recall *how, const float *from, int count, Strip *strip)
 {
     for (int k = 0; k < how->count; k++) {
@@ -63,7 +63,7 @@ static void recall_block(const Recall *how, const float *from, int count, Strip 
     strip->count += count;
 }
 
-/* The numbers of `count` places from x, y on, all of them the object's, to the strip's end. */
+/* Appends `count` samples from x, y on, all of this object, to the strip. */
 static void recall_run(const WrRelight *steady, const Recall *how, int x, int y, int count,
                        Strip *strip)
 {
@@ -74,14 +74,14 @@ static void recall_run(const WrRelight *steady, const Recall *how, int x, int y,
     }
 }
 
-/* The groups that the strip is given. */
+/* The groups that the strip loads. */
 static unsigned recalled(const WrTileJob *job, const Rays *rays)
 {
     const unsigned points = WR_RELIGHT_BIT(WR_RELIGHT_POINTS);
     return wants_points(job, rays) ? job->recalls : job->recalls & ~points;
 }
 
-/* Where a run of `mark` ends that begins at `from`. */
+/* End of the run of `mark` that begins at `from`. */
 static const unsigned char *run_end(const unsigned char *from, const unsigned char *end,
                                     unsigned char mark)
 {
@@ -95,7 +95,7 @@ static const unsigned char *run_end(const unsigned char *from, const unsigned ch
     return from;
 }
 
-/* What the row's part shows of the object: runs of places that are its. */
+/* Appends the object's samples of a row: runs of positions that it owns. */
 static void recall_row_of(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile, int y,
                           Strip *strip)
 {
@@ -120,7 +120,7 @@ static void recall_row_of(const WrTileJob *job, const Rays *rays, const WrDepthT
     }
 }
 
-/* The same of places anywhere in the tile. */
+/* Appends the object's samples among arbitrary positions of the tile. */
 static void recall_places(const WrTileJob *job, const WrScatter *places, Strip *strip)
 {
     const Recall how = recall_of(job->steady, job->recalls, strip);
@@ -136,7 +136,7 @@ static void recall_places(const WrTileJob *job, const WrScatter *places, Strip *
     }
 }
 
-/* Do slopes spread at none of the samples? */
+/* True if no sample has a spread of slopes. */
 static bool are_gathered(const Strip *strip)
 {
     bool any = false;
@@ -145,7 +145,7 @@ static bool are_gathered(const Strip *strip)
     return !any;
 }
 
-/* Their light, into the picture. */
+/* Lights the samples and stores the result in the picture. */
 static void light_known(const WrTileJob *job, const Rays *rays, const WrSink *sink,
                         WrTileScratch *scratch, Watch *watch)
 {

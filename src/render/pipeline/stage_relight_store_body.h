@@ -1,7 +1,7 @@
-/* stage_relight_store_body.h - what light looks at of a strip's samples, noted, and where what they see of lamps is kept (relight_cache.h). A
-   part of pipeline_body.h. */
+/* stage_relight_store_body.h - writing of a strip's samples to the relight cache (relight_cache.h). Part of
+   pipeline_body.h. */
 
-/* The strip's numbers of a group, so many, into `out`. */
+/* Arrays of the strip that belong to a group, into `out`; returns their number. */
 static int numbers_of(Strip *s, WrRelightGroup group, REAL *out[6])
 {
     REAL *const all[][6] = { [WR_RELIGHT_BENT] = { s->bx, s->by, s->bz },
@@ -20,7 +20,7 @@ static int numbers_of(Strip *s, WrRelightGroup group, REAL *out[6])
     return count;
 }
 
-/* The sample of the grid that sample i of the strip is. */
+/* Grid position of sample i of the strip. */
 static int sample_x(const Strip *s, int i)
 {
     return (int)(s->x[i] + (REAL)0.5);
@@ -37,7 +37,7 @@ static size_t share_place(const WrTileJob *job, const Strip *s, int i)
     return wr_relight_place(steady, sample_x(s, i), sample_y(s, i));
 }
 
-/* Nothing is known any more of what the sample sees of lamps: it shows a nearer object than before. */
+/* Marks the lamps' visibility at that position as unknown: it now shows a nearer object. */
 static void forget_shares(const WrTileJob *job, size_t place)
 {
     for (int i = 0; i < job->view->light_count && job->lamps; i++) {
@@ -47,7 +47,7 @@ static void forget_shares(const WrTileJob *job, size_t place)
     }
 }
 
-/* All that light looks at, before it does. */
+/* Stores all inputs of shading, before it runs. */
 static void note_known(const WrTileJob *job, Strip *strip)
 {
     const WrRelight *steady = job->noting;
@@ -68,7 +68,7 @@ static void note_known(const WrTileJob *job, Strip *strip)
             for (int i = 0; i < strip->count; i++)
                 steady->numbers[at[i] + (size_t)done * WR_RELIGHT_BLOCK] = (float)from[k][i];
         if (g != WR_RELIGHT_TRIANGLE) continue;
-        for (int i = 0; i < strip->count; i++) /* whole numbers below 2^24, as rasters have them */
+        for (int i = 0; i < strip->count; i++) /* whole numbers below 2^24, as in the rasters */
             steady->numbers[at[i] + (size_t)done * WR_RELIGHT_BLOCK] = (float)strip->triangle[i];
         done++;
     }

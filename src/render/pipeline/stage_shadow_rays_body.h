@@ -1,6 +1,7 @@
-/* stage_shadow_rays_body.h - lamps that objects hide from one another and from themselves (shadow_rays.h). A part of pipeline_body.h. */
+/* stage_shadow_rays_body.h - shadows that objects throw on each other and on themselves (shadow_rays.h). Part of
+   pipeline_body.h. */
 
-/* The facet's normal times its area, twice. */
+/* The facet's normal times twice its area. */
 static void facet_of(const WrTriangleLook *look, int32_t triangle, REAL n[3])
 {
     const int32_t *corner = look->triangles + 3 * (size_t)triangle;
@@ -14,7 +15,7 @@ static void facet_of(const WrTriangleLook *look, int32_t triangle, REAL n[3])
     n[2] = e[0] * f[1] - e[1] * f[0];
 }
 
-/* The normal of the facet or of the surface, on the side that is seen, of the object as light sees it. */
+/* The normal of the facet or of the surface, on the visible side, in world proportions of the object. */
 static WrVec3 seen_normal(const WrTileJob *job, const Strip *s, int i, WrVec3 p)
 {
     const WrView *view = job->view;
@@ -35,8 +36,8 @@ static WrVec3 seen_normal(const WrTileJob *job, const Strip *s, int i, WrVec3 p)
     return v3_dot(n, at) < 0 ? v3_neg(n) : n;
 }
 
-/* Where shadow rays start: of a displaced surface at P + F n, not on a facet of the view's; what parallax shows stands on its
-   base, which is what throws shadows. */
+/* Origin of the shadow rays. For a displaced surface: P + F n, not the view's facet. With parallax: the point on
+   the base, which is the shadow caster. */
 static WrVec3 start_of(const WrTileJob *job, int face, const Strip *s, int i)
 {
     const WrVec3 n = { (double)s->nx[i], (double)s->ny[i], (double)s->nz[i] };
@@ -48,7 +49,7 @@ static WrVec3 start_of(const WrTileJob *job, int face, const Strip *s, int i)
     return v3_mad(at.p, at.n_unit, (double)s->f[i]);
 }
 
-/* What sample i sees of the lamp past objects: 0..1. */
+/* Visibility of the lamp at sample i past objects: 0..1. */
 static REAL cast_share(const WrTileJob *job, const WrKernLightd *lamp, const Strip *s, int i,
                        int face)
 {
@@ -61,7 +62,7 @@ static REAL cast_share(const WrTileJob *job, const WrKernLightd *lamp, const Str
                                       seen_normal(job, s, i, p), l, away, lamp->radius);
 }
 
-/* The lamp, which the strip has added, as far as no object hides it. */
+/* Multiplies the lamp's light, already added to the strip, by its visibility past objects. */
 static void cast_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, const Sums *before,
                        Strip *s, Watch *watch)
 {
@@ -69,7 +70,7 @@ static void cast_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, co
     const WrKernLightd *lamp = &job->view->lights_d[at];
     float *known = job->lamps ? job->lamps[at].cast : NULL;
     REAL *const to[6] = { s->dr, s->dg, s->db, s->sr, s->sg, s->sb };
-    bool asked = !job->steady; /* else what is known is only put to use */
+    bool asked = !job->steady; /* else only cached values are used */
     for (int i = 0; i < s->count && lamp->shadow; i++) {
         bool adds = false;
         for (int k = 0; k < 6; k++) adds |= to[k][i] != before->of[k][i];

@@ -1,8 +1,7 @@
-/* stage_simd_body.h - rows that go to the kernels of several stages at once (simd_kernels.h), where there are such. A part of
-   pipeline_body.h. */
+/* stage_simd_body.h - dispatch of rows to fused SIMD kernels (simd_kernels.h). Part of pipeline_body.h. */
 
 #ifdef HAS_WIDE
-/* Does the lamp, for certain, shine on some sample, however bent others are? */
+/* True if the lamp certainly reaches some sample, however far others are bent. */
 static bool lit_somewhere(const WrTileJob *job, const Strip *strip)
 {
     const WrKernLight *light = job->view->lights;
@@ -48,7 +47,7 @@ static void filter_wide(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy
     watch_lap(watch, WR_STAGE_PYRAMID);
 }
 
-/* By the slopes of the table. Returns what the run was spared, bits of WrRun. */
+/* Lights a run by the slopes of the table. Returns the skipped work, bits of WrRun. */
 static unsigned light_bumped(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy,
                              const WrSink *sink, Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
@@ -83,7 +82,7 @@ static unsigned light_bumped(const WrTileJob *job, const Rays *rays, REAL gx, RE
     return spared;
 }
 
-/* What the light of a run was spared that is dark, or not; bits of WrRun. */
+/* Skipped work of a run that is dark, or not; bits of WrRun. */
 static unsigned lit_plain(const WrTileJob *job, bool dark, Watch *watch)
 {
     if (runs(job, WR_EFFECT_DARK)) did(watch, WR_EFFECT_DARK);
@@ -100,7 +99,7 @@ static const WrSphereRows *ball_of(const WrTileJob *job, const Rays *rays)
     return &job->balls[i];
 }
 
-/* A row without bumps, all of it at once. False: as below. */
+/* A row without bumps, in one call. False: not applicable. */
 static bool smooth_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
                        const WrSink *sink, WrTileScratch *scratch, Watch *watch)
 {
@@ -126,7 +125,7 @@ static bool smooth_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy,
     return true;
 }
 
-/* By n alone: what is dark shows in the light itself. */
+/* Lights a run by n alone: darkness follows from the light itself. */
 static unsigned light_plain(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, Strip *strip,
                             WrTileScratch *scratch, Watch *watch)
 {
@@ -139,7 +138,7 @@ static unsigned light_plain(const WrTileJob *job, const Rays *rays, REAL gx, REA
     return lit_plain(job, dark, watch);
 }
 
-/* A row of a sphere under one lamp. False: the stages do it. */
+/* A row of a sphere under one lamp. False: the stages do the work. */
 static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
                      const WrSink *sink, WrTileScratch *scratch, Watch *watch)
 {
@@ -165,7 +164,7 @@ static bool wide_row(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
     return true;
 }
 
-/* Points, u and v of a row of a sphere, whatever comes then. False: the stages find them. */
+/* Points, u and v of a row of a sphere, for any shading. False: the stages compute them. */
 static bool met_wide(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, int count,
                      Strip *strip)
 {
@@ -177,7 +176,7 @@ static bool met_wide(const WrTileJob *job, const Rays *rays, REAL gx, REAL gy, i
     return true;
 }
 
-/* Does nothing run but these? */
+/* True if no effect outside `these` runs. */
 static bool runs_only(const WrPlan *plan, WrEffects these)
 {
     for (int e = 0; e < WR_EFFECT_COUNT; e++)
@@ -192,7 +191,7 @@ static bool is_grey(const WrTileJob *job)
     return own.x == own.y && own.x == own.z && rgb[0] == rgb[1] && rgb[0] == rgb[2];
 }
 
-/* Are slopes over footprints such as these loops look up? */
+/* True if these loops support the plan's filtered slopes. */
 static bool filters_at_once(const WrTileJob *job)
 {
     const WrPlan *plan = job->plan;
@@ -222,7 +221,7 @@ void wr_pipe_wide(WrTileJob *job)
     job->wide_sphere = job->wide_met = job->grey = false;
     job->wide_newton = job->wide && job->mesh &&
                        wr_wide_sheet(job->view->shape_d.kind, &job->view->shape, &job->sheet);
-    if (!job->wide) { /* exact: each channel is worked out alike */
+    if (!job->wide) { /* exact: all channels are computed alike */
         job->grey = job->view->light_count == 1 && is_grey(job) && !runs(job, WR_EFFECT_COLOUR) &&
                     runs_only(job->plan, at_once | geometry);
         return;

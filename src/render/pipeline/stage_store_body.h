@@ -1,6 +1,6 @@
-/* stage_store_body.h - a finished strip to its samples' places, as floats or as codes. A part of pipeline_body.h. */
+/* stage_store_body.h - storage of a finished strip, as floats or as 8-bit codes. Part of pipeline_body.h. */
 
-/* Colours of neighbours, one after the other: how many of them were empty. */
+/* Stores the colours of neighbouring samples; returns the number that were empty before. */
 static int store_run(const Strip *strip, float *restrict out)
 {
     int fresh = 0;
@@ -22,7 +22,7 @@ static int plain_codes(const WrTileJob *job, const Strip *strip, uint32_t *to)
     return KERNELS_OF(job)->codes(job->coder.bins, strip, to);
 }
 
-/* A strip's colours as codes; how many numbers were not finite. */
+/* Encodes a strip's colours; returns the number of non-finite values. */
 static int64_t make_codes(const WrTileJob *job, const Strip *strip, uint32_t *to)
 {
     const WrBehind nothing = { 0 };
@@ -37,7 +37,7 @@ static int64_t make_codes(const WrTileJob *job, const Strip *strip, uint32_t *to
     return wr_code_row(&job->coder, &nothing, 0, strip->count, rgba[0], to);
 }
 
-/* The same as codes, whose alpha is 0 where nothing is yet; once: each to its place at once. */
+/* Stores codes. Alpha is 0 where nothing is stored yet. sink->once: they go directly to the picture. */
 static void store_codes(const WrTileJob *job, const Strip *strip, bool run, const WrSink *sink,
                         WrTileScratch *scratch)
 {
@@ -57,7 +57,7 @@ static void store_codes(const WrTileJob *job, const Strip *strip, bool run, cons
     scratch->covered += sink->once ? strip->count : fresh;
 }
 
-/* Finished strip -> its samples' places. */
+/* Stores a finished strip at its samples' positions. */
 static void store(const WrTileJob *job, const WrSink *sink, const Strip *strip,
                   WrTileScratch *scratch)
 {

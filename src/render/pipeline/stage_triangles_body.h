@@ -1,13 +1,13 @@
-/* stage_triangles_body.h - which triangles of a mesh out of a file the samples see, and where. A part of pipeline_body.h. */
+/* stage_triangles_body.h - visibility of mesh triangles and the hit points on them. Part of pipeline_body.h. */
 
-/* Do the corners' frames turn a normal map? */
+/* True if the corners' frames rotate a normal map. */
 static bool turns_map(const WrTileJob *job)
 {
     const WrNormalFrame frame = job->plan->map_frame;
     return frame == WR_FRAME_MIKK || frame == WR_FRAME_LECTURE;
 }
 
-/* Of a displaced surface, so many; the samples of a strip lie on one. */
+/* Number of faces of a displaced surface; a strip's samples lie on one face. */
 static int faces_of(const WrTileJob *job)
 {
     return job->dice ? job->dice->faces : 1;
@@ -21,7 +21,7 @@ static bool on_face(const WrTileJob *job, int face, REAL triangle)
            (face == 0 || (int32_t)triangle >= dice->end[face - 1]);
 }
 
-/* P, n and what else the plan asks for, where the rays meet the triangles whose numbers stand in u. */
+/* P, n and everything else the plan needs, at the rays' hits on the triangles whose numbers are in u. */
 static void meet(const WrTileJob *job, const Rays *rays, bool mapped, Strip *strip, Watch *watch)
 {
     watch_lap(watch, WR_STAGE_VISIBILITY);
@@ -72,7 +72,7 @@ static void keep_face(const WrTileJob *job, int face, Strip *strip)
     strip->count = count;
 }
 
-/* The same for the whole row y. */
+/* The samples of row y that the mesh covers. */
 static void meet_row(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile, int y,
                      WrTileScratch *scratch, Watch *watch)
 {

@@ -1,7 +1,7 @@
-/* stage_unlit_body.h - which runs of samples can be spared what: those where the table has no slope, and those that all
-   lights are behind, however the table bends their normals. A part of pipeline_body.h. */
+/* stage_unlit_body.h - early-outs for runs of samples: flat parts of the table, and samples that all lights are
+   behind, however the table bends their normals. Part of pipeline_body.h. */
 
-/* No slope that the strip's look-ups find is larger. */
+/* Upper bound of the slopes that the strip fetches. */
 static void find_steepest(const WrTileJob *job, const Strip *strip, float steepest[2])
 {
     double box[4];
@@ -9,7 +9,7 @@ static void find_steepest(const WrTileJob *job, const Strip *strip, float steepe
     wr_level_box(&job->level, box[0], box[1], box[2], box[3], steepest);
 }
 
-/* Does every light, for certain, lie behind these samples? table: the largest slopes; NULL: n' is n. */
+/* True if every light certainly lies behind these samples. table: the largest slopes; NULL: n' is n. */
 static bool are_behind(const WrTileJob *job, const Rays *rays, const float table[2], int step,
                        const Strip *strip)
 {
@@ -29,8 +29,8 @@ static bool are_behind(const WrTileJob *job, const Rays *rays, const float table
     return true;
 }
 
-/* A few samples first, as if the run read the table's gentlest tile: most that are not dark show it there. untold: of a surface whose
-   tangents are not there yet, or NULL. */
+/* A few samples are tested first, with the slopes of the table's flattest tile: most runs that are not dark fail
+   here. untold: kernels of a surface whose tangents are not computed yet, or NULL. */
 static bool is_dark(const WrTileJob *job, const Rays *rays, bool level,
                     const WR_T(WrRound) * untold, Strip *strip)
 {
@@ -48,7 +48,7 @@ static bool is_dark(const WrTileJob *job, const Rays *rays, bool level,
     return are_behind(job, rays, table, few, strip) && are_behind(job, rays, table, 1, strip);
 }
 
-/* Where a spared run would have looked: an edit there may call for what it was spared. */
+/* Records the texels that a skipped run would have fetched: after an edit there the run may need the work. */
 static void note_spared(const WrTileJob *job, const Rays *rays, Strip *strip,
                         const WrTileScratch *scratch)
 {
@@ -61,12 +61,12 @@ static void note_spared(const WrTileJob *job, const Rays *rays, Strip *strip,
     note_looks(job, rays, strip, scratch);
 }
 
-/* Where the table has no slope n' is n, to the bit. */
+/* Where the table has no slope, n' equals n to the bit. */
 static bool is_level(const WrTileJob *job, const Strip *strip)
 {
     float steepest[2];
     if (!job->ground || job->plan->bump == WR_BUMP_NONE) return false;
-    if (runs(job, WR_EFFECT_SHADOW)) return false; /* the tangents are wanted */
+    if (runs(job, WR_EFFECT_SHADOW)) return false; /* the tangents are needed */
     find_steepest(job, strip, steepest);
     return steepest[0] == 0.0f && steepest[1] == 0.0f;
 }

@@ -11,7 +11,7 @@ typedef struct Hue {
     uint8_t rgb[3];
 } Hue;
 
-/* The first whose bits are there. */
+/* The first row whose bits match applies. */
 static const Hue hues[] = {
     { WR_MAP_RENDERED, 0, "not rendered: left as it was", "black", { 0, 0, 0 } },
     { WR_MAP_COVERED, 0, "nothing of the object", "slate", { 96, 96, 128 } },
@@ -43,7 +43,7 @@ static int last_level(const WrHeatmapCounts *counts)
     return last;
 }
 
-/* The most samples that are there have the whole colour. */
+/* Full brightness for the largest number of samples in the picture. */
 static void colour_of(int last, int bits, uint8_t rgb[3])
 {
     const int level = bits / WR_MAP_SAMPLES;

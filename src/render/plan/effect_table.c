@@ -1,5 +1,5 @@
-/* The table of effects: for each, when a scene calls for it and why, what its leaving out is proven by, the stages
-   and the settings that it owns. In the order of the table: a row may ask those before it. */
+/* Effect table: for each effect the condition under which a scene needs it, the reason, the proof for leaving it
+   out, its stages and its settings. Rows are decided in order: a row may read those before it. */
 #include "render/plan/plan_internal.h"
 #include "base/enum_rows.h"
 
@@ -11,9 +11,9 @@
 
 /* ---- bump ---- */
 
-/* Why the table cannot move the normal, or NULL if it can. The exact normal of an offset surface
-   (constant F) is the base's up to its sign, which flips where F passes a focal distance: so with `exact`
-   on a curved base a constant F is left out only if it is 0. */
+/* Reason why the table cannot change the normal, or NULL if it can. The exact normal of an offset surface
+   (constant F) is the base's up to its sign, which flips where F passes a focal distance: so with `exact` on a
+   curved base a constant F is left out only if it is 0. */
 static const char *no_bump(const WrPlan *plan, const WrPlanAsk *ask)
 {
     const WrScene *scene = ask->scene;

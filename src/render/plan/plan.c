@@ -50,7 +50,7 @@ void wr_plan_samples(WrPlan *plan, const WrPlanAsk *ask)
 {
     decide(plan, WR_EFFECT_SAMPLES, ask);
     decide(plan, WR_EFFECT_BOUND, ask);
-    decide(plan, WR_EFFECT_DARK, ask); /* goes by the bound */
+    decide(plan, WR_EFFECT_DARK, ask); /* depends on the bound */
 }
 
 void wr_plan_again(WrPlan *plan, const WrPlanAsk *ask)
@@ -68,7 +68,7 @@ bool wr_plan_same(const WrPlan *a, const WrPlan *b)
 #undef WR_PLAN_DIFFERS
 }
 
-/* ---- what it took ---- */
+/* ---- costs ---- */
 
 WR_ROWS(wr_cost_names);
 const char *const wr_cost_names[WR_COST_COUNT] = {
@@ -94,7 +94,7 @@ const char *const wr_cost_reasons[WR_COST_COUNT] = {
 };
 WR_ROWS_END(wr_cost_reasons, WR_COST_COUNT);
 
-/* Where a stage's time goes when none of its effects runs. */
+/* Cost that a stage's time is added to if none of its effects runs. */
 WR_ROWS(stage_costs);
 static const WrCost stage_costs[] = {
     [WR_ROW(WR_STAGE_VISIBILITY)] = WR_COST_VISIBILITY,

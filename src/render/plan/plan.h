@@ -1,6 +1,6 @@
-/* plan.h - which effects a scene calls for, and why: the shortest list of stages that gives the right
-   picture. Nothing that is not on it is computed, allocated or kept.
-   Layer 5. Rules are named E1, E2, ... as in the guide, ui/guide/plan.md, whose table is made from this one. */
+/* plan.h - render plan: the effects that a scene needs, with reasons, and the shortest list of stages for a
+   correct picture. Nothing outside the plan is computed, allocated or kept. Rules are named E1, E2, ... as in
+   the guide, ui/guide/plan.md, whose table is generated from this one. */
 #pragma once
 #include "field/scheme.h"
 #include "scene/dials.h"
@@ -16,15 +16,15 @@
 typedef struct WrDials WrDials;
 typedef struct WrScene WrScene;
 
-/* How leaving an effect out is justified. */
+/* Justification for leaving an effect out. */
 typedef enum WrProof {
-    WR_PROOF_IDENTICAL, /* I: the same bits */
+    WR_PROOF_IDENTICAL, /* I: identical bits */
     WR_PROOF_BOUNDED,   /* B: within a stated bound */
     WR_PROOF_POLICY,    /* P: changes the picture, by the user's choice */
     WR_PROOF_COUNT
 } WrProof;
 
-/* What a row of the plan decides about; also the order in which `explain` prints. */
+/* The subject of each row of the plan; also the order in which `explain` prints. */
 typedef enum WrEffect {
     WR_EFFECT_DIFFUSE,
     WR_EFFECT_SPECULAR,
@@ -83,125 +83,125 @@ typedef enum WrEffect {
     WR_EFFECT_COUNT
 } WrEffect;
 
-/* A set of effects: a bit for each. */
+/* A set of effects: one bit for each. */
 typedef uint64_t WrEffects;
 #define WR_EFFECT_BIT(effect) ((WrEffects)1 << (effect))
 _Static_assert(WR_EFFECT_COUNT <= 64, "a bit for each effect");
 
-/* What the renderer's clocks tell apart. */
+/* Timed stages of the renderer. */
 typedef enum WrStage {
-    WR_STAGE_VISIBILITY, /* rays against closed forms, or triangles into the depth tile */
+    WR_STAGE_VISIBILITY, /* closed-form ray hits, or triangles into the depth tile */
     WR_STAGE_NEWTON,
-    WR_STAGE_PARAMETERS, /* u and v of the points that rays met */
+    WR_STAGE_PARAMETERS, /* u and v of the hits */
     WR_STAGE_GEOMETRY,
-    WR_STAGE_PARALLAX, /* rays from the base on to the relief */
+    WR_STAGE_PARALLAX, /* rays from the base to the relief */
     WR_STAGE_CURVATURE,
     WR_STAGE_FOOTPRINT,
     WR_STAGE_LOOK,    /* F, Fu, Fv */
-    WR_STAGE_PYRAMID, /* the same from the pyramid */
+    WR_STAGE_PYRAMID, /* F, Fu, Fv from the pyramid */
     WR_STAGE_NORMALS, /* a normal map's slopes */
     WR_STAGE_BUMP,
     WR_STAGE_SPREAD,
     WR_STAGE_COLOUR,
-    WR_STAGE_TINT,   /* the colour picture over footprints */
-    WR_STAGE_FACETS, /* pictures of roughness and metalness */
+    WR_STAGE_TINT,   /* the colour picture, filtered over footprints */
+    WR_STAGE_FACETS, /* roughness and metalness pictures */
     WR_STAGE_GRAIN,  /* solid textures */
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
-    WR_STAGE_SURROUND,  /* diffuse light of surroundings */
-    WR_STAGE_MIRROR,    /* what is reflected of them */
-    WR_STAGE_SHADOW,    /* lamps that the relief hides */
-    WR_STAGE_CAST,      /* lamps that objects hide */
-    WR_STAGE_OCCLUSION, /* sky that it hides */
-    WR_STAGE_LIGHT,     /* all of a single light in one pass */
+    WR_STAGE_SURROUND,  /* diffuse light of the environment */
+    WR_STAGE_MIRROR,    /* reflection of the environment */
+    WR_STAGE_SHADOW,    /* shadows of the relief */
+    WR_STAGE_CAST,      /* shadows of objects */
+    WR_STAGE_OCCLUSION, /* ambient occlusion by the relief */
+    WR_STAGE_LIGHT,     /* a single light, in one pass */
     WR_STAGE_BOUND,
     WR_STAGE_HALF, /* rounding to half precision */
     WR_STAGE_RESOLVE,
     WR_STAGE_STORE,
     WR_STAGE_CLEAR,
-    WR_STAGE_BETWEEN, /* depths of several objects compared */
+    WR_STAGE_BETWEEN, /* depth test between several objects */
     WR_STAGE_COUNT
 } WrStage;
 
-/* What a row says of a scene. */
+/* Decision of a row for a scene. */
 typedef enum WrVerdict {
-    WR_VERDICT_NONE,   /* nothing in the scene asks for it: there is nothing to run */
-    WR_VERDICT_SPARED, /* it could run, and by the row's proof need not */
+    WR_VERDICT_NONE,   /* not applicable: the scene has nothing for it to do */
+    WR_VERDICT_SPARED, /* it could run, but the row's proof shows that it need not */
     WR_VERDICT_RUN
 } WrVerdict;
 
 typedef struct WrPlanRow {
     const char *rule;  /* "E6" */
     const char *name;  /* "bump" */
-    WrVerdict verdict; /* whatever is forced */
-    bool run;          /* decided: all that the renderer asks */
-    bool ran;          /* recorded by what did it, in the last frame */
+    WrVerdict verdict; /* without forced effects */
+    bool run;          /* final decision; the renderer reads only this */
+    bool ran;          /* set by the code that ran it, in the last frame */
     WrProof proof;
-    char reason[160]; /* one sentence */
-    int64_t tiles,
-        pixels;     /* that it ran on in the last frame: tiles of the picture, samples shaded */
-    double seconds; /* that it took of the last frame, of all threads; 0: nothing that is its own */
-    double ns_per_pixel; /* the same over the frame's samples */
+    char reason[160];      /* one sentence */
+    int64_t tiles, pixels; /* tiles and shaded samples on which it ran in the last frame */
+    /* its time in the last frame, summed over threads; 0: it has no time of its own */
+    double seconds;
+    double ns_per_pixel; /* `seconds` divided by the frame's samples, ns */
 } WrPlanRow;
 
-/* What a frame takes besides its effects. */
+/* Costs of a frame outside its effects. */
 typedef enum WrCost {
-    WR_COST_PREPARE,    /* copies of the table, pyramids, the view, the mesh */
-    WR_COST_VISIBILITY, /* which samples the object covers, in closed form */
+    WR_COST_PREPARE,    /* table copies, pyramids, the view, the mesh */
+    WR_COST_VISIBILITY, /* coverage of samples, in closed form */
     WR_COST_GEOMETRY,   /* points, tangents and normals of the surface */
     WR_COST_LIGHT,      /* diffuse light and highlight of a single light, in one pass */
-    WR_COST_STORE,      /* colours put together and stored */
-    WR_COST_CLEAR,      /* tiles emptied, and those left out that hold nothing */
-    WR_COST_REST,       /* what lies between the stages: samples moved, loops */
-    WR_COST_WAIT,       /* threads without a tile */
-    WR_COST_CHOOSE,     /* under a tolerance: everything but its frames */
+    WR_COST_STORE,      /* composing colours and storing them */
+    WR_COST_CLEAR,      /* clearing tiles, and skipping empty ones */
+    WR_COST_REST,       /* between the stages: moving samples, loops */
+    WR_COST_WAIT,       /* idle threads without a tile */
+    WR_COST_CHOOSE,     /* under a tolerance: everything except its frames */
     WR_COST_COUNT
 } WrCost;
 extern const char *const wr_cost_names[WR_COST_COUNT], *const wr_cost_reasons[WR_COST_COUNT];
 
-/* How many samples a pixel takes. */
+/* Sampling of a pixel. */
 typedef enum WrSampling {
-    WR_SAMPLING_ONE,     /* one at its centre */
+    WR_SAMPLING_ONE,     /* one sample at its centre */
     WR_SAMPLING_ALL,     /* K x K */
-    WR_SAMPLING_ADAPTIVE /* one, then more up to K x K where they are called for */
+    WR_SAMPLING_ADAPTIVE /* one, then more up to K x K where needed */
 } WrSampling;
 
-/* What F is looked up in. */
+/* Source of F. */
 typedef enum WrSource {
-    WR_SOURCE_NONE, /* it is not */
+    WR_SOURCE_NONE, /* F is not fetched */
     WR_SOURCE_FORMULA,
     WR_SOURCE_TABLE
 } WrSource;
 
-/* What look-ups in double read. */
+/* Source numbers of fetches in double precision. */
 typedef enum WrPrecision {
-    WR_PRECISION_SINGLE,  /* nothing: look-ups are in single precision */
-    WR_PRECISION_WIDENED, /* the single-precision numbers, as doubles */
-    WR_PRECISION_DOUBLE   /* numbers that were never rounded to single precision */
+    WR_PRECISION_SINGLE,  /* none: fetches are in single precision */
+    WR_PRECISION_WIDENED, /* single-precision numbers converted to double */
+    WR_PRECISION_DOUBLE   /* double-precision numbers, never rounded to single */
 } WrPrecision;
 
-/* What the plan settles beyond whether an effect runs: X(effect, type, name), each owned by one row. The
-   renderer reads these and the rows, and neither scene nor dials, to choose what it does.
-     model       how lamps are reflected; blinn-phong where that comes to the same
+/* Settings of the plan beyond whether an effect runs: X(effect, type, name), each owned by one row. The renderer
+   chooses by these and the rows alone, never by scene or dials.
+     model       reflection model of lamps; blinn-phong where that is equivalent
      tint        share of highlights that has the surface's colour
-     kept        never more light than came: the model's form of that name
+     kept        energy conservation: the model's form of that name
      faint       as the dial of that name
-     grain       the solid texture's pattern; off: none is worked out, of colours the first is all
-     map_filtered, map_anisotropic    the normal map's slopes over footprints
-     facets_filtered, facets_anisotropic    likewise roughness and metalness
-     map_frame   what its vectors are turned by; gradient where there are none
-     bump        as simplified: BLINN for exact on a flat base, ...
-     scheme      how the table is looked up
-     normals     the surface's geometry and n' are worked out
-     horizons    directions in which the table's are kept, for shadows too
-     rays        to a round lamp that objects may hide
-     samples     K of K x K; 1 where one sample is taken
-     anisotropic, tint_anisotropic    of several look-ups
-     lean        by the whole covariance; else by its trace
-     graded      what is mirrored is blurred as widely as each sample calls for
-     inversion   how rays meet the surface
+     grain       pattern of the solid texture; off: none is computed, its first colour is used
+     map_filtered, map_anisotropic    filtering of the normal map's slopes over footprints
+     facets_filtered, facets_anisotropic    filtering of roughness and metalness
+     map_frame   tangent frame of the normal map's vectors; gradient if it has none
+     bump        after simplification: BLINN for exact on a flat base, ...
+     scheme      interpolation scheme of the table
+     normals     the surface's geometry and n' are computed
+     horizons    number of horizon directions of the table, for shadows too
+     rays        number of shadow rays to an area lamp
+     samples     K of K x K; 1 if one sample is taken
+     anisotropic, tint_anisotropic    filtering by several fetches along the footprint
+     lean        widened by the whole covariance; else by its trace
+     graded      mirrored environment blurred individually for each sample
+     inversion   method of the ray intersection
      mesh, newton, texels, dice, steps, spread, refine, contrast    as the dials of that name
-     heights     what they are rounded to
+     heights     quantization of the heights
      harmonics, gloss    as the dials of that name */
 #define WR_PLAN_SETTINGS(X)                                                                        \
     X(MODEL, WrReflect, model)                                                                     \
@@ -241,16 +241,16 @@ typedef enum WrPrecision {
     X(DOUBLE, bool, shading_double)                                                                \
     X(DOUBLE, WrPrecision, precision)
 
-/* The decision, read by the renderer. */
+/* The plan of a frame, read by the renderer. */
 typedef struct WrPlan {
     WrPlanRow rows[WR_EFFECT_COUNT];
 #define WR_PLAN_MEMBER(effect, type, name) type name;
     WR_PLAN_SETTINGS(WR_PLAN_MEMBER)
 #undef WR_PLAN_MEMBER
-    /* What the last frame took: with the rows' seconds this adds up to `work`, the time of all threads together:
-       preparing by the clock, the rest by the clock for each thread. */
+    /* Costs of the last frame. Together with the rows' seconds they add up to `work`, the time of all threads:
+       preparation by wall time, the rest by each thread's time. */
     double cost[WR_COST_COUNT], work;
-    int64_t shaded; /* its samples */
+    int64_t shaded; /* samples shaded in the last frame */
 } WrPlan;
 
 static inline bool wr_plan_runs(const WrPlan *plan, WrEffect effect)
@@ -258,44 +258,44 @@ static inline bool wr_plan_runs(const WrPlan *plan, WrEffect effect)
     return plan->rows[effect].run;
 }
 
-/* Does the scene itself call for it, whatever is forced? For what decides about a picture's bits. */
+/* True if the scene itself needs the effect, ignoring forced ones. For decisions that affect a picture's bits. */
 static inline bool wr_plan_calls(const WrPlan *plan, WrEffect effect)
 {
     return plan->rows[effect].verdict == WR_VERDICT_RUN;
 }
 
-/* Why a run of samples may be spared what the plan runs. */
+/* Reasons for skipping an effect in a run of samples. */
 typedef enum WrRun {
     WR_RUN_LEVEL = 1, /* no slope of the table is near */
-    WR_RUN_DARK = 2,  /* all lights are behind it, however the table bends its normals */
-    WR_RUN_DULL = 4,  /* no lamp's highlight is as bright as `dials faint=` */
-    WR_RUN_KINDS = 8  /* all of them, some, none */
+    WR_RUN_DARK = 2,  /* all lights are behind the surface, however the table bends its normals */
+    WR_RUN_DULL = 4,  /* no lamp's highlight reaches the brightness `dials faint=` */
+    WR_RUN_KINDS = 8  /* number of combinations */
 } WrRun;
 
-/* What the planner may ask of the table, the view and the last frame; the renderer answers. */
+/* Facts about table, view and last frame that the planner reads; the renderer fills them in. */
 typedef struct WrPlanFacts {
-    bool flat;               /* every texel equal */
-    bool zero;               /* every texel 0 */
-    bool slope_free;         /* the gradient table is 0 everywhere, though the table is not flat */
-    bool normals;            /* the caller wants n' itself */
-    bool ends;               /* the table ends at an axis' ends: it does not repeat */
-    bool outside;            /* the eye is outside a closed surface, for certain */
-    bool lively;             /* adaptive: nearly all of the view's pixels need all samples */
-    bool sighted;            /* what the view's samples look at is known from the last picture */
-    bool steady;             /* and what light looks at of them */
-    const char *steady_told; /* what becomes of those; NULL: they are new */
-    int among;               /* objects that are shown; 0 or 1: this one alone */
-    int hiders;              /* objects that can hide a lamp from this one, itself among them */
-    double rise;             /* pixels that F could move a point at most; below 0: not known */
-    bool rests;    /* the last picture is kept, and was made by the same plan of the same request */
-    double sloped; /* the share of the table's tiles that have a slope; below 0: not known */
+    bool flat;       /* every texel equal */
+    bool zero;       /* every texel 0 */
+    bool slope_free; /* the gradient table is 0 everywhere, although the table is not flat */
+    bool normals;    /* the caller requests n' itself */
+    bool ends;       /* the table ends at the ends of an axis: it does not repeat */
+    bool outside;    /* the eye is certainly outside a closed surface */
+    bool lively;     /* adaptive: nearly all pixels of the view need all samples */
+    bool sighted;    /* the uv cache holds the view */
+    bool steady;     /* the relight cache holds it, too */
+    const char *steady_told; /* status of the relight cache; NULL: it is new */
+    int among;               /* visible objects; 0 or 1: this one alone */
+    int hiders;              /* objects that can hide a lamp from this one, including itself */
+    double rise;             /* largest displacement by F, in pixels; below 0: unknown */
+    bool rests; /* the last picture is kept, and was made by the same plan for the same request */
+    double sloped; /* share of the table's tiles that have a slope; below 0: unknown */
 } WrPlanFacts;
 
-/* Against the planner, for tests and as a yardstick. */
+/* Effects forced on or off, for tests and comparisons. */
 typedef enum WrForce {
     WR_FORCE_NONE,
-    WR_FORCE_ON, /* where it could run */
-    WR_FORCE_OFF /* where a picture is left without it */
+    WR_FORCE_ON, /* wherever it can run */
+    WR_FORCE_OFF /* wherever a picture remains without it */
 } WrForce;
 
 typedef struct WrPlanAsk {
@@ -303,39 +303,39 @@ typedef struct WrPlanAsk {
     const WrDials *dials;
     WrPlanFacts facts;
     const WrForce *force; /* [WR_EFFECT_COUNT]; NULL: nothing is forced */
-    bool full;            /* all is forced on, but what would make the picture more exact */
+    bool full; /* everything is forced on, except effects that would make the picture more exact */
 } WrPlanAsk;
 
-/* One effect: everything that is known of it stands in its row. */
+/* Description of one effect: all facts about it are in its row. */
 typedef struct WrEffectInfo {
     const char *rule, *name; /* "E6", "bump" */
     WrProof proof;
-    const char *bound;    /* of class B: how far off the picture is without it; else NULL */
-    const char *left_out; /* when, for the guide */
-    unsigned stages; /* bits of WrStage; of one that several own the last that runs has the time */
-    bool only_way;   /* where it runs there is no picture without it */
-    unsigned spared; /* bits of WrRun: runs of samples that are spared it where it runs */
-    bool
-        manner; /* it settles how a picture is made, never which: plans that differ in it make the same */
-    bool finer; /* run where it could be left out, it makes the picture more exact: other bits */
-    /* Does the scene call for it, and why? Rows before it are decided. */
+    const char *bound;    /* of class B: error of the picture without it; else NULL */
+    const char *left_out; /* condition for leaving it out, for the guide */
+    /* bits of WrStage; if several effects own a stage, the last one that runs gets its time */
+    unsigned stages;
+    bool only_way;   /* where it runs, there is no picture without it */
+    unsigned spared; /* bits of WrRun: runs of samples in which it is skipped */
+    bool manner;     /* it changes the method only: plans that differ in it make the same picture */
+    bool finer; /* running it where it could be left out makes the picture more exact: other bits */
+    /* Decides whether the scene needs it, and the reason. Rows before it are decided. */
     WrVerdict (*decide)(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
-    /* Fill what it owns of WR_PLAN_SETTINGS, once its row is decided; NULL: nothing. */
+    /* Fills its own WR_PLAN_SETTINGS once its row is decided; NULL: it has none. */
     void (*settle)(WrPlan *plan, const WrPlanAsk *ask);
 } WrEffectInfo;
 extern const WrEffectInfo wr_effects[WR_EFFECT_COUNT];
 
 void wr_plan_build(WrPlan *plan, const WrPlanAsk *ask);
-/* The rows once more that go by what is known when plans have been compared, and copies of the table made: those that
-   settle how the picture is made. */
+/* Decides again the rows that depend on comparing plans and on table copies; these change only the method, not
+   the picture. */
 void wr_plan_again(WrPlan *plan, const WrPlanAsk *ask);
-/* The rows about samples once more: whether a view is lively is known when it has been looked at. */
+/* Decides the sampling rows again, once adaptive sampling has probed the view. */
 void wr_plan_samples(WrPlan *plan, const WrPlanAsk *ask);
-/* Do both make the same picture of one scene? All that rows own is compared, but how it is made. */
+/* True if both plans make the same picture of one scene. Compares everything that rows own, except the method. */
 bool wr_plan_same(const WrPlan *a, const WrPlan *b);
-/* Of frames that make one picture: costs are added, a row runs that ran in any. */
+/* Adds up frames that make one picture: costs are added; an effect has run if it ran in any frame. */
 void wr_plan_add(WrPlan *sum, const WrPlan *more);
-/* A stage's seconds: to the effect that owns it, if one runs, else to the cost that it is part of. */
+/* Adds a stage's seconds to the effect that owns it, if one runs, else to the cost that it belongs to. */
 void wr_plan_charge(WrPlan *plan, WrStage stage, double seconds);
 
 /* "I", "B", "P" */

@@ -1,10 +1,10 @@
-/* plan_internal.h - what the files of the plan's rows share, and what of it the view goes by.
-   Layer 5, private to src/render. */
+/* plan_internal.h - functions shared by the plan's row files, and those that the view uses. Private to
+   src/render. */
 #pragma once
 #include "render/plan/plan.h"
 #include "scene/scene.h"
 
-/* Beyond this r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
+/* Above this, r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
 #define WR_WIDE_FROM 1024.0
 
 static inline WrVerdict say(WrVerdict call, const char **why, const char *reason)
@@ -34,7 +34,7 @@ static inline bool wants_filter(const WrDials *dials)
     return dials->aa == WR_AA_FILTER || dials->aa == WR_AA_MOMENTS;
 }
 
-/* Does the solid texture drive roughness? Where a picture tells it, that does. */
+/* True if the solid texture drives roughness. A roughness picture has priority. */
 static inline bool grain_roughens(const WrScene *scene)
 {
     return scene->grain.kind != WR_SOLID_TEXTURE_OFF &&
@@ -42,7 +42,7 @@ static inline bool grain_roughens(const WrScene *scene)
            !scene->facets[WR_FACET_ROUGHNESS].image && wr_reflects[scene->material.model].roughness;
 }
 
-/* Does the material's roughness change from place to place? */
+/* True if the material's roughness varies over the surface. */
 static inline bool roughens(const WrScene *scene)
 {
     return grain_roughens(scene) || (scene->facets[WR_FACET_ROUGHNESS].image &&
@@ -54,20 +54,20 @@ static inline bool metal_varies(const WrScene *scene)
     return scene->material.model == WR_REFLECT_GGX && scene->facets[WR_FACET_METALNESS].image;
 }
 
-/* Is it of metal everywhere, which has no diffuse reflection? */
+/* True if the material is metal everywhere, so that it has no diffuse reflection. */
 static inline bool all_metal(const WrScene *scene)
 {
     return scene->material.model == WR_REFLECT_GGX && scene->material.metalness == 1 &&
            !metal_varies(scene);
 }
 
-/* Does light of surroundings depend on n'? */
+/* True if environment light depends on n'. */
 bool wr_plan_surround_turns(const WrPlan *plan, const WrScene *scene);
 
-/* Is what is mirrored blurred as widely as each sample calls for? */
+/* True if the mirrored environment is blurred individually for each sample. */
 bool wr_plan_graded(const WrPlan *plan, const WrScene *scene);
 
-/* Does anything depend on n'? */
+/* True if anything depends on n'. */
 static inline bool lit(const WrPlan *plan, const WrPlanAsk *ask)
 {
     return runs(plan, WR_EFFECT_DIFFUSE) || runs(plan, WR_EFFECT_SPECULAR) || ask->facts.normals ||
@@ -79,7 +79,8 @@ static inline bool still(const WrScene *scene)
     return scene->replicate_u == 0 && scene->replicate_v == 0;
 }
 
-/* As WrEffectInfo has them; these are in plan_light.c, plan_reflection.c, plan_environment.c, plan_visibility.c, plan_runs.c, plan_samples.c and plan_maps.c. */
+/* Functions of WrEffectInfo's rows. They are in plan_light.c, plan_reflection.c, plan_environment.c,
+   plan_visibility.c, plan_runs.c, plan_samples.c, plan_shape.c and plan_maps.c. */
 typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
 typedef void WrSettle(WrPlan *plan, const WrPlanAsk *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
@@ -97,5 +98,5 @@ WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr
     wr_settle_harmonics, wr_settle_blur, wr_settle_displaced, wr_settle_parallax, wr_settle_exact,
     wr_settle_curvature, wr_settle_grain, wr_settle_samples, wr_settle_kept, wr_settle_faint;
 
-/* Which formula turns the normal: the scene's, or, of a displaced surface, its own normal's. */
+/* The formula that bends the normal: the scene's, or the exact one of a displaced surface. */
 WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanAsk *ask);

@@ -1,4 +1,4 @@
-/* What the plan decides about pictures that are laid on the object. */
+/* Plan rows of pictures mapped onto the object. */
 #include "render/plan/plan_internal.h"
 
 #include "image/image.h"
@@ -7,7 +7,7 @@
 
 /* ---- colour ---- */
 
-/* White everywhere: multiplying changes nothing. */
+/* White everywhere: multiplying by it changes nothing. */
 static bool colour_white(const WrImage *image)
 {
     const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
@@ -26,7 +26,7 @@ WrVerdict wr_decide_colour(const WrPlan *plan, const WrPlanAsk *ask, const char 
     return say(WR_VERDICT_RUN, why, "the scene has a colour picture");
 }
 
-/* All texels of one colour: so is each mean of them, to the bit. */
+/* All texels have one colour, so every mean equals it, to the bit. */
 static bool colour_even(const WrImage *image)
 {
     const size_t channels = (size_t)image->channels;
@@ -40,7 +40,8 @@ WrVerdict wr_decide_tint(const WrPlan *plan, const WrPlanAsk *ask, const char **
 {
     double ru, rv;
     wr_scene_repeat(ask->scene, &ask->scene->colour_laid, &ru, &rv);
-    /* Towards a horizon a pixel holds any number of the picture's texels, whatever the dials say, as it does of slopes (E67). */
+    /* Towards a horizon a pixel covers arbitrarily many texels, whatever the dials say; slopes are treated the
+       same way (E67). */
     const bool endless = wr_shape_endless(&ask->scene->shape) && !ask->scene->camera.orthographic;
     if (!wants_filter(ask->dials) && !endless)
         return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
@@ -89,7 +90,7 @@ WrVerdict wr_decide_grain(const WrPlan *plan, const WrPlanAsk *ask, const char *
     return say(WR_VERDICT_RUN, why, "the object is cut out of it");
 }
 
-/* Why the solid texture turns no normal, or NULL if it does. */
+/* Reason why the solid texture does not bend the normal, or NULL if it does. */
 static const char *no_embossing(const WrPlan *plan, const WrPlanAsk *ask)
 {
     const WrSolidTexture *grain = &ask->scene->grain;
@@ -110,7 +111,7 @@ WrVerdict wr_decide_embossed(const WrPlan *plan, const WrPlanAsk *ask, const cha
     return say(WR_VERDICT_RUN, why, "the solid texture has heights and a light shows them");
 }
 
-/* Is its pattern asked for? */
+/* True if its pattern is used. */
 void wr_settle_grain(WrPlan *plan, const WrPlanAsk *ask)
 {
     const WrSolidTexture *grain = &ask->scene->grain;
@@ -146,7 +147,7 @@ WrVerdict wr_decide_faded(const WrPlan *plan, const WrPlanAsk *ask, const char *
 
 /* ---- a normal map ---- */
 
-/* Straight up everywhere: it adds slopes of 0. */
+/* Normals straight up everywhere: the map adds slopes of 0. */
 static bool map_even(const WrImage *image)
 {
     const size_t count = (size_t)image->width * (size_t)image->height;

@@ -1,10 +1,9 @@
-/* What the plan decides about highlights of facets, and what they leave: which runs of samples may be spared what of
-   them. */
+/* Plan rows of microfacet highlights, of the energy they leave to diffuse light, and of runs that may skip them. */
 #include "render/plan/plan_internal.h"
 
 #include "scene/scene.h"
 
-/* ---- what highlights leave to diffuse light ---- */
+/* ---- energy left for diffuse light ---- */
 
 WrVerdict wr_decide_kept(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
@@ -35,7 +34,7 @@ WrVerdict wr_decide_widened(const WrPlan *plan, const WrPlanAsk *ask, const char
                "runs of samples over which no slopes spread have their highlights as they are");
 }
 
-/* Why no facets are worked out, or NULL. */
+/* Reason why no microfacet model runs, or NULL. */
 static const char *no_facets(const WrPlan *plan)
 {
     if (!runs(plan, WR_EFFECT_MODEL) || !wr_reflects[plan->model].facets)

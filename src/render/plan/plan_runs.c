@@ -1,21 +1,21 @@
-/* What the plan decides about parts of a picture: which runs of samples may be spared bump or light, and whether what
-   lies beside the object is. These rows settle how a picture is made, never which. */
+/* Plan rows of partial skipping: runs of samples without bump or light, and the area beside the object. These
+   rows change the method, never the picture. */
 #include "render/plan/plan_internal.h"
 
 #include "scene/scene.h"
 
-/* Of this share of sloped tiles on, runs over level ground are too few to ask for. */
+/* From this share of sloped tiles on, runs over flat parts are too rare to test for. */
 #define MOSTLY_SLOPED 0.75
 
-/* Does it run only because it was told to? Then it runs everywhere. */
+/* True if it runs only because it is forced. Then it runs everywhere. */
 static bool is_forced(const WrPlan *plan, WrEffect effect)
 {
     return runs(plan, effect) && plan->rows[effect].verdict != WR_VERDICT_RUN;
 }
 
-/* ---- level ground ---- */
+/* ---- flat parts of the table ---- */
 
-/* Why bump cannot be left out of runs whose slopes are 0, or NULL if it can. */
+/* Reason why bump cannot be skipped in runs whose slopes are 0, or NULL if it can. */
 static const char *no_ground(const WrPlan *plan)
 {
     if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
@@ -45,7 +45,7 @@ WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanAsk *ask, const char 
 
 /* ---- the dark side ---- */
 
-/* Why light cannot be left out by how far bump may turn the normal, or NULL if it can. */
+/* Reason why the bound on bump's rotation of the normal cannot be used to skip light, or NULL if it can. */
 static const char *no_cone(const WrPlan *plan)
 {
     if (runs(plan, WR_EFFECT_DISPLACED)) return "facets of a displaced surface face anywhere";

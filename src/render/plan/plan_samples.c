@@ -1,4 +1,4 @@
-/* What the plan decides about samples: how many a pixel takes, and by what bound they are spared. */
+/* Plan rows of sampling: samples per pixel, and the bound for taking fewer. */
 #include "render/plan/plan_internal.h"
 
 #include "render/textures/solid_texture_footprint.h"
@@ -9,7 +9,7 @@ static bool takes_grid(const WrDials *dials)
     return dials->aa == WR_AA_ADAPTIVE || dials->aa == WR_AA_SUPERSAMPLE;
 }
 
-/* Is a bound asked for that nobody knows? Where outlines meet, light may change by anything. */
+/* True if a bound is requested but unknown. Where outlines meet, light may change by any amount. */
 static bool unbounded(const WrPlanAsk *ask)
 {
     return ask->facts.among > 1 && ask->dials->refine == WR_REFINE_BOUND;
@@ -50,7 +50,7 @@ void wr_settle_samples(WrPlan *plan, const WrPlanAsk *ask)
     plan->contrast = dials->contrast;
 }
 
-/* Why no bound on the intensity's change over a pixel is known, or NULL if one is. */
+/* Reason why no bound on the change of intensity over a pixel is known, or NULL if one is. */
 static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
 {
     if (runs(plan, WR_EFFECT_SHADOW) || runs(plan, WR_EFFECT_CAST))

@@ -1,5 +1,4 @@
-/* What the plan decides about the shape that the table gives the surface: displaced, or its normal alone turned, by which
-   formula. */
+/* Plan rows of the table's effect on the surface: displacement, or bending of the normal, and by which formula. */
 #include "render/plan/plan_internal.h"
 
 #include "field/analytic.h"
@@ -7,7 +6,7 @@
 #include "scene/scene.h"
 #include "surface/triangles.h"
 
-#define SEEN 0.5 /* pixels: what moves less suffices as bump (E21, E50) */
+#define SEEN 0.5 /* pixels: bump suffices for a smaller displacement (E21, E50) */
 
 WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
@@ -19,7 +18,8 @@ WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanAsk *ask, const ch
     if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
     if (scene->analytic.kind == WR_ANALYTIC_OFF && ask->facts.zero)
         return say(WR_VERDICT_SPARED, why, "the table is 0 everywhere");
-    /* Rays to lamps meet facets of P + F n, however low: from its base all of it would be hidden, or nothing. */
+    /* Shadow rays intersect facets of P + F n, however low it is. Started from the base, all rays would be
+       blocked, or none. */
     const bool met = wr_shadow_rays_asked(scene) && ask->dials->rays > 0;
     if (ask->facts.rise >= 0 && ask->facts.rise < SEEN && !met)
         return say(WR_VERDICT_SPARED, why, "F moves no point by half a pixel: bump looks the same");
@@ -57,7 +57,7 @@ WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanAsk *ask)
     return runs(plan, WR_EFFECT_DISPLACED) ? WR_BUMP_EXACT : ask->scene->bump;
 }
 
-/* Is the mesh cut from patches? */
+/* True if the mesh is cut from patches. */
 static bool is_cut(const WrPlanAsk *ask)
 {
     return ask->scene->triangles && ask->scene->triangles->patches;

@@ -1,4 +1,4 @@
-/* What the plan decides about how rays meet the surface, and what of it is worked out there. */
+/* Plan rows of ray intersection and surface geometry. */
 #include "render/plan/plan_internal.h"
 
 #include "scene/scene.h"
@@ -74,7 +74,7 @@ WrVerdict wr_decide_perspective(const WrPlan *plan, const WrPlanAsk *ask, const 
     return say(WR_VERDICT_RUN, why, "the camera is in perspective");
 }
 
-/* Not under a bound, which looks at blocks of texels beyond those that the picture reads. */
+/* Not with a bound, which reads blocks of texels beyond those that the picture uses. */
 WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
@@ -92,7 +92,7 @@ WrVerdict wr_decide_steady(const WrPlan *plan, const WrPlanAsk *ask, const char 
     return say(WR_VERDICT_RUN, why, told ? told : "points and normals are new");
 }
 
-/* ---- what of the surface ---- */
+/* ---- surface geometry ---- */
 
 static bool is_round(const WrPlanAsk *ask)
 {
@@ -163,7 +163,7 @@ WrVerdict wr_decide_horizon(const WrPlan *plan, const WrPlanAsk *ask, const char
     return say(WR_VERDICT_RUN, why, "the plane goes on to the horizon, where it fades");
 }
 
-/* ---- of a mesh out of a file ---- */
+/* ---- mesh files ---- */
 
 static const char not_held[] = "the surface is no mesh out of a file";
 

@@ -1,4 +1,4 @@
-/* Bodies that throw shadows: closed forms and facets, and how much of a lamp they leave. */
+/* Shadow casters: closed forms and facets, and the visibility of a lamp past them. */
 #include "render/shadows/shadow_rays.h"
 
 #include "base/exactmath.h"
@@ -60,7 +60,7 @@ static bool meets_quads(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double
     return false;
 }
 
-/* The roots of a t^2 + 2 b t + c, without a difference of what is alike. */
+/* Real roots of a t^2 + 2 b t + c, without cancellation. */
 static bool roots_of(double a, double b, double c, double t[2])
 {
     const double left = b * b - a * c;
@@ -78,7 +78,7 @@ static bool meets_sphere(const WrShape *shape, WrVec3 o, WrVec3 d, double most)
     return (t[0] > 0 && t[0] < most) || (t[1] > 0 && t[1] < most);
 }
 
-/* Of a tube or a cone, both open: x^2 + y^2 = (r + k w)^2, w = z up from the middle, within half the height. */
+/* Open tube or cone: x^2 + y^2 = (r + k w)^2, with w = z measured from the middle, within half the height. */
 static bool meets_tube(double r, double k, double H, WrVec3 o, WrVec3 d, double most)
 {
     const double wide = r + k * o.z, grows = k * d.z;
@@ -119,7 +119,7 @@ void wr_shadow_rays_body_fini(WrShadowRaysBody *body)
     *body = (WrShadowRaysBody){ 0 };
 }
 
-/* What F is, of a surface that is displaced. */
+/* Hash of F, for a displaced surface. */
 static WrHash relief_of(const WrScene *scene, const WrField *field)
 {
     const WrAnalytic *formula = &scene->analytic;
@@ -156,12 +156,15 @@ void wr_shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, cons
 }
 
 #define ROUNDING                                                                                   \
-    0x1p-19 /* of the object's radius: what places in single precision are off by, and more */
+    0x1p-19 /* of the object's radius: more than the error of single-precision positions */
 #define PATCHY                                                                                     \
-    0x1p-10 /* the same of what is shown by patches and cast by the triangles that they were cut to */
+/* of the object's radius, for surfaces that are drawn as patches and cast shadows as the triangles cut from
+       them */
+0x1p-10
 
-/* Of meshes there are closed forms for the torus alone. */
-static bool needs_facets(const WrShadowRaysBody *body)
+    /* Of the mesh surfaces only the torus has a closed form. */
+    static bool
+    needs_facets(const WrShadowRaysBody *body)
 {
     const bool mesh = wr_surfaces[body->shape.kind]->inversion == WR_INVERT_MESH;
     return body->rise > 0 || (mesh && body->shape.kind != WR_SURFACE_torus);
@@ -188,7 +191,7 @@ bool wr_shadow_rays_body_bring(WrShadowRaysBody *body, const WrScene *scene, con
 
 /* ---- lamps ---- */
 
-/* Can any of it be in the way? Its ball against the cone of the lamp's rays. */
+/* True if the caster may block the lamp: tests its bounding sphere against the cone of rays to the lamp. */
 static bool may_meet(const WrShadowRaysTo *to, WrVec3 p, WrVec3 l, double away, double spread)
 {
     const WrVec3 off = v3_sub(to->middle, p);
@@ -210,7 +213,7 @@ static bool is_hidden(const WrShadowRaysTo *to, WrVec3 p, WrVec3 l, double away)
     return wr_shadow_rays_meets(to->body, o, d, away);
 }
 
-/* Does any of them hide that place of the lamp? */
+/* True if any caster blocks that point of the lamp. */
 static bool any_hides(const WrShadowRays *cast, const int *near, int count, WrVec3 p, WrVec3 n,
                       WrVec3 l, double away)
 {

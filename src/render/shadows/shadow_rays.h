@@ -1,14 +1,13 @@
-/* shadow_rays.h - objects that hide lamps from one another and from themselves (E49): rays from a place towards a lamp, in double
-   precision, so that the answers are the same on every processor.
-   Layer 5, private to the renderer.
+/* shadow_rays.h - shadow rays: visibility of lamps past objects and past the object itself (E49). Private to the
+   renderer. Computed in double precision, so that results are equal on every processor.
 
-   A body is the shape itself where rays meet it in closed form (plane, cube, sphere, cylinder, cone, torus); else triangles, those
-   of a mesh or facets of the surface, in a tree of boxes. Facets are off by no more than the body's `lift`. A displaced
-   surface throws the shadow of facets of P + F n.
+   A caster is the shape itself where rays intersect it in closed form (plane, cube, sphere, cylinder, cone,
+   torus); else triangles, those of a mesh or facets of the surface, in a tree of boxes. The error of facets is
+   at most the body's `lift`. A displaced surface casts the shadow of facets of P + F n.
 
-   Rays start that far above the surface, on the side that is seen, so that no facet darkens the place that it stands for.
-   Where the lamp is below the surface's own horizon, as it may be for what bumps lean towards it, the ray to the own body
-   runs along the horizon: so no convex body hides a lamp from itself. */
+   Rays start `lift` above the surface, on the visible side, so that no facet shadows the point that it stands
+   for. If the lamp is below the surface's own horizon, as happens where bumps lean towards it, the ray against
+   the own body runs along the horizon: so a convex body never shadows itself. */
 #pragma once
 #include "base/hash.h"
 #include "scene/objects.h"
@@ -22,87 +21,94 @@ typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrTriangles WrTriangles;
 
-#define WR_SHADOW_RAYS_RAYS 256 /* to a round lamp, at most */
+#define WR_SHADOW_RAYS_RAYS 256 /* maximum number of rays to an area lamp */
 
 /* A parallelogram. */
 typedef struct WrShadowRaysQuad {
-    WrVec3 from, normal, along, across; /* along, across: dot products with them give parts 0..1 */
+    /* along, across: dot products with them give coordinates 0..1 */
+    WrVec3 from, normal, along, across;
 } WrShadowRaysQuad;
 
-/* What throws a shadow, in its object's units. Zero-initialise; fini frees. */
+/* A shadow caster, in its object's units. Zero-initialise; fini frees. */
 typedef struct WrShadowRaysBody {
-    WrShape shape; /* that all else was made for; kept while the scene's is the same */
+    WrShape shape; /* key of all that follows; kept while the scene's shape is equal */
     double radius; /* about the object's centre */
-    WrHash raised; /* of all that F goes by, of a displaced surface; else 0 */
-    double rise;   /* so far its points may be from the base, object units; of another surface 0 */
-    bool made;     /* what rays meet is there */
+    WrHash raised; /* hash of everything that F depends on, for a displaced surface; else 0 */
+    /* largest distance of its points from the base, object units; 0 if not displaced */
+    double rise;
+    bool made; /* the geometry for intersections exists */
     WrShadowRaysQuad quads[6];
     int quad_count;
     bool endless;
     WrTriangles *triangles; /* own share; NULL: closed form */
-    float (*boxes)[6];      /* a heap: the children of k are 2 k + 1 and 2 k + 2; owned */
-    int32_t *order;         /* triangles, those of a box one after the other; owned */
-    int32_t leaves;         /* of the heap, a power of two */
-    double lift;            /* how far from the surface rays start */
+    /* bounding boxes as a heap: the children of k are 2 k + 1 and 2 k + 2; owned */
+    float (*boxes)[6];
+    int32_t *order; /* triangles sorted by box; owned */
+    int32_t leaves; /* leaves of the heap, a power of two */
+    double lift;    /* distance from the surface at which rays start */
 } WrShadowRaysBody;
 
-/* One body as places of another object see it: o = m p + from, of p in that one's units, stretched. */
+/* A caster in the space of another object: o = m p + from, for p in that object's units, stretched. */
 typedef struct WrShadowRaysTo {
     const WrShadowRaysBody *body;
     double m[9];
     WrVec3 from;
-    WrVec3 middle; /* of a ball that holds it, in those units; radius INFINITY: it has no end */
+    WrVec3 middle; /* centre of a bounding sphere in those units; radius INFINITY: unbounded */
     double radius;
-    bool own; /* it is the object itself */
+    bool own; /* the object itself */
 } WrShadowRaysTo;
 
-/* What can hide lamps from one object. */
+/* Casters that can hide lamps from one object. */
 typedef struct WrShadowRays {
-    WrShadowRaysTo to[WR_OBJECTS_MAX]; /* `count` that can, then the others of `all` */
+    WrShadowRaysTo to[WR_OBJECTS_MAX]; /* first the `count` that can, then the others of `all` */
     int count, all;
-    double lift; /* where its rays start, its units, stretched */
+    double lift; /* offset of its rays' origins, in its units, stretched */
     double disc[WR_SHADOW_RAYS_RAYS]
-               [2]; /* places on a round lamp of radius 1, of as many as `rays` */
+               [2]; /* points on an area lamp of unit radius, evenly spread, as many as `rays` */
     int rays;
 } WrShadowRays;
 
-/* Does the scene ask for such shadows, of a light that shines? */
+/* True if the scene has such shadows, of a lamp that is on. */
 bool wr_shadow_rays_asked(const WrScene *scene);
-/* Is the object such that it never hides a lamp from itself? Its size is known. */
+/* True if the object can never hide a lamp from itself. Its size must be known. */
 bool wr_shadow_rays_spares_itself(const WrShadowRaysBody *body);
-/* The body's size alone. field: what F is looked up in where the surface is displaced; NULL with a formula. moves: a displaced
-   surface is met as it is displaced, else its base. */
+/* Computes only the body's size. field: table of F for a displaced surface; NULL with a formula. moves: a
+   displaced surface is intersected as displaced, else its base. */
 void wr_shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
                               bool moves);
-/* All of it; its size is known, and field as it was for that. Errors: no memory. */
+/* Builds the geometry. Call body_size before, with the same field. Errors: no memory. */
 bool wr_shadow_rays_body_bring(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
                                WrError *err);
 void wr_shadow_rays_body_fini(WrShadowRaysBody *body);
-/* Does the ray o + t d, object units, d of any length, meet it for 0 < t < most? */
+/* True if the ray o + t d, object units, d of any length, hits the body for 0 < t < most. */
 bool wr_shadow_rays_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double most);
-/* The same of a torus. */
+/* True if that ray hits the torus. */
 bool wr_shadow_rays_meets_torus(const WrShape *shape, WrVec3 o, WrVec3 d, double most);
-/* The tree of boxes about body->triangles, and the same of it. Errors: no memory. */
+/* tree_bring builds the tree of boxes around body->triangles; tree_meets intersects a ray with it. Errors: no
+   memory. */
 bool wr_shadow_rays_tree_bring(WrShadowRaysBody *body, WrError *err);
 bool wr_shadow_rays_tree_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double most);
-/* Facets of a surface without a closed form, or displaced, into body->triangles, and what they are off by into its lift. */
+/* Builds facets of a surface that has no closed form, or is displaced, into body->triangles; adds their error to
+   body->lift. */
 bool wr_shadow_rays_facets(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
                            WrError *err);
 
-/* Which of `count` objects (scenes of one each, and their bodies) can hide a lamp from object `at`: those come first. Bodies
-   that can, or, if so wanted, all of them are made. rays: to a round lamp. Errors: no memory; a camera that cannot look. */
+/* Arguments of wr_shadow_rays_prepare: finds which of `count` objects (scenes of one each, and their bodies) can
+   hide a lamp from object `at`; those come first in the result. Only these bodies are built, or, with `all`, all
+   of them. rays: to an area lamp. Errors: no memory; an invalid camera. */
 typedef struct WrShadowRaysAsk {
     const WrScene *const *scenes;
     const WrField *const *fields; /* [count]: their tables; NULL with a formula */
     WrShadowRaysBody *const *bodies;
     int count, at, rays;
     bool all;
-    bool moves; /* what is displaced throws its displaced shadow */
+    bool moves; /* a displaced object casts its displaced shadow */
     double turn_deg, aspect;
 } WrShadowRaysAsk;
 bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysAsk *ask, WrError *err);
 
-/* What is seen of a lamp from p, n the surface's unit normal there on the side that is seen, both in the object's units,
-   stretched: 0..1. l: unit, towards it; away: how far it is; radius: of a round lamp, radians. count: of cast->to. */
+/* Visibility of a lamp from p, 0..1. n: the surface's unit normal there, on the visible side; p and n in the
+   object's units, stretched. l: unit vector to the lamp; away: its distance; radius: of an area lamp, radians.
+   count: of cast->to. */
 double wr_shadow_rays_share(const WrShadowRays *cast, int count, WrVec3 p, WrVec3 n, WrVec3 l,
                             double away, double radius);

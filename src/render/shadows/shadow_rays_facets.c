@@ -1,4 +1,4 @@
-/* Facets of a surface that rays meet in no closed form, or that is displaced, so fine that they are off by a few
+/* Facets of a surface without closed-form intersection, or of a displaced one. Their error is a few
    hundred-thousandths of its radius. */
 #include "base/error.h"
 #include "base/memory.h"
@@ -9,11 +9,11 @@
 
 #include <math.h>
 
-#define OFF 0x1p-15 /* of the radius: what facets may be off by, if ... */
-#define MOST 512    /* ... so many steps are enough */
+#define OFF 0x1p-15 /* of the radius: error that facets may have, if ... */
+#define MOST 512    /* ... this many steps are enough */
 #define LEAST 16
-#define LOOKS 16   /* places each way at which it is looked how far a step is off */
-#define CORNERS 64 /* rows at which Pv may jump */
+#define LOOKS 16   /* test points in each direction for the error of a step */
+#define CORNERS 64 /* rows at which Pv may be discontinuous */
 
 typedef struct Cut {
     const WrShape *shape;
@@ -23,8 +23,8 @@ typedef struct Cut {
     double corner[CORNERS];
     int corners;
     double rows[MOST + CORNERS + 1];
-    int across, down; /* steps */
-    double off;       /* that they are off by, at most */
+    int across, down; /* number of steps */
+    double off;       /* largest error of the facets */
 } Cut;
 
 static WrVec3 at(const Cut *cut, double u, double v)
@@ -48,7 +48,7 @@ static bool holds_corner(const Cut *cut, double v, double step)
     return false;
 }
 
-/* How far the middle of a step, of n along u or v, is from the chord, at most. */
+/* Largest distance of a step's middle from its chord, with n steps along u or v. */
 static double off_by(const Cut *cut, bool along_u, int n)
 {
     const WrSurfaceCell c = cut->cell;
@@ -69,7 +69,7 @@ static double off_by(const Cut *cut, bool along_u, int n)
     return most;
 }
 
-/* The same of cells' middles and their diagonals, along which cells are cut. */
+/* Largest distance of a cell's centre from the diagonal along which the cell is cut. */
 static double off_across(const Cut *cut, int across, int down)
 {
     const WrSurfaceCell c = cut->cell;
@@ -87,7 +87,7 @@ static double off_across(const Cut *cut, int across, int down)
     return most;
 }
 
-/* As many as a table has texels there, before it is asked how far they are off. */
+/* Starting number: the table's texels there, before the error is measured. */
 static int least_steps(const Cut *cut, bool along_u)
 {
     if (!cut->raised) return LEAST;
@@ -106,7 +106,7 @@ static int steps_of(const Cut *cut, bool along_u, double enough)
     return n < MOST ? n : MOST;
 }
 
-/* Steps each way; what they are off by. */
+/* Chooses the steps in both directions; returns their error. */
 static int choose_steps(Cut *cut, double enough)
 {
     int across = steps_of(cut, true, enough), down = steps_of(cut, false, enough);

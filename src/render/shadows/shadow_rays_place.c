@@ -1,4 +1,5 @@
-/* Which objects can hide lamps from which: balls about them, and where lamps stand. */
+/* Selection of possible casters: which objects can hide lamps from which, by bounding spheres and lamp
+   positions. */
 #include "base/exactmath.h"
 #include "render/shadows/shadow_rays.h"
 
@@ -6,10 +7,10 @@
 
 #define SLACK (1 + 1e-9)
 
-/* An object where it stands. */
+/* An object with its placement. */
 typedef struct Standing {
     WrPlacement place;
-    double ball; /* world; INFINITY: it has no end */
+    double ball; /* radius of the bounding sphere, world; INFINITY: unbounded */
 } Standing;
 
 static double widest(const WrPlacement *place)
@@ -31,14 +32,15 @@ static bool stand(const WrShadowRaysAsk *ask, int i, Standing *out, WrError *err
     return true;
 }
 
-/* How far from ball b, a moving ball gets that starts at a and comes to the lamp, where it is a point, or goes on towards it;
-   below 0: they touch. t: how far along, parts of the way. */
+/* Distance between a fixed sphere and a sphere that moves from the object to the lamp. It shrinks to a point at
+   a point lamp, or keeps its size towards a distant one. Below 0: they touch. t: position along the way, 0..1. */
 static double gap(WrVec3 from, WrVec3 way, double ball, bool shrinks, WrVec3 to, double t)
 {
     return v3_len(v3_sub(v3_mad(from, way, t), to)) - (shrinks ? ball * (1 - t) : ball);
 }
 
-/* Can what is at b stand between anything at a and the lamp? The gap is convex in t, so the least is found by thirds. */
+/* True if b can be between any point of a and the lamp. The gap is convex in t, so its minimum is found by
+   ternary search. */
 static bool may_hide(const Standing *a, const Standing *b, const WrLight *light)
 {
     const double spread = tan(fmin(light->size_deg, 45) * WR_PI / 180);
@@ -66,7 +68,7 @@ static bool may_any(const WrShadowRaysAsk *ask, const Standing *a, const Standin
     return false;
 }
 
-/* Rows of b's turn back after a's turn, times by, with b's stretch taken off. */
+/* Rotation from a's axes to b's, times `by`, with b's stretch removed. */
 static void turn_to(const WrPlacement *a, const WrPlacement *b, double by, double m[9])
 {
     const double stretch[3] = { b->stretched ? b->stretch.x : 1, b->stretched ? b->stretch.y : 1,
@@ -107,7 +109,7 @@ static bool finite_to(const WrShadowRaysTo *to)
 static void fill_disc(WrShadowRays *cast, int rays)
 {
     cast->rays = rays < WR_SHADOW_RAYS_RAYS ? rays : WR_SHADOW_RAYS_RAYS;
-    for (int k = 0; k < cast->rays; k++) { /* evenly, by the golden angle */
+    for (int k = 0; k < cast->rays; k++) { /* evenly distributed, by the golden angle */
         const double r = sqrt((k + 0.5) / cast->rays);
         double sine, cosine;
         wr_sincos_turns(0.38196601125010515 * k, &sine, &cosine);
@@ -122,7 +124,8 @@ bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysAsk *ask, WrEr
     cast->count = cast->all = 0;
     fill_disc(cast, ask->rays);
     if (!stand(ask, ask->at, &own, err)) return false;
-    for (int round = 0; round < (ask->all ? 2 : 1); round++) /* those that can, then the others */
+    /* first those that can, then the others */
+    for (int round = 0; round < (ask->all ? 2 : 1); round++)
         for (int i = 0; i < count; i++) {
             if (!stand(ask, i, &other, err)) return false;
             const bool self = i == ask->at;

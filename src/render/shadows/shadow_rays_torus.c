@@ -1,5 +1,5 @@
-/* A ring that throws a shadow, in closed form: whether a ray meets it anywhere is told by signs alone, which no root of the
-   quartic need be found for. */
+/* Shadow test of a torus in closed form. Sign changes show whether a ray hits it, so no root of the quartic has
+   to be found. */
 #include "render/shadows/shadow_rays.h"
 
 #include <math.h>
@@ -12,9 +12,10 @@ static double value(const double *c, int degree, double t)
     return sum;
 }
 
-#define NEAR_ENOUGH 1e-7 /* of the part: values about an extreme are off by its square */
+/* of the interval: near an extreme, the value's error is the square of this */
+#define NEAR_ENOUGH 1e-7
 
-/* Where the cubic c, which rises or falls from a to b, is 0. false: it is not. */
+/* Root of the cubic c, which is monotonic from a to b. false: there is none. */
 static bool root_of(const double c[4], double a, double b, double *root)
 {
     const double slopes[3] = { c[1], 2 * c[2], 3 * c[3] };
@@ -35,8 +36,8 @@ static bool root_of(const double c[4], double a, double b, double *root)
     return true;
 }
 
-/* On its outer half, going on outwards and away from it: then it never comes back, since the square of the distance from the
-   circle in the tube's middle is convex beyond that circle. */
+/* True if p is on the outer half and the ray leads outwards. Then it never returns, because the squared distance
+   from the circle in the tube's middle is convex outside that circle. */
 static bool goes_away(double R, double r, WrVec3 p, WrVec3 d)
 {
     const double rho = sqrt(p.x * p.x + p.y * p.y), out = p.x * d.x + p.y * d.y;
@@ -45,8 +46,9 @@ static bool goes_away(double R, double r, WrVec3 p, WrVec3 d)
            off * out + rho * p.z * d.z >= 0;
 }
 
-/* With the foot f nearest the middle and p = f + t d, G = (p.p + R^2 - r^2)^2 - 4 R^2 (x^2 + y^2) is 0 on the torus; p.p = f.f + t^2 d.d,
-   so it has no t^3. It changes its sign on the way if it does between the way's ends and its extremes, those of a cubic. */
+/* With the foot f nearest the middle and p = f + t d, G = (p.p + R^2 - r^2)^2 - 4 R^2 (x^2 + y^2) is 0 on the
+   torus; p.p = f.f + t^2 d.d, so it has no t^3. G changes sign on the way exactly if it does so between the ends
+   of the way and its extremes, the roots of a cubic. */
 bool wr_shadow_rays_meets_torus(const WrShape *shape, WrVec3 o, WrVec3 d, double most)
 {
     const double R = shape->value[0], r = shape->value[1], dd = v3_dot(d, d);

@@ -1,4 +1,4 @@
-/* Triangles in a tree of boxes: halves of them, parted along the widest side. */
+/* Bounding box tree of triangles: each box is split in halves along its widest side. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "render/shadows/shadow_rays.h"
@@ -7,9 +7,10 @@
 #include <float.h>
 #include <math.h>
 
-#define LEAF 4    /* triangles */
-#define DEEP 64   /* levels of boxes, twice as many as there can be */
-#define SEAM 1e-9 /* by which triangles reach over their edges: no ray passes between two */
+#define LEAF 4  /* triangles */
+#define DEEP 64 /* stack depth: twice the largest possible number of levels */
+/* by which triangles extend over their edges, so that no ray passes between two */
+#define SEAM 1e-9
 
 static void empty(float box[6])
 {
@@ -24,7 +25,7 @@ static void hold(float box[6], const float p[3])
     }
 }
 
-/* Twice the middle of a triangle's box along an axis. */
+/* Twice the centre of a triangle's box along an axis. */
 static float middle(const WrTriangles *t, int32_t i, int axis)
 {
     const int32_t *corner = t->triangles[i].corner;
@@ -34,7 +35,8 @@ static float middle(const WrTriangles *t, int32_t i, int axis)
     return (c < low ? c : low) + (c > high ? c : high);
 }
 
-/* Those of order[first .. end) that come before `split` along the axis, before all others (Hoare's selection). */
+/* Partitions order[first .. end): the first `split - first` along the axis come before all others (Hoare's
+   selection). */
 static void part_at(const WrTriangles *t, int32_t *order, int32_t first, int32_t end, int32_t split,
                     int axis)
 {
@@ -70,7 +72,7 @@ static int widest_axis(const float box[6])
     return axis;
 }
 
-/* The first triangle below a box of that level, of 2^level boxes beside each other. */
+/* The first triangle below a box, one of the 2^level neighbouring boxes of its level. */
 static int32_t first_of(const WrShadowRaysBody *body, int32_t box, int32_t beside)
 {
     const int64_t count = body->triangles->triangle_count;
@@ -122,7 +124,7 @@ static WrVec3 place(const float p[3])
     return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
 }
 
-/* Moeller and Trumbore (1997), from both sides. */
+/* Ray-triangle intersection by Moeller and Trumbore (1997), two-sided. */
 static bool meets_triangle(const WrTriangles *t, int32_t i, WrVec3 o, WrVec3 d, double most)
 {
     const int32_t *corner = t->triangles[i].corner;
