@@ -1,5 +1,5 @@
-/* bench.h - the program's own benchmark: what it measures and with which scenes.
-   Layer 7. Figures are medians of interleaved runs, so that a drift of the machine hits all alike. */
+/* bench.h - the built-in benchmark: measurements and reference scenes. Figures are medians of interleaved runs, so
+   that drift of the machine affects all rows equally. */
 #pragma once
 #include "cli/cli.h"
 
@@ -12,36 +12,36 @@ typedef struct WrScene WrScene;
 typedef struct WrText WrText;
 
 typedef enum WrBenchMode {
-    WR_BENCH_PHONG, /* smooth */
+    WR_BENCH_PHONG, /* bump mapping off */
     WR_BENCH_TEXTURE,
     WR_BENCH_BUMP, /* blinn, central */
     WR_BENCH_BUMP_TEXTURE,
     WR_BENCH_MIP,      /* bump, filtered slopes */
     WR_BENCH_SS16,     /* bump, 4 x 4 samples */
-    WR_BENCH_ADAPTIVE, /* bump, up to 4 x 4 samples where a pixel needs them */
+    WR_BENCH_ADAPTIVE, /* bump, up to 4 x 4 samples in pixels that need them */
     WR_BENCH_MODE_COUNT
 } WrBenchMode;
 extern const char *const wr_bench_modes[WR_BENCH_MODE_COUNT];
 
-/* One row to measure. The renderer keeps its caches from run to run, as the window's does. */
+/* One measurement. The renderer keeps its caches between runs, as in the window. */
 typedef struct WrBenchRow {
     const char *surface; /* "sphere", "bezier" or "torus" */
-    int size;            /* view: size x size pixels */
+    int size;            /* picture of size x size pixels */
     WrBenchMode mode;
     int table;   /* texels along a side */
-    int threads; /* 0: all */
+    int threads; /* 0: all processors */
     double ms;   /* median; filled by wr_bench_run */
     int64_t covered;
 } WrBenchRow;
 
-/* Smooth lumps, scratches and grain, periodic; heights in scene units. NULL without memory. */
+/* A periodic test table of smooth lumps, scratches and grain; heights in scene units. NULL if out of memory. */
 WrField *wr_bench_field(int size, WrError *err);
 /* The reference scene: eye at (0,0,4), a unit sphere whose silhouette touches the view's edge (or a
  * patch, or a torus), one directional light, ambient 0.08, diffuse 0.72, specular 0.35 with shininess
  * 40. */
 WrScene *wr_bench_scene(const char *surface, WrBenchMode mode, bool fast, WrError *err);
 
-/* Measure all rows, `runs` rounds over them in turn. Stops and fails when interrupted. */
+/* Measure all rows in `runs` rounds, alternating between rows. Stops and fails when interrupted. */
 bool wr_bench_run(const WrCli *cli, WrBenchRow *rows, int count, int runs, bool fast, WrError *err);
 
 typedef struct WrBenchStroke {
@@ -51,41 +51,41 @@ typedef struct WrBenchStroke {
 } WrBenchStroke;
 bool wr_bench_stroke(const WrCli *cli, WrBenchStroke *stroke, int samples, WrError *err);
 
-/* A dab of 64 texels across and its undo, each with the composite brought up to date after it: medians. */
+/* Medians for a dab 64 texels across and for its undo, each including the update of the composite. */
 typedef struct WrBenchEdit {
     int table, layers;
-    const char *filter; /* the command of a filter layer over them; NULL: none */
+    const char *filter; /* command of a filter layer above; NULL: none */
     double dab_ms, composite_ms, undo_ms, undo_composite_ms;
-    double bytes; /* that the step costs */
+    double bytes; /* memory of the step */
 } WrBenchEdit;
 bool wr_bench_edit(const WrCli *cli, WrBenchEdit *edit, int rounds, WrError *err);
 
-/* Save and load a document of rough layers. */
+/* Saving and loading of a document of rough layers. */
 typedef struct WrBenchFile {
     int table, layers;
     double save_seconds, load_seconds;
-    double copy_seconds; /* oiiotool reading the file and writing it again; 0: not installed */
+    double copy_seconds; /* oiiotool copying the file; 0: not installed */
 } WrBenchFile;
 bool wr_bench_file(WrBenchFile *file, WrError *err);
 
-/* How soon a motion of the pen is seen in the window, as rows of text; nothing where there is no window. */
+/* Latency from a pen motion to its display in the window, as rows of text; empty in a build without a window. */
 bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err);
 
-/* Dabs of one radius, dabs a second on one thread: medians. */
+/* Dabs of one radius: medians in dabs per second on one thread. */
 typedef struct WrBenchBrush {
     int table;
     double radius;
     double peer;   /* libmypaint's own surface */
-    double engine; /* its engine with the same brush and motion, into our tiles */
-    double round;  /* our round brush, as far apart */
+    double engine; /* its engine with the same brush and motion, on our tiles */
+    double round;  /* our round brush, with the same spacing */
 } WrBenchBrush;
 bool wr_bench_brush(const WrCli *cli, WrBenchBrush *brush, int dabs, int rounds, WrError *err);
-/* All radii, as lines and as a table. */
+/* All radii, as lines or as a table. */
 bool wr_bench_brush_lines(const WrCli *cli, bool quick, WrText *text, WrError *err);
 bool wr_bench_brush_table(const WrCli *cli, bool quick, WrText *text, WrError *err);
 
-/* Generators and operations of whole tables of 4096 x 4096, beside other programs where these are
- * installed: a table, or lines 'make WHAT WHO table threads ms'. It takes minutes, seconds where quick. */
+/* Generators and operations on whole tables of 4096 x 4096, compared with other installed programs: a table, or lines
+ * 'make WHAT WHO table threads ms'. Takes minutes; seconds if `quick`. */
 bool wr_bench_generate(const WrCli *cli, bool quick, bool lines, WrText *text, WrError *err);
 
-double wr_bench_median(double *values, int count); /* sorts values */
+double wr_bench_median(double *values, int count); /* sorts `values` in place */

@@ -1,4 +1,5 @@
-/* Dabs: ours, round and by the engine, beside libmypaint's own surface with the same brush and motion. */
+/* Dab benchmark: our round brush and engine, compared with libmypaint's own surface with the same brush and
+   motion. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -28,7 +29,7 @@ bool wr_bench_brush(const WrCli *cli, WrBenchBrush *brush, int dabs, int rounds,
     double times[3][ROUNDS_MAX];
     bool good = true;
     for (int k = -1; k < rounds && good;
-         k++) { /* the first touches the memory and is not counted */
+         k++) { /* the first run warms the memory and is not counted */
         double seconds[] = { wr_brush_race_peer(race), wr_brush_race_engine(race),
                              wr_brush_race_round(race) };
         for (int n = 0; n < 3 && k >= 0; n++) times[n][k] = seconds[n];
@@ -61,7 +62,7 @@ bool wr_bench_brush_lines(const WrCli *cli, bool quick, WrText *text, WrError *e
     return true;
 }
 
-/* Nanoseconds of one round dab, always over the same few tiles in the table's middle. */
+/* Nanoseconds of one round dab; all dabs hit the same few tiles in the table's middle. */
 static double time_dab(WrField *field)
 {
     enum { DABS = 4000 };
@@ -73,7 +74,7 @@ static double time_dab(WrField *field)
     return 1e9 * (wr_clock_seconds() - start) / DABS;
 }
 
-/* The same dabs on a small and on a large table, by turns. */
+/* The same dabs on a small and on a large table, alternating. */
 static bool add_sizes(bool quick, WrText *text, WrError *err)
 {
     static const int sides[2] = { 512, 16384 };

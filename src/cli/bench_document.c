@@ -1,4 +1,4 @@
-/* Documents: what an edit and its undo take, and saving and loading. */
+/* Document benchmark: an edit, its undo, saving and loading. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -17,7 +17,7 @@ static bool run(WrSession *session, const char *line, WrError *err)
     return wr_session_run(session, line, err);
 }
 
-/* A grid below, and on each further layer one dab. */
+/* A grid on the bottom layer, and one dab on each further layer. */
 static bool make(WrSession *session, int size, int layers, const char *filter, WrError *err)
 {
     char line[96];
@@ -88,7 +88,7 @@ static WrDocument *make_document(int size, int layers, WrError *err)
     return document;
 }
 
-/* The same parts through another program, for comparison; seconds, or 0 if it is not there. */
+/* Copy the same parts with oiiotool for comparison; seconds, or 0 if it is not installed. */
 static double copy_with_oiiotool(const char *folder)
 {
     char command[256];

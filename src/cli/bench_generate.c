@@ -1,9 +1,8 @@
-/* What is made at once rather than painted: generators and operations of whole tables, beside GEGL and
- * oiiotool doing the same where these are installed.
+/* Benchmark of generators and operations on whole tables, compared with GEGL and oiiotool if these are installed.
  *
- * Ours is the time of the command in a running program, the composite brought up to date; of exports with their reading back,
- * and of maps without the writing, which is measured by itself. A peer's is that
- * of its whole process less that of the same process that only loads the picture and saves it again. */
+ * Our time is that of the command in a running program, including the update of the composite. Exports include their
+ * read-back. Maps exclude the writing, which is measured separately. The time of another program is that of its whole
+ * process, minus that of a process that only loads and saves the picture. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -24,11 +23,11 @@
 #include <string.h>
 
 #define TABLE 4096
-#define CROP 1024 /* of the table, for oiiotool, which is slow */
+#define CROP 1024 /* table part for oiiotool, which is slow */
 #define ROUNDS_MAX 9
-#define MESH_SIDE 708 /* squares of two triangles each way: 1 002 528 of them */
+#define MESH_SIDE 708 /* squares along a side, two triangles each: 1 002 528 triangles */
 #define TEXT_LINES 60
-#define TEXT_GLYPHS 50 /* a line */
+#define TEXT_GLYPHS 50 /* per line */
 
 typedef enum Kind {
     NOISE,
@@ -46,16 +45,16 @@ typedef enum Kind {
     KIND_COUNT
 } Kind;
 
-/* A row: a command of ours, and what GEGL does instead, if it can. */
+/* A row: one of our commands, and GEGL's equivalent, if any. */
 typedef struct Row {
     const char *name, *label;
-    const char *line; /* NULL: made for the occasion */
-    const char *gegl; /* arguments; run in the bench's folder */
+    const char *line; /* NULL: generated at run time */
+    const char *gegl; /* arguments; run in the benchmark's folder */
     const char *bare; /* the same without the operation */
-    const char *file; /* an export: what it writes */
-    int channels;     /* of it, where writing it is not what is measured; else 0 */
-    bool oiiotool;    /* writes the same file of the same heights */
-    bool like;        /* the peer's time is that of the row above */
+    const char *file; /* an export: name of the written file */
+    int channels;     /* channels of the file if the writing is excluded from the time; else 0 */
+    bool oiiotool;    /* oiiotool writes the same file from the same heights */
+    bool like;        /* GEGL's time is that of the row above */
 } Row;
 
 WR_ROWS(rows);
@@ -91,15 +90,15 @@ typedef struct Bench {
     const WrCli *cli;
     WrSession *session;
     char folder[40];
-    WrText lines[KIND_COUNT]; /* what is run */
-    bool gegl, oiiotool;      /* whether they are there */
+    WrText lines[KIND_COUNT]; /* command lines */
+    bool gegl, oiiotool;      /* the programs are installed */
     int rounds;
     double ours[KIND_COUNT][ROUNDS_MAX], peer[KIND_COUNT][ROUNDS_MAX], bare[KIND_COUNT][ROUNDS_MAX];
-    double oiiotool_ms; /* of the blur, a whole table's; 0: unknown */
-    double maketx_ms;   /* of bump slopes, likewise */
+    double oiiotool_ms; /* blur, scaled to a whole table; 0: unknown */
+    double maketx_ms;   /* bump slopes, scaled to a whole table; 0: unknown */
 } Bench;
 
-/* Run a command of the shell in the bench's folder; milliseconds, or an error that names it. */
+/* Run a shell command in the benchmark's folder; milliseconds, or an error with the command. */
 static bool shell(const Bench *b, const char *command, double *ms, WrError *err)
 {
     WrText line = { 0 };
@@ -125,7 +124,7 @@ static bool gegl(const Bench *b, const char *arguments, double *ms, WrError *err
     return good;
 }
 
-/* A wavy sheet of triangles as a PLY file. */
+/* Write a wavy mesh of triangles as a PLY file. */
 static bool write_mesh(const char *path, WrError *err)
 {
     FILE *file = fopen(path, "wb");
@@ -181,7 +180,7 @@ static void write_lines(Bench *b)
     wr_text_addf(&b->lines[MESH], "solid mesh \"%s/mesh.ply\" size=4000", b->folder);
 }
 
-/* The table that operations work on, as a picture for the peers in the form that GEGL itself saves. */
+/* Write the table as a picture for the other programs, in the format that GEGL itself saves. */
 static bool write_pictures(const Bench *b, WrError *err)
 {
     char line[96];
@@ -235,7 +234,7 @@ static void end(Bench *b)
     wr_session_free(b->session);
 }
 
-/* What writing as large a picture of codes takes by itself; the exported one is written over. */
+/* Time to write an 8-bit picture of the same size; overwrites the exported one. */
 static bool time_write(const Bench *b, int channels, double *ms, WrError *err)
 {
     char path[64];
@@ -250,7 +249,7 @@ static bool time_write(const Bench *b, int channels, double *ms, WrError *err)
     return good;
 }
 
-/* In memory: files of six channels take far longer than the work. */
+/* Computed in memory: writing files of six channels takes far longer than the computation. */
 static bool time_levels(const Bench *b, double *ms, WrError *err)
 {
     const WrExportOptions options = wr_export_default();
@@ -264,7 +263,7 @@ static bool time_levels(const Bench *b, double *ms, WrError *err)
     return good;
 }
 
-/* What the file of normals would hold: neither written nor read back and compared, as by the peer. */
+/* Compute the normals of an export without writing and read-back, as the other program does. */
 static bool time_normals(const Bench *b, double *ms, WrError *err)
 {
     const WrExportOptions options = wr_export_default();
@@ -277,7 +276,7 @@ static bool time_normals(const Bench *b, double *ms, WrError *err)
     return good;
 }
 
-/* One of ours. What changed the table is undone, so that all rounds are alike. */
+/* Time one of our commands. Changes of the table are undone, so that all rounds are equal. */
 static bool time_ours(const Bench *b, Kind kind, double *ms, WrError *err)
 {
     double start = wr_clock_seconds(), bare = 0;
@@ -293,7 +292,7 @@ static bool time_ours(const Bench *b, Kind kind, double *ms, WrError *err)
     return true;
 }
 
-/* The same file by oiiotool, and nothing but reading what it is made of. */
+/* Time oiiotool for the same file, and for only reading its input. */
 static bool time_file(const Bench *b, const Row *row, double *whole, double *bare, WrError *err)
 {
     char command[96];
@@ -326,7 +325,7 @@ static bool round_of(Bench *b, int round, WrError *err)
     return true;
 }
 
-/* Once, on a part of the table. */
+/* Run once, on a part of the table. */
 static bool time_oiiotool(Bench *b, WrError *err)
 {
     char command[96];
@@ -342,7 +341,7 @@ static bool time_oiiotool(Bench *b, WrError *err)
     return true;
 }
 
-/* maketx of a part of the table, less a process that loads and saves the six channels that it makes. */
+/* Time maketx on a part of the table, minus a process that loads and saves its six channels. */
 static bool time_maketx(Bench *b, WrError *err)
 {
     double bare, whole;
@@ -355,7 +354,7 @@ static bool time_maketx(Bench *b, WrError *err)
     return true;
 }
 
-/* A net of 0 or less is lost in the noise of two processes; it is told as 0. */
+/* Net time of the other program; a difference below 0 is noise of two processes and is reported as 0. */
 static double net(Bench *b, int kind)
 {
     double ms =
@@ -422,7 +421,7 @@ bool wr_bench_generate(const WrCli *cli, bool quick, bool lines, WrText *text, W
     b->cli = cli;
     b->rounds = quick ? 1 : 5;
     bool good = begin(b, err);
-    for (int round = -1; round < b->rounds && good; round++) /* the first fills caches */
+    for (int round = -1; round < b->rounds && good; round++) /* the first round fills caches */
         good = round_of(b, round < 0 ? 0 : round, err);
     good = good && time_oiiotool(b, err) && time_maketx(b, err);
     if (good && lines) print_lines(b, text);

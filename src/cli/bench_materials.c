@@ -11,7 +11,7 @@ void wr_bench_facets(WrScene *scene)
     scene->material.model = WR_REFLECT_GGX;
 }
 
-/* Instead of the lamp. */
+/* Environment light in place of the lamp. */
 void wr_bench_under_sky(WrScene *scene)
 {
     scene->light_count = 0;
@@ -51,7 +51,7 @@ void wr_bench_rough(WrScene *scene)
     scene->grain.drives = WR_SOLID_TEXTURE_ROUGHENS;
 }
 
-/* Pictures of roughness and metalness: waves of both. */
+/* Roughness and metalness maps with waves. */
 void wr_bench_worn(WrScene *scene)
 {
     wr_bench_facets(scene);

@@ -1,5 +1,4 @@
-/* bench_materials.h - what scenes of the bench are made of, for the effects of reflection and of solid textures.
-   Layer 7. */
+/* bench_materials.h - scene parts of the benchmark for reflection effects and solid textures. */
 #pragma once
 
 typedef struct WrScene WrScene;
@@ -16,9 +15,9 @@ void wr_bench_displaced(WrScene *scene);
 void wr_bench_parallax(WrScene *scene);
 void wr_bench_worn(WrScene *scene);
 void wr_bench_embossed(WrScene *scene);
-/* Two more like it, smaller, before and behind its sides. */
+/* Add two smaller objects of the same kind, in front of and behind the sides of the first. */
 void wr_bench_three(WrScene *scene);
-/* The same, and they throw shadows on one another. */
+/* The three objects with shadows on one another. */
 void wr_bench_three_hide(WrScene *scene);
-/* A normal map of waves, of slopes up to 0.3. */
+/* Add a normal map of waves with slopes up to 0.3. */
 void wr_bench_mapped(WrScene *scene);

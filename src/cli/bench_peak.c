@@ -1,4 +1,4 @@
-/* The machine's peaks. */
+/* Measurement of the machine's peak rates. */
 #include "base/cpu.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -10,18 +10,18 @@
 #include <math.h>
 #include <string.h>
 
-#define DRAM_BYTES (256 << 20) /* of all threads together: more than caches hold */
-#define DRAM_LEAST (8 << 20)   /* of one thread */
+#define DRAM_BYTES (256 << 20) /* all threads together: more than caches hold */
+#define DRAM_LEAST (8 << 20)   /* per thread */
 
 const char *const wr_peak_builds[WR_PEAK_BUILDS] = { "v1", "v3", "v4" };
 const char *const wr_peak_levels[WR_PEAK_LEVELS] = { "L1", "L2", "DRAM" };
 static const WrCpuBuilds builds = { &wr_peak_v1, &wr_peak_v3, &wr_peak_v4 };
 
-/* What one thread works on. */
+/* Work of one thread. */
 typedef struct Piece {
     const WrPeakSums *sums;
     long rounds;
-    char *block; /* its first half is copied to its second and back */
+    char *block; /* the first half is copied to the second and back */
     size_t half;
     float x[WR_PEAK_NUMBERS];
 } Piece;
@@ -33,7 +33,7 @@ static void sum(int index, int worker, void *ctx)
     piece->sums->run(piece->rounds, 0.75f, 0.25f, piece->x);
 }
 
-/* Through a pointer that the compiler knows nothing of: copies that nobody reads are made all the same. */
+/* A volatile pointer: the compiler cannot remove copies whose result is unused. */
 static void *(*volatile const copy_bytes)(void *, const void *, size_t) = memcpy;
 
 static void copy(int index, int worker, void *ctx)
@@ -47,7 +47,7 @@ static void copy(int index, int worker, void *ctx)
     }
 }
 
-/* Seconds of all pieces at once, the best of the rounds; the first finds the memory cold and is not counted. */
+/* Seconds of all pieces at once, the best of the rounds; the first warms the memory and is not counted. */
 static double best(WrPool *pool, WrPiece work, Piece *pieces, int count, int rounds)
 {
     double least = INFINITY;
@@ -74,7 +74,8 @@ static void measure_sums(WrPool *pool, Piece *pieces, int count, bool quick, WrP
 
 static void measure_copies(WrPool *pool, Piece *pieces, int count, bool quick, WrPeaks *peaks)
 {
-    const double moved = quick ? 0x1p27 : 0x1p30; /* by each thread a round, at least once over */
+    /* bytes per thread and round, at least the block once */
+    const double moved = quick ? 0x1p27 : 0x1p30;
     for (int level = 0; level < WR_PEAK_LEVELS; level++) {
         const size_t half = (size_t)peaks->bytes[level] / 2;
         const long rounds = (long)fmax(1, moved / peaks->bytes[level]);
@@ -93,7 +94,8 @@ bool wr_peaks_measure(WrPool *pool, bool quick, WrPeaks *peaks, WrError *err)
     Piece *pieces = wr_alloc((size_t)count, sizeof *pieces);
     char *memory = wr_try_alloc((size_t)count, most, "the copies of a measurement", err);
     if (memory) {
-        memset(memory, 1, (size_t)count * most); /* pages of zeros are one page */
+        /* untouched zero pages would share one physical page */
+        memset(memory, 1, (size_t)count * most);
         for (int i = 0; i < count; i++) pieces[i].block = memory + (size_t)i * most;
         measure_sums(pool, pieces, count, quick, peaks);
         measure_copies(pool, pieces, count, quick, peaks);

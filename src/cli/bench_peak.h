@@ -1,5 +1,5 @@
-/* bench_peak.h - what this machine can do at best, to set beside what pictures reach: sums of products, and bytes copied.
-   Layer 7. Measured with the threads of the pool; the best of the rounds. */
+/* bench_peak.h - peak arithmetic and copy rates of this machine, for comparison with rendering. Measured with the
+   threads of the pool; the best of several rounds. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
@@ -11,11 +11,11 @@ typedef struct WrPool WrPool;
 #define WR_PEAK_LEVELS 3
 
 typedef struct WrPeaks {
-    /* GFLOP/s of x k + c in single precision, counted as two operations; 0: not of this processor. */
+    /* GFLOP/s of x k + c in single precision, counted as two operations; 0: not supported by this processor. */
     double gflops[WR_PEAK_BUILDS];
-    /* GB/s of copies, bytes read and bytes written both counted. */
+    /* GB/s of copies; bytes read and bytes written both count. */
     double gbytes[WR_PEAK_LEVELS];
-    double bytes[WR_PEAK_LEVELS]; /* source and copy together, of one thread */
+    double bytes[WR_PEAK_LEVELS]; /* source and copy together, per thread */
 } WrPeaks;
 
 extern const char *const wr_peak_builds[WR_PEAK_BUILDS]; /* "v1", "v3", "v4" */

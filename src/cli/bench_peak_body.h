@@ -1,10 +1,9 @@
-/* bench_peak_body.h - the loop that finds how many sums of products a second a processor makes. Included once by each
-   bench_peak_v*.c, which defines WR_PEAK_NAME.
-   A header without a guard, by intention. */
+/* bench_peak_body.h - the multiply-add loop that measures peak arithmetic. Included once by each bench_peak_v*.c,
+   which defines WR_PEAK_NAME; intentionally without an include guard. */
 #include "cli/bench_peak_inner.h"
 
-/* Sixteen in a row on each number: what lies between is loaded and stored too seldom to count, and a processor works
-   at several numbers' chains at once. */
+/* Sixteen dependent operations per number: loads and stores between them are then negligible, and the processor
+   overlaps the chains of several numbers. */
 #define FOUR(v) (v) = (v)*k + c, (v) = (v)*k + c, (v) = (v)*k + c, (v) = (v)*k + c
 
 static void peak_sums(long rounds, float k, float c, float *x)

@@ -1,12 +1,11 @@
-/* bench_peak_inner.h - the loop of sums, as it is compiled for each level of x86-64.
-   Layer 7, private to bench_peak*.c. */
+/* bench_peak_inner.h - the multiply-add loop compiled for each level of x86-64. Private to bench_peak*.c. */
 #pragma once
 
 #define WR_PEAK_NUMBERS 256
-#define WR_PEAK_SUMS 16 /* on each of them a round */
+#define WR_PEAK_SUMS 16 /* operations on each number in a round */
 
 typedef struct WrPeakSums {
-    /* rounds times: x = x k + c, WR_PEAK_SUMS times on each of x's WR_PEAK_NUMBERS. */
+    /* Repeat `rounds` times: x = x k + c, WR_PEAK_SUMS times on each of x's WR_PEAK_NUMBERS. */
     void (*run)(long rounds, float k, float c, float *x);
 } WrPeakSums;
 

@@ -25,7 +25,7 @@ double wr_bench_median(double *values, int count)
     return count & 1 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
 }
 
-/* What one row needs while it is measured. */
+/* State of one row during measurement. */
 typedef struct Lane {
     WrPool *pool;
     WrRenderer *renderer;
@@ -54,7 +54,7 @@ static void lane_fini(Lane *lane)
     wr_free(lane->ms);
 }
 
-/* The fields of the sizes that rows ask for, each made once. */
+/* Tables of the sizes that rows use, each generated once. */
 static WrField *field_of(WrField **fields, const WrBenchRow *rows, int index, WrError *err)
 {
     for (int i = 0; i < index; i++)
@@ -71,7 +71,8 @@ bool wr_bench_run(const WrCli *cli, WrBenchRow *rows, int count, int runs, bool 
         fields[i] = field_of(fields, rows, i, err);
         good = fields[i] && lane_init(cli, &rows[i], runs, fast, fields[i], &lanes[i], err);
     }
-    for (int run = -1; run < runs && good; run++) /* the first fills caches and is not counted */
+    for (int run = -1; run < runs && good; run++) /* the first round fills caches and is not
+                                                     counted */
         for (int i = 0; i < count && good; i++) {
             WrFrame frame;
             WrFrameRequest request = { .field = lanes[i].field,
@@ -79,7 +80,7 @@ bool wr_bench_run(const WrCli *cli, WrBenchRow *rows, int count, int runs, bool 
                                        .width = rows[i].size,
                                        .height = rows[i].size,
                                        .turn_deg = 7.3 * run,
-                                       .codes = { .wanted = true } }; /* as it is shown */
+                                       .codes = { .wanted = true } }; /* 8-bit, as displayed */
             good = wr_renderer_frame(lanes[i].renderer, &request, &frame, err);
             if (good && run >= 0) lanes[i].ms[run] = frame.times.total * 1e3;
             if (good) rows[i].covered = frame.covered;
@@ -111,7 +112,7 @@ bool wr_bench_stroke(const WrCli *cli, WrBenchStroke *stroke, int samples, WrErr
                 wr_session_stroke_begin(session, "stroke radius=32 strength=0.1", err);
     stroke->apply_worst_ms = 0;
     for (int i = 0; i < samples && good; i++) {
-        /* A scribble: about 10 texels a sample, round and round. */
+        /* A scribble in circles: about 10 texels per sample. */
         double t = 10.0 * i / stroke->table;
         WrSample sample = { .u = 0.5 + 0.3 * sin(3 * t),
                             .v = 0.5 + 0.3 * cos(2 * t),

@@ -71,7 +71,7 @@ static WrImage *bench_colour(WrError *err)
     return image;
 }
 
-/* A bicubic patch that stays regular and fills the view. */
+/* A bicubic patch that is regular everywhere and fills the view. */
 static const double patch[16][3] = {
     { -1.25, -1.15, -.10 }, { -.45, -1.25, .45 }, { .45, -1.20, -.35 }, { 1.25, -1.15, .15 },
     { -1.20, -.45, .40 },   { -.40, -.40, .75 },  { .40, -.45, .05 },   { 1.20, -.40, -.30 },

@@ -1,10 +1,10 @@
-/* What a picture reads, writes and works out, to set its time beside the machine's peaks.
+/* Count of memory traffic and arithmetic of a picture, for comparison with the machine's peaks.
 
-   Operations are those of the kernels' source (render/kern_*_body.h, shade/light_body.h, base/kernmath.h) on one
-   sample: + - * / and square roots of floating point, each as one; not comparisons, choices, roundings, integers, nor
-   what is the same for a whole row or what missed rays took. A build may do more (a square root by estimate and a step) or fewer (zeros
-   left out). Counted are the stages of a sphere under one directional light and a perspective camera, one sample a
-   pixel; of anything else no number is told. */
+   Operations are those in the kernels' source (render/kern_*_body.h, shade/light_body.h, base/kernmath.h) for one
+   sample: + - * / and square roots in floating point count as one each. Comparisons, selections, roundings, integers,
+   per-row constants and missed rays are not counted. A build may do more (a square root by estimate and a step) or
+   fewer (zeros left out). Only the stages of a sphere under one directional light and a perspective camera with one
+   sample per pixel are counted; other pictures have no count. */
 #include "cli/bench_sections.h"
 #include "image/image.h"
 #include "render/frame/frame.h"
@@ -17,12 +17,12 @@ enum {
     NORMAL = 13,                 /* n = P/|P|, P on the sphere */
     PARAMETERS = 20 + 27,        /* u; v: an arc tangent each */
     TANGENTS = 26,               /* Pu, Pv, |N| */
-    LOOK = 11 + 18 + 4,          /* the place; two slopes, bilinear; their scales */
-    SIDE = 14,                   /* towards the viewer */
-    BLINN = 3 + 18 + 7 + 13,     /* the slopes; D; N + D; made unit */
+    LOOK = 11 + 18 + 4,          /* texel position; two slopes, bilinear; their scales */
+    SIDE = 14,                   /* flip towards the viewer */
+    BLINN = 3 + 18 + 7 + 13,     /* the slopes; D; N + D; normalisation */
     DIFFUSE = 5 + 6 + 6,         /* n'.l; its sums, and those of light and colour */
     SPECULAR = 13 + 28 + 36 + 3, /* v; h and n'.h; the power; its sums */
-    CODES = 12                   /* three numbers */
+    CODES = 12                   /* three channels */
 };
 
 static bool spared(const WrPlan *plan)
@@ -37,7 +37,7 @@ static bool spared(const WrPlan *plan)
     return plan->sampling == WR_SAMPLING_ONE;
 }
 
-/* Are the picture's stages among those that are counted, but for the look-up? */
+/* True if all stages of the picture, except the texel fetch, are in the count. */
 static bool counted(const WrBenchPicture *p, const WrPlan *plan)
 {
     const WrScene *scene = p->scene;
@@ -58,8 +58,8 @@ static double flops_of(const WrBenchPicture *p, const WrPlan *plan)
     return plan->scheme == WR_SCHEME_CENTRAL ? flops + LOOK + BLINN : 0;
 }
 
-/* The bytes that a picture takes at least: its own, written once; and what it looks up, the whole table or four
-   texels a sample where these are fewer. */
+/* Least memory traffic of a picture: its own bytes, written once, and the fetched ones: the whole table, or four
+   texels per sample if these are fewer. */
 static double bytes_of(const WrBenchSections *all, const WrBenchPicture *p, const WrFrame *frame)
 {
     static const double own[] = {

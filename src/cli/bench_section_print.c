@@ -1,4 +1,4 @@
-/* Sections and peaks as tables, and as JSON. */
+/* Sections and peaks as tables and as JSON. */
 #include "base/pool.h"
 #include "base/text.h"
 #include "cli/bench.h"
@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What is told of a picture besides its time; NAN: nothing. */
+/* Rates of a picture besides its time; NAN: none. */
 typedef struct Rates {
     double ratio, ns, gbytes, gflops;
 } Rates;

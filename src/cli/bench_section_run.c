@@ -1,4 +1,4 @@
-/* The pictures of a section, measured by turns. */
+/* Measurement of a section's pictures, alternating between them. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -11,12 +11,12 @@
 
 #include <stdint.h>
 
-#define DAB 64 /* texels each way */
+#define DAB 64 /* texels along each side */
 
 typedef struct Lane {
     WrRenderer *renderer;
     WrField *field;
-    uint8_t *bytes; /* where floats are made codes of */
+    uint8_t *bytes; /* output of the float conversion */
     double *ms;     /* [rounds] */
 } Lane;
 
@@ -57,7 +57,7 @@ static void lane_fini(Lane *lane)
     wr_free(lane->ms);
 }
 
-/* A dab of square texels in the middle of what is seen, which is the middle of the table; no slope in it stays as it was. */
+/* A square dab in the middle of the table, which is the middle of the view; it changes every slope in it. */
 static void paint(WrField *field, int size, int round)
 {
     const int side = size < DAB ? size : DAB, from = (size - side) / 2;
@@ -67,7 +67,7 @@ static void paint(WrField *field, int size, int round)
                          1e-5f * (float)((7 * i + 13 * j + 5 * round) % 17));
 }
 
-/* The picture's scene, of a material of each round's own where that is what changes. The caller's to free. */
+/* The picture's scene; in sections with changing material, another material in each round. The caller frees it. */
 static WrScene *scene_of_round(const WrBenchPicture *p, int round)
 {
     if (p->view != WR_BENCH_RELIT) return wr_scene_share(p->scene);
@@ -115,7 +115,7 @@ bool wr_bench_section_measure(WrBenchSections *all, const WrBenchSection *sectio
     Lane *lanes = wr_alloc((size_t)all->count, sizeof *lanes);
     bool good = true;
     for (int i = 0; i < all->count && good; i++) good = lane_init(all, i, lanes, err);
-    for (int round = -1; round < all->rounds && good; round++) /* the first fills caches */
+    for (int round = -1; round < all->rounds && good; round++) /* the first round fills caches */
         for (int i = 0; i < all->count && good; i++) {
             good = draw(all, &all->picture[i], &lanes[i], round, err);
             if (good && wr_cancel_asked(all->cli->cancel)) good = wr_fail(err, "interrupted");

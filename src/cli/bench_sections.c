@@ -1,4 +1,4 @@
-/* The table of sections, and the pictures that each compares. */
+/* The table of sections and their pictures. */
 #include "cli/bench_sections.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -15,7 +15,7 @@
 
 #define TABLE 512
 
-/* A row of the reference scene; NULL and an error without memory or place. */
+/* A row of the reference scene; NULL and an error if out of memory or rows. */
 static WrBenchPicture *add(WrBenchSections *all, const char *name, int base, const char *surface,
                            WrBenchMode mode, WrError *err)
 {
@@ -74,7 +74,7 @@ static bool fill_normals(WrBenchSections *all, WrError *err)
     return true;
 }
 
-/* ---- against aliasing ---- */
+/* ---- anti-aliasing ---- */
 
 typedef struct Aliasing {
     const char *name;
@@ -200,7 +200,7 @@ static void from_behind(WrScene *scene)
     scene->lights[0].where = (WrVec3){ 0.2, 0.9, -1 };
 }
 
-/* One more of it there. */
+/* Add another object of the same kind at that position. */
 static void add_another(WrScene *scene, WrVec3 at, double size)
 {
     WrScene *other = wr_scene_clone(scene);
@@ -246,8 +246,8 @@ static void halved(WrScene *scene)
     scene->dials.shading = WR_SHADING_HALF;
 }
 
-/* A picture with each effect, and the same without. Where `without` is NULL the effect is forced off; where it is a
-   surface's name, that surface has no need of it; `forced`: the scene has no need of it and it runs by force. */
+/* A picture with an effect and the same without. If `without` is NULL, the effect is forced off; if it is a surface's
+   name, that surface does not need the effect. `forced`: the scene does not need the effect, which is forced on. */
 typedef struct EffectCase {
     const char *surface;
     WrBenchMode mode;

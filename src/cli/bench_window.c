@@ -1,4 +1,4 @@
-/* The window: how soon a motion of the pen is seen. */
+/* Latency benchmark of the window: from a pen motion to its display. */
 #include "cli/bench.h"
 
 #include "base/error.h"
@@ -20,7 +20,7 @@
 static const char *const one_sphere[] = { "table 4096x4096", "grid cells=16x16 width=40 high=0.5",
                                           "surface sphere", NULL };
 
-/* As on the cover of the proceedings that hold Blinn's paper: each wears a layer. */
+/* As on the cover of the proceedings with Blinn's paper; each object has its own layer. */
 static const char *const three_objects[] = {
     "table 1024x512",
     "grid cells=16x16 width=12 high=0.5",
@@ -43,12 +43,12 @@ static const char *const three_objects[] = {
     NULL
 };
 
-/* Of 1 MB of heights, and of 1 GB. */
+/* Tables of 1 MB and of 1 GB of heights. */
 static const char *const small_table[] = { "table 512x512", "grid cells=16x16 width=6 high=0.5",
                                            "surface sphere", NULL };
 static const char *const huge_table[] = { "table 16384x16384", "grid cells=64x64 width=40 high=0.5",
                                           "surface sphere", NULL };
-/* Bytes: heights, their composite, what is shown, what is rendered, slopes. */
+/* Bytes: heights, their composite, displayed values, rendered values, slopes. */
 #define HUGE_NEEDS ((uint64_t)10 << 30)
 
 static bool run_all(WrSession *session, const char *const *lines, WrError *err)
@@ -73,8 +73,7 @@ static void print(WrText *text, const char *what, const WrAppDelays *ms)
                  ms->nearly_all, ms->all);
 }
 
-/* Documents of two sizes in windows of two sizes: what the processor has to do while nothing happens, and when a motion is
-   seen. */
+/* Documents of two sizes in windows of two sizes: idle processor load, and latency. */
 static bool add_sizes(const WrCli *cli, bool quick, WrText *text, WrError *err)
 {
     static const struct {
@@ -108,10 +107,10 @@ static bool add_sizes(const WrCli *cli, bool quick, WrText *text, WrError *err)
     return true;
 }
 
-#define STARTS 15 /* odd: the middle one is told */
+#define STARTS 15 /* odd, for a median */
 
-/* Milliseconds from the command to the window's first picture, of a window that nobody sees, with settings of its own in the
-   folder; negative: it told none. */
+/* Milliseconds from the start command to the first picture of a hidden window, with its own settings in the folder;
+   negative: no report. */
 static double time_start(const char *program, const char *folder)
 {
     WrText line = { 0 };
@@ -142,14 +141,15 @@ static void add_start(bool quick, WrText *text)
     if (!wr_process_program(program, sizeof program) || strchr(program, '\'') ||
         !wr_folder_make_temporary(folder))
         return;
-    bool told = time_start(program, folder) > 0; /* the first brings files into memory */
+    bool told = time_start(program, folder) > 0; /* the first start loads files into memory */
     for (int i = 0; i < count && told; i++) told = (ms[i] = time_start(program, folder)) > 0;
     if (told)
         wr_text_addf(
             text, "\nfrom the command to the window's first picture, without a display: %.0f ms\n",
             wr_bench_median(ms, count));
     else wr_text_add(text, "\nthe window's first picture: it did not tell\n");
-    snprintf(program, sizeof program, "rm -r '%s'", folder); /* what the window keeps there */
+    /* files that the window stores there */
+    snprintf(program, sizeof program, "rm -r '%s'", folder);
     if (system(program) != 0) wr_text_addf(text, "%s: cannot be removed\n", folder);
 }
 
@@ -189,6 +189,6 @@ bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err)
 bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err)
 {
     (void)cli, (void)quick, (void)text, (void)err;
-    return true; /* built without a window */
+    return true; /* build without a window */
 }
 #endif

@@ -15,26 +15,26 @@
 #define WR_SAMPLE_POINTS 96
 #define WR_SAMPLE_SECONDS 1.2
 #define WR_SAMPLE_RELIEF 14.0 /* texels from lowest to highest, unless that is too steep */
-#define WR_SAMPLE_STEEP 1.5   /* slope of the steepest tenth of what is not flat, at most */
+/* upper limit for the slope of the steepest tenth of the texels that are not flat */
+#define WR_SAMPLE_STEEP 1.5
 
 struct WrSampler {
     WrPool *pool; /* borrowed */
     int width, height;
     WrScene *scene;
     WrRenderer *renderer;
-    WrField *ridges; /* what brushes that need a ground are tried on */
+    WrField *ridges; /* table for brushes that act on existing heights */
 };
 
 /* ---- the table ---- */
 
-/* Small: it does not fail but where the whole program would. */
+/* A small table: allocation fails only if the whole program is out of memory. */
 static WrField *new_table(void)
 {
     return wr_field_new(WR_SAMPLE_W, WR_SAMPLE_H, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
 }
 
-/* Upright ridges with grain: something to smooth, sharpen and level, and straight enough that one sees
- * where it was dragged. */
+/* Vertical ridges with grain: texture to smooth, sharpen and level, and straight lines that show dragging. */
 static WrField *make_ridges(void)
 {
     WrField *field = new_table();
@@ -53,11 +53,11 @@ static WrField *make_ridges(void)
 
 static bool needs_ground(const WrPreset *preset, const WrBrush *brush)
 {
-    /* modes with a strength make something of nothing */
+    /* modes with a strength create relief on a flat table */
     return !(wr_brush_modes[brush->mode].uses & WR_USES_STRENGTH) || wr_preset_smudges(preset);
 }
 
-/* The preset's brush at a size that the sample can show. */
+/* The preset's brush with its size limited to the sample. */
 static WrBrush sample_brush(const WrPreset *preset)
 {
     WrBrush brush = wr_preset_brush(preset);
@@ -102,8 +102,8 @@ static int compare_floats(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Scene units a height of 1 becomes, the table being one unit high: at WR_SAMPLE_RELIEF, or lower if it
- * were too steep. */
+/* Scale from heights to scene units, with the table one unit high: from WR_SAMPLE_RELIEF, or lower if that were too
+ * steep. */
 static double show_height(const WrField *field)
 {
     enum { W = WR_SAMPLE_W, H = WR_SAMPLE_H };
@@ -135,7 +135,7 @@ static double show_height(const WrField *field)
     return isfinite(height) ? height : 0;
 }
 
-/* A plane as wide and high as the picture, lit from the upper left with a little from the other side. */
+/* A plane with the picture's width and height, lit from the upper left with a weak light from the other side. */
 static WrScene *make_scene(const WrCli *cli, WrError *err)
 {
     static const char *const lines[] = {

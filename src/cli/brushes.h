@@ -1,5 +1,4 @@
-/* brushes.h - what `wrinkle brushes` works on: some presets of the library.
-   Layer 7, inside cli. */
+/* brushes.h - shared list of library presets for `wrinkle brushes`. Private to src/cli. */
 #pragma once
 #include "brush/library.h"
 #include "cli/cli.h"
@@ -12,14 +11,14 @@ typedef struct WrBrushList {
     int count;
 } WrBrushList;
 
-/* The file's name of an entry's thumbnail: its name with '/' as '-', and "_prev.png", as MyPaint's. */
+/* File name of an entry's thumbnail in MyPaint's form: its name with '/' as '-', and "_prev.png". */
 void wr_brushes_thumbnail_name(const WrPresetEntry *entry, WrText *name);
 
-/* One picture of all, by collection and group, each with its name; PNG or what the ending says. */
+/* Write one picture of all entries with their names, by collection and group; PNG, or the format of the extension. */
 bool wr_brushes_sheet(const WrCli *cli, const WrBrushList *list, const char *path, WrError *err);
-/* One picture each into a folder, which must exist. */
+/* Write one picture for each entry into an existing folder. */
 bool wr_brushes_thumbnails(const WrCli *cli, const WrBrushList *list, const char *folder,
                            WrError *err);
 
-/* Everything that `wrinkle brushes NAME` says, as lines or as one JSON object and a new line. */
+/* Print everything about a preset, as lines or as one JSON object and a line end. */
 void wr_brushes_tell(const WrPresetEntry *entry, const WrPreset *preset, bool json, WrText *text);

@@ -1,4 +1,4 @@
-/* Contact sheets and thumbnails: samples of many presets. */
+/* Contact sheets and thumbnails of presets. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -12,14 +12,14 @@
 
 #include <string.h>
 
-#define WR_SHEET_MANY 96 /* presets, above which samples are small */
+#define WR_SHEET_MANY 96 /* presets; above this number samples are small */
 #define WR_THUMBNAIL_W 128
 #define WR_THUMBNAIL_H 96
 
-enum { BACKGROUND = 38, HEADING = 235, NAME = 190, FAULT = 120 }; /* greys */
+enum { BACKGROUND = 38, HEADING = 235, NAME = 190, FAULT = 120 }; /* grey values */
 
 typedef struct Sheet {
-    int cell_w, cell_h; /* of a sample, pixels */
+    int cell_w, cell_h; /* size of a sample, pixels */
     int columns, gap, name_h, heading_h;
     int width, height;
     uint8_t *pixels; /* [height][width], owned */
@@ -39,8 +39,8 @@ static bool new_group(const WrBrushList *list, int index)
            strcmp(list->entry[index]->collection, list->entry[index - 1]->collection) != 0;
 }
 
-/* Where each entry's sample goes: x, y of its upper left corner into places [count][2]; groups begin a row
- * with a heading above. Returns the sheet's height. */
+/* Compute the upper left corner x, y of each entry's sample into places [count][2]; each group starts a row with a
+ * heading above. Returns the sheet's height. */
 static int lay_out(const Sheet *sheet, const WrBrushList *list, int (*places)[2])
 {
     const int step_x = sheet->cell_w + sheet->gap;
@@ -78,7 +78,7 @@ static void draw_heading(Sheet *sheet, const WrPresetEntry *entry, int y)
     wr_text_fini(&text);
 }
 
-/* The preset's own name, without the folder that its group names already. */
+/* Draw the preset's name without its folder, which is in the group heading. */
 static void draw_name(Sheet *sheet, const WrPresetEntry *entry, const char *fault, int x, int y)
 {
     const char *slash = strrchr(entry->name, '/');

@@ -1,4 +1,4 @@
-/* One preset in words. */
+/* Text description of one preset. */
 #include "cli/brushes.h"
 
 #include "base/enum_rows.h"
@@ -46,7 +46,7 @@ static int curve_points(const WrPreset *preset, int index, int input)
     return wr_preset_curve(preset, index, input, &points);
 }
 
-/* Is the setting other than a brush that says nothing would have it? */
+/* True if the setting differs from its default. */
 static bool is_told(const WrPreset *preset, int index)
 {
     return !wr_preset_is_constant(preset, index) ||
@@ -92,7 +92,7 @@ static void setting_json(const WrPreset *preset, int index, WrText *text)
     wr_text_add(text, "]}");
 }
 
-/* ---- all of it ---- */
+/* ---- whole description ---- */
 
 static void tell_text(const WrPresetEntry *entry, const WrPreset *preset, WrText *text)
 {

@@ -1,9 +1,8 @@
-/* cli.h - the command line: one struct of what the user asked for, one function a subcommand.
-   Layer 7.
+/* cli.h - the command line: one struct of parsed options, one function for each subcommand.
 
-   Results go to standard output, notes and errors to standard error. Exit status: 0 done; 1 failed, with
-   one message that begins "wrinkle: "; 2 for the shell line itself (unknown subcommand or option,
-   missing value); 130 interrupted. */
+   Results go to standard output, notes and errors to standard error. Exit status: 0 done; 1 failed, with one message
+   that begins "wrinkle: "; 2 error in the shell line itself (unknown subcommand or option, missing value); 130
+   interrupted. */
 #pragma once
 #include <stdbool.h>
 
@@ -24,33 +23,33 @@ typedef struct WrSubcommand {
     const char *name;
     const char *usage;   /* "render [FILE] -o OUT ..." */
     const char *help;    /* one line */
-    unsigned options;    /* bits 1 << WrOption that it takes besides the common ones */
+    unsigned options;    /* bits 1 << WrOption of the accepted options, besides the common ones */
     const char *details; /* for --help; may be NULL */
     int (*run)(const WrCli *cli);
 } WrSubcommand;
 
-/* What the shell line says. All strings are borrowed from argv. */
+/* The parsed shell line. All strings are borrowed from argv. */
 struct WrCli {
     const WrSubcommand *command;
     bool help;        /* -h, --help */
     bool version;     /* --version */
     const char *file; /* NULL: none */
     const char *
-        *words; /* export: name=value; help: the verb; bench: everything that is not common */
+        *words; /* export: name=value; help: the verb; bench: all words and all its own options */
     int word_count;
     const char **dos; /* --do, in order */
     int do_count;
     const char **ats; /* --at, in order */
     int at_count;
     const char *noise;  /* --noise: a command line; NULL: none */
-    int threads;        /* 0: one a processor */
+    int threads;        /* 0: one per processor */
     const char *isa;    /* NULL: auto */
     const char *out;    /* -o */
     const char *coding; /* --coding */
     const char *kind;   /* --as */
     bool watch;         /* --watch */
     bool sized;         /* --size was given */
-    int width, height;  /* of it; 512x512 */
+    int width, height;  /* default 512x512 */
     bool framed;        /* --frames was given */
     int first, last;    /* of --frames */
     int of;             /* --of; 0: not given */
@@ -60,7 +59,7 @@ struct WrCli {
     bool missing;    /* --missing */
     double memory;   /* --memory, MB; 0: not given */
     bool turned;     /* --turn was given */
-    double turn_deg; /* degrees a frame */
+    double turn_deg; /* degrees per frame */
     int face;        /* --face */
     bool full;       /* --full */
     bool json;
@@ -108,36 +107,37 @@ typedef enum WrOption {
     WR_OPTION_EXPLAIN,   /* --measure */
     WR_OPTION_MAP,       /* --map */
     WR_OPTION_CHECK,     /* --as, of pictures */
-    WR_OPTION_ALL_WORDS, /* no option: takes any number of words */
+    WR_OPTION_ALL_WORDS, /* no option: accepts any number of words */
     WR_OPTION_OWN,       /* no option: checks unknown options itself, as words */
     WR_OPTION_COMMON     /* of every subcommand */
 } WrOption;
 
-extern const WrSubcommand wr_subcommands[]; /* ends with name NULL; the first is the default */
-const WrSubcommand *wr_subcommand_find(const char *name); /* NULL if there is none */
+/* the last row has name NULL; the first is the default */
+extern const WrSubcommand wr_subcommands[];
+const WrSubcommand *wr_subcommand_find(const char *name); /* NULL if there is no such subcommand */
 
-/* Read the shell line. The arrays in *cli are the caller's (wr_cli_fini). On failure *status is 1 or 2
- * and err says why. */
+/* Parse the shell line. The caller frees the arrays in *cli (wr_cli_fini). On failure *status is 1 or 2 and err holds
+ * the message. */
 bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err);
 void wr_cli_fini(WrCli *cli);
-/* The help of one subcommand with its options, or of the program where command is NULL. */
+/* Help of one subcommand with its options; of the program if command is NULL. */
 void wr_cli_help(const WrSubcommand *command, WrText *text);
-/* Every subcommand with its options, in Markdown; and what the plan may leave out, and the sets of maps, as tables. */
+/* Markdown tables: every subcommand with its options; the effects that a plan may skip; the sets of maps. */
 void wr_cli_markdown_subcommands(WrText *text);
 void wr_cli_markdown_effects(WrText *text);
 void wr_cli_markdown_sets(WrText *text);
-/* Option i that a subcommand takes, or of those that all take: its name, other name, value and help (NULL: none).
- * False past the last. */
+/* Option i of a subcommand, or of the common ones: its name, other name, value and help (NULL: none). False past the
+ * last. */
 bool wr_cli_option(const WrSubcommand *command, bool common, int i, const char *out[4]);
 
-/* A session with FILE loaded (an empty document without one) and every --do run. outputs: perform output
- * commands among the --do lines. The caller owns it; NULL and an error on failure. */
+/* A session with FILE loaded (an empty document without one) after every --do line. outputs: perform output commands
+ * among the --do lines. The caller owns it; NULL and an error on failure. */
 WrSession *wr_cli_load(const WrCli *cli, bool outputs, WrError *err);
 /* Load FILE, if one is named. */
 bool wr_cli_open(const WrCli *cli, WrSession *session, WrError *err);
-/* An empty one, with notes going to standard error. */
+/* An empty session with notes to standard error. */
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err);
-/* The place of a word in a list. False with an error that names the option and suggests a word: "--as hieght: ..." */
+/* Index of a word in a list. False with an error that names the option and suggests a word: "--as hieght: ..." */
 bool wr_cli_find_word(const char *option, const char *word,
                       const char *(*list)(const void *ctx, int i), const void *ctx, int *place,
                       WrError *err);
@@ -145,17 +145,17 @@ bool wr_cli_find_word(const char *option, const char *word,
 bool wr_cli_check_isa(const WrCli *cli, WrError *err);
 bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err);
 
-/* "wrinkle: MESSAGE" on standard error. Returns status, or 130 when an interrupt was the reason. */
+/* Print "wrinkle: MESSAGE" to standard error. Returns status, or 130 after an interrupt. */
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err);
-/* "wrinkle: note: TEXT" there. */
+/* Print "wrinkle: note: TEXT" to standard error. */
 void wr_cli_note(const char *text);
-/* Write a result to standard output at once. Returns 0, or 1 with a message when that fails. */
+/* Write a result to standard output at once. Returns 0, or 1 with a message on failure. */
 int wr_cli_print(const WrCli *cli, const WrText *text);
 
-/* From now on that progress is told on standard error, if that is a terminal; the line wiped until there is more
-   to tell; and never more. */
+/* Progress line on standard error, if that is a terminal: start reporting `progress`; clear the line until the next
+   report; stop reporting. */
 void wr_cli_tell(WrProgress *progress);
-void wr_cli_tell_again(void); /* what was told is done, and another piece of work begins */
+void wr_cli_tell_again(void); /* restart for another piece of work */
 void wr_cli_tell_end(void);
 void wr_cli_tell_no_more(void);
 
@@ -169,5 +169,5 @@ int wr_cli_explain(const WrCli *cli);
 int wr_cli_accuracy(const WrCli *cli);
 int wr_cli_recover(const WrCli *cli);
 int wr_cli_brushes(const WrCli *cli);
-int wr_cli_bench(const WrCli *cli); /* reads its own options from words */
+int wr_cli_bench(const WrCli *cli); /* parses its own options from words */
 int wr_cli_help_command(const WrCli *cli);

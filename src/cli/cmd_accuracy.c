@@ -19,16 +19,16 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SIDE 256       /* pixels, without --size: there the reference takes seconds, not minutes */
-#define FULL_SCALE 0.1 /* linear intensity that is white in a difference picture: the same in all */
-#define LARGEST 4096   /* pixels along a side of the reference */
+#define SIDE 256       /* default size in pixels: the reference then takes seconds, not minutes */
+#define FULL_SCALE 0.1 /* linear intensity shown as white in all difference pictures */
+#define LARGEST 4096   /* largest side of the reference in pixels */
 
-/* The words that --axis takes: what the labels of the axes begin with. */
+/* Words accepted by --axis: prefixes of the axis labels. */
 static const char *const axis_words[] = { "derivative", "normal", "antialiasing",
                                           "visibility", "light",  "arithmetic",
                                           NULL };
 
-/* The axis that a word begins ("antialiasing", "derivative"); WR_AXIS_COUNT without a word; -1. */
+/* The axis of a word ("antialiasing", "derivative"); WR_AXIS_COUNT for NULL; -1 for an unknown word. */
 static int find_axis(const char *word)
 {
     if (!word) return WR_AXIS_COUNT;
@@ -38,7 +38,7 @@ static int find_axis(const char *word)
     return -1;
 }
 
-/* ---- pictures of the differences ---- */
+/* ---- difference pictures ---- */
 
 typedef struct Differences {
     const char *folder;
@@ -46,7 +46,7 @@ typedef struct Differences {
     uint8_t *rgb; /* [height][width][3] */
 } Differences;
 
-/* FOLDER/07-aa-filter.png: the setting with everything but letters and digits as a dash. */
+/* FOLDER/07-aa-filter.png: the setting with a dash for everything except letters and digits. */
 static void difference_name(const Differences *to, const WrRung *rung, WrText *path)
 {
     WrText setting = { 0 };
@@ -100,7 +100,7 @@ static const char *name_of(const WrCli *cli)
     return slash ? slash + 1 : cli->file ? cli->file : "";
 }
 
-/* The table and its plots take their places together. */
+/* Write the table and its plots as one atomic set. */
 static bool write_files(const WrCli *cli, const WrLadder *ladder, WrError *err)
 {
     WrText csv = { 0 };
@@ -124,9 +124,9 @@ typedef struct Work {
     WrLadderRequest request;
     WrProgress progress;
     Differences differences;
-    bool terminal, faulty; /* faulty: a rung told that the program is at fault */
-    WrText text;           /* the answer */
-    WrTables *tables;      /* of the scene's objects; owned */
+    bool terminal, faulty; /* faulty: a rung's result shows an error in the program */
+    WrText text;           /* output */
+    WrTables *tables;      /* prepared tables of the scene's objects; owned */
 } Work;
 
 static void prepare(const WrCli *cli, WrSession *session, Work *work)
@@ -189,7 +189,7 @@ static bool compete(const WrCli *cli, Work *work, WrError *err)
     return good;
 }
 
-/* The hard cases need no document. A case that fails makes the program's status 1. */
+/* The hard cases need no document. A failing case sets exit status 1. */
 static int hard_cases(const WrCli *cli)
 {
     WrError err;

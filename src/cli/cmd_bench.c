@@ -15,7 +15,7 @@ typedef struct Options {
     uint64_t sections; /* bit i: wr_bench_sections[i] */
 } Options;
 
-/* The parts, then the other words that `bench` takes. */
+/* Section names, then the other words that `bench` accepts. */
 static const char *word_at(const void *ctx, int i)
 {
     static const char *const others[] = { "generate", "brushes", "window",  "all",
@@ -88,7 +88,7 @@ static int add_rows(WrBenchRow *rows, int count, const char *surface, int size, 
     return count;
 }
 
-/* 'surface view mode table threads ms', one line a measurement, for comparing with other renderers. */
+/* Print 'surface view mode table threads ms', one line per measurement, for comparison with other renderers. */
 static bool bench_lines(const WrCli *cli, const Options *options, WrText *text, WrError *err)
 {
     static const WrBenchMode modes[] = { WR_BENCH_PHONG,        WR_BENCH_TEXTURE, WR_BENCH_BUMP,
@@ -132,7 +132,8 @@ static void print_frames(WrText *text, const WrBenchRow *rows, int count)
     }
 }
 
-/* The paper, section 6: bump about 4 times smooth and about 2 times colour texture. */
+/* Ratios to compare with the paper, section 6: bump mapping takes about 4 times as long as smooth shading and about 2
+   times as long as a colour texture. */
 static void print_ratios(WrText *text, const WrBenchRow *rows, int count)
 {
     wr_text_addf(text, "\n%-8s %-10s %7s %12s %13s   (the paper: about 4 and 2)\n", "surface",
@@ -195,7 +196,7 @@ static bool bench_files(const Options *options, WrText *text, WrError *err)
     return true;
 }
 
-/* The sections that are asked for, one after another. */
+/* Run the requested sections one after another. */
 static bool bench_sections(const WrCli *cli, const Options *options, WrText *text, WrError *err)
 {
     WrBenchSections *all = wr_alloc(1, sizeof *all);
@@ -249,7 +250,7 @@ static bool bench_table(const WrCli *cli, const Options *options, WrText *text, 
            wr_bench_window(cli, options->quick, text, err);
 }
 
-/* One object: sections, and what --lines prints. */
+/* Print one object: sections, and the output of --lines. */
 static bool bench_json(const WrCli *cli, const Options *options, WrText *text, WrError *err)
 {
     WrText lines = { 0 };

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* ---- which ---- */
+/* ---- choice of presets ---- */
 
 static const WrPresetEntry *entry_at(const WrLibrary *library, const char *path)
 {
@@ -17,7 +17,7 @@ static const WrPresetEntry *entry_at(const WrLibrary *library, const char *path)
     return NULL;
 }
 
-/* Those that the words name, in their order. */
+/* Presets that the words name, in their order. */
 static bool choose_named(const WrCli *cli, WrBrushList *list, WrError *err)
 {
     for (int i = 0; i < cli->word_count; i++) {
@@ -33,7 +33,7 @@ static bool choose_named(const WrCli *cli, WrBrushList *list, WrError *err)
     return true;
 }
 
-/* All whose collection is called so, or begins so: "mypaint" is both of its versions. */
+/* All presets whose collection has this name or prefix: "mypaint" is both of its versions. */
 static bool choose_all(const char *collection, WrBrushList *list, WrError *err)
 {
     const int count = wr_library_count(list->library);
@@ -59,7 +59,7 @@ static bool choose_all(const char *collection, WrBrushList *list, WrError *err)
 
 /* ---- lists ---- */
 
-/* The first sentence of a description, which is what a list has room for. */
+/* Append the first sentence of a description, since a list has no room for more. */
 static void add_first_sentence(WrText *text, const char *description)
 {
     const char *end = strpbrk(description, "\r\n");
@@ -108,7 +108,7 @@ static bool tell_each(const WrCli *cli, const WrBrushList *list, WrText *text, W
 
 /* ---- the subcommand ---- */
 
-/* The table of brushes/README.md. */
+/* Print the table of brushes/README.md. */
 static void settings_table(WrText *text)
 {
     WR_ROWS(uses);
@@ -147,7 +147,7 @@ int wr_cli_brushes(const WrCli *cli)
     }
     WrText text = { 0 };
     WrBrushList list = { .library = wr_library_new() };
-    /* Thumbnails without names are those that ship with the program. */
+    /* Without names, thumbnails are made for the presets shipped with the program. */
     const char *collection = cli->collection || !cli->thumbnails ? cli->collection : "wrinkle";
     size_t room = (size_t)(wr_library_count(list.library) + cli->word_count) + 1;
     list.entry = wr_alloc(room, sizeof *list.entry);

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- for people ---- */
+/* ---- text output ---- */
 
 static const char *const kind_names[WR_CHECK_KIND_COUNT] = {
     [WR_CHECK_HEIGHT] = "heights",
@@ -100,7 +100,7 @@ static void add_lines(WrText *text, const char *path, const WrCheck *check)
     if (!check->problems) wr_text_add(text, "  good\n");
 }
 
-/* ---- for programs ---- */
+/* ---- JSON output ---- */
 
 static void json_number(WrText *text, const char *name, double x)
 {
@@ -205,7 +205,7 @@ static bool find_coding(const WrCli *cli, WrCoding *coding, WrError *err)
     return good;
 }
 
-/* One file; what is wrong with it, or with reading it, is 1. */
+/* Check one file; returns 1 if it is faulty or unreadable. */
 static int check_one(const WrCli *cli, const char *path, int kind, WrCoding coding)
 {
     WrCheck check;

@@ -11,7 +11,7 @@
 #include "render/plan/effect_heatmap.h"
 #include "scene/dials.h"
 
-/* {"blocks":n,"share":0.12,"where":"edges","bump":"mode=...","dials":"aa=..."} */
+/* Print {"blocks":n,"share":0.12,"where":"edges","bump":"mode=...","dials":"aa=..."} */
 static void add_json_part(WrText *text, const WrChoicePart *part, int64_t all)
 {
     WrText bump = { 0 }, dials = { 0 };
@@ -61,7 +61,7 @@ static void add_json_choice(WrText *text, const WrChoice *choice)
     wr_text_add(text, "]}");
 }
 
-/* The costs that are no effect's, and what all of both come to. */
+/* Print the costs that belong to no effect, and the sum of all. */
 static void add_json_costs(WrText *text, const WrPlan *plan)
 {
     wr_text_add(text, "],\"costs\":[");
@@ -76,13 +76,13 @@ static void add_json_costs(WrText *text, const WrPlan *plan)
     wr_text_add_json_number(text, plan->work);
 }
 
-/* What is printed. */
+/* Optional parts of the output. */
 typedef struct Told {
     const WrPlan *plan;
     const WrChoice *choice;
     const WrFrame *frame;
-    const WrSaving *savings;    /* [WR_EFFECT_COUNT]; NULL: not asked for */
-    const WrHeatmapCounts *map; /* likewise */
+    const WrSaving *savings;    /* [WR_EFFECT_COUNT]; NULL: not requested */
+    const WrHeatmapCounts *map; /* NULL: not requested */
 } Told;
 
 static void add_json_seconds(WrText *text, const char *name, bool there, double seconds)
@@ -93,7 +93,7 @@ static void add_json_seconds(WrText *text, const char *name, bool there, double 
     wr_text_add(text, ",");
 }
 
-/* ,"measured":{"costs_seconds":0.001,"saved_seconds":null, ...} or {"why_not":"..."} */
+/* Print ,"measured":{"costs_seconds":0.001,"saved_seconds":null, ...} or {"why_not":"..."} */
 static void add_json_saving(WrText *text, const WrSaving *saving)
 {
     wr_text_add(text, ",\"measured\":{");
@@ -155,7 +155,7 @@ static void add_json(WrText *text, const Told *told)
     wr_text_add(text, "}\n");
 }
 
-/* What the rows take adds up to the last line. */
+/* Print cost rows; the last line is their sum. */
 static void add_costs(WrText *text, const WrPlan *plan)
 {
     const double pixel = plan->shaded > 0 ? 1e9 / (double)plan->shaded : 0;
@@ -167,7 +167,7 @@ static void add_costs(WrText *text, const WrPlan *plan)
                  "", "", plan->work * pixel, 1e3 * plan->work);
 }
 
-/* "costs" or "saved", in ms, and what there is to say of it. */
+/* Print "costs" or "saved", in ms, with a remark if any. */
 static void add_saving(WrText *text, const WrSaving *saving)
 {
     char costs[32] = "-", saved[32] = "-";
@@ -225,7 +225,7 @@ static void add_table(WrText *text, const Told *told)
                  frame->times.total * 1e3);
 }
 
-/* The picture, and what was asked for besides. */
+/* Render the picture and print the explanation with the requested parts. */
 static bool explain(const WrCli *cli, WrSession *session, WrText *text, WrError *err)
 {
     WrFrame frame;
@@ -233,7 +233,7 @@ static bool explain(const WrCli *cli, WrSession *session, WrText *text, WrError 
     WrSaving savings[WR_EFFECT_COUNT];
     WrHeatmapCounts map;
     if (!wr_session_frame(session, cli->width, cli->height, 0, &frame, err)) return false;
-    plan = *frame.plan; /* of the first picture, whatever is drawn after it */
+    plan = *frame.plan; /* plan of the first picture; later ones overwrite frame.plan */
     if (cli->measure && !wr_session_savings(session, cli->width, cli->height, 0, savings, err))
         return false;
     if (cli->map && !wr_map_write(cli, session, &map, err)) return false;

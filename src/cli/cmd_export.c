@@ -35,7 +35,7 @@ static bool read_options(const WrCli *cli, const WrExportKind *kind, WrExportOpt
     return true;
 }
 
-/* The kinds, then the sets. */
+/* Names of kinds, then of sets. */
 static const char *kind_or_set(const void *ctx, int i)
 {
     const WrSetNames *sets = ctx;
@@ -44,7 +44,7 @@ static const char *kind_or_set(const void *ctx, int i)
     return i < sets->names.count ? sets->names.data[i] : NULL;
 }
 
-/* Neither kind nor set. */
+/* Error for a name that is neither a kind nor a set. */
 static bool fail_unknown(const char *name, WrError *err)
 {
     WrSetNames sets = wr_set_names();
@@ -54,19 +54,19 @@ static bool fail_unknown(const char *name, WrError *err)
     return false;
 }
 
-/* A file that the document was made of, as it was read. */
+/* Identity of an input file when it was read. */
 typedef struct Input {
     char *path; /* owned */
     WrFileStamp stamp;
 } Input;
 
-/* The export before, while a file is watched. */
+/* The previous export while a file is watched. */
 typedef struct Last {
     bool written;           /* files were written at least once */
-    bool there;             /* the files on the disk are those of `hash` */
-    bool unread;            /* FILE could not be read, or one of its commands failed */
-    WrHash hash;            /* of the document */
-    WR_ARRAY(Input) inputs; /* besides FILE itself, of the last FILE that could be read */
+    bool there;             /* the files on disk match `hash` */
+    bool unread;            /* FILE was unreadable, or one of its commands failed */
+    WrHash hash;            /* hash of the document */
+    WR_ARRAY(Input) inputs; /* input files besides FILE itself, of the last readable FILE */
 } Last;
 
 static void forget_inputs(Last *last)
@@ -75,7 +75,7 @@ static void forget_inputs(Last *last)
     wr_array_free(&last->inputs);
 }
 
-/* As wr_cli_load, and notes whether FILE itself is what failed. */
+/* wr_cli_load that also records whether FILE itself failed. */
 static WrSession *load(const WrCli *cli, Last *last, WrError *err)
 {
     WrSession *session = wr_cli_session(cli, false, err);
@@ -85,7 +85,7 @@ static WrSession *load(const WrCli *cli, Last *last, WrError *err)
     return NULL;
 }
 
-/* Is the document what it was? Then its files are, too. Keeps what it is made of. */
+/* True if the document is unchanged, so that its files are current. Stores its input files. */
 static bool is_last(const WrSession *session, Last *last)
 {
     const WrHash hash = wr_session_hash(session);
@@ -120,7 +120,7 @@ static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, 
     return good;
 }
 
-/* All words but name=, which becomes the cell's. Returns how many, one too many at most. */
+/* Copy all words except name=, which sets the name of the cell. Returns their number; at most one more than fit. */
 static int take_name(const WrCli *cli, const char *words[WR_SET_WORDS + 1], WrText *name)
 {
     int count = 0;
@@ -189,7 +189,7 @@ static int export_once(const WrCli *cli, Last *last)
 
 /* ---- --watch ---- */
 
-#define SETTLE_SECONDS 0.2 /* without another change: whoever writes is done */
+#define SETTLE_SECONDS 0.2 /* time without another change before the file counts as complete */
 #define DAY_SECONDS 86400.0
 
 static bool is_cancelled(const WrCli *cli)
@@ -197,7 +197,7 @@ static bool is_cancelled(const WrCli *cli)
     return wr_cancel_asked(cli->cancel);
 }
 
-/* The file, or one that it was made of, is another one than it was; what is between two files counts later. */
+/* True if the file or one of its inputs has changed. False while one of them is missing, as during its replacement. */
 static bool is_another(const WrCli *cli, WrFileStamp *stamp, const Last *last)
 {
     const WrFileStamp now = wr_file_stamp(cli->file);
@@ -213,11 +213,11 @@ static bool is_another(const WrCli *cli, WrFileStamp *stamp, const Last *last)
     return other;
 }
 
-/* Until that is so, and has been for a moment. False: an error, or an interrupt. */
+/* Wait for a change that stays for a moment. False: an error, or an interrupt. */
 static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileStamp *stamp, const Last *last,
                             WrError *err)
 {
-    while (!is_another(cli, stamp, last)) { /* since it was read, at first */
+    while (!is_another(cli, stamp, last)) { /* includes changes since the file was read */
         WrWatchEnd end = wr_watch_wait(watch, DAY_SECONDS);
         while (end == WR_WATCH_CHANGED && !is_cancelled(cli))
             if ((end = wr_watch_wait(watch, SETTLE_SECONDS)) == WR_WATCH_NOTHING) break;
@@ -227,7 +227,7 @@ static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileStamp *stamp
     return true;
 }
 
-/* As export_once. What failed is not tried again before one of the files is another than it was at this try. */
+/* Repeat export_once. After a failure the next try waits for a change of one of the files. */
 static int export_again(const WrCli *cli, Last *last)
 {
     const int count = last->inputs.count;
@@ -239,8 +239,8 @@ static int export_again(const WrCli *cli, Last *last)
     return status;
 }
 
-/* A mistake in FILE is not the end: the files that were written last stay, and it is read again when it changes. A mistake
-   of the shell line is: it shows at the first try. */
+/* An error in FILE does not end watching: the last written files stay, and FILE is read again when it changes. An
+   error in the shell line ends it, at the first try. */
 static bool goes_on(const WrCli *cli, const Last *last, int status)
 {
     if (status == WR_EXIT_DONE) return true;

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* What the guide's pages are made of. */
+/* Print source text for the guide's pages. */
 static int print_markdown(const WrCli *cli)
 {
     static const struct {
@@ -32,7 +32,7 @@ static int print_markdown(const WrCli *cli)
     return status;
 }
 
-/* Is word i a form or an argument of the command before it, rather than a verb or a subcommand? */
+/* True if word i is a form or an argument of the previous command, rather than a verb or a subcommand. */
 static bool is_part(const WrCli *cli, const WrCommand *command, int i)
 {
     if (!command || i >= cli->word_count) return false;
@@ -40,7 +40,7 @@ static bool is_part(const WrCli *cli, const WrCommand *command, int i)
     return wr_help_has_part(command, word) || (!wr_command_find(word) && !wr_subcommand_find(word));
 }
 
-/* A verb, and the words behind it that are parts of it; *i is moved past them. */
+/* Print a verb and the following words that are parts of it; *i moves past them. */
 static bool add_verb(const WrCli *cli, int *i, WrText *text, WrError *err)
 {
     const char *verb = cli->words[*i];
@@ -69,7 +69,8 @@ int wr_cli_help_command(const WrCli *cli)
             wr_cli_help(wr_subcommand_find(word), &text);
         else if (!add_verb(cli, &i, &text, &err)) status = WR_EXIT_FAILED;
     }
-    if (status == WR_EXIT_DONE && cli->json) { /* words are checked, then the whole table comes */
+    if (status == WR_EXIT_DONE && cli->json) { /* the words were only checked; the output is the
+                                                  whole table */
         wr_text_clear(&text);
         wr_help_json(&text);
     } else if (status == WR_EXIT_DONE && cli->word_count == 0) {

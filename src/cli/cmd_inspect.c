@@ -27,12 +27,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* All quantities of the formulas at one point, in double, object space. */
+/* All quantities of the formulas at one point, in double precision, object space. */
 typedef struct Quantities {
     double u, v, f, fu, fv, tilt_deg;
     WrSurfacePoint point;
     WrVec3 a, d, n_perturbed, n_perturbed_unit;
-    bool turned;    /* mode invariant: by D' instead of D */
+    bool turned;    /* mode invariant: uses D' instead of D */
     WrVec3 d_prime; /* N_perturbed - N in that mode */
 } Quantities;
 
@@ -44,7 +44,7 @@ static WrVec3 scaled_d(const Quantities *q)
     return v3_scale(v3_unit(q->d, zero), size <= DBL_MAX ? size : DBL_MAX);
 }
 
-/* The object's place is in q->u, q->v and q->point. field: the table of the object. */
+/* The surface point is in q->u, q->v and q->point. field: the object's table. */
 static void compute(const WrScene *scene, const WrField *field, Quantities *q)
 {
     const double u = q->u, v = q->v;
@@ -54,11 +54,11 @@ static void compute(const WrScene *scene, const WrField *field, Quantities *q)
     q->d = wr_bump_d(p->n_unit, p->pu, p->pv, q->fu, q->fv);
     q->turned = scene->bump == WR_BUMP_INVARIANT;
     q->d_prime = scaled_d(q);
-    const bool blinn =
-        scene->triangles && scene->bump == WR_BUMP_EXACT; /* as pictures of it have it */
+    /* the same condition as in pictures */
+    const bool blinn = scene->triangles && scene->bump == WR_BUMP_EXACT;
     q->n_perturbed = wr_bump_normal(blinn ? WR_BUMP_BLINN : scene->bump, p->n, p->n_unit, p->pu,
                                     p->pv, p->n_u, p->n_v, q->f, q->fu, q->fv);
-    /* N as it was is n as it was, not N made unit anew, which may be off in the last digit. */
+    /* An unchanged N keeps n: normalising N again could differ in the last digit. */
     const bool still = memcmp(&q->n_perturbed, &p->n, sizeof p->n) == 0;
     q->n_perturbed_unit = still ? p->n_unit : wr_bump_unit(q->n_perturbed, p->n_unit);
     q->tilt_deg = wr_bump_tilt_deg(p->n_unit, q->n_perturbed_unit);
@@ -97,7 +97,7 @@ static void add_vector(WrText *text, bool json, const char *name, WrVec3 a)
     wr_text_add(text, json ? "]" : "\n");
 }
 
-/* Which object that is about, where there are several. */
+/* Print the name of the object if there are several. */
 static void add_object(WrText *text, bool json, const WrScene *scene)
 {
     char buffer[WR_OBJECT_LABEL];
@@ -136,7 +136,7 @@ static void add_point(WrText *text, bool json, const WrScene *scene, const Quant
     if (json) wr_text_add(text, "}\n");
 }
 
-/* What a noise command describes: N and its slopes, and the heights F = level + amplitude N that it makes. */
+/* Print the noise of a command line: N and its slopes, and the resulting heights F = level + amplitude N. */
 static void add_noise(WrText *text, bool json, const WrNoiseMaker *maker, double u, double v)
 {
     WrNoiseReading r;
@@ -155,7 +155,7 @@ static void add_noise(WrText *text, bool json, const WrNoiseMaker *maker, double
     if (json) wr_text_add(text, "}\n");
 }
 
-/* {"name":"moss","blend":"max","opacity":0.5,...}, bottom first. */
+/* Print {"name":"moss","blend":"max","opacity":0.5,...}, bottom first. */
 static void add_layer_json(WrText *text, const WrDocument *document, int index)
 {
     const WrLayer *layer = &document->layers[index];
@@ -180,7 +180,7 @@ static void add_layer_json(WrText *text, const WrDocument *document, int index)
     wr_text_fini(&filter);
 }
 
-/* "  2 moss  max, opacity 0.5, hidden", top first, as they lie on each other. */
+/* Print "  2 moss  max, opacity 0.5, hidden", top first, in stacking order. */
 static void add_layer_text(WrText *text, const WrDocument *document, int index)
 {
     const WrLayer *layer = &document->layers[index];
@@ -247,7 +247,7 @@ static bool parse_point(const char *text, double *u, double *v, WrError *err)
     return wr_fail(err, "%.60s: must be U,V, two numbers", text);
 }
 
-#define PLACES 64 /* of one (u,v), at most, that are printed */
+#define PLACES 64 /* limit of printed surface points for one (u,v) */
 
 static void note_beyond(const WrShape *shape, double u, double v)
 {
@@ -261,8 +261,8 @@ static void note_beyond(const WrShape *shape, double u, double v)
     wr_cli_note(text);
 }
 
-/* The places that have (u,v): of a mesh or a set of patches any number, else one. Returns how many there are, of which the
- * first PLACES are in `out`. */
+/* Find the surface points at (u,v): any number for a mesh or a patch set, else one. Returns their number; the first
+ * PLACES are in `out`. */
 static int64_t find_places(const WrCli *cli, const WrScene *scene, double u, double v,
                            WrSurfacePoint out[PLACES])
 {
@@ -307,7 +307,7 @@ static bool inspect_places(const WrCli *cli, const WrDocument *document, double 
     return true;
 }
 
-/* noise: of --noise, or NULL */
+/* noise: from --noise, or NULL */
 static bool inspect_one(const WrCli *cli, const WrDocument *document, const WrNoiseMaker *noise,
                         const char *at, WrText *text, WrError *err)
 {
@@ -318,7 +318,7 @@ static bool inspect_one(const WrCli *cli, const WrDocument *document, const WrNo
     return true;
 }
 
-/* Points from standard input, one a line; blank lines do nothing. */
+/* Read points from standard input, one per line; blank lines are skipped. */
 static bool inspect_input(const WrCli *cli, const WrDocument *document, const WrNoiseMaker *noise,
                           WrText *text, WrError *err)
 {
@@ -335,7 +335,7 @@ static bool inspect_input(const WrCli *cli, const WrDocument *document, const Wr
     return true;
 }
 
-/* The command line of --noise, for the document's table. */
+/* Parse the command line of --noise for the document's table. */
 static bool read_noise(const WrCli *cli, const WrDocument *document, WrNoiseMaker *maker,
                        WrError *err)
 {

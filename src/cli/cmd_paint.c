@@ -12,8 +12,8 @@ static void keep_note(void *ctx, const char *text)
     wr_text_addf(ctx, "%s\n", text);
 }
 
-/* The window shows notes itself; output commands among the --do lines are skipped, as everywhere but in
-   run, and work once the window is open. */
+/* The window shows notes itself. Output commands among the --do lines are skipped, as in all subcommands except run;
+   they work once the window is open. */
 int wr_cli_paint(const WrCli *cli)
 {
     WrError err;
@@ -40,8 +40,8 @@ int wr_cli_paint(const WrCli *cli)
                              .threads = cli->threads,
                              .isa = cli->isa,
                              .notes = &notes };
-        wr_process_drop_interrupts(); /* the window library makes it a request to close */
-        wr_cli_tell_no_more();        /* from here the window tells */
+        wr_process_drop_interrupts(); /* SDL turns an interrupt into a request to close */
+        wr_cli_tell_no_more();        /* the window reports from here on */
         status = wr_app_run(&app);
     } else {
         status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);

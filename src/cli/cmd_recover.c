@@ -71,7 +71,7 @@ static int list(const WrCli *cli, const WrRecoverable *found, int count)
     return status;
 }
 
-/* The journal that a word means: its number in the list, or its path. */
+/* Journal of a word: its number in the list, or its path. */
 static const char *chosen(const char *word, const WrRecoverable *found, int count, WrError *err)
 {
     char *end;
@@ -84,7 +84,7 @@ static const char *chosen(const char *word, const WrRecoverable *found, int coun
     return NULL;
 }
 
-/* Each line of it is a note. */
+/* Print each line as a note. */
 static void print_notes(const WrText *text)
 {
     for (const char *at = wr_text_get(text); *at;) {
@@ -94,7 +94,7 @@ static void print_notes(const WrText *text)
     }
 }
 
-/* Not everything came back: the journal stays, and what can be done with it. */
+/* Recovery was incomplete: the journal stays; print the options for it. */
 static bool tell_rest(const char *word, WrRecovered *recovered, WrError *err)
 {
     WrText *report = &recovered->report;

@@ -40,7 +40,7 @@ static bool render_one(const WrCli *cli, WrSession *session, WrError *err)
     return true;
 }
 
-/* What is wrong with the shell line as a whole. */
+/* Check the combination of options. */
 static bool check_line(const WrCli *cli, WrError *err)
 {
     if (!cli->out) return wr_fail(err, "render: needs -o OUT");
@@ -51,7 +51,7 @@ static bool check_line(const WrCli *cli, WrError *err)
     return true;
 }
 
-/* Before a document is loaded for it. */
+/* Check the frames before a document is loaded. */
 static bool check_frames(const WrCli *cli, WrError *err)
 {
     const WrTurntable turntable = turntable_of(cli);

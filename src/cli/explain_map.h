@@ -1,5 +1,5 @@
-/* explain_map.h - where each effect ran, as a picture in false colours and its legend.
-   Layer 7, private to src/cli. */
+/* explain_map.h - effect heatmap: a false-colour picture of the effects that ran in each pixel, and its legend.
+   Private to src/cli. */
 #pragma once
 #include <stdbool.h>
 
@@ -9,10 +9,10 @@ typedef struct WrHeatmapCounts WrHeatmapCounts;
 typedef struct WrSession WrSession;
 typedef struct WrText WrText;
 
-/* Is cli->map a name that such a picture can have? */
+/* True if cli->map is a valid name for such a picture. */
 bool wr_map_check(const WrCli *cli, WrError *err);
-/* Draw the session's picture, and write what each of its pixels took to cli->map. */
+/* Render the session's picture and write the effects of each pixel to cli->map. */
 bool wr_map_write(const WrCli *cli, WrSession *session, WrHeatmapCounts *counts, WrError *err);
-/* A line, or an element of an array, for each colour that is there. */
+/* Print a line, or an array element, for each colour in the map. */
 void wr_map_legend(const WrHeatmapCounts *counts, WrText *text);
 void wr_map_legend_json(const WrHeatmapCounts *counts, WrText *text);

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Option i, told in one line. */
+/* Print option i as one line. */
 static void add_option(WrText *text, const char *const o[4])
 {
     char left[40];
@@ -64,7 +64,7 @@ static void add_options(WrText *text, const WrSubcommand *command, bool common)
     }
 }
 
-/* Sentences are broken into lines for terminals. */
+/* Join sentences that are broken into lines for terminals. */
 static void add_joined(WrText *text, const char *lines)
 {
     for (const char *p = lines; *p; p++) {
@@ -102,7 +102,7 @@ void wr_cli_markdown_effects(WrText *text)
     }
 }
 
-/* A kind and its settings, as a set's line has them. */
+/* Print a kind of map and its settings as in a line of a set. */
 static void add_map(const WrSetMap *map, WrText *text)
 {
     wr_text_addf(text, "`%sNAME%s` (%s", map->before, map->after, map->kind->name);

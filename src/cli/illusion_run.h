@@ -1,5 +1,5 @@
-/* illusion_run.h - `wrinkle accuracy --illusion`: what bump mapping lacks, and its map.
-   Layer 8, private to the command line. */
+/* illusion_run.h - `wrinkle accuracy --illusion`: error of bump mapping compared with displacement, and its map.
+   Private to src/cli. */
 #pragma once
 #include <stdbool.h>
 
@@ -8,8 +8,8 @@ typedef struct WrError WrError;
 typedef struct WrLadderRequest WrLadderRequest;
 typedef struct WrText WrText;
 
-/* Options that do not go together, a map that cannot be written. */
+/* Check for conflicting options and a map that cannot be written. */
 bool wr_illusion_check(const WrCli *cli, WrError *err);
-/* Measures the picture of that request, writes the map and adds the answer to text. name: of the document. */
+/* Measure the picture of that request, write the map and append the result to text. name: of the document. */
 bool wr_illusion_run(const WrCli *cli, const WrLadderRequest *request, const char *name,
                      WrText *text, WrError *err);

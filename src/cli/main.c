@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define GRACE_SECONDS 5 /* for work to stop in order */
+#define GRACE_SECONDS 5 /* time for work to stop cleanly */
 
-/* The one thing that a signal handler can reach. */
+/* The only variable that the signal handler accesses. */
 static volatile int interrupted;
 
 static void on_interrupt(void)
@@ -70,7 +70,7 @@ int main(int argc, char **argv)
     WrCli cli = { .cancel = &interrupted };
     WrError err;
     int status = WR_EXIT_USAGE;
-    /* Whatever hangs does not hear; the journal holds what was done. */
+    /* If work ignores the cancellation, the process ends anyway; the journal has the finished commands. */
     wr_process_called(argv[0]);
     wr_process_catch_interrupts(on_interrupt, GRACE_SECONDS);
     if (wr_cli_parse(argc, argv, &cli, &status, &err)) status = run(&cli);

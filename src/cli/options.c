@@ -1,4 +1,4 @@
-/* The shell line: options and words. */
+/* Parser of the shell line: options and words. */
 #include "cli/cli.h"
 
 #include "base/error.h"
@@ -97,7 +97,7 @@ static bool set_memory(WrCli *cli, const char *value, WrError *err)
     return wr_fail(err, "--memory %.40s: must be MB, 1..1e6", value);
 }
 
-/* Of one picture. */
+/* Angle of a single picture. */
 static bool set_angle(WrCli *cli, const char *value, WrError *err)
 {
     cli->turned = true;
@@ -195,13 +195,14 @@ static bool set_tolerance(WrCli *cli, const char *value, WrError *err)
 /* ---- the options ---- */
 
 static const struct Option {
-    const char *name, *other; /* the other spelling, or NULL */
-    const char *value;        /* what it is called in help; NULL: takes none */
+    const char *name, *other; /* other spelling, or NULL */
+    const char *value;        /* name of the value in help; NULL: no value */
     WrOption bit;
     const char *help;
     SetOption set;
-    size_t
-        member; /* where set is NULL: of the text that becomes the value, or of what becomes true */
+    /* where set is NULL: offset of the text that becomes the value, or of the flag that becomes
+       true */
+    size_t member;
 } options[] = {
     { "-o", "--output", "OUT", WR_OPTION_OUT, "the file to write", .set = set_out },
     { "--as", NULL, "KIND", WR_OPTION_AS, "what to export; `wrinkle help export` lists the kinds",
@@ -312,8 +313,8 @@ static const struct Option {
 };
 #define OPTION_COUNT ((int)(sizeof options / sizeof *options))
 
-/* The option that a word names: "--size" or "--size=4x4", whose value is then at *value. bits: those that are
-   taken; of one that several rows name, another thing to each subcommand, the row that is taken goes before. */
+/* The option that a word names: "--size", or "--size=4x4" with its value in *value. bits: accepted options. If
+   several rows have the name, for different subcommands, the accepted row has priority. */
 static const struct Option *find_row(const char *word, unsigned bits, const char **value)
 {
     size_t length = strcspn(word, "=");
@@ -337,7 +338,7 @@ static const struct Option *find_option(const char *word, unsigned bits, const c
     return row ? row : find_row(word, ~0u, value);
 }
 
-/* Spelling i of the options that a subcommand takes: the name of each, then its other name; *row: whose it is. */
+/* Spelling i of a subcommand's options: the name of each, then its other name; *row: the option. */
 static const char *find_spelling(const WrSubcommand *command, int i, const struct Option **row)
 {
     for (int k = 0; k < OPTION_COUNT; k++) {
@@ -355,13 +356,14 @@ static const char *option_spelling(const void *ctx, int i)
     return find_spelling(ctx, i, &row);
 }
 
-/* "--size", or with both spellings "-o, --output". */
+/* Suggest "--size", or both spellings "-o, --output". */
 static bool suggest_option(const WrSubcommand *command, const char *word, WrText *text)
 {
     const struct Option *row;
     char name[64];
     int places[WR_NEAREST_MAX];
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word); /* of --name=value */
+    /* part before = of --name=value */
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word);
     int count = wr_nearest(name, option_spelling, command, places);
     for (int k = 0; k < count; k++) {
         find_spelling(command, places[k], &row);
@@ -385,7 +387,7 @@ static void add_takers(const char *word, WrText *text)
         }
 }
 
-/* Is "--depth" or "--depth=16" a setting of a kind of export, which takes it as depth=16? */
+/* True if "--depth" or "--depth=16" is a setting of an export kind, which is written depth=16. */
 static bool is_kind_setting(const char *word)
 {
     const char *name = word + strspn(word, "-");
@@ -396,7 +398,7 @@ static bool is_kind_setting(const char *word)
     return false;
 }
 
-/* "--do 'dials samples=...'": the one command, one form of it, that has an argument of an option's name. */
+/* Suggest "--do 'dials samples=...'": the only command form that has an argument of the option's name. */
 static bool add_commands_of_argument(const char *word, WrText *text)
 {
     const char *name = word + strspn(word, "-");
@@ -447,7 +449,7 @@ static const char *subcommand_name(const void *ctx, int i)
 
 /* ---- words ---- */
 
-/* The first word that is no option, which may name the subcommand. Its place in argv, or 0. */
+/* Index in argv of the first word that is no option and may name the subcommand, or 0. */
 static int find_first_word(int argc, char **argv)
 {
     for (int i = 1; i < argc; i++) {
@@ -460,7 +462,7 @@ static int find_first_word(int argc, char **argv)
     return 0;
 }
 
-/* name=value, as export takes it. */
+/* name=value, a setting for export. */
 static bool is_setting(const char *word)
 {
     size_t n = strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_-0123456789");
@@ -498,14 +500,14 @@ static bool take_option(WrCli *cli, int argc, char **argv, int *i, int *status, 
     if (o->value && !value && *i + 1 >= argc)
         return wr_fail(err, "%s: needs a value, %s: %s", o->name, o->value, o->help);
     if (o->value && !value) value = argv[++*i];
-    *status = WR_EXIT_FAILED; /* a value that is wrong */
+    *status = WR_EXIT_FAILED; /* invalid value */
     if (o->set) return o->set(cli, value, err);
     if (!o->value) return *(bool *)((char *)cli + o->member) = true;
     *(const char **)((char *)cli + o->member) = value;
     return true;
 }
 
-/* Is it a common option without its dashes? */
+/* True if the word is a common option without its dashes. */
 static bool option_of_word(const char *word)
 {
     for (int i = 0; i < OPTION_COUNT; i++)
@@ -514,7 +516,8 @@ static bool option_of_word(const char *word)
     return false;
 }
 
-/* A first word that is neither a subcommand nor like a file's name is a mistyped subcommand, or the verb of a script. */
+/* A first word that is neither a subcommand nor similar to a file name is a mistyped subcommand, or a verb of a
+   script. */
 static bool check_first_word(const char *word, WrError *err)
 {
     WrFileInfo info;

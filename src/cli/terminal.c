@@ -1,4 +1,4 @@
-/* How far long work is, and how long it will still take, on the terminal's last line. */
+/* Progress and remaining time of long work, on the terminal's last line. */
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "system/clock.h"
@@ -6,13 +6,13 @@
 
 #include <stdio.h>
 
-#define SILENT_SECONDS 1.0 /* what takes less says nothing */
+#define SILENT_SECONDS 1.0 /* shorter work is not reported */
 #define STEP_SECONDS 0.2
 
 static struct {
-    double began, told; /* clock */
+    double began, told; /* clock readings */
     bool shown;
-    WrProgress *progress; /* that reports here */
+    WrProgress *progress; /* progress that is reported */
 } line;
 
 static void report(void *ctx, double fraction)

@@ -1,4 +1,4 @@
-/* What a tolerance chooses, beside the best that trying everything finds. */
+/* Comparison of tolerance-driven dials with the best of all settings. */
 #include "cli/tolerance_contest.h"
 
 #include "accuracy/ladder_internal.h"
@@ -13,23 +13,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define RUNS 3       /* of a setting, at least ... */
-#define RUNS_SHORT 9 /* ... and of one that takes less than SHORT seconds */
+#define RUNS 3       /* runs per setting, at least ... */
+#define RUNS_SHORT 9 /* ... and per setting that takes less than SHORT seconds */
 #define SHORT 0.02
-#define TOP_SAMPLES 16 /* a side, of the best setting */
+#define TOP_SAMPLES 16 /* samples along a pixel's side in the best setting */
 
-/* ---- everything ---- */
+/* ---- all settings ---- */
 
 typedef struct Tried {
     WrSetting setting;
-    int way;         /* of ways */
-    double expected; /* seconds, by its slopes and normal with one sample */
-    bool known;      /* the errors */
-    bool timed;      /* seconds */
+    int way;         /* index of the anti-aliasing method */
+    double expected; /* seconds, from one sample with its slopes and normal */
+    bool known;      /* the errors are measured */
+    bool timed;      /* the time is measured */
     double seconds, rms, max;
 } Tried;
 
-/* Ways against aliasing: how many dials, which, and where. */
+/* Anti-aliasing methods: number of dials, the dials, and their place. */
 static const WrSetting ways[] = {
     { 1, { WR_DIAL_AA }, { WR_AA_POINT } },
     { 2, { WR_DIAL_AA, WR_DIAL_FOOTPRINT }, { WR_AA_FILTER, WR_FOOTPRINT_ANISOTROPIC } },
@@ -55,8 +55,8 @@ static void put(WrSetting *setting, int dial, double value)
     setting->value[setting->count++] = value;
 }
 
-/* All schemes with all normals with all ways, in the caller's memory; models that are no approximation of
-   the scene's are left out. */
+/* All combinations of schemes, normals and methods, in the caller's memory; models that do not approximate the
+   scene's model are left out. */
 static int list_all(const WrScene *scene, Tried *out)
 {
     const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
@@ -82,7 +82,7 @@ static double median(double *times, int count)
     return wr_bench_quantile(times, count, 0.5);
 }
 
-/* Does a measurement that has done so many runs want one more? */
+/* True if a measurement needs more runs. */
 static bool wanted(const double *times, int done)
 {
     return done < RUNS || (done < RUNS_SHORT && times[0] < SHORT);
@@ -119,7 +119,7 @@ static bool measure_one(const WrBench *bench, const WrReference *reference, Trie
     return tried->known = true;
 }
 
-/* Samples a pixel of plain supersampling; 0 for other ways. */
+/* Samples per pixel of plain supersampling; 0 for other methods. */
 static double samples_of(const WrSetting *way)
 {
     double grid = 1;
@@ -132,8 +132,8 @@ static double samples_of(const WrSetting *way)
     return plain ? grid * grid : 0;
 }
 
-/* What each will take: so many times one sample a pixel with its slopes and normal; how many, of the ways
-   that are not plain supersampling, the last scheme and normal tell. */
+/* Expected time of each setting: a multiple of one sample per pixel with its slopes and normal. For methods other
+   than plain supersampling, the factor is measured with the last scheme and normal. */
 static bool expect(const WrBench *bench, Tried *tried, int count, WrError *err)
 {
     double factor[WAY_COUNT], one = 0;
@@ -184,16 +184,16 @@ static bool find_cheapest(const Tried *tried, int count, WrContestRow *row)
     return row->found;
 }
 
-#define SLACK 1.3 /* an expected time may be so many times too long */
+#define SLACK 1.3 /* allowed overestimate of an expected time */
 
-/* Is the setting `at` expected to be cheaper than what was found before it, or was nothing? */
+/* True if the setting `at` is expected to be cheaper than the best so far, or if there is none. */
 static bool may_win(const Tried *tried, int at, WrContestRow *row)
 {
     return !find_cheapest(tried, at, row) || tried[at].expected < SLACK * row->best_seconds;
 }
 
-/* From cheap to dear, until every tolerance is met by something and what is left is expected to take longer
-   than that: none of those can be the cheapest. */
+/* Test from cheap to expensive until every tolerance is met and the rest is expected to take longer: none of those
+   can be the cheapest. */
 static bool try_all(const WrBench *bench, const WrReference *reference, Tried *tried, int count,
                     WrContest *contest, WrError *err)
 {
@@ -216,7 +216,7 @@ static bool try_all(const WrBench *bench, const WrReference *reference, Tried *t
     return good;
 }
 
-/* The best of all, which a time is saved from. */
+/* Time of the best setting, the base of the savings. */
 static bool time_top(const WrBench *bench, WrContest *contest, WrError *err)
 {
     const WrScene *scene = bench->request->scene;
@@ -229,7 +229,8 @@ static bool time_top(const WrBench *bench, WrContest *contest, WrError *err)
     return true;
 }
 
-/* From how many pictures on choosing and one less than them takes less than so many of the cheapest setting's. */
+/* Smallest number of pictures n for which choosing plus n - 1 pictures takes less than n pictures with the cheapest
+   setting. */
 static int pays_from(const WrContestRow *row)
 {
     if (!row->found || row->choosing <= row->best_seconds) return 1;
@@ -238,8 +239,8 @@ static int pays_from(const WrContestRow *row)
     return count < 1e6 ? (int)ceil(count) : 0;
 }
 
-/* The choice's picture and that of the cheapest setting in turn, so that drift hits both alike. Tables made anew
-   for a setting are paid once, before its time is taken. *frame: the choice's. */
+/* Time the chosen and the cheapest setting alternately, so that drift affects both equally. Tables built for a
+   setting are paid once, before its time is measured. *frame: the chosen picture. */
 static bool time_in_turn(const WrBench *bench, const WrFrameRequest *wish, const WrChoice *choice,
                          WrContestRow *row, WrFrame *frame, WrError *err)
 {
@@ -274,7 +275,7 @@ static bool measure_choice(const WrBench *bench, const WrReference *reference, W
                             .turn_deg = request->turn_deg };
     WrChoice choice = { 0 };
     WrFrame frame;
-    /* Once for the tables, which the single settings' times do not hold either. */
+    /* Run once to build the tables, which the times of single settings do not include either. */
     bool good = wr_tolerance_choose(bench->renderer, &wish, &choice, &frame, err);
     const double start = wr_bench_now(bench);
     good = good && wr_tolerance_choose(bench->renderer, &wish, &choice, &frame, err);
@@ -296,7 +297,7 @@ static bool measure_choice(const WrBench *bench, const WrReference *reference, W
     return good;
 }
 
-/* ---- all of it ---- */
+/* ---- whole contest ---- */
 
 static bool run(const WrBench *bench, WrContest *contest, WrError *err)
 {
@@ -347,7 +348,7 @@ void wr_contest_fini(WrContest *contest)
     *contest = (WrContest){ 0 };
 }
 
-/* ---- telling ---- */
+/* ---- output ---- */
 
 static const char *verdict(const WrContestRow *row)
 {
