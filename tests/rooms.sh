@@ -34,8 +34,8 @@ BEGIN {
     }
     # Libraries, by how their headers begin, and the rooms that may say so.
     library["SDL"] = "ui"
-    library["imgui"] = "ui/gui"
-    library["X11/"] = "ui/pen ui/gui"
+    library["imgui"] = "ui/toolkit"
+    library["X11/"] = "ui/input ui/toolkit"
     library["OpenImageIO/"] = library["assimp/"] = "image"
     library["ft2build"] = library["freetype/"] = "image ui" # the type of the window is drawn with it too
     library["hb"] = library["fribidi"] = library["fontconfig/"] = library["zlib"] = "image"
@@ -85,7 +85,7 @@ bad=$?
 # whether there is a picture at all.
 if find ui -name '*.c' -o -name '*.cpp' | grep -v '^ui/toolkit/\|^ui/app/window.c$' | sort |
     xargs grep -nE '\bSDL_(UpdateTexture|LockTexture|UnlockTexture|RenderCopy|RenderFill|RenderDraw|RenderGeometry|RenderClear|RenderPresent)'; then
-    printf 'only ui/gui draws and changes textures\n'
+    printf 'only ui/toolkit draws and changes textures\n'
     bad=1
 fi
 exit $bad
