@@ -17,13 +17,13 @@ static WrVec3 moved(const WrSurfacePoint *at, double f)
 
 static void put(WrTriangleCorner *corner, WrVec3 p, double u, double v)
 {
-    /* + 0: no negative zero, whose bits differ */
+    /* + 0 turns -0 into +0, whose bits differ */
     *corner = (WrTriangleCorner){ .p = { (float)p.x + 0.0f, (float)p.y + 0.0f, (float)p.z + 0.0f },
                                   .u = (float)u,
                                   .v = (float)v };
 }
 
-/* Where column x and row y of the cell lie: the same numbers from either side of an edge. */
+/* Position of column x and of row y of the cell: equal numbers from both cells at an edge. */
 static double column(const WrDicing *d, const WrDiceCell *c, int x)
 {
     const double *u = d->face[c->face].u + c->i;
@@ -52,7 +52,7 @@ static void make_points(const WrDicing *d, const WrDiceCell *c)
     }
 }
 
-/* The corner in column x and row y; on an edge that is cut less often, the one before it that is there. */
+/* The corner in column x and row y; on an edge that is cut less often, the nearest existing one before it. */
 static int32_t corner_of(const WrDiceCell *c, int x, int y)
 {
     if (y == 0) x -= x % (c->nu / c->edge[0]);
@@ -82,7 +82,7 @@ static void make_cell(int index, int worker, void *ctx)
     make_triangles(d, &d->cells[index]);
 }
 
-/* ---- where the domain ends ---- */
+/* ---- borders of the domain ---- */
 
 static bool ends_at(const WrDicing *d, const WrDiceCell *c, int x, int y)
 {
@@ -91,7 +91,7 @@ static bool ends_at(const WrDicing *d, const WrDiceCell *c, int x, int y)
            (c->j + 1 == f->nv && y == c->nv);
 }
 
-/* The cell's points there; points NULL: only how many. */
+/* The cell's points on the border; points NULL: only counts them. */
 static int32_t find_ends(const WrDicing *d, const WrDiceCell *c, WrDicePoint *points)
 {
     const WrDiceFace *face = &d->face[c->face];
@@ -111,7 +111,7 @@ static int32_t find_ends(const WrDicing *d, const WrDiceCell *c, WrDicePoint *po
     return count;
 }
 
-/* Points of one place move to one place. */
+/* Moves points that share one position to one common position. */
 static void weld(const WrDicing *d, const WrDicePoint *points, int32_t count)
 {
     const WrVec3 p = v3_add(points[0].p, wr_dice_move(points, count));
@@ -135,7 +135,7 @@ static void weld_all(const WrDicing *d)
     wr_free(points);
 }
 
-/* ---- all of it ---- */
+/* ---- whole surface ---- */
 
 static bool allocate(WrDicing *d, WrError *err)
 {

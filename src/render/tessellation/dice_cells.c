@@ -1,4 +1,4 @@
-/* Where a displaced surface is cut: lines on texels, cells between them, how finely each is cut. */
+/* Subdivision of a displaced surface: lines on texels, cells between them, and the number of cuts of each cell. */
 #include "render/tessellation/dice_internal.h"
 
 #include "base/memory.h"
@@ -9,13 +9,13 @@
 #include <math.h>
 #include <string.h>
 
-#define CELLS 64     /* along a face, about */
-#define SMOOTH 256.0 /* texels that a formula is taken to have */
-#define SHARE 0.4    /* of epsilon, for each of the ways in which a facet may be off */
+#define CELLS 64     /* approximate number of cells along a face */
+#define SMOOTH 256.0 /* number of texels assumed for a formula */
+#define SHARE 0.4    /* of epsilon, for each source of a facet's error */
 
 /* ---- lines ---- */
 
-/* Texels along a whole axis of the domain. */
+/* Number of texels along a whole axis of the domain. */
 static double texels_along(const WrDicing *d, bool along_u)
 {
     const WrScene *s = d->scene;
@@ -24,7 +24,7 @@ static double texels_along(const WrDicing *d, bool along_u)
     return r * (along_u ? wr_field_width(d->field) : wr_field_height(d->field));
 }
 
-/* Texels of a cell: a power of two. */
+/* Texels per cell: a power of two. */
 static int block_of(double texels)
 {
     int block = 1;
@@ -32,12 +32,12 @@ static int block_of(double texels)
     return block;
 }
 
-/* Lines through texels' middles, the same from both ends: blocks of `block`, and single texels between where they do not
-   meet in the middle. */
+/* Lines through texel centres, symmetric from both ends: blocks of `block` texels, and single texels where the
+   two halves do not meet in the middle. */
 static int lay_middles(int texels, int block, double *line)
 {
     int count = 0;
-    const int half = (texels - 1) / 2 / block; /* blocks from either end */
+    const int half = (texels - 1) / 2 / block; /* blocks from each end */
     const int between = texels - 1 - 2 * half * block;
     line[count++] = 0;
     for (int k = 0; k <= half; k++) line[count++] = (0.5 + k * block) / texels;
@@ -48,7 +48,7 @@ static int lay_middles(int texels, int block, double *line)
     return count - 1;
 }
 
-/* The lines of one axis between low and high; returns how many cells they part. */
+/* The lines of one axis between low and high; returns the number of cells between them. */
 static int lay_axis(double texels, bool whole, double low, double high, double **lines)
 {
     const int block = block_of(texels);
@@ -87,7 +87,7 @@ static void lay_face(WrDicing *d, int face)
     f->rate = wr_alloc((size_t)(f->nu + 1) * (size_t)(f->nv + 1), 2 * sizeof *f->rate);
 }
 
-/* ---- what a cell asks for ---- */
+/* ---- needs of a cell ---- */
 
 static int steps_of(double width, double texels)
 {
@@ -115,7 +115,8 @@ static void measure_heights(const WrDicing *d, WrDiceCell *c, Heights *h)
     }
 }
 
-/* Differences of F between the steps; the largest first ones along u and v; largest |F|. */
+/* Differences of F between the steps: the largest first differences along u and v, second differences, and the
+   largest |F|. */
 static void differ(WrDiceCell *c, const Heights *h, double *slope_u, double *slope_v, double *most)
 {
     double low = INFINITY, high = -INFINITY;
@@ -135,7 +136,7 @@ static void differ(WrDiceCell *c, const Heights *h, double *slope_u, double *slo
     *most = fmax(fabs(low), fabs(high));
 }
 
-/* Pixels a unit of the object is at the nearest of a ball about p; 0: none of it is in the picture. */
+/* Pixels per object unit at the nearest point of a sphere around p; 0: it is outside the picture. */
 static double pixels_at(const WrView *view, WrVec3 p, double radius)
 {
     const double k = view->scale, per = view->grid_h / (2.0 * view->half_h) / view->samples * k;
@@ -149,7 +150,7 @@ static double pixels_at(const WrView *view, WrVec3 p, double radius)
     return per / fmax(z - r, 0.01 * view->radius);
 }
 
-/* How the base bends over the cell, and where that lies. slope_*: over a step; most: of |F|. */
+/* Curvature of the base over the cell, and its position on screen. slope_*: over a step; most: of |F|. */
 static void measure_base(const WrDicing *d, WrDiceCell *c, double slope_u, double slope_v,
                          double most)
 {
@@ -204,9 +205,9 @@ void wr_dice_lay(WrDicing *d, WrPool *pool)
     wr_pool_run(pool, d->cell_count, measure_cell, d);
 }
 
-/* ---- how finely it is cut ---- */
+/* ---- number of cuts ---- */
 
-/* Steps across a cell along one axis. per: pixels a unit, over epsilon's share. */
+/* Steps across a cell along one axis. per: pixels per unit, divided by epsilon's share. */
 static double steps_for(const WrDicing *d, const WrDiceCell *c, double bend, double kink, int steps)
 {
     const double per = c->pixels / (SHARE * d->epsilon);
@@ -219,16 +220,16 @@ static double steps_for(const WrDicing *d, const WrDiceCell *c, double bend, dou
 
 static void raise_to(double *rate, double want)
 {
-    *rate = fmax(*rate, fmin(want, 1e9)); /* no number: not */
+    *rate = fmax(*rate, fmin(want, 1e9)); /* NaN is ignored */
 }
 
-/* What cell i takes of the face's lines: whatever cells of the table faces have, those that meet count alike. */
+/* Share of the face's lines in cell i. Faces with different cells of the table count equally where they meet. */
 static double share_of(const double *line, int count, int i)
 {
     return (line[i + 1] - line[i]) / (line[count] - line[0]);
 }
 
-/* Each cell's corners ask for what it needs. */
+/* Raises the rates at the cell's corners to the cell's needs. */
 static void ask_corners(const WrDicing *d, const WrDiceCell *c)
 {
     const WrDiceFace *f = &d->face[c->face];
@@ -241,7 +242,7 @@ static void ask_corners(const WrDicing *d, const WrDiceCell *c)
     }
 }
 
-/* The face's corner number k along its border, of 2 (nu + nv). */
+/* Number of border corner k, of 2 (nu + nv), of the face. */
 static int border_corner(const WrDiceFace *f, int k)
 {
     const int row = f->nu + 1;
@@ -251,7 +252,7 @@ static int border_corner(const WrDiceFace *f, int k)
     return left < f->nv - 1 ? (left + 1) * row : (left - (f->nv - 1) + 1) * row + f->nu;
 }
 
-/* Corners of one place ask for the same: along a seam each along its own axis, along the edges of a cube both. */
+/* Gives corners at one position equal rates: along a seam for each axis, along the edges of a cube for both. */
 static void join_corners(WrDicing *d)
 {
     int32_t count = 0;
@@ -284,7 +285,7 @@ static void join_corners(WrDicing *d)
     wr_free(points);
 }
 
-/* The power of two that is enough. */
+/* Smallest sufficient power of two. */
 static int cuts_for(double rate, double width)
 {
     const double want = rate * width * (1 - 1e-9);

@@ -1,15 +1,16 @@
-/* Points that the surface shares where its domain ends: seams, poles, edges of a cube. */
+/* Welding of shared points on the domain's border: seams, poles, edges of a cube. */
 #include "render/tessellation/dice_internal.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define FINE 1e6 /* places are told apart to so many parts of the surface's radius */
+#define FINE 1e6 /* resolution of positions: parts of the surface's radius */
 
 WrDicePoint wr_dice_point(int32_t index, const WrSurfacePoint *at, double f, double size)
 {
     const WrVec3 p = v3_scale(at->p, FINE / size);
-    const double off = 0.3819; /* places of round numbers lie within a step, not on its border */
+    /* keeps positions with round coordinates inside a step, not on its border */
+    const double off = 0.3819;
     return (WrDicePoint){ .key = { (int64_t)floor(p.x + off), (int64_t)floor(p.y + off),
                                    (int64_t)floor(p.z + off) },
                           .index = index,
@@ -40,7 +41,7 @@ int32_t wr_dice_run(const WrDicePoint *points, int32_t from, int32_t count)
     return end;
 }
 
-/* x of the symmetric A x = b, by the columns a0, a1, a2. */
+/* x of A x = b with a symmetric A of columns a0, a1, a2. */
 static WrVec3 solve(WrVec3 a0, WrVec3 a1, WrVec3 a2, WrVec3 b)
 {
     const double det = v3_dot(a0, v3_cross(a1, a2));
@@ -48,7 +49,7 @@ static WrVec3 solve(WrVec3 a0, WrVec3 a1, WrVec3 a2, WrVec3 b)
                      v3_dot(a0, v3_cross(a1, b)) / det };
 }
 
-/* d with n_i . d = f_i, by least squares, where that leads no farther than twice the largest f; else the mean way. */
+/* d with n_i . d = f_i, by least squares, if it is at most twice the largest f; else the mean displacement. */
 WrVec3 wr_dice_move(const WrDicePoint *points, int32_t count)
 {
     const double damp = 1e-9 * count;

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* The table whose entries are the coefficients of the spline through that one's, which repeats; NULL: no memory. */
+/* Coefficients of the interpolating spline of that periodic table, as a table; NULL: no memory. */
 static WrField *coefficients_of(const WrField *field, WrError *err)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -46,7 +46,7 @@ bool wr_is_raised(const WrScene *scene)
     return scene->displaced && scene->height != 0 && !wr_shape_unmoved(&scene->shape);
 }
 
-/* A spline through a table's entries goes beyond them by less than their range. */
+/* A spline through a table's entries exceeds them by less than their range. */
 double wr_raised_most(const WrScene *scene, const WrField *field)
 {
     float low, high;

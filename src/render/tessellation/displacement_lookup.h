@@ -1,6 +1,6 @@
-/* displacement_lookup.h - F of a displaced surface where it is looked up at many places, one after the other. With a fitted spline each
-   look-up would find the coefficients about it anew: they are found once for all.
-   Layer 5, private to the renderer. */
+/* displacement_lookup.h - F of a displaced surface, prepared for many single evaluations.
+   Private to the renderer. With a fitted spline each evaluation would compute the nearby coefficients again;
+   here they are computed once. */
 #pragma once
 #include "scene/scene.h"
 
@@ -14,10 +14,11 @@ typedef struct WrRaised {
     WrField *own;
 } WrRaised;
 
-/* field: outlives `raised`; not read with a formula. Call fini even where it fails. Errors: no memory. */
+/* Prepares F. field: must outlive `raised`; not read with a formula. Call fini even after a failure. Errors: no
+   memory. */
 bool wr_raised_init(WrRaised *raised, const WrScene *scene, const WrField *field, WrError *err);
 void wr_raised_fini(WrRaised *raised);
-/* Is the surface itself moved by F? */
+/* True if F displaces the surface itself. */
 bool wr_is_raised(const WrScene *scene);
-/* No |F| is larger, object units. field: not read with a formula. */
+/* Upper bound of |F|, object units. field: not read with a formula. */
 double wr_raised_most(const WrScene *scene, const WrField *field);

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#define LOOKS 12 /* places along u and v at which the surface is measured */
+#define LOOKS 12 /* sample points along u and along v at which the surface is measured */
 
 void wr_occlusion_map_table_drop(WrOcclusionMapTable *table)
 {
@@ -46,7 +46,7 @@ bool wr_occlusion_map_table_bring(WrOcclusionMapTable *table, const WrScene *sce
     if (like && table->key == edit->key) return true;
     const bool edited = like && edit->changed && table->key == edit->before;
     float *open = edited ? table->open : NULL;
-    if (edited) table->open = NULL; /* not whole while texels are brought up to date */
+    if (edited) table->open = NULL; /* incomplete while texels are updated */
     wr_occlusion_map_table_drop(table);
     if (!open)
         open = wr_try_alloc(wr_horizon_plane(horizon), sizeof *open, "how open the relief is", err);
@@ -54,7 +54,7 @@ bool wr_occlusion_map_table_bring(WrOcclusionMapTable *table, const WrScene *sce
     wr_occlusion_map_make(&opening, horizon->directions, across, down);
     wr_occlusion_map_table(&opening, horizon, field, sign, edited ? edit->changed : NULL, pool,
                            open);
-    if (wr_progress_stopped()) { /* half of it may be missing */
+    if (wr_progress_stopped()) { /* it may be incomplete */
         wr_free(open);
         return wr_fail(err, "cancelled");
     }

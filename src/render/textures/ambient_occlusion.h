@@ -1,5 +1,5 @@
-/* ambient_occlusion.h - how much of the sky the relief leaves open at each texel, as the renderer keeps it.
-   Layer 5, private to the renderer. */
+/* ambient_occlusion.h - cached ambient occlusion of the relief at each texel: the unoccluded share of the sky.
+   Private to the renderer. */
 #pragma once
 #include "field/horizon.h"
 
@@ -9,27 +9,28 @@ typedef struct WrScene WrScene;
 
 /* Zero-initialise; drop frees. */
 typedef struct WrOcclusionMapTable {
-    float *open; /* wr_occlusion_map_table's, owned; NULL: none */
+    float *open; /* from wr_occlusion_map_table, owned; NULL: none */
     int width, height;
     uint64_t key; /* of the table (wr_field_key) ... */
     int directions;
-    /* ... and how long a texel is, in units of height; below 0 where it stands inside out */
+    /* ... and the size of a texel in units of height; negative where the surface is inside out */
     double across, down;
 } WrOcclusionMapTable;
 
 void wr_occlusion_map_table_drop(WrOcclusionMapTable *table);
 
-/* Which table horizons are of. */
+/* The table that horizons belong to. */
 typedef struct WrOcclusionMapEdit {
-    uint64_t key, before;         /* of it; of the one that an edit made it of */
-    const unsigned char *changed; /* what that changed (wr_horizon_update); NULL: it is not known */
+    uint64_t key, before; /* key of the table, and of the table before the edit */
+    /* texels that the edit changed (wr_horizon_update); NULL: unknown */
+    const unsigned char *changed;
 } WrOcclusionMapEdit;
 
-/* Bring it up to date with the horizons of that table. A texel is as long as on the mean over the surface;
-   the scene's height is not 0. Errors: no memory; cancelled; then there is no table. */
+/* Updates the map from the horizons of that table. A texel has its mean length on the surface; the scene's
+   height must not be 0. Errors: no memory; cancelled; then there is no map. */
 bool wr_occlusion_map_table_bring(WrOcclusionMapTable *table, const WrScene *scene,
                                   const WrField *field, const WrOcclusionMapEdit *edit,
                                   const WrHorizon *horizon, WrPool *pool, WrError *err);
-/* How long a texel is along u and v, in units of height (of one that is not 0), on the mean. */
+/* Mean length of a texel along u and v, in units of height, which must not be 0. */
 void wr_occlusion_map_texel(const WrScene *scene, const WrField *field, double *across,
                             double *down);

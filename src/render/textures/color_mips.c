@@ -45,10 +45,10 @@ bool wr_color_mips_bring(WrColorMips *tint, const WrImage *image, WrWrap wrap_u,
 
 typedef struct Job {
     WrColorMips *tint;
-    int level; /* to be made */
+    int level; /* level to build */
 } Job;
 
-/* Row j, whole or the apron's, from its first texel on; level 0 is the picture. */
+/* Row j of the picture or of the apron, from its first texel on; level 0 is the picture. */
 static float *row_of(const WrColorMips *tint, int level, int j)
 {
     const WrPyramidLevel *at = &tint->pyramid.level[level];
@@ -105,6 +105,6 @@ bool wr_color_mips_bring_pyramid(WrColorMips *tint, WrPool *pool, WrError *err)
         make_apron(tint, job.level);
     }
     if (!wr_progress_stopped()) return true;
-    wr_pyramid_drop(pyramid); /* half made */
+    wr_pyramid_drop(pyramid); /* incomplete */
     return wr_fail(err, "cancelled");
 }

@@ -1,7 +1,7 @@
-/* color_mips.h - the colour picture as the kernels want it, and box-filtered copies of it, each about half as fine as the one
-   before.
-   Layer 5, private to the renderer. Means are of linear light, made as those of slopes are (slope_pyramid.h): exact shares
-   of texels, so that every level has the picture's mean and no odd size shifts it. */
+/* color_mips.h - mip pyramid of the colour picture: the picture for the kernels, and box-filtered levels of half
+   the size each. Private to the renderer. Means are of linear light, computed like those of slopes
+   (slope_pyramid.h): exact shares of texels, so that every level has the picture's mean and odd sizes cause no
+   shift. */
 #pragma once
 #include "field/wrap.h"
 #include "render/textures/slope_pyramid.h"
@@ -14,16 +14,16 @@ typedef struct WrPool WrPool;
 
 /* Zero-initialise; drop frees. */
 typedef struct WrColorMips {
-    const WrImage *source; /* shared; what rgba was made from */
+    const WrImage *source; /* shared; the source of rgba */
     WrWrap wrap_u, wrap_v;
-    float *rgba; /* R, G, B, 0 a texel, with an apron of one texel */
+    float *rgba; /* R, G, B, 0 per texel, with an apron of one texel */
     int pitch;
     WrPyramid pyramid; /* of kind COLOUR: R, G, B, 0; levels 0: none */
 } WrColorMips;
 
 void wr_color_mips_drop(WrColorMips *tint);
-/* Bring it up to date with a picture of one channel, or three and more, that goes on beyond its ends so. */
+/* Updates level 0 from a picture of one channel, or of three and more, with these wrap modes. */
 bool wr_color_mips_bring(WrColorMips *tint, const WrImage *image, WrWrap wrap_u, WrWrap wrap_v,
                          WrError *err);
-/* The same of its pyramid, once it is up to date itself. */
+/* Updates the pyramid, after level 0. */
 bool wr_color_mips_bring_pyramid(WrColorMips *tint, WrPool *pool, WrError *err);

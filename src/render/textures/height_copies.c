@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* How a copy is made: texels [i, i + w) x [j, j + h), indices outside the table included. */
+/* Fills part of a copy: texels [i, i + w) x [j, j + h), including indices outside the table. */
 typedef void (*FillRect)(const WrField *field, int i, int j, int w, int h, float *out,
                          size_t pitch);
 
@@ -21,11 +21,11 @@ static float narrow(double x)
     return (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);
 }
 
-/* The texels of a rectangle and one more on each side. */
+/* The texels of a rectangle with a border of one texel. */
 typedef struct Ring {
     float *t; /* [h + 2][pitch], owned */
     size_t pitch;
-    double half_w, half_h; /* of the table, texels */
+    double half_w, half_h; /* half the size of the table, texels */
 } Ring;
 
 static Ring read_ring(const WrField *field, int i, int j, int w, int h)
@@ -38,8 +38,8 @@ static Ring read_ring(const WrField *field, int i, int j, int w, int h)
     return ring;
 }
 
-/* Fu = (T[i+1] - T[i-1]) W/2, Fv = (T[j-1] - T[j+1]) H/2 (rows run down); differences in double, so
-   that neither a large level nor FLT_MAX beside -FLT_MAX does harm (HC48, HC50). */
+/* Fu = (T[i+1] - T[i-1]) W/2, Fv = (T[j-1] - T[j+1]) H/2 (rows run down). Differences are in double, so neither
+   a large level nor FLT_MAX beside -FLT_MAX does harm (HC48, HC50). */
 static inline void slopes_at(const Ring *ring, int x, int y, double *fu, double *fv)
 {
     const float *mid = ring->t + (size_t)(y + 1) * ring->pitch + (size_t)x + 1;
@@ -62,7 +62,7 @@ static void fill_gradient(const WrField *field, int i, int j, int w, int h, floa
     wr_free(ring.t);
 }
 
-/* The same in double. */
+/* Fills part of a copy in double precision. */
 typedef void (*FillFine)(const WrField *field, int i, int j, int w, int h, double *out,
                          size_t pitch);
 
@@ -82,8 +82,8 @@ WR_ROWS(kinds);
 static const struct {
     FillRect fill;
     FillFine fine; /* NULL: heights, which are single-precision numbers */
-    int floats;    /* a texel */
-    int reach;     /* a texel of F changes the copy this far away */
+    int floats;    /* floats per texel */
+    int reach;     /* a changed texel of F changes the copy up to this distance */
     const char *what;
 } kinds[WR_COPY_COUNT] = {
     [WR_ROW(WR_COPY_HEIGHTS)] = { wr_field_read, NULL, 1, 0, "heights for the picture" },
@@ -194,8 +194,8 @@ typedef struct CopyJob {
     WrTableCopy *copy;
     WrCopyKind kind;
     const WrField *field;
-    bool border; /* something changed that the apron shows */
-    int changed; /* tiles */
+    bool border; /* a texel that the apron repeats has changed */
+    int changed; /* changed tiles */
 } CopyJob;
 
 static size_t place(const CopyJob *job, int i, int j)
@@ -204,7 +204,7 @@ static size_t place(const CopyJob *job, int i, int j)
     return at * (size_t)kinds[job->kind].floats;
 }
 
-/* Fill a rectangle of a copy in double from the numbers in single precision. */
+/* Fills a rectangle of a double-precision copy from the single-precision numbers. */
 static void widen(CopyJob *job, int i, int j, int w, int h)
 {
     const size_t row = (size_t)w * (size_t)kinds[job->kind].floats;
@@ -231,7 +231,7 @@ static void refresh(CopyJob *job, int i, int j, int w, int h)
     __atomic_fetch_add(&job->table->texels_refreshed, (int64_t)w * h, __ATOMIC_RELAXED);
 }
 
-/* Of numbers that are not negative the bits are in the same order; those of no number come last. */
+/* Non-negative floats have the same order as their bits; NaN sorts last. */
 static int32_t magnitude(float x)
 {
     uint32_t bits;
@@ -239,7 +239,7 @@ static int32_t magnitude(float x)
     return (int32_t)(bits & 0x7fffffffU);
 }
 
-/* The largest of `count` pairs, as bits. */
+/* The largest absolute values of `count` pairs, as bits. */
 static void add_steepest(const float *slopes, int count, int32_t most[2])
 {
     int32_t u = most[0], v = most[1];
@@ -259,8 +259,8 @@ static bool any_slope(const double *slopes, int count)
     return false;
 }
 
-/* The texels of a tile along one axis, from <= to; at the ends of a clamped one two more, which look-ups near the end
-   read: what is extrapolated there may be steeper than all of the table. */
+/* The texels of a tile along one axis, from <= to. At the ends of a clamped axis two more, which fetches near
+   the end read: the extrapolated slopes there may be steeper than all of the table. */
 typedef struct Reach {
     int from, to;
 } Reach;
@@ -292,7 +292,7 @@ static void mark_steep(CopyJob *job, int tx, int ty)
     }
 }
 
-/* A strip of tile rows of a full build, apron columns included. */
+/* Builds a strip of tile rows in a full build, apron columns included. */
 static void build_strip(int strip, int worker, void *ctx)
 {
     (void)worker;
@@ -306,7 +306,7 @@ static void build_strip(int strip, int worker, void *ctx)
         for (int tx = 0; tx < wr_field_tiles_u(job->field); tx++) mark_steep(job, tx, strip);
 }
 
-/* Refresh [a, b) of one axis in pieces that lie inside [0, n): a periodic axis wraps. */
+/* Interval [a, b) of one axis, split into pieces inside [0, n): a periodic axis wraps. */
 typedef struct Pieces {
     int from[3], to[3], count;
     bool border; /* near an end of the axis */
@@ -331,7 +331,8 @@ static Pieces cut(int a, int b, int n, WrWrap wrap)
     return p;
 }
 
-/* What texels [a, b) of an axis of n reach: on a clamped one the last 3 also what is extrapolated from them, so the end. */
+/* Texels that depend on texels [a, b) of an axis of n. On a clamped axis the extrapolated end depends on the
+   last 3. */
 static Pieces reach_from(int a, int b, int reach, int n, WrWrap wrap)
 {
     const bool ends = wrap != WR_WRAP_PERIODIC;
@@ -341,7 +342,7 @@ static Pieces reach_from(int a, int b, int reach, int n, WrWrap wrap)
     return p;
 }
 
-/* The parts of the copy that a changed tile's texels reach. */
+/* The parts of the copy that depend on a changed tile's texels. */
 static void reached(const CopyJob *job, int tx, int ty, Pieces *u, Pieces *v)
 {
     const WrField *field = job->field;
@@ -365,7 +366,7 @@ static void refresh_tile(int tx, int ty, void *ctx)
     if (u.border || v.border) job->border = true;
 }
 
-/* Once the apron is right too. */
+/* Updates a tile's slope bounds, after the apron. */
 static void mark_tile(int tx, int ty, void *ctx)
 {
     CopyJob *job = ctx;
@@ -388,7 +389,7 @@ static void refresh_apron(CopyJob *job)
     refresh(job, w, 0, a, h);
 }
 
-/* What is asked of the whole table's slopes, from its tiles'. */
+/* Slope bounds of the whole table, from those of its tiles. */
 static void sum_steep(WrTable *table, int count)
 {
     const float(*steep)[2] = (const float(*)[2])table->steep;
@@ -416,7 +417,7 @@ static bool allocate(CopyJob *job, WrError *err)
 {
     int w = wr_field_width(job->field), h = wr_field_height(job->field);
     int pitch = (w + 2 * WR_APRON + 15) / 16 * 16;
-    if (pitch % 512 == 0) pitch += 16; /* rows on the same cache sets would fight */
+    if (pitch % 512 == 0) pitch += 16; /* avoids conflicts of rows in the same cache sets */
     wr_table_drop(job->table, job->kind);
     const bool single = job->table->precision == WR_PRECISION_SINGLE;
     void *data =
@@ -453,7 +454,7 @@ bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPoo
         wr_pool_run(pool, wr_field_tiles_v(field), build_strip, &job);
     }
     if (wr_progress_stopped()) {
-        wr_table_drop(table, kind); /* half made */
+        wr_table_drop(table, kind); /* incomplete */
         return wr_fail(err, "cancelled");
     }
     if (kind == WR_COPY_GRADIENT) sum_steep(table, tile_count(field));

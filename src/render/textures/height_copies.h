@@ -1,7 +1,6 @@
-/* height_copies.h - contiguous copies of a height table for the kernels, kept up to date from what changed
-   between the snapshot they were made from and the one at hand.
-   Layer 5, private to the renderer. Each copy has an apron of WR_APRON texels (so no kernel wraps an
-   index) and a row length off the powers of two. */
+/* height_copies.h - contiguous copies of a height table for the kernels, updated incrementally. Private to the
+   renderer. An update compares the snapshot that a copy was made from with the current table. Each copy has an
+   apron of WR_APRON texels, so no kernel wraps an index, and a row length that is not a power of two. */
 #pragma once
 #include "render/kernels/kern.h"
 #include "render/plan/plan.h"
@@ -16,42 +15,42 @@ typedef struct WrPool WrPool;
 typedef enum WrCopyKind {
     WR_COPY_HEIGHTS,  /* F */
     WR_COPY_FITTED,   /* B-spline coefficients through F */
-    WR_COPY_GRADIENT, /* central differences per unit of u, v; two floats a texel */
+    WR_COPY_GRADIENT, /* central differences per unit of u, v; two floats per texel */
     WR_COPY_COUNT
 } WrCopyKind;
 
 typedef struct WrTableCopy {
     WrField *seen; /* snapshot that data was made from; NULL: none */
     WrPrecision precision;
-    float *data;  /* owned; SINGLE only */
-    double *fine; /* owned; the others */
-    int pitch;    /* texels a row */
+    float *data;  /* owned; only for SINGLE */
+    double *fine; /* owned; for the other precisions */
+    int pitch;    /* texels per row */
 } WrTableCopy;
 
 typedef struct WrTable {
-    WrPrecision precision; /* of the copies to be brought; the caller's to set */
+    WrPrecision precision; /* of the copies to be updated; set by the caller */
     WrTableCopy copies[WR_COPY_COUNT];
-    WrField *ranged;   /* snapshot that low and high were made from */
+    WrField *ranged;   /* snapshot that low and high were computed from */
     float *low, *high; /* [tiles] of each field tile */
     float (*steep)
-        [2]; /* [tiles] the gradient copy's largest |dF/du|, |dF/dv| there; INFINITY: not known */
-    float steepest[2], gentlest[2]; /* of all tiles, the largest and the least of those ... */
-    int sloped;                     /* ... and how many tiles have any */
-    int64_t texels_refreshed;       /* by the last bring-up: what an edit cost */
+        [2]; /* [tiles] largest |dF/du|, |dF/dv| of the gradient copy in each tile; INFINITY: unknown */
+    float steepest[2], gentlest[2]; /* largest and smallest of those over all tiles ... */
+    int sloped;                     /* ... and the number of tiles with slopes */
+    int64_t texels_refreshed;       /* by the last update: the cost of an edit */
 } WrTable;
 
 void wr_table_init(WrTable *table);
 void wr_table_fini(WrTable *table);
 
-/* True if every texel of the table is equal; costs what changed since the last call. */
+/* True if all texels of the table are equal. Its cost depends only on the changes since the last call. */
 bool wr_table_flat(WrTable *table, const WrField *field);
-/* Least and largest height of the table last asked about. */
+/* Smallest and largest height of the table of the last wr_table_flat call. */
 void wr_table_range(const WrTable *table, float *low, float *high);
 
-/* Bring one copy up to date with field. */
+/* Updates one copy to the field. */
 bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPool *pool,
                     WrError *err);
-/* Drop a copy that the plan no longer calls for. */
+/* Frees a copy that the plan no longer needs. */
 void wr_table_drop(WrTable *table, WrCopyKind kind);
-/* After bringing the gradient: true if it is 0 everywhere. */
+/* True if the gradient, which must be up to date, is 0 everywhere. */
 bool wr_table_slope_free(const WrTable *table);

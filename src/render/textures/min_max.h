@@ -1,8 +1,8 @@
-/* min_max.h - the least and the largest of many numbers.
-   Layer 5, private to the renderer. */
+/* min_max.h - minimum and maximum of an array.
+   Private to the renderer. */
 #pragma once
 
-/* Of `count` numbers, and of what *low and *high hold already; numbers that are NaN do not count. */
+/* Extends *low and *high by `count` numbers; NaNs are ignored. */
 static inline void wr_extent_add(const float *restrict x, int count, float *low, float *high)
 {
     float least = *low, most = *high;

@@ -49,7 +49,7 @@ bool wr_normal_mips_bring(WrNormalMips *relief, const WrImage *image, bool vecto
     return true;
 }
 
-/* ---- frames -------------------------------------------------------------------------------------- */
+/* ---- tangent frames ------------------------------------------------------------------------------ */
 
 void wr_frames_drop(WrFrames *frames)
 {

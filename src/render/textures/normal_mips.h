@@ -1,6 +1,6 @@
-/* normal_mips.h - a normal map's slopes as the kernels want them: with their means and covariances over boxes.
-   Layer 5, private to the renderer. Level 1 of the pyramid is the map itself, so that one kernel looks up the map and
-   its means: a look-up of the map is one at level 1, of the mean of boxes of 2^l texels at level 1 + l. */
+/* normal_mips.h - mip pyramid of a normal map's slopes, with their means and covariances over boxes. Private to
+   the renderer. Level 1 of the pyramid is the map itself, so that one kernel fetches the map and its means:
+   level 1 is the map, level 1 + l the mean over boxes of 2^l texels. */
 #pragma once
 #include "render/textures/slope_pyramid.h"
 #include "scene/scene.h"
@@ -13,22 +13,23 @@ typedef struct WrPool WrPool;
 
 /* Zero-initialise; drop frees. */
 typedef struct WrNormalMips {
-    const WrImage *source; /* shared; what the pyramid was made from */
+    const WrImage *source; /* shared; the source of the pyramid */
     WrWrap wrap_u, wrap_v;
     bool vectors;
-    WrPyramid pyramid; /* of kind MOMENTS; of vectors, SLOPES, whose numbers are x, y and z */
+    /* of kind MOMENTS; with vectors of kind SLOPES, whose numbers are x, y and z */
+    WrPyramid pyramid;
 } WrNormalMips;
 
 void wr_normal_mips_drop(WrNormalMips *relief);
-/* Bring it up to date with a picture of unit vectors (WrNormalMap) that goes on beyond its ends so. vectors: they are kept
- * themselves, not their slopes. */
+/* Updates the pyramid from a picture of unit vectors (WrNormalMap) with these wrap modes. vectors: stores the
+   vectors themselves instead of slopes. */
 bool wr_normal_mips_bring(WrNormalMips *relief, const WrImage *image, bool vectors, WrWrap wrap_u,
                           WrWrap wrap_v, WrPool *pool, WrError *err);
 
-/* At a corner of a triangle: t, then b; by MikkTSpace t is unit and the first number of b its sign. */
+/* Floats at a triangle's corner: t, then b. By MikkTSpace t is unit and the first number of b is the handedness. */
 #define WR_CORNER_FRAME 6
-/* The frames of a mesh's corners (surface/tangent_frames.h), made only for a map that is turned by them (E56). Zero-initialise;
-   drop frees. */
+/* The tangent frames of a mesh's corners (surface/tangent_frames.h), computed only for a map that needs them
+   (E56). Zero-initialise; drop frees. */
 typedef struct WrFrames WrFrames;
 struct WrFrames {
     const WrTriangles *source; /* shared */
@@ -37,6 +38,6 @@ struct WrFrames {
 };
 
 void wr_frames_drop(WrFrames *frames);
-/* Bring them up to date with that mesh. kind: MIKK or LECTURE. Errors: no memory; they are dropped then. */
+/* Updates the frames to that mesh. kind: MIKK or LECTURE. Errors: no memory; then they are freed. */
 bool wr_frames_bring(WrFrames *frames, const WrTriangles *triangles, WrNormalFrame kind,
                      WrError *err);

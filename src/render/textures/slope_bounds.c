@@ -4,10 +4,10 @@
 
 #include <math.h>
 
-#define REACH 3       /* texels: what a look-up reads beside its place, and rounding */
-#define TILES_MOST 64 /* of a box */
+#define REACH 3       /* texels: those that a fetch reads beside its position, and rounding */
+#define TILES_MOST 64 /* largest number of tiles of a box */
 
-/* Texels of an axis, from <= to; on a periodic one they may run past both ends. */
+/* Texels of an axis, from <= to; on a periodic one they may extend past both ends. */
 typedef struct Run {
     int from, to;
 } Run;
@@ -17,7 +17,7 @@ static double limited(double x)
     return x > 0 ? fmin(x, 1) : 0;
 }
 
-/* Places a .. b of the axis; flipped: texel 0 lies at 1. */
+/* Positions a .. b of the axis; flipped: texel 0 is at 1. */
 static Run run_of(double a, double b, int size, bool periodic, bool flipped)
 {
     const Run all = { 0, size - 1 };
@@ -44,7 +44,7 @@ static int next_tile(int i, int size)
     return i + (end < size ? end : size) - at;
 }
 
-/* The slopes of tile `at`, those to tile `first` among them. */
+/* Adds the slopes of tile `at`, including those to tile `first`. */
 static void add_tile(const WrLevel *level, int at, int first, float steepest[2])
 {
     const bool even =
@@ -60,7 +60,7 @@ void wr_level_box(const WrLevel *level, double u0, double u1, double v0, double 
 {
     const int width = level->width, height = level->height;
     for (int c = 0; c < 2; c++) steepest[c] = level->steepest[c];
-    if (!(u0 <= u1 && v0 <= v1)) return; /* also what is no number */
+    if (!(u0 <= u1 && v0 <= v1)) return; /* NaN included */
     const Run x = run_of(level->ru * u0, level->ru * u1, width, level->periodic_u, false);
     const Run y = run_of(level->rv * v0, level->rv * v1, height, level->periodic_v, true);
     float most[2] = { 0, 0 };

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A texel while it is being made. */
+/* A texel during construction. */
 typedef struct Cell {
     double fu, fv, f, suu, suv, svv;
 } Cell;
@@ -20,7 +20,7 @@ static float narrow(double x)
     return (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);
 }
 
-/* Block sizes of RANGE double from level to level, the last block of a row may be a part of one. */
+/* Size of the next level. Blocks of RANGE double in size; the last block of a row may be partial. */
 static int half(WrPyramidKind kind, int size)
 {
     int next = kind == WR_PYRAMID_RANGE ? (size + 1) / 2 : size / 2;
@@ -41,18 +41,19 @@ static float *texel(const WrPyramid *pyramid, int level, int i, int j)
     return at->data + place * (size_t)pyramid->floats;
 }
 
-/* ---- from a level to the next -------------------------------------------------------------------- */
+/* ---- one level from the one below ---------------------------------------------------------------- */
 
 typedef struct Job {
     WrPyramid *pyramid;
-    const WrField *field; /* of level 1; NULL: that is there */
+    const WrField *field; /* source of level 1; NULL: level 1 exists */
     WrWrap wrap_u, wrap_v;
-    int level; /* to be made */
+    int level; /* level to build */
     int changed;
-    unsigned ends; /* levels whose outermost texels were made, as bits: their aprons are to be */
+    /* bits of the levels whose outermost texels changed: their aprons must be updated */
+    unsigned ends;
 } Job;
 
-/* Central differences of the table at [i0, i1) x [j0, j1), as the gradient table has them. */
+/* Central differences of the table at [i0, i1) x [j0, j1), equal to those of the gradient copy. */
 static void read_table(const WrField *field, int i0, int i1, int j0, int j1, Cell *out)
 {
     const int w = i1 - i0, h = j1 - j0;
@@ -87,7 +88,7 @@ static void read_level(const WrPyramid *pyramid, int level, int i0, int i1, int 
 WrShare wr_pyramid_share(int i, int n, int m)
 {
     WrShare s = { (int)((int64_t)i * n / m), 0, { 0 } };
-    int last = (int)(((int64_t)(i + 1) * n + m - 1) / m); /* past the end */
+    int last = (int)(((int64_t)(i + 1) * n + m - 1) / m); /* one past the end */
     for (int k = s.from; k < last && s.count < 4; k++) {
         int64_t a = (int64_t)i * n, b = (int64_t)(i + 1) * n; /* in 1/m texels */
         int64_t low = (int64_t)k * m > a ? (int64_t)k * m : a;
@@ -97,7 +98,7 @@ WrShare wr_pyramid_share(int i, int n, int m)
     return s;
 }
 
-/* Mean first, then what is spread about it. */
+/* Mean first, then the covariance around it. */
 static Cell gather(const Cell *source, size_t pitch, const WrShare *u, const WrShare *v)
 {
     Cell sum = { 0 };
@@ -125,7 +126,7 @@ static void store(const WrPyramid *pyramid, const Cell *cell, float *out)
     out[4] = narrow(cell->suu), out[5] = narrow(cell->suv), out[6] = narrow(cell->svv);
 }
 
-/* Make texels [i0, i1) of row j of a level. */
+/* Builds texels [i0, i1) of row j of a level. */
 static void make_row(const Job *job, int i0, int i1, int j)
 {
     const WrPyramid *pyramid = job->pyramid;
@@ -207,7 +208,7 @@ static void make_apron(const Job *job)
     for (int j = 0; j < at->height; j++) border(job, -1, j), border(job, at->width, j);
 }
 
-/* ---- bring up to date ----------------------------------------------------------------------------- */
+/* ---- incremental update --------------------------------------------------------------------------- */
 
 static int first_level(const WrPyramid *pyramid)
 {
@@ -238,14 +239,15 @@ static void count_tile(int tx, int ty, void *ctx)
     ((Job *)ctx)->changed++;
 }
 
-/* Remake what texels [a, b) x [c, d) of the table reach, which may lie outside it by a texel. */
+/* Rebuilds everything that depends on texels [a, b) x [c, d) of the table, which may extend one texel outside
+   it. */
 static void remake(Job *job, int a, int b, int c, int d)
 {
     WrPyramid *pyramid = job->pyramid;
     const int w = wr_field_width(job->field), h = wr_field_height(job->field);
     for (job->level = first_level(pyramid); job->level < pyramid->levels; job->level++) {
         const WrPyramidLevel *at = &pyramid->level[job->level];
-        /* One texel more at either side than the quotients say: rounded sizes drift a little. */
+        /* One texel more on each side than the quotients give: rounded sizes drift slightly. */
         int i0 = (int)((int64_t)a * at->width / w) - 1, i1 = (int)((int64_t)b * at->width / w) + 2;
         int j0 = (int)((int64_t)c * at->height / h) - 1,
             j1 = (int)((int64_t)d * at->height / h) + 2;
@@ -257,8 +259,8 @@ static void remake(Job *job, int a, int b, int c, int d)
     }
 }
 
-/* A tile's texels change their neighbours' slopes, round the ends too; on a clamped axis the extrapolated
-   end reaches 2 texels in. */
+/* A tile's texels change the slopes of their neighbours, across periodic ends too. On a clamped axis the
+   extrapolated end depends on 2 texels inside. */
 static void remake_tile(int tx, int ty, void *ctx)
 {
     Job *job = ctx;
@@ -331,7 +333,7 @@ bool wr_pyramid_bring(WrPyramid *pyramid, WrPyramidKind kind, const WrField *fie
         make_all(&job, pool);
     }
     if (wr_progress_stopped()) {
-        wr_pyramid_drop(pyramid); /* half made */
+        wr_pyramid_drop(pyramid); /* incomplete */
         return wr_fail(err, "cancelled");
     }
     wr_field_free(pyramid->seen);
@@ -348,6 +350,6 @@ bool wr_pyramid_finish(WrPyramid *pyramid, WrWrap wrap_u, WrWrap wrap_v, WrPool 
         make_apron(&job);
     }
     if (!wr_progress_stopped()) return true;
-    wr_pyramid_drop(pyramid); /* half made */
+    wr_pyramid_drop(pyramid); /* incomplete */
     return wr_fail(err, "cancelled");
 }

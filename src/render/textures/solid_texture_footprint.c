@@ -8,12 +8,14 @@
 #include <math.h>
 
 #define LOOKS                                                                                      \
-    33 /* places along u and v, ends too: of round surfaces the longest tangents lie at one */
-#define STEEP 3.75 /* slope of value noise of -1..1 at most, a cell */
+    33 /* sample points along u and along v, with ends: on round surfaces the longest tangents are there */
+#define STEEP 3.75 /* largest slope of value noise in -1..1, per cell */
 #define FINE                                                                                       \
-    3 /* texels to a band of the pattern: where two lie along a pixel, a band is 1.5 pixels wide */
+/* texels per band of the pattern: if two of them lie along a pixel, a band is 1.5 pixels wide */
+3
 
-bool wr_solid_texture_bounded(const WrScene *scene)
+    bool
+    wr_solid_texture_bounded(const WrScene *scene)
 {
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
     int columns, rows;
@@ -23,7 +25,7 @@ bool wr_solid_texture_bounded(const WrScene *scene)
             how == WR_INVERT_CONE);
 }
 
-/* Bands of the pattern per unit of space. */
+/* Number of bands of the pattern per unit of space. */
 static double bands(const WrSolidTexture *grain)
 {
     const WrSolidTextureInfo *info = &wr_grains[grain->kind];
@@ -34,7 +36,7 @@ static double bands(const WrSolidTexture *grain)
         slope += STEEP * noise.octave[i].amplitude * noise.octave[i].frequency[0];
         finest = fmax(finest, noise.octave[i].frequency[0]);
     }
-    if (!info->noisy) return sqrt(3) * grain->rings; /* across cubes' corners */
+    if (!info->noisy) return sqrt(3) * grain->rings; /* along a cube's diagonal */
     if (!info->ringed) return 2 * finest;
     const double moved = grain->rings + fabs(grain->amount) * slope;
     const double narrow = info->shared ? fmin(grain->share, 1 - grain->share) : 0.5;
