@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Catmull-Rom's: beyond the range, of which its weights' sizes add up to 1.25 an axis; and its slopes, of the differences,
-   1.5 along an axis and 1.25 across. */
+/* Catmull-Rom weights: their absolute values add up to 1.25 per axis, so the spline exceeds the table's range.
+   Its slopes are bounded by the differences times 1.5 along an axis and 1.25 across. */
 #define OVERSHOOT 0.28125
 #define STEEPER 1.875
 
@@ -19,7 +19,7 @@ static double entry(const WrTableCopy *copy, int i, int j)
     return copy->data ? (double)copy->data[at] : copy->fine[at];
 }
 
-/* All entries and the differences of neighbours, one past each border. */
+/* Ranges of all entries and of the differences of neighbours, one past each border included. */
 static void measure(WrNormalMipsBounds *bounds, const WrTableCopy *copy, int width, int height)
 {
     bounds->low = INFINITY, bounds->high = -INFINITY;
@@ -57,7 +57,8 @@ void wr_normal_mips_bounds_bring(WrNormalMipsBounds *bounds, const WrTable *tabl
     measure(bounds, copy, wr_field_width(field), wr_field_height(field));
 }
 
-/* Is a border a point, as at a pole? axis: 0: at u, 1: at v of `at`. */
+/* True if a border of the domain is a single point, as at a pole. axis 0: the border at u = `at`; 1: at v =
+   `at`. */
 static bool is_point(const WrShape *shape, int axis, double at)
 {
     double across = 0, size = 0;
@@ -81,7 +82,7 @@ static void note_ends(WrParallax *parallax, const WrShape *shape)
                 !parallax->closed[axis] && !wr_shape_endless(shape) && !is_point(shape, axis, end);
 }
 
-#define FARTHEST 1e15 /* kernel units: what is not finite is no farther */
+#define FARTHEST 1e15 /* kernel units: replaces values that are not finite */
 
 void wr_parallax_range(const WrScene *scene, const WrNormalMipsBounds *bounds, const WrPlan *plan,
                        double unit, double range[2])

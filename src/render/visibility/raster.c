@@ -11,7 +11,7 @@ WrClipVertex wr_raster_clip_vertex(const WrView *view, WrVec3 p, double u, doubl
                            v };
 }
 
-/* Where x and y along the camera's axes lie in the grid, 1/256 samples; inv: 1 / depth, or 1. */
+/* Grid position of x and of y along the camera's axes, 1/256 samples; inv: 1 / depth, or 1. */
 static inline double column_at(double x, double inv, double half_w, double grid_w)
 {
     return (0.5 + 0.5 * x * inv / half_w) * grid_w * 256.0;
@@ -61,18 +61,19 @@ bool wr_raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
     return true;
 }
 
-/* What is whole already stays; of less than 2^51 the nearest whole number, ties to even, as rint has it. */
+/* From here on doubles are whole numbers; below 2^51, adding and subtracting it rounds to the nearest whole
+   number, ties to even, like rint. */
 #define WHOLE_FROM 0x1.8p52
 
-/* Vertices under way to the grid. */
+/* Vertices during projection. */
 #define PROJECTED 128
 typedef struct Projected {
     double x[PROJECTED], y[PROJECTED]; /* 1/256 samples, whole */
-    double close[PROJECTED];           /* as WrRasterVertex has it */
+    double close[PROJECTED];           /* as in WrRasterVertex */
     int in[PROJECTED];                 /* inside the near plane and the guard band */
 } Projected;
 
-/* The same as wr_raster_project of `count` points. */
+/* Projects `count` points as wr_raster_project does. */
 static void project_many(const WrView *view, int count, const float *restrict px,
                          const float *restrict py, const float *restrict pz,
                          Projected *restrict out)
@@ -97,7 +98,7 @@ static void project_many(const WrView *view, int count, const float *restrict px
     }
 }
 
-/* One that is not inside. */
+/* Projects a vertex that is not inside. */
 static WrVertexPlace bound_of(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
 {
     return wr_raster_bound(view, p, x, y) ? WR_VERTEX_OUT : WR_VERTEX_BEHIND;
@@ -122,8 +123,8 @@ void wr_raster_project_row(const WrView *view, int count, const float *x, const 
     }
 }
 
-/* Edge from (ax, ay) to (bx, by): e(x, y) > 0 to its left; whole numbers, 1/256 sample squared. Samples
-   on the edge belong to it only if it is a top or left one. */
+/* Edge from (ax, ay) to (bx, by): e(x, y) > 0 on its left; whole numbers, 1/256 sample squared. Samples on the
+   edge belong to it only if it is a top or left one. */
 typedef struct Edge {
     int64_t at, step_x, step_y;
 } Edge;
@@ -153,13 +154,13 @@ static int64_t max3(int64_t a, int64_t b, int64_t c)
     return a > c ? a : c;
 }
 
-/* What is interpolated: q = value / depth is affine on the screen, so is closeness. */
+/* Plane of an interpolated value: q = value / depth is affine on the screen, and so is closeness. */
 static WrPlane plane_of(float a, float b, float c)
 {
     return (WrPlane){ a, b - a, c - a };
 }
 
-/* A triangle ready to be walked over: what rises from sample to sample, and what is interpolated. */
+/* Setup of a triangle: steps of its edges from sample to sample, and the interpolated planes. */
 typedef struct Walk {
     Edge a, b, c;
     WrPlane close, u, v;
@@ -168,7 +169,7 @@ typedef struct Walk {
     int32_t x0, y0, x1, y1; /* samples of the tile */
 } Walk;
 
-/* Sample `cell`, at which the edges are fa, fb, fc; false outside. */
+/* Writes sample `cell`, whose edge values are fa, fb, fc; false if it is outside. */
 static inline bool take(const Walk *walk, int64_t fa, int64_t fb, int64_t fc, size_t cell,
                         WrDepthTile *tile)
 {
@@ -183,7 +184,7 @@ static inline bool take(const Walk *walk, int64_t fa, int64_t fb, int64_t fc, si
     return true;
 }
 
-/* Row by row; past a triangle's far side nothing more of it comes. */
+/* Covers row by row; a row ends at the triangle's far side. */
 static void cover(Walk *walk, WrDepthTile *tile)
 {
     for (int32_t y = walk->y0; y < walk->y1; y++) {
@@ -200,8 +201,8 @@ static void cover(Walk *walk, WrDepthTile *tile)
     }
 }
 
-/* The largest side L of a triangle, 1/256 samples, whose edges are 32-bit numbers over its box, a vector to its right and
-   a row below: 2 L (L + 18 * 256) < 2^31. */
+/* Largest side L of a triangle, 1/256 samples, whose edge values fit in 32 bits over its box, with one vector to
+   its right and one row below: 2 L (L + 18 * 256) < 2^31. */
 #define SMALL_SIDE 30000
 
 static void cover_small(const Walk *walk, WrDepthTile *tile)
@@ -230,7 +231,7 @@ static int64_t shifted(const Edge *edge, int64_t at, const signed char *shift)
     return at + edge->step_x / 256 * shift[0] + edge->step_y / 256 * shift[1];
 }
 
-/* The same where each sample stands a little beside its place. */
+/* Covers a tile whose samples are offset from the grid. */
 static void cover_shifted(Walk *walk, WrDepthTile *tile)
 {
     for (int32_t y = walk->y0; y < walk->y1; y++) {
@@ -246,8 +247,8 @@ static void cover_shifted(Walk *walk, WrDepthTile *tile)
     }
 }
 
-/* From the grid of `of` samples a pixel to that of k: a vertex is rounded alone, so that triangles that
-   share it go on to share it. */
+/* Converts from the grid of `of` samples a pixel to that of k. Each vertex is rounded independently, so that
+   triangles that share it still do. */
 static int32_t to_grid(int32_t x, int k, int of)
 {
     int64_t twice = 2 * (int64_t)x * k + of;
@@ -262,8 +263,8 @@ static void bring_to_grid(const WrView *view, const WrDepthTile *tile, WrRasterV
     vertex->y = to_grid(vertex->y, tile->k, view->samples);
 }
 
-/* The farthest vertex first, where one is far closer than another: what is interpolated then starts at its
-   least value and only grows, so that nothing cancels however deep the triangle is. */
+/* Puts the farthest vertex first, if one is far closer than another. Interpolated values then start at their
+   minimum and only grow, so that nothing cancels however deep the triangle is. */
 static void farthest_first(WrRasterVertex *a, WrRasterVertex *b, WrRasterVertex *c)
 {
     const float deep = 64.0f, ab = a->close < b->close ? a->close : b->close;
@@ -275,7 +276,7 @@ static void farthest_first(WrRasterVertex *a, WrRasterVertex *b, WrRasterVertex 
     }
 }
 
-/* mark: what u is over all of it; NULL: u and v are interpolated. */
+/* mark: value of u over the whole triangle; NULL: u and v are interpolated. */
 static void raster(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
                    const float *mark, WrDepthTile *tile)
 {
@@ -286,7 +287,7 @@ static void raster(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRas
     int64_t area =
         ((int64_t)b.x - a.x) * ((int64_t)c.y - a.y) - ((int64_t)b.y - a.y) * ((int64_t)c.x - a.x);
     if (area == 0 || ((area > 0) != mirrored && view->cull))
-        return; /* rows run down: fronts have area < 0 */
+        return; /* rows run down: front faces have area < 0 */
     if (area < 0) {
         WrRasterVertex t = b;
         b = c, c = t, area = -area;
@@ -358,7 +359,8 @@ static void clipped(const WrView *view, const WrClipVertex corner[3], const floa
     WrClipVertex poly[16], next[16];
     int count = 3;
     for (int i = 0; i < 3; i++) poly[i] = corner[i];
-    for (int k = 0; k < 5 && count > 0; k++) { /* Sutherland and Hodgman, one plane at a time */
+    /* Sutherland and Hodgman clipping, one plane at a time */
+    for (int k = 0; k < 5 && count > 0; k++) {
         int kept = 0;
         for (int i = 0; i < count; i++) {
             const WrClipVertex *p = &poly[i], *q = &poly[(i + 1) % count];

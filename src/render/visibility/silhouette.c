@@ -10,7 +10,7 @@ static WrVec3 sum3(const double a[3], const double b[3], double x, const double 
                      a[2] + x * b[2] + y * c[2] };
 }
 
-/* A ray passes the ball farther off than rays of the pixel lie apart. */
+/* True if the ray's distance from the bounding sphere exceeds the distance of rays within the pixel. */
 static bool misses_ball(const WrView *view, const WrRaysd *rays, double x, double y)
 {
     const double R = view->shell_d.value[0];
@@ -26,7 +26,7 @@ static bool misses_ball(const WrView *view, const WrRaysd *rays, double x, doubl
     return v3_len(foot) - slack > R * (1 + 1e-5);
 }
 
-/* All four corners lie beyond the same edge of the quad, or none meets its plane in front. */
+/* True if all four corners of the pixel are outside the same edge of the quad, or none hits its plane in front. */
 static bool misses_quad(const WrView *view, const WrRaysd *rays, const WrQuadd *quad, double x,
                         double y)
 {
@@ -74,7 +74,7 @@ static WrVec3 corner_of(const WrQuadd *quad, int k)
     return v3_mad(v3_mad(origin, eu, u / v3_dot(eu, eu)), ev, v / v3_dot(ev, ev));
 }
 
-/* Does the scene show that face? Its back is drawn where nothing is left out (E25), and hidden. */
+/* True if the scene shows that face. Back faces are drawn if nothing is culled (E25), but are hidden. */
 static bool shown(const WrTileJob *job, const WrQuadd *quad)
 {
     const WrView *view = job->view;

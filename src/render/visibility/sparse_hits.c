@@ -7,9 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-#define BEND 0.25f /* third differences of knots over first ones, at most */
-#define EVEN 0.02f /* fourth differences likewise: off by 3/128 of 8 samples times that, each way */
-#define SPARE 16   /* numbers that vectors read beyond the last */
+#define BEND 0.25f /* largest ratio of third differences of hits to first ones */
+/* largest ratio of fourth differences: the error is 3/128 of 8 samples times that, along each axis */
+#define EVEN 0.02f
+#define SPARE 16 /* padding that vector loads read past the end */
 
 void wr_sparse_hits_fini(WrSparseHits *knots)
 {
@@ -22,7 +23,7 @@ void wr_sparse_hits_fini(WrSparseHits *knots)
     *knots = (WrSparseHits){ 0 };
 }
 
-/* Memory for so many, empty. */
+/* Allocates cleared memory of that size. */
 static bool make_room(WrSparseHits *knots, int across, int down, int blocks)
 {
     const size_t all = (size_t)across * (size_t)down;
@@ -49,7 +50,7 @@ static bool make_room(WrSparseHits *knots, int across, int down, int blocks)
     return true;
 }
 
-/* ---- knots and blocks ---- */
+/* ---- hits and blocks ---- */
 
 static void solve_some(const WrSparseHitsJob *job, WrStrip *strip)
 {
@@ -73,7 +74,8 @@ static void keep_numbers(WrSparseHits *knots, size_t row, const WrStrip *strip)
             knots->numbers[k * plane + row + (size_t)strip->index[i]] = from[k][i];
 }
 
-/* By Newton's method, those that one triangle covers. Of several, threads decide which came first: such have no place. */
+/* Solves, by Newton's method, the hits that exactly one triangle covers. With several triangles the first one
+   would depend on thread timing, so these have no position. */
 static void solve_row(int y, int worker, void *ctx)
 {
     const WrSparseHitsJob *job = ctx;
@@ -98,18 +100,19 @@ static void solve_row(int y, int worker, void *ctx)
     }
 }
 
-/* From a to b; round 1: the short way round, 0: straight. Here nothing branches: rows go by vectors. */
+/* Difference from a to b; round 1: the shorter way on a circle, 0: on a line. Branch-free, so that rows
+   vectorise. */
 static inline float way(float a, float b, float round)
 {
     const float d = b - a;
     return d + round * ((float)(d < -0.5f) - (float)(d > 0.5f));
 }
 
-/* Of the block at a knot, beside evenness_both's bits: it shows one sheet. */
+/* Flag of the block at a hit, besides evenness_both's bits: it shows one sheet. */
 #define SINGLE 16
 
-/* Do four of five knots bend gently enough for a cubic to guess by, 1, and all hardly at all, 2? across: what a step the other
-   way changes. */
+/* Test of five hits: 1: four of them bend gently enough for a cubic to predict from; 2: all hardly bend. across:
+   change of a step along the other axis. */
 static inline int evenness(float k0, float k1, float k2, float k3, float k4, float across,
                            float round)
 {
@@ -121,7 +124,7 @@ static inline int evenness(float k0, float k1, float k2, float k3, float k4, flo
     return gentle + 2 * (even & (jump < 0.5f));
 }
 
-/* Of a parameter's knots along both axes: bits 0 and 1 along x, 2 and 3 along y. */
+/* Evenness of a parameter's hits along both axes: bits 0 and 1 along x, 2 and 3 along y. */
 static inline int evenness_both(const float *const row[5], size_t x, float round)
 {
     const float *r = row[0] + x, *below = row[1] + x;
@@ -131,7 +134,7 @@ static inline int evenness_both(const float *const row[5], size_t x, float round
     return along + 4 * down;
 }
 
-/* How evenly the knots right of each knot of a row lie, and those below; beyond the last it says nothing. */
+/* Evenness of the hits to the right of each hit of a row, and of those below; undefined past the last. */
 static void even_row(int y, int worker, void *ctx)
 {
     (void)worker;
@@ -153,13 +156,13 @@ static void even_row(int y, int worker, void *ctx)
     }
 }
 
-/* Are all of four knots, `step` apart, that even? */
+/* True if all of four hits, `step` apart, are that even. */
 static bool are_even(const unsigned char *even, size_t step, int bit)
 {
     return even[0] & even[step] & even[2 * step] & even[3 * step] & bit;
 }
 
-/* May the four by four knots from there on be gone by? */
+/* True if the 4 x 4 hits from there on can be interpolated. */
 static bool is_smooth(const WrSparseHits *k, int x, int y)
 {
     const size_t across = (size_t)k->across;
@@ -167,7 +170,7 @@ static bool is_smooth(const WrSparseHits *k, int x, int y)
     return are_even(even, across, 1) && are_even(even, 1, 4);
 }
 
-/* Three by three blocks from there on, each of one sheet. */
+/* True if the 3 x 3 blocks from there on each show one sheet. */
 static bool are_single(const WrSparseHits *k, int x, int y)
 {
     const size_t across = (size_t)k->across;
@@ -190,7 +193,8 @@ static unsigned char place_of(const WrSparseHits *k, int x, int y)
     return WR_SPARSE_HITS_DEPTH;
 }
 
-/* Of a row, the blocks that knots alone tell: their three by three are of one sheet, and the six by six knots about are even. */
+/* Finds the blocks of a row that are interpolated without solving: their 3 x 3 blocks show one sheet, and the 6
+   x 6 hits around are even. */
 static void find_sheet(const WrSparseHits *k, int y, unsigned char *restrict sheet)
 {
     const size_t across = (size_t)k->across;
@@ -225,7 +229,7 @@ static void place_row(int y, int worker, void *ctx)
 static void fill_key(const WrViewMesh *mesh, const WrView *view, const WrSparseHitsAsk *ask,
                      WrSparseHitsKey *key)
 {
-    memset(key, 0, sizeof *key); /* padding too: keys are compared as bytes */
+    memset(key, 0, sizeof *key); /* clears padding as well: keys are compared as bytes */
     memcpy(&key->sight, &mesh->sight, sizeof key->sight);
     memcpy(&key->shape, &mesh->shape, sizeof key->shape);
     const WrNewton *how = &ask->newton;
@@ -240,7 +244,7 @@ static void fill_key(const WrViewMesh *mesh, const WrView *view, const WrSparseH
     key->kernels = ask->kernels;
 }
 
-/* All of them. */
+/* Computes all hits. */
 static bool tie(WrSparseHitsJob *job, WrPool *pool)
 {
     WrSparseHits *knots = job->knots;

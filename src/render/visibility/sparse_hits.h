@@ -1,14 +1,18 @@
-/* sparse_hits.h - where a view sees a single sheet of a mesh (uv_raster.h), its (u,v) without a depth buffer: every eighth sample along
-   rows and columns, a knot, is solved by Newton's method, and the samples between start from the bicubic through sixteen
-   knots, a thousand times nearer than from the mesh's triangles. Of fast arithmetic alone.
+/* sparse_hits.h - grid of ray hits at every eighth sample, from which (u,v) of the samples between are
+   interpolated. Private to the renderer. Only for fast arithmetic, where a view sees a single sheet of a mesh
+   (uv_raster.h), and without depth buffer.
 
-   A block of 8 x 8 samples shows one sheet for certain if one triangle covers its knot and no edge crosses it at which the
-   number of triangles that cover a place can change: one that bounds the surface, or at which it turns to or from the
-   viewer. All other blocks go through the depth buffer, as all samples do without knots; so outlines are the same.
+   A hit at every eighth sample of rows and columns is solved by Newton's method. The samples between start
+   Newton's method from the bicubic through sixteen hits, which is a thousand times closer than the mesh's
+   triangles.
 
-   Where patches and rings are so even that the bicubic is within 1/256 of a sample, as fourth differences tell, samples are not
-   solved at all: P, Pu and Pv are its, too.
-   Layer 5, private to the renderer. */
+   A block of 8 x 8 samples certainly shows one sheet if one triangle covers its hit and no edge crosses it at
+   which the number of triangles that cover a point can change: an edge on the border of the surface, or one
+   where the surface turns towards or away from the viewer. All other blocks use the depth buffer, as all samples
+   do without sparse hits; so outlines are equal.
+
+   Where patches and rings are so even that the bicubic is within 1/256 of a sample, by their fourth differences,
+   samples are not solved at all: P, Pu and Pv are interpolated too. */
 #pragma once
 #include "render/simd/simd_kernels.h"
 #include "render/visibility/uv_raster.h"
@@ -17,16 +21,16 @@
 
 typedef struct WrPool WrPool;
 
-#define WR_KNOT 8               /* samples from knot to knot */
-#define WR_SPARSE_HITS_AROUND 2 /* knots about the samples that their blocks go by */
+#define WR_KNOT 8               /* samples from hit to hit */
+#define WR_SPARSE_HITS_AROUND 2 /* hits beyond the samples that their blocks depend on */
 
-/* All that knots depend on. */
+/* Everything that sparse hits depend on. */
 typedef struct WrSparseHitsKey {
     WrViewSight sight;
     WrShapef shape;
     WrNewton newton;
-    int mu, mv, grid_w; /* cells of the mesh; samples */
-    int first, rows;    /* samples of the grid that are wanted, from row `first` on */
+    int mu, mv, grid_w; /* mesh cells; samples per row */
+    int first, rows;    /* requested samples of the grid, from row `first` on */
     bool cull;
     const WrKernels *kernels;
 } WrSparseHitsKey;
@@ -34,26 +38,27 @@ typedef struct WrSparseHitsKey {
 /* Zero-initialise; fini frees. */
 typedef struct WrSparseHits {
     WrSparseHitsKey key;
-    bool known;            /* all of it is of that key */
-    int top, across, down; /* in knots: the first row's place, and how many there are */
-    /* [WR_KNOT_NUMBERS][down][across]: u, v, P, Pu, Pv, where one triangle covers a knot; else 0. Owned */
+    bool known;            /* all contents belong to that key */
+    int top, across, down; /* in hits: position of the first row, and the counts */
+    /* [WR_KNOT_NUMBERS][down][across]: u, v, P, Pu, Pv, where one triangle covers a hit; else 0. Owned */
     float *numbers;
-    float *u, *v;         /* the first two of those */
-    unsigned char *count; /* [down][across]: how many triangles cover it. Owned */
-    unsigned char
-        *crossed;         /* likewise, of the block right and below of each: an edge does. Owned */
-    unsigned char *even;  /* likewise: what place goes by. Owned */
-    unsigned char *place; /* likewise, of blocks: WR_SPARSE_HITS_. Owned */
-    unsigned char *shown; /* [blocks] of the mesh: a triangle of it is drawn. Owned */
+    float *u, *v;         /* the first two arrays of `numbers` */
+    unsigned char *count; /* [down][across]: number of triangles that cover the hit. Owned */
+    /* [down][across]: the block to the right and below is crossed by an edge. Owned */
+    unsigned char *crossed;
+    unsigned char *even;  /* [down][across]: evenness bits, from which `place` is derived. Owned */
+    unsigned char *place; /* [down][across] of blocks: WR_SPARSE_HITS_. Owned */
+    unsigned char *shown; /* [blocks] of the mesh: one of its triangles is drawn. Owned */
     int blocks;
-    bool closed_u, closed_v; /* the mesh's */
+    bool closed_u, closed_v; /* of the mesh */
 } WrSparseHits;
 
-/* How a block's samples are told: not at all; by the depth buffer; by knots alone; by Newton's method from between knots, plus
-   3 y + x where the three by three blocks that it goes by begin so far above and to the left. */
+/* Source of a block's samples: none; the depth buffer; interpolation without solving; Newton's method from
+   interpolated starts, plus 3 y + x, the offset up and left at which the 3 x 3 blocks for the interpolation
+   begin. */
 enum { WR_SPARSE_HITS_NOTHING, WR_SPARSE_HITS_DEPTH, WR_SPARSE_HITS_SHEET, WR_SPARSE_HITS_BETWEEN };
 
-/* How the block at a sample of the view's grid is told; it lies in the rows that were asked for. */
+/* Source of the block at a sample of the view's grid, which must be in the requested rows. */
 static inline unsigned char wr_sparse_hits_at(const WrSparseHits *knots, int x, int y)
 {
     const size_t row = (size_t)(y / WR_KNOT - knots->top);
@@ -61,28 +66,28 @@ static inline unsigned char wr_sparse_hits_at(const WrSparseHits *knots, int x, 
         ->place[row * (size_t)knots->across + (size_t)(x / WR_KNOT + WR_SPARSE_HITS_AROUND)];
 }
 
-/* The neighbours of a row from sample (x, y) of the grid on, all told by knots alone, from place `at` of a strip on: u, v, P, Pu,
-   Pv, x and y. */
+/* Interpolates a run of a row from sample (x, y) of the grid on, all in blocks without solving, to position `at`
+   of the strip: u, v, P, Pu, Pv, x and y. */
 void wr_sparse_hits_row(const WrSparseHits *knots, const WrWide *wide, int x, int y, int count,
                         int at, WrStrip *strip);
 
-/* What knots are solved with. */
+/* Inputs for computing the hits. */
 typedef struct WrSparseHitsAsk {
     const WrKernels *kernels;
     const WrWide *wide;
-    const WrWideSheet *sheet; /* NULL: a surface that there are no vectors of */
+    const WrWideSheet *sheet; /* NULL: a surface without SIMD kernels */
     WrNewton newton;
-    int first, rows; /* samples of the grid that are wanted: tiles lie in these rows */
+    int first, rows; /* requested samples of the grid: tiles are within these rows */
 } WrSparseHitsAsk;
 
 void wr_sparse_hits_fini(WrSparseHits *knots);
-/* Make or keep those of a mesh that was prepared for the view. False: there are none, for want of memory, because the mesh
-   reaches behind the eye, or because it was cancelled (pool.h). */
+/* Computes or keeps the hits of a mesh that was prepared for the view. False: there are none, because memory is
+   short, the mesh reaches behind the eye, or the work was cancelled (pool.h). */
 bool wr_sparse_hits_bring(WrSparseHits *knots, const WrViewMesh *mesh, const WrView *view,
                           const WrSparseHitsAsk *ask, WrPool *pool);
-/* Does a rectangle, 1/256 samples, meet a block that goes through the depth buffer? */
+/* True if a rectangle, 1/256 samples, overlaps a block that uses the depth buffer. */
 bool wr_sparse_hits_deep(const WrSparseHits *knots, int32_t x0, int32_t y0, int32_t x1, int32_t y1);
-/* A tile of the view's own grid goes by knots: fills `knots`, `untold`, `deep`. */
+/* Prepares a tile of the view's own grid to use sparse hits: fills `knots`, `untold`, `deep`. */
 void wr_sparse_hits_tell(const WrSparseHits *knots, WrDepthTile *tile);
-/* Guesses for its samples between knots: u, v and a depth of 0, once triangles are drawn. */
+/* Writes start values for interpolated samples, u, v and a depth of 0, after the triangles are drawn. */
 void wr_sparse_hits_fill(const WrSparseHits *knots, const WrWide *wide, WrDepthTile *tile);

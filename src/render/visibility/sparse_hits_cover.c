@@ -1,4 +1,5 @@
-/* What triangles cover knots, and which blocks are crossed by edges at which their number can change. */
+/* Coverage of sparse hits by triangles, and of blocks by edges at which the number of covering triangles can
+   change. */
 #include "render/visibility/sparse_hits_internal.h"
 
 #include <stdbool.h>
@@ -22,7 +23,7 @@ static void cross_rectangle(WrSparseHits *knots, int32_t x0, int32_t y0, int32_t
                              __ATOMIC_RELAXED);
 }
 
-/* The edge between two vertices. */
+/* Marks the blocks that the edge between two vertices crosses. */
 static void cross_edge(const WrSparseHitsJob *job, size_t a, size_t b)
 {
     const int32_t *x = job->mesh->sx, *y = job->mesh->sy;
@@ -30,7 +31,7 @@ static void cross_edge(const WrSparseHitsJob *job, size_t a, size_t b)
                     most(y[a], y[b]));
 }
 
-/* How a triangle is drawn: 0: not at all; its side towards the viewer else. */
+/* Orientation of a drawn triangle: its side towards the viewer; 0: it is not drawn. */
 static int side_of(const WrSparseHitsJob *job, size_t a, size_t b, size_t c)
 {
     const int32_t *x = job->mesh->sx, *y = job->mesh->sy;
@@ -40,7 +41,7 @@ static int side_of(const WrSparseHitsJob *job, size_t a, size_t b, size_t c)
     return area > 0 ? 1 : -1;
 }
 
-/* A cell's corners, round it: i, j; i + 1, j; both + 1; i, j + 1. */
+/* A cell's corners in order: i, j; i + 1, j; both + 1; i, j + 1. */
 typedef struct Cell {
     int64_t x[4], y[4]; /* 1/256 samples */
     int i, j;
@@ -56,7 +57,7 @@ static Cell cell_at(const WrViewMesh *mesh, int i, int j)
                    j };
 }
 
-/* An edge, and how far right of it a place is, on whole numbers (raster.c). */
+/* An edge function in whole numbers, as in raster.c. */
 typedef struct Edge {
     int64_t dx, dy, at;
 } Edge;
@@ -72,14 +73,16 @@ static inline Edge turned(Edge e)
     return (Edge){ -e.dx, -e.dy, -e.at };
 }
 
-/* Is the place on the inner side, or on the edge itself where that is a top or left one? side: the triangle's. */
+/* True if the point is on the inner side, or on the edge itself if that is a top or left one. side: of the
+   triangle. */
 static inline bool within(Edge e, int side)
 {
     if (side < 0) e = turned(e);
     return e.at > 0 || (e.at == 0 && (e.dy < 0 || (e.dy == 0 && e.dx < 0)));
 }
 
-/* One more triangle covers a knot; the corners' shares of it. More than two are as good as two. */
+/* Counts a further triangle that covers a hit and stores its interpolated u, v. Counts above two are equivalent
+   to two. */
 static void cover_knot(const WrSparseHitsJob *job, size_t at, const Cell *cell, const int of[3],
                        const int64_t share[3])
 {
@@ -116,7 +119,7 @@ static void meet_knot(const WrSparseHitsJob *job, const Cell *cell, int one, int
         cover_knot(job, at, cell, second, (const int64_t[3]){ c.at, d.at, across.at });
 }
 
-/* The first knot at x or beyond, of vertices before the eye and near the picture. */
+/* The first hit at x or beyond, for vertices in front of the eye and near the picture. */
 static inline int knot_from(int64_t x)
 {
     return (int)((uint32_t)(x + (1 << 28) - 129) / WR_KNOT_STEP) + 1 - (1 << 28) / WR_KNOT_STEP;
@@ -132,7 +135,7 @@ static inline int64_t upper(int64_t a, int64_t b)
     return a > b ? a : b;
 }
 
-/* Knots from..to - 1 between the least and the largest of four places. */
+/* Hits from..to - 1 between the least and the largest of four positions. */
 static inline void knots_between(const int64_t at[4], int from, int end, int *first, int *to)
 {
     const int64_t low = lower(lower(at[0], at[1]), lower(at[2], at[3]));
@@ -152,19 +155,19 @@ static void cover_cell(const WrSparseHitsJob *job, int i, int j, int one, int tw
         for (int kx = x0; kx < x1; kx++) meet_knot(job, &cell, one, two, kx, ky);
 }
 
-/* The sides of a row's triangles. */
+/* Orientations of a row's triangles. */
 typedef struct Sides {
     signed char one[WR_MESH_MOST], two[WR_MESH_MOST];
 } Sides;
 
-/* The mesh's block there shows something. */
+/* Marks the mesh's block as visible. */
 static void note_shown(const WrSparseHitsJob *job, int i, int j)
 {
     const int block = j / WR_MESH_BLOCK * job->mesh->blocks_u + i / WR_MESH_BLOCK;
     __atomic_store_n(&job->knots->shown[block], 1, __ATOMIC_RELAXED);
 }
 
-/* A cell with a vertex beyond the guard band may show anything where it lies: 0 and 0. */
+/* A cell with a vertex outside the guard band has unknown orientations: 0 and 0. */
 static void find_sides(WrSparseHitsJob *job, int j, Sides *sides)
 {
     const WrViewMesh *mesh = job->mesh;
@@ -206,7 +209,7 @@ static bool same_vertex(const WrViewMesh *mesh, size_t a, size_t b)
            mesh->sx[a] == mesh->sx[b] && mesh->sy[a] == mesh->sy[b];
 }
 
-/* The edges of a row within itself, and where u begins and ends. */
+/* Edges within a row, and the ends of u. */
 static void cross_row(const WrSparseHitsJob *job, int j, const Sides *sides)
 {
     const WrViewMesh *mesh = job->mesh;
@@ -223,7 +226,7 @@ static void cross_row(const WrSparseHitsJob *job, int j, const Sides *sides)
     if (!joined && sides->one[last]) cross_edge(job, at + end, low + end);
 }
 
-/* Those between it and the row above; NULL: v begins or ends there. */
+/* Edges between the row and the one above; NULL: an end of v. */
 static void cross_between(const WrSparseHitsJob *job, int j, const signed char *above,
                           const signed char *below)
 {
@@ -232,7 +235,7 @@ static void cross_between(const WrSparseHitsJob *job, int j, const signed char *
         if ((above ? above[i] : 0) != (below ? below[i] : 0)) cross_edge(job, at + i, at + i + 1);
 }
 
-/* Where v begins and ends. */
+/* Ends of v. */
 static void cross_ends(WrSparseHitsJob *job, const Sides *first, Sides *other)
 {
     const WrViewMesh *mesh = job->mesh;

@@ -1,11 +1,11 @@
-/* sparse_hits_internal.h - what the files of sparse_hits.h share.
-   Layer 5, private to sparse_hits.c and its brothers. */
+/* sparse_hits_internal.h - working state shared by the files of sparse_hits.h.
+   Private to the sparse_hits*.c files. */
 #pragma once
 #include "render/visibility/sparse_hits.h"
 
 #include <stdint.h>
 
-#define WR_KNOT_STEP (WR_KNOT * 256) /* 1/256 samples from knot to knot */
+#define WR_KNOT_STEP (WR_KNOT * 256) /* 1/256 samples from hit to hit */
 
 typedef struct WrSparseHitsJob {
     WrSparseHits *knots;
@@ -17,10 +17,10 @@ typedef struct WrSparseHitsJob {
     float step_u;         /* from vertex to vertex */
     WrStrip *strips;      /* [threads] */
     unsigned char *sheet; /* [threads][across] */
-    int behind;           /* a vertex has no place */
+    int behind;           /* a vertex is behind the near plane */
 } WrSparseHitsJob;
 
-/* What triangles cover each knot, and which blocks their edges cross, of a row of the mesh's blocks; ctx: WrSparseHitsJob. */
+/* Coverage of hits and crossed blocks, for a row of the mesh's blocks; ctx: WrSparseHitsJob. */
 void wr_sparse_hits_meet_rows(int block, int worker, void *ctx);
 
 static inline int32_t wr_sparse_hits_floor(int32_t x)
@@ -33,9 +33,9 @@ static inline int wr_sparse_hits_clamped(int x, int low, int high)
     return x < low ? low : x > high ? high : x;
 }
 
-/* The blocks that a rectangle of 1/256 samples meets, one sample more on each side. */
+/* The blocks that a rectangle of 1/256 samples overlaps, enlarged by one sample on each side. */
 typedef struct WrSparseHitsBlocks {
-    int x0, y0, x1, y1; /* x0 <= x <= x1, of the knots' own rows */
+    int x0, y0, x1, y1; /* x0 <= x <= x1, in rows of the hits' grid */
 } WrSparseHitsBlocks;
 
 static inline WrSparseHitsBlocks wr_sparse_hits_blocks(const WrSparseHits *knots, int32_t x0,

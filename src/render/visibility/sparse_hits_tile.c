@@ -1,4 +1,4 @@
-/* What a tile of samples has of knots. */
+/* Use of sparse hits in a tile of samples. */
 #include "render/visibility/sparse_hits_internal.h"
 
 #include <float.h>
@@ -15,7 +15,7 @@ bool wr_sparse_hits_deep(const WrSparseHits *knots, int32_t x0, int32_t y0, int3
     return false;
 }
 
-/* A whole block's u, v. */
+/* u, v of a whole block. */
 static void fill_block(const WrSparseHits *k, const WrWide *wide, int x, int y, int shift, float *u,
                        float *v, int pitch)
 {
@@ -25,7 +25,7 @@ static void fill_block(const WrSparseHits *k, const WrWide *wide, int x, int y, 
     wide->between(k->v + at, &how, k->closed_v, v);
 }
 
-/* What of a block lies in a tile, from the block's knot on; `to`: that knot's place. */
+/* The part of a block inside a tile, relative to the block's hit; `to`: position of that hit. */
 typedef struct Part {
     int x0, y0, x1, y1;
     ptrdiff_t to;
@@ -47,7 +47,7 @@ static void put_close(const Part *part, float close, WrDepthTile *tile)
             tile->close[part->to + (ptrdiff_t)y * tile->w + x] = close;
 }
 
-/* What triangles have left of a block that goes without. */
+/* Removes the triangles' samples from a block that is interpolated. */
 static void clear_part(const WrSparseHits *k, int x, int y, WrDepthTile *tile)
 {
     const Part part = part_of(k, x, y, tile);

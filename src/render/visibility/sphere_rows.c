@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-#define OPPOSITE -0.9 /* l.v nearer to -1 does not tell |l + v| to 1e-6 in single precision */
+/* with l.v closer to -1, |l + v| is not accurate to 1e-6 in single precision */
+#define OPPOSITE -0.9
 
 static WrForm plus(WrForm a, WrForm b, double by)
 {
@@ -12,7 +13,7 @@ static WrForm plus(WrForm a, WrForm b, double by)
     return a;
 }
 
-/* Of two that are linear. */
+/* Product of two linear forms. */
 static WrForm times(WrForm a, WrForm b)
 {
     const double *p = a.c, *q = b.c;
@@ -20,7 +21,7 @@ static WrForm times(WrForm a, WrForm b)
                        p[1] * q[1], p[1] * q[2] + p[2] * q[1], p[2] * q[2] } };
 }
 
-/* Of linear ones. */
+/* Dot product of linear forms. */
 static WrForm dot(const WrForm a[3], const WrForm b[3])
 {
     const WrForm none = { { 0 } };
@@ -34,24 +35,25 @@ static double product(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The rays in radii: o and d, linear in the place. Is all of the sphere before the near plane? */
+/* Rays in units of the radius: o and d, linear in the position. False if part of the sphere is in front of the
+   near plane. */
 static bool set_rays(const WrRays *rays, const WrShapef *shape, WrForm o[3], WrForm d[3])
 {
     const double by = 1 / (double)shape->value[0], least = (double)rays->s_min;
-    double q[3][3], e[3][3]; /* of 1, x, y */
+    double q[3][3], e[3][3]; /* coefficients of 1, x, y */
     for (int i = 0; i < 3; i++) {
         q[0][i] = by * (double)rays->q0[i], e[0][i] = by * (double)rays->d0[i];
         q[1][i] = by * (double)rays->qx[i], e[1][i] = by * (double)rays->dx[i];
         q[2][i] = by * (double)rays->qy[i], e[2][i] = by * (double)rays->dy[i];
     }
-    /* Across the picture's plane s is the same for all that lies in it. */
+    /* With parallel rays s is constant in the picture plane. */
     const double across[3] = { q[1][1] * q[2][2] - q[1][2] * q[2][1],
                                q[1][2] * q[2][0] - q[1][0] * q[2][2],
                                q[1][0] * q[2][1] - q[1][1] * q[2][0] };
     const double size = sqrt(product(across, across)), along = product(e[0], across);
     const double nearest = -(product(q[0], across) / along + fabs(size / along));
     if (!(nearest > least + 1e-5 * (1 + fabs(least)))) return false;
-    /* Through the eye all of them go: q - k d. */
+    /* With perspective all rays pass through the eye: q - k d. */
     const double k = rays->perspective ? product(q[1], e[1]) / product(e[1], e[1]) : 0;
     for (int i = 0; i < 3; i++) {
         o[i] = (WrForm){ { q[0][i] - k * e[0][i], q[1][i], q[2][i] } };
@@ -71,7 +73,7 @@ static WrSlant slant_of(const WrForm o[3], const WrForm d[3], const WrForm *dd, 
     return (WrSlant){ plus(along, times(*od, across), -1), across };
 }
 
-/* The least l.v of all that is seen: v is no farther from the ball's own direction than its outline. */
+/* Smallest l.v of all visible points: v deviates from the direction to the centre at most as far as the outline. */
 static double least_facing(const WrForm o[3], const WrForm d[3], const double l[3], bool near)
 {
     double a[3];
@@ -109,7 +111,7 @@ void wr_sphere_rows_make(WrSphereRows *ball, const WrRays *rays, const WrShapef 
     }
 }
 
-/* Up to the next whole number, 0 .. most. */
+/* Rounds up to a whole number, 0 .. most. */
 static int whole_above(double x, int most)
 {
     if (!(x > 0)) return 0;

@@ -8,7 +8,7 @@
 #include <float.h>
 #include <string.h>
 
-#define CHUNK 4096 /* corners that a task projects */
+#define CHUNK 4096 /* corners projected by one task */
 
 void wr_view_triangles_fini(WrViewTriangles *to)
 {
@@ -86,8 +86,8 @@ static void make_cone(int block, int worker, void *ctx)
     to->cones[block] = cone;
 }
 
-/* Do all faces of the block look away from the eye, for certain? With the axis at b from the way to the eye and
-   normals within a of it, n . (eye - P) <= |w| cos(b - a) + radius. */
+/* True if all faces of the block certainly face away from the eye. With the axis at angle b from the direction
+   to the eye and normals within a of it, n . (eye - P) <= |w| cos(b - a) + radius. */
 static bool looks_away(const WrTriangleCone *cone, const WrView *view)
 {
     if (cone->cosine < 0) return false;
@@ -100,7 +100,8 @@ static bool looks_away(const WrTriangleCone *cone, const WrView *view)
     }
     const double cos_b = v3_dot(cone->axis, w) / (length > 0 ? length : 1);
     const double sin_b = sqrt(fmax(0, 1 - cos_b * cos_b));
-    if (cos_b > cone->cosine) return false; /* the axis is within the cone's angle of the way */
+    /* the axis is within the cone's angle of that direction */
+    if (cos_b > cone->cosine) return false;
     const double most = cos_b * cone->cosine + sin_b * cone->sine;
     return most * length + radius < -1e-6 * length;
 }
@@ -222,7 +223,7 @@ static void raster_out(const WrViewTriangles *from, const WrView *view, int32_t 
     wr_raster_clipped_marked(view, corner, (float)i, tile);
 }
 
-/* Do all three lie beyond the same side? */
+/* True if all three are outside the same side. */
 static bool beyond(int32_t a, int32_t b, int32_t c, int64_t from, int64_t to)
 {
     return (a < from && b < from && c < from) || (a > to && b > to && c > to);

@@ -29,7 +29,7 @@ void wr_view_mesh_fini(WrViewMesh *mesh)
     *mesh = (WrViewMesh){ 0 };
 }
 
-/* Samples that one kernel unit of length may cover, at the nearest point of the object. */
+/* Samples per kernel unit of length at the nearest point of the object. */
 static double samples_per_unit(const WrView *view, const WrShape *shape)
 {
     double per = view->grid_h / (2.0 * view->half_h);
@@ -41,8 +41,8 @@ static double samples_per_unit(const WrView *view, const WrShape *shape)
     return per / (depth > least ? depth : least);
 }
 
-/* The smallest of these that is enough: a few fixed sizes, so that a moving view seldom changes them. Not
-   fewer than 16, of which a round outline keeps 0.97 of its area however small it is (HC86). */
+/* The smallest sufficient of a few fixed sizes, so that a moving view seldom changes them. At least 16, for
+   which a round outline keeps 0.97 of its area however small it is (HC86). */
 static int round_cells(double want, int most)
 {
     static const int sizes[] = { 16,  24,  32,  48,  64,   96,   128, 192,
@@ -55,13 +55,13 @@ static int round_cells(double want, int most)
 
 #define WR_MESH_CORNERS 64
 
-/* Largest |Puu|, |Puv|, |Pvv| over the surface (sampled), in object units; kept while the shape stays. */
+/* Largest |Puu|, |Puv|, |Pvv| over the surface (sampled), in object units; cached while the shape is unchanged. */
 static void measure_bend(WrViewMesh *mesh, const WrShape *shape)
 {
     if (mesh->measured && memcmp(&mesh->source, shape, sizeof *shape) == 0) return;
     mesh->uu = mesh->uv = mesh->vv = 0;
-    const int across = 16,
-              up = shape->data ? 128 : 16; /* a curve of the user's own may bend in short pieces */
+    /* a user-defined curve may bend within short pieces */
+    const int across = 16, up = shape->data ? 128 : 16;
     for (int j = 0; j <= up; j++)
         for (int i = 0; i <= across; i++) {
             WrSurfacePoint at;
@@ -74,16 +74,17 @@ static void measure_bend(WrViewMesh *mesh, const WrShape *shape)
     mesh->measured = true;
 }
 
-/* A cell's chord is off by at most (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 (Taylor). */
+/* The error of a cell's chord is at most (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 (Taylor). */
 static void choose_cells(const WrViewMesh *mesh, const WrShape *shape, const WrView *view,
                          int finer, int *mu, int *mv)
 {
     const double tolerance = 0.25 * view->samples; /* a quarter of a pixel, in samples */
     double k = view->scale * samples_per_unit(view, shape) / (8.0 * tolerance);
-    const int most = WR_MESH_MOST; /* a ribbon of sixty turns takes 1500 along it (HC164) ... */
+    const int most = WR_MESH_MOST; /* a ribbon of sixty turns needs 1500 along it (HC164) ... */
     double u = fmin(sqrt(2.0 * k * (mesh->uu + mesh->uv)), most);
     double v = fmin(sqrt(2.0 * k * (mesh->vv + mesh->uv)), most);
-    const double over = fmax(1.0, sqrt(u * v / (512.0 * 512.0))); /* ... but not both ways */
+    /* ... but not in both directions */
+    const double over = fmax(1.0, sqrt(u * v / (512.0 * 512.0)));
     *mu = round_cells(u / over, most);
     *mv = round_cells(v / over, most);
     *mu = round_cells(scalbn(*mu, finer), most);
@@ -114,7 +115,7 @@ static void make_row(int j, int worker, void *ctx)
     }
 }
 
-/* Rows lie evenly; the one next to a corner lies on it, else cells would cut it off. */
+/* Rows are evenly spaced, except that the row next to a corner moves onto it; else cells would cut it off. */
 static void place_rows(WrViewMesh *mesh, const WrShape *shape)
 {
     double corner[WR_MESH_CORNERS];
@@ -123,7 +124,7 @@ static void place_rows(WrViewMesh *mesh, const WrShape *shape)
     for (int j = 0; j <= mesh->mv; j++) mesh->v[j] = (float)j / (float)mesh->mv;
     for (int k = 0, last = 0; k < corners; k++) {
         int j = (int)(corner[k] * mesh->mv + 0.5);
-        j = j > last ? j : last + 1; /* two corners, one row: the next one moves */
+        j = j > last ? j : last + 1; /* two corners share one row: the next row moves */
         if (j >= mesh->mv) break;
         mesh->v[j] = (float)corner[k];
         for (int i = j + 1; i < mesh->mv && mesh->v[i] <= mesh->v[j]; i++) mesh->v[i] = mesh->v[j];
@@ -163,7 +164,7 @@ static void bound_row(int by, int worker, void *ctx)
                 b.y0 = mesh->sy[at] < b.y0 ? mesh->sy[at] : b.y0;
                 b.y1 = mesh->sy[at] > b.y1 ? mesh->sy[at] : b.y1;
             }
-        /* Of a block wholly behind nothing is left: no tile meets its box. */
+        /* A block entirely behind the near plane is empty: no tile overlaps its box. */
         b.clipped = behind > 0 && behind < (WR_MESH_BLOCK + 1) * (WR_MESH_BLOCK + 1);
         mesh->blocks[by * mesh->blocks_u + bx] = b;
     }
@@ -269,19 +270,19 @@ static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int
     wr_raster_clipped(view, corner, tile);
 }
 
-/* A block of cells, as a tile of samples is drawn. */
+/* A block of cells while a tile of samples is drawn. */
 typedef struct Block {
     const WrViewMesh *mesh;
     const WrView *view;
     const WrSparseHits *knots; /* or NULL */
     WrRasterBounds bounds;     /* of the tile */
-    bool culls; /* what looks away is known before vertices are brought to the tile's grid */
+    bool culls; /* back faces are detected before vertices are converted to the tile's grid */
     bool mirrored;
-    float u[WR_MESH_BLOCK + 1]; /* of its vertices */
+    float u[WR_MESH_BLOCK + 1]; /* of the vertices */
     int i0;
 } Block;
 
-/* Beyond which sides of the tile the vertices of a row lie, as bits; 0 where they have no place. */
+/* Bits of the sides of the tile that each vertex of a row is outside of; 0 if it has no position. */
 static void find_sides(const Block *block, size_t at, unsigned char sides[WR_MESH_BLOCK + 1])
 {
     const WrViewMesh *mesh = block->mesh;
@@ -301,7 +302,7 @@ static WrRasterVertex vertex_at(const Block *block, size_t at, int i, int j)
                              mesh->v[j] };
 }
 
-/* Does the triangle of these vertices look away, or is it a line? As wr_raster_triangle decides it. */
+/* True if the triangle faces away or is degenerate, with the same decision as wr_raster_triangle. */
 static bool looks_away(const Block *block, size_t a, size_t b, size_t c)
 {
     const int32_t *x = block->mesh->sx, *y = block->mesh->sy;
@@ -310,7 +311,7 @@ static bool looks_away(const Block *block, size_t a, size_t b, size_t c)
     return block->culls && (area == 0 || (area > 0) != block->mirrored);
 }
 
-/* A cell between four vertices before the eye and near the picture. */
+/* Draws a cell whose four vertices are in front of the eye and near the picture. */
 static void raster_whole(const Block *block, size_t at, int i, int j, WrDepthTile *tile)
 {
     const size_t low = at + (size_t)block->mesh->mu + 1;
@@ -339,7 +340,7 @@ static void raster_cell(const Block *block, size_t at, int i, int j, WrDepthTile
     raster_clipped(block->mesh, block->view, two, tile);
 }
 
-/* Is the cell between four vertices told by knots? */
+/* True if sparse hits cover the cell between four vertices. */
 static bool is_tied(const Block *block, size_t at)
 {
     if (!block->knots) return false;
@@ -353,7 +354,7 @@ static bool is_tied(const Block *block, size_t at)
     return !wr_sparse_hits_deep(block->knots, x0, y0, x1, y1);
 }
 
-/* What of block b may meet the tile: cells whose corners do not all lie beyond the same side of it. */
+/* Draws the cells of block b that may overlap the tile: those whose corners are not all outside the same side. */
 static void raster_block(Block *block, int b, WrDepthTile *tile)
 {
     const WrViewMesh *mesh = block->mesh;
@@ -373,7 +374,7 @@ static void raster_block(Block *block, int b, WrDepthTile *tile)
     }
 }
 
-/* Does a block of cells meet what knots do not tell? */
+/* True if a block of cells overlaps samples that sparse hits do not cover. */
 static bool is_deep(const WrSparseHits *knots, int index, const WrViewMeshBlock *b)
 {
     return !knots ||

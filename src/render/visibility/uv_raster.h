@@ -1,7 +1,6 @@
-/* uv_raster.h - visibility of curved surfaces: a grid of P(u,v), fine enough for the picture at hand, is
-   projected, clipped and rasterised into depth, u, v; Newton's method (kern.h, polish) then makes the
-   parameters exact.
-   Layer 5, private to the renderer. */
+/* uv_raster.h - visibility of curved surfaces by rasterising (u,v) from a view-dependent mesh. Private to the
+   renderer. A grid of P(u,v), fine enough for the picture, is projected, clipped and rasterised into depth, u,
+   v. Newton's method (kern.h, polish) then refines the parameters. */
 #pragma once
 #include "render/visibility/view.h"
 
@@ -12,21 +11,22 @@ typedef struct WrSparseHits WrSparseHits;
 typedef struct WrPool WrPool;
 
 #define WR_MESH_BLOCK 8   /* cells along a block's side */
-#define WR_MESH_MOST 2048 /* cells along u, and along v, at most */
+#define WR_MESH_MOST 2048 /* maximum cells along u, and along v */
 
 typedef struct WrViewMeshBlock { /* bounds of a block's vertices, 1/256 samples */
     int32_t x0, y0, x1, y1;
-    bool clipped; /* some vertex is behind the near plane, but not all are: bounds say nothing */
+    bool clipped; /* some vertices are behind the near plane, but not all: the bounds are unknown */
 } WrViewMeshBlock;
 
-/* Of a projected vertex. */
+/* State of a projected vertex. */
 typedef enum WrVertexPlace {
     WR_VERTEX_IN,
-    WR_VERTEX_OUT, /* beyond the guard band: its triangles need clipping, its place is a bound alone */
-    WR_VERTEX_BEHIND /* not before the near plane: it has no place */
+    /* outside the guard band: its triangles need clipping, its position is only a bound */
+    WR_VERTEX_OUT,
+    WR_VERTEX_BEHIND /* not beyond the near plane: it has no position */
 } WrVertexPlace;
 
-/* All that projecting asks of a view. */
+/* All parts of a view that projection depends on. */
 typedef struct WrViewSight {
     WrVec3 eye, right, up, forward;
     double half_w, half_h, near, grid_w, grid_h, perspective;
@@ -36,53 +36,56 @@ WrViewSight wr_view_sight(const WrView *view);
 
 /* Zero-initialise; fini frees. */
 typedef struct WrViewMesh {
-    WrShape source; /* what the second derivatives were measured on */
+    WrShape source; /* the shape whose second derivatives were measured */
     bool measured;
     double uu, uv, vv;  /* largest |Puu|, |Puv|, |Pvv| */
-    WrSurfaceKind kind; /* what the points were made for */
+    WrSurfaceKind kind; /* surface of the points */
     WrShapef shape;
-    int mu, mv; /* cells along u and v; 0: nothing yet */
-    float *v; /* [mv + 1] of the rows, owned: even, but for those that corners draw to themselves */
+    int mu, mv; /* cells along u and v; 0: not built */
+    float *v;   /* [mv + 1] of the rows, owned: evenly spaced, except those moved to corners */
     float *x, *y, *z;        /* [(mv + 1)(mu + 1)] kernel units, owned */
-    WrViewSight sight;       /* what the rest was projected for */
+    WrViewSight sight;       /* the view of the projection that follows */
     int32_t *sx, *sy;        /* projected, 1/256 samples */
     float *close;            /* 1/depth (perspective) or -depth: larger is nearer */
     unsigned char *out;      /* WrVertexPlace */
     WrViewMeshBlock *blocks; /* [blocks_v][blocks_u] */
     int blocks_u, blocks_v;
-    WrNewton newton; /* how its guesses are made exact */
+    WrNewton newton; /* parameters of Newton's method for its start values */
 } WrViewMesh;
 
 /* A rectangle of samples: nearest depth so far and the parameters there. */
 typedef struct WrDepthTile {
     int x, y, w, h; /* samples; w h <= capacity */
-    float *close;   /* [h][w]; -FLT_MAX where nothing is */
+    float *close;   /* [h][w]; -FLT_MAX where empty */
     float *u, *v;
-    /* The grid's samples a pixel; 0: the view's K. Vertices are brought to it from K's, rounded. */
+    /* Samples a pixel of the grid; 0: the view's K. Vertices are converted to it from K's grid, rounded. */
     int k;
-    const signed char *shift;  /* [h][w][2], x and y in 1/256 samples; NULL: none is shifted */
-    const WrKernels *kernels;  /* that cover it */
-    const WrSparseHits *knots; /* that tell some of its samples (sparse_hits.h); or NULL */
-    bool untold, deep;         /* ... and not others; of those some go through the depth buffer */
+    const signed char *shift; /* [h][w][2], x and y in 1/256 samples; NULL: no offsets */
+    const WrKernels *kernels; /* kernels that cover it */
+    /* sparse hits that provide some of its samples (sparse_hits.h); or NULL */
+    const WrSparseHits *knots;
+    /* untold: they do not provide all; deep: some of the others need the depth buffer */
+    bool untold, deep;
 } WrDepthTile;
 
-/* What the scene asks of the mesh. */
+/* Mesh settings of a scene. */
 typedef struct WrMeshAsk {
-    int mesh;   /* WrDials: 2^mesh times as fine */
-    int newton; /* steps; or -1: at most two, or three from a coarse mesh: Newton doubles the digits at each, and ends
-                   earlier where the tangents stand still */
-    double texels;           /* 0, or the step that is short enough; of a table of ... */
-    double table_w, table_h; /* ... so many texels along u and v, replication included */
+    int mesh; /* WrDials: 2^mesh times as fine */
+    /* steps; or -1: at most two, or three from a coarse mesh (Newton's method doubles the digits at each step),
+       fewer if the tangents no longer change */
+    int newton;
+    double texels;           /* 0, or the largest step in texels, of a table of ... */
+    double table_w, table_h; /* ... this many texels along u and v, replication included */
 } WrMeshAsk;
 
-/* Make or keep the points and what they are projected to in this view. */
+/* Builds the points and projects them for this view, or keeps the last ones. */
 void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view,
                           const WrMeshAsk *ask, const WrKernels *kernels, WrPool *pool);
 void wr_view_mesh_fini(WrViewMesh *mesh);
-/* Rasterise what falls on the tile. Watertight: neighbouring cells share edges in whole numbers with a
-   top-left rule (HC85); of equal depths the first cell stays. Only what the tile's knots do not tell. */
+/* Rasterises the mesh on the tile. Watertight: neighbouring cells share edges in whole numbers with a top-left
+   rule (HC85); at equal depths the first cell stays. Skips samples that the tile's sparse hits provide. */
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile);
-/* Samples of the view's grid, x0, y0, x1, y1, beyond which nothing of the mesh that meets the tile lies; false where
-   nothing does. */
+/* Box of grid samples, x0, y0, x1, y1, that contains everything of the mesh on the tile; false if there is
+   nothing. */
 bool wr_view_mesh_box(const WrViewMesh *mesh, const WrView *view, const WrDepthTile *tile,
                       double box[4]);

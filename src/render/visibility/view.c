@@ -36,10 +36,11 @@ static void narrow_rays(const WrRaysd *in, WrRays *out)
     out->perspective = in->perspective;
 }
 
-/* An eye nearer than that, in radii: rays start at it and not at the object's centre, so that what lies a
-   hair before the eye is as exact as its distance. */
+/* If the eye is nearer than this, in radii, rays start at it instead of the object's centre, so that points very
+   close to the eye are as exact as their distance. */
 #define CLOSE 1.5
-#define LOW 1e-4 /* nor above a plane without end by less than this part of the way to its centre */
+/* and if its height above an infinite plane is below this part of the distance to the plane's centre */
+#define LOW 1e-4
 
 /* Rays as affine functions of the sample's grid position (i, j), whose centre is (i + 1/2, j + 1/2). */
 static void make_rays(const WrView *view, WrVec3 centre, double grid_w, double grid_h,
@@ -47,10 +48,10 @@ static void make_rays(const WrView *view, WrVec3 centre, double grid_w, double g
 {
     const WrVec3 ahead = v3_sub(centre, view->eye);
     const double away = v3_len(ahead);
-    const bool low =
-        view->endless && fabs(view->eye.z) < LOW * away; /* what is near is not ahead */
+    /* then the near part is not straight ahead */
+    const bool low = view->endless && fabs(view->eye.z) < LOW * away;
     const bool close = away < CLOSE * view->radius || low;
-    double depth = close ? 0.0 : v3_dot(ahead, view->forward); /* of the reference plane */
+    double depth = close ? 0.0 : v3_dot(ahead, view->forward); /* depth of the reference plane */
     WrVec3 middle = v3_mad(view->eye, view->ahead, depth);
     WrVec3 x = v3_scale(view->across, 2.0 * view->half_w / grid_w);
     WrVec3 y = v3_scale(view->above, -2.0 * view->half_h / grid_h);
@@ -71,7 +72,7 @@ static void make_rays(const WrView *view, WrVec3 centre, double grid_w, double g
     store(rays->toward, v3_neg(view->ahead));
 }
 
-/* What light looks at of the rays: from where, and against which direction. */
+/* Eye and view direction for lighting. */
 static void make_lit(WrView *view, const WrPlacement *place)
 {
     WrRaysd *rays = &view->lit.rays_d;
@@ -103,9 +104,9 @@ const WrViewGrid *wr_view_grid(const WrView *view, int k)
     return &view->grids[i];
 }
 
-/* ---- where the object lies in the picture ----
+/* ---- bounds of the object in the picture ----
 
-   x/depth and y/depth, or x and y, orthographic, over camera axes. */
+   Intervals of x/depth and y/depth, or, orthographic, of x and y, along the camera axes. */
 
 typedef struct Extent {
     double x0, y0, x1, y1;
@@ -113,7 +114,8 @@ typedef struct Extent {
 
 static const Extent everything = { -INFINITY, -INFINITY, INFINITY, INFINITY };
 
-/* Of x/z on the ball of radius r whose centre is at (x, z), z > r: where its tangents through the eye lie. */
+/* Range of x/z on the sphere of radius r with its centre at (x, z), z > r: the slopes of its tangents through
+   the eye. */
 static void tangents(double x, double z, double r, double *least, double *most)
 {
     const double half = r * sqrt(fmax(0, x * x + (z - r) * (z + r))), dd = (z - r) * (z + r);
@@ -134,7 +136,7 @@ static Extent extent_of_ball(const WrView *view, WrVec3 centre, double r)
     return e;
 }
 
-/* Of planar faces: of all their corners, if those lie before the eye. */
+/* Bounds of planar faces: of all their corners, if those are in front of the eye. */
 static Extent extent_of_quads(const WrView *view)
 {
     Extent e = { INFINITY, INFINITY, -INFINITY, -INFINITY };
@@ -154,13 +156,13 @@ static Extent extent_of_quads(const WrView *view)
     return e;
 }
 
-/* A pixel within 0 .. size. */
+/* A pixel clamped to 0 .. size. */
 static int pixel_at(double x, int size)
 {
     return x > 0 ? x < size ? (int)x : size : 0;
 }
 
-/* radius: of the ball that holds it. */
+/* radius: of the bounding sphere. */
 static void find_bounds(WrView *view, WrVec3 centre, double radius, int width, int height)
 {
     const Extent e =
@@ -171,7 +173,8 @@ static void find_bounds(WrView *view, WrVec3 centre, double radius, int width, i
     view->y1 = pixel_at((1 - e.y0 / view->half_h) / 2 * height + 3, height);
 }
 
-/* Where the ray through a point h above the plane meets it. false: nowhere that is known. */
+/* Intersection of the ray through a point h above the plane with the plane. false: there is none, or it is
+   unknown. */
 static bool onto_plane(const WrView *view, const WrQuadd *quad, WrVec3 foot, double h, WrVec3 *out)
 {
     const WrVec3 n = { quad->normal[0], quad->normal[1], quad->normal[2] };
@@ -186,7 +189,7 @@ static bool onto_plane(const WrView *view, const WrQuadd *quad, WrVec3 foot, dou
     return part > 0 && part < 1e4;
 }
 
-#define WIDE 1024 /* of u and v, where nothing better is known */
+#define WIDE 1024 /* in u and v, if no better bound is known */
 
 void wr_view_widen(WrView *view, double low, double high)
 {
@@ -216,7 +219,7 @@ void wr_view_widen(WrView *view, double low, double high)
                 view->grid_h / view->samples);
 }
 
-#define ENDLESS_TUBE 1e30 /* what a float holds */
+#define ENDLESS_TUBE 1e30 /* large, but representable as a float */
 
 void wr_view_grow(WrView *view, double more)
 {
@@ -240,8 +243,8 @@ static double scale_of(const WrSurfaceInfo *info, const WrPlacement *place)
     return info->unit_sized ? 1.0 : scalbn(1.0, -ilogb(place->radius));
 }
 
-/* Which planar faces look at the viewer: at the eye, in kernel units, or, orthographic (NULL), against `forward`.
-   True if any does. */
+/* Finds the planar faces towards the viewer: towards the eye, in kernel units, or, orthographic (NULL), against
+   `forward`. True if there are any. */
 static bool find_facing(const WrShape *shape, double scale, const WrVec3 *eye, WrVec3 forward,
                         bool facing[6])
 {
@@ -256,13 +259,13 @@ static bool find_facing(const WrShape *shape, double scale, const WrVec3 *eye, W
     return any;
 }
 
-/* Where two faces that look the same way, to the viewer or away, share an edge, both reach beyond it by what rounding
-   makes of u and v, so that a ray along it meets one. Along an outline none does: samples beside it are not of the
-   object. */
+/* If two faces that share an edge both face the viewer, or both face away, each extends beyond it by the
+   rounding error of u and v, so that a ray along it hits one of them. At an outline neither does, because
+   samples beside it do not belong to the object. */
 #define JOINT 0x1p-48
 #define JOINT_SINGLE 0x1p-21f
 
-/* Does such a face go through that point, besides `own`? */
+/* True if such a face, other than `own`, contains that point. */
 static bool joins(const WrShape *shape, const bool facing[6], int own, WrVec3 p)
 {
     for (int face = 0; face < wr_surfaces[shape->kind]->faces; face++) {
@@ -296,7 +299,7 @@ static void bound_quad(const WrShape *shape, const bool facing[6], int own, WrQu
     quad->least = single->least = 0, quad->most = single->most = 1;
 }
 
-/* As far as rays are followed, whatever its sides. */
+/* Extends a quad beyond its sides, as far as rays are followed. */
 static void unbound_quad(WrQuadd *quad, WrQuad *single)
 {
     quad->u0 = quad->v0 = quad->least = -WR_ENDLESS;
@@ -323,7 +326,7 @@ static void add_quad(WrView *view, const WrShape *shape, const bool facing[6], i
     view->quad_face[view->quad_count++] = face;
 }
 
-/* Planar faces. Those that look away come first, so that in a closed box, which is convex, the others cover them. */
+/* Planar faces. Back faces come first, so that in a closed box, which is convex, the front faces cover them. */
 static void make_quads(WrView *view, const WrShape *shape)
 {
     bool facing[6];
