@@ -14,7 +14,7 @@
 
 static const struct {
     const char *name;
-    int level; /* lowest level of the processor (cpu.h) */
+    int level; /* required level of the processor (cpu.h) */
     const WrKernels *exact, *fast;
     const WrKernelsd *in_double;
     const WrWide *wide; /* NULL: none */
@@ -51,7 +51,7 @@ static bool fail_level(const char *isa, WrError *err)
     return wr_fail_word(err, what, isa, wr_word_of_array, level_names);
 }
 
-/* The row of that name, or -1 and an error. */
+/* Index of the row of that name, or -1 and an error. */
 static int find_level(const char *isa, WrError *err)
 {
     const bool best = !isa || strcmp(isa, "auto") == 0;

@@ -1,10 +1,11 @@
-/* kern.h - the span kernels of the renderer: each is a short loop over up to WR_SPAN samples held as a
-   structure of arrays, so that everything stays in the first-level cache and compilers vectorise it.
-   Layer 5. The bodies (kern_body.h) are compiled once for each instruction set; `exact` sets give the
-   same bits on every processor, `fast` sets may contract and reorder within a stated bound.
+/* kern.h - span kernels of the renderer: short loops over up to WR_SPAN samples held as a structure of arrays.
 
-   All lengths here are scaled by a power of two so that the object's radius is near 1; positions are in
-   object space: lights and eye are turned into it once a frame, so that no normal is ever rotated. */
+   A strip fits in the first-level cache and its loops are vectorised by the compiler. The bodies (kern_body.h)
+   are compiled once for each instruction set; `exact` sets give the same bits on every processor, `fast` sets
+   may contract and reorder within a stated bound.
+
+   All lengths here are scaled by a power of two so that the object's radius is near 1; positions are in object
+   space: lights and eye are transformed into it once per frame, so that no normal is ever rotated. */
 #pragma once
 #include "field/scheme.h"
 #include "scene/tone_mapping.h"
@@ -21,82 +22,84 @@
 #define WR_SPAN 256 /* samples in a strip */
 
 #define WR_APRON 4      /* texels around the contiguous copies */
-#define WR_TAPS_MOST 16 /* look-ups along a footprint's longer side */
+#define WR_TAPS_MOST 16 /* maximum fetches along a footprint's longer side */
 
 typedef struct WrPyramid WrPyramid; /* slope_pyramid.h */
 
 /* The colour picture, RGBA float with an apron of one texel. */
 typedef struct WrColourLook {
     const float *rgba;
-    int pitch; /* texels a row */
+    int pitch; /* texels per row */
     int width, height;
     double ru, rv;
     bool periodic_u, periodic_v;
 } WrColourLook;
 
-/* A mesh as kernels look its triangles up. */
+/* A mesh in the form that kernels fetch triangles from. */
 typedef struct WrTriangleLook {
-    const float *corners;     /* 8 each: place, normal, u, v (triangle_raster.h) */
+    const float *corners;     /* 8 each: position, normal, u, v (triangle_raster.h) */
     const int32_t *triangles; /* 3 corners each */
-    double scale;             /* its places -> kernel units; a power of two */
+    double scale;             /* its positions -> kernel units; a power of two */
     const float *patches;     /* 56 each, as WrPatch (patches.h); NULL: a mesh of triangles */
     const int32_t *patch_of;  /* of each triangle */
     double scale_u, scale_v;  /* cells -> the table's u, v */
 } WrTriangleLook;
 
-/* How far Newton's method goes. */
+/* Limits of Newton's method. */
 typedef struct WrNewton {
     float reach_u, reach_v;   /* longest step */
-    float enough_u, enough_v; /* a step shorter than both is the last; 0: none is */
-    /* A step during which Pu or Pv changes by no more than the `last` part of itself is the last, and P follows it
-       along them; 0: none is. By |Puu|, |Puv|, |Pvv| at most. */
+    float enough_u, enough_v; /* a step shorter than both is the last; 0: no such test */
+    /* A step is the last if Pu and Pv change by at most the part `last` of themselves; P then follows it along
+       them. 0: no such test. uu, uv, vv: upper bounds of |Puu|, |Puv|, |Pvv|. */
     float uu, uv, vv, last;
-    bool closed_u, closed_v; /* the parameter goes round */
-    int steps;               /* at most */
+    bool closed_u, closed_v; /* the parameter is periodic */
+    int steps;               /* maximum */
 } WrNewton;
 typedef WrNewton WrNewtond;
 
-/* What a triangle interpolates: base + l1 d1 + l2 d2, of its second and third corner's shares l1, l2. */
+/* A value interpolated over a triangle: base + l1 d1 + l2 d2, with l1, l2 the shares of the second and third
+   corner. */
 typedef struct WrPlane {
     float base, d1, d2;
 } WrPlane;
 
-/* A triangle over the samples x0 <= x < x1, y0 <= y < y1 of a tile, so small that its edges are 32-bit numbers: a
-   sample is in it where none of the three is negative. */
+/* A triangle over the samples x0 <= x < x1, y0 <= y < y1 of a tile, so small that its edge values fit in 32
+   bits: a sample is inside if none of the three is negative. */
 typedef struct WrWalk {
-    int32_t at[3], step_x[3], step_y[3]; /* 1/256 sample squared: at (x0, y0), and a sample on */
-    float inv;                           /* 1 / twice the area */
-    bool perspective;                    /* u and v are divided by depth */
+    /* 1/256 sample squared: at (x0, y0), and the step per sample */
+    int32_t at[3], step_x[3], step_y[3];
+    float inv;        /* 1 / twice the area */
+    bool perspective; /* u and v are divided by depth */
     WrPlane close, u, v;
     int x0, y0, x1, y1;
-    int pitch; /* samples a row of the tile */
+    int pitch; /* samples per row of the tile */
 } WrWalk;
 
-#define WR_WALK_PAD 16 /* samples past a tile's end that `cover` may write back as they were */
+#define WR_WALK_PAD 16 /* samples after a tile's end that `cover` may rewrite unchanged */
 
-/* How facets are roughened by slopes that spread inside a pixel: not, by their whole covariance, by its mean. */
+/* Roughening of microfacets by slopes that spread inside a pixel: none, by the whole covariance, or by its mean. */
 typedef enum WrReflectSpread {
     WR_REFLECT_AS_IT_IS,
     WR_REFLECT_LEAN,
     WR_REFLECT_ROUND,
-    WR_REFLECT_FACING, /* not; all n' are seen from their front */
-    WR_REFLECT_DULL    /* and no highlight is as bright as `least` */
+    WR_REFLECT_FACING, /* none; and every n' faces the viewer */
+    WR_REFLECT_DULL    /* as FACING, and no highlight is as bright as `least` */
 } WrReflectSpread;
 
-#define WR_FACED_FROM 2e-3 /* n'.v from which nothing is bent: reflect_seen bends below 1e-3 */
+#define WR_FACED_FROM 2e-3 /* n'.v above which no normal is bent: reflect_seen bends below 1e-3 */
 
-/* What a strip's samples see of a lamp. */
+/* Visibility of a lamp over a strip. */
 typedef enum WrSeen {
-    WR_SEEN_WHOLE, /* all of it, everywhere */
+    WR_SEEN_WHOLE, /* fully visible from every sample */
     WR_SEEN_PART,
-    WR_SEEN_NOT /* nothing, anywhere */
+    WR_SEEN_NOT /* visible from no sample */
 } WrSeen;
 
-/* Terms of an albedo, and 0 after them: whole vectors. */
+/* Terms of an albedo, padded with 0 to whole vectors. */
 #define WR_TEXTURED_REFLECTION_TERMS 12
 _Static_assert(WR_TEXTURED_REFLECTION_TERMS >= WR_ALBEDO_TERMS, "all terms");
 
-/* Surroundings blurred by one width, as WrKernMirror has them. */
+/* Environment blurred by one width, in the layout of WrKernMirror. */
 typedef struct WrKernRung {
     const float *rgba;
     int pitch, width, height;
@@ -118,9 +121,9 @@ typedef struct WrKernRung {
 #undef SHAPE
 #undef WR_T
 
-/* The kernel set of that name ("ref", "v1" .. "v4"; NULL or "auto": the best that this processor has),
-   exact or fast (where no fast form exists the exact one serves). NULL and an error for an unknown
-   name or one that this processor lacks. */
+/* The kernel set of that name ("ref", "v1" .. "v4"; NULL or "auto": the best that this processor has), exact or
+   fast (where no fast form exists, the exact one is used). NULL and an error for an unknown name or one that
+   this processor lacks. */
 const WrKernels *wr_kernels_get(const char *isa, bool fast, WrError *err);
-/* The same in double precision; always exact. */
+/* The double-precision kernel set of that name, as wr_kernels_get; always exact. */
 const WrKernelsd *wr_kernels_double(const char *isa, WrError *err);

@@ -1,14 +1,15 @@
-/* kern_adaptive_body.h - pixels from one sample each, and how far that may be off (adaptive.c). A part of
-   kern_body.h; in single precision alone.
+/* kern_adaptive_body.h - pixels predicted from one sample each, with an error estimate (adaptive.c). Part of
+   kern_body.h; single precision only.
 
-   Over a pixel light that bends evenly, f = f0 + .. + fxx x^2 / 2 + fyy y^2 / 2, has the mean
-   f0 + (fxx + fyy) / 24; samples in K x K cells have 1 - 1 / K^2 of that. Second differences of neighbours are
-   fxx and fyy where light is smooth. It is not where third differences are large: of a step H they reach 2 H,
-   the mean is off by H / 2; of a bend J, as between texels, J, off by J / 12. */
+   Over a pixel, quadratic light f = f0 + .. + fxx x^2 / 2 + fyy y^2 / 2 has the mean
+   f0 + (fxx + fyy) / 24; samples in K x K cells have 1 - 1 / K^2 of that correction. Second differences of
+   neighbours are fxx and fyy where light is smooth. It is not where third differences are large: at a step H
+   they reach 2 H and the mean is off by H / 2; at a kink J, as between texels, they reach J and it is off by J /
+   12. */
 
-#define MIXED 1e9f /* for a neighbour on the other side of the outline */
+#define MIXED 1e9f /* error if a neighbour is on the other side of the outline */
 
-/* Third differences along both axes, of each channel alike; `mixed` counts in the fourth, which is coverage. */
+/* Third differences along both axes, over all channels; `mixed` weights the fourth channel, coverage. */
 FLAT static void third_differences(const float *const restrict row[5], int count, float slope,
                                    float *restrict out)
 {

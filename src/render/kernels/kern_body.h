@@ -1,8 +1,7 @@
-/* kern_body.h - the bodies of all span kernels. Included once by each kern_*.c, which defines
-   WR_KERN_TABLE, WR_KERN_NAME and WR_KERN_EXACT for the table at its end, WR_KERN_FAST for fast arithmetic, and WR_KERN_DOUBLE where the
-   kernels shall work in double. Plain loops over structure-of-arrays strips; no branch inside but ?: on
-   scalars, no library call that does not vectorise.
-   A header without a guard, by intention. */
+/* kern_body.h - the bodies of all span kernels. Included once by each kern_*.c, which defines WR_KERN_TABLE,
+   WR_KERN_NAME and WR_KERN_EXACT for the table at its end, WR_KERN_FAST for fast arithmetic, and WR_KERN_DOUBLE
+   for double precision. Plain loops over structure-of-arrays strips; no branches except ?: on
+   scalars, no library call that does not vectorise. Deliberately without a guard. */
 #include "base/enum_rows.h"
 #include "noise/lattice.h"
 #include "render/kernels/kern.h"
@@ -55,7 +54,7 @@
 #define SKYLINE WrKernHorizond
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
-#define WR_FORMULA_FLOAT /* the formulas alone, without the surfaces' rows */
+#define WR_FORMULA_FLOAT /* only the formulas, without the surfaces' rows */
 #else
 #define WR_FORMULA_FLOAT
 #include "surface/formula.h"
@@ -95,13 +94,14 @@
     WR_PRAGMA(omp simd reduction(+ : sum) reduction(min : least) reduction(max : most))
 #endif
 #define WR_PRAGMA(text) _Pragma(#text)
-#define FLAT __attribute__((flatten)) /* a loop with a call left in it does not vectorise */
+#define FLAT __attribute__((flatten)) /* a loop that still contains a call does not vectorise */
 #define MISS FLT_MAX
-#define LANES 16 /* samples at once where it matters; divides WR_SPAN */
-/* What long loops run up to: what is left beside whole vectors takes as long as many of them. They write what nobody
-   reads into places past the strip's count. */
+#define LANES 16 /* unrolled samples where speed matters; divides WR_SPAN */
+/* Upper limit of long loops: the remainder after whole vectors would take as long as many vectors. The extra
+   results are written past the strip's count and never read. */
 #define WHOLE(count) (((count) + LANES - 1) & -LANES)
-#define STEEP 1e12f /* slopes beyond this are scaled down together with N: the direction stays */
+/* larger slopes are scaled down together with N: the direction does not change */
+#define STEEP 1e12f
 
 #define LOAD3(strip, name, i) ((VEC){ strip->name##x[i], strip->name##y[i], strip->name##z[i] })
 #define STORE3(strip, name, i, vec)                                                                \
@@ -109,8 +109,8 @@
 
 #define ALWAYS static inline __attribute__((always_inline))
 
-/* o + y gy + x gx: of a ray, at (gx, gy) of the grid. Scalars alone: an array in the body of a loop stays in
-   memory and keeps it from vectorising. */
+/* o + y gy + x gx: of a ray, at (gx, gy) of the grid. Scalars only: an array in the body of a loop stays in
+   memory and prevents vectorisation. */
 ALWAYS VEC affine(const REAL o[3], const REAL y[3], const REAL x[3], REAL gy, REAL gx)
 {
     return (VEC){ o[0] + gy * y[0] + gx * x[0], o[1] + gy * y[1] + gx * x[1],
@@ -120,7 +120,7 @@ ALWAYS VEC affine(const REAL o[3], const REAL y[3], const REAL x[3], REAL gy, RE
 #define RAY_Q(rays, gy, gx) affine((rays)->q0, (rays)->qy, (rays)->qx, gy, gx)
 #define RAY_D(rays, gy, gx) affine((rays)->d0, (rays)->dy, (rays)->dx, gy, gx)
 
-/* Keep the samples that hit, in order, with what `move` holds of them. Most hits are neighbours: whole runs move. */
+/* Keeps the samples that hit, in order, with the arrays in `move`. Most hits are neighbours: whole runs move. */
 ALWAYS int compact(int count, STRIP *strip, REAL *const *move, const int moves)
 {
     int hits = 0, first = count, last = 0;
@@ -152,7 +152,7 @@ ALWAYS int compact(int count, STRIP *strip, REAL *const *move, const int moves)
     return hits;
 }
 
-/* The same of points; `spread`: their places too. */
+/* Keeps the points that hit; `spread`: their grid positions as well. */
 ALWAYS int compact_points(int count, const bool spread, STRIP *strip)
 {
     REAL *const move[] = { strip->px, strip->py, strip->pz, strip->x, strip->y };
@@ -175,7 +175,7 @@ ALWAYS REAL smaller(REAL a, REAL b)
     return a < b ? a : b;
 }
 
-/* Of n things, also of what was no number. */
+/* Clamps an index to 0 .. n - 1, also one converted from NaN. */
 ALWAYS int among(int i, int n)
 {
     i = i < n ? i : n - 1;
@@ -192,14 +192,15 @@ ALWAYS REAL longest(VEC a)
     return larger(larger(r_abs(a.x), r_abs(a.y)), r_abs(a.z));
 }
 
-/* a / |a|, `otherwise` where a is 0 or as long as no number is: scaled by a power of two first, so no square overflows. */
+/* a / |a|, or `otherwise` if a is 0 or not finite. It is scaled by a power of two first, so that no square
+   overflows. */
 ALWAYS VEC unit_or(VEC a, VEC otherwise)
 {
     REAL m = longest(a);
     VEC b = v_scale(a, r_scale_down(m));
     bool good = (m > 0.0f) & r_is_finite(m);
-    REAL inv =
-        K_(1) / r_sqrt(v_dot(b, b)); /* not chosen before the division: one under a mask is slow */
+    /* the choice comes after the division: a masked division is slow */
+    REAL inv = K_(1) / r_sqrt(v_dot(b, b));
     return (VEC){ good ? b.x * inv : otherwise.x, good ? b.y * inv : otherwise.y,
                   good ? b.z * inv : otherwise.z };
 }

@@ -1,6 +1,7 @@
-/* kern_bump_body.h - the paper's formulas over strips. A part of kern_body.h. */
+/* kern_bump_body.h - the paper's bump formulas over strips. Part of kern_body.h. */
 
-/* +1 on the side that n points to, -1 behind: there dents and bumps change places, as the paper says. */
+/* Viewer's side: +1 on the side that n points to, -1 behind, where dents and bumps are exchanged, as in the
+   paper. */
 typedef struct Viewer {
     VEC at;
     REAL near; /* 1: at is a position; 0: a direction */
@@ -18,14 +19,14 @@ static inline REAL side_of(Viewer viewer, const STRIP *strip, int i)
     return v_dot(LOAD3(strip, n, i), w) < 0.0f ? -1.0f : 1.0f;
 }
 
-/* What slopes beyond STEEP, and N with them, are multiplied by. */
+/* Scale factor of slopes above STEEP, and of N with them. */
 ALWAYS REAL eased(REAL steepest)
 {
     REAL k = steepest > STEEP ? STEEP * r_scale_down(steepest) : K_(1);
     return r_is_finite(steepest) ? k : K_(0);
 }
 
-/* The slopes of a sample, and what they and N are scaled by. */
+/* The slopes of a sample, and the scale of slopes and N. */
 typedef struct Slopes {
     REAL fu, fv, k;
     bool level;
@@ -49,7 +50,7 @@ ALWAYS VEC bend_of(const STRIP *strip, int i, VEC n, Slopes at)
     return bend_by(LOAD3(strip, pu, i), LOAD3(strip, pv, i), n, at);
 }
 
-/* ---- n' of one sample, by each formula ---- */
+/* ---- n' of one sample, for each formula ---- */
 
 ALWAYS VEC bump_none(const STRIP *strip, int i, VEC n)
 {
@@ -78,16 +79,16 @@ ALWAYS VEC bump_invariant(const STRIP *strip, int i, VEC n)
     return choose(at.level, n, unit_or(v_mad(v_scale(n, at.k), way, a), n));
 }
 
-/* `a`, or 0 where it is nothing but what rounding left of terms of that size that cancel. */
+/* `a`, or 0 if it is only the rounding error of cancelled terms of that size. */
 ALWAYS VEC above_rounding(VEC a, REAL size)
 {
     const VEC zero = { 0, 0, 0 };
     return choose(longest(a) < ROUNDED * size, zero, a);
 }
 
-/* N' = Pu' x Pv', Pu' = Pu + Fu n + F n_u, Pv' = Pv + Fv n + F n_v; parts along n and in the plane are
-   kept apart so that steep slopes do not swallow the tangents. Where F carries the surface to a focal point
-   a tangent comes out as rounding: what is left of it is no direction (HC12). */
+/* N' = Pu' x Pv', Pu' = Pu + Fu n + F n_u, Pv' = Pv + Fv n + F n_v; parts along n and in the plane are kept
+   apart so that steep slopes do not absorb the tangents. Where F moves the surface to a focal point, a tangent
+   consists of rounding errors and has no direction (HC12). */
 ALWAYS VEC bump_exact(const STRIP *strip, int i, VEC n)
 {
     VEC pu = LOAD3(strip, pu, i), pv = LOAD3(strip, pv, i);
@@ -112,7 +113,7 @@ ALWAYS VEC bump_exact(const STRIP *strip, int i, VEC n)
     return choose(level, n, unit_or(v_add(flat, tip), n));
 }
 
-/* ---- of a strip, on the viewer's side ---- */
+/* ---- strips, on the viewer's side ---- */
 
 typedef VEC Bump(const STRIP *strip, int i, VEC n);
 
@@ -140,7 +141,7 @@ BUMP(exact)
 
 #ifdef WR_KERN_FAST
 /* Blinn's n' of a sphere from n and the slopes alone. Pu is 2 pi R cl along east, Pv pi R along north: N' times
-   cl / (pi R) has no quotient in it. At the very poles n. */
+   cl / (pi R) needs no quotient. At the poles themselves: n. */
 ALWAYS VEC bend_sphere(REAL R, VEC n, Slopes at)
 {
     REAL cl2 = n.x * n.x + n.y * n.y, m = K_(2) * K_(WR_PI) * R * cl2 * at.k;
@@ -148,7 +149,7 @@ ALWAYS VEC bend_sphere(REAL R, VEC n, Slopes at)
     return (VEC){ qz * n.x + at.fu * n.y, qz * n.y - at.fu * n.x, m * n.z - q * cl2 };
 }
 
-/* In two loops, as the light's are (kern_light_body.h). */
+/* In two loops, like the light (kern_light_body.h). */
 FLAT static void kern_bend_sphere(const RAYS *rays, const SHAPE *shape, STRIP *strip)
 {
     const Viewer viewer = viewer_of(rays);

@@ -1,8 +1,8 @@
-/* kern_double_math.h - transcendental functions in double for span loops: branch-free, no library call,
-   built of + - * / and integer operations alone, so that compilers vectorise them and every processor
-   gives the same bits (the build forbids contraction).
-   Layer 5, private to the renderer. Arguments and meaning as those of base/kernmath.h. Series are
-   Taylor's but for the arctangent's, which interpolates at Chebyshev nodes. */
+/* kern_double_math.h - transcendental functions in double for span loops.
+   Private to the renderer. Branch-free, without library calls, built from + - * / and integer operations only,
+   so that compilers vectorise them and every processor gives the same bits (the build forbids contraction).
+   Arguments and meaning are those of base/kernmath.h. Series are Taylor's, except the arctangent's, which
+   interpolates at Chebyshev nodes. */
 #pragma once
 #include "base/kernmath.h"
 
@@ -80,15 +80,15 @@ static inline double wr_atan2_turns_r(double y, double x)
     return a < 1.0 ? a : 0.0;
 }
 
-/* The same in radians, -pi < result <= pi. */
+/* The angle of (x, y) in radians, -pi < result <= pi. */
 static inline double wr_atan2_r(double y, double x)
 {
     const double turns = wr_atan2_turns_r(y, x);
     return (turns > 0.5 ? turns - 1.0 : turns) * 6.283185307179586;
 }
 
-/* log2 of a positive normal number, whose 1 - x is `below` (wr_log2_below_f): 2 atanh((m - 1) / (m + 1)) /
-   ln 2 of its mantissa m in sqrt(1/2) .. sqrt(2). Relative error under 4e-16, also near 1. */
+/* log2 of a positive normal number, whose 1 - x is `below` (wr_log2_below_f): 2 atanh((m - 1) / (m + 1)) / ln 2
+   of its mantissa m in sqrt(1/2) .. sqrt(2). Relative error under 4e-16, also near 1. */
 static inline double wr_log2_below_r(double x, double below)
 {
     int64_t bits = wr_double_bits(x);

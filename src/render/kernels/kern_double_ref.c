@@ -1,4 +1,4 @@
-/* The span kernels in double precision, one sample at a time; CMakeLists.txt gives the flags. */
+/* Double-precision span kernels, one sample at a time; CMakeLists.txt sets the flags. */
 #define WR_KERN_PLAIN
 #define WR_KERN_DOUBLE
 #define WR_KERN_TABLE wr_kern_double_ref

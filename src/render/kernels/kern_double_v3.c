@@ -1,4 +1,4 @@
-/* The span kernels in double precision for one instruction set; CMakeLists.txt gives the flags. */
+/* Double-precision span kernels for one instruction set; CMakeLists.txt sets the flags. */
 #define WR_KERN_DOUBLE
 #define WR_KERN_TABLE wr_kern_double_v3
 #define WR_KERN_NAME "v3"

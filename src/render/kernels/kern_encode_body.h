@@ -1,11 +1,11 @@
-/* kern_encode_body.h - finished colours as 8-bit codes. A part of kern_body.h. */
+/* kern_encode_body.h - 8-bit encoding of finished colours. Part of kern_body.h. */
 
-/* Places in the bins of up to WR_SPAN colours. */
+/* Positions in the bins for up to WR_SPAN colours. */
 typedef struct Places {
     float r[WR_SPAN], g[WR_SPAN], b[WR_SPAN];
 } Places;
 
-/* Of a colour with something that is not finite that counts as 0; 1 for each. */
+/* Writes the bin positions of a colour; non-finite numbers count as 0. Returns 1 if there are any. */
 ALWAYS int note_places(Places *to, int i, float r, float g, float b)
 {
     const float kr = r - r == 0.0f ? r : 0.0f, kg = g - g == 0.0f ? g : 0.0f;
@@ -26,7 +26,7 @@ ALWAYS void codes_of_places(const uint32_t *restrict bins, const Places *from, i
     }
 }
 
-/* Opaque colours of the strip; how many of their numbers were not finite. */
+/* Encodes the opaque colours of the strip; returns the number of non-finite values. */
 FLAT static int kern_codes(const uint32_t *bins, const STRIP *strip, uint32_t *out)
 {
     const int count = strip->count;
@@ -41,7 +41,7 @@ FLAT static int kern_codes(const uint32_t *bins, const STRIP *strip, uint32_t *o
     return not_finite;
 }
 
-/* Light as a picture shows it (scene/tone_mapping.h). */
+/* Tone-mapped light (scene/tone_mapping.h). */
 ALWAYS float toned(float x, float gain, float knee)
 {
     const float most = 3.0e38f, product = gain * x, left = 1.0f - knee;
@@ -50,7 +50,7 @@ ALWAYS float toned(float x, float gain, float knee)
     return x - x == 0.0f ? bent : x;
 }
 
-/* Premultiplied colours [count][4] over what lies behind them, the same for all or [count][4] too. */
+/* Encodes premultiplied colours [count][4] over a background, which is one colour or [count][4] as well. */
 ALWAYS int codes_over(const uint32_t *restrict bins, const WrToneCurve *tone, const bool plain,
                       const float *restrict behind, const int across, int count,
                       const float *restrict rgba, uint32_t *restrict out)

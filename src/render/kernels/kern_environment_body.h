@@ -1,4 +1,4 @@
-/* kern_environment_body.h - light of surroundings on strips. A part of kern_body.h; the formulas are in
+/* kern_environment_body.h - environment light on strips. Part of kern_body.h; the formulas are in
    shade/environment_map_body.h. */
 
 ALWAYS void surround_strip(const SURROUND *how, const bool turns, const int shares, STRIP *strip)
@@ -38,14 +38,14 @@ SURROUND_ROW(1, 0)
 SURROUND_ROW(1, 1)
 SURROUND_ROW(1, 2)
 
-/* low also of what is no number */
+/* NaN gives low */
 ALWAYS REAL between(REAL x, REAL low, REAL high)
 {
     x = x > low ? x : low;
     return x < high ? x : high;
 }
 
-/* The picture's first tap and the fractions past it, where the mirrored directions look. */
+/* First tap and fractions in the picture for the mirrored directions. */
 ALWAYS void find_mirrored(const MIRROR *how, STRIP *strip)
 {
     const MIRROR m = *how;
@@ -60,7 +60,7 @@ ALWAYS void find_mirrored(const MIRROR *how, STRIP *strip)
         const REAL round = r_atan2_turns(d.x, -d.z), u = round < K_(0.5) ? round : round - K_(1);
         const REAL up = r_atan2_turns(d.y, r_sqrt(d.x * d.x + d.z * d.z));
         const REAL v = up < K_(0.5) ? up : up - K_(1);
-        /* within the picture also where rounding, or no number, would lead beyond */
+        /* stays inside the picture even with rounding errors or NaN */
         const REAL x = between(W * (u + K_(0.5)) - K_(0.5), K_(-0.5), W - K_(0.5));
         const REAL y = between(H * (K_(0.5) - K_(2) * v) - K_(0.5), K_(-0.5), H - K_(0.5));
         const REAL a = r_floor(x), b = r_floor(y);

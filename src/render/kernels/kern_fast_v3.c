@@ -1,4 +1,4 @@
-/* The fast span kernels: contraction and reordering allowed; CMakeLists.txt gives the flags. */
+/* Fast span kernels: contraction and reordering allowed; CMakeLists.txt sets the flags. */
 #define WR_KERN_TABLE wr_kern_fast_v3
 #define WR_KERN_NAME "v3"
 #define WR_KERN_EXACT false

@@ -1,29 +1,28 @@
-/* kern_fetch_body.h - heights, slopes and colours looked up in the contiguous copies. A part of
-   kern_body.h. */
+/* kern_fetch_body.h - fetches of heights, slopes and colours from the contiguous copies. Part of kern_body.h. */
 
-/* ---- places in the table ---- */
+/* ---- positions in the table ---- */
 
-/* What is left of whole turns, 0 <= t < 1. */
+/* Fractional part, 0 <= t < 1. */
 ALWAYS REAL turned(REAL x)
 {
     REAL turn = x - r_floor(x);
     return turn < 1.0f ? turn : 0.0f;
 }
 
-/* 1 inside; 0 beyond the end of a clamped axis, which is level there. */
+/* 1 inside; 0 beyond the end of a clamped axis, which is flat there. */
 ALWAYS REAL inside_ends(REAL x)
 {
     return x >= 0.0f ? (x <= 1.0f ? 1.0f : 0.0f) : 0.0f;
 }
 
-/* r t before it is brought to the table; wide: reduced in double (E10). */
+/* r t before reduction to the table; wide: reduced in double (E10). */
 ALWAYS REAL replicated(REAL t, REAL narrow, double r, const bool wide, const bool periodic)
 {
     double x = r * (double)t, whole = periodic ? __builtin_floor(x) : 0.0;
     return wide ? (REAL)(x - whole) : narrow * t;
 }
 
-/* A choice that is the same for all samples keeps a loop from vectorising: one loop a case. */
+/* A choice that is equal for all samples prevents vectorisation inside a loop: one loop for each case. */
 ALWAYS void reduce_case(int count, const REAL *restrict t, double r, const bool wide,
                         const bool periodic, REAL *restrict out, REAL *restrict inside)
 {
@@ -36,7 +35,7 @@ ALWAYS void reduce_case(int count, const REAL *restrict t, double r, const bool 
     }
 }
 
-/* r t brought to the table: in 0..1. */
+/* r t reduced to the table: 0..1. */
 static inline void reduce_axis(int count, const REAL *restrict t, double r, bool wide,
                                bool periodic, REAL *restrict out, REAL *restrict inside)
 {
@@ -54,8 +53,8 @@ FLAT static void kern_reduce(const LOOK *look, STRIP *strip)
                 strip->inside_v);
 }
 
-/* Where the taps of sample k begin: at[k] is the texel up and left of it, ta and tb the fractions past
-   that texel. */
+/* Stores the first tap of sample k: at[k] is the texel up and left of it, ta and tb the fractions past that
+   texel. */
 ALWAYS void put_tap(STRIP *strip, int k, REAL x, REAL y, int pitch)
 {
     REAL i = r_floor(x), j = r_floor(y);
@@ -64,8 +63,9 @@ ALWAYS void put_tap(STRIP *strip, int k, REAL x, REAL y, int pitch)
     strip->tb[k] = y - j;
 }
 
-/* A look-up is three loops: places (vectors), copies of the taps into rows of the strip (four numbers at a time: no
-   slower than gathering them), arithmetic (vectors). A table that is periodic both ways is placed in one loop. */
+/* A fetch is three loops: positions (vectors), copies of the taps into rows of the strip (four numbers at a
+   time, no slower than gathering), arithmetic (vectors). For a table that is periodic in both directions,
+   positions need only one loop. */
 static inline void place_taps(const LOOK *look, STRIP *strip)
 {
     const int pitch = look->pitch, count = strip->count;
@@ -95,7 +95,7 @@ static inline REAL bounded(REAL x)
     return x > -FLT_MAX ? x : -FLT_MAX;
 }
 
-/* What F, Fu and Fv are multiplied by. */
+/* Factors of F, Fu and Fv. */
 typedef struct Scales {
     REAL f, u, v;
 } Scales;
@@ -129,13 +129,13 @@ static inline Four load_four(const REAL *from)
     return four;
 }
 
-/* The same from a single-precision picture or pyramid. */
+/* Four neighbouring texels of a single-precision picture or pyramid. */
 static inline Four load_floats(const float *from)
 {
     return (Four){ (REAL)from[0], (REAL)from[1], (REAL)from[2], (REAL)from[3] };
 }
 
-/* Two neighbouring texels of the upper and the lower row, beside each other. */
+/* Two neighbouring texels of the upper and the lower row, stored side by side. */
 static inline void copy_pairs(const REAL *table, int pitch, int texel, STRIP *strip)
 {
     const int count = strip->count;
@@ -165,8 +165,8 @@ FLAT static void kern_look_bilinear(const LOOK *look, STRIP *strip)
     }
 }
 
-/* Theorem: with E = one texel the paper's FU is the bilinear interpolation of the table of central
-   differences: one look-up in the gradient table instead of four FVALs. */
+/* Theorem: with E = one texel the paper's FU is the bilinear interpolation of the table of central differences:
+   one fetch from the gradient table instead of four FVALs. */
 static inline void slopes_central(const LOOK *look, STRIP *strip)
 {
     const int pitch = look->pitch, count = strip->count;
@@ -188,7 +188,7 @@ static inline void slopes_central(const LOOK *look, STRIP *strip)
     }
 }
 
-/* The heights themselves where they are wanted too (exact mode). */
+/* Heights as well, for exact mode. */
 FLAT static void kern_look_central(const LOOK *look, STRIP *strip)
 {
     slopes_central(look, strip);
@@ -208,7 +208,7 @@ FLAT static void kern_look_central(const LOOK *look, STRIP *strip)
     }
 }
 
-/* The texel that holds the point, and the central difference there. */
+/* The texel that contains the point, and the central difference there. */
 FLAT static void kern_look_nearest(const LOOK *look, STRIP *strip)
 {
     const int pitch = look->pitch, count = strip->count;
@@ -220,7 +220,7 @@ FLAT static void kern_look_nearest(const LOOK *look, STRIP *strip)
         REAL i = r_floor(W * strip->tu[k]), j = r_floor(H * (1.0f - strip->tv[k]));
         strip->at[k] = ((int)j + WR_APRON) * pitch + (int)i + WR_APRON;
     }
-    /* Beyond a clamped end the last texel goes on: there inside is 0 but for the end itself. */
+    /* Beyond a clamped end the last texel continues: `inside` is 0 there, except at the end itself. */
     const int last_i = look->periodic_u ? look->width : look->width - 1;
     const int last_j = look->periodic_v ? look->height : look->height - 1;
     for (int k = 0; k < count; k++) {
@@ -237,8 +237,8 @@ FLAT static void kern_look_nearest(const LOOK *look, STRIP *strip)
     }
 }
 
-/* Weights of the taps for the value and, for slopes in difference form, of the differences between
-   neighbouring taps. */
+/* Weights of the taps for the value and, for slopes in difference form, of the differences between neighbouring
+   taps. */
 typedef struct Weights {
     REAL w0, w1, w2, w3;
     REAL d0, d1, d2;
@@ -265,9 +265,9 @@ static inline Weights catmull_weights(REAL t)
                       0.5f * (3.0f * t2 - 2.0f * t) };
 }
 
-/* 4 x 4 taps: first down the rows, four columns side by side, then across. Everything is the second tap
-   plus weighted differences (the weights sum to 1), so that a flat table gives its own height and
-   slopes of exactly 0 (HC47). Slopes are in texels. */
+/* 4 x 4 taps: first down the rows, four columns side by side, then across. Each value is the second tap plus
+   weighted differences (the weights sum to 1), so that a flat table gives its own height and slopes of exactly 0
+   (HC47). Slopes are per texel. */
 ALWAYS void look_cubic(const LOOK *look, STRIP *strip, Weights (*const weights)(REAL t))
 {
     const int pitch = look->pitch, count = strip->count;
@@ -298,7 +298,7 @@ FLAT static void kern_look_catmull(const LOOK *look, STRIP *strip)
     look_cubic(look, strip, catmull_weights);
 }
 
-/* Bilinear between four texels of R, G, B, A from at on, by ta and tb: 4 numbers a sample, in top. */
+/* Bilinear interpolation of four texels R, G, B, A starting at `at`, by ta and tb: 4 numbers per sample, in top. */
 ALWAYS void mix_texels(const float *restrict rgba, int pitch, STRIP *strip)
 {
     const int count = strip->count;

@@ -1,18 +1,17 @@
-/* kern_filter_body.h - footprints of pixels in the table, and slopes filtered over them. A part of
-   kern_body.h. */
+/* kern_filter_body.h - footprints of pixels in the table, and slopes filtered over them. Part of kern_body.h. */
 
-#define VAST K_(1e9) /* texels: as large as a footprint is told to be */
+#define VAST K_(1e9) /* texels: upper limit of a footprint */
 
 ALWAYS REAL within(REAL x, REAL most)
 {
-    x = x < most ? x : most; /* not a number becomes most */
+    x = x < most ? x : most; /* NaN becomes most */
     return x > -most ? x : -most;
 }
 
-/* The ray q(x) + s d(x) meets the plane across n in P; of a step in x, P moves by
+/* The ray q(x) + s d(x) intersects the plane across n in P; for a step in x, P moves by
      w = q_x + s d_x - d (n . (q_x + s d_x)) / (n . d)
-   and u, v by the solution of w = u_x Pu + v_x Pv. At grazing angles n . d is kept away from 0, so that
-   the footprint is long and finite. */
+   and u, v by the solution of w = u_x Pu + v_x Pv. At grazing angles n . d is kept away from 0, so that the
+   footprint is long but finite. */
 ALWAYS VEC step_on_plane(VEC n, VEC d, VEC step, REAL dn)
 {
     return v_mad(step, d, -v_dot(n, step) / dn);
@@ -27,7 +26,7 @@ FLAT static void kern_footprint(const RAYS *rays, const LOOK *look, REAL pixel, 
     const VEC dx = { rays->dx[0], rays->dx[1], rays->dx[2] };
     const VEC dy = { rays->dy[0], rays->dy[1], rays->dy[2] };
     const VEC d0 = { rays->d0[0], rays->d0[1],
-                     rays->d0[2] }; /* read in the loop it would not be in vectors */
+                     rays->d0[2] }; /* loaded here: read inside the loop it would prevent vectors */
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
@@ -43,7 +42,7 @@ FLAT static void kern_footprint(const RAYS *rays, const LOOK *look, REAL pixel, 
         VEC a = step_on_plane(n, d, v_mad(qx, dx, s), dn);
         VEC b = step_on_plane(n, d, v_mad(qy, dy, s), dn);
         REAL uu = v_dot(pu, pu), uv = v_dot(pu, pv), vv = v_dot(pv, pv);
-        /* |N|^2, kept away from 0 by what rounding would leave of it */
+        /* |N|^2, with a lower limit of its rounding error */
         REAL det = uu * vv - uv * uv, noise = K_(1e-12) * uu * vv + K_(1e-30);
         REAL inv = K_(1) / (r_abs(det) + noise);
         REAL au = v_dot(a, pu), av = v_dot(a, pv), bu = v_dot(b, pu), bv = v_dot(b, pv);
@@ -61,8 +60,8 @@ FLAT static void kern_footprint(const RAYS *rays, const LOOK *look, REAL pixel, 
     }
 }
 
-/* How far u and v of a triangle's sample move with P: their gradients, which `meet` left as Pv = n x grad u and
-   Pu = grad v x n. */
+/* Motion of a triangle's u and v with P: their gradients, which `meet` stored as Pv = n x grad u and Pu = grad v
+   x n. */
 ALWAYS void put_met(const RAYS *rays, REAL W, REAL H, STRIP *strip, int i)
 {
     const VEC qx = { rays->qx[0], rays->qx[1], rays->qx[2] };
@@ -94,8 +93,8 @@ FLAT static void kern_footprint_met(const RAYS *rays, const LOOK *look, REAL pix
     }
 }
 
-/* Isotropic: one look-up of the longer side. Anisotropic: look-ups of the parallelogram's height side by
-   side along its longer side, at most WR_TAPS_MOST: then they grow. Up to one texel: level 0 (E17). */
+/* Isotropic: one fetch with the longer side. Anisotropic: fetches of the parallelogram's height, side by side
+   along its longer side, at most WR_TAPS_MOST, beyond which they grow. Up to one texel: level 0 (E17). */
 FLAT static void kern_spread(const LOOK *look, bool anisotropic, STRIP *strip)
 {
     const REAL most = anisotropic ? (REAL)WR_TAPS_MOST : K_(1);
@@ -127,14 +126,14 @@ FLAT static void kern_spread(const LOOK *look, bool anisotropic, STRIP *strip)
     }
 }
 
-/* Mean and covariance of a share of slopes. */
+/* Mean and covariance of some slopes. */
 typedef struct Moments {
     Four mean;   /* Fu, Fv, F */
     Four spread; /* Suu, Suv, Svv */
 } Moments;
 
-/* What is left of a where b takes the part r: the spread of the two means belongs to the whole, so that
-   it can never become negative (HC93). */
+/* Mixes a with the part r of b: the distance of the two means adds to the covariance, so that it can never
+   become negative (HC93). */
 ALWAYS Moments moments_mix(Moments a, Moments b, REAL r)
 {
     Four d = b.mean - a.mean;
@@ -165,7 +164,7 @@ ALWAYS Moments moments_at(const WrPyramidLevel *level, int floats, bool moments,
     return moments_mix(moments_mix(t0, t1, a), moments_mix(l0, l1, a), b);
 }
 
-/* Between two levels; under level 1 that level alone, which the caller mixes with the table's own. */
+/* Interpolates between two levels; below level 1 returns level 1, which the caller mixes with the table itself. */
 ALWAYS Moments moments_between(const LOOK *look, bool moments, const STRIP *strip, int k)
 {
     const WrPyramid *pyramid = look->pyramid;

@@ -1,21 +1,23 @@
-/* kern_horizon_body.h - what samples see of a lamp over the table's horizon (field/horizon.h), and of the sky. A part of
-   kern_body.h.
+/* kern_horizon_body.h - visibility of a lamp above the table's horizon (field/horizon.h), and ambient occlusion.
+   Part of kern_body.h.
 
-   The surface is its tangent plane there: l's part in it is a Pu + b Pv, so that a way of t towards the lamp is t (a, b) in
-   u and v, and t n.l upwards. The lamp is hidden where F rises by more than n.l per t somewhere on that way. */
+   The surface is approximated by its tangent plane. l's part in it is a Pu + b Pv, so a step t towards the lamp
+   is t (a, b) in u and v, and t n.l upwards. The lamp is hidden if F rises by more than n.l per t somewhere
+   along the way. */
 
-/* Where a strip looks into pictures of horizons. Looked up where `asks`; elsewhere share is known. */
+/* Fetch positions of a strip in the horizon pictures, where `asks` is set; elsewhere the share is known. */
 typedef struct Skyline {
     int at[WR_SPAN];                    /* the texel up and left, in a picture */
     REAL right[WR_SPAN], down[WR_SPAN]; /* fractions past it */
-    int first[WR_SPAN], next[WR_SPAN];  /* directions */
-    REAL turn[WR_SPAN];                 /* between them */
-    REAL up[WR_SPAN], far[WR_SPAN]; /* the lamp rises, and a slope of 1 in table units a texel */
+    int first[WR_SPAN], next[WR_SPAN];  /* the two neighbouring directions */
+    REAL turn[WR_SPAN];                 /* fraction between them */
+    /* slope of the lamp, and the factor from table units per texel to it */
+    REAL up[WR_SPAN], far[WR_SPAN];
     int asks[WR_SPAN];
-    REAL tap[2][4 * WR_SPAN]; /* of first and of next: upper row, lower row */
+    REAL tap[2][4 * WR_SPAN]; /* of both directions: upper row, lower row */
 } Skyline;
 
-/* Where (x, y) points among the table's directions: 0 <= at <= directions. */
+/* Position of (x, y) among the table's directions: 0 <= at <= directions. */
 ALWAYS REAL direction_of(REAL x, REAL y, REAL directions)
 {
     const REAL wide = r_abs(x), high = r_abs(y);
@@ -27,7 +29,7 @@ ALWAYS REAL direction_of(REAL x, REAL y, REAL directions)
     return at < K_(0) ? at + directions : at;
 }
 
-/* x - 1/2 of texels on an axis of n that repeats, 0 <= result < n. */
+/* x - 1/2 texels on a periodic axis of n texels, 0 <= result < n. */
 ALWAYS REAL texel_of(REAL x, REAL n)
 {
     const REAL at = (x - r_floor(x)) * n - K_(0.5);
@@ -44,7 +46,7 @@ ALWAYS void place_look(const SKYLINE *h, const STRIP *strip, int i, Skyline *to)
     to->down[i] = y - row;
 }
 
-/* Where the lamp stands over the sample's tangent plane, and what share of it is known without a look. */
+/* Position of the lamp above the sample's tangent plane, and its share if that is known without a fetch. */
 ALWAYS void find_lamp(const SKYLINE *h, const LIGHT *light, const bool point, const bool round,
                       const STRIP *strip, int i, REAL *share, Skyline *to)
 {
@@ -53,7 +55,7 @@ ALWAYS void find_lamp(const SKYLINE *h, const LIGHT *light, const bool point, co
     const VEC l = point ? light_toward(LOAD3(strip, p, i), where) : where;
     const REAL e = v_dot(pu, pu), f = v_dot(pu, pv), g = v_dot(pv, pv), det = e * g - f * f;
     const REAL lu = v_dot(l, pu), lv = v_dot(l, pv), up = v_dot(l, n);
-    /* Where its back is seen the table is another. */
+    /* The horizons do not apply to back faces: their share is 1. */
     const bool faces = (v_dot(LOAD3(strip, b, i), n) > K_(0)) & (det > K_(0));
     const REAL inv = K_(1) / (faces ? det : K_(1));
     const REAL x = (g * lu - f * lv) * inv * (h->ru * (REAL)h->width);
@@ -85,7 +87,8 @@ ALWAYS REAL mix_taps(const REAL *tap, REAL right, REAL down)
     return high + down * (low - high);
 }
 
-/* wr_horizon_lamp: `up` the lamp rises and `slope` the horizon does, both per unit of the way towards it. */
+/* As wr_horizon_lamp: `up` is the slope of the lamp, `slope` that of the horizon, both per unit of the way
+   towards the lamp. */
 ALWAYS REAL share_above(REAL up, REAL slope, REAL radius)
 {
     const REAL left = K_(1) - up * up, flat = r_sqrt(left > K_(0) ? left : K_(0));
@@ -115,7 +118,8 @@ ALWAYS WrSeen see_lamp(const LIGHT *light, const SKYLINE *h, const bool point, c
     }
     if (asks > 0) {
         for (int i = 0; i < count; i++) {
-            const size_t at = to.asks[i] ? (size_t)to.at[i] : 0; /* what is not asked lies near */
+            /* unused fetches read a nearby address */
+            const size_t at = to.asks[i] ? (size_t)to.at[i] : 0;
             const size_t first = to.asks[i] ? (size_t)to.first[i] * plane : 0;
             const size_t next = to.asks[i] ? (size_t)to.next[i] * plane : 0;
             copy_taps(h->slope + first + at, h->width + 1, to.tap[0] + 4 * i);

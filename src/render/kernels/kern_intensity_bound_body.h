@@ -1,21 +1,21 @@
-/* kern_intensity_bound_body.h - rigorous bounds on how far a pixel's intensity can be from that at its centre. A part
-   of kern_body.h.
+/* kern_intensity_bound_body.h - rigorous bounds of the deviation of a pixel's intensity from that at its centre.
+   Part of kern_body.h.
 
-   One after the other: where on the surface the pixel lies (u, v, |P - P0|, and |n - n0| = turn); the least
-   and largest slopes there, from the RANGE pyramid, since bilinear interpolation stays within its taps; the
-   change of n' = (n - g)/|n - g|, g = Fu a + Fv b, by
-       |n' - n0'| <= |n - n0| + |g - g0|        (both vectors are 1 long or longer: the projection to the
-                                                 unit ball moves no two points apart)
-   and of each light's share, since max(0, n'.l) changes by no more than |n' - n0'| + |l - l0| and c^s rises
-   with c. Infinite where a step knows no bound. A little is added for rounding. */
+   Steps: the area of the pixel on the surface (u, v, |P - P0|, and |n - n0| = turn); the least and largest
+   slopes there, from the RANGE pyramid, since bilinear interpolation stays within its taps; the change of n' =
+   (n - g)/|n - g|, g = Fu a + Fv b, by
+       |n' - n0'| <= |n - n0| + |g - g0|        (both vectors have length 1 or more: the projection to the
+                                                 unit ball increases no distance)
+   and of each light's share, since max(0, n'.l) changes by at most |n' - n0'| + |l - l0| and c^s increases with
+   c. Infinite where a step has no bound. A margin for rounding is added. */
 
 #define NO_BOUND ((REAL)INFINITY)
-#define LOOSE K_(1.0001) /* bounds are found in rounded arithmetic */
+#define LOOSE K_(1.0001) /* margin: bounds are computed in rounded arithmetic */
 
 /* A corner of the pixel on the quad's plane. */
 typedef struct Corner {
     REAL u, v;
-    bool front; /* in front of the near plane, on the side of the centre */
+    bool front; /* beyond the near plane, on the side of the centre */
 } Corner;
 
 ALWAYS Corner corner_at(const RAYS *rays, const QUAD *quad, REAL x, REAL y, REAL side)
@@ -38,7 +38,7 @@ FLAT static void kern_bound_quad(const RAYS *rays, const QUAD *quad, REAL pixel,
     const VEC n = { quad->normal[0], quad->normal[1], quad->normal[2] };
     const REAL len_u = K_(1) / v_dot(eu, eu), len_v = K_(1) / v_dot(ev, ev); /* |Pu|^2, |Pv|^2 */
     const REAL h = K_(0.5) * pixel;
-    const REAL inside = K_(1.5e-6); /* more than a joint (view.c) */
+    const REAL inside = K_(1.5e-6); /* larger than a joint (view.c) */
     const RAYS r = *rays;
     const QUAD face = *quad;
     const int count = strip->count;
@@ -66,9 +66,9 @@ FLAT static void kern_bound_quad(const RAYS *rays, const QUAD *quad, REAL pixel,
     }
 }
 
-/* On a ball of radius R a ray whose distance from the centre is rho meets the surface at an angle of sine
-   rho / R. Within the pixel rho grows by no more than rays move apart, r; so P moves no farther than
-   r / cos along the ball. */
+/* On a sphere of radius R a ray whose distance from the centre is rho hits the surface at an angle of sine rho /
+   R. Within the pixel rho grows at most by the distance between rays, r; so P moves at most r / cos along the
+   sphere. */
 FLAT static void kern_bound_sphere(const RAYS *rays, const SHAPE *shape, REAL pixel, STRIP *strip)
 {
     const REAL R = shape->value[0], h = K_(0.5) * pixel;
@@ -105,10 +105,10 @@ FLAT static void kern_bound_sphere(const RAYS *rays, const SHAPE *shape, REAL pi
     }
 }
 
-/* The texels of one axis that an interval of the parameter reads: one run of them, or two round the end. */
+/* The texels of one axis that an interval of the parameter reads: one run of them, or two across the end. */
 typedef struct Reach {
     int first[2], last[2], runs;
-    int span; /* texels; 0: not known */
+    int span; /* number of texels; 0: unknown */
 } Reach;
 
 static inline Reach reach_of(double low, double high, int n, bool periodic)
@@ -126,7 +126,7 @@ static inline Reach reach_of(double low, double high, int n, bool periodic)
     return reach;
 }
 
-/* Least and largest slopes of those texels, by blocks so large that few are looked at. */
+/* Least and largest slopes of those texels, from blocks so large that only a few are read. */
 static inline void look_range(const WrPyramid *range, Reach u, Reach v, float out[4])
 {
     const int span = u.span > v.span ? u.span : v.span;
@@ -170,8 +170,8 @@ FLAT static void kern_bound_slopes(const LOOK *look, STRIP *strip)
     }
 }
 
-/* On the ball a = e_phi / (2 pi R cos), b = e_lambda / (pi R): they change with the latitude and turn with
-   the place; on a plane they do not. */
+/* On the sphere a = e_phi / (2 pi R cos), b = e_lambda / (pi R): they change with the latitude and rotate with
+   the position; on a plane they are constant. */
 FLAT static void kern_bound_normal(bool sphere, bool bumped, STRIP *strip)
 {
     const REAL curved = sphere ? K_(1) : K_(0), bump = bumped ? K_(1) : K_(0);
@@ -194,7 +194,7 @@ FLAT static void kern_bound_normal(bool sphere, bool bumped, STRIP *strip)
     }
 }
 
-/* Change of a unit vector whose vector, `length` long, moves by at most `move`. */
+/* Change of the direction of a vector of that length when it moves by at most `move`. */
 ALWAYS REAL turn_of(REAL move, REAL length)
 {
     REAL left = length - move;

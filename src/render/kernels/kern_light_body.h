@@ -1,5 +1,5 @@
-/* kern_light_body.h - ambient, diffuse and highlight over strips. A part of kern_body.h;
-   the formulas are in shade/light_body.h. */
+/* kern_light_body.h - ambient light, diffuse light and highlights over strips. Part of kern_body.h; the formulas
+   are in shade/light_body.h. */
 
 FLAT static void kern_view(const RAYS *rays, STRIP *strip)
 {
@@ -100,19 +100,19 @@ FLAT static void kern_finish(const REAL colour[3], STRIP *strip)
     }
 }
 
-/* ---- all of one light in one pass: with one light nothing needs to be put by between the stages. The same formulas
-   in the same order as those stages, so the same bits where arithmetic is exact. ---- */
+/* ---- all of a single light in one pass: no intermediate results are stored. The formulas and their order are
+   those of the separate stages, so the bits are equal with exact arithmetic. ---- */
 
 ALWAYS REAL bent_dot(const STRIP *strip, int i, VEC l)
 {
     return strip->bx[i] * l.x + strip->by[i] * l.y + strip->bz[i] * l.z;
 }
 
-/* Highlights, and what they are powers of. Short loops, each of a few dozen operations: a processor looks only so far
-   ahead, and one long chain of operations a sample leaves it waiting. */
+/* Highlights, and the bases of their powers. Short loops, each of a few dozen operations: a processor reorders
+   only a limited number of them, so one long chain of operations per sample would leave it waiting. */
 typedef struct Lobes {
     REAL c[WR_SPAN], below[WR_SPAN]; /* of `half` */
-    REAL shown[WR_SPAN];             /* 1, or 0 where nothing shines */
+    REAL shown[WR_SPAN];             /* 1, or 0 where there is no highlight */
     REAL lobe[WR_SPAN];
     REAL vx[WR_SPAN], vy[WR_SPAN], vz[WR_SPAN]; /* unit, towards the viewer */
 } Lobes;

@@ -1,16 +1,17 @@
-/* kern_newton_guess_body.h - better guesses for Newton's method: every eighth sample of a row is solved first, and those between
-   start from the cubic through the nearest four. On a smooth piece of surface that is a thousand times nearer than the
-   mesh's own triangles, so that one evaluation of the surface is enough; elsewhere it lies off the mesh's guess, which then
-   stays. Of fast arithmetic alone: which samples are solved first depends on where a strip begins. A part of
-   kern_surface_body.h. */
+/* kern_newton_guess_body.h - start values for Newton's method, interpolated from every eighth sample of a row.
+
+   Every eighth sample is solved first; those between start from the cubic through the nearest four. On a smooth
+   piece of surface that is a thousand times closer than the mesh's own triangles, so that one evaluation of the
+   surface is enough. Elsewhere the cubic is far from the mesh's start value, which is then kept. Only for fast
+   arithmetic: which samples are solved first depends on the start of the strip. Part of kern_surface_body.h. */
 
 #ifdef WR_KERN_FAST
 
-#define KNOT 8 /* samples from knot to knot */
+#define KNOT 8 /* samples from hit to hit */
 #define KNOTS (WR_SPAN / KNOT)
-#define NEAR_GUESS 0.5f /* of a cell of the mesh: two guesses of one place are no farther apart */
+#define NEAR_GUESS 0.5f /* of a mesh cell: largest distance of two start values of one point */
 
-/* The cubic through four numbers, t steps beyond the first. */
+/* The cubic through four numbers, t steps after the first. */
 ALWAYS REAL cubic_at(const REAL *at, REAL t)
 {
     const REAL a = t - 1.0f, b = t - 2.0f, c = t - 3.0f;
@@ -18,13 +19,13 @@ ALWAYS REAL cubic_at(const REAL *at, REAL t)
            t * a * (b * at[3] * (1.0f / 6.0f) - c * at[2] * 0.5f);
 }
 
-/* The knots' own u, v, in their places among the strip's samples. */
+/* u, v of the solved samples, at their positions in the strip. */
 typedef struct Knots {
     REAL u[KNOTS], v[KNOTS];
     int count;
 } Knots;
 
-/* Solve every KNOT-th sample; the strip's samples are as before. */
+/* Solves every KNOT-th sample; the strip's samples are unchanged. */
 static void solve_knots(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays, const NEWTON *how,
                         STRIP *strip, Knots *knots)
 {
@@ -43,7 +44,7 @@ static void solve_knots(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays
     strip->count = count;
 }
 
-/* The samples from `from` on, up to KNOT of them, from four knots, the first of which is `first`. */
+/* Start values of up to KNOT samples from `from` on, from four solved samples, starting with `first`. */
 FLAT static void guess_run(const Knots *knots, const NEWTON *how, int first, int from, STRIP *strip)
 {
     const REAL far_u = NEAR_GUESS * how->reach_u, far_v = NEAR_GUESS * how->reach_v;
@@ -71,7 +72,7 @@ static void guess_between(Evaluate *evaluate, const SHAPE *shape, const RAYS *ra
         const int first = own < 0 ? 0 : own > most ? most : own, at = first * KNOT;
         const int last = from + KNOT - 1 < strip->count ? from + KNOT - 1 : strip->count - 1;
         const int end = at + 3 * KNOT > last ? at + 3 * KNOT : last;
-        /* beside each other in a row, from the first knot to the last one */
+        /* only if they are neighbours in a row, from the first solved sample to the last */
         if (strip->y[at] == strip->y[end] && strip->x[end] - strip->x[at] == (REAL)(end - at))
             guess_run(&knots, how, first, from, strip);
     }

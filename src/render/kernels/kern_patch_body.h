@@ -1,19 +1,21 @@
-/* kern_patch_body.h - where rays meet bicubic patches (surface/patches.h): the triangle that a sample sees gives the patch
-   and (u,v) nearly; Newton's method then finds the patch's own point on the ray, and place, normal and tangents are the
-   patch's. A part of kern_body.h, after kern_triangle_body.h, whose words for Pu, Pv it keeps to.
+/* kern_patch_body.h - ray hits on bicubic patches (surface/patches.h). Part of kern_body.h, after
+   kern_triangle_body.h, whose conventions for Pu, Pv it keeps.
 
-   The chart gives the table's u and v as whole multiples of the patch's: with grad u = Pv x n / |N| and
-   grad v = n x Pu / |N|, for table's u = c1 u + c2 v, v = c4 u + c5 v
+   The triangle of a sample gives the patch and approximate (u,v). Newton's method then finds the patch's own
+   point on the ray; position, normal and tangents are the patch's.
+
+   The chart gives the table's u and v as whole multiples of the patch's: with grad u = Pv x n / |N| and grad v =
+   n x Pu / |N|, for table's u = c1 u + c2 v, v = c4 u + c5 v
      Pv := n x grad u = (c1 Pv - c2 Pu) / |N|      Pu := grad v x n = (c5 Pu - c4 Pv) / |N| */
 
 #define PATCH_SPAN 64 /* samples at a time: their patches stay in the first-level cache */
 #define PATCH_FLOATS 56
 
-/* The patches of PATCH_SPAN samples, side by side; each sample's triangle's normal. */
+/* The patches of PATCH_SPAN samples, side by side; and each sample's triangle normal. */
 typedef struct PatchRows {
     _Alignas(64) REAL row[PATCH_FLOATS][PATCH_SPAN];
     REAL face[3][PATCH_SPAN];
-    REAL weak[PATCH_SPAN]; /* 1: |N| is next to nothing */
+    REAL weak[PATCH_SPAN]; /* 1: |N| is almost 0 */
 } PatchRows;
 
 static void gather_patches(const WrTriangleLook *look, const STRIP *strip, int at, int count,
@@ -44,7 +46,8 @@ ALWAYS VEC mixed3(VEC a, VEC b, VEC c, REAL k0, REAL k1, REAL k2)
     return v_mad(v_mad(v_scale(a, k0), b, k1), c, k2);
 }
 
-/* Along u in the row of points that begins at k. Differences come first, so that points which are one give 0. */
+/* Point and derivative along u of the row of control points that begins at k. Differences come first, so that
+   coincident points give 0. */
 ALWAYS void patch_row(const PatchRows *rows, int k, int i, FN(BezierBasis) b, VEC *p, VEC *d)
 {
     const VEC c0 = patch_point(rows, k, i), c1 = patch_point(rows, k + 1, i);
@@ -77,11 +80,11 @@ ALWAYS REAL within_patch(REAL t)
 
 ALWAYS REAL at_most(REAL t, REAL most)
 {
-    t = t > -most ? t : -most; /* not a number too */
+    t = t > -most ? t : -most; /* NaN included */
     return t < most ? t : most;
 }
 
-/* A point of the patch under way to the ray. */
+/* A point of the patch during the iteration. */
 typedef struct PatchPoint {
     REAL u, v;
     VEC p, pu, pv;
@@ -94,8 +97,8 @@ ALWAYS PatchPoint patch_at(const PatchRows *rows, int i, REAL u, REAL v)
     return at;
 }
 
-/* A step of Newton's method towards the ray q + s d, no longer than a triangle's reach: where the ray all but lies in the
-   patch it would lead anywhere. */
+/* A step of Newton's method towards the ray q + s d, limited to a triangle's reach: if the ray lies almost in
+   the patch it would lead anywhere. */
 ALWAYS PatchPoint patch_step(const PatchRows *rows, int i, VEC q, VEC d, PatchPoint at)
 {
     VEC gap = v_sub(q, at.p), a = v_cross(at.pv, d), b = v_cross(d, at.pu);
@@ -106,7 +109,7 @@ ALWAYS PatchPoint patch_step(const PatchRows *rows, int i, VEC q, VEC d, PatchPo
     return patch_at(rows, i, u, v);
 }
 
-/* Written out: a loop within the loop over samples would keep that from vectorising. */
+/* Unrolled: an inner loop would prevent vectorising the loop over samples. */
 ALWAYS PatchPoint solve_patch(const PatchRows *rows, int i, VEC q, VEC d, REAL u, REAL v)
 {
     PatchPoint at = patch_step(rows, i, q, d, patch_at(rows, i, u, v));
@@ -116,13 +119,13 @@ ALWAYS PatchPoint solve_patch(const PatchRows *rows, int i, VEC q, VEC d, REAL u
     return patch_step(rows, i, q, d, at);
 }
 
-/* The chart's two scales, and what all samples share. */
+/* The chart's two scales, and the parameters shared by all samples. */
 typedef struct PatchMeeting {
     Meeting all;
     REAL scale_u, scale_v;
 } PatchMeeting;
 
-/* What the strip keeps of the point, its unit normal n and 1 / |N|. */
+/* Stores the point, its unit normal n and 1 / |N| in the strip. */
 ALWAYS void put_patch(const PatchMeeting *m, const PatchRows *rows, const PatchPoint *met, VEC n,
                       REAL inv, STRIP *strip, int at, int i)
 {
@@ -157,12 +160,13 @@ ALWAYS void meet_patch(const PatchMeeting *m, PatchRows *rows, STRIP *strip, int
     const bool weak = !(size > K_(1e-6) * whole * whole);
     REAL inv = weak ? K_(0) : K_(1) / size;
     rows->weak[i] = weak ? K_(1) : K_(0);
-    strip->s[at + i] = met.u; /* for those that are weak */
+    strip->s[at + i] = met.u; /* for weak points */
     strip->tu[at + i] = met.v;
     put_patch(m, rows, &met, choose(weak, face, v_scale(cross, inv)), inv, strip, at, i);
 }
 
-/* Where Pu x Pv all but vanishes the normal is a limit (bezier.h), and slopes along what has no length are 0. */
+/* Where Pu x Pv almost vanishes the normal is a limit (bezier.h), and slopes along a direction without length
+   are 0. */
 static void meet_weak(const PatchMeeting *m, const PatchRows *rows, STRIP *strip, int at, int i)
 {
     SHAPE shape = { .scale = 1 };
@@ -175,7 +179,7 @@ static void meet_weak(const PatchMeeting *m, const PatchRows *rows, STRIP *strip
     put_patch(m, rows, &met, point.n_unit, inv, strip, at, i);
 }
 
-/* The (u,v) of the patch where the ray meets the triangle, and the triangle's normal. */
+/* The (u,v) of the patch where the ray hits the triangle, and the triangle's normal. */
 ALWAYS void begin_patch(const PatchMeeting *m, const Corners *corners, PatchRows *rows,
                         STRIP *strip, int at, int i)
 {

@@ -1,16 +1,16 @@
-/* kern_raster_body.h - visibility by a mesh: the samples that a triangle covers, and a row's that something covers. A
-   part of kern_body.h. */
+/* kern_raster_body.h - mesh visibility: samples covered by a triangle, and covered samples of a row. Part of
+   kern_body.h. */
 
 #ifndef WR_KERN_DOUBLE
 
 _Static_assert(LANES <= WR_WALK_PAD, "what is written past the end");
 
-/* The three edges of a triangle at the first of LANES samples. */
+/* The three edge values of a triangle at the first of LANES samples. */
 typedef struct Edges {
     int32_t a, b, c;
 } Edges;
 
-/* How they change from the first of LANES samples to the others. */
+/* Their differences from the first of LANES samples to the others. */
 typedef struct EdgeSteps {
     int32_t a[LANES], b[LANES], c[LANES];
 } EdgeSteps;
@@ -20,7 +20,7 @@ ALWAYS float on_plane(WrPlane plane, float l1, float l2)
     return plane.base + l1 * plane.d1 + l2 * plane.d2;
 }
 
-/* LANES samples, of which the first `count` may be written. */
+/* Covers LANES samples, of which the first `count` may be written. */
 ALWAYS void cover_lanes(const WrWalk *walk, Edges first, const EdgeSteps *steps, int count,
                         const bool perspective, float *restrict close, float *restrict u,
                         float *restrict v)
@@ -41,7 +41,7 @@ ALWAYS void cover_lanes(const WrWalk *walk, Edges first, const EdgeSteps *steps,
     }
 }
 
-/* Does one of the edges leave all LANES samples out? */
+/* True if one edge excludes all LANES samples. */
 ALWAYS bool edges_miss(Edges first, const EdgeSteps *steps)
 {
     const int last = LANES - 1;
@@ -82,7 +82,7 @@ FLAT static void kern_cover(const WrWalk *walk, float *close, float *u, float *v
 }
 #endif
 
-/* The places of the hits of a row from (gx, gy) on, by their index; `hits` again. */
+/* Stores the grid positions of a row's hits from (gx, gy) on; returns `hits`. */
 ALWAYS int put_places(REAL gx, REAL gy, int hits, STRIP *strip)
 {
     SIMD for (int i = 0; i < hits; i++)
@@ -93,7 +93,7 @@ ALWAYS int put_places(REAL gx, REAL gy, int hits, STRIP *strip)
     return hits;
 }
 
-/* Samples of a row that something covers, from (gx, gy) on. */
+/* Covered samples of a row from (gx, gy) on. */
 FLAT static int kern_covered(const float *close, const float *u, const float *v, REAL gx, REAL gy,
                              int count, STRIP *strip)
 {
@@ -108,7 +108,7 @@ FLAT static int kern_covered(const float *close, const float *u, const float *v,
     return put_places(gx, gy, hits, strip);
 }
 
-/* Samples of a row that were noted, from (gx, gy) on. */
+/* Samples of a row from (gx, gy) on that are in the uv cache. */
 FLAT static int kern_recall(const float *u, const float *v, REAL gx, REAL gy, int count,
                             STRIP *strip)
 {

@@ -1,7 +1,7 @@
-/* kern_ray_hit_body.h - visibility in closed form. A part of kern_body.h. Each is written once for neighbours
-   in a row, whose rays differ by one addition, and for samples anywhere (spread). */
+/* kern_ray_hit_body.h - closed-form ray intersection. Part of kern_body.h. Each kernel has two forms: for
+   neighbours in a row, whose rays differ by one addition, and for arbitrary samples (spread). */
 
-/* The ray of sample i of the strip: of neighbours from (gx, gy) on, or wherever it stands. */
+/* The ray of sample i of the strip: of neighbours from (gx, gy) on, or at any position. */
 typedef struct Ray {
     VEC q, d;
 } Ray;
@@ -13,8 +13,9 @@ ALWAYS Ray ray_of(const RAYS *rays, const STRIP *strip, int i, REAL gx, REAL gy,
 }
 
 /* |q + s d| = R. With m = q.d / d.d the foot of the perpendicular is f = q - m d, and
-   s = -m -+ sqrt((R^2 - f.f) / d.d): no difference of large squares. s is kept relative to the foot. Two
-   short loops: a processor looks only so far ahead, and the two roots wait for what comes before them. */
+   s = -m -+ sqrt((R^2 - f.f) / d.d): no difference of large squares. s is stored relative to the foot. Two short
+   loops: a processor reorders only a limited number of operations, and the two roots wait for the values before
+   them. */
 ALWAYS int hit_sphere(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
                       const bool spread, STRIP *strip)
 {
@@ -70,9 +71,9 @@ ALWAYS int hit_cylinder(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, 
     return compact_points(count, spread, strip);
 }
 
-/* A ray about the cone's tip: x^2 + y^2 = k^2 w^2, k = R/H, w the depth under the tip. `foot` is its point
-   nearest the tip and m = -s there: roots are kept relative to it, so that nothing cancels however near the
-   tip rays pass (no w^2 is taken from a w^2). */
+/* A ray relative to the cone's tip: x^2 + y^2 = k^2 w^2, k = R/H, w the depth below the tip. `foot` is its point
+   nearest the tip and m = -s there: roots are relative to it, so that nothing cancels however close to the tip
+   rays pass (no w^2 is subtracted from a w^2). */
 typedef struct TipRay {
     VEC foot; /* from the tip; z up */
     REAL m;
@@ -85,9 +86,8 @@ ALWAYS TipRay ray_of_tip(VEC q, VEC d, REAL top)
     return (TipRay){ v_mad(from, d, -m), m };
 }
 
-/* a s^2 + 2 b s + c = 0, roots in the stable form t / a and c / t with t = -(b +- root); root^2 =
-   b^2 - a c = (x k dz - k z dx)^2 + (y k dz - k z dy)^2 - (x dy - y dx)^2, the same without the products
-   that cancel. */
+/* a s^2 + 2 b s + c = 0, roots in the stable form t / a and c / t with t = -(b +- root); root^2 = b^2 - a c = (x
+   k dz - k z dx)^2 + (y k dz - k z dy)^2 - (x dy - y dx)^2, the same value without the products that cancel. */
 ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
                     const bool spread, STRIP *strip)
 {
@@ -119,9 +119,9 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
     return compact_points(count, spread, strip);
 }
 
-/* ---- from the point that the ray met: of round surfaces u, v and the frame, each only where it is asked for.
-   Points are the hits' own: of the cone from its tip. P and n come from one kernel whatever else is asked for, so that
-   they have the same bits. ---- */
+/* ---- round surfaces: u, v and the frame from the hit point, each only on request. Points are relative to the
+   centre, on the cone to its tip. P and n come from one kernel in every combination, so that their bits are
+   equal. ---- */
 
 static inline REAL v_of_sphere(const SHAPE *shape, VEC p)
 {
@@ -141,7 +141,7 @@ static inline REAL v_of_cone(const SHAPE *shape, VEC p)
     return K_(1) + p.z / shape->value[1];
 }
 
-/* A surface's frame from a point, and its v of it. */
+/* Functions of a surface that compute its frame, or its v, from a point. */
 typedef void FrameFrom(const SHAPE *shape, VEC p, POINT *at);
 typedef REAL VOf(const SHAPE *shape, VEC p);
 
@@ -224,7 +224,7 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
         Ray ray = ray_of(rays, strip, i, gx, gy, spread);
         VEC q = ray.q, d = ray.d;
         REAL dn = v_dot(d, n);
-        REAL s = v_dot(v_sub(o, q), n) / dn; /* where dn is 0 none that counts */
+        REAL s = v_dot(v_sub(o, q), n) / dn; /* no valid hit if dn is 0 */
         VEC p = v_sub(v_mad(q, d, s), o);
         REAL u = v_dot(p, eu), v = v_dot(p, ev);
         bool in = (u >= u0) & (u <= u1) & (v >= v0) & (v <= v1);

@@ -1,4 +1,4 @@
-/* The span kernels in plain C, one sample at a time: what all other sets must agree with. */
+/* Reference span kernels in plain C, one sample at a time; all other sets must agree with them. */
 #define WR_KERN_PLAIN
 #define WR_KERN_TABLE wr_kern_ref
 #define WR_KERN_NAME "ref"

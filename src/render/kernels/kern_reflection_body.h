@@ -1,5 +1,6 @@
-/* kern_reflection_body.h - a lamp on strips of other models than Blinn-Phong's. A part of kern_body.h; the formulas are in
-   shade/reflection_body.h. After `light` and `view`; the colour picture's C is in the strip already. */
+/* kern_reflection_body.h - lamps with reflection models other than Blinn-Phong, on strips. Part of kern_body.h;
+   the formulas are in shade/reflection_body.h. Runs after `light` and `view`; the colour picture's C is already
+   in the strip. */
 
 ALWAYS Facets facets_of(const STRIP *strip, int i, bool spread, bool round, REAL a2)
 {
@@ -9,7 +10,7 @@ ALWAYS Facets facets_of(const STRIP *strip, int i, bool spread, bool round, REAL
                           a2);
 }
 
-/* left: as told. */
+/* Reflection at sample i. left: share of energy for diffuse light. */
 ALWAYS Reflected reflect_at(const STRIP *strip, int i, const WrReflect model, const Form form,
                             REAL left, const MATTER *m)
 {
@@ -25,7 +26,7 @@ ALWAYS Reflected reflect_at(const STRIP *strip, int i, const WrReflect model, co
     return reflect_ggx(n, l, v, wide, form, left, m);
 }
 
-/* A lamp's colour, and the surface's own times kd. */
+/* A lamp's colour, and that colour times the surface's own and kd. */
 typedef struct Shone {
     REAL r, g, b, own_r, own_g, own_b;
 } Shone;
@@ -36,7 +37,8 @@ ALWAYS Shone shone_of(const LIGHT *light, const MATTER *m)
                     m->kd * m->colour[0], m->kd * m->colour[1], m->kd * m->colour[2] };
 }
 
-/* What it adds to the sums of sample i. twice: also what facets throw at each other, of which `mean` is kept. */
+/* Adds to the sums of sample i. twice: includes interreflection of the facets, whose colour is mixed with
+   `mean`. */
 ALWAYS void add_reflected(Shone by, Reflected got, const bool twice, REAL mean, STRIP *strip, int i)
 {
     REAL again_r = K_(0), again_g = K_(0), again_b = K_(0);
@@ -67,7 +69,7 @@ ALWAYS void reflect_strip(const LIGHT *light, const MATTER *matter, const WrRefl
     }
 }
 
-/* Models without facets know neither of the last two. */
+/* Models without facets ignore the last two arguments. */
 ALWAYS void reflect_as(const LIGHT *light, const MATTER *m, const WrReflect model, const bool kept,
                        WrReflectSpread how, STRIP *strip)
 {
@@ -84,9 +86,9 @@ ALWAYS void reflect_as(const LIGHT *light, const MATTER *m, const WrReflect mode
     else reflect_strip(light, m, model, (Form){ .kept = kept }, strip);
 }
 
-/* ---- what may be left out of a run (E37, E39, E40) ---- */
+/* ---- early-outs for runs (E37, E39, E40) ---- */
 
-/* Is n' of all samples seen from its front? Then nothing bends it. */
+/* True if every n' faces the viewer. Then none is bent. */
 FLAT static bool kern_faces(const STRIP *strip)
 {
     const int count = strip->count;
@@ -98,7 +100,7 @@ FLAT static bool kern_faces(const STRIP *strip)
     return turned == 0;
 }
 
-/* Do slopes spread nowhere? */
+/* True if no sample has a spread of slopes. */
 FLAT static bool kern_gathered(const STRIP *strip)
 {
     const int count = strip->count;
@@ -117,7 +119,7 @@ FLAT static bool kern_gathered(const STRIP *strip)
 #define SIMD_SURVEY WR_PRAGMA(omp simd reduction(min : nv, vv, ll) reduction(max : na))
 #endif
 
-/* What directions of the samples are like: least n'.v, most n'.axis, least v.v0 and l.l0. */
+/* Extremes of the samples' directions: least n'.v, largest n'.axis, least v.v0 and l.l0. */
 FLAT static void kern_survey(const REAL axis[3], const REAL v0[3], const REAL l0[3],
                              const STRIP *strip, REAL out[4])
 {
@@ -138,7 +140,7 @@ FLAT static void kern_survey(const REAL axis[3], const REAL v0[3], const REAL l0
     out[0] = nv, out[1] = na, out[2] = vv, out[3] = ll;
 }
 
-/* Highlights in the surface's colour to the share t. */
+/* Colours highlights by the surface's colour to the share t. */
 FLAT static void kern_tint(REAL t, STRIP *strip)
 {
     const int count = strip->count;

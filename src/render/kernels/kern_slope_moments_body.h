@@ -1,21 +1,21 @@
-/* kern_slope_moments_body.h - highlights widened by the spread of slopes inside a pixel. A part of kern_body.h.
+/* kern_slope_moments_body.h - highlights widened by the spread of slopes inside a pixel. Part of kern_body.h.
 
-   A slope's change (dFu, dFv) moves grad F by dg = dFu a + dFv b, a = (Pv x n)/|N|, b = (n x Pu)/|N|, and
-   turns n' = (n - g)/|n - g| along a direction e across n' by e . dg (n . n'), as a tangent. So the
-   covariance of those tangents is C = (n . n')^2 J S J^T, J = (e . a, e . b; f . a, f . b) with e, f any
-   two perpendicular unit vectors across n'.
+   A slope's change (dFu, dFv) moves grad F by dg = dFu a + dFv b, a = (Pv x n)/|N|, b = (n x Pu)/|N|, and turns
+   n' = (n - g)/|n - g| along a direction e across n' by e . dg (n . n'), as a tangent. So the covariance of
+   those tangents is C = (n . n')^2 J S J^T, J = (e . a, e . b; f . a, f . b) with e, f any two perpendicular
+   unit vectors across n'.
 
-   The program's lobe cos^s is near exp(-s tan^2 / 2), a Gaussian of covariance I/s in those tangents.
-   Its mean over slopes that are spread by C is the Gaussian of covariance C + I/s, lower by
+   The program's lobe cos^s is close to exp(-s tan^2 / 2), a Gaussian of covariance I/s in those tangents. Its
+   mean over slopes with covariance C is the Gaussian of covariance C + I/s, lower by
    1/sqrt(det(I + s C)). Written as a cosine's power again:
 
      LEAN      cos^s',  s' = t^T (C + I/s)^-1 t / t^T t,  t the direction from n' to h across n'
      Toksvig   s' = s / (1 + s c),  c = trace(C) / 2, lower by 1/(1 + s c)
 
    Where C = 0, s' = s to the bit. Diffuse light is that of the mean slope. For `invariant` a and b are
-   made unit; for `exact` the terms in F are left out of a and b. */
+   normalised; for `exact` the terms in F are left out of a and b. */
 
-/* Two unit vectors across the unit vector n and each other. */
+/* Two unit vectors perpendicular to the unit vector n and to each other. */
 typedef struct Across {
     VEC e, f;
 } Across;
@@ -53,7 +53,7 @@ FLAT static void kern_widen(bool unit_tangents, STRIP *strip)
         REAL see = capped(suu * ea * ea + K_(2) * suv * ea * eb + svv * eb * eb);
         REAL sff = capped(suu * fa * fa + K_(2) * suv * fa * fb + svv * fb * fb);
         REAL sef = suu * ea * fa + suv * (ea * fb + eb * fa) + svv * eb * fb;
-        see = see > K_(0) ? see : K_(0); /* HC93; not a number too */
+        see = see > K_(0) ? see : K_(0); /* HC93; NaN as well */
         sff = sff > K_(0) ? sff : K_(0);
         REAL most = r_sqrt(see) * r_sqrt(sff);
         sef = sef < most ? sef : most;

@@ -1,9 +1,11 @@
-/* kern_solid_texture_body.h - solid textures on strips (shade/solid_texture.h). A part of kern_body.h. */
+/* kern_solid_texture_body.h - solid textures on strips (shade/solid_texture.h). Part of kern_body.h. */
 
-#define GRAIN_SOFT K_(0.81649658092772603) /* of Perlin's slopes: it keeps noise within 1 */
-#define GRAIN_FAR K_(1e9) /* cells: beyond, single precision has no place within a cell */
+/* scale of Perlin's gradients that keeps noise within 1 */
+#define GRAIN_SOFT K_(0.81649658092772603)
+/* cells: beyond, single precision cannot represent a position within a cell */
+#define GRAIN_FAR K_(1e9)
 
-/* The number of a lattice point, in (-1, 1); exact. */
+/* The value of a lattice point, in (-1, 1); exact. */
 ALWAYS REAL grain_number(uint32_t h)
 {
     return (REAL)(2 * (int32_t)(h >> 9) + 1) * K_(0x1p-23) - K_(1);
@@ -37,7 +39,7 @@ ALWAYS Noisy noisy_mix(Noisy a, Noisy b, REAL t)
                     grain_mix(a.z, b.z, t) };
 }
 
-/* A place in the lattice: hashes of both neighbours along each axis, and how far it is from the lower ones. */
+/* A position in the lattice: hashes of both neighbours along each axis, and its offsets from the lower ones. */
 typedef struct GrainCell {
     uint32_t x0, x1, y0, y1, z0, z1;
     REAL x, y, z, tx, ty, tz;
@@ -57,8 +59,9 @@ ALWAYS GrainCell grain_cell(uint32_t start, REAL x, REAL y, REAL z)
     return c;
 }
 
-/* What a corner of the lattice gives: its number; or, soft, its slope times the way from there: Perlin's twelve slopes, the
-   middles of a cube's edges, by the upper bits of the hash as wr_lattice_gradient has them. */
+/* Contribution of a lattice corner: its value; or, soft, its gradient times the offset from there: Perlin's
+   twelve gradients, the midpoints of a cube's edges, chosen by the upper bits of the hash as in
+   wr_lattice_gradient. */
 ALWAYS Noisy grain_corner(uint32_t xy, uint32_t z, const bool soft, REAL dx, REAL dy, REAL dz)
 {
     const uint32_t h = wr_lattice_hash_link(xy, z);
@@ -74,7 +77,7 @@ ALWAYS Noisy grain_corner(uint32_t xy, uint32_t z, const bool soft, REAL dx, REA
     return (Noisy){ gx * dx + gy * dy + gz * dz, gx, gy, gz };
 }
 
-/* Along z, then y, then x. sloped: with slopes. */
+/* Interpolates along z, then y, then x. sloped: with slopes. */
 ALWAYS Noisy grain_edge(uint32_t xy, const GrainCell *c, const bool soft, const bool sloped,
                         REAL dx, REAL dy)
 {
@@ -97,7 +100,7 @@ ALWAYS Noisy grain_side(uint32_t x, const GrainCell *c, const bool soft, const b
     return at;
 }
 
-/* Noise of the lattice whose chain starts so. */
+/* Noise of the lattice whose hash chain starts with `start`. */
 ALWAYS Noisy grain_noise(uint32_t start, const bool soft, const bool sloped, REAL x, REAL y, REAL z)
 {
     const GrainCell c = grain_cell(start, x, y, z);
@@ -109,19 +112,19 @@ ALWAYS Noisy grain_noise(uint32_t start, const bool soft, const bool sloped, REA
     return at;
 }
 
-/* What a strip's noise has come to, and what each pixel holds of space. */
+/* Sums of a strip's noise, and each pixel's extent in space. */
 typedef struct GrainStrip {
     _Alignas(64) REAL sum[WR_SPAN];             /* of octaves */
     REAL gx[WR_SPAN], gy[WR_SPAN], gz[WR_SPAN]; /* its slopes */
-    REAL lost[WR_SPAN];                         /* the variance of what has faded */
-    REAL ax[WR_SPAN], ay[WR_SPAN], az[WR_SPAN]; /* P's step to the right */
-    REAL wx[WR_SPAN], wy[WR_SPAN], wz[WR_SPAN]; /* and down */
-    REAL size[WR_SPAN];                         /* the sum of their squares */
+    REAL lost[WR_SPAN];                         /* variance of the octaves that have faded */
+    REAL ax[WR_SPAN], ay[WR_SPAN], az[WR_SPAN]; /* step of P for one pixel to the right */
+    REAL wx[WR_SPAN], wy[WR_SPAN], wz[WR_SPAN]; /* and for one pixel down */
+    REAL size[WR_SPAN];                         /* sum of their squares */
     REAL value[WR_SPAN];                        /* the pattern, 0..1 */
-    REAL least;                                 /* of size */
+    REAL least;                                 /* minimum of size */
 } GrainStrip;
 
-/* One octave into the sums of a strip; faded: as far as pixels can show it, with slopes. */
+/* Adds one octave to the sums of a strip; faded: as far as pixels can resolve it, with slopes. */
 ALWAYS void grain_octave(const GRAIN *g, const bool soft, const bool faded, int octave,
                          const STRIP *strip, GrainStrip *to)
 {
@@ -162,7 +165,7 @@ GRAIN_OCTAVE(smooth_faded, false, true)
 GRAIN_OCTAVE(soft, true, false)
 GRAIN_OCTAVE(soft_faded, true, true)
 
-/* An octave that no pixel of the strip shows. */
+/* Adds an octave that no pixel of the strip resolves. */
 FLAT static void grain_gone(const GRAIN *g, int octave, int count, GrainStrip *to)
 {
     const REAL amplitude = g->amplitude[octave], mean = amplitude * g->mean;
@@ -174,7 +177,7 @@ FLAT static void grain_gone(const GRAIN *g, int octave, int count, GrainStrip *t
     }
 }
 
-/* How P moves on the plane across n from pixel to pixel (kern_filter_body.h). */
+/* Steps of P from pixel to pixel on the plane across n (kern_filter_body.h). */
 FLAT static void grain_steps(const RAYS *rays, const STRIP *strip, GrainStrip *to)
 {
     const VEC qx = { rays->qx[0], rays->qx[1], rays->qx[2] };
@@ -224,20 +227,20 @@ ALWAYS GrainTurned grain_turned(WrSolidTextureAxis axis, STRIP *strip, const Gra
 
 #define TURNED3(at, name, i) ((VEC){ (at).name##x[i], (at).name##y[i], (at).name##z[i] })
 
-/* How much of a quantity of slope g a pixel holds, squared: of a box with the variance of the pixel's parallelogram. */
+/* Squared extent of a pixel in a quantity of slope g: of a box with the variance of the pixel's parallelogram. */
 ALWAYS REAL grain_held(GrainTurned at, int i, VEC g)
 {
     const REAL a = v_dot(g, TURNED3(at, a, i)), w = v_dot(g, TURNED3(at, w, i));
     return a * a + w * w;
 }
 
-/* 0 of even numbers, 1 of odd ones; whole. */
+/* 0 for even numbers, 1 for odd ones; the argument is whole. */
 ALWAYS REAL grain_odd(REAL whole)
 {
     return whole - K_(2) * r_floor(whole * K_(0.5));
 }
 
-/* Where a sample lies in the pattern, how much it holds of that, and how that changes along the axes. */
+/* A sample's position in the pattern, its extent there, and the change along the axes. */
 typedef struct GrainPlace {
     REAL t, w;
     VEC slope;
@@ -255,7 +258,7 @@ ALWAYS GrainPlace grain_place(const GRAIN *g, const WrSolidTextureKind kind, con
     if (marble) out.t = k * p.z + moved;
     if (kind == WR_SOLID_TEXTURE_NOISE) out.t = K_(0.5) + moved;
     if (!wide) return out;
-    const REAL per = from > K_(1e-20) ? k / from : K_(0); /* on the axis rings have no slope */
+    const REAL per = from > K_(1e-20) ? k / from : K_(0); /* on the axis, rings have slope 0 */
     const VEC own = { wood ? per * p.x : K_(0), wood ? per * p.y : K_(0), marble ? k : K_(0) };
     out.slope = v_mad(own, TURNED3(at, g, i), a);
     const REAL held = grain_held(at, i, out.slope) + K_(12) * a * a * at.lost[i];
@@ -263,7 +266,7 @@ ALWAYS GrainPlace grain_place(const GRAIN *g, const WrSolidTextureKind kind, con
     return out;
 }
 
-/* The pattern there. */
+/* Value of the pattern at that position. */
 ALWAYS REAL grain_level(const GRAIN *g, const WrSolidTextureKind kind, const bool wide,
                         GrainPlace at)
 {
@@ -277,7 +280,7 @@ ALWAYS REAL grain_level(const GRAIN *g, const WrSolidTextureKind kind, const boo
     return wide ? grain_ramp_mean(at.t, at.w) : grain_clamp(at.t);
 }
 
-/* And its slope by t. */
+/* Slope of the pattern by t. */
 ALWAYS REAL grain_rise(const GRAIN *g, const WrSolidTextureKind kind, GrainPlace at)
 {
     const REAL wide = at.w > K_(1e-3) ? at.w : K_(1e-3), half = K_(0.5) * wide;
@@ -293,7 +296,7 @@ ALWAYS REAL grain_rise(const GRAIN *g, const WrSolidTextureKind kind, GrainPlace
     return at.w > K_(1e-3) ? mean : inside;
 }
 
-/* Along one axis of a checker: 1 in even cells, -1 in odd ones, and how that changes. */
+/* Checker along one axis: 1 in even cells, -1 in odd ones, and its slope. */
 typedef struct GrainCells {
     REAL mean, rise;
 } GrainCells;
@@ -308,7 +311,7 @@ ALWAYS GrainCells grain_cells(const GRAIN *g, REAL p, REAL a, REAL w)
     return (GrainCells){ grain_square_mean(x, wide), K_(2) * k * (down - up) / least };
 }
 
-/* The pattern of one sample, and its slope along the axes. */
+/* The pattern at one sample, and its slope along the axes. */
 typedef struct GrainAt {
     REAL value;
     VEC slope;
@@ -340,7 +343,7 @@ ALWAYS GrainAt grain_at(const GRAIN *g, const WrSolidTextureKind kind, const boo
                       rising ? v_scale(place.slope, grain_rise(g, kind, place)) : place.slope };
 }
 
-/* The pattern of a strip; wide: over what pixels hold, else at points. */
+/* The pattern of a strip; wide: averaged over pixels, else at points. */
 ALWAYS void grain_values(const GRAIN *grain, const WrSolidTextureKind kind, const bool wide,
                          STRIP *strip, GrainStrip *to)
 {
@@ -354,7 +357,7 @@ ALWAYS void grain_values(const GRAIN *grain, const WrSolidTextureKind kind, cons
     }
 }
 
-/* n' = unit(n - (s - (s.n) n)), s the slope of the height that the pattern has. */
+/* n' = unit(n - (s - (s.n) n)), s the slope of the pattern's height. */
 ALWAYS void grain_bends(const RAYS *rays, const GRAIN *grain, const WrSolidTextureKind kind,
                         STRIP *strip, GrainStrip *to)
 {
@@ -389,7 +392,7 @@ GRAIN_KIND(checker, WR_SOLID_TEXTURE_CHECKER)
 GRAIN_KIND(granite, WR_SOLID_TEXTURE_GRANITE)
 GRAIN_KIND(plain, WR_SOLID_TEXTURE_NOISE)
 
-/* C times the texture's colour; over: the colour picture has brought C, which is 1 else. */
+/* C times the texture's colour; over: C is the colour picture's, else 1. */
 ALWAYS void grain_colour(const GRAIN *grain, const REAL *restrict value, const bool over,
                          STRIP *strip)
 {
@@ -416,13 +419,13 @@ FLAT static void grain_alone(const GRAIN *g, const REAL *value, STRIP *strip)
     grain_colour(g, value, false, strip);
 }
 
-/* Does the pattern go by what pixels hold, or by an edge? */
+/* True if the pattern is averaged over pixels, or has soft edges. */
 ALWAYS bool grain_wide(const GRAIN *g)
 {
     return g->faded || g->edge > K_(0);
 }
 
-/* What all kinds go by: the noise at a strip's samples; wide: with slopes and steps, which are 0 at points. */
+/* Shared by all kinds: the noise at a strip's samples; wide: with slopes and pixel steps, which are 0 at points. */
 static void grain_sums(const RAYS *rays, const GRAIN *g, bool wide, const STRIP *strip,
                        GrainStrip *to)
 {
@@ -444,7 +447,7 @@ static void grain_sums(const RAYS *rays, const GRAIN *g, bool wide, const STRIP 
     }
 }
 
-/* The pattern at a strip's samples; of none 0. */
+/* The pattern at a strip's samples; 0 without a texture. */
 static void grain_pattern(const RAYS *rays, const GRAIN *g, STRIP *strip, GrainStrip *at)
 {
     static void (*const kinds[WR_SOLID_TEXTURE_KINDS])(const GRAIN *, bool, STRIP *,

@@ -1,6 +1,6 @@
-/* kern_surface_body.h - points, frames and Newton's method of every surface. A part of kern_body.h. */
+/* kern_surface_body.h - points, frames and Newton's method of every surface. Part of kern_body.h. */
 
-/* Into 0..1: round a closed parameter, stop at the edge of an open one. closed is 0 or 1. */
+/* Reduces to 0..1: wraps a closed parameter, clamps an open one. closed is 0 or 1. */
 ALWAYS REAL settle(REAL t, REAL closed)
 {
     REAL turn = t - closed * r_floor(t);
@@ -18,14 +18,14 @@ typedef struct Param2 {
     REAL u, v;
 } Param2;
 
-/* 1 for a parameter that goes round, else 0. */
+/* 1 for a periodic parameter, else 0. */
 typedef struct Closed {
     REAL u, v;
 } Closed;
 
-/* A surface's formula: fills all of *at. Kernels of all surfaces are one text, into which each surface's own is inlined.
-   One sample of each is a function: a POINT declared inside a simd loop would be kept in memory for all lanes, and the
-   loop would not vectorise. */
+/* A surface's formula: fills all of *at. Kernels of all surfaces are one text, into which each surface's own
+   formula is inlined. The work on one sample is a function: a POINT declared inside a simd loop would be kept in
+   memory for all lanes, and the loop would not vectorise. */
 typedef void Formula(const SHAPE *shape, int face, REAL u, REAL v, POINT *at);
 
 ALWAYS VEC point_at(Formula *const formula, const SHAPE *shape, REAL u, REAL v)
@@ -88,9 +88,9 @@ ALWAYS VEC off_ray(VEC p, Ray ray)
     return v_cross(v_sub(p, ray.q), ray.d);
 }
 
-/* Newton on w(u,v,s) = P - q - s d: with N = Pu x Pv and c = w x d, du = (Pv . c) / (d . N) and
-   dv = -(Pu . c) / (d . N). Quadratic where d . N is not small; at silhouettes the step is
-   limited and, if it does not bring P nearer to the ray, not taken. */
+/* Newton on w(u,v,s) = P - q - s d: with N = Pu x Pv and c = w x d, du = (Pv . c) / (d . N) and dv = -(Pu . c) /
+   (d . N). Convergence is quadratic where d . N is not small; at silhouettes the step is limited and, if it does
+   not move P nearer to the ray, discarded. */
 ALWAYS Param2 newton_step(VEC c, VEC pu, VEC pv, VEC d, Param2 reach)
 {
     REAL dn = v_dot(d, v_cross(pu, pv));
@@ -101,14 +101,14 @@ ALWAYS Param2 newton_step(VEC c, VEC pu, VEC pv, VEC d, Param2 reach)
 #define KEEP3(strip, name, i, taken, vec)                                                          \
     STORE3(strip, name, i, choose(taken, vec, LOAD3(strip, name, i)))
 
-/* What a patch is evaluated from: its formula, or points made ready. */
+/* Source of a patch's evaluation: its formula, or prepared points. */
 typedef struct Patch {
     const SHAPE *shape;
     const FN(BezierPlane) * ready;
 } Patch;
 
-/* What a step looks at, at tu, tv: P, Pu, Pv, and of a formula n and |N|, into rows that later stages fill: b, l, v, d
-   and n_dot_l. */
+/* Evaluates a step's end tu, tv: P, Pu, Pv, and for a formula n and |N|, into rows that later stages overwrite:
+   b, l, v, d and n_dot_l. */
 ALWAYS void put_there(Formula *const formula, const Patch *patch, const bool late, STRIP *strip,
                       int i)
 {
@@ -123,14 +123,14 @@ ALWAYS void put_there(Formula *const formula, const Patch *patch, const bool lat
     strip->n_dot_l[i] = at.n_len;
 }
 
-/* What ends Newton's method. */
+/* Termination of Newton's method. */
 typedef struct Enough {
-    REAL u, v;             /* steps shorter than these */
-    REAL uu, uv, vv, last; /* WrNewton's */
+    REAL u, v;             /* a step shorter than these is the last */
+    REAL uu, uv, vv, last; /* as in WrNewton */
 } Enough;
 
-/* Does a step change the tangents by next to nothing? By Taylor: |Pu| by no more than |Puu| |du| + |Puv| |dv|. No
-   squares: after a good guess they would be denormal numbers. */
+/* True if a step hardly changes the tangents. By Taylor: |Pu| by at most |Puu| |du| + |Puv| |dv|. No squares:
+   after a good start value they would be denormal numbers. */
 ALWAYS bool turns_nothing(VEC pu, VEC pv, Enough enough, REAL du, REAL dv)
 {
     REAL a = enough.uu * r_abs(du) + enough.uv * r_abs(dv);
@@ -138,9 +138,8 @@ ALWAYS bool turns_nothing(VEC pu, VEC pv, Enough enough, REAL du, REAL dv)
     return (a < enough.last * longest(pu)) & (b < enough.last * longest(pv));
 }
 
-/* The step of sample i from the P, Pu, Pv that stand in the strip: its end in tu, tv, the way there in ta, tb, and
-   how far it starts from the ray in fv. f: 0 where it does not move on, 1 a last step, 2 one at whose end the surface is
-   evaluated. */
+/* The step of sample i from the P, Pu, Pv in the strip: its end in tu, tv, its length in ta, tb, and the start's
+   distance from the ray in fv. f: 0: does not move; 1: a last step; 2: the surface is evaluated at its end. */
 ALWAYS void aim_step(Ray ray, Param2 reach, Closed closed, Enough enough, STRIP *strip, int i)
 {
     VEC p = LOAD3(strip, p, i), pu = LOAD3(strip, pu, i), pv = LOAD3(strip, pv, i);
@@ -159,7 +158,7 @@ ALWAYS void aim_step(Ray ray, Param2 reach, Closed closed, Enough enough, STRIP 
     strip->f[i] = strip->s[i] > K_(0) ? how : K_(0);
 }
 
-/* Does the end of a step lie nearer to the ray, or as near? Then u, v go there. */
+/* Accepts the end of a step into u, v if it is not farther from the ray. Returns whether it did. */
 ALWAYS bool go(Ray ray, VEC end, bool moves, STRIP *strip, int i)
 {
     VEC c = off_ray(end, ray);
@@ -178,7 +177,7 @@ ALWAYS void land(Ray ray, STRIP *strip, int i)
     KEEP3(strip, p, i, taken, end);
 }
 
-/* Any other: the surface was evaluated at its end. s: 1 while the sample moves. */
+/* Any other step, after the surface was evaluated at its end. s: 1 while the sample moves. */
 ALWAYS void arrive(Ray ray, Enough enough, STRIP *strip, int i)
 {
     VEC p = LOAD3(strip, b, i);
@@ -195,7 +194,7 @@ ALWAYS void arrive(Ray ray, Enough enough, STRIP *strip, int i)
     strip->s[i] = taken & !short_one ? K_(1) : K_(0);
 }
 
-/* Is one of the samples to take a step of that kind? */
+/* True if some sample is to take a step of that kind. */
 static bool any_aims(const STRIP *strip, REAL kind)
 {
     const int count = strip->count;
@@ -207,8 +206,8 @@ static bool any_aims(const STRIP *strip, REAL kind)
     return any > 0;
 }
 
-/* ---- of a strip. Functions, not inlined: what `polish` and `resume` share is one code, whose bits are the same in both
-   however it contracts; by whole vectors, for the same reason. ---- */
+/* ---- strips. Functions, not inlined: the code shared by `polish` and `resume` has the same bits in both
+   however it is contracted. It works on whole vectors, for the same reason. ---- */
 
 #define EACH(i, strip)                                                                             \
     for (int at_##i = 0; at_##i < strip->count; at_##i += LANES)                                   \
@@ -216,7 +215,7 @@ static bool any_aims(const STRIP *strip, REAL kind)
 
 #define APART __attribute__((noinline))
 
-/* To where the surface was evaluated first. */
+/* Sets tu, tv to the first point of evaluation. */
 APART FLAT static void begin_strip(STRIP *strip)
 {
     EACH(i, strip)
@@ -261,10 +260,10 @@ APART FLAT static void arrive_strip(const RAYS *rays, const NEWTON *how, STRIP *
     }
 }
 
-/* A surface's evaluation at tu, tv of a strip's samples from <= i < to, whole vectors of them. */
+/* Evaluates a surface at tu, tv of a strip's samples from <= i < to, in whole vectors. */
 typedef void Evaluate(const SHAPE *shape, int from, int to, STRIP *strip);
 
-/* Up to a whole number of vectors the last sample again. */
+/* Repeats the last sample up to a whole number of vectors. */
 static void fill_lanes(STRIP *strip)
 {
     const int count = strip->count, last = count - 1;
@@ -287,7 +286,7 @@ static void begin(Evaluate *evaluate, const SHAPE *shape, STRIP *strip)
     begin_strip(strip);
 }
 
-/* Does a vector of samples hold one that is to take a step at whose end the surface is evaluated? */
+/* True if a vector contains a sample whose step ends with an evaluation. */
 static bool vector_moves(const STRIP *strip, int from)
 {
     int any = 0;
@@ -298,7 +297,7 @@ static bool vector_moves(const STRIP *strip, int from)
     return any > 0;
 }
 
-/* Evaluate where it is asked for. */
+/* Evaluates the vectors that need it. */
 static void evaluate_moving(Evaluate *evaluate, const SHAPE *shape, STRIP *strip)
 {
     for (int from = 0, to; from < strip->count; from = to + LANES) {
@@ -307,7 +306,7 @@ static void evaluate_moving(Evaluate *evaluate, const SHAPE *shape, STRIP *strip
     }
 }
 
-/* A step evaluates the surface once: at its end, which is the next one's start. */
+/* Newton's method. A step evaluates the surface once: at its end, which is the next step's start. */
 static void polish_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
                          const NEWTON *how, STRIP *strip)
 {
@@ -331,7 +330,7 @@ static void polish_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *ray
 
 #include "render/kernels/kern_newton_guess_body.h"
 
-/* Where `polish` was before its last step, in u, v: that step again where wx says that there was one. */
+/* Repeats the last step of `polish` from the stored u, v, if wx indicates that there was one. */
 static void resume_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
                          const NEWTON *how, STRIP *strip)
 {
@@ -344,7 +343,7 @@ static void resume_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *ray
     land_strip(rays, strip);
 }
 
-/* n and |N| of sample i, of Pu x Pv; 1 where that is so short that the way into the point decides. */
+/* n and |N| of sample i from Pu x Pv; returns 1 if that is so short that the direction of approach decides. */
 ALWAYS int put_cross(REAL noise, STRIP *strip, int i)
 {
     const VEC none = { 0, 0, 0 };
@@ -356,7 +355,7 @@ ALWAYS int put_cross(REAL noise, STRIP *strip, int i)
     return r_abs(n.x) + r_abs(n.y) + r_abs(n.z) > noise ? 0 : 1;
 }
 
-/* The same of all; false if one is so short. */
+/* n and |N| of all samples; false if one is so short. */
 ALWAYS bool cross_strip(REAL noise, STRIP *strip)
 {
     const int count = strip->count;
@@ -368,20 +367,20 @@ ALWAYS bool cross_strip(REAL noise, STRIP *strip)
     return thin == 0;
 }
 
-/* The normal of which surfaces costs more than the rest of them: it is worked out when Newton has ended, which costs them
-   most, too: better guesses pay. */
+/* Surfaces whose normal costs more than everything else: it is computed after Newton's method has ended.
+   Newton's method is slow for them, so better start values pay. */
 #define LATE(name) (WR_SURFACE_##name == WR_SURFACE_bezier)
 
-/* n and |N|, which `polish` left to this. */
+/* n and |N|, which `polish` left out. */
 ALWAYS void frame_strip(Formula *const formula, const SHAPE *shape, STRIP *strip)
 {
     if (!cross_strip(FN(bezier_noise)(shape), strip)) geometry_strip(formula, shape, 0, strip);
 }
 
-/* Which surface is a program, that goes over many samples at a time. */
+/* The surface whose formula is a program, evaluated for many samples at a time. */
 #define RUNS(name) (WR_SURFACE_##name == WR_SURFACE_formula)
 
-/* Up to LANES samples of such a one, from u, v on; those that are missing are the last again. */
+/* Evaluates up to LANES samples of such a surface, from u, v on; missing ones repeat the last. */
 static void run_lanes(const SHAPE *shape, int count, const REAL *u, const REAL *v, POINT *at)
 {
     REAL own_u[LANES], own_v[LANES];
@@ -469,7 +468,7 @@ static void run_there(const SHAPE *shape, int first, int to, STRIP *strip)
             run_there(shape, from, to, strip);                                                     \
             return;                                                                                \
         }                                                                                          \
-        const SHAPE own = *shape; /* that no store changes, as far as a compiler can see */        \
+        const SHAPE own = *shape; /* a copy, so that the compiler sees that no store changes it */ \
         FN(BezierPlane) ready;                                                                     \
         const Patch still = { &own, &ready };                                                      \
         if (LATE(name)) FN(bezier_ready)(&own, &ready);                                            \

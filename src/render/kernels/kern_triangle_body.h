@@ -1,17 +1,17 @@
-/* kern_triangle_body.h - where rays meet triangles that are known by their number: place, normal, u and v, and what
-   slopes turn the normal along. A part of kern_body.h.
+/* kern_triangle_body.h - ray hits on triangles given by number: position, normal, u and v, and the vectors for
+   bump. Part of kern_body.h.
 
-   With edges e1, e2 from the first corner, N = e1 x e2 and w = P - A a place has the shares
+   With edges e1, e2 from the first corner, N = e1 x e2 and w = P - A a point has the shares
      l1 = (w x e2) . N / N^2,  l2 = (e1 x w) . N / N^2
-   of the other corners, whose gradients are e2 x N / N^2 and N x e1 / N^2: so what is interpolated, u and v among it,
-   has a gradient without tangents, whatever the (u,v) of the triangle are.
+   of the other corners, whose gradients are e2 x N / N^2 and N x e1 / N^2: so an interpolated value, u and v
+   included, has a gradient without tangents, whatever the (u,v) of the triangle are.
 
-   The normal formulas go by Pu, Pv and |N|. Here they are given Pv = n x grad u, Pu = grad v x n and |N| = 1: then
-     n x (Fu Pv - Fv Pu) = -(Fu grad u + Fv grad v), laid across n,
-   which is the surface gradient's n' = unit(n - g), exact for sheared, mirrored and collinear (u,v). On a patch these
-   are its own Pu / |N| and Pv / |N|. */
+   The normal formulas use Pu, Pv and |N|. Here they get Pv = n x grad u, Pu = grad v x n and |N| = 1: then
+     n x (Fu Pv - Fv Pu) = -(Fu grad u + Fv grad v), projected across n,
+   which is the surface gradient's n' = unit(n - g), exact for sheared, mirrored and collinear (u,v). On a patch
+   these are its own Pu / |N| and Pv / |N|. */
 
-/* The corners of a strip's triangles, side by side: eight numbers of each. */
+/* The corners of a strip's triangles, side by side: eight numbers each. */
 typedef struct Corners {
     _Alignas(64) REAL row[24][WR_SPAN];
 } Corners;
@@ -38,18 +38,18 @@ static void gather_corners(const WrTriangleLook *look, const STRIP *strip, Corne
     }
 }
 
-/* The share of a corner, however the ray passes the triangle: samples lie within half a 256th of it. */
+/* The share of a corner, clamped, even if the ray misses the triangle: samples are at most half a 256th outside. */
 ALWAYS REAL share_of(REAL x)
 {
-    x = x > K_(0) ? x : K_(0); /* not a number too */
+    x = x > K_(0) ? x : K_(0); /* NaN as well */
     return x < K_(2) ? x : K_(2);
 }
 
 #define HORIZON                                                                                    \
-    K_(1e-4) /* how far a normal stays before the horizon of who looks at it, as a cosine */
+    K_(1e-4) /* smallest distance that a normal keeps from the viewer's horizon, as a cosine */
 
-/* A normal that looks away from the viewer though its face does not, or the other way round, comes to the horizon: else
-   outlines of coarse meshes would show their backs. */
+/* A normal that faces away from the viewer although its face does not, or the other way round, is moved to the
+   horizon: otherwise outlines of coarse meshes would show back faces. */
 ALWAYS VEC before_horizon(VEC n, VEC face, VEC to_viewer)
 {
     VEC out = v_scale(face, v_dot(face, n) < K_(0) ? K_(-1) : K_(1));
@@ -60,12 +60,12 @@ ALWAYS VEC before_horizon(VEC n, VEC face, VEC to_viewer)
     return choose(lift > K_(0), lifted, n);
 }
 
-/* What all samples of a strip share, in scalars: an array read in the loop, or a choice by a flag behind a pointer, would
-   keep it from vectorising. */
+/* Parameters shared by all samples of a strip, in scalars: an array read in the loop, or a choice by a flag
+   behind a pointer, would prevent vectorisation. */
 typedef struct Meeting {
     VEC q0, qx, qy, d0, dx, dy;
-    VEC eye;   /* or the way towards it */
-    REAL move; /* how much of the place is added to it: -1 in perspective, else 0 */
+    VEC eye;   /* or the direction towards it */
+    REAL move; /* weight of the position in the view direction: -1 in perspective, else 0 */
     REAL scale;
 } Meeting;
 
@@ -87,7 +87,7 @@ ALWAYS Meeting meeting_of(const RAYS *rays, REAL scale)
                       scale };
 }
 
-/* One sample. smooth: normals are interpolated; mapped: u and v; sloped: their gradients. */
+/* One sample. smooth: interpolates normals; mapped: u and v; sloped: their gradients. */
 ALWAYS void meet_triangle(const Meeting *all, const Corners *corners, const bool smooth,
                           const bool mapped, const bool sloped, STRIP *strip, int i)
 {
@@ -140,7 +140,7 @@ ALWAYS void meet_triangle(const Meeting *all, const Corners *corners, const bool
         meet_triangle(&all, &corners, smooth, mapped, sloped, strip, i);                           \
     }
 
-/* Of triangles whose numbers stand in u. Where u and v are not wanted they are left as they are. */
+/* For triangles whose numbers are in u. Without `mapped`, u and v are unchanged. */
 FLAT static void meet_plain(const RAYS *rays, const WrTriangleLook *look, bool smooth, bool mapped,
                             bool sloped, STRIP *strip)
 {

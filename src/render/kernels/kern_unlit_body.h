@@ -1,9 +1,9 @@
-/* kern_unlit_body.h - which samples lights are behind, however the table bends their normals, and what light is left
-   there. A part of kern_body.h.
+/* kern_unlit_body.h - test for samples that lights are behind, however the table bends their normals, and the
+   light that remains there. Part of kern_body.h.
 
    n' lies along s (|N| n + D), D = n x (Fu Pv - Fv Pu), s the viewer's side. So towards a light l it has
      s |N| n.l + s (Fu Pv - Fv Pu).c,  c = l x n:  at most  s |N| n.l + |Fu| |Pv.c| + |Fv| |Pu.c|.
-   Where the largest slopes that could be read leave that below 0 by more than rounding, n'.l is not above 0. */
+   If, with the largest slopes that can be fetched, that is below 0 by more than rounding, n'.l is not above 0. */
 
 #define DARK_BY K_(1e-5) /* of the terms' size; rounding is a hundredth of that */
 
@@ -12,7 +12,7 @@ ALWAYS REAL spread_of(VEC a)
     return r_abs(a.x) + r_abs(a.y) + r_abs(a.z);
 }
 
-/* 1: the light may shine there; 0: it is behind. fu, fv: the largest slopes, either sign. */
+/* 1: the light may reach the sample; 0: it is behind. fu, fv: the largest slopes, either sign. */
 ALWAYS int may_shine(Viewer viewer, Viewer lamp, const bool bumped, REAL fu, REAL fv,
                      const STRIP *strip, int i)
 {
@@ -79,7 +79,7 @@ FLAT static void kern_reach(const STRIP *strip, double box[4])
     box[0] = (double)u0, box[1] = (double)u1, box[2] = (double)v0, box[3] = (double)v1;
 }
 
-/* I = C ambient + 0: the bits of all of it where no light adds anything. */
+/* I = C ambient + 0: the bits of the full computation where no light adds anything. */
 FLAT static void kern_ambient(const MATERIAL *material, bool pictured, STRIP *strip)
 {
     const REAL r = material->rgb[0], g = material->rgb[1], b = material->rgb[2];
