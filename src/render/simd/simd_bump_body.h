@@ -1,7 +1,7 @@
-/* simd_bump_body.h - n of Pu x Pv, and Blinn's n' of any frame, as kern_bump_body.h has it. A part of kern_wide_*.c, after
-   simd_newton_body.h and simd_sphere_body.h. */
+/* simd_bump_body.h - SIMD versions of n from Pu x Pv and of Blinn's n' for any frame (kern_bump_body.h). Part of
+   simd_v3.c and simd_v4.c, after simd_newton_body.h and simd_sphere_body.h. */
 
-/* n and |N| of Pu x Pv; false: somewhere N is no longer than `noise`, or hardly. */
+/* n and |N| of Pu x Pv; false: at some sample N is not clearly longer than `noise`. */
 static bool wide_cross(float noise, WrStrip *strip)
 {
     const int count = strip->count;
@@ -16,7 +16,7 @@ static bool wide_cross(float noise, WrStrip *strip)
     return -w_largest(w_all(0.0f) - least) > fmaxf(noise * noise, 1e-30f);
 }
 
-/* n' of N' = N + D, which is worked out 2^30 times as long; on N's side. */
+/* n' of N' = N + D, computed 2^30 times as long; on N's side. */
 ALWAYS WideVec blinn_wide(WideVec pu, WideVec pv, WideVec n, Wide size, Wide fu, Wide fv)
 {
     const Wide large = w_all(0x1p30f);

@@ -1,11 +1,12 @@
-/* simd_encode_body.h - finished colours as 8-bit codes, the same as srgb_encode.h's. A part of kern_wide_*.c.
-   Looking up costs more than the curve: it is worked out to CODE_OFF of a code, and only where that does not tell the code
-   of some sample of a vector the table does. */
+/* simd_encode_body.h - SIMD 8-bit encoding of finished colours, with the codes of srgb_encode.h. Part of
+   simd_v3.c and simd_v4.c. Fetching from the table costs more than the curve. So the curve is computed to
+   CODE_OFF of a code, and the table is used only for vectors in which that does not determine some sample's
+   code. */
 
 #define CODE_OFF 2e-4f
 #define CODE_TOE 0.0031308f
 
-/* Codes and a half, 255 s(x) + 1/2, of 0 <= x < 1. */
+/* 255 s(x) + 1/2, a code and its fraction, for 0 <= x < 1. */
 ALWAYS Wide curve_of(Wide x)
 {
     const Wide t = w_mantissa(x) - w_all(1.5f);
@@ -20,7 +21,7 @@ ALWAYS Wide curve_of(Wide x)
     return w_pick(w_less(x, w_all(CODE_TOE)), w_all(0.5f) + w_all(255.0f * 12.92f) * x, y);
 }
 
-/* A channel's codes, and of which samples the curve tells none. */
+/* A channel's codes, and the lanes in which the curve does not determine them. */
 typedef struct Coded {
     WideInt code;
     WideMask unsure;
@@ -29,12 +30,12 @@ typedef struct Coded {
 ALWAYS Coded code_by_curve(Wide light)
 {
     const Wide x = w_min(w_max(light, w_all(0.0f)), w_all(0x1.fffffep-1f)), y = curve_of(x);
-    /* Near a whole number it is not told whether y is under it. */
+    /* Near a whole number it is uncertain on which side y is. */
     const Wide off = w_abs(w_off_nearest(y));
     return (Coded){ w_whole(y), w_either(w_less(off, w_all(CODE_OFF)), w_odd(light)) };
 }
 
-/* A strip's codes of a channel and, of each vector, whether some sample's is unsure. */
+/* A strip's codes of one channel, and for each vector whether some lane is uncertain. */
 static void code_channel(const float *light, int count, int32_t *code, unsigned char *unsure)
 {
     for (int i = 0; i < count; i += WIDE) {
@@ -44,7 +45,8 @@ static void code_channel(const float *light, int count, int32_t *code, unsigned 
     }
 }
 
-/* Codes of up to WIDE samples from i on by the table; grey: red tells all. How many numbers are not finite. */
+/* Codes of up to WIDE samples from i on by the table; grey: red stands for all channels. Returns the number of
+   non-finite values. */
 static int codes_by_table(const uint32_t *bins, const WrStrip *strip, bool grey, int i, int count,
                           uint32_t *out)
 {
@@ -76,7 +78,7 @@ static int grey_codes(const uint32_t *bins, const WrStrip *strip, uint32_t *out)
     return odd;
 }
 
-/* Short loops: a processor looks only so far ahead. */
+/* Short loops: a processor reorders only a limited number of operations. */
 static int wide_codes(const uint32_t *bins, const WrStrip *strip, bool grey, uint32_t *out)
 {
     const int count = strip->count;

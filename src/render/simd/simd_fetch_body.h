@@ -1,5 +1,6 @@
-/* simd_fetch_body.h - slopes and colours of tables that are periodic both ways, looked up as kern_fetch_body.h does it: places,
-   four texels a sample, numbers. A part of kern_wide_*.c. */
+/* simd_fetch_body.h - SIMD fetches of slopes and colours from tables that are periodic in both directions, in
+   the steps of kern_fetch_body.h: positions, four texels per sample, arithmetic. Part of simd_v3.c and
+   simd_v4.c. */
 
 #define W_EACH _Pragma("omp simd")
 
@@ -15,7 +16,7 @@ ALWAYS float held(float x)
     return x > -FLT_MAX ? x : -FLT_MAX;
 }
 
-/* How a table's texels lie. */
+/* Layout of a table's texels. */
 typedef struct Texels {
     int width, height, pitch, apron;
     float ru, rv;
@@ -37,7 +38,7 @@ ALWAYS void place_texels(const Texels *of, const bool noted, WrStrip *strip)
     }
 }
 
-/* Numbers 0 and 1 from there. */
+/* Loads two floats into lanes 0 and 1. */
 ALWAYS __m128 w_two(const float *from)
 {
     return _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(const void *)from));
@@ -48,7 +49,7 @@ static bool looks_central(const WrLook *look)
     return look->periodic_u && look->periodic_v && !look->wide && !look->heights;
 }
 
-/* The differences in the middle of texels, as kern_fetch_body.h's theorem has them, before they are scaled. */
+/* Bilinear central differences (theorem in kern_fetch_body.h), before they are scaled. */
 ALWAYS void central_slopes(const WrLook *look, const bool noted, WrStrip *strip)
 {
     const int count = strip->count;
@@ -57,7 +58,7 @@ ALWAYS void central_slopes(const WrLook *look, const bool noted, WrStrip *strip)
     const Texels of = { look->width, look->height,    look->pitch,
                         WR_APRON,    (float)look->ru, (float)look->rv };
     place_texels(&of, noted, strip);
-    /* Fu, Fv of the left texel, then of the right; of two samples at once. */
+    /* Fu, Fv of the left texel, then of the right; two samples at once. */
     const __m256i each = _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1);
     for (int k = 0; k < count; k += 2) {
         const float *at = gradient + 2 * (ptrdiff_t)strip->at[k];
@@ -97,7 +98,7 @@ static bool wide_central(const WrLook *look, bool noted, WrStrip *strip)
     return true;
 }
 
-/* The texels beside each other at once. */
+/* C, with neighbouring texels loaded at once. */
 static bool wide_colour(const WrColourLook *look, WrStrip *strip)
 {
     const int count = strip->count;
@@ -107,7 +108,7 @@ static bool wide_colour(const WrColourLook *look, WrStrip *strip)
         look->width, look->height, look->pitch, 1, (float)look->ru, (float)look->rv
     };
     place_texels(&of, false, strip);
-    for (int k = 0; k < count; k += 8) /* what the next rows are likely to ask for */
+    for (int k = 0; k < count; k += 8) /* prefetches data that the next rows will probably read */
         _mm_prefetch((const char *)(look->rgba + 4 * (ptrdiff_t)strip->at[k] + 2 * row),
                      _MM_HINT_T0);
     for (int k = 0; k < count; k++) {

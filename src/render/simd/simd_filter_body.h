@@ -1,17 +1,18 @@
-/* simd_filter_body.h - slopes of a sphere that are filtered over each pixel's footprint, looked up once as kern_filter_body.h
-   does it without anisotropy. A part of kern_wide_*.c.
-   Footprints are those of kern_filter_body.h, but for what is known of a sphere: Pu and Pv are at right angles, 2 pi flat and
-   pi long, flat = nx^2 + ny^2. Most pixels are found to be under a texel by less: a step of the pixel, w, is no more than
-   |w| / (n.v) along the surface, in the one direction or the other. */
+/* simd_filter_body.h - SIMD slopes of a sphere filtered over each pixel's footprint, with one isotropic fetch as
+   in kern_filter_body.h. Part of simd_v3.c and simd_v4.c.
+
+   Footprints are those of kern_filter_body.h, simplified for a sphere: Pu and Pv are perpendicular, 2 pi flat
+   and pi long, flat = nx^2 + ny^2. For most pixels a cheaper test shows that they are below a texel: a step of
+   the pixel, w, is at most |w| / (n.v) along the surface, in either direction. */
 
 #define TURN_LONG 0.159154943f /* 1 / 2 pi */
 #define HALF_LONG 0.318309886f /* 1 / pi */
 
-/* The steps of a pixel, in radii, and what a row's footprints have in common. */
+/* The steps of a pixel, in radii, and values shared by a row's footprints. */
 typedef struct Prints {
     WideVec qx, dx, qy, dy, eye; /* eye: or the direction towards it */
     Wide a, b;                   /* squares of texels along u and v: a / flat, b */
-    Wide step, away;             /* |w|^2 where it is largest; 1 + |eye|^2 */
+    Wide step, away;             /* largest |w|^2; 1 + |eye|^2 */
     Wide last;
 } Prints;
 
@@ -42,17 +43,17 @@ static Prints prints_of(const WrRays *rays, const WrShapef *shape, const WrLook 
     return p;
 }
 
-/* Which samples may be larger than a texel? */
+/* Lanes whose footprint may be larger than a texel. */
 ALWAYS WideMask may_be_wide(const Prints *p, const bool near, WideVec n, Wide flat, Wide inv)
 {
     const Wide e = w_dot(n, p->eye), texels = p->step * w_max(p->a, p->b * flat);
     if (!near) return w_less(w_all(0.999f) * e * e * flat, texels);
-    /* |w| is the way to the eye times |dx| / |d|; n.v is (n.eye - 1) by that way. */
+    /* |w| is the distance to the eye times |dx| / |d|; n.v is (n.eye - 1) divided by that distance. */
     const Wide way = (p->away - e - e) * inv, facing = w_max(e - w_all(1.0f), w_all(0.0f));
     return w_less(w_all(0.999f) * facing * facing * flat, way * way * texels);
 }
 
-/* The square of a step's texels; s: of the ray; d_by_dn: d / (n.d). */
+/* Squared length of a step in texels; s: of the ray; d_by_dn: d / (n.d). */
 ALWAYS Wide texels_of(const Prints *p, WideVec q, WideVec d, WideVec n, Wide s, WideVec d_by_dn,
                       Wide inv_flat)
 {
@@ -61,7 +62,7 @@ ALWAYS Wide texels_of(const Prints *p, WideVec q, WideVec d, WideVec n, Wide s, 
     return (p->a * (round * round) * inv_flat + p->b * (a.z * a.z)) * inv_flat;
 }
 
-/* The square of the longer side, texels. */
+/* Squared length of the longer side, texels. */
 ALWAYS Wide longer_of(const Prints *p, const RowRays *row, Wide x, WideVec n, Wide flat, Wide inv)
 {
     const WideVec q = w_mad(row->q, row->qx, x), d = w_mad(row->d, row->dx, x);
@@ -74,7 +75,7 @@ ALWAYS Wide longer_of(const Prints *p, const RowRays *row, Wide x, WideVec n, Wi
     return w_min(w_max(w_max(r, w), w_all(1.0f)), w_all(1e30f));
 }
 
-/* Levels of WIDE samples; how many of them are above level 0. */
+/* Stores the levels of WIDE samples; returns the number above level 0. */
 ALWAYS int put_levels(Wide longer, Wide last, unsigned of, float *level)
 {
     _Alignas(64) float square[WIDE];
@@ -119,13 +120,13 @@ static bool wide_filters(const WrLook *look)
            look->pyramid->kind == WR_PYRAMID_SLOPES;
 }
 
-/* Of each level: texels across, down and a row. */
+/* For each level: texels across, down and per row. */
 typedef struct Levels {
     float width[WR_PYRAMID_LEVELS], height[WR_PYRAMID_LEVELS];
     int pitch[WR_PYRAMID_LEVELS];
 } Levels;
 
-/* Where WIDE samples look: of the lower level and the next. */
+/* Fetch positions of WIDE samples: in the lower level and in the next. */
 typedef struct Places {
     _Alignas(64) int level[2][WIDE];
     _Alignas(64) int at[2][WIDE];
@@ -163,7 +164,7 @@ ALWAYS __m128 far_texel(const WrPyramid *pyramid, const Places *places, int n, i
     return left + _mm_set1_ps(places->a[n][k]) * (right - left);
 }
 
-/* Means of those of `WIDE` samples that are above level 0 into far, 4 numbers a sample. */
+/* Means for the lanes of a vector that are above level 0, into far, 4 numbers per sample. */
 ALWAYS void look_far(const WrPyramid *pyramid, const Levels *of, const WrStrip *strip, int i,
                      int count, float *far)
 {
@@ -178,7 +179,7 @@ ALWAYS void look_far(const WrPyramid *pyramid, const Levels *of, const WrStrip *
     }
 }
 
-/* The table's own and the pyramid's, by level; before they are scaled. */
+/* Mixes table and pyramid by level; before scaling. */
 ALWAYS void mix_far(const float *far, WrStrip *strip, int i)
 {
     W_EACH for (int k = 0; k < WIDE; k++)

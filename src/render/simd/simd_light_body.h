@@ -1,11 +1,10 @@
-/* simd_light_body.h - all of one lamp in one pass, where highlights are narrow or of a whole exponent. A part of
-   kern_wide_*.c.
-   The formulas are those of shade/light_body.h, but for what narrow highlights spare: they are worked out only where
-   some sample of a vector has one of 2^-FAINT of what the picture shows, and there 1 - n'.h is small, so that its
-   logarithm takes no exponent. */
-#define FAINT 15 /* fainter highlights are none: 2^-15 is a sixth of the bound of a stage */
+/* simd_light_body.h - SIMD light of one lamp in one pass, for highlights that are narrow or have a whole
+   exponent. Part of simd_v3.c and simd_v4.c.
+   The formulas are those of shade/light_body.h. Narrow highlights are computed only if some sample of a vector
+   has one above 2^-FAINT of full scale. There 1 - n'.h is small, so its logarithm needs no exponent. */
+#define FAINT 15 /* fainter highlights are omitted: 2^-15 is a sixth of the bound of a stage */
 
-/* 1 - n'.h up to which a highlight counts: (1 - x)^s <= e^(-s x). */
+/* Largest 1 - n'.h of a visible highlight: (1 - x)^s <= e^(-s x). */
 static float widest(const WrKernLight *light, const WrKernShine *shine)
 {
     const float *rgb = light->rgb;
@@ -14,9 +13,9 @@ static float widest(const WrKernLight *light, const WrKernShine *shine)
     return (float)(FAINT + 1 + power) * 0.693147182f / shine->shininess;
 }
 
-#define NARROW 0.5f /* the lobe's polynomials are good up to there */
+#define NARROW 0.5f /* range of the lobe's polynomials */
 
-/* (1 - x)^s, 0 <= x <= NARROW: within 1e-5 of itself. */
+/* (1 - x)^s, 0 <= x <= NARROW: relative error below 1e-5. */
 ALWAYS Wide narrow_lobe(Wide x, Wide s)
 {
     const Wide slope = w_all(-1.44269621f) +
@@ -33,23 +32,23 @@ ALWAYS Wide narrow_lobe(Wide x, Wide s)
     return p * w_power(n);
 }
 
-#define WHOLE 128 /* the largest: a power has the rounding of n'.h so many times */
+#define WHOLE 128 /* the largest exponent: a power multiplies the rounding error of n'.h by it */
 
-/* The exponent if it is a whole number such as these are for, else 0. */
+/* The exponent if it is a supported whole number, else 0. */
 static int whole_exponent(const WrKernShine *shine)
 {
     const float s = shine->shininess;
     return s >= 1.0f && s <= (float)WHOLE && s == floorf(s) ? (int)s : 0;
 }
 
-/* Cosines under that have no highlight of such an exponent; their powers would not be normal numbers. */
+/* Smaller cosines have no visible highlight of such an exponent; their powers would be denormal numbers. */
 static float least_cosine(int whole)
 {
     if (whole <= 4) return 0x1p-24f;
     return whole <= 16 ? 0x1p-6f : whole <= 32 ? 0x1p-3f : 0.5825f; /* 2^-0.78 */
 }
 
-/* Squares of squares. */
+/* Power by repeated squaring. */
 ALWAYS Wide whole_power(Wide base, int exponent)
 {
     while (!(exponent & 1)) base = base * base, exponent >>= 1;
@@ -64,7 +63,7 @@ ALWAYS Wide whole_power(Wide base, int exponent)
 typedef struct Lamp {
     WideVec where, viewer;
     Wide shininess, limit; /* limit: of 2 (1 - n'.h) */
-    Wide least;            /* of whole exponents, n'.h */
+    Wide least;            /* for whole exponents: smallest n'.h */
     int whole;             /* the exponent, or 0 */
     bool gate;
 } Lamp;
@@ -75,10 +74,10 @@ ALWAYS WideVec unit_towards(WideVec from, WideVec to)
     return w_scale(v, w_rsqrt(w_max(w_dot(v, v), w_all(1e-30f))));
 }
 
-/* Seen along v; 0 where there is none. */
+/* Highlight seen along v; 0 if there is none. */
 ALWAYS Wide narrow_highlight(const Lamp *lamp, WideVec l, Wide n_dot_l, WideVec bent, WideVec v)
 {
-    /* 0 where l and v are opposite: off is n' */
+    /* 0 if l and v are opposite: off is n' */
     const WideVec h = { l.x + v.x, l.y + v.y, l.z + v.z };
     const WideVec off = w_mad(bent, h, -w_rsqrt(w_max(w_dot(h, h), w_all(1e-24f))));
     const Wide twice = w_dot(off, off);
@@ -89,7 +88,7 @@ ALWAYS Wide narrow_highlight(const Lamp *lamp, WideVec l, Wide n_dot_l, WideVec 
     return whole_power(w_kept(shown, w_all(1.0f) - w_all(0.5f) * twice), lamp->whole);
 }
 
-/* What each channel is made of. */
+/* Factors of one channel. */
 typedef struct Channel {
     Wide own, diffuse, specular;
 } Channel;
@@ -111,12 +110,12 @@ ALWAYS bool are_alike(const float c[3])
     return c[0] == c[1] && c[0] == c[2];
 }
 
-/* A lamp on matter. */
+/* A lamp and a material. */
 typedef struct Scenery {
     Lamp lamp;
     Channel red, green, blue;
     Wide ambient;
-    bool grey; /* what is no picture's is the same in all channels */
+    bool grey; /* without a picture, all channels are equal */
 } Scenery;
 
 ALWAYS Scenery scenery_of(const WrRays *rays, const WrKernLight *light, const WrKernShine *shine,
@@ -135,7 +134,7 @@ ALWAYS Scenery scenery_of(const WrRays *rays, const WrKernLight *light, const Wr
                   are_alike(light->rgb) && are_alike(material->rgb) };
 }
 
-/* The colour of samples i and on, at p with n' `bent`, seen along v. Returns n'.l. */
+/* Stores the colours of the vector at i, at p with n' `bent`, seen along v. Returns n'.l. */
 ALWAYS Wide put_colour(const Scenery *s, const bool point, const bool pictured, WideVec p,
                        WideVec bent, WideVec v, WrStrip *strip, int i)
 {

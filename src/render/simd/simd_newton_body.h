@@ -1,8 +1,8 @@
-/* simd_newton_body.h - Newton's method on surfaces that rays meet by way of a mesh (kern_surface_body.h), a vector of samples
-   from its guess to its end. A part of kern_wide_*.c.
+/* simd_newton_body.h - SIMD Newton's method on surfaces that rays intersect by way of a mesh
+   (kern_surface_body.h): one vector of samples from start value to result. Part of simd_v3.c and simd_v4.c.
    Formulas and decisions are those of the stages; P, Pu, Pv stay in registers from step to step. */
 
-/* P, Pu, Pv somewhere. */
+/* P, Pu, Pv at a point. */
 typedef struct WidePlane {
     WideVec p, pu, pv;
 } WidePlane;
@@ -46,7 +46,7 @@ typedef struct WideTurn {
     Wide sine, cosine;
 } WideTurn;
 
-/* Of 2 pi u, 0 <= u <= 1: wr_sincos_turns_f's. */
+/* Sine and cosine of 2 pi u, 0 <= u <= 1, as wr_sincos_turns_f. */
 ALWAYS WideTurn turn_of(Wide u)
 {
     const Wide q = w_nearest(w_all(4.0f) * u), x = u - w_all(0.25f) * q, z = x * x;
@@ -81,7 +81,7 @@ typedef WidePlane WideFormula(const WrWideSheet *sheet, Wide u, Wide v);
 
 /* ---- steps ---- */
 
-/* Into 0..1: round a closed parameter, stop at the edge of an open one. */
+/* Reduces to 0..1: wraps a closed parameter, clamps an open one. */
 ALWAYS Wide w_settle(Wide t, bool closed)
 {
     const Wide zero = w_all(0.0f), one = w_all(1.0f);
@@ -100,7 +100,7 @@ ALWAYS Wide w_limit(Wide a, Wide most)
     return w_max(w_min(a, most), w_all(0.0f) - most);
 }
 
-/* What all samples share. */
+/* Parameters shared by all samples. */
 typedef struct WideHow {
     WideVec q0, qx, d0, dx, qy, dy;
     Wide reach_u, reach_v, enough_u, enough_v, uu, uv, vv, last;
@@ -117,14 +117,14 @@ ALWAYS WideHow how_of(const WrRays *rays, const WrNewton *how)
                       how->closed_v };
 }
 
-/* Samples under way: u, v and what stands there; `near`: how far from the ray, times |d|, squared. */
+/* State of the samples: u, v and the point there; `near`: squared distance from the ray, times |d|^2. */
 typedef struct WideWay {
     Wide u, v, near;
     WidePlane at;
     WideVec c; /* (P - q) x d */
 } WideWay;
 
-/* The step from there: its end, and the way. */
+/* The next step: its end, and its length. */
 typedef struct WideStep {
     Wide u, v, du, dv;
 } WideStep;
@@ -144,7 +144,7 @@ ALWAYS WideStep step_from(const WideWay *way, WideVec d, const WideHow *how)
     return step;
 }
 
-/* Do the tangents change by next to nothing on it? */
+/* Lanes in which the step hardly changes the tangents. */
 ALWAYS WideMask stands_still(const WideWay *way, const WideStep *step, const WideHow *how)
 {
     const Wide du = w_abs(step->du), dv = w_abs(step->dv);
@@ -153,13 +153,13 @@ ALWAYS WideMask stands_still(const WideWay *way, const WideStep *step, const Wid
                   w_less(b, how->last * w_longest(way->at.pv)));
 }
 
-/* Not farther than that; what is no number is. */
+/* Lanes with a <= most; NaN counts as inside. */
 ALWAYS WideMask is_near(Wide a, Wide most)
 {
     return w_but(w_mask(w_first_bits(WIDE)), w_less(most, w_min(a, w_all(FLT_MAX))));
 }
 
-/* Where the end of a step lies no farther from the ray. */
+/* Accepts the end of a step in lanes where it is not farther from the ray. */
 ALWAYS WideMask arrive_wide(WideMask moves, const WideWay *end, WideWay *way)
 {
     const WideMask taken = w_both(moves, is_near(end->near, way->near));
@@ -182,7 +182,7 @@ ALWAYS void land_wide(WideMask last, const WideStep *by, WideVec q, WideVec d, W
     way->at.p = w_pick3(taken, end, way->at.p);
 }
 
-/* So short that it is the last. */
+/* Lanes whose step is so short that it is the last. */
 ALWAYS WideMask is_short(const WideStep *by, const WideHow *how)
 {
     const WideMask far =
@@ -198,8 +198,8 @@ ALWAYS void put_way(const WideWay *way, WrStrip *strip, int i)
     W_STORE3(strip, pv, i, way->at.pv);
 }
 
-/* A vector from its guess, of which the lanes `moves` are samples. resumes: wx says which take a last step, and no others
-   move. */
+/* Solves a vector from its start values; the lanes `moves` are samples. resumes: wx indicates the lanes that
+   take a last step; no others move. */
 ALWAYS void solve_vector(WideFormula *const formula, const WrWideSheet *sheet, const WideHow *how,
                          int steps, bool resumes, WideMask moves, WrStrip *strip, int i)
 {
@@ -234,7 +234,7 @@ ALWAYS void solve_vector(WideFormula *const formula, const WrWideSheet *sheet, c
     w_store(strip->rx + i, rx), w_store(strip->ry + i, ry), w_store(strip->wx + i, left);
 }
 
-/* Functions of their own, for `polish` and `resume` alike: the same bits (kern_surface_body.h). */
+/* Separate functions, for `polish` and `resume` alike: the same bits (kern_surface_body.h). */
 #define SOLVE_STRIP(name)                                                                          \
     static __attribute__((noinline, noclone)) void solve_##name(                                   \
         const WrWideSheet *sheet, const WideHow *how, int steps, bool resumes, WrStrip *strip)     \

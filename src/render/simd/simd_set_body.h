@@ -1,5 +1,5 @@
-/* simd_set_body.h - the text of each kern_wide_*.c, which defines WR_WIDE_TABLE. A header without a guard, by
-   intention. */
+/* simd_set_body.h - common text of simd_v3.c and simd_v4.c, which define WR_WIDE_TABLE. Deliberately without a
+   guard. */
 #include "base/kernmath.h"
 #include "render/textures/slope_pyramid.h"
 #include "render/frame/srgb_encode.h"

@@ -1,6 +1,7 @@
-/* simd_sparse_hits_body.h - parameters between knots (sparse_hits.h), by the cubic through four each way. A part of kern_wide_*.c. */
+/* simd_sparse_hits_body.h - SIMD bicubic interpolation between sparse hits (sparse_hits.h). Part of simd_v3.c
+   and simd_v4.c. */
 
-/* What of each of four knots the cubic takes at t, in steps from the first. */
+/* Weights of the four hits in the cubic at t, in steps from the first. */
 #define CUBIC_0(t) (-((t)-1) * ((t)-2) * ((t)-3) / 6)
 #define CUBIC_1(t) ((t) * ((t)-2) * ((t)-3) / 2)
 #define CUBIC_2(t) (-(t) * ((t)-1) * ((t)-3) / 2)
@@ -16,7 +17,8 @@
 _Alignas(32) static const float cubic[4][24] = { TWENTY_FOUR(CUBIC_0), TWENTY_FOUR(CUBIC_1),
                                                  TWENTY_FOUR(CUBIC_2), TWENTY_FOUR(CUBIC_3) };
 
-/* The same as a block's rows see it, along x: one block's lanes, or of two beside each other, which five knots tell. */
+/* Those weights for a block's rows, along x: the lanes of one block, or of two neighbouring blocks, which need
+   five hits. */
 #ifdef __AVX512DQ__
 #define KNOTS_SEEN 5
 #define NO_EIGHTHS 0, 0, 0, 0, 0, 0, 0, 0
@@ -34,9 +36,9 @@ _Alignas(32) static const float seen[KNOTS_SEEN][8] = { { EIGHTHS(CUBIC_0, 1.0f)
                                                         { EIGHTHS(CUBIC_3, 1.0f) } };
 #endif
 
-#define KNOTS_ROW 48 /* of a strip's samples, as whole vectors */
+#define KNOTS_ROW 48 /* size of a strip's samples, as whole vectors */
 
-/* Knots as a row of samples sees them: each column's cubic. */
+/* Sparse hits interpolated along y for one row of samples: one number per column. */
 static void knots_of_row(const WrWideRow *row, int columns, float out[WR_KNOT_NUMBERS][KNOTS_ROW])
 {
     const Wide w0 = w_all(cubic[0][8 + row->down]), w1 = w_all(cubic[1][8 + row->down]);
@@ -53,7 +55,8 @@ static void knots_of_row(const WrWideRow *row, int columns, float out[WR_KNOT_NU
     }
 }
 
-/* A number of the samples from a column on. A sample's bits are the same in whichever half: what is not its own adds 0. */
+/* A number at the samples from a column on. A sample's bits are the same in either half: the weights of foreign
+   hits add 0. */
 ALWAYS Wide number_from(const float *column)
 {
     Wide a = w_load(seen[0]) * w_all(column[0]);
@@ -68,7 +71,8 @@ static void wide_sheet_row(const WrWideRow *row, int count, int at, WrStrip *str
                                          strip->pvx, strip->pvy, strip->pvz };
     float own[WR_KNOT_NUMBERS][KNOTS_ROW], some[WIDE];
     const int end = row->skip + count;
-    knots_of_row(row, (end + 7) / 8 + KNOTS_SEEN, own); /* also what adds 0 is a number */
+    /* the hits with weight 0 must be numbers, too */
+    knots_of_row(row, (end + 7) / 8 + KNOTS_SEEN, own);
     for (int i = 0; i < end; i += WIDE) {
         const int skip = i == 0 ? row->skip : 0, left = end - i < WIDE ? end - i : WIDE;
         const bool whole = skip == 0 && left == WIDE;
@@ -86,7 +90,7 @@ static void wide_sheet_row(const WrWideRow *row, int count, int at, WrStrip *str
     for (int i = 0; i < count; i++) strip->x[at + i] = row->x + (float)i, strip->y[at + i] = row->y;
 }
 
-/* A knot from the first one, the short way round. */
+/* Difference of a hit from the first one, the shorter way round. */
 ALWAYS float knot_from_first(float first, float knot, bool closed)
 {
     const float d = knot - first;

@@ -1,9 +1,9 @@
-/* simd_sphere_body.h - spheres seen from outside: where rays meet them, their frame, and n' from slopes. A part of
-   kern_wide_*.c.
-   The formulas are those of kern_ray_hit_body.h and kern_bump_body.h, but for what follows from the nearer root alone: n is P / R,
-   its side is the viewer's, and what points there is the ray, backwards. */
+/* simd_sphere_body.h - SIMD spheres seen from outside: ray hits, frame, and n' from slopes. Part of simd_v3.c
+   and simd_v4.c. The formulas are those of kern_ray_hit_body.h and kern_bump_body.h, simplified because only the
+   nearer root occurs: n is P / R, it is on the viewer's side, and the direction to the viewer is the reversed
+   ray. */
 
-/* Rays of a row, from x = 0 on, and what a step to the right adds; in radii. */
+/* Rays of a row, from x = 0 on, with their change per sample to the right; in radii. */
 typedef struct RowRays {
     WideVec q, d, qx, dx;
     Wide s_min;
@@ -45,8 +45,8 @@ static double product(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The samples of a row that can meet the sphere, from..to, in x; false: any can. Where a ray o + s d touches it
-   (o.d)^2 - d.d (o.o - 1) is 0, of x a quadratic: the eye is all rays' o, or d is the same for all. */
+/* Range of x, from..to, in which samples of a row can hit the sphere; false: any can. A ray o + s d touches it
+   where (o.d)^2 - d.d (o.o - 1) is 0, a quadratic in x: either o is the eye for all rays, or d is constant. */
 static bool reach_of_row(const WrRays *rays, const WrShapef *shape, float gy, double *from,
                          double *to)
 {
@@ -64,13 +64,13 @@ static bool reach_of_row(const WrRays *rays, const WrShapef *shape, float gy, do
     const double b = oxd * od - (rays->perspective ? oo * product(dx, d) : dd * product(ox, o));
     const double disc = b * b - a * (od * od - dd * oo);
     if (!(a < 0 && disc > 0 && oo < 1e6)) return false;
-    /* The eye is rounded to 2^-24 of its distance, and so are places in the grid. */
+    /* The eye is rounded to 2^-24 of its distance, and so are positions in the grid. */
     const double half = sqrt(disc) / -a, more = 3 + 1e-6 * half * (1 + sqrt(oo + 1));
     *from = -b / a - half - more, *to = -b / a + half + more;
     return true;
 }
 
-/* Where a row's hits begin; count: nowhere. */
+/* Start of a row's hits; count: none. */
 static int first_hit(const WrRays *rays, const WrShapef *shape, const RowRays *row, float gx,
                      float gy, int count)
 {
@@ -86,7 +86,7 @@ static int first_hit(const WrRays *rays, const WrShapef *shape, const RowRays *r
     return count;
 }
 
-/* How many lanes from the first on; -1: not all those that hit are neighbours and in front. */
+/* Number of lanes from the first on; -1: not all hits are neighbours and in front. */
 ALWAYS int run_of(const Met *met, int most)
 {
     const unsigned all = w_first_bits(most);
@@ -95,9 +95,9 @@ ALWAYS int run_of(const Met *met, int most)
     return __builtin_popcount(hit);
 }
 
-/* ---- of a row ---- */
+/* ---- rows ---- */
 
-/* Where it is met. */
+/* Finds the hits of a row. */
 static bool meet_row(const RowRays *row, float gx, int first, int count, WrStrip *strip)
 {
     int hits = 0;
@@ -140,14 +140,14 @@ static bool wide_sphere(const WrSphereRows *ball, const WrRays *rays, const WrSh
 
 /* ---- n' and light at once ---- */
 
-/* A vector as one of length 1; `other` where it is too short to have a direction. */
+/* A normalised vector; `other` if it is too short to have a direction. */
 ALWAYS WideVec w_unit_or(WideVec a, WideVec other)
 {
     const Wide tiny = w_all(1e-30f), aa = w_dot(a, a);
     return w_pick3(w_less(tiny, aa), w_scale(a, w_rsqrt(w_max(aa, tiny))), other);
 }
 
-/* N' as bend_sphere has it, 2^30 times as long, so that near a pole it is still a number. */
+/* N' as in bend_sphere, 2^30 times as long, so that it does not underflow near a pole. */
 ALWAYS WideVec bend_wide(Wide scale, WideVec n, Wide fu, Wide fv)
 {
     const Wide large = w_all(0x1p30f);
@@ -157,7 +157,7 @@ ALWAYS WideVec bend_wide(Wide scale, WideVec n, Wide fu, Wide fv)
     return w_unit_or(bent, n);
 }
 
-#define GENTLE 1e6f /* slopes up to there need no scaling */
+#define GENTLE 1e6f /* slopes up to this need no scaling */
 
 /* n' of the strip into b; false: some slope is steeper than that. */
 static bool bend_row(float radius, WrStrip *strip)
@@ -175,7 +175,7 @@ static bool bend_row(float radius, WrStrip *strip)
     return w_largest(most) <= GENTLE;
 }
 
-/* Returns the largest n'.l, or -1. */
+/* Lights the row. Returns the largest n'.l, or -1. */
 ALWAYS float light_row(const RowRays *row, const Scenery *s, float gx, const bool point,
                        const bool pictured, const bool bent, WrStrip *strip)
 {

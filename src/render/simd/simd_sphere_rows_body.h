@@ -1,4 +1,4 @@
-/* simd_sphere_rows_body.h - rows of a sphere by the polynomials of sphere_rows.h. A part of kern_wide_*.c. */
+/* simd_sphere_rows_body.h - SIMD evaluation of sphere rows (sphere_rows.h). Part of simd_v3.c and simd_v4.c. */
 
 ALWAYS Wide row_places(float gx, int i)
 {
@@ -24,7 +24,7 @@ ALWAYS Wide w_straight(WideCurve of, Wide x)
     return of.c0 + x * of.c1;
 }
 
-/* n.w. */
+/* n.w along a row. */
 typedef struct WideSlant {
     WideCurve along, across;
 } WideSlant;
@@ -33,13 +33,13 @@ ALWAYS WideSlant w_slant(const WrSlant *of, const WrChord *chord)
 {
     return (WideSlant){ w_curve(&of->along, chord), w_curve(&of->across, chord) };
 }
-/* Times d.d. */
+/* n.w times d.d. */
 ALWAYS Wide w_slanted(const WideSlant *of, Wide x, Wide r)
 {
     return w_bent(of->along, x) - r * w_straight(of->across, x);
 }
 
-/* n and 1 / |d|; false: places are not exact. */
+/* n and 1 / |d|; false: positions are not exact. */
 static bool chord_points(const WrSphereRows *ball, float gx, float gy, int count, WrStrip *strip)
 {
     WrChord chord;
@@ -63,9 +63,9 @@ static bool chord_points(const WrSphereRows *ball, float gx, float gy, int count
     return true;
 }
 
-/* ---- smooth ones under a distant lamp ---- */
+/* ---- smooth spheres under a distant lamp ---- */
 
-/* The highlight where n.l, n.v and l.v are these: n.h = (n.l + n.v) / |l + v|. */
+/* The highlight for given n.l, n.v and l.v: n.h = (n.l + n.v) / |l + v|. */
 ALWAYS Wide broad_highlight(const Lamp *of, Wide n_dot_l, Wide n_dot_v, Wide l_dot_v)
 {
     const Wide half = w_all(0.5f), size = w_max(half + half * l_dot_v, w_all(1e-7f));
@@ -75,14 +75,14 @@ ALWAYS Wide broad_highlight(const Lamp *of, Wide n_dot_l, Wide n_dot_v, Wide l_d
     return whole_power(w_kept(shown, n_dot_h), of->whole);
 }
 
-/* What of a row the light is worked out from. */
+/* Polynomials along a row from which the light is computed. */
 typedef struct SmoothRow {
     WideCurve dd, rr;
     WideSlant lit;
     float from; /* x of the row's pixel 0 */
 } SmoothRow;
 
-/* Returns the largest n.l. */
+/* Lights the chord. Returns the largest n.l. */
 ALWAYS float smooth_chord(const SmoothRow *row, const Scenery *s, const WrWidePaint how, int first,
                           WrStrip *strip)
 {
@@ -111,7 +111,7 @@ ALWAYS float smooth_chord(const SmoothRow *row, const Scenery *s, const WrWidePa
     return w_largest(largest);
 }
 
-/* u and v by what that left. */
+/* u and v from the values that smooth_chord stored. */
 static void chord_parameters(const WrSphereRows *ball, const WrChord *chord, float from,
                              WrStrip *strip)
 {

@@ -1,6 +1,6 @@
-/* simd_sphere_uv_body.h - u and v of a sphere's n. A part of kern_wide_*.c. */
+/* simd_sphere_uv_body.h - SIMD u and v of a sphere from n. Part of simd_v3.c and simd_v4.c. */
 
-/* The angle in turns of sine and cosine, neither negative, from the smaller one times `by`; up to 2e-7. */
+/* The angle in turns from sine and cosine, both non-negative, by the smaller one times `by`; error up to 2e-7. */
 ALWAYS Wide turns_of(Wide sine, Wide cosine, Wide by)
 {
     const Wide s = w_min(sine, cosine) * by, w = s * s;
@@ -11,7 +11,7 @@ ALWAYS Wide turns_of(Wide sine, Wide cosine, Wide by)
     return w_pick(w_less(cosine, sine), w_all(0.25f) - a, a);
 }
 
-/* Sines and cosines are there already, but for the distance from the axis. by: 1 / |n|. */
+/* n contains all sines and cosines, except the distance from the axis. by: 1 / |n|. */
 ALWAYS void put_parameters_of(WideVec n, Wide by, WrStrip *strip, int i)
 {
     const Wide zero = w_all(0.0f), one = w_all(1.0f), half = w_all(0.5f);

@@ -1,4 +1,4 @@
-/* Surfaces made ready for simd_newton_body.h. */
+/* Preparation of surfaces for simd_newton_body.h. */
 #include "render/simd/simd_kernels.h"
 
 #define WR_FORMULA_FLOAT
@@ -6,7 +6,7 @@
 #include "surface/frame.h"
 #include "surface/bezier.h"
 
-/* What of each of four points a cubic's coefficients about the middle, t = u - 1/2, are made of, in eighths. */
+/* Weights of four control points in a cubic's coefficients about the middle, t = u - 1/2, in eighths. */
 static const double middle[4][4] = {
     { 1, 3, 3, 1 }, { -6, -6, 6, 6 }, { 12, -12, -12, 12 }, { -8, 24, -24, 8 }
 };

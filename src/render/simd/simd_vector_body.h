@@ -1,7 +1,7 @@
-/* simd_vector_body.h - vectors as wide as a register, for kernels that are worth writing so: compilers have no reciprocal
-   root of 16 numbers and no look-up in registers. Included by each kern_wide_*.c, which the build gives the flags of a
-   set; without one there are no such kernels. WIDE numbers are a vector; masks have a lane for each.
-   A header without a guard, by intention. */
+/* simd_vector_body.h - vector type of register width, with its operations, for hand-written kernels. Compilers
+   do not generate reciprocal roots of 16 numbers or table look-ups in registers. Included by simd_v3.c and
+   simd_v4.c, for which the build sets the flags of an instruction set; without one there are no such kernels. A
+   vector has WIDE numbers; a mask has one lane for each. Deliberately without a guard. */
 #include "render/simd/simd_kernels.h"
 
 #define ALWAYS static inline __attribute__((always_inline))
@@ -46,17 +46,17 @@ ALWAYS bool w_any(WideMask a)
 {
     return a != 0;
 }
-/* a where the mask is, else 0. */
+/* a in the lanes of the mask, else 0. */
 ALWAYS Wide w_kept(WideMask mask, Wide a)
 {
     return _mm512_maskz_mov_ps(mask, a);
 }
-/* a where the mask is, else b. */
+/* a in the lanes of the mask, else b. */
 ALWAYS Wide w_pick(WideMask mask, Wide a, Wide b)
 {
     return _mm512_mask_mov_ps(b, mask, a);
 }
-/* Bit k: of lane k. */
+/* Bit k is lane k. */
 ALWAYS unsigned w_bits(WideMask mask)
 {
     return mask;
@@ -70,7 +70,7 @@ ALWAYS Wide w_among(unsigned of, Wide a, Wide b)
 {
     return _mm512_mask_mov_ps(b, (__mmask16)of, a);
 }
-/* Of all lanes. */
+/* Maximum of all lanes. */
 ALWAYS float w_largest(Wide a)
 {
     return _mm512_reduce_max_ps(a);
@@ -94,7 +94,7 @@ ALWAYS WideMask w_either(WideMask a, WideMask b)
 {
     return a | b;
 }
-/* Towards 0. */
+/* Truncates towards 0. */
 ALWAYS WideInt w_whole(Wide a)
 {
     return _mm512_cvttps_epi32(a);
@@ -111,22 +111,22 @@ ALWAYS void w_store_int(int32_t *to, WideInt a)
 {
     _mm512_storeu_si512(to, a);
 }
-/* The first lanes, those in the bits `of`. */
+/* Stores the first lanes, those in the bits `of`. */
 ALWAYS void w_store_some(int32_t *to, unsigned of, WideInt a)
 {
     _mm512_mask_storeu_epi32(to, (__mmask16)of, a);
 }
-/* Infinite, or no number. */
+/* Infinite or NaN. */
 ALWAYS WideMask w_odd(Wide a)
 {
     return _mm512_fpclass_ps_mask(a, 0x99);
 }
-/* 1 <= a 2^k < 2, of positive numbers. */
+/* 1 <= a 2^k < 2, for positive numbers. */
 ALWAYS Wide w_mantissa(Wide a)
 {
     return _mm512_getmant_ps(a, _MM_MANT_NORM_1_2, _MM_MANT_SIGN_zero);
 }
-/* 255 * 1.055 * 2^(k / 2.4) of 2^k <= a < 2^(k + 1), k from -9 to -1. */
+/* 255 * 1.055 * 2^(k / 2.4) for 2^k <= a < 2^(k + 1), k from -9 to -1. */
 ALWAYS Wide w_curve_scale(Wide a)
 {
     const Wide scale =
@@ -147,7 +147,7 @@ ALWAYS Wide w_reciprocal_estimate(Wide a)
 {
     return _mm512_rcp14_ps(a);
 }
-/* 2^a; a is whole. */
+/* 2^a for a whole number a. */
 ALWAYS Wide w_power(Wide a)
 {
     return _mm512_scalef_ps(_mm512_set1_ps(1.0f), a);
@@ -156,7 +156,7 @@ ALWAYS Wide w_nearest(Wide a)
 {
     return _mm512_roundscale_ps(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
 }
-/* a less the nearest whole number. */
+/* a minus the nearest whole number. */
 ALWAYS Wide w_off_nearest(Wide a)
 {
     return _mm512_reduce_ps(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
@@ -166,7 +166,7 @@ ALWAYS WideMask w_but(WideMask a, WideMask b)
 {
     return a & (WideMask)~b;
 }
-/* The lanes of bits. */
+/* The mask with those bits. */
 ALWAYS WideMask w_mask(unsigned of)
 {
     return (WideMask)of;
@@ -283,7 +283,7 @@ ALWAYS void w_store_int(int32_t *to, WideInt a)
 }
 ALWAYS void w_store_some(int32_t *to, unsigned of, WideInt a)
 {
-    if (of == 255) { /* stores under a mask are slow on some processors */
+    if (of == 255) { /* masked stores are slow on some processors */
         w_store_int(to, a);
         return;
     }
@@ -355,7 +355,7 @@ ALWAYS Wide w_floor(Wide a)
     return w_pick(w_less(a, near), near - w_all(1.0f), near);
 }
 
-/* The bits of the first `count` lanes, or of all. */
+/* The bits of the first `count` lanes, at most of all. */
 ALWAYS unsigned w_first_bits(int count)
 {
     return count < WIDE ? (1U << count) - 1 : (unsigned)((1ULL << WIDE) - 1);
@@ -406,14 +406,14 @@ ALWAYS Wide w_reciprocal(Wide a)
     return y + y * (w_all(1.0f) - a * y);
 }
 
-/* 1 / sqrt(a) of what is above 1e-37: an estimate of 12 bits or more and a step of Newton's. */
+/* 1 / sqrt(a) for a above 1e-37: an estimate of 12 bits or more and one step of Newton's method. */
 ALWAYS Wide w_rsqrt(Wide a)
 {
     const Wide y = w_rsqrt_estimate(a), left = w_all(1.0f) - a * y * y;
     return y + w_all(0.5f) * y * left;
 }
 
-/* sqrt(a); under 1e-30 that of 1e-30. */
+/* sqrt(a); below 1e-30 the root of 1e-30. */
 ALWAYS Wide w_root(Wide a)
 {
     const Wide some = w_max(a, w_all(1e-30f));
