@@ -16,7 +16,7 @@
 #define SIZE_MAX_PIXELS 4096
 #define SAMPLES_MAX 64
 
-/* The objects that are shown: of each sample the nearest is seen. */
+/* The visible objects; each sample shows the nearest. */
 typedef struct Set {
     WrReferenceStage stage[WR_OBJECTS_MAX];
     WrScene *part[WR_OBJECTS_MAX]; /* own */
@@ -29,12 +29,12 @@ typedef struct Pass {
     const Set *set;
     const WrReferenceRequest *request;
     int k;
-    double *rgba;   /* [height][width][4] */
-    double *normal; /* [height][width][3], or NULL: known already */
+    double *rgba;   /* owned */
+    double *normal; /* [height][width][3], or NULL: already computed */
     int64_t *lost;  /* [height] */
 } Pass;
 
-/* What changed from one picture to the next, of a row. */
+/* Change of a row from one picture to the next. */
 typedef struct Change {
     double squares, most;
     int64_t covered;
@@ -47,7 +47,7 @@ static bool wanted(const WrReferenceRequest *request, int x, int y)
     return request->only[y / WR_FRAME_BLOCK * across + x / WR_FRAME_BLOCK] != 0;
 }
 
-/* The sum of `count` values, in pairs; they are used up. */
+/* Sum of `count` values, added in pairs; they are overwritten. */
 static double pair_sum(double *values, int count)
 {
     for (; count > 1; count = (count + 1) / 2) {
@@ -59,8 +59,8 @@ static double pair_sum(double *values, int count)
 
 static const WrReferenceShare all = { 0, 1 };
 
-/* Of light from all sides each of a pixel's k x k samples takes a k-th: that of a lattice which has each part at k places,
-   spread evenly. */
+/* For light from all directions each of a pixel's k x k samples takes 1/k of them, by a lattice in which each
+   part occurs k times, evenly spread. */
 static WrReferenceShare share_of(int k, int i, int j)
 {
     const int step = (int)(0.382 * k) | 1;
@@ -81,7 +81,7 @@ static bool sample_set(const Set *set, double x, double y, WrReferenceShare shar
     return any;
 }
 
-/* The mean of k x k intensities, premultiplied, and how many of them hit. */
+/* Mean of k x k intensities, premultiplied; adds the samples whose inversion did not converge to *lost. */
 static void sample_pixel(const Pass *pass, int x, int y, double rgba[4], int64_t *lost)
 {
     const int k = pass->k;
@@ -172,12 +172,12 @@ static bool check(const WrReferenceRequest *request, WrError *err)
     return true;
 }
 
-/* One picture at k into `rgba`, which is cleared first. */
+/* Renders one picture at k into `rgba`, which is cleared first. */
 static bool render_pass(const Set *set, const WrReferenceRequest *request, int k, WrPool *pool,
                         WrReference *out, double *rgba, WrError *err)
 {
     Pass pass = { set, request, k, rgba, out->normal, NULL };
-    if (out->samples > 0) pass.normal = NULL; /* the first picture found the normals */
+    if (out->samples > 0) pass.normal = NULL; /* the first picture has computed the normals */
     memset(rgba, 0, 4 * (size_t)request->width * (size_t)request->height * sizeof *rgba);
     pass.lost = wr_alloc((size_t)request->height, sizeof *pass.lost);
     wr_pool_run(pool, request->height, render_row, &pass);
@@ -189,7 +189,7 @@ static bool render_pass(const Set *set, const WrReferenceRequest *request, int k
     return true;
 }
 
-/* Without a limit of the caller's: a ray takes ten times as long where the surface is displaced, or has parallax. */
+/* Largest k if the caller sets no limit: a ray takes ten times as long with displacement or parallax. */
 static int most_of(const WrReferenceRequest *request)
 {
     bool displaced = false;
@@ -200,7 +200,7 @@ static int most_of(const WrReferenceRequest *request)
     return request->most > 0 ? request->most : request->first > own ? 64 : own;
 }
 
-/* Doubles k until the picture stands still or the limit is reached. */
+/* Doubles k until the picture no longer changes or the limit is reached. */
 static bool refine(const Set *set, const WrReferenceRequest *request, WrPool *pool,
                    WrReference *out, WrError *err)
 {
@@ -222,7 +222,7 @@ static bool refine(const Set *set, const WrReferenceRequest *request, WrPool *po
         out->rgba = finer, finer = coarse;
         out->converged = out->last_rms < request->change_rms;
     }
-    if (out->last_rms == 0) out->converged = true; /* of a last doubling, not NAN */
+    if (out->last_rms == 0) out->converged = true; /* after a last doubling; not if it is NAN */
     wr_free(finer);
     return good;
 }

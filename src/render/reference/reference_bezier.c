@@ -8,15 +8,16 @@
 #include <string.h>
 
 #define SLACK 1e-12
-#define GROUP 16 /* patches that lie beside each other in the file, with a box of their own */
+#define GROUP 16 /* patches that are neighbours in the file, with a common box */
 
 struct WrReferenceBezierPiece {
     WrShape shape;
     WrReferencePatches tree;
-    WrReferenceBounds box, group; /* group: of those from here on, in the first of GROUP */
+    /* group: of the patches from here on; only in the first of each GROUP */
+    WrReferenceBounds box, group;
 };
 
-/* A patch lies within its points' hull. */
+/* A patch is inside the convex hull of its control points. */
 static WrReferenceBounds box_of(const float *points)
 {
     WrReferenceBounds box = wr_reference_bounds();
@@ -78,7 +79,7 @@ bool wr_reference_bezier_hit(const WrReferenceBezier *set, bool cull, const WrRe
     return true;
 }
 
-/* The same in the table's u and v: their gradients first, from the patch's. */
+/* The point with derivatives by the table's u and v, from the gradients of the patch's parameters. */
 void wr_reference_bezier_at(const WrReferenceBezier *set, const WrReferenceHit *hit,
                             WrSurfacePoint *out)
 {

@@ -1,6 +1,5 @@
-/* reference_box.h - boxes about what a ray may meet, and the tangents of what has u and v by their gradients, for the
-   reference.
-   Layer 5, private to the reference. */
+/* reference_box.h - bounding boxes for ray tests, and tangents from the gradients of u and v, for the reference.
+   Private to the reference. */
 #pragma once
 #include "render/reference/reference_patch.h"
 
@@ -17,7 +16,7 @@ static inline double wr_reference_part(WrVec3 a, int axis)
     return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 
-/* About nothing. */
+/* The empty box. */
 static inline WrReferenceBounds wr_reference_bounds(void)
 {
     return (WrReferenceBounds){ { INFINITY, INFINITY, INFINITY },
@@ -30,7 +29,8 @@ static inline void wr_reference_bounds_add(WrReferenceBounds *box, int axis, dou
     box->high[axis] = fmax(box->high[axis], x);
 }
 
-/* Does the ray pass the box before `most`? slack: in parts of how far its sides are, so that nothing is lost to rounding. */
+/* True if the ray enters the box before `most`. slack: relative to the distance of its sides, so that rounding
+   loses no hit. */
 static inline bool wr_reference_bounds_met(const WrReferenceBounds *box, const WrReferenceRay *ray,
                                            double most, double slack)
 {
@@ -43,14 +43,15 @@ static inline bool wr_reference_bounds_met(const WrReferenceBounds *box, const W
             a = b, b = t;
         }
         const double more = slack * (fabs(a) + fabs(b));
-        if (a - more > near) near = a - more; /* not a number: the ray lies in the side */
+        if (a - more > near) near = a - more; /* NaN: the ray lies in the side */
         if (b + more < far) far = b + more;
     }
     return near <= far;
 }
 
-/* n, N, Pu and Pv of a place by the gradients of u and v, which lie across n: Pu = grad v x n and Pv = n x grad u, times
- * |N| = 1 / |grad u x grad v|, so that Blinn's formula gives unit(n - grad F); |N| is 1 where they span nothing. */
+/* n, N, Pu and Pv of a point from the gradients of u and v, which are perpendicular to n: Pu = grad v x n and Pv
+   = n x grad u, times |N| = 1 / |grad u x grad v|, so that Blinn's formula gives unit(n - grad F). |N| is 1 if
+   the gradients are parallel or 0. */
 static inline void wr_reference_lay(WrVec3 n, WrVec3 grad_u, WrVec3 grad_v, WrSurfacePoint *out)
 {
     const double area = v3_len(v3_cross(grad_u, grad_v)), length = area > 1e-30 ? 1 / area : 1;

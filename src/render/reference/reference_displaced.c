@@ -1,6 +1,6 @@
-/* Boxes: a cell is looked at in 3 x 3 places. The four quarters' bilinear patches lie in the box of those, and the surface
- * within (|P'uu| du^2 + 2 |P'uv| du dv + |P'vv| dv^2) / 8 of them, whose second derivatives are told by how far the first
- * ones change from place to place. */
+/* Boxes: a cell is evaluated at 3 x 3 points. The bilinear patches of its four quarters are inside the box of
+   these points, and the surface within (|P'uu| du^2 + 2 |P'uv| du dv + |P'vv| dv^2) / 8 of them. The second
+   derivatives are estimated from the change of the first ones between the points. */
 #include "render/reference/reference_displaced_internal.h"
 
 #include "base/error.h"
@@ -11,14 +11,14 @@
 #include <math.h>
 #include <stdint.h>
 
-#define SAFETY 2.0 /* of bends that are measured in 3 x 3 places */
-#define ROUND 48   /* cells along a whole curved surface, at least */
-#define STEPS 24   /* of Newton's method, at most */
+#define SAFETY 2.0 /* for bends measured at 3 x 3 points */
+#define ROUND 48   /* minimum number of cells along a whole curved surface */
+#define STEPS 24   /* maximum steps of Newton's method */
 #define SETTLED 1e-12
 #define TOUCHES                                                                                    \
-    1e-13 /* in sizes of the object: so near the ray is a hit though steps stay longer */
+    1e-13 /* in sizes of the object: a point this near the ray is a hit even if steps remain longer */
 #define UNDECIDED 1e-10
-#define SLACK 1e-7 /* of a cell: beyond its border, so that none is lost between two */
+#define SLACK 1e-7 /* of a cell: extension beyond its border, so that no hit is lost between two */
 
 void wr_raised_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u, double v,
                   WrRaisedPoint *out)
@@ -70,7 +70,7 @@ static WrRaisedBox box_of(WrVec3 low, WrVec3 high, double grow, double sine)
     return box;
 }
 
-/* How far the tangents change from place to place: along rows of 3 if by is 1, along columns if 3. */
+/* Largest change of the tangents between neighbouring points: along rows of 3 if by is 1, along columns if 3. */
 static double change(const WrVec3 *t, int by)
 {
     double most = 0;
@@ -172,7 +172,7 @@ static bool build(const WrReferenceRaised *raised, WrRaisedSheet *sheet, WrPool 
     return true;
 }
 
-/* ---- all of it ---- */
+/* ---- construction ---- */
 
 static int cells_of(const WrReferenceRaised *raised, double share, double cells)
 {
@@ -228,19 +228,19 @@ void wr_reference_raised_fini(WrReferenceRaised *raised)
     *raised = (WrReferenceRaised){ 0 };
 }
 
-/* ---- looking ---- */
+/* ---- ray search ---- */
 
 typedef struct Search {
     const WrReferenceRaised *raised;
     const WrRaisedSheet *sheet;
     const WrReferenceRay *ray;
     double length;     /* of the ray's direction */
-    double inverse[3]; /* of it, number by number */
+    double inverse[3]; /* 1 / direction, for each component */
     bool found;
     WrReferenceHit best;
 } Search;
 
-/* Where the ray enters the box, or INFINITY. */
+/* Ray parameter at which the box is entered, or INFINITY. */
 static double enters(const Search *search, const WrRaisedBox *box)
 {
     const double q[3] = { search->ray->q.x, search->ray->q.y, search->ray->q.z };
@@ -270,7 +270,7 @@ static void offer(Search *search, const Cell *c, const WrRaisedPoint *at, double
     wr_raised_place(search->raised, search->sheet, u, v, &search->best);
 }
 
-/* From (u, v); most: of a step, in cells. */
+/* Newton's method from (u, v); most: longest step, in cells. */
 static void solve(Search *search, const Cell *c, double u, double v, double most)
 {
     const WrReferenceRay *ray = search->ray;
@@ -323,7 +323,7 @@ typedef struct Entry {
     double from;
 } Entry;
 
-/* The box's four, the farthest first, onto the stack. */
+/* Pushes the box's four children onto the stack, the farthest first. */
 static int push_children(const Search *search, const Entry *at, Entry *stack, int depth)
 {
     const WrRaisedSheet *sheet = search->sheet;

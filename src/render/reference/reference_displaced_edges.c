@@ -1,4 +1,5 @@
-/* What closes a displaced surface where its domain ends: strips along edges that two sheets share, and corners of a cube. */
+/* Closing pieces of a displaced surface where its domain ends: strips along edges shared by two sheets, and
+   corners of a cube. */
 #include "render/reference/reference_displaced_internal.h"
 
 #include "base/vec.h"
@@ -6,11 +7,11 @@
 #include <math.h>
 
 #define SIDES 4
-#define LOOKS 64      /* places along an edge at which it is looked whether the sheets part */
-#define ALIKE 1e-6    /* places are the same, in sizes of the object */
-#define PARTED 1e-9   /* and heights */
-#define PARALLEL 1e-9 /* what the cosine of two normals lacks */
-#define STEP 1e-5     /* along an edge, of a difference */
+#define LOOKS 64      /* test points along an edge for a gap between the sheets */
+#define ALIKE 1e-6    /* tolerance of equal positions, in sizes of the object */
+#define PARTED 1e-9   /* tolerance of equal heights */
+#define PARALLEL 1e-9 /* tolerance: 1 minus the cosine of two normals */
+#define STEP 1e-5     /* step of a difference along an edge */
 
 typedef struct End {
     WrVec3 p, n;
@@ -38,7 +39,8 @@ static End end_of(const WrReferenceRaised *raised, WrRaisedEdge edge, double t)
     return end;
 }
 
-/* How far the place moves that two sheets share: onto both their planes; where those are all but one, the mean way. */
+/* Displacement of a point shared by two sheets: onto both their planes; if those are almost parallel, the mean
+   displacement. */
 static WrVec3 shared(const End *a, const End *b)
 {
     const double c = v3_dot(a->n, b->n), most = fmax(fabs(a->f), fabs(b->f));
@@ -52,7 +54,7 @@ static WrVec3 shared(const End *a, const End *b)
     return v3_scale(v3_unit(v3_add(a->n, b->n), none), (a->f + b->f) / 2);
 }
 
-/* Of a strip at t: where it begins, and where it leads. */
+/* Start and end of a strip at t. */
 static void strip_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double t,
                      WrVec3 *from, WrVec3 *to)
 {
@@ -85,7 +87,7 @@ static bool same_place(const WrReferenceRaised *raised, WrVec3 a, WrVec3 b)
     return v3_len(v3_sub(a, b)) < ALIKE * raised->size;
 }
 
-/* Are they one edge in space, as they run or the other way round? */
+/* True if both are one edge in space, in equal or opposite direction. */
 static bool mates(const WrReferenceRaised *raised, WrRaisedEdge a, WrRaisedEdge *b)
 {
     const double t[2] = { 0.287, 0.731 };
@@ -100,7 +102,7 @@ static bool mates(const WrReferenceRaised *raised, WrRaisedEdge a, WrRaisedEdge 
     return false;
 }
 
-/* Is it an edge, not a point, and does the strip along it have any width? */
+/* True if it is an edge, not a point, and the strip along it has a width. */
 static bool parts(const WrReferenceRaised *raised, const WrRaisedSheet *sheet)
 {
     if (same_place(raised, end_of(raised, sheet->edge, 0.287).p,
@@ -137,7 +139,7 @@ static int find_strips(const WrReferenceRaised *raised, WrRaisedSheet *out)
     return count;
 }
 
-/* Between the ends of two strips of one face that meet in a corner. */
+/* The corner piece between the ends of two strips of one face. */
 static bool corner_of(const WrReferenceRaised *raised, const WrRaisedSheet *a,
                       const WrRaisedSheet *b, int which, WrRaisedSheet *out)
 {

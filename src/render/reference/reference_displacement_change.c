@@ -21,7 +21,7 @@ typedef struct Walk {
     Row *rows; /* [height] */
 } Walk;
 
-/* Where an object's point is seen, pixels. */
+/* Screen position of an object's point, pixels. */
 static void pixel_of(const WrReferenceView *view, WrVec3 p, double at[2])
 {
     const WrVec3 from = v3_sub(p, view->perspective ? view->eye : view->middle);
@@ -33,7 +33,7 @@ static void pixel_of(const WrReferenceView *view, WrVec3 p, double at[2])
     at[1] = view->height / 2 * (1 - v3_dot(from, b) / volume / deep / view->half_h);
 }
 
-/* The light of a place: as it is displaced, or as bump mapping has it. */
+/* The light of a point: with displacement, or with bump mapping. */
 static void light_of(const WrReferenceStage *stage, WrSurfacePoint at, const WrReferenceHit *hit,
                      WrVec3 perturbed, double rgb[3])
 {

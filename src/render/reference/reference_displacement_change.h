@@ -1,5 +1,5 @@
-/* reference_displacement_change.h - what displacement changes at a place of the surface: where it is seen, and its light.
-   Layer 5. Beside what bump mapping shows of the same u and v, in double, without shadows. */
+/* reference_displacement_change.h - difference between displacement and bump mapping: screen position and light
+   of surface points. Both at the same u and v, in double, without shadows. */
 #pragma once
 #include "render/reference/reference.h"
 
@@ -9,12 +9,12 @@
 typedef struct WrPool WrPool;
 
 typedef struct WrMoved {
-    int64_t places;            /* pixels whose centre meets the displaced surface */
-    double way_mean, way_most; /* pixels between where P and P + F n are seen */
-    double
-        light_rms; /* linear intensity: of P + F n by its own normal less that of P by the bump mode's */
+    int64_t places;            /* pixels whose centre shows the displaced surface */
+    double way_mean, way_most; /* distance in pixels between the images of P and P + F n */
+    /* linear intensity: P + F n with its own normal minus P with the bump mode's */
+    double light_rms;
 } WrMoved;
 
-/* Of the scene's objects that are displaced; others do not count, nor do they hide any. Errors: those of a reference. */
+/* Measures the scene's displaced objects; others are ignored and hide nothing. Errors: as wr_reference_render. */
 bool wr_reference_moved(const WrReferenceRequest *request, WrPool *pool, WrMoved *out,
                         WrError *err);

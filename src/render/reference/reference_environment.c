@@ -7,11 +7,11 @@
 
 #include <math.h>
 
-/* Parts of the sphere that diffuse light is summed over: so small that a cosine is even over each. */
+/* Parts of the sphere for the sum of diffuse light: so small that a cosine is nearly linear over each. */
 #define ACROSS 96
 #define DOWN 48
 #define FACETS WR_REFERENCE_FACETS
-#define FINE 4 /* of a small picture, places a side in each of them */
+#define FINE 4 /* sample points a side in each part of a small picture */
 
 static const double pi = 3.14159265358979323846;
 
@@ -34,7 +34,7 @@ static double texel(const WrEnvironmentMap *s, int column, int row, int c)
     return 2 * mean - own;
 }
 
-/* Bilinear; longitude -pi..pi from -z to +x, latitude. */
+/* Bilinear fetch; longitude -pi..pi from -z to +x, latitude. */
 static void look(const WrEnvironmentMap *s, double longitude, double latitude, double rgb[3])
 {
     const double x = (longitude / (2 * pi) + 0.5) * s->image->width - 0.5;
@@ -54,7 +54,7 @@ static WrVec3 direction(double longitude, double latitude)
                      -cos(longitude) * cos(latitude) };
 }
 
-/* Of the picture's directions, turned by hand, along the object's axes. */
+/* Converts one of the picture's directions, rotated by the user's turn, to the object's axes. */
 static WrVec3 along(const double rotation[9], double turn_deg, WrVec3 d)
 {
     const double t = fmod(turn_deg, 360) * pi / 180, c = cos(t), s = sin(t);
@@ -64,7 +64,7 @@ static WrVec3 along(const double rotation[9], double turn_deg, WrVec3 d)
                      rotation[2] * w.x + rotation[5] * w.y + rotation[8] * w.z };
 }
 
-/* n x m places of one part: its light, and where on the whole it comes from. */
+/* n x m sample points of one part: its light, and its mean direction. */
 static void sum_sector(const WrEnvironmentMap *s, int i, int j, int n, int m,
                        WrReferenceSector *out)
 {
@@ -73,8 +73,8 @@ static void sum_sector(const WrEnvironmentMap *s, int i, int j, int n, int m,
     for (int k = 0; k < n * m; k++) {
         const double longitude = 2 * pi * (((k % n + 0.5) / n + i) / ACROSS - 0.5);
         const double latitude = pi * (0.5 - ((k / n + 0.5) / m + j) / DOWN);
-        const double angle =
-            4 * pi / (ACROSS * n) * sin(pi / (2 * DOWN * m)) * cos(latitude); /* exact */
+        /* exact solid angle */
+        const double angle = 4 * pi / (ACROSS * n) * sin(pi / (2 * DOWN * m)) * cos(latitude);
         double l[3];
         look(s, longitude, latitude, l);
         for (int c = 0; c < 3; c++) rgb[c] += l[c] * angle;
@@ -123,13 +123,13 @@ void wr_reference_surround_fini(WrReferenceSurround *surround)
     *surround = (WrReferenceSurround){ 0 };
 }
 
-/* Is the part at that column and row of a grid one of the share's? Neighbours belong to others. */
+/* True if the part at that column and row of a grid belongs to the share. Neighbours belong to other shares. */
 static bool takes(WrReferenceShare share, int column, int row)
 {
     return (column + 7 * row) % share.of == share.part;
 }
 
-/* Diffuse light: every part of the sphere is a lamp. */
+/* Diffuse light: each part of the sphere is a lamp. */
 static void add_diffuse(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n, WrVec3 v,
                         const double colour[3], WrReferenceShare share, double own[3])
 {
@@ -148,7 +148,7 @@ static void add_diffuse(const WrReferenceStage *stage, const WrMatter *is, WrVec
     }
 }
 
-/* What comes along a direction of the object's axes. */
+/* Light from a direction, given along the object's axes. */
 static void look_along(const WrReferenceStage *stage, WrVec3 d, double rgb[3])
 {
     const WrEnvironment *e = &stage->scene->environment;
@@ -161,19 +161,19 @@ static void look_along(const WrReferenceStage *stage, WrVec3 d, double rgb[3])
     for (int c = 0; c < 3; c++) rgb[c] *= e->strength;
 }
 
-/* The width of the lobe that facets are taken in the place of. */
+/* Width of the lobe from which facet directions are sampled. */
 static double width_of(const WrMaterial *m, const WrMatter *matter)
 {
     const bool power = m->model == WR_REFLECT_BLINN_PHONG || m->model == WR_REFLECT_PHONG;
     return power ? sqrt(2 / (m->shininess + 2)) : matter->alpha;
 }
 
-/* Highlights: facets h, as many as stand that way, each mirrors what comes from 2 (v.h) h - v. */
+/* Highlights: facets h, weighted by their distribution; each mirrors the light from 2 (v.h) h - v. */
 static void add_shine(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n, WrVec3 v,
                       const double colour[3], WrReferenceShare part, double own[3], double white[3])
 {
     const double short_of =
-        fmax(0, 1e-3 - v3_dot(n, v)); /* facets lie about the normal that is seen */
+        fmax(0, 1e-3 - v3_dot(n, v)); /* facets are distributed around the visible normal */
     const WrVec3 seen = v3_unit(v3_mad(n, v, short_of), n);
     WrMatter matter = *is;
     WrMaterial only = stage->scene->material;

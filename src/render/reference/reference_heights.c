@@ -1,8 +1,8 @@
-/* The inverse of the filter (1, 4, 1) / 6 as two recursions, Unser's: with z = sqrt(3) - 2
- *   p[i] = 6 T[i] + z p[i-1]      upwards
- *   c[i] = z (c[i+1] - p[i])      downwards
- * Both forget where they began by a factor z = -0.268 a texel, so that starting REACH texels beyond the
- * ends, with the texels that stand there, leaves an error of 3e-37. */
+/* Inverse of the filter (1, 4, 1) / 6 as two recursions (Unser): with z = sqrt(3) - 2
+     p[i] = 6 T[i] + z p[i-1]      upwards
+     c[i] = z (c[i+1] - p[i])      downwards
+   The influence of the start decays by a factor z = -0.268 per texel, so starting REACH texels beyond the ends,
+   with the extended texels, leaves an error of 3e-37. */
 #include "render/reference/reference_heights.h"
 
 #include "base/error.h"
@@ -23,7 +23,7 @@ typedef struct Filter {
     double z;
 } Filter;
 
-/* Value number i, any i, of n values `stride` apart, continued as the axis says. */
+/* Value number i, any i, of n values `stride` apart, extended according to the axis. */
 static double texel(const double *in, size_t stride, int n, int i, bool periodic)
 {
     if (periodic) return in[(size_t)((i % n + n) % n) * stride];
@@ -31,12 +31,12 @@ static double texel(const double *in, size_t stride, int n, int i, bool periodic
     const double *end = i < 0 ? in : in + (size_t)(n - 1) * stride;
     if (n < 3) return *end;
     const ptrdiff_t inward = i < 0 ? (ptrdiff_t)stride : -(ptrdiff_t)stride;
-    const double x = i < 0 ? i : n - 1 - i; /* below 0: outward from the end */
+    const double x = i < 0 ? i : n - 1 - i; /* below 0: outwards from the end */
     return end[0] * ((x - 1) * (x - 2) / 2) - end[inward] * (x * (x - 2)) +
            end[2 * inward] * (x * (x - 1) / 2);
 }
 
-/* in [count + 2 REACH][lanes], from number -REACH on, becomes the coefficients. */
+/* Replaces in [count + 2 REACH][lanes], from number -REACH on, by the coefficients. */
 static void recurse(double *in, int count, int lanes, double z)
 {
     const int total = count + 2 * REACH;
@@ -75,7 +75,7 @@ static void filter_row(int j, int worker, void *ctx)
     wr_free(texels);
 }
 
-/* The same along v for BLOCK columns. */
+/* Coefficients along v for BLOCK columns. */
 static void filter_columns(int block, int worker, void *ctx)
 {
     (void)worker;
@@ -122,8 +122,8 @@ void wr_reference_table_fini(WrReferenceTable *table)
     *table = (WrReferenceTable){ 0 };
 }
 
-/* Weights of four coefficients for the value at a = 0..1 past the second, and of their three differences
- * for the slope. */
+/* Weights of four coefficients for the value at a = 0..1 past the second, and of their three differences for the
+   slope. */
 static void weights(double a, double w[4], double d[3])
 {
     const double b = 1 - a;
@@ -136,7 +136,7 @@ static void weights(double a, double w[4], double d[3])
     d[2] = a * a / 2;
 }
 
-/* r u brought to the table: 0..1, and whether F varies there. */
+/* r u reduced to the table: 0..1, and whether F varies there. */
 static double place(double u, double replicate, bool periodic, bool *varies)
 {
     *varies = true;

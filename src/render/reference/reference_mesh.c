@@ -13,8 +13,8 @@
 
 struct WrReferenceBox {
     WrReferenceBounds about;
-    int32_t first,
-        count; /* of a leaf: triangles; else count 0, and first is the first of two boxes */
+    /* triangles of a leaf; else 0, and first is the index of the first of two boxes */
+    int32_t first, count;
 };
 
 static WrVec3 corner(const WrTriangles *t, int32_t i, int k)
@@ -42,7 +42,8 @@ static void measure(const WrReferenceMesh *m, WrReferenceBox *box)
                                         wr_reference_part(corner(m->source, m->order[i], k), axis));
 }
 
-/* The triangles below the middle of the box's longest side first; how many. Half of them, where all lie together. */
+/* Moves the triangles below the middle of the box's longest side to the front; returns their number. If all are
+   on one side, half of them. */
 static int32_t divide(WrReferenceMesh *m, const WrReferenceBox *box)
 {
     int axis = 0;
@@ -96,7 +97,7 @@ void wr_reference_mesh_fini(WrReferenceMesh *mesh)
 
 /* ---- rays ---- */
 
-/* The ray's longest axis is z, and places are sheared so that it runs along it. */
+/* The ray's longest axis is z, and positions are sheared so that the ray runs along it. */
 typedef struct Shear {
     int x, y, z;
     double sx, sy, sz;
@@ -166,7 +167,7 @@ bool wr_reference_mesh_hit(const WrReferenceMesh *m, bool cull, const WrReferenc
     return true;
 }
 
-/* ---- frames ---- */
+/* ---- tangent frames ---- */
 
 bool wr_reference_mesh_frame(WrReferenceMesh *mesh, WrNormalFrame frame, WrError *err)
 {
@@ -203,7 +204,7 @@ bool wr_reference_mesh_axes(const WrReferenceMesh *mesh, const WrReferenceHit *h
     return v3_len(axes->t) > 0 && v3_len(axes->b) > 0;
 }
 
-/* ---- what is there ---- */
+/* ---- surface at a hit ---- */
 
 static WrVec3 shading_normal(const WrTriangles *t, const WrReferenceHit *hit, WrVec3 face)
 {
@@ -217,7 +218,7 @@ static WrVec3 shading_normal(const WrTriangles *t, const WrReferenceHit *hit, Wr
     return v3_unit(n, face);
 }
 
-/* The normal is on the side of its face that its face is seen from. */
+/* The normal, moved to the visible side of its face. */
 static WrVec3 seen_normal(WrVec3 n, WrVec3 face, WrVec3 to)
 {
     const double least = 1e-4;

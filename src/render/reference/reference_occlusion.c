@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-#define DISC 48  /* places on a round lamp */
-#define ROUND 48 /* directions about a place */
+#define DISC 48  /* points on an area lamp */
+#define ROUND 48 /* directions around a point */
 
-/* The ray towards the lamp meets the displaced surface again before it comes to it. */
+/* True if the ray to the lamp hits the displaced surface before the lamp. */
 static bool meets_relief(const WrReferenceStage *stage, WrVec3 p, WrVec3 perturbed, WrVec3 l,
                          double away)
 {
@@ -17,8 +17,8 @@ static bool meets_relief(const WrReferenceStage *stage, WrVec3 p, WrVec3 perturb
     return wr_reference_raised_hit(&stage->raised, &ray, &hit) && hit.s < away;
 }
 
-/* Is a lamp in direction l hidden by the relief? Over the tangent plane the ray rises by n.l per length, and (a, b) is how it
-   moves in u and v: it is marched by an eighth of a texel until it is above everything. */
+/* True if the relief hides a lamp in direction l. Above the tangent plane the ray rises by n.l per length, and
+   (a, b) is its motion in u and v: it is marched in steps of an eighth of a texel until it is above everything. */
 static bool is_hidden(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
                       WrVec3 l)
 {
@@ -48,7 +48,7 @@ static bool hides(const WrReferenceStage *stage, const WrSurfacePoint *at, doubl
                                    : is_hidden(stage, at, u, v, l);
 }
 
-/* Two directions across d, unit. */
+/* Two unit vectors perpendicular to d. */
 static void across(WrVec3 d, WrVec3 *a, WrVec3 *b)
 {
     const WrVec3 least = fabs(d.x) < 0.6 ? (WrVec3){ 1, 0, 0 } : (WrVec3){ 0, 1, 0 };
@@ -65,7 +65,7 @@ double wr_reference_lamp_share(const WrReferenceStage *stage, const WrSurfacePoi
     int seen = 0, all = 0;
     across(l, &a, &b);
     for (int k = share.part % DISC; k < DISC;
-         k += share.of, all++) { /* even over the disc: by the golden angle */
+         k += share.of, all++) { /* evenly spread over the disc, by the golden angle */
         const double r = radius * sqrt((k + 0.5) / DISC), turn = 2.39996322972865 * k;
         const WrVec3 side = v3_mad(v3_scale(a, cos(turn)), b, sin(turn));
         const WrVec3 to = v3_mad(v3_scale(l, cos(r)), side, sin(r));
@@ -74,8 +74,8 @@ double wr_reference_lamp_share(const WrReferenceStage *stage, const WrSurfacePoi
     return (double)seen / all;
 }
 
-/* The tangent of the horizon's elevation along w, which lies in the tangent plane and is unit: marched by quarters of a texel
-   until nothing can stand higher. */
+/* Tangent of the horizon's elevation along w, a unit vector in the tangent plane: marched in quarters of a texel
+   until nothing can be higher. */
 static double horizon_along(const WrReferenceStage *stage, const WrSurfacePoint *at, double u,
                             double v, WrVec3 w)
 {

@@ -6,16 +6,16 @@
 #include <math.h>
 
 #define PER_CELL 6 /* steps */
-#define LEAST 48   /* of a whole way */
-#define MOST 6000  /* likewise */
+#define LEAST 48   /* minimum steps of a whole way */
+#define MOST 6000  /* maximum steps of a whole way */
 #define HALVINGS 48
 
-/* A ray over the base that it met: place(t) = base + t (a, b), height(t) = t (rise + t bend). */
+/* A ray above the base that it hit: (u,v)(t) = base + t (a, b), height(t) = t (rise + t bend). */
 typedef struct Way {
     const WrReferenceStage *stage;
     double u, v, a, b, rise, bend, side;
-    double first, last; /* t */
-    bool opens, leaves; /* it comes in, or goes out, where there is no relief any more */
+    double first, last; /* range of t */
+    bool opens, leaves; /* it enters, or leaves, where there is no relief */
 } Way;
 
 bool wr_reference_has_parallax(const WrScene *scene)
@@ -24,7 +24,7 @@ bool wr_reference_has_parallax(const WrScene *scene)
            !wr_shape_without_parallax(&scene->shape);
 }
 
-/* The spline through a table stays within its range and as much again on both sides. */
+/* A spline through a table exceeds its range by at most that range on both sides. */
 void wr_reference_parallax_init(WrReferenceStage *stage, const WrField *field,
                                 const double cells[2])
 {
@@ -47,7 +47,7 @@ void wr_reference_parallax_init(WrReferenceStage *stage, const WrField *field,
     stage->cells[0] = cells[0], stage->cells[1] = cells[1];
 }
 
-/* Is the end of an axis a place where the surface ends, rather than a point of it? */
+/* True if the surface ends at that end of an axis, rather than shrinking to a point. */
 static bool ends_there(const WrShape *shape, bool across, double end)
 {
     WrSurfacePoint p, q;
@@ -64,12 +64,12 @@ static double above(const Way *w, double t)
     return t * (w->rise + t * w->bend) - w->side * f;
 }
 
-/* t where the height is h, on the way down. false: it is not that low, or not that high, anywhere. */
+/* t where the height is h, on the way down. false: the ray is never at that height. */
 static bool down_to(const Way *w, double h, double *t)
 {
     const double part = w->rise * w->rise + 4 * w->bend * h;
     const double root = sqrt(fmax(part, 0));
-    /* t = (-rise - root) / (2 bend), without what cancels */
+    /* t = (-rise - root) / (2 bend), without cancellation */
     *t = root - w->rise > 0 ? -2 * h / (root - w->rise) : 0;
     return part >= 0;
 }
@@ -93,7 +93,7 @@ static void clip(Way *w, const WrShape *shape, bool across)
     }
 }
 
-/* false: it passes by. */
+/* Limits the range of t. false: it is empty. */
 static bool limit(Way *w, const WrShape *shape)
 {
     const double high = w->side > 0 ? w->stage->highest : -w->stage->lowest;
@@ -143,7 +143,7 @@ static double within(bool round, double x)
     return round ? x - floor(x) : fmin(fmax(x, 0), 1);
 }
 
-/* at: the base's point at the hit. */
+/* Continues the ray to the relief. at: the base's point at the hit. */
 static bool go_on(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit,
                   WrSurfacePoint *at, double *side)
 {

@@ -1,20 +1,20 @@
-/* Parallax of round bases for the reference: a ray through the shell that holds the relief, by short even steps in how high it is
-   over the base, which is known there in closed form. */
+/* Parallax of round bases for the reference: a ray through the shell that contains the relief, by short even
+   steps; its height above the base has a closed form. */
 #include "base/exactmath.h"
 #include "render/reference/reference_parallax.h"
 
 #include <math.h>
 
 #define PER_CELL 6 /* steps */
-#define PARTS 32   /* of a way, by which its cells are counted */
-#define LEAST 48   /* steps of a whole way */
-#define MOST 6000  /* likewise */
+#define PARTS 32   /* of a way, for counting its cells */
+#define LEAST 48   /* minimum steps of a whole way */
+#define MOST 6000  /* maximum steps of a whole way */
 #define HALVINGS 48
 
 typedef struct Shell {
     const WrReferenceStage *stage;
     const WrReferenceRay *ray;
-    double R, H; /* H: of a tube, which ends there; INFINITY: it is a ball */
+    double R, H; /* H: height of a tube, which ends there; INFINITY: it is a sphere */
 } Shell;
 
 static WrVec3 place(const Shell *shell, double s)
@@ -40,7 +40,7 @@ static double above(const Shell *shell, double s)
     return sqrt(p.x * p.x + p.y * p.y + z * z) - shell->R - f;
 }
 
-/* Where the ray is no farther than r from the middle, or from the axis. */
+/* Interval in which the ray is at most r from the centre, or from the axis. */
 static bool within_reach(const Shell *shell, double r, double part[2])
 {
     const bool tube = shell->H < INFINITY;

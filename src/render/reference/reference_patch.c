@@ -1,11 +1,11 @@
-/* Building: a piece is measured at 3 x 3 points and halved while its normals spread or its bend is not small
- * against its size. A box around the four corners, grown by the bend / 8, holds the piece: its corners'
- * bilinear patch lies in the box, and the surface within (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8
- * of that (Taylor).
- *
- * Looking: where a ray crosses all normals of a piece at an angle, the piece is a graph over the ray's
- * plane and holds one root at most: Newton's method from its centre finds it or leaves. Else (outlines,
- * folds, points where a tangent vanishes) it starts from five points. */
+/* Construction: a piece is measured at 3 x 3 points and halved while its normals spread or its bend is not small
+   compared with its size. A box around the four corners, grown by the bend / 8, contains the piece: its corners'
+   bilinear patch is in the box, and the surface within (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 of that
+   (Taylor).
+
+   Search: where a ray makes a positive angle with all normals of a piece, the piece is a graph over the ray's
+   plane and has at most one root: Newton's method from its centre finds it or leaves the piece. Otherwise
+   (outlines, folds, points where a tangent vanishes) it starts from five points. */
 #include "render/reference/reference_patch.h"
 
 #include "base/error.h"
@@ -16,13 +16,13 @@
 
 #define PIECES_MAX (1 << 18)
 #define DEPTH_MAX 40
-#define SPREAD 0.15 /* radians between the normals of a piece and its middle one's */
-#define BEND 0.45   /* of a piece, per length */
-#define FLAT 1e-7   /* bend that needs no further cut, in sizes of the object */
-#define SAFETY 1.5  /* of what is measured at 3 x 3 points */
-#define STEPS 24    /* of Newton's method, at most */
-/* In parts of the (u,v) square: its last step. In sizes of the object: the distance from the ray that is a
-   hit though steps stay longer, and one that may be. */
+#define SPREAD 0.15 /* largest angle, radians, between the normals of a piece and its middle one */
+#define BEND 0.45   /* largest bend of a piece, relative to its length */
+#define FLAT 1e-7   /* bend that needs no further subdivision, in sizes of the object */
+#define SAFETY 1.5  /* for values measured at 3 x 3 points */
+#define STEPS 24    /* maximum steps of Newton's method */
+/* SETTLED: size of the last step, in parts of the (u,v) square. In sizes of the object: a point within TOUCHES
+   of the ray is a hit even if steps remain longer, and one within UNDECIDED may be one. */
 #define SETTLED 1e-12
 #define TOUCHES 1e-13
 #define UNDECIDED 1e-10
@@ -32,15 +32,15 @@ struct WrReferencePiece {
     double u0, u1, v0, v1;
     WrVec3 p, pu, pv; /* at its middle */
     WrVec3 n;         /* unit, there */
-    double sine;      /* of the angle that its normals keep within about n; over 1: none is kept */
-    int child;        /* the first of two; 0: none */
+    double sine;      /* of the largest angle between its normals and n; over 1: unknown */
+    int child;        /* index of the first of two; 0: none */
     int depth;
-    int cut; /* how it would be halved: 1 along u, 2 along v, 0 it need not */
+    int cut; /* axis of subdivision: 1 along u, 2 along v, 0 none needed */
 };
 
 typedef struct Measure {
     double uu, uv, vv; /* largest second derivatives */
-    double pu, pv;     /* largest and least first ones */
+    double pu, pv;     /* largest and least first derivatives */
     double pu_least, pv_least;
     double spread;
 } Measure;
@@ -66,7 +66,7 @@ static Measure sample_piece(WrReferencePiece *piece, const WrShape *shape)
     wr_surface_at(shape, 0, piece->u0 + du / 2, piece->v0 + dv / 2, &at);
     piece->p = at.p, piece->pu = at.pu, piece->pv = at.pv, piece->n = at.n_unit;
     piece->low = piece->high = at.p;
-    /* Off the middle, which waves of whole numbers would meet where they do not bend. */
+    /* Off the middle, where waves with whole-number frequencies would have zero bend. */
     const double us[3] = { piece->u0, piece->u0 + 0.41421356 * du, piece->u1 };
     const double vs[3] = { piece->v0, piece->v0 + 0.41421356 * dv, piece->v1 };
     for (int k = 0; k < 9; k++) {
@@ -99,7 +99,7 @@ static void measure_piece(WrReferencePiece *piece, const WrShape *shape, double 
     const bool alike = fmin(bend_u, bend_v) > 0.5 * fmax(bend_u, bend_v);
     const bool along_u = alike ? m.pu * du >= m.pv * dv : bend_u > bend_v;
     piece->cut = bent && piece->depth < DEPTH_MAX ? along_u ? 1 : 2 : 0;
-    /* Where a tangent all but vanishes, or the two are all but parallel, n says nothing of the map. */
+    /* Where a tangent almost vanishes, or the two are almost parallel, n does not describe the map. */
     const double across = v3_len(v3_cross(piece->pu, piece->pv));
     const bool upright = m.pu_least > 0.1 * m.pu && m.pv_least > 0.1 * m.pv &&
                          across > 0.05 * v3_len(piece->pu) * v3_len(piece->pv);
@@ -121,8 +121,8 @@ static void halve(WrReferencePatches *patches, int index, const WrShape *shape)
     }
 }
 
-/* Larger pieces are cut first, so that a surface with too many is cut evenly. Then boxes are drawn in to
- * what their halves need. */
+/* Larger pieces are subdivided first, so that a surface with too many is subdivided evenly. Then boxes shrink to
+   those of their halves. */
 bool wr_reference_patches_init(WrReferencePatches *patches, const WrShape *shape, WrError *err)
 {
     int capacity = 1024;
@@ -158,19 +158,19 @@ void wr_reference_patches_fini(WrReferencePatches *patches)
     *patches = (WrReferencePatches){ 0 };
 }
 
-/* One ray's search. */
+/* State of one ray's search. */
 typedef struct Search {
     const WrShape *shape;
     const WrReferenceRay *ray;
     const WrSurfaceInfo *info;
     double size, d_length;
-    WrVec3 inverse; /* of the ray's direction, component by component */
+    WrVec3 inverse; /* 1 / direction of the ray, for each component */
     bool cull;
     bool found;
     WrReferenceHit best;
 } Search;
 
-/* Where the ray enters the box, or INFINITY. */
+/* Ray parameter at which the box is entered, or INFINITY. */
 static double enters(const Search *search, const WrReferencePiece *piece)
 {
     const WrVec3 q = search->ray->q, inverse = search->inverse;
@@ -185,7 +185,7 @@ static double enters(const Search *search, const WrReferencePiece *piece)
     return in <= out && out > search->ray->s_min ? in : INFINITY;
 }
 
-/* A root, or what may be one: the nearest counts. */
+/* Offers a root or a possible root: the nearest is kept. */
 static void offer(Search *search, const WrSurfacePoint *at, double u, double v, bool lost)
 {
     const WrReferenceRay *ray = search->ray;
@@ -201,7 +201,7 @@ static void offer(Search *search, const WrSurfacePoint *at, double u, double v, 
     search->best = (WrReferenceHit){ .s = s, .u = u, .v = v, .lost = lost };
 }
 
-/* Of dotting with Pv x d and d x Pu. */
+/* From dot products with Pv x d and d x Pu. */
 bool wr_reference_newton_step(const WrReferenceRay *ray, WrVec3 p, WrVec3 pu, WrVec3 pv, double *du,
                               double *dv)
 {
@@ -212,14 +212,14 @@ bool wr_reference_newton_step(const WrReferenceRay *ray, WrVec3 p, WrVec3 pu, Wr
     return isfinite(*du) && isfinite(*dv);
 }
 
-/* How far p is from the ray. */
+/* Distance of p from the ray. */
 static double off_ray(const Search *search, WrVec3 p)
 {
     const WrVec3 aside = v3_cross(v3_sub(p, search->ray->q), search->ray->d);
     return sqrt(v3_dot(aside, aside)) / search->d_length;
 }
 
-/* From (u, v), within two pieces' lengths of the piece; most: of a step, in pieces. */
+/* Newton's method from (u, v), within two lengths of the piece; most: longest step, in pieces. */
 static void solve(Search *search, const WrReferencePiece *piece, double u, double v, double most)
 {
     const double wide = piece->u1 - piece->u0, high = piece->v1 - piece->v0;
@@ -257,7 +257,8 @@ static void try_piece(Search *search, const WrReferencePiece *piece)
         double du, dv;
         if (!wr_reference_newton_step(search->ray, piece->p, piece->pu, piece->pv, &du, &dv))
             return;
-        if (fabs(du) > wide || fabs(dv) > high) return; /* half of it leads to the piece's end */
+        /* half of that step already reaches the end of the piece */
+        if (fabs(du) > wide || fabs(dv) > high) return;
         solve(search, piece, u + du, v + dv, 2);
         return;
     }

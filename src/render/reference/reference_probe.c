@@ -1,4 +1,5 @@
-/* What the formulas hold at one place of a picture, by the scene's own scheme and bump mode, in double. */
+/* Pixel inspector: all quantities of the formulas at one point of a picture, by the scene's own scheme and bump
+   mode, in double. */
 #include "render/reference/reference.h"
 
 #include "base/error.h"
@@ -12,14 +13,14 @@
 
 #include <math.h>
 
-#define FOOTPRINT_MAX 1e9 /* texels a pixel: at outlines and poles there is no end to it */
+#define FOOTPRINT_MAX 1e9 /* texels per pixel: limit, because outlines and poles have none */
 #define PICTURE_MAX 16384
 
-/* A scene's picture as probes see it. */
+/* A scene's picture, prepared for probes. */
 typedef struct Looker {
     WrReferenceStage stage;
     const WrField *field;
-    double texels_u, texels_v; /* of the table to 1 of u, v: the slope of texels by the patch */
+    double texels_u, texels_v; /* texels per unit of the patch's u, v */
     WrReferenceRay per_x, per_y;
 } Looker;
 
@@ -30,7 +31,7 @@ static bool looker_init(Looker *looker, const WrField *field, const WrScene *sce
         return wr_fail(err, "picture size %dx%d: each side must be 1..%d", width, height,
                        PICTURE_MAX);
     *looker = (Looker){ .field = field };
-    /* Rays meet a displaced surface, or a relief, as the reference has it, which goes by the spline of the table. */
+    /* Rays intersect a displaced surface, or a relief, as in the reference, which uses the spline of the table. */
     const bool displaced = wr_reference_displaced(scene) || wr_reference_has_parallax(scene);
     if (!wr_reference_stage_init(&looker->stage, field, scene, turn_deg, width, height,
                                  table || displaced, pool, err) ||
@@ -47,9 +48,9 @@ static double within_reach(double x)
     return x > FOOTPRINT_MAX ? FOOTPRINT_MAX : x >= -FOOTPRINT_MAX ? x : -FOOTPRINT_MAX;
 }
 
-/* How the point under the ray moves over the table, texels, when the ray moves by (w.q, w.d): to first
- * order P + Pu du + Pv dv stays on it, Pu du + Pv dv - d ds = w.q + s w.d. Along the outline and where a
- * tangent vanishes it is FOOTPRINT_MAX with the sign, 0 where it moves nowhere. */
+/* Motion of the point under the ray over the table, texels, when the ray moves by (w.q, w.d): to first order P +
+   Pu du + Pv dv stays on it, Pu du + Pv dv - d ds = w.q + s w.d. Along the outline and where a tangent vanishes
+   it is FOOTPRINT_MAX with the sign, 0 if there is no motion. */
 static void footprint(const Looker *looker, const WrSurfacePoint *at, const WrReferenceRay *ray,
                       double s, const WrReferenceRay *w, double out[2])
 {
@@ -77,7 +78,7 @@ static bool hit_surface(const Looker *looker, const WrReferenceRay *ray, WrRefer
     return wr_reference_view_hit(&stage->view, ray, hit);
 }
 
-/* The surface that is seen, to first order: of a displaced one P + F n, and what u and v do to it. */
+/* The visible surface to first order: of a displaced one P + F n, and its derivatives by u and v. */
 static WrSurfacePoint seen_at(const Looker *looker, const WrSurfacePoint *at, double f, double fu,
                               double fv)
 {
@@ -96,7 +97,8 @@ static double level_of(const double footprint[4])
     return longer > 1 ? log2(longer) : 0;
 }
 
-/* Triangles are flat: the exact formula's terms in F and its Pu x Pv, which is along n of a patch alone, are none of theirs. */
+/* Triangles are flat: the exact formula's terms in F and its Pu x Pv, which is along n only for a patch, do not
+   apply to them. */
 static WrBumpMode mode_of(const Looker *looker, WrBumpMode mode)
 {
     if (is_raised(looker)) return WR_BUMP_EXACT;
@@ -167,14 +169,14 @@ typedef struct MapJob {
     float *out;
 } MapJob;
 
-/* By the scene's scheme; bspline-fit from coefficients in double, found once for all. */
+/* Fetch by the scene's scheme; bspline-fit from coefficients in double, computed once. */
 static void look_up(const Looker *looker, double u, double v, double *f, double *fu, double *fv)
 {
     if (looker->stage.table.c) wr_reference_height(&looker->stage, u, v, f, fu, fv);
     else wr_scene_height(looker->stage.scene, looker->field, u, v, f, fu, fv);
 }
 
-/* Of a unit vector's coordinate. */
+/* Code of a unit vector's coordinate. */
 static int code_of(double c)
 {
     return (int)rint(127.5 + 127.5 * c);
@@ -235,7 +237,7 @@ bool wr_reference_map(const WrField *field, const WrScene *scene, int width, int
                       float *out, WrError *err)
 {
     MapJob job = { .map = map, .width = width, .cancel = cancel, .out = out };
-    /* A single look-up by the scheme would find that texel's coefficients each time. */
+    /* A single fetch by the scheme would compute that texel's coefficients each time. */
     const bool table = wr_schemes[scene->scheme].taps == WR_TAPS_FITTED && map != WR_MAP_LEVEL;
     bool good = looker_init(&job.looker, field, scene, width, height, turn_deg, table, pool, err);
     if (good) wr_pool_run(pool, height, map_row, &job);

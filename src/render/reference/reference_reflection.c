@@ -4,7 +4,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* A lamp's and the viewer's place by the normal that facets go by. */
+/* Cosines of lamp and viewer relative to the microfacets' normal. */
 typedef struct Facing {
     double nl, nv, nh, vh;
     double c, s; /* cosine and sine of the angle between n and h */
@@ -20,14 +20,14 @@ static WrVec3 unit_of(WrVec3 a)
     return v3_scale(a, 1 / sqrt(dot(a, a)));
 }
 
-/* The policy of normals that bump turned away from the viewer. */
+/* Rule for normals that bump turned away from the viewer. */
 static WrVec3 bent_back(WrVec3 n, WrVec3 v)
 {
     const double short_of = 1e-3 - dot(n, v);
     return short_of > 0 ? unit_of(v3_mad(n, v, short_of)) : n;
 }
 
-/* False where facets send nothing. */
+/* False where microfacets reflect nothing. */
 static bool face(WrVec3 n, WrVec3 l, WrVec3 v, Facing *out)
 {
     const WrVec3 seen = bent_back(n, v), sum = v3_add(l, v);
@@ -39,7 +39,7 @@ static bool face(WrVec3 n, WrVec3 l, WrVec3 v, Facing *out)
     return true;
 }
 
-/* Blinn 1977 after Cook's way of writing Fresnel's: g^2 = ior^2 + c^2 - 1. */
+/* Blinn 1977 with Cook's form of Fresnel's equation: g^2 = ior^2 + c^2 - 1. */
 static double fresnel(double c, double ior)
 {
     const double gg = ior * ior + c * c - 1;
@@ -72,7 +72,7 @@ static double torrance_sparrow(const WrMatter *m, WrEnergy energy, WrVec3 n, WrV
     return m->ks * whole * d * g * fresnel(at.vh, m->ior) / at.nv;
 }
 
-/* The share that facets reflect at once, and what is left of it for more. */
+/* Share that microfacets reflect directly, and the rest, for multiple reflection. */
 static double matt_albedo(const WrMatter *m, double mu)
 {
     const double s = sqrt(fmax(0, 1 - mu * mu));

@@ -16,9 +16,9 @@
 
 #include <math.h>
 
-#define WAVE 12 /* cells to a wave of a formula */
+#define WAVE 12 /* cells per wave of a formula */
 
-/* The normal that a mode stands for: of a surface that is displaced, but where it is another by intention. */
+/* The exact normal that a mode approximates; a mode that differs deliberately is kept. */
 static WrBumpMode truth_of(WrBumpMode mode)
 {
     switch (mode) {
@@ -36,7 +36,7 @@ static bool has_slopes(const WrScene *scene)
     return scene->height != 0 || (scene->normals.image && scene->normals.strength != 0);
 }
 
-/* Does the relief throw shadows, and from what height? */
+/* Height range of a relief that casts shadows. */
 static void note_shadow(WrReferenceStage *stage, const WrField *field)
 {
     const WrScene *scene = stage->scene;
@@ -57,7 +57,8 @@ static void note_shadow(WrReferenceStage *stage, const WrField *field)
 
 #define ROUGHS 257
 
-/* What facets of each roughness come to: their integrals change so little that the nearest serves (matter_at). */
+/* Microfacet parameters for steps of roughness: the integrals change so little that the nearest step suffices
+   (matter_at). */
 static void note_roughness(WrReferenceStage *stage)
 {
     const WrSolidTexture *grain = &stage->scene->grain;
@@ -75,7 +76,7 @@ static void note_roughness(WrReferenceStage *stage)
     }
 }
 
-/* What a picture of facets says there, bilinear. */
+/* Roughness or metalness from its picture, bilinear. */
 static double facet_at(const WrReferenceStage *stage, WrFacetKind kind, double u, double v)
 {
     const WrFacetMap *map = &stage->scene->facets[kind];
@@ -95,7 +96,7 @@ static double roughness_at(const WrReferenceStage *stage, WrVec3 object, double 
     return (1 - g) * grain->roughness[0] + g * grain->roughness[1];
 }
 
-/* The material's numbers at a place: alpha is its own, albedos between two 256ths. */
+/* The material's parameters at a point: alpha is exact, albedos are those of the nearest 256th. */
 static WrMatter matter_at(const WrReferenceStage *stage, WrVec3 object, double u, double v)
 {
     const bool metals = stage->scene->material.model == WR_REFLECT_GGX &&
@@ -152,7 +153,7 @@ static void height_of(const void *ctx, double u, double v, double *f, double *fu
     wr_reference_height(ctx, u, v, f, fu, fv);
 }
 
-/* Cells that hold one bend of F each: texels, or so many to a wave or a power. */
+/* Number of cells with one bend of F each: texels, or a fixed number per wave or power. */
 static void cells_of(const WrScene *scene, const WrField *field, double cells[2])
 {
     double u = field ? wr_field_width(field) : 1, v = field ? wr_field_height(field) : 1;
@@ -206,7 +207,7 @@ void wr_reference_add_map(const WrReferenceStage *stage, const WrReferenceHit *h
                                   found ? &axes : NULL, hit->u, hit->v, fu, fv);
 }
 
-/* |a|^2 that neither overflows nor loses digits to underflow when multiplied by another like it. */
+/* True if |a|^2 neither overflows nor loses digits to underflow when multiplied by a similar value. */
 static bool ordinary(double squared)
 {
     return squared > 1e-60 && squared < 1e60;
@@ -221,7 +222,7 @@ WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, 
     if (mode == WR_BUMP_EXACT) qu = v3_mad(qu, at->n_u, f), qv = v3_mad(qv, at->n_v, f);
     const WrVec3 tip = v3_cross(n, v3_sub(v3_scale(qv, fu), v3_scale(qu, fv)));
     WrVec3 sum;
-    double terms; /* the square of what is added up: a sum that cancels is left to shade/bump.h */
+    double terms; /* the square of the summands: a sum that cancels is left to shade/bump.h */
     const double uu = v3_dot(qu, qu), vv = v3_dot(qv, qv);
     if (mode == WR_BUMP_INVARIANT) {
         const double d = sqrt(v3_dot(tip, tip)), a = sqrt(fu * fu + fv * fv);
@@ -244,7 +245,7 @@ double wr_reference_side(const WrReferenceView *view, const WrSurfacePoint *at)
     return v3_dot(at->n_unit, to) < 0 ? -1 : 1;
 }
 
-/* a / |a|; 0 where it is 0. */
+/* a / |a|; 0 for the zero vector. */
 static WrVec3 unit(WrVec3 a)
 {
     const double squared = v3_dot(a, a);
@@ -264,8 +265,7 @@ static void picture_colour(const WrReferenceStage *stage, double u, double v, do
         for (int c = 0; c < 3; c++) rgb[c] += at.weight[k] * (double)at.texel[k][colours ? c : 0];
 }
 
-/* max(0, n'.h)^s of unit vectors; near 1 from 1 - n'.h = |n' - h|^2 / 2, of which a high power loses no
-   digit. */
+/* max(0, n'.h)^s of unit vectors; near 1 from 1 - n'.h = |n' - h|^2 / 2, so that a high power loses no digits. */
 static double lobe(WrVec3 perturbed, WrVec3 h, double s)
 {
     const double nh = v3_dot(perturbed, h);
@@ -292,7 +292,7 @@ void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, Wr
     *white *= 1 - m->tint;
 }
 
-/* C at a place of the surface without the material's. */
+/* C at a point of the surface without the material's colour. */
 static void place_colour(const WrReferenceStage *stage, WrVec3 object, double u, double v,
                          double rgb[3])
 {
@@ -304,7 +304,7 @@ static void place_colour(const WrReferenceStage *stage, WrVec3 object, double u,
     for (int c = 0; c < 3; c++) rgb[c] *= (1 - g) * grain->light[c] + g * grain->dark[c];
 }
 
-/* n' once more, of the solid texture's heights: the surface moved along n by them (Perlin 1985). */
+/* n' bent by the solid texture's heights: the surface displaced along n by them (Perlin 1985). */
 static WrVec3 embossed(const WrReferenceStage *stage, WrVec3 object, double side, WrVec3 n)
 {
     const WrSolidTexture *grain = &stage->scene->grain;
@@ -358,7 +358,8 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
         rgb[c] = has[c] * (diffuse[c] + open * around[c]) + shine[c] + mirrored[c];
 }
 
-/* How a pixel's steps move the hit along the plane, in u and v: q + s d, where s changes so that it stays on it. */
+/* Squared motion of the hit in u and v, on the plane, for one pixel step: q + s d, with s changing so that it
+   stays on the plane. */
 static double step_squared(const WrReferenceRay *ray, const WrReferenceRay *step, double s,
                            const WrSurfacePoint *at, double ru, double rv)
 {
@@ -370,19 +371,19 @@ static double step_squared(const WrReferenceRay *ray, const WrReferenceRay *step
     return du * du + dv * dv;
 }
 
-/* 1 up to a quarter of half a period, or of the plane, in a pixel; 0 from a whole one. */
+/* 1 up to a quarter of half a period, or of the plane, per pixel; 0 from a whole one on. */
 static double left_of(double squares)
 {
     const double t = fmin(fmax((sqrt(squares) - 0.25) / 0.75, 0), 1);
     return 1 - t * t * (3 - 2 * t);
 }
 
-/* What is left of slopes there, and what of the plane. */
+/* Remaining weight of slopes there, and of the plane (`cover`). */
 static double eased_at(const WrReferenceStage *stage, const WrReferenceRay *ray,
                        const WrReferenceHit *hit, const WrSurfacePoint *at, double *cover)
 {
     const WrScene *scene = stage->scene;
-    const double ru = 2 * fmax(1, fabs(scene->replicate_u)); /* of half periods */
+    const double ru = 2 * fmax(1, fabs(scene->replicate_u)); /* in half periods */
     const double rv = 2 * fmax(1, fabs(scene->replicate_v));
     double periods = 0, sides = 0;
     WrReferenceRay step[2];
@@ -425,7 +426,7 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
     WrVec3 seen = v3_scale(perturbed, side);
     if (stage->raised.count > 0) {
-        at.p = v3_mad(ray.q, ray.d, hit.s); /* which of an edge is not P + F n */
+        at.p = v3_mad(ray.q, ray.d, hit.s); /* at an edge this is not P + F n */
         seen = v3_dot(perturbed, ray.d) > 0 ? v3_neg(perturbed) : perturbed;
     }
     out->normal = embossed(stage, at.p, side, seen);

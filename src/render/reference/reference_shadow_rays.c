@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#define DISC 64    /* places on a round lamp */
-#define ABOVE 1e-7 /* of the object's radius: so far above it rays start */
+#define DISC 64    /* points on an area lamp */
+#define ABOVE 1e-7 /* of the object's radius: height of the rays' origin above the surface */
 
 void wr_reference_caster(WrReferenceCaster *caster, const WrReferenceStage *stage)
 {
@@ -21,7 +21,7 @@ static WrVec3 to_world(const WrReferenceView *view, WrVec3 w)
                      m[6] * w.x + m[7] * w.y + m[8] * w.z };
 }
 
-/* The triangle's own normal, which is not what it is shaded by. */
+/* The triangle's geometric normal, which is not its shading normal. */
 static WrVec3 flat_normal(const WrTriangles *t, int32_t triangle, WrVec3 n)
 {
     WrVec3 p[3];
@@ -32,7 +32,7 @@ static WrVec3 flat_normal(const WrTriangles *t, int32_t triangle, WrVec3 n)
     return v3_unit(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])), n);
 }
 
-/* The surface's normal on the side that is seen, as light sees it. */
+/* The surface's normal on the visible side, in world proportions. */
 static WrVec3 outward(const WrReferenceStage *stage, const WrSurfacePoint *at,
                       const WrReferenceHit *hit, WrVec3 perturbed)
 {
@@ -64,7 +64,8 @@ static bool is_hidden(const WrReferenceStage *stage, WrVec3 from, WrVec3 n, WrVe
     for (int i = 0; i < stage->caster_count; i++) {
         const WrReferenceCaster *caster = &stage->casters[i];
         const bool own = caster->stage == stage;
-        if (own && stage->raised.count > 0 && stage->shadow > 0) continue; /* the relief's part */
+        /* computed by the relief's own shadows */
+        if (own && stage->raised.count > 0 && stage->shadow > 0) continue;
         if (meets(caster, from, own ? level : l, away)) return true;
     }
     return false;
@@ -77,7 +78,8 @@ double wr_reference_cast_share(const WrReferenceStage *stage, const WrSurfacePoi
     const WrReferenceView *view = &stage->view;
     const WrVec3 n = to_world(view, outward(stage, at, hit, perturbed)), to = to_world(view, l);
     const double far = away * view->size;
-    WrSurfacePoint foot = *at; /* what parallax shows stands on its base, which throws shadows */
+    /* with parallax, the point on the base, which is the shadow caster */
+    WrSurfacePoint foot = *at;
     if (stage->parallax) wr_reference_view_at(view, hit, &foot);
     const WrVec3 p = wr_place_world(&view->place, foot.p);
     const WrVec3 from = v3_mad(p, n, ABOVE * view->place.radius * view->size);

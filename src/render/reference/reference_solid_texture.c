@@ -10,12 +10,12 @@ static double fraction(double t)
     return t - floor(t);
 }
 
-/* A pattern by one number, and how it rises with that. */
+/* Value of a pattern as a function of one number, and its slope. */
 typedef struct Rise {
     double value, slope;
 } Rise;
 
-/* How long the pulses 1 - d .. 1 of all turns are together from 0 to t. */
+/* Total length of the pulses 1 - d .. 1 of all turns, from 0 to t. */
 static double pulses(double t, double d)
 {
     return floor(t) * d + fmax(0, fraction(t) - (1 - d));
@@ -46,7 +46,7 @@ static Rise wave(double t)
     return (Rise){ 0.5 + 0.5 * sin(turn), WR_PI * cos(turn) };
 }
 
-/* Cubes: odd cells along one axis are 1, even ones 0. */
+/* Checker of cubes: odd cells along one axis are 1, even ones 0. */
 static double board(const WrSolidTexture *grain, double edge, const double p[3], double slope[3])
 {
     double side[3], rise[3];
@@ -59,7 +59,7 @@ static double board(const WrSolidTexture *grain, double edge, const double p[3],
     return 0.5 - 0.5 * side[0] * side[1] * side[2];
 }
 
-/* What the pattern goes by, with its slope: the noise, and rings or bands. */
+/* Argument of the pattern, with its slope: noise, and rings or bands. */
 static double place(const WrSolidTexture *grain, const WrOctavesPlan *noise, const double p[3],
                     double slope[3])
 {

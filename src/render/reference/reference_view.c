@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* Of directions. */
+/* Transforms a direction. */
 static WrVec3 world_to_object(const WrPlacement *place, WrVec3 w)
 {
     const double *m = place->rotation;
@@ -16,7 +16,7 @@ static WrVec3 world_to_object(const WrPlacement *place, WrVec3 w)
                      m[2] * w.x + m[5] * w.y + m[8] * w.z };
 }
 
-/* Of points: w = position + size M S (p - centre), S the stretch along the object's axes. */
+/* Transforms a point: w = position + size M S (p - centre), S the stretch along the object's axes. */
 static WrVec3 point_to_object(const WrPlacement *place, WrVec3 w)
 {
     const WrVec3 away = world_to_object(place, v3_sub(w, place->position)), s = place->stretch;
@@ -25,7 +25,7 @@ static WrVec3 point_to_object(const WrPlacement *place, WrVec3 w)
                      away.z / s.z / place->size + place->centre.z };
 }
 
-/* Of directions that the stretch carries along, by its inverse. */
+/* Transforms a direction by the inverse of the stretch. */
 static WrVec3 way_to_object(const WrPlacement *place, WrVec3 w)
 {
     const WrVec3 own = world_to_object(place, w), s = place->stretch;
@@ -62,7 +62,7 @@ static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPla
     }
 }
 
-/* Of a closed box seen from outside, the faces that look away. */
+/* Hides the back faces of a closed box seen from outside. */
 static void hide_faces(WrReferenceView *view)
 {
     bool away[6] = { false }, outside = false;
@@ -83,7 +83,7 @@ static bool take_mesh(WrReferenceView *view, const WrScene *scene, WrError *err)
     WrTriangles *mesh =
         scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
     if (mesh->patches) {
-        view->mesh.source = mesh; /* holds the patches */
+        view->mesh.source = mesh; /* contains the patches */
         return wr_reference_bezier_init(&view->bezier, mesh->patches, err);
     }
     const WrNormalFrame frame = wr_scene_frame(scene);
@@ -206,7 +206,7 @@ static bool hit_cylinder(const WrReferenceView *view, const WrReferenceRay *ray,
     const double left = R * R - (x * x + y * y);
     if (!(left >= 0)) return false;
     const double half = sqrt(left / dd), H = view->shape->value[1];
-    for (int k = -1; k <= 1; k += 2) { /* the nearer of the roots between the rims */
+    for (int k = -1; k <= 1; k += 2) { /* the nearer root between the rims */
         const double s = foot + k * half;
         const WrVec3 p = v3_mad(ray->q, ray->d, s);
         if (!(s > ray->s_min && fabs(p.z) <= H / 2)) continue;
@@ -216,8 +216,8 @@ static bool hit_cylinder(const WrReferenceView *view, const WrReferenceRay *ray,
     return false;
 }
 
-/* x^2 + y^2 = (R/H)^2 w^2, w = H/2 - z; the roots by t / a and c / t, and b^2 - a c by Lagrange's identity:
-   none is a difference of what the tip makes alike. Counted from the ray's point nearest the tip. */
+/* x^2 + y^2 = (R/H)^2 w^2, w = H/2 - z; the roots by t / a and c / t, and b^2 - a c by Lagrange's identity: no
+   difference of values that are nearly equal at the tip. Relative to the ray's point nearest the tip. */
 static bool hit_cone(const WrReferenceView *view, const WrReferenceRay *ray, WrReferenceHit *hit)
 {
     const double H = view->shape->value[1], slope = view->shape->value[0] / H;
@@ -259,7 +259,7 @@ static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, Wr
         const double wide = c.u1 - c.u0, high = c.v1 - c.v0;
         const double x = v3_dot(w, at.pu) / v3_dot(at.pu, at.pu) / wide;
         const double y = v3_dot(w, at.pv) / v3_dot(at.pv, at.pv) / high;
-        const double edge = 0x1p-48; /* a ray along the edge of two faces meets one */
+        const double edge = 0x1p-48; /* a ray along the edge of two faces hits one */
         if (wr_shape_endless(view->shape) || view->beyond) {
             if (!(fmax(fabs(x), fabs(y)) <= WR_ENDLESS)) continue;
             *hit = (WrReferenceHit){ .s = s, .u = x, .v = y, .face = face };
