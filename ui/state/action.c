@@ -1,4 +1,4 @@
-/* Actions by name. */
+/* Named actions. */
 #include "ui/state/action.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
@@ -40,6 +40,6 @@ void wr_action_run(WrApp *app, const char *name)
     for (WrActionFamily *const *f = app->roster->families; !action && *f; f++)
         if ((*f)(app, name)) break;
     if (!action || !wr_action_can(app, action)) return;
-    if (app->in_frame) wr_deferred(app, run_now, name); /* it may take long */
+    if (app->in_frame) wr_deferred(app, run_now, name); /* the action may take long */
     else run_now(app, name);
 }

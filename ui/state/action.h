@@ -1,4 +1,4 @@
-/* action.h - what can be done by name: menus, keys, buttons and the search go by it. The rows are the roster's. */
+/* action.h - named actions, used by menus, keys, buttons and the search. The rows are in the roster. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -6,16 +6,18 @@
 
 struct WrAction {
     const char *name;  /* as in the key file */
-    const char *label; /* as in menus; "..." when it asks first */
+    const char *label; /* as in menus; "..." if it opens a dialog first */
     void (*run)(WrApp *app);
     bool (*enabled)(const WrApp *app); /* NULL: always */
     bool (*checked)(const WrApp *app); /* NULL: never */
-    bool edits; /* the document, or a file of it: not while something runs beside the window */
+    /* changes the document or a file of it: disabled while a command runs in the background */
+    bool edits;
 };
 
-const WrAction *wr_action_find(const WrApp *app, const char *name); /* NULL: none, or of a family */
-/* What it does, in a line. */
+/* NULL: none, or an action of a family */
+const WrAction *wr_action_find(const WrApp *app, const char *name);
+/* One line of help for an action. */
 const char *wr_action_help(const WrApp *app, const WrAction *action);
-bool wr_action_can(const WrApp *app, const WrAction *action); /* at present */
-/* At once, or after the picture of the window that is being made. */
+bool wr_action_can(const WrApp *app, const WrAction *action); /* enabled now */
+/* Run now, or after the current frame. */
 void wr_action_run(WrApp *app, const char *name);

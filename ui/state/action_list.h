@@ -1,8 +1,8 @@
-/* action_list.h - the words of all actions, each with the keys that it has until somebody gives it others: "Ctrl+Z Z".
-   Menus, tools, buttons and the guide's page of keys name actions by WR_ACT(undo), so that the compiler knows of each. */
+/* action_list.h - names of all actions with their default keys: "Ctrl+Z Z". Menus, tools, buttons and the guide's
+   page of keys refer to actions by WR_ACT(undo), so that the compiler checks each name. */
 #pragma once
 
-/* Those of the table in app/actions.c. */
+/* Actions of the table in app/actions.c. */
 #define WR_ACTIONS(X)                                                                              \
     X(new, "Ctrl+N")                                                                               \
     X(open, "Ctrl+O")                                                                              \
@@ -200,14 +200,14 @@
     X(help, "F1")                                                                                  \
     X(about, "")
 
-/* Those of the hand: keys that are held while the pointer works. */
+/* Modifier actions: keys that are held while the pointer works. */
 #define WR_HELD_ACTIONS(X)                                                                         \
     X(hold_pick, "Ctrl")                                                                           \
     X(hold_size, "Shift")                                                                          \
     X(hold_invert, "Alt")                                                                          \
     X(hold_smooth, "Alt+Shift")
 
-/* Those of families, whose names come from other tables: adjust_OPERATION, generate_FAMILY. */
+/* Actions of families, whose names come from other tables: adjust_OPERATION, generate_FAMILY. */
 #define WR_FAMILY_ACTIONS(X)                                                                       \
     X(adjust_levels, "Ctrl+L")                                                                     \
     X(adjust_invert, "Ctrl+I")                                                                     \
@@ -218,5 +218,5 @@ enum { WR_ACTIONS(WR_ACTION_ID) WR_ACTION_COUNT };
 enum { WR_HELD_ACTIONS(WR_ACTION_ID) WR_FAMILY_ACTIONS(WR_ACTION_ID) };
 #undef WR_ACTION_ID
 
-/* The word itself, if it is one of these. */
+/* The name as a string; fails to compile for an unknown action. */
 #define WR_ACT(name) (&#name[0 * WR_ACTION_##name])

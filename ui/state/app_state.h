@@ -1,5 +1,5 @@
-/* app_state.h - the window's state: where everything lies. Each subject's own header says what lies there; who needs it
-   includes that. */
+/* app_state.h - state of the window: pointers to the state of each component. The members are defined in the header
+   of each component; include it where they are used. */
 #pragma once
 #include <SDL.h>
 #include <stdbool.h>
@@ -69,44 +69,44 @@ typedef struct WrTransformHand WrTransformHand;
 typedef struct WrEditPreview WrEditPreview;
 typedef struct WrWaits WrWaits;
 
-/* The window owns what these point to unless they say otherwise. Lengths are pixels of the window, times seconds of
-   system/clock.h. */
+/* State of the window, which owns the pointed-to objects unless stated otherwise. Lengths are pixels of the window,
+   times seconds of system/clock.h. */
 struct WrApp {
-    const WrRoster *roster;      /* borrowed: what the window is made of */
+    const WrRoster *roster;      /* borrowed: lists of the window's components */
     const WrAppOptions *options; /* borrowed */
-    WrSession *session; /* borrowed; while something runs beside the window, a still of it */
+    WrSession *session;          /* borrowed; a snapshot while a command runs in the background */
     SDL_Window *window;
     SDL_Renderer *renderer;
     WrGui *gui;
     WrCanvas *canvas;
-    WrCanvasMap *canvas_map;    /* shown in the table's place */
-    WrCanvasMap *canvas_second; /* with it, where it takes two: slopes along v */
+    WrCanvasMap *canvas_map;    /* map shown instead of the heights */
+    WrCanvasMap *canvas_second; /* second component of a map with two: slopes along v */
     WrPreview *preview;
     WrKeyMap *keys;
     WrPen *pen;
-    WrTester *tester;     /* of tablets; owned, NULL until it is opened */
-    WrDynamics *dynamics; /* the same of the brush's curves */
-    WrGuide *guide;       /* the help; owned, NULL until it is opened */
+    WrTester *tester;     /* tablet tester; owned, NULL until it is opened */
+    WrDynamics *dynamics; /* curve editor of the brush; owned, NULL until it is opened */
+    WrGuide *guide;       /* help browser; owned, NULL until it is opened */
     WrSettings *settings;
-    WrSettings *settings_known; /* as they were read or written last */
-    double settings_at;         /* clock when they were looked at last */
-    bool settings_failed;       /* and could not be written then */
+    WrSettings *settings_known; /* last state read from or written to the file */
+    double settings_at;         /* clock of the last comparison with it */
+    bool settings_failed;       /* the last write failed */
     WrFiles *files;
-    Uint32 ready_event; /* of the preview */
-    Uint32 file_event;  /* of a native file dialog */
-    Uint32 job_event;   /* of work in the background */
-    WrIdleProbe *rest;  /* a test that asks; owned, or NULL */
-    Uint32 rest_event;  /* it asked */
+    Uint32 ready_event; /* SDL event type: preview finished */
+    Uint32 file_event;  /* SDL event type: native file dialog closed */
+    Uint32 job_event;   /* SDL event type: background job finished */
+    WrIdleProbe *rest;  /* test probe for idle periods; owned, or NULL */
+    Uint32 rest_event;  /* SDL event type of the probe */
     SDL_Cursor *cursors[SDL_NUM_SYSTEM_CURSORS];
     SDL_SystemCursor cursor;
 
     WrLayout *layout;
     int width, height, menu_height;
-    double display_scale; /* of the display, in steps of 1/4 */
+    double display_scale; /* scale of the display, in steps of 1/4 */
     const char *
-        display_word; /* why it is on that display, and what that means for pens; NULL: nothing to say */
-    bool fitted;      /* the user has seen the window: its size is left alone */
-    int redraw;       /* pictures of the window still to draw */
+        display_word; /* reason for the choice of that display and its effect on pens; NULL: no remark */
+    bool fitted;      /* the window was shown to the user: its size is no longer adjusted */
+    int redraw;       /* frames still to draw */
     bool visible, quit;
     double drawn_at, started_at;
     double drawn_scale;
@@ -114,10 +114,10 @@ struct WrApp {
 
     WrCanvasView *view;
     bool view_placed;
-    WrCanvasRange *range;     /* heights that the canvas shows */
-    WrCanvasRange *map_range; /* numbers of the map that it shows in their place */
+    WrCanvasRange *range;     /* range of heights on the canvas */
+    WrCanvasRange *map_range; /* range of the map shown instead of the heights */
     bool map_shown;
-    bool mask_alone; /* the canvas shows the active layer's mask, as long as edits go there */
+    bool mask_alone; /* show the active layer's mask on the canvas while edits go to it */
     bool canvas_unfinished;
     int tool;
     WrHand *hand;
@@ -132,36 +132,37 @@ struct WrApp {
     WrAccuracy *accuracy;     /* owned */
     WrPatch *patch;
     WrPatchPaint *paint;
-    WrLatency *latency;        /* while it is being measured; borrowed */
-    void (*drawn)(WrApp *app); /* a picture of the window was shown; NULL: nobody asks */
-    WrScene *live; /* what the preview shows while a scene value is being dragged; owned */
-    bool hints;    /* shown until the first stroke */
+    WrLatency *latency;        /* running latency measurement; borrowed */
+    void (*drawn)(WrApp *app); /* called when a frame was shown; NULL: not needed */
+    WrScene *live;             /* scene of the preview while a scene value is dragged; owned */
+    bool hints;                /* start hints are shown until the first stroke */
 
     WrEditPreview *trial;
-    bool trying; /* the views show what the trial gives */
+    bool trying; /* the views show the edit preview */
     WrMarks *marks;
     WrSelectHand *select;
     WrLayersHand *layers;
     WrSurfaceHand *surface;
     WrObjectsHand *objects;
-    WrSheetState *sheet;    /* of the export sheet; owned; NULL until it is opened */
-    WrPresetTiles *presets; /* owned; NULL until their list is drawn */
+    WrSheetState *sheet;    /* state of the export sheet; owned; NULL until it is opened */
+    WrPresetTiles *presets; /* owned; NULL until the material list is drawn */
     WrAdjust *adjust;
-    WrOutlineAsk *selecting; /* of the dialogs that change the selection */
+    WrOutlineAsk *selecting; /* state of the dialogs that change the selection */
     WrFinder *finder;
     WrPreferences *preferences;
     WrSeam *seam;
     WrCertificate *certificate;
-    uint64_t seam_key; /* of the table and the scheme that both were measured on */
+    uint64_t seam_key; /* key of the table and the scheme for which the seams were measured */
     WrMeter *meter;
     WrDeferred *later;
-    WrBusy *busy;         /* what runs beside the window (ui/state/busy.h); owned, NULL: nothing */
-    WrWaits *waits;       /* and what waits for it */
-    bool gave_up;         /* the newest of them failed because the user cancelled it */
-    WrRecovery *recovery; /* while its dialog is open; owned */
-    bool in_frame;        /* between the first and the last widget of a picture */
-    double input_at;      /* clock at the last event of the user's */
-    double thrifty_at;    /* clock when memory was given back because there was none for a while */
+    /* command running in the background (ui/state/busy.h); owned, NULL: none */
+    WrBusy *busy;
+    WrWaits *waits;       /* actions queued behind it */
+    bool gave_up;         /* the last background command was cancelled by the user */
+    WrRecovery *recovery; /* while the recovery dialog is open; owned */
+    bool in_frame;        /* between the first and the last widget of a frame */
+    double input_at;      /* clock at the last user event */
+    double thrifty_at;    /* clock of the last memory trim after an idle period */
 
     WrMessages *messages;
     WrDialogHand *dialog;
@@ -170,12 +171,12 @@ struct WrApp {
     WrDocumentHand *file;
 };
 
-/* Another picture of the window is due. */
+/* Request another frame. */
 void wr_app_redraw(WrApp *app);
-/* app->layout by the window's size in pixels, as it is now. */
+/* Compute app->layout from the present window size in pixels. */
 void wr_app_make_layout(WrApp *app);
-/* Pixels a unit of the widgets, 0.75..3: WRINKLE_SCALE, the setting, or the display's. */
+/* Pixels per widget unit, 0.75..3: from WRINKLE_SCALE, the setting, or the display. */
 double wr_app_wanted_scale(const WrApp *app);
-void wr_app_set_scale(WrApp *app, double setting); /* 0: the display's */
-/* Built in, the chosen map, the user's file; what is wrong there becomes a message. */
+void wr_app_set_scale(WrApp *app, double setting); /* 0: the display's scale */
+/* Load the key map: built-in keys, the chosen map, then the user's file; errors in that become a message. */
 void wr_app_read_keys(WrApp *app);

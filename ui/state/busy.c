@@ -1,4 +1,4 @@
-/* What may take long runs on a thread of its own while the window goes on as ever: busy.h says what holds. */
+/* Long commands on a worker thread; the rules are in busy.h. */
 #include "ui/state/busy_internal.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -21,22 +21,22 @@
 #include <stdio.h>
 #include <string.h>
 
-#define QUIET_SECONDS 0.05 /* what takes less is not noticed */
-#define LOOKS_MS 3 /* between looks at whether it is done, as long as no events are looked at */
+#define QUIET_SECONDS 0.05 /* shorter work is not noticeable */
+#define LOOKS_MS 3         /* between checks for completion while no events are handled */
 
 /* ---- running ---- */
 
 static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
     (void)pool;
-    (void)progress; /* the work finds it as its thread's own */
+    (void)progress; /* passed through thread-local storage */
     WrBusy *busy = arg;
     busy->ok = busy->work(busy->session, busy->ctx, &busy->err);
 }
 
 static void drop(void *arg)
 {
-    (void)arg; /* it is the window's */
+    (void)arg; /* owned by the window */
 }
 
 static bool is_done(WrBusy *busy)
@@ -72,7 +72,7 @@ void wr_busy_wait(WrApp *app)
         else app->roster->step(app);
 }
 
-/* What the desktop said meanwhile is heard; the wish to close comes last, since it asks about the rest. */
+/* Handle delayed events: the result of the file dialog, then a request to close, which asks about unsaved work. */
 static void catch_up(const WrApp *app, const WrBusy *busy)
 {
     if (busy->file_chosen) SDL_PushEvent(&(SDL_Event){ .type = app->file_event });
@@ -159,7 +159,7 @@ void wr_busy_cancel(WrBusy *busy)
     wr_job_interrupt(busy->job);
 }
 
-/* ---- what may be done meanwhile ---- */
+/* ---- actions during a background command ---- */
 
 bool wr_busy_refuses(const WrApp *app)
 {
@@ -209,14 +209,14 @@ bool wr_busy_lets_wait(const WrApp *app)
 void wr_busy_settle(WrApp *app)
 {
     if (app->in_frame || app->waits->running) return;
-    /* What somebody waits for ends there, and not here. */
+    /* Work with a waiting caller is finished by that caller, not here. */
     while (app->busy ? !wr_busy_refuses(app) && app->busy->after : app->waits->items.count > 0) {
         if (app->busy) app->roster->step(app);
         wr_busy_tend(app);
     }
 }
 
-/* ---- for the loop ---- */
+/* ---- for the main loop ---- */
 
 void wr_busy_tend(WrApp *app)
 {
@@ -246,7 +246,7 @@ static void drop_file(WrApp *app, char *path)
     SDL_free(path);
 }
 
-/* Escape is for what is nearest: an open list, a dialog, a text, what is held; then it gives up what runs. */
+/* Escape first closes the nearest open list, dialog, text field or drag; only then it cancels the command. */
 static bool gives_up(const WrApp *app, const SDL_Event *event)
 {
     return event->type == SDL_KEYDOWN && event->key.keysym.sym == SDLK_ESCAPE &&

@@ -1,13 +1,13 @@
-/* busy.h - what may take long runs beside the window, which goes on as ever.
+/* busy.h - long commands on a worker thread, while the window stays responsive.
 
-   While it runs, app->busy is not NULL, and app->session is a still of the session as it was (wr_session_snapshot): all that
-   the window reads, it reads there. Nobody but the worker has the session itself, and a still refuses to run anything, so
-   that whatever a part forgets is an error and no race. Of what the user asks for meanwhile, a line that means the same
-   afterwards, such as a layer's eye, and a stroke are put off and done in order when the work is done; what else would
-   change the document is refused, and the bar says so; all other things are done at once. An action's row (`edits`), a
-   tool's (`meanwhile`) and, for lines, ui/state/run_line.c say which is which.
+   While a command runs, app->busy is not NULL, and app->session is a snapshot of the session (wr_session_snapshot),
+   from which the window reads. Only the worker has access to the session itself. A snapshot rejects all commands, so
+   a missing check causes an error and not a data race. User actions meanwhile are handled in three ways. Lines with
+   the same meaning afterwards, such as a layer's visibility, and strokes are queued and run in order when the command
+   ends. Other changes of the document are refused, with a note in the status bar. Everything else is done at once.
+   The kind is set by an action's row (`edits`), a tool's row (`meanwhile`) and, for lines, by ui/state/run_line.c.
 
-   Each picture of the window is one of the ordinary loop's: it is never entered from within another picture. */
+   All frames are drawn by the main loop: it is never entered recursively from within a frame. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -18,72 +18,72 @@ typedef struct WrError WrError;
 typedef struct WrSession WrSession;
 
 typedef enum WrBusyKind {
-    WR_BUSY_EDIT,    /* the document may be changed, or written */
-    WR_BUSY_ANOTHER, /* it becomes another one: what is asked of its layers cannot wait */
-    WR_BUSY_TEND     /* nobody asked for it: nothing is refused, all waits */
+    WR_BUSY_EDIT,    /* the document may be changed or written */
+    WR_BUSY_ANOTHER, /* the document is replaced: edits of its layers cannot be queued */
+    WR_BUSY_TEND     /* background upkeep: nothing is refused, all edits are queued */
 } WrBusyKind;
 
 /* ---- running ---- */
 
-/* Run a command line beside the window; a failure becomes a message. Inside a picture of the window what takes longer
-   than a moment is still under way afterwards: then it is true. Put off, or refused, while something runs. */
+/* Run a command line in the background; a failure becomes a message. Inside a frame the call returns true after a
+   moment even if the command is still running. Queued or refused while another command runs. */
 bool wr_app_run_line(WrApp *app, const char *line);
 bool wr_app_run_linef(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Call work(session, ctx), on another thread, and come back when it is done: with what it said. What takes longer
-   than a moment shows `what`, a bar, how long it will still take, and Cancel. Not inside a picture of the window
-   (ui/state/deferred_actions.h); waits for what nobody asked for, fails while something else runs. */
+/* Call work(session, ctx) on another thread and return its result when it is done. After a moment the status bar
+   shows the text `what`, progress, remaining time and Cancel. Not allowed inside a frame
+   (ui/state/deferred_actions.h). Waits for background upkeep; fails while another command runs. */
 typedef bool WrBusyWork(WrSession *session, void *ctx, WrError *err);
 bool wr_busy_run(WrApp *app, WrBusyKind kind, const char *what, WrBusyWork *work, void *ctx,
                  WrError *err);
-/* The same as WR_BUSY_TEND, but nobody waits: it may still be under way afterwards, so *ctx must live on (NULL is fine),
-   and no failure is told. Does nothing while something runs. */
+/* Start background upkeep (WR_BUSY_TEND) and return. It may still run after the call, so *ctx must stay valid (NULL
+   is allowed); failures are not reported. Does nothing while a command runs. */
 void wr_busy_aside(WrApp *app, const char *what, WrBusyWork *work, void *ctx);
-/* Say why the newest one failed: an error, or a note where it was the user who gave it up. */
+/* Show the reason of the last failure: an error, or a note if the user cancelled. */
 void wr_busy_fail(WrApp *app, const char *what, const WrError *err);
-/* Run a line that is being tried just so, on the document as it is: where the trial has made it, that is taken
-   instead of being made again. */
+/* Run the line of the edit preview on the current document. If the preview has finished, its result is used. */
 void wr_app_run_tried(WrApp *app, const char *line);
-/* Run a command that may take long, at once or after the picture of the window that is being made. */
+/* Run a command that may take long, now or after the current frame. */
 void wr_app_run_slow(WrApp *app, const char *line);
-bool wr_app_line_waits(const WrApp *app); /* one is to be run after this picture */
+bool wr_app_line_waits(const WrApp *app); /* a line is queued to run after this frame */
 
-/* ---- meanwhile ---- */
+/* ---- during a background command ---- */
 
-/* Something runs for which what changes the document is refused. */
+/* True if the running command refuses changes of the document. */
 bool wr_busy_refuses(const WrApp *app);
-/* The same, and for longer than a moment: what would be refused is grey. */
+/* True if it has done so for longer than a moment: widgets of refused actions are then disabled. */
 bool wr_busy_greys(const WrApp *app);
-/* Widgets that change the document stand between these two: grey, and why, while it must be. */
+/* Disable the widgets between these two calls, with a tip on the reason, while changes are refused. */
 void wr_busy_hold(const WrApp *app);
 void wr_busy_hold_end(void);
-/* True, and the bar says so, if what changes the document is refused now. */
+/* Return true, with a note in the status bar, if changes of the document are refused now. */
 bool wr_busy_refuse(WrApp *app);
-/* It closes when this is done; false if nothing runs. */
+/* Close the window when the command is done; false if no command runs. */
 bool wr_busy_close(WrApp *app);
-/* Whether strokes and lines of layers can wait for what runs. */
+/* True if strokes and layer commands can be queued behind the running command. */
 bool wr_busy_lets_wait(const WrApp *app);
-/* Come back when nothing that nobody asked for runs, and what waited is done. Does nothing inside a picture. */
+/* Wait until no background upkeep runs and queued actions are done. Does nothing inside a frame. */
 void wr_busy_settle(WrApp *app);
 
-/* To be done when the work is, in order: late(app, text, false); or, where it was given up, never: late(app, text, true),
-   which only forgets. of_layers: it means nothing if the layers are others by then. `words` is what the user reads. */
+/* Queue an action for the end of the running command, in order: late(app, text, false). If it is dropped, late(app,
+   text, true) must only free its data. of_layers: drop the action if the layers have changed by then. `words` is its
+   name for the user. */
 typedef void WrBusyLate(WrApp *app, const char *text, bool dropped);
 void wr_busy_put_off(WrApp *app, const char *words, WrBusyLate *late, const char *text,
                      bool of_layers);
-/* The newest of them is wished for no more: it goes without being called. */
+/* Remove the newest queued action of that kind and text; it is not called. */
 void wr_busy_take_back(WrApp *app, WrBusyLate *late, const char *text);
 
-/* ---- for the loop ---- */
+/* ---- for the main loop ---- */
 
-/* What began a moment ago: events are left where they are, so that what is pressed keeps its order. */
+/* True in the first moment of a command: events stay in the queue, so that they keep their order. */
 bool wr_busy_is_young(const WrApp *app);
-/* End what is done, do what waited. Before each event. */
+/* Finish completed work and run queued actions. Called before each event. */
 void wr_busy_tend(WrApp *app);
-/* An event while something runs: true if it is not for the widgets. */
+/* Handle an event while a command runs: true if it must not reach the widgets. */
 bool wr_busy_event(WrApp *app, const SDL_Event *event);
-/* And after those had it: true if a part's view was only looked at by it. */
+/* Handle it after the widgets: true if the event only moved a component's view. */
 bool wr_busy_look(WrApp *app, const SDL_Event *event);
-/* Widgets: in the place of the status line; false if there is nothing to tell. */
+/* Draw progress in place of the status line; false if there is none to show. */
 bool wr_busy_bar(WrApp *app);
-void wr_busy_stop(WrApp *app); /* the window ends: give up what runs */
+void wr_busy_stop(WrApp *app); /* the window closes: cancel the running command */
 void wr_busy_free(WrApp *app);

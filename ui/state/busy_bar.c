@@ -1,4 +1,5 @@
-/* What runs, in the place of the status line: how far it is, how long it will take, Cancel, and what waits for it. */
+/* Progress of the background command in place of the status line: text, bar, remaining time, Cancel, and queued
+   actions. */
 #include "ui/state/busy_internal.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"
@@ -15,9 +16,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#define REFUSED_SECONDS 2.0 /* it says that something was refused */
+#define REFUSED_SECONDS 2.0 /* duration of the note about a refused action */
 
-/* What it does, or what it has to say of what was asked for meanwhile. */
+/* The command's name, or a note about actions requested meanwhile. */
 static void say(const WrApp *app, bool refused, double wide)
 {
     const WrBusy *busy = app->busy;
@@ -34,12 +35,12 @@ static void say(const WrApp *app, bool refused, double wide)
     wr_waits_words(app, ", ", waits, sizeof waits);
     snprintf(text, sizeof text, wr_words(count == 1 ? "%d thing waits: %s" : "%d things wait: %s"),
              count, waits);
-    wr_gui_as_it_is(true); /* said already */
+    wr_gui_as_it_is(true); /* already translated */
     wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, text, wide);
     wr_gui_as_it_is(false);
 }
 
-/* Narrow windows have shorter words and a shorter bar, but all of it. */
+/* Narrow windows have shorter texts and a shorter bar, but all parts. */
 static double squeezed(double wide, double share, double whole)
 {
     double lacking = fmax(0.0, wr_gui_px(whole) - wr_gui_width());

@@ -1,4 +1,4 @@
-/* busy_internal.h - what runs beside the window, and what waits for it: for busy*.c and run_line.c alone. */
+/* busy_internal.h - state of the running background command and its queue. Private to busy*.c and run_line.c. */
 #pragma once
 #include "ui/state/busy.h"
 
@@ -8,50 +8,50 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define WR_BUSY_MOMENT 0.2 /* seconds: what takes less shows no bar */
+#define WR_BUSY_MOMENT 0.2 /* seconds: shorter work shows no progress */
 
 typedef struct WrJob WrJob;
 
-/* What is done when one is that nobody waits for. */
+/* Called at the end of a command that no caller waits for. */
 typedef void WrBusyDone(WrApp *app, void *ctx, bool ok, const WrError *err);
 
 struct WrBusy {
     WrBusyKind kind;
-    WrSession *session; /* the worker's alone */
+    WrSession *session; /* only the worker uses it */
     WrJob *job;         /* owned */
     WrBusyWork *work;
-    void *ctx;   /* of the work */
-    WrError err; /* of the worker's until it is done, and: */
+    void *ctx;   /* argument of the work */
+    WrError err; /* written by the worker until it is done, and: */
     bool ok;
 
     bool is_done;
     char *what;        /* owned */
     double since;      /* clock */
-    double furthest;   /* fraction: bars do not go back */
+    double furthest;   /* fraction shown so far: progress never goes back */
     double refused_at; /* clock */
     bool cancelled, closes;
-    bool in_frame;     /* it began inside a picture of the window: */
-    double picture;    /* app->drawn_at then */
-    bool file_chosen;  /* the desktop's dialog spoke: it is heard afterwards */
-    WrBusyDone *after; /* NULL: somebody waits */
+    bool in_frame;     /* it began inside a frame: */
+    double picture;    /* app->drawn_at at that time */
+    bool file_chosen;  /* the native file dialog closed; handled afterwards */
+    WrBusyDone *after; /* NULL: a caller waits */
     void *after_ctx;
 };
 
-/* Begin, and come back when it is done or a moment has passed. True if it is done. */
+/* Start, and return when the work is done or a moment has passed. True if it is done. */
 bool wr_busy_begin(WrApp *app, const WrBusy *busy);
-/* Come back when it is done; not inside a picture, but that it may be. */
+/* Wait until the work is done; not inside a frame, except if it began there. */
 void wr_busy_wait(WrApp *app);
-/* The user gives it up: it ends soon. */
+/* Cancel for the user: the work ends soon. */
 void wr_busy_cancel(WrBusy *busy);
-/* It is done: the session is the window's again. What it said; err may be NULL. */
+/* Finish completed work: the window gets the session back. Returns the result; err may be NULL. */
 bool wr_busy_end(WrApp *app, WrError *err);
 
-/* ---- what waits: busy_waits.c ---- */
+/* ---- queued actions: busy_waits.c ---- */
 
 typedef struct WrWaiting {
     WrBusyLate *late;
     char *text, *words; /* owned */
-    uint64_t layers;    /* what they were; 0: whatever they are */
+    uint64_t layers;    /* key of the layers at that time; 0: not checked */
 } WrWaiting;
 
 struct WrWaits {
@@ -61,6 +61,6 @@ struct WrWaits {
 
 void wr_waits_run(WrApp *app);
 typedef enum WrDropped { WR_DROPPED_CANCELLED, WR_DROPPED_LAYERS, WR_DROPPED_WISH } WrDropped;
-void wr_waits_drop(WrApp *app, WrDropped why); /* with a word */
-/* What waits, parted by `between`. */
+void wr_waits_drop(WrApp *app, WrDropped why); /* with a message */
+/* Names of the queued actions, separated by `between`. */
 void wr_waits_words(const WrApp *app, const char *between, char *text, size_t size);

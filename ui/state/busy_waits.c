@@ -1,4 +1,4 @@
-/* What was asked for while something ran, and can wait: it is done in order afterwards, or dropped with a word. */
+/* Queue of actions requested during a background command: run in order afterwards, or dropped with a message. */
 #include "ui/state/busy_internal.h"
 #include "ui/state/app_state.h"
 #include "ui/state/messages.h"
@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Lines name layers by their numbers: another one, or another order, is another key. */
+/* Lines refer to layers by number, so another set or order of layers must change the key. */
 static uint64_t layers_key(const WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);

@@ -1,5 +1,5 @@
-/* What is asked for inside a picture of the window is done after it: the window is first drawn without the dialog or
-   the menu that asked. */
+/* Actions requested inside a frame run after it, when the window has been drawn without the dialog or menu that
+   requested them. */
 #include "ui/state/deferred_actions.h"
 #include "ui/state/app_state.h"
 
@@ -12,7 +12,8 @@ void wr_deferred(WrApp *app, WrDeferredWork *work, const char *text)
     WrDeferred *later = app->later;
     int i = 0;
     while (i < later->items.count && later->items.data[i].work != work) i++;
-    if (i < later->items.count) wr_free(later->items.data[i].text); /* the newest of a kind */
+    if (i < later->items.count)
+        wr_free(later->items.data[i].text); /* only the newest of a kind stays */
     else wr_array_push(&later->items, ((WrDeferredItem){ .work = work }));
     later->items.data[i].text = wr_strdup(text);
     later->since = wr_clock_seconds();

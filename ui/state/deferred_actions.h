@@ -1,4 +1,4 @@
-/* deferred_actions.h - what is done after the picture of the window that is being made. */
+/* deferred_actions.h - actions deferred to the end of the current frame. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-/* What was asked for inside a picture of the window, to be done after it. */
+/* An action requested inside a frame, done after it. */
 typedef void WrDeferredWork(WrApp *app, const char *text);
 typedef struct WrDeferredItem {
     WrDeferredWork *work;
@@ -14,12 +14,12 @@ typedef struct WrDeferredItem {
 } WrDeferredItem;
 typedef struct WrDeferred {
     WR_ARRAY(WrDeferredItem)
-    items;        /* in the order in which they were asked for; one of each kind */
+    items;        /* in order of the requests; one of each kind */
     double since; /* clock */
 } WrDeferred;
 
-/* work(app, text) then; what was put off of the same kind before is not done. */
+/* Request work(app, text) after the frame; replaces an earlier request of the same kind. */
 void wr_deferred(WrApp *app, WrDeferredWork *work, const char *text);
 bool wr_deferred_waits(const WrApp *app, WrDeferredWork *work); /* NULL: any */
-void wr_deferred_run(WrApp *app);                               /* do what was put off */
+void wr_deferred_run(WrApp *app);                               /* run the deferred actions */
 void wr_deferred_free(WrApp *app);

@@ -1,4 +1,4 @@
-/* Opening and closing dialogs, and what most of them end with. */
+/* Opening and closing of dialogs, and their shared buttons. */
 #include "ui/state/dialog.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
@@ -30,7 +30,7 @@ void wr_dialog_close(WrApp *app)
     wr_app_redraw(app);
 }
 
-/* Of what is tried. */
+/* Append the remaining time of the edit preview. */
 static void add_time_left(const WrApp *app, char text[WR_EXPECTATION])
 {
     char left[WR_PROGRESS_LEFT];
@@ -63,7 +63,7 @@ void wr_panel_estimate(const WrApp *app, const char *line)
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
         return;
     }
-    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, ""); /* the end of that row */
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, ""); /* ends the row */
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 

@@ -1,4 +1,4 @@
-/* dialog.h - dialogs: which is open, and what most of them end with. What each shows is a row of the roster. */
+/* dialog.h - the open dialog, and helpers shared by most dialogs. Each dialog's content is a row of the roster. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -14,7 +14,7 @@ typedef enum WrDialog {
     WR_DIALOG_GRID,
     WR_DIALOG_IMPORT,
     WR_DIALOG_EXPORT,
-    WR_DIALOG_SHEET, /* a set of maps */
+    WR_DIALOG_SHEET, /* export sheet: a set of maps */
     WR_DIALOG_RENDER,
     WR_DIALOG_FILM,
     WR_DIALOG_FILE,
@@ -23,9 +23,9 @@ typedef enum WrDialog {
     WR_DIALOG_SEARCH,
     WR_DIALOG_PREFERENCES,
     WR_DIALOG_RECOVER,
-    WR_DIALOG_PRESET,   /* the name of a preset to be saved */
-    WR_DIALOG_DYNAMICS, /* curves of the brush */
-    WR_DIALOG_REPLACE,  /* a file that stands where one is to be written */
+    WR_DIALOG_PRESET,   /* name of a preset to save */
+    WR_DIALOG_DYNAMICS, /* curve editor of the brush */
+    WR_DIALOG_REPLACE,  /* question before an existing file is overwritten */
     WR_DIALOG_TABLET,
     WR_DIALOG_CASES,
     WR_DIALOG_HELP,
@@ -33,21 +33,21 @@ typedef enum WrDialog {
     WR_DIALOG_COUNT
 } WrDialog;
 
-/* Which one is open. */
+/* The open dialog. */
 typedef struct WrDialogHand {
     WrDialog now;
-    bool fresh; /* in its first frame */
+    bool fresh; /* first frame */
 } WrDialogHand;
 
 void wr_panel_dialogs(WrApp *app);
 void wr_dialog_close(WrApp *app);
-/* Where a dialog stands whose effect the views show. */
+/* Area of a dialog whose effect is visible in the views. */
 SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
-/* The buttons at the end of a dialog: 1 done, -1 cancelled (also by Escape), 0 neither. */
+/* The buttons at the end of a dialog: 1 confirmed, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
-/* "Needs 300 MB", where that is worth a word, and how much of a trial of it is left; else "". */
+/* Memory and time note, "Needs 300 MB" and the remaining time of a preview, if significant; else "". */
 #define WR_EXPECTATION 96
 void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION]);
-/* The same after a dialog's buttons: beside them, or below where there is no room; so they stay where they are. */
+/* Show that note beside a dialog's buttons, or below them if there is no room; the buttons do not move. */
 void wr_panel_estimate(const WrApp *app, const char *line);

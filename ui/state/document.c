@@ -1,4 +1,4 @@
-/* The document behind the window: new, open, save, and what is asked before work is lost. All changes go
+/* Document commands of the window: new, open, save, and the question before unsaved work is lost. All changes go
    through the session. */
 #include "ui/state/document.h"
 #include "ui/state/app_options.h"
@@ -40,7 +40,7 @@ static void note_recent(WrApp *app, const char *path)
     free(full);
 }
 
-/* ---- another document ---- */
+/* ---- replacing the document ---- */
 
 void wr_app_changed_document(WrApp *app)
 {
@@ -52,14 +52,14 @@ void wr_app_changed_document(WrApp *app)
         if ((*p)->another) (*p)->another(app);
     wr_app_live_end(app);
     app->view_placed = false;
-    app->settings->tiling = WR_TILING_STRAIGHT; /* another lay was chosen for another pattern */
+    app->settings->tiling = WR_TILING_STRAIGHT; /* the tiling was chosen for another pattern */
     app->hand->grab = WR_GRAB_NONE;
     wr_app_take_notes(app);
     wr_app_title(app);
     wr_app_redraw(app);
 }
 
-/* Calls that may take long, as wr_busy_run wants them: ctx is a path, lines, or what is opened. */
+/* Work functions for wr_busy_run: ctx is a path, lines, or the opened file. */
 
 static bool lines_work(WrSession *session, void *ctx, WrError *err)
 {
@@ -77,12 +77,12 @@ static bool lines_work(WrSession *session, void *ctx, WrError *err)
 
 typedef struct Opened {
     const char *path;
-    bool flat;    /* it is a picture: its heights are seen on a plane of its shape */
-    bool refused; /* and the lines for that failed: why */
+    bool flat;    /* a picture: its heights are shown on a plane of its shape */
+    bool refused; /* the lines for that failed; err is the reason */
     WrError why;
 } Opened;
 
-/* What was opened is seen in its shape if it is a picture, which has no surface of its own. */
+/* Set a plane with the picture's aspect ratio if a picture was opened, which has no surface of its own. */
 static void lay_flat(WrSession *session, Opened *opened)
 {
     char ending[16];
@@ -124,13 +124,14 @@ void wr_app_tend(WrApp *app)
         wr_busy_aside(app, "Keeping the journal short", tend_work, NULL);
 }
 
-/* A picture gives the document its name. */
+/* Name the document after the picture. */
 static void take_picture(WrApp *app, const Opened *opened)
 {
     if (!opened->flat) return;
     if (opened->refused) wr_app_fail(app, &opened->why);
     app->file->picture = wr_strdup(opened->path);
-    app->file->clean_revision = wr_session_revision(app->session); /* it can be opened again */
+    /* unmodified: it can be opened again */
+    app->file->clean_revision = wr_session_revision(app->session);
     wr_app_title(app);
 }
 
@@ -150,7 +151,7 @@ static bool open_now(WrApp *app, const char *path)
     return true;
 }
 
-/* Should the samples be missing: something to wrinkle all the same. */
+/* Fallback starter document if the samples are missing. */
 static void make_starter(WrApp *app)
 {
     static const char *const lines[] = { "grid cells=4x8 width=10 low=0.7 high=0", "surface sphere",
@@ -161,20 +162,20 @@ static void make_starter(WrApp *app)
     app->file->clean_revision = wr_session_revision(app->session);
 }
 
-/* The starter on its way. */
+/* The starter document being loaded. */
 typedef struct WrAhead {
     WrThread thread;
-    bool threaded; /* the system gave one */
+    bool threaded; /* the thread was started */
     WrSession *session;
     WrText path;
     bool good;
-    WrError err; /* why it is not */
+    WrError err; /* reason of a failure */
 } WrAhead;
 
 static void *open_starter(void *ctx)
 {
     WrAhead *ahead = ctx;
-    wr_locale_keep_plain(); /* the window's libraries set the user's meanwhile */
+    wr_locale_keep_plain(); /* libraries of the window set the user's locale meanwhile */
     ahead->good = wr_session_open(ahead->session, wr_text_get(&ahead->path), &ahead->err);
     return NULL;
 }
@@ -243,7 +244,7 @@ void wr_app_start(WrApp *app)
     wr_app_take_notes(app);
 }
 
-/* ---- asking first ---- */
+/* ---- question about unsaved work ---- */
 
 static bool new_work(WrSession *session, void *ctx, WrError *err)
 {
@@ -251,14 +252,14 @@ static bool new_work(WrSession *session, void *ctx, WrError *err)
     return lines_work(session, ctx, err);
 }
 
-/* Of a line that fails the rest still runs, so that there is something to be seen. */
+/* After a failing line the rest still runs, so that a usable document results. */
 void wr_app_new_of(WrApp *app, const char *lines)
 {
     WrError err;
     wr_hand_let_go(app);
     bool good =
         wr_busy_run(app, WR_BUSY_ANOTHER, "Making the document", new_work, (char *)lines, &err);
-    if (!good && app->busy) { /* refused: the document is as it was */
+    if (!good && app->busy) { /* refused: the document is unchanged */
         wr_app_fail(app, &err);
         return;
     }
@@ -266,7 +267,8 @@ void wr_app_new_of(WrApp *app, const char *lines)
     if (app->gave_up) wr_app_say(app, "Cancelled: the document is made as far as it came");
     else if (!good) wr_app_fail(app, &err);
     wr_app_changed_document(app);
-    app->file->clean_revision = wr_session_revision(app->session); /* it can be opened again */
+    /* unmodified: it can be opened again */
+    app->file->clean_revision = wr_session_revision(app->session);
     wr_app_title(app);
 }
 
@@ -278,7 +280,7 @@ static void go_on(WrApp *app, const char *text)
 
 void wr_app_go_on(WrApp *app)
 {
-    if (app->in_frame) { /* it may take long */
+    if (app->in_frame) { /* may take long */
         wr_deferred(app, go_on, "");
         return;
     }
@@ -347,12 +349,12 @@ static bool save_to(WrApp *app, const char *path)
     bool ok = wr_busy_run(app, WR_BUSY_EDIT, "Saving", save_work, (char *)path, &err);
     if (!ok) {
         wr_busy_fail(app, "saving", &err);
-        app->file->after = WR_AFTER_NOTHING; /* nothing may be lost because a disk is full */
+        app->file->after = WR_AFTER_NOTHING; /* no work may be lost when a disk is full */
         return false;
     }
     app->file->starter = false;
-    app->file->clean_revision =
-        wr_session_saved_revision(app->session); /* the old one is not in this file */
+    /* the old revision is not in this file */
+    app->file->clean_revision = wr_session_saved_revision(app->session);
     note_recent(app, path);
     wr_app_take_notes(app);
     wr_app_say(app, "Saved %s", path);
@@ -368,7 +370,7 @@ bool wr_app_save(WrApp *app)
         wr_replace_ask(app, WR_REPLACE_CHANGED, WR_FILE_SAVE, path))
         return false;
     if (path[0]) {
-        char *copy = wr_strdup(path); /* saving may replace it */
+        char *copy = wr_strdup(path); /* saving may replace the string */
         bool ok = save_to(app, copy);
         wr_free(copy);
         return ok;
@@ -377,7 +379,7 @@ bool wr_app_save(WrApp *app)
     return false;
 }
 
-/* The folder of the document, or NULL. Caller frees. */
+/* The folder of the document, or NULL. The caller frees it. */
 static char *folder_of(const WrApp *app)
 {
     const char *path = wr_session_path(app->session);
@@ -432,7 +434,7 @@ void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
     bool asks = wr_files_writes(purpose) && !wr_files_agreed(app->files) &&
                 wr_replace_ask(app, WR_REPLACE_CHOSEN, purpose, path);
-    if (!asks) wr_deferred(app, app->roster->takes[purpose], path); /* it may take long */
+    if (!asks) wr_deferred(app, app->roster->takes[purpose], path); /* may take long */
 }
 
 void wr_file_take_open(WrApp *app, const char *path)

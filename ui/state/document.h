@@ -1,4 +1,4 @@
-/* document.h - the document behind the window: new, open, save, and what is asked before work is lost. */
+/* document.h - document commands of the window: new, open, save, and the question before unsaved work is lost. */
 #pragma once
 #include "ui/state/new_lines.h"
 #include "ui/state/app_state.h"
@@ -7,68 +7,69 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What to do once unsaved work is dealt with. */
+/* Action to continue with after the question about unsaved work. */
 typedef enum WrAfter {
     WR_AFTER_NOTHING,
     WR_AFTER_NEW,
     WR_AFTER_OPEN,
     WR_AFTER_PATH,
-    WR_AFTER_LINES, /* after_path holds commands, a line each */
+    WR_AFTER_LINES, /* after_path holds command lines */
     WR_AFTER_QUIT
 } WrAfter;
 
-/* What the codes of exported heights hold. */
+/* Range mapped to the integer values of exported heights. */
 enum { WR_RANGE_AUTO, WR_RANGE_UNIT, WR_RANGE_SIGNED, WR_RANGES };
 
-typedef struct WrForms { /* what the dialogs hold while they are open */
+typedef struct WrForms { /* values of open dialogs */
     double film_width, film_height, film_frames, film_fps;
     double width, height, picture_width, picture_height, fill, cells_u, cells_v, line_width, low,
         high;
-    double solid_size, solid_error, solid_thickness; /* mm; thickness 0: as the export thinks fit */
-    char export_more[200]; /* further options of the line, as they are typed */
-    int film_kind;         /* of wr_film_kinds */
-    int wrap, kind, range; /* range: a WR_RANGE_ */
+    double solid_size, solid_error, solid_thickness; /* mm; thickness 0: default of the export */
+    char export_more[200];                           /* further options of the line, as typed */
+    int film_kind;                                   /* index into wr_film_kinds */
+    int wrap, kind, range;                           /* range: a WR_RANGE_ value */
     bool fit;
-    WrNewForm fresh; /* of a new document */
+    WrNewForm fresh; /* new document */
 } WrForms;
 
-/* What the window knows of the document beside the session. */
+/* Data of the window about the document, besides the session. */
 typedef struct WrDocumentHand {
     WrAfter after;
-    char *after_path;        /* owned */
-    char *picture;           /* whose heights were opened; owned, NULL: none */
-    uint64_t clean_revision; /* also counts as saved: a starter made by commands */
-    bool starter;            /* the document is the starter */
-    struct WrAhead *ahead;   /* it is being made; owned */
+    char *after_path; /* owned */
+    char *picture;    /* picture whose heights were opened; owned, NULL: none */
+    /* additional revision that counts as saved: a starter made by commands */
+    uint64_t clean_revision;
+    bool starter;          /* the document is the starter */
+    struct WrAhead *ahead; /* starter being loaded; owned */
 } WrDocumentHand;
 
-void wr_app_tend(WrApp *app); /* the journal, when nothing else is to do */
-/* The starter, where nothing else was asked for, is made on a thread of its own while the window opens: until start or
-   start_end nobody else touches the session. */
+void wr_app_tend(WrApp *app); /* idle-time upkeep of the journal */
+/* Load the starter document, if nothing else was requested, on a separate thread while the window opens. No other
+   code may use the session until wr_app_start or wr_app_start_end. */
 void wr_app_start_ahead(WrApp *app);
-void wr_app_start(WrApp *app);     /* the starter is there, or what was asked for */
-void wr_app_start_end(WrApp *app); /* waits for it; may be called at any time */
+void wr_app_start(WrApp *app);     /* finish loading the starter, or the requested document */
+void wr_app_start_end(WrApp *app); /* wait for the thread; may be called at any time */
 void wr_app_new(WrApp *app);
 void wr_app_open(WrApp *app);
-void wr_app_open_path(WrApp *app, const char *path); /* asks first if work is unsaved */
-/* The same for a new document that command lines make. */
+void wr_app_open_path(WrApp *app, const char *path); /* with the question about unsaved work */
+/* New document by command lines, with the question about unsaved work. */
 void wr_app_open_lines(WrApp *app, const char *lines);
-/* The same without asking. */
+/* New document by command lines, without the question. */
 void wr_app_new_of(WrApp *app, const char *lines);
 bool wr_app_save(WrApp *app); /* false: not saved yet (a dialog is open, or it failed) */
 void wr_app_save_as(WrApp *app);
-void wr_app_save_history(WrApp *app); /* asks for the file */
-/* The document is another one: forget what belonged to the old one. */
+void wr_app_save_history(WrApp *app); /* opens a file dialog */
+/* Reset data that belonged to the previous document. */
 void wr_app_changed_document(WrApp *app);
 void wr_app_quit(WrApp *app);
-void wr_app_go_on(WrApp *app); /* with `after` */
-/* A dialog gave that name: read it, or write it, after asking where another file would go. */
+void wr_app_go_on(WrApp *app); /* continue with `after` */
+/* Handle the file name of a file dialog: read the file, or write it after the question about overwriting. */
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path);
-/* Without asking, for each purpose. */
+/* Handlers for each purpose, without the question. */
 void wr_file_take_open(WrApp *app, const char *path);
 void wr_file_take_save(WrApp *app, const char *path);
 void wr_file_take_import(WrApp *app, const char *path);
 void wr_file_take_gltf(WrApp *app, const char *path);
-void wr_app_ask_gltf(WrApp *app); /* for the file whose material the object at hand shall have */
+void wr_app_ask_gltf(WrApp *app); /* choose a file whose material the active object gets */
 void wr_file_take_export(WrApp *app, const char *path);
 void wr_file_take_history(WrApp *app, const char *path);

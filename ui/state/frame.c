@@ -1,4 +1,4 @@
-/* What every part asks of the window itself: another picture, its layout, its scale, its keys. */
+/* Services of the window for all components: redraw, layout, scale, keys. */
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
 #include "ui/state/keys.h"
@@ -21,7 +21,7 @@
 void wr_app_redraw(WrApp *app)
 {
     bool held = app->hand->grab != WR_GRAB_NONE;
-    /* The widgets need a second picture to settle; while the pointer works on a view they rest. */
+    /* Widgets need a second frame to settle; not while the pointer drags in a view. */
     if (!held) app->redraw = 2;
     else if (app->redraw < 1) app->redraw = 1;
 }
@@ -56,7 +56,7 @@ void wr_app_set_scale(WrApp *app, double setting)
     wr_app_redraw(app);
 }
 
-/* The built-in keys, the map that is chosen, and the user's own file. */
+/* Load the built-in keys, the chosen map, and the user's own file. */
 void wr_app_read_keys(WrApp *app)
 {
     WrError map_err;
@@ -65,7 +65,7 @@ void wr_app_read_keys(WrApp *app)
     int map = app->settings->key_map;
     if (map > 0 && map < WR_KEY_MAPS && !wr_keys_read(app->keys, wr_key_maps[map].text, &map_err))
         wr_app_fail(app, &map_err);
-    if (app->latency) return; /* only what is built in */
+    if (app->latency) return; /* only the built-in keys */
     char *path = wr_config_path("keys.conf"), *text = NULL;
     size_t length;
     WrError err;

@@ -1,4 +1,4 @@
-/* The key maps that are shipped, as the text that a file of one's own would have. */
+/* Built-in key maps, in the format of a user's key file. */
 #include "ui/state/keys.h"
 
 #include "base/enum_rows.h"

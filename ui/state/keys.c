@@ -40,7 +40,7 @@ static const struct {
     int mod;
 } held_mods[] = { { "Ctrl+", WR_MOD_CTRL }, { "Shift+", WR_MOD_SHIFT }, { "Alt+", WR_MOD_ALT } };
 
-/* "Shift" at the end: a key that is only held. 0 if it is none. */
+/* Length of a trailing modifier name ("Shift"), a key that is only held; 0 if there is none. */
 static int held_alone(const char *at, const char *end)
 {
     for (size_t m = 0; m < 3; m++) {
@@ -87,7 +87,7 @@ bool wr_key_parse(const char *text, size_t length, WrKey *key, WrError *err)
     return true;
 }
 
-/* ---- the map ---- */
+/* ---- the key map ---- */
 
 static void drop_action(Bindings *bindings, const char *action)
 {
@@ -105,7 +105,7 @@ static void free_bindings(Bindings *bindings)
     wr_array_free(bindings);
 }
 
-/* One line "action: key key ...", without its end. */
+/* Parse one line "action: key key ...", without its end. */
 static bool read_line(Bindings *bindings, const char *line, size_t length, WrError *err)
 {
     const char *hash = memchr(line, '#', length);
@@ -172,7 +172,7 @@ void wr_keys_free(WrKeyMap *map)
     wr_free(map);
 }
 
-/* The newest line that wants a key has it. */
+/* The newest line with a key takes precedence. */
 static const char *find(const WrKeyMap *map, SDL_Keycode code, int mods)
 {
     for (int i = map->bindings.count - 1; i >= 0; i--) {
@@ -203,7 +203,7 @@ bool wr_keys_hold(const WrKeyMap *map, const char *action, int held)
     return false;
 }
 
-/* Of keys that are held alone the last plus goes. */
+/* For modifiers alone, remove the last plus. */
 static void drop_plus(char *name)
 {
     size_t length = strlen(name);
@@ -221,8 +221,8 @@ static void print_key(WrKey key, char *buffer, size_t size)
     if (only) drop_plus(buffer);
 }
 
-/* The same in the user's language: "Strg+Umschalt+Entf". Keys have words of their own, "key: Delete", since a key and what
-   one does are not called alike everywhere. */
+/* Key name in the user's language: "Strg+Umschalt+Entf". Translations use the context "key: Delete", since a key's
+   name may differ from the name of an action. */
 static void say_key(WrKey key, char *buffer, size_t size)
 {
     char bare[32], id[40];
@@ -235,8 +235,8 @@ static void say_key(WrKey key, char *buffer, size_t size)
     if (key.code == SDLK_UNKNOWN) drop_plus(buffer);
 }
 
-/* The key to press on this keyboard. A bracket that its layout lacks is the key at the place where a US keyboard has it.
- * False: no key does it, because a sign is reached with AltGr or Shift alone, or the key at that place does another thing. */
+/* The key to press on this keyboard. A bracket missing in its layout is replaced by the key at the US position.
+ * False: no key works, because the character needs AltGr or Shift, or the key at that position has another action. */
 static bool on_this_layout(const WrKeyMap *map, WrKey key, WrKey *pressed)
 {
     const bool sign = key.code > SDLK_SPACE && key.code < 127 && !isalnum((int)key.code);
@@ -275,7 +275,7 @@ void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out)
     }
 }
 
-/* ---- changing them ---- */
+/* ---- changes ---- */
 
 const char *wr_keys_owner(const WrKeyMap *map, WrKey key)
 {
@@ -301,7 +301,7 @@ void wr_keymap_bind(WrKeyMap *map, const char *action, WrKey key)
     wr_array_push(bindings, ((Binding){ wr_strdup(action), key }));
 }
 
-/* As one word. */
+/* Write the name as one word. */
 static char *join(char *name)
 {
     for (char *c = name; *c; c++)
@@ -309,7 +309,7 @@ static char *join(char *name)
     return name;
 }
 
-/* "action: Ctrl+S Keypad_+\n" */
+/* Print "action: Ctrl+S Keypad_+\n". */
 static void print_line(const WrKeyMap *map, const char *action, WrText *out)
 {
     char name[32];
@@ -322,7 +322,7 @@ static void print_line(const WrKeyMap *map, const char *action, WrText *out)
     wr_text_add(out, "\n");
 }
 
-/* Is the line about the action? */
+/* True if the line belongs to the action. */
 static bool is_of(const char *line, const char *action)
 {
     const size_t length = strlen(action);
@@ -351,7 +351,6 @@ bool wr_key_can_be_given(SDL_Keycode code)
         if (code == never[i]) return false;
     char name[32];
     WrKey key;
-    print_key((WrKey){ code, 0 }, name,
-              sizeof name); /* what a file would say of it is read as it */
+    print_key((WrKey){ code, 0 }, name, sizeof name); /* parsed as in a file */
     return wr_key_parse(join(name), strlen(name), &key, NULL) && key.code == code && key.mods == 0;
 }

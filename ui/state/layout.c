@@ -5,16 +5,15 @@
 
 #define DIVIDER_UNITS 5
 #define VIEW_MIN_UNITS 120
-#define PANEL_MIN_UNITS 190 /* of the panel on the right */
-#define LOWER_MIN_UNITS 270 /* of its lower part: three layers are seen */
+#define PANEL_MIN_UNITS 190 /* smallest width of the right panel */
+#define LOWER_MIN_UNITS 270 /* smallest height of its lower part: three layers */
 
 static int clamp_int(int x, int low, int high)
 {
     return x < low ? low : x > high ? high : x;
 }
 
-/* Cut `units` off the left (top) of a room of `size` for the canvas: its share, but leave each view
- * something to be seen by. */
+/* Width (height) of the canvas in an area of `size`: its share, but each view keeps a minimum. */
 static int canvas_size(int size, double share, int divider, int least)
 {
     int size_canvas = (int)lround((size - divider) * share);
@@ -22,7 +21,7 @@ static int canvas_size(int size, double share, int divider, int least)
     return high < least ? (size - divider) / 2 : clamp_int(size_canvas, least, high);
 }
 
-/* Cut the lower part off the panel on the right, if there is room for both. */
+/* Split off the lower part of the right panel, if there is room for both. */
 static void split_panel(WrLayout *out, double share, double s)
 {
     int d = (int)lround(DIVIDER_UNITS * s), least = (int)lround(LOWER_MIN_UNITS * s);
@@ -98,7 +97,7 @@ bool wr_layout_inside(const SDL_Rect *r, int x, int y)
     return x >= r->x && y >= r->y && x < r->x + r->w && y < r->y + r->h;
 }
 
-/* One axis: as long as the room allows, and inside it. */
+/* One axis: limit the length to the area, then move inside it. */
 static void fit_axis(int from, int length, int before, int after, int *at, int *size)
 {
     int most = length - before - after;

@@ -12,9 +12,9 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define WORDS_MAX 48 /* of a line that are looked at */
+#define WORDS_MAX 48 /* words of a line that are parsed */
 
-/* A word of the line: "name=value", or a value alone. Quotes are taken off. */
+/* A word of the line: "name=value", or a value alone, without quotes. */
 typedef struct Word {
     char *text;  /* owned */
     char *value; /* after the '=', or NULL */
@@ -57,7 +57,7 @@ static const char *value_of(const Words *w, const char *name)
     return NULL;
 }
 
-/* The n-th value that has no name, from 1 on; NULL: there are not so many. */
+/* Positional value n, from 1; NULL if there are fewer. */
 static const char *plain(const Words *w, int n)
 {
     for (int i = 1; i < w->count; i++)
@@ -65,7 +65,7 @@ static const char *plain(const Words *w, int n)
     return NULL;
 }
 
-/* A file's name without folders and ending. */
+/* A file's name without folders and extension. */
 static void file_name(const char *path, WrText *out)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -111,7 +111,7 @@ static void brush_words(const Words *w, const char *what, WrText *out)
     }
 }
 
-/* What commands are called that no table of the program names for people. */
+/* Display names of commands that have none in the tables of the program. */
 static const struct {
     const char *verb, *words;
 } names[] = {
@@ -168,7 +168,7 @@ static const char *name_of(const char *verb)
     return NULL;
 }
 
-/* The command's name, and the first values that say what. */
+/* The command's name, and its first words that specify the action. */
 static void other_words(const Words *w, WrText *out)
 {
     const char *name = name_of(w->word[0].text);
@@ -181,7 +181,7 @@ static void other_words(const Words *w, WrText *out)
     }
 }
 
-/* What is done to a layer by a click: the layer's number stands where %.20s is. */
+/* Text for a click on a layer; %.20s is the layer's number. */
 static const char *layer_deed(const Words *w)
 {
     const char *deed = plain(w, 1), *visible = value_of(w, "visible"), *lock = value_of(w, "lock");

@@ -1,7 +1,7 @@
-/* line_words.h - a step of the history as a person would say it: "Stroke, leaves, 43 samples". */
+/* line_words.h - readable names of history steps: "Stroke, leaves, 43 samples". */
 #pragma once
 
 typedef struct WrText WrText;
 
-/* Of a command line, in the window's language; added to out. */
+/* Append the name of a command line in the window's language to out. */
 void wr_line_words(const char *line, WrText *out);

@@ -1,4 +1,4 @@
-/* What the window has to say: errors stay until they are read, notes for some seconds. */
+/* Messages of the window: errors stay until they are read, notes for some seconds. */
 #include "ui/state/messages.h"
 #include "ui/state/app_options.h"
 #include "ui/state/app_state.h"
@@ -59,7 +59,9 @@ void wr_app_fail(WrApp *app, const WrError *err)
 void wr_app_take_notes(WrApp *app)
 {
     WrText *notes = app->options->notes;
-    if (!notes || app->busy || notes->length == 0) return; /* they are the worker's meanwhile */
+    if (!notes || app->busy || notes->length == 0)
+        return; /* the worker uses the buffer
+                                                              meanwhile */
     for (char *at = notes->data; *at;) {
         size_t length = strcspn(at, "\n");
         bool more = at[length] == '\n';
@@ -77,7 +79,7 @@ void wr_messages_overtake(WrMessages *messages, double since)
         const WrMessage *m = &messages->list.data[i];
         if (!m->bad) continue;
         if (m->since < since) messages->unread = 0;
-        return; /* the newest error tells */
+        return; /* the newest error already reports it */
     }
 }
 

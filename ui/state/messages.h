@@ -1,4 +1,4 @@
-/* messages.h - what the window has to say. */
+/* messages.h - messages of the window: notes and errors. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -17,16 +17,15 @@ typedef struct WrMessage {
 
 typedef struct WrMessages {
     WR_ARRAY(WrMessage) list; /* oldest first */
-    int unread;               /* errors at the end of the list that nobody clicked away */
+    int unread;               /* unread errors at the end of the list */
 } WrMessages;
 
 void wr_app_say(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void wr_app_say_lines(WrApp *app, const char *text); /* each line by itself */
+void wr_app_say_lines(WrApp *app, const char *text); /* each line as a separate message */
 void wr_app_fail(WrApp *app, const WrError *err);
 void wr_app_take_notes(WrApp *app);
-/* Something that began at `since` (clock) succeeded: errors from before it were overtaken. */
+/* Mark errors older than `since` (clock) as outdated, because an action begun then succeeded. */
 void wr_messages_overtake(WrMessages *messages, double since);
-/* What the status line says: the newest message, an error until it is read, a note while it is young; or
-   NULL. */
+/* Message of the status line: the newest one if it is an unread error or a recent note; else NULL. */
 const WrMessage *wr_messages_shown(const WrMessages *messages, double now);
 void wr_messages_free(WrMessages *messages);

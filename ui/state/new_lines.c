@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LENGTHS_FOR 512.0 /* texels that starters' lengths are for */
+#define LENGTHS_FOR 512.0 /* table size that the starters' lengths refer to */
 
 const WrStarter wr_starters[WR_STARTERS] = {
     { "Nothing", NULL },
@@ -42,7 +42,8 @@ bool wr_new_surface(int kind)
     return kind != WR_SURFACE_mesh && kind != WR_SURFACE_patches && kind != WR_SURFACE_terrain;
 }
 
-/* How often a cell repeats over a surface whose middle is so many times as wide as it is high, so that it keeps its shape. */
+/* Number of repeats of a cell on a surface of aspect ratio `surface` (width / height at its middle) that keeps the
+   cell's shape. */
 static void repeats(double surface, double cell, double down, WrText *out)
 {
     double across = fmax(1.0, rint(down * surface / cell));
@@ -53,7 +54,7 @@ static void repeats(double surface, double cell, double down, WrText *out)
     wr_text_add(out, "\n");
 }
 
-/* A flat surface becomes as wide as the cell; of round ones the cell goes round so often that it stays what it is. */
+/* A flat surface gets the cell's width; round surfaces keep their shape, and the number of repeats is adjusted. */
 static void surface_lines(int kind, double cell, WrText *out)
 {
     wr_text_addf(out, "surface %s", wr_surfaces[kind]->name);
@@ -69,7 +70,7 @@ static void surface_lines(int kind, double cell, WrText *out)
     if (kind == WR_SURFACE_torus) repeats(2.5, cell, 1.0, out);
 }
 
-/* A length of texels is a number after one of these words. */
+/* True if a number follows one of these names: a length in texels. */
 static bool is_length(const char *at, size_t *name)
 {
     static const char *const words[] = { "joint=", "bevel=", "corner=", "wobble=", "gap=" };

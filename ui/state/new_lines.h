@@ -1,18 +1,18 @@
-/* new_lines.h - a new document as the dialog asks for it, in command lines. Tested without a window. */
+/* new_lines.h - command lines for a new document from the values of the dialog. Tested without a window. */
 #pragma once
 #include <stdbool.h>
 
 typedef struct WrText WrText;
 
-/* What a new table begins with. */
+/* Initial content of a new table. */
 typedef struct WrStarter {
     const char *label;
-    const char *line; /* command, its lengths for a table of 512 texels; NULL: nothing */
+    const char *line; /* command with lengths for a table of 512 texels; NULL: none */
 } WrStarter;
 #define WR_STARTERS 12
 extern const WrStarter wr_starters[WR_STARTERS];
 
-/* Sides of a table, as one to the other. */
+/* Aspect ratio of a table. */
 typedef struct WrAspect {
     const char *label;
     int across, down;
@@ -22,17 +22,18 @@ extern const WrAspect wr_aspects[WR_ASPECTS];
 
 typedef struct WrNewForm {
     double width, height; /* texels */
-    int wrap;             /* of wr_document_wrap_name */
+    int wrap;             /* index for wr_document_wrap_name */
     int surface;          /* WrSurfaceKind */
-    int starter;          /* of wr_starters */
+    int starter;          /* index into wr_starters */
 } WrNewForm;
 
-/* The texels of a table with that aspect (a row of wr_aspects) whose longer side has so many; whole, at least 1. */
+/* Size in texels of a table with that aspect ratio (a row of wr_aspects) and that longer side; integers, at least
+   1. */
 void wr_new_sides(int aspect, double longer, double *width, double *height);
-/* Can a WrSurfaceKind be offered: it needs no file. */
+/* True if the dialog can offer a WrSurfaceKind: it needs no file. */
 bool wr_new_surface(int kind);
-/* The document's lines, one after the other, each with its end. The cell keeps its shape on the surface as nearly as whole
- * repeats let it. wrap: the word for the form's. Added to out. */
+/* Append the document's lines, each with its line end. The number of repeats on the surface is the integer that best
+ * keeps the cell's shape. wrap: name of the form's edge mode. */
 void wr_new_lines(const WrNewForm *form, const char *wrap, WrText *out);
-/* The surface of a picture of that size (texels), so that it is seen in its shape; added to out. */
+/* Append the lines of a surface with the aspect ratio of a picture of that size (texels). */
 void wr_new_picture_lines(int width, int height, WrText *out);

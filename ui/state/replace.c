@@ -1,5 +1,4 @@
-/* Files that would go: what is written where another file stands is asked about first. Neither Return nor a
-   click that came too often replaces anything. */
+/* Question before a file is overwritten. Neither Return nor an accidental double click confirms it. */
 #include "ui/state/replace.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
@@ -28,7 +27,7 @@
 bool wr_replace_ask(WrApp *app, WrReplaceKind kind, WrFilePurpose purpose, const char *path)
 {
     if (!wr_file_stamp(path).there) return false;
-    char *kept = wr_strdup(path); /* may be the old one */
+    char *kept = wr_strdup(path); /* `path` may be the old string */
     wr_free(app->replace->path);
     *app->replace = (WrReplace){ .kind = kind, .purpose = purpose, .path = kept };
     wr_dialog_open(app, WR_DIALOG_REPLACE);
@@ -55,7 +54,7 @@ static void describe(const WrReplace *replace, char *text, size_t size)
              when + strspn(when, " "));
 }
 
-/* Back to where the name was chosen, with the name. */
+/* Return to the file dialog with the chosen name. */
 static void go_back(WrApp *app)
 {
     const WrReplace *replace = app->replace;

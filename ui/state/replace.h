@@ -1,4 +1,4 @@
-/* replace.h - files that would go are asked about first. */
+/* replace.h - question before an existing file is overwritten. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/jobs/files.h"
@@ -6,18 +6,18 @@
 #include <stdbool.h>
 
 typedef enum WrReplaceKind {
-    WR_REPLACE_CHOSEN,  /* the file of a name that was chosen */
-    WR_REPLACE_CHANGED, /* the document's own, which another program has written since */
-    WR_REPLACE_PRESET,  /* a preset of the user's own */
+    WR_REPLACE_CHOSEN,  /* a file chosen in a dialog */
+    WR_REPLACE_CHANGED, /* the document's own file, changed by another program */
+    WR_REPLACE_PRESET,  /* a preset of the user */
     WR_REPLACE_KINDS
 } WrReplaceKind;
 
-typedef struct WrReplace { /* while it is asked */
+typedef struct WrReplace { /* state of the open question */
     WrReplaceKind kind;
     WrFilePurpose purpose;
     char *path; /* owned */
 } WrReplace;
 
-/* If a file stands there, ask whether it may be replaced, and do it then: true. False: there is none. */
+/* If the file exists, open the question and do the action after a yes; returns true. False: there is no such file. */
 bool wr_replace_ask(WrApp *app, WrReplaceKind kind, WrFilePurpose purpose, const char *path);
 void wr_dialog_replace(WrApp *app);

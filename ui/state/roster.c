@@ -1,4 +1,4 @@
-/* Asking the parts of the window, whichever there are. */
+/* Calls to all components of the window through the roster. */
 #include "ui/state/roster.h"
 #include "ui/state/app_state.h"
 #include "ui/state/settings.h"

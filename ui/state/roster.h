@@ -1,68 +1,70 @@
-/* roster.h - what the window is made of: its tools, actions, dialogs, tabs and parts, in lists that app/roster_list.c
-   alone assembles. What lies below knows what lies above by these lists only, so that a new part is a file of its own
-   and one row. */
+/* roster.h - lists of the window's tools, actions, dialogs, tabs and components, assembled only in app/roster_list.c.
+   Lower modules access higher ones only through these lists, so a new component is one file and one row. */
 #pragma once
 #include "ui/state/app_state.h"
 
 #include <SDL.h>
 #include <stdbool.h>
 
-/* Actions that come from another table, by names that begin alike: "adjust_NAME", "generate_FAMILY". Runs it;
-   false: it is none of these. */
+/* Actions generated from another table, with a common prefix: "adjust_NAME", "generate_FAMILY". Runs the action;
+   false: not in this family. */
 typedef bool WrActionFamily(WrApp *app, const char *name);
 
 /* A dialog, drawn while it is open. */
 typedef struct WrDialogRow {
     void (*draw)(WrApp *app);
-    bool shows_effect; /* on canvas and patch: they may be looked at meanwhile */
+    /* effect visible on canvas and patch, which may be panned and turned meanwhile */
+    bool shows_effect;
 } WrDialogRow;
 
-/* A tab of the panel on the right. One of the two draws it. */
+/* A tab of the right panel. One of the two functions draws it. */
 typedef struct WrTab {
     const char *label;
     void (*draw)(WrApp *app);
-    void (*fill)(WrApp *app, SDL_Rect room); /* has areas of its own */
-    bool is_long;                            /* it needs many rows */
-    bool edits; /* all of it changes the document: grey while something runs beside the window */
+    void (*fill)(WrApp *app, SDL_Rect room); /* uses areas of its own */
+    bool is_long;                            /* needs many rows */
+    /* all of it changes the document: disabled while a command runs in the background */
+    bool edits;
 } WrTab;
 
-/* A part of the window that has a life of its own. Each function may be NULL. */
+/* A component with background work. Each function may be NULL. */
 typedef struct WrPart {
-    void (*update)(WrApp *app);            /* once before each picture, in the order of the list */
-    double (*next_time)(const WrApp *app); /* clock at which update must run; 0: only on events */
-    bool (*works)(WrApp *app);             /* something is computed: its bar moves */
-    /* An event while a command runs beside the window: true if it was only for looking at its view. What comes of that
-       becomes a command afterwards. */
+    void (*update)(WrApp *app); /* once before each frame, in the order of the list */
+    /* clock at which update must run next; 0: only after events */
+    double (*next_time)(const WrApp *app);
+    bool (*works)(WrApp *app); /* true while it computes: its progress bar moves */
+    /* Handle an event while a command runs in the background: true if it only changed the component's view. A
+       resulting view command is run afterwards. */
     bool (*look)(WrApp *app, const SDL_Event *event);
-    void (*draw)(WrApp *app);    /* its view, below all widgets */
-    void (*let_go)(WrApp *app);  /* end what is held, keeping what was done */
-    void (*settle)(WrApp *app);  /* what was put off becomes a command now */
-    void (*another)(WrApp *app); /* the document is another one: forget what was the old one's */
-    void (*forget)(WrApp *app);  /* textures were lost */
+    void (*draw)(WrApp *app);    /* draw its view, below all widgets */
+    void (*let_go)(WrApp *app);  /* end a drag, keeping its result */
+    void (*settle)(WrApp *app);  /* run delayed changes as a command now */
+    void (*another)(WrApp *app); /* reset data of the previous document */
+    void (*forget)(WrApp *app);  /* drop textures, which were lost */
 } WrPart;
 
-/* A file was chosen, for what a purpose says. */
+/* Handler of a chosen file, one for each purpose. */
 typedef void WrFileTake(WrApp *app, const char *path);
 
 struct WrRoster {
     const WrTool *const *tools;
     int tool_count;
-    const WrAction *actions;         /* ends with name NULL */
-    const char *const *helps;        /* of each action what it does, in a line */
-    WrActionFamily *const *families; /* ends with NULL */
-    const WrDialogRow *dialogs;      /* [WR_DIALOG_COUNT]; the first is none */
+    const WrAction *actions;         /* the last row has name NULL */
+    const char *const *helps;        /* one line of help for each action */
+    WrActionFamily *const *families; /* NULL-terminated */
+    const WrDialogRow *dialogs;      /* [WR_DIALOG_COUNT]; the first is empty */
     const WrTab *tabs;
     int tab_count;
-    const WrPart *const *parts; /* ends with NULL */
+    const WrPart *const *parts; /* NULL-terminated */
     WrFileTake *const *takes;   /* [WR_FILE_PURPOSES] */
-    void (*step)(WrApp *app);   /* one turn of the loop: events, work that is due, a picture */
+    void (*step)(WrApp *app);   /* one iteration of the main loop: events, due work, a frame */
 };
 
-/* Its index, for settings.tab; 0 if there is none of that label. */
+/* Index of a tab for settings.tab; 0 if there is none of that label. */
 int wr_tab_find(const WrApp *app, const char *label);
-/* Show it. */
+/* Show that tab. */
 void wr_tab_show(WrApp *app, const char *label);
-/* All parts let go: what is held is ended, keeping what was done. */
+/* End all drags in all components, keeping their results. */
 void wr_hand_let_go(WrApp *app);
-/* The same, and what was put off becomes a command now: a zoom by the wheel. */
+/* End all drags, and run delayed changes as commands now, such as a wheel zoom. */
 void wr_app_settle(WrApp *app);

@@ -1,4 +1,4 @@
-/* Command lines: the window's way to change a document. */
+/* Command lines: the only way for the window to change a document. */
 #include "ui/state/busy_internal.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
@@ -21,8 +21,8 @@
 #include <string.h>
 
 typedef struct Line {
-    char *text, *words, *told; /* owned; told: notes of the trial that made it, or NULL */
-    WrDocument *made;          /* owned; NULL: it is still to be made */
+    char *text, *words, *told; /* owned; told: notes of the preview that computed it, or NULL */
+    WrDocument *made;          /* owned; NULL: still to be computed */
     double since;              /* clock */
 } Line;
 
@@ -42,7 +42,7 @@ static bool run_line(WrSession *session, void *ctx, WrError *err)
     return wr_session_run(session, line->text, err);
 }
 
-/* Takes the line. */
+/* Finish a line; ctx is freed. */
 static void is_done(WrApp *app, void *ctx, bool ok, const WrError *err)
 {
     Line *line = ctx;
@@ -56,10 +56,10 @@ static void is_done(WrApp *app, void *ctx, bool ok, const WrError *err)
     free_line(line);
 }
 
-/* ---- while something else runs ---- */
+/* ---- during another command ---- */
 
-/* Lines that mean afterwards what they mean now, as long as the layers are the same: settings of layers, and what paints
-   where a hand has put it. */
+/* True for lines that have the same meaning later while the layers are the same: layer settings, and painting at
+   fixed positions. */
 static bool can_wait(const char *line)
 {
     static const char *const begin[] = { "layer use ", "layer set ", "layer solo ", "shape ",
@@ -74,7 +74,7 @@ static void run_late(WrApp *app, const char *line, bool dropped)
     if (!dropped) wr_app_run_line(app, line);
 }
 
-/* Asked for by the same press as what runs: one of several lines that are meant as one. */
+/* True for a line of the same user action as the running command: one of several lines that belong together. */
 static bool belongs(const WrApp *app)
 {
     return app->in_frame && app->busy->in_frame && app->busy->picture == app->drawn_at;
@@ -102,8 +102,8 @@ static bool run_command(WrApp *app, const char *text, const WrDocument *made, co
     if (app->busy) return put_off(app, text);
     WrError err = { "" };
     WrText words = { 0 };
-    wr_hand_let_go(app);                               /* a stroke that is open would refuse it */
-    if (app->trying) wr_edit_preview_stop(app->trial); /* nobody waits for it any more */
+    wr_hand_let_go(app);                               /* an open stroke would refuse the line */
+    if (app->trying) wr_edit_preview_stop(app->trial); /* the preview is outdated */
     wr_line_words(text, &words);
     Line *line = wr_alloc(1, sizeof *line);
     *line = (Line){ .text = wr_strdup(text),
@@ -121,7 +121,7 @@ static bool run_command(WrApp *app, const char *text, const WrDocument *made, co
             .kind = WR_BUSY_EDIT, .what = line->words, .work = run_line, .ctx = line
         };
         if (!wr_busy_begin(app, &busy)) {
-            if (app->in_frame) { /* the picture goes on, and the loop ends it */
+            if (app->in_frame) { /* the frame continues, and the main loop finishes the line */
                 app->busy->after = is_done;
                 app->busy->after_ctx = line;
                 return true;

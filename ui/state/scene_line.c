@@ -11,7 +11,7 @@
 
 void wr_scene_run(WrApp *app, WrText *line)
 {
-    wr_app_settle(app); /* a zoom that waits lives in the same scene */
+    wr_app_settle(app); /* a delayed zoom is in the same live scene */
     wr_app_live_end(app);
     wr_app_run_line(app, wr_text_get(line));
     wr_text_fini(line);

@@ -11,7 +11,7 @@ static bool is_letter(char c)
            (unsigned char)c >= 0x80;
 }
 
-/* Of one word: 0 not there, 1 inside a word, 2 at the beginning of one, 4 at the very beginning. */
+/* Score of one word: 0 no match, 1 inside a word, 2 at the start of a word, 4 at the start of the label. */
 static int word_score(const char *label, const char *word, size_t length)
 {
     int best = 0;

@@ -1,7 +1,6 @@
-/* search.h - finding an action by what is typed. Pure; tested without a window. */
+/* search.h - text search for actions. Pure; tested without a window. */
 #pragma once
 
-/* How well `label` answers `query`: every word of the query must be in it, upper and lower case alike.
- * 0: not at all; more is better: words that the label begins with count most, then beginnings of its
- * words, then anything in it. An empty query gives 1. */
+/* Score of `label` for `query`. Every word of the query must occur in it, ignoring case; 0: no match. Matches at the
+ * start of the label count most, then at starts of words, then inside words. An empty query scores 1. */
 int wr_search_score(const char *label, const char *query);

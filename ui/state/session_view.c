@@ -1,4 +1,4 @@
-/* The document as the window sees it: as it is, or as what is being tried or dragged would make it. */
+/* The document as displayed, including an edit preview or a dragged value. */
 #include "ui/state/session_view.h"
 #include "ui/state/app_state.h"
 #include "ui/state/document.h"

@@ -1,4 +1,4 @@
-/* session_view.h - the document as the window sees it: as it is, or as what is tried or dragged would make it. */
+/* session_view.h - the document as displayed, including an edit preview or a dragged value. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/jobs/edit_preview.h"
@@ -9,20 +9,21 @@ typedef struct WrDocument WrDocument;
 typedef struct WrField WrField;
 typedef struct WrScene WrScene;
 
-/* What the views show: the composite, or what it would become by what is being tried. */
+/* Heights in the views: the composite, or the edit preview. */
 const WrField *wr_app_field(const WrApp *app);
-/* What the canvas shows: the same, or, where the active layer is hidden and an object wears it, that layer alone. */
+/* Heights on the canvas: those of the views. If the active layer is hidden and used as an object's table, that layer
+   alone. */
 const WrField *wr_app_canvas_field(const WrApp *app);
-/* Does it show the active layer's mask, in the place of heights? */
+/* True if the canvas shows the active layer's mask instead of heights. */
 bool wr_app_shows_mask(const WrApp *app);
 const WrDocument *wr_app_document(const WrApp *app);
-/* Show what this would give; the document is not touched. */
+/* Start an edit preview; the document is unchanged. */
 void wr_app_try(WrApp *app, const WrEditPreviewAsk *ask);
 void wr_app_try_end(WrApp *app);
-const WrScene *wr_app_scene(const WrApp *app); /* live if a value is being dragged */
+const WrScene *wr_app_scene(const WrApp *app); /* `live` if a value is being dragged */
 bool wr_app_unsaved(const WrApp *app);
-/* A scene that the caller may change at once; the preview shows it until wr_app_live_end. */
+/* A scene that the caller may change directly; the preview shows it until wr_app_live_end. */
 WrScene *wr_app_live(WrApp *app);
 void wr_app_live_end(WrApp *app);
 void wr_app_title(WrApp *app);
-const char *wr_app_name(const WrApp *app); /* of the document, without folders */
+const char *wr_app_name(const WrApp *app); /* file name without folders */

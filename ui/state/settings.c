@@ -57,10 +57,10 @@ void wr_settings_fini(WrSettings *settings)
 
 /* ---- lines ---- */
 
-/* A setting that is a number: where it is kept and what is allowed. */
+/* A numeric setting: its variable and range. */
 typedef struct Row {
     const char *name;
-    double *real; /* one of real, whole, flag */
+    double *real; /* one of real, whole, flag is set */
     int *whole;
     bool *flag;
     double low, high;
@@ -68,7 +68,7 @@ typedef struct Row {
 
 #define ROWS_MAX 96
 
-/* Of the window as a whole. */
+/* Rows of the window as a whole. */
 static int window_rows(WrSettings *s, Row *rows)
 {
     const Row some[] = {
@@ -96,7 +96,7 @@ static int window_rows(WrSettings *s, Row *rows)
     return WR_LENGTH(some);
 }
 
-/* Of the brush. */
+/* Rows of the brush. */
 static int brush_rows(WrSettings *s, Row *rows)
 {
     const Row some[] = {
@@ -127,7 +127,7 @@ static int brush_rows(WrSettings *s, Row *rows)
     return WR_LENGTH(some);
 }
 
-/* Of symmetry and of tools that draw. */
+/* Rows of symmetry and drawing tools. */
 static int drawing_rows(WrSettings *s, Row *rows)
 {
     const Row some[] = {
@@ -157,7 +157,7 @@ static int drawing_rows(WrSettings *s, Row *rows)
     return WR_LENGTH(some);
 }
 
-/* Of the hand, and of how the table is looked at. */
+/* Rows of the pointer and the views. */
 static int view_rows(WrSettings *s, Row *rows)
 {
     const Row some[] = {
@@ -208,7 +208,7 @@ static void take(WrSettings *settings, const char *name, size_t name_length, con
     }
 }
 
-/* Texts, and lists of them in the order of their lines. */
+/* Text settings and text lists, in the order of their lines. */
 typedef struct TextRow {
     const char *name;
     char **texts;
@@ -265,7 +265,7 @@ void wr_settings_parse(WrSettings *settings, const char *text)
 
 void wr_settings_print(const WrSettings *settings, WrText *text)
 {
-    WrSettings copy = *settings; /* rows point into a struct that they could change */
+    WrSettings copy = *settings; /* rows point into a struct, so a copy protects the original */
     Row rows[ROWS_MAX];
     int count = rows_of(&copy, rows);
     for (int i = 0; i < count; i++) {
@@ -316,7 +316,7 @@ void wr_settings_make_folder(void)
     wr_free(folder);
 }
 
-/* Put a text first in a list; what it pushes out at the end goes. */
+/* Move a text to the front of a list; the last entry of a full list is dropped. */
 static void put_first(char **list, int most, const char *text)
 {
     char *first = wr_strdup(text);
@@ -390,7 +390,7 @@ void wr_settings_keep_pen(WrSettings *settings, const char *line)
         if (other && name && strcmp(other, name) == 0) break;
         at++;
     }
-    if (at == WR_PENS_MAX) at--; /* the newest goes before the oldest of so many */
+    if (at == WR_PENS_MAX) at--; /* in a full list the oldest is replaced */
     wr_free(pens[at]);
     pens[at] = kept;
 }

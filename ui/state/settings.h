@@ -1,5 +1,4 @@
-/* settings.h - what the window remembers from one time to the next, as lines "name value" in
-   $XDG_CONFIG_HOME/wrinkle/window.conf. */
+/* settings.h - persistent settings of the window, as lines "name value" in $XDG_CONFIG_HOME/wrinkle/window.conf. */
 #pragma once
 #include "ui/canvas/canvas.h"
 #include "ui/state/layout.h"
@@ -20,101 +19,107 @@ typedef struct WrText WrText;
 #define WR_PENS_MAX 32
 #define WR_SETTINGS_FILE_MAX (1 << 16) /* bytes */
 
-/* What the tools that draw other things than strokes go by. */
+/* Settings of drawing tools other than the brush. */
 typedef struct WrDrawSettings {
-    bool fills;       /* shapes: their inside, not their outline */
-    bool closed;      /* the Bezier path ends where it began */
-    double corner;    /* of rectangles, texels */
-    double tolerance; /* of the flood, heights */
-    bool diagonal;    /* it also goes over corners */
-    int ramp, blend;  /* WrRampKind; of wr_ramp_blends */
+    bool fills;       /* shapes: filled, not outlined */
+    bool closed;      /* the Bezier path is closed */
+    double corner;    /* corner radius of rectangles, texels */
+    double tolerance; /* of the flood fill, heights */
+    bool diagonal;    /* the flood fill also crosses corners */
+    int ramp, blend;  /* WrRampKind; index into wr_ramp_blends */
     bool fold;
-    double low, high; /* heights of the ramp's ends */
+    double low, high; /* heights at the ramp's ends */
 } WrDrawSettings;
 
 typedef struct WrSettings {
     int width, height; /* of the window, pixels at scale 1 of the display */
     bool maximized;
-    double scale; /* 0.75..3; 0: from the display */
+    double scale; /* 0.75..3; 0: the display's */
     WrThemeKind theme;
-    int language;   /* of wr_languages */
-    int dialogs;    /* for files: WrFileWay */
-    double divider; /* the canvas's share of the views, 0..1 */
+    int language;   /* index into wr_languages */
+    int dialogs;    /* file dialogs: WrFileWay */
+    double divider; /* share of the views' area for the canvas, 0..1 */
     WrShownViews views;
-    bool panels;        /* shown */
-    double lower;       /* the layers' share of the panel on the right, 0..1 */
-    bool ants;          /* the outline of a selection moves */
-    bool grid;          /* is shown, and drawn things snap to it */
-    int grid_parts;     /* of the cell along each axis */
-    bool history_lines; /* the history shows command lines, not words */
-    WrTiling tiling;    /* how its copies stand beside it, to the eye */
-    int join;           /* how a new selection joins the present one: WrSelectMode */
-    int tab;            /* of the panel on the right */
-    bool turning;       /* the patch turns by itself */
+    bool panels;        /* visible */
+    double lower;       /* share of the right panel for the layers, 0..1 */
+    bool ants;          /* animate the selection outline */
+    bool grid;          /* visible; drawing tools then snap to it */
+    int grid_parts;     /* parts of the cell along each axis */
+    bool history_lines; /* the history shows command lines instead of names */
+    WrTiling tiling;    /* display of the copies beside the cell */
+    int join;           /* combination of a new selection with the present one: WrSelectMode */
+    int tab;            /* index of the tab in the right panel */
+    bool turning;       /* the patch rotates continuously */
     WrBrush brush;
     WrCanvasLook look;
-    /* The files that the brush comes from, owned, NULL: none; as WrBrushSources. */
+    /* Files of the brush, owned, NULL: none; as in WrBrushSources. */
     char *preset, *tip, *set;
-    double mask_strength;  /* of the brush on masks, 0..1 */
-    double other_strength; /* of lowering while raising, and the other way round; 0: the same */
-    bool lock_size;        /* another preset keeps the size */
-    char *favourites[WR_FAVOURITES_MAX]; /* ids of presets, owned; NULL ends them */
-    char *used[WR_USED_MAX]; /* the same, newest first; "round" is the brush without a preset */
-    /* Fonts chosen last, newest first, owned; NULL ends them: a name of wr_font_names or "FACE PATH". */
+    double mask_strength; /* brush strength on masks, 0..1 */
+    /* strength of the opposite action (lower while raising, or the reverse); 0: the same */
+    double other_strength;
+    bool lock_size;                      /* keep the size when the preset changes */
+    char *favourites[WR_FAVOURITES_MAX]; /* preset ids, owned; NULL-terminated */
+    /* recently used preset ids, newest first, owned; NULL-terminated; "round" is the brush without
+       a preset */
+    char *used[WR_USED_MAX];
+    /* Recently used fonts, newest first, owned; NULL-terminated: a name of wr_font_names or "FACE PATH". */
     char *fonts[WR_FONTS_MAX];
-    bool symmetric;      /* brush.symmetry is `symmetry`; else there is none */
-    WrSymmetry symmetry; /* kept while it is off */
-    bool symmetry_panel; /* shown */
-    int key_map;         /* wr_key_maps */
+    bool symmetric;      /* brush.symmetry is `symmetry`; else there is no symmetry */
+    WrSymmetry symmetry; /* kept while symmetry is off */
+    bool symmetry_panel; /* visible */
+    int key_map;         /* index into wr_key_maps */
     WrDrawSettings drawing;
-    int steady;                          /* WrRelightKind of strokes by hand */
-    double steady_smooth, steady_string; /* their lengths, pixels at scale 1 */
-    bool steady_catch_up;                /* a line on a string ends where the pointer does */
-    WrFakePressure fake;                 /* of the mouse; held counts while it is not by speed */
-    char *pens[WR_PENS_MAX]; /* pressure curves of devices, "CURVE NAME", owned; NULL ends them */
-    char *recent[WR_RECENT_MAX + 1]; /* absolute paths, newest first, owned; NULL ends them */
+    int steady;                          /* stroke stabilizer: WrRelightKind */
+    double steady_smooth, steady_string; /* stabilizer lengths, pixels at scale 1 */
+    bool steady_catch_up;                /* the line catches up with the pointer at its end */
+    /* simulated pressure of the mouse; `held` is its value unless it depends on speed */
+    WrFakePressure fake;
+    char *pens[WR_PENS_MAX]; /* pressure curves of devices, "CURVE NAME", owned; NULL-terminated */
+    /* recent files: absolute paths, newest first, owned; NULL-terminated */
+    char *recent[WR_RECENT_MAX + 1];
 } WrSettings;
 
 WrSettings wr_settings_default(void);
 void wr_settings_fini(WrSettings *settings);
-/* Take what lines say; lines that are unknown or out of range are passed over, so that a file of another
- * version, or a damaged one, never keeps the window from opening. */
+/* Apply setting lines. Unknown or out-of-range lines are skipped, so that a file of another version, or a damaged
+ * one, never prevents the window from opening. */
 void wr_settings_parse(WrSettings *settings, const char *text);
 void wr_settings_print(const WrSettings *settings, WrText *text);
 
 void wr_settings_load(WrSettings *settings);
-/* The folder of wr_config_path (base/file.h); a failure is silent: nothing is lost but comfort. */
+/* Create the folder of wr_config_path (base/file.h); a failure is ignored, since only settings are lost. */
 void wr_settings_make_folder(void);
 
-/* ---- settings_keep.c: the file while several windows are open ---- */
+/* ---- settings_keep.c: the file shared by several open windows ---- */
 
-/* All that is kept; the caller's (wr_settings_fini). Of the brush's preset and tip it has the names. */
+/* A copy of all saved settings, owned by the caller (wr_settings_fini). The brush's preset and tip are copied as
+   names. */
 WrSettings wr_settings_copy(const WrSettings *settings);
-bool wr_settings_equal(const WrSettings *a, const WrSettings *b); /* in all that is kept */
-/* What changed from `base` to `mine` is changed in `theirs` too; what did not stays as it is there. */
+bool wr_settings_equal(const WrSettings *a, const WrSettings *b); /* compares all saved settings */
+/* Three-way merge: apply the changes from `base` to `mine` to `theirs`. */
 void wr_settings_merge(const WrSettings *base, const WrSettings *mine, WrSettings *theirs);
-/* Have the same recent files, brushes used, favourites and pens as another. */
+/* Copy the lists of recent files, used brushes, favourites and pens from another. */
 void wr_settings_take_lists(WrSettings *settings, const WrSettings *from);
-/* Write what changed since `known`, which is what this program read or wrote last and becomes what is known now:
- * `now` with the lists as the file has them, another window's additions too. last: wait a little where
- * another window is writing just then, and write in any case; else that is a failure. True if it is
- * written; a failure is silent. */
+/* Write the changes since `known`, the last state read or written by this program, and update it. Writes `now` with
+ * the lists of the file merged in, so that additions by other windows are kept. last: wait briefly if another window
+ * is writing, and write in any case; otherwise a busy file is a failure. True if written; failures are not reported.
+ */
 bool wr_settings_update(WrSettings *known, const WrSettings *now, bool last);
 
-/* Keep a text of the settings, NULL: none. */
+/* Set a text setting, NULL: none. */
 void wr_settings_set_text(char **text, const char *value);
-/* A preset was chosen: it becomes the first of those used. */
+/* Move a preset to the front of the recently used ones. */
 void wr_settings_note_used(WrSettings *settings, const char *id);
-/* The same of a font. */
+/* Move a font to the front of the recently used ones. */
 void wr_settings_note_font(WrSettings *settings, const char *font);
-/* Index of a favourite, or -1; put it at the end, or take it out; does nothing more when all places are
- * taken. */
+/* Index of a favourite, or -1; toggle appends it, or removes it; nothing is appended to a full list. */
 int wr_settings_favourite(const WrSettings *settings, const char *id);
 void wr_settings_set_favourite(WrSettings *settings, const char *id, bool favourite);
 
-/* A line "CURVE NAME" of a pen, in the place of that pen's old one: where its name begins, NULL if it is none. */
+/* The device name in a line "CURVE NAME", NULL if the line is invalid; adding such a line replaces the device's old
+   one. */
 const char *wr_settings_pen_name(const char *line);
 void wr_settings_keep_pen(WrSettings *settings, const char *line);
 
-/* Put a path first in the list of recent files. */
+/* Move a path to the front of the recent files. */
 void wr_settings_note_recent(WrSettings *settings, const char *path);

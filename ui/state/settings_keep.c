@@ -1,5 +1,5 @@
-/* The settings' file, which every window that is open writes whenever something changes: what one of them did is
-   brought into what the file has, so that none takes away what another has added. */
+/* The settings file shared by all open windows. Each window merges its own changes into the file's content, so that
+   none removes additions of another. */
 #include "ui/state/settings.h"
 
 #include "base/array.h"
@@ -14,7 +14,7 @@
 
 #define FILE_NAME "window.conf"
 #define LOCK_NAME "window.lock"
-/* Of 1 ms, when it must be written now: others may let go for moments only. */
+/* Tries of 1 ms for the final write; others hold the lock only for moments. */
 #define PATIENCE_TRIES 5000
 
 static void copy_texts(char **to, char *const *from, int most)
@@ -25,7 +25,7 @@ static void copy_texts(char **to, char *const *from, int most)
     }
 }
 
-/* The numbers alone; nothing in it is owned. */
+/* Copy of the numbers alone; owns no texts. */
 static WrSettings without_texts(const WrSettings *settings)
 {
     WrSettings copy = *settings;
@@ -75,9 +75,9 @@ bool wr_settings_equal(const WrSettings *a, const WrSettings *b)
     return equal;
 }
 
-/* ---- what one window did, brought into what another wrote ---- */
+/* ---- merge ---- */
 
-/* Both print the same names in the same order: what differs was changed. */
+/* Both print the same names in the same order, so differing lines are changes. */
 static void merge_numbers(const WrSettings *base, const WrSettings *mine, WrSettings *theirs)
 {
     WrSettings before = without_texts(base), now = without_texts(mine);
@@ -116,8 +116,8 @@ static int place_of(char *const *list, int most, const char *text)
     return -1;
 }
 
-/* How many at the front of `mine` were put there since it was `base`: those that the order of the others does
-   not explain. */
+/* Number of entries at the front of `mine` that were added or moved there since `base`: those that the order of the
+   remaining ones does not explain. */
 static int fresh_of(char *const *base, char *const *mine, int most)
 {
     int fresh = count_of(mine, most), behind = most;
@@ -168,7 +168,7 @@ void wr_settings_merge(const WrSettings *base, const WrSettings *mine, WrSetting
 
 /* ---- the file ---- */
 
-/* Held while the file is read and written; -1: another window holds it. */
+/* Lock for reading and writing the file; -1: another window holds it. */
 static int lock(bool now)
 {
     char *path = wr_config_path(LOCK_NAME);
@@ -185,7 +185,7 @@ static int lock(bool now)
     return -1;
 }
 
-/* What the file has; what it does not say is as in `now`, and so is all of it where there is none. */
+/* Settings of the file; missing values, or all of them without a file, are those of `now`. */
 static WrSettings read_file(const char *path, const WrSettings *now)
 {
     char *bytes = NULL;
@@ -200,7 +200,7 @@ static WrSettings read_file(const char *path, const WrSettings *now)
 bool wr_settings_update(WrSettings *known, const WrSettings *now, bool last)
 {
     char *path = wr_config_path(FILE_NAME);
-    if (!path) return true; /* there is no place for it */
+    if (!path) return true; /* there is no settings folder */
     wr_settings_make_folder();
     int held = lock(last);
     bool good = held >= 0 || last;
