@@ -26,20 +26,20 @@
 #include <string.h>
 
 #define ROW 30.0
-#define SAMPLE 180.0 /* units that a name's letters have */
+#define SAMPLE 180.0 /* width of a font sample in units */
 #define WIDE 450.0
 #define TALL 420.0
 #define PAGE 10 /* rows */
-#define BATCH 6 /* samples that are made at once */
+#define BATCH 6 /* samples rendered in one job */
 
 typedef struct Row {
-    WrFontEntry entry; /* owned; of a named one nothing but family */
-    const char *named; /* of wr_font_names; NULL: installed */
+    WrFontEntry entry; /* owned; for a built-in name only the family */
+    const char *named; /* from wr_font_names; NULL: an installed font */
     SDL_Texture *texture;
     bool asked, failed;
 } Row;
 
-/* Where a heading stands before a row of the list as it is shown. */
+/* A shown row of the list, with an optional heading above. */
 typedef struct Shown {
     int row;
     const char *heading; /* NULL: none */
@@ -49,11 +49,11 @@ typedef struct Item {
     int row;
     const char *named;
     WrFontEntry entry; /* owned */
-    uint32_t *argb;    /* owned; NULL: it cannot be read */
+    uint32_t *argb;    /* owned; NULL: unreadable font */
 } Item;
 
 typedef struct Work {
-    bool lists; /* the fonts are looked for; else samples are made */
+    bool lists; /* list the fonts; else render samples */
     WrFontList fonts;
     WrError err;
     int w, h, round, count;
@@ -64,17 +64,17 @@ struct WrFontChoice {
     WrJob *job;
     WR_ARRAY(Row) rows;
     WR_ARRAY(Shown) shown;
-    bool asked, listed; /* the fonts were asked for, are there */
-    bool stale;         /* `shown` is not of what is typed */
+    bool asked, listed; /* the font list was requested, is ready */
+    bool stale;         /* `shown` does not match the typed text */
     WrError err;
-    int w, h, round; /* of the samples: pixels, and how often they were begun anew */
+    int w, h, round; /* of the samples: size in pixels, and number of restarts */
     char filter[64];
-    int chosen;       /* of shown */
-    bool fresh, jump; /* it was opened just now; the chosen one is to be seen */
+    int chosen;       /* index into `shown` */
+    bool fresh, jump; /* just opened; scroll to the chosen one */
     WR_ARRAY(int) wishes;
 };
 
-/* ---- on the job's thread ---- */
+/* ---- on the worker thread ---- */
 
 static void drop(void *arg)
 {
@@ -101,7 +101,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     }
 }
 
-/* ---- the window's side ---- */
+/* ---- on the window's thread ---- */
 
 static void add_named(WrFontChoice *choice)
 {
@@ -155,7 +155,7 @@ static void take_list(WrFontChoice *choice, Work *work)
         Row row = { .entry = work->fonts.data[i] };
         wr_array_push(&choice->rows, row);
     }
-    wr_array_free(&work->fonts); /* what it held is in the rows now */
+    wr_array_free(&work->fonts); /* its entries were moved to the rows */
     choice->err = work->err;
     choice->listed = choice->stale = true;
 }
@@ -199,7 +199,7 @@ static void ask_samples(WrFontChoice *choice)
     wr_job_start(choice->job, work);
 }
 
-/* Once a picture while the list is open, after its rows were drawn. */
+/* Continue once per frame while the list is open, after its rows were drawn. */
 static void go_on(WrApp *app, WrFontChoice *choice)
 {
     Work *work = wr_job_take(choice->job);
@@ -220,7 +220,7 @@ static void go_on(WrApp *app, WrFontChoice *choice)
     choice->wishes.count = 0;
 }
 
-/* ---- which are shown ---- */
+/* ---- filter ---- */
 
 static bool is_kept(const Row *row, const char *kept)
 {
@@ -252,7 +252,7 @@ static bool answers(const Row *row, const char *query)
     return wr_search_score(label, query) > 0;
 }
 
-/* Without words: those that were chosen last, then all. */
+/* Without typed text: recently chosen fonts, then all. */
 static void sort_shown(const WrApp *app, WrFontChoice *choice)
 {
     static const char recent[] = "RECENT", named[] = "BY NAME", installed[] = "INSTALLED";
@@ -267,7 +267,7 @@ static void sort_shown(const WrApp *app, WrFontChoice *choice)
     choice->stale = false;
 }
 
-/* ---- what is in hand ---- */
+/* ---- current font ---- */
 
 static int param_of(const WrGenerateHand *hand, const char *name)
 {
@@ -340,7 +340,7 @@ static void move_by_keys(WrFontChoice *choice)
     choice->jump = choice->jump || choice->chosen != was;
 }
 
-/* The place in `shown` that was pressed, or -1. */
+/* The pressed index into `shown`, or -1. */
 static int rows(const WrApp *app, WrFontChoice *choice, int param)
 {
     int pressed = -1;
@@ -361,7 +361,7 @@ static int rows(const WrApp *app, WrFontChoice *choice, int param)
     return pressed;
 }
 
-/* The one in hand is the first to be seen. */
+/* Scroll to the current font. */
 static void find_current(const WrApp *app, WrFontChoice *choice, int param)
 {
     choice->chosen = 0;

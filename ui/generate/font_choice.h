@@ -1,5 +1,5 @@
-/* font_choice.h - choosing among the fonts that are installed: a list that opens from the row of a font, each name in
-   letters of its own. The list and the letters are made in the background, only of those that are seen. */
+/* font_choice.h - font menu: the list opened from a font row, with each name in its own font. The list and the
+   samples are loaded in the background, and only visible samples are rendered. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
@@ -12,22 +12,23 @@
 
 typedef struct WrFontChoice WrFontChoice;
 
-/* The row of a parameter that names a font, in place of its few words: of which installed file it is if it is one.
- * Whether another font was chosen, which changes `font`, `file` and `face` of what is in hand. */
+/* Row of a font parameter, replacing its few choice words; also names the installed file in use. True if another font
+ * was chosen, which changes `font`, `file` and `face` of the current generator. */
 bool wr_font_choice_row(WrApp *app, int param);
 void wr_font_choice_free(WrApp *app);
 
 extern const WrPart wr_part_font_choice;
 
-/* ---- font_sample.c: on the job's thread ---- */
+/* ---- font_sample.c: on the worker thread ---- */
 
-/* What a word looks like in a font, white, as opaque as it covers a pixel; the baseline stands at the same height in all.
+/* Rendered sample of a word in a font: white, with pixel coverage as alpha. The baseline is at the same height in all
+ * samples.
  *
- * sample   the font, a named one or a file and a face of it, and the picture's size in pixels
- * argb     [h][w], the caller's; top row first
+ * sample   the font (a built-in name, or a file and its face) and the picture's size in pixels
+ * argb     [h][w], allocated by the caller; top row first
  * False    the font cannot be read, or `progress` was cancelled */
 typedef struct WrFontSample {
-    const char *named; /* of wr_font_names; NULL: entry */
+    const char *named; /* from wr_font_names; NULL: entry */
     const WrFontEntry *entry;
     int w, h;
 } WrFontSample;

@@ -1,5 +1,5 @@
-/* A word in a font, as a small picture. The text generator makes it, so that what is seen is what would be written, and a
-   damaged font does no harm: the reader process has it. */
+/* A word in a font as a small picture, rendered by the text generator. The sample thus matches the result, and a
+   damaged font can harm only the reader process. */
 #include "ui/generate/font_choice.h"
 #include "ui/jobs/edit_preview_generate.h"
 
@@ -11,8 +11,8 @@
 
 #include <math.h>
 
-#define BASELINE 0.72 /* of the height, from the top */
-#define LETTERS 0.62  /* the size that fonts count, of the height */
+#define BASELINE 0.72 /* fraction of the height, from the top */
+#define LETTERS 0.62  /* font size, as a fraction of the height */
 
 static void line_of(const WrFontSample *sample, WrText *line)
 {

@@ -29,14 +29,14 @@
 #define TILE_UNITS 76
 #define COLUMNS 5
 #define LIST_UNITS 470
-#define TEXELS 384.0        /* a side of the table that is made for a picture, about */
-#define PLACED_TEXELS 192.0 /* for one thing at one place */
-#define STEEPNESS 0.07      /* from the lowest to the highest, by the table's side */
+#define TEXELS 384.0        /* approximate side of the table of a picture */
+#define PLACED_TEXELS 192.0 /* for generators of one placed object */
+#define STEEPNESS 0.07      /* height range divided by the table's side */
 #define WRITTEN "Aa"
 
 typedef struct Tile {
     const WrGenerator *generator;
-    SDL_Texture *texture; /* owned; NULL: not there yet, or never */
+    SDL_Texture *texture; /* owned; NULL: not ready, or failed */
     bool asked;
 } Tile;
 
@@ -44,17 +44,18 @@ struct WrGallery {
     WrJob *job;
     Tile tiles[ITEMS_MAX];
     int count;
-    int side;  /* pixels of the textures */
-    int round; /* of asking: what an older one asked for is not wanted */
+    int side;  /* texture size in pixels */
+    int round; /* number of the request; results of older ones are dropped */
     char filter[64];
-    bool fresh; /* it was opened just now */
+    bool fresh; /* just opened */
 };
 
 typedef struct Work {
-    int index, round, side; /* of the tile; pixels of its picture */
-    int texels;             /* a side of the table, a multiple of the picture's */
-    char *line, *ground;    /* command lines, owned: of the generator, of its family's first one */
-    uint32_t *argb;         /* [side * side], owned; NULL: nothing came of it */
+    int index, round, side; /* tile index; size of its picture in pixels */
+    int texels;             /* side of the table, a multiple of the picture's */
+    /* command lines, owned: of the generator, of the first one in its family */
+    char *line, *ground;
+    uint32_t *argb; /* [side * side], owned; NULL: failed */
 } Work;
 
 static void drop(void *arg)
@@ -66,9 +67,9 @@ static void drop(void *arg)
     wr_free(work);
 }
 
-/* ---- on the job's thread ---- */
+/* ---- on the worker thread ---- */
 
-/* What a line makes of a level table, or of what `first` makes of one; NULL if nothing can be seen. */
+/* Run a line on a flat table, or on the result of `first`; NULL if the result is flat. */
 static WrDocument *made(const Work *work, const char *first, WrPool *pool,
                         const WrProgress *progress)
 {
@@ -91,7 +92,7 @@ static WrDocument *made(const Work *work, const char *first, WrPool *pool,
     return NULL;
 }
 
-/* Lit from the upper left, as much as a relief of STEEPNESS would be. */
+/* Shading from the upper left, scaled to a relief of STEEPNESS. */
 static double light(const WrField *field, int i, int j, double steep)
 {
     int w = wr_field_width(field), h = wr_field_height(field);
@@ -125,7 +126,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
     Work *work = arg;
     WrDocument *document = made(work, NULL, pool, progress);
-    if (!document && work->ground) /* it may be one that changes what lies there */
+    if (!document && work->ground) /* it may modify existing heights */
         document = made(work, work->ground, pool, progress);
     if (!document) return;
     work->argb = wr_alloc((size_t)work->side * (size_t)work->side, sizeof *work->argb);
@@ -133,7 +134,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     wr_document_free(document);
 }
 
-/* ---- the window's side ---- */
+/* ---- on the window's thread ---- */
 
 static WrGallery *gallery_of(WrApp *app)
 {
@@ -231,7 +232,7 @@ static bool answers(const WrGenerator *generator, const char *query)
            wr_search_score(wr_words(generator->label), query) > 0;
 }
 
-/* A tile and its name below it: true if it was pressed. */
+/* A tile and its name below; true if pressed. */
 static bool tile(const WrApp *app, const Tile *tile, int id)
 {
     double side = wr_gui_px(TILE_UNITS);
@@ -248,8 +249,7 @@ static bool tile(const WrApp *app, const Tile *tile, int id)
     return pressed;
 }
 
-/* Those that answer to what is typed, by family; `first` becomes the first of them. Returns the one that was
-   pressed, or NULL. */
+/* Tiles that match the typed text, by family; `first` becomes the first one. Returns the pressed one, or NULL. */
 static const WrGenerator *tiles(WrApp *app, const WrGallery *gallery, const WrGenerator **first)
 {
     const WrGenerator *pressed = NULL;

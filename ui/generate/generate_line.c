@@ -1,4 +1,4 @@
-/* The values of the generator in hand, and the command line that they make; and a line's values. */
+/* Conversion between the values of the current generator and its command line. */
 #include "ui/state/app_state.h"
 #include "ui/state/line.h"
 #include "ui/state/messages.h"
@@ -77,7 +77,7 @@ void wr_generate_set_text(WrGenerateValue *value, const char *text)
     SDL_utf8strlcpy(value->text, text, WR_GENERATE_TEXT);
 }
 
-/* Terms have no default: one that shows what they are. */
+/* Default text for terms, which have none: an example. */
 static void first_term(const WrParam *p, WrText *text)
 {
     for (int k = 0; k < p->fewest; k++) {
@@ -110,7 +110,7 @@ void wr_generate_defaults(WrApp *app)
     hand->preset = -1;
 }
 
-/* What a parsed argument says, as it is written. */
+/* Text of a parsed argument in command syntax. */
 static bool take_written(WrGenerateValue *value, const WrCall *call, const WrParam *p)
 {
     WrText text = { 0 };
@@ -163,14 +163,14 @@ bool wr_generate_load(WrApp *app, const char *line)
 
 /* ---- the line ---- */
 
-/* In quotes, whatever it is. */
+/* Append the text in quotes. */
 static void add_quoted(WrText *line, const char *word, bool lines)
 {
     wr_text_add(line, "\"");
     for (const char *c = word; *c; c++) {
-        if (*c == '\r') continue; /* of what was pasted */
-        bool turn =
-            lines && (*c == '\n' || *c == '\\'); /* doubled: once for it, once for the quotes */
+        if (*c == '\r') continue; /* from pasted text */
+        /* escaped twice: for the text, and for the quotes */
+        bool turn = lines && (*c == '\n' || *c == '\\');
         if (*c == '"' || *c == '\\' || turn) wr_text_add(line, "\\");
         if (turn) wr_text_add(line, *c == '\n' ? "\\n" : "\\\\\\");
         else wr_text_add_n(line, c, 1);
@@ -186,9 +186,9 @@ static void add_value(WrText *line, const WrParam *p, const WrGenerateValue *val
     if (p->kind == WR_PARAM_TEXT || p->kind == WR_PARAM_FILE) {
         add_quoted(line, value->text, p->kind == WR_PARAM_TEXT);
     } else if (is_written(p->kind) && strpbrk(value->text, "#\"\\")) {
-        add_quoted(line, value->text, false); /* no numbers, nor the end of the line */
+        add_quoted(line, value->text, false); /* invalid numbers, but the line must stay intact */
     } else if (is_written(p->kind)) {
-        for (const char *c = value->text; *c; c++) /* blanks would end it */
+        for (const char *c = value->text; *c; c++) /* blanks would end the value */
             if (*c != ' ' && *c != '\t') wr_text_add_n(line, c, 1);
     } else if (p->kind == WR_PARAM_CHOICE) {
         wr_text_add(line, p->words[(int)value->number[0]]);

@@ -1,5 +1,5 @@
-/* Presets of generators, in presets.wrinkle in the settings folder: the name as a comment, the command below
-   it; so the file is also a script. Lines that are not understood are kept as they are. */
+/* Presets of generators, in presets.wrinkle in the settings folder: the name as a comment, the command below, so that
+   the file is also a script. Unknown lines are kept. */
 #include "ui/state/app_state.h"
 #include "ui/state/messages.h"
 #include "ui/state/settings.h"
@@ -59,7 +59,7 @@ static void parse(WrGenerateHand *hand, const char *text)
     wr_free(name);
 }
 
-/* As the file has them now: another window may have added some. False: it is there and cannot be read. */
+/* Read the file again, since another window may have added presets. False: it exists but is unreadable. */
 static bool read_file(WrApp *app, WrError *err)
 {
     char *path = wr_config_path("presets.wrinkle"), *bytes = NULL;
@@ -107,7 +107,7 @@ static int find(const WrGenerateHand *hand, const WrGenerator *generator, const 
     return -1;
 }
 
-/* Blanks at the ends go, what would end the line or stand for more becomes a blank. */
+/* Trim blanks and a leading #; control characters become blanks. */
 static bool tidy(const char *name, char out[WR_GENERATE_NAME])
 {
     SDL_utf8strlcpy(out, name + strspn(name, " #\t"), WR_GENERATE_NAME);

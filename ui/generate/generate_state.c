@@ -1,4 +1,4 @@
-/* The generator in hand: its values, its command line, and what it would make. */
+/* The current generator: its values, its command line and its preview. */
 #include "ui/generate/generate_state.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
@@ -26,9 +26,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PATIENCE_SECONDS 0.25 /* a result that comes so soon is waited for, outdated or not */
-#define QUICK_SECONDS 0.12    /* what takes longer is shown roughly first */
-#define LARGE_TEXELS 1e6 /* where nothing is known yet: a larger table is shown roughly first */
+#define PATIENCE_SECONDS 0.25 /* an outdated result that is due this soon is still awaited */
+#define QUICK_SECONDS 0.12    /* slower generators show a rough result first */
+#define LARGE_TEXELS 1e6      /* before any measurement: larger tables show a rough result first */
 
 void wr_generate_new(WrApp *app)
 {
@@ -55,17 +55,17 @@ void wr_generate_free(WrApp *app)
     app->generate = NULL;
 }
 
-/* ---- what is wrong ---- */
+/* ---- errors ---- */
 
-/* What follows the value in "NAME=VALUE: what is right", or in "NAME: what is right". */
+/* Text after the value in "NAME=VALUE: remedy", or in "NAME: remedy". */
 static const char *rest_of(const char *said, size_t name)
 {
     const char *colon = strstr(said + name, ": ");
     return said[name] == '=' && colon ? colon + 2 : said[name] == ':' ? said + name + 2 : said;
 }
 
-/* Messages are "GENERATOR: NAME=VALUE: what is right", "GENERATOR: NAME is missing ..." or "GENERATOR: FILE:
-   what is wrong with it". */
+/* Messages are "GENERATOR: NAME=VALUE: remedy", "GENERATOR: NAME is missing ..." or "GENERATOR: FILE: fault of the
+   file". */
 void wr_generate_blame(WrGenerateHand *hand)
 {
     const char *said = hand->err.text, *colon = strstr(said, ": ");
@@ -87,7 +87,7 @@ void wr_generate_blame(WrGenerateHand *hand)
     }
 }
 
-/* ---- taking it in hand ---- */
+/* ---- choice of a generator ---- */
 
 static bool is_of(const char *line, const WrGenerator *generator)
 {
@@ -134,7 +134,7 @@ void wr_generate_take(WrApp *app, const WrGenerator *generator)
 
 void wr_generate_focus_text(WrApp *app)
 {
-    app->generate->focus_text = WR_GENERATE_WAKE; /* the panel may not have been there */
+    app->generate->focus_text = WR_GENERATE_WAKE; /* the panel may not have been visible */
     app->redraw = WR_GENERATE_WAKE;
 }
 
@@ -171,7 +171,7 @@ void wr_generate_open_last(WrApp *app)
 void wr_generate_changed(WrApp *app)
 {
     int tool = wr_tool_find(app, WR_ACT(generate));
-    if (app->tool != tool) wr_tool_choose(app, tool); /* choosing lets go of what is dragged */
+    if (app->tool != tool) wr_tool_choose(app, tool); /* choosing a tool ends a drag */
     app->generate->active = true;
     wr_app_redraw(app);
 }
@@ -185,7 +185,7 @@ void wr_generate_file(WrApp *app, const char *path)
     wr_generate_changed(app);
 }
 
-/* ---- what would come of it ---- */
+/* ---- preview ---- */
 
 static void ask(WrApp *app, const char *line)
 {
@@ -200,8 +200,8 @@ static void ask(WrApp *app, const char *line)
     wr_app_try(app, &(WrEditPreviewAsk){ .line = line, .rough = slow });
 }
 
-/* Something is under way that will soon be there, outdated or not: so that a slider that never rests does
-   not keep all of them from being seen. */
+/* True if a result, even an outdated one, will be ready soon. It is then shown first, so that a continuously dragged
+   slider does not suppress all previews. */
 static bool is_awaited(WrApp *app)
 {
     double seconds;
@@ -215,7 +215,7 @@ static void look(WrApp *app)
     WrError err;
     if (wr_edit_preview_error(app->trial, &err)) {
         hand->err = err;
-        /* What another one made is not what would come of this one. */
+        /* A result of another generator must not stay visible. */
         if (hand->seconds == 0.0) wr_edit_preview_end(app->trial);
         wr_app_redraw(app);
     } else if (hand->asked_of == hand->generator && !wr_edit_preview_busy(app->trial, NULL, NULL) &&

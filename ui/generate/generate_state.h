@@ -1,6 +1,6 @@
-/* generate_state.h - what the Generate panel holds: the generator in hand and its values. The views show what
-   it would make, on a snapshot, while it is `active`; only wr_generate_commit changes the document. All is
-   made from the generators' table: none is named here. */
+/* generate_state.h - state of the Generate panel: the current generator and its values. While it is `active`, the
+   views show its preview on a snapshot; only wr_generate_commit changes the document. Everything derives from the
+   table of generators; no generator is named here. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
@@ -21,23 +21,24 @@ typedef struct WrGallery WrGallery;
 typedef struct WrPointer WrPointer;
 typedef struct WrText WrText;
 
-#define WR_GENERATE_WAKE 8      /* pictures that a new field takes to get the keyboard, at most */
-#define WR_GENERATE_TEXT 4096   /* bytes of a text, a file's name, a list of points */
-#define WR_GENERATE_PRESETS 500 /* of the user's own, at most */
-#define WR_GENERATE_NAME 64     /* bytes of a preset's name */
+#define WR_GENERATE_WAKE 8      /* frames in which focusing a new field is tried */
+#define WR_GENERATE_TEXT 4096   /* size limit in bytes of a text, a file name, a list of points */
+#define WR_GENERATE_PRESETS 500 /* limit of user presets */
+#define WR_GENERATE_NAME 64     /* size limit of a preset's name in bytes */
 
 typedef struct WrGenerateValue {
     double number[3]; /* as WrParamValue */
-    char *text; /* [WR_GENERATE_TEXT], owned: texts, files; points and terms as they are written.
-                         NULL for other kinds */
+    /* [WR_GENERATE_TEXT], owned: texts, file names; points and terms in command syntax. NULL for
+       other kinds */
+    char *text;
 } WrGenerateValue;
 
 typedef struct WrGeneratePreset {
     char *name, *line;            /* owned */
-    const WrGenerator *generator; /* NULL: the line is not understood, but kept */
+    const WrGenerator *generator; /* NULL: an unknown line, which is kept */
 } WrGeneratePreset;
 
-/* Parts of what is drawn on the canvas. */
+/* Handles on the canvas. */
 typedef enum WrPosePart {
     WR_POSE_NONE,
     WR_POSE_PLACE,
@@ -47,90 +48,91 @@ typedef enum WrPosePart {
 } WrPosePart;
 
 typedef struct WrGenerateHand {
-    const WrGenerator *generator; /* NULL: none was chosen yet */
+    const WrGenerator *generator; /* NULL: none chosen yet */
     WrGenerateValue value[WR_GENERATOR_PARAMS];
     int blend; /* WrBlend */
     double radius, offset;
-    WR_ARRAY(char *) kept; /* lines of generators that were in hand before, owned */
+    WR_ARRAY(char *) kept; /* lines of previously used generators, owned */
 
-    bool active;                 /* the views show what it would make */
-    char *asked;                 /* line that the trial was asked for, owned; NULL: none */
-    uint64_t asked_at;           /* the document's revision then */
-    double seconds;              /* that its last exact result took; 0: not known */
-    const WrGenerator *asked_of; /* whose line that was */
-    WrError err;                 /* why there is nothing to be seen; "": there is */
-    int blamed; /* the parameter that err is about, by wr_generate_blame; -1: none of them alone */
-    const char *blame; /* what err says of it, in err */
-    int opened;        /* counts openings: each shows its first value */
-    bool blame_seen;   /* the panel said so beside it, in the last picture */
-    int focus_text;    /* the text gets the keyboard: for how many pictures that is still tried */
-    int asking_file;   /* parameter that a file is being chosen for */
+    bool active;                 /* the views show the preview */
+    char *asked;                 /* line of the requested preview, owned; NULL: none */
+    uint64_t asked_at;           /* the document's revision at the request */
+    double seconds;              /* duration of its last exact result; 0: unknown */
+    const WrGenerator *asked_of; /* generator of that line */
+    WrError err;                 /* reason for a missing preview; "": there is one */
+    /* index of the parameter that err is about (wr_generate_blame); -1: no single one */
+    int blamed;
+    const char *blame; /* part of err about the parameter */
+    int opened;        /* count of openings: each scrolls to the first value */
+    bool blame_seen;   /* the panel showed the error beside the value in the last frame */
+    int focus_text;    /* remaining frames in which focusing the text field is tried */
+    int asking_file;   /* index of the parameter whose file is being chosen */
 
     WR_ARRAY(WrGeneratePreset) presets;
     bool presets_known;
-    char name[WR_GENERATE_NAME]; /* of a preset to be saved */
-    int preset;                  /* chosen, index; -1: the defaults, -2: none of them */
+    char name[WR_GENERATE_NAME]; /* name of a new preset */
+    int preset;                  /* index of the chosen preset; -1: the defaults, -2: none */
 
     WrGallery *gallery;  /* owned; NULL until it is opened */
-    WrFontChoice *fonts; /* owned; likewise */
+    WrFontChoice *fonts; /* owned; NULL until it is opened */
 
-    WrPosePart held; /* by the pointer */
+    WrPosePart held; /* handle being dragged */
     double first[3], first_number[3];
-    bool placed; /* the press put it there */
-    int point;   /* of its places, the one that is held; -1: none */
+    bool placed; /* the press placed the object there */
+    int point;   /* index of the dragged point; -1: none */
     WrSelectPoint point_first;
 } WrGenerateHand;
 
 void wr_generate_new(WrApp *app);
 void wr_generate_free(WrApp *app);
 
-/* ---- what is in hand ---- */
+/* ---- current generator ---- */
 /* The generator of an action "generate_FAMILY" or "generate_FAMILY_NAME", or NULL; and its name. */
 const WrGenerator *wr_action_generator(const char *name);
 #define WR_GENERATE_ACTION 64
 void wr_generate_action(const WrGenerator *generator, char name[WR_GENERATE_ACTION]);
-/* Open what "generate_FAMILY_NAME" says; see WrActionFamily. */
+/* Open the generator of "generate_FAMILY_NAME"; see WrActionFamily. */
 bool wr_generate_by_name(WrApp *app, const char *name);
-/* Take it in hand with the values it last had, choose its tool and its tab, and show what it would make. */
+/* Choose the generator with its last values, its tool and its tab, and start the preview. */
 void wr_generate_open(WrApp *app, const WrGenerator *generator);
-/* The one that was in hand last, or the first. */
+/* The last used generator, or the first. */
 const WrGenerator *wr_generate_last(const WrApp *app);
 void wr_generate_open_last(WrApp *app);
-/* Take it in hand, nothing more. */
+/* Choose the generator without preview, tool and tab. */
 void wr_generate_take(WrApp *app, const WrGenerator *generator);
 void wr_generate_defaults(WrApp *app);
-/* The values of a command line; a failure becomes a message. */
+/* Load the values of a command line; a failure becomes a message. */
 bool wr_generate_load(WrApp *app, const char *line);
-/* The command line that the values make. Only what differs from the defaults is told. */
+/* The command line of the values; defaults are omitted. */
 void wr_generate_line(const WrGenerateHand *hand, WrText *line);
-/* The index of the first parameter that is one of `names` (ends with NULL), of that kind, or -1. */
+/* Index of the first parameter of that kind whose name is in `names` (NULL-terminated), or -1. */
 int wr_generate_find(const WrGenerateHand *hand, const char *const *names, WrParamKind kind);
-/* The index of what is written: its first text. -1: it writes nothing. */
+/* Index of the written text: the first text parameter. -1: none. */
 int wr_generate_written(const WrGenerator *generator);
-/* The line of its defaults; what it writes, if anything, is `written`. */
+/* The line of its defaults, with `written` as its text, if any. */
 void wr_generate_default_line(const WrGenerator *generator, const char *written, WrText *line);
 bool wr_generate_is_default(const WrGenerateHand *hand, int param);
-/* Which parameter err is about, and what it says: sets blamed and blame. */
+/* Find the parameter that err is about: sets blamed and blame. */
 void wr_generate_blame(WrGenerateHand *hand);
-/* A text of it; cut where it is too long. */
+/* Set a text value, truncated if too long. */
 void wr_generate_set_text(WrGenerateValue *value, const char *text);
 void wr_generate_free_values(WrGenerateHand *hand);
-/* A value was changed. */
+/* To be called after a change of a value. */
 void wr_generate_changed(WrApp *app);
-void wr_generate_focus_text(WrApp *app);             /* what is written gets the keyboard */
-void wr_generate_file(WrApp *app, const char *path); /* it was chosen for asking_file */
+void wr_generate_focus_text(WrApp *app);             /* give the keyboard focus to the text field */
+void wr_generate_file(WrApp *app, const char *path); /* file chosen for asking_file */
 
-/* ---- what would come of it ---- */
-void wr_generate_update(WrApp *app); /* once before each picture */
+/* ---- preview ---- */
+void wr_generate_update(WrApp *app); /* once before each frame */
 void wr_generate_commit(WrApp *app);
-/* Letters are being written: Ctrl and Enter puts them on the table. */
+/* True while a text is typed: Ctrl+Enter then applies it. */
 bool wr_generate_writes(const WrApp *app);
-void wr_generate_cancel(WrApp *app); /* nothing is shown any more; the values stay */
+void wr_generate_cancel(WrApp *app); /* stop the preview; the values stay */
 
 /* ---- generate_presets.c: presets.wrinkle in the settings folder, a script of lines with their names as comments
    before them ---- */
-void wr_generate_presets_find(WrApp *app); /* reads them at the first call */
-bool wr_generate_preset_taken(const WrApp *app, const char *name); /* there is one of that name */
+void wr_generate_presets_find(WrApp *app); /* loads them at the first call */
+bool wr_generate_preset_taken(const WrApp *app, const char *name); /* true if that name exists */
 bool wr_generate_preset_save(WrApp *app, const char *name);
 bool wr_generate_preset_delete(WrApp *app, int index);
 
@@ -140,12 +142,12 @@ void wr_panel_generate_values(WrApp *app); /* panel_generate_values.c */
 
 /* ---- tool_pose.c ---- */
 
-/* ---- pose_points.c: its places, where it has several ---- */
-bool wr_pose_points_press(WrApp *app,
-                          const WrPointer *at); /* it took the press: there are some now */
+/* ---- pose_points.c: points of generators with several positions ---- */
+/* handled: the generator has points now */
+bool wr_pose_points_press(WrApp *app, const WrPointer *at);
 void wr_pose_points_drag(WrApp *app, const WrPointer *at);
-bool wr_pose_points_marks(const WrApp *app);           /* there are some */
-bool wr_pose_points_taken(const WrGenerateHand *hand); /* there may be some */
+bool wr_pose_points_marks(const WrApp *app);           /* it has points */
+bool wr_pose_points_taken(const WrGenerateHand *hand); /* it may have points */
 
 extern const WrPart wr_part_generate;
 

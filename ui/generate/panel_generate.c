@@ -1,4 +1,4 @@
-/* The Generate tab, made from the generators' table: which one, its presets, what it has to say. */
+/* The Generate tab, built from the table of generators: generator, presets, messages. */
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -20,7 +20,7 @@
 
 #define CHOICES_MAX 64
 
-/* ---- which one ---- */
+/* ---- choice of the generator ---- */
 
 static const WrFamily *family_of(const WrGenerator *generator)
 {
@@ -138,9 +138,9 @@ static void presets(WrApp *app)
     save_popup(app);
 }
 
-/* ---- what is said ---- */
+/* ---- messages ---- */
 
-/* What it has to say that is not said beside a value; "" if nothing. */
+/* Messages that are not shown beside a value; "" if none. */
 static const char *notes(const WrApp *app)
 {
     const WrGenerateHand *hand = app->generate;
@@ -183,7 +183,7 @@ static SDL_Rect cut(SDL_Rect *room, int height, bool top)
     return part;
 }
 
-/* How long it will take, where that is more than a moment, in a row of its own above the buttons. */
+/* Expected duration, if significant, in a row above the buttons. */
 static void expectation(const WrApp *app, SDL_Rect *room)
 {
     WrText line = { 0 };
@@ -243,7 +243,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
     head(app);
     wr_gui_area_end();
     if (room.h > wr_gui_px(20)) {
-        char name[40]; /* another one stands where it begins, not where the last was scrolled to */
+        char name[40]; /* each generator has its own scroll position */
         snprintf(name, sizeof name, "##generate_values%d", hand->opened % 64);
         wr_gui_area_begin(name, WR_AREA_PANEL, room, WR_COLOUR_LIST);
         wr_panel_generate_values(app);

@@ -1,5 +1,5 @@
-/* The middle of the Generate tab: the values of the generator in hand, and how it joins what is there. What is
-   wrong with one is said below it. */
+/* The middle of the Generate tab: values of the current generator and its blending. Errors are shown below their
+   value. */
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/line.h"
@@ -23,14 +23,13 @@
 
 /* ---- parameters ---- */
 
-#define SEED_LAST 999.0 /* of those that the small button takes in turn */
+#define SEED_LAST 999.0 /* largest seed of the button for the next seed */
 
-/* Parameters from the named one on fold away under a heading of their own, where the generator has others
-   before it. */
+/* Group of parameters starting at the named one, folded under a heading if other parameters come before it. */
 typedef struct Group {
     const char *name, *title;
-    bool number; /* only if it is a number */
-    bool open;   /* at first */
+    bool number; /* only if the parameter is a number */
+    bool open;   /* initially */
 } Group;
 
 static const Group groups[] = {
@@ -72,7 +71,7 @@ static WrNumber spec_of(const WrParam *p, int component)
                       .unit = unit_of(p),
                       .tip = p->help };
     bool unsaid = p->soft_low == p->low && p->low < 0.0 && spec.high > 0.0;
-    if (unsaid && -spec.low > spec.high) spec.low = -spec.high; /* as wide to either side */
+    if (unsaid && -spec.low > spec.high) spec.low = -spec.high; /* symmetric range */
     if (!(spec.low < spec.high)) spec.high = spec.low + 1.0;
     if (p->above && spec.low <= p->low) spec.low = p->low + (spec.high - p->low) / 1000.0;
     return spec;
@@ -115,7 +114,7 @@ static bool turn_switch(WrGenerateValue *value)
     return changed;
 }
 
-/* A seed, and a button that takes the next one. */
+/* A seed field with a button for the next seed. */
 static bool seed(const WrParam *p, WrGenerateValue *value)
 {
     WrNumber spec = spec_of(p, 0);
@@ -155,8 +154,9 @@ static bool text(WrApp *app, WrGenerateValue *value)
     char typed[WR_GENERATE_TEXT];
     memcpy(typed, value->text, sizeof typed);
     bool changed = wr_gui_text_area("##text", 3, value->text, WR_GENERATE_TEXT, focus);
-    bool done = wr_gui_field_left() && wr_gui_key_pressed(SDL_SCANCODE_RETURN); /* with Ctrl */
-    if (wr_gui_field_left() && wr_gui_escape_pressed()) { /* only leaves it: what was typed stays */
+    /* while Ctrl is held */
+    bool done = wr_gui_field_left() && wr_gui_key_pressed(SDL_SCANCODE_RETURN);
+    if (wr_gui_field_left() && wr_gui_escape_pressed()) { /* leaves the field; the text stays */
         memcpy(value->text, typed, sizeof typed);
         changed = false;
     }
@@ -195,7 +195,7 @@ static bool parameter(WrApp *app, int i)
     wr_gui_tip(p->help);
     bool changed = field(app, i, p, &hand->value[i]);
     if (p->kind != WR_PARAM_NUMBER && p->kind != WR_PARAM_WHOLE && p->kind != WR_PARAM_FILE)
-        wr_gui_tip(p->help); /* the others tell it themselves */
+        wr_gui_tip(p->help); /* other kinds show their own tip */
     if (hand->blamed == i) {
         bool missing = p->kind == WR_PARAM_FILE && !hand->value[i].text[0];
         wr_gui_text_wrapped(WR_FONT_SMALL, missing ? WR_COLOUR_CELL : WR_COLOUR_BAD,
@@ -236,12 +236,12 @@ static bool joining(WrGenerateHand *hand)
     return changed;
 }
 
-/* The group that begins with a parameter; NULL: none. */
+/* The group that starts at a parameter; NULL: none. */
 static const Group *group_at(const WrGenerator *generator, int i)
 {
     const WrParam *p = &generator->params[i];
-    bool placed =
-        wr_generator_param_find(generator, "at") >= 0; /* its height stands by its place */
+    /* its height is set by its position */
+    bool placed = wr_generator_param_find(generator, "at") >= 0;
     for (size_t k = 0; i > 0 && k < sizeof groups / sizeof *groups; k++) {
         if (strcmp(groups[k].name, p->name) != 0) continue;
         if (groups[k].number && (p->kind != WR_PARAM_NUMBER || placed)) continue;
@@ -250,7 +250,7 @@ static const Group *group_at(const WrGenerator *generator, int i)
     return NULL;
 }
 
-/* How many values of the group that begins there are not the defaults. */
+/* Number of values in the group that differ from their defaults. */
 static int count_changed(const WrGenerateHand *hand, int first, const Group *group)
 {
     int count = 0;
@@ -262,7 +262,7 @@ static int count_changed(const WrGenerateHand *hand, int first, const Group *gro
     return count;
 }
 
-/* Its heading: true while what it heads is shown. */
+/* Heading of a group; true while the group is open. */
 static bool heading(const WrGenerateHand *hand, int first, const Group *group)
 {
     char label[96];
@@ -274,7 +274,7 @@ static bool heading(const WrGenerateHand *hand, int first, const Group *group)
     return wr_gui_fold(label, group->open);
 }
 
-/* What matters most of a text stands below its letters. */
+/* The main parameters of a text are shown directly below it. */
 static const char *const written_first[] = { "size", "height", "profile", "bevel" };
 
 static bool comes_first(const WrGenerator *generator, int i)

@@ -1,5 +1,5 @@
-/* The places that a generator goes by, such as a path for letters: on the canvas Ctrl and a click adds one or
-   takes it away, a drag moves it. They are kept as they are written, "u,v;u,v;...". */
+/* Points of a generator, such as a path for letters. On the canvas, Ctrl+click adds or removes a point, and a drag
+   moves it. They are stored in command syntax, "u,v;u,v;...". */
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
@@ -20,7 +20,7 @@
 #include <string.h>
 
 #define NEAR_UNITS 9.0
-#define POINTS_MAX 64 /* that can be had in hand */
+#define POINTS_MAX 64 /* limit of editable points */
 
 typedef struct Points {
     WrSelectPoint at[POINTS_MAX];
@@ -39,7 +39,7 @@ bool wr_pose_points_taken(const WrGenerateHand *hand)
     return points_param(hand) >= 0;
 }
 
-/* False: not understood, or too many. */
+/* False: malformed, or too many. */
 static bool read_points(const char *text, Points *points)
 {
     points->count = 0;
@@ -73,7 +73,7 @@ static void write_points(WrApp *app, int param, const Points *points)
     wr_generate_changed(app);
 }
 
-/* Which one is under the pointer, on any copy of the cell; -1: none. */
+/* Index of the point under the pointer, on any copy of the cell; -1: none. */
 static int find(const WrApp *app, const Points *points, const WrPointer *at)
 {
     const WrField *field = wr_app_field(app);
@@ -89,7 +89,8 @@ static int find(const WrApp *app, const Points *points, const WrPointer *at)
     return -1;
 }
 
-/* The first lies in the real cell; the others where they are clicked, so that a path may cross its edges. */
+/* The first point is moved into the cell; further ones stay where they were clicked, so that a path may cross the
+   cell's edges. */
 static WrSelectPoint place(const WrApp *app, const Points *points, const WrPointer *at)
 {
     WrSelectPoint home = wr_overlay_home(app, at->u, at->v);

@@ -1,5 +1,4 @@
-/* The place of what the Generate panel makes: dragged on the canvas, with a corner for its size and a ring
-   for its turn, where its parameters say so. */
+/* Canvas handles for the generator's position, size (a corner) and rotation (a ring), if it has such parameters. */
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
@@ -25,18 +24,18 @@
 #include <string.h>
 
 #define NEAR_UNITS 9.0
-#define LEAST_UNITS 26.0 /* of the corner's way from the middle */
-#define RING_UNITS 22.0  /* of the ring, beyond the corner */
-#define HOLD_STEPS 3     /* of 4 units, around the pointer */
+#define LEAST_UNITS 26.0 /* least distance of the corner from the centre */
+#define RING_UNITS 22.0  /* distance of the ring beyond the corner */
+#define HOLD_STEPS 3     /* steps of 4 units around the pointer */
 
 static const char *const place_names[] = { "at", "origin", "centre", NULL };
 static const char *const size_names[] = { "size", "radius", NULL };
 static const char *const turn_names[] = { "angle", "rotate", NULL };
 
-/* Which parameters say where, how large, how turned; -1: none. */
+/* Indices of the parameters for position, size and rotation; -1: none. */
 typedef struct Pose {
     int place, size, turn;
-    int turned; /* component of the turn: the last one, about the axis that is seen from above */
+    int turned; /* component of the rotation: the last one, about the viewing axis */
 } Pose;
 
 static bool has_unit(const WrGenerateHand *hand, int i, const char *unit)
@@ -47,7 +46,7 @@ static bool has_unit(const WrGenerateHand *hand, int i, const char *unit)
 static int number_or_tuple(const WrGenerateHand *hand, const char *const *names)
 {
     int i = wr_generate_find(hand, names, WR_PARAM_NUMBER);
-    return i >= 0 ? i : wr_generate_find(hand, names, WR_PARAM_TUPLE); /* by axes */
+    return i >= 0 ? i : wr_generate_find(hand, names, WR_PARAM_TUPLE); /* per axis */
 }
 
 static Pose pose_of(const WrGenerateHand *hand)
@@ -66,7 +65,7 @@ static bool is_shown(const WrApp *app)
     return app->generate->active && app->dialog->now == WR_DIALOG_NONE;
 }
 
-/* ---- where things are, in texels ---- */
+/* ---- geometry, in texels ---- */
 
 static void middle(const WrApp *app, const Pose *pose, double *x, double *y)
 {
@@ -80,7 +79,7 @@ static double reach_units(const WrApp *app, double units)
     return units * wr_gui_scale() / app->view->zoom;
 }
 
-/* Of the corner from the middle; its size as the row says it, but far enough to be taken hold of. */
+/* Vector from the centre to the corner, from the size parameter, but long enough for a handle. */
 static double corner_way(const WrApp *app, const Pose *pose)
 {
     double size = pose->size >= 0 ? app->generate->value[pose->size].number[0] : 0.0;
@@ -97,7 +96,7 @@ static double turn_rad(const WrApp *app, const Pose *pose)
     return app->generate->value[pose->turn].number[pose->turned] * WR_RAD_PER_DEG;
 }
 
-/* The nearest copy of the middle to a pointer. */
+/* The copy of the centre nearest to the pointer. */
 static void nearest(const WrApp *app, const Pose *pose, double px, double py, double *x, double *y)
 {
     const WrField *field = wr_app_field(app);
@@ -107,7 +106,7 @@ static void nearest(const WrApp *app, const Pose *pose, double px, double py, do
     if (wr_field_wrap_v(field) == WR_WRAP_PERIODIC) *y += h * rint((py - *y) / h);
 }
 
-/* The pointer from the middle of the copy under it: texels right and up. */
+/* Vector from the centre of the nearest copy to the pointer: texels right and up. */
 static void from_middle(const WrApp *app, const Pose *pose, const WrPointer *at, double *x,
                         double *y)
 {
@@ -127,7 +126,7 @@ static WrPosePart part_at(const WrApp *app, const Pose *pose, double x, double y
     return WR_POSE_PLACE;
 }
 
-/* What is made shows itself near the pointer: it is taken hold of there, not put there. */
+/* True if the object's heights change near the pointer: a press then drags the object instead of placing it. */
 static bool is_on_it(const WrApp *app, const WrPointer *at)
 {
     const WrField *now = wr_app_field(app), *was = wr_document_field(wr_app_document(app));
@@ -145,7 +144,7 @@ static bool is_on_it(const WrApp *app, const WrPointer *at)
     return false;
 }
 
-/* ---- the gesture ---- */
+/* ---- dragging ---- */
 
 static double wrapped(const WrParam *p, bool periodic, double x)
 {
@@ -184,7 +183,7 @@ static void press(WrApp *app, const WrPointer *at)
     double x, y;
     from_middle(app, &pose, at, &x, &y);
     hand->held = part_at(app, &pose, x, y);
-    /* What has a size is put where a press beside it is; what fills the table is only moved. */
+    /* A press outside places an object with a size; a pattern that fills the table is only moved. */
     hand->placed = hand->held == WR_POSE_PLACE &&
                    strcmp(hand->generator->params[pose.place].name, "at") == 0 &&
                    hypot(x, y) > corner_way(app, &pose) && !is_on_it(app, at);
@@ -248,7 +247,7 @@ static void drag(WrApp *app, const WrPointer *at)
     wr_generate_changed(app);
 }
 
-/* A click where something is written gives that the keyboard. */
+/* A click on a text gives its field the keyboard focus. */
 static void release(WrApp *app, const WrPointer *at)
 {
     WrGenerateHand *hand = app->generate;
@@ -266,7 +265,7 @@ static bool key(WrApp *app, SDL_Keycode key)
     WrGenerateHand *hand = app->generate;
     if (!hand->active) return false;
     if (key == SDLK_ESCAPE && hand->held != WR_POSE_NONE && hand->held != WR_POSE_POINT) {
-        Pose pose = pose_of(hand); /* first what is being dragged */
+        Pose pose = pose_of(hand); /* the dragged handle has priority */
         int i = hand->held == WR_POSE_SIZE   ? pose.size
                 : hand->held == WR_POSE_TURN ? pose.turn
                                              : pose.place;
@@ -284,7 +283,7 @@ static bool key(WrApp *app, SDL_Keycode key)
     return true;
 }
 
-/* ---- on the canvas ---- */
+/* ---- drawing on the canvas ---- */
 
 static void circle(const WrApp *app, double x, double y, double radius, WrColour colour)
 {
@@ -307,7 +306,7 @@ static void marks(WrApp *app)
     const WrGenerateHand *hand = app->generate;
     double x, y;
     if (!is_shown(app)) return;
-    bool points = wr_pose_points_marks(app); /* they say where, then */
+    bool points = wr_pose_points_marks(app); /* the points then set the position */
     Pose pose = pose_of(hand);
     if (pose.place < 0 || points) return;
     middle(app, &pose, &x, &y);
@@ -325,7 +324,7 @@ static void marks(WrApp *app)
     }
 }
 
-/* ---- the option row ---- */
+/* ---- option row ---- */
 
 static void options(WrApp *app)
 {

@@ -19,14 +19,14 @@
 #include <string.h>
 
 typedef struct Work {
-    WrDocument *document; /* a snapshot of its own, changed by the work */
+    WrDocument *document; /* own snapshot, changed by the work */
     WrEditPreviewAsk ask;
-    WrDocument
-        *again; /* the snapshot as it was, for the exact result after a rough one; NULL: none */
-    char *line; /* of a generator; ask.line points to it */
+    /* unchanged copy of the snapshot, for the exact result after a rough one; NULL: none */
+    WrDocument *again;
+    char *line; /* generator line; ask.line points to it */
     WrText notes;
     double seconds;
-    WrBrush brush;  /* of a dab; ask.dab points to it */
+    WrBrush brush;  /* brush of a dab; ask.dab points to it */
     WrField *field; /* the result; NULL: none */
     WrError err;
     bool cancelled;
@@ -37,9 +37,9 @@ struct WrEditPreview {
     WrField *field; /* newest result; owned */
     WrError err;
     bool failed;
-    bool rough; /* the field is */
-    WrDocument
-        *made; /* that the field is the composite of; owned; NULL: not exact, or another size */
+    bool rough; /* the field is a rough result */
+    /* document whose composite the field is; owned; NULL: not exact, or another size */
+    WrDocument *made;
     WrText notes;
     double seconds;
 };
@@ -52,11 +52,11 @@ static void drop(void *arg)
     wr_free(work->line);
     wr_text_fini(&work->notes);
     wr_field_free(work->field);
-    if (work->ask.dab) wr_tip_free((WrTip *)work->brush.tip); /* a share of its own */
+    if (work->ask.dab) wr_tip_free((WrTip *)work->brush.tip); /* a shared reference of its own */
     wr_free(work);
 }
 
-/* ---- on the job's thread ---- */
+/* ---- on the worker thread ---- */
 
 typedef WrField *Runner(const WrOpInfo *op, const WrField *in, const double *param,
                         const WrOpOptions *options, WrError *err);
@@ -72,7 +72,7 @@ static bool adjust_field(const Work *work, Runner *run, WrField **field, const W
     return true;
 }
 
-/* As the adjust command: where texels only move, what a layer says something about moves with them. */
+/* Apply an operation as in the adjust command: if texels only move, the layer's coverage moves with them. */
 static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *options, WrError *err)
 {
     if (!layer->filter.op && !adjust_field(work, wr_op_run, &layer->heights, options, err))
@@ -82,7 +82,7 @@ static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *op
             adjust_field(work, wr_op_run_unit, &layer->mask, options, err));
 }
 
-/* What it makes is made with the composite. */
+/* A filter layer's result is computed with the composite. */
 static bool filter(const Work *work, WrDocument *document, WrError *err)
 {
     WrFilter made = { .op = work->ask.op };
@@ -167,7 +167,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     work->seconds = wr_clock_seconds() - began;
 }
 
-/* ---- the window's side ---- */
+/* ---- on the window's thread ---- */
 
 WrEditPreview *wr_edit_preview_new(int threads, Uint32 done_event)
 {
@@ -228,7 +228,7 @@ void wr_edit_preview_stop(WrEditPreview *trial)
     wr_job_interrupt(trial->job);
 }
 
-/* A rough result is there: now the exact one. */
+/* Start the exact computation after the rough result. */
 static void go_on(WrEditPreview *trial, const Work *rough)
 {
     WrEditPreviewAsk ask = rough->ask;

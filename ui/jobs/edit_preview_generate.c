@@ -16,16 +16,16 @@
 #include <math.h>
 #include <string.h>
 
-#define ROUGH_TEXELS 262144.0 /* of a rough table, about */
-#define ROUGH_LEAST 16        /* texels a side of it */
+#define ROUGH_TEXELS 262144.0 /* approximate size of a rough table */
+#define ROUGH_LEAST 16        /* least texels along a side */
 
 static void note(void *ctx, const char *text)
 {
     wr_text_addf(ctx, "%s\n", text);
 }
 
-/* By how much a rough table is smaller. What has a place, reads files or sets letters is made in full: its
-   heights or its grain may go by texels. */
+/* Reduction factor of a rough table. Generators with a position, files or text keep the full size: their heights or
+   grain may depend on texels. */
 static int rough_step(const WrGenerator *generator, const WrField *like)
 {
     double texels = (double)wr_field_width(like) * wr_field_height(like);
@@ -38,7 +38,7 @@ static int rough_step(const WrGenerator *generator, const WrField *like)
     return step < 1 || least / step < ROUGH_LEAST ? 1 : step;
 }
 
-/* Lengths in texels of a table that is `step` times smaller. */
+/* Convert lengths in texels to a table that is `step` times smaller. */
 static void shrink(const WrGenerator *generator, WrParamValue *values, int step)
 {
     for (int i = 0; generator->params[i].name; i++) {

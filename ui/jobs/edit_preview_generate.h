@@ -1,4 +1,4 @@
-/* edit_preview_generate.h - what a command line, most often a generator's, would make of a document. */
+/* edit_preview_generate.h - application of a generator or transform line to a document, for previews. */
 #pragma once
 #include <stdbool.h>
 
@@ -8,17 +8,16 @@ typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
 typedef struct WrText WrText;
 
-/* Join what the line makes to the document's active layer, inside its selection, as the command would.
+/* Blend the output of a generator line into the document's active layer, inside its selection, as the command would.
  *
  * document  changed; half done after a failure
- * line      of one of the generators' families; files as the current folder sees them
- * rough     as fast as may be: worse where that helps, on a smaller table where nothing but its size
- *           tells
- * notes     what there is to say besides, one a line
+ * line      of a generator family; relative file names refer to the current folder
+ * rough     fastest mode: lower quality, and a smaller table if the result depends only on the relative size
+ * notes     remarks, one per line
  * Threads   one for each document */
 bool wr_edit_preview_generate(WrDocument *document, const char *line, bool rough, WrPool *pool,
                               const WrProgress *progress, WrText *notes, WrError *err);
 
-/* The same of a `transform` line. */
+/* Apply a `transform` line to the document. */
 bool wr_edit_preview_transform(WrDocument *document, const char *line, WrPool *pool,
                                const WrProgress *progress, WrError *err);

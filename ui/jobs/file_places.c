@@ -13,7 +13,7 @@ static bool is_folder(const char *path)
     return wr_path_info(path, &info) && info.kind == WR_KIND_FOLDER;
 }
 
-/* Takes both strings. */
+/* Takes ownership of both strings. */
 static void add(WrFilePlace *places, int *count, char *label, char *path, bool named)
 {
     bool wanted = *count < WR_FILE_PLACES && is_folder(path);

@@ -24,7 +24,7 @@ static char *find_program(const char *name)
     return NULL;
 }
 
-/* One path on one line. */
+/* Read the answer: one path on one line. */
 void wr_file_program_hear(WrPid child, int pipe, char *answer, size_t size)
 {
     size_t length = 0;
@@ -82,7 +82,7 @@ bool wr_file_program_start(const char *title, bool save, const char *start_at, W
         wr_text_fini(&where);
         wr_text_fini(&named);
     } else if (kdialog) {
-        /* It asks by itself before it gives the name of a file that is there. */
+        /* The program itself asks before it returns the name of an existing file. */
         const char *arguments[] = { kdialog,  "--title",
                                     title,    save ? "--getsavefilename" : "--getopenfilename",
                                     start_at, NULL };

@@ -27,7 +27,7 @@
 #include <string.h>
 
 #define PATH_SIZE 4096
-#define ENTRIES_MAX 4000 /* of a folder that the panel shows */
+#define ENTRIES_MAX 4000 /* entries of a folder in the panel */
 
 typedef struct Entry {
     char *name; /* owned */
@@ -38,11 +38,12 @@ struct WrFiles {
     Uint32 done_event;
     WrFilePurpose purpose;
     char answer[PATH_SIZE]; /* "" if cancelled */
-    bool agreed;            /* the native dialog asked before it gave a name that is taken */
-    char *from;             /* owned: the file that the question began with, as a path */
+    /* the native dialog asked before it returned the name of an existing file */
+    bool agreed;
+    char *from; /* owned: initial file of the dialog, as a path */
     WrFileWay way;
-    char parent[32]; /* the window, as the portal names it */
-    /* the native dialog: of the portal, or a child's */
+    char parent[32]; /* identifier of the window for the portal */
+    /* native dialog: by the portal, or a child process */
     bool running, by_portal;
     WrPortalAsk ask; /* its texts are owned */
     WrPortalEnd end;
@@ -50,21 +51,22 @@ struct WrFiles {
     WrPid child;
     int pipe;
     WrThread waiter;
-    /* the panel */
+    /* panel */
     char folder[PATH_SIZE], field[PATH_SIZE];
     WR_ARRAY(Entry) entries;
-    int hidden; /* of the folder, that cannot be read for the purpose */
-    bool all;   /* they are shown too */
+    int hidden; /* entries that cannot be read for the purpose */
+    bool all;   /* show them too */
     bool focus;
     char trouble[512];
-    WrFilePlace places[WR_FILE_PLACES]; /* owned; as they were when it was opened */
-    int place_count;                    /* -1: they are to be looked up */
+    WrFilePlace places[WR_FILE_PLACES]; /* owned; as at the opening */
+    int place_count;                    /* -1: not yet looked up */
 };
 
 WR_ROWS(purposes);
 static const struct {
     const char *title, *done;
-    const char *ending; /* of a file to be written, for names without one; NULL: it is read */
+    /* of a file to be written, for names without extension; NULL: the file is read */
+    const char *ending;
 } purposes[WR_FILE_PURPOSES] = {
     [WR_ROW(WR_FILE_OPEN)] = { "Open", "Open", NULL },
     [WR_ROW(WR_FILE_SAVE)] = { "Save as", "Save", ".exr" },
@@ -85,7 +87,7 @@ static const struct {
     [WR_ROW(WR_FILE_PATCHES)] = { "Choose a set of patches", "Choose", NULL },
     [WR_ROW(WR_FILE_TERRAIN)] = { "Choose a picture of elevations", "Choose", NULL },
     [WR_ROW(WR_FILE_GLTF)] = { "Take the materials of a glTF", "Take", NULL },
-    [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* its name is typed */
+    [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* typed name, no file dialog */
 };
 WR_ROWS_END(purposes, WR_FILE_PURPOSES);
 
@@ -94,7 +96,7 @@ bool wr_files_writes(WrFilePurpose purpose)
     return purposes[purpose].ending != NULL;
 }
 
-/* The name with the ending that its purpose wants, where it has none. Caller frees. */
+/* The name with the purpose's default extension if it has none. The caller frees it. */
 static char *with_ending(const WrFiles *files, const char *path)
 {
     char buffer[16];
@@ -111,7 +113,7 @@ static void free_entries(WrFiles *files)
     wr_array_free(&files->entries);
 }
 
-/* They are looked up anew when the panel is shown. */
+/* Look the places up again when the panel is shown. */
 static void forget_places(WrFiles *files)
 {
     wr_file_places_free(files->places, files->place_count);
@@ -126,9 +128,9 @@ WrFiles *wr_files_new(Uint32 done_event)
     return files;
 }
 
-/* ---- the desktop's dialog ---- */
+/* ---- native dialog by a program ---- */
 
-/* Read the program's answer, on a thread of its own. */
+/* Read the program's answer, on a separate thread. */
 static void *wait_for_child(void *arg)
 {
     WrFiles *files = arg;
@@ -147,15 +149,16 @@ static bool ask_program(WrFiles *files, const char *start_at)
     files->by_portal = false;
     files->running = wr_thread_start(&files->waiter, wait_for_child, files);
     if (files->running) return true;
-    wr_file_program_dismiss(files->child); /* nobody would hear its answer */
+    wr_file_program_dismiss(files->child); /* no thread could read its answer */
     wr_fd_close(files->pipe);
     return false;
 }
 
-/* ---- the portal's dialog ---- */
+/* ---- native dialog by the portal ---- */
 
-#define SOON 1.0  /* seconds in which a portal takes the question, where another way would do */
-#define LATE 10.0 /* where it is what the user wants: it may be only starting */
+/* timeout in seconds for the portal's first response, if other dialogs are available */
+#define SOON 1.0
+#define LATE 10.0 /* timeout if the user has chosen the portal: it may be starting */
 
 static void free_ask(WrPortalAsk *ask)
 {
@@ -164,7 +167,7 @@ static void free_ask(WrPortalAsk *ask)
     *ask = (WrPortalAsk){ 0 };
 }
 
-/* On a thread of its own. */
+/* Runs on a separate thread. */
 static void *wait_for_portal(void *arg)
 {
     WrFiles *files = arg;
@@ -195,7 +198,7 @@ static bool ask_portal(WrFiles *files, const char *folder, const char *name)
     return files->running;
 }
 
-/* ---- either of them ---- */
+/* ---- both native dialogs ---- */
 
 static bool wants_own(const WrFiles *files)
 {
@@ -215,7 +218,7 @@ void wr_files_set_window(WrFiles *files, SDL_Window *window)
     if (number) snprintf(files->parent, sizeof files->parent, "x11:%lx", number);
 }
 
-/* The thread's or the child's end. */
+/* Join the thread or the child process. */
 static void join(WrFiles *files)
 {
     wr_thread_join(files->waiter);
@@ -223,7 +226,7 @@ static void join(WrFiles *files)
     files->running = false;
 }
 
-/* ---- the panel's folder ---- */
+/* ---- folder of the panel ---- */
 
 static int by_name(const void *a, const void *b)
 {
@@ -271,7 +274,7 @@ static void go_to(WrFiles *files, const char *folder)
     files->focus = true;
 }
 
-/* What is in the field as a path: "~" is the home folder, the rest is seen from the folder shown. */
+/* The field's text as a path: "~" is the home folder; relative paths refer to the shown folder. */
 static char *typed_path(const WrFiles *files)
 {
     const char *home = getenv("HOME"), *text = files->field;
@@ -281,7 +284,7 @@ static char *typed_path(const WrFiles *files)
     return wr_path_join(files->folder, text);
 }
 
-/* Return: a folder is shown, a file is the answer. */
+/* Handle Return: show a folder, or accept a file. */
 static bool accept(WrFiles *files)
 {
     if (files->field[0] == '\0') return false;
@@ -308,7 +311,7 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
     files->purpose = purpose;
     files->answer[0] = '\0';
     files->agreed = false;
-    /* While the name is chosen. */
+    /* Only for purposes with a typed name. */
     if (purpose == WR_FILE_SAVE || purpose == WR_FILE_EXPORT || purpose == WR_FILE_RENDER)
         wr_image_warm_writing();
     char *from = folder ? wr_strdup(folder) : wr_path_real(".");
@@ -326,7 +329,8 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
     return native;
 }
 
-/* The desktop's dialog knows the name without the ending only: of another file it has not asked. */
+/* The native dialog has seen the name without the added extension, so it has not asked about the file of the full
+   name. */
 static void take_native(WrFiles *files)
 {
     char *full = with_ending(files, files->answer);
@@ -412,7 +416,7 @@ static void show_entries(WrFiles *files, bool *done)
     wr_free(full);
 }
 
-/* Saving over a file that is there is a decision: say so where the eye is, before it is asked about. */
+/* Warn about overwriting an existing file below the field, before the question. */
 static void warn_overwrite(const WrFiles *files)
 {
     if (!wr_files_writes(files->purpose) || files->field[0] == '\0') return;
@@ -428,7 +432,7 @@ WrFilePurpose wr_files_purpose(const WrFiles *files)
     return files->purpose;
 }
 
-/* Folders to go to at once, in rows as long as the dialog is wide. */
+/* Buttons of the shortcut folders, in rows of the dialog's width. */
 static void show_places(WrFiles *files, char *const recent[])
 {
     if (files->place_count < 0)
@@ -437,7 +441,7 @@ static void show_places(WrFiles *files, char *const recent[])
     int count = files->place_count, chosen = -1;
     double left = wr_gui_available();
     for (int i = 0; i < count; i++) {
-        wr_gui_as_it_is(!places[i].named); /* a folder may be called as something here is */
+        wr_gui_as_it_is(!places[i].named); /* a folder's name must not be translated */
         double wide = wr_gui_text_width(WR_FONT_TEXT, places[i].label) + wr_gui_px(46);
         if (i > 0 && wide < left) wr_gui_same_line(6);
         else left = wr_gui_available();

@@ -1,5 +1,5 @@
-/* files.h - asking for a file: with the desktop's own dialog (its portal, portal.h, or zenity or kdialog, run without a
-   shell), while the window stays alive, or with a plain panel of our own. */
+/* files.h - file dialog: a native one (portal, portal.h, or zenity or kdialog, run without a shell) while the window
+   stays responsive, or a plain panel of the window. */
 #pragma once
 #include "base/enum_rows.h"
 
@@ -16,21 +16,22 @@ typedef enum WrFilePurpose {
     WR_FILE_HISTORY,
     WR_FILE_STAMP,
     WR_FILE_GENERATE,
-    WR_FILE_TABLE, /* of the chosen object */
+    WR_FILE_TABLE, /* table of the active object */
     WR_FILE_COLOUR,
     WR_FILE_NORMALS,
     WR_FILE_ROUGHNESS,
     WR_FILE_METALNESS,
     WR_FILE_SURROUND,
-    WR_FILE_MESH, /* the chosen object's surface, */
+    WR_FILE_MESH, /* mesh surface of the active object */
     WR_FILE_PATCHES,
-    WR_FILE_TERRAIN, /* and the ground's form */
-    WR_FILE_GLTF,    /* its materials and pictures */
-    WR_FILE_PRESET,  /* never asked for by itself: a preset's name is typed */
+    WR_FILE_TERRAIN, /* terrain heights of the active object */
+    WR_FILE_GLTF,    /* materials and pictures of a glTF */
+    WR_FILE_PRESET,  /* not used in a dialog: a preset's name is typed */
     WR_FILE_PURPOSES
 } WrFilePurpose;
 
-/* Who asks. */
+/* Kinds of file dialogs. AUTOMATIC: a native one if it answers soon, else the panel. DESKTOP: a native one, with a
+   longer timeout. */
 #define WR_FILE_WAYS(X)                                                                            \
     X(WR_FILE_WAY_AUTOMATIC,                                                                       \
       "Automatic") /* whichever of the desktop's answers soon, else our own */                     \
@@ -40,32 +41,32 @@ typedef enum WrFileWay { WR_FILE_WAYS(WR_WORD_ID) WR_FILE_WAY_COUNT } WrFileWay;
 
 typedef struct WrFiles WrFiles;
 
-/* done_event: an SDL event type that is pushed when a native dialog was closed. */
+/* done_event: an SDL event type, pushed when a native dialog was closed. */
 WrFiles *wr_files_new(Uint32 done_event);
-void wr_files_free(WrFiles *files); /* closes a dialog that is open */
+void wr_files_free(WrFiles *files); /* closes an open dialog */
 
-/* How the next questions are asked. window: the dialogs belong to it. */
+/* Set the kind of the next dialogs. window: parent of the dialogs. */
 void wr_files_choose_way(WrFiles *files, WrFileWay way);
 void wr_files_set_window(WrFiles *files, SDL_Window *window);
 
-/* Ask. name: the file name that the field starts with. True: a native dialog is open and the event will
- * come; false: there is none, and the panel must be drawn instead (wr_files_panel). */
+/* Open a dialog. name: initial file name. True: a native dialog is open and the event will follow; false: there is
+ * none, and the caller must draw the panel (wr_files_panel). */
 bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, const char *name);
-/* First after the event: what has become of the question. */
+/* To be called first after the event: state of the dialog. */
 typedef enum WrFilesHeard {
-    WR_FILES_ANSWERED, /* or cancelled */
-    WR_FILES_AGAIN, /* that dialog did not come, or went away; another is open, and the event will come again */
-    WR_FILES_PANEL /* none of the desktop's comes: the panel must be drawn */
+    WR_FILES_ANSWERED, /* answered or cancelled */
+    WR_FILES_AGAIN,    /* that dialog failed; another one is open, and the event will come again */
+    WR_FILES_PANEL     /* no native dialog is available: draw the panel */
 } WrFilesHeard;
 WrFilesHeard wr_files_hear(WrFiles *files);
-/* After the event: the path chosen, or NULL if it was cancelled. Valid until the next ask. A file to be
- * written has an ending: that of its kind where none was typed. */
+/* To be called after the event: the chosen path, or NULL if cancelled. Valid until the next dialog. A file to be
+ * written has an extension: that of its kind if none was typed. */
 const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose);
-/* The native dialog has asked whether that file may be replaced, if there is one. */
+/* True if the native dialog has already asked about overwriting an existing file. */
 bool wr_files_agreed(const WrFiles *files);
-bool wr_files_writes(WrFilePurpose purpose); /* it is a file to be written */
+bool wr_files_writes(WrFilePurpose purpose); /* true for a file to be written */
 
 WrFilePurpose wr_files_purpose(const WrFiles *files);
-/* The panel of our own, as a dialog, with a note above its buttons or "". recent: paths whose folders it offers, NULL ends
- * them; they are looked up when it opens. 0: still open, 1: chosen (wr_files_answer), -1: cancelled. */
+/* The panel as a dialog, with a note above its buttons or "". recent: paths whose folders it offers, NULL-terminated;
+ * read at its opening. Returns 0: still open, 1: chosen (wr_files_answer), -1: cancelled. */
 int wr_files_panel(WrFiles *files, const char *note, char *const recent[]);

@@ -11,17 +11,17 @@
 #include <SDL.h>
 
 struct WrJob {
-    WrMutex lock; /* guards what follows, up to the next blank line */
+    WrMutex lock; /* protects the members up to the next blank line */
     WrCond wake;
     bool started, quit;
     void *next, *done;   /* owned; NULL: none */
-    bool running, stale; /* stale: what runs is not wanted any more */
+    bool running, stale; /* stale: the running work is no longer needed */
     double fraction, asked_at;
 
     volatile int cancel; /* atomic; read by the work */
     const WrJobKind *kind;
     WrThread thread;
-    /* Owned; of work that has no thread, which may keep what holds on to it. NULL: there was none. */
+    /* Owned; pool for work without a thread, since the work may keep pointers to it. NULL: not used. */
     WrPool *in_place;
     int threads;
     Uint32 done_event;
@@ -38,7 +38,7 @@ WrJob *wr_job_new(const WrJobKind *kind, int threads, Uint32 done_event)
     return job;
 }
 
-/* ---- the thread ---- */
+/* ---- the worker thread ---- */
 
 static void note_fraction(void *ctx, double fraction)
 {
@@ -48,7 +48,7 @@ static void note_fraction(void *ctx, double fraction)
     wr_mutex_unlock(&job->lock);
 }
 
-/* Take up what is next and do it. Called under the lock, which is let go meanwhile. */
+/* Run the next work item. Called with the lock held, which is released during the work. */
 static void do_next(WrJob *job, WrPool *pool, const WrProgress *progress)
 {
     void *work = job->next;
@@ -75,7 +75,7 @@ static void do_next(WrJob *job, WrPool *pool, const WrProgress *progress)
 static void *thread_main(void *arg)
 {
     WrJob *job = arg;
-    wr_thread_step_back(); /* so that the window's own thread goes first */
+    wr_thread_step_back(); /* lower priority than the window's thread */
     WrPool *pool = wr_pool_new(job->threads);
     WrProgress progress = { .cancel = &job->cancel, .report = note_fraction, .ctx = job };
     wr_mutex_lock(&job->lock);
@@ -88,9 +88,9 @@ static void *thread_main(void *arg)
     return NULL;
 }
 
-/* ---- the window's side ---- */
+/* ---- on the window's thread ---- */
 
-/* The system gives no thread: on the caller's, which waits. Called under the lock. */
+/* Run on the caller's thread, which waits, if no thread can be created. Called with the lock held. */
 static void do_in_place(WrJob *job)
 {
     WrProgress progress = { .cancel = &job->cancel };
@@ -98,7 +98,7 @@ static void do_in_place(WrJob *job)
     do_next(job, job->in_place, &progress);
 }
 
-/* Replace all that is wanted by `work`, which may be NULL. */
+/* Replace all pending work by `work`, which may be NULL. */
 static void replace(WrJob *job, void *work)
 {
     wr_mutex_lock(&job->lock);

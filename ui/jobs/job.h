@@ -1,5 +1,5 @@
-/* job.h - work in the background, one piece at a time: a newer piece takes the place of the one under way.
-   Knows nothing of what the work is. All calls come from the window's thread. */
+/* job.h - background worker for one piece of work at a time: newer work replaces the running one. Independent of the
+   kind of work. All calls are from the window's thread. */
 #pragma once
 #include <SDL.h>
 #include <stdbool.h>
@@ -10,27 +10,26 @@ typedef struct WrProgress WrProgress;
 typedef struct WrJob WrJob;
 
 typedef struct WrJobKind {
-    /* Do it, on the job's own thread; results go into `work`. progress can be cancelled; it is the thread's
-       own too. */
+    /* Do the work on the job's thread; store results in `work`. progress can be cancelled; it is also the thread's
+       own. */
     void (*run)(void *work, WrPool *pool, const WrProgress *progress);
-    void (*drop)(void *work); /* free it; on either thread */
+    void (*drop)(void *work); /* free the work; on either thread */
 } WrJobKind;
 
-/* threads: as in wr_pool_new. done_event: an SDL event type, pushed when a piece is done. The thread
- * starts with the first piece. kind must outlive the job. */
+/* threads: as in wr_pool_new. done_event: an SDL event type, pushed when a piece is done. The thread starts with the
+ * first piece. kind must outlive the job. */
 WrJob *wr_job_new(const WrJobKind *kind, int threads, Uint32 done_event);
-/* Cancels and waits. NULL is fine. */
+/* Cancels the work and waits. NULL is allowed. */
 void wr_job_free(WrJob *job);
 
-/* Do this next; takes `work`. What waits is dropped; what runs is cancelled and dropped when it ends; what
- * is done and was not taken is dropped. Where the system gives no thread the work is done in the call. */
+/* Start `work` (ownership passes). Waiting work is dropped; running work is cancelled and dropped when it ends;
+ * finished work that was not fetched is dropped. If no thread can be created, the work is done within the call. */
 void wr_job_start(WrJob *job, void *work);
-/* The same without anything to do next. */
+/* Drop all work without starting another. */
 void wr_job_cancel(WrJob *job);
-/* Tell what runs to stop, but hand it over as it then is. */
+/* Cancel the running work, but return it in its state at that time. */
 void wr_job_interrupt(WrJob *job);
-/* What is done, the caller's; NULL if nothing new is. */
+/* The finished work, owned by the caller; NULL if there is none. */
 void *wr_job_take(WrJob *job);
-/* Is something wanted that is not done? fraction 0..1, and seconds since it was asked for; either may be
- * NULL. */
+/* True if work is pending. fraction 0..1, and seconds since its start; either may be NULL. */
 bool wr_job_busy(WrJob *job, double *fraction, double *seconds);

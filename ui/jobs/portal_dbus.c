@@ -1,5 +1,5 @@
-/* The portal by libdbus. Every call to the bus is sent and its answer looked for with a deadline, so that a bus or a portal
-   that says nothing holds nobody up for longer. */
+/* The portal by libdbus. Every bus call is sent and its answer awaited with a deadline, so that an unresponsive bus
+   or portal cannot block for longer. */
 #include "ui/jobs/portal.h"
 
 #include "base/progress.h"
@@ -21,7 +21,7 @@
 #define DESKTOP_PATH "/org/freedesktop/portal/desktop"
 #define CHOOSER "org.freedesktop.portal.FileChooser"
 #define REQUEST "org.freedesktop.portal.Request"
-#define SLICE_MS 50 /* between two looks at `stop` */
+#define SLICE_MS 50 /* between two checks of `stop` */
 #define ADDRESS 4096
 
 /* ---- the library ---- */
@@ -65,7 +65,7 @@ typedef struct Library {
     bool good;
 } Library;
 
-/* For each question; the library is opened once and nobody unloads it. */
+/* Called for each dialog; the library is opened once and never unloaded. */
 static bool load(Library *dbus)
 {
     void *object = wr_object_open(LIBRARY);
@@ -86,8 +86,8 @@ typedef struct Bus {
     DBusConnection *connection;
     const volatile int *stop;
     char unique[64], handle[300],
-        portal[64];      /* our name, the question's object, the portal's own name */
-    bool answered, gone; /* the portal has said what came of it; it or the bus went away */
+        portal[64];      /* unique name, object of the request, name of the portal */
+    bool answered, gone; /* the portal has answered; the portal or the bus was lost */
     WrPortalEnd end;
     char *path;
     size_t size;
@@ -117,7 +117,7 @@ static bool connect_to_bus(Bus *bus)
     return bus->connection != NULL;
 }
 
-/* ---- what is heard ---- */
+/* ---- received messages ---- */
 
 static const char *text_at(const Bus *bus, DBusMessageIter *at)
 {
@@ -128,7 +128,7 @@ static const char *text_at(const Bus *bus, DBusMessageIter *at)
     return text;
 }
 
-/* The first of the URIs in a variant. */
+/* Read the first of the URIs in a variant. */
 static void take_uris(Bus *bus, DBusMessageIter *variant)
 {
     DBusMessageIter list, item;
@@ -139,7 +139,7 @@ static void take_uris(Bus *bus, DBusMessageIter *variant)
     if (wr_portal_path(text_at(bus, &item), bus->path, bus->size)) bus->end = WR_PORTAL_CHOSE;
 }
 
-/* Response(u response, a{sv} results): 0 is done, 1 given up by the user, 2 ended in another way. */
+/* Response(u response, a{sv} results): 0 is success, 1 cancelled by the user, 2 ended otherwise. */
 static void take_response(Bus *bus, DBusMessage *message)
 {
     DBusMessageIter at, entries, entry;
@@ -184,11 +184,11 @@ static void hear(Bus *bus, DBusMessage *message)
     const char *sender = bus->dbus.message_get_sender(message),
                *path = bus->dbus.message_get_path(message);
     if (!sender || !path || strcmp(path, bus->handle) != 0) return;
-    if (bus->portal[0] && strcmp(sender, bus->portal) != 0) return; /* somebody else's word */
+    if (bus->portal[0] && strcmp(sender, bus->portal) != 0) return; /* from another sender */
     take_response(bus, message);
 }
 
-/* The next message, waited for until the deadline; NULL: none, or stopped. Caller unrefs. */
+/* The next message until the deadline; NULL: none, or stopped. The caller unrefs it. */
 static DBusMessage *next(Bus *bus, double deadline)
 {
     for (;;) {
@@ -201,7 +201,8 @@ static DBusMessage *next(Bus *bus, double deadline)
     }
 }
 
-/* Send, which takes the message, and wait for what comes back. NULL: an error, nothing in time, or stopped. Caller unrefs. */
+/* Send a message (ownership passes) and wait for the reply. NULL: an error, a timeout, or stopped. The caller unrefs
+   it. */
 static DBusMessage *exchange(Bus *bus, DBusMessage *message, double deadline)
 {
     dbus_uint32_t serial = 0;
@@ -221,7 +222,7 @@ static DBusMessage *exchange(Bus *bus, DBusMessage *message, double deadline)
     return NULL;
 }
 
-/* ---- what is said ---- */
+/* ---- sent messages ---- */
 
 static void add_text(const Bus *bus, DBusMessageIter *to, const char *text)
 {
@@ -229,7 +230,7 @@ static void add_text(const Bus *bus, DBusMessageIter *to, const char *text)
     bus->dbus.message_iter_append_basic(to, DBUS_TYPE_STRING, &text);
 }
 
-/* An entry of a dictionary: its name, and the variant that its value goes into. */
+/* A dictionary entry: its key, and the variant for its value. */
 typedef struct Entry {
     DBusMessageIter entry, value;
 } Entry;
@@ -256,7 +257,7 @@ static void add_option(const Bus *bus, DBusMessageIter *options, const char *nam
     end(bus, options, &e);
 }
 
-/* Bytes of a path, with their end. */
+/* Bytes of a path with terminating 0. */
 static void add_path(const Bus *bus, DBusMessageIter *options, const char *name, const char *path)
 {
     Entry e;
@@ -268,7 +269,7 @@ static void add_path(const Bus *bus, DBusMessageIter *options, const char *name,
     end(bus, options, &e);
 }
 
-/* (s a(us)): what it is called, and its patterns. */
+/* (s a(us)): name of the filter, and its patterns. */
 static void add_filter(const Bus *bus, DBusMessageIter *filters, const char *called,
                        const char *const *endings)
 {
@@ -321,7 +322,7 @@ static DBusMessage *question(const Bus *bus, const WrPortalAsk *ask, const char 
     return message;
 }
 
-/* ---- in order ---- */
+/* ---- sequence of calls ---- */
 
 static DBusMessage *call_bus(const Bus *bus, const char *what, const char *argument)
 {
@@ -348,7 +349,7 @@ static bool told(Bus *bus, DBusMessage *message, double deadline, char *answer, 
     return true;
 }
 
-/* Our name, and to be told of the answer and of the portal's end. */
+/* Get our unique name, and subscribe to the answer and to the loss of the portal. */
 static bool introduce(Bus *bus, const char *token, double deadline)
 {
     char sender[64];
@@ -383,10 +384,9 @@ static WrPortalEnd ask_bus(Bus *bus, const WrPortalAsk *ask)
     snprintf(token, sizeof token, "wrinkle%ld_%d", (long)wr_process_id(),
              __atomic_add_fetch(&count, 1, __ATOMIC_RELAXED));
     if (!connect_to_bus(bus) || !introduce(bus, token, deadline)) return WR_PORTAL_NONE;
-    /* What it calls the question: as we do, but for old ones. */
+    /* Use the portal's name of the request, which differs from ours only in old portals. */
     if (!told(bus, question(bus, ask, token), deadline, bus->handle, sizeof bus->handle)) {
-        if (!bus->gone)
-            close_request(bus); /* one that is only late must not open a second dialog */
+        if (!bus->gone) close_request(bus); /* a late portal must not open a second dialog */
         return wr_cancel_asked(bus->stop) ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
     }
     while (!bus->answered && !bus->gone && !wr_cancel_asked(bus->stop)) {

@@ -1,4 +1,4 @@
-/* What a portal says and is told, as plain text. */
+/* Text conversions for the portal. */
 #include "ui/jobs/portal.h"
 
 #include <string.h>

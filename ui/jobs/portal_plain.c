@@ -1,4 +1,4 @@
-/* Without libdbus: there is no portal. */
+/* Build without libdbus: there is no portal. */
 #include "ui/jobs/portal.h"
 
 bool wr_portal_may_be(void)

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what is wanted ---- */
+/* ---- requested maps ---- */
 
 static bool has_option(const WrExportKind *kind, const char *name)
 {
@@ -22,7 +22,7 @@ static bool has_option(const WrExportKind *kind, const char *name)
     return false;
 }
 
-/* Where the map has that setting, or the first free place; -1: neither. */
+/* Index of that setting in the map, or of the first free one; -1: neither. */
 static int place_of(const WrSetMap *map, const char *name)
 {
     const size_t length = strlen(name);
@@ -60,7 +60,7 @@ int wr_sheet_depth(const WrSetMap *map)
     return strstr(map->after, ".png") ? 16 : 32;
 }
 
-/* Floats need another format than codes. */
+/* Change the extension: floats need another format than integers. */
 static void change_ending(WrSetMap *map, const char *from, const char *to)
 {
     const size_t length = strlen(map->after), tail = strlen(from);
@@ -84,7 +84,7 @@ static void adapt(WrSetMap *map, const WrSheetAsk *ask)
     WR_ROWS_END(ranges, WR_SHEET_RANGES);
     if (ranges[ask->range]) put(map, "range", ranges[ask->range]);
     if (!depths[ask->depth] || !has_option(map->kind, "depth")) return;
-    const bool fixed = map->kind->ending != NULL; /* one format, which knows no 8 bits */
+    const bool fixed = map->kind->ending != NULL; /* only one format, which has no 8 bits */
     if (fixed && ask->depth == WR_SHEET_8) return;
     put(map, "depth", depths[ask->depth]);
     if (fixed) return;
@@ -93,7 +93,7 @@ static void adapt(WrSetMap *map, const WrSheetAsk *ask)
     if (ask->depth != WR_SHEET_8) drop_setting(map, "dither");
 }
 
-/* One map, named by the cell alone. */
+/* One map, named after the cell. */
 static WrSet *set_of_kind(const WrExportKind *kind, WrError *err)
 {
     WrText line = { 0 };
@@ -115,7 +115,7 @@ WrSet *wr_sheet_set(const WrSheetAsk *ask, WrError *err)
     return set;
 }
 
-/* The nearest by ratio. */
+/* The nearest power of two by ratio. */
 static int power_near(int n)
 {
     return 1 << (int)lrint(log2(n));
@@ -128,9 +128,10 @@ void wr_sheet_size(int size, int *w, int *h)
     *h = size == WR_SHEET_POWER ? power_near(*h) : *h / by > 0 ? *h / by : 1;
 }
 
-/* ---- tables of another size ---- */
+/* ---- resized tables ---- */
 
-/* The document with one layer, its heights at that size: means of what a texel covers where it becomes smaller. */
+/* Replace the document by one layer with its heights at that size; when it shrinks, a texel is the mean of the
+   covered ones. */
 static bool resize(WrDocument *document, int w, int h, WrPool *pool, WrError *err)
 {
     const WrField *field = wr_document_whole(document, pool, err);
@@ -169,7 +170,7 @@ static void drop_look(void *work)
     wr_sheet_look_free(work);
 }
 
-/* What the numbers say of the whole table: a picture has only some of it. */
+/* Compute statistics of the whole table, since a picture contains only a part. */
 static void measure(WrSheetLook *look, WrPool *pool)
 {
     const WrField *field = wr_document_composite(look->document, pool);

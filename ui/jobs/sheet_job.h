@@ -1,5 +1,5 @@
-/* sheet_job.h - what the export sheet has done in the background: pictures of all maps, and all files of them.
-   The document is a snapshot, so that painting goes on meanwhile. */
+/* sheet_job.h - background work of the export sheet: pictures of all maps, and their files. The document is a
+   snapshot, so that painting can continue. */
 #pragma once
 #include "ui/jobs/job.h"
 
@@ -13,13 +13,14 @@
 
 typedef struct WrDocument WrDocument;
 
-#define WR_SHEET_PICTURE 96 /* texels of a picture's longer side, at most */
+#define WR_SHEET_PICTURE 96 /* largest size of a picture's longer side, texels */
 
-/* The maps that come of it: the set with its depth and range, a kind as a set of one. The caller's; NULL. */
+/* The requested maps: the set with its depth and range, or a kind as a set of one map. The caller frees it; NULL on
+   failure. */
 WrSet *wr_sheet_set(const WrSheetAsk *ask, WrError *err);
-/* Texels of a table of w x h. */
+/* Change w x h to the requested export size. */
 void wr_sheet_size(int size, int *w, int *h);
-/* Bits a number of that map. */
+/* Bits per channel of the map. */
 int wr_sheet_depth(const WrSetMap *map);
 
 typedef struct WrSheetLook {
@@ -29,24 +30,24 @@ typedef struct WrSheetLook {
     WrExportPicture pictures[WR_SET_MAPS];
     WrHistogram histogram;
     WrCertificate seam;
-    int width, height; /* of the files */
-    double bytes;      /* of all files, at most, about */
+    int width, height; /* size of the files */
+    double bytes;      /* approximate upper limit for all files */
     WrError err;
 } WrSheetLook;
 
 typedef struct WrSheetWrite {
     WrDocument *document; /* owned */
     WrSheetAsk ask;
-    WrText told; /* a line a file */
+    WrText told; /* one line per file */
     int files;
     double seconds;
     bool ok, cancelled;
     WrError err;
 } WrSheetWrite;
 
-/* Works for jobs of these kinds; take the document. */
+/* Job kinds; they own the document. */
 extern const WrJobKind wr_sheet_look_kind, wr_sheet_write_kind;
 WrSheetLook *wr_sheet_look_new(WrDocument *document, const WrSheetAsk *ask);
-void wr_sheet_look_free(WrSheetLook *look); /* NULL is fine */
+void wr_sheet_look_free(WrSheetLook *look); /* NULL is allowed */
 WrSheetWrite *wr_sheet_write_new(WrDocument *document, const WrSheetAsk *ask);
 void wr_sheet_write_free(WrSheetWrite *write);

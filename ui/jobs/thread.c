@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-static int refused; /* atomic; 1: still to be told, 2: told */
+static int refused; /* atomic; 1: not yet reported, 2: reported */
 
 bool wr_thread_start(WrThread *thread, void *(*run)(void *), void *arg)
 {

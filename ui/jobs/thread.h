@@ -1,10 +1,10 @@
-/* thread.h - threads of the window, where the system may refuse one: what they were for is then done in place. */
+/* thread.h - threads of the window, with a fallback: if the system refuses one, the caller does the work itself. */
 #pragma once
 #include "system/thread.h"
 
 #include <stdbool.h>
 
-/* Start it; false, and remembered, if the system gives none. */
+/* Start a thread; false, and recorded, if the system refuses one. */
 bool wr_thread_start(WrThread *thread, void *(*run)(void *), void *arg);
-/* Has the system refused one? True once: there is one message about it. */
+/* True once after the system has refused a thread, for a single message. */
 bool wr_thread_refused(void);
