@@ -1,4 +1,4 @@
-/* The curve of `curves` over the heights' histogram, its points moved by hand. */
+/* Curve editor of the operation `curves`: the curve over the histogram of heights, with draggable points. */
 #include "ui/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -11,7 +11,7 @@
 
 #define ROOM_UNITS 200
 
-/* The heights that the pad spans, both ways alike. */
+/* Height range of the pad, the same on both axes. */
 static WrPointsSpan span_of(const WrHeightCounts *h, const double *value)
 {
     double low = fmin(h->low, 0.0), high = fmax(h->high, 1.0);
@@ -35,7 +35,7 @@ bool wr_curves_pad(WrApp *app)
     static const WrPointsRules rules = { .least = 2, .most = WR_CURVE_POINTS };
     WrAdjust *adjust = app->adjust;
     const WrHeightCounts *h = wr_height_counts(app);
-    double *value = adjust->param; /* its only parameter */
+    double *value = adjust->param; /* the operation's only parameter */
     WrPad pad = wr_gui_pad_begin("curve", 0, wr_gui_px(ROOM_UNITS));
     const WrPointsSpan now = span_of(h, value);
     const bool changed = wr_points_move(&pad, &now, &rules, &adjust->points, value);

@@ -1,4 +1,4 @@
-/* The heights' histogram above the dialog of levels: what becomes low and high is dragged on it. */
+/* Histogram of heights in the dialog of the operation `levels`, with draggable low and high limits. */
 #include "ui/state/app_state.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/gui.h"
@@ -12,8 +12,8 @@
 #include <string.h>
 
 #define ROOM_UNITS 96
-#define SAMPLES 1048576.0 /* texels that are counted, about */
-#define STEPS 64          /* of the drawn curve */
+#define SAMPLES 1048576.0 /* approximate number of counted texels */
+#define STEPS 64          /* segments of the drawn curve */
 
 static int index_of(const WrOpInfo *op, const char *name)
 {
@@ -22,7 +22,7 @@ static int index_of(const WrOpInfo *op, const char *name)
     return i;
 }
 
-/* What the dialog changes: the active layer's heights, or its mask; of a filter what lies below it. */
+/* Table that the dialog changes: the active layer's heights or its mask; for a filter, the composite below it. */
 static const WrField *table_of(const WrApp *app)
 {
     if (app->adjust->below) return app->adjust->below;
@@ -58,7 +58,8 @@ void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h
 {
     const double bin = (h->high - h->low) / WR_HEIGHT_BINS;
     for (int k = 0; k < WR_HEIGHT_BINS; k++) {
-        double tall = pad->h * sqrt((double)h->count[k] / h->most); /* so that rare ones are seen */
+        /* square root, to show rare heights */
+        double tall = pad->h * sqrt((double)h->count[k] / h->most);
         double x = wr_height_x(pad, span, h->low + k * bin),
                right = wr_height_x(pad, span, h->low + (k + 1) * bin);
         if (tall > 0.0)
@@ -66,7 +67,7 @@ void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h
     }
 }
 
-/* What each height becomes, as a part of the way from the lowest to the highest result. */
+/* Result of each height, as a fraction between the lowest and the highest result. */
 static void curve(const WrPad *pad, WrHeightSpan span, double low, double high, double gamma)
 {
     double before_x = 0.0, before_y = 0.0;

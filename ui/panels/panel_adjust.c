@@ -1,5 +1,5 @@
-/* The dialog of a table operation, made from its row: canvas and patch show what it would do, on a
-   snapshot, and only Apply runs the command. */
+/* Dialog of a table operation, built from its row: canvas and patch show a preview on a snapshot; only Apply runs the
+   command. */
 #include "ui/panels/panel_adjust.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
@@ -48,7 +48,7 @@ static bool is_named(const WrOpParam *param, const char *name)
     return strcmp(param->name, name) == 0;
 }
 
-/* Sizes begin with the table's. */
+/* Size parameters start with the table's size. */
 static double beginning(const WrApp *app, const WrOpParam *param)
 {
     const WrField *field = wr_app_field(app);
@@ -68,7 +68,7 @@ static void forget_below(WrApp *app)
     app->adjust->below = NULL;
 }
 
-/* What a new filter above the active layer will be over. */
+/* Composite below a new filter above the active layer. */
 static WrField *below_new(const WrDocument *document)
 {
     if (document->active + 1 < document->layer_count)
@@ -76,7 +76,7 @@ static WrField *below_new(const WrDocument *document)
     return wr_field_share(wr_document_field(document));
 }
 
-/* layer: index of a filter layer, -1 a new one. */
+/* layer: index of a filter layer, -1 for a new one. */
 static void ask_values(WrApp *app, const WrFilter *filter, bool filters, int layer)
 {
     wr_dialog_open(app, WR_DIALOG_ADJUST);
@@ -129,8 +129,8 @@ static void bound(WrNumber *spec, double low, double high)
     spec->high = fmin(spec->high, spec->hard_high);
 }
 
-/* Where an operation refuses a combination of values, the other values limit each: a rectangle stays inside the table,
-   a low value below the high one. */
+/* Limit a parameter by the others, as the operation requires: a rectangle stays inside the table, a low value below
+   the high one. */
 static void bound_by_others(const WrApp *app, int index, WrNumber *spec)
 {
     const WrField *field = wr_app_field(app);
@@ -145,7 +145,7 @@ static void bound_by_others(const WrApp *app, int index, WrNumber *spec)
     }
 }
 
-/* What a slider spans: never more texels than there are. */
+/* Range of a slider: at most the table's texels. */
 static WrNumber spec_of(const WrApp *app, int index)
 {
     const WrOpParam *param = &app->adjust->op->params[index];
@@ -191,7 +191,7 @@ static bool parameters(WrApp *app)
     bool changed = false;
     for (int i = 0; i < wr_op_param_count(op); i++) {
         const WrOpParam *param = &op->params[i];
-        if (param->points) continue; /* drawn by hand */
+        if (param->points) continue; /* edited in its own pad */
         wr_gui_label(param->label);
         if (param->choices) {
             changed |= choice(param, &app->adjust->param[i]);
@@ -203,7 +203,7 @@ static bool parameters(WrApp *app)
     return changed;
 }
 
-/* Of Offset: so that the seams come to lie in the middle. */
+/* For Offset: shift by half a cell, so that the seams are in the middle. */
 static bool half_cell(WrApp *app)
 {
     const WrField *field = wr_app_field(app);
@@ -224,7 +224,7 @@ static bool which_layers(WrApp *app)
     return wr_gui_choice("layers", 0, names, 2, &app->adjust->layers);
 }
 
-/* ---- done ---- */
+/* ---- end of the dialog ---- */
 
 static void line_of(const WrApp *app, WrText *line)
 {
@@ -247,7 +247,7 @@ static void commit(WrApp *app)
     wr_text_fini(&line);
 }
 
-/* As it was, the place of the view included. */
+/* Restore the previous state, including the view's position. */
 static void cancel(WrApp *app)
 {
     wr_app_try_end(app);
@@ -263,7 +263,7 @@ static void expectation(const WrApp *app)
     wr_text_fini(&line);
 }
 
-/* A row below the buttons, which stay where they are. */
+/* Progress, in a row below the buttons, so that these do not move. */
 static void progress(WrApp *app)
 {
     double fraction, seconds;

@@ -1,4 +1,4 @@
-/* panel_adjust.h - the dialog of a table operation. */
+/* panel_adjust.h - dialog of a table operation. */
 #pragma once
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
@@ -12,53 +12,55 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* How often heights are there, from the lowest to the highest. */
+/* Histogram of heights from the lowest to the highest. */
 #define WR_HEIGHT_BINS 160
 typedef struct WrHeightCounts {
-    uint64_t key; /* of the table that was counted; 0: none */
+    uint64_t key; /* key of the counted table; 0: none */
     double low, high;
     unsigned most, count[WR_HEIGHT_BINS];
 } WrHeightCounts;
 
-/* Heights from the left to the right edge of a histogram. */
+/* Heights at the left and right edge of a histogram. */
 typedef struct WrHeightSpan {
     double low, high;
 } WrHeightSpan;
 
-/* What the dialog of an operation holds. */
+/* State of an operation's dialog. */
 typedef struct WrAdjust {
     const WrOpInfo *op;         /* NULL: none */
     double param[WR_OP_VALUES]; /* as in WrFilter */
-    int layers;                 /* 0 the active one, 1 all */
-    bool filters;               /* it is of a filter layer */
-    int layer;                  /* that layer's index; -1: a new one */
-    WrField *below;             /* what a filter with a histogram is over; NULL: nothing. Owned */
-    uint64_t asked_at;          /* the document's revision when it was tried last */
-    WrCanvasView view;          /* as it was before */
-    WrHeightCounts histogram;   /* of levels and curves */
-    int held;                   /* on it: 1 the low end, 2 the high one; 0: none */
-    WrPointsHand points;        /* of a curve */
-    WrHeightSpan held_span;     /* what it showed then */
-    bool lacks;                 /* a filter could not be carried out, which was said */
+    int layers;                 /* 0 the active layer, 1 all layers */
+    bool filters;               /* the dialog edits a filter layer */
+    int layer;                  /* index of the filter layer; -1: a new one */
+    /* composite below a filter that has a histogram; NULL: none. Owned */
+    WrField *below;
+    uint64_t asked_at;        /* the document's revision at the last preview request */
+    WrCanvasView view;        /* canvas view before the dialog */
+    WrHeightCounts histogram; /* for levels and curves */
+    int held;                 /* dragged limit: 1 low, 2 high; 0: none */
+    WrPointsHand points;      /* of a curve */
+    WrHeightSpan held_span;   /* range of the histogram at the start of the drag */
+    bool lacks;               /* a missing filter result was reported */
 } WrAdjust;
 
 /* The operation of an action "adjust_NAME", or NULL. */
 const WrOpInfo *wr_action_op(const char *name);
 void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op);
 void wr_dialog_adjust(WrApp *app);
-/* The same of a new filter layer, and of the values of the active one, if that is one. */
+/* Open the dialog for a new filter layer; and for the values of the active layer, if it is a filter. */
 void wr_dialog_filter_open(WrApp *app, const WrOpInfo *op);
 void wr_filter_edit(WrApp *app);
-/* Of another document what lay below a filter is let go; a filter that cannot be carried out is told of, once. */
+/* Component that frees the composite below a filter when the document is replaced, and reports once a filter that
+   cannot be computed. */
 extern const WrPart wr_part_adjust;
 
 /* ---- levels_pad.c, curves_pad.c ---- */
 /* True if a value was changed. */
 bool wr_levels_pad(WrApp *app);
 bool wr_curves_pad(WrApp *app);
-/* The heights that the dialog changes, counted: valid until the next call. */
+/* Histogram of the heights that the dialog changes; valid until the next call. */
 const WrHeightCounts *wr_height_counts(WrApp *app);
-/* Where a height stands in the pad, in pixels of the window. */
+/* Position of a height in the pad, in pixels of the window. */
 double wr_height_x(const WrPad *pad, WrHeightSpan span, double height);
 void wr_height_bars(const WrPad *pad, WrHeightSpan span, const WrHeightCounts *h);
 

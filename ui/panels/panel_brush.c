@@ -1,4 +1,4 @@
-/* All values of the brush in hand, and what of a preset's own settings matters to heights. */
+/* Parameters of the brush, and the settings of a preset that affect heights. */
 #include "ui/state/app_state.h"
 
 #include "base/enum_rows.h"
@@ -144,14 +144,14 @@ static void chance(WrApp *app)
 
 static void pressure(WrApp *app)
 {
-    if (app->settings->brush.preset) return; /* it has curves of its own */
+    if (app->settings->brush.preset) return; /* the preset has its own curves */
     wr_gui_label("Pressure");
     wr_option_pressure(app, 0);
 }
 
 /* ---- settings of a preset ---- */
 
-#define CURVE_UNITS 24 /* of the button that opens a setting's curves */
+#define CURVE_UNITS 24 /* size of the button that opens a setting's curves */
 
 #define GROUP_LIST(X)                                                                              \
     X(DABS, "DABS")                                                                                \
@@ -163,7 +163,7 @@ static void pressure(WrApp *app)
 enum { GROUP_LIST(WR_WORD_ID) GROUPS };
 static const char *const groups[] = { GROUP_LIST(WR_WORD) };
 
-/* The group of a setting; -1: shown elsewhere, or nothing to heights. */
+/* The group of a setting; -1: shown elsewhere, or without effect on heights. */
 static int group_of(const WrSettingInfo *info)
 {
     static const struct {

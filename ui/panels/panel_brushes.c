@@ -1,5 +1,5 @@
-/* The Brushes tab: presets as pictures, by collection and group, with a search; below them the values of
-   the brush in hand. Where there is no room for both, one of them at a time. */
+/* The Brushes tab: presets as pictures, by collection and group, with a search; below them the brush parameters.
+   Without room for both, one of them at a time. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
@@ -22,11 +22,11 @@
 #include <string.h>
 
 #define TILE_UNITS 52
-#define BOTH_UNITS 460 /* height from which both parts are shown */
+#define BOTH_UNITS 460 /* least height for showing both parts */
 #define GROUPS_MAX 64
-#define FIXED_GROUPS 3 /* all, favourites, used last */
+#define FIXED_GROUPS 3 /* all, favourites, recently used */
 
-/* ---- which ones ---- */
+/* ---- filter ---- */
 
 typedef struct Groups {
     const char *labels[GROUPS_MAX];
@@ -90,7 +90,7 @@ static bool belongs(const WrApp *app, const Groups *g, const WrPresetEntry *entr
            same(g->group[group], entry->group ? entry->group : "");
 }
 
-/* ---- the menu of a preset ---- */
+/* ---- context menu of a preset ---- */
 
 static void preset_menu(WrApp *app)
 {
@@ -109,7 +109,7 @@ static void preset_menu(WrApp *app)
 
 /* ---- tiles ---- */
 
-typedef struct Flow { /* tiles in rows */
+typedef struct Flow { /* layout of tiles in rows */
     double side;
     int columns, count;
 } Flow;
@@ -148,7 +148,7 @@ static void tile(WrApp *app, Flow *flow, int index, const char *id, const char *
 static void used_last(WrApp *app, Flow *flow)
 {
     for (int i = 0; i < WR_USED_MAX && app->settings->used[i]; i++) {
-        char *id = wr_strdup(app->settings->used[i]); /* choosing moves the list */
+        char *id = wr_strdup(app->settings->used[i]); /* choosing a preset reorders the list */
         int index = wr_preset_browser_find(app, id);
         if (index >= 0 || same(id, WR_ROUND))
             tile(app, flow, index, id, index < 0 ? "Round brush" : strchr(id, '/') + 1);
@@ -162,7 +162,7 @@ static void tiles(WrApp *app, const Groups *groups)
     double gap = wr_gui_px(4), room = wr_gui_available() + gap;
     Flow flow = { .columns = (int)(room / (wr_gui_px(TILE_UNITS) + gap) + 0.5) };
     flow.columns = flow.columns > 0 ? flow.columns : 1;
-    flow.side = floor(room / flow.columns - gap); /* the row is filled */
+    flow.side = floor(room / flow.columns - gap); /* tiles are enlarged to fill the row */
     if (app->shelf->group == 2 && !app->shelf->search[0]) {
         used_last(app, &flow);
     } else {
@@ -174,7 +174,7 @@ static void tiles(WrApp *app, const Groups *groups)
             const WrPresetEntry *entry = wr_library_entry(library, i);
             if (!belongs(app, groups, entry)) continue;
             tile(app, &flow, i, entry->id, entry->name);
-            if (app->shelf->library != library) break; /* one was removed */
+            if (app->shelf->library != library) break; /* a preset was removed */
         }
     }
     if (flow.count == 0)
@@ -212,7 +212,7 @@ static SDL_Rect cut_top(SDL_Rect *room, int height)
     return top;
 }
 
-/* Under the pictures: what is in hand, and what can be done with it. */
+/* Below the pictures: the current brush and its actions. */
 static void foot(WrApp *app)
 {
     const char *id = wr_preset_browser_chosen(app), *slash = strchr(id, '/');

@@ -1,4 +1,4 @@
-/* The scene's panel: from where it is looked at, views that are kept, and what stands behind it. */
+/* Camera section of the scene panel: camera, named views, background. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
@@ -22,7 +22,7 @@
 
 #define ROW_UNITS 26
 
-/* ---- where it stands ---- */
+/* ---- position ---- */
 
 static void sides(WrApp *app)
 {
@@ -46,7 +46,7 @@ static void sides(WrApp *app)
     }
 }
 
-/* Where the eye is, once a camera has one; what it looks at. */
+/* Position of the eye, if the camera is placed, and its target. */
 static void points(WrApp *app)
 {
     static const char *const eyes[3] = { "eyex", "eyey", "eyez" }, *const targets[3] = { "tox",
@@ -89,7 +89,7 @@ static void placed(WrApp *app)
     wr_gui_tip("In front of the objects, so far away that they fit however they turn");
 }
 
-/* ---- views that are kept ---- */
+/* ---- named views ---- */
 
 static void run_view(WrApp *app, const char *what, const WrNamedView *view)
 {
@@ -99,7 +99,7 @@ static void run_view(WrApp *app, const char *what, const WrNamedView *view)
     wr_scene_run(app, &line);
 }
 
-/* True if a line was run: the views are others now. */
+/* True if a command was run: the list of views has changed. */
 static bool view_row(WrApp *app, int i)
 {
     const WrScene *scene = wr_app_scene(app);
@@ -136,7 +136,7 @@ static void views(WrApp *app)
     if (keep) wr_action_run(app, WR_ACT(view_keep));
 }
 
-/* ---- behind ---- */
+/* ---- background ---- */
 
 static void background(WrApp *app)
 {
@@ -164,7 +164,7 @@ static void background(WrApp *app)
         wr_param_row(app, param);
 }
 
-/* ---- light to picture ---- */
+/* ---- tone mapping ---- */
 
 static void tone(WrApp *app)
 {

@@ -1,4 +1,4 @@
-/* The scene's panel: how large the unit cell is for other programs. */
+/* Unit cell section of the scene panel: physical size for exports. */
 #include "ui/state/app_state.h"
 #include "ui/state/line.h"
 #include "ui/state/scene_line.h"

@@ -1,4 +1,4 @@
-/* Colours by height, slope and cavity: a row for each stop, with its height and its colour. Every act is a command line. */
+/* Height colormap section: a row for each stop, with its height and its colour. Every change is a command line. */
 #include "ui/state/app_state.h"
 #include "ui/state/scene_line.h"
 #include "ui/state/session_view.h"
@@ -20,7 +20,7 @@ static void add_rgb(WrText *line, const double rgb[3])
     }
 }
 
-/* Let go: the whole ramp as one line. */
+/* Run the whole ramp as one line at the end of a drag. */
 static void run_ramp(WrApp *app, const WrHeightColormap *own)
 {
     WrText line = { 0 };
@@ -46,7 +46,7 @@ static void run_ramp(WrApp *app, const WrHeightColormap *own)
     wr_scene_run(app, &line);
 }
 
-/* A stop stays between its neighbours. */
+/* Height of a stop, limited by its neighbours. */
 static WrEdit height_field(WrHeightColormap *own, int i, double width)
 {
     const bool first = i == 0, last = i + 1 == own->count;
@@ -65,7 +65,7 @@ static WrEdit height_field(WrHeightColormap *own, int i, double width)
     return wr_gui_number("height", width, &spec, height);
 }
 
-/* What was done in a row: nothing, it is being dragged, it was let go. */
+/* The stronger of two edit states: none, dragging, done. */
 static WrEdit more(WrEdit a, WrEdit b)
 {
     return a == WR_EDIT_DONE || b == WR_EDIT_DONE ? WR_EDIT_DONE : a == WR_EDIT_NONE ? b : a;
@@ -110,7 +110,7 @@ static WrEdit steep_rows(WrHeightColormap *own)
     return more(a, more(b, c));
 }
 
-/* Off is a depth that nothing has, so that the colour comes back as it was. */
+/* "Off" is a depth that no table reaches, so that the colour survives switching off and on. */
 #define NO_DEPTH 1e6
 
 static WrEdit hollow_rows(WrHeightColormap *own)
@@ -189,7 +189,9 @@ void wr_panel_colouring(WrApp *app)
         wr_scene_run(app, &line);
     } else if (on) {
         const WrEdit edit = ramp_rows(app, &own);
-        if (edit == WR_EDIT_LIVE) wr_app_live(app)->colouring = own; /* the fields keep it */
+        if (edit == WR_EDIT_LIVE)
+            wr_app_live(app)->colouring = own; /* the fields keep the value between
+                                                                        frames */
         if (edit == WR_EDIT_DONE) run_ramp(app, &own);
     }
     wr_gui_pop_id();

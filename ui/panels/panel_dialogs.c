@@ -1,4 +1,4 @@
-/* Dialogs: only where a decision is needed. */
+/* Dialogs that ask for a decision. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
@@ -71,7 +71,7 @@ static void number(const char *label, double low, double high, double hard_low, 
     wr_gui_number(label, 0, &spec, value);
 }
 
-/* The buttons, and what it will take; frees the line. */
+/* Draw the buttons and the memory estimate, run the line if confirmed; frees the line. */
 static void run_if_agreed(WrApp *app, WrText *line, const char *done)
 {
     const bool agreed = wr_dialog_buttons(app, done, true) > 0;
@@ -160,7 +160,7 @@ static void add_export_line(const WrApp *app, const char *path, WrText *line)
     wr_text_addf(line, "export %s ", kind->name);
     wr_text_add_word(line, path);
     if (strcmp(kind->name, "height") == 0) wr_text_addf(line, " range=%s", ranges[f->range]);
-    if (kind->channels == 0) { /* a body */
+    if (kind->channels == 0) { /* a solid */
         wr_line_number(line, "size", f->solid_size);
         wr_line_number(line, "error", f->solid_error);
         if (f->solid_thickness > 0) wr_line_number(line, "thickness", f->solid_thickness);
@@ -209,7 +209,7 @@ void wr_dialog_export(WrApp *app)
     wr_gui_label("What");
     wr_gui_choice("kind", 0, kinds, WR_EXPORT_KIND_COUNT, &f->kind);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_export_kinds[f->kind].help);
-    if (wr_export_kinds[f->kind].prepare) { /* it has a range */
+    if (wr_export_kinds[f->kind].prepare) { /* the kind has a range */
         wr_gui_label("Black and white");
         wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);
     }
@@ -234,7 +234,7 @@ void wr_dialog_export(WrApp *app)
     wr_gui_dialog_end();
 }
 
-/* What makes that picture, turned as the view is. */
+/* Append the command for the picture with the view's present rotation. */
 static void add_render_line(const WrApp *app, const char *path, WrText *line)
 {
     wr_text_add(line, "render ");
@@ -276,9 +276,9 @@ void wr_file_take_render(WrApp *app, const char *path)
     wr_text_fini(&line);
 }
 
-/* ---- a turntable as a film ---- */
+/* ---- turntable film ---- */
 
-/* Once round, from how the view is turned. */
+/* Append a full turn that starts at the view's present rotation. */
 static void add_film_line(const WrApp *app, const char *path, WrText *line)
 {
     const WrForms *f = app->forms;
@@ -332,11 +332,11 @@ void wr_file_take_film(WrApp *app, const char *path)
 {
     WrText line = { 0 };
     add_film_line(app, path, &line);
-    wr_app_run_line(app, wr_text_get(&line)); /* its note says what was written */
+    wr_app_run_line(app, wr_text_get(&line)); /* its note names the written files */
     wr_text_fini(&line);
 }
 
-/* The line that will take what it takes, whatever the file's name; "" where it is done at once. */
+/* A line with the cost of the file operation, for any file name; "" if it is instant. */
 static void file_line(const WrApp *app, WrText *line)
 {
     const WrFilePurpose of = wr_files_purpose(app->files);

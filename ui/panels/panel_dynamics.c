@@ -22,15 +22,17 @@
 
 #define PAD_UNITS 210
 #define NAME_SIZE 96
-#define MARK "\xe2\x80\xa2 " /* before what has a curve */
-#define CHOICES 64           /* settings, inputs: more than there are */
+#define MARK "\xe2\x80\xa2 " /* prefix of settings with a curve */
+#define CHOICES 64           /* upper limit of settings and inputs */
 
 struct WrDynamics {
-    int setting, input; /* the library's numbers */
+    int setting, input; /* libmypaint's numbers */
     WrPointsHand hand;
-    double value[1 + 2 * WR_PRESET_POINTS]; /* the points at hand, as wr_points_move takes them */
-    double reach;                           /* the pad spans -reach..reach; 0: as the points ask */
-    WR_ARRAY(char *) before;                /* the changes to the preset before each of ours */
+    /* points of the current curve, in the form of wr_points_move */
+    double value[1 + 2 * WR_PRESET_POINTS];
+    /* the pad spans -reach..reach; 0: derived from the points */
+    double reach;
+    WR_ARRAY(char *) before; /* for undo: the preset's changes before each edit */
 };
 
 static void forget_steps(WrDynamics *d)
@@ -80,7 +82,7 @@ void wr_dialog_dynamics_open(WrApp *app, int setting)
     wr_dialog_open(app, WR_DIALOG_DYNAMICS);
 }
 
-/* ---- the preset's changes ---- */
+/* ---- changes of the preset ---- */
 
 static void name_of(const WrDynamics *d, char name[NAME_SIZE])
 {
@@ -104,7 +106,7 @@ static void take_back(WrApp *app)
     wr_free(set);
 }
 
-/* text NULL: the preset's own curve again. */
+/* text NULL: restore the preset's own curve. */
 static void put(WrApp *app, const char *text)
 {
     char name[NAME_SIZE];
@@ -130,7 +132,7 @@ static void put_points(WrApp *app)
 
 /* ---- the curve ---- */
 
-/* Where there is none: a level line at 0, which adds nothing. */
+/* Without a curve: a flat line at 0, which has no effect. */
 static void take_points(const WrApp *app)
 {
     WrDynamics *d = app->dynamics;
@@ -161,7 +163,7 @@ static WrPointsSpan span_of(const WrDynamics *d)
     return span;
 }
 
-/* As the library goes by them: straight between two points, and straight on beyond. */
+/* Evaluation as in libmypaint: linear between points, extrapolated linearly beyond. */
 static bool at(const void *ctx, double x, double *y)
 {
     const double *value = ctx, *p = value + 1;
@@ -204,11 +206,11 @@ static void curve(WrApp *app)
     if (pad.pressed) keep_step(app);
     const int steps = d->before.count;
     const bool changed = wr_points_move(&pad, &span, &rules, &d->hand, d->value);
-    if (changed && !pad.held && !pad.released) keep_step(app); /* by a key */
+    if (changed && !pad.held && !pad.released) keep_step(app); /* changed by a key */
     if (changed) put_points(app);
     if (pad.released && steps == d->before.count && steps > 0 &&
         strcmp(d->before.data[steps - 1], app->brush_files->set ? app->brush_files->set : "") == 0)
-        wr_free(d->before.data[--d->before.count]); /* it was only touched */
+        wr_free(d->before.data[--d->before.count]); /* pressed without a change */
     grid(&pad, &d->hand.span);
     wr_points_draw(&pad, &d->hand, d->value, at, d->value);
     wr_gui_pad_end();
@@ -218,9 +220,9 @@ static void curve(WrApp *app)
                    "away");
 }
 
-/* ---- what is looked at ---- */
+/* ---- choice of setting and input ---- */
 
-/* A list of those that are shown, a mark before each with a curve; the chosen one's number changes. */
+/* A list with a mark before entries with a curve; changes the number of the chosen entry. */
 typedef struct List {
     char text[CHOICES][80];
     const char *items[CHOICES];
@@ -246,7 +248,7 @@ static bool choose(const char *id, List *list, int *number)
     return changed;
 }
 
-/* Above its list, which needs the whole width. */
+/* Label above its list, which needs the whole width. */
 static void name(const char *label)
 {
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, label);

@@ -1,4 +1,4 @@
-/* What was done, as the commands that did it; a click goes there. */
+/* History panel: steps of the document; a click goes to a step. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
@@ -18,7 +18,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ROWS_MAX 400 /* steps shown: the newest */
+#define ROWS_MAX 400 /* newest steps that are shown */
 #define ROW_UNITS 34
 #define LINE_UNITS 23
 #define THUMB_UNITS 26
@@ -50,8 +50,7 @@ static void go(WrApp *app, int position)
     if (position > now) wr_app_run_linef(app, "redo %d", position - now);
 }
 
-/* The state after `position` steps, with the step that led to it; position 0 is the beginning. True if it
-   was clicked. */
+/* The state after `position` steps, with the step that led to it; position 0 is the start. True if clicked. */
 static bool row(WrApp *app, int position, bool seen)
 {
     const bool lines = app->settings->history_lines;
@@ -80,7 +79,7 @@ static bool row(WrApp *app, int position, bool seen)
     else if (lines) wr_text_add(&words, wr_session_history_line(app->session, position - 1));
     else wr_line_words(wr_session_history_line(app->session, position - 1), &words);
     wr_gui_row_at(x, 0);
-    wr_gui_as_it_is(true); /* said already */
+    wr_gui_as_it_is(true); /* already translated */
     wr_gui_text_cut(WR_FONT_SMALL, colour, wr_text_get(&words),
                     wr_gui_row_width() - x - wr_gui_px(12));
     wr_gui_as_it_is(false);

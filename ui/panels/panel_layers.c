@@ -1,4 +1,4 @@
-/* The layers: top layer first. Every act is a command line. */
+/* Layers panel, top layer first. Every change is a command line. */
 #include "ui/panels/panel_layers.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
@@ -138,12 +138,13 @@ static void name_field(WrApp *app, double width)
 
 static void describe(const WrLayer *layer, char *text, size_t size)
 {
-    const bool plain = layer->filter.op && layer->blend == WR_BLEND_MIX; /* as filters are */
+    /* the default of filters */
+    const bool plain = layer->filter.op && layer->blend == WR_BLEND_MIX;
     snprintf(text, size, "%s %.4g %%", wr_words(plain ? "filter" : wr_blends[layer->blend].name),
              rint((double)layer->opacity * 1000.0) / 10.0);
 }
 
-/* The name, and blend and opacity beside it, or below it where it is narrow. */
+/* The name, with blend mode and opacity beside it, or below it in a narrow panel. */
 static void row_name(const WrLayer *layer, double x, double right, bool shown, bool active)
 {
     WrColour ink = !shown ? WR_COLOUR_MUTED : active ? WR_COLOUR_STRONG : WR_COLOUR_TEXT;
@@ -168,7 +169,8 @@ static void row_name(const WrLayer *layer, double x, double right, bool shown, b
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, right - x);
 }
 
-/* A part of a layer was clicked: edits go there; with Alt the mask is shown alone, or no longer. */
+/* Handle a click on a layer's picture: it becomes the target of edits; with Alt, toggle the display of the mask
+   alone. */
 static bool choose_part(WrApp *app, int i, bool mask)
 {
     const WrDocument *document = wr_app_document(app);
@@ -192,14 +194,14 @@ static bool row_mask(WrApp *app, int i, bool active, double *x)
     return false;
 }
 
-/* The dialog of its values comes with the next picture, when it is the active layer. */
+/* Open the filter's dialog in the next frame, when its layer is active. */
 static void edit_filter(WrApp *app, int i)
 {
     if (wr_app_document(app)->active != i && !wr_app_run_linef(app, "layer use %d", i + 1)) return;
     wr_action_run(app, WR_ACT(filter_edit));
 }
 
-/* Its heights and its mask; a frame is round what edits go to. True if a command was run. */
+/* Pictures of heights and mask, with a frame around the target of edits. True if a command was run. */
 static bool row_pictures(WrApp *app, int i, bool active, double *x)
 {
     const WrLayer *layer = &wr_app_document(app)->layers[i];
@@ -228,7 +230,7 @@ static bool row_pictures(WrApp *app, int i, bool active, double *x)
     return row_mask(app, i, active, x);
 }
 
-/* True if a command was run: the layers are others now. */
+/* True if a command was run: the list of layers has changed. */
 static bool row_parts(WrApp *app, int i, bool active)
 {
     const WrDocument *document = wr_app_document(app);
@@ -261,7 +263,7 @@ static bool row_parts(WrApp *app, int i, bool active)
     return false;
 }
 
-/* Keep in mind where the layer that is held would go. */
+/* Update the drop position of the dragged layer. */
 static void follow_drag(WrApp *app, const WrRow *row, int i, int count)
 {
     WrLayersHand *hand = app->layers;
@@ -302,7 +304,7 @@ static bool row(WrApp *app, int i)
     return false;
 }
 
-/* ---- the menu of a layer ---- */
+/* ---- context menu of a layer ---- */
 
 static void menu(WrApp *app)
 {
@@ -342,10 +344,10 @@ static void menu(WrApp *app)
 
 static void list(WrApp *app)
 {
-    wr_gui_space(-12); /* rows begin at the edge */
+    wr_gui_space(-12); /* rows start at the panel's edge */
     int count = wr_app_document(app)->layer_count;
     for (int i = count - 1; i >= 0; i--)
-        if (row(app, i)) break; /* the rest follows in the next picture */
+        if (row(app, i)) break; /* the rest follows in the next frame */
     menu(app);
 }
 

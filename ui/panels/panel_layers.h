@@ -1,4 +1,4 @@
-/* panel_layers.h - the list of layers. */
+/* panel_layers.h - layers panel. */
 #pragma once
 #include "ui/panels/thumb_list.h"
 #include "ui/state/app_state.h"
@@ -12,18 +12,18 @@
 #include <stdint.h>
 
 typedef struct WrLayersHand {
-    int dragged; /* index of the layer that is held, -1: none */
-    int gap;     /* where it would go: between layers gap - 1 and gap */
-    int renamed; /* index of the layer whose name is being typed, -1: none */
-    bool fresh;  /* it is the field's first frame */
+    int dragged; /* index of the dragged layer, -1: none */
+    int gap;     /* drop position: between layers gap - 1 and gap */
+    int renamed; /* index of the layer being renamed, -1: none */
+    bool fresh;  /* first frame of the text field */
     char name[WR_LAYER_NAME_MAX + 1];
-    bool open;          /* the menu is asked for */
-    WrThumbList thumbs; /* two a layer: heights, mask */
-    WrThumbList steps;  /* one a state of the history */
+    bool open;          /* open the menu */
+    WrThumbList thumbs; /* two per layer: heights, mask */
+    WrThumbList steps;  /* one per state of the history */
 } WrLayersHand;
 
 void wr_panel_layers(WrApp *app, SDL_Rect room);
-void wr_panel_layers_forget(WrApp *app); /* its pictures */
+void wr_panel_layers_forget(WrApp *app); /* drop its textures */
 void wr_layer_rename_start(WrApp *app, int index);
 
 extern const WrPart wr_part_layers;

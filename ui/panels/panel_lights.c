@@ -1,4 +1,4 @@
-/* The scene's panel: lights. */
+/* Lights section of the scene panel. */
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -21,7 +21,7 @@
 
 #include <stdio.h>
 
-/* True if the line was run: the lights are others now. */
+/* True if a command was run: the list of lights has changed. */
 static bool one_light(WrApp *app, int i)
 {
     WR_ROWS(kinds);
@@ -122,7 +122,7 @@ static void lights(WrApp *app)
     }
 }
 
-/* ---- surroundings ---- */
+/* ---- environment ---- */
 
 void wr_light_take_surround(WrApp *app, const char *path)
 {

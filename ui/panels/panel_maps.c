@@ -1,4 +1,4 @@
-/* Pictures on the object at hand: its colours, its normals, its roughness and metalness. Every act is a command line. */
+/* Texture maps of the active object: colour, normals, roughness and metalness. Every change is a command line. */
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -21,7 +21,7 @@
 
 #define GLYPH 24
 
-/* One of them. */
+/* A map. */
 typedef struct Map {
     const char *verb, *label, *choose, *remove, *none;
     WrFilePurpose purpose;
@@ -73,7 +73,7 @@ static const Map normals = { "normalmap",
                              WR_FILE_NORMALS,
                              normals_laid };
 
-/* "VERB FILE", "VERB name=value". */
+/* Run "VERB FILE" or "VERB name=value". */
 static void run(WrApp *app, const char *verb, const char *name, const char *value)
 {
     WrText line = { 0 };
@@ -109,7 +109,7 @@ static const char *name_of(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/* The file's name, and what opens another or takes it off. */
+/* The file's name, with buttons to open another one and to remove it. */
 static void file_row(WrApp *app, const Map *map, const WrImage *image, const WrTextureSample *laid)
 {
     const char *path = image && laid->path ? laid->path : "";
@@ -132,7 +132,7 @@ static void file_row(WrApp *app, const Map *map, const WrImage *image, const WrT
     wr_gui_tip(map->remove);
 }
 
-/* As often as the table, once, or so often. */
+/* Tiling: as the table, once, or a number of repeats. */
 static void repeat_row(WrApp *app, const Map *map, const WrTextureSample *laid)
 {
     static const char *const ways[] = { "As the table", "Once", "So often" };
@@ -172,7 +172,7 @@ static void repeat_row(WrApp *app, const Map *map, const WrTextureSample *laid)
     wr_text_fini(&value);
 }
 
-/* A choice of words of the command's. */
+/* A choice argument of the command. */
 static void word_row(WrApp *app, const char *label, const char *name, const char *const *titles,
                      const char *const *words, int count, int now, const char *tip)
 {
@@ -223,7 +223,7 @@ static void normal_rows(WrApp *app)
     wr_scene_run(app, &line);
 }
 
-/* Pictures of what the reflection model goes by, and those that are there whatever it is. */
+/* Maps that the reflection model uses, and maps already loaded. */
 static void facet_rows(WrApp *app)
 {
     const WrReflect model = wr_app_scene(app)->material.model;

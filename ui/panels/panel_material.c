@@ -1,4 +1,4 @@
-/* The scene's panel: bump and material. */
+/* Bump and material sections of the scene panel. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
@@ -45,7 +45,7 @@ static void bump(WrApp *app)
 
 /* ---- material ---- */
 
-/* Does the model at hand go by this number? */
+/* True if the current reflection model uses this number. */
 static bool counts(const WrReflectInfo *model, const WrSceneParam *param)
 {
     const ptrdiff_t row = param - wr_scene_params;
@@ -57,7 +57,7 @@ static bool counts(const WrReflectInfo *model, const WrSceneParam *param)
     return true;
 }
 
-/* The model, and which of its forms where there are two. */
+/* The reflection model, and its variant if there are two. */
 static void reflection(WrApp *app)
 {
     const char *models[WR_REFLECT_COUNT];

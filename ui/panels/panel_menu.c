@@ -22,9 +22,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#define FIND_UNITS 190 /* width of what opens the search */
+#define FIND_UNITS 190 /* width of the search button */
 
-/* Names of actions; "-" is a line, "recent", "scale", "theme", "tiling", "operations" and "filters" are made below. */
+/* Names of actions; "-" is a separator; "recent", "scale", "theme", "tiling", "operations" and "filters" are
+   generated below. */
 static const char *const file_menu[] = { WR_ACT(new),
                                          WR_ACT(open),
                                          "recent",
@@ -231,7 +232,7 @@ static void recent(WrApp *app)
     if (!app->settings->recent[0]) wr_gui_menu_item("No files yet", NULL, false, false);
     wr_gui_menu_end();
     if (!chosen) return;
-    char *copy = wr_strdup(chosen); /* opening reorders the list */
+    char *copy = wr_strdup(chosen); /* opening a file reorders the list */
     wr_app_open_path(app, copy);
     wr_free(copy);
 }
@@ -267,7 +268,7 @@ void wr_menu_item(WrApp *app, const char *name)
     wr_gui_tip(wr_action_help(app, action));
 }
 
-/* Table operations, in the order of their table: all, or those that a layer can be. */
+/* Table operations in the order of their table: all, or those usable as filter layers. */
 static void list_operations(WrApp *app, bool filters)
 {
     for (const WrOpInfo *op = wr_ops; op->name; op++) {
@@ -324,7 +325,7 @@ static void generators(WrApp *app)
     wr_gui_menu_end();
 }
 
-/* What the patch shows besides its picture. */
+/* Overlays of the patch. */
 /* A menu within a menu. */
 static void submenu(WrApp *app, const char *title, const char *const *names, size_t count)
 {
@@ -410,7 +411,7 @@ static void menu(WrApp *app, const char *label, const char *const *names)
     wr_gui_menu_end();
 }
 
-/* Of what opens the search, at the right end; 0: there is no room for it. */
+/* Width of the search button at the right end; 0: no room. */
 static double find_width(const WrApp *app)
 {
     char keys[32];
@@ -430,7 +431,7 @@ static void find_field(WrApp *app, double wide)
         wr_action_run(app, WR_ACT(search));
 }
 
-/* The document's name, in the middle where there is room, or where room is left; the window's title has it too. */
+/* The document's name, centred if there is room; it is also in the window's title. */
 static void title(const WrApp *app, double from, double to)
 {
     char text[300];
@@ -446,7 +447,7 @@ static void title(const WrApp *app, double from, double to)
     wr_gui_as_it_is(false);
 }
 
-/* Whether the menus' titles would leave no room beside them. */
+/* True if the menu titles leave no room beside them. */
 static bool is_tight(const WrApp *app)
 {
     static const char *const titles[] = { "File",   "Edit",  "Brush",    "Tools", "Layer",

@@ -1,4 +1,4 @@
-/* A new document in one dialog: how large, of which shape, on what, and what it begins with. */
+/* Dialog for a new document: size, aspect ratio, surface and initial content. */
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/document.h"
@@ -45,7 +45,7 @@ static void size_rows(WrNewForm *form)
     wr_gui_label("Shape");
     bool shaped = wr_gui_segments("aspect", aspects, NULL, WR_ASPECTS, &aspect);
     if (sized && aspect >= 0) wr_new_sides(aspect, longest[size], &form->width, &form->height);
-    else if (sized) { /* a shape of its own is kept */ double by = longest[size] / longer;
+    else if (sized) { /* a free aspect ratio is kept */ double by = longest[size] / longer;
         form->width = fmax(1.0, rint(form->width * by));
         form->height = fmax(1.0, rint(form->height * by));
     }

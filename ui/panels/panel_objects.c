@@ -1,4 +1,5 @@
-/* The scene's objects: which there are, which is at hand, and where that one stands. Every act is a command line. */
+/* Objects section of the scene panel: list of objects, active object and its position. Every change is a command
+   line. */
 #include "ui/panels/panel_objects.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
@@ -28,7 +29,7 @@
 
 /* ---- the list ---- */
 
-/* "object choose NAME" and the like. */
+/* Run "object choose NAME" and similar lines. */
 static void run_named(WrApp *app, const char *what, int i)
 {
     char buffer[WR_OBJECT_LABEL];
@@ -38,7 +39,7 @@ static void run_named(WrApp *app, const char *what, int i)
     wr_scene_run(app, &line);
 }
 
-/* True if a line was run: the objects are others now. */
+/* True if a command was run: the list of objects has changed. */
 static bool row(WrApp *app, int i)
 {
     const WrScene *scene = wr_app_scene(app), *object = wr_scene_object(scene, i);
@@ -70,7 +71,7 @@ static bool row(WrApp *app, int i)
 
 /* ---- adding ---- */
 
-/* "object 4": the first number from the count on that none has yet. */
+/* "object 4": a name with the first free number, starting at the count. */
 static void free_name(const WrScene *scene, WrText *text)
 {
     int number = wr_scene_object_count(scene) + 1;
@@ -80,7 +81,7 @@ static void free_name(const WrScene *scene, WrText *text)
     } while (wr_scene_object_find(scene, wr_text_get(text)) >= 0);
 }
 
-/* Beside all others, to the right. */
+/* Add an object to the right of all others. */
 static void add(WrApp *app, const char *what)
 {
     const WrScene *scene = wr_app_scene(app);
@@ -117,7 +118,7 @@ static void buttons(WrApp *app)
                    : "A floor where the lowest of the objects stands; it does not turn with them");
 }
 
-/* ---- the one at hand ---- */
+/* ---- active object ---- */
 
 static void name_row(WrApp *app)
 {
@@ -187,7 +188,7 @@ static void place(WrApp *app)
     wr_scene_run(app, &line);
 }
 
-/* One size, or, where they differ, three; and what makes the one three. */
+/* One size, or three if they differ; and a switch from one to three. */
 static void sizes(WrApp *app, bool always)
 {
     static const char *const ids[3] = { "sx", "sy", "sz" };
@@ -235,7 +236,7 @@ static void table(WrApp *app)
     labels[file] = wr_words("A file\xe2\x80\xa6");
     const int before = now;
     wr_gui_label("Table");
-    wr_gui_as_it_is(true); /* names of layers */
+    wr_gui_as_it_is(true); /* names of layers are not translated */
     const bool changed = wr_gui_choice("table", 0, labels, file + 1, &now);
     wr_gui_as_it_is(false);
     if (changed && now != before) {

@@ -1,13 +1,13 @@
-/* panel_objects.h - the list of objects: its own state. */
+/* panel_objects.h - state of the objects section. */
 #pragma once
 #include "document/document.h"
 
-/* The name of the object at hand as it is being written. */
+/* Name of the active object while it is typed. */
 typedef struct WrObjectsHand {
     char name[WR_LAYER_NAME_MAX + 1];
-    char of[WR_LAYER_NAME_MAX + 1]; /* what it was taken from */
+    char of[WR_LAYER_NAME_MAX + 1]; /* name at the start */
 } WrObjectsHand;
 
 typedef struct WrApp WrApp;
-/* A file was chosen as the chosen object's table. */
+/* Handle the chosen file for the active object's table. */
 void wr_object_table_take(WrApp *app, const char *path);

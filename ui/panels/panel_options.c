@@ -1,4 +1,4 @@
-/* The option row under the menu: the tool in hand, and what it puts there. */
+/* Option row below the menu: the current tool and its options. */
 #include "ui/state/action.h"
 #include "ui/state/app_state.h"
 #include "ui/state/layout.h"

@@ -1,4 +1,4 @@
-/* What the planner decided for the last picture, with its reasons and prices. */
+/* Plan panel: decisions of the planner for the last picture, with reasons and costs. */
 #include "ui/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -12,7 +12,7 @@
 
 #include <stdio.h>
 
-/* The eye of a row: the picture without that effect, or with it; again: as the plan has it. */
+/* Toggle of a row: the picture without the effect, or with it; a second press restores the plan. */
 static void eye(WrApp *app, int effect, bool runs)
 {
     WrPreviewLook *look = &app->patch->look;
@@ -29,7 +29,7 @@ static void eye(WrApp *app, int effect, bool runs)
     wr_gui_same_line(6);
 }
 
-/* Whether a picture can be had both ways. */
+/* True if the picture can be rendered both ways. */
 static bool has_eye(const WrPlanRow *row, const WrEffectInfo *info)
 {
     return row->verdict != WR_VERDICT_NONE && !(row->run && info->only_way);
@@ -53,7 +53,7 @@ static void effect(WrApp *app, int i, const WrPlanRow *e)
         wr_gui_tip("Nanoseconds a pixel, measured in the last picture");
     }
     wr_gui_space(-6);
-    /* The proof is of the planner's own decision, not of an effect that the user turned off. */
+    /* The proof applies to the planner's own decision, not to an effect that the user disabled. */
     if (e->run || e->verdict == WR_VERDICT_RUN)
         snprintf(text, sizeof text, "%s", wr_words(e->reason));
     else snprintf(text, sizeof text, "%s: %s", wr_words(proofs[e->proof]), wr_words(e->reason));
@@ -62,7 +62,7 @@ static void effect(WrApp *app, int i, const WrPlanRow *e)
     wr_gui_space(4);
 }
 
-/* Among those that run? One that is looked at both ways stays where it was, under the pointer. */
+/* True if the row belongs to the list of running effects. A toggled row stays in its list, under the pointer. */
 static bool belongs(const WrApp *app, int effect, bool runs)
 {
     const WrPreviewLook *look = &app->patch->look;

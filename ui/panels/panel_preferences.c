@@ -1,4 +1,4 @@
-/* What the window is like, and which keys do what: each change holds at once and is written at once. */
+/* Preferences: window settings and keys. Each change takes effect and is saved at once. */
 #include "ui/panels/panel_preferences.h"
 #include "ui/state/action.h"
 #include "ui/state/app_state.h"
@@ -90,7 +90,7 @@ static const char *label_of(const WrApp *app, const char *action)
     return found ? found->label : action;
 }
 
-/* The user's file with what the map says of one action, or of two. */
+/* Text of the user's key file with the map's keys of one action, or of two. */
 static bool write_keys(WrApp *app, const char *action, const char *also, WrError *err)
 {
     WrText once = { 0 }, twice = { 0 };
@@ -120,7 +120,7 @@ static void tell(WrPreferences *p, const WrError *err, const char *format, const
     else snprintf(p->told, sizeof p->told, format, key, what, other);
 }
 
-/* Of the two, what the file now says; where it cannot be written nothing has changed. */
+/* Apply the written keys of both actions; after a failed write, restore the map. */
 static void settle(WrApp *app, const char *action, const char *other, const char *key)
 {
     WrError err;
@@ -154,7 +154,7 @@ bool wr_preferences_take_key(WrApp *app, const SDL_KeyboardEvent *event)
     return true;
 }
 
-/* While an action waits for its key. */
+/* Dialog state while an action waits for its key. */
 static void wait_for_key(WrApp *app)
 {
     WrPreferences *p = app->preferences;

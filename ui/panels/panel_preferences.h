@@ -1,4 +1,4 @@
-/* panel_preferences.h - what the window is like, and which keys do what. */
+/* panel_preferences.h - preferences dialog: window settings and keys. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/keys.h"
@@ -7,12 +7,13 @@
 
 typedef struct WrPreferences {
     char query[80];
-    char waits[64]; /* the action that the next key is for; "": none */
-    WrKey key;      /* that went down for it, with what was held then; SDLK_UNKNOWN: none yet */
-    char told[200]; /* of the last change */
-    bool bad;       /* it could not be made */
+    char waits[64]; /* action that waits for the next key; "": none */
+    /* key pressed for it, with the modifiers at that time; SDLK_UNKNOWN: none yet */
+    WrKey key;
+    char told[200]; /* message of the last change */
+    bool bad;       /* the change failed */
 } WrPreferences;
 
 void wr_dialog_preferences(WrApp *app);
-/* A key went down: is it the one that an action waits for? */
+/* Handle a key press; true if an action waits for a key and gets this one. */
 bool wr_preferences_take_key(WrApp *app, const SDL_KeyboardEvent *event);

@@ -1,4 +1,4 @@
-/* Materials to begin with: a sphere of each, rendered as the patch is, one in each picture of the window. */
+/* Material menu: a sphere for each material, rendered like the patch, one per frame of the window. */
 #include "ui/panels/panel_presets.h"
 #include "ui/state/scene_line.h"
 #include "ui/state/session_view.h"
@@ -19,12 +19,12 @@
 
 #define TILE_UNITS 64
 #define COLUMNS 4
-#define GROUND 0.012f /* linear; the list's own */
+#define GROUND 0.012f /* background of the list, linear */
 
 struct WrPresetTiles {
-    WrSession *session; /* of the pictures; NULL: not yet */
+    WrSession *session; /* session that renders the pictures; NULL: not yet */
     SDL_Texture *texture[WR_MATERIAL_PRESETS];
-    int made; /* that many were tried */
+    int made; /* number of rendered pictures, failures included */
     int side; /* pixels */
 };
 
@@ -48,7 +48,7 @@ static bool start(WrPresetTiles *tiles, WrError *err)
     return good;
 }
 
-/* Over the ground, where the sphere is not. */
+/* Composite over the background outside the sphere. */
 static void fill_over(const WrFrame *frame, size_t count, float *rgb)
 {
     for (size_t i = 0; i < count; i++)
@@ -72,7 +72,7 @@ static SDL_Texture *texture_of(SDL_Renderer *renderer, const WrFrame *frame, int
     return texture;
 }
 
-/* The next picture that is missing. */
+/* Render the next missing picture. */
 static void make_one(const WrApp *app, WrPresetTiles *tiles)
 {
     WrError err;
@@ -111,7 +111,7 @@ const WrPart wr_part_presets = { .forget = forget };
 
 /* ---- the list ---- */
 
-/* The preset whose numbers the material has, or -1. */
+/* Index of the preset with the material's numbers, or -1. */
 static int chosen(const WrMaterial *material)
 {
     for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {

@@ -1,9 +1,9 @@
-/* panel_presets.h - the list of materials as pictures, opened from the scene's tab. */
+/* panel_presets.h - material menu: a list of materials as pictures, opened from the scene tab. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
 
-/* The row that names the material at hand and opens the list; the list itself while it is open. */
+/* Row with the material's name, which opens the list; and the open list. */
 void wr_panel_presets(WrApp *app);
 void wr_presets_free(WrApp *app);
 

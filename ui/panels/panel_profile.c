@@ -1,4 +1,4 @@
-/* The profile of a surface of revolution as a curve with points to drag; each drag is one command. */
+/* Profile editor of a surface of revolution: a curve with draggable points; each drag is one command. */
 #include "ui/state/app_state.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/gui.h"
@@ -13,14 +13,14 @@
 #include <math.h>
 #include <string.h>
 
-#define STEPS 160  /* of the curve that is drawn */
-#define REACH 10.0 /* units: how near a point is hit */
-#define AXIS 4.0   /* units from the axis that count as on it */
-#define ROOM 1.15  /* more than the profile takes */
+#define STEPS 160  /* segments of the drawn curve */
+#define REACH 10.0 /* units: hit radius of a point */
+#define AXIS 4.0   /* units from the axis that snap to it */
+#define ROOM 1.15  /* margin around the profile */
 
-/* ---- where things are ---- */
+/* ---- geometry ---- */
 
-/* From the table's lengths to the pad: the axis in the middle, z up. It stays while a point is held. */
+/* Map from profile lengths to the pad: the axis in the middle, z up. Fixed while a point is dragged. */
 static void fit(WrProfileHand *hand, const WrPad *pad)
 {
     double most = 1e-9, low = INFINITY, high = -INFINITY;
@@ -81,9 +81,9 @@ static void draw_points(const WrProfileHand *hand, const WrPad *pad, int over)
     }
 }
 
-/* ---- under the hand ---- */
+/* ---- dragging ---- */
 
-/* The surface of the points as they are now, in the scene that is shown; what makes none is not shown. */
+/* Show the surface of the present points in the preview; invalid profiles are not shown. */
 static void show(WrApp *app, WrProfileHand *hand)
 {
     WrText text = { 0 };
@@ -108,7 +108,7 @@ static void run(WrApp *app, WrProfileHand *hand)
     const char *texts[WR_SURFACE_TEXTS] = { wr_text_get(&text) };
     wr_surface_run(app, &wr_app_scene(app)->shape, texts);
     wr_text_fini(&text);
-    hand->key = 0; /* taken anew, also where it was refused */
+    hand->key = 0; /* read again, also after a refusal */
 }
 
 static void press(WrApp *app, WrProfileHand *hand, int over, double r, double z)

@@ -1,4 +1,4 @@
-/* What a program that crashed left behind: take it back, give it up, or leave it for later. */
+/* Crash recovery dialog: recover, discard, or keep for later. */
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -26,8 +26,8 @@ struct WrRecovery {
     WrRecoverable *list; /* owned */
     int count, chosen;
     bool sure;  /* Discard was pressed once */
-    char *told; /* the chosen one was recovered but for a part: how that went; owned; else NULL */
-    bool more;  /* and going on behind what is missing could bring more */
+    char *told; /* report of a partial recovery of the chosen journal; owned; else NULL */
+    bool more;  /* continuing past the damage might recover more */
 };
 
 void wr_recovery_free(WrRecovery *recovery)
@@ -44,7 +44,7 @@ static void forget(WrApp *app)
     app->recovery = NULL;
 }
 
-/* Is there one that something can be had of? The others are shown beside it; `wrinkle recover` tells of all. */
+/* True if some journal is readable. The others are shown beside it; `wrinkle recover` lists all. */
 static bool any_good(const WrRecovery *recovery)
 {
     for (int i = 0; i < recovery->count; i++)
@@ -100,7 +100,7 @@ static bool recover_work(WrSession *session, void *ctx, WrError *err)
     return wr_session_recover(session, call->journal, call->beyond, &call->recovered, err);
 }
 
-/* The rest of it is still there: what now? */
+/* Ask about the rest of a partly recovered journal. */
 static void ask_about_rest(WrApp *app, const Call *call)
 {
     wr_dialog_recover_open(app);
@@ -169,7 +169,7 @@ static void rows(WrRecovery *recovery)
 static void discard(WrApp *app)
 {
     WrError err;
-    if (!app->recovery->sure) { /* what is given up cannot be brought back: ask again */
+    if (!app->recovery->sure) { /* discarding is final: ask again */
         app->recovery->sure = true;
         return;
     }
@@ -179,7 +179,7 @@ static void discard(WrApp *app)
     wr_dialog_recover_open(app); /* if there are others */
 }
 
-/* What the chosen one is, or how its recovery went. */
+/* Show the chosen journal, or the result of its recovery. */
 static void tell(const WrRecovery *recovery)
 {
     const WrRecoverable *r = &recovery->list[recovery->chosen];
@@ -210,7 +210,7 @@ static void tell(const WrRecovery *recovery)
     if (*text) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 
-/* The buttons that bring it back. */
+/* Buttons for the recovery. */
 static void recover_buttons(WrApp *app, bool key)
 {
     const WrRecovery *recovery = app->recovery;

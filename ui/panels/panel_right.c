@@ -1,5 +1,5 @@
-/* The panel on the right: one tab at a time above, the layers below; where there is no room for both,
-   the layers are a tab too. What needs many rows takes the layers' place where they leave it only a few. */
+/* Right panel: one tab above, the layers below. Without room for both, the layers are a tab too. A long tab replaces
+   the layers if they would leave it only a few rows. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
@@ -13,7 +13,7 @@
 
 #include <SDL.h>
 
-#define LONG_UNITS 400 /* that a long tab needs above the layers */
+#define LONG_UNITS 400 /* least height of a long tab above the layers */
 #define MOST_TABS 16
 
 static SDL_Rect below_head(SDL_Rect room, const char *const *labels, int count, SDL_Rect *head)

@@ -1,5 +1,5 @@
-/* The scene: every field shows what the document has, changes the preview while it is dragged, and runs
-   one command when it is let go. */
+/* Scene panel: every field shows the document's value, changes the preview while it is dragged, and runs one command
+   at the end. */
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/scene_line.h"
@@ -32,7 +32,7 @@
 
 /* ---- surface ---- */
 
-/* A surface that is read from a file: which, and which part of the table its patches have. */
+/* Append the file of a surface, and the table part of each patch for a patch set. */
 static void add_file(WrText *line, const WrShape *shape, const char *file, int table)
 {
     if (!*file) return;
@@ -41,7 +41,7 @@ static void add_file(WrText *line, const WrShape *shape, const char *file, int t
     if (shape->kind == WR_SURFACE_patches) wr_text_addf(line, " table=%s", wr_patch_tables[table]);
 }
 
-/* Those of the scene, if it shows such a surface of this kind. */
+/* File and table part of the present surface, if it is of this kind. */
 static const char *file_of(WrApp *app, WrSurfaceKind kind, int *table)
 {
     const WrScene *scene = wr_app_scene(app);
@@ -86,7 +86,7 @@ void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text)
     run_file(app, shape, text, file, table);
 }
 
-/* The layer that a terrain has its form of, or none: a file. */
+/* Choice of the layer that a terrain takes its heights from, or a file. */
 static void form_layer(WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);
@@ -98,7 +98,7 @@ static void form_layer(WrApp *app)
         if (scene->form_layer && strcmp(scene->form_layer, labels[1 + i]) == 0) which = 1 + i;
     }
     wr_gui_label("Layer");
-    wr_gui_as_it_is(true); /* names of layers */
+    wr_gui_as_it_is(true); /* names of layers are not translated */
     const bool chosen = wr_gui_choice("form layer", 0, labels, 1 + document->layer_count, &which);
     wr_gui_as_it_is(false);
     wr_gui_tip(
@@ -117,14 +117,14 @@ static void form_layer(WrApp *app)
     wr_scene_run(app, &line);
 }
 
-/* ---- its file ---- */
+/* ---- file of a surface ---- */
 
 static void take_file(WrApp *app, WrSurfaceKind kind, const char *path)
 {
     WrShape shape = wr_app_scene(app)->shape;
     int table;
     file_of(app, kind, &table);
-    if (shape.kind != kind) wr_shape_default(kind, &shape); /* another was chosen meanwhile */
+    if (shape.kind != kind) wr_shape_default(kind, &shape); /* another kind was chosen meanwhile */
     run_file(app, &shape, NULL, path, table);
 }
 
@@ -143,7 +143,7 @@ void wr_surface_take_terrain(WrApp *app, const char *path)
     take_file(app, WR_SURFACE_terrain, path);
 }
 
-/* Asks for a file, beginning with the one that is there, else among the patch sets that ship with the program. */
+/* Open a file dialog at the present file, else in the folder of patch sets shipped with the program. */
 static void browse(WrApp *app, const char *file)
 {
     const WrSurfaceKind kind = wr_app_scene(app)->shape.kind;
@@ -160,7 +160,7 @@ static void browse(WrApp *app, const char *file)
     wr_text_fini(&shipped);
 }
 
-/* What a mesh, patches or a terrain are read from. */
+/* File row of a mesh, patch set or terrain. */
 static void surface_file(WrApp *app)
 {
     const WrShape *shape = &wr_app_scene(app)->shape;
@@ -182,7 +182,7 @@ static void surface_file(WrApp *app)
     wr_gui_same_line(4);
     if (wr_gui_glyph("browse", WR_ICON_FOLDER, GLYPH, WR_COLOUR_LABEL)) browse(app, file);
     wr_gui_tip("Choose a file");
-    if (left && wr_gui_escape_pressed()) hand->file_key = 0; /* taken anew */
+    if (left && wr_gui_escape_pressed()) hand->file_key = 0; /* read again */
     else if ((done || left) && *hand->file && strcmp(hand->file, file) != 0)
         run_file(app, shape, NULL, hand->file, table);
     if (shape->kind == WR_SURFACE_terrain) form_layer(app);
@@ -195,14 +195,14 @@ static void surface_file(WrApp *app)
                "whole, running "
                "on across shared edges; a part, the set unfolded; a cell of its own");
     if (!chosen) return;
-    WrText line = { 0 }; /* of the set that is there: its file may not be where it was */
+    WrText line = { 0 }; /* reuse the loaded set, since its file may have moved */
     wr_text_addf(&line, "surface patches table=%s", wr_patch_tables[table]);
     wr_scene_run(app, &line);
 }
 
-/* ---- its values ---- */
+/* ---- parameters of a surface ---- */
 
-/* What a surface is given by in words, each in a field that runs the command when it is left changed. */
+/* Text parameters of a surface, each in a field that runs the command when the edit ends. */
 static void surface_texts(WrApp *app)
 {
     const WrShape *shape = &wr_app_scene(app)->shape;
@@ -224,7 +224,7 @@ static void surface_texts(WrApp *app)
     }
     hand->key = shape->key;
     if (!done && !left) return;
-    if (left && wr_gui_escape_pressed()) hand->key = 0; /* taken anew */
+    if (left && wr_gui_escape_pressed()) hand->key = 0; /* read again */
     for (int k = 0; k < WR_SURFACE_TEXTS && info->texts[k].name && hand->key; k++) {
         if (strcmp(hand->text[k], shape->data->text[k]) == 0) continue;
         wr_surface_run(app, shape, text);
@@ -232,7 +232,7 @@ static void surface_texts(WrApp *app)
     }
 }
 
-/* One of two values. */
+/* A parameter with two values. */
 static void end_choice(WrApp *app, const WrSurfaceParam *p, const char *label, int offset)
 {
     WrShape shape = wr_app_scene(app)->shape;
@@ -306,7 +306,7 @@ static void surface(WrApp *app)
     WrEdit edit_u = wr_gui_number("ru", half, &spec, &ru);
     wr_gui_same_line(8);
     WrEdit edit_v = wr_gui_number("rv", half, &spec, &rv);
-    /* a drag goes by whole numbers, so that closed surfaces stay seamless; any can be typed */
+    /* a drag uses integers, so that closed surfaces stay seamless; any number can be typed */
     if (edit_u == WR_EDIT_LIVE) ru = rint(ru);
     if (edit_v == WR_EDIT_LIVE) rv = rint(rv);
     if (edit_u != WR_EDIT_NONE || edit_v != WR_EDIT_NONE)
@@ -326,7 +326,7 @@ void wr_panel_scene(WrApp *app)
         WrApp * app) = { wr_panel_objects, surface,         wr_panel_material, wr_panel_maps,
                          wr_panel_solid,   wr_panel_lights, wr_panel_camera,   wr_panel_cell };
     for (int i = 0; i < WR_LENGTH(sections); i++) {
-        wr_gui_push_id(i); /* a strength here is not the strength there */
+        wr_gui_push_id(i); /* separate fields of the same label */
         sections[i](app);
         wr_gui_pop_id();
     }

@@ -1,5 +1,5 @@
-/* Finding an action by typing: all that the menus hold, every table operation, every generator, surface and material; and
-   every command, which is a line to be typed here. */
+/* Search: menu actions, table operations, generators, surfaces and materials; and every command, whose line can then
+   be typed here. */
 #include "ui/panels/panel_search.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
@@ -25,22 +25,22 @@
 #include <string.h>
 
 #define FOUND_MAX 12
-#define COMMAND "command:" /* names of rows that are commands begin so */
-#define LINE "line:"       /* and of those that are whole lines */
+#define COMMAND "command:" /* name prefix of rows that are commands */
+#define LINE "line:"       /* name prefix of rows that are whole lines */
 
 typedef struct Found {
     char name[64], label[80];
-    const char *help; /* a line that says what it does; a table's */
+    const char *help; /* one line of help; borrowed from a table */
     int score;
 } Found;
 
-/* Keep the best, those of equal score in the order of their table. also: what it answers to besides its label and its
+/* Keep the best matches; equal scores stay in the order of their table. also: further searched text besides label and
    help, or NULL. */
 static void offer(Found found[FOUND_MAX], int *count, const Found *one, const char *also,
                   const char *query)
 {
     int score = wr_search_score(wr_words(one->label), query), at = *count;
-    if (score == 0) score = wr_search_score(one->label, query); /* in English too */
+    if (score == 0) score = wr_search_score(one->label, query); /* try the English label too */
     if (score == 0 && also && wr_search_score(also, query) > 0) score = 1;
     if (score == 0 &&
         (wr_search_score(wr_words(one->help), query) > 0 || wr_search_score(one->help, query) > 0))
@@ -93,14 +93,14 @@ static int find_actions(const WrApp *app, Found found[FOUND_MAX])
     return count;
 }
 
-/* Surfaces and materials, each a line: people look for torus and gold. */
+/* Surfaces and materials by name (torus, gold), as lines. */
 static void find_lines(Found found[FOUND_MAX], int *count, const char *query)
 {
     for (int i = 0; i < WR_SURFACE_COUNT; i++) {
         const WrSurfaceInfo *surface = wr_surfaces[i];
         Found one = { .help = surface->help };
         if (surface->held || surface->make)
-            continue; /* made of a file or a text, which the line lacks */
+            continue; /* needs a file or a text, which the line lacks */
         snprintf(one.name, sizeof one.name, LINE "surface %.40s", surface->name);
         snprintf(one.label, sizeof one.label, "%.30s: %.40s", wr_words("Patch"),
                  wr_words(surface->label));
@@ -116,7 +116,7 @@ static void find_lines(Found found[FOUND_MAX], int *count, const char *query)
     }
 }
 
-/* Commands besides. */
+/* Search all tables, commands last. */
 static int find(const WrApp *app, Found found[FOUND_MAX])
 {
     const char *query = app->finder->text;
@@ -131,7 +131,7 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
     return count;
 }
 
-/* The command whose line is being typed: its verb and a space stand there. */
+/* The command whose line is being typed: the text starts with its verb and a space. */
 static const WrCommand *typed(const char *text)
 {
     char verb[40];
@@ -142,7 +142,7 @@ static const WrCommand *typed(const char *text)
     return wr_command_find(verb);
 }
 
-/* What is known of it, in the list's place; Return carries the line out. */
+/* Help of that command in place of the list; Return runs the line. */
 static void command_line(WrApp *app, const WrCommand *command, bool enter)
 {
     char line[sizeof app->finder->text];
@@ -193,7 +193,7 @@ static bool row(const WrApp *app, const Found *found, int i, bool chosen)
     return r.clicked && enabled;
 }
 
-/* What the chosen one does, in two lines whether it takes them or not: the dialog keeps its size. */
+/* Help of the chosen row, always two lines high, so that the dialog keeps its size. */
 static void help_line(const Found *found)
 {
     wr_gui_list_begin("help", 2.6 * wr_gui_line_height(WR_FONT_SMALL) + wr_gui_px(16));
@@ -233,7 +233,7 @@ void wr_dialog_search(WrApp *app)
     if (count == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No action has these words.");
     wr_gui_list_end();
     if (count > 0) help_line(&found[finder->chosen]);
-    /* Enter with nothing typed would run whatever stands first. */
+    /* Return with an empty field must not run the first row. */
     finder->empty = enter && !finder->text[0] && finder->chosen == 0;
     if (enter && count > 0 && !finder->empty) go = finder->chosen;
     if (go >= 0) run(app, found[go].name);

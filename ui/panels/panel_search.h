@@ -1,13 +1,14 @@
-/* panel_search.h - finding an action by typing. */
+/* panel_search.h - state of the search for actions. */
 #pragma once
 #include "ui/state/app_state.h"
 
-typedef struct WrFinder { /* the search for actions */
+typedef struct WrFinder { /* the search */
     char text[600];
-    bool fill; /* a command was just chosen: the field holds its verb, and wants the keys again */
-    bool line; /* what is typed is a command's line, not words of actions */
+    /* a command was just chosen: the field contains its verb and needs the keyboard focus */
+    bool fill;
+    bool line; /* the text is a command line, not a search */
     int chosen;
-    bool empty; /* Enter came with nothing typed: the field is to have the keys again */
+    bool empty; /* Return in an empty field: restore the keyboard focus */
 } WrFinder;
 
 void wr_dialog_search(WrApp *app);

@@ -1,4 +1,4 @@
-/* The dialogs that change the selection by numbers; the canvas shows the outline that they give. */
+/* Dialogs that change the selection by numbers; the canvas shows the resulting outline. */
 #include "ui/canvas/outline.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
@@ -21,7 +21,7 @@ WR_ROWS(kinds);
 static const struct {
     const char *title, *help, *verb;
 } kinds[WR_OUTLINE_KINDS] = {
-    [WR_ROW(WR_OUTLINE_PRESENT)] = { NULL, NULL, NULL }, /* nothing is asked of it */
+    [WR_ROW(WR_OUTLINE_PRESENT)] = { NULL, NULL, NULL }, /* not requested */
     [WR_ROW(WR_OUTLINE_GROW)] = { "Grow the selection", "Moves its edge outwards.", "grow" },
     [WR_ROW(WR_OUTLINE_SHRINK)] = { "Shrink the selection", "Moves its edge inwards.", "shrink" },
     [WR_ROW(WR_OUTLINE_FEATHER)] = { "Feather the selection",

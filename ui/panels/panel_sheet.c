@@ -1,4 +1,4 @@
-/* The export sheet. */
+/* Export sheet dialog. */
 #include "ui/panels/panel_sheet.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -17,11 +17,11 @@
 
 #define WIDE_UNITS 760
 #define PICTURE_UNITS 72
-#define OTHERS_UNITS 372 /* all but the list of maps, and what stands about a dialog */
-#define GREEN_SIDE 48    /* texels of the two bumps */
+#define OTHERS_UNITS 372 /* height of everything except the list of maps */
+#define GREEN_SIDE 48    /* texels of the pictures for the green direction */
 #define CHOICES_MOST (WR_SET_ROWS + WR_SETS_MOST + WR_EXPORT_KIND_COUNT)
 
-/* ---- what ---- */
+/* ---- choice of maps ---- */
 
 /* Sets first, then single maps. */
 static int list_choices(const WrSheetState *sheet, const char **labels, const char **words)
@@ -32,14 +32,14 @@ static int list_choices(const WrSheetState *sheet, const char **labels, const ch
         labels[count++] = sheet->names.names.data[i];
     }
     for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++) {
-        if (wr_export_kinds[i].ending) continue; /* bodies have sizes of their own: Export... */
+        if (wr_export_kinds[i].ending) continue; /* solids have their own dialog: Export... */
         words[count] = wr_export_kinds[i].name;
         labels[count++] = wr_export_kinds[i].label;
     }
     return count;
 }
 
-/* Short words, which leave the room to what they name. */
+/* Small label, which leaves room for its value. */
 static void label(const char *text)
 {
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
@@ -123,7 +123,7 @@ static void add_bytes(double bytes, char *text, size_t size)
     else snprintf(text, size, "%.0f kB", fmax(1, bytes / 1e3));
 }
 
-/* Heights of the first and the last code: of the whole table, of which the picture has not all. */
+/* Heights of the lowest and highest code for the whole table, since the picture contains only a part. */
 static void code_range(const WrSheetLook *look, int i, double *low, double *high)
 {
     const WrSetOrder order = { look->set, "", "", NULL, 0 };
@@ -205,9 +205,9 @@ static void show_maps(const WrApp *app, const WrSheetState *sheet)
     wr_gui_list_end();
 }
 
-/* ---- heights, and which way green runs ---- */
+/* ---- heights, and the direction of green ---- */
 
-/* Bars, and the first and last code's heights as lines; what is beyond them is clipped. */
+/* Histogram bars, with lines at the heights of the lowest and highest code; heights beyond them are clipped. */
 static void histogram(const WrSheetLook *look, double wide, double high)
 {
     const WrHistogram *h = &look->histogram;
@@ -232,7 +232,7 @@ static void histogram(const WrSheetLook *look, double wide, double high)
         "How many texels have which height; the line is 0. Orange: beyond the range, clipped");
 }
 
-/* A round bump as a normal map: its upper flank is bright green, or dark. */
+/* A round bump as a normal map: its upper side is bright green, or dark. */
 static SDL_Texture *make_green(SDL_Renderer *renderer, double green)
 {
     uint8_t rgb[GREEN_SIDE * GREEN_SIDE * 3];
@@ -297,14 +297,14 @@ static void numbers(const WrApp *app, WrSheetState *sheet)
              look->histogram.low, look->histogram.high,
              100.0 * (double)look->histogram.outside / texels, bytes,
              wr_words(wr_certificate_word(wr_certificate_order(&look->seam))));
-    wr_gui_as_it_is(true); /* it is put together */
+    wr_gui_as_it_is(true); /* assembled from translated parts */
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_TEXT, line, wr_gui_available());
     wr_gui_as_it_is(false);
     wr_gui_tip(wr_text_get(&seam));
     wr_text_fini(&seam);
 }
 
-/* ---- the end ---- */
+/* ---- end of the dialog ---- */
 
 static void buttons(WrApp *app, WrSheetState *sheet)
 {

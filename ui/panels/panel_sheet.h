@@ -1,38 +1,39 @@
-/* panel_sheet.h - the export sheet: which maps leave, for which program, how they look; and, as long as it is asked for,
-   writing them again after each pause of the hand. */
+/* panel_sheet.h - export sheet: choice of a set of maps, their pictures and files; optionally live export after each
+   pause in editing. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
 #include "ui/jobs/sheet_job.h"
 
 typedef struct WrSheetState {
-    WrSheetAsk ask;      /* what the sheet holds */
-    bool live;           /* write again after each pause of the hand */
-    WrJob *look, *write; /* owned; NULL until they are needed */
+    WrSheetAsk ask;      /* settings of the sheet */
+    bool live;           /* live export: write again after each pause in editing */
+    WrJob *look, *write; /* owned; NULL until needed */
     WrSheetLook *shown;  /* the newest pictures; owned; NULL: none yet */
     SDL_Texture *pictures[WR_SET_MAPS],
-        *greens[2];    /* owned; greens: a bump with green up, and down */
-    WrSheetAsk looked; /* what the newest pictures were asked for, of that table */
+        *greens[2];    /* owned; greens: pictures of a bump with green up and down */
+    WrSheetAsk looked; /* request of the newest pictures */
     uint64_t looked_key;
-    WrSetNames names;                      /* of sets, as the sheet was opened */
-    uint64_t key, key_table, key_revision; /* of all that maps are made of, at that revision */
-    uint64_t written_key;                  /* live: of what was written last */
-    uint64_t seen_key;                     /* live: of what is seen now, since */
+    WrSetNames names;                      /* names of sets when the sheet was opened */
+    uint64_t key, key_table, key_revision; /* hashes of all inputs of the maps at that revision */
+    uint64_t written_key;                  /* live: key of the last written files */
+    /* live: key of the present state, and the time of its first appearance */
+    uint64_t seen_key;
     double seen_at;
-    bool loud; /* what is being written was asked for by the button */
+    bool loud; /* the running export was started by the button */
 } WrSheetState;
 
 void wr_dialog_sheet(WrApp *app);
 void wr_sheet_free(WrApp *app);
-/* Is anything being written? Then how far it is, since how many seconds, and for whom. */
+/* True while files are written; its progress, elapsed seconds, and target program. */
 bool wr_sheet_writing(const WrApp *app, double *fraction, double *seconds, const char **as);
 void wr_sheet_cancel(WrApp *app);
 
 /* ---- sheet_life.c ---- */
 
-WrSheetState *wr_sheet_open(WrApp *app); /* made where it was not there */
+WrSheetState *wr_sheet_open(WrApp *app); /* created on first use */
 void wr_sheet_write(WrApp *app, bool loud);
-/* Pictures of what is asked for, where they are not the ones that are there or on their way. */
+/* Request new pictures if the present or requested ones are outdated. */
 void wr_sheet_look(WrApp *app);
 
 extern const WrPart wr_part_sheet;

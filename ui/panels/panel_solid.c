@@ -1,4 +1,4 @@
-/* The scene's panel: what the relief does besides turning normals, and the solid that the object is cut out of. */
+/* Relief section of the scene panel: effects of the relief besides normals, and the solid texture. */
 #include "ui/state/scene_line.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/gui.h"
@@ -44,7 +44,7 @@ static void relief(WrApp *app)
          "each edit cuts the surface anew");
 }
 
-/* Is the number one that this solid goes by? */
+/* True if this solid texture uses the number. */
 static bool counts(const WrSolidTexture *grain, WrSceneParamId id)
 {
     const WrSolidTextureInfo *info = &wr_grains[grain->kind];

@@ -1,4 +1,4 @@
-/* The status line: what is under the pointer, what the last picture cost, what there is to say. */
+/* Status line: values under the pointer, cost of the last picture, messages. */
 #include "ui/panels/panel_status.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"
@@ -35,7 +35,7 @@
 #include <string.h>
 
 #define METER_SECONDS 2.0
-#define MOMENT_SECONDS 0.2 /* work that takes less shows no bar */
+#define MOMENT_SECONDS 0.2 /* shorter work shows no progress */
 
 static void pair(const char *name, const char *value)
 {
@@ -45,7 +45,7 @@ static void pair(const char *name, const char *value)
     wr_gui_same_line(14);
 }
 
-/* u, v, F and slope at the pointer, on the canvas or on the patch. */
+/* u, v, F and slope under the pointer, on the canvas or on the patch. */
 static void under_pointer(const WrApp *app)
 {
     double u, v, f, fu, fv;
@@ -80,7 +80,7 @@ static void dismiss(WrApp *app)
     wr_app_redraw(app);
 }
 
-/* A text in lines that are not much longer than so many letters. */
+/* Wrap a text at about that many letters per line. */
 #define LINE_LETTERS 96
 
 static void in_lines(WrColour colour, const char *text)
@@ -91,7 +91,7 @@ static void in_lines(WrColour colour, const char *text)
         if (length > LINE_LETTERS) {
             length = LINE_LETTERS;
             while (length > LINE_LETTERS / 2 && text[length] != ' ') length--;
-            while ((text[length] & 0xc0) == 0x80) length--; /* never within a letter */
+            while ((text[length] & 0xc0) == 0x80) length--; /* at a character boundary */
         }
         snprintf(line, sizeof line, "%.*s", (int)length, text);
         wr_gui_text(WR_FONT_TEXT, colour, line);
@@ -106,7 +106,7 @@ static void all_messages(const WrApp *app)
     if (!wr_gui_popup_begin("messages")) return;
     wr_gui_heading("MESSAGES");
     for (int i = m->list.count - 1; i >= 0 && i >= m->list.count - 12; i--) {
-        wr_gui_as_it_is(true); /* said already */
+        wr_gui_as_it_is(true); /* already translated */
         in_lines(m->list.data[i].bad ? WR_COLOUR_BAD : WR_COLOUR_TEXT, m->list.data[i].text);
         wr_gui_as_it_is(false);
         wr_gui_space(2);
@@ -114,7 +114,7 @@ static void all_messages(const WrApp *app)
     wr_gui_popup_end();
 }
 
-/* How many errors nobody has read: a click shows them all. */
+/* Number of unread errors; a click shows them all. */
 static void unread_errors(WrApp *app)
 {
     char count[32];
@@ -129,14 +129,14 @@ static void unread_errors(WrApp *app)
     wr_gui_same_line(8);
 }
 
-/* The newest message, beside what is under the pointer: an error until it is read or something newer succeeds, a note
-   while it is young. A click tells all of it. Errors before it are counted. False if the rest of the line is free. */
+/* The newest message: an unread error (until something newer succeeds) or a recent note, beside the values under the
+   pointer. A click shows the full text. Earlier errors are counted. False if the rest of the line is free. */
 static bool message(WrApp *app, double from)
 {
     const WrMessage *show = wr_messages_shown(app->messages, wr_clock_seconds());
     bool error = show && show->bad;
     if (!show && app->messages->unread == 0) {
-        all_messages(app); /* they may be open */
+        all_messages(app); /* the list may be open */
         return false;
     }
     wr_gui_move_to(from);
@@ -161,7 +161,7 @@ static bool message(WrApp *app, double from)
     return true;
 }
 
-/* Where the picture's time went, in percent. */
+/* Distribution of the picture's time in percent. */
 static int stages(const double ms[WR_PICTURE_STAGES], double all, char *text, size_t size, int used)
 {
     for (int i = 1; i < WR_PICTURE_STAGES && all > 0.0; i++)
@@ -180,7 +180,7 @@ static double layer_bytes(const WrLayer *layer)
     return layer->mask ? bytes + (double)wr_field_bytes(layer->mask) : bytes;
 }
 
-/* Looked at now and then: counting the tiles of a large table takes a moment. */
+/* Measured at intervals, since counting the tiles of a large table takes a moment. */
 static void measure(WrApp *app)
 {
     WrMeter *meter = app->meter;
@@ -212,7 +212,7 @@ static void memory(WrApp *app)
     wr_gui_tip(tip);
 }
 
-/* ---- the right end ---- */
+/* ---- right end ---- */
 
 static void picture(const WrApp *app, bool with_stages, char *text, size_t size)
 {
@@ -254,7 +254,7 @@ static const char *saved_word(const WrApp *app)
                                               : wr_words("no changes");
 }
 
-/* What the left end may take: the same whatever it says, so that the right one does not change with the pointer. */
+/* Width of the left end, independent of its text, so that the right end does not move with the pointer. */
 static double left_width(const WrApp *app)
 {
     double wide =
@@ -266,7 +266,7 @@ static double left_width(const WrApp *app)
     return wide;
 }
 
-/* The right end, in the order of its places; what has no room is left out, beginning with the least. */
+/* Parts of the right end, in order; parts without room are left out, the least important first. */
 typedef enum Part {
     PART_PICTURE,
     PART_SIZE,
@@ -279,8 +279,8 @@ typedef enum Part {
 
 typedef struct RightEnd {
     char picture[300], size[64];
-    const char *text[PARTS]; /* NULL: not shown */
-    const char *reason;      /* that the journal is not safe */
+    const char *text[PARTS]; /* NULL: hidden */
+    const char *reason;      /* reason why the journal is not safe */
     bool safe;
 } RightEnd;
 
@@ -304,7 +304,7 @@ static void make_end(const WrApp *app, RightEnd *end)
              wr_field_height(field));
     end->text[PART_PICTURE] = end->picture;
     end->text[PART_SIZE] = end->size;
-    end->text[PART_MEMORY] = "8888 MB"; /* as wide as it gets */
+    end->text[PART_MEMORY] = "8888 MB"; /* widest text */
     end->text[PART_SAVED] = saved_word(app);
     end->text[PART_LIVE] = app->sheet && app->sheet->live ? wr_words("live") : NULL;
     end->text[PART_JOURNAL] = end->safe ? wr_words("journal safe") : wr_words("journal not safe");
@@ -321,7 +321,7 @@ static void right_side(WrApp *app)
     for (int i = 0; i < PARTS; i++) {
         if (!end.text[i]) continue;
         if (i == PART_MEMORY) memory(app);
-        wr_gui_as_it_is(true); /* said already, so that it is as wide as it was thought */
+        wr_gui_as_it_is(true); /* already translated, so that its width is known */
         if (i != PART_MEMORY)
             wr_gui_text(WR_FONT_TEXT,
                         i == PART_LIVE                   ? WR_COLOUR_CELL
@@ -341,7 +341,7 @@ static void right_side(WrApp *app)
     }
 }
 
-/* What is being computed for a dialog, if it takes longer than a moment. */
+/* Progress of the computation for a dialog, if it takes longer than a moment. */
 static bool work(WrApp *app)
 {
     double fraction, seconds;
@@ -379,7 +379,8 @@ void wr_panel_status(WrApp *app)
         char text[32];
         double left = left_width(app), wide = wr_gui_width();
         const WrMessage *show = wr_messages_shown(app->messages, wr_clock_seconds());
-        bool narrow = show && wide - left < wr_gui_px(360); /* then it takes the whole line */
+        /* the message then uses the whole line */
+        bool narrow = show && wide - left < wr_gui_px(360);
         if (!narrow) {
             under_pointer(app);
             snprintf(text, sizeof text, app->view->zoom < 0.1 ? "%.1f %%" : "%.0f %%",

@@ -1,8 +1,8 @@
-/* panel_status.h - the line at the bottom. */
+/* panel_status.h - status line. */
 #pragma once
 #include "ui/state/app_state.h"
 
-typedef struct WrMeter {     /* memory, measured now and then */
+typedef struct WrMeter {     /* memory use, measured at intervals */
     double at;               /* clock */
     double tiles, undo, all; /* bytes */
 } WrMeter;

@@ -1,5 +1,4 @@
-/* The tablet tester: which devices there are, what comes from them, what is wrong, and their pressure
-   curves. */
+/* Tablet tester: devices, their events and faults, and their pressure curves. */
 #include "ui/panels/panel_tablet.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
@@ -17,7 +16,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- curves are kept with the settings, as lines "CURVE NAME" ---- */
+/* ---- curves are stored in the settings as lines "CURVE NAME" ---- */
 
 void wr_tablet_start(WrApp *app)
 {
@@ -42,7 +41,7 @@ static void keep(WrApp *app, const char *name, const WrPenCurve *curve)
     wr_text_fini(&line);
 }
 
-/* ---- life ---- */
+/* ---- creation ---- */
 
 void wr_dialog_tablet_open(WrApp *app)
 {
@@ -114,7 +113,7 @@ static void diagnosis(WrApp *app)
     if (!d) return;
     bool well = words[0] == '\0';
     if (well) words = "All is well with it.";
-    /* Two lines, whatever it says: nothing below moves away from under the pen. */
+    /* Always two lines high, so that nothing below moves under the pen. */
     bool one = wr_gui_text_width(WR_FONT_TEXT, words) < wr_gui_available();
     wr_gui_text_wrapped(WR_FONT_TEXT, well ? WR_COLOUR_LABEL : WR_COLOUR_CELL, words);
     if (one) wr_gui_space(wr_gui_line_height(WR_FONT_TEXT) / wr_gui_scale());

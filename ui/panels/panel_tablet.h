@@ -1,4 +1,4 @@
-/* panel_tablet.h - what the two files of the tablet tester share. */
+/* panel_tablet.h - shared state of the two files of the tablet tester. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/toolkit/gui.h"
@@ -14,32 +14,33 @@
 typedef struct WrScribble {
     double x, y; /* pixels of the window */
     double pressure;
-    bool joined; /* to the one before */
+    bool joined; /* connected to the previous point */
     bool eraser, finger;
 } WrScribble;
 
 struct WrTester {
     int chosen;      /* index of the device */
-    bool chosen_own; /* by a click; else the one that was heard of last */
-    int64_t seen;    /* number of the next event to look at */
+    bool chosen_own; /* chosen by a click; else the device of the last event */
+    int64_t seen;    /* number of the next event to handle */
     WR_ARRAY(WrScribble) points;
-    int drawing;                       /* device whose line is being drawn, -1: none */
-    double pad_x, pad_y, pad_w, pad_h; /* of the scribble, as drawn last, pixels of the window */
-    WrPointsHand grip;                 /* on the curve */
-    double counted_at, rate;           /* events a second */
+    int drawing; /* device that draws the present line, -1: none */
+    /* rectangle of the scribble in the last frame, pixels of the window */
+    double pad_x, pad_y, pad_w, pad_h;
+    WrPointsHand grip;       /* drag of a curve point */
+    double counted_at, rate; /* events per second */
     int64_t counted;
     double newest_at; /* clock */
 };
 
-/* Look at what came since the last picture. */
+/* Handle the events since the last frame. */
 void wr_tester_follow(WrApp *app);
 void wr_tester_scribble(WrApp *app, double width, double height);
-/* The newest numbers of the chosen device. */
+/* Draw the newest values of the chosen device. */
 void wr_tester_live(WrApp *app, double width, double height);
-/* The curve from the device's pressure (across) to the brush's (up), whose points are moved by hand. */
+/* Editor of the pressure curve, from the device's pressure (horizontal) to the brush's (vertical). */
 WrEdit wr_tester_curve(WrApp *app, double side, WrPenCurve *curve);
 
-/* panel_tablet.c: the pressure curves that were kept go to the pens; the tester. */
+/* panel_tablet.c: apply the stored pressure curves to the pens; create the tester. */
 void wr_tablet_start(WrApp *app);
 void wr_tablet_free(WrApp *app);
 void wr_dialog_tablet_open(WrApp *app);

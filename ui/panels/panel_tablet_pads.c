@@ -1,4 +1,4 @@
-/* What the tablet tester draws: the scribble, the newest numbers, the curve. */
+/* Drawing of the tablet tester: scribble, newest values, curve. */
 #include "ui/state/app_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -16,11 +16,11 @@
 
 #define POINTS_MOST 3000
 #define POINT_STEP 1.5    /* pixels between points of the scribble */
-#define RATE_SECONDS 0.5  /* events are counted for so long */
+#define RATE_SECONDS 0.5  /* interval of the event rate */
 #define THICKEST 16.0     /* units, at full pressure */
-#define ALIVE_SECONDS 1.5 /* pictures go on so long after the last event */
+#define ALIVE_SECONDS 1.5 /* redraw continues for this long after the last event */
 
-/* ---- what came ---- */
+/* ---- events ---- */
 
 static void add_point(WrTester *t, const WrPenEvent *e)
 {
@@ -107,7 +107,7 @@ void wr_tester_scribble(WrApp *app, double width, double height)
     wr_gui_pad_end();
 }
 
-/* ---- the newest numbers ---- */
+/* ---- newest values ---- */
 
 /* The newest event of the chosen device among the last few. */
 static bool newest_of(const WrApp *app, WrPenEvent *event)
@@ -119,7 +119,7 @@ static bool newest_of(const WrApp *app, WrPenEvent *event)
     return false;
 }
 
-typedef struct Lines { /* of text, from the top down */
+typedef struct Lines { /* lines of text, from the top */
     double x, y, w, step;
 } Lines;
 
@@ -153,7 +153,7 @@ static void put_bar(Lines *at, const char *label, double value, WrColour colour)
     at->y += at->step;
 }
 
-/* A disc with a needle to where the pen leans, and its three buttons beside it. */
+/* A disc with a needle in the direction of the tilt, and the pen's three buttons. */
 static void put_tilt(Lines *at, const WrPenDevice *d, const WrPenEvent *e)
 {
     static const char *const names[] = { "tip", "2", "3" };
@@ -223,7 +223,7 @@ static double within(double x, double low, double high)
     return x < low ? low : x > high ? high : x;
 }
 
-/* Points as the pad has them: pressures of the device and of the brush. */
+/* Points in the pad's form: pressures of the device and of the brush. */
 static void to_pad(const WrPenCurve *c, double value[1 + 2 * WR_PEN_POINTS])
 {
     value[0] = c->count;
@@ -233,8 +233,8 @@ static void to_pad(const WrPenCurve *c, double value[1 + 2 * WR_PEN_POINTS])
     }
 }
 
-/* moved: the point's index, which does not go over or under its neighbours; -1: none. False where what comes of it is
- * no curve. */
+/* moved: index of the dragged point, which stays between its neighbours; -1: none. False if the result is not a valid
+ * curve. */
 static bool from_pad(const double *value, int moved, WrPenCurve *c)
 {
     WrPenCurve made = { .minimum = c->minimum, .maximum = c->maximum, .gain = c->gain };

@@ -1,4 +1,4 @@
-/* The strip on the left: tools, and what painters look for among them. */
+/* Tool strip on the left: tools, and frequently used generators. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
@@ -25,21 +25,21 @@ typedef struct Button {
     bool on;
 } Button;
 
-/* In one column, units from a button to the next. */
+/* Button spacing of one column in units. */
 static double pitch_of(const WrApp *app)
 {
     const double room = app->layout->strip.h / wr_gui_scale() - 12;
     return fmin(WR_TOOL_MOST, floor(room / (app->roster->tool_count + WR_STRIP_MORE)));
 }
 
-/* Families of generators that have a button of their own. */
+/* Generator families with a button of their own. */
 static const struct {
     const char *family, *action, *icon;
 } own[] = { { "text", WR_ACT(generate_text), WR_ICON_TEXT },
             { "solid", "generate_solid_sphere", WR_ICON_CUBE } };
 _Static_assert(sizeof own / sizeof *own + 1 == WR_STRIP_MORE, "and the eraser");
 
-/* The family in hand, or "". */
+/* The current family, or "". */
 static const char *family_now(const WrApp *app)
 {
     const bool generates = strcmp(app->roster->tools[app->tool]->action, WR_ACT(generate)) == 0;
@@ -72,7 +72,7 @@ static Button family_button(const WrApp *app, int k)
                      strcmp(family_now(app), own[k].family) == 0 };
 }
 
-/* All of them, in their order; returns how many. */
+/* List all buttons in order; returns their number. */
 static int list(const WrApp *app, Button *buttons)
 {
     int count = 0;

@@ -1,4 +1,4 @@
-/* panels.h - the panels and dialogs that the roster lists. */
+/* panels.h - the panels and dialogs of the roster. */
 #pragma once
 #include "ui/canvas/outline.h"
 #include "ui/state/app_state.h"
@@ -6,23 +6,23 @@
 #include <SDL.h>
 
 void wr_panel_menu(WrApp *app);
-void wr_menu_item(WrApp *app, const char *action); /* of any menu that is open */
-void wr_menu_filters(WrApp *app);                  /* the operations that a new layer can be */
-/* Told of each action that a menu has, while it is set; for tests. */
+void wr_menu_item(WrApp *app, const char *action); /* item of an open menu */
+void wr_menu_filters(WrApp *app);                  /* operations usable as a new filter layer */
+/* Called for each action in a menu, if set; for tests. */
 extern void (*wr_menu_listed)(const char *action);
 void wr_panel_options(WrApp *app);
 void wr_panel_tools(WrApp *app);
 void wr_panel_right(WrApp *app);
 void wr_panel_brushes(WrApp *app, SDL_Rect room);
-void wr_panel_brush(WrApp *app); /* the values of the brush in hand */
+void wr_panel_brush(WrApp *app); /* parameters of the brush */
 void wr_panel_scene(WrApp *app);
-void wr_panel_objects(WrApp *app);  /* its upper part */
-void wr_panel_material(WrApp *app); /* its lower parts */
+void wr_panel_objects(WrApp *app);  /* upper part of the scene panel */
+void wr_panel_material(WrApp *app); /* lower parts of the scene panel */
 void wr_panel_maps(WrApp *app);
-void wr_panel_colouring(WrApp *app);                       /* a part of that */
-void wr_map_take_colour(WrApp *app, const char *path);     /* of a file that was chosen */
-void wr_light_take_surround(WrApp *app, const char *path); /* likewise */
-/* The chosen object becomes that mesh, set of patches or ground. */
+void wr_panel_colouring(WrApp *app);                       /* part of the material section */
+void wr_map_take_colour(WrApp *app, const char *path);     /* handler of a chosen file */
+void wr_light_take_surround(WrApp *app, const char *path); /* handler of a chosen file */
+/* Handlers of a chosen file: the active object becomes that mesh, patch set or terrain. */
 void wr_surface_take_mesh(WrApp *app, const char *path);
 void wr_surface_take_patches(WrApp *app, const char *path);
 void wr_surface_take_terrain(WrApp *app, const char *path);
@@ -45,11 +45,11 @@ void wr_dialog_export(WrApp *app);
 void wr_dialog_render(WrApp *app);
 void wr_dialog_film(WrApp *app);
 void wr_file_take_film(WrApp *app, const char *path);
-void wr_file_take_render(WrApp *app, const char *path); /* what it asked for */
+void wr_file_take_render(WrApp *app, const char *path); /* handler of the chosen file name */
 void wr_dialog_file(WrApp *app);
-void wr_dialog_preset(WrApp *app); /* the name of a preset to be saved */
+void wr_dialog_preset(WrApp *app); /* name of a preset to save */
 void wr_dialog_select_open(WrApp *app, WrOutlineKind kind);
 void wr_dialog_select(WrApp *app);
-void wr_dialog_recover_open(WrApp *app); /* if there is anything to recover */
+void wr_dialog_recover_open(WrApp *app); /* if there are recoverable journals */
 void wr_dialog_recover(WrApp *app);
-void wr_recovery_free(WrRecovery *recovery); /* NULL is fine */
+void wr_recovery_free(WrRecovery *recovery); /* NULL is allowed */

@@ -1,4 +1,4 @@
-/* param_row.h - a row of a panel for a number or a colour of the scene, by its row in scene/param.h. */
+/* param_row.h - panel row of a scene number or colour, by its row in scene/param.h. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/toolkit/gui.h"
@@ -6,14 +6,14 @@
 typedef struct WrSceneParam WrSceneParam;
 typedef struct WrText WrText;
 
-/* How a slider goes over it. */
+/* Slider range and steps of the parameter. */
 WrNumber wr_param_slider(const WrSceneParam *param);
-/* Its label and slider, or colour, in the scene itself: what is dragged shows at once, and one command is run at the
- * end. Not of a light's, a pair's or a vector's. */
+/* Label with slider or colour field, bound to the scene. A drag changes the preview; one command is run at the end.
+ * Not for parameters of a light, pairs or vectors. */
 void wr_param_row(WrApp *app, const WrSceneParam *param);
-/* Three numbers in a row, whatever they are of. */
+/* Three number fields in a row, for any value. */
 WrEdit wr_param_vector(const char *label, const char *const id[3], const WrNumber *spec,
                        double v[3]);
-/* Its vector so, and one command at the end. */
+/* Row of a vector parameter; one command at the end of a drag. */
 void wr_param_vector_row(WrApp *app, const WrSceneParam *param, const char *label,
                          const char *const id[3], const WrNumber *spec);

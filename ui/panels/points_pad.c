@@ -6,10 +6,10 @@
 #include <string.h>
 
 #define REACH_UNITS 9.0
-#define OUT_UNITS 28.0 /* so far outside a point is let go */
+#define OUT_UNITS 28.0 /* distance outside the pad at which a dragged point is removed */
 #define STEPS 160
 
-/* Where x and y stand, pixels of the window. */
+/* Position of x and y in pixels of the window. */
 static double x_of(const WrPad *pad, const WrPointsSpan *span, double x)
 {
     return pad->x + pad->w * (x - span->left) / (span->right - span->left);
@@ -65,7 +65,7 @@ static bool take_away(const WrPointsRules *rules, double *value, int i)
     return true;
 }
 
-/* The new point's index; -1: there is no room. */
+/* Insert a point; returns its index, -1 if there is no room. */
 static int add(const WrPointsRules *rules, double *value, double x, double y)
 {
     const int count = (int)*value;
@@ -97,7 +97,7 @@ static void keep_inside(const WrPointsSpan *span, const WrPointsRules *rules, do
     *y = rounded(*y);
 }
 
-/* Between its neighbours, which it never passes. */
+/* Move a point, limited by its neighbours. */
 static void move(const WrPointsSpan *span, const WrPointsRules *rules, double *value, int i,
                  double x, double y)
 {
@@ -158,7 +158,7 @@ bool wr_points_move(const WrPad *pad, const WrPointsSpan *now, const WrPointsRul
         if (at < 0) at = add(rules, value, x, y);
         hand->held = hand->chosen = at + 1;
     }
-    /* Where it is let go counts too: the last motion may come with it. */
+    /* The release is handled as a motion too, since it may contain the last position. */
     if (hand->held) changed |= drag(pad, rules, hand, value, x, y);
     if (!pad->held) hand->held = 0;
     if (!pad->held) changed |= keys(rules, hand, value);

@@ -39,7 +39,7 @@ void wr_profile_edit_write(const WrProfileEdit *edit, WrText *text)
     if (edit->ring) write_place(&edit->place[0], false, text);
 }
 
-/* Points as they are written. */
+/* Number of points in the written form. */
 static int written(const WrProfileEdit *edit)
 {
     int count = edit->count + edit->ring;
@@ -64,7 +64,7 @@ void wr_profile_edit_move(WrProfileEdit *edit, int i, double r, double z, double
     edit->place[i].z = z;
 }
 
-/* How far (r, z) lies from the chord between two places. */
+/* Distance of (r, z) from the chord between two places. */
 static double from_chord(const WrProfilePlace *a, const WrProfilePlace *b, double r, double z)
 {
     const double dr = b->r - a->r, dz = b->z - a->z, length = dr * dr + dz * dz;

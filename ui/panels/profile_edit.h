@@ -1,5 +1,6 @@
-/* profile_edit.h - a surface of revolution's profile under the hand: its points moved, added, taken away. Plain data; tested
-   without a window. Points given twice in a row, the corners, are one place here; so are the ends of a ring. */
+/* profile_edit.h - edits of the profile of a surface of revolution: moving, adding and removing points. Plain data;
+   tested without a window. A point written twice in a row (a corner) is one place here; so are the two ends of a
+   ring. */
 #pragma once
 #include "surface/profile.h"
 
@@ -15,20 +16,21 @@ typedef struct WrProfilePlace {
 typedef struct WrProfileEdit {
     WrProfilePlace place[WR_PROFILE_POINTS];
     int count;
-    bool ring; /* the last point is the first once more */
+    bool ring; /* closed: the last point repeats the first */
 } WrProfileEdit;
 
-/* False where the text is no list of points. */
+/* False if the text is not a valid list of points. */
 bool wr_profile_edit_read(WrProfileEdit *edit, const char *text);
-/* "r,z;r,z;...", rounded to 3 digits after the point. */
+/* Append "r,z;r,z;...", rounded to 3 digits after the point. */
 void wr_profile_edit_write(const WrProfileEdit *edit, WrText *text);
-/* The place within `reach` of (r, z) that is nearest; -1: none is. */
+/* Index of the nearest place within `reach` of (r, z); -1: none. */
 int wr_profile_edit_near(const WrProfileEdit *edit, double r, double z, double reach);
-/* Place i goes to (r, z). r below `axis` is 0 at an end, and `axis` elsewhere, where a curve must not touch it. */
+/* Move place i to (r, z). r below `axis` becomes 0 at an end, and `axis` elsewhere, where the curve must not touch
+   the axis. */
 void wr_profile_edit_move(WrProfileEdit *edit, int i, double r, double z, double axis);
-/* One more between the two whose chord passes nearest; its index, -1 where no more fit. */
+/* Insert a place between the two with the nearest chord; returns its index, -1 if there is no room. */
 int wr_profile_edit_add(WrProfileEdit *edit, double r, double z);
-/* False where only two are left. */
+/* False if only two places are left. */
 bool wr_profile_edit_remove(WrProfileEdit *edit, int i);
-/* A corner becomes smooth, and back; false where no more points fit. */
+/* Toggle between corner and smooth; false if there is no room for more points. */
 bool wr_profile_edit_corner(WrProfileEdit *edit, int i);

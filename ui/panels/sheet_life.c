@@ -1,5 +1,5 @@
-/* The export sheet's work in the background: pictures while it is open, files when the button says so or, live, after
-   each pause of the hand. Live ends at the first error. */
+/* Background work of the export sheet: pictures while it is open; files after the button or, in live export, after
+   each pause in editing. Live export ends at the first error. */
 #include "ui/state/app_options.h"
 #include "ui/state/busy.h"
 #include "ui/state/input_router.h"
@@ -23,9 +23,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PAUSE_SECONDS 0.5 /* of the hand, before files are written again */
+#define PAUSE_SECONDS 0.5 /* pause in editing before files are written again */
 
-/* ---- what there is, and what the document keeps ---- */
+/* ---- settings and their storage in the document ---- */
 
 static bool is_same(const WrSheetAsk *a, const WrSheetAsk *b)
 {
@@ -34,7 +34,7 @@ static bool is_same(const WrSheetAsk *a, const WrSheetAsk *b)
            a->range == b->range;
 }
 
-/* A line of the history, where it is not what the document has. */
+/* Store the settings in the document by a command, if they have changed. */
 static void keep(WrApp *app)
 {
     static const char *const depths[] = { "set", "8", "16", "32" };
@@ -55,7 +55,7 @@ static void keep(WrApp *app)
     wr_text_fini(&line);
 }
 
-/* The document's folder and name where it keeps none. */
+/* Default folder and name: those of the document. */
 static void take_place(const WrApp *app, WrSheetAsk *ask)
 {
     const WrSheetAsk *kept = &wr_session_document(app->session)->scene->sheet;
@@ -113,9 +113,9 @@ void wr_sheet_free(WrApp *app)
     app->sheet = NULL;
 }
 
-/* ---- what changed ---- */
+/* ---- detection of changes ---- */
 
-/* Lines of the scene that maps do not know of. */
+/* Scene lines without effect on maps. */
 static bool is_seen_only(const char *line, size_t length)
 {
     static const char *const verbs[] = { "camera",      "rotate",     "material",  "light",
@@ -130,7 +130,7 @@ static bool is_seen_only(const char *line, size_t length)
     return false;
 }
 
-/* Of all that the files are made from: the table, and what of the scene goes into maps. */
+/* Hash of all inputs of the files: the table, and the parts of the scene that affect maps. */
 static uint64_t make_key(const WrApp *app, uint64_t table)
 {
     WrText text = { 0 }, kept = { 0 };
@@ -147,7 +147,7 @@ static uint64_t make_key(const WrApp *app, uint64_t table)
     return hash.low | 1;
 }
 
-/* Asked for in every picture of the window: the scene is looked at where a command ran since. */
+/* Called in every frame, so the scene is hashed only after a command. */
 static uint64_t key_of(const WrApp *app)
 {
     WrSheetState *sheet = app->sheet;
@@ -244,13 +244,13 @@ bool wr_sheet_writing(const WrApp *app, double *fraction, double *seconds, const
     return wr_job_busy(app->sheet->write, fraction, seconds);
 }
 
-/* It hands over what it then is: that it was cancelled. */
+/* The job returns its result in its present state, marked as cancelled. */
 void wr_sheet_cancel(WrApp *app)
 {
     if (app->sheet && app->sheet->write) wr_job_interrupt(app->sheet->write);
 }
 
-/* ---- live ---- */
+/* ---- live export ---- */
 
 static bool hand_rests(const WrApp *app)
 {
@@ -298,7 +298,7 @@ static bool works(WrApp *app)
            (sheet->write && wr_job_busy(sheet->write, NULL, NULL));
 }
 
-/* Another document has files of its own. */
+/* Another document has other files. */
 static void another(WrApp *app)
 {
     if (!app->sheet) return;

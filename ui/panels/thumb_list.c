@@ -11,7 +11,7 @@
 
 #include <SDL.h>
 
-#define THUMB_SECONDS 0.15 /* between two pictures of a table that keeps changing */
+#define THUMB_SECONDS 0.15 /* interval between two updates of a changing table */
 
 static void make_thumb(const WrApp *app, WrThumb *thumb, const WrField *field, const WrField *cover,
                        bool unit, int side)

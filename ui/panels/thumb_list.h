@@ -1,4 +1,5 @@
-/* thumb_list.h - small pictures of tables in a list, made when they are asked for and kept while their table is the same. */
+/* thumb_list.h - cached thumbnails of tables in a list, rendered on demand and kept while their table is
+   unchanged. */
 #pragma once
 #include "base/array.h"
 
@@ -12,7 +13,7 @@ typedef struct WrField WrField;
 typedef struct WrThumb {
     SDL_Texture *texture; /* owned */
     int side;             /* pixels */
-    uint64_t key, cover;  /* of what it shows */
+    uint64_t key, cover;  /* keys of its content */
     double made_at;
 } WrThumb;
 
@@ -20,8 +21,8 @@ typedef struct WrThumbList {
     WR_ARRAY(WrThumb) thumbs;
 } WrThumbList;
 
-/* That of a place of the list: of heights, with what covers them (NULL: nothing), `units` wide and high. unit: from 0 to 1,
- * else over their own range. May be NULL. While a stroke is drawn it is made anew now and then. */
+/* Thumbnail of a list position: heights with coverage (NULL: none), `units` wide and high. unit: range 0..1, else the
+ * table's own range. May be NULL. During a stroke it is updated at intervals. */
 SDL_Texture *wr_thumb_list_get(const WrApp *app, WrThumbList *list, int place, const WrField *field,
                                const WrField *cover, bool unit, double units);
-void wr_thumb_list_free(WrThumbList *list); /* it may be used again */
+void wr_thumb_list_free(WrThumbList *list); /* may be used again */
