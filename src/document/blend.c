@@ -1,4 +1,4 @@
-/* Span loops without branches: each choice is a ?: of scalars, which compilers turn into masks. */
+/* Branch-free span loops: each choice is a ?: of scalars, which compilers turn into masks. */
 #include "document/blend.h"
 #include "base/enum_rows.h"
 
@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* 256 texels of weights and heights stay in the first cache. */
+/* 256 texels of weights and heights stay in the first-level cache. */
 enum { SPAN = 256 };
 
 static inline float bounded(float x)
@@ -17,12 +17,12 @@ static inline float bounded(float x)
 
 static inline float unit(float x)
 {
-    x = x > 0.0f ? x : 0.0f; /* NaN too */
+    x = x > 0.0f ? x : 0.0f; /* NaN becomes 0 */
     return x < 1.0f ? x : 1.0f;
 }
 
-/* From b towards `full`, the finite result at weight 1. b + 1 (full - b) is not always `full`, and
- * the rounded sum can step past it, hence the choices; equal ends keep b's zero's sign. */
+/* Interpolates from b to `full`, the finite result at weight 1. b + 1 (full - b) is not always `full`, and the
+   rounded sum can exceed it, hence the choices; if both are equal, the sign of b's zero is kept. */
 static inline float toward(float b, float full, float w)
 {
     float r = b + w * (full - b);
@@ -31,11 +31,11 @@ static inline float toward(float b, float full, float w)
     r = r > high ? high : r;
     r = full == b ? b : r;
     r = w >= 1.0f ? full : r;
-    return w > 0.0f ? r : b; /* last, since 0 times infinity is not a number */
+    return w > 0.0f ? r : b; /* last, since 0 times infinity is NaN */
 }
 
-/* The part of a smooth maximum above the plain one: s s k/4, a parabola that meets max(b,h) with equal
- * slope at |b - h| = k and stands k/4 above it where b = h. */
+/* Excess of a smooth maximum over the plain one: s s k/4, a parabola that meets max(b,h) with equal slope at |b
+   - h| = k and is k/4 above it where b = h. */
 static inline float bulge(float b, float h, float k)
 {
     float near = k - fabsf(b - h);
@@ -191,7 +191,7 @@ static void fill(size_t count, float value, float *out)
     for (size_t i = 0; i < count; i++) out[i] = value;
 }
 
-/* w *= the values, or their level. */
+/* Multiplies w by the values, or by their level. */
 static void weigh(size_t count, const float *values, float level, float *w)
 {
     float all = unit(level);

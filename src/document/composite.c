@@ -1,6 +1,6 @@
-/* A filter parts the stack: what lies below it is composed by itself, goes through the operation, and the rest is
-   composed upon that. So there is a compositor a part, and each filter keeps what it was given and what it made of it,
-   from which only what an edit may have changed is made again. */
+/* A filter divides the stack: the layers below it are composited separately, the operation is applied, and the
+   rest is composited on top. So each part of the stack has its own compositor. Each filter stores its input and
+   its output, and recomputes only the part that an edit may have changed. */
 #include "document/composite.h"
 
 #include "base/array.h"
@@ -12,12 +12,12 @@
 #include "field/field.h"
 #include "system/thread.h"
 
-/* A filter, if it has one, and the layers from there up to the next. */
+/* A filter, or none, and the layers from there up to the next filter. */
 typedef struct Stage {
-    WrFilter filter;     /* op NULL: none, as of the lowest */
-    WrField *given;      /* what it was made of; NULL: it was not; owned */
+    WrFilter filter;     /* op NULL: none, as in the lowest stage */
+    WrField *given;      /* input of `made`; NULL: not computed; owned */
     WrField *made;       /* owned */
-    WrCompositor *above; /* of what was given, what was made, and the layers; owned */
+    WrCompositor *above; /* compositor of `made`, or of `given`, with the layers; owned */
 } Stage;
 
 struct WrComposite {
@@ -25,7 +25,7 @@ struct WrComposite {
     WR_ARRAY(Stage) stages;
 };
 
-/* Why the newest filter that could not be carried out was not; "" if all were. */
+/* Error of the last filter that failed; "" if none did. */
 static _Thread_local WrError lack;
 
 void wr_filters_forget(void)
@@ -40,7 +40,7 @@ bool wr_filters_carried(WrError *err)
     return false;
 }
 
-/* The layers of the stage at hand. */
+/* The layers of the current stage. */
 typedef struct Stack {
     WrBlendLayer of[WR_LAYERS_MAX + 2];
     int count;
@@ -60,7 +60,8 @@ static WrField *share_or_null(const WrField *field)
 
 WrComposite *wr_composite_share(const WrComposite *composite)
 {
-    WrComposite *from = (WrComposite *)composite, *copy = wr_composite_new(); /* only to lock it */
+    /* the cast is only for locking */
+    WrComposite *from = (WrComposite *)composite, *copy = wr_composite_new();
     wr_mutex_lock(&from->lock);
     for (int i = 0; i < from->stages.count; i++) {
         const Stage *stage = &from->stages.data[i];
@@ -99,13 +100,14 @@ static Stage *stage_at(WrComposite *composite, int index)
     return &composite->stages.data[index];
 }
 
-/* The filter over a composite. Where it cannot be carried out, and where the work is cancelled: that itself. */
+/* The filter applied to a composite. If it fails or is cancelled: the composite itself. */
 static const WrField *filtered(Stage *stage, const WrLayer *layer, const WrField *in, WrPool *pool)
 {
     const WrFilter *filter = &layer->filter;
     const bool same = stage->made && wr_filter_same(&stage->filter, filter);
     if (same && wr_field_key(stage->given) == wr_field_key(in)) return stage->made;
-    WrProgressPart quiet = { .progress = { 0 } }; /* a step back to 0 would only confuse */
+    /* progress that returns to 0 would be confusing */
+    WrProgressPart quiet = { .progress = { 0 } };
     wr_progress_part(&quiet, wr_progress_here(), 0.0, 1.0);
     quiet.progress.report = NULL;
     const WrOpOptions options = { .was = same ? stage->given : NULL,
@@ -138,7 +140,7 @@ static WrBlendLayer blended(const WrLayer *layer, const WrField *heights)
                            .radius = layer->radius };
 }
 
-/* What a stage begins with: where the filter shows alone, there is no need of what lies below. */
+/* First layer of a stage. It is omitted if the filter is shown alone. */
 static void begin_stack(Stack *stack, const WrLayer *layer, const WrField *below,
                         const WrField *made)
 {
@@ -150,7 +152,7 @@ static void begin_stack(Stack *stack, const WrLayer *layer, const WrField *below
     stack->of[stack->count++] = blended(layer, made);
 }
 
-/* Shown, with layer `solo` alone, or all (-1)? A filter alone is seen over what it filters. */
+/* True if the layer is visible, with layer `solo` alone, or all (-1). A solo filter is shown over its input. */
 static bool is_shown(const WrLayer *layers, int i, int solo)
 {
     if (solo < 0) return layers[i].visible;
@@ -171,7 +173,7 @@ static const WrField *update(WrComposite *composite, const WrLayer *layers, int 
             next->hidden = !shown || layer->filter.op;
             continue;
         }
-        if (stack.count == 0) /* over the ground */
+        if (stack.count == 0) /* over the ground, heights 0 */
             stack.of[stack.count++] = (WrBlendLayer){ .heights = layer->heights, .hidden = true };
         const WrField *below =
             wr_compositor_update(stage_at(composite, at)->above, stack.of, stack.count, pool);

@@ -1,12 +1,12 @@
-/* What a composite was made of is kept as shares of the layers that counted, its `parts`. An update
-   compares the parts of then and now, marks the tiles that may differ and does these again.
+/* The inputs of a composite are stored as shares of the visible layers, its `parts`. An update compares the old
+   and new parts, marks the tiles that may differ and computes them again.
 
-   A tile is "bare" if no more than the floor shows there: the floor is the lowest part where that is
-   taken as it is, else an empty table at the composite's level. The composite starts as a share of the
-   floor, so bare tiles cost nothing. Of bare tiles that change later many at once are shared with the
-   floor again. A few, as under a brush, are copied: the next dab would copy a shared one anyway, and in memory
-   that is new each time. Once there are more such strays than blended tiles, the composite starts anew
-   from the floor and takes the blended ones along, so that memory stays in bounds. */
+   A tile is "bare" if it shows no more than the floor. The floor is the lowest part if that is shown unchanged,
+   else an empty table at the composite's level. The composite starts as a share of the floor, so bare tiles cost
+   nothing. If many tiles become bare later, they are shared with the floor again. A few, as under a brush, are
+   copied, because the next dab would copy a shared tile anyway, into newly allocated memory each time. Once
+   there are more of these stray copies than blended tiles, the composite restarts from the floor and keeps the
+   blended tiles, so that memory stays bounded. */
 #include "document/compositor.h"
 
 #include "base/array.h"
@@ -19,11 +19,12 @@
 #include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
-#define STRAYS 64 /* that many are a few, and never worth a new start */
+#define STRAYS 64 /* up to this many strays are tolerated */
 
 typedef struct Part {
-    WrBlendLayer layer; /* in compositor->parts the fields are owned shares, else borrowed */
-    bool on_ground;     /* nothing below counts */
+    /* compositor->parts own shares of the fields; elsewhere they are borrowed */
+    WrBlendLayer layer;
+    bool on_ground; /* no part below it is visible */
 } Part;
 
 /* A tile to be blended. */
@@ -36,22 +37,22 @@ struct WrCompositor {
     WrField *result; /* NULL before the first update */
     Part *parts;     /* [count] */
     int count;
-    bool broken;     /* the result was given up half done: it is not what the parts make */
-    int64_t strays;  /* bare tiles copied since the last start */
-    int64_t blended; /* blended tiles at the last start */
+    bool broken;     /* an update was cancelled: the result does not match the parts */
+    int64_t strays;  /* bare tiles copied since the last restart */
+    int64_t blended; /* blended tiles at the last restart */
 };
 
-/* One update. */
+/* State of one update. */
 typedef struct Update {
     WrCompositor *compositor;
-    Part *parts; /* [count] of now, borrowed fields */
+    Part *parts; /* [count] the new parts, with borrowed fields */
     int count;
     WrField *floor;
     const Part *base; /* the part that is the floor, or NULL */
-    bool whole;       /* all tiles that are there */
-    uint8_t *marked;  /* [tiles], which are in `dirty` */
+    bool whole;       /* mark all allocated tiles */
+    uint8_t *marked;  /* [tiles] flags of the tiles in `dirty` */
     int tiles_u;
-    WR_ARRAY(int) dirty; /* tx + ty tiles_u */
+    WR_ARRAY(int) dirty; /* indices tx + ty tiles_u */
     WR_ARRAY(Job) jobs;
 } Update;
 
@@ -83,7 +84,7 @@ bool wr_blend_layer_check(const WrBlendLayer *layer, WrError *err)
     return true;
 }
 
-/* What one tile of a part says. */
+/* The blend input of one tile of a part. */
 static WrBlendTile part_tile(const Part *part, int tx, int ty)
 {
     const WrBlendLayer *l = &part->layer;
@@ -102,7 +103,7 @@ static WrBlendTile part_tile(const Part *part, int tx, int ty)
     return tile;
 }
 
-/* The tile where none of a part's fields holds anything. */
+/* The blend input of tiles in which all of a part's fields are empty. */
 static WrBlendTile part_level(const Part *part)
 {
     const WrBlendLayer *l = &part->layer;
@@ -111,7 +112,7 @@ static WrBlendTile part_level(const Part *part)
                           .mask_level = l->mask ? wr_field_level(l->mask) : 1.0f };
 }
 
-/* Does the part leave every bit below as it is? Told by levels, so "no" may be wrong. */
+/* True if the part changes no bit below. Decided by levels, so "false" may be wrong. */
 static bool is_idle(const Part *part, const WrBlendTile *tile)
 {
     const WrBlendMode *mode = &wr_blends[part->layer.mode];
@@ -126,7 +127,7 @@ static WrBlend mode_of(const Part *part)
     return part->on_ground && mode == WR_BLEND_ADD ? WR_BLEND_MIX : mode;
 }
 
-/* Does the part put exactly its heights there, whatever lies below? */
+/* True if the part's result is exactly its heights, independent of those below. */
 static bool is_opaque(const Part *part, const WrBlendTile *tile)
 {
     const WrBlendMode *mode = &wr_blends[mode_of(part)];
@@ -140,7 +141,7 @@ static void blend(const Part *part, const WrBlendTile *tile, size_t count, float
     wr_blend_tile(mode_of(part), part->layer.opacity, part->layer.radius, tile, count, below);
 }
 
-/* The composite where no part holds anything. */
+/* Level of the composite where all parts are empty. */
 static float composite_level(const Part *parts, int count)
 {
     float level = 0.0f;
@@ -151,7 +152,7 @@ static float composite_level(const Part *parts, int count)
     return level;
 }
 
-/* The part that is what all bare tiles show, or NULL. */
+/* The part that all bare tiles show, or NULL. */
 static const Part *base_of(const Part *parts, int count, float level)
 {
     if (count == 0 || !same_bits(level, wr_field_level(parts[0].layer.heights))) return NULL;
@@ -166,7 +167,7 @@ static bool is_bare(const Update *update, int tx, int ty)
     for (int i = update->base ? 1 : 0; i < update->count; i++) {
         WrBlendTile tile = part_tile(&update->parts[i], tx, ty);
         if (is_idle(&update->parts[i], &tile)) continue;
-        /* with a base, a part that acts by its level acts on the base's heights */
+        /* with a base, a part that has an effect at its level changes the base's heights */
         if (update->base || tile.heights || tile.cover || tile.mask) return false;
     }
     return true;
@@ -181,7 +182,7 @@ static void mark(int tx, int ty, void *ctx)
     wr_array_push(&update->dirty, index);
 }
 
-/* Mark every tile that the field holds. */
+/* Marks every allocated tile of the field. */
 static void mark_held(Update *update, const WrField *field)
 {
     if (!field) return;
@@ -207,7 +208,7 @@ static void mark_changes(Update *update, const WrField *a, const WrField *b)
     else update->whole = true;
 }
 
-/* The same layer but for what its fields hold? */
+/* True if both are the same layer, except for the contents of its fields. */
 static bool same_settings(const Part *a, const Part *b)
 {
     return a->layer.mode == b->layer.mode && a->layer.opacity == b->layer.opacity &&
@@ -226,9 +227,9 @@ static bool same_part(const Part *a, const Part *b)
            same_key(a->layer.cover, b->layer.cover) && same_key(a->layer.mask, b->layer.mask);
 }
 
-/* Mark what differs between the parts of then and now. Equal ones at both ends are passed over; in
- * between, parts are compared in pairs if there are as many, else all of them count as changed. Any
- * pairing marks enough: two different layers differ wherever either holds something. */
+/* Marks the differences between the old and new parts. Equal ones at both ends are skipped; in between, parts
+   are compared in pairs if there are equally many, else all of them count as changed. Any pairing marks enough
+   tiles: two different layers differ wherever either has a tile. */
 static void mark_differences(Update *update)
 {
     const Part *then = update->compositor->parts, *now = update->parts;
@@ -250,7 +251,7 @@ static void mark_differences(Update *update)
     }
 }
 
-/* Replace the composite by its floor. */
+/* Replaces the composite by its floor. */
 static void start(Update *update)
 {
     WrCompositor *c = update->compositor;
@@ -278,7 +279,7 @@ static void run_job(int index, int worker, void *ctx)
     (void)worker;
     const Update *update = ctx;
     Job job = update->jobs.data[index];
-    int first = update->count - 1; /* what lies below an opaque tile does not matter */
+    int first = update->count - 1; /* parts below an opaque tile have no effect */
     for (; first > 0; first--) {
         WrBlendTile tile = part_tile(&update->parts[first], job.tx, job.ty);
         if (is_opaque(&update->parts[first], &tile)) break;
@@ -290,7 +291,7 @@ static void run_job(int index, int worker, void *ctx)
     }
 }
 
-/* Do the marked tiles again. */
+/* Computes the marked tiles again. */
 static void repaint(Update *update, WrPool *pool)
 {
     WrCompositor *c = update->compositor;
@@ -324,8 +325,8 @@ static void gather_tile(int tx, int ty, void *ctx)
     g->blended++;
 }
 
-/* Start anew from the floor and take the blended tiles along; all that differ from the floor are
- * either these or strays. */
+/* Restarts from the floor and keeps the blended tiles; all tiles that differ from the floor are either these or
+   strays. */
 static void drop_strays(Update *update)
 {
     WrCompositor *c = update->compositor;
@@ -388,7 +389,7 @@ void wr_compositor_free(WrCompositor *compositor)
     wr_free(compositor);
 }
 
-/* The layers that count, without coverage where the mode has no use for it. */
+/* Selects the visible layers, without coverage if the mode does not use it. */
 static void pick_parts(Update *update, const WrBlendLayer *layers, int count)
 {
     update->parts = wr_alloc((size_t)count, sizeof *update->parts);
@@ -404,7 +405,7 @@ static void pick_parts(Update *update, const WrBlendLayer *layers, int count)
     }
 }
 
-/* Could the old composite be mended, if its tiles were marked? */
+/* True if the old composite can be updated by computing only marked tiles. */
 static bool is_mendable(const Update *update, const WrField *like, float level)
 {
     const WrCompositor *c = update->compositor;
@@ -423,11 +424,11 @@ static void keep_parts(const Update *update)
     c->broken = false;
 }
 
-/* ---- given up half way ---- */
+/* ---- cancelled updates ---- */
 
-/* What there was before an update that can be cancelled. */
+/* State before an update that can be cancelled. */
 typedef struct Before {
-    WrField *result; /* owned; NULL: nothing can be put back */
+    WrField *result; /* owned; NULL: nothing can be restored */
     int64_t strays, blended;
 } Before;
 
@@ -437,7 +438,7 @@ static Before keep_before(const WrCompositor *c)
     return (Before){ keeps ? wr_field_share(c->result) : NULL, c->strays, c->blended };
 }
 
-/* The old result, which still is what the old parts make; else a new start for the next update. */
+/* Restores the old result, which still matches the old parts; otherwise the next update restarts. */
 static void put_back(WrCompositor *c, Before *before)
 {
     c->broken = !before->result;

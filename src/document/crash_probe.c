@@ -1,4 +1,4 @@
-/* Trying a function in a child, so that its crash is only the child's. */
+/* Runs a function in a child process, so that a crash ends only the child. */
 #include "document/recover.h"
 
 #include "base/error.h"
@@ -10,7 +10,7 @@
 
 #define LEAST_SECONDS 0.02
 
-/* What the child says before it ends; small enough for one write. */
+/* The child's result, sent before it ends; small enough for one write. */
 typedef struct Verdict {
     bool result;
     WrError err;

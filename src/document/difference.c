@@ -1,4 +1,4 @@
-/* What it costs to keep two states of a document: tiles of fields that are in one but not in the other. */
+/* Memory cost of keeping two states of a document: tiles of fields that are in one but not in the other. */
 #include "document/document.h"
 
 #include "base/array.h"
@@ -9,7 +9,7 @@
 #define TILE_BYTES (WR_TILE * WR_TILE * sizeof(float) + WR_ALIGN)
 
 typedef struct Fields {
-    const WrField **of; /* [count], owned; those that found their like are NULL */
+    const WrField **of; /* [count], owned; NULL for those with an equal counterpart */
     int count;
 } Fields;
 
@@ -53,8 +53,8 @@ static bool same_size(const WrField *a, const WrField *b)
     return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b);
 }
 
-/* Take out the pairs of fields that are the same. Both lists keep their order, so a search goes on where
- * the last one ended: an edit costs one pass. */
+/* Removes the pairs of equal fields. Both lists have the same order, so a search continues where the last one
+   ended: an edit costs one pass. */
 static void drop_equal(Fields *before, Fields *after)
 {
     int from = 0;
@@ -108,7 +108,7 @@ static bool has(const WrScene *scene, const void *thing)
     return false;
 }
 
-/* What objects of the one hold and none of the other does. */
+/* Bytes owned by the objects of one scene and by none of the other. */
 static size_t own_bytes(const WrScene *scene, const WrScene *other)
 {
     size_t bytes = 0;
@@ -128,7 +128,7 @@ size_t wr_document_difference(const WrDocument *before, const WrDocument *after)
                    (size_t)before->layer_count * (sizeof(WrLayer) + 4 * WR_ALIGN);
     drop_equal(&a, &b);
     int k = 0;
-    for (int i = 0; i < a.count; i++) { /* what is left is compared in order */
+    for (int i = 0; i < a.count; i++) { /* the remaining fields are compared in order */
         if (!a.of[i]) continue;
         while (k < b.count && !b.of[k]) k++;
         bool pair = k < b.count && same_size(a.of[i], b.of[k]);

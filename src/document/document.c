@@ -77,7 +77,7 @@ WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in)
     return &stand_in->layer;
 }
 
-/* Beyond the table's edge there is the level, which is in 0..1 by then. */
+/* Texels beyond the table's edge have the level, which is already in 0..1. */
 static void keep_to_unit(int tx, int ty, void *ctx)
 {
     WrField *mask = ctx;
@@ -188,7 +188,7 @@ void wr_document_free(WrDocument *document)
     wr_free(document);
 }
 
-/* On the ground, adding is taking (compositor.h). */
+/* For the lowest layer, add is equivalent to mix (compositor.h). */
 static bool is_plain(const WrDocument *document)
 {
     const WrLayer *layer = &document->layers[0];
@@ -242,7 +242,7 @@ void wr_document_add_filter(WrDocument *document, const char *name, const WrFilt
     document->active = place;
 }
 
-/* Close the gap of a layer that was taken out. */
+/* Closes the gap of a removed layer. */
 static void close_gap(WrDocument *document, int index)
 {
     document->layer_count--;
@@ -260,7 +260,7 @@ void wr_document_remove(WrDocument *document, int index)
     close_gap(document, index);
 }
 
-/* Where a layer's index goes when another moves. */
+/* New index of a layer after another one moves. */
 static int moved(int index, int from, int to)
 {
     if (index == from) return to;

@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Never waits on a pipe, and does not wake the picture library for what is no EXR file. */
+/* Never waits on a pipe, and does not start the picture library for a file that is no EXR. */
 static bool has_exr_magic(const char *path)
 {
     static const unsigned char magic[4] = { 0x76, 0x2f, 0x31, 0x01 };
@@ -33,7 +33,7 @@ bool wr_document_recognise(const char *path)
     return ours;
 }
 
-/* The parts of one layer; 0: it has none. */
+/* The parts of one layer; 0: none. */
 typedef struct Slot {
     int heights, cover, mask;
 } Slot;
@@ -42,13 +42,13 @@ typedef struct Loading {
     const char *path;
     WrImageFile *file;
     double version;
-    bool newer; /* what is not understood is passed over */
+    bool newer; /* unknown settings are ignored */
     int width, height;
     WrWrap wrap_u, wrap_v;
     Slot slots[WR_LAYERS_MAX];
-    int layers, selection, mesh;                     /* how many; parts, 0: none */
+    int layers, selection, mesh;                     /* number of layers; parts, 0: none */
     int picture[WR_OBJECTS_MAX][WR_OBJECT_PICTURES]; /* parts of the objects, 0: none */
-    bool pictured;                                   /* there is one */
+    bool pictured;                                   /* there is at least one */
     int64_t replaced;
 } Loading;
 
@@ -71,14 +71,14 @@ static bool read_wrap(Loading *in, WrError *err)
                    in->path, word ? word : "");
 }
 
-/* ---- which parts there are ---- */
+/* ---- finding the parts ---- */
 
 static bool begins_with(const char *text, const char *start)
 {
     return strncmp(text, start, strlen(start)) == 0;
 }
 
-/* "cover:3" of the layer that was listed last, as PREFIX and its number. */
+/* True if the name is PREFIX and the number of the last listed layer, as "cover:3". */
 static bool belongs(const Loading *in, const char *name, const char *prefix)
 {
     char want[32];
@@ -86,13 +86,13 @@ static bool belongs(const Loading *in, const char *name, const char *prefix)
     return in->layers > 0 && strcmp(name, want) == 0;
 }
 
-/* Have the parts begun that follow all layers? */
+/* True once a part has come that follows all layers. */
 static bool ends(const Loading *in)
 {
     return in->selection || in->pictured || in->mesh;
 }
 
-/* The object whose picture it is: "colour", "colour:3"; else -1. */
+/* Object index of a picture: "colour", "colour:3"; -1: not a picture. */
 static int object_of(const char *name, int *which)
 {
     char want[32];
@@ -107,7 +107,7 @@ static int object_of(const char *name, int *which)
     return -1;
 }
 
-/* Put a part where it belongs. False if it has no place, or that is taken, or passed. */
+/* Assigns a part to its place. False if it has none, or the place is taken or out of order. */
 static bool place_part(Loading *in, const char *name, int part)
 {
     int object, which;
@@ -157,7 +157,8 @@ static bool check_part(const Loading *in, int index, WrError *err)
     return true;
 }
 
-/* F, which may be the only layer; else for each layer its heights, cover and mask; selection; pictures; mesh: in this order, and nothing else. */
+/* F, which may be the only layer; else for each layer its heights, cover and mask; selection; pictures; mesh: in
+   this order, and nothing else. */
 static bool find_parts(Loading *in, WrError *err)
 {
     int count = wr_image_file_parts(in->file);
@@ -195,8 +196,8 @@ bool wr_document_all_at(const float *texels, size_t pitch, int columns, int rows
     return true;
 }
 
-/* A strip of one row of tiles. Tiles that are all at the table's level stay unallocated, so that an
- * almost empty table is as small as it was when it was saved. */
+/* Stores a strip of one row of tiles. Tiles at the table's level are not allocated, so that an almost empty
+   table is as small as it was when saved. */
 static void store_strip(Loading *in, WrField *field, int y, int rows, const float *strip)
 {
     for (int x = 0; x < in->width; x += WR_TILE) {
@@ -207,7 +208,7 @@ static void store_strip(Loading *in, WrField *field, int y, int rows, const floa
     }
 }
 
-/* Coverage and the like: 0..1. */
+/* Clamps coverage, masks and selections to 0..1. */
 static void clamp_strip(float *strip, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -244,7 +245,7 @@ fail:
     return NULL;
 }
 
-/* A picture of the scene's, as it was put there. */
+/* Reads a picture of the scene, unchanged. */
 static WrImage *read_image(Loading *in, int part, WrError *err)
 {
     WrImagePart is = wr_image_file_part(in->file, part);
@@ -261,7 +262,7 @@ static WrImage *read_image(Loading *in, int part, WrError *err)
 
 /* ---- settings ---- */
 
-/* An attribute of a layer that is not right; a newer version may mean something else by it. */
+/* Error for an invalid attribute of a layer; a newer version may use it in another way. */
 static bool fail_setting(const Loading *in, const char *name, const char *value, WrError *err)
 {
     if (in->newer) return true;
@@ -290,7 +291,7 @@ static bool read_switch(Loading *in, int part, const char *name, bool *out, WrEr
     return true;
 }
 
-/* What a filter of the file's own time is; one that we do not know leaves a layer of nothing. */
+/* Reads a filter of a known format version; an unknown filter of a newer one leaves an empty layer. */
 static bool read_filter(Loading *in, int part, WrFilter *out, WrError *err)
 {
     const char *text = wr_image_file_attribute(in->file, part, "wrinkle:filter");
@@ -306,14 +307,14 @@ static bool read_filter(Loading *in, int part, WrFilter *out, WrError *err)
 static bool read_blend(Loading *in, int part, WrBlend *out, WrError *err)
 {
     const char *text = wr_image_file_attribute(in->file, part, "wrinkle:blend");
-    if (!text) return true; /* version 1 had none: all were added */
+    if (!text) return true; /* version 1 had no modes: all layers were added */
     int blend = wr_blend_find(text);
     if (blend < 0) return fail_setting(in, "wrinkle:blend", text, err);
     *out = (WrBlend)blend;
     return true;
 }
 
-/* A name as commands could have given it: not too long, whole characters, no control characters. */
+/* Restricts a name to valid ones: limited length, whole characters, no control characters. */
 static char *clean_name(const char *name)
 {
     size_t length = strlen(name);
@@ -350,7 +351,7 @@ static bool read_layer(Loading *in, int index, WrLayer *out, WrError *err)
     return good;
 }
 
-/* The number of a layer, from `low` on; *out is its index. */
+/* Reads the number of a layer, from `low` on, as the index *out. */
 static bool read_index(Loading *in, const char *name, int low, int *out, WrError *err)
 {
     const char *text = wr_image_file_attribute(in->file, 0, name);
@@ -364,7 +365,7 @@ static bool read_index(Loading *in, const char *name, int low, int *out, WrError
     return true;
 }
 
-/* The layers replace the new document's one. */
+/* Reads the layers, which replace those of the new document. */
 static bool read_document(Loading *in, WrDocument *document, WrError *err)
 {
     for (int i = 0; i < in->layers; i++) {

@@ -58,7 +58,7 @@ bool wr_document_wrap_find(const char *word, WrWrap *wrap_u, WrWrap *wrap_v)
     return false;
 }
 
-/* ---- rows of parts ---- */
+/* ---- pixel rows of parts ---- */
 
 static bool field_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
@@ -83,20 +83,20 @@ static bool mesh_rows(void *ctx, int y, int rows, void *out, WrError *err)
     return true;
 }
 
-/* ---- putting a file together ---- */
+/* ---- file structure ---- */
 
 typedef struct Saving {
     const WrDocument *document;
     WrImageOut parts[PARTS_MAX];
     int count;
     WrImage *mesh; /* the scene's meshes, as a picture; owned; or NULL */
-    bool single;   /* the one layer is F itself */
+    bool single;   /* the only layer is F itself */
     WrImageAttribute of_file[FILE_ATTRIBUTES + LAYER_ATTRIBUTES];
     WrImageAttribute of_layers[WR_LAYERS_MAX][LAYER_ATTRIBUTES];
-    WR_ARRAY(char *) texts; /* names and values that were made for the file; owned */
+    WR_ARRAY(char *) texts; /* names and values created for the file; owned */
 } Saving;
 
-/* A text that lives as long as the saving; takes it. */
+/* Keeps a text until saving ends; takes ownership. */
 static const char *keep(Saving *to, WrText text)
 {
     char *kept = text.data ? text.data : wr_strdup("");
@@ -144,7 +144,7 @@ static const char *range_of(Saving *to, const WrField *field)
     return keep(to, text);
 }
 
-/* The oldest that knows all that is in it. */
+/* The oldest format version that has all features in use. */
 static int version_of(const Saving *to)
 {
     const WrScene *scene = to->document->scene;
@@ -179,8 +179,8 @@ static void add_composite(Saving *to, const char *scene_text)
     part->attribute_count = FILE_ATTRIBUTES;
 }
 
-/* Part names must differ, layers' names need not: "layer:NAME", then "layer:NAME (2)" and so on. The
- * attribute wrinkle:layer holds the name itself. */
+/* Part names must be unique, layers' names need not be: "layer:NAME", then "layer:NAME (2)" and so on. The
+   attribute wrinkle:layer has the exact name. */
 static const char *part_name(Saving *to, int layer)
 {
     const WrLayer *layers = to->document->layers;
@@ -199,7 +199,7 @@ static const char *keep_filter(Saving *to, const WrFilter *filter)
     return keep(to, text);
 }
 
-/* How many attributes the layer has. */
+/* Fills the layer's attributes; returns their number. */
 static int describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATTRIBUTES])
 {
     const WrLayer *layer = &to->document->layers[index];
@@ -230,7 +230,7 @@ static void add_layer(Saving *to, int index)
     if (layer->mask) add_field(to, layer->mask, keep_whole(to, WR_DOCUMENT_MASK, index + 1));
 }
 
-/* The only layer's settings go beside the file's. */
+/* A single layer's settings are stored beside the file's. */
 static void add_layer_to_composite(Saving *to)
 {
     to->parts[0].attribute_count =
@@ -261,7 +261,7 @@ const WrObjectPictureInfo wr_object_pictures[WR_OBJECT_PICTURES] = {
     [WR_OBJECT_SURROUND] = { "environment", "picture of the surroundings", false },
 };
 
-/* Built-in surroundings are made again. */
+/* The environment's picture; NULL for a built-in one, which is generated again. */
 static WrImage *surroundings(const WrScene *scene)
 {
     return scene->environment.kind == WR_ENVIRONMENT_MAP_FILE ? scene->environment.light->image
@@ -275,7 +275,8 @@ WrImage *wr_object_picture(const WrScene *scene, int object, int which)
     if (which == WR_OBJECT_ROUGHNESS) return own->facets[WR_FACET_ROUGHNESS].image;
     if (which == WR_OBJECT_METALNESS) return own->facets[WR_FACET_METALNESS].image;
     if (which == WR_OBJECT_NORMALS) return own->normals.image;
-    return own->colouring.count > 0 ? NULL : own->colour; /* made again of the heights */
+    /* a height colouring is computed again from the heights */
+    return own->colouring.count > 0 ? NULL : own->colour;
 }
 
 bool wr_object_any_picture(const WrScene *scene, int which)
@@ -293,7 +294,7 @@ static bool has_pictures(const WrScene *scene)
     return any;
 }
 
-/* Programs that know nothing of parts open a file of one: so it is where F says all. */
+/* True if F is the whole document. Many programs support only files of one part. */
 static bool fits_one_part(const WrDocument *document)
 {
     const WrLayer *layer = &document->layers[0];

@@ -9,7 +9,7 @@
 
 static float unit(float x)
 {
-    return x > 0.0f ? x < 1.0f ? x : 1.0f : 0.0f; /* NaN: 0 */
+    return x > 0.0f ? x < 1.0f ? x : 1.0f : 0.0f; /* NaN becomes 0 */
 }
 
 static float value_at(const float *tile, float level, int i)
@@ -17,7 +17,7 @@ static float value_at(const float *tile, float level, int i)
     return tile ? tile[i] : level;
 }
 
-/* A tile of a selection that is 0 throughout? */
+/* True if a tile of a selection is 0 throughout. */
 static bool is_nothing(const float *tile, float level)
 {
     if (!tile) return !(level > 0.0f);
@@ -44,7 +44,7 @@ static bool differ(const float *a, const float *b, int count)
     return memcmp(a, b, sizeof *a * (size_t)count) != 0;
 }
 
-/* Texels beyond the table's edge are left alone: they hold `before`'s level. */
+/* Texels beyond the table's edge are not changed: they have the level of `before`. */
 static void mix_tile(int tx, int ty, void *ctx)
 {
     const Mixing *m = ctx;

@@ -1,17 +1,17 @@
-/* edit.h - keeping an edit to the selection, and noting what a layer says something about.
-   Layer 5. Knows fields only. Selections and coverage are 0..1; values outside count as 0 or 1. */
+/* edit.h - restriction of edits to the selection, and the coverage of a layer after an edit. Works on fields
+   only. Selections and coverage are 0..1; values outside are clamped. */
 #pragma once
 
 typedef struct WrField WrField;
 
-/* What an edit that led from `before` to `after` leaves where it may act only inside a selection:
- *
- *   before + s (after - before),   in double, rounded once; before's bits where s = 0, after's where s = 1
- *
- * Tiles that come out as before are the very tiles of before. All of one size and wrap; selection NULL
- * gives a share of after. The caller owns the result. */
+/* Result of an edit from `before` to `after` restricted to a selection:
+
+     before + s (after - before),   in double, rounded once; before's bits if s = 0, after's if s = 1
+
+   Unchanged tiles are shared with `before`. All fields have one size and wrap; selection NULL gives a share of
+   after. The caller owns the result. */
 WrField *wr_edit_within(const WrField *before, const WrField *after, const WrField *selection);
 
-/* Raise a layer's coverage to the selection's: max(cover, s); to 1 everywhere without one. Cover NULL, which
- * is 1 everywhere, stays so. */
+/* Raises a layer's coverage to the selection's: max(cover, s); to 1 everywhere without a selection. Cover NULL,
+   which is 1 everywhere, is unchanged. */
 void wr_edit_mark(WrField *cover, const WrField *selection);

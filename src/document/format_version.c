@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 #include "scene/tone_mapping.h"
 
-/* Round, or hidden by objects. */
+/* True if the scene has an area lamp, or one that objects can hide. */
 static bool any_new_lamp(const WrScene *scene)
 {
     bool any = false;

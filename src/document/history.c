@@ -7,24 +7,24 @@
 
 #include <string.h>
 
-/* What a step is called. Shared, so that it outlives changes of the step. */
+/* Texts of a step. Reference-counted, because they outlive changes of the step. */
 typedef struct Words {
     int refs;            /* atomic */
     char *line, *folder; /* owned */
 } Words;
 
-/* Shared by a history and its stills: never changed but by make_own. */
+/* Shared by a history and its snapshots: modified only after make_own. */
 typedef struct Step {
     int refs; /* atomic */
     Words *words;
-    size_t bytes;      /* of what its two states do not share */
-    WrDocument *after; /* NULL: given up */
+    size_t bytes;      /* memory that its two states do not share */
+    WrDocument *after; /* NULL: discarded */
     uint64_t mark;
-    bool brings_view; /* its two states were looked at in different ways */
+    bool brings_view; /* its two states have different views */
 } Step;
 
 struct WrHistory {
-    WrDocument *start; /* state 0, of its own; NULL: given up */
+    WrDocument *start; /* state 0, owned; NULL: discarded */
     uint64_t start_mark;
     WR_ARRAY(Step *) steps;
     int position, oldest;
@@ -57,7 +57,7 @@ static void free_step(Step *step)
     wr_free(step);
 }
 
-/* Step k, to be changed: no longer a still's. */
+/* Step k for modification: no longer shared with a snapshot. */
 static Step *make_own(WrHistory *history, int k)
 {
     Step *step = history->steps.data[k];
@@ -100,13 +100,13 @@ static const WrDocument *state_at(const WrHistory *history, int state)
     return state == 0 ? history->start : history->steps.data[state - 1]->after;
 }
 
-/* The same, to be changed. */
+/* A state for modification. */
 static WrDocument **own_state(WrHistory *history, int state)
 {
     return state == 0 ? &history->start : &make_own(history, state - 1)->after;
 }
 
-/* The last step goes, line and all. */
+/* Removes the last step with its line. */
 static void drop_last(WrHistory *history)
 {
     Step *last = history->steps.data[history->steps.count - 1];
@@ -227,8 +227,8 @@ bool wr_history_brings_view(const WrHistory *history, int step)
     return history->steps.data[step]->brings_view;
 }
 
-/* The view after going to `state`: of the near side of the last step on the way that brought one, else the
-   present one. */
+/* The view after going to `state`: the view on the near side of the last step on the way that changed it, else
+   the current view. */
 static WrSceneView view_there(const WrHistory *history, int state)
 {
     Step *const *steps = history->steps.data;

@@ -1,15 +1,15 @@
-/* history.h - what was done to a document, and every state on the way, as snapshots that share their tiles.
-   Layer 5. Lines are opaque text here.
+/* history.h - undo history of a document: the command lines and every state between them, as snapshots that
+   share their tiles. Lines are opaque text here.
 
-   A history of n steps knows n + 1 states; state k is what the first k lines made. States are exact: going
-   back and forth restores every bit. What a step costs is what its two states do not share
-   (wr_document_difference); where the sum passes the budget, the oldest states are given up, their lines
-   stay. The step before the present state is kept whatever it costs, so that the last command can always
-   be undone.
+   A history of n steps has n + 1 states; state k is the result of the first k lines. States are exact: going
+   back and forth restores every bit. The cost of a step is the memory that its two states do not share
+   (wr_document_difference). If the sum exceeds the budget, the oldest states are discarded; their lines are
+   kept. The step before the current state is kept whatever it costs, so that the last command can always be
+   undone.
 
-   How the scene is looked at is no part of a state: going back and forth leaves the present view, but over a
-   step that brought a view of its own (a document that was opened) the view goes along: to what it was on
-   the other side of that step. */
+   The view of the scene is not part of a state: going back and forth keeps the current view, except over a step
+   that had a view of its own (a document was opened). There the view changes to that on the other side of the
+   step. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,46 +19,46 @@ typedef struct WrDocument WrDocument;
 typedef struct WrField WrField;
 typedef struct WrSceneView WrSceneView;
 
-#define WR_HISTORY_BUDGET ((size_t)1 << 30) /* bytes, if nobody says otherwise */
+#define WR_HISTORY_BUDGET ((size_t)1 << 30) /* bytes, default */
 
 typedef struct WrHistory WrHistory;
 
-/* start: state 0, of which a snapshot is kept; mark: a number of the caller's that belongs to it. The
-   caller owns the history. */
+/* start: state 0, stored as a snapshot; mark: a number of the caller's that belongs to it. The caller owns the
+   history. */
 WrHistory *wr_history_new(const WrDocument *start, uint64_t mark, size_t budget);
 void wr_history_free(WrHistory *history); /* NULL is fine */
-/* The same once more, to be looked at by any thread whatever becomes of the first: it shares the steps, so that it costs no
-   more than their number. The caller owns it. */
+/* A read-only snapshot that any thread may read while the original changes: it shares the steps, so its cost
+   depends only on their number. The caller owns it. */
 WrHistory *wr_history_still(const WrHistory *history);
 
-/* `line` led from the present state to `document`, which becomes it; the steps after the old one are
- * gone. folder: what relative file names in the line are relative to, or NULL. Strings and the document
- * are copied (the latter by a snapshot). */
+/* Adds a step: `line` led from the current state to `document`, which becomes the current one; the steps after
+   the old one are discarded. folder: base of relative file names in the line, or NULL. Strings and the document
+   are copied (the latter as a snapshot). */
 void wr_history_push(WrHistory *history, const WrDocument *document, const char *line,
                      const char *folder, uint64_t mark);
 
-int wr_history_count(const WrHistory *history);    /* steps, those that were undone too */
-int wr_history_position(const WrHistory *history); /* the present state: 0..count */
-int wr_history_oldest(const WrHistory *history);   /* the oldest state that is kept: 0..position */
-/* Of step k, 0..count - 1, which leads from state k to state k + 1. Borrowed until the next push. */
+int wr_history_count(const WrHistory *history);    /* steps, including undone ones */
+int wr_history_position(const WrHistory *history); /* the current state: 0..count */
+int wr_history_oldest(const WrHistory *history);   /* the oldest stored state: 0..position */
+/* Properties of step k, 0..count - 1, which leads from state k to state k + 1. Borrowed until the next push. */
 const char *wr_history_line(const WrHistory *history, int step);
 const char *wr_history_folder(const WrHistory *history, int step); /* NULL: none */
-size_t wr_history_step_bytes(const WrHistory *history, int step);  /* 0 if its state was given up */
-size_t wr_history_bytes(const WrHistory *history);                 /* of all steps that are kept */
-uint64_t wr_history_mark(const WrHistory *history);                /* of the present state */
+size_t wr_history_step_bytes(const WrHistory *history, int step); /* 0 if its state was discarded */
+size_t wr_history_bytes(const WrHistory *history);                /* of all stored steps */
+uint64_t wr_history_mark(const WrHistory *history);               /* of the current state */
 
-/* The present state is looked at in another way: `document` differs from it in nothing else. */
+/* Records a changed view of the current state: `document` differs from it in nothing else. */
 void wr_history_look(WrHistory *history, const WrDocument *document);
-/* The view that a state had when it was the present one last; false if the state was given up. */
+/* The last view of a state while it was current; false if the state was discarded. */
 bool wr_history_view(const WrHistory *history, int state, WrSceneView *view);
-/* The heights of a state's active layer, of that under it where it is a filter; NULL: it was given up. Borrowed until the
-   history changes. */
+/* The heights of a state's active layer, or for a filter of the layer below; NULL: it was discarded. Borrowed
+   until the history changes. */
 const WrField *wr_history_heights(const WrHistory *history, int state);
-/* Did step k bring a view of its own? */
+/* True if step k has a view of its own. */
 bool wr_history_brings_view(const WrHistory *history, int step);
 
-/* Make `state` (oldest..count) the present one. Its document, a snapshot that is the caller's. */
+/* Makes `state` (oldest..count) the current one. Returns its document, a snapshot owned by the caller. */
 WrDocument *wr_history_go(WrHistory *history, int state);
 
-/* Gives up at once what is over it: the oldest states first, then undone steps, the last one first. */
+/* Discards at once whatever exceeds the budget: the oldest states first, then undone steps, the last one first. */
 void wr_history_set_budget(WrHistory *history, size_t bytes);

@@ -1,7 +1,8 @@
-/* image_rows.h - rows of a picture that the scene holds, for the file that keeps it.
-   Private to this room. */
+/* image_rows.h - conversion of a scene's picture to float rows, for saving.
+   Private to this module. */
 #pragma once
 typedef struct WrImage WrImage;
 
-/* The rows [y, y + rows) with so many channels: the picture's first ones, or its only one in each. out: floats. */
+/* Copies rows [y, y + rows) with that number of channels: the picture's first ones, or its only one into each.
+   out: floats. */
 void wr_image_rows_out(const WrImage *image, int channels, int y, int rows, float *out);

@@ -8,20 +8,20 @@
 
 #include <math.h>
 
-/* Pictures become heights one output row at a time: the weighted sum of input rows, then the weighted
- * sum of its columns, both in double and in the order of the taps, so that the bits are the same
- * everywhere. Nothing larger than a row is kept. */
+/* Conversion of pictures to heights, one output row at a time: the weighted sum of input rows, then the weighted
+   sum of its columns, both in double and in the order of the taps, so that the bits are the same everywhere. No
+   buffer is larger than a row. */
 
-/* The taps of one output texel on one axis. */
+/* The filter taps of one output texel on one axis. */
 typedef struct Taps {
     int first, count; /* input indices first .. first + count - 1, not yet wrapped */
     double *weight;   /* [count], sum 1 */
 } Taps;
 
 typedef struct Axis {
-    int from, to; /* texels of input and output */
+    int from, to; /* number of texels of input and output */
     WrWrap wrap;
-    int most; /* taps at most */
+    int most; /* maximum number of taps */
 } Axis;
 
 static Axis make_axis(int from, int to, WrWrap wrap)
@@ -31,7 +31,7 @@ static Axis make_axis(int from, int to, WrWrap wrap)
 }
 
 /* Box filter: the part of each input texel that lies under the output texel, [i s, (i+1) s), s = from/to. In
- * integers, so that whole ratios give equal weights exactly. */
+   integers, so that whole ratios give exactly equal weights. */
 static void box_taps(const Axis *axis, int i, Taps *taps)
 {
     int64_t from = axis->from, to = axis->to;
@@ -81,7 +81,7 @@ static int wrap_index(const Axis *axis, int i)
     return i < 0 ? i + n : i;
 }
 
-/* Of one pixel; pictures of one or two channels are grey already. */
+/* Grey value of one pixel; pictures of one or two channels are already grey. */
 static inline float grey(const float *pixel, int channels)
 {
     float f = channels < 3 ? pixel[0] : wr_image_luma(pixel, channels);
@@ -89,11 +89,11 @@ static inline float grey(const float *pixel, int channels)
 }
 
 typedef struct Resampling {
-    const WrImage *image; /* whole; or only its head, and then */
+    const WrImage *image; /* the whole picture; or only its header, with `rows` */
     WrImageRows *rows;
     Axis u, v;
     Taps *columns;   /* [u.to] */
-    double *weights; /* those of the columns, u.most each, then v.most for the present row */
+    double *weights; /* those of the columns, u.most each, then v.most for the current row */
     double *row;     /* [image width] */
 } Resampling;
 
@@ -104,7 +104,7 @@ static const float *input_row(const Resampling *r, int y, WrError *err)
     return image->data + (size_t)y * (size_t)image->width * (size_t)image->channels;
 }
 
-/* Where nothing is resampled: what the sums below come to, -0 as 0 included. */
+/* Without resampling: equals the sums below, including -0 as 0. */
 static bool copy_row(const Resampling *r, int j, float *out, WrError *err)
 {
     const float *in = input_row(r, j, err);
@@ -135,7 +135,7 @@ static bool resample_row(const Resampling *r, int j, float *out, WrError *err)
     return true;
 }
 
-/* Rows [j, j + count) of the table. */
+/* Computes rows [j, j + count) of the table. */
 static bool make_rows(const Resampling *r, int j, int count, float *out, WrError *err)
 {
     bool same = r->u.from == r->u.to && r->v.from == r->v.to;
@@ -146,7 +146,8 @@ static bool make_rows(const Resampling *r, int j, int count, float *out, WrError
     return true;
 }
 
-/* A row of tiles at a time, so that those of one height take no memory; that height is the first one. */
+/* Fills one row of tiles at a time, so that tiles of one height are not allocated; that height is the first
+   texel's. */
 static WrField *fill_field(const Resampling *r, float *strip, WrError *err)
 {
     WrField *field = NULL;
@@ -195,7 +196,7 @@ static WrField *import(const WrImage *image, WrImageRows *rows, int width, int h
         height = image->height;
     }
     if (width < 1 || width > WR_FIELD_MAX || height < 1 || height > WR_FIELD_MAX) {
-        wr_field_new(width, height, wrap_u, wrap_v, 0.0f, err); /* says why not */
+        wr_field_new(width, height, wrap_u, wrap_v, 0.0f, err); /* err is set */
         return NULL;
     }
     Resampling r = { .image = image,
@@ -216,7 +217,7 @@ WrField *wr_import_rows(WrImageRows *rows, int width, int height, WrWrap wrap_u,
 {
     const WrImage *head = wr_image_rows_head(rows);
     if (height <= head->height) return import(head, rows, width, height, wrap_u, wrap_v, err);
-    /* Growing begins with rows from the other end; such a picture is smaller than the table. */
+    /* Growing starts with rows from the other end; such a picture is smaller than the table. */
     WrImage *image = wr_image_rows_whole(rows, err);
     if (!image) return NULL;
     WrField *field = import(image, NULL, width, height, wrap_u, wrap_v, err);

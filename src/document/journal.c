@@ -23,43 +23,43 @@
 #define MAX_LINES 20000
 #define PATIENCE_SECONDS 10.0
 #define PATIENCE_MOST_SECONDS 300.0
-#define PROBE_BYTES 65536 /* room on the disk that counts as "writing works again" */
+#define PROBE_BYTES 65536 /* free disk space that counts as "writing works again" */
 
 typedef enum Open { OPEN_NOTHING, OPEN_COMMAND, OPEN_STROKE } Open;
 
 struct WrJournal {
-    WrJournalOptions options; /* folder and program are copies; owned */
+    WrJournalOptions options; /* folder and program are owned copies */
     char *path, *temporary, *files;
-    int fd;        /* locked, appending; -1: there is no file yet */
-    int64_t bytes; /* whole lines in the file: what a failed write is cut back to */
+    int fd;        /* locked, appending; -1: no file yet */
+    int64_t bytes; /* whole lines in the file: a failed write is truncated to this */
     int64_t lines, commands;
     uint64_t sequence; /* of the next record */
     Open open;
     WrText line;      /* scratch */
-    bool unsynced;    /* lines were written since synced_at */
+    bool unsynced;    /* lines were written after synced_at */
     double synced_at; /* wr_clock_seconds */
     bool broken;      /* lines are missing: only a restart helps */
-    bool gap_marked;  /* and the file says so */
-    bool writable;    /* broken, but writing has worked since */
-    double tried_at;  /* wr_clock_seconds of the last failure or try */
-    double ask_at;    /* do not ask for a restart before */
-    double patience;  /* seconds to the next question when one is put off */
-    int snapshot;     /* number of the last snapshot handed out */
-    char reason[384]; /* why it is broken */
+    bool gap_marked;  /* and the file records that */
+    bool writable;    /* broken, but writing has worked again */
+    double tried_at;  /* wr_clock_seconds of the last failure or attempt */
+    double ask_at;    /* no request for a restart before */
+    double patience;  /* delay before the next request, seconds, after one is put off */
+    int snapshot;     /* number of the last snapshot path */
+    char reason[384]; /* reason of `broken` */
 };
 
-/* ---- failing, and coming back ---- */
+/* ---- failure and recovery ---- */
 
 static void report(WrJournal *journal, const char *text)
 {
     if (journal->options.report) journal->options.report(journal->options.ctx, text);
 }
 
-/* A fact for the reader that may be missing without harm, so failing to write it is no failure. */
+/* Records the gap for the reader. The record may be missing without harm, so a failure to write it is ignored. */
 static void mark_gap(WrJournal *journal)
 {
     if (journal->fd < 0 || journal->gap_marked) return;
-    if (!wr_fd_cut(journal->fd, journal->bytes)) return; /* torn bytes: nothing may follow */
+    if (!wr_fd_cut(journal->fd, journal->bytes)) return; /* nothing may follow torn bytes */
     wr_text_clear(&journal->line);
     wr_journal_print_line(&journal->line, journal->sequence, 'g', journal->reason);
     journal->gap_marked = wr_fd_write(journal->fd, journal->line.data, journal->line.length);
@@ -67,7 +67,7 @@ static void mark_gap(WrJournal *journal)
         return; /* the reader drops torn bytes */
 }
 
-/* Only ever called while it is safe: what writes asks first. */
+/* Called only while the journal is safe: the writing functions check that first. */
 static void become_unsafe(WrJournal *journal, const char *reason)
 {
     journal->broken = true;
@@ -86,7 +86,7 @@ void wr_journal_break(WrJournal *journal, const char *reason)
     if (!journal->broken) become_unsafe(journal, reason);
 }
 
-/* Would a new file have room? Writes one and removes it. */
+/* True if a new file would have space. Writes one and removes it. */
 static bool probe(const WrJournal *journal)
 {
     if (!journal->path || !wr_journal_make_folder(journal->options.folder, NULL)) return false;
@@ -194,7 +194,7 @@ bool wr_journal_note(WrJournal *journal, const char *text, WrError *err)
     return append(journal, 'n', text, err);
 }
 
-/* Wherever the program goes later. Caller frees. */
+/* Absolute path, valid after a change of the working folder. Caller frees. */
 static char *absolute_path(const char *path)
 {
     char *here = wr_path_here(), *whole = wr_path_join(here ? here : "/", path);
@@ -260,9 +260,9 @@ const char *wr_journal_path(const WrJournal *journal)
     return journal->path ? journal->path : "";
 }
 
-/* ---- beginning and restarting ---- */
+/* ---- start and restart ---- */
 
-/* The header of a start state; the caller frees *absolute. */
+/* Prints the header of a start state; the caller frees *absolute. */
 static bool print_start(WrJournal *journal, const WrJournalStart *start, char **absolute,
                         WrError *err)
 {
@@ -290,7 +290,7 @@ static bool print_start(WrJournal *journal, const WrJournalStart *start, char **
     return true;
 }
 
-/* A locked file with the header that is in journal->line, under its temporary name, on the disk. */
+/* Creates a locked file with the header from journal->line, under its temporary name, synced to disk. */
 static int create_file(const WrJournal *journal, WrError *err)
 {
     wr_path_remove(journal->temporary);
@@ -311,7 +311,7 @@ static int create_file(const WrJournal *journal, WrError *err)
     return -1;
 }
 
-/* Put a new file with another start state in the place of the old one, if any. */
+/* Replaces the old file, if any, by a new one with another start state. */
 static bool start_file(WrJournal *journal, const WrJournalStart *start, WrError *err)
 {
     char *absolute = NULL;
@@ -323,7 +323,7 @@ static bool start_file(WrJournal *journal, const WrJournalStart *start, WrError 
     if (fd < 0) return false;
     wr_journal_sync_path(journal->options.folder, NULL);
     if (journal->fd >= 0)
-        wr_fd_close(journal->fd); /* only now, so that the name was never unheld */
+        wr_fd_close(journal->fd); /* only now, so that the name is locked at every moment */
     journal->fd = fd;
     journal->bytes = (int64_t)journal->line.length;
     journal->lines = 1;
@@ -404,7 +404,7 @@ void wr_journal_put_off(WrJournal *journal)
     if (journal->patience > PATIENCE_MOST_SECONDS) journal->patience = PATIENCE_MOST_SECONDS;
 }
 
-/* ---- files beside it ---- */
+/* ---- neighbouring files ---- */
 
 bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha256, WrError *err)
 {
@@ -441,7 +441,7 @@ bool wr_journal_snapshot_path(WrJournal *journal, WrText *path, WrError *err)
 
 static void free_journal(WrJournal *journal)
 {
-    if (journal->fd >= 0) wr_fd_close(journal->fd); /* and with it the lock */
+    if (journal->fd >= 0) wr_fd_close(journal->fd); /* this also releases the lock */
     wr_free((char *)journal->options.folder);
     wr_free((char *)journal->options.program);
     wr_free(journal->path);
@@ -455,7 +455,7 @@ void wr_journal_finish(WrJournal *journal)
 {
     WrFileInfo mine, named;
     if (!journal) return;
-    /* The journal first: without it the files mean nothing, while it without them would mislead. */
+    /* The journal is removed first: the files are useless without it, while it would be misleading without them. */
     if (journal->fd >= 0 && wr_fd_info(journal->fd, &mine) && wr_path_info(journal->path, &named) &&
         mine.inode == named.inode && mine.device == named.device)
         wr_path_remove(journal->path);

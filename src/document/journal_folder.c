@@ -42,7 +42,7 @@ bool wr_journal_make_folder(const char *path, WrError *err)
         if (slash) *slash = '\0';
         ok = wr_folder_make(part, WR_FOLDER_FOR_ME) || errno == EEXIST;
         saved = errno;
-        if (!ok) ok = wr_path_can_run(part); /* EROFS, EACCES: but it is there */
+        if (!ok) ok = wr_path_can_run(part); /* EROFS, EACCES: the folder exists */
         if (!slash) break;
         *slash = '/';
     }
@@ -115,7 +115,7 @@ static bool ends_in(const char *name, const char *ending)
     return n > m && strcmp(name + n - m, ending) == 0;
 }
 
-/* `name` is KEEP or KEEP.ending. */
+/* True if `name` is KEEP or KEEP.extension. */
 static bool is_kept(const char *name, const char *keep)
 {
     size_t n = keep ? strlen(keep) : 0;
@@ -134,7 +134,7 @@ void wr_journal_clear_files(const char *files, const char *keep_a, const char *k
     wr_folder_remove(files);
 }
 
-/* A journal that was never finished being begun: no program holds it. */
+/* Removes a journal whose creation was interrupted: no program has locked it. */
 static void sweep_new(const char *path)
 {
     int fd = wr_journal_open(path, NULL);
@@ -143,7 +143,7 @@ static void sweep_new(const char *path)
     wr_fd_close(fd);
 }
 
-/* Files whose journal is gone: its removal was cut short. */
+/* Removes files whose journal is gone: its removal was interrupted. */
 static void sweep_files(const char *path)
 {
     WrText journal = { 0 };

@@ -1,5 +1,5 @@
-/* Copies of files that commands read: NAME.files/SHA256.ending, hard links of one another where two
-   journals keep the same. A link counts as a copy only when its content has been read and fits. */
+/* Copies of files that commands read: NAME.files/SHA256.extension, hard links of one another if two journals
+   keep equal content. A link is accepted only after its content has been read and verified. */
 #include "document/journal_folder.h"
 
 #include "base/error.h"
@@ -15,7 +15,7 @@
 #include <errno.h>
 #include <string.h>
 
-/* SHA256, or SHA256.ending: readers of meshes and pictures go by the ending. */
+/* SHA256, or SHA256.extension: readers of meshes and pictures depend on the extension. */
 static void kept_name(WrText *name, const char *sha256, const char *named)
 {
     char buffer[16];
@@ -32,7 +32,7 @@ static bool content_is(const char *path, const char *sha256)
     return wr_sha256_file(path, have, NULL) && strcmp(have, sha256) == 0;
 }
 
-/* Link the same copy of another journal to `target`. */
+/* Links an equal copy of another journal to `target`. */
 static bool link_sibling(const char *folder, const char *target, const char *name,
                          const char *sha256)
 {
@@ -56,7 +56,7 @@ static bool link_sibling(const char *folder, const char *target, const char *nam
     return found;
 }
 
-/* By the file system itself where it can (shared blocks), else through memory. */
+/* Copies inside the file system if it can share blocks, else through memory. */
 static bool copy_bytes(int from, int to)
 {
     int copied = wr_fd_copy_blocks(from, to);
@@ -69,8 +69,7 @@ static bool copy_bytes(int from, int to)
     }
 }
 
-/* Copy to a temporary name, check the copy rather than the file (which may be changing), then give
-   it its name. */
+/* Copies to a temporary name, verifies the copy rather than the file (which may be changing), then renames it. */
 static bool copy_open(int from, const char *path, const char *target, const char *sha256,
                       WrError *err)
 {
@@ -151,7 +150,7 @@ bool wr_journal_kept_file(const char *journal_path, const char *sha256, const ch
         bool exact = strcmp(entry, wr_text_get(&name)) == 0;
         if (strncmp(entry, sha256, 64) != 0 || (!exact && best.length)) continue;
         const char *dot = strrchr(entry, '.');
-        if (dot && strcmp(dot, ".new") == 0 && !exact) continue; /* a copy that was cut short */
+        if (dot && strcmp(dot, ".new") == 0 && !exact) continue; /* an incomplete copy */
         wr_text_clear(&best);
         wr_text_add(&best, entry);
         if (exact) break;

@@ -47,7 +47,7 @@ static bool escapes_are_good(const char *text, size_t length)
     return true;
 }
 
-/* In place; returns the new length. The escapes are good, and text has room for a NUL. */
+/* Unescapes in place; returns the new length. The escapes are valid, and text has room for a NUL. */
 static size_t unescape(char *text, size_t length)
 {
     size_t out = 0;
@@ -98,7 +98,7 @@ bool wr_journal_is_name(const char *text)
     return *text && *text != '.' && !strchr(text, '/');
 }
 
-/* "CHECKSUM BODY\n": the checksum is known only when the body is, so its room comes first. */
+/* "CHECKSUM BODY\n": the checksum is computed after the body, so space is reserved for it. */
 static size_t begin_body(WrText *line)
 {
     char room[HASH_DIGITS + 2];
@@ -107,7 +107,7 @@ static size_t begin_body(WrText *line)
     return line->length;
 }
 
-/* Lines of one format never pass for those of another. */
+/* Separates the checksums of different formats. */
 static const WrHash seed = { WR_JOURNAL_FORMAT, 0 };
 
 static void end_body(WrText *line, size_t body)
@@ -124,8 +124,8 @@ static bool body_has(const char *text, size_t length, WrHash start, const WrHash
     return wr_hash_equal(hash, *written);
 }
 
-/* text = "CHECKSUM BODY": is the checksum that of the body after it? In format 1 it depends on the line
-   before's, which is why what a damaged line has written as its own is kept for the one after it. */
+/* text = "CHECKSUM BODY": checks the checksum of the body. In format 1 it depends on the checksum of the line
+   before, so the stored checksum of a damaged line is kept for the next one. */
 static bool check_body(const char *text, size_t length, WrJournalSeal *seal)
 {
     WrHash before = seal->chain, written;
@@ -157,7 +157,7 @@ void wr_journal_print_header(WrText *line, const WrJournalHeader *header)
     end_body(line, body);
 }
 
-/* Cut "a b c" at its spaces into exactly `count` words, each unescaped. */
+/* Splits "a b c" at its spaces into exactly `count` words, each unescaped. */
 static bool split_words(char *text, size_t length, char **words, int count)
 {
     if (!escapes_are_good(text, length)) return false;
@@ -182,7 +182,7 @@ static bool parse_time(const char *text, int64_t *value)
     return true;
 }
 
-/* The words of a header whose checksum fits: still checked, since anybody can make a checksum. */
+/* Parses the words of a header with a valid checksum: still validated, since anybody can compute a checksum. */
 static bool header_from_words(char *const words[HEADER_WORDS], WrJournalHeader *out)
 {
     WrJournalHeader h = { .program = words[0] };
@@ -204,7 +204,7 @@ static bool header_from_words(char *const words[HEADER_WORDS], WrJournalHeader *
     return true;
 }
 
-/* "MAGIC VERSION ": where what comes behind begins, 0 if it is not that. */
+/* "MAGIC VERSION ": returns the offset after it, 0 if the line does not match. */
 static size_t parse_magic(const char *line, size_t length, int *version)
 {
     size_t at = strlen(MAGIC " "), digits = 0;
@@ -263,7 +263,7 @@ void wr_journal_print_line(WrText *line, uint64_t sequence, char kind, const cha
     end_body(line, body);
 }
 
-/* "17 c ": where what comes behind begins, 0 if it is not that. */
+/* "17 c ": returns the offset after it, 0 if the text does not match. */
 static size_t parse_sequence(const char *text, size_t length, uint64_t *sequence)
 {
     size_t at = 0;

@@ -1,4 +1,4 @@
-/* Joining layers. */
+/* Merging of layers. */
 #include "document/composite.h"
 
 #include "base/memory.h"
@@ -12,7 +12,7 @@
 
 #define TEXELS (WR_TILE * WR_TILE)
 
-/* Layers first .. last - 1 on the ground; the caller's. */
+/* The composite of layers first .. last - 1 on the ground; owned by the caller. */
 static WrField *composite_of(const WrLayer *layers, int count, int solo, WrPool *pool)
 {
     WrComposite *composite = wr_composite_new();
@@ -26,7 +26,7 @@ static float bounded(double x)
     return (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);
 }
 
-/* One value of a tile that may be NULL; a NULL field is 1 everywhere. */
+/* Values of a tile that may be NULL; a NULL field is 1 everywhere. */
 typedef struct Values {
     const float *tile;
     float level;
@@ -54,7 +54,7 @@ static bool is_additive(const WrLayer *layer)
     return layer->blend == WR_BLEND_ADD || layer->blend == WR_BLEND_SUBTRACT;
 }
 
-/* What an additive layer adds at texel i of a tile. */
+/* The amount that an additive layer adds at texel i of a tile. */
 static double added(const WrLayer *layer, const Values *heights, const Values *mask, int i)
 {
     double h = value_at(heights, i) * unit(value_at(mask, i)) * (double)layer->opacity;
@@ -65,7 +65,7 @@ static void add_tile(const WrLayer *a, const WrLayer *b, int tx, int ty, WrField
 {
     Values ha = values_of(a->heights, tx, ty), ma = values_of(a->mask, tx, ty);
     Values hb = values_of(b->heights, tx, ty), mb = values_of(b->mask, tx, ty);
-    if (!ha.tile && !ma.tile && !hb.tile && !mb.tile) return; /* out's level */
+    if (!ha.tile && !ma.tile && !hb.tile && !mb.tile) return; /* equals out's level */
     float *texels = wr_field_tile_write(out, tx, ty);
     for (int i = 0; i < TEXELS; i++)
         texels[i] = bounded(added(a, &ha, &ma, i) + added(b, &hb, &mb, i));
@@ -81,7 +81,7 @@ static double row_part(const WrField *field, int ty)
     return (double)ty / wr_field_tiles_v(field);
 }
 
-/* The sum of what two additive layers add. */
+/* The sum of two additive layers. */
 static WrField *sum_of(const WrLayer *a, const WrLayer *b)
 {
     Values ha = level_of(a->heights), ma = level_of(a->mask);
@@ -104,12 +104,12 @@ static void change_tile(int tx, int ty, void *ctx)
 {
     const Change *change = ctx;
     Values a = values_of(change->below, tx, ty), b = values_of(change->with, tx, ty);
-    if (!a.tile && !b.tile) return; /* out's level */
+    if (!a.tile && !b.tile) return; /* equals out's level */
     float *texels = wr_field_tile_write(change->out, tx, ty);
     for (int i = 0; i < TEXELS; i++) texels[i] = bounded(value_at(&b, i) - value_at(&a, i));
 }
 
-/* with - below. */
+/* with - below, as a new field. */
 static WrField *change_of(const WrField *below, const WrField *with)
 {
     double level = (double)wr_field_level(with) - (double)wr_field_level(below);
@@ -124,7 +124,7 @@ static WrField *change_of(const WrField *below, const WrField *with)
     return out;
 }
 
-/* The larger coverage of two layers; NULL: everywhere. */
+/* The larger coverage of two layers; NULL: 1 everywhere. */
 static WrField *cover_of(const WrLayer *a, const WrLayer *b)
 {
     if (!a->cover || !b->cover) return NULL;

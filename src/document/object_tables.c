@@ -15,7 +15,7 @@ int wr_layer_named(const WrDocument *document, const char *name)
     return i;
 }
 
-/* What the layer's heights alone are: they themselves, where all of them show as they are. */
+/* True if the layer alone equals its own heights: all of them are shown unchanged. */
 static bool is_plain(const WrLayer *layer)
 {
     return !layer->cover && !layer->mask && !layer->filter.op && layer->opacity == 1.0f &&
@@ -56,7 +56,7 @@ static uint64_t key_of(const WrLayer *layer, uint64_t key)
     return key;
 }
 
-/* A filter shows what lies below it too. */
+/* A filter also depends on the layers below it. */
 uint64_t wr_layer_key(const WrDocument *document, int index)
 {
     const WrFilter *filter = &document->layers[index].filter;

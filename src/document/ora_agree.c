@@ -1,5 +1,5 @@
-/* What other programs are told of a whole document: its range of greys, and whether they blend its layers to the picture
-   that we have (ora_show.h). */
+/* Range of greys for other programs, and whether they would blend the document's layers to our composite
+   (ora_show.h). */
 #include "base/error.h"
 #include "base/memory.h"
 #include "document/document.h"
@@ -24,7 +24,7 @@ WrOraRange wr_ora_range(const WrDocument *document)
     return range;
 }
 
-/* All of it 0 or less, or 1 or more; NULL is 1. */
+/* True if all of it is <= 0, or all >= 1; NULL is 1. */
 static bool is_whole(const WrField *field)
 {
     if (!field) return true;
@@ -49,9 +49,9 @@ static bool is_within(const WrField *heights, float least, float most)
     return low >= least && high <= most;
 }
 
-/* Programs that blend in linear light get another mean of two greys, and another sum. What is the same on both scales:
-   the greater, the smaller, one of the two, and, since the scale is a power, the product. A factor is no grey, so black
-   must be height 0 and the factor 0..1. */
+/* Programs that blend in linear light get a different mean of two greys, and a different sum. Equal on both
+   scales are the maximum, the minimum, a choice of one, and, since the scale is a power, the product. A factor
+   is no grey, so black must be height 0 and the factor 0..1. */
 static bool layer_agrees(const WrLayer *layer, const WrOraRange *range)
 {
     if (layer->opacity <= 0.0f) return true;

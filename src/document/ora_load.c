@@ -15,13 +15,13 @@
 #include <string.h>
 
 #define STACK_MAX ((size_t)16 << 20)   /* bytes of stack.xml */
-#define SCENE_MAX ((size_t)64 << 20)   /* of the scene */
-#define PICTURE_MAX ((size_t)2 << 30)  /* of a picture */
-#define PIXELS_MAX ((int64_t)16 << 28) /* of all layers: 16 of the largest size */
+#define SCENE_MAX ((size_t)64 << 20)   /* bytes of the scene */
+#define PICTURE_MAX ((size_t)2 << 30)  /* bytes of a picture */
+#define PIXELS_MAX ((int64_t)16 << 28) /* total of all layers: 16 of the largest size */
 
 static const char type[] = "image/openraster";
 
-/* The first entry's local header, its name, and what it holds. */
+/* The first entry's local header, its name and content. */
 bool wr_ora_recognise(const char *path)
 {
     char bytes[30 + 8 + sizeof type - 1];
@@ -35,10 +35,10 @@ typedef struct Loading {
     WrOraZip *zip;
     WrOraStack stack;
     WrWrap wrap_u, wrap_v;
-    bool newer; /* than this program: what is not known is passed over */
+    bool newer; /* than this program: unknown attributes are ignored */
     int64_t replaced;
-    int64_t pixels;     /* of pictures read so far */
-    int read, pictures; /* how many of them, and of all that there are */
+    int64_t pixels;     /* total of the pictures read so far */
+    int read, pictures; /* pictures read, and their total number */
     WrText *notes;
 } Loading;
 
@@ -79,8 +79,8 @@ static WrImage *read_picture(Loading *in, const char *entry, WrError *err)
 
 /* ---- fields ---- */
 
-/* Rows from y on; y and all rows but the last are those of tiles. Tiles at the field's level stay
- * unallocated. */
+/* Stores rows from y on; y and all rows but the last are those of tiles. Tiles at the field's level are not
+   allocated. */
 static void store_rows(WrField *field, int y, int rows, const float *texels)
 {
     int width = wr_field_width(field);
@@ -100,7 +100,7 @@ static WrField *new_field(const Loading *in, float level, WrError *err)
     return wr_field_new(in->stack.width, in->stack.height, in->wrap_u, in->wrap_v, level, err);
 }
 
-/* One of our float files: as large as the canvas, one channel. */
+/* Reads one of our float files: of the canvas' size, one channel. */
 static WrField *read_field(Loading *in, const char *entry, bool heights, WrError *err)
 {
     WrImage *image = read_picture(in, entry, err);
@@ -125,8 +125,8 @@ static WrField *read_field(Loading *in, const char *entry, bool heights, WrError
     return field;
 }
 
-/* Row `row` of a band of the canvas from a picture that lies at (x, y) there. Returns whether every texel is
- * covered in full. */
+/* Copies row `row` of a band of the canvas from a picture at (x, y). Returns whether every texel has full
+   coverage. */
 static bool place_row(const Loading *in, const WrOraLayer *layer, const WrImage *image, int row,
                       float *heights, float *cover)
 {
@@ -188,7 +188,7 @@ static int hex_digit(char c)
     return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* Names in hex hold what XML cannot; all names are cut to the length that documents allow. */
+/* The layer's name: from hex digits if XML cannot represent it; truncated to the documents' limit. */
 static char *find_name(const WrOraLayer *from, int number)
 {
     WrText text = { 0 };
@@ -222,12 +222,12 @@ static bool read_filter(Loading *in, const WrOraLayer *from, WrLayer *layer, WrE
     return true;
 }
 
-/* The one place where attributes become a layer's settings; ora_save.c has the way there. */
+/* Converts attributes to a layer's settings; the inverse of add_layer in ora_save.c. */
 static bool read_settings(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
 {
     bool exact;
     double radius = 0.0, opacity = from->opacity;
-    /* Ours hold as long as nobody has changed what others were told. */
+    /* Our own attributes apply as long as the standard ones have the values that we wrote. */
     if (from->own_opacity && opacity == 1.0 &&
         (!wr_number_parse(from->own_opacity, strlen(from->own_opacity), &opacity) ||
          !(opacity >= 0.0 && opacity <= 1.0)))
@@ -281,7 +281,7 @@ static bool read_layer(Loading *in, const WrOraLayer *from, int number, WrLayer 
 static bool read_layers(Loading *in, WrDocument *document, WrError *err)
 {
     int count = in->stack.layers.count;
-    for (int i = 0; i < count; i++) { /* topmost first there, bottom first here */
+    for (int i = 0; i < count; i++) { /* topmost first in the file, bottom first in the document */
         WrLayer layer;
         if (!read_layer(in, &in->stack.layers.data[count - 1 - i], i + 1, &layer, err))
             return false;
@@ -296,7 +296,7 @@ static bool read_layers(Loading *in, WrDocument *document, WrError *err)
     return true;
 }
 
-/* ---- the whole ---- */
+/* ---- whole file ---- */
 
 static bool check_type(Loading *in, WrError *err)
 {
@@ -370,7 +370,7 @@ static bool read_scene(Loading *in, WrLoaded *loaded, WrError *err)
     return true;
 }
 
-/* A number of a layer, counted from 1; otherwise where there is none. */
+/* The number of a layer, counted from 1; `otherwise` if there is none. */
 static int layer_number(const char *text, int count, int otherwise)
 {
     double value;

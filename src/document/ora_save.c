@@ -22,21 +22,21 @@
 #include <string.h>
 
 #define MERGED "mergedimage.png"
-#define DOS_DATE 0x21 /* 1 January 1980: no file tells when it was saved */
+#define DOS_DATE 0x21 /* 1 January 1980: files contain no time of saving */
 
-/* Pictures are made when the archive comes to them, so that only one is in memory at a time. */
+/* Pictures are encoded when the archive reaches them, so that only one is in memory at a time. */
 typedef struct Entry {
     struct Saving *to;
     char *name; /* in the archive; owned */
     WrImageOut picture;
-    const WrImage *image;                  /* the scene's */
-    const WrField *heights, *cover, *mask; /* what its rows are made of; the last two may be NULL */
+    const WrImage *image;                  /* a picture of the scene */
+    const WrField *heights, *cover, *mask; /* source of its rows; the last two may be NULL */
     WrOraShowing showing;
-    char *bytes; /* the finished file, while it is being read; owned */
+    char *bytes; /* the encoded file, while it is read; owned */
     size_t length, at;
-    bool known;     /* `length` is right, and */
+    bool known;     /* `length` is valid */
     WrHash content; /* of the file */
-    bool text;      /* `bytes` stay: nothing could make them again */
+    bool text;      /* `bytes` are kept: they cannot be encoded again */
 } Entry;
 
 typedef struct Saving {
@@ -47,16 +47,16 @@ typedef struct Saving {
     WR_ARRAY(Entry *) entries;
     WrText stack, scene;
     WrImage *mesh;      /* the scene's meshes, as a picture; owned; or NULL */
-    bool composite;     /* others get a topmost layer that shows all */
-    int lowest;         /* index of the lowest layer that is shown, -1: none */
-    WrField *ground;    /* what that one makes of the empty ground; owned */
-    int packed;         /* entries whose pictures were made */
+    bool composite;     /* there is a topmost layer with the composite for other programs */
+    int lowest;         /* index of the lowest visible layer, -1: none */
+    WrField *ground;    /* that layer blended onto the empty ground; owned */
+    int packed;         /* entries encoded so far */
     uint8_t *thumbnail; /* RGBA */
     uint8_t profile[WR_SRGB_PROFILE_SIZE];
-    WrError err; /* of a picture, since the archive cannot pass it on */
+    WrError err; /* of a picture, since the archive library cannot pass it on */
 } Saving;
 
-/* ---- rows of pictures ---- */
+/* ---- pixel rows ---- */
 
 static bool float_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
@@ -75,7 +75,7 @@ static bool image_rows(void *ctx, int y, int rows, void *out, WrError *err)
     return true;
 }
 
-/* Grey, grey, grey, alpha; straight. */
+/* Grey, grey, grey, alpha; not premultiplied. */
 static bool preview_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
     const Entry *entry = ctx;
@@ -134,7 +134,7 @@ static zip_int64_t answer_error(void *data, zip_uint64_t length)
     return sizeof codes;
 }
 
-/* What the archive asks of a picture that it is to hold. */
+/* Callback of the archive library for a picture. */
 static zip_int64_t on_source(void *ctx, void *data, zip_uint64_t length, zip_source_cmd_t command)
 {
     Entry *entry = ctx;
@@ -169,7 +169,7 @@ static zip_int64_t on_source(void *ctx, void *data, zip_uint64_t length, zip_sou
     return 0;
 }
 
-/* All entries are stored: the pictures are compressed already, and the first one must be. */
+/* All entries are stored: the pictures are already compressed, and the first entry must be stored. */
 static bool add_source(Saving *to, const char *name, zip_source_t *source, WrError *err)
 {
     zip_int64_t index = source ? zip_file_add(to->archive, name, source, ZIP_FL_ENC_UTF_8) : -1;
@@ -195,7 +195,7 @@ static bool add_entry(Saving *to, Entry made, WrError *err)
     return add_source(to, entry->name, source, err);
 }
 
-/* A file that is there already; the bytes are copied. */
+/* Adds bytes that are already encoded; they are copied. */
 static bool add_text(Saving *to, const char *name, const char *text, size_t length, WrError *err)
 {
     Entry entry = { .name = wr_strdup(name),
@@ -207,7 +207,7 @@ static bool add_text(Saving *to, const char *name, const char *text, size_t leng
     return add_entry(to, entry, err);
 }
 
-/* Takes the name. */
+/* Adds a float picture; takes ownership of the name. */
 static bool add_floats(Saving *to, char *name, const WrField *field, WrError *err)
 {
     Entry entry = { .name = name,
@@ -221,8 +221,8 @@ static bool add_floats(Saving *to, char *name, const WrField *field, WrError *er
     return add_entry(to, entry, err);
 }
 
-/* A picture for others, of heights alone or as a layer shows them. Of 16 bits without a profile some programs
-   ask which one is meant, once a layer. */
+/* Adds a picture for other programs, of heights alone or as a layer. Some programs ask for the profile of each
+   16-bit layer without one. */
 static bool add_preview(Saving *to, Entry entry, WrError *err)
 {
     entry.picture = (WrImageOut){ .width = wr_field_width(entry.heights),
@@ -235,8 +235,8 @@ static bool add_preview(Saving *to, Entry entry, WrError *err)
     return add_entry(to, entry, err);
 }
 
-/* The picture of a layer. That of the lowest one that is shown is opaque and joined with the ground already:
-   other programs have no ground of heights 0, and what adds to nothing some of them do not show. */
+/* Adds the picture of a layer. The lowest visible one is opaque and already combined with the ground: other
+   programs have no ground of heights 0, and some do not show a layer that adds to nothing. */
 static bool add_layer_preview(Saving *to, char *name, int index, WrError *err)
 {
     const WrLayer *layer = &to->document->layers[index];
@@ -266,7 +266,7 @@ static bool add_image(Saving *to, const WrImage *image, char *name, const char *
     return add_entry(to, entry, err);
 }
 
-/* ---- what is in it ---- */
+/* ---- contents ---- */
 
 static char *numbered(const char *before, int number, const char *after)
 {
@@ -290,7 +290,7 @@ static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
     return !to->mesh || add_image(to, to->mesh, wr_strdup("data/mesh.exr"), "wrinkle:mesh", 1, err);
 }
 
-/* The lowest layer that is shown, and what it makes of the ground. */
+/* Finds the lowest visible layer, and blends it onto the ground. */
 static void find_ground(Saving *to)
 {
     int count = to->document->layer_count;
@@ -313,7 +313,7 @@ static bool add_field(Saving *to, const char *attribute, char *name, const WrFie
     return add_floats(to, name, f, err);
 }
 
-/* What others go by, and ours beside it where that is not the same. */
+/* Attributes for other programs, and our own if the values differ. */
 static void add_looks(Saving *to, int index)
 {
     const WrLayer *layer = &to->document->layers[index];
@@ -329,7 +329,7 @@ static void add_looks(Saving *to, int index)
                                 : wr_ora_operation(layer->blend));
 }
 
-/* The one place where a layer's settings become attributes; ora_load.c has the way back. */
+/* Converts a layer's settings to attributes; the inverse of read_settings in ora_load.c. */
 static bool add_layer(Saving *to, int index, WrError *err)
 {
     const WrLayer *layer = &to->document->layers[index];
@@ -439,8 +439,8 @@ static bool write_archive(Saving *to, WrFileTarget *target, WrError *err)
     return good;
 }
 
-/* Every file in the archive is what was put there; that the pictures were whole was seen when they were
- * made. */
+/* Verifies that every file in the archive has the written content; the pictures were verified when they were
+   encoded. */
 static bool verify_archive(const Saving *to, const char *name, int fd, WrError *err)
 {
     int again = wr_fd_again(fd);

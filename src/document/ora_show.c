@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#define THUMBNAIL 256 /* pixels along a side at most */
+#define THUMBNAIL 256 /* maximum pixels along a side */
 
 static double clamp01(double x)
 {
@@ -46,7 +46,7 @@ void wr_ora_show(WrOraShowing showing, const WrOraRange *range, float height, fl
     switch (showing) {
     case WR_ORA_HEIGHTS: break;
     case WR_ORA_MIXED: *alpha = mask; break;
-    case WR_ORA_SUM: /* as much alpha as the height needs, where the coverage is less */
+    case WR_ORA_SUM: /* alpha as large as the height needs, if the coverage is smaller */
         if (part > cover) cover = part;
         *grey = cover > 0.0 ? part / cover : 0.0;
         *alpha = cover * mask;
@@ -59,7 +59,7 @@ void wr_ora_show(WrOraShowing showing, const WrOraRange *range, float height, fl
     }
 }
 
-/* Each pixel is the mean of the greys below it. */
+/* Each pixel is the mean of the greys that it covers. */
 uint8_t *wr_ora_thumbnail(const WrField *f, const WrOraRange *range, int *width, int *height,
                           WrError *err)
 {

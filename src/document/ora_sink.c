@@ -1,5 +1,5 @@
-/* The file that an archive of ours is written to: the library would make one of its own beside it, by a name
-   that is left behind when the program is killed. */
+/* Output file of an archive. The library itself would create a temporary file beside it, which remains if the
+   program is killed. */
 #include "document/ora_zip.h"
 
 #include "base/error.h"

@@ -45,20 +45,20 @@ WrBlend wr_ora_blend(const char *operation, bool *exact)
         { "svg:lighten", WR_BLEND_MAX },
         { "svg:darken", WR_BLEND_MIN },
         { "svg:multiply", WR_BLEND_MULTIPLY },
-        /* The same where the layer is not above what lies below it. */
+        /* Equal if the layer is not above the composite below it. */
         { "svg:difference", WR_BLEND_SUBTRACT },
     };
     for (size_t i = 0; operation && i < sizeof known / sizeof *known; i++) {
         *exact = known[i].blend != WR_BLEND_SUBTRACT;
         if (strcmp(operation, known[i].operation) == 0) return known[i].blend;
     }
-    *exact = operation == NULL; /* the format's own default */
+    *exact = operation == NULL; /* the format's default */
     return WR_BLEND_REPLACE;
 }
 
 /* ---- writing ---- */
 
-/* Bytes of a valid UTF-8 sequence that XML 1.0 can hold, else 0. */
+/* Bytes of a valid UTF-8 sequence that XML 1.0 can represent, else 0. */
 static size_t whole_character(const unsigned char *at)
 {
     static const unsigned least[5] = { 0, 0, 0x80, 0x800, 0x10000 };
@@ -107,10 +107,10 @@ typedef struct Reading {
     WrOraStack *stack;
     XML_Parser parser;
     Group groups[DEPTH_MAX];
-    int depth;   /* of groups; the root stack is one */
-    int element; /* nesting of elements of any kind */
-    int skip;    /* element at which something unknown began, or 0 */
-    WrError err; /* why the parser was stopped; "" if it was not */
+    int depth;   /* number of open groups; the root stack counts as one */
+    int element; /* nesting depth of elements of any kind */
+    int skip;    /* depth at which an unknown element began, or 0 */
+    WrError err; /* reason for stopping the parser; "" */
 } Reading;
 
 static void stop(Reading *reading, const char *why)
@@ -144,12 +144,12 @@ static bool is(const char *text, const char *word)
     return text && strcmp(text, word) == 0;
 }
 
-/* What a group or layer has on its own, joined with what its group has. */
+/* Attributes of a group or layer, combined with those of its group. */
 static Group read_group(Reading *reading, const char **attributes)
 {
     Group outer = { 0, 0, 1.0, true };
     if (reading->depth > 0) outer = reading->groups[reading->depth - 1];
-    double limit = 1e6; /* sums of 64 stay far inside int */
+    double limit = 1e6; /* sums of 64 are far inside int */
     return (Group){
         outer.x + (int)number(reading, attributes, "x", 0.0, -limit, limit),
         outer.y + (int)number(reading, attributes, "y", 0.0, -limit, limit),
@@ -171,7 +171,8 @@ static void begin_group(Reading *reading, const char **attributes)
 
 static void add_layer(Reading *reading, const char **attributes)
 {
-    if (is(find(attributes, OURS "composite"), "on")) return; /* of all the others, for others */
+    /* the composite of all the others, for other programs */
+    if (is(find(attributes, OURS "composite"), "on")) return;
     if (reading->stack->layers.count >= WR_LAYERS_MAX) {
         char why[64];
         snprintf(why, sizeof why, "has more than %d layers", WR_LAYERS_MAX);
@@ -243,7 +244,7 @@ static void read_image(Reading *reading, const char **attributes)
     stack->mesh = wr_strdup(find(attributes, OURS "mesh"));
 }
 
-/* Some programs give the elements a namespace, most do not. */
+/* Some programs use a namespace for the elements, most do not. */
 static const char *local(const char *name)
 {
     const char *bar = strrchr(name, '|');
@@ -278,7 +279,7 @@ static void XMLCALL on_end(void *ctx, const char *name)
     reading->element--;
 }
 
-/* Entities live in a document type: there is none in these files, and so no expansion without end. */
+/* Entities need a document type: such files are refused, so there is no unbounded expansion. */
 static void XMLCALL on_doctype(void *ctx, const char *name, const char *system, const char *public,
                                int internal)
 {

@@ -10,10 +10,10 @@
 #include <zip.h>
 
 #define ENTRIES_MAX 10000
-#define PIECE ((zip_uint64_t)1 << 20)  /* bytes between two looks at whether it should stop */
-#define TOTAL_MAX ((uint64_t)16 << 30) /* bytes that all reading of an archive may give */
+#define PIECE ((zip_uint64_t)1 << 20)  /* bytes between two checks for cancellation */
+#define TOTAL_MAX ((uint64_t)16 << 30) /* maximum bytes that are read from an archive in total */
 #define RATIO_MAX 200
-#define RATIO_FREE ((uint64_t)1 << 20) /* entries up to this many bytes may be of any ratio */
+#define RATIO_FREE ((uint64_t)1 << 20) /* entries up to this many bytes may have any ratio */
 
 struct WrOraZip {
     zip_t *archive;
@@ -99,7 +99,7 @@ bool wr_ora_zip_read(WrOraZip *zip, const char *name, size_t most, char **bytes,
         n = zip_fread(file, block + have, is.size - have < PIECE ? is.size - have : PIECE);
         if (n > 0) have += (size_t)n;
     }
-    char beyond; /* the checksum is looked at when the end is seen */
+    char beyond; /* the library verifies the checksum when the end is read */
     if (n > 0 || (n == 0 && is.size == 0)) n = zip_fread(file, &beyond, 1);
     if (file) zip_fclose(file);
     if (n != 0 || have != is.size) {

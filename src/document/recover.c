@@ -11,10 +11,10 @@
 #include <inttypes.h>
 #include <string.h>
 
-#define HEADER_MAX 65536 /* bytes: some paths, escaped */
+#define HEADER_MAX 65536 /* bytes: several paths, escaped */
 #define FIRST_BUFFER 65536
 
-/* ---- lines of a file, none longer than WR_JOURNAL_LINE_MAX ---- */
+/* ---- lines of a file, limited to WR_JOURNAL_LINE_MAX ---- */
 
 typedef struct Reader {
     int fd;
@@ -26,7 +26,7 @@ typedef struct Reader {
 
 typedef enum Next { NEXT_LINE, NEXT_END, NEXT_BAD } Next;
 
-/* Room behind `end`: move what is left to the front, or grow. */
+/* Makes space after `end`: moves the rest to the front, or grows. */
 static bool make_room(Reader *reader, WrError *err)
 {
     size_t used = reader->end - reader->start;
@@ -65,7 +65,7 @@ static bool fill(Reader *reader, WrError *err)
     return true;
 }
 
-/* The next whole line, without its end, in place; until the next call. *err only with NEXT_BAD. */
+/* The next whole line, without its end, in place; valid until the next call. *err is set only with NEXT_BAD. */
 static Next next_line(Reader *reader, char **line, size_t *length, WrError *err)
 {
     size_t searched = 0;
@@ -98,17 +98,18 @@ typedef struct Command {
 } Command;
 
 typedef struct Collector {
-    char *texts; /* owned; NUL-ended command lines one after the other */
+    char *texts; /* owned; NUL-ended command lines, concatenated */
     size_t used, capacity;
     Command *commands; /* owned */
     int count, room;
     bool pending; /* the last command has no end yet */
-    bool drawing; /* and is a stroke that takes samples */
-    size_t head;  /* bytes of its head: as long as there is no more, nothing happened */
-    int sound;    /* commands before the first damage; -1: none yet */
-    int gap;      /* lines that are lost right before the record that comes next */
-    bool orphans; /* what continues a command is lost with it, until the next begins */
-    int lost;     /* since the last command */
+    bool drawing; /* it is a stroke that accepts samples */
+    size_t head;  /* bytes of its head: a stroke without more has no effect */
+    int sound;    /* number of commands before the first damage; -1: no damage yet */
+    int gap;      /* lines lost directly before the next record */
+    /* records that continue a lost command are lost with it, until the next command begins */
+    bool orphans;
+    int lost; /* since the last command */
     WrJournalSave saved;
     char *saved_path; /* owned */
 } Collector;
@@ -130,7 +131,7 @@ static bool add_bytes(Collector *c, const char *bytes, size_t length, WrError *e
     return true;
 }
 
-/* Forget the last command. */
+/* Removes the last command. */
 static void drop(Collector *c)
 {
     c->used = c->commands[--c->count].text;
@@ -138,7 +139,7 @@ static void drop(Collector *c)
     if (c->sound > c->count) c->sound = c->count;
 }
 
-/* The last command will not get more text, and may or may not have had an end. */
+/* Closes the last command, with or without a recorded end. */
 static void settle(Collector *c, bool done)
 {
     if (!c->pending) return;
@@ -148,7 +149,7 @@ static void settle(Collector *c, bool done)
         return;
     }
     last->line.done = done;
-    c->used++; /* the NUL */
+    c->used++; /* includes the NUL */
     c->pending = c->drawing = false;
 }
 
@@ -159,8 +160,8 @@ static void note_damage(Collector *c, WrJournalRead *read, uint64_t line, const 
         snprintf(read->damage, sizeof read->damage, "line %" PRIu64 ": %.200s", line, why);
 }
 
-/* `lost` lines are lost here. One of them alone cannot have begun another command while one is open: so what
-   comes next still belongs to that. */
+/* Records `lost` missing lines. A single one cannot have begun another command while one is open: so the
+   following records still belong to the open one. */
 static void open_gap(Collector *c, WrJournalRead *read, int lost)
 {
     if (lost <= 0) return;
@@ -174,10 +175,9 @@ static void open_gap(Collector *c, WrJournalRead *read, int lost)
 
 static bool add_command(Collector *c, const char *text, size_t length, bool stroke, WrError *err)
 {
-    if (c->gap && c->drawing)
-        drop(c); /* only a stroke that was cancelled has no end before its d */
+    if (c->gap && c->drawing) drop(c); /* only a cancelled stroke has no end before its d */
     c->orphans = false;
-    settle(c, true); /* the program lived on */
+    settle(c, true); /* a later record shows that the program continued */
     if (c->count >= WR_JOURNAL_COMMANDS_MAX)
         return wr_fail(err, "more than %d commands", WR_JOURNAL_COMMANDS_MAX);
     if (c->count == c->room) {
@@ -201,7 +201,7 @@ static bool add_command(Collector *c, const char *text, size_t length, bool stro
     return true;
 }
 
-/* The line that is lost in front of this one held samples of the stroke. */
+/* The line lost before this one contained samples of the stroke. */
 static void note_hole(Collector *c)
 {
     if (!c->gap) return;
@@ -257,14 +257,14 @@ static bool take_save(Collector *c, const char *text, WrError *err)
     if (!wr_journal_parse_hash(digits, &hash) || text[32] != ' ' || text[33] != '/')
         return wr_fail(err, "a save without its hash or file");
     settle(c, true);
-    c->lost = 0; /* all of it is in the file */
+    c->lost = 0; /* the saved file contains all of it */
     wr_free(c->saved_path);
     c->saved_path = wr_strdup(text + 33);
     c->saved = (WrJournalSave){ .path = c->saved_path, .hash = hash, .at = c->count };
     return true;
 }
 
-/* Take one record in. *ended: what follows does not count. */
+/* Processes one record. *ended: the following records are ignored. */
 static bool take(Collector *c, char kind, const char *text, size_t length, WrJournalRead *read,
                  bool *ended, WrError *err)
 {
@@ -289,7 +289,7 @@ static bool take(Collector *c, char kind, const char *text, size_t length, WrJou
     }
 }
 
-/* ---- the whole ---- */
+/* ---- whole journal ---- */
 
 static void set_start(WrJournalRead *read, const WrJournalHeader *header, const char *path)
 {
@@ -304,7 +304,7 @@ static void set_start(WrJournalRead *read, const WrJournalHeader *header, const 
     read->start.snapshot = read->owned[1] = whole.data;
 }
 
-/* What the journal may have begun with, where its first line does not prove it: takes that line. */
+/* Guesses the start state from a first line that is damaged; modifies the line. */
 static void guess_start(WrJournalRead *read, char *line, size_t length, const char *path)
 {
     WrJournalHeader header = { .program = "" };
@@ -321,8 +321,8 @@ static void guess_start(WrJournalRead *read, char *line, size_t length, const ch
     wr_free(files);
 }
 
-/* False if there is not even a damaged header. *why: "" or what is wrong with it, for when nothing behind it
-   is whole either. */
+/* Reads the header; false if there is not even a damaged one. *why: "" or the damage, for the case that no later
+   line is whole either. */
 static bool read_header(Reader *reader, const char *path, WrJournalRead *read, WrJournalSeal *seal,
                         WrError *why, WrError *err)
 {
@@ -352,7 +352,7 @@ static int as_lines(uint64_t lines)
     return lines > INT32_MAX / 2 ? INT32_MAX / 2 : (int)lines;
 }
 
-/* All records that are whole; returns how many. *good is the offset behind the last one before any damage. */
+/* Reads all whole records; returns their number. *good is the offset after the last one before any damage. */
 static int64_t read_records(Reader *reader, Collector *c, WrJournalSeal seal, WrJournalRead *read,
                             int64_t *good)
 {
@@ -397,7 +397,7 @@ static int64_t read_records(Reader *reader, Collector *c, WrJournalSeal seal, Wr
     return whole;
 }
 
-/* Hand the commands over, their texts where they lie. */
+/* Moves the commands and their texts to the result. */
 static bool hand_over(Collector *collector, WrJournalRead *read, WrError *err)
 {
     bool pending = collector->pending, drawing = collector->drawing;

@@ -1,4 +1,4 @@
-/* Which journals were left behind, and holding one while it is recovered. */
+/* Listing of journals that were left behind, and locking of one while it is recovered. */
 #include "document/recover.h"
 
 #include "base/array.h"
@@ -38,7 +38,8 @@ static void describe(int fd, WrJournalCounts counts, WrJournalEntry *entry)
         return;
     }
     const char *name = read.saved.path ? read.saved.path : read.start.path;
-    int from = read.saved.path ? read.saved.at : 0; /* what came before is in that file */
+    /* the saved file contains the earlier commands */
+    int from = read.saved.path ? read.saved.at : 0;
     bool all_saved = all_is_saved(&read, counts);
     entry->document = wr_strdup(name ? name : "");
     entry->kind = read.start.kind;
@@ -57,8 +58,8 @@ static void describe(int fd, WrJournalCounts counts, WrJournalEntry *entry)
     wr_journal_read_fini(&read);
 }
 
-/* False if a program holds it, or it is no journal file at all. The lock is held only to know that,
-   and shared, so that two programs that look do not hide it from each other. */
+/* Reads a journal's summary. False if a program holds it, or it is not a journal file. The lock is held only for
+   the test, and shared, so that two programs can list it at the same time. */
 static bool look_at(const char *path, WrJournalCounts counts, WrJournalEntry *entry)
 {
     WrFileInfo info;
@@ -76,7 +77,7 @@ static bool look_at(const char *path, WrJournalCounts counts, WrJournalEntry *en
     return left;
 }
 
-/* Killed after all was saved: nobody needs it. */
+/* True if it was killed after everything was saved: the journal is useless. */
 static bool is_old_and_empty(const WrJournalEntry *entry)
 {
     return entry->nothing && time(NULL) - (time_t)entry->written >= WR_JOURNAL_LEFTOVER_SECONDS;
@@ -146,7 +147,7 @@ struct WrJournalClaim {
     int fd;     /* locked */
 };
 
-/* Others that list journals hold a lock for a moment, so not at the first refusal. */
+/* Retries the lock, since other programs that list journals hold it for a moment. */
 static bool lock_patiently(int fd, const char *path)
 {
     for (int tries = 0; tries < 10; tries++) {

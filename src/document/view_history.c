@@ -8,7 +8,7 @@
 struct WrViews {
     WrSceneView start;
     WR_ARRAY(WrSceneView) list; /* oldest first */
-    int position;               /* of the present one */
+    int position;               /* of the current one */
     int64_t given_up;
 };
 

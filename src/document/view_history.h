@@ -1,6 +1,5 @@
-/* view_history.h - how the scene was looked at, one view after the other, and the way back through them. A history
-   of its own beside that of the edits (history.h): views are no edits, and neither takes the other's steps.
-   Layer 5. */
+/* view_history.h - history of camera views, with steps back and forward.
+   Separate from the undo history (history.h): views are not edits, and the two histories have separate steps. */
 #pragma once
 #include "scene/camera.h"
 
@@ -8,23 +7,24 @@
 
 typedef struct WrScene WrScene;
 
-#define WR_VIEWS_MAX 1000 /* that are kept; the oldest go first */
+#define WR_VIEWS_MAX 1000 /* maximum; the oldest are removed */
 
 typedef struct WrViews WrViews;
 
-/* The caller owns it. */
+/* Creates a history with one view. The caller owns it. */
 WrViews *wr_views_new(const WrSceneView *start);
 void wr_views_free(WrViews *views);            /* NULL is fine */
 WrViews *wr_views_clone(const WrViews *views); /* the caller owns it */
 
-/* `view` is the present one now. One that equals the present one is no step; else those after it are gone. */
+/* Makes `view` the current one. If it equals the current view there is no step; else the views after that are
+   removed. */
 void wr_views_note(WrViews *views, const WrSceneView *view);
 
-int wr_views_back(const WrViews *views);    /* how many can be gone back to */
+int wr_views_back(const WrViews *views);    /* number of steps possible back */
 int wr_views_forward(const WrViews *views); /* and forward */
-/* Make the one `steps` after the present one (before it: below 0) the present one, -back..forward. */
+/* Moves by `steps` (negative: back), -back..forward, and returns the view there. */
 WrSceneView wr_views_go(WrViews *views, int steps);
-/* The present one's number: views are counted on however many were given up. */
+/* Number of the current view, counted from the start, including removed ones. */
 int64_t wr_views_number(const WrViews *views);
-/* The one that it began with, kept for good. */
+/* The first view, always kept. */
 WrSceneView wr_views_start(const WrViews *views);

@@ -57,8 +57,7 @@ static void note_shadow(WrReferenceStage *stage, const WrField *field)
 
 #define ROUGHS 257
 
-/* Microfacet parameters for steps of roughness: the integrals change so little that the nearest step suffices
-   (matter_at). */
+/* Material parameters at steps of roughness, between which matter_at interpolates: the integrals change little. */
 static void note_roughness(WrReferenceStage *stage)
 {
     const WrSolidTexture *grain = &stage->scene->grain;
@@ -96,7 +95,7 @@ static double roughness_at(const WrReferenceStage *stage, WrVec3 object, double 
     return (1 - g) * grain->roughness[0] + g * grain->roughness[1];
 }
 
-/* The material's parameters at a point: alpha is exact, albedos are those of the nearest 256th. */
+/* The material's parameters at a point: alpha is exact, albedos are interpolated between two steps. */
 static WrMatter matter_at(const WrReferenceStage *stage, WrVec3 object, double u, double v)
 {
     const bool metals = stage->scene->material.model == WR_REFLECT_GGX &&
