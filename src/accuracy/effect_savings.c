@@ -9,14 +9,14 @@
 
 #define RUNS_LEAST 3
 #define RUNS_MOST 25
-#define SECONDS 0.5 /* for an effect's runs */
+#define SECONDS 0.5 /* minimum time for an effect's runs */
 
-/* One of the two that take turns. */
+/* One of the two alternating renderers. */
 typedef struct Side {
     WrRenderer *renderer;
     WrForce force[WR_EFFECT_COUNT];
-    WrPlan plan;    /* of its last frame */
-    double seconds; /* that it took */
+    WrPlan plan;    /* of the last frame */
+    double seconds; /* of the last frame */
 } Side;
 
 typedef struct Measure {
@@ -42,7 +42,7 @@ static bool render(const Measure *m, Side *side, WrError *err)
     return true;
 }
 
-/* ---- what can be forced ---- */
+/* ---- forceable effects ---- */
 
 static const char *why_not(const WrPlanRow *row, const WrEffectInfo *info)
 {
@@ -53,7 +53,8 @@ static const char *why_not(const WrPlanRow *row, const WrEffectInfo *info)
     return NULL;
 }
 
-/* Did it run in one frame and not in the other? By what the renderer's stages noted, not by what was asked for. */
+/* Reason why the two frames do not differ in the effect, by the stages that the renderer recorded as run; else
+   NULL. */
 static const char *not_turned(const WrPlanRow *planned, const WrPlanRow *forced)
 {
     if (planned->run == forced->run) return "cannot be forced: the plan keeps to it";
@@ -62,7 +63,7 @@ static const char *not_turned(const WrPlanRow *planned, const WrPlanRow *forced)
     return NULL;
 }
 
-/* ---- measuring one ---- */
+/* ---- measurement of one effect ---- */
 
 static WrEffects also_turned(const Measure *m, WrEffect effect)
 {
@@ -79,7 +80,7 @@ static int runs_of(double pair)
     return runs < RUNS_LEAST ? RUNS_LEAST : runs > RUNS_MOST ? RUNS_MOST : (int)runs;
 }
 
-/* A frame of each, the first of the two being the other each time, so that no drift of the machine favours one. */
+/* One frame of each, alternating which comes first, so that drift of the machine favours neither. */
 static bool take_turn(Measure *m, int run, WrError *err)
 {
     Side *first = run & 1 ? &m->planned : &m->forced;
@@ -112,7 +113,7 @@ static bool measure_one(Measure *m, WrEffect effect, WrSaving *saving, WrError *
     saving->why_not = why_not(planned, &wr_effects[effect]);
     if (saving->why_not) return true;
     m->forced.force[effect] = planned->run ? WR_FORCE_OFF : WR_FORCE_ON;
-    bool good = render(m, &m->forced, err); /* makes the copies of the table that it wants */
+    bool good = render(m, &m->forced, err); /* builds the table copies that it needs */
     const int runs = runs_of(m->forced.seconds + m->planned.seconds);
     for (int i = 0; good && i < runs && !saving->why_not; i++) {
         saving->why_not = not_turned(planned, forced);

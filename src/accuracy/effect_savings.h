@@ -1,8 +1,7 @@
-/* effect_savings.h - what each effect of a plan costs the picture, and what leaving it out saves: measured, by rendering
-   the picture again with that effect forced the other way.
-   Layer 6. Two renderers take turns, one for the picture as planned and one for the forced one, each with its
-   copies of the table made: the difference is that of a frame after the first. What comes and goes with an effect, such
-   as the gradient table with the bump, is in it. */
+/* effect_savings.h - measured cost of each effect of a plan, and the time saved by leaving it out. The picture
+   is rendered again with the effect forced the other way. Two renderers alternate, one for the picture as
+   planned and one for the forced one, each with its table copies already built: so the difference is that of a
+   frame after the first. It includes whatever depends on the effect, such as the gradient table for bump. */
 #pragma once
 #include "render/plan/plan.h"
 
@@ -16,24 +15,24 @@ typedef struct WrPool WrPool;
 
 typedef struct WrSavingRequest {
     WrPool *pool;    /* borrowed; NULL: one thread */
-    const char *isa; /* as wr_renderer_new takes it */
+    const char *isa; /* as in wr_renderer_new */
     const WrFrameRequest *frame;
-    const WrChoice
-        *choice; /* the dials that a tolerance took for that frame; NULL: the frame's own */
+    const WrChoice *choice; /* dials chosen by a tolerance for that frame; NULL: the frame's own */
 } WrSavingRequest;
 
 typedef struct WrSaving {
-    const char *why_not; /* the frame was not measured with it forced: why; NULL: it was */
-    bool run;            /* as planned; the other frame then is the one without it, else with it */
-    double seconds; /* that a frame with it takes more than one without: median of the runs' own */
-    double spread;  /* of those, the middle half */
-    bool noise;     /* seconds are no more than that */
+    const char *why_not; /* reason why the effect could not be forced; NULL: it was measured */
+    bool run; /* as planned; the other frame is without the effect if true, else with it */
+    /* additional time of a frame with the effect: median of the runs' differences */
+    double seconds;
+    double spread;          /* interquartile range of the differences */
+    bool noise;             /* seconds are at most `spread` */
     double planned, forced; /* median seconds of both frames */
-    int runs;               /* of each */
-    WrEffects also;         /* others that came or went with it */
-    int64_t tiles, pixels;  /* that it ran on, in the frame where it does */
+    int runs;               /* number of frames of each */
+    WrEffects also;         /* other effects that changed with it */
+    int64_t tiles, pixels;  /* on which it ran, in the frame with it */
 } WrSaving;
 
-/* All effects, in the table's order. */
+/* Measures all effects, in the table's order. */
 bool wr_savings_measure(const WrSavingRequest *request, WrSaving savings[WR_EFFECT_COUNT],
                         WrError *err);

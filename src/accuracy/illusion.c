@@ -13,9 +13,9 @@
 #include <math.h>
 #include <string.h>
 
-#define SAMPLES 4    /* a side of a pixel */
-#define FACETS 0.125 /* pixels */
-#define WHOLE 0.9999 /* coverage of a pixel that is no outline's */
+#define SAMPLES 4    /* samples per side of a pixel */
+#define FACETS 0.125 /* pixels: largest error of facets */
+#define WHOLE 0.9999 /* minimum coverage of a pixel that is not on an outline */
 
 /* ---- the three pictures ---- */
 
@@ -47,7 +47,7 @@ static WrScene *objects_of(const WrScene *scene, Kind kind)
     return made;
 }
 
-/* All from where a camera stands that has the displaced one fit. */
+/* The scene of a kind. All have the camera that fits the displaced one. */
 static WrScene *scene_of(const WrIllusionRequest *request, Kind kind)
 {
     WrScene *made = objects_of(request->scene, kind), *raised = objects_of(request->scene, RAISED);
@@ -91,7 +91,7 @@ static double cover(const Pictures *p, Kind kind, int x, int y)
     return (double)p->rgba[kind][4 * ((size_t)y * (size_t)r->width + (size_t)x) + 3];
 }
 
-/* The length of what parts covered from uncovered: the integral of the gradient's length over the picture, by the four
+/* Length of the outline: integral of the length of the coverage's gradient over the picture, from the four
    corners of each square of pixels. */
 static double perimeter_of(const Pictures *p, Kind kind)
 {
@@ -109,7 +109,7 @@ typedef struct Place {
     double x, y;
 } Place;
 
-/* Where coverage passes one half between neighbours; out NULL: how many there are. */
+/* Positions where coverage crosses one half between neighbours; out NULL: only their number. */
 static int crossings(const Pictures *p, Kind kind, Place *out)
 {
     int count = 0;
@@ -125,7 +125,7 @@ static int crossings(const Pictures *p, Kind kind, Place *out)
     return count;
 }
 
-/* The largest distance of a place of a to the nearest of b, squared, or `least` where that is larger. */
+/* The largest squared distance from a position of a to the nearest of b, at least `least`. */
 static double farthest(const Place *a, int count, const Place *b, int others, double least)
 {
     for (int i = 0; i < count; i++) {
@@ -152,7 +152,7 @@ static double hausdorff(const Pictures *p)
     return sqrt(most);
 }
 
-/* ---- the measures ---- */
+/* ---- measures ---- */
 
 static double squares(const float *a, const float *b, float *most)
 {
@@ -191,7 +191,7 @@ static void compare(const Pictures *p, WrIllusion *out)
     out->hausdorff = hausdorff(p);
 }
 
-/* What happens to places of the surface. */
+/* Measures the displacement of surface points. */
 static bool follow(const Pictures *p, WrIllusion *out, WrError *err)
 {
     const WrIllusionRequest *request = p->request;

@@ -1,12 +1,12 @@
-/* The illusion meter's numbers as sentences, as a table and for programs. */
+/* Output of the illusion measurement: as sentences, as a table and as JSON. */
 #include "accuracy/illusion.h"
 #include "base/text.h"
 
 #include <math.h>
 
-#define SEEN 0.5       /* pixels: less is not seen (E50) */
+#define SEEN 0.5       /* pixels: smaller differences are invisible (E50) */
 #define CODE 0.004     /* linear intensity: about one code of 255 at middle grey */
-#define FULL_SCALE 0.1 /* linear intensity that is full in the map, as in pictures of errors */
+#define FULL_SCALE 0.1 /* linear intensity of full colour in the map, as in error pictures */
 
 void wr_illusion_colour(const WrIllusion *illusion, size_t pixel, uint8_t rgb[3])
 {
@@ -18,7 +18,7 @@ void wr_illusion_colour(const WrIllusion *illusion, size_t pixel, uint8_t rgb[3]
 
 void wr_illusion_height(const WrIllusion *illusion, WrText *text)
 {
-    const double moved = fmax(illusion->way, illusion->hausdorff); /* fmax leaves NAN out */
+    const double moved = fmax(illusion->way, illusion->hausdorff); /* fmax ignores NAN */
     const bool shadows = illusion->shadow >= CODE;
     if (!(moved >= SEEN))
         wr_text_add(text, shadows ? "Nobody sees the difference here, but for shadows."

@@ -1,4 +1,4 @@
-/* Measure the rungs: times interleaved, errors against the reference. */
+/* Measurement of the rungs: interleaved times, errors against the reference. */
 #include "accuracy/ladder_internal.h"
 
 #include "base/error.h"
@@ -17,7 +17,7 @@
 
 #define RUNS_LEAST 3
 #define RUNS_MAX 64
-#define NOISE 1.02 /* an error that is smaller by less is no reason to take longer */
+#define NOISE 1.02 /* an error must be smaller by more than this factor to justify more time */
 
 /* ---- frames ---- */
 
@@ -35,14 +35,15 @@ bool wr_bench_frame(const WrBench *bench, const WrScene *scene, float *normals, 
     return wr_renderer_frame(bench->renderer, &wanted, frame, err);
 }
 
-/* On one thread its own work is the frame's time, whatever else the machine does; on several, the clock. */
+/* On one thread the frame's time is the thread's own work, independent of other load; on several threads it is
+   wall time. */
 double wr_bench_now(const WrBench *bench)
 {
     return wr_pool_threads(bench->pool) == 1 ? wr_clock_thread_seconds() : wr_clock_seconds();
 }
 
-/* The first frame after a change of setting makes what the setting needs (tables, meshes, pyramids): it is
-   not timed, for an artist pays it once. */
+/* The first frame after a change of setting builds the data that it needs (tables, meshes, pyramids). It is not
+   timed, because a user pays it only once. */
 bool wr_bench_time(const WrBench *bench, const WrScene *scene, double *seconds, int64_t *shaded,
                    WrError *err)
 {
@@ -91,7 +92,7 @@ static bool tell(const WrLadderRequest *request, double fraction, WrError *err)
     return wr_fail(err, "cancelled");
 }
 
-/* Rounds of all rungs, one after the other, so that drift of the machine hits all alike. */
+/* Rounds over all rungs, one after the other, so that drift of the machine affects all equally. */
 static bool time_rungs(const WrBench *bench, WrScene **scenes, WrLadder *ladder, WrError *err)
 {
     const WrLadderRequest *request = bench->request;
@@ -121,7 +122,7 @@ static bool time_rungs(const WrBench *bench, WrScene **scenes, WrLadder *ladder,
     return good;
 }
 
-/* The error with the axes but one at their best: that axis' own share. */
+/* The error with all axes except one at their best: that axis' own share. */
 static bool share_of(const WrBench *bench, const WrReference *reference, WrAxis axis,
                      const WrSetting *setting, double *rms, WrError *err)
 {
@@ -146,7 +147,7 @@ static bool own_error(const WrBench *bench, const WrLadder *ladder, WrRung *rung
     return share_of(bench, &ladder->reference, rung->axis, &rung->setting, &rung->own_rms, err);
 }
 
-/* What the scene's own arithmetic is held against. */
+/* The error of the scene's own arithmetic. */
 static bool arithmetic_as_it_stands(const WrBench *bench, WrLadder *ladder, WrError *err)
 {
     const WrSetting none = { 0 };
@@ -157,7 +158,7 @@ static bool arithmetic_as_it_stands(const WrBench *bench, WrLadder *ladder, WrEr
                             &ladder->arithmetic_rms, err);
 }
 
-/* The error of the rung's own picture, and of its normals where one sample a pixel has any. */
+/* The error of the rung's own picture, and of its normals if it has one sample a pixel. */
 static bool error_of(const WrBench *bench, const WrScene *scene, WrLadder *ladder, WrRung *rung,
                      WrFrame *frame, WrError *err)
 {
@@ -168,8 +169,8 @@ static bool error_of(const WrBench *bench, const WrScene *scene, WrLadder *ladde
     return true;
 }
 
-/* A rung that cannot be rendered says why and keeps its place; the first is the scene itself, without which
-   there is nothing to tell. */
+/* A rung that cannot be rendered stores the error and keeps its place. The first rung is the scene itself;
+   without it there is no result. */
 static bool measure_errors(const WrBench *bench, WrScene **scenes, WrLadder *ladder, WrError *err)
 {
     const WrLadderRequest *request = bench->request;
@@ -191,9 +192,9 @@ static bool measure_errors(const WrBench *bench, WrScene **scenes, WrLadder *lad
     return true;
 }
 
-/* ---- the paper's own claim ---- */
+/* ---- claim of the paper ---- */
 
-/* Noise in place of the colour picture of a scene that has none: what is asked of it costs the same. */
+/* Noise in place of the colour picture of a scene that has none: fetches from it cost the same. */
 static WrImage *stand_in(const WrField *field, WrError *err)
 {
     const int width = wr_field_width(field), height = wr_field_height(field);
@@ -253,7 +254,8 @@ bool wr_bench_reference(const WrLadderRequest *request, WrPool *pool, WrReferenc
     return tell(request, 0, err) && wr_reference_render(&wanted, pool, out, err);
 }
 
-/* A tenth of the smallest error that is reported, or the reference says that it did not converge. */
+/* The reference must be converged to a tenth of the smallest reported error; else it is reported as not
+   converged. */
 static void judge_reference(WrLadder *ladder)
 {
     double smallest = INFINITY;

@@ -1,6 +1,5 @@
-/* ladder.h - what each approximation costs: settings of the dials, each with its measured time and error
-   against the reference, on one scene.
-   Layer 6. */
+/* ladder.h - accuracy ladder of a scene: approximations as dial settings, with measured time and error against
+   the reference. */
 #pragma once
 #include "accuracy/metrics.h"
 #include "base/error.h"
@@ -16,40 +15,42 @@ typedef struct WrScene WrScene;
 typedef struct WrText WrText;
 
 #define WR_SETTING_DIALS 6
-#define WR_LADDER_RUNS 9 /* timed runs of a setting, at least */
+#define WR_LADDER_RUNS 9 /* minimum number of timed runs of a setting */
 
-/* What differs from the scene as it stands: so many dials at these values. */
+/* Differences from the scene's own dials: `count` dials with these values. */
 typedef struct WrSetting {
     int count;
     int dial[WR_SETTING_DIALS]; /* WrDialId */
     double value[WR_SETTING_DIALS];
 } WrSetting;
 
-/* The scene with that setting, all of its objects with its scheme and normals; the caller frees it. */
+/* The scene with that setting, applied to all of its objects; the caller frees it. */
 WrScene *wr_setting_apply(const WrSetting *setting, const WrScene *scene);
-/* The scene's own, all that matters of it: "scheme=central mode=blinn aa=supersample samples=4". */
+/* The scene's own setting, only the relevant dials: "scheme=central mode=blinn aa=supersample samples=4". */
 void wr_setting_present(const WrScene *scene, WrText *text);
-/* "scheme=bspline aa=supersample samples=4"; "as it stands" for none. */
+/* "scheme=bspline aa=supersample samples=4"; "as it stands" for an empty setting. */
 void wr_setting_print(const WrSetting *setting, WrText *text);
 
 typedef struct WrRung {
     WrSetting setting;
-    char full[240]; /* all dials that matter with it, not only what differs */
-    WrAxis axis;    /* that it stands on; WR_AXIS_COUNT: a combination, or the scene as it stands */
-    bool current;   /* the scene as it stands */
-    bool model; /* another model (invariant), not an approximation: never placed in an error plot */
+    char full[240]; /* all relevant dials, not only the differences */
+    WrAxis axis;    /* axis of the dial; WR_AXIS_COUNT: a combination, or the scene's own setting */
+    bool current;   /* the scene's own setting */
+    /* a different model (invariant), not an approximation: never shown in an error plot */
+    bool model;
     bool front; /* on the Pareto front of (seconds, errors.rms) */
-    WrError note;    /* why a rung could not be measured; else empty, and the numbers below hold */
+    /* reason why a rung could not be measured; else empty, and the numbers below are valid */
+    WrError note;
     double seconds;  /* median time of a frame: processor time on one thread, else wall time */
-    double spread;   /* half the distance between the quartiles, seconds */
-    int runs;        /* timed */
+    double spread;   /* half the interquartile range, seconds */
+    int runs;        /* number of timed frames */
     int64_t shaded;  /* samples of a frame */
-    WrErrors errors; /* with the scene's other dials as they stand */
-    /* RMS with the dials of the other axes at their best, so that this axis' approximation is left alone;
-       NAN for combinations */
+    WrErrors errors; /* with the scene's other dials unchanged */
+    /* RMS with the dials of the other axes at their best, so that only this axis' approximation remains; NAN for
+       combinations */
     double own_rms;
-    /* Of arithmetic, and dearer by its meaning than another value of the same dial, yet farther from the
-       reference (own_rms): the program is at fault. Then that value and its own_rms. */
+    /* Arithmetic only: a setting that is more expensive by definition than another value of the same dial, yet
+       farther from the reference (own_rms): a fault of the program. Then that value and its own_rms. */
     bool fault;
     double fault_than, fault_rms;
 } WrRung;
@@ -59,47 +60,46 @@ typedef struct WrLadder {
     int count;
     WrReference reference;
     int width, height, threads;
-    double
-        arithmetic_rms; /* as own_rms: of the scene's own arithmetic; NAN where that axis was not measured */
-    double blinn_phong,
-        blinn_colour; /* measured ratios beside the paper's 4 and 2: frame time with bump
-                                         over without, and over that with a colour picture; NAN where the
-                                         scene does not allow it */
+    /* as own_rms, for the scene's own arithmetic; NAN if that axis was not measured */
+    double arithmetic_rms;
+    /* measured ratios for the paper's 4 and 2: frame time with bump divided by that without, and by that with a
+       colour picture; NAN if the scene does not allow it */
+    double blinn_phong, blinn_colour;
 } WrLadder;
 
 typedef struct WrLadderRequest {
-    const WrField *const *fields; /* as in WrFrameRequest; NULL: `field` is that of all objects */
+    const WrField *const *fields; /* as in WrFrameRequest; NULL: `field` for all objects */
     const WrField *field;
     const WrScene *scene;
     int width, height; /* pixels */
     double turn_deg;
     int threads;          /* 1: pinned to one processor; 0: all */
     int runs;             /* 0: WR_LADDER_RUNS */
-    int most;             /* of the reference's samples; 0: its own */
-    double budget;        /* seconds for all of it; 0: none. Runs are cut, rungs never */
-    WrAxis axis;          /* that alone; WR_AXIS_COUNT: all, and the combinations */
-    WrProgress *progress; /* may be NULL; reports and cancels */
+    int most;             /* limit of the reference's samples; 0: its default */
+    double budget;        /* seconds in total; 0: unlimited. Reduces runs, never rungs */
+    WrAxis axis;          /* a single axis; WR_AXIS_COUNT: all, and the combinations */
+    WrProgress *progress; /* may be NULL; receives progress and cancels */
     /* Called with each measured rung's picture, [height][width][4], for difference pictures; may be NULL. */
     bool (*seen)(void *ctx, const WrRung *rung, const float *rgba, const WrReference *reference,
                  WrError *err);
     void *ctx;
 } WrLadderRequest;
 
-/* Zero-initialise *out. Settings are timed interleaved (1, 2, 3, 1, 2, 3, ...), so that drift of the
-   machine hits all alike; errors from one untimed frame each. */
+/* Measures the ladder. Zero-initialise *out. Settings are timed interleaved (1, 2, 3, 1, 2, 3, ...), so that
+   drift of the machine affects all equally; errors are from one untimed frame each. */
 bool wr_ladder_measure(const WrLadderRequest *request, WrLadder *out, WrError *err);
 void wr_ladder_fini(WrLadder *ladder);
-/* Mark the rungs that no other beats in both time and error; models and unmeasured rungs are never on it. */
+/* Marks the Pareto front: rungs that no other beats in both time and error; never models and unmeasured rungs. */
 void wr_ladder_front(WrLadder *ladder);
 
-/* Mark the rungs that are at fault; scene: that which was measured. */
+/* Marks the rungs that are at fault; scene: the measured one. */
 void wr_ladder_faults(WrLadder *ladder, const WrScene *scene);
 /* "heights=double is farther from the reference (1e-02) than heights=float (1e-05)"; false without a fault. */
 bool wr_ladder_fault_print(const WrRung *rung, WrText *text);
 
-/* The settings that wr_ladder_measure tries: the scene as it stands, each rung of each dial that matters,
- * one at a time, and the combinations that matter. Writes at most `room` rungs, of which only setting,
- * axis, current and model are set; returns how many there are. */
+/* The settings that wr_ladder_measure tries: the scene's own, each rung of each relevant dial, one at a time,
+   and the relevant combinations. Writes at most `room` rungs, of which only setting, axis, current and model are
+   set; returns the total number. */
 int wr_ladder_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room);
-/* The scene with the dials of all axes but one at their best; the caller frees it. */
+/* The scene with the dials of all axes except one at their best; the caller frees it. */
 WrScene *wr_ladder_best_but(const WrScene *scene, WrAxis axis);

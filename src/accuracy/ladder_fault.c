@@ -1,17 +1,17 @@
-/* Rungs of arithmetic that contradict their own meaning: more bits, and farther from the reference. That is never
-   an approximation's price, it is a fault of the program, and it is told as one. */
+/* Detection of contradictory arithmetic rungs: more bits, but farther from the reference. That is never the cost
+   of an approximation but a fault of the program, and is reported as one. */
 #include "accuracy/ladder_internal.h"
 #include "base/enum_rows.h"
 #include "scene/scene.h"
 
 #include <math.h>
 
-/* An error that is larger by no more is the chance of roundings that meet the samples' own error. */
+/* A smaller excess of the error is attributed to chance: roundings that add to the samples' own error. */
 #define FACTOR 1.25
 #define FLOOR 1e-5 /* RMS of linear intensity */
 
-/* More is dearer; -1: not of this axis. Of 16 bits and halves either may be the nearer, as the table's level
-   and range have it. */
+/* Rank by cost; -1: not of this axis. Of 16 bits and half precision either may be closer, depending on the
+   table's level and range. */
 static int dearness(int dial, double value)
 {
     WR_ROWS(heights);
@@ -36,7 +36,7 @@ static int dearness(int dial, double value)
     return dial == WR_DIAL_ARITHMETIC ? arithmetics[rung] : -1;
 }
 
-/* A rung of one dial of arithmetic: the dial's value, and its error with the other axes at their best. */
+/* True for a rung of one arithmetic dial that has an own_rms. */
 static bool plain(const WrRung *rung)
 {
     return rung->axis == WR_AXIS_ARITHMETIC && rung->setting.count == 1 && !rung->model &&

@@ -1,5 +1,4 @@
-/* ladder_internal.h - how settings are rendered and timed, for all that measures them.
-   Layer 6, private to the room. */
+/* ladder_internal.h - rendering and timing of settings, shared by all measurements. Private to this module. */
 #pragma once
 #include "accuracy/ladder.h"
 #include "render/frame/frame.h"
@@ -11,7 +10,7 @@ typedef struct WrBench {
     const WrLadderRequest *request;
     WrPool *pool;         /* borrowed */
     WrRenderer *renderer; /* owned */
-    float *normals;       /* [height][width][3], owned; NULL: not wanted */
+    float *normals;       /* [height][width][3], owned; NULL: not requested */
 } WrBench;
 
 bool wr_bench_frame(const WrBench *bench, const WrScene *scene, float *normals, WrFrame *frame,
@@ -19,10 +18,10 @@ bool wr_bench_frame(const WrBench *bench, const WrScene *scene, float *normals, 
 /* Seconds of one frame, after an untimed one. */
 bool wr_bench_time(const WrBench *bench, const WrScene *scene, double *seconds, int64_t *shaded,
                    WrError *err);
-/* On one thread the thread's own work, else the clock. */
+/* On one thread the thread's own work, else wall time. */
 double wr_bench_now(const WrBench *bench);
 void wr_bench_sort(double *times, int count);
-/* The part 0..1 of sorted numbers, between neighbours. */
+/* Quantile `part`, 0..1, of sorted numbers, interpolated between neighbours. */
 double wr_bench_quantile(const double *sorted, int count, double part);
 bool wr_bench_reference(const WrLadderRequest *request, WrPool *pool, WrReference *out,
                         WrError *err);

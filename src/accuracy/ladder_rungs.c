@@ -1,4 +1,4 @@
-/* Which settings the ladder tries. */
+/* Settings that the ladder tries. */
 #include "accuracy/ladder.h"
 
 #include "scene/objects.h"
@@ -12,7 +12,7 @@ typedef struct RungList {
     int count, room;
 } RungList;
 
-/* A setting under construction, cut down to what differs from the scene. */
+/* Adds a setting, reduced to its differences from the scene. */
 static void add(RungList *list, WrAxis axis, const WrSetting *wanted)
 {
     WrRung rung = { .axis = axis };
@@ -23,12 +23,12 @@ static void add(RungList *list, WrAxis axis, const WrSetting *wanted)
         rung.setting.value[rung.setting.count++] = wanted->value[i];
         rung.model |= wanted->dial[i] == WR_DIAL_NORMAL && wanted->value[i] == WR_BUMP_INVARIANT;
     }
-    if (rung.setting.count == 0) return; /* the scene as it stands is there already */
+    if (rung.setting.count == 0) return; /* the scene's own setting is already in the list */
     if (list->count < list->room) list->out[list->count] = rung;
     list->count++;
 }
 
-/* The rungs of one dial: its choices, or the numbers that its row names. */
+/* The values of one dial: its choices, or the numbers in its row. */
 static int rungs_of(const WrDial *dial, double *out, int room)
 {
     int count = 0;
@@ -40,7 +40,7 @@ static int rungs_of(const WrDial *dial, double *out, int room)
 
 #define RUNGS_MAX 16
 
-/* Dials of that axis which begin to matter by that choice: each of their rungs, one at a time. */
+/* Adds the dials of that axis that become relevant by that choice: each of their values, one at a time. */
 static void add_dependents(RungList *list, WrAxis axis, const WrScene *chosen, WrSetting setting)
 {
     double rungs[RUNGS_MAX];
@@ -63,7 +63,7 @@ static void add_dial(RungList *list, int id)
     const WrDial *dial = &wr_dials[id];
     double rungs[RUNGS_MAX];
     const int count = rungs_of(dial, rungs, RUNGS_MAX);
-    const bool antialiasing = id == WR_DIAL_AA; /* the dial that others of its axis hang on */
+    const bool antialiasing = id == WR_DIAL_AA; /* the dial that others of its axis depend on */
     if (dial->axis == WR_AXIS_ANTIALIASING && !antialiasing) return;
     if (dial->matters && !dial->matters(list->scene)) return;
     for (int r = 0; r < count; r++) {
@@ -76,8 +76,8 @@ static void add_dial(RungList *list, int id)
     }
 }
 
-/* Where two approximations meet: the cheapest of all, the paper's with more samples, and the better slopes
-   with the ways against aliasing. */
+/* Combinations of approximations: the cheapest of all, the paper's with more samples, and the better slopes with
+   the anti-aliasing methods. */
 static const WrSetting combinations[] = {
     { 2, { WR_DIAL_NORMAL, WR_DIAL_ARITHMETIC }, { WR_BUMP_BLINN, WR_ARITHMETIC_FAST } },
     { 3,

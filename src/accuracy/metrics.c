@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The sum of `count` values, in pairs; they are used up. */
+/* Sum of `count` values, added in pairs; they are overwritten. */
 static double pair_sum(double *values, int64_t count)
 {
     for (; count > 1; count = (count + 1) / 2) {
@@ -17,7 +17,7 @@ static double pair_sum(double *values, int64_t count)
     return count > 0 ? values[0] : 0;
 }
 
-/* A value for each of some pixels. */
+/* One value for each of some pixels. */
 typedef struct Values {
     double *value; /* [count], owned */
     int64_t count;
@@ -40,14 +40,15 @@ static double largest(const Values *values)
     return most;
 }
 
-/* sqrt of the sum over `terms` for each value; the values are used up. */
+/* sqrt of the sum divided by `terms` per value; the values are overwritten. */
 static double root_mean(Values *values, int terms)
 {
     const double count = (double)values->count * terms;
     return values->count > 0 ? sqrt(pair_sum(values->value, values->count) / count) : 0;
 }
 
-/* The value that `share` of all do not pass: number ceil(share count) from below, found by splitting. */
+/* The value that the part `share` of all does not exceed: number ceil(share count) in ascending order, found by
+   partitioning. */
 static double percentile(Values *values, double share)
 {
     if (values->count == 0) return 0;
@@ -71,12 +72,12 @@ static double percentile(Values *values, double share)
     return v[rank];
 }
 
-/* All that is gathered of a pair of pictures, pixel by pixel. */
+/* All values collected from a pair of pictures, pixel by pixel. */
 typedef struct Gathered {
-    Values all, inner, covered;      /* squares of a pixel's three differences, added up */
-    Values inner_most, covered_most; /* its largest difference */
+    Values all, inner, covered;      /* sum of a pixel's three squared differences */
+    Values inner_most, covered_most; /* a pixel's largest difference */
     Values angles, angle_squares;
-    Values coverage; /* squares, over edges */
+    Values coverage; /* squared differences, over edges */
     double coverage_max;
 } Gathered;
 
@@ -86,7 +87,7 @@ static bool chosen(const unsigned char *only, int width, int x, int y)
     return !only || only[y / WR_FRAME_BLOCK * across + x / WR_FRAME_BLOCK] != 0;
 }
 
-/* What is not a number differs by as much as can be. */
+/* NaN counts as the largest difference. */
 static double difference(double a, double b)
 {
     const double d = fabs(a - b);
@@ -169,7 +170,7 @@ void wr_errors_measure(const float *rgba, const float *normal, const WrReference
     *out = errors;
 }
 
-/* The scale's stops: black, violet, orange, white, rising in lightness all the way. */
+/* Stops of the scale: black, violet, orange, white, with rising lightness. */
 void wr_heat_colour(double t, uint8_t rgb[3])
 {
     static const double stops[4][3] = {

@@ -1,4 +1,4 @@
-/* Error against time as a picture: gnuplot draws it. */
+/* Plot of error against time as a picture, drawn by gnuplot. */
 #include "accuracy/report.h"
 
 #include "base/error.h"
@@ -14,7 +14,7 @@
 
 #define DRAWING_MAX ((size_t)256 << 20) /* bytes */
 
-/* gnuplot, reading, drawing and complaining to open files. */
+/* Starts gnuplot with open files as input, output and error output. */
 static bool spawn(int in, int out, int complaints, WrPid *pid, WrError *err)
 {
     const char *const arguments[] = { "gnuplot", "-d", "-", NULL }; /* -d: no start-up file */
@@ -44,8 +44,7 @@ static bool wait_for(WrPid pid, int complaints, WrError *err)
     return wr_fail(err, "gnuplot failed: %s", words[0] ? words : "it says nothing");
 }
 
-/* The drawing, in a file in memory. Everything goes through such files, so that neither side waits for the
-   other. */
+/* Draws to a file in memory. Input and output are such files, so that neither process waits for the other. */
 static int run(const WrText *script, WrError *err)
 {
     WrPid pid;
@@ -63,7 +62,7 @@ static int run(const WrText *script, WrError *err)
     return -1;
 }
 
-/* gnuplot does not tell whether it could write all of it. */
+/* gnuplot does not report incomplete output. */
 static bool check_whole(const char *path, const char *bytes, size_t length, bool png, WrError *err)
 {
     static const char end[] = "</svg>";

@@ -1,4 +1,4 @@
-/* Numbers beside their points: of the free places round a point the best, point after point. */
+/* Placement of numbers beside their points: for each point in turn, the best free place around it. */
 #include "accuracy/plot_labels.h"
 
 #include "base/exactmath.h"
@@ -8,11 +8,11 @@
 
 #define DIGIT_W 9.5
 #define NUMBER_H 18.0
-#define NEAREST 17.0 /* from a point to the middle of its number */
-#define RING 6.0     /* from one ring of places to the next */
+#define NEAREST 17.0 /* distance from a point to the centre of its number */
+#define RING 6.0     /* distance between rings of places */
 #define TURNS 16     /* places on a ring */
 #define CLOSE 8.0    /* a line this near to a point seems to end there */
-/* What a place is worse by, in pixels of distance. */
+/* Penalties of a place, in pixels of distance. */
 #define NEAR_OTHER 24.0
 #define THROUGH 60.0 /* the line to the point passes another point or number */
 
@@ -27,7 +27,7 @@ static double distance(WrPlotSpot a, WrPlotSpot b)
     return hypot(a.x - b.x, a.y - b.y);
 }
 
-/* From a spot to the line between two. */
+/* Distance of a spot from the line between two. */
 static double beside(WrPlotSpot spot, WrPlotSpot a, WrPlotSpot b)
 {
     const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
@@ -69,7 +69,7 @@ static bool free_place(const Sheet *sheet, const WrPlotBox *box)
     return true;
 }
 
-/* How far a free place is from telling at a glance whose number it holds. */
+/* Ambiguity of a free place: penalty for being mistaken for another point's number. */
 static double badness(const Sheet *sheet, int own, WrPlotSpot at)
 {
     const WrPlotSpot point = sheet->points[own];
@@ -77,7 +77,7 @@ static double badness(const Sheet *sheet, int own, WrPlotSpot at)
     bool nearer = false, through = false;
     for (int i = 0; i < sheet->count; i++) {
         const WrPlotSpot other = sheet->points[i];
-        if (distance(other, point) < 1) continue; /* they are one to the eye */
+        if (distance(other, point) < 1) continue; /* visually the same point */
         nearer |= distance(at, other) < distance(at, point);
         through |= beside(other, at, point) < CLOSE && distance(other, point) > CLOSE;
     }
@@ -95,7 +95,7 @@ static WrPlotSpot place(const Sheet *sheet, int own)
     for (double radius = NEAREST; radius < fmin(least, sheet->frame->w + sheet->frame->h);
          radius += RING)
         for (int turn = 0; turn < TURNS; turn++) {
-            /* Above and to the right first, as far as places are equally good. */
+            /* Above and to the right first, among equally good places. */
             const double angle =
                 WR_PI * (0.25 + (turn % 2 ? -1 : 1) * (turn + 1) / 2 * 2.0 / TURNS);
             const WrPlotSpot at = { point.x + radius * cos(angle), point.y + radius * sin(angle) };

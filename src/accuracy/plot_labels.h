@@ -1,27 +1,28 @@
-/* plot_labels.h - where a plot's numbers stand, so that none covers another or a point.
-   Layer 6, private to plot*.c and their test. */
+/* plot_labels.h - positions of a plot's numbers without overlaps.
+   Private to plot*.c and their test. */
 #pragma once
 
-/* All in pixels, y upwards. */
+/* In pixels, y upwards. */
 typedef struct WrPlotSpot {
     double x, y;
 } WrPlotSpot;
 
 typedef struct WrPlotBox {
-    double x, y, w, h; /* its lower left corner and its size */
+    double x, y, w, h; /* lower left corner and size */
 } WrPlotBox;
 
-#define WR_PLOT_MARK 7 /* a point's mark: half of its side */
+#define WR_PLOT_MARK 7 /* half the side of a point's mark */
 
-/* What a number of that many digits takes. */
+/* The box of a number with that many digits. */
 WrPlotBox wr_plot_number_box(WrPlotSpot middle, int number);
 
-/* The middles of the numbers 1 to `numbers`, which belong to points[0] to points[numbers - 1]: inside `frame`, none over
- * another, over a point or over one of `taken`, near their own points, where they can nearer than to any other.
- *
- * points, count   all that are drawn, those with numbers first
- * taken, boxes    places that hold something else
- * out             [numbers] */
+/* Finds the centres of the numbers 1 to `numbers`, which belong to points[0] to points[numbers - 1]: inside
+   `frame`, without overlapping each other, a point or a box of `taken`, near their own points, and if possible
+   nearer than to any other.
+
+   points, count   all drawn points, those with numbers first
+   taken, boxes    occupied boxes
+   out             [numbers] */
 void wr_plot_number_places(const WrPlotBox *frame, const WrPlotSpot *points, int count, int numbers,
                            const WrPlotBox *taken, int boxes, WrPlotSpot *out);
 

@@ -1,5 +1,5 @@
-/* Error against time as a script for gnuplot. Under the plot stands the front as a list, each setting whole: its lines
-   are broken and the picture made higher, so that every name is in it. */
+/* Plot of error against time as a gnuplot script. The front is listed below the plot, each setting in full: its
+   lines are wrapped and the picture is made higher, so that every name is included. */
 #include "accuracy/plot_labels.h"
 #include "accuracy/report.h"
 
@@ -9,13 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The picture, pixels from its upper edge and its left. */
+/* Layout in pixels from the upper left corner of the picture. */
 #define WIDTH 1280
 #define PLOT_LEFT 100
 #define PLOT_RIGHT 1085
 #define PLOT_TOP 50
 #define PLOT_BOTTOM 640
-#define LIST_TOP 736 /* the middle of its first line */
+#define LIST_TOP 736 /* centre of its first line */
 #define LINE 23
 #define LEFT 20
 #define NUMBER_RIGHT 40
@@ -23,16 +23,16 @@
 #define ERROR_RIGHT 230
 #define SETTING_LEFT 252
 
-/* Characters that fit: names are of settings and files, about 8.5 and 11 pixels a character. */
+/* Characters that fit: settings and file names have about 8.5 and 11 pixels a character. */
 #define SETTING_FITS 112
 #define NAME_FITS 48
-#define REFERENCE_W 290 /* of the words at the reference's line */
+#define REFERENCE_W 290 /* width of the text at the reference's line */
 
-#define LISTED 24 /* of the front */
+#define LISTED 24 /* maximum listed settings of the front */
 
 /* ---- the data ---- */
 
-/* A string in gnuplot's single quotes: only the quote itself needs care. */
+/* A string in gnuplot's single quotes: only the quote itself must be escaped. */
 static void add_quoted(WrText *text, const char *bytes)
 {
     wr_text_add(text, "'");
@@ -43,7 +43,7 @@ static void add_quoted(WrText *text, const char *bytes)
     wr_text_add(text, "'");
 }
 
-/* A rung that has a place in a plot with logarithmic axes. */
+/* True if a rung can be shown on logarithmic axes. */
 static bool placed(const WrRung *rung)
 {
     return !rung->note.text[0] && !rung->model && rung->errors.rms > 0 && rung->seconds > 0;
@@ -65,7 +65,7 @@ static int by_time(const void *a, const void *b)
     return ((*x)->seconds > (*y)->seconds) - ((*x)->seconds < (*y)->seconds);
 }
 
-/* The front from fast to near. The caller frees. */
+/* The front sorted by time. The caller frees. */
 static const WrRung **front_of(const WrLadder *ladder, int *count)
 {
     const WrRung **front = wr_alloc((size_t)ladder->count + 1, sizeof *front);
@@ -108,7 +108,7 @@ static void widen(Range *range, double value)
     range->high = fmax(range->high, value);
 }
 
-/* All that is shown, and a little air. The reference's own line belongs to it where it is not far below. */
+/* Ranges of everything shown, with a margin. The reference's own line is included if it is not far below. */
 static void ranges_of(const WrLadder *ladder, Range *time, Range *error)
 {
     *time = *error = (Range){ 0, 0 };
@@ -123,27 +123,27 @@ static void ranges_of(const WrLadder *ladder, Range *time, Range *error)
     *error = (Range){ error->low / 1.6, error->high * 1.6 };
 }
 
-/* How far along the axis, 0..1. */
+/* Position along the axis, 0..1. */
 static double along(Range range, double value)
 {
     return log(value / range.low) / log(range.high / range.low);
 }
 
-/* ---- places ---- */
+/* ---- positions ---- */
 
 static double height_of(int lines)
 {
     return LIST_TOP + LINE * (lines - 1) + 24;
 }
 
-/* Pixels of the picture, y upwards from the plot's lower edge. */
+/* Pixel position of a rung, y upwards from the plot's lower edge. */
 static WrPlotSpot spot_of(const WrRung *rung, Range time, Range error)
 {
     return (WrPlotSpot){ PLOT_LEFT + along(time, 1e3 * rung->seconds) * (PLOT_RIGHT - PLOT_LEFT),
                          along(error, rung->errors.rms) * (PLOT_BOTTOM - PLOT_TOP) };
 }
 
-/* "at screen x, y" of a spot. */
+/* Appends "at screen x, y" for a spot. */
 static void add_at(WrPlotSpot spot, double height, WrText *text)
 {
     wr_text_addf(text, "screen %.5f, screen %.5f", spot.x / WIDTH,
@@ -165,7 +165,8 @@ static WrPlotSpot *list_spots(const WrLadder *ladder, const WrRung **front, int 
     return spots;
 }
 
-/* The words at the reference's line: above or below it, left or right, where they cover fewest points. */
+/* Position of the text at the reference's line: above or below it, left or right, where it covers the fewest
+   points. */
 static WrPlotBox place_reference(const WrPlotSpot *spots, int count, double line)
 {
     WrPlotBox best = { 0 };
@@ -197,7 +198,7 @@ static void add_reference(const WrPlotBox *words, double line, double height, Wr
     wr_text_add(text, " font ',11' tc rgb '#505050'\n");
 }
 
-/* The front's line, as gnuplot's steps go: across, then down. Two boxes from each point to the next. */
+/* The front's line in gnuplot's steps: horizontal, then vertical. Two boxes from each point to the next. */
 static int add_steps(const WrPlotSpot *spots, int fronts, WrPlotBox *out)
 {
     int count = 0;
@@ -209,7 +210,7 @@ static int add_steps(const WrPlotSpot *spots, int fronts, WrPlotBox *out)
     return count;
 }
 
-/* The numbers on the front, each tied to its own point by a line, and the reference's line. */
+/* The numbers of the front, each connected to its point by a line, and the reference's line. */
 static void add_numbers(const WrLadder *ladder, const WrRung **front, int fronts, double height,
                         WrText *text)
 {
@@ -261,7 +262,7 @@ static void add_word(List *list, double x, const char *place, const char *word)
     wr_text_addf(list->text, " %s font ',11'\n", place);
 }
 
-/* Broken at words, or, of one word that fits no line, anywhere. */
+/* Wraps at words, or within a word that is longer than a line. */
 static void add_setting(List *list, const char *setting)
 {
     char line[SETTING_FITS + 1];
@@ -293,7 +294,7 @@ static void add_row(List *list, const char *number, const WrRung *rung)
     add_setting(list, rung->full);
 }
 
-/* The front, and the scene as it stands where it is not on it. */
+/* Lists the front, and the scene's own setting if it is not on it. */
 static void add_list(const WrLadder *ladder, const WrRung **front, int fronts, List *list)
 {
     add_word(list, LEFT, "left", "the front, fast to near");
@@ -312,7 +313,7 @@ static void add_list(const WrLadder *ladder, const WrRung **front, int fronts, L
             add_row(list, "o", &ladder->rungs[i]);
 }
 
-/* ---- all of it ---- */
+/* ---- whole script ---- */
 
 /* 1, 2 and 5 of each power of ten, written out. */
 static void add_ticks(const char *axis, Range range, WrText *text)
@@ -330,7 +331,7 @@ static void add_ticks(const char *axis, Range range, WrText *text)
     wr_text_add(text, ")\n");
 }
 
-/* One colour and one mark an axis, from a palette that the colour-blind can tell apart. */
+/* One colour and one mark per axis, from a palette for colour-blind readers. */
 static void add_series(WrText *text)
 {
     static const struct {
@@ -353,12 +354,12 @@ static void add_series(WrText *text)
         "  $now using 1:2 with points pt 6 ps 2.6 lw 2.5 lc rgb '#000000' title 'as it stands'\n");
 }
 
-/* A name that is too long: its end, which tells more. */
+/* Truncates a long name at its start, since the end is more specific. */
 static void add_name(const char *name, WrText *title)
 {
     const size_t length = strlen(name);
     const char *from = length > NAME_FITS ? name + length - NAME_FITS : name;
-    while ((*from & 0xc0) == 0x80) from++; /* within a character */
+    while ((*from & 0xc0) == 0x80) from++; /* inside a character */
     wr_text_addf(title, "%s%s%s", from > name ? "..." : "", from, name[0] ? ": " : "");
 }
 

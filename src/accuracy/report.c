@@ -1,4 +1,4 @@
-/* A ladder as a table, as CSV, as JSON. */
+/* Output of a ladder as a table, as CSV and as JSON. */
 #include "accuracy/report.h"
 
 #include <math.h>
@@ -107,7 +107,7 @@ void wr_report_text(const WrLadder *ladder, const char *name, WrText *text)
     add_faults(ladder, text);
 }
 
-/* ---- numbers of a rung, for programs ---- */
+/* ---- numbers of a rung, for CSV and JSON ---- */
 
 typedef struct Number {
     const char *name;

@@ -1,4 +1,4 @@
-/* Settings of the dials: what differs from a scene, as a scene and as text. */
+/* Dial settings: differences from a scene, applied to a scene or printed as text. */
 #include "accuracy/ladder.h"
 
 #include "scene/objects.h"

@@ -1,4 +1,4 @@
-/* A tolerance: blocks climb until it holds. */
+/* Choice under a tolerance: blocks get finer levels until it is met. */
 #include "accuracy/tolerance.h"
 
 #include "accuracy/tolerance_internal.h"
@@ -10,11 +10,13 @@
 
 #include <math.h>
 
-#define CLIMBS 16 /* rounds, each of one level for the blocks that want it */
+#define CLIMBS 16 /* maximum rounds, each of one level for the blocks that need it */
 #define PROBINGS 3
-#define MANY 16 /* blocks of a level that want the next: one in AHEAD of them goes first */
+/* blocks of a level that need the next: from this number on, one in AHEAD of them goes first */
+#define MANY 16
 #define AHEAD 4
-#define WORTH 2.0 /* a look at cheaper slopes may save so many times what it takes */
+/* the expected saving of cheaper slopes must be this many times the cost of testing them */
+#define WORTH 2.0
 
 /* ---- slopes and normals ---- */
 
@@ -24,7 +26,7 @@ static void add_pair(Study *study, WrScheme scheme, WrBumpMode mode)
     study->pair[study->pairs++] = (Pair){ scheme, mode, wr_price_sample(scene, scheme, mode) };
 }
 
-/* The best first: of all objects, which take it together. */
+/* Adds the best pair first: shared by all objects. */
 static void add_best_pair(Study *study)
 {
     const WrScene *scene = study->request->scene;
@@ -38,7 +40,7 @@ static void add_best_pair(Study *study)
                                               : WR_BUMP_EXACT);
 }
 
-/* Cheaper ones, where the look at them may be worth it: all shown blocks with one sample each. */
+/* Adds cheaper pairs if testing them may pay: they are rendered for all visible blocks with one sample each. */
 static bool add_cheaper(Study *study, double expected, WrError *err)
 {
     const WrScene *scene = study->request->scene;
@@ -61,7 +63,7 @@ static bool add_cheaper(Study *study, double expected, WrError *err)
 
 /* ---- climbing ---- */
 
-/* Which blocks want the next level. How many. */
+/* Marks the blocks that need the next level. Returns their number. */
 static int64_t find_climbers(const Study *study, unsigned char *wanted)
 {
     int64_t climbers = 0;
@@ -73,8 +75,8 @@ static int64_t find_climbers(const Study *study, unsigned char *wanted)
     return climbers;
 }
 
-/* Where many of a level want the next and nothing is known yet of how right that is, some go ahead: what they turn
-   out to be off may tell that the others can stay. */
+/* If many blocks of a level need the next and the accuracy of that estimate is unknown, only some of them climb
+   first: their actual errors may show that the others can stay. */
 static void send_some_ahead(const Study *study, unsigned char *wanted)
 {
     int64_t climbers[LEVELS][2] = { { 0 } }, passed[LEVELS][2] = { { 0 } };
@@ -89,7 +91,7 @@ static void send_some_ahead(const Study *study, unsigned char *wanted)
     }
 }
 
-/* Until no block wants a level that it has not seen. */
+/* Climbs until no block needs a level that it has not been rendered at. */
 static bool climb(Study *study, const WrTolerance *tolerance, WrError *err)
 {
     unsigned char *wanted = wr_alloc((size_t)study->count, 1);
@@ -127,14 +129,14 @@ static bool run(Study *study, const WrTolerance *tolerance, WrError *err)
         return wr_study_take_best(study, err) && wr_study_compose(study, err);
     if (!wr_study_survey(study, tolerance, err)) return false;
     wr_study_pick(study, tolerance, true);
-    /* One sample a pixel tells what they change on the whole, not what at most. */
+    /* One sample a pixel shows the total change, but not the largest. */
     if (tolerance->kind != WR_TOLERANCE_MAX && !add_cheaper(study, wr_study_cost(study), err))
         return false;
     wr_study_pick(study, tolerance, true);
     return climb_and_probe(study, tolerance, err) && wr_study_compose(study, err);
 }
 
-/* ---- telling ---- */
+/* ---- result ---- */
 
 static bool holds(const WrTolerance *tolerance, const WrChoice *choice)
 {
@@ -180,7 +182,7 @@ static void tell(const Study *study, const WrTolerance *tolerance, double start,
     say_reason(tolerance, out);
 }
 
-/* ---- all ---- */
+/* ---- interface ---- */
 
 bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *out,
                          WrFrame *frame, WrError *err)
@@ -217,14 +219,14 @@ bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, Wr
     return good;
 }
 
-/* The table of object i; NULL: it is not shown. */
+/* The table of object i; NULL: it is not visible. */
 static const WrField *table_of(const WrFrameRequest *request, int i)
 {
     if (wr_scene_object(request->scene, i)->hidden) return NULL;
     return request->fields && request->fields[i] ? request->fields[i] : request->field;
 }
 
-/* Does each object show the table of all layers? */
+/* True if all objects use the composite. */
 static bool is_common(const WrFrameRequest *request)
 {
     const int count = wr_scene_object_count(request->scene);
@@ -272,6 +274,7 @@ bool wr_tolerance_frame(WrRenderer *renderer, const WrFrameRequest *request, WrC
         return wr_tolerance_choose(renderer, request, choice, frame, err);
     choice->plan = (WrPlan){ 0 };
     if (!wr_choice_frame_told(renderer, request, choice, &choice->plan, frame, err)) return false;
-    if (choice->studies == 0) choice->seconds = frame->times.total; /* it was read: nobody knew */
+    /* it was read from text: the time is unknown */
+    if (choice->studies == 0) choice->seconds = frame->times.total;
     return true;
 }

@@ -1,4 +1,4 @@
-/* A picture as blocks, each with its pictures of one level after the other. */
+/* Blocks of a picture, each with its pictures at increasing levels. */
 #include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
@@ -23,7 +23,7 @@ Corner wr_study_corner(const Study *study, int64_t block)
     return at;
 }
 
-/* A block of the frame; what lies beyond the picture is 0. */
+/* Copies a block of the frame; 0 outside the picture. */
 static void take(const Study *study, int64_t block, float *out)
 {
     const Corner at = wr_study_corner(study, block);
@@ -62,7 +62,7 @@ Change wr_block_change(const float *a, const float *b)
     return out;
 }
 
-/* The part of a change that lies along a side: BLOCK pixels from `first` on, `step` floats apart. */
+/* The part of a change along a side: BLOCK pixels from `first` on, `step` floats apart. */
 static Change along(const float *a, const float *b, size_t first, size_t step)
 {
     Change out = { 0, 0 };
@@ -89,18 +89,18 @@ void wr_block_compare(Block *block, int level)
 
 /* ---- outlines and creases ---- */
 
-/* Of a crease that runs with the pixels: of its step in colour, squares, what one of its pixels may be off with one sample. At
-   worst it is 1/4, on the mean over all its places 1/12, of which either of two pixels has half. */
+/* For a crease parallel to the pixels: squared error of one pixel with one sample, relative to the squared step
+   in colour. The worst case is 1/4, the mean over all its positions 1/12, shared by two pixels. */
 #define CREASED (1.0 / 16)
 
-/* What a pixel shows, whose coverages are those: the sample in its middle does not see an edge that passes
-   beside it, the others do. */
+/* Content of a pixel, from its coverages: the sample at its centre misses an edge that passes beside it, the
+   others do not. */
 static int look(float one, float two)
 {
     return (one > 0 || two > 0 ? OBJECT : 0) | (one <= 0 || two < 1 ? NOTHING : 0);
 }
 
-/* The same of a pixel of a block, by as many pictures as it has. */
+/* Content of a block's pixel, from all pictures that it has. */
 static int look_pixel(const Block *block, int x, int y)
 {
     const size_t n = (size_t)4 * (size_t)(y * BLOCK + x) + 3;
@@ -108,7 +108,7 @@ static int look_pixel(const Block *block, int x, int y)
     return look(one, block->rgba[1] ? block->rgba[1][n] : one);
 }
 
-/* What the block shows; its pixels that the first picture covers are counted. */
+/* Content of the block; also counts its pixels covered in the first picture. */
 int wr_study_look(const Study *study, int64_t b)
 {
     Block *block = &study->block[b];
@@ -126,7 +126,7 @@ int wr_study_look(const Study *study, int64_t b)
     return (object ? OBJECT : 0) | (nothing ? NOTHING : 0);
 }
 
-/* What the pixels next to a block show. */
+/* Content of the pixels next to a block. */
 int wr_study_look_around(const Study *study, int64_t b)
 {
     const Corner at = wr_study_corner(study, b);
@@ -143,9 +143,9 @@ int wr_study_look_around(const Study *study, int64_t b)
     return seen;
 }
 
-/* What k x k samples may be off where the outline steps from p to the next pixel across it and does just the
-   same beside: of the object's colour 1/(2k) at most. share: 1, or
-   1/2 where two blocks meet there, of which one is off. */
+/* Adds the possible error of k x k samples where the outline steps from p to the next pixel across it and does
+   the same in the row beside: at most 1/(2k) of the object's colour. share: 1, or
+   1/2 where two blocks meet there, of which one has the error. */
 static void add_step(const float *p, const float *across, const float *p_beside,
                      const float *across_beside, int k, double share, Change *sum)
 {
@@ -158,8 +158,8 @@ static void add_step(const float *p, const float *across, const float *p_beside,
     }
 }
 
-/* A pixel of the picture at that level, or the nearest to it that its block has; NULL: beyond the picture, or its block has
-   none any more, for it is far from the object. */
+/* A pixel of the picture at that level, or at the nearest that its block has; NULL: outside the picture, or its
+   block has been freed, because it is far from the object. */
 static const float *pixel_at(const Study *study, int x, int y, int level)
 {
     if (x < 0 || y < 0 || x >= study->request->width || y >= study->request->height) return NULL;
@@ -171,8 +171,8 @@ static const float *pixel_at(const Study *study, int x, int y, int level)
                           : NULL;
 }
 
-/* The steps from the pixels of a block's line to those across it, which may be of the next block; from (x, y) on, along
-   (du, dv), `count` of them; (nu, nv) leads across; share as of add_step. */
+/* The steps from the pixels of a block's border line to those across it, possibly of the next block; from (x, y)
+   on, along (du, dv), `count` of them; (nu, nv) points across; share as in add_step. */
 typedef struct Line {
     int x, y, du, dv, nu, nv, count;
     double share;
@@ -192,8 +192,8 @@ static void add_line(const Study *study, const Line *line, int level, Change *su
     }
 }
 
-/* The step in colour across a pixel, beyond what its neighbours' slopes foretell, and how much of it lies before its mean: p is
-   the middle of five in a row. */
+/* The step in colour across a pixel beyond the neighbours' slopes, and the share of it before its mean: p is the
+   middle of five in a row. */
 typedef struct Jump {
     double step[3], sum, part;
 } Jump;
@@ -223,8 +223,8 @@ static bool jump_at(const Study *study, int x, int y, int du, int dv, int level,
     return find_jump(p, out);
 }
 
-/* A crease of the object, or an end of its relief, steps from one colour to another inside the object. Where the next row has
-   its step at the same place, by less than half the distance of samples, it runs with the pixels. */
+/* Adds a crease of the object, or an end of its relief: a step between two colours inside the object. If the
+   next row has its step within less than half the distance of samples, the crease is parallel to the pixels. */
 static void add_crease(const Study *study, int x, int y, int du, int dv, int level, Change *sum)
 {
     const double k = wr_level_side(level);
@@ -240,9 +240,9 @@ static void add_crease(const Study *study, int x, int y, int du, int dv, int lev
     }
 }
 
-/* Do outlines or creases run with the rows or the columns here? Then every pixel along them has the same coverage or colour,
-   and what two levels agree on may be off all the same. One between two blocks is doubted in both: either may hold the part of a
-   pixel that no sample meets. */
+/* Possible error of outlines or creases parallel to the rows or columns. Every pixel along them has the same
+   coverage or colour, so two levels can agree on a wrong value. One between two blocks is counted in both:
+   either may contain the part of a pixel that no sample hits. */
 static Change aligned(const Study *study, int64_t b, int level)
 {
     const Corner at = wr_study_corner(study, b);
@@ -356,8 +356,8 @@ bool wr_study_render(Study *study, int pair, int level, bool keep, float *out, W
 
 /* ---- climbing ---- */
 
-/* The blocks of a pair that are at a level and want the next into the mask. How many. The second level is made
-   with the best pair, as the first was: what changes between them is the samples. */
+/* Puts the blocks of a pair that are at a level and need the next into the mask. Returns their number. The
+   second level is rendered with the best pair, like the first: only the samples change between them. */
 static int64_t mask_climbers(Study *study, const unsigned char *wanted, int pair, int level)
 {
     int64_t found = 0;
@@ -388,14 +388,14 @@ bool wr_study_climb(Study *study, const unsigned char *wanted, WrError *err)
                 if (!study->mask[b]) continue;
                 wr_block_compare(block, level + 1);
                 block->level = (signed char)(level + 1);
-                if (level > 0) wr_study_drop(block, level - 1); /* nobody goes down two levels */
+                if (level > 0) wr_study_drop(block, level - 1); /* no block goes down two levels */
             }
         }
     return true;
 }
 
-/* A step of the relief may end in a block between its pixels' centres, where one sample a pixel does not see it: what one
-   row of the liveliest block beside it changes may be hidden there. */
+/* A step of the relief may end in a block between its pixels' centres, where one sample a pixel misses it: the
+   change of one row of the liveliest neighbouring block may be hidden there. */
 static void doubt_formula(Study *study, int pair)
 {
     Change *beside = wr_alloc((size_t)study->count, sizeof *beside);
@@ -433,7 +433,7 @@ bool wr_study_formula(Study *study, int pair, WrError *err)
     return true;
 }
 
-/* ---- the outcome ---- */
+/* ---- result ---- */
 
 static bool is_missing(const Block *block)
 {

@@ -1,4 +1,4 @@
-/* What was chosen: its parts, its picture, its words. */
+/* A choice: its parts, its picture, its description. */
 #include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* ---- making it ---- */
+/* ---- construction ---- */
 
 WR_ROWS(kind_names);
 static const char *const kind_names[KIND_COUNT] = { [WR_ROW(KIND_EDGE)] = "edges",
@@ -17,7 +17,7 @@ static const char *const kind_names[KIND_COUNT] = { [WR_ROW(KIND_EDGE)] = "edges
                                                     [WR_ROW(KIND_RELIEF)] = "relief",
                                                     [WR_ROW(KIND_ROUGH)] = "rough relief" };
 WR_ROWS_END(kind_names, KIND_COUNT);
-/* Of those that are no edges: root mean square of linear intensity. */
+/* Limits between the kinds that are not edges: root mean square of linear intensity. */
 static const double kind_ends[] = { 0.006, 0.03 };
 _Static_assert(WR_LENGTH(kind_ends) == KIND_COUNT - KIND_CALM - 1, "an end between two kinds");
 
@@ -36,7 +36,7 @@ static int setting_of(const Block *block)
     return block->pair * LEVELS + block->pick;
 }
 
-/* Which blocks have that setting. */
+/* Kinds of the blocks with that setting. */
 static unsigned kinds_of(const Study *study, int setting)
 {
     int64_t all[KIND_COUNT] = { 0 }, here[KIND_COUNT] = { 0 };
@@ -123,9 +123,9 @@ void wr_choice_fini(WrChoice *choice)
     wr_free(choice->part_of);
     *choice = (WrChoice){ 0 };
 }
-/* ---- using it ---- */
+/* ---- use ---- */
 
-/* Blocks that show nothing are rendered by nobody. */
+/* Clears the blocks without the object, which are not rendered. */
 static void clear_nothing(const WrChoice *choice, WrFrame *frame)
 {
     const int blocks_u = (choice->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
@@ -157,7 +157,7 @@ bool wr_choice_frame_told(WrRenderer *renderer, const WrFrameRequest *request,
         pass.dials = NULL;
         pass.only = only;
         pass.keep = false;
-        pass.hold = true; /* the next picture's choosing wants them all */
+        pass.hold = true; /* the next picture's choice needs them all */
         good = wr_renderer_frame(renderer, &pass, frame, err);
         if (!good) break;
         if (plan) wr_plan_add(plan, frame->plan);

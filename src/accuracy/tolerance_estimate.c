@@ -1,5 +1,5 @@
-/* What a block is off, from what one level changes in the one before; and a look at a few blocks far finer, lest two
-   levels agree on the same wrong thing. */
+/* Error estimate of a block from the change between levels, and tests of a few blocks at a much finer level, in
+   case two levels agree on a wrong value. */
 #include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
@@ -9,40 +9,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the square of what a step from k to 2k samples a side changes, c, where errors fall as k^-p:
-     outlines, p = 3/2   the finer is off by 1/9 of c if both are independent, by 0.3 if of the same sign;
-     noise finer than the samples, p = 1   by 1/5;   smooth, p = 2   by 1/9, and the coarser by 16/9.
-   How c falls from one step to the next tells them apart, roughly: by 8, by 4, by 16. */
+/* Error relative to c, the square of the change from k to 2k samples a side, if errors fall as k^-p:
+     outlines, p = 3/2   the finer has 1/9 of c if both are independent, 0.3 if they have the same sign;
+     noise finer than the samples, p = 1   1/5;   smooth, p = 2   1/9, and the coarser 16/9.
+   The fall of c from one step to the next distinguishes them roughly: by 8, by 4, by 16. */
 #define FINER 0.18
 #define COARSER_LEAST 1.0
 #define COARSER_MOST 1.8
-#define FALL 8.0 /* of c from one step to the next: what is reckoned with ahead ... */
+#define FALL 8.0 /* of c from one step to the next: assumed for prediction ... */
 #define FALL_MOST                                                                                  \
-    2.0           /* ... and of the largest of many pixels, which falls more slowly than the mean */
-#define FELL 14.0 /* what may have happened: a smaller step than that is luck */
+    2.0 /* ... and for the largest of many pixels, which falls more slowly than the mean */
+#define FELL 14.0 /* largest credible fall: a smaller step than that is chance */
 #define FELL_MOST 3.0
 static const double finer_most[LEVELS] = { 0, 0.85, 0.85, 0.75, 0.7 };
 
-/* What blocks that climbed on turned out to be off corrects the others: from so many on, within such bounds. */
+/* The actual errors of blocks that climbed correct the estimates of the others: from this number on, within
+   these bounds. */
 #define LEARNT_LEAST 6
 #define LEARNT_LOW 0.4
 #define LEARNT_HIGH 4.0
 
-#define HIDDEN 0.125 /* of the squares along a side of a neighbour: one of its BLOCK pixels */
+#define HIDDEN 0.125 /* part of the squares along a side of a neighbour: one of its BLOCK pixels */
 
-/* Probing: which picks, at which level; of what the picture takes such a part, for all of them. */
+/* Probing: the picks, the level of each probe, and the share of the picture's cost for all of them. */
 #define PROBED 3
 static const int probe_level[PROBED] = { 2, 3, 3 };
 #define PROBING 0.25
-#define GROWN 1.5   /* so many times as many blocks are probed anew */
-#define CAUTION 1.0 /* standard errors that are added to a ratio of the sample */
-#define FEW 4       /* probes that say little of a ratio: only what is far off is believed */
+#define GROWN 1.5   /* probing is repeated when the number of blocks has grown by this factor */
+#define CAUTION 1.0 /* standard errors added to a ratio of the sample */
+#define FEW 4       /* with fewer probes a ratio is uncertain: only large deviations count */
 #define FAR 2.0
 #define LEAST_WEIGHT 0.7
 #define MOST_WEIGHT 1000.0
-#define WORSE 1.15 /* more than that calls for picking anew */
+#define WORSE 1.15 /* a larger factor requires a new pick */
 
-/* ---- what a block is off ---- */
+/* ---- error of a block ---- */
 
 static Change larger(Change a, Change b)
 {
@@ -54,7 +55,7 @@ static Change times(Change a, double squares, double most)
     return (Change){ a.squares * squares, a.most * most };
 }
 
-/* At a level: by the step to it, and not by less than the steps before foretell. */
+/* At a level: by the step to it, but at least the prediction of the steps before. */
 static Change foretold(const Block *block, int level)
 {
     if (level == 0) return times(block->change[1], COARSER_LEAST, 1);
@@ -68,7 +69,7 @@ static Change foretold(const Block *block, int level)
     return off;
 }
 
-/* Of the step from a level to the next. */
+/* Factor from the step from a level to the next. */
 static double coarser(const Block *block, int level)
 {
     const double before = block->change[level].squares, after = block->change[level + 1].squares;
@@ -76,13 +77,13 @@ static double coarser(const Block *block, int level)
     return fmax(COARSER_LEAST, fmin(COARSER_MOST, before / after / 9));
 }
 
-/* So many levels above where it is off by that. */
+/* Prediction `above` levels higher, from the error here. */
 static Change off_above(Change here, int above)
 {
     return times(here, pow(1 / FALL, above), pow(1 / FALL_MOST, above));
 }
 
-/* At its own level, as others of its kind have turned out. */
+/* At its own level, corrected by the results of others of its kind. */
 static Change off_here(const Study *study, const Block *block)
 {
     const int level = block->level;
@@ -94,8 +95,8 @@ static Change off_here(const Study *study, const Block *block)
     return times(off, fmax(LEARNT_LOW, fmin(LEARNT_HIGH, right)), 1);
 }
 
-/* What a neighbour's pixels along the common side, or in the common corner, changed from the level below. At a level that it
-   has not seen, half as much for each further level. */
+/* Change of a neighbour's pixels along the common side, or at the common corner, from the level below. At a
+   level that it was not rendered at, half as much for each further level. */
 static Change beside(const Block *other, int u, int v, int level)
 {
     const int seen = level < 1 ? 1 : level < other->level ? level : other->level;
@@ -110,9 +111,9 @@ static Change beside(const Block *other, int u, int v, int level)
     return times(common, pow(0.25, above), pow(0.5, above));
 }
 
-/* An edge of the picture that passes through a neighbour (an outline, a crease, the end of the relief or a pole) may end in a
-   corner or along a side of this block where none of its samples meets it: then its own levels agree on the same wrong
-   colour. What is hidden there is no more than what the neighbour's nearest pixels change. */
+/* An edge of the picture that passes through a neighbour (an outline, a crease, the end of the relief or a pole)
+   may end in a corner or along a side of this block where none of its samples hits it: then its own levels agree
+   on the same wrong colour. The hidden error is at most the change of the neighbour's nearest pixels. */
 static Change hidden(const Study *study, const Block *block, int level)
 {
     const int64_t b = block - study->block;
@@ -128,7 +129,7 @@ static Change hidden(const Study *study, const Block *block, int level)
     return times(most, HIDDEN, 1);
 }
 
-/* By its own pictures alone. */
+/* From its own pictures only. */
 static Change off_seen(const Study *study, const Block *block, int level)
 {
     const Change here = off_here(study, block);
@@ -181,7 +182,7 @@ double wr_study_rms(const Study *study, double squares)
 
 typedef struct Probe {
     int64_t block;
-    double off; /* as estimated, squares */
+    double off; /* estimated error, squares */
 } Probe;
 
 static int by_off(const void *a, const void *b)
@@ -191,7 +192,7 @@ static int by_off(const void *a, const void *b)
     return (x->block > y->block) - (x->block < y->block);
 }
 
-/* All blocks of a pick, small errors to large. The caller frees. */
+/* All blocks of a pick, by increasing error. The caller frees. */
 static Probe *list_picked(const Study *study, int pick, int64_t *count)
 {
     Probe *list = wr_alloc((size_t)study->count + 1, sizeof *list);
@@ -205,8 +206,8 @@ static Probe *list_picked(const Study *study, int pick, int64_t *count)
     return list;
 }
 
-/* Blocks at equal steps of the errors' running sum, each raised by half the mean: what is estimated to be calm is
-   looked at too. Into the mask; how many. */
+/* Draws blocks at equal steps of the errors' cumulative sum, each raised by half the mean, so that blocks with
+   small estimates are included. Puts them into the mask; returns their number. */
 static int64_t draw(Study *study, const Probe *list, int64_t count, int64_t wanted,
                     double *floor_off)
 {
@@ -227,10 +228,10 @@ static int64_t draw(Study *study, const Probe *list, int64_t count, int64_t want
     return drawn;
 }
 
-/* What the drawn blocks are off beside the estimates: each counts for as much as it was drawn for. */
+/* Ratio of actual to estimated errors of the drawn blocks, each weighted by its drawing probability. */
 typedef struct Ratio {
     double sum, squares;
-    double most; /* largest errors, beside the estimates */
+    double most; /* ratio of the largest errors */
     int64_t count;
 } Ratio;
 
@@ -246,7 +247,7 @@ static void add_probe(const Study *study, const Block *block, const float *fine,
     ratio->count++;
 }
 
-/* From shares of estimate and floor to a factor of the estimate: the floors add up to half of the estimates. */
+/* Converts shares of estimate and floor to a factor of the estimate: the floors add up to half of the estimates. */
 double wr_study_factor(double shares, double squares, int64_t count)
 {
     const double n = (double)count, mean = shares / n;
@@ -281,7 +282,7 @@ static bool render_picks(Study *study, int pick, WrError *err)
     return good;
 }
 
-/* At least one; together about PROBING of what the picture takes. */
+/* Number of probes: at least one; in total about PROBING of the picture's cost. */
 static int64_t probes_wanted(const Study *study, int pick, int64_t count)
 {
     const double side = wr_level_side(probe_level[pick]);

@@ -1,9 +1,8 @@
-/* tolerance_internal.h - what choosing knows of a picture: its blocks, their pictures at one level after the other,
-   and what each is off by that.
-   Layer 6, private to tolerance*.c.
+/* tolerance_internal.h - study of a picture: its blocks with their pictures at increasing levels, and the
+   estimated errors. Private to tolerance*.c.
 
-   Levels are 1, 2, 4, 8 and 16 samples a side. Each block climbs as far as it must: what the step from one level
-   to the next changes tells what both are off, since errors fall by a known order. */
+   Levels are 1, 2, 4, 8 and 16 samples a side. Each block climbs as far as necessary: the change from one level
+   to the next gives an estimate of both errors, since errors fall by a known order. */
 #pragma once
 #include "accuracy/tolerance.h"
 #include "render/frame/frame.h"
@@ -15,7 +14,7 @@
 
 #define LEVELS 5
 #define TOP (LEVELS - 1)
-#define PAIRS_MAX 4 /* of slopes and normal; 0 is the best */
+#define PAIRS_MAX 4 /* pairs of slopes and normal; 0 is the best */
 
 /* Samples a side. */
 static inline int wr_level_side(int level)
@@ -23,7 +22,7 @@ static inline int wr_level_side(int level)
     return 1 << level;
 }
 
-/* Slopes and normal together. */
+/* Interpolation scheme and normal formula. */
 typedef struct Pair {
     WrScheme scheme;
     WrBumpMode mode;
@@ -41,60 +40,60 @@ typedef struct Corner {
     int x, y, w, h; /* of a block, pixels */
 } Corner;
 
-enum { LEFT, RIGHT, UPPER, LOWER, SIDES }; /* of a block, its outermost pixels */
+enum { LEFT, RIGHT, UPPER, LOWER, SIDES }; /* outermost pixels of a block */
 
-enum { NOTHING = 1, OBJECT = 2 }; /* what pixels show; and both */
+enum { NOTHING = 1, OBJECT = 2 }; /* content of pixels; may be combined */
 
 typedef struct Block {
-    bool shown;          /* any of the object is in it, or an outline next to it */
-    bool edge, lined;    /* an outline is in it or next to it; in it */
-    signed char level;   /* the highest that it was rendered at; 0: change[1] is foretold */
-    signed char pair;    /* from level 2 on, and of its pick */
-    signed char pick;    /* the level that it gets */
-    int covered;         /* pixels with coverage in the first picture */
-    float *rgba[LEVELS]; /* BLOCK_FLOATS each, owned; NULL: not rendered, or not needed any more */
-    signed char pair_of[LEVELS]; /* that the picture was made with */
+    bool shown;          /* it contains the object, or is next to an outline */
+    bool edge, lined;    /* edge: an outline is in it or next to it; lined: in it */
+    signed char level;   /* highest rendered level; 0: change[1] is predicted */
+    signed char pair;    /* pair from level 2 on, and of its pick */
+    signed char pick;    /* the chosen level */
+    int covered;         /* pixels covered in the first picture */
+    float *rgba[LEVELS]; /* BLOCK_FLOATS each, owned; NULL: not rendered, or no longer needed */
+    signed char pair_of[LEVELS]; /* pair that the picture was rendered with */
     Change change[LEVELS];       /* [n]: from level n - 1 to n */
-    Change side[LEVELS][SIDES];  /* of that the part along each side; 0 where change was foretold */
-    Change
-        step[LEVELS]; /* what an outline that runs with the pixels' rows may hide at that level */
-    Change formula[PAIRS_MAX]; /* what cheaper slopes and normals change, one sample a pixel */
+    Change side[LEVELS][SIDES];  /* the part of that along each side; 0 if change was predicted */
+    /* largest error at that level hidden by an outline parallel to the pixels' rows */
+    Change step[LEVELS];
+    Change formula[PAIRS_MAX]; /* change by cheaper slopes and normals, with one sample a pixel */
 } Block;
 
-/* Blocks whose estimates are corrected together: by the level of their pick. */
+/* Correction of the estimates of all blocks with the same pick. */
 typedef struct Doubt {
-    double weight;      /* times that errors are above the estimate, squared */
-    double weight_most; /* the same of the largest */
-    int64_t blocks;     /* how many had that pick when it was probed; 0: it was not */
+    double weight;      /* factor of actual over estimated errors, squared */
+    double weight_most; /* that factor for the largest error */
+    int64_t blocks;     /* number of blocks with that pick when it was probed; 0: not probed */
 } Doubt;
 
-/* What was foretold of a level's blocks from the step to it, beside what the step from it then told. */
+/* Predictions for a level's blocks from the step to it, and the results of the step from it. */
 typedef struct Learnt {
-    double foretold, told; /* squares, of the blocks that climbed on */
+    double foretold, told; /* squares, of the blocks that climbed */
     int64_t blocks;
 } Learnt;
 
 typedef struct Study {
     WrRenderer *renderer;
     const WrFrameRequest *request;
-    WrFrame *frame; /* the renderer's last */
+    WrFrame *frame; /* the renderer's last frame */
     int blocks_u, blocks_v;
-    int64_t count;       /* of blocks */
+    int64_t count;       /* number of blocks */
     Block *block;        /* [blocks_v][blocks_u] */
     unsigned char *mask; /* [blocks_v][blocks_u] for WrFrameRequest.only */
-    double pixels;       /* of the object */
+    double pixels;       /* pixels of the object */
     Pair pair[PAIRS_MAX];
     int pairs;
-    int mesh; /* WrDials, at least, from level mesh_from on */
+    int mesh; /* at least this value of WrDials.mesh from level mesh_from on */
     int mesh_from;
     Doubt doubt[LEVELS];
     Learnt learnt[LEVELS][2]; /* by level, and whether at an outline */
-    double spent;             /* of all frames so far, in prices */
-    double seconds;           /* of the same, by the clock, without what had to be made first */
+    double spent;             /* cost of all frames so far, in prices */
+    double seconds;           /* time of these frames, without initial preparations */
     int64_t shaded;
     int frames; /* rendered so far */
     WrStageTimes times;
-    WrPlan plan; /* what all frames took */
+    WrPlan plan; /* costs of all frames */
 } Study;
 
 /* ---- tolerance_blocks.c ---- */
@@ -102,80 +101,81 @@ typedef struct Study {
 /* The scene with a pair's and a level's dials; the caller frees it. */
 WrScene *wr_study_scene(const Study *study, int pair, int level);
 Corner wr_study_corner(const Study *study, int64_t block);
-/* What a block shows, by the pictures that it has, and what the pixels next to it do: NOTHING, OBJECT or both;
-   its pixels that the first picture covers are counted. */
+/* Content of a block, by its pictures, and of the pixels next to it: NOTHING, OBJECT or both; also counts its
+   pixels covered in the first picture. */
 int wr_study_look(const Study *study, int64_t b);
 int wr_study_look_around(const Study *study, int64_t b);
 void wr_study_drop(Block *block, int level);
-/* Those blocks of study->mask at a level with a pair. keep: as their pictures of that level; else into `out`,
-   BLOCK_FLOATS for each of them in order, or, where that is NULL too, nowhere: only study->frame has them. */
+/* Renders the blocks of study->mask at a level with a pair. keep: stores their pictures of that level; else into
+   `out`, BLOCK_FLOATS for each of them in order, or, if that is NULL too, only into study->frame. */
 bool wr_study_render(Study *study, int pair, int level, bool keep, float *out, WrError *err);
-/* Climb: each block that wants it gets its picture of the next level, with its pair. */
+/* Climb: each wanted block is rendered at the next level, with its pair. */
 bool wr_study_climb(Study *study, const unsigned char *wanted, WrError *err);
-/* What another pair changes, with one sample a pixel. */
+/* Measures the change by another pair, with one sample a pixel. */
 bool wr_study_formula(Study *study, int pair, WrError *err);
-/* Each block's picture at its pick, rendered where it is missing, in study->frame. */
+/* Composes each block's picture at its pick, rendered if missing, in study->frame. */
 bool wr_study_compose(Study *study, WrError *err);
 Change wr_block_change(const float *a, const float *b);
-/* Compare a block's pictures of a level and the one below: block->change and block->side of that level. */
+/* Compares a block's pictures of a level and the one below: sets block->change and block->side of that level. */
 void wr_block_compare(Block *block, int level);
 void wr_study_fini(Study *study);
 
 /* ---- tolerance_survey.c ---- */
 
-/* After wr_study_begin: the second level with the best pair where it must be: all blocks' pictures and what they
-   show. */
+/* After wr_study_begin: renders the second level with the best pair where necessary; sets all blocks' pictures
+   and contents. */
 bool wr_study_survey(Study *study, const WrTolerance *tolerance, WrError *err);
 
-/* The first level alone. */
+/* Renders the first level. */
 bool wr_study_begin(Study *study, const WrTolerance *tolerance, WrError *err);
-/* Of what the first level shows: does the best setting everywhere take no more than what would still have to be
-   rendered to choose at least, or does the time allow it? */
+/* After the first level: true if the best setting everywhere costs no more than the minimum still needed for
+   choosing, or the time allows it. */
 bool wr_study_best_is_cheaper(const Study *study, const WrTolerance *tolerance);
-/* Then that is taken: all blocks at the finest level, and what it changed tells what it is off. */
+/* Then uses it: all blocks at the finest level, with the error estimated from its change. */
 bool wr_study_take_best(Study *study, WrError *err);
 
 /* ---- tolerance_estimate.c ---- */
 
-/* What a block is off at a level with a pair: squares summed over pixels and channels, and the largest. A level
-   above the block's own is foretold from that. */
+/* Error of a block at a level with a pair: squares summed over pixels and channels, and the largest. Above the
+   block's own level it is predicted. */
 Change wr_study_off(const Study *study, const Block *block, int pair, int level);
 /* Root mean square of linear intensity over the object, of a sum of squares. */
 double wr_study_rms(const Study *study, double squares);
-/* How right were the estimates of blocks that have climbed on since? Those of the others follow. */
+/* Corrects the estimates by the results of blocks that have climbed since. */
 void wr_study_learn(Study *study);
-/* A few blocks of each pick at a far finer level: where they are off by more than was estimated, all of their
-   kind are taken to be. *worse: something was learnt that may change picks. */
+/* Renders a few blocks of each pick at a much finer level: if their errors exceed the estimates, those of all of
+   their kind are raised. *worse: the result may change picks. */
 bool wr_study_probe(Study *study, bool *worse, WrError *err);
-/* Errors that were seen beside those that were foretold, each raised by a floor that comes to half of all that is
-   foretold: the factor that makes the foretold right, with some caution. shares: their sum, and of their squares. */
+/* Factor that corrects predictions, with a safety margin, from the actual errors divided by the predicted ones,
+   each raised by a floor that adds up to half of all predictions. shares, squares: sum of the ratios, and of
+   their squares. */
 double wr_study_factor(double shares, double squares, int64_t count);
 
 /* ---- tolerance_pick.c ---- */
 
-/* The cheapest pair and level for each block that together keep to the tolerance, by what is known now; for a
-   time, in prices, the nearest that it allows. free_pairs: blocks may change their pairs. */
+/* Chooses the cheapest pair and level for each block that together meet the tolerance, by the current estimates;
+   for a time limit, in prices, the most accurate that it allows. free_pairs: blocks may change their pairs. */
 void wr_study_pick(Study *study, const WrTolerance *tolerance, bool free_pairs);
-/* What the picks take, in prices, and are off. */
+/* Cost of the picks, in prices, and their error. */
 double wr_study_cost(const Study *study);
 Change wr_study_picked_off(const Study *study);
 
 /* ---- tolerance_price.c ---- */
 
-/* What one sample takes: nanoseconds on the machine that the table was measured on; elsewhere in proportion. */
+/* Price of one sample: nanoseconds on the machine that the table was measured on; proportional elsewhere. */
 double wr_price_sample(const WrScene *scene, WrScheme scheme, WrBumpMode mode);
-/* Of a frame of so many samples beyond those: passes over its pixels. */
+/* Additional price of a frame of that many samples: passes over its pixels. */
 double wr_price_pass(int64_t pixels);
 
 /* ---- tolerance_speed.c ---- */
 
-/* Seconds of one price on this machine with so many threads: measured once and kept in a file, so that the same
-   time gives the same dials. The renderer's last picture is lost. */
+/* Seconds per price on this machine with that many threads: measured once and stored in a file, so that the same
+   time limit gives the same dials. The renderer's last picture is lost. */
 bool wr_price_seconds(WrRenderer *renderer, double *out, WrError *err);
 
 /* ---- tolerance_choice.c ---- */
 
-/* Kinds of blocks for people: outlines, and what is inside of them by how much 2 x 2 samples change it. A part's
+/* Kinds of blocks for descriptions: outlines, and insides by the size of the change by 2 x 2 samples. A part's
    `kinds` has two bits for each. */
 enum { KIND_EDGE, KIND_CALM, KIND_RELIEF, KIND_ROUGH, KIND_COUNT };
 enum { HAS_NONE, HAS_SOME, HAS_MOST, HAS_ALL };
@@ -183,20 +183,20 @@ enum { HAS_NONE, HAS_SOME, HAS_MOST, HAS_ALL };
 
 #define PARTS_MAX (PAIRS_MAX * LEVELS)
 
-/* "edges, some of the relief" into part->where, by part->kinds. */
+/* Writes "edges, some of the relief" to part->where, from part->kinds. */
 void wr_part_name(WrChoicePart *part);
-/* "tolerance rms=0.004: met; estimated rms 0.003, max 0.1; " and that, as the choice's reason. */
+/* Sets the choice's reason: "tolerance rms=0.004: met; estimated rms 0.003, max 0.1; " and `more`. */
 void wr_choice_say(WrChoice *choice, const WrTolerance *tolerance, const char *more);
-/* The scene with those slopes, that normal and samples of a level, and no tolerance; the caller frees it. */
+/* The scene with those slopes, that normal and samples of a level, without tolerance; the caller frees it. */
 WrScene *wr_level_scene(const WrScene *scene, WrScheme scheme, WrBumpMode mode, int level,
                         int mesh);
 
-/* The study's picks become the caller's choice: its parts. */
+/* Converts the study's picks to a choice with its parts, owned by the caller. */
 void wr_study_settle(const Study *study, WrChoice *out);
-/* wr_choice_frame; what its parts took together into *plan, which becomes the frame's, or NULL. */
+/* wr_choice_frame; the sum of its parts' costs goes into *plan, which becomes the frame's, or NULL. */
 bool wr_choice_frame_told(WrRenderer *renderer, const WrFrameRequest *request,
                           const WrChoice *choice, WrPlan *plan, WrFrame *frame, WrError *err);
-/* Stage by stage. */
+/* Adds the times of each stage. */
 void wr_times_add(WrStageTimes *sum, const WrStageTimes *more);
 /* Pixels with coverage. */
 int64_t wr_frame_covered(const WrFrame *frame);

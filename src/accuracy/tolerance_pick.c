@@ -1,4 +1,4 @@
-/* The cheapest pair and level for each block that together keep to the tolerance. */
+/* Choice of the cheapest pair and level for each block that together meet the tolerance. */
 #include "accuracy/tolerance_internal.h"
 
 #include "base/memory.h"
@@ -6,10 +6,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define MARGIN_RMS 0.93 /* parts of the tolerance to keep to */
+#define MARGIN_RMS 0.93 /* parts of the tolerance that are used */
 #define MARGIN_MAX 0.75
 #define SCATTERED                                                                                  \
-    0.12 /* of the time: blocks of several settings lie scattered, and short rows are slower */
+    0.12 /* of the time: blocks of several settings are scattered, and short rows are slower */
 
 #define OPTIONS (PAIRS_MAX * LEVELS)
 
@@ -44,10 +44,10 @@ static void take(Block *block, const Option *option)
     block->pick = (signed char)option->level;
 }
 
-/* ---- the worst pixel: every cell for itself ---- */
+/* ---- largest error: each cell separately ---- */
 
-/* What the next level changes at most says little of the worst pixel where pixels are few: four blocks, two by two, are
-   as fine as the finest of them has to be. */
+/* The next level's largest change is a poor estimate of the worst pixel if pixels are few: four blocks, two by
+   two, get the finest level that one of them needs. */
 #define CELL 2
 
 static void raise_cell(Study *study, int u, int v)
@@ -86,13 +86,13 @@ static void pick_most(Study *study, double most, bool free_pairs)
         for (int u = 0; u < study->blocks_u; u += CELL) raise_cell(study, u, v);
 }
 
-/* ---- the sum: by gain for its price ---- */
+/* ---- sum of errors: by gain per price ---- */
 
-/* A step of a block to a dearer option, on the lower hull of cost and error. */
+/* A step of a block to a more expensive option, on the lower hull of cost and error. */
 typedef struct Step {
     int64_t block;
     Option to;
-    double gain; /* squares less for a price of 1 */
+    double gain; /* decrease of squares per price */
     double more; /* price */
     double less; /* squares */
 } Step;
@@ -117,7 +117,7 @@ static double gain_of(const Option *from, const Option *to)
     return (from->off.squares - to->off.squares) / fmax(to->cost - from->cost, 1e-300);
 }
 
-/* Options by cost; those that no mix of others beats are moved to the front. How many. */
+/* Sorts options by cost; moves those on the lower convex hull to the front. Returns their number. */
 static int hull(Option *options, int count)
 {
     int kept = 0;
@@ -132,7 +132,7 @@ static int hull(Option *options, int count)
     return kept;
 }
 
-/* Every block at its cheapest, and all steps from there, best gain first. */
+/* Sets every block to its cheapest option, and lists all steps from there, largest gain first. */
 static Step *list_steps(Study *study, bool free_pairs, int64_t *count, Option *sum)
 {
     Step *steps = wr_alloc((size_t)study->count * OPTIONS + 1, sizeof *steps);
@@ -154,7 +154,7 @@ static Step *list_steps(Study *study, bool free_pairs, int64_t *count, Option *s
     return steps;
 }
 
-/* One setting for all that keeps to `squares` for less than `cost`, or -1. */
+/* One setting for all that meets `squares` for less than `cost`, or -1. */
 static int find_uniform(const Study *study, double squares, double cost)
 {
     int found = -1;
@@ -202,7 +202,7 @@ static void pick_within(Study *study, double cost, bool free_pairs)
     wr_free(steps);
 }
 
-/* ---- all ---- */
+/* ---- whole pick ---- */
 
 void wr_study_pick(Study *study, const WrTolerance *tolerance, bool free_pairs)
 {

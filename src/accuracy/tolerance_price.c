@@ -1,10 +1,10 @@
-/* What samples take, counted and not clocked: so the same picture gets the same dials wherever and whenever it is
-   made. */
+/* Price of samples by counted work, not time: so the same picture gets the same dials on any machine at any
+   time. */
 #include "accuracy/tolerance_internal.h"
 #include "base/enum_rows.h"
 
-/* Nanoseconds of one sample on one thread, by regression over all surfaces, slopes and normals at 512 x 512. What
-   matters is how they compare. */
+/* Nanoseconds of one sample on one thread, by regression over all surfaces, slopes and normals at 512 x 512.
+   Only the ratios matter. */
 WR_ROWS(surface_price);
 static const double surface_price[] = {
     [WR_ROW(WR_SURFACE_plane)] = 10.5,        [WR_ROW(WR_SURFACE_bent)] = 28,
@@ -27,9 +27,9 @@ static const double slope_price[] = {
 };
 WR_ROWS_END(slope_price, WR_SCHEME_COUNT);
 
-#define EXACT_PRICE 2.5    /* second derivatives, on curved surfaces */
-#define FORMULA_PRICE 20.0 /* F from a formula, a look at its terms */
-#define PASS_PRICE 0.4     /* of a pixel that a pass only steps over */
+#define EXACT_PRICE 2.5    /* factor for second derivatives, on curved surfaces */
+#define FORMULA_PRICE 20.0 /* F from a formula, for each of its terms */
+#define PASS_PRICE 0.4     /* of a pixel that a pass skips */
 
 double wr_price_sample(const WrScene *scene, WrScheme scheme, WrBumpMode mode)
 {

@@ -1,4 +1,4 @@
-/* How long a price takes on this machine: measured once and kept, so that the same time buys the same dials. */
+/* Time per price on this machine: measured once and stored, so that the same time limit gives the same dials. */
 #include "accuracy/tolerance_internal.h"
 
 #include "base/cpu.h"
@@ -16,10 +16,10 @@
 
 #define RUNS 7
 #define SIDE 256
-#define KEPT_MOST 4096 /* bytes of the file */
+#define KEPT_MOST 4096 /* maximum bytes of the file */
 
-/* $WRINKLE_STATE/speed if that is set, else $XDG_CACHE_HOME/wrinkle/speed, else ~/.cache/wrinkle/speed; made with its
-   folder. False: there is nowhere to keep it. */
+/* $WRINKLE_STATE/speed if that is set, else $XDG_CACHE_HOME/wrinkle/speed, else ~/.cache/wrinkle/speed; creates
+   its folder. False: there is no place to store it. */
 static bool find_file(WrText *path)
 {
     const char *own = getenv("WRINKLE_STATE"), *cache = getenv("XDG_CACHE_HOME");
@@ -29,7 +29,7 @@ static bool find_file(WrText *path)
     else if (home && home[0] == '/') wr_text_addf(path, "%s/.cache", home);
     else return false;
     wr_folder_make(wr_text_get(path),
-                   WR_FOLDER_FOR_ME); /* there already, mostly; else the write fails */
+                   WR_FOLDER_FOR_ME); /* usually it exists; otherwise the write fails */
     if (!own || !*own) {
         wr_text_add(path, "/wrinkle");
         wr_folder_make(wr_text_get(path), WR_FOLDER_FOR_ME);
@@ -38,14 +38,14 @@ static bool find_file(WrText *path)
     return true;
 }
 
-/* "2 threads, level 3: ": each has its own line. */
+/* "2 threads, level 3: ": prefix of the line for this configuration. */
 static void name_line(const WrRenderer *renderer, WrText *out)
 {
     wr_text_addf(out, "1 %d %s %d ", wr_renderer_threads(renderer), wr_renderer_isa(renderer),
                  wr_cpu_level());
 }
 
-/* Seconds of a price on the line of that beginning; 0: there is none. */
+/* Seconds per price on the line with that prefix; 0: there is none. */
 static double find_line(const char *text, const char *start)
 {
     for (const char *line = text; line; line = strchr(line, '\n')) {
@@ -61,7 +61,7 @@ static double find_line(const char *text, const char *start)
     return 0;
 }
 
-/* The fastest of some frames: what others do on the machine makes them slower, nothing makes them faster. */
+/* The fastest of several frames: other load can only make them slower. */
 static bool measure(WrRenderer *renderer, double *out, WrError *err)
 {
     WrField *field = wr_field_new(64, 64, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, err);

@@ -1,6 +1,6 @@
-/* The first look at a picture: one sample a pixel everywhere, 2 x 2 at outlines and on a few of the insides. What
-   2 x 2 would change on the others is foretold from how their neighbouring pixels differ, which a smooth inside
-   does not do: most of a calm picture is never rendered a second time. */
+/* First survey of a picture: one sample a pixel everywhere, 2 x 2 at outlines and on a few of the insides. The
+   change by 2 x 2 on the others is predicted from the differences of neighbouring pixels, which are small on
+   smooth insides: most of a calm picture is never rendered a second time. */
 #include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
@@ -11,14 +11,14 @@
 
 #define BLOCK WR_FRAME_BLOCK
 
-/* One inside of so many is looked at for what the others are foretold by. */
+/* One inside of this many is rendered at 2 x 2, to calibrate the predictions of the others. */
 #define LOOKED_AT 10
 #define LOOKED_LEAST 12
-#define LIVELIER 16.0 /* times as much foretold, squares: such a neighbour is one */
-#define LIVELIEST 6   /* root mean squares: the largest of a block's pixels, foretold */
+#define LIVELIER 16.0 /* ratio of predicted squares from which a neighbour counts as lively */
+#define LIVELIEST 6   /* in root mean squares: predicted largest error of a block's pixels */
 
-/* The usual mesh leaves an outline up to a quarter of a pixel off, typically a twentieth, which no number of samples
-   mends; each step of the dial makes that a quarter. May it be such a part of the tolerance? */
+/* The default mesh has an outline error of up to a quarter of a pixel, typically a twentieth, which samples
+   cannot reduce; each step of the dial reduces it to a quarter. Largest part of the tolerance that it may use: */
 #define MESH_OFF 0.05
 #define MESH_PART 0.3
 #define FINE_MESH 2
@@ -31,7 +31,7 @@ static bool mesh_matters(const Study *study)
     return !mesh->matters || mesh->matters(study->request->scene);
 }
 
-/* Squares that an outline which is one pixel off makes in a block. */
+/* Squares caused in a block by an outline error of one pixel. */
 static double outline_squares(const Study *study, int64_t b)
 {
     const Corner at = wr_study_corner(study, b);
@@ -49,7 +49,7 @@ static double outline_squares(const Study *study, int64_t b)
     return sum;
 }
 
-/* Finer from the second level on, if the usual mesh would take a part of the tolerance that shows. */
+/* Uses a finer mesh from the second level on, if the default mesh would use a significant part of the tolerance. */
 static void choose_mesh(Study *study, const WrTolerance *tolerance)
 {
     double sum = 0;
@@ -65,10 +65,11 @@ static void choose_mesh(Study *study, const WrTolerance *tolerance)
         study->mesh++;
 }
 
-/* ---- what 2 x 2 would change ---- */
+/* ---- prediction of the change by 2 x 2 ---- */
 
-/* The mean of 2 x 2 is off its pixel's centre by 1/32 of the pixels' second difference where all is smooth, by 1/4
-   of it where each pixel is a thing of its own; how the second difference compares with the first tells which. */
+/* The mean of 2 x 2 differs from the pixel's centre by 1/32 of the pixels' second difference if the picture is
+   smooth, by 1/4 of it if the pixels are independent; the ratio of the second to the first difference
+   distinguishes them. */
 static double foretell(const float *rgba)
 {
     double first = 0, second = 0;
@@ -89,8 +90,8 @@ static double foretell(const float *rgba)
     return second / inner * fmax(1.0 / 1024, rough / 16);
 }
 
-/* Insides that may be foretold: no outline in them or next to them. Into study->mask with 0, all others with 1.
-   Of a picture whose worst pixel counts every block is looked at. */
+/* Finds insides that may be predicted: without an outline in them or next to them. Sets them to 0 in
+   study->mask, all others to 1. If the largest error counts, every block is rendered. */
 static int64_t find_insides(Study *study, const WrTolerance *tolerance)
 {
     int64_t found = 0;
@@ -115,7 +116,7 @@ static int by_off(const void *a, const void *b)
     return (x->block > y->block) - (x->block < y->block);
 }
 
-/* Every so manieth from calm to lively into the mask, the liveliest among them. */
+/* Adds every n-th block, from calm to lively, to the mask, including the liveliest. */
 static void look_at_some(Study *study, Inside *list, int64_t count)
 {
     const int64_t wanted = count / LOOKED_AT > LOOKED_LEAST ? count / LOOKED_AT : LOOKED_LEAST;
@@ -124,7 +125,8 @@ static void look_at_some(Study *study, Inside *list, int64_t count)
         study->mask[list[count - 1 - i * count / wanted].block] = 1;
 }
 
-/* A calm block beside a lively one may hold the end of what makes that lively, between its pixels' centres. */
+/* A calm block beside a lively one may contain the end of the feature that makes it lively, between its pixels'
+   centres. */
 static void look_beside_lively(Study *study, const Inside *list, int64_t count)
 {
     double *off = wr_alloc((size_t)study->count, sizeof *off), sum = 0;
@@ -145,7 +147,7 @@ static void look_beside_lively(Study *study, const Inside *list, int64_t count)
     wr_free(off);
 }
 
-/* What those that were looked at are off beside what was foretold corrects the others. */
+/* Corrects the predictions of the others by the results of those rendered. */
 static void correct(Study *study, const Inside *list, int64_t count)
 {
     double sum = 0, shares = 0, squares = 0;
@@ -170,10 +172,10 @@ static void correct(Study *study, const Inside *list, int64_t count)
     }
 }
 
-/* ---- blocks and outlines ---- */
+/* ---- block contents and outlines ---- */
 
-/* An outline passes beside a block and may cut a corner of it that neither picture has seen: what one row of the
-   liveliest neighbour changed may be hidden there. */
+/* An outline that passes beside a block may cut a corner of it that neither picture hit: the change of one row
+   of the liveliest neighbour may be hidden there. */
 static void doubt_corner(Study *study, int64_t b)
 {
     const int u = (int)(b % study->blocks_u), v = (int)(b / study->blocks_u);
@@ -187,7 +189,7 @@ static void doubt_corner(Study *study, int64_t b)
         }
 }
 
-/* What each block shows, and what of it is nothing is let go. */
+/* Determines each block's content and frees the empty ones. */
 static void sort_blocks(Study *study)
 {
     unsigned char *seen = wr_alloc((size_t)study->count, 1);
@@ -210,7 +212,7 @@ static void sort_blocks(Study *study)
     wr_free(seen);
 }
 
-/* ---- all ---- */
+/* ---- interface ---- */
 
 bool wr_study_begin(Study *study, const WrTolerance *tolerance, WrError *err)
 {
@@ -219,7 +221,7 @@ bool wr_study_begin(Study *study, const WrTolerance *tolerance, WrError *err)
     return wr_study_render(study, 0, 0, true, NULL, err);
 }
 
-/* A part of a sample lies beside what the first picture covers: outlines. */
+/* Part of the samples that are beside those of the first picture: outlines. */
 #define BESIDE 1.1
 
 bool wr_study_best_is_cheaper(const Study *study, const WrTolerance *tolerance)
@@ -228,7 +230,7 @@ bool wr_study_best_is_cheaper(const Study *study, const WrTolerance *tolerance)
     const double pass = wr_price_pass((int64_t)study->request->width * study->request->height);
     const double best = BESIDE * study->pair[0].price * side * side * seen + pass;
     if (tolerance->kind == WR_TOLERANCE_TIME) return best <= tolerance->value;
-    /* 2 x 2, a step up from there, a probe of each; of samples none. */
+    /* 2 x 2, one step up from there, a probe of each; no time per sample. */
     return seen > 0 && best <= 4 * pass;
 }
 
@@ -240,7 +242,7 @@ bool wr_study_take_best(Study *study, WrError *err)
     study->pixels = 0;
     for (int64_t b = 0; b < study->count; b++) {
         Block *block = &study->block[b];
-        /* Outlines are seen by the finest: it stands for the second level, which nobody made. */
+        /* The finest level shows outlines: it stands for the second level, which was not rendered. */
         block->rgba[1] = block->rgba[TOP];
         const int seen = wr_study_look(study, b);
         block->rgba[1] = NULL;

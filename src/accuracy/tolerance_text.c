@@ -1,7 +1,7 @@
-/* A choice as one line of text, and back:
+/* Text form of a choice, one line:
      2 256x256 turn=0 table=HASH scene=HASH met=yes rms=0.003 max=0.1 parts=central,exact,1,0,3;... blocks=a12b.4
-   parts: slopes, normal, level, mesh, kinds. blocks: row by row, a letter for the part, '.' for none, and how many
-   of them follow each other. Text that begins with 1 has blocks of twice the side. */
+   parts: slopes, normal, level, mesh, kinds. blocks: row by row, a letter for the part, '.' for none, and the
+   run length. Text that begins with 1 has blocks of twice the side. */
 #include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define FORMAT '2'
-#define FORMAT_WIDE '1'         /* of blocks of twice the side; read, not written */
+#define FORMAT_WIDE '1'         /* with blocks of twice the side; only read */
 #define BLOCKS_MOST (256 << 10) /* bytes */
 #define SIDE_MOST 65536         /* pixels */
 _Static_assert(PARTS_MAX <= 26, "every part has a letter");
@@ -112,7 +112,8 @@ void wr_choice_write(const WrChoice *choice, const WrChoiceOrigin *origin, WrTex
 
 /* ---- parsing ---- */
 
-/* The text after NAME up to `end`, of 1 to room - 1 bytes; *p goes behind `end`. The last of a list has no ';'. */
+/* Parses the text after NAME up to `end`, of 1 to room - 1 bytes; *p moves after `end`. The last item of a list
+   has no ';'. */
 static bool take(const char **p, const char *name, char end, char *out, size_t room)
 {
     const size_t before = strlen(name);
@@ -200,7 +201,7 @@ static bool take_parts(const char **p, Written *out)
     return *at == '\0';
 }
 
-/* One run of blocks: their part, and how many of at most `most`. */
+/* Parses one run of blocks: their part, and their number, at most `most`. */
 static bool take_run(const char **p, int parts, int64_t most, int *part, int64_t *count)
 {
     const char letter = *(*p)++;
@@ -211,7 +212,7 @@ static bool take_run(const char **p, int parts, int64_t most, int *part, int64_t
     return *count >= 1 && *count <= most;
 }
 
-/* part_of: of blocks as they are written; NULL: only whether all is well. */
+/* part_of: of blocks as written; NULL: validates only. */
 static bool parse_blocks(const Written *written, unsigned char *part_of)
 {
     const int block = written->wide ? 2 * WR_FRAME_BLOCK : WR_FRAME_BLOCK;
@@ -228,7 +229,7 @@ static bool parse_blocks(const Written *written, unsigned char *part_of)
     return at == count;
 }
 
-/* NULL: it is one; else what is damaged. */
+/* NULL: valid; else a description of the damage. */
 static const char *parse(const char *text, Written *out)
 {
     const char *p = text;
@@ -299,7 +300,7 @@ static WrChoicePart make_part(const WrScene *scene, const WrittenPart *written)
     return part;
 }
 
-/* The caller frees. */
+/* Expands the blocks. The caller frees. */
 static unsigned char *read_blocks(const Written *written, int64_t count)
 {
     unsigned char *part_of = wr_alloc((size_t)count, 1), *wide;

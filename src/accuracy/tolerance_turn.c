@@ -1,6 +1,6 @@
-/* One choice for all frames of a turn: chosen on a few of them that lie spread over it, each block with the dearest
-   setting that it got on any; looked at on frames between those, where what it is off costs a part of a frame to
-   tell. */
+/* One choice for all frames of a turntable animation: chosen on a few frames spread over it, each block with the
+   most expensive setting of any. Frames between those are tested, where the error is estimated at a fraction of
+   a frame's cost. */
 #include "accuracy/tolerance_internal.h"
 
 #include "base/error.h"
@@ -11,15 +11,15 @@
 #include <math.h>
 #include <string.h>
 
-#define STUDIED_MOST 4  /* frames that dials are chosen on ... */
-#define STUDIED_SHARE 4 /* ... and at most one of so many */
-#define LOOKED_SHARE 8  /* of each part's blocks, one of so many is looked at */
+#define STUDIED_MOST 4  /* frames for which dials are chosen ... */
+#define STUDIED_SHARE 4 /* ... and at most one of this many */
+#define LOOKED_SHARE 8  /* one of this many of each part's blocks is tested */
 #define COARSER_LOOK                                                                               \
-    1.3 /* of the squares that twice as many samples a side change, what the coarser is off */
+    1.3 /* error of the coarser, relative to the squared change by twice as many samples a side */
 
-/* ---- a choice that does for two frames ---- */
+/* ---- union of the choices of two frames ---- */
 
-/* The choice's part of that level with the other's slopes and normal; made where it has none. */
+/* The choice's part with the level of one part and the slopes and normal of the other; created if missing. */
 static int find_part(WrChoice *choice, const WrChoicePart *level, const WrChoicePart *pair)
 {
     const WrScene *wanted = pair->scene;
@@ -52,7 +52,8 @@ static void count_blocks(WrChoice *choice)
         if (choice->part_of[b] != WR_CHOICE_NOTHING) choice->parts[choice->part_of[b]].blocks++;
 }
 
-/* The finest level and the dearest slopes and normal of four blocks, two by two: what turns moves from block to block. */
+/* The finest level and the most expensive slopes and normal of four blocks, two by two: features move between
+   blocks during a turn. */
 static void find_dearest(const WrChoice *choice, int64_t b, WrChoicePart *level, WrChoicePart *pair)
 {
     const int64_t across = (choice->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
@@ -67,7 +68,7 @@ static void find_dearest(const WrChoice *choice, int64_t b, WrChoicePart *level,
     }
 }
 
-/* Each block gets the finest level and the dearest slopes and normal of both. */
+/* Each block gets the finest level and the most expensive slopes and normal of both. */
 static void merge(WrChoice *sum, const WrChoice *more)
 {
     for (int64_t b = 0; b < blocks_of(sum); b++) {
@@ -84,8 +85,8 @@ static void merge(WrChoice *sum, const WrChoice *more)
     sum->top_seconds = fmax(sum->top_seconds, more->top_seconds);
 }
 
-/* What showed nothing on any frame may show something on another: it gets the finest, which costs nothing where
-   nothing is. */
+/* Blocks that are empty on all studied frames may contain the object on another: they get the finest setting,
+   which costs nothing on empty blocks. */
 static void fill_nothing(WrChoice *choice)
 {
     int finest = 0;
@@ -99,18 +100,18 @@ static void fill_nothing(WrChoice *choice)
     count_blocks(choice);
 }
 
-/* ---- looking at a frame ---- */
+/* ---- test of a frame ---- */
 
 typedef struct Look {
     WrRenderer *renderer;
     const WrFrameRequest *request;
     const WrChoice *choice;
     float *coarse;       /* the frame as chosen */
-    unsigned char *only; /* the blocks of a part that are looked at */
+    unsigned char *only; /* the tested blocks of a part */
     double squares, most;
 } Look;
 
-/* One in LOOKED_SHARE of a part's blocks into `only`. How many. */
+/* Selects one in LOOKED_SHARE of a part's blocks into `only`. Returns their number. */
 static int64_t draw(const Look *look, int part)
 {
     int64_t passed = 0, drawn = 0;
@@ -140,7 +141,7 @@ static double add_difference(Look *look, const WrFrame *fine)
     return squares;
 }
 
-/* Some blocks of a part with twice as many samples a side: they tell what all of it is off. */
+/* Renders some blocks of a part with twice as many samples a side, to estimate the error of all of it. */
 static bool look_at_part(Look *look, int index, WrError *err)
 {
     const WrChoicePart *part = &look->choice->parts[index];
@@ -163,7 +164,7 @@ static bool look_at_part(Look *look, int index, WrError *err)
     return good;
 }
 
-/* What a frame of another turn is off with those dials, roughly; *seconds: that the frame itself took. */
+/* Approximate error of a frame of another turn with those dials; *seconds: time of the frame itself. */
 static bool look_at(WrRenderer *renderer, const WrFrameRequest *request, const WrChoice *choice,
                     double *rms, double *most, double *seconds, WrError *err)
 {
@@ -192,7 +193,7 @@ typedef struct Turn {
     WrRenderer *renderer;
     WrFrameRequest request;
     WrChoice choice;
-    int studied, checked, again; /* frames */
+    int studied, checked, again; /* numbers of frames */
     double study_seconds, frame_seconds, rms;
 } Turn;
 
@@ -213,7 +214,7 @@ static bool study(Turn *turn, double turn_deg, WrError *err)
     return true;
 }
 
-/* Where it does not hold, that frame is studied too. */
+/* Tests a frame. If the choice fails there, that frame is studied too. */
 static bool check(Turn *turn, double turn_deg, WrError *err)
 {
     const WrTolerance *tolerance = &turn->request.scene->tolerance;

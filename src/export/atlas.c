@@ -19,7 +19,7 @@
 typedef struct Cells {
     WrField *cell[CELLS_MOST]; /* owned */
     int count, columns;
-    int wide, high; /* of a place of the grid, margins included */
+    int wide, high; /* of a grid place, margins included */
 } Cells;
 
 /* ---- the cells ---- */
@@ -80,7 +80,7 @@ static bool add_file(Cells *cells, const char *path, WrError *err)
     return field != NULL;
 }
 
-/* "A;B;C" */
+/* Adds the cells of "A;B;C". */
 static bool add_files(Cells *cells, const char *list, WrError *err)
 {
     for (const char *at = list; *at;) {
@@ -103,7 +103,7 @@ static int within(int i, int n, bool clamp)
     return rest < 0 ? rest + n : rest;
 }
 
-/* The cell with its margins, from (x, y) of the table on. */
+/* Copies the cell with its margins to (x, y) of the table. */
 static void place(WrField *to, const WrField *cell, int x, int y, int margin)
 {
     const int w = wr_field_width(cell), h = wr_field_height(cell), width = w + 2 * margin;

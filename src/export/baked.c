@@ -1,11 +1,12 @@
-/* Normal maps baked for a mesh: at each texel the bumped normal of the place whose (u,v) it is, in the frame that
- * MikkTSpace gives that place, so that programs which shade by
- *
- *   n' = unit(x vT + y vB + z vN),   vB = sign vN x vT,   vT and vN interpolated and not made unit
- *
- * see n' = unit(n - grad F), grad F = Fu grad u + Fv grad v without its part along n (surface/triangles.h). Texels without
- * a place get the mean of their neighbours, ring by ring, as far as the padding goes, so that a filter at an island's edge
- * finds nothing else. Of several places with one (u,v) the last triangle counts: mirrored ones have the same normal there. */
+/* Baking of normal maps for a mesh. Each texel gets the bumped normal of the surface point with its (u,v), in
+   the tangent frame of MikkTSpace, so that programs which shade by
+
+     n' = unit(x vT + y vB + z vN),   vB = sign vN x vT,   vT and vN interpolated and not normalised
+
+   obtain n' = unit(n - grad F), grad F = Fu grad u + Fv grad v without its component along n
+   (surface/triangles.h). Uncovered texels get the mean of their neighbours, ring by ring, up to the padding, so
+   that a filter at an island's edge reads only such values. Of several points with one (u,v) the last triangle
+   counts: mirrored ones have the same normal there. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -18,26 +19,26 @@
 
 #include <math.h>
 
-#define LOOK 4096   /* triangles between two looks at the cancel */
-#define SLIVER 1e-5 /* height over longest side */
+#define LOOK 4096   /* triangles between two checks for cancellation */
+#define SLIVER 1e-5 /* smallest ratio of height to longest side */
 
-/* Of a texel, in place of a triangle. */
+/* Values of `owner` that are not triangles. */
 enum { NOBODY = -1, PADDING = -2, THIS_RING = -3 };
 
 typedef struct Bake {
     WrExportJob *job;
     const WrTriangles *mesh;
     const WrTangent *frames; /* [3 triangles] */
-    int32_t *owner;          /* [height][width] triangle, or one of these */
-    int padded;              /* whether the ring at hand has got any texel */
+    int32_t *owner;          /* [height][width] index of a triangle, or one of these */
+    int padded;              /* set if the current ring has any texel */
 } Bake;
 
-/* ---- which triangle a texel is of ---- */
+/* ---- coverage of texels by triangles ---- */
 
 /* A triangle on the map: texels from the top left, centres at whole numbers. */
 typedef struct Flat {
-    double x[3], y[3], area2; /* of any sign */
-    int x0, x1, y0, y1;       /* texels that it can cover; not brought into the map */
+    double x[3], y[3], area2; /* signed */
+    int x0, x1, y0, y1;       /* texels that it can cover; not wrapped into the map */
 } Flat;
 
 static int whole(double x)
@@ -61,13 +62,13 @@ static bool lay_flat(const Bake *bake, int32_t triangle, Flat *flat)
                   (flat->x[2] - flat->x[0]) * (flat->y[1] - flat->y[0]);
     flat->x0 = whole(ceil(low[0] - 1e-9)), flat->x1 = whole(floor(high[0] + 1e-9));
     flat->y0 = whole(ceil(low[1] - 1e-9)), flat->y1 = whole(floor(high[1] + 1e-9));
-    /* One that is larger than the map lies over itself: once is enough. */
+    /* A triangle larger than the map overlaps itself: one period is enough. */
     if (flat->x1 - flat->x0 >= bake->job->width) flat->x1 = flat->x0 + bake->job->width - 1;
     if (flat->y1 - flat->y0 >= bake->job->height) flat->y1 = flat->y0 + bake->job->height - 1;
     return flat->area2 != 0.0 && isfinite(flat->area2);
 }
 
-/* The shares of the corners at a texel's centre. */
+/* Barycentric coordinates of a texel's centre. */
 static void shares(const Flat *flat, double x, double y, double l[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -83,7 +84,8 @@ static int wrapped(int i, int size)
     return rest < 0 ? rest + size : rest;
 }
 
-/* One whose corners lie on a line, as at a sphere's pole, is never seen, but its slopes are beyond all bounds. */
+/* True if the corners are almost collinear, as at a sphere's pole: such a triangle is invisible, but its slopes
+   are unbounded. */
 static bool is_sliver(const Bake *bake, int32_t triangle)
 {
     const int32_t *corner = bake->mesh->triangles[triangle].corner;
@@ -112,14 +114,14 @@ static void cover(Bake *bake, int32_t triangle)
         }
 }
 
-/* ---- the normal there ---- */
+/* ---- normal at a texel ---- */
 
 static WrVec3 mixed(const double l[3], const WrVec3 of[3])
 {
     return v3_mad(v3_mad(v3_scale(of[0], l[0]), of[1], l[1]), of[2], l[2]);
 }
 
-/* The places and normals of a triangle's corners, and its frames. */
+/* Positions and normals of a triangle's corners, and its frames. */
 static void corners_of(const Bake *bake, int32_t triangle, WrVec3 p[3], WrVec3 n[3], WrVec3 t[3],
                        double uv[3][2])
 {
@@ -132,7 +134,7 @@ static void corners_of(const Bake *bake, int32_t triangle, WrVec3 p[3], WrVec3 n
     }
 }
 
-/* x, y, z of a vector along three that need not be at right angles. */
+/* Components x, y, z of a vector in three axes that need not be perpendicular. */
 static bool along(WrVec3 t, WrVec3 b, WrVec3 n, WrVec3 of, WrVec3 *out)
 {
     const WrVec3 bn = v3_cross(b, n), nt = v3_cross(n, t), tb = v3_cross(t, b);
@@ -142,7 +144,7 @@ static bool along(WrVec3 t, WrVec3 b, WrVec3 n, WrVec3 of, WrVec3 *out)
     return true;
 }
 
-/* False where the place has no frame. */
+/* Normal of one texel. False if the point has no frame. */
 static bool bake_texel(const Bake *bake, int32_t triangle, int x, int y, WrVec3 *out)
 {
     const WrExportJob *job = bake->job;
@@ -151,7 +153,7 @@ static bool bake_texel(const Bake *bake, int32_t triangle, int x, int y, WrVec3 
     double uv[3][2], l[3], f, fu, fv;
     Flat flat;
     lay_flat(bake, triangle, &flat);
-    /* The one of its repeats that lies over the triangle. */
+    /* Chooses the periodic copy of the texel that is inside the triangle. */
     x = flat.x0 + wrapped(x - flat.x0, job->width);
     y = flat.y0 + wrapped(y - flat.y0, job->height);
     shares(&flat, x, y, l);
@@ -194,7 +196,7 @@ static void bake_piece(WrExportJob *job, int y, int rows, void *ctx)
 
 /* ---- padding ---- */
 
-/* One that has none takes the mean of its neighbours that have: of places, or of a ring before this one. */
+/* Sets an uncovered texel to the mean of its covered neighbours: covered by triangles, or by an earlier ring. */
 static bool pad_texel(Bake *bake, int x, int y)
 {
     const int width = bake->job->width, height = bake->job->height;
@@ -214,7 +216,7 @@ static bool pad_texel(Bake *bake, int x, int y)
     return count > 0;
 }
 
-/* Those of this ring count for the next only. */
+/* Texels of this ring are used only by the next one. */
 static void ring_piece(WrExportJob *job, int y, int rows, void *ctx)
 {
     Bake *bake = ctx;
@@ -243,7 +245,7 @@ static void pad_ring(Bake *bake)
     wr_export_run(job, 0, job->height, settle_piece, bake);
 }
 
-/* ---- all of it ---- */
+/* ---- whole map ---- */
 
 static bool bake_all(Bake *bake, WrError *err)
 {

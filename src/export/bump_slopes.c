@@ -1,5 +1,5 @@
-/* Bump slopes: a height, its two slopes and their products, per texel, on every level down to one texel. What is above
- * level 0 is the mean of what it covers, so that moments of slopes stay moments. */
+/* Bump slopes: a height, its two slopes and their products, per texel, on every mip level down to one texel.
+   Levels above 0 are means of the texels they cover, so that moments of slopes stay moments. */
 #include "export/mip_files.h"
 
 #include "base/memory.h"
@@ -17,9 +17,9 @@
 #define APRON 1
 #define HIGHEST 3e38f
 #define STEEPEST                                                                                   \
-    0x1p63 /* of a slope: its square is still a float, and so is a sum of them (HC142) */
+    0x1p63 /* limit of a slope: its square, and a sum of squares, fit in a float (HC142) */
 
-/* Factors of slopes to the right and downwards per texel. */
+/* Factors from slopes to slopes per texel, to the right and downwards. */
 typedef struct Factors {
     double s, t;
 } Factors;
@@ -38,7 +38,7 @@ static double limited(double slope, bool *bad)
     return isnan(slope) ? 0.0 : copysign(STEEPEST, slope);
 }
 
-/* One texel's channels; 1 where a number had to be replaced. */
+/* Stores one texel's channels; returns 1 if a number had to be replaced. */
 static inline int64_t put(double f, double s, double t, float *restrict out)
 {
     bool bad = !(fabs(f) <= (double)HIGHEST);
@@ -49,14 +49,14 @@ static inline int64_t put(double f, double s, double t, float *restrict out)
     return bad;
 }
 
-/* ---- a table: its taps, by columns that stay in the nearest cache ---- */
+/* ---- tables: the taps, processed by columns that stay in the first-level cache ---- */
 
 typedef struct Piece {
     const WrExportJob *job;
     const WrNormalKernels *kernels;
     WrNormalJob slopes; /* per texel */
     Factors factors;
-    float *out; /* of row `y` */
+    float *out; /* output of row `y` */
     int y, rows;
     int64_t replaced;
 } Piece;
@@ -70,11 +70,12 @@ static double spline_at(const double *at, ptrdiff_t pitch)
     return (above + 4.0 * here + below) / 36.0;
 }
 
-/* Texels [x, x + count) of row j. at: taps; heights: NULL, where the spline of the taps says them. */
+/* Stores texels [x, x + count) of row j. at: taps; heights: NULL if they follow from the spline of the taps. */
 static void put_run(Piece *piece, int x, int count, int j, const double *at, ptrdiff_t pitch,
                     const float *heights)
 {
-    const double right = piece->factors.s, down = -piece->factors.t; /* t comes upwards */
+    /* t points down, the job's v up */
+    const double right = piece->factors.s, down = -piece->factors.t;
     double s[WR_NORMAL_STRIP], t[WR_NORMAL_STRIP];
     float spline[WR_NORMAL_STRIP];
     float *out = piece->out + ((size_t)j * (size_t)piece->job->width + (size_t)x) * CHANNELS;
@@ -112,7 +113,7 @@ static void table_rows(Piece *piece)
     }
 }
 
-/* Coefficients are not rounded; the spline through the samples has their heights. */
+/* Coefficients are not rounded to float; the spline through the samples has their heights. */
 static void fitted_rows(Piece *piece)
 {
     const size_t width = (size_t)piece->job->width, pitch = width + 2 * APRON;
@@ -146,7 +147,7 @@ static void formula_rows(Piece *piece)
         }
 }
 
-/* Rows [y, y + rows), at most WR_EXPORT_PIECE_ROWS; how many numbers were replaced. */
+/* Computes rows [y, y + rows), at most WR_EXPORT_PIECE_ROWS; returns the number of replaced values. */
 static int64_t make_rows(const WrExportJob *job, int y, int rows, float *out)
 {
     Piece piece = { .job = job,
@@ -167,7 +168,7 @@ static int64_t make_rows(const WrExportJob *job, int y, int rows, float *out)
     return piece.replaced;
 }
 
-/* ---- the kind ---- */
+/* ---- export kind ---- */
 
 typedef struct Strip {
     int y;

@@ -16,12 +16,12 @@
 
 #define SQRT3 1.7320508075688772
 
-/* A table under way. */
+/* A table under construction. */
 typedef struct Sheet {
     WrExportJob *job;
-    WrField *field; /* owned; NULL: still the job's own */
+    WrField *field; /* owned; NULL: the job's own table */
     const WrField *from;
-    int width, height; /* of what is made */
+    int width, height; /* size of the new table */
 } Sheet;
 
 static const WrField *now(const Sheet *s)
@@ -37,7 +37,7 @@ static void take(Sheet *s, WrField *field)
 
 /* ---- rows of a new table ---- */
 
-/* Row y of it, from s->from. */
+/* Fills row y of the new table from s->from. */
 typedef void Row(const Sheet *s, int y, float *out);
 
 static bool make(Sheet *s, int width, int height, Row *row, WrError *err)
@@ -60,7 +60,7 @@ static bool make(Sheet *s, int width, int height, Row *row, WrError *err)
     return true;
 }
 
-/* Columns [i, i + count) of the old table's row j, wrapped whatever its edges are. */
+/* Copies columns [i, i + count) of the old table's row j, wrapped even if its edges are clamped. */
 static void copy(const WrField *from, int i, int j, int count, float *out)
 {
     const int width = wr_field_width(from), height = wr_field_height(from);
@@ -95,8 +95,8 @@ static void formula_row(const Sheet *s, int y, float *out)
     wr_export_heights(s->job, y, 1, out);
 }
 
-/* The cell's sides are the lattice's: one along x, the other 60 degrees from it. A point (x, y) of the rectangle of L by
- * sqrt(3) L stands at u = x/L - y/(sqrt(3) L), v = 2y/(sqrt(3) L). */
+/* The cell's sides are those of the lattice: one along x, the other at 60 degrees to it. A point (x, y) of the
+   rectangle of L by sqrt(3) L is at u = x/L - y/(sqrt(3) L), v = 2y/(sqrt(3) L). */
 static void hex_row(const Sheet *s, int y, float *out)
 {
     const size_t width = (size_t)s->width;
@@ -201,7 +201,8 @@ WrField *wr_export_sheet(WrExportJob *job, bool *good, WrError *err)
     return NULL;
 }
 
-/* Cells in other rows than their edges', as in an atlas or a hexagonal sheet, are judged before they are laid out. */
+/* If neighbouring cells meet at other rows than their edges, as in an atlas or a hexagonal sheet, the original
+   cell is tested. */
 WrCertificate wr_export_certify(const WrExportJob *job)
 {
     if (job->analytic) return wr_certificate_formula(&job->scene->analytic);
@@ -213,7 +214,7 @@ WrCertificate wr_export_certify(const WrExportJob *job)
     return out;
 }
 
-/* ---- levels as files ---- */
+/* ---- mip levels as files ---- */
 
 WrField *wr_export_half(const WrExportJob *job, const WrField *field, WrError *err)
 {

@@ -1,6 +1,6 @@
-/* cell_layout.h - cells laid out before they are exported: repeats, half-drop and brick, a hexagonal lattice as a rectangle,
-   several cells in an atlas, another number of texels.
-   Layer 6. Private to this room. */
+/* cell_layout.h - arrangement of cells before export: repetition, half-drop and brick, a hexagonal lattice as a
+   rectangle, an atlas, resizing.
+   Private to this module. */
 #pragma once
 #include "field/certificate.h"
 
@@ -11,14 +11,15 @@ typedef struct WrExportJob WrExportJob;
 typedef struct WrField WrField;
 typedef struct WrText WrText;
 
-/* The table that the job's options lay out of its own, the size of its cell in the options, the copies in the job; a formula's heights are
- * sampled into it. NULL where nothing is to be laid out, and *good stays; NULL and an error where it cannot. */
+/* Builds the table that the job's options request; stores the cell's size in the options and the copies in the
+   job. A formula's heights are sampled into it. NULL with *good unchanged if nothing is requested; NULL and an
+   error on failure. */
 WrField *wr_export_sheet(WrExportJob *job, bool *good, WrError *err);
 
-/* How the edges of the job's cell meet, as it is laid. */
+/* Seam continuity of the job's cell in its arrangement. */
 WrCertificate wr_export_certify(const WrExportJob *job);
 
-/* A table of half the size, rounded down, at least 1: means of what its texels cover. */
+/* A table of half the size, rounded down, at least 1: means of the covered texels. */
 WrField *wr_export_half(const WrExportJob *job, const WrField *field, WrError *err);
-/* "a.png" of level 2: "a_2.png". */
+/* File name of a level: "a.png", level 2: "a_2.png". */
 void wr_export_level_name(const char *path, int level, WrText *name);

@@ -1,4 +1,4 @@
-/* Several maps in one picture, a channel each, as numbers 0..1. */
+/* Packing of several maps into one picture, one per channel, as numbers 0..1. */
 #include "export/channel_packing.h"
 
 #include "base/error.h"
@@ -13,13 +13,13 @@
 
 #include <string.h>
 
-/* What a channel may hold: a kind that is made whole, from its first code to its last. */
+/* Possible content of a channel: a kind that is computed as a whole, from its first code to its last. */
 typedef struct Filling {
     const char *word, *kind;
-    bool turned; /* 1 less it */
+    bool turned; /* inverted: 1 - value */
 } Filling;
 
-/* Without a kind: of the material, the same everywhere. */
+/* Without a kind: a constant of the material. */
 static const Filling fillings[] = {
     { "occlusion", "occlusion", false }, { "roughness", "roughness", false },
     { "smoothness", "roughness", true }, { "metalness", NULL, false },
@@ -86,7 +86,7 @@ int wr_export_packed_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NA
     return count;
 }
 
-/* What channel c is filled with; left out: occlusion, roughness, metalness. */
+/* Content of channel c; default: occlusion, roughness, metalness. */
 static WrExportPack pack_of(const WrExportJob *job, int c)
 {
     static const int usual[] = { 1, 2, 4, 1 };
@@ -106,7 +106,7 @@ static void put_constant(WrExportJob *job, int c, float x)
     for (size_t i = 0; i < texels; i++) job->map[i * (size_t)job->channels + (size_t)c] = x;
 }
 
-/* Of the codes that the map alone would have: 0 the first, 1 the last, what is between them in proportion. */
+/* Stores a map's codes as 0..1: 0 for its first code, 1 for its last, linear in between. */
 static void put_map(WrExportJob *job, int c, const WrExportJob *one, bool turned)
 {
     const size_t texels = (size_t)job->width * (size_t)job->height;
@@ -137,7 +137,7 @@ static bool make_channel(WrExportJob *job, int c, WrError *err)
     one.channels = 1;
     one.map = NULL;
     one.attribute_count = 0;
-    if (one.options.depth == 32) one.options.depth = 16; /* its codes' ends are what is wanted */
+    if (one.options.depth == 32) one.options.depth = 16; /* the range of its codes is needed */
     const bool good = one.kind->make(&one, err);
     if (good) put_map(job, c, &one, filling->turned);
     job->report.replaced = one.report.replaced;

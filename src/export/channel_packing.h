@@ -1,6 +1,6 @@
-/* channel_packing.h - several maps in one picture, as game engines want them: red, green, blue and alpha hold what they are told,
-   each from 0 to 1; rows of wr_export_kinds name this.
-   Layer 6. Private to this room. */
+/* channel_packing.h - option parsers of packed maps, which game engines read: red, green, blue and alpha have
+   chosen contents, each from 0 to 1. Used in rows of wr_export_kinds.
+   Private to this module. */
 #pragma once
 #include "export/map_options.h"
 

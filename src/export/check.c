@@ -11,17 +11,17 @@
 #include <math.h>
 #include <string.h>
 
-#define NORMAL_OFF 0.15  /* from length 1 on average, at most, to be taken for normals */
-#define NORMAL_AWAY 0.05 /* share */
+#define NORMAL_OFF 0.15  /* largest mean deviation of lengths from 1 for a normal map */
+#define NORMAL_AWAY 0.05 /* largest share of normals that point away */
 #define CURLED                                                                                     \
-    0.6 /* more is no height; of noise from texel to texel B-splines leave 0.24, Sobel's filter 0.45 */
+    0.6 /* curl above this: not from a height field; for white noise B-splines give 0.24, Sobel's filter 0.45 */
 
 const char *const wr_check_kinds[] = { WR_CHECK_KINDS(WR_WORD) NULL };
 const char *const wr_check_problems[] = { WR_CHECK_PROBLEMS(WR_WORD) NULL };
 
 /* ---- edges ---- */
 
-/* One colour as a table that goes round; without the border that repeats the first column and row. */
+/* One colour channel as a periodic table; without the border that repeats the first column and row. */
 static WrField *field_of(const WrCheckPicture *p, int colour, bool border, WrError *err)
 {
     const int w = p->image->width - border, h = p->image->height - border;
@@ -56,7 +56,7 @@ static void take_worse(const WrSeamEdge *e, WrCheckEdge *edge)
     edge->test = *e;
 }
 
-/* Of the axis that is `axis` in the label. */
+/* Judges the axis with index `axis` in the label. */
 static void judge(const WrImageLabel *label, int axis, WrCheckEdge *edge)
 {
     edge->seam = edge->judged && wr_seam_shows(&edge->test);
@@ -66,7 +66,7 @@ static void judge(const WrImageLabel *label, int axis, WrCheckEdge *edge)
     else if (!edge->seam) edge->seam = edge->told = true;
 }
 
-/* Is the last column (row) the first one again? */
+/* True if the last column (row) equals the first. */
 static bool is_repeated(const WrCheckPicture *p, bool columns)
 {
     const int w = p->image->width, h = p->image->height, step = p->image->channels;
@@ -102,7 +102,7 @@ static bool check_edges(const WrCheckPicture *p, WrCheck *check, WrError *err)
     return true;
 }
 
-/* ---- what it is ---- */
+/* ---- kind of picture ---- */
 
 static bool is_grey(const WrImage *image)
 {
@@ -172,7 +172,7 @@ static bool check_normals(const WrImage *image, int kind, WrCoding coding, WrChe
     return true;
 }
 
-/* Slopes (p, q) as the normals that have them. */
+/* Converts slopes (p, q) to the normals that have them. */
 static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
 {
     WrNormalTold told;
@@ -189,7 +189,7 @@ static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
     WrImage *map = wr_normal_map_read(normals, WR_GREEN_AUTO, 3, WR_CODING_SIGNED, &told, err);
     if (map) {
         take_told(&told, &check->normals);
-        check->normals.lengths = false; /* made here */
+        check->normals.lengths = false; /* computed here */
         wr_check_curl(map, 1e-6, &check->normals);
     }
     wr_image_free(map);
@@ -198,11 +198,11 @@ static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
     return map != NULL;
 }
 
-/* ---- what is wrong ---- */
+/* ---- problems ---- */
 
-/* How far rounding moves a length from 1, in each number: half a code of 2/M, a whole one where 0 has a code of its own.
- * Codes that were made without such a 0 and are read with it (most of the map is flat) are up to half a code more off, and
- * one whole code near -1. */
+/* Largest deviation of a length from 1 by rounding, in each number: half a code of 2/M, or a whole one where 0
+   has a code of its own. Codes made without such a zero and read with it (most of the map is flat) are off by up
+   to half a code more, and by one whole code near -1. */
 static double most_off(const WrCheck *check)
 {
     if (check->numbers.half) return 2e-3;
@@ -258,8 +258,8 @@ static bool check_image(const WrImage *image, int colours, int kind, WrCoding co
     return true;
 }
 
-/* The two channels of floats of a file's first part, where it has two and they are not grey and coverage; else NULL, and
- * only where something went wrong an error. */
+/* The two float channels of a file's first part, if it has two and they are not grey and coverage; else NULL; an
+   error only on failure. */
 static WrImage *read_slopes(const char *path, WrError *err)
 {
     WrImageFile *file = wr_image_file_open(path, err);
@@ -276,7 +276,7 @@ static WrImage *read_slopes(const char *path, WrError *err)
     return slopes;
 }
 
-/* What is not finite is 0, and counted. */
+/* Sets non-finite values to 0 and counts them. */
 static void replace_lost(WrImage *slopes)
 {
     const size_t count = (size_t)slopes->width * (size_t)slopes->height;
@@ -287,7 +287,7 @@ static void replace_lost(WrImage *slopes)
     }
 }
 
-/* In place of a picture of which only the first of two channels was read. */
+/* Replaces a picture of which only the first of two channels was read. */
 static WrImage *take_slopes(const char *path, WrImage *image, WrError *err)
 {
     WrError none = { "" };

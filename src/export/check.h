@@ -1,23 +1,22 @@
-/* check.h - is a picture file, whoever made it, a cell that can be laid side by side, what do its numbers stand for,
-   and how fine are they?
-   Layer 6. Read as all pictures are (image/image.h), by the reader process; nothing of the file is believed but its
-   numbers.
+/* check.h - inspection of a picture file from any program: tileability, kind of content, and precision. Files
+   are read like all pictures (image/image.h), by the reader process; only the numbers are trusted, not the
+   file's claims.
 
-   Edges     by the seam test of the certificate (field/seam.h), for each colour; the worst one. Of a sheet of several
-             copies, as a label of ours tells, the cell's edges; of a picture with its border the cell without it. A label
-             also says how the edges met before the picture was coded: a seam that it tells of is one, and where it tells
-             of none the numbers must be WR_CHECK_SURELY times what is inside. Axes of fewer than 8 texels, atlases and
-             maps of whole surfaces are not judged.
-   Numbers   how many different ones (told up to 65536), and the fewest bits that hold them all: b bits are codes
-             round(k M/(2^b - 1)), or k 2^(B - b) of B bits; floats k/255, k/65535 and half precision. Not judged
-             where there are fewer than 8 besides black and white.
-   Normals   three colours whose vectors are nearly of length 1 and look up (scene/normal_map.h): green's direction, the
-             largest distance of a length from 1, and
-                 curl^2 = 1 - sum a b / sqrt(sum a^2 sum b^2),   a = D_v p, b = D_u q
-             with D central differences but at the edges, less what rounding brings to the squares: 0 of heights,
-             whatever the cell's sides, 1 of slopes that have nothing to do with one another. Not known where a and b
-             are 0 but for rounding, as of f(u) + g(v).
-             Two floats that the file does not call grey and coverage are taken for the slopes p and q themselves. */
+    Edges     by the seam test (field/seam.h), for each colour; the worst one counts. For a sheet of several copies,
+              as stated by our own label, the cell's edges; for a picture with its border the cell without it. A
+              label also states the seam of the original data: a seam stated there is reported, and if it states
+              none the numbers must exceed WR_CHECK_SURELY times the largest inner step. Axes of fewer than 8
+              texels, atlases and maps of whole surfaces are not tested.
+    Numbers   the number of distinct values (counted up to 65536), and the fewest bits that represent them all: b bits
+              are codes round(k M/(2^b - 1)), or k 2^(B - b) of B bits; floats k/255, k/65535 and half precision. Not
+              tested with fewer than 8 values besides black and white.
+    Normals   three colours whose vectors have nearly length 1 and point up (scene/normal_map.h): green's direction,
+              the largest deviation of a length from 1, and
+                  curl^2 = 1 - sum a b / sqrt(sum a^2 sum b^2),   a = D_v p, b = D_u q
+              with D central differences except at the edges, minus the effect of rounding on the squares: 0 for
+              heights, whatever the cell's sides, 1 for unrelated slopes. Unknown if a and b are 0 except for
+              rounding, as for f(u) + g(v). Two floats that the file does not label as grey and coverage are taken as
+              the slopes p and q themselves. */
 #pragma once
 #include "base/enum_rows.h"
 #include "field/seam.h"
@@ -28,7 +27,7 @@
 
 typedef struct WrError WrError;
 
-/* What the numbers stand for. */
+/* Kind of content. */
 #define WR_CHECK_KINDS(X)                                                                          \
     X(WR_CHECK_HEIGHT, "height")                                                                   \
     X(WR_CHECK_NORMAL, "normal")                                                                   \
@@ -37,7 +36,7 @@ typedef struct WrError WrError;
 typedef enum WrCheckKind { WR_CHECK_KINDS(WR_WORD_ID) WR_CHECK_KIND_COUNT } WrCheckKind;
 extern const char *const wr_check_kinds[];
 
-/* What can be wrong, and how programs are told. */
+/* Problems, with their names in machine-readable output. */
 #define WR_CHECK_PROBLEMS(X)                                                                       \
     X(WR_CHECK_SEAM_U, "seam-u")                                                                   \
     X(WR_CHECK_SEAM_V, "seam-v")                                                                   \
@@ -52,51 +51,51 @@ typedef enum WrCheckProblem { WR_CHECK_PROBLEMS(WR_WORD_ID) WR_CHECK_PROBLEM_COU
 extern const char *const wr_check_problems[];
 
 #define WR_CHECK_SURELY                                                                            \
-    3 /* times what is inside: a seam in spite of a label of ours that tells of none */
+    3 /* factor over the largest inner step: counts as a seam even if our own label states none */
 
 typedef struct WrCheckEdge {
-    bool judged;     /* has texels enough */
-    bool seam;       /* the height steps or the slope breaks there */
-    bool told;       /* a seam as the file's own label tells; its numbers do not show it */
-    bool repeats;    /* a seam, since the last line is the first one again */
-    WrSeamEdge test; /* of the worst colour, in the file's numbers */
+    bool judged;     /* has enough texels */
+    bool seam;       /* the height or the slope is discontinuous there */
+    bool told;       /* a seam stated by the file's own label; not visible in its numbers */
+    bool repeats;    /* the seam consists of a repeated line: the last one equals the first */
+    WrSeamEdge test; /* for the worst colour, in the file's numbers */
 } WrCheckEdge;
 
-#define WR_CHECK_DISTINCT 65536 /* numbers that are told apart */
+#define WR_CHECK_DISTINCT 65536 /* limit of distinct numbers */
 
 typedef struct WrCheckNumbers {
-    int distinct; /* WR_CHECK_DISTINCT: so many or more */
-    int bits;     /* that hold them all: 1..16; floats 8, 16, 32 */
-    bool half;    /* floats of half precision */
-    bool judged;  /* enough of them for that */
+    int distinct; /* WR_CHECK_DISTINCT: this many or more */
+    int bits;     /* sufficient for all: 1..16; floats 8, 16, 32 */
+    bool half;    /* half-precision floats */
+    bool judged;  /* there are enough numbers */
     double low, high;
-    double at_low, at_high; /* share of them that are these two, 0..1 */
+    double at_low, at_high; /* share of the numbers at either end of the range, 0..1 */
 } WrCheckNumbers;
 
 typedef struct WrCheckNormals {
     bool green_known, green_down;
-    bool own;     /* floats that are the vectors' own numbers, not coded in 0..1 */
-    bool centred; /* the code above the middle stands for 0, as in most texels */
-    bool lengths; /* has three numbers a vector */
-    double off;   /* the largest distance of a length from 1 */
+    bool own;     /* floats that are the vectors' own components, not encoded in 0..1 */
+    bool centred; /* zero is encoded by the code above the middle, as in most texels */
+    bool lengths; /* has three components per vector */
+    double off;   /* largest deviation of a length from 1 */
     bool curl_known;
     double curl;
-    int64_t away; /* look away from the surface */
+    int64_t away; /* normals that point away from the surface */
     bool converted;
 } WrCheckNormals;
 
 typedef struct WrCheck {
     int width, height, channels;
-    int depth;         /* bits of a number as the file holds it: 8, 16, 32 (float) */
-    const char *label; /* what our own label calls it, a kind of export; NULL: none */
+    int depth;         /* bits per number in the file: 8, 16, 32 (float) */
+    const char *label; /* kind of export in our own label; NULL: none */
     WrCheckKind kind;
     WrCheckEdge u, v; /* left and right; top and bottom */
     WrCheckNumbers numbers;
-    WrCheckNormals normals; /* of normals and slopes */
-    int64_t replaced;       /* texels that were not finite */
+    WrCheckNormals normals; /* for normals and slopes */
+    int64_t replaced;       /* non-finite texels */
     unsigned problems;      /* bits 1 << WrCheckProblem */
 } WrCheck;
 
-/* kind: what it is, where somebody knows; -1: found out. coding: of normals in floats. False and an error where it cannot
- * be read. */
+/* Inspects a file. kind: if known; -1: detected. coding: of float normals. False and an error if the file cannot
+   be read. */
 bool wr_check_file(const char *path, int kind, WrCoding coding, WrCheck *check, WrError *err);

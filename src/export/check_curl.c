@@ -1,4 +1,4 @@
-/* Are slopes those of one height? */
+/* Test for slopes being the gradient of one height field. */
 #include "export/check_internal.h"
 
 #include "image/image.h"
@@ -6,14 +6,14 @@
 
 #include <math.h>
 
-#define CLEARLY 4 /* times what rounding brings to the sum */
+#define CLEARLY 4 /* factor over the effect of rounding on the sum */
 
-/* Of D_v p and D_u q: squares, their product, and what rounding brings to the squares on average. */
+/* Sums over D_v p and D_u q: squares, their product, and the mean effect of rounding on the squares. */
 typedef struct Sums {
     double pp, qq, pq, noise_p, noise_q;
 } Sums;
 
-/* Slopes of texel (i, j); the square of what rounding of a code by `step` does to them on average. */
+/* Slopes of texel (i, j); returns the mean square of the error caused by rounding a code by `step`. */
 static double slopes_at(const WrImage *map, int i, int j, double step, double *p, double *q)
 {
     const float *n = map->data + 3 * ((size_t)j * (size_t)map->width + (size_t)i);

@@ -1,4 +1,4 @@
-/* How many different numbers a picture has, and how few bits hold them. */
+/* Number of distinct values of a picture, and the fewest bits that represent them. */
 #include "export/check_internal.h"
 
 #include "base/memory.h"
@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#define ENOUGH 8 /* numbers besides black and white that tell what steps they come in */
+#define ENOUGH 8 /* minimum of values besides black and white for detecting their step */
 
-/* Is every code one of `bits` bits, spread over all of `total` bits? */
+/* True if every code is one of `bits` bits, spread over all of `total` bits. */
 static bool spread(const bool *seen, int total, int bits)
 {
     const double last = (1 << total) - 1, few = (1 << bits) - 1;
@@ -18,7 +18,7 @@ static bool spread(const bool *seen, int total, int bits)
     return true;
 }
 
-/* Or with zeros below? */
+/* True if every code has `bits` bits and zeros below. */
 static bool shifted(const bool *seen, int total, int bits)
 {
     for (int c = 0; c < 1 << total; c++)
@@ -57,7 +57,7 @@ static void count_codes(const WrCheckPicture *p, int total, WrCheckNumbers *n)
 
 /* ---- floats ---- */
 
-/* A set of numbers by their bits, which is full at WR_CHECK_DISTINCT. Slots hold bits + 1, 0: none. */
+/* Hash set of numbers by their bits, limited to WR_CHECK_DISTINCT. Slots contain bits + 1, 0: empty. */
 typedef struct Set {
     uint64_t *slot; /* [2 * WR_CHECK_DISTINCT] */
     int count;
@@ -66,7 +66,7 @@ typedef struct Set {
 static uint32_t bits_of(float x)
 {
     uint32_t bits;
-    x += 0.0f; /* -0 is 0 */
+    x += 0.0f; /* -0 becomes 0 */
     memcpy(&bits, &x, sizeof bits);
     return bits;
 }
@@ -81,7 +81,7 @@ static void add(Set *set, float x)
     set->slot[at] = (uint64_t)bits + 1;
 }
 
-/* Does half precision hold it? 11 digits; below 2^-14 multiples of 2^-24. */
+/* True if half precision represents it: 11 digits; below 2^-14 multiples of 2^-24. */
 static bool is_half(float x)
 {
     const double size = fabs((double)x);
@@ -89,7 +89,7 @@ static bool is_half(float x)
     return size < 0x1p-14 ? size * 0x1p24 == floor(size * 0x1p24) : (bits_of(x) & 0x1fff) == 0;
 }
 
-/* Is it a code k of 0..last as a float k/last, give or take its rounding? */
+/* True if it is a code k of 0..last stored as a float k/last, up to rounding. */
 static bool is_code(float x, double last)
 {
     const double code = (double)x * last;
@@ -115,7 +115,7 @@ static void count_floats(const WrCheckPicture *p, WrCheckNumbers *n)
     wr_free(set.slot);
 }
 
-/* ---- all ---- */
+/* ---- whole picture ---- */
 
 static void find_range(const WrCheckPicture *p, WrCheckNumbers *n)
 {

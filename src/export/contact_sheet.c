@@ -1,4 +1,4 @@
-/* Contact sheets: of a set's maps, or of any kinds. */
+/* Contact sheets of a set's maps, or of any kinds. */
 #include "export/contact_sheet.h"
 
 #include "base/error.h"
@@ -15,17 +15,17 @@
 
 #define GAP 12
 #define NAME_H 22
-enum { BACKGROUND = 38, INK = 210 }; /* greys */
+enum { BACKGROUND = 38, INK = 210 }; /* grey values */
 
 struct WrContact {
     const char *path; /* borrowed */
     int tile, columns, width, height;
     int count, done;
     uint8_t *rgb;   /* [height][width][3] */
-    WrLabel *label; /* NULL: no typeface */
+    WrLabel *label; /* NULL: no font installed */
 };
 
-/* ---- the sheet ---- */
+/* ---- sheet ---- */
 
 WrContact *wr_contact_new(const char *path, int count, int tile, WrError *err)
 {
@@ -61,7 +61,8 @@ void wr_contact_size(const WrContact *contact, int *width, int *height)
     *width = contact->width, *height = contact->height;
 }
 
-/* Texels [from, to) of one side under pixel i of n; the nearest one where there are fewer. */
+/* Range of texels [from, to) on one axis that pixel i of n covers; the nearest texel if there are fewer texels
+   than pixels. */
 static void span(int i, int n, int texels, int *from, int *to)
 {
     *from = (int)((int64_t)i * texels / n);
@@ -80,7 +81,7 @@ static void put_pixel(const WrExportPicture *p, const int x[2], const int y[2], 
     for (int c = 0; c < 3; c++) out[c] = (uint8_t)((sum[c] + count / 2) / count);
 }
 
-/* One side of a picture whose longer one takes the whole tile. */
+/* Length of one side when the longer side fills the tile. */
 static int side(int own, int other, int tile)
 {
     const int longer = own > other ? own : other;
@@ -88,7 +89,7 @@ static int side(int own, int other, int tile)
     return pixels > 0 ? pixels : 1;
 }
 
-/* Words are drawn as a grey picture of their own. */
+/* Text is drawn as a separate grey picture. */
 static void put_name(WrContact *c, const char *name, int left, int top)
 {
     if (!c->label) return;
@@ -126,20 +127,20 @@ bool wr_contact_write(WrContact *c, WrError *err)
     return wr_image_write_pixels(c->path, c->width, c->height, 3, WR_PIXEL_U8, false, c->rgb, err);
 }
 
-/* ---- the kind ---- */
+/* ---- export kind ---- */
 
 static bool is_shown(const WrExportKind *kind)
 {
     return !kind->write;
 }
 
-/* Left out those that need a mesh, or a surface that wears the map. */
+/* Kinds of the default: none that needs a mesh, or a surface with the map. */
 static bool is_usual(const WrExportKind *kind)
 {
     return is_shown(kind) && !kind->on_surface;
 }
 
-/* The kind of the next word of "A;B;C"; NULL at its end. */
+/* The kind of the next word of "A;B;C"; NULL at the end. */
 static const WrExportKind *next_kind(const char **list, char word[40])
 {
     if (!**list) return NULL;
@@ -177,7 +178,7 @@ bool wr_export_set_contact_tile(WrExportOptions *options, const char *value, WrE
     return true;
 }
 
-/* Those that are asked for into kinds: [WR_EXPORT_KIND_COUNT * 2]. */
+/* Collects the requested kinds in kinds: [WR_EXPORT_KIND_COUNT * 2]. */
 #define KINDS_MOST 64
 static int kinds_of(const WrExportOptions *options, const WrExportKind **kinds)
 {

@@ -1,5 +1,5 @@
-/* contact_sheet.h - a contact sheet: maps as small pictures side by side, each with its name below.
-   Layer 6. Private to this room. */
+/* contact_sheet.h - contact sheet: maps as thumbnails in a grid, each with its name below. Private to this
+   module. */
 #pragma once
 #include <stdbool.h>
 
@@ -9,18 +9,18 @@ typedef struct WrExportPicture WrExportPicture;
 
 typedef struct WrContact WrContact;
 
-/* Of that many maps, each in a square of `tile` pixels. NULL and an error: the file's format cannot hold it, or no
- * memory. The caller owns it. */
+/* Creates a sheet of `count` maps, each in a square of `tile` pixels. NULL and an error: the file's format does
+   not support it, or no memory. The caller owns it. */
 WrContact *wr_contact_new(const char *path, int count, int tile, WrError *err);
 void wr_contact_free(WrContact *contact); /* NULL is fine */
-/* The next map: as large as it fits, means of its texels where it is larger. No words where no typeface is installed. */
+/* Adds the next map, averaged if it is larger than its tile. Names are omitted if no font is installed. */
 void wr_contact_add(WrContact *contact, const char *name, const WrExportPicture *picture);
-/* Write the file as a whole replacement. */
+/* Writes the file atomically. */
 bool wr_contact_write(WrContact *contact, WrError *err);
-/* Of the whole sheet, in pixels. */
+/* Size of the whole sheet, in pixels. */
 void wr_contact_size(const WrContact *contact, int *width, int *height);
 
-/* The options of the kind. */
+/* Option parsers of the kind. */
 bool wr_export_set_contact_maps(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_contact_tile(WrExportOptions *options, const char *value, WrError *err);
 

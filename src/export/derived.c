@@ -9,7 +9,8 @@
 
 #include <math.h>
 
-/* What a kind makes of a row, [width] numbers a channel, one channel after the other; how many were not finite. */
+/* Computes a kind's row, [width] numbers per channel, channel after channel; returns the number of non-finite
+   values. */
 typedef int64_t Derive(const WrExportJob *job, const WrDerivativesRow *row, double *out);
 
 static int64_t settle(double *x)
@@ -39,14 +40,14 @@ static int64_t steepness(const WrExportJob *job, const WrDerivativesRow *row, do
     return replaced;
 }
 
-/* Rows under way. */
+/* Rows being computed. */
 typedef struct Rows {
     WrDerivativesBand *band;
     WrDerivativesRow row;
     int y;
 } Rows;
 
-/* Beside the texels' centres, where stencils do not reach. */
+/* Row of samples beside the texels' centres, which stencils do not reach. */
 static void border_row(const WrExportJob *job, int y, const WrDerivativesRow *row)
 {
     const double height = job->scene->height, v = wr_export_row_v(job, y);
@@ -130,7 +131,7 @@ typedef struct Strip {
     Derive *derive;
 } Strip;
 
-/* A number in codes. */
+/* Converts a number to a code. */
 static double code_of(const WrExportJob *job, double x)
 {
     return wr_export_last_code(job) * x / job->report.code_high;
@@ -184,7 +185,7 @@ void wr_export_derived_describe(WrExportJob *job)
     const WrExportReport *report = &job->report;
     wr_export_describe_slopes(job);
     if (!report->ranged) return;
-    WrText *codes = wr_export_attribute(job, "wrinkle:codes"); /* `range` is of heights */
+    WrText *codes = wr_export_attribute(job, "wrinkle:codes"); /* `range` is the label of heights */
     wr_text_add_number(codes, report->code_low);
     wr_text_add(codes, ",");
     wr_text_add_number(codes, report->code_high);

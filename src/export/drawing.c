@@ -8,9 +8,9 @@
 
 #include <math.h>
 
-#define RELIEF 0.2 /* cells: how high all of it is drawn, unless told */
+#define RELIEF 0.2 /* cells: default height of the drawn relief */
 
-/* All of them, row by row; their range goes into the report. Returns how wide that is. */
+/* Reads all heights, row by row, and stores their range in the report. Returns the width of the range. */
 static double read_heights(WrExportJob *job, float *heights)
 {
     float low = INFINITY, high = -INFINITY;

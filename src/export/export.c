@@ -55,7 +55,7 @@ WrExportOptions wr_export_default(void)
                               .grain = 32 };
 }
 
-/* ---- what the kinds share ---- */
+/* ---- functions shared by the kinds ---- */
 
 double wr_export_last_code(const WrExportJob *job)
 {
@@ -70,8 +70,8 @@ double wr_export_row_v(const WrExportJob *job, int y)
     return 1.0 - (double)(ring ? y % h : y) / h;
 }
 
-/* Between -1/2 and 1/2, both excluded: the additive sequence of the plastic number over the texels, whose
- * values are spread evenly over every small neighbourhood, so that no clumps are seen. */
+/* Dither offset between -1/2 and 1/2, both excluded: the additive sequence of the plastic number over the
+   texels, whose values are spread evenly over every small neighbourhood, so that no clumps are visible. */
 static double dither(WrExportTexel at)
 {
     uint32_t phase = (uint32_t)at.column * 0xc13fa9a9U + (uint32_t)at.row * 0x91e10da5U +
@@ -127,7 +127,7 @@ void wr_export_describe_slopes(WrExportJob *job)
 
 /* ---- one export ---- */
 
-/* Files of numbers: 16 bits or floats. */
+/* Settings of raw files of numbers: 16 bits or floats. */
 static bool settle_numbers(const WrExportKind *kind, const char *path, WrExportOptions *options,
                            WrError *err)
 {
@@ -148,7 +148,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
     if (kind->ending && strcmp(wr_path_ending(path, ending), kind->ending) != 0)
         return wr_fail(err, "%s: %s files end in .%s", path, kind->name, kind->ending);
     if (kind->on_surface && !kind->make && !wr_export_object_check(scene, err)) return false;
-    if (kind->write) return true; /* it sees to its own */
+    if (kind->write) return true; /* it handles the depth itself */
     if (wr_sidecar_takes(path)) {
         if (!settle_numbers(kind, path, options, err)) return false;
     } else if (options->depth == 0) {
@@ -193,7 +193,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
     return true;
 }
 
-/* Take what that object wears in place of the table of all layers; the tables are the caller's to free. */
+/* Replaces the composite by the table of the requested object; the caller frees the tables. */
 static bool take_object(WrExportJob *job, const WrDocument *document, WrTables **tables,
                         WrError *err)
 {
@@ -215,7 +215,7 @@ static WrScene *in_unit(const WrScene *scene)
     return own;
 }
 
-/* Normals: which axes its channels hold, where nobody says. */
+/* Normals: default axes of the channels. */
 static void settle_axes(const WrExportKind *kind, int axes[3])
 {
     if (axes[0] != 0 || kind->green == 0.0) return;
@@ -234,7 +234,7 @@ static const char *convention_of(const WrExportKind *kind, const int axes[3])
     return strcmp(text, "+x-y+z") == 0 ? "-Y (green down)" : "axes of its own";
 }
 
-/* Where the table, or what was laid of it, is sampled. */
+/* Sets the sampling positions of the table, or of its arrangement. */
 static void set_grid(WrExportJob *job)
 {
     const bool sized = job->options.map_w > 0;
@@ -265,7 +265,7 @@ static bool write_one(WrExportJob *job, const char *path, WrError *err)
                               : wr_export_write(job, path, err);
 }
 
-/* What codes stand for is the same on all levels. */
+/* Fixes the range of codes, so that it is equal on all levels. */
 static void keep_codes(WrExportJob *job)
 {
     const WrExportReport *report = &job->report;
@@ -277,7 +277,7 @@ static void keep_codes(WrExportJob *job)
     o->low = report->code_low, o->high = report->code_high;
 }
 
-/* The levels below it, each of the means of the heights above. */
+/* Writes the further mip levels, each from means of the heights of the level before. */
 static bool write_levels(WrExportJob *job, const char *path, WrError *err)
 {
     const WrExportReport report = job->report;
@@ -300,7 +300,7 @@ static bool write_levels(WrExportJob *job, const char *path, WrError *err)
     return good;
 }
 
-/* All files of an export take their places together, unless they are of a larger group already. */
+/* All files of an export are replaced together, unless they already belong to a larger group. */
 static bool write_files(WrExportJob *job, const char *path, WrError *err)
 {
     WrFileGroup *group = wr_file_group_is_open() ? NULL : wr_file_group_begin();
@@ -344,7 +344,7 @@ static bool run_scaled(WrExportJob *job, const char *path, WrError *err)
     return ok;
 }
 
-/* Of the document, where the job says what of it. */
+/* Exports the document, or the object that the options name. */
 static bool run_on(WrExportJob *job, const WrDocument *document, const char *path, WrError *err)
 {
     WrTables *tables = NULL;
@@ -366,7 +366,7 @@ bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExp
     return ok;
 }
 
-/* A file that would hold what a picture is made of, whose depth goes into the job. */
+/* A file name that fits the content of a picture; the depth goes into the job. */
 static const char *picture_path(WrExportJob *job)
 {
     job->options.depth = job->kind->floats ? 32 : 8;

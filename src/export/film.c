@@ -10,20 +10,20 @@
 #include <errno.h>
 #include <string.h>
 
-#define PATIENCE 300.0 /* seconds: one frame of the largest size takes some */
+#define PATIENCE 300.0 /* seconds: one frame of the largest size takes that order of time */
 #define LEAST_FPS 0.1
 #define MOST_FPS 240.0
 #define TAGS "-color_primaries", "bt709", "-color_trc", "iec61966-2-1"
 
-/* A palette a frame, so that no more than one is held; its ordered dither stands still where the picture does. */
+/* One palette per frame, so that only one is in memory; its ordered dither is constant where the picture is. */
 #define PALETTE                                                                                    \
     "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer:"          \
     "bayer_scale=4"
 
-/* Frames are full-range sRGB codes: said before anything is converted, so that every step keeps it. */
+/* Frames are full-range sRGB codes: declared before any conversion, so that every step preserves it. */
 #define SRGB "setparams=color_primaries=bt709:color_trc=iec61966-2-1"
 
-/* Matrix and range by name, since ffmpeg would take those of old television. */
+/* Explicit matrix and range, since ffmpeg's default is that of standard-definition television. */
 #define REC709                                                                                     \
     "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int,"        \
     "format=yuv420p," SRGB ":colorspace=bt709:range=tv"
@@ -79,7 +79,7 @@ const WrFilmKind *wr_film_kind(const char *path)
     return NULL;
 }
 
-/* ---- what is refused ---- */
+/* ---- validation ---- */
 
 static bool check(const char *path, const WrFilmKind *kind, const WrFilmOptions *o, WrError *err)
 {
@@ -102,7 +102,7 @@ static bool check(const char *path, const WrFilmKind *kind, const WrFilmOptions 
     return true;
 }
 
-/* ---- the program ---- */
+/* ---- ffmpeg command line ---- */
 
 #define ARGUMENTS 48
 
@@ -163,7 +163,7 @@ static bool start(WrFilm *film, WrError *err)
     return good;
 }
 
-/* ---- a film ---- */
+/* ---- film ---- */
 
 static int even(const WrFilmKind *kind, int side)
 {
@@ -220,7 +220,7 @@ void wr_film_drop(WrFilm *film)
     wr_free(film);
 }
 
-/* The last column and row once more. */
+/* Repeats the last column and row. */
 static const uint8_t *padded(WrFilm *film, const uint8_t *pixels)
 {
     const size_t pixel = (size_t)film->channels, width = (size_t)film->options.width * pixel;
@@ -235,7 +235,7 @@ static const uint8_t *padded(WrFilm *film, const uint8_t *pixels)
     return film->padded;
 }
 
-/* What ffmpeg has written goes on to the disk. */
+/* Copies ffmpeg's output to the disk. */
 static bool pass_on(WrFilm *film, bool ended, WrError *err)
 {
     char why[WR_FILE_WHY];
@@ -260,7 +260,7 @@ bool wr_film_add(WrFilm *film, const uint8_t *pixels, WrError *err)
     return false;
 }
 
-/* The path as it is called in errors is gone with the film. */
+/* err must not refer to the path, which is freed with the film. */
 static bool finish(WrFilm *film, WrFilmReport *report, WrError *err)
 {
     *report = (WrFilmReport){

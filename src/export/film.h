@@ -1,14 +1,14 @@
-/* film.h - moving pictures: frames handed to the program ffmpeg as they are drawn, so that no more than one lies in
-   memory here. One row in wr_film_kinds a format.
-   Layer 6.
+/* film.h - encoding of animations: frames are passed to ffmpeg as they are rendered. One row of wr_film_kinds
+   for each format. Memory holds only one frame.
 
-   ffmpeg is found where the user's programs are, gets the frames through a pipe, and writes a file in memory
-   (base/spool.h). Its bytes go through the one door of all files (base/file.h) to a file beside the target, which takes its
-   name when it is whole and was read back: its bytes beside those that ffmpeg wrote, and by ffmpeg again, all frames, their number, and
-   the mean colours of a grid of cells in each beside those that were handed over (of animated WebP, which ffmpeg does
-   not read, the time of all frames, and the colours of the first and the last). It ends with this program, however
-   that ends. Frames are 8-bit sRGB, and tagged so where a format has tags; H.264 has brightness and colour by Rec. 709's matrix, colour at half the resolution, and so
-   even sizes only: of an odd one the last column or row is there twice. */
+   ffmpeg is searched in the user's PATH, receives the frames through a pipe, and writes a file in memory
+   (base/spool.h). Its bytes are copied by base/file.h to a temporary file beside the target, which is renamed
+   when it is complete and verified. Verification compares its bytes with those from ffmpeg, and decodes it by
+   ffmpeg: the number of frames, and the mean colours of a grid of cells in each frame are compared with the
+   originals (for animated WebP, which ffmpeg cannot decode, the total time, and the colours of the first and the
+   last frame). ffmpeg ends together with this program, however that ends. Frames are 8-bit sRGB, and tagged so
+   where the format has tags. H.264 uses Rec. 709's matrix and chroma at half the resolution, so it needs even
+   sizes: the last column or row of an odd one is repeated. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>
@@ -16,36 +16,36 @@
 typedef struct WrError WrError;
 typedef struct WrText WrText;
 
-#define WR_FILM_FRAMES 100000 /* at most */
+#define WR_FILM_FRAMES 100000 /* maximum */
 
 typedef struct WrFilmKind {
-    const char *ending; /* of its files */
+    const char *ending; /* file extension */
     const char *name;
     bool alpha;      /* frames may be R,G,B,A */
     bool loops;      /* the file says how often it is played */
-    bool even;       /* sizes */
-    double most_fps; /* that players keep to */
+    bool even;       /* requires even sizes */
+    double most_fps; /* highest frame rate that players support */
     int most_side;   /* pixels */
-    bool by_reader;  /* it is not read back by ffmpeg */
-    bool rereads;    /* ffmpeg reads the whole file once more before it ends */
-    double wrong;    /* codes: how far a cell's mean may be off when it is read back */
-    /* What ffmpeg is told between the frames and the file, ends in NULL; LOOP stands for the number that its -loop or
-     * -plays takes */
+    bool by_reader;  /* it is verified by the picture reader instead of ffmpeg */
+    bool rereads;    /* ffmpeg reads the whole file again before it ends */
+    double wrong;    /* codes: largest accepted error of a cell's mean when verified */
+    /* ffmpeg's arguments between the frames and the file, ends in NULL; LOOP stands for the number for -loop or
+       -plays */
     const char *coding[20];
-    int first_loop; /* what it calls playing once; -1 or 1 */
+    int first_loop; /* the number that means playing once; -1 or 1 */
 } WrFilmKind;
 
 enum { WR_FILM_GIF, WR_FILM_APNG, WR_FILM_WEBP, WR_FILM_MP4, WR_FILM_KIND_COUNT };
 extern const WrFilmKind wr_film_kinds[];
-/* By the path's ending; NULL: it is no film. */
+/* The kind by the path's extension; NULL: not a film. */
 const WrFilmKind *wr_film_kind(const char *path);
 
 typedef struct WrFilmOptions {
     int width, height; /* pixels */
     double fps;        /* frames a second, 0.1..240 */
-    int loop;        /* how often it is played; 0: for ever, which is what formats without it get */
+    int loop;        /* number of repetitions; 0: endless, also for formats without this setting */
     bool alpha;      /* frames are R,G,B,A, not premultiplied; else R,G,B */
-    double patience; /* seconds that ffmpeg may take without taking or giving anything; 0: 300 */
+    double patience; /* longest time, seconds, without input or output of ffmpeg; 0: 300 */
 } WrFilmOptions;
 
 typedef struct WrFilmReport {
@@ -53,19 +53,20 @@ typedef struct WrFilmReport {
     int width, height; /* of the file */
     int64_t frames;
     int64_t bytes;
-    double worst; /* codes: the largest difference of a cell's mean */
+    double worst; /* codes: largest error of a cell's mean */
 } WrFilmReport;
 
 typedef struct WrFilm WrFilm;
 
-/* Begin a file. Everything is refused here that can be: an unknown ending, a size or rate that the format does not have, a
- * folder that cannot be written, a machine without ffmpeg. The caller owns it; NULL and an error. */
+/* Begins a file. All invalid input is reported here: an unknown extension, a size or rate that the format does
+   not support, a read-only folder, a machine without ffmpeg. The caller owns it; NULL and an error. */
 WrFilm *wr_film_begin(const char *path, const WrFilmOptions *options, WrError *err);
-/* The next frame, [height][width][3 or 4]; waits until ffmpeg has taken it, or the work is cancelled (base/progress.h). */
+/* Adds a frame, [height][width][3 or 4]; waits until ffmpeg has read it, or the work is cancelled
+   (base/progress.h). */
 bool wr_film_add(WrFilm *film, const uint8_t *pixels, WrError *err);
-/* All frames are there: finish the file, read it back, let it take its name. Frees the film either way. */
+/* Finishes and verifies the file, then renames it to the target. Frees the film in any case. */
 bool wr_film_end(WrFilm *film, WrFilmReport *report, WrError *err);
-/* Give it up: what was there stays. Frees it; NULL is fine. */
+/* Cancels the film: the old file stays. Frees it; NULL is allowed. */
 void wr_film_drop(WrFilm *film);
 
 /* "512x512, 120 frames, 1.3 MB; read back: colours off by at most 1.2 of 255". */

@@ -1,5 +1,5 @@
-/* A finished film is read back before it takes its name: by ffmpeg, every frame; of animated WebP, which ffmpeg does not
-   read, the pieces of the file, and its first and last frame by the reader of pictures. */
+/* Verification of a finished film before it is renamed: by ffmpeg, every frame; for animated WebP, which ffmpeg
+   cannot decode, the chunks of the file, and its first and last frame by the picture reader. */
 #include "base/error.h"
 #include "base/enum_rows.h"
 #include "base/text.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CELL 16 /* pixels a side that a cell has at least, where the frame has them */
+#define CELL 16 /* smallest side of a cell, pixels, if the frame is that large */
 
 /* ---- colours of a frame ---- */
 
@@ -46,7 +46,7 @@ void wr_film_sum(const uint8_t *pixels, int width, int height, int channels, WrF
                      sums->mean[j * WR_FILM_GRID + i]);
 }
 
-/* The largest difference of two cells' means, codes. */
+/* Largest difference of two cells' means, codes. */
 static double difference(const WrFilmSums *a, const WrFilmSums *b)
 {
     int worst = 0;
@@ -104,12 +104,12 @@ static bool read_back(WrFilm *film, WrFilmReport *report, WrError *err)
     return good;
 }
 
-/* ---- animated WebP: pieces of a name, a length and that many bytes, made even ---- */
+/* ---- animated WebP: chunks of a name, a length and that many bytes, padded to even ---- */
 
-/* What the pieces say. */
+/* Summary of the chunks. */
 typedef struct Pieces {
-    int64_t frames;      /* equal ones that follow one another are one */
-    double milliseconds; /* of all of them; 0 of a still picture */
+    int64_t frames;      /* equal consecutive frames are merged */
+    double milliseconds; /* total duration; 0 for a still picture */
     bool whole;
 } Pieces;
 
@@ -143,7 +143,7 @@ static Pieces pieces_of(const WrFilm *film, int64_t bytes)
     return pieces;
 }
 
-/* A picture that is of the film's size as a frame of it. */
+/* Converts a picture of the film's size to a frame. */
 static void take_codes(WrFilm *film, const WrImage *image)
 {
     const size_t pixels = (size_t)film->width * (size_t)film->height;
@@ -155,8 +155,8 @@ static void take_codes(WrFilm *film, const WrImage *image)
         }
 }
 
-/* By the reader of pictures: frame `part` of the file beside the one that was handed over. Of transparent ones the coverage
-   is compared, since a reader may have multiplied the colours by it. */
+/* Verifies by the picture reader: frame `part` of the file against the original. For transparent frames the
+   coverage is compared, since a reader may have premultiplied the colours. */
 static bool compare_frame(WrFilm *film, int64_t part, int64_t of, int frame, WrFilmReport *report,
                           WrError *err)
 {
@@ -192,7 +192,7 @@ static bool read_pieces(WrFilm *film, WrFilmReport *report, WrError *err)
         return wr_fail(
             err, "%d frames, %.0f ms, were handed to ffmpeg, %lld, %.0f ms, stand in the file",
             film->sums.count, handed_ms, (long long)pieces.frames, pieces.milliseconds);
-    /* Readers lay a transparent frame over the one before: only the first is as it was handed over. */
+    /* Readers compose a transparent frame over the one before: only the first equals the original. */
     return compare_frame(film, 1, pieces.frames, 0, report, err) &&
            (film->channels == 4 ||
             compare_frame(film, pieces.frames, pieces.frames, film->sums.count - 1, report, err));

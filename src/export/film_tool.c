@@ -1,4 +1,4 @@
-/* ffmpeg at work: bytes in or out, without ever waiting where nobody could cancel. */
+/* The ffmpeg process: transfer of bytes in either direction, with cancellation at any time. */
 #include "base/error.h"
 #include "base/progress.h"
 #include "export/film_internal.h"
@@ -10,7 +10,7 @@
 #include <errno.h>
 #include <string.h>
 
-#define LOOK_MS 20 /* between two looks at the cancel */
+#define LOOK_MS 20 /* between two checks for cancellation */
 
 bool wr_tool_start(WrTool *tool, const char *const *arguments, int out, double patience,
                    WrError *err)
@@ -47,7 +47,7 @@ bool wr_tool_start(WrTool *tool, const char *const *arguments, int out, double p
     return wr_fail(err, "ffmpeg cannot be started: %s", strerror(trouble));
 }
 
-/* May it go on waiting? Else it is ended. */
+/* True if waiting may continue. Otherwise the process is ended. */
 static bool waits(WrTool *tool, WrError *err)
 {
     if (wr_progress_stopped()) return wr_fail(err, "cancelled");
@@ -61,7 +61,7 @@ static bool has_ended(WrTool *tool)
     return tool->ended;
 }
 
-/* Wait for its end. */
+/* Waits for its end. */
 static bool wait_for_end(WrTool *tool, WrError *err)
 {
     for (int ms = 1; !has_ended(tool); ms = ms < LOOK_MS ? 2 * ms : LOOK_MS) {
@@ -71,7 +71,7 @@ static bool wait_for_end(WrTool *tool, WrError *err)
     return true;
 }
 
-/* What it said last, in one line. */
+/* Its last error message, in one line. */
 static void complaint(const WrTool *tool, char words[WR_FILE_WHY])
 {
     char text[2048], *line = text;

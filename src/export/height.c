@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* By the scheme, where samples do not stand at texels' centres. */
+/* Heights by the scheme, for samples that are not at texels' centres. */
 static void sample_border(const WrExportJob *job, int y, int rows, float *out)
 {
     const size_t width = (size_t)job->width;
@@ -22,7 +22,7 @@ static void sample_border(const WrExportJob *job, int y, int rows, float *out)
     wr_free(v);
 }
 
-/* Only formulas can give what is not finite. */
+/* Only formulas can give non-finite heights. */
 int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out)
 {
     if (!job->analytic && job->options.border) {
@@ -48,7 +48,7 @@ int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out)
     return replaced;
 }
 
-/* ---- the range of a formula: sampled like the file itself ---- */
+/* ---- range of a formula: sampled like the file itself ---- */
 
 static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
 {
@@ -66,7 +66,7 @@ static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
     wr_export_extent_add(extent, low, high);
 }
 
-/* Smallest and largest F into the report. */
+/* Stores the smallest and largest F in the report. */
 static void find_range(WrExportJob *job)
 {
     if (job->analytic || job->options.border) {
@@ -119,7 +119,7 @@ void wr_export_height_prepare(WrExportJob *job)
     }
 }
 
-/* F in codes above report->zero_code (or 0), not yet rounded. */
+/* F in codes relative to report->zero_code (or 0), not yet rounded. */
 static double code_of(const WrExportJob *job, double f)
 {
     const WrExportReport *report = &job->report;
@@ -185,7 +185,7 @@ void wr_export_height_describe(WrExportJob *job)
         wr_text_add_number(wr_export_attribute(job, "wrinkle:amplitude"), report->amplitude);
     } else if (!report->ranged) {
         wr_text_add(text, "0");
-    } else { /* where it falls between the codes */
+    } else { /* 0 is between two codes */
         wr_text_add_number(text, code_of(job, 0.0));
     }
 }

@@ -76,7 +76,7 @@ static bool set_scheme(WrExportOptions *options, const char *value, WrError *err
     return wr_fail_word(err, what, value, scheme_name, NULL);
 }
 
-/* Whether there is one of that name is seen when it is exported. */
+/* Whether an object of that name exists is checked by the export. */
 static bool set_object(WrExportOptions *options, const char *value, WrError *err)
 {
     if (!*value) return wr_fail(err, "object: must be the name of one of the scene's objects");

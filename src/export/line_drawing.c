@@ -1,5 +1,5 @@
-/* Lines in space, and which parts of them are seen: the surface's quads are drawn into a depth buffer,
-   and a line's samples are compared with it. */
+/* Lines in space and their visible parts: the surface's quads are drawn into a depth buffer, and a line's
+   samples are compared with it. */
 #include "export/line_drawing.h"
 
 #include "base/array.h"
@@ -10,10 +10,10 @@
 
 #include <math.h>
 
-#define FINE 4      /* cells of the depth buffer along a pixel */
+#define FINE 4      /* depth buffer cells per pixel */
 #define MARGIN 0.04 /* of the drawing, on every side */
 #define STEP 0.25   /* pixels between samples of a line */
-#define CLOSE 0.004 /* cells: nothing that is less far in front hides a line */
+#define CLOSE 0.004 /* cells: the surface hides a line only from this far in front */
 
 typedef struct Sheet {
     const float *heights;
@@ -54,7 +54,7 @@ static WrLinesPlace vertex(const Sheet *sheet, int column, int row)
                           height_at(sheet, column, row));
 }
 
-/* Turn, tilt, and the scale at which all of it fits into the margins. */
+/* Rotation, tilt, and the scale at which the drawing fits into the margins. */
 static void find_frame(Sheet *sheet)
 {
     const WrLinesView *view = sheet->view;
@@ -141,9 +141,9 @@ static void fill_depth(Sheet *sheet)
         }
 }
 
-/* Seen, unless the surface is in front of it in all cells around: so a line along a fold, whose own
- * neighbours are half in front and half behind, is seen. Cells beside the surface say nothing, unless
- * there are no others. */
+/* A point is visible unless the surface is in front of it in all cells around: so a line along a fold, whose
+   neighbouring cells are half in front and half behind, is visible. Cells beside the surface are ignored, unless
+   there are no others. */
 static bool is_seen(const Sheet *sheet, const WrLinesPlace *p)
 {
     int i = within(floor(FINE * p->x), 0, sheet->wide - 1);
@@ -164,7 +164,7 @@ static bool is_seen(const Sheet *sheet, const WrLinesPlace *p)
 typedef struct Points {
     WR_ARRAY(WrStretch) stretches;
     WR_ARRAY(WrVectorDrawingPoint) points;
-    bool open; /* the last stretch goes on */
+    bool open; /* the last stretch is not finished */
 } Points;
 
 static void put_point(Points *out, double x, double y)
@@ -191,7 +191,7 @@ static WrLinesPlace between(const WrLinesPlace *a, const WrLinesPlace *b, double
                            a->depth + t * (b->depth - a->depth) };
 }
 
-/* Where the line from a to b, seen or not at t0, changes: between t0 and t1. */
+/* Refines the position where the line from a to b, visible or not at t0, changes: between t0 and t1. */
 static double find_change(const Sheet *sheet, const WrLinesPlace *a, const WrLinesPlace *b,
                           double t0, double t1, bool seen)
 {

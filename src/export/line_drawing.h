@@ -1,21 +1,21 @@
-/* line_drawing.h - a table as a 3D line drawing with its hidden lines removed: the paper's figure 5.
-   Layer 6. Private to this room.
+/* line_drawing.h - 3D line drawing of a table with its hidden lines removed: the paper's figure 5. Private to
+   this module.
 
-   The heights stand on the unit square, z = relief F; the drawing looks at it in parallel projection,
-   turned about the vertical by turn_deg and seen from tilt_deg above the horizon. Lines run along u and
-   along v through texels' centres. */
+   The heights stand on the unit square, z = relief F, in parallel projection,
+   rotated about the vertical by turn_deg and seen from tilt_deg above the horizon. Lines run along u and along v
+   through texels' centres. */
 #pragma once
 #include "export/vector_drawing.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#define WR_LINES_MOST 1024   /* lines along either axis */
-#define WR_DRAWING_MOST 4096 /* pixels along a side of the drawing */
+#define WR_LINES_MOST 1024   /* maximum lines along either axis */
+#define WR_DRAWING_MOST 4096 /* maximum pixels along a side of the drawing */
 
 typedef struct WrLinesView {
-    int lines_u,
-        lines_v; /* lines along u, along v: 0..WR_LINES_MOST; 0: none; clamped to the texels */
+    /* number of lines along u and along v: 0..WR_LINES_MOST; 0: none; limited to the texels */
+    int lines_u, lines_v;
     double turn_deg, tilt_deg; /* any; 0..90 */
     double relief;             /* height of F = 1, cells */
     bool hidden;               /* hidden lines are drawn as well */
@@ -33,18 +33,18 @@ typedef struct WrDrawing {
     int point_count, stretch_count;
 } WrDrawing;
 
-/* Where a height stands in the drawing, and how far behind (larger is farther). */
+/* Position of a height in the drawing, and its depth (larger is farther). */
 typedef struct WrLinesPlace {
     double x, y, depth;
 } WrLinesPlace;
-typedef struct WrLinesFrame { /* view and scale, worked out */
+typedef struct WrLinesFrame { /* resulting view and scale */
     double xx, xy, yx, yy, yz, dx, dy, dz, left, top, scale;
 } WrLinesFrame;
 WrLinesPlace wr_lines_place(const WrLinesFrame *frame, double u, double v, double z);
 
-/* heights: [rows][columns] samples at texel centres, row 0 at the top of the cell; columns, rows >= 1.
- * frame may be NULL; the drawing is the caller's. Visibility is found on a raster of a quarter of a
- * pixel. Error: no memory for it. */
+/* Draws the lines. heights: [rows][columns] samples at texel centres, row 0 at the top of the cell; columns,
+   rows >= 1. frame may be NULL; the caller owns the drawing. Visibility is computed on a raster of a quarter of
+   a pixel. Error: no memory. */
 bool wr_lines_draw(const float *heights, int columns, int rows, const WrLinesView *view,
                    WrLinesFrame *frame, WrDrawing *drawing, WrError *err);
 void wr_drawing_fini(WrDrawing *drawing);

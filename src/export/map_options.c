@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A number from low to high; whole: nothing else. */
+/* An option's range; whole: integers only. */
 typedef struct Allowed {
     const char *name, *what;
     double low, high;

@@ -1,5 +1,5 @@
-/* map_options.h - the options of maps, as their kinds' rows name them (kinds.c).
-   Layer 6. Private to this room. */
+/* map_options.h - option parsers of maps, used in the kinds' rows (kinds.c).
+   Private to this module. */
 #pragma once
 #include "export/export.h"
 

@@ -1,4 +1,4 @@
-/* Sets of maps as text: those of known programs, and the user's. */
+/* Text definitions of map sets: those of known programs, and the user's. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -16,7 +16,7 @@
 #define SET_ENDING ".set"
 #define BLANKS " \t\r"
 
-/* Heights that a program multiplies itself leave as floats where it reads them; elsewhere as 16 bits. */
+/* Heights are floats for programs that read and scale floats; otherwise 16 bits. */
 const WrSetRow wr_set_rows[] = {
     { "blender",
       "heights as floats, normals, occlusion, roughness, named as Node Wrangler looks for them",
@@ -85,7 +85,7 @@ void wr_set_free(WrSet *set)
 
 /* ---- one line ---- */
 
-/* The words that a line may begin with: the kinds, and "about". */
+/* Possible first words of a line: the kinds, and "about". */
 static const char *line_word(const void *ctx, int i)
 {
     (void)ctx;
@@ -103,7 +103,7 @@ static bool find_kind(const char *word, WrSetMap *map, WrError *err)
     return wr_fail_word(err, what, word, line_word, NULL);
 }
 
-/* "T_*_N.png", of this folder and seen in it. */
+/* Parses "T_*_N.png": a name without a folder, not hidden. */
 static bool take_file(const char *word, WrSetMap *map, WrError *err)
 {
     const char *star = strchr(word, '*');
@@ -120,7 +120,7 @@ static bool take_file(const char *word, WrSetMap *map, WrError *err)
     if (map->kind->ending && strcmp(wr_path_ending(word, ending), map->kind->ending) != 0)
         return wr_fail(err, "'%.80s': %s files end in .%s", word, map->kind->name,
                        map->kind->ending);
-    if (map->kind->write) return true; /* not a picture's, or a drawing's */
+    if (map->kind->write) return true; /* not a picture or a drawing */
     return wr_image_deepest(word, &type, err);
 }
 
@@ -167,7 +167,8 @@ static bool is_same_file(const WrSetMap *a, const WrSetMap *b)
     return strcmp(a->before, b->before) == 0 && strcmp(a->after, b->after) == 0;
 }
 
-/* words: [count], the first is not "about". The map is in the set at once, so that it goes with it. */
+/* Parses a map line. words: [count], the first is not "about". The map is added first, so that it is freed with
+   the set. */
 static bool take_map(WrSet *set, char **words, int count, WrError *err)
 {
     if (set->maps.count == WR_SET_MAPS) return wr_fail(err, "more than %d maps", WR_SET_MAPS);
@@ -185,7 +186,7 @@ static bool take_map(WrSet *set, char **words, int count, WrError *err)
     return check_file(map, err);
 }
 
-/* A line without its end, which it may change. */
+/* Parses a line without its end; modifies it. */
 static bool take_line(WrSet *set, char *line, WrError *err)
 {
     char *words[WR_SET_SETTINGS + 4];
@@ -236,7 +237,7 @@ WrSet *wr_set_parse(const char *name, const char *text, const char *where, WrErr
     return NULL;
 }
 
-/* ---- the user's ---- */
+/* ---- user's sets ---- */
 
 static bool is_name(const char *name, size_t length)
 {

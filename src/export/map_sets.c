@@ -1,4 +1,4 @@
-/* Writing a set of maps. */
+/* Writing of a set of maps. */
 #include "export/map_sets.h"
 
 #include "base/error.h"
@@ -25,7 +25,7 @@ static bool has_option(const WrExportKind *kind, const char *word, size_t length
     return false;
 }
 
-/* Whether the kind has the option; false and a message only where the value is bad. */
+/* Sets an option if the kind has it (`taken`); false and a message only if the value is invalid. */
 static bool set_word(const WrExportKind *kind, WrExportOptions *options, const char *word,
                      bool *taken, WrError *err)
 {
@@ -40,7 +40,7 @@ static bool set_word(const WrExportKind *kind, WrExportOptions *options, const c
     return wr_export_option(kind, options, name, equals + 1, err);
 }
 
-/* The set's settings, then the user's, which win. taken: [word_count]. */
+/* Applies the set's settings, then the user's, which have priority. taken: [word_count]. */
 static bool settle_map(const WrSetOrder *order, const WrSetMap *map, WrExportOptions *options,
                        bool *taken, WrError *err)
 {
@@ -59,7 +59,7 @@ bool wr_set_options(const WrSetOrder *order, int map, WrExportOptions *options, 
     return settle_map(order, &order->set->maps.data[map], options, taken, err);
 }
 
-/* The contact sheet that the words ask for; NULL: none. */
+/* The contact sheet requested by the words; NULL: none. */
 static const char *contact_of(const WrSetOrder *order)
 {
     for (int i = 0; i < order->word_count; i++)
@@ -148,7 +148,7 @@ static bool write_maps(const WrSetOrder *order, const WrExportOptions *options,
 
 /* ---- the contact sheet ---- */
 
-/* Maps that are pictures of the table, into `shown`. */
+/* Indices of the maps that are pictures of the table, into `shown`; returns their number. */
 static int shown_of(const WrSet *set, int shown[WR_SET_MAPS])
 {
     int count = 0;
@@ -220,7 +220,7 @@ bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *
                 (!contact_of(order) || write_contact(order, options, document, pool, told, err));
     if (good) good = wr_file_group_commit(group, err);
     else wr_file_group_abort(group);
-    if (!good && told->length > before) { /* nothing stands there */
+    if (!good && told->length > before) { /* nothing was written */
         told->length = before;
         told->data[before] = '\0';
     }

@@ -1,4 +1,4 @@
-/* Maps that are made of the whole table before the first row is written. */
+/* Maps that are computed from the whole table before the first row is written. */
 #include "export/job.h"
 
 #include "base/error.h"
@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- what they share ----------------------------------------------------------------------------- */
+/* ---- shared functions --------------------------------------------------------------------------- */
 
 WrDerivatives wr_export_ground(const WrExportJob *job, const WrField *field)
 {
@@ -38,7 +38,7 @@ static WrMapPart whole(const WrExportJob *job)
     return (WrMapPart){ 0, 0, job->width, job->height, (size_t)job->width };
 }
 
-/* A formula's heights as a table, to be freed. */
+/* A formula's heights as a table; the caller frees it. */
 static WrField *sampled(WrExportJob *job, WrError *err)
 {
     WrField *field = wr_field_new(job->width, job->height, wr_field_wrap_u(job->field),
@@ -96,7 +96,7 @@ void wr_export_signed_codes(WrExportJob *job, double full)
     report->code_high = step * (last - report->zero_code);
 }
 
-/* A number in codes above the code of 0, or above the first code. */
+/* Converts a number to a code relative to the code of 0, or to the first code. */
 static double code_of(const WrExportJob *job, double x)
 {
     const WrExportReport *report = &job->report;
@@ -117,7 +117,7 @@ static bool beyond(const WrExportReport *report, double x)
     return x < report->code_low || x > report->code_high;
 }
 
-/* code_of, of all numbers at once. */
+/* Parameters of code_of, for arrays of numbers. */
 static WrMapCodes codes_of(const WrExportJob *job)
 {
     const WrExportReport *r = &job->report;
@@ -135,7 +135,7 @@ static WrMapCodes codes_of(const WrExportJob *job)
                          r->amplitude };
 }
 
-/* Of one row, without dither. Returns how many were clipped. */
+/* Codes of one row, without dither. Returns the number of clipped values. */
 static int64_t plain_codes(const WrExportJob *job, const WrMapCodes *codes, const float *from,
                            size_t count, void *out, size_t first)
 {
@@ -155,7 +155,8 @@ static int64_t plain_codes(const WrExportJob *job, const WrMapCodes *codes, cons
     return clipped;
 }
 
-/* Row y, numbers from `from` to the codes from `first` on. Returns how many were clipped. */
+/* Codes of row y, with dither, from numbers at `from` to the codes from `first` on. Returns the number of
+   clipped values. */
 static int64_t dithered_codes(const WrExportJob *job, int y, const float *from, size_t count,
                               void *out, size_t first)
 {
@@ -212,7 +213,7 @@ void wr_export_map_describe(WrExportJob *job)
 
 /* ---- maps of field/maps.h ------------------------------------------------------------------------ */
 
-/* Fill the map and its range. job: settings but the ground. */
+/* Computes the map and its range. job: settings except the ground. */
 static bool fill(WrExportJob *job, WrFieldMapKind kind, const WrMapJob *settings,
                  const char *quantity, WrError *err)
 {
@@ -258,8 +259,8 @@ bool wr_export_direction_make(WrExportJob *job, WrError *err)
     return true;
 }
 
-/* Beckmann's alpha of the scene's material: roughness squared, or as wide as the lobe of its shininess (Walter, Marschner,
- * Li, Torrance 2007: s = 2 / alpha^2 - 2). */
+/* Beckmann's alpha of the scene's material: roughness squared, or the width of the lobe of its shininess
+   (Walter, Marschner, Li, Torrance 2007: s = 2 / alpha^2 - 2). */
 static double material_alpha(const WrScene *scene)
 {
     const double roughness = scene->material.roughness;
@@ -277,7 +278,7 @@ bool wr_export_roughness_make(WrExportJob *job, WrError *err)
     return true;
 }
 
-/* Of what is convex, or concave, alone; so that both are above 0. */
+/* Keeps only the convex, or the concave, part; both are then positive. */
 static void keep_part(WrExportJob *job, WrExportPart part)
 {
     const size_t texels = (size_t)job->width * (size_t)job->height;
@@ -331,7 +332,7 @@ int wr_export_horizon_channels(const WrExportJob *job, char (*names)[WR_EXPORT_N
     return o.directions;
 }
 
-/* The direction that is nearest to those degrees. */
+/* The direction nearest to that angle. */
 static int nearest(const WrOcclusion *o, double degrees)
 {
     int best = 0;

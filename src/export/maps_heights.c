@@ -1,4 +1,4 @@
-/* Maps of heights themselves, and of edges that wear off. */
+/* Maps of heights themselves, and of worn edges. */
 #include "export/job.h"
 
 #include "base/error.h"
@@ -59,7 +59,7 @@ bool wr_export_displacement_make(WrExportJob *job, WrError *err)
 
 /* ---- mask ---------------------------------------------------------------------------------------- */
 
-/* 1 where x is not below 0, 0 from -feather on. */
+/* 1 if x >= 0, falling to 0 at -feather. */
 static double edge(double x, double feather)
 {
     if (x >= 0) return 1;
@@ -88,7 +88,7 @@ bool wr_export_mask_make(WrExportJob *job, WrError *err)
 
 /* ---- wear ---------------------------------------------------------------------------------------- */
 
-/* The number that so many others are not above, whatever their order: halves are put aside until it stands alone. */
+/* The number of that rank, in any order: the array is partitioned until it is isolated. */
 static float ranked(float *x, size_t count, size_t rank)
 {
     size_t low = 0, high = count - 1;
@@ -108,7 +108,7 @@ static float ranked(float *x, size_t count, size_t rank)
     return x[rank];
 }
 
-/* What one texel in fifty is above. */
+/* The value that one texel in fifty exceeds. */
 static bool usual_full(const WrExportJob *job, double *full, WrError *err)
 {
     const size_t texels = (size_t)job->width * (size_t)job->height;

@@ -8,9 +8,9 @@
 #include <stddef.h>
 
 #define CHANNELS WR_LEVEL_CHANNELS
-#define STRIPE 8 /* rows of a level that are made at a time */
+#define STRIPE 8 /* rows of a level computed at a time */
 
-/* What texel i of m covers of n = 2m or 2m + 1, or of n = m = 1: taps from 2i on, and their parts of the whole. */
+/* Coverage of texel i of m over n = 2m or 2m + 1, or n = m = 1: taps from 2i on, with their weights. */
 typedef struct Cover {
     int tap[3];
     double part[3];
@@ -29,13 +29,13 @@ static Cover cover_of(int n, int m, int i)
 
 typedef struct Making {
     WrLevels *levels;
-    int at; /* the level that is made */
+    int at; /* the level being computed */
     WrLevelRows rows;
     void *ctx;
     Cover *columns; /* [width of that level] */
 } Making;
 
-/* The rows that rows [y, end) of the level cover; *first: the first of them. Level 0 is made into `scratch`. */
+/* The rows covered by rows [y, end) of the level; *first: the first of them. Level 0 is computed into `scratch`. */
 static const float *covered(const Making *m, int y, int end, int *first, float *scratch)
 {
     const WrLevel *from = &m->levels->level[m->at - 1], *to = from + 1;
@@ -107,7 +107,7 @@ static void make_stripe(int index, int worker, void *ctx)
     wr_free(sum);
 }
 
-/* ---- all ---- */
+/* ---- all levels ---- */
 
 static int half(int n)
 {

@@ -13,17 +13,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Slopes at texel centres. There every scheme's derivative is a fixed stencil of table entries (scheme.h,
- * with x and y whole numbers), in texels, rows downwards:
- *   nearest, central, catmull   (T[i+1] - T[i-1]) / 2
- *   bilinear                    T[i+1] - T[i], the cell that begins at the centre
- *   bspline, bspline-fit        (c[i+1] - c[i-1]) / 2, averaged across by 1/6, 4/6, 1/6
- * so no position is rounded and no branch depends on one. dF/dV = -H * (slope downwards). */
+/* Slopes at texel centres. There every scheme's derivative is a fixed stencil of table entries (scheme.h, with x
+   and y whole numbers), in texels, rows downwards:
+     nearest, central, catmull   (T[i+1] - T[i-1]) / 2
+     bilinear                    T[i+1] - T[i], the cell that begins at the centre
+     bspline, bspline-fit        (c[i+1] - c[i-1]) / 2, averaged across by 1/6, 4/6, 1/6
+   So no position is rounded and no branch depends on one. dF/dV = -H * (slope downwards). */
 
 #define APRON 1
 
-/* normalise(x, y, 1) of x = -height Fu / cell_w, y = -height Fv / cell_h; straight up and counted where
- * one is not finite. */
+/* normalise(x, y, 1) of x = -height Fu / cell_w, y = -height Fv / cell_h; straight up and counted if one is not
+   finite. */
 static WrVec3 normal_of(double x, double y, int64_t *replaced)
 {
     WrVec3 n = { x, y, 1.0 }, up = { 0.0, 0.0, 1.0 };
@@ -51,7 +51,7 @@ void wr_export_store_normal(const WrExportJob *job, void *out, size_t texel, WrV
     }
 }
 
-/* 1 where the components are x, y, z, -1 where they are x, -y, z, else 0. */
+/* 1 if the components are x, y, z, -1 if they are x, -y, z, else 0. */
 static int sign_of_green(const WrExportJob *job)
 {
     const int *axes = job->options.axes;
@@ -77,7 +77,7 @@ WrNormalStencil wr_normal_stencil(int scheme)
     return WR_STENCIL_CENTRAL;
 }
 
-/* A piece of the table's rows. */
+/* State of a piece of the table's rows. */
 typedef struct Piece {
     WrExportJob *job;
     WrNormalJob normal;
@@ -87,8 +87,8 @@ typedef struct Piece {
     int64_t replaced;
 } Piece;
 
-/* Texels x .. x + count - 1 of the piece's row j; at: the first one's tap. What is not plain, and dithered codes, go
- * one by one. */
+/* Texels x .. x + count - 1 of the piece's row j; at: the first one's tap. Extreme slopes, and dithered codes,
+   are processed one by one. */
 static void finish_run(Piece *piece, int x, int count, int j, const double *at, size_t pitch)
 {
     const WrExportJob *job = piece->job;
@@ -115,7 +115,7 @@ static int run_length(const WrExportJob *job, int x)
     return job->width - x < WR_NORMAL_STRIP ? job->width - x : WR_NORMAL_STRIP;
 }
 
-/* Whether codes may be taken from heights in single precision first. */
+/* True if codes may first be computed from heights in single precision. */
 static bool is_quick(const Piece *piece)
 {
     const WrExportJob *job = piece->job;
@@ -123,7 +123,8 @@ static bool is_quick(const Piece *piece)
            piece->normal.stencil != WR_STENCIL_SPLINE;
 }
 
-/* Row j of a run, whose first texel's height is `at`: quickly, then exactly what that left in doubt. */
+/* Row j of a run, whose first texel's height is `at`: single precision first, then exactly for the codes in
+   doubt. */
 static void quick_run(Piece *piece, int x, int count, int j, const float *at, size_t pitch)
 {
     enum { TAPS = WR_NORMAL_BLOCK + 2 * APRON };
@@ -143,8 +144,8 @@ static void quick_run(Piece *piece, int x, int count, int j, const float *at, si
     }
 }
 
-/* While row j of a run is made, the next one's is fetched, which begins at x; with the first the row before it, and after
- * the last those beyond it. */
+/* Prefetches the next row of a run that begins at x while row j is computed; also the row before the first and
+   the rows after the last. */
 static void expect_row(const Piece *piece, int x, int j)
 {
     const int first = j == 0 ? -APRON : j, end = j + 1 == piece->rows ? j + 1 + APRON : j + 1;
@@ -152,11 +153,11 @@ static void expect_row(const Piece *piece, int x, int j)
         wr_field_expect(piece->job->field, x, piece->y + k, WR_NORMAL_STRIP + WR_TILE / 4);
 }
 
-/* The taps are heights: run by run of columns, so that they stay in the nearest cache. */
+/* The taps are heights: processed in runs of columns, so that they stay in the first-level cache. */
 static void table_rows(Piece *piece)
 {
     enum {
-        BEFORE = WR_ALIGN / sizeof(float), /* so that rows begin where lines of the cache do */
+        BEFORE = WR_ALIGN / sizeof(float), /* aligns the start of rows with cache lines */
         PITCH = WR_NORMAL_STRIP + 2 * BEFORE,
         TALL = WR_EXPORT_PIECE_ROWS + 2 * APRON
     };
@@ -180,7 +181,7 @@ static void table_rows(Piece *piece)
     }
 }
 
-/* The taps are coefficients that are not rounded, since at a high level that would lose the slopes. */
+/* The taps are coefficients in double: rounding them at a high level would lose the slopes. */
 static void fitted_rows(Piece *piece)
 {
     size_t pitch = (size_t)piece->job->width + 2 * APRON;
@@ -215,7 +216,7 @@ static void table_piece(WrExportJob *job, int y, int rows, const Strip *strip, i
     *replaced += piece.replaced;
 }
 
-/* Formulas, and samples beside the texels' centres. */
+/* Formulas, and samples that are not at texels' centres. */
 static void sampled_rows(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)
 {
     for (int j = 0; j < rows; j++) {

@@ -1,5 +1,5 @@
-/* normal_kern_body.h - the text of normal_kern.h's loops, included once by each normal_v*.c, which defines
-   WR_NORMAL_TABLE and WR_NORMAL_NAME. A header without a guard, by intention. */
+/* normal_kern_body.h - text of normal_kern.h's loops, included once by each normal_v*.c, which defines
+   WR_NORMAL_TABLE and WR_NORMAL_NAME. Deliberately without a guard. */
 #include "export/normal_kern.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static void widen(const float *restrict in, int count, double *restrict out)
     for (int i = 0; i < count; i++) out[i] = in[i];
 }
 
-/* Of three taps in a row or in a column, `step` apart. */
+/* Difference over three taps in a row or in a column, `step` apart. */
 ALWAYS double difference(WrNormalStencil stencil, const double *at, ptrdiff_t step)
 {
     return stencil == WR_STENCIL_FORWARD ? at[step] - at[0] : 0.5 * (at[step] - at[-step]);
@@ -31,7 +31,7 @@ ALWAYS double slope(WrNormalStencil stencil, const double *at, ptrdiff_t along, 
            6.0;
 }
 
-/* Multiplying by the inverse of a power of two gives the quotient's bits, and costs much less. */
+/* True for a power of two: multiplying by its inverse gives the quotient's bits, and is much faster. */
 static bool is_power(double cell)
 {
     int exponent;
@@ -53,7 +53,7 @@ ALWAYS bool tilts_of(const WrNormalJob *job, WrNormalStencil stencil, bool divid
         ty = divides ? ty / cell_h : ty * over_h;
         x[i] = tx;
         y[i] = ty;
-        double far = fabs(tx) + fabs(ty); /* not a number where either is none */
+        double far = fabs(tx) + fabs(ty); /* NaN if either is */
         wild += far < WR_NORMAL_PLAIN ? 0.0 : 1.0;
     }
     return wild == 0.0;
@@ -72,7 +72,7 @@ static bool tilts(const WrNormalJob *job, const double *at, ptrdiff_t pitch, int
                    : tilts_of(job, WR_STENCIL_CENTRAL, false, at, pitch, count, x, y);
 }
 
-/* round(last (n/2 + 1/2)) of what is not negative. */
+/* round(last (n/2 + 1/2)) of a non-negative number. */
 ALWAYS int32_t code_of(double last, double n)
 {
     double x = last * (n / 2.0 + 0.5);
@@ -80,7 +80,7 @@ ALWAYS int32_t code_of(double last, double n)
     return whole + (x - whole >= 0.5 ? 1 : 0);
 }
 
-/* The three codes, in planes. */
+/* The three codes, in separate planes. */
 ALWAYS void codes(const WrNormalJob *job, const double *restrict x, const double *restrict y,
                   int count, int32_t (*restrict plane)[WR_NORMAL_STRIP])
 {
@@ -94,7 +94,7 @@ ALWAYS void codes(const WrNormalJob *job, const double *restrict x, const double
     }
 }
 
-/* Three codes of 8 bits a texel. */
+/* Packs three 8-bit codes per texel. */
 ALWAYS void pack8(int32_t (*restrict plane)[WR_NORMAL_STRIP], int count, uint8_t *restrict out)
 {
     int i = 0;
@@ -111,7 +111,8 @@ ALWAYS void pack8(int32_t (*restrict plane)[WR_NORMAL_STRIP], int count, uint8_t
         _mm512_mask_storeu_epi32(out + 3 * i, 0xfff, _mm512_maskz_compress_epi32(0x7777, bytes));
     }
 #endif
-    for (; i + 1 < count; i++) { /* four bytes a texel; the last is the next one's */
+    /* writes four bytes per texel; the next texel overwrites the last one */
+    for (; i + 1 < count; i++) {
         uint32_t word =
             (uint32_t)plane[0][i] | (uint32_t)plane[1][i] << 8 | (uint32_t)plane[2][i] << 16;
         memcpy(out + 3 * i, &word, sizeof word);
@@ -154,7 +155,7 @@ static void floats(const WrNormalJob *job, const double *restrict x, const doubl
         for (int c = 0; c < 3; c++) out[3 * i + c] = plane[c][i];
 }
 
-/* Two floats side by side, the first in the lower half: what a store of 64 bits writes. */
+/* Two floats side by side, the first in the lower half, for one 64-bit store. */
 ALWAYS uint64_t pair_of(float low, float high)
 {
     uint32_t a, b;
@@ -190,8 +191,8 @@ static int64_t codes_of(const WrMapCodes *given, const float *restrict x, int co
 #pragma omp simd reduction(+ : outside)
     for (int i = 0; i < count; i++) {
         const double number = x[i], exact = c.times * (number - c.less) / c.by;
-        double steps =
-            exact > -0x1p20 ? exact : -0x1p20; /* what is cut away is far beyond all codes */
+        /* clamped values are far outside all codes */
+        double steps = exact > -0x1p20 ? exact : -0x1p20;
         steps = steps < 0x1p20 ? steps : 0x1p20;
         const double whole = (double)(int32_t)steps, part = steps - whole;
         double code = c.zero + whole + (part >= 0.5 ? 1.0 : 0.0) - (part <= -0.5 ? 1.0 : 0.0);

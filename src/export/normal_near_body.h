@@ -1,23 +1,24 @@
-/* normal_near_body.h - normals' codes of 8 bits in single precision, each with whether it may be the wrong one
-   (normal_kern.h, nearly8). Included by normal_kern_body.h alone, once for each instruction set. Which codes are in doubt
-   differs between them; those that are not are right. A header without a guard, by intention.
+/* normal_near_body.h - normals' 8-bit codes in single precision, with a flag for codes that may be wrong
+   (normal_kern.h, nearly8). Included only by normal_kern_body.h, once for each instruction set. Which codes are
+   in doubt differs between them; the others are right. Deliberately without a guard.
 
-   A component n becomes the float n 255/2 + 128 + 256, which is in [256, 512): its bits are the exponent, eight bits of
-   code, rounded down, and FRACTION more. Of its errors, with e = 2^-24: a tilt is off by 3 e of itself (difference, factor,
-   product), which moves n by 2.4 e at most, since it changes the length too; the squared length's own roundings are 3 e of
-   it, 1.5 e of n; root and quotient, or estimate and Newton's step, with 255/2 times it 4 e; the product with the tilt 1 e.
-   Less than 9 e of a component are 2.3 units of 2^-FRACTION of a code, and the last sum is off by half of one. */
+   A component n becomes the float n 255/2 + 128 + 256, which is in [256, 512): its bits are the exponent, eight
+   bits of code, rounded down, and FRACTION more. Its errors, with e = 2^-24: a tilt has the relative error 3 e
+   (difference, factor, product), which moves n by 2.4 e at most, since the length changes too; the squared
+   length's own roundings are 3 e of it, 1.5 e of n; root and quotient, or estimate and Newton's step, with 255/2
+   times it 4 e; the product with the tilt 1 e. Together less than 9 e of a component, which is 2.3 units of
+   2^-FRACTION of a code; the last sum is off by half a unit. */
 
 #define FRACTION 15
-#define NEAR 4.0f /* so many units from an edge, or fewer: in doubt */
+#define NEAR 4.0f /* in doubt within this many units of an edge */
 #define MIDDLE                                                                                     \
-    (384.0f + NEAR / (1 << FRACTION)) /* so that the fraction is below twice as many there */
-#define EDGE ((1 << FRACTION) - 8)    /* the fraction's bits that are 0 then */
+    (384.0f + NEAR / (1 << FRACTION)) /* so that near an edge the fraction is below 2 NEAR */
+#define EDGE ((1 << FRACTION) - 8)    /* the fraction's bits that are then 0 */
 
-/* What the loops need of a job, in single precision. */
+/* A job's parameters in single precision. */
 typedef struct Nearly {
-    ptrdiff_t back, up; /* from a texel to the first of the two that a slope is the difference of */
-    float to_x, to_y;   /* times the difference is the tilt */
+    ptrdiff_t back, up; /* offsets from a texel to the first of the two texels of a difference */
+    float to_x, to_y;   /* factor from difference to tilt */
 } Nearly;
 
 ALWAYS Nearly nearly_of(const WrNormalJob *job, ptrdiff_t pitch)
@@ -31,7 +32,7 @@ ALWAYS Nearly nearly_of(const WrNormalJob *job, ptrdiff_t pitch)
 
 #ifdef __AVX512BW__
 
-/* Three codes in the lower bytes of each number; the rest is of no meaning. */
+/* Three codes in the lower bytes of each number; the highest byte is undefined. */
 ALWAYS __m512i word_of(__m512i red, __m512i green, __m512i blue)
 {
     enum { A_WHERE_C_ELSE_B = 0xe4 };
@@ -42,7 +43,7 @@ ALWAYS __m512i word_of(__m512i red, __m512i green, __m512i blue)
                                      _mm512_set1_epi32(0xff0000), A_WHERE_C_ELSE_B);
 }
 
-/* Where a tilt is 0 its code is exact: many are in a level table. */
+/* A tilt of 0 has an exact code: flat tables have many. */
 ALWAYS __mmask16 unless_level(__m512i bits, __m512 tilt)
 {
     const __mmask16 edge = _mm512_testn_epi32_mask(bits, _mm512_set1_epi32(EDGE));
@@ -61,7 +62,7 @@ ALWAYS bool near_block(const Nearly *job, const float *at, ptrdiff_t pitch, __m5
         _mm512_mul_ps(_mm512_sub_ps(_mm512_loadu_ps(at + pitch), _mm512_loadu_ps(at - job->up)),
                       _mm512_set1_ps(job->to_y));
     const __m512 length2 = _mm512_fmadd_ps(x, x, _mm512_fmadd_ps(y, y, one));
-    const __m512 root = _mm512_rsqrt14_ps(length2); /* within 2^-14; a step of Newton's follows */
+    const __m512 root = _mm512_rsqrt14_ps(length2); /* accurate to 2^-14; a Newton step follows */
     const __m512 step = _mm512_fnmadd_ps(_mm512_mul_ps(length2, root),
                                          _mm512_mul_ps(root, _mm512_set1_ps(127.5f * 0.5f)),
                                          _mm512_set1_ps(127.5f * 1.5f));
@@ -77,7 +78,7 @@ ALWAYS bool near_block(const Nearly *job, const float *at, ptrdiff_t pitch, __m5
            0;
 }
 
-/* The lower three bytes of 16 numbers, 48 in all. */
+/* Stores the lower three bytes of 16 numbers, 48 in all. */
 ALWAYS void put_words(__m512i word, uint8_t *out)
 {
     const __m512i three = _mm512_broadcast_i32x4(
@@ -110,7 +111,7 @@ ALWAYS uint32_t bits_of(float x)
     return bits;
 }
 
-/* A tilt of 0 has an exact code: many are in a level table. */
+/* A tilt of 0 has an exact code: flat tables have many. */
 ALWAYS uint32_t in_doubt(uint32_t bits, bool asked)
 {
     return asked & ((bits & EDGE) == 0);
@@ -133,22 +134,23 @@ ALWAYS void near_words(const Nearly *job, const float *restrict at, ptrdiff_t pi
     }
 }
 
-/* The lower three bytes of each, of a multiple of four. */
+/* Stores the lower three bytes of each number; their count is a multiple of four. */
 ALWAYS void put_words(const uint32_t *restrict word, int count, uint8_t *restrict out)
 {
     int i = 0;
 #ifdef __SSSE3__
     const __m128i three = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
-    for (; i + 8 <= count; i += 4) { /* four bytes too many, which the next ones write over */
+    for (; i + 8 <= count; i += 4) { /* four bytes too many, overwritten by the next store */
         const __m128i four = _mm_loadu_si128((const __m128i *)(const void *)(word + i));
         _mm_storeu_si128((__m128i *)(void *)(out + 3 * i), _mm_shuffle_epi8(four, three));
     }
 #endif
-    for (; i + 1 < count; i++) memcpy(out + 3 * i, word + i, sizeof *word); /* one too many */
+    for (; i + 1 < count; i++) memcpy(out + 3 * i, word + i, sizeof *word); /* one byte too many */
     for (int c = 0; c < 3 && i < count; c++) out[3 * i + c] = (uint8_t)(word[i] >> 8 * c);
 }
 
-/* Is one of a block's not 0? A reduction in the loop that makes them would not be one of vectors. */
+/* True if a number of the block is not 0. Inside the loop that computes them, this reduction would prevent
+   vectorisation. */
 ALWAYS bool any_of(const uint32_t *restrict lane)
 {
     uint64_t pair[WR_NORMAL_BLOCK / 2];

@@ -1,4 +1,4 @@
-/* Normals along the object's axes: those of the scene's surface as its bump turns them, a texel's centre each. */
+/* Object-space normals: the scene's surface bent by its bump, at each texel's centre. */
 #include "base/error.h"
 #include "export/job.h"
 #include "scene/texture_sample.h"
@@ -6,7 +6,7 @@
 #include "shade/bump.h"
 #include "surface/surface.h"
 
-/* Slopes come from wr_scene_slopes, as pictures have them: by the scene's scheme, replicated. */
+/* Slopes come from wr_scene_slopes, as in rendering: by the scene's scheme, replicated. */
 static WrVec3 normal_at(const WrExportJob *job, double u, double v)
 {
     const WrScene *scene = job->scene;

@@ -1,4 +1,4 @@
-/* Options of exports that say how their files are laid out. */
+/* Export options about the arrangement of files. */
 #include "export/options.h"
 
 #include "base/error.h"

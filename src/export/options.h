@@ -1,5 +1,5 @@
-/* options.h - options of exports that say how their files are laid out; rows of wr_export_kinds name them.
-   Layer 6. Private to this room. */
+/* options.h - parsers of export options about the arrangement of files, used in rows of wr_export_kinds. Private
+   to this module. */
 #pragma once
 #include <stdbool.h>
 
@@ -24,7 +24,7 @@ bool wr_export_set_solid_size(WrExportOptions *options, const char *value, WrErr
 bool wr_export_set_solid_error(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_thickness(WrExportOptions *options, const char *value, WrError *err);
 
-/* "MxN", whole numbers low..high. */
+/* Parses "MxN", whole numbers low..high. */
 bool wr_export_parse_size(const char *value, double low, double high, int *a, int *b);
 
 #define WR_OPTION_ENDIAN                                                                           \
@@ -40,7 +40,7 @@ bool wr_export_parse_size(const char *value, double low, double high, int *a, in
             wr_export_set_sidecar                                                                  \
     }
 
-/* Of all maps that are made of the table. */
+/* Options of all maps that are computed from the table. */
 #define WR_OPTION_SHEET                                                                            \
     { "lay", "plain, half-drop, brick or hex",                                                     \
       "two cells side by side, the second rolled by half; two rows, likewise; hex: the cell's "    \

@@ -8,13 +8,13 @@
 
 #include <math.h>
 
-/* Codes of a picture's rows, and where they go. */
+/* Source and destination of a picture's rows. */
 typedef struct Codes {
     const uint8_t *from;
     uint8_t *rgb;
 } Codes;
 
-/* One number 0..255 a channel; two channels are red and green. */
+/* One number 0..255 per channel; two channels are red and green. */
 static void put_codes(WrExportJob *job, int y, int rows, void *ctx)
 {
     const Codes *codes = ctx;
@@ -29,7 +29,7 @@ static void put_codes(WrExportJob *job, int y, int rows, void *ctx)
             rgb[3 * i + (size_t)c] = c < channels ? from[i * (size_t)channels + (size_t)c] : 128;
 }
 
-/* Floats, 0 in the middle, the largest white or black. */
+/* Floats, 0 in the middle, the largest magnitude white or black. */
 static void put_floats(const float *from, int channels, size_t count, uint8_t *rgb)
 {
     double most = 0;

@@ -10,9 +10,9 @@
 
 #include <math.h>
 
-#define SIZE 14.0 /* pixels: of the numbers */
+#define SIZE 14.0 /* pixels: font size of the numbers */
 
-/* The chart's rectangle in the drawing, and what it spans. */
+/* The chart's rectangle in the drawing, and its value range. */
 typedef struct Chart {
     double x0, y0, x1, y1; /* pixels: left, top, right, bottom */
     double low, high;      /* table units */
@@ -36,7 +36,7 @@ static void sample(const WrExportJob *job, Chart *chart)
     }
 }
 
-/* 1, 2 or 5 times a power of ten: about `count` steps in that range. */
+/* 1, 2 or 5 times a power of ten, for about `count` steps in that range. */
 static double step_of(double range, int count)
 {
     double step = pow(10.0, floor(log10(range / count)));
@@ -99,7 +99,7 @@ static void draw_curve(const WrExportOptions *o, WrVectorDrawing *ink, const Cha
     wr_free(points);
 }
 
-/* A little air above and below; a flat line in the middle of one unit. */
+/* Adds a margin above and below; a flat line is centred in one unit. */
 static void give_room(Chart *chart)
 {
     double range = chart->high - chart->low, least = 1e-6 * fmax(fabs(chart->low), 1e-30);

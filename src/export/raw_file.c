@@ -25,7 +25,7 @@ static size_t number_bytes(const WrExportJob *job)
     return (size_t)job->options.depth / 8;
 }
 
-/* In the other order of bytes, both ways. */
+/* Reverses the byte order, in both directions. */
 static void turn_round(unsigned char *bytes, size_t count, size_t each)
 {
     for (unsigned char *at = bytes; at < bytes + count * each; at += each)
@@ -55,7 +55,7 @@ static void widen(const WrExportJob *job, const void *bytes, size_t count, float
 typedef struct Strips {
     WrExportJob *job;
     WrFileTarget *target;
-    size_t row, each; /* numbers; bytes of one */
+    size_t row, each; /* numbers per row; bytes per number */
     unsigned char *bytes;
     float *values;
 } Strips;
@@ -117,7 +117,7 @@ static bool write_numbers(WrExportJob *job, WrFileTarget *target, WrError *err)
     return good;
 }
 
-/* ---- the sidecar ---- */
+/* ---- description file ---- */
 
 static void add_number(WrText *text, const char *name, double value)
 {
@@ -135,7 +135,7 @@ static void add_pair(WrText *text, const char *name, double a, double b)
     wr_text_add(text, "],\n");
 }
 
-/* The labels are words and numbers of ours. */
+/* Adds the labels, which are our own words and numbers and need no escaping. */
 static void add_labels(const WrExportJob *job, WrText *text)
 {
     wr_text_add(text, "  \"labels\": {");
@@ -145,7 +145,7 @@ static void add_labels(const WrExportJob *job, WrText *text)
     wr_text_add(text, "\n  }\n}\n");
 }
 
-/* JSON has no numbers but finite ones, and the text of ours is such. */
+/* JSON has only finite numbers, and these are finite. */
 static void tell(const WrExportJob *job, const char *sha256, WrText *text)
 {
     const WrExportReport *report = &job->report;

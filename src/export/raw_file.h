@@ -1,12 +1,12 @@
-/* raw_file.h - files of nothing but numbers, and the sidecar beside any file that says what it is (image/sidecar.h).
-   Layer 6. Private to this room. */
+/* raw_file.h - raw files of numbers, and the description file (sidecar) of any file (image/sidecar.h). Private
+   to this module. */
 #pragma once
 #include <stdbool.h>
 
 typedef struct WrError WrError;
 typedef struct WrExportJob WrExportJob;
 
-/* The job's rows as numbers, read back before they take their name. */
+/* Writes the job's rows as numbers, which are verified before the file is renamed. */
 bool wr_export_numbers(WrExportJob *job, const char *path, WrError *err);
-/* The sidecar of the file that was written last, in the same group of files (base/file.h). */
+/* Writes the description of the last written file, in the same group of files (base/file.h). */
 bool wr_export_sidecar(WrExportJob *job, const char *path, WrError *err);

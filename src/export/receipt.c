@@ -1,4 +1,4 @@
-/* What an export left on the disk against what should stand there. */
+/* Verification of an exported file on disk against the expected values. */
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
@@ -8,18 +8,17 @@
 
 #include <math.h>
 
-/* Rows as they were read, beside the numbers that they stand for: the same rows as floats, which no code has
- * passed through. */
+/* Rows as read back, and the expected numbers: the same rows as floats that were never encoded. */
 typedef struct Receipt {
     int first; /* row */
     const float *have, *want;
     WrMutex lock;
-    double worst; /* so far; of normals the square of a sine (turned) */
-    int bad_row;  /* the first beyond its bound, or INT32_MAX */
+    double worst; /* so far; for normals the square of a sine (turned) */
+    int bad_row;  /* the first row outside its bound, or INT32_MAX */
 } Receipt;
 
-/* How far from its number a code may be, in codes: rounding, and what dither moved before it. The thousandth is for
- * numbers that were rounded to float. */
+/* Largest deviation of a code from its number, in codes: rounding, and dither before it. The thousandth is for
+   numbers that were rounded to float. */
 static double code_bound(const WrExportJob *job)
 {
     return (job->options.dither ? 1.0 : 0.5) + 0x1p-10;
@@ -27,7 +26,7 @@ static double code_bound(const WrExportJob *job)
 
 /* ---- numbers ---- */
 
-/* The number that a value of the file stands for. */
+/* The number that a value of the file represents. */
 static double decode(const WrExportJob *job, float value)
 {
     const WrExportReport *report = &job->report;
@@ -44,7 +43,7 @@ static double clamp(const WrExportReport *report, double x)
     return x < report->code_low ? report->code_low : x > report->code_high ? report->code_high : x;
 }
 
-/* Numbers beyond the range are counted as clipped, so here they are the range's ends. */
+/* Numbers outside the range are counted as clipped, so they are compared with the range's ends. */
 static double number_error(const WrExportJob *job, float have, float want, bool *bad)
 {
     const WrExportReport *report = &job->report;
@@ -80,15 +79,15 @@ static double degrees(double turned)
     return turned <= 1.0 ? angle : 180.0 - angle;
 }
 
-/* How far a component may be off. 2^-24: both are floats of up to 1. */
+/* Largest deviation of a component. 2^-24: both are floats of up to 1. */
 static double component_bound(const WrExportJob *job)
 {
     if (job->options.depth != 32) return code_bound(job) / wr_export_last_code(job) + 0x1p-24;
     return job->options.half ? 0x1p-12 : 0.0;
 }
 
-/* The worst of a row and of `worst`. The sine of the angle between two vectors is no more than their distance over the
- * length of either, and `want` is of length 1: so few are turned by more than what was seen before. */
+/* The maximum of a row and of `worst`. The sine of the angle between two vectors is at most their distance
+   divided by the length of either, and `want` has length 1: so the exact angle is computed only for few. */
 static double worst_normal(const float *have, const float *want, size_t count, double bound,
                            double worst, bool *bad)
 {
@@ -138,7 +137,7 @@ static void compare_piece(WrExportJob *job, int y, int rows, void *ctx)
     note(receipt, worst, bad_row);
 }
 
-/* The rows as floats; what is counted meanwhile was counted before. */
+/* The expected rows as floats; counters that they update are discarded. */
 static float *wanted(const WrExportJob *job, int y, int rows)
 {
     WrExportJob plain = *job;

@@ -10,14 +10,15 @@
 #include <math.h>
 #include <string.h>
 
-#define BOX_STEPS 64 /* along each direction of a face, to find its size: quarters are among them */
+/* samples along each direction of a face, to find its size: they include quarters */
+#define BOX_STEPS 64
 #define SHARP                                                                                      \
-    0.0625 /* of |mean normal|^2, at least: a point moves at most 16 times as far as its height */
-#define SHEET 2.0 /* mm: of an open surface, unless told */
+    0.0625 /* of |mean normal|^2, at least: a point is displaced by at most 16 times its height */
+#define SHEET 2.0 /* mm: default thickness of an open surface */
 
 /* ---- points ---- */
 
-/* d with n . d = f for all of several normals, near enough: mean f along the mean normal m, over |m|^2. */
+/* Approximate d with n . d = f for all of several normals: mean f along the mean normal m, over |m|^2. */
 static WrVec3 moved(WrVec3 normals, double f, int count)
 {
     const WrVec3 m = v3_scale(normals, 1.0 / count);
@@ -98,7 +99,7 @@ static void grow(WrVec3 *low, WrVec3 *high, WrVec3 p)
     *high = (WrVec3){ fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z) };
 }
 
-/* The longest side of the smooth surface becomes `size`, its middle the origin. */
+/* Scales the longest side of the smooth surface to `size`, and moves its middle to the origin. */
 static void set_scale(WrSolid *s)
 {
     WrVec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
@@ -118,7 +119,7 @@ static void set_scale(WrSolid *s)
     s->scale = s->true_width > 0 ? s->true_width / d.x : s->size / fmax(d.x, fmax(d.y, d.z));
 }
 
-/* A plane is as wide as its cells, and as high as they say, where they are told in millimetres. */
+/* A plane has its cells' width and height, if they are stated in millimetres. */
 static WrScene *true_scene(const WrExportJob *job, WrSolid *s)
 {
     const WrScene *scene = job->scene;
@@ -147,7 +148,7 @@ static bool check(const WrExportJob *job, WrError *err)
     return true;
 }
 
-/* A tube is filled unless it is told how thick; a sheet must have a thickness. */
+/* A tube is filled unless a thickness is given; a sheet must have one. */
 static double thickness_of(const WrExportJob *job)
 {
     const double told = job->options.solid_thickness;

@@ -1,4 +1,4 @@
-/* The squares that a relief begins with, and which of their sides are one. */
+/* The initial squares of a relief, and the sides that they share. */
 #include "base/memory.h"
 #include "base/enum_rows.h"
 #include "export/solid.h"
@@ -7,30 +7,31 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LINES 200  /* of one direction, at most */
-#define CORNERS 64 /* rows where Pv jumps, at most */
-#define SPREAD 16  /* squares along a long side for one along the other, at most */
-#define SAME 1e-9  /* parts of the surface's radius: places that are one */
-#define TRIED 5    /* places along a side that are compared */
-#define SEEN 8     /* places along a side that is one point, for its height */
+#define LINES 200  /* maximum lines in one direction */
+#define CORNERS 64 /* maximum rows at which Pv is discontinuous */
+#define SPREAD 16  /* maximum squares along a long side per square along the other */
+#define SAME 1e-9  /* tolerance of equal positions, relative to the surface's radius */
+#define TRIED 5    /* points along a side that are compared */
+#define SEEN 8     /* samples along a side that is a single point, for its height */
 
 typedef struct Node {
     WrSolidSight sight;
-    int32_t root; /* of those that are one place: the smallest number, or one on the way to it */
+    /* union-find of nodes at one position: the smallest number, or one on the way to it */
+    int32_t root;
 } Node;
 
-/* A triangle's side where the domain ends. */
+/* A triangle's side on the border of the domain. */
 typedef struct Side {
-    int32_t triangle, slot, from, to; /* nodes */
+    int32_t triangle, slot, from, to; /* from, to: nodes */
     WrSolidSight ends[2];
     WrVec3 at[TRIED];
-    bool point; /* all of it is one place */
+    bool point; /* the side is a single point */
 } Side;
 
 typedef struct Base {
     WrSolid *solid;
     double u[LINES], v[LINES];
-    int count_u, count_v; /* squares */
+    int count_u, count_v; /* number of squares */
     WR_ARRAY(Node) nodes;
     WR_ARRAY(Side) sides;
 } Base;
@@ -43,7 +44,8 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Squares along u and v, so that they are about square on the surface; quarters where it is curved. */
+/* Numbers of squares along u and v that make them nearly square on the surface; multiples of four where it is
+   curved. */
 static void count_squares(const WrShape *shape, WrSurfaceCell cell, int *nu, int *nv)
 {
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -90,7 +92,7 @@ static WrSolidTriangle triangle_of(const Base *base, int face, int a, int b, int
     return t;
 }
 
-/* Two triangles a square, below and above its diagonal, with their neighbours in the face. */
+/* Two triangles per square, below and above its diagonal, with their neighbours in the face. */
 static void lay_face(Base *base, int face)
 {
     WrSolid *s = base->solid;
@@ -118,7 +120,7 @@ static void lay_face(Base *base, int face)
         }
 }
 
-/* ---- sides that are one ---- */
+/* ---- shared sides ---- */
 
 static int32_t root_of(const Base *base, int32_t node)
 {
@@ -168,7 +170,7 @@ static bool one_point(const Side *side, double same)
     return true;
 }
 
-/* The same curve, run the other way, as neighbours' sides are. */
+/* True if both are the same curve in opposite directions, as neighbours' sides are. */
 static bool one_curve(const Side *a, const Side *b, double same)
 {
     for (int p = 0; p < TRIED; p++)
@@ -199,7 +201,7 @@ static void join_sides(Base *base)
 
 /* ---- points ---- */
 
-/* All places at which a node is seen: those that are one with it, and those along sides that are one point. */
+/* A point with all sights of a node: those joined with it, and those along sides that are a single point. */
 static int32_t point_of(Base *base, int32_t root)
 {
     WR_ARRAY(WrSolidSight) seen = { 0 };

@@ -1,4 +1,4 @@
-/* The back of a relief, the walls around it, caps over open ends: what makes a body of it. */
+/* Back of a relief, walls around it, and caps over open ends: they close the mesh. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Where the relief ends: the next point along its border, seen from each; -1: it is within. */
+/* Border of the relief: the next point along it, for each point; -1: inside. */
 typedef struct Border {
     int32_t *next;  /* [points] */
-    int32_t *start; /* [loops]: a point of each */
+    int32_t *start; /* [loops]: a point of each loop */
     int loops;
 } Border;
 
@@ -20,7 +20,7 @@ static WrVec3 point(const WrSolid *s, int32_t i)
     return (WrVec3){ s->points[i][0], s->points[i][1], s->points[i][2] };
 }
 
-/* Twice its area along its normal. */
+/* Area vector: twice the area along the normal. */
 static WrVec3 area(const WrSolid *s, int32_t a, int32_t b, int32_t c)
 {
     const WrVec3 p = point(s, a);
@@ -72,7 +72,7 @@ static bool find_border(const WrSolid *s, Border *border, WrError *err)
 
 /* ---- a fan over a loop ---- */
 
-/* The middle of a loop of points, and the direction from which it runs round; `map` tells what each point is called. */
+/* Centre of a loop of points, and its axis of rotation; `map` converts point numbers. */
 static WrVec3 middle_of(const WrSolid *s, const Border *b, const int32_t *map, int32_t start,
                         WrVec3 *up)
 {
@@ -96,7 +96,8 @@ static WrVec3 middle_of(const WrSolid *s, const Border *b, const int32_t *map, i
     return middle;
 }
 
-/* Triangles from all its sides to a point in its middle; false and none where that is not seen from all of them. */
+/* Adds triangles from all its sides to a point in its middle; false and none if that point does not see all of
+   them. */
 static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
 {
     WrVec3 up;
@@ -131,7 +132,7 @@ static int32_t add_back_point(WrSolid *s, int32_t of)
     return wr_solid_add_bare(s, at);
 }
 
-/* Its back looks another way than it does. A mirrored object's triangles run with the clock. */
+/* True if its back faces another way than the triangle. A mirrored object's triangles are clockwise. */
 static bool folds(const WrSolid *s, const WrSolidTriangle *t, const int32_t *back)
 {
     const double way = s->stretch.x * s->stretch.y * s->stretch.z;
@@ -147,7 +148,7 @@ static bool is_pole(const WrSolidTriangle *t)
     return p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
 }
 
-/* The relief's triangles again, at the back. */
+/* Adds the relief's triangles again, at the back. */
 static bool add_shell(WrSolid *s, int32_t *back, int32_t points, WrError *err)
 {
     for (int32_t i = 0; i < points; i++)
@@ -218,7 +219,7 @@ double wr_solid_volume(const WrSolid *solid)
     return sum / 6.0;
 }
 
-/* Mirrored objects, and formulas whose normals look inwards. */
+/* For mirrored objects, and formulas whose normals point inwards. */
 static void turn_outwards(WrSolid *s)
 {
     if (wr_solid_volume(s) >= 0.0) return;

@@ -9,14 +9,14 @@
 #include <string.h>
 
 #define WORDS "Wrinkle, lengths in millimetres"
-#define BLOCK ((size_t)1 << 20) /* bytes that are written at once */
-#define LINE 256                /* bytes of one entry, at most */
+#define BLOCK ((size_t)1 << 20) /* bytes written at once */
+#define LINE 256                /* maximum bytes of one entry */
 
-/* Bytes on their way into the file. */
+/* Output buffer of the file. */
 typedef struct Out {
     WrFileTarget target;
     WrText bytes;
-    int64_t done, all; /* entries */
+    int64_t done, all; /* progress, in entries */
 } Out;
 
 static bool flush(Out *out, WrError *err)
@@ -27,7 +27,7 @@ static bool flush(Out *out, WrError *err)
     return good;
 }
 
-/* One more entry is complete. */
+/* Counts a complete entry. */
 static bool entry(Out *out, WrError *err)
 {
     out->done++;

@@ -1,9 +1,9 @@
-/* solid_file.h - a closed body as a file: binary STL and PLY, OBJ. None of them has a unit: that it is the millimetre
-   stands where each has room for words.
-   Layer 6. Private to this room. */
+/* solid_file.h - closed mesh file writer: binary STL and PLY, OBJ.
+   Private to this module. None of these formats has a unit; a comment in the file states millimetres where the
+   format allows it. */
 #pragma once
 #include "export/solid.h"
 
-/* Each stretch is read back as it is written. ending: "stl", "ply" or "obj".
- * Errors: another ending, cancelled, anything about the file, which then is as it was. */
+/* Writes the file and verifies each part. ending: "stl", "ply" or "obj".
+   Errors: another extension, cancelled, any file error; then the old file is unchanged. */
 bool wr_solid_write(const WrSolid *solid, const char *ending, const char *path, WrError *err);

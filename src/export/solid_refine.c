@@ -1,6 +1,6 @@
-/* Triangles are halved where a sample lies too far from them. Each is measured against all samples in it; all that are
-   new are measured at once, on any number of threads, and those that fail are then halved one after the other, so
-   that the same triangles come of it. */
+/* Bisection of triangles that are too far from a sample. Each triangle is measured against all samples inside
+   it. All new ones are measured at once, by any number of threads; those that fail are then bisected one after
+   the other, so that the result does not depend on the threads. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -9,18 +9,19 @@
 
 #include <math.h>
 
-#define PIECE 128    /* triangles measured by one thread at a time */
-#define LEAST 0.0625 /* of the distance of two samples: no triangle is halved below */
-#define SLACK 1e-6   /* of the same: samples on a side are in both triangles */
+#define PIECE 128 /* triangles measured by one thread at a time */
+/* relative to the distance of two samples: smaller triangles are not bisected */
+#define LEAST 0.0625
+#define SLACK 1e-6 /* relative to that distance: samples on a side are in both triangles */
 
-/* ---- the distance of a place from a triangle ---- */
+/* ---- distance of a point from a triangle ---- */
 
 typedef struct Facet {
     WrVec3 p[3], side[3]; /* side k runs from corner k to the next */
     WrVec3 in[3];         /* across side k, inwards */
     WrVec3 n;             /* unit */
     double length2[3];
-    bool flat; /* it has no area: its sides are all there is */
+    bool flat; /* it has no area, only sides */
 } Facet;
 
 static WrVec3 vec_of(const float at[3])
@@ -51,7 +52,7 @@ static double from_side2(const Facet *f, int k, WrVec3 p)
     return v3_dot(d, d);
 }
 
-/* The square of the distance. */
+/* Squared distance of a point. */
 static double from_facet2(const Facet *f, WrVec3 p)
 {
     bool over = !f->flat;
@@ -63,9 +64,9 @@ static double from_facet2(const Facet *f, WrVec3 p)
     return fmin(from_side2(f, 0, p), fmin(from_side2(f, 1, p), from_side2(f, 2, p)));
 }
 
-/* ---- its samples ---- */
+/* ---- samples in a triangle ---- */
 
-/* Where the row v of the domain runs within it; false: nowhere. */
+/* Interval of the row v of the domain inside the triangle; false: empty. */
 static bool row_of(const WrSolidTriangle *t, double v, double *from, double *to)
 {
     *from = INFINITY, *to = -INFINITY;
@@ -91,7 +92,7 @@ static int last_at(double x, double step, double first, int count)
     return (int)fmin(floor(x / step - 0.5 - first + SLACK), count - 1.0);
 }
 
-/* The largest distance of its samples, or one that is beyond `enough`. */
+/* The largest distance of its samples, or one that exceeds `enough`. */
 static double error_of(const WrSolid *s, const WrSolidTriangle *t, double enough)
 {
     const WrSolidLattice *l = &s->lattice[t->face];
@@ -134,9 +135,9 @@ static void measure_piece(int index, int worker, void *ctx)
     }
 }
 
-/* ---- halving ---- */
+/* ---- bisection ---- */
 
-/* Halving one that is smaller than the distance of its samples makes none nearer. */
+/* True unless the triangle is smaller than the distance of its samples, where bisection improves nothing. */
 static bool can_halve(const WrSolid *s, const WrSolidTriangle *t)
 {
     const WrSolidLattice *l = &s->lattice[t->face];
@@ -163,7 +164,7 @@ static int32_t middle_point(WrSolid *s, const WrSolidTriangle *t, const WrSolidT
     return wr_solid_add_point(s, sights, count);
 }
 
-/* What lies beyond a side has another number now. */
+/* Replaces a neighbour's number in a triangle. */
 static void tell(WrSolid *s, int32_t triangle, int32_t was, int32_t now)
 {
     if (triangle < 0) return;
@@ -174,8 +175,8 @@ static void tell(WrSolid *s, int32_t triangle, int32_t was, int32_t now)
         }
 }
 
-/* Into (2, 0, m), which keeps its number, and (1, 2, m); returns the second's. What lies beyond side 0 1 is set by the
- * caller. */
+/* Divides into (2, 0, m), which keeps its number, and (1, 2, m); returns the second's. The neighbour beyond side
+   0 1 is set by the caller. */
 static int32_t halve(WrSolid *s, int32_t index, int32_t point)
 {
     const WrSolidTriangle t = s->relief.data[index];
@@ -195,7 +196,8 @@ static int32_t halve(WrSolid *s, int32_t index, int32_t point)
     return other;
 }
 
-/* Both triangles at the longest side of one; before that the one beyond until that side is its longest, too. */
+/* Bisects the two triangles at the longest side of one; before that the neighbour, until that side is its
+   longest, too. */
 static void refine(WrSolid *s, int32_t index)
 {
     int32_t beyond;
@@ -213,7 +215,7 @@ static void refine(WrSolid *s, int32_t index)
     s->relief.data[far].across[1] = index;
 }
 
-/* All that failed. Returns how many were halved; -1 where there are too many. */
+/* Bisects all that failed. Returns the number of bisections; -1 if there are too many triangles. */
 static int32_t halve_bad(WrSolid *s, const int32_t *fresh, int32_t count)
 {
     int32_t halved = 0;

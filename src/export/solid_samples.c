@@ -1,4 +1,4 @@
-/* The samples that a solid is measured against: all texels' centres, and places between those of a coarse table. */
+/* Samples for measuring a solid: all texels' centres, and points between those of a coarse table. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -10,13 +10,13 @@
 
 #include <math.h>
 
-#define FINEST 2000 /* samples along each direction, at least, for the smallest error */
-#define COARSEST 64 /* for the largest */
+#define FINEST 2000 /* minimum samples along each direction for the smallest error */
+#define COARSEST 64 /* minimum for the largest error */
 #define CLOSE                                                                                      \
-    16.0 /* times sqrt(size / error): a ball between two samples is off by 1/100 of the error */
+    16.0 /* times sqrt(size / error): the sagitta between two samples on a sphere is 1/100 of the error */
 
-/* Along one direction of a face, from `from` to `to`: a texel's centre is k + 1/2 texels from 0, and stays a sample where
-   each texel has an odd number of them. */
+/* Samples along one direction of a face, from `from` to `to`. A texel's centre is at k + 1/2 texels from 0, and
+   is a sample if each texel has an odd number of them. */
 static bool lay_direction(double texels, double fine, double from, double to, double *first,
                           double *step, int *count)
 {
@@ -48,13 +48,13 @@ static bool lay_lattice(WrSolid *solid, int face, int64_t *samples, WrError *err
         (long long)WR_SOLID_SAMPLES);
 }
 
-/* ---- their places ---- */
+/* ---- positions ---- */
 
 typedef struct Work {
     WrSolid *solid;
     int face;
     WrMutex lock;
-    bool bad; /* beyond single precision */
+    bool bad; /* exceeds single precision */
 } Work;
 
 static void note(Work *work, double low, double high, bool bad)

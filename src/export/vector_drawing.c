@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#define LOOK 256 /* pieces of a line between two looks at the cancel */
+#define LOOK 256 /* pieces of a line between two checks for cancellation */
 
 static const WrVectorDrawingVectors *vectors_of(const char *path)
 {
@@ -64,7 +64,7 @@ int wr_vector_drawing_grey(const WrVectorDrawing *ink)
     return (int)rint(255.0 * (double)wr_srgb_encode((float)(1.0 - ink->darkness)));
 }
 
-/* Without an exponent, which PDF does not know. */
+/* Formats without an exponent, which PDF does not support. */
 void wr_vector_drawing_number(WrVectorDrawing *ink, double x)
 {
     const long long parts = llrint(100.0 * fabs(x));
@@ -74,7 +74,7 @@ void wr_vector_drawing_number(WrVectorDrawing *ink, double x)
     else if (tenth) wr_text_addf(&ink->text, ".%d", tenth);
 }
 
-/* Does b lie on the straight line from a to c, to a fiftieth of a pixel? */
+/* True if b is on the straight line from a to c, within a fiftieth of a pixel. */
 static bool is_straight(const WrVectorDrawingPoint *a, const WrVectorDrawingPoint *b,
                         const WrVectorDrawingPoint *c)
 {
@@ -115,7 +115,7 @@ static int clip(double x, int most)
     return x < 0.0 ? 0 : x > most ? most : (int)x;
 }
 
-/* Darkness of a line of that breadth with an edge a pixel wide; the darkest line wins. */
+/* Draws a line of the pen's width with an edge one pixel wide; of overlapping lines the darkest counts. */
 static void ink_segment(WrVectorDrawing *ink, const WrVectorDrawingPoint *a,
                         const WrVectorDrawingPoint *b)
 {
@@ -139,7 +139,7 @@ static void ink_word(WrVectorDrawing *ink, const char *word, double x, double y,
 {
     WrLabel *label = wr_label_new((int)rint(size), NULL);
     if (!label) return;
-    /* the rows that it can reach */
+    /* rows that the line can touch */
     int top = clip(rint(y) - 2.0 * size, ink->height), end = clip(rint(y) + size, ink->height);
     size_t pixels = (size_t)ink->width * (size_t)(end - top);
     uint8_t *grey = wr_alloc(pixels + 1, 1);
@@ -173,7 +173,7 @@ static bool write_picture(WrVectorDrawing *ink, WrError *err)
     return good;
 }
 
-/* ---- either ---- */
+/* ---- both kinds of drawing ---- */
 
 void wr_vector_drawing_pen(WrVectorDrawing *ink, double breadth, double darkness)
 {

@@ -1,16 +1,16 @@
-/* vector_drawing_internal.h - a sheet, and the formats of vectors that it can be.
-   Private to this room. */
+/* vector_drawing_internal.h - state of a drawing, and its vector formats.
+   Private to this module. */
 #pragma once
 #include "base/text.h"
 #include "export/vector_drawing.h"
 
 #include <stddef.h>
 
-/* One format. Numbers go through wr_vector_drawing_number; y runs down. */
+/* One format. Numbers are written by wr_vector_drawing_number; y points down. */
 typedef struct WrVectorDrawingVectors {
     const char *ending;
     void (*head)(WrVectorDrawing *ink);
-    void (*begin_path)(WrVectorDrawing *ink); /* of the pen at hand */
+    void (*begin_path)(WrVectorDrawing *ink); /* with the current pen */
     void (*place)(WrVectorDrawing *ink, bool first, const WrVectorDrawingPoint *p);
     void (*end_line)(WrVectorDrawing *ink);
     void (*end_path)(WrVectorDrawing *ink);
@@ -28,9 +28,9 @@ struct WrVectorDrawing {
     const WrVectorDrawingVectors *vectors; /* NULL: a picture */
     bool drawing;                          /* vectors: a path is open */
     WrText text;                           /* vectors: the file so far */
-    size_t stream;                         /* PDF: where the page's drawing begins in it */
+    size_t stream;                         /* PDF: offset of the page's content in it */
     float *ink;                            /* pictures: [height][width] darkness 0..1 */
 };
 
-int wr_vector_drawing_grey(const WrVectorDrawing *ink);        /* the sRGB code of the pen */
-void wr_vector_drawing_number(WrVectorDrawing *ink, double x); /* to a hundredth */
+int wr_vector_drawing_grey(const WrVectorDrawing *ink);        /* sRGB code of the pen */
+void wr_vector_drawing_number(WrVectorDrawing *ink, double x); /* rounded to a hundredth */

@@ -1,12 +1,12 @@
-/* PDF, version 1.4: one page, a pixel to 1/96 inch as in SVG, Helvetica for words, nothing compressed. */
+/* PDF, version 1.4: one page, a pixel is 1/96 inch as in SVG, Helvetica for text, nothing compressed. */
 #include "export/vector_drawing_internal.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#define POINTS 0.75 /* a pixel */
+#define POINTS 0.75 /* per pixel */
 
-/* Helvetica's advances of the characters from space to tilde, in thousandths of the size: Adobe's metrics. */
+/* Helvetica's advance widths of the characters from space to tilde, in thousandths of the size: Adobe's metrics. */
 static const short advances[95] = {
     278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333,  278, 278, 556, 556, 556,
     556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
@@ -17,7 +17,7 @@ static const short advances[95] = {
 
 enum { CATALOG = 1, PAGES, PAGE, FONT, DRAWING, LENGTH, OBJECTS };
 
-/* Objects lie in the order of their numbers; where, is found again at the end. */
+/* Objects are written in the order of their numbers; their offsets are found at the end. */
 static void begin_object(WrVectorDrawing *ink, int number)
 {
     wr_text_addf(&ink->text, "%d 0 obj\n", number);
@@ -45,7 +45,7 @@ static void head(WrVectorDrawing *ink)
     ink->stream = text->length;
     wr_vector_drawing_number(ink, POINTS);
     wr_text_add(text, " 0 0 ");
-    wr_vector_drawing_number(ink, -POINTS); /* from here on pixels, y down */
+    wr_vector_drawing_number(ink, -POINTS); /* units from here on: pixels, y down */
     wr_text_add(text, " 0 ");
     wr_vector_drawing_number(ink, POINTS * ink->height);
     wr_text_add(text, " cm\n1 J 1 j\n");
@@ -107,7 +107,7 @@ static void word(WrVectorDrawing *ink, const char *word, double x, double y, dou
     wr_text_add(&ink->text, ") Tj ET\n");
 }
 
-/* Where objects begin: each at the start of a line, none of which a drawing has. */
+/* Finds the objects' offsets: each begins a line, and no line of a drawing looks like one. */
 static void find_objects(const WrVectorDrawing *ink, size_t at[OBJECTS])
 {
     const char *text = wr_text_get(&ink->text);

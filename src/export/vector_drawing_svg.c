@@ -1,4 +1,4 @@
-/* SVG: a path element of all lines of one pen. */
+/* SVG: one path element for all lines of one pen. */
 #include "export/vector_drawing_internal.h"
 
 static void head(WrVectorDrawing *ink)

@@ -1,4 +1,4 @@
-/* One export as a picture file: its rows, its label, its levels. */
+/* Writing of one export as a picture file: its rows, its label, its levels. */
 #include "export/mip_files.h"
 
 #include "base/error.h"
@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HALF_MOST 65520.0f /* what is less becomes 65504 at most */
+#define HALF_MOST 65520.0f /* smaller values become at most 65504 */
 
 WrPixelType wr_export_pixels(int depth)
 {
@@ -24,7 +24,7 @@ WrPixelType wr_export_pixels(int depth)
 
 /* ---- rows ---- */
 
-/* Floats become the nearest halves, where the file has those. row: numbers. */
+/* Rounds floats to the nearest halves, if the file stores those. row: numbers. */
 static bool round_rows(const WrExportJob *job, int y, int rows, size_t row, float *values,
                        WrError *err)
 {
@@ -73,7 +73,7 @@ static bool level_seen(void *ctx, int y, int rows, const float *values, bool exa
 
 /* ---- the file ---- */
 
-/* Normals by what they are rather than by what was asked for: readers go by it. */
+/* Normals' kind by the actual axes instead of the requested name: readers rely on it. */
 static const char *kind_told(const WrExportJob *job)
 {
     const int *axes = job->options.axes;
@@ -82,8 +82,8 @@ static const char *kind_told(const WrExportJob *job)
     return axes[1] > 0 ? "normal+y" : "normal-y";
 }
 
-/* How the pattern's edges meet, in u and in v, and how many cells are laid side by side; "open" where the picture is not
- * one cell. */
+/* Label of the seam in u and in v, and of the number of cells side by side; "open" if the picture is not one
+   cell. */
 static void describe_edges(WrExportJob *job)
 {
     const WrSeam *pattern = &job->report.seam.pattern;
@@ -101,7 +101,7 @@ static void describe(WrExportJob *job)
 {
     wr_text_add(wr_export_attribute(job, "wrinkle:kind"), kind_told(job));
     wr_text_add(wr_export_attribute(job, "wrinkle:wrap"),
-                job->options.border ? "clamp" /* both ends are there */
+                job->options.border ? "clamp" /* both ends are included */
                                     : wr_document_wrap_word(wr_field_wrap_u(job->field),
                                                             wr_field_wrap_v(job->field)));
     if (job->options.border) wr_text_add(wr_export_attribute(job, "wrinkle:border"), "on");
