@@ -594,6 +594,35 @@ static void check_json(const char *json)
     assert_int_equal(depth, 0);
 }
 
+/* What the session, its journal and recovery read of a row, kept by every row. */
+static void rows_agree_with_what_the_session_does_for_them(void **state)
+{
+    int back = 0, forward = 0, streams = 0, views = 0;
+    (void)state;
+    for (int i = 0; i < wr_command_count; i++) {
+        const WrCommand *c = wr_commands[i];
+        WrArgSpec specs[WR_ARGS_MAX];
+        const int count = wr_command_specs(c, -1, specs);
+        bool points = false, n = false;
+        for (int k = 0; k < count; k++) {
+            points = points || strcmp(specs[k].name, "points") == 0;
+            n = n || strcmp(specs[k].name, "N") == 0;
+        }
+        if (c->prework != WR_PREWORK_NONE) assert_int_equal(c->kind, WR_CLASS_EDIT);
+        if (c->streams) assert_true(points && c->kind == WR_CLASS_EDIT);
+        if (c->steps) assert_true(n && c->kind == WR_CLASS_HISTORY);
+        if (c->of_views) assert_int_equal(c->kind, WR_CLASS_HISTORY);
+        if (c->print_content || c->in_object || c->of_several || c->print_end)
+            assert_non_null(c->print);
+        back += c->steps<0, forward += c->steps> 0;
+        streams += c->streams, views += c->of_views;
+    }
+    assert_int_equal(back, 1);
+    assert_int_equal(forward, 1);
+    assert_int_equal(streams, 1);
+    assert_int_equal(views, 1);
+}
+
 static void help_covers_every_command_as_text_and_as_json(void **state)
 {
     (void)state;
@@ -666,6 +695,7 @@ int main(void)
         cmocka_unit_test(random_lines_of_every_command_survive_print_and_parse),
         cmocka_unit_test(every_argument_of_every_command_refuses_bad_values),
         cmocka_unit_test(damaged_lines_never_crash_and_print_stably_where_they_parse),
+        cmocka_unit_test(rows_agree_with_what_the_session_does_for_them),
         cmocka_unit_test(help_covers_every_command_as_text_and_as_json),
         cmocka_unit_test(help_tells_each_brush_mode_and_what_it_goes_by),
         cmocka_unit_test(help_tells_what_a_new_scene_has_where_a_row_keeps),

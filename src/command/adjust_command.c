@@ -70,7 +70,7 @@ static bool run_on_all(WrSession *session, const Adjusting *adjusting, WrError *
     return !adjusting->op->reshapes || run_on_part(adjusting, &document->selection, err);
 }
 
-bool wr_run_adjust(WrSession *session, WrCall *call, WrError *err)
+static bool run_adjust(WrSession *session, WrCall *call, WrError *err)
 {
     Adjusting adjusting = { .op = &wr_ops[call->form] };
     const WrOpInfo *op = adjusting.op;
@@ -110,7 +110,8 @@ const WrCommand wr_command_adjust = {
     .kind = WR_CLASS_EDIT,
     .form_word = "OPERATION",
     .form = form_adjust,
-    .run = wr_run_adjust,
+    .run = run_adjust,
+    .prework = WR_PREWORK_TABLES,
     .help = "change a whole table: blur, levels, resize and the like",
     .details =
         "They act on the active layer inside the selection; those that change the table's size "

@@ -78,6 +78,7 @@ const WrCommand wr_command_stroke = {
     .args = args_stroke,
     .more = wr_args_brush,
     .run = run_stroke,
+    .streams = true,
     .help = "draw a brush along a path",
     .details =
         "The modes up to erode make a texel anew from the height that it had when the stroke "

@@ -37,6 +37,8 @@ bool wr_call_parse(const char *line, bool open, WrCall **call, WrError *err);
 void wr_call_free(WrCall *call); /* NULL is allowed */
 
 WrCommandClass wr_call_class(const WrCall *call); /* class of the command's form */
+/* The call changes which view is shown and nothing else, so that a document loses no work without it. */
+bool wr_call_of_views(const WrCall *call);
 
 /* The canonical line, without line end. Parsing it returns the same values; printing those returns the same line. */
 void wr_call_print(const WrCall *call, WrText *text);

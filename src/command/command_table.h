@@ -95,6 +95,13 @@ typedef struct WrForm {
     WrArgSpec args[WR_ARGS_MAX]; /* the last row has name NULL */
 } WrForm;
 
+/* Parts of a command's work that may be computed on a copy of the document in advance (wr_session_run_made). */
+typedef enum WrPrework {
+    WR_PREWORK_NONE,
+    WR_PREWORK_TABLES,   /* the layers' tables are copied; `run` is not called */
+    WR_PREWORK_COMPOSITE /* `run` is called; the composite is copied */
+} WrPrework;
+
 typedef struct WrCommand {
     const char *name; /* NULL ends the table */
     WrCommandClass kind;
@@ -116,7 +123,22 @@ typedef struct WrCommand {
     /* Scene and view commands: print the canonical lines that restore this part of a scene, each with its line
        end. */
     void (*print)(const WrScene *scene, WrText *text);
+    /* Print the same lines with the checksum of a file in place of its path, if the checksum is known; NULL: `print`. */
+    void (*print_content)(const WrScene *scene, WrText *text);
     bool of_object; /* scene commands: applies to the active object, else to the whole scene */
+    /* With several objects the `object` line contains this command's values, so no line of its own is printed. */
+    bool in_object;
+
+    /* Read by the session, its journal and recovery. */
+    WrPrework prework;
+    bool streams;  /* an open call may get its samples one by one (wr_session_stroke_begin) */
+    bool of_views; /* a history command that changes which view is shown, and nothing else */
+    int steps; /* direction of argument N in the history of edits: -1 back, 1 forward, 0: no such argument */
+    bool
+        print_end; /* the chosen dials are appended to its line in a saved document (session_chosen.c) */
+    /* Print the line to run instead if the scene has several objects; returns false if the call is to run as it is;
+       or NULL. */
+    bool (*of_several)(const WrCall *call, WrText *text);
 } WrCommand;
 
 /* Commands in the order of help; scene commands in the order in which a document stores them. */

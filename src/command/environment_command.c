@@ -16,7 +16,7 @@
 
 static const char *const set_words[] = { "off", "studio", "sky", "raking", NULL };
 
-void wr_print_environment(const WrScene *scene, bool named, WrText *text)
+static void print_environment_line(const WrScene *scene, bool named, WrText *text)
 {
     const WrEnvironment *own = &scene->environment;
     if (own->kind == WR_ENVIRONMENT_MAP_OFF) return;
@@ -33,7 +33,12 @@ void wr_print_environment(const WrScene *scene, bool named, WrText *text)
 
 static void print_environment(const WrScene *scene, WrText *text)
 {
-    wr_print_environment(scene, true, text);
+    print_environment_line(scene, true, text);
+}
+
+static void print_environment_content(const WrScene *scene, WrText *text)
+{
+    print_environment_line(scene, !*scene->environment.sha256, text);
 }
 
 static void note_told(WrSession *session, const char *name, const WrEnvironmentMapTold *told)
@@ -162,6 +167,7 @@ const WrCommand wr_command_environment = {
     .more = args_file,
     .run = run_environment,
     .print = print_environment,
+    .print_content = print_environment_content,
     .help = "surroundings that light the objects from all sides",
     .details =
         "Beside the lights; `light clear` leaves them alone. A picture is twice as wide as high, "

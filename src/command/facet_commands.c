@@ -43,7 +43,7 @@ static WrImage *numbers_of(const WrImage *from, int channel, WrError *err)
 
 static const char *const verbs[WR_FACET_KINDS] = { "roughness", "metalness" };
 
-void wr_print_facets(const WrScene *scene, int kind, bool named, WrText *text)
+static void print_facets(const WrScene *scene, int kind, bool named, WrText *text)
 {
     const WrFacetMap *map = &scene->facets[kind];
     if (!map->image) return;
@@ -54,12 +54,22 @@ void wr_print_facets(const WrScene *scene, int kind, bool named, WrText *text)
 
 static void print_roughness(const WrScene *scene, WrText *text)
 {
-    wr_print_facets(scene, WR_FACET_ROUGHNESS, true, text);
+    print_facets(scene, WR_FACET_ROUGHNESS, true, text);
+}
+
+static void print_roughness_content(const WrScene *scene, WrText *text)
+{
+    print_facets(scene, WR_FACET_ROUGHNESS, !*scene->facets[WR_FACET_ROUGHNESS].laid.sha256, text);
 }
 
 static void print_metalness(const WrScene *scene, WrText *text)
 {
-    wr_print_facets(scene, WR_FACET_METALNESS, true, text);
+    print_facets(scene, WR_FACET_METALNESS, true, text);
+}
+
+static void print_metalness_content(const WrScene *scene, WrText *text)
+{
+    print_facets(scene, WR_FACET_METALNESS, !*scene->facets[WR_FACET_METALNESS].laid.sha256, text);
 }
 
 /* Change the settings of the present picture by a line without a file. */
@@ -137,6 +147,7 @@ const WrCommand wr_command_roughness = {
     .args = args,
     .run = run_roughness,
     .print = print_roughness,
+    .print_content = print_roughness_content,
     .of_object = true,
     .help = "a picture of how rough the surface is where",
     .details =
@@ -154,6 +165,7 @@ const WrCommand wr_command_metalness = {
     .args = args,
     .run = run_metalness,
     .print = print_metalness,
+    .print_content = print_metalness_content,
     .of_object = true,
     .help = "a picture of where the surface is of metal",
     .details =

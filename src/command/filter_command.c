@@ -27,7 +27,7 @@ static bool change(WrSession *session, const WrCall *call, const WrFilter *filte
     return false;
 }
 
-bool wr_run_filter(WrSession *session, WrCall *call, WrError *err)
+static bool run_filter(WrSession *session, WrCall *call, WrError *err)
 {
     WrDocument *document = session->state.document;
     const WrOpInfo *op = wr_op_find(call->form_name);
@@ -65,7 +65,8 @@ const WrCommand wr_command_filter = {
     .kind = WR_CLASS_EDIT,
     .form_word = "OPERATION",
     .form = form_filter,
-    .run = wr_run_filter,
+    .run = run_filter,
+    .prework = WR_PREWORK_COMPOSITE,
     .help = "a layer that is an operation over the layers below: blur, levels and the like",
     .details = "It holds no heights: what it makes of the joined layers below it follows whatever "
                "is done to them, and joins them by its blend (`mix` at first), its opacity and its "

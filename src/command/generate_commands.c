@@ -102,7 +102,7 @@ static void note(void *ctx, const char *text)
     wr_session_note(ctx, "%s", text);
 }
 
-bool wr_run_generate(WrSession *session, WrCall *call, WrError *err)
+static bool run_generate(WrSession *session, WrCall *call, WrError *err)
 {
     const WrGenerator *generator = wr_call_generator(call);
     WrLayer *layer = wr_session_layer(session, err);
@@ -313,7 +313,8 @@ const WrCommand wr_command_pattern = {
     .kind = WR_CLASS_EDIT,
     .form_word = "KIND",
     .form = form_pattern,
-    .run = wr_run_generate,
+    .run = run_generate,
+    .prework = WR_PREWORK_TABLES,
     .help = "bricks, tiles, cloth, cells and other regular things",
     .details =
         "They close at the table's edges, and origin= rolls them. What they make joins the "
@@ -327,7 +328,8 @@ const WrCommand wr_command_noise = {
     .kind = WR_CLASS_EDIT,
     .form_word = "KIND",
     .form = form_noise,
-    .run = wr_run_generate,
+    .run = run_generate,
+    .prework = WR_PREWORK_TABLES,
     .help = "sums of value, gradient or simplex noise",
     .details =
         "Heights become level + amplitude N, N the sum of octaves of ratio^-i noise, octave i "
@@ -342,7 +344,8 @@ const WrCommand wr_command_formula = {
     .kind = WR_CLASS_EDIT,
     .form_word = "KIND",
     .form = form_formula,
-    .run = wr_run_generate,
+    .run = run_generate,
+    .prework = WR_PREWORK_TABLES,
     .help = "a polynomial or a Fourier series, texel by texel",
     .details = "It is what `analytic` shows, as heights that can be painted on.",
     .example = "formula fourier terms=3,0,0.5;0,5,0.25,90,0"
@@ -352,7 +355,8 @@ const WrCommand wr_command_text = {
     .name = "text",
     .kind = WR_CLASS_EDIT,
     .row = row_text,
-    .run = wr_run_generate,
+    .run = run_generate,
+    .prework = WR_PREWORK_TABLES,
     .help = "letters of any font and script, in relief",
     .details = "They are added to the active layer, where they cover it, unless blend= says "
                "otherwise. In quotes \\\\n begins a new line. Overlapping letters are one shape.",
@@ -363,7 +367,8 @@ const WrCommand wr_command_rim = {
     .name = "rim",
     .kind = WR_CLASS_EDIT,
     .row = row_rim,
-    .run = wr_run_generate,
+    .run = run_generate,
+    .prework = WR_PREWORK_TABLES,
     .help = "bevel, round, ridge, outline or emboss an edge by the distance from it",
     .details =
         "The edge is that of the selection, where it is half selected; of the layer's mask; or "
@@ -376,7 +381,8 @@ const WrCommand wr_command_solid = {
     .kind = WR_CLASS_EDIT,
     .form_word = "KIND",
     .form = form_solid,
-    .run = wr_run_generate,
+    .run = run_generate,
+    .prework = WR_PREWORK_TABLES,
     .help = "solids, letters and meshes seen from above by a Z-buffer",
     .details = "They stand in the ground, which hides what is below height 0, and join the active "
                "layer by max unless blend= says otherwise. across= and rows= make lattices of "
@@ -389,7 +395,8 @@ const WrCommand wr_command_terrain = {
     .kind = WR_CLASS_EDIT,
     .form_word = "KIND",
     .form = form_terrain,
-    .run = wr_run_generate,
+    .run = run_generate,
+    .prework = WR_PREWORK_TABLES,
     .help = "mountains, real elevations, and what weather makes of them",
     .details = "fractal and elevation make ground; hydraulic, thermal and terraces change what "
                "lies in the active layer. Weather only moves ground: the mean height stays.",
@@ -401,7 +408,8 @@ const WrCommand wr_command_picture = {
     .kind = WR_CLASS_EDIT,
     .form_word = "KIND",
     .form = form_picture,
-    .run = wr_run_generate,
+    .run = run_generate,
+    .prework = WR_PREWORK_TABLES,
     .help = "heights from pictures and from normal maps",
     .details = "photo takes the light of a picture, made seamless; normals finds the heights "
                "that a normal map belongs to, and whether its green points up or down.",

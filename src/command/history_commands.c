@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-bool wr_run_undo(WrSession *session, WrCall *call, WrError *err)
+static bool run_undo(WrSession *session, WrCall *call, WrError *err)
 {
     int steps = (int)wr_call_number(call, "N");
     int position = wr_session_history_position(session);
@@ -25,7 +25,7 @@ bool wr_run_undo(WrSession *session, WrCall *call, WrError *err)
     return wr_session_go_to(session, position - steps, err);
 }
 
-bool wr_run_redo(WrSession *session, WrCall *call, WrError *err)
+static bool run_redo(WrSession *session, WrCall *call, WrError *err)
 {
     int steps = (int)wr_call_number(call, "N");
     int position = wr_session_history_position(session);
@@ -104,7 +104,7 @@ static bool run_script(WrSession *session, WrCall *call, WrError *err)
     return wr_session_save_history(session, wr_call_arg(call, "FILE")->text, err);
 }
 
-bool wr_run_view(WrSession *session, WrCall *call, WrError *err)
+static bool run_view(WrSession *session, WrCall *call, WrError *err)
 {
     WrViews *views = session->state.views;
     bool back = strcmp(call->form_name, "back") == 0;
@@ -214,7 +214,8 @@ const WrCommand wr_command_undo = {
     .name = "undo",
     .kind = WR_CLASS_HISTORY,
     .args = args_undo,
-    .run = wr_run_undo,
+    .run = run_undo,
+    .steps = -1,
     .help = "go back to before the last commands",
     .details = "Every edit and every scene command is one step. How it is looked at stays, but "
                "for a step that opened a document.",
@@ -224,7 +225,8 @@ const WrCommand wr_command_undo = {
 const WrCommand wr_command_redo = { .name = "redo",
                                     .kind = WR_CLASS_HISTORY,
                                     .args = args_redo,
-                                    .run = wr_run_redo,
+                                    .run = run_redo,
+                                    .steps = 1,
                                     .help = "do again what was undone",
                                     .example = "redo" };
 
@@ -233,7 +235,8 @@ const WrCommand wr_command_view = {
     .kind = WR_CLASS_HISTORY,
     .form_word = "WAY",
     .form = form_view,
-    .run = wr_run_view,
+    .run = run_view,
+    .of_views = true,
     .help = "go back and forth through how it was looked at",
     .details = "Every `camera` and every `rotate` that changes something is one view; the last "
                "thousand are kept. The edits stay as they are.",

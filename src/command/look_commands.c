@@ -251,6 +251,7 @@ const WrCommand wr_command_tolerance = {
     .args = args_tolerance,
     .run = run_tolerance,
     .print = print_tolerance,
+    .print_end = true,
     .help = "the cheapest dials that keep to an error",
     .details = "One of the four. Each picture measures a sample of itself and takes, for each "
                "kind of block that it has, the cheapest slopes, normals and samples that meet "

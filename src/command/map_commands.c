@@ -45,7 +45,7 @@ static WrImage *linear_colour(const WrImage *from, WrError *err)
     return to;
 }
 
-void wr_print_colour(const WrScene *scene, bool named, WrText *text)
+static void print_colour_line(const WrScene *scene, bool named, WrText *text)
 {
     if (!scene->colour || scene->colouring.count > 0) return;
     wr_text_add(text, "colour");
@@ -55,7 +55,12 @@ void wr_print_colour(const WrScene *scene, bool named, WrText *text)
 
 static void print_colour(const WrScene *scene, WrText *text)
 {
-    wr_print_colour(scene, true, text);
+    print_colour_line(scene, true, text);
+}
+
+static void print_colour_content(const WrScene *scene, WrText *text)
+{
+    print_colour_line(scene, !*scene->colour_laid.sha256, text);
 }
 
 /* Change the settings of the present picture by a line without a file. */
@@ -98,7 +103,7 @@ static const char *const spaces[] = { "tangent", "object", NULL };
 static const char *const greens[] = { "auto", "up", "down", NULL };
 static const char *const channel_counts[] = { "auto", "2", "3", NULL };
 
-void wr_print_normals(const WrScene *scene, bool named, WrText *text)
+static void print_normals_line(const WrScene *scene, bool named, WrText *text)
 {
     const WrNormalMap *map = &scene->normals;
     if (!map->image) return;
@@ -116,7 +121,12 @@ void wr_print_normals(const WrScene *scene, bool named, WrText *text)
 
 static void print_normals(const WrScene *scene, WrText *text)
 {
-    wr_print_normals(scene, true, text);
+    print_normals_line(scene, true, text);
+}
+
+static void print_normals_content(const WrScene *scene, WrText *text)
+{
+    print_normals_line(scene, !*scene->normals.laid.sha256, text);
 }
 
 static void note_codes(WrText *text, const WrImage *file, const WrNormalTold *told)
@@ -355,6 +365,7 @@ const WrCommand wr_command_colour = {
     .args = args_colour,
     .run = run_colour,
     .print = print_colour,
+    .print_content = print_colour_content,
     .of_object = true,
     .help = "a colour picture on the surface",
     .details =
@@ -371,6 +382,7 @@ const WrCommand wr_command_normalmap = {
     .args = args_normals,
     .run = run_normals,
     .print = print_normals,
+    .print_content = print_normals_content,
     .of_object = true,
     .help = "a normal map on the surface",
     .details =

@@ -332,6 +332,7 @@ const WrCommand wr_command_object = {
     .form = form_object,
     .run = run_object,
     .print = print_object,
+    .in_object = true,
     .of_object = true,
     .help = "several objects in one scene",
     .details = "Each has surface, bump, replication, material, colour picture, place and size of "

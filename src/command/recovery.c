@@ -159,8 +159,8 @@ static int travel(const char *line)
     WrCall *call = NULL;
     int steps = 0;
     if (!wr_call_parse(line, false, &call, NULL)) return 0;
-    if (call->command && call->command->run == wr_run_undo) steps = -(int)wr_call_number(call, "N");
-    if (call->command && call->command->run == wr_run_redo) steps = (int)wr_call_number(call, "N");
+    if (call->command && call->command->steps)
+        steps = call->command->steps * (int)wr_call_number(call, "N");
     wr_call_free(call);
     return steps;
 }

@@ -10,8 +10,7 @@ static bool changes_document(const char *line)
 {
     WrCall *call = NULL;
     if (!wr_call_parse(line, false, &call, NULL)) return true;
-    bool view = call->command &&
-                (wr_call_class(call) == WR_CLASS_VIEW || call->command->run == wr_run_view);
+    bool view = call->command && wr_call_of_views(call);
     wr_call_free(call);
     return !view;
 }

@@ -27,8 +27,6 @@ bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
 void wr_print_mesh(const WrScene *scene, bool content, WrText *text);
 void wr_form_mesh(WrSurfaceKind kind, WrArgSpec *args);
 void wr_form_terrain(WrArgSpec *args); /* changes and additions for a terrain: 0 and 2 rows */
-/* The `surface` line with the checksum of its file instead of its path. */
-void wr_print_surface_content(const WrScene *scene, WrText *text);
 void wr_scene_print_vec(WrVec3 v, WrText *text); /* "x,y,z" */
 /* Print " name=word"; nothing if word is NULL. */
 void wr_print_word(const char *name, const char *word, WrText *text);

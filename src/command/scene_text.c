@@ -2,13 +2,10 @@
    that a document keeps its meaning if a later version has other defaults. Only the default light, the surface's
    default pose and a missing picture have no line. */
 #include "command/session_internal.h"
-#include "command/scene_args.h"
 
 #include "base/text.h"
 #include "command/commands.h"
 #include "scene/objects.h"
-
-#include <string.h>
 
 typedef void Printer(const WrCommand *command, const WrScene *scene, WrText *text);
 
@@ -19,19 +16,7 @@ static void print_named(const WrCommand *command, const WrScene *scene, WrText *
 
 static void print_content(const WrCommand *command, const WrScene *scene, WrText *text)
 {
-    if (command == &wr_command_colour) wr_print_colour(scene, !*scene->colour_laid.sha256, text);
-    else if (command == &wr_command_normalmap)
-        wr_print_normals(scene, !*scene->normals.laid.sha256, text);
-    else if (command == &wr_command_roughness)
-        wr_print_facets(scene, WR_FACET_ROUGHNESS, !*scene->facets[WR_FACET_ROUGHNESS].laid.sha256,
-                        text);
-    else if (command == &wr_command_metalness)
-        wr_print_facets(scene, WR_FACET_METALNESS, !*scene->facets[WR_FACET_METALNESS].laid.sha256,
-                        text);
-    else if (command == &wr_command_environment)
-        wr_print_environment(scene, !*scene->environment.sha256, text);
-    else if (command == &wr_command_surface) wr_print_surface_content(scene, text);
-    else command->print(scene, text);
+    (command->print_content ? command->print_content : command->print)(scene, text);
 }
 
 /* Lines of one object; its rotation is printed with its position. */
@@ -40,7 +25,7 @@ static void print_own(const WrScene *scene, int object, Printer *printer, WrText
     wr_print_object(scene, object, text);
     for (int i = 0; i < wr_command_count; i++) {
         const WrCommand *command = wr_commands[i];
-        if (command->of_object && command != &wr_command_rotate && command != &wr_command_object)
+        if (command->of_object && !command->in_object)
             printer(command, wr_scene_object(scene, object), text);
     }
 }

@@ -192,7 +192,7 @@ static bool run_edit(WrSession *session, WrCall *call, WrError *err)
     bool layers = session->options.composites && session->state.document->layer_count > 1;
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, layers ? 0.8 : 1.0);
-    const bool takes = session->made && call->command->run != wr_run_filter;
+    const bool takes = session->made && call->command->prework == WR_PREWORK_TABLES;
     wr_filters_forget();
     bool good = !wr_progress_stopped() &&
                 (takes ? take_made(session, call, err) : call->command->run(session, call, err));
@@ -265,9 +265,7 @@ bool wr_session_takes_made(const char *line)
 {
     WrCall *call = NULL;
     if (!wr_call_parse(line, false, &call, NULL)) return false;
-    bool takes = call->command &&
-                 (call->command->run == wr_run_adjust || call->command->run == wr_run_filter ||
-                  call->command->run == wr_run_generate);
+    bool takes = call->command && call->command->prework != WR_PREWORK_NONE;
     for (int i = 0; i < call->count; i++) takes = takes && !wr_call_hash_name(call, i);
     wr_call_free(call);
     return takes;
@@ -299,12 +297,13 @@ static void foretell(WrSession *session, const WrCall *call)
 static bool parse(const WrSession *session, const char *line, WrCall **out, WrError *err)
 {
     if (!wr_call_parse(line, false, out, err)) return false;
-    if ((*out)->command != &wr_command_rotate ||
+    const WrCommand *command = (*out)->command;
+    if (!command || !command->of_several ||
         wr_scene_object_count(session->state.document->scene) == 1)
         return true;
     WrText edit = { 0 };
     bool good = true;
-    if (wr_rotate_as_edit(*out, &edit)) {
+    if (command->of_several(*out, &edit)) {
         wr_call_free(*out);
         good = wr_call_parse(wr_text_get(&edit), false, out, err);
     }

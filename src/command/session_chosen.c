@@ -96,7 +96,7 @@ static void add_chosen(WrSession *session, WrText *text)
 /* Append the dials to the line of a tolerance. */
 static void go_on(void *ctx, const WrCommand *command, WrText *text)
 {
-    if (strcmp(command->name, "tolerance") != 0) return;
+    if (!command->print_end) return;
     text->data[--text->length] = '\0';
     add_chosen(ctx, text);
     wr_text_add(text, "\n");

@@ -255,23 +255,9 @@ void wr_brush_files_free(WrBrushFiles *files); /* NULL is allowed */
 /* Validation of set=. */
 bool wr_check_settings(const void *ctx, const char *name, const char *value, WrError *err);
 
-/* Handlers that other files call too; all others are static. */
-typedef bool WrHandler(WrSession *session, WrCall *call, WrError *err);
-WrHandler wr_run_generate;                       /* generate_commands.c */
-WrHandler wr_run_adjust;                         /* adjust_command.c */
-WrHandler wr_run_filter;                         /* filter_command.c */
-WrHandler wr_run_undo, wr_run_redo, wr_run_view; /* history_commands.c */
-
 /* Print the scene's canonical lines: each command's row prints its own. */
 typedef void WrScenePrinter(const WrScene *scene, WrText *text);
 WrScenePrinter wr_print_rotate, wr_print_camera;
-/* Convert `rotate` to the edit that rotates one of several objects; false if the line has neither or both forms. */
-bool wr_rotate_as_edit(const WrCall *call, WrText *text);
-/* named: print the file name; else only the checksum of its content. */
-void wr_print_colour(const WrScene *scene, bool named, WrText *text);
-void wr_print_normals(const WrScene *scene, bool named, WrText *text);
-void wr_print_facets(const WrScene *scene, int kind, bool named, WrText *text); /* WrFacetKind */
-void wr_print_environment(const WrScene *scene, bool named, WrText *text);
 /* with several objects: adds the object, with its position */
 void wr_print_object(const WrScene *scene, int i, WrText *text);
 /* chosen object, if it is not the last one */

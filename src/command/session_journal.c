@@ -198,7 +198,7 @@ static bool journaled(const WrSession *session)
 void wr_session_journal_before(WrSession *session, const WrCall *call)
 {
     if (!journaled(session)) return;
-    bool view = wr_call_class(call) == WR_CLASS_VIEW || call->command->run == wr_run_view;
+    bool view = wr_call_of_views(call);
     if (!session->journal && view) return;
     if (!session->journal) begin(session);
     if (!session->journal) return;

@@ -11,8 +11,7 @@ bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
     WrCall *call;
     if (!wr_session_refuse_in_stroke(session, err)) return false;
     if (!wr_call_parse(head, true, &call, err)) return false;
-    if (!call->command || strcmp(call->command->name, "stroke") != 0 ||
-        wr_call_given(call, "points")) {
+    if (!call->command || !call->command->streams || wr_call_given(call, "points")) {
         wr_call_free(call);
         return wr_fail(err, "a stroke begins with a stroke command without points");
     }

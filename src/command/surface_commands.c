@@ -41,7 +41,7 @@ static void print_surface(const WrScene *scene, WrText *text)
     print_shape(scene, false, text);
 }
 
-void wr_print_surface_content(const WrScene *scene, WrText *text)
+static void print_surface_content(const WrScene *scene, WrText *text)
 {
     print_shape(scene, true, text);
 }
@@ -142,7 +142,8 @@ static bool run_surface(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-bool wr_rotate_as_edit(const WrCall *call, WrText *text)
+/* The edit that turns one of several objects; false where the call has neither or both. */
+static bool rotate_as_edit(const WrCall *call, WrText *text)
 {
     const bool own = wr_call_given(call, "pose");
     const WrArg *turn = wr_call_arg(call, "x,y,z");
@@ -354,6 +355,7 @@ const WrCommand wr_command_surface = {
     .form = form_surface,
     .run = run_surface,
     .print = print_surface,
+    .print_content = print_surface_content,
     .of_object = true,
     .help = "the surface that the table wrinkles",
     .details =
@@ -371,6 +373,8 @@ const WrCommand wr_command_rotate = {
     .row = row_rotate,
     .run = run_rotate,
     .print = wr_print_rotate,
+    .in_object = true,
+    .of_several = rotate_as_edit,
     .of_object = true,
     .help = "the object's orientation",
     .details =

@@ -386,6 +386,11 @@ WrCommandClass wr_call_class(const WrCall *call)
     return command->class_of ? command->class_of(call->form) : command->kind;
 }
 
+bool wr_call_of_views(const WrCall *call)
+{
+    return wr_call_class(call) == WR_CLASS_VIEW || call->command->of_views;
+}
+
 bool wr_call_given(const WrCall *call, const char *name)
 {
     return wr_call_arg(call, name)->given;
