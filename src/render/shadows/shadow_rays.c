@@ -155,16 +155,13 @@ void wr_shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, cons
     if (moved) body->rise = wr_raised_most(scene, field);
 }
 
-#define ROUNDING                                                                                   \
-    0x1p-19 /* of the object's radius: more than the error of single-precision positions */
-#define PATCHY                                                                                     \
-/* of the object's radius, for surfaces that are drawn as patches and cast shadows as the triangles cut from
-       them */
-0x1p-10
+/* Of the object's radius: more than the error of single-precision positions. */
+#define ROUNDING 0x1p-19
+/* Of the object's radius, for surfaces that are drawn as patches and cast shadows as the triangles cut from them. */
+#define PATCHY 0x1p-10
 
-    /* Of the mesh surfaces only the torus has a closed form. */
-    static bool
-    needs_facets(const WrShadowRaysBody *body)
+/* Of the mesh surfaces only the torus has a closed form. */
+static bool needs_facets(const WrShadowRaysBody *body)
 {
     const bool mesh = wr_surfaces[body->shape.kind]->inversion == WR_INVERT_MESH;
     return body->rise > 0 || (mesh && body->shape.kind != WR_SURFACE_torus);
