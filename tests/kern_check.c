@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "field/field.h"
 #include "render/kernels/kern.h"
+#include "shade/reflection_models.h"
 #include "render/frame/srgb_encode.h"
 #include "render/textures/slope_pyramid.h"
 #include "system/clock.h"

@@ -8,6 +8,7 @@
 #include "image/image.h"
 #include "render/reference/reference.h"
 #include "scene/scene.h"
+#include "shade/reflection_models.h"
 
 enum { W = 61, H = 47 };
 

@@ -9,6 +9,7 @@
 #include "image/gltf_material.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "shade/reflection_models.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,6 +9,7 @@
 #include "base/pool.h"
 #include "render/reference/reference.h"
 #include "scene/scene.h"
+#include "shade/reflection_models.h"
 
 enum { W = 61, H = 47 };
 

@@ -10,6 +10,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "shade/reflection_models.h"
 
 #define WIDE 37
 #define HIGH 53

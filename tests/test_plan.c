@@ -7,6 +7,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "shade/reflection_models.h"
 
 #define SIDE 64
 

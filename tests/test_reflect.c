@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "render/kernels/kern.h"
+#include "shade/reflection_models.h"
 #include "render/reference/reference.h"
 #include "scene/scene.h"
 

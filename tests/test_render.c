@@ -6,6 +6,7 @@
 
 #include "field/field.h"
 #include "render/kernels/kern.h"
+#include "shade/reflection_models.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 

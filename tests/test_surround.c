@@ -6,6 +6,7 @@
 #include "image/image.h"
 #include "shade/environment_blur.h"
 #include "shade/environment_map.h"
+#include "shade/reflection_models.h"
 
 typedef double Sky(WrVec3 d, int c);
 

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "field/field.h"
 #include "scene/objects.h"
+#include "shade/reflection_models.h"
 
 #include "ui/preview/accuracy_choice.h"
 #include "ui/accuracy/accuracy_probe.h"

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "shade/reflection_models.h"
 
 #include <math.h>
 

@@ -19,8 +19,7 @@ static void print_material(const WrScene *scene, WrText *text)
 {
     wr_text_add(text, "material");
     const WrMaterial *m = &scene->material;
-    if (m->model != WR_REFLECT_BLINN_PHONG)
-        wr_text_addf(text, " model=%s", wr_reflects[m->model].name);
+    if (m->model != WR_REFLECT_DEFAULT) wr_text_addf(text, " model=%s", wr_reflects[m->model].name);
     if (m->energy != WR_ENERGY_KEPT) wr_text_addf(text, " energy=%s", wr_energies[m->energy]);
     wr_scene_print_params("material", NULL, scene, text);
     wr_text_add(text, "\n");
@@ -51,7 +50,7 @@ static bool run_material(WrSession *session, WrCall *call, WrError *err)
     if (wr_call_given(call, "preset"))
         *m = wr_material_presets[wr_call_choice(call, "preset")].material;
     wr_scene_take(call, NULL, scene);
-    if (wr_call_given(call, "model")) m->model = (WrReflect)wr_call_choice(call, "model");
+    if (wr_call_given(call, "model")) m->model = wr_call_choice(call, "model");
     if (wr_call_given(call, "energy")) m->energy = (WrEnergy)wr_call_choice(call, "energy");
     wr_session_replace_scene(session, scene);
     return true;
@@ -132,7 +131,7 @@ static bool run_tolerance(WrSession *session, WrCall *call, WrError *err)
 
 static const char *model_choice(int i)
 {
-    return i < WR_REFLECT_COUNT ? wr_reflects[i].name : NULL;
+    return i < wr_reflect_count ? wr_reflects[i].name : NULL;
 }
 
 static const char *energy_choice(int i)

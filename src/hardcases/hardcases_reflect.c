@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "field/field.h"
 #include "scene/scene.h"
-#include "shade/reflection.h"
+#include "shade/reflection_models.h"
 
 /* One lamp of strength 1 on one place. */
 typedef struct Place {
@@ -58,7 +58,7 @@ static void within(WrHardGauge *g, const WrReflectance *numbers, Place at, doubl
 {
     for (int k = 0; k < 2 * (WR_REFLECT_COUNT - 1); k++) {
         WrReflectance of = *numbers;
-        of.model = (WrReflect)(1 + k / 2), of.energy = (WrEnergy)(k % 2);
+        of.model = 1 + k / 2, of.energy = (WrEnergy)(k % 2);
         for (int set = 0; set < g->all; set++) {
             const double got = in_float(g, set, &of, at);
             wr_hard_holds(g, WR_HARD_FLOAT, got >= 0 && got <= most);
@@ -200,7 +200,7 @@ static bool hc104(WrHardGauge *g, WrError *err)
     (void)err;
     for (int i = 0; i < 120; i++) {
         WrReflectance of = ordinary;
-        of.model = (WrReflect)(1 + i % 4), of.roughness = wr_hard_between(g, 0.2, 1);
+        of.model = 1 + i % (WR_REFLECT_COUNT - 1), of.roughness = wr_hard_between(g, 0.2, 1);
         const Place at = { up, random_unit(g, 0.1), random_unit(g, 0.1) };
         const Place back = { up, at.v, at.l };
         for (int set = 0; set < g->all; set++) {
@@ -220,7 +220,7 @@ static bool hc105(WrHardGauge *g, WrError *err)
     (void)err;
     for (int i = 0; i < 4 * 40; i++) {
         WrReflectance of = ordinary;
-        of.model = (WrReflect)(1 + i % 4);
+        of.model = 1 + i % (WR_REFLECT_COUNT - 1);
         const double a = 2e-3 - 1e-4 * (i / 4), b = a - 1e-4;
         const WrVec3 l = { 0.6, 0.64, 0.48 };
         const Place first = { up, l, { sqrt(1 - a * a), 0, a } };

@@ -2,6 +2,8 @@
    tables for renderers give them); of all else a likely albedo. Roughness is a likely one. */
 #include "scene/material_preset.h"
 
+#include "shade/reflection_models.h"
+
 #define MATT(r, g, b, wide)                                                                        \
     .material = { .ambient = 0.08,                                                                 \
                   .diffuse = 1,                                                                    \

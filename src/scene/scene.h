@@ -51,7 +51,7 @@ typedef struct WrMaterial {
     WrVec3 colour;                     /* C, linear RGB; does not tint the highlight */
     bool gate;                         /* highlight only where n'.l > 0 */
     /* How the two are formed (shade/reflection.h); of these numbers the model's own count. */
-    WrReflect model;
+    int model; /* WrReflect */
     WrEnergy energy;
     double roughness, metalness, ior;
     bool shadow;    /* the relief hides lamps from itself */

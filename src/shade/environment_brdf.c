@@ -98,6 +98,12 @@ static double matt_albedo(const WrMatter *m, double mu)
     return m->a + m->b / WR_PI * (s * (acos(mu) - s * mu) + 2.0 / 3 * rest);
 }
 
+/* Kept GGX's. x = sqrt(n.v) */
+static double remainder_of(const WrMatter *m, double x)
+{
+    return (1 - m->metal) * (m->again > 0 ? 1 - fmin(wr_albedo_at(m->albedo, x), 1) : 0);
+}
+
 static void init_matt(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMatter *m)
 {
     const bool published = of->energy == WR_ENERGY_PUBLISHED;
@@ -105,12 +111,16 @@ static void init_matt(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMat
     wr_albedo_places(x);
     for (int i = 0; i < WR_ALBEDO_TERMS; i++) {
         const double mu = x[i] * x[i];
-        if (of->model == WR_REFLECT_GGX && published) matt[i] = published_ggx(m, mu);
-        else if (of->model == WR_REFLECT_GGX)
-            matt[i] =
-                (1 - m->metal) * (m->again > 0 ? 1 - fmin(wr_albedo_at(m->albedo, x[i]), 1) : 0);
-        else if (published) matt[i] = m->a + m->b * matt_integral(mu, false);
-        else matt[i] = matt_albedo(m, mu), again[i] = m->again > 0 ? fmax(0, 1 - matt[i]) : 0;
+        switch (wr_reflects[of->model].diffuse) {
+        case WR_DIFFUSE_REMAINDER:
+            matt[i] = published ? published_ggx(m, mu) : remainder_of(m, x[i]);
+            break;
+        case WR_DIFFUSE_ROUGH:
+            matt[i] = published ? m->a + m->b * matt_integral(mu, false) : matt_albedo(m, mu);
+            again[i] = !published && m->again > 0 ? fmax(0, 1 - matt[i]) : 0;
+            break;
+        case WR_DIFFUSE_LAMBERT: matt[i] = 1; break;
+        }
     }
     wr_albedo_fit(matt, g->matt);
     wr_albedo_fit(again, g->again);
@@ -119,26 +129,41 @@ static void init_matt(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMat
 
 /* ---- highlights ---- */
 
-static void highlight(const WrReflectance *of, const WrMatter *m, bool gated,
-                      const double x[WR_ALBEDO_TERMS], double out[WR_ALBEDO_TERMS])
+/* The formula of a lamp and alpha of the facets that its integral is taken over. NULL: no highlight, or one whose albedo
+   is known otherwise. */
+static Lamp *lamp_of(const WrReflectance *of, const WrMatter *m, double *alpha)
 {
-    const bool facets = of->model == WR_REFLECT_TORRANCE_SPARROW;
-    Lamp *const lamp = facets ? cavities : of->model == WR_REFLECT_PHONG ? phong : blinn;
-    const double alpha = facets ? m->alpha : sqrt(2 / (m->shininess + 2));
-    for (int i = 0; i < WR_ALBEDO_TERMS; i++)
-        out[i] = integral(lamp, of, m, alpha, fmax(x[i] * x[i], 1e-3), gated);
+    *alpha = sqrt(2 / (m->shininess + 2));
+    switch (wr_reflects[of->model].highlight) {
+    case WR_HIGHLIGHT_HALF: return blinn;
+    case WR_HIGHLIGHT_POWER: return phong;
+    case WR_HIGHLIGHT_CAVITIES: *alpha = m->alpha; return cavities;
+    case WR_HIGHLIGHT_SMITH: /* wr_ggx_albedo */
+    case WR_HIGHLIGHT_NONE: break;
+    }
+    return NULL;
 }
 
 static void init_lobe(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMatter *m)
 {
+    const WrReflectHighlight highlight = wr_reflects[of->model].highlight;
     const bool published = of->energy == WR_ENERGY_PUBLISHED;
-    g->power = m->shininess + (of->model == WR_REFLECT_PHONG && !published ? 1 : 0);
+    g->power = m->shininess;
     g->alpha = m->alpha;
-    g->lobe = WR_LOBE_FACETS;
-    if (of->model == WR_REFLECT_OREN_NAYAR) g->lobe = WR_LOBE_NONE;
-    if (of->model != WR_REFLECT_PHONG && of->model != WR_REFLECT_BLINN_PHONG) return;
-    g->lobe = of->model == WR_REFLECT_PHONG ? WR_LOBE_POWER : WR_LOBE_HALF;
-    g->alpha = sqrt(2 / ((g->lobe == WR_LOBE_POWER ? 4 * g->power : g->power) + 2));
+    switch (highlight) {
+    case WR_HIGHLIGHT_NONE: g->lobe = WR_LOBE_NONE; break;
+    case WR_HIGHLIGHT_HALF:
+        g->lobe = WR_LOBE_HALF;
+        g->alpha = sqrt(2 / (g->power + 2));
+        break;
+    case WR_HIGHLIGHT_POWER:
+        g->lobe = WR_LOBE_POWER;
+        g->power += published ? 0 : 1; /* its factor n.l, taken into the lobe */
+        g->alpha = sqrt(2 / (4 * g->power + 2));
+        break;
+    case WR_HIGHLIGHT_CAVITIES:
+    case WR_HIGHLIGHT_SMITH: g->lobe = WR_LOBE_FACETS; break;
+    }
 }
 
 static void init_shine(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMatter *m, double ks,
@@ -146,14 +171,17 @@ static void init_shine(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMa
 {
     double x[WR_ALBEDO_TERMS], own[WR_ALBEDO_TERMS] = { 0 }, white[WR_ALBEDO_TERMS] = { 0 };
     wr_albedo_places(x);
-    for (int i = 0; i < WR_ALBEDO_TERMS && of->model == WR_REFLECT_GGX; i++) {
+    double alpha;
+    Lamp *const lamp = lamp_of(of, m, &alpha);
+    for (int i = 0; i < WR_ALBEDO_TERMS && lamp; i++)
+        white[i] = integral(lamp, of, m, alpha, fmax(x[i] * x[i], 1e-3), g->gated);
+    const bool smith = wr_reflects[of->model].highlight == WR_HIGHLIGHT_SMITH;
+    for (int i = 0; i < WR_ALBEDO_TERMS && smith; i++) {
         double e[2];
         wr_ggx_albedo(m->alpha, x[i] * x[i], e);
         own[i] = m->metal * e[0];
         white[i] = (1 - m->metal) * (m->f0 * e[0] + e[1]) + m->metal * e[1];
     }
-    if (of->model != WR_REFLECT_GGX && g->lobe != WR_LOBE_NONE)
-        highlight(of, m, g->gated, x, white);
     for (int i = 0; i < WR_ALBEDO_TERMS; i++) {
         own[i] = ks * (own[i] + tint * white[i]);
         white[i] *= ks * (1 - tint);
@@ -165,8 +193,9 @@ static void init_shine(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMa
 static void find_gloss(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMatter *m, double ks,
                        double tint, bool gated)
 {
-    *g = (WrEnvironmentBrdf){ .gated = gated || of->model != WR_REFLECT_BLINN_PHONG };
-    g->plain = of->model != WR_REFLECT_OREN_NAYAR && of->model != WR_REFLECT_GGX;
+    const WrReflectInfo *model = &wr_reflects[of->model];
+    *g = (WrEnvironmentBrdf){ .gated = gated || model->highlight != WR_HIGHLIGHT_HALF };
+    g->plain = model->diffuse == WR_DIFFUSE_LAMBERT;
     if (g->plain) g->matt[0] = 1;
     else init_matt(g, of, m);
     init_lobe(g, of, m);

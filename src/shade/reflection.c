@@ -1,32 +1,14 @@
 #include "shade/reflection.h"
 
 #include "base/enum_rows.h"
+#include "shade/reflection_models.h"
 
 #include <math.h>
 #include <string.h>
 
-WR_ROWS(wr_reflects);
-const WrReflectInfo wr_reflects[WR_REFLECT_COUNT] = {
-    [WR_ROW(WR_REFLECT_BLINN_PHONG)] = { "blinn-phong", "Blinn-Phong",
-                                         "diffuse light and a power of n.h", .shines = true,
-                                         .shininess = true },
-    [WR_ROW(WR_REFLECT_PHONG)] = { "phong", "Phong",
-                                   "diffuse light and a power of the mirrored direction's cosine",
-                                   .shines = true, .shininess = true, .energies = true },
-    [WR_ROW(
-        WR_REFLECT_TORRANCE_SPARROW)] = { "torrance-sparrow", "Torrance-Sparrow, Blinn 1977",
-                                          "diffuse light and small mirrors in V-shaped cavities",
-                                          .shines = true, .roughness = true, .ior = true,
-                                          .facets = true, .energies = true },
-    [WR_ROW(WR_REFLECT_OREN_NAYAR)] = { "oren-nayar", "Oren-Nayar",
-                                        "small matt facets, no highlight: clay, the moon",
-                                        .roughness = true, .energies = true },
-    [WR_ROW(WR_REFLECT_GGX)] = { "ggx", "GGX",
-                                 "small mirrors over diffuse light, or of metal: as in glTF",
-                                 .shines = true, .roughness = true, .metalness = true, .ior = true,
-                                 .facets = true, .energies = true },
-};
-WR_ROWS_END(wr_reflects, WR_REFLECT_COUNT);
+#define ROW(ID, ...) [WR_REFLECT_##ID] = WR_REFLECTION_INFO(ID, __VA_ARGS__),
+const WrReflectInfo wr_reflects[] = { WR_REFLECTION_MODELS(ROW) };
+const int wr_reflect_count = WR_REFLECT_COUNT;
 
 WR_ROWS(wr_energies);
 const char *const wr_energies[WR_ENERGY_COUNT] = {
@@ -217,16 +199,21 @@ void wr_matter_init(WrMatter *m, const WrReflectance *of)
                      .sigma = rough };
     const double f = (m->ior - 1) / (m->ior + 1);
     m->f0 = f * f;
-    switch (of->model) {
-    case WR_REFLECT_PHONG:
+    const WrReflectInfo *model = &wr_reflects[of->model];
+    switch (model->highlight) {
+    case WR_HIGHLIGHT_POWER:
         if (!published) m->scale = 0.5 * (m->shininess + 2);
         break;
-    case WR_REFLECT_TORRANCE_SPARROW: m->scale = published ? m->alpha * m->alpha : 0.25; break;
-    case WR_REFLECT_OREN_NAYAR: init_oren_nayar(m, published); break;
-    case WR_REFLECT_GGX:
+    case WR_HIGHLIGHT_CAVITIES: m->scale = published ? m->alpha * m->alpha : 0.25; break;
+    case WR_HIGHLIGHT_NONE:
+    case WR_HIGHLIGHT_HALF:
+    case WR_HIGHLIGHT_SMITH: break;
+    }
+    switch (model->diffuse) {
+    case WR_DIFFUSE_ROUGH: init_oren_nayar(m, published); break;
+    case WR_DIFFUSE_REMAINDER:
         if (!published) init_ggx(m);
         break;
-    case WR_REFLECT_BLINN_PHONG:
-    case WR_REFLECT_COUNT: break;
+    case WR_DIFFUSE_LAMBERT: break;
     }
 }

@@ -1,37 +1,77 @@
-/* reflection.h - how a surface reflects a lamp: the models by name, which of a material's numbers each goes by, and what
-   its formulas need worked out once. The formulas of one sample are in shade/reflection_body.h.
-   Layer 3. The reference renderer has formulas of its own, on purpose.
+/* reflection.h - reflection models: their traits, the parameters of their formulas, and albedos of microfacets.
+   The models themselves are the table shade/reflection_models.h; the formulas of one sample are in
+   shade/reflection_body.h. The reference renderer has formulas of its own, on purpose.
+
+   This header is included widely, so a model's number is an int here: 0 <= model < wr_reflect_count, a WrReflect.
 
    A lamp of strength 1 gives pi f (n.l), f the model's reflectance: so matt white is n.l. The albedo E(n.v) is the
-   integral of f (n.l) over all directions: what a white furnace shows. */
+   integral of f (n.l) over all directions: the colour that it has in a white furnace. */
 #pragma once
 #include <stdbool.h>
 
-typedef enum WrReflect {
-    WR_REFLECT_BLINN_PHONG, /* diffuse light and max(0, n.h)^s, as in light_body.h */
-    WR_REFLECT_PHONG,
-    WR_REFLECT_TORRANCE_SPARROW,
-    WR_REFLECT_OREN_NAYAR,
-    WR_REFLECT_GGX,
-    WR_REFLECT_COUNT
-} WrReflect;
-
-/* Of a model's forms the one that never reflects more than comes, or the one that its source gives. */
+/* Of a model's two formulas the one that never reflects more than comes, or the one of its source. */
 typedef enum WrEnergy { WR_ENERGY_KEPT, WR_ENERGY_PUBLISHED, WR_ENERGY_COUNT } WrEnergy;
 
+/* Loops over samples that a model needs. */
+typedef enum WrReflectLoops {
+    WR_REFLECT_LOOPS_STAGES, /* none of its own: the stages `diffuse` and `specular`; of one model alone */
+    WR_REFLECT_LOOPS_UNIFORM, /* its parameters are the same for all samples */
+    WR_REFLECT_LOOPS_ROUGH,   /* roughness may vary from sample to sample */
+    WR_REFLECT_LOOPS_METAL    /* roughness and metalness may */
+} WrReflectLoops;
+
+/* Shape of the highlight. Everything that differs by it is a switch without a default, so that a new one stops the
+   compiler wherever it is needed. */
+typedef enum WrReflectHighlight {
+    WR_HIGHLIGHT_NONE,
+    WR_HIGHLIGHT_HALF,  /* (n.h)^s: also below the horizon, unless the material gates it */
+    WR_HIGHLIGHT_POWER, /* (r.v)^s, r the mirrored direction to the lamp */
+    WR_HIGHLIGHT_CAVITIES, /* microfacets in V-shaped cavities, Fresnel's exact reflectance: none at ior 1 */
+    WR_HIGHLIGHT_SMITH /* microfacets with Smith's masking and Schlick's reflectance */
+} WrReflectHighlight;
+
+#define WR_HIGHLIGHT_IS_OF_FACETS(highlight)                                                       \
+    ((highlight) == WR_HIGHLIGHT_CAVITIES || (highlight) == WR_HIGHLIGHT_SMITH)
+
+/* Diffuse light. As above, every difference is a switch without a default. */
+typedef enum WrReflectDiffuse {
+    WR_DIFFUSE_LAMBERT,
+    WR_DIFFUSE_ROUGH, /* matt facets, Lambert's at roughness 0; kept: also light that they reflect to each other */
+    WR_DIFFUSE_REMAINDER /* light that the highlight does not reflect; none of metal */
+} WrReflectDiffuse;
+
+/* Traits of a model; a row of shade/reflection_models.h. */
 typedef struct WrReflectInfo {
     const char *name;  /* as in commands: "ggx" */
     const char *title; /* in lists of the window */
     const char *help;
+    bool energies; /* its two formulas differ */
+    WrReflectLoops loops;
+    WrReflectHighlight highlight;
+    WrReflectDiffuse diffuse;
+    /* Of the columns above: */
     bool shines;                               /* it has a highlight */
-    bool shininess, roughness, metalness, ior; /* the numbers that it goes by */
-    bool facets;                               /* small mirrors: n' is bent into view */
-    bool energies;                             /* its two forms differ */
-    double
-        most; /* albedo of white as published, the largest that there is at `specular` or `diffuse` 1 */
+    bool facets;                               /* of microfacets: n' is bent into view */
+    bool shininess, roughness, metalness, ior; /* the parameters that it uses */
 } WrReflectInfo;
-extern const WrReflectInfo wr_reflects[WR_REFLECT_COUNT];
+extern const WrReflectInfo wr_reflects[];
+extern const int wr_reflect_count;
 extern const char *const wr_energies[WR_ENERGY_COUNT];
+
+/* The model of a new scene, which the stages compute: WR_REFLECT_LOOPS_STAGES. */
+#define WR_REFLECT_DEFAULT 0
+
+/* kept: energy is kept. Is diffuse light reduced by the albedo of the highlight? */
+static inline bool wr_reflect_shares(const WrReflectInfo *model, bool kept)
+{
+    return kept && model->diffuse == WR_DIFFUSE_REMAINDER;
+}
+
+/* kept: energy is kept. Is there light that facets reflect to each other, tinted once more? */
+static inline bool wr_reflect_again(const WrReflectInfo *model, bool kept)
+{
+    return kept && model->diffuse == WR_DIFFUSE_ROUGH;
+}
 
 #define WR_ALBEDO_TERMS 11
 
@@ -55,7 +95,7 @@ typedef struct WrMatter {
 
 /* A material's own numbers. */
 typedef struct WrReflectance {
-    WrReflect model;
+    int model; /* WrReflect */
     WrEnergy energy;
     double shininess, roughness, metalness, ior;
 } WrReflectance;

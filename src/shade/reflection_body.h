@@ -36,6 +36,16 @@ typedef struct Form {
         dull;                       /* and no highlight is as bright as `least` */
 } Form;
 
+/* A sample by which a lamp's light is reflected. */
+typedef struct Incidence {
+    VEC n, l, v;
+    Facets facets;
+    REAL spread; /* of slopes: trace of their covariance; 0 unless form.spread */
+    REAL left;   /* form.told: share of diffuse light that highlights leave */
+} Incidence;
+
+/* reflect_FORMULA(Incidence, Form, const MATTER *) are the formulas of shade/reflection_models.h. */
+
 R_INLINE REAL reflect_positive(REAL x)
 {
     return x > K_(0) ? x : K_(0);
@@ -132,28 +142,29 @@ R_INLINE REAL reflect_span(VEC w, REAL cosine, Facets wide, Form form, REAL a2)
     return wide.alike ? own : span;
 }
 
-R_INLINE Reflected reflect_phong(VEC n, VEC l, VEC v, REAL spread, bool kept, const MATTER *m)
+R_INLINE Reflected reflect_phong(Incidence at, Form form, const MATTER *m)
 {
+    const VEC n = at.n, l = at.l, v = at.v;
     const REAL nl = v_dot(n, l), lit = reflect_positive(nl);
     const VEC r = v_sub(v_scale(n, K_(2) * nl), l), off = v_sub(r, v);
     const REAL c = v_dot(r, v), below = c > K_(0.5) ? K_(0.5) * v_dot(off, off) : K_(1) - c;
     /* the mirrored direction turns twice as far as n' */
-    const REAL share = K_(1) / (K_(1) + K_(2) * m->shininess * spread), s = m->shininess * share;
-    const REAL strength = kept ? lit * K_(0.5) * (s + K_(2)) : share;
+    const REAL share = K_(1) / (K_(1) + K_(2) * m->shininess * at.spread), s = m->shininess * share;
+    const REAL strength = form.kept ? lit * K_(0.5) * (s + K_(2)) : share;
     const REAL lobe = r_pow_below(reflect_positive(c), below, s) * strength;
     return (Reflected){ m->kd * lit, nl > K_(0) ? m->ks * lobe : K_(0), K_(0) };
 }
 
-R_INLINE Reflected reflect_torrance_sparrow(VEC n, VEC l, VEC v, Facets wide, Form form,
-                                            const MATTER *m)
+R_INLINE Reflected reflect_torrance_sparrow(Incidence at, Form form, const MATTER *m)
 {
+    const VEC n = at.n, l = at.l, v = at.v;
     const VEC seen = form.facing ? n : reflect_seen(n, v), sum = v_add(l, v);
     const REAL hh = v_dot(sum, sum);
     const bool there = hh > K_(1e-12);
     const REAL len = r_sqrt(there ? hh : K_(1)), vh = reflect_least(K_(0.5) * len, K_(1));
     const VEC h = v_scale(sum, K_(1) / len);
     const REAL nl = v_dot(seen, l), nv = v_dot(seen, v), nh = v_dot(seen, h), lit = v_dot(n, l);
-    const REAL d = reflect_lobe(seen, h, wide, form, m->alpha * m->alpha);
+    const REAL d = reflect_lobe(seen, h, at.facets, form, m->alpha * m->alpha);
     const REAL over = K_(1) / nv, cavity = K_(2) * nh / vh;
     const REAL g = reflect_least(over, reflect_least(cavity, cavity * nl * over));
     const REAL shine = m->ks * m->scale * d * g * reflect_fresnel(vh, m->ior);
@@ -178,13 +189,14 @@ R_INLINE REAL reflect_matt_albedo(REAL mu, const MATTER *m)
     return m->a + m->b * K_(0.31830988618379067) * g;
 }
 
-R_INLINE Reflected reflect_oren_nayar(VEC n, VEC l, VEC v, bool kept, const MATTER *m)
+R_INLINE Reflected reflect_oren_nayar(Incidence at, Form form, const MATTER *m)
 {
+    const VEC n = at.n, l = at.l, v = at.v;
     const REAL nl = v_dot(n, l), lit = reflect_least(reflect_positive(nl), K_(1));
     const REAL nv = reflect_least(reflect_positive(v_dot(n, v)), K_(1));
     const REAL q = v_dot(l, v) - lit * nv, most = lit > nv ? lit : nv;
     const REAL over = K_(1) / (most > K_(1e-12) ? most : K_(1));
-    if (!kept) {
+    if (!form.kept) {
         const REAL rough = m->a + m->b * reflect_positive(q) * over;
         return (Reflected){ m->kd * lit * rough, K_(0), K_(0) };
     }
@@ -224,9 +236,10 @@ R_INLINE REAL reflect_albedo(REAL mu, const MATTER *m)
 
 /* told: what highlights leave to diffuse light is `told_left`; else, kept, it follows from the material's albedo. A
    highlight that is nowhere as bright as `least` is none. */
-R_INLINE Reflected reflect_ggx(VEC n, VEC l, VEC v, Facets wide, Form form, REAL told_left,
-                               const MATTER *m)
+R_INLINE Reflected reflect_ggx(Incidence at, Form form, const MATTER *m)
 {
+    const VEC n = at.n, l = at.l, v = at.v;
+    const Facets wide = at.facets;
     const VEC seen = form.facing ? n : reflect_seen(n, v), sum = v_add(l, v);
     const REAL hh = v_dot(sum, sum), a2 = m->alpha * m->alpha;
     const bool there = hh > K_(1e-12);
@@ -244,7 +257,7 @@ R_INLINE Reflected reflect_ggx(VEC n, VEC l, VEC v, Facets wide, Form form, REAL
     const bool shows = there && nl > K_(0) && lit > K_(0) && lobe * most >= m->least && !form.dull;
     const REAL shown = shows ? lobe : K_(0);
     const REAL left =
-        form.told   ? told_left
+        form.told   ? at.left
         : form.kept ? (K_(1) - reflect_albedo(lit, m)) * (K_(1) - reflect_albedo(nv, m)) * m->again
                     : K_(1) - f;
     /* metal: f0 is the colour, c + (1 - c) p = c (1 - p) + p */

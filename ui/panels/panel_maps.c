@@ -226,8 +226,8 @@ static void normal_rows(WrApp *app)
 /* Maps that the reflection model uses, and maps already loaded. */
 static void facet_rows(WrApp *app)
 {
-    const WrReflect model = wr_app_scene(app)->material.model;
-    const bool asked[WR_FACET_KINDS] = { wr_reflects[model].roughness, model == WR_REFLECT_GGX };
+    const WrReflectInfo *model = &wr_reflects[wr_app_scene(app)->material.model];
+    const bool asked[WR_FACET_KINDS] = { model->roughness, model->metalness };
     for (int k = 0; k < WR_FACET_KINDS; k++) {
         const WrFacetMap *map = &wr_app_scene(app)->facets[k];
         if (!asked[k] && !map->image) continue;

@@ -14,7 +14,7 @@
 #include "scene/param.h"
 #include "scene/scene.h"
 #include "shade/bump_mode.h"
-#include "shade/reflection.h"
+#include "shade/reflection_models.h"
 
 /* ---- bump ---- */
 

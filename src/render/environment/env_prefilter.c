@@ -107,9 +107,9 @@ void wr_env_prefilter_fill(const WrEnvPrefilter *grades, const WrScene *scene, W
     WrEnvironmentBrdf gloss;
     wr_scene_gloss(m, &gloss);
     job->rough = sqrt(gloss.alpha);
-    wide->metals = single->metals = m->model == WR_REFLECT_GGX;
+    wide->metals = single->metals = wr_reflects[m->model].metalness;
     wide->again_twice = single->again_twice =
-        m->model == WR_REFLECT_OREN_NAYAR && m->energy == WR_ENERGY_KEPT;
+        wr_reflect_again(&wr_reflects[m->model], m->energy == WR_ENERGY_KEPT);
     wide->alike = single->alike = !job->facets[WR_FACET_METALNESS].near.rgba;
     for (int i = 0; i < WR_TEXTURED_REFLECTION_STEPS; i++) {
         put_step(vary, i, wide, single);

@@ -71,7 +71,7 @@ void wr_environment_map_look(const WrScene *scene, const WrPlan *plan, const dou
     wide->mean = gloss.mean;
     memcpy(wide->matt, gloss.matt, sizeof wide->matt);
     memcpy(wide->again, gloss.again, sizeof wide->again);
-    const bool twice = m->model == WR_REFLECT_OREN_NAYAR && m->energy == WR_ENERGY_KEPT;
+    const bool twice = wr_reflect_again(&wr_reflects[m->model], m->energy == WR_ENERGY_KEPT);
     out->shares = gloss.plain ? 0 : twice ? 2 : 1;
     narrow_all(wide, &out->single);
     fill_mirror(from, &gloss, axes, mirror, &out->mirror_wide);

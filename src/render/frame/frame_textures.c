@@ -163,7 +163,7 @@ static bool wants_facets(const WrPlan *plan, const WrScene *scene, int kind)
 {
     return wr_plan_runs(plan, WR_EFFECT_FACETS) && scene->facets[kind].image &&
            (kind == WR_FACET_ROUGHNESS ? wr_reflects[scene->material.model].roughness
-                                       : scene->material.model == WR_REFLECT_GGX);
+                                       : wr_reflects[scene->material.model].metalness);
 }
 
 static bool bring_facets(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)

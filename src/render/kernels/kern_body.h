@@ -3,6 +3,7 @@
    for double precision. Plain loops over structure-of-arrays strips; no branches except ?: on
    scalars, no library call that does not vectorise. Deliberately without a guard. */
 #include "base/enum_rows.h"
+#include "shade/reflection_models.h"
 #include "noise/lattice.h"
 #include "render/kernels/kern.h"
 #include "render/kernels/kern_double_math.h"
@@ -51,6 +52,7 @@
 #define MIRROR WrKernMirrord
 #define GRAIN WrKernGraind
 #define VARY WrKernVaryd
+#define REFLECT_KERNEL WrReflectKerneld
 #define SKYLINE WrKernHorizond
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
@@ -75,6 +77,7 @@
 #define MIRROR WrKernMirror
 #define GRAIN WrKernGrain
 #define VARY WrKernVary
+#define REFLECT_KERNEL WrReflectKernel
 #define SKYLINE WrKernHorizon
 #define NEWTON WrNewton
 #define KERNELS WrKernels
@@ -306,12 +309,7 @@ const KERNELS WR_KERN_TABLE = {
     .specular = kern_specular,
     .specular_lean = kern_specular_lean,
     .specular_toksvig = kern_specular_toksvig,
-    .reflect = {
-        [WR_REFLECT_PHONG] = { kern_phong_1, kern_phong_0 },
-        [WR_REFLECT_TORRANCE_SPARROW] = { kern_facets_0, kern_facets_0 },
-        [WR_REFLECT_OREN_NAYAR] = { kern_matt_1, kern_matt_0 },
-        [WR_REFLECT_GGX] = { kern_ggx_1, kern_ggx_0 },
-    },
+    .reflect = kern_reflects,
     .faces = kern_faces,
     .gathered = kern_gathered,
     .survey = kern_survey,

@@ -10,20 +10,31 @@ ALWAYS Facets facets_of(const STRIP *strip, int i, bool spread, bool round, REAL
                           a2);
 }
 
+/* Traits of models: constants that are known when a loop of one model is compiled. */
+#define REFLECT_INFO(ID, ...) [WR_REFLECT_##ID] = WR_REFLECTION_INFO(ID, __VA_ARGS__),
+static const WrReflectInfo reflect_info[] = { WR_REFLECTION_MODELS(REFLECT_INFO) };
+
+#define REFLECT_BY_STAGES(ID, formula)
+#define REFLECT_BY_UNIFORM(ID, formula)                                                            \
+    if (model == WR_REFLECT_##ID) return reflect_##formula(at, form, m);
+#define REFLECT_BY_ROUGH REFLECT_BY_UNIFORM
+#define REFLECT_BY_METAL REFLECT_BY_UNIFORM
+#define REFLECT_BY(ID, formula, LOOPS, ...) REFLECT_BY_##LOOPS(ID, formula)
+
 /* Reflection at sample i. left: share of energy for diffuse light. */
 ALWAYS Reflected reflect_at(const STRIP *strip, int i, const WrReflect model, const Form form,
                             REAL left, const MATTER *m)
 {
-    const VEC n = LOAD3(strip, b, i), l = LOAD3(strip, l, i), v = LOAD3(strip, v, i);
-    const Facets wide = facets_of(strip, i, form.spread, form.round, m->alpha * m->alpha);
-    if (model == WR_REFLECT_PHONG) {
-        const REAL spread = form.spread ? strip->see[i] + strip->sff[i] : K_(0);
-        return reflect_phong(n, l, v, spread, form.kept, m);
-    }
-    if (model == WR_REFLECT_TORRANCE_SPARROW)
-        return reflect_torrance_sparrow(n, l, v, wide, form, m);
-    if (model == WR_REFLECT_OREN_NAYAR) return reflect_oren_nayar(n, l, v, form.kept, m);
-    return reflect_ggx(n, l, v, wide, form, left, m);
+    const Incidence at = {
+        .n = LOAD3(strip, b, i),
+        .l = LOAD3(strip, l, i),
+        .v = LOAD3(strip, v, i),
+        .facets = facets_of(strip, i, form.spread, form.round, m->alpha * m->alpha),
+        .spread = form.spread ? strip->see[i] + strip->sff[i] : K_(0),
+        .left = left,
+    };
+    WR_REFLECTION_MODELS(REFLECT_BY)
+    return (Reflected){ K_(0), K_(0), K_(0) };
 }
 
 /* A lamp's colour, and that colour times the surface's own and kd. */
@@ -60,7 +71,7 @@ ALWAYS void reflect_strip(const LIGHT *light, const MATTER *matter, const WrRefl
 {
     const MATTER m = *matter;
     const Shone by = shone_of(light, &m);
-    const bool twice = form.kept && model == WR_REFLECT_OREN_NAYAR;
+    const bool twice = wr_reflect_again(&reflect_info[model], form.kept);
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
@@ -73,7 +84,7 @@ ALWAYS void reflect_strip(const LIGHT *light, const MATTER *matter, const WrRefl
 ALWAYS void reflect_as(const LIGHT *light, const MATTER *m, const WrReflect model, const bool kept,
                        WrReflectSpread how, STRIP *strip)
 {
-    const bool facets = model == WR_REFLECT_GGX || model == WR_REFLECT_TORRANCE_SPARROW;
+    const bool facets = reflect_info[model].facets;
     if (facets && how == WR_REFLECT_DULL)
         reflect_strip(light, m, model, (Form){ .kept = kept, .facing = true, .dull = true }, strip);
     else if (facets && how == WR_REFLECT_FACING)
@@ -158,10 +169,22 @@ FLAT static void kern_tint(REAL t, STRIP *strip)
     {                                                                                              \
         reflect_as(light, m, MODEL, kept, how, strip);                                             \
     }
-REFLECT(phong, WR_REFLECT_PHONG, 0)
-REFLECT(phong, WR_REFLECT_PHONG, 1)
-REFLECT(facets, WR_REFLECT_TORRANCE_SPARROW, 0)
-REFLECT(matt, WR_REFLECT_OREN_NAYAR, 0)
-REFLECT(matt, WR_REFLECT_OREN_NAYAR, 1)
-REFLECT(ggx, WR_REFLECT_GGX, 0)
-REFLECT(ggx, WR_REFLECT_GGX, 1)
+#define REFLECT_LOOPS_STAGES(ID, formula)
+#define REFLECT_LOOPS_UNIFORM(ID, formula)                                                         \
+    REFLECT(formula, WR_REFLECT_##ID, 0)                                                           \
+    REFLECT(formula, WR_REFLECT_##ID, 1)
+#define REFLECT_LOOPS_ROUGH REFLECT_LOOPS_UNIFORM
+#define REFLECT_LOOPS_METAL REFLECT_LOOPS_UNIFORM
+#define REFLECT_LOOPS(ID, formula, LOOPS, ...) REFLECT_LOOPS_##LOOPS(ID, formula)
+WR_REFLECTION_MODELS(REFLECT_LOOPS)
+
+#define REFLECT_ROW_STAGES(ID, formula) [WR_REFLECT_##ID] = { NULL, NULL },
+#define REFLECT_ROW_UNIFORM(ID, formula)                                                           \
+    [WR_REFLECT_##ID] = {                                                                          \
+        [WR_ENERGY_KEPT] = kern_##formula##_1, [WR_ENERGY_PUBLISHED] = kern_##formula##_0          \
+    },
+#define REFLECT_ROW_ROUGH REFLECT_ROW_UNIFORM
+#define REFLECT_ROW_METAL REFLECT_ROW_UNIFORM
+#define REFLECT_ROW(ID, formula, LOOPS, ...) REFLECT_ROW_##LOOPS(ID, formula)
+static REFLECT_KERNEL const kern_reflects[][WR_ENERGY_COUNT] = { WR_REFLECTION_MODELS(
+    REFLECT_ROW) };

@@ -50,17 +50,16 @@ ALWAYS void vary_values(const REAL *of, const Steps *at, int count, REAL *restri
 }
 
 /* The material as it is at a sample, but for what its highlights leave. */
-ALWAYS MATTER vary_matter(const MATTER *m, const WrReflect model, const bool kept, REAL roughness,
-                          REAL metal)
+ALWAYS MATTER vary_matter(const MATTER *m, const bool kept, REAL roughness, REAL metal)
 {
     const REAL rough = between(roughness, K_(0), K_(1)), s = rough, ss = s * s;
     MATTER out = { .kd = m->kd, .ks = m->ks, .ior = m->ior, .f0 = m->f0 };
     out.alpha = larger(rough * rough, K_(WR_ALPHA_LEAST));
     out.metal = between(metal, K_(0), K_(1));
     out.scale = kept ? m->scale : out.alpha * out.alpha;
-    if (model == WR_REFLECT_OREN_NAYAR && !kept)
+    if (!kept) /* oren-nayar's, as wr_matter_init computes them; loops of other models drop them */
         out.a = K_(1) - K_(0.5) * ss / (ss + K_(0.33)), out.b = K_(0.45) * ss / (ss + K_(0.09));
-    if (model == WR_REFLECT_OREN_NAYAR && kept) {
+    if (kept) {
         out.a = K_(1) / (K_(1) + K_(0.28779340921080631) * s); /* 1/2 - 2/(3 pi) */
         out.b = out.a * s;
         out.mean = out.a * (K_(1) + K_(0.072488212456924341) * s); /* 2/3 - 28/(15 pi) */
@@ -100,15 +99,15 @@ ALWAYS void vary_strip(const LIGHT *light, const MATTER *matter, const VARY *var
     const bool kept = form.kept;
     const MATTER m = *matter;
     const Shone by = shone_of(light, &m);
-    const bool twice = kept && model == WR_REFLECT_OREN_NAYAR;
-    const bool shares = kept && model == WR_REFLECT_GGX;
+    const bool twice = wr_reflect_again(&reflect_info[model], kept);
+    const bool shares = wr_reflect_shares(&reflect_info[model], kept);
     const Form as = { kept, form.spread, form.round, shares, false, false };
     const int count = strip->count;
     REAL left[WR_SPAN];
     if (shares) vary_left(vary, strip, left);
     SIMD for (int i = 0; i < count; i++)
     {
-        const MATTER own = vary_matter(&m, model, kept, strip->rough[i], strip->metal[i]);
+        const MATTER own = vary_matter(&m, kept, strip->rough[i], strip->metal[i]);
         const Reflected got = reflect_at(strip, i, model, as, shares ? left[i] : K_(0), &own);
         add_reflected(by, got, twice, own.mean, strip, i);
     }
@@ -132,24 +131,29 @@ ALWAYS void vary_as(const LIGHT *light, const MATTER *m, const VARY *vary, const
     {                                                                                              \
         vary_as(light, m, vary, MODEL, kept, how, strip);                                          \
     }
-VARY_ROW(facets, WR_REFLECT_TORRANCE_SPARROW, 0)
-VARY_ROW(facets, WR_REFLECT_TORRANCE_SPARROW, 1)
-VARY_ROW(matt, WR_REFLECT_OREN_NAYAR, 0)
-VARY_ROW(matt, WR_REFLECT_OREN_NAYAR, 1)
-VARY_ROW(ggx, WR_REFLECT_GGX, 0)
-VARY_ROW(ggx, WR_REFLECT_GGX, 1)
+#define VARY_LOOPS_STAGES(ID, formula)
+#define VARY_LOOPS_UNIFORM(ID, formula)
+#define VARY_LOOPS_ROUGH(ID, formula)                                                              \
+    VARY_ROW(formula, WR_REFLECT_##ID, 0)                                                          \
+    VARY_ROW(formula, WR_REFLECT_##ID, 1)
+#define VARY_LOOPS_METAL VARY_LOOPS_ROUGH
+#define VARY_LOOPS(ID, formula, LOOPS, ...) VARY_LOOPS_##LOOPS(ID, formula)
+WR_REFLECTION_MODELS(VARY_LOOPS)
+
+#define VARY_CASE_STAGES(ID, formula)
+#define VARY_CASE_UNIFORM(ID, formula)
+#define VARY_CASE_ROUGH(ID, formula) [WR_REFLECT_##ID] = { vary_##formula##_0, vary_##formula##_1 },
+#define VARY_CASE_METAL VARY_CASE_ROUGH
+#define VARY_CASE(ID, formula, LOOPS, ...) VARY_CASE_##LOOPS(ID, formula)
 
 /* What one lamp adds, by a model that goes by roughness. */
-static void kern_reflect_vary(const LIGHT *light, const MATTER *m, const VARY *vary,
-                              WrReflect model, bool kept, WrReflectSpread how, STRIP *strip)
+static void kern_reflect_vary(const LIGHT *light, const MATTER *m, const VARY *vary, int model,
+                              bool kept, WrReflectSpread how, STRIP *strip)
 {
     static void (*const of[WR_REFLECT_COUNT][2])(const LIGHT *, const MATTER *, const VARY *,
-                                                 WrReflectSpread, STRIP *) = {
-        [WR_REFLECT_TORRANCE_SPARROW] = { vary_facets_0, vary_facets_1 },
-        [WR_REFLECT_OREN_NAYAR] = { vary_matt_0, vary_matt_1 },
-        [WR_REFLECT_GGX] = { vary_ggx_0, vary_ggx_1 },
-    };
-    if (of[model][kept]) of[model][kept](light, m, vary, how, strip);
+                                                 WrReflectSpread,
+                                                 STRIP *) = { WR_REFLECTION_MODELS(VARY_CASE) };
+    of[model][kept](light, m, vary, how, strip);
 }
 
 ALWAYS void surround_vary(const SURROUND *how, const VARY *vary, const bool twice, STRIP *strip)

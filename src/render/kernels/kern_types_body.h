@@ -282,7 +282,7 @@ typedef struct WR_T(WrKernels) {
                              WR_T(WrStrip) * strip);
     /* Diffuse light and highlight of other models, as published or energy-conserving; NULL: Blinn-Phong's uses
        the functions above. */
-    WR_T(WrReflectKernel) reflect[WR_REFLECT_COUNT][WR_ENERGY_COUNT];
+    const WR_T(WrReflectKernel) (*reflect)[WR_ENERGY_COUNT]; /* [wr_reflect_count] */
     /* Tests of a run, after `light` and `view`: does every n' face the viewer; has no slope (suu, suv, svv) a
        spread? */
     bool (*faces)(const WR_T(WrStrip) * strip);
@@ -293,8 +293,8 @@ typedef struct WR_T(WrKernels) {
     /* Lamps, and environment light, by rough and metal of each sample; the mirrored environment also as wide as
        slopes spread. */
     void (*reflect_vary)(const WR_T(WrKernLight) * light, const WR_T(WrKernMatter) * matter,
-                         const WR_T(WrKernVary) * vary, WrReflect model, bool kept,
-                         WrReflectSpread how, WR_T(WrStrip) * strip);
+                         const WR_T(WrKernVary) * vary, int model, bool kept, WrReflectSpread how,
+                         WR_T(WrStrip) * strip);
     void (*surround_vary)(const WR_T(WrKernSurround) * how, const WR_T(WrKernVary) * vary,
                           WR_T(WrStrip) * strip);
     void (*mirror_vary)(const WR_T(WrKernMirror) * how, const WR_T(WrKernVary) * vary, bool spread,

@@ -176,7 +176,7 @@ static WrVec3 colour_within(const WrTileJob *job, Strip *strip)
 {
     const WrMaterial *m = &job->scene->material;
     const WrVec3 c = m->colour, white = { 1, 1, 1 };
-    const bool kept = m->model == WR_REFLECT_GGX && m->energy == WR_ENERGY_KEPT;
+    const bool kept = wr_reflect_shares(&wr_reflects[m->model], m->energy == WR_ENERGY_KEPT);
     if (!kept || (!pictured(job) && c.x <= 1 && c.y <= 1 && c.z <= 1)) return c;
     REAL *const of[3] = { strip->cr, strip->cg, strip->cb };
     const REAL by[3] = { (REAL)c.x, (REAL)c.y, (REAL)c.z };

@@ -47,7 +47,7 @@ static double chord_of(double cosine)
      D is at most that of this angle,   V (n.l) at most 1 / (2 sqrt(a^2 + (1 - a^2) (n.v)^2)),
      G / (n.v) at most 1 / (n.v),
      F at most f0 + (1 - f0) (1 - v.h)^5 of v.h = (|S0| - e) / 2. */
-static double most_of(const WR_T(WrKernMatter) * m, bool schlick, double length,
+static double most_of(const WR_T(WrKernMatter) * m, WrReflectHighlight highlight, double length,
                       const REAL found[4])
 {
     const double e = chord_of((double)found[2]) + chord_of((double)found[3]);
@@ -60,8 +60,15 @@ static double most_of(const WR_T(WrKernMatter) * m, bool schlick, double length,
     const double c = fmax(0, cx * cy + sx * sy), w = a2 * c * c + 1 - c * c;
     const double f0 = (double)m->f0, metal = (double)m->metal, f = f0 + (1 - f0) * p;
     const double d = (double)m->ks * a2 / (w * w);
-    if (!schlick) return d * (double)m->scale / nv;
-    return d * 0.5 / sqrt(a2 + (1 - a2) * nv * nv) * (f * (1 - metal) + metal);
+    switch (highlight) {
+    case WR_HIGHLIGHT_CAVITIES: return d * (double)m->scale / nv;
+    case WR_HIGHLIGHT_SMITH:
+        return d * 0.5 / sqrt(a2 + (1 - a2) * nv * nv) * (f * (1 - metal) + metal);
+    case WR_HIGHLIGHT_NONE:
+    case WR_HIGHLIGHT_HALF:
+    case WR_HIGHLIGHT_POWER: break;
+    }
+    return INFINITY;
 }
 
 /* True if every highlight is certainly below `least`. *faces: every n' faces the viewer. */
@@ -77,8 +84,8 @@ static bool is_faint(const WrTileJob *job, const WR_T(WrKernMatter) * m, const S
     for (int k = 0; k < 3; k++) axis[k] = length > 0 ? axis[k] / (REAL)length : 0;
     KERNELS_OF(job)->survey(axis, v0, l0, strip, found);
     *faces = (double)found[0] >= WR_FACED_FROM;
-    return *faces &&
-           most_of(m, job->plan->model == WR_REFLECT_GGX, length, found) < 0.999 * (double)m->least;
+    return *faces && most_of(m, wr_reflects[job->plan->model].highlight, length, found) <
+                         0.999 * (double)m->least;
 }
 
 /* Microfacet form for this run (E37, E39, E40). */

@@ -204,7 +204,7 @@ typedef enum WrPrecision {
      heights     quantization of the heights
      harmonics, gloss    as the dials of that name */
 #define WR_PLAN_SETTINGS(X)                                                                        \
-    X(MODEL, WrReflect, model)                                                                     \
+    X(MODEL, int, model) /* WrReflect */                                                           \
     X(MODEL, double, tint)                                                                         \
     X(KEPT, bool, kept)                                                                            \
     X(HARMONICS, int, harmonics)                                                                   \

@@ -63,8 +63,7 @@ WrVerdict wr_decide_mirror(const WrPlan *plan, const WrPlanAsk *ask, const char 
         return say(WR_VERDICT_NONE, why, "the reflection model has no highlight");
     if (!shine(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light comes from them");
     if (m->specular == 0) return say(WR_VERDICT_SPARED, why, "specular is 0");
-    if (m->model == WR_REFLECT_TORRANCE_SPARROW && m->ior == 1)
-        return say(WR_VERDICT_SPARED, why, "facets of index 1 reflect nothing");
+    if (lacks_highlight(m)) return say(WR_VERDICT_SPARED, why, "facets of index 1 reflect nothing");
     return say(WR_VERDICT_RUN, why, "they are seen about the mirrored direction");
 }
 
@@ -88,11 +87,10 @@ WrVerdict wr_decide_blur(const WrPlan *plan, const WrPlanAsk *ask, const char **
 
 bool wr_plan_surround_turns(const WrPlan *plan, const WrScene *scene)
 {
-    const WrReflect model = scene->material.model;
     if (runs(plan, WR_EFFECT_MIRROR)) return true;
     if (!runs(plan, WR_EFFECT_SURROUND)) return false;
-    return runs(plan, WR_EFFECT_HARMONICS) || model == WR_REFLECT_GGX ||
-           model == WR_REFLECT_OREN_NAYAR;
+    return runs(plan, WR_EFFECT_HARMONICS) ||
+           wr_reflects[scene->material.model].diffuse != WR_DIFFUSE_LAMBERT;
 }
 
 bool wr_plan_graded(const WrPlan *plan, const WrScene *scene)

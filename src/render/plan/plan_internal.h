@@ -49,15 +49,21 @@ static inline bool roughens(const WrScene *scene)
                                      wr_reflects[scene->material.model].roughness);
 }
 
+/* Does the model reflect nothing but diffuse light, by its ior? */
+static inline bool lacks_highlight(const WrMaterial *m)
+{
+    return wr_reflects[m->model].highlight == WR_HIGHLIGHT_CAVITIES && m->ior == 1;
+}
+
 static inline bool metal_varies(const WrScene *scene)
 {
-    return scene->material.model == WR_REFLECT_GGX && scene->facets[WR_FACET_METALNESS].image;
+    return wr_reflects[scene->material.model].metalness && scene->facets[WR_FACET_METALNESS].image;
 }
 
 /* True if the material is metal everywhere, so that it has no diffuse reflection. */
 static inline bool all_metal(const WrScene *scene)
 {
-    return scene->material.model == WR_REFLECT_GGX && scene->material.metalness == 1 &&
+    return wr_reflects[scene->material.model].metalness && scene->material.metalness == 1 &&
            !metal_varies(scene);
 }
 

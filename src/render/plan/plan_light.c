@@ -32,56 +32,42 @@ WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const cha
     const WrMaterial *m = &ask->scene->material;
     if (!wr_reflects[m->model].shines)
         return say(WR_VERDICT_SPARED, why, "the reflection model has no highlight");
-    if (m->model == WR_REFLECT_TORRANCE_SPARROW && m->ior == 1)
-        return say(WR_VERDICT_SPARED, why, "facets of index 1 reflect nothing");
+    if (lacks_highlight(m)) return say(WR_VERDICT_SPARED, why, "facets of index 1 reflect nothing");
     if (m->specular == 0) return say(WR_VERDICT_SPARED, why, "specular is 0");
     return say(WR_VERDICT_RUN, why, "a light shines and specular is not 0");
-}
-
-/* Is all but the model's highlight Lambert's diffuse light? The compiler asks it of each new model. */
-static bool is_lambert_below(WrReflect model)
-{
-    switch (model) {
-    case WR_REFLECT_BLINN_PHONG:
-    case WR_REFLECT_PHONG:
-    case WR_REFLECT_TORRANCE_SPARROW: return true;
-    case WR_REFLECT_OREN_NAYAR:
-    case WR_REFLECT_GGX:
-    case WR_REFLECT_COUNT: break;
-    }
-    return false;
 }
 
 /* Why Blinn-Phong's stages do what another model would, or NULL. */
 static const char *same_model(const WrPlan *plan, const WrScene *scene)
 {
-    const bool shines = runs(plan, WR_EFFECT_SPECULAR);
     const WrMaterial *m = &scene->material;
-    if (m->model == WR_REFLECT_OREN_NAYAR && m->roughness == 0 && !roughens(scene))
+    const bool shines = wr_reflects[m->model].shines && runs(plan, WR_EFFECT_SPECULAR);
+    const WrReflectDiffuse diffuse = wr_reflects[m->model].diffuse;
+    if (diffuse == WR_DIFFUSE_ROUGH && m->roughness == 0 && !roughens(scene) && !shines)
         return "facets of roughness 0 are matt as a whole: Lambert's";
-    if (is_lambert_below(m->model) && !shines) return "without a highlight it is Lambert's";
+    if (diffuse == WR_DIFFUSE_LAMBERT && !shines) return "without a highlight it is Lambert's";
     return NULL;
 }
 
 WrVerdict wr_decide_model(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     const WrMaterial *m = &ask->scene->material;
-    if (m->model == WR_REFLECT_BLINN_PHONG && m->tint == 0)
+    if (m->model == WR_REFLECT_DEFAULT && m->tint == 0)
         return say(WR_VERDICT_NONE, why, "the material is Blinn-Phong's, its highlight white");
     if (!runs(plan, WR_EFFECT_SPECULAR) && !runs(plan, WR_EFFECT_DIFFUSE))
         return say(WR_VERDICT_NONE, why, "no light is worked out");
     const char *reason = same_model(plan, ask->scene);
     if (reason) return say(WR_VERDICT_SPARED, why, reason);
     return say(WR_VERDICT_RUN, why,
-               m->model == WR_REFLECT_BLINN_PHONG ? "the highlight has the material's colour"
-                                                  : wr_reflects[m->model].help);
+               m->model == WR_REFLECT_DEFAULT ? "the highlight has the material's colour"
+                                              : wr_reflects[m->model].help);
 }
 
 void wr_settle_model(WrPlan *plan, const WrPlanAsk *ask)
 {
     const WrMaterial *m = &ask->scene->material;
     const bool run = runs(plan, WR_EFFECT_MODEL);
-    plan->model = run ? m->model : WR_REFLECT_BLINN_PHONG;
+    plan->model = run ? m->model : WR_REFLECT_DEFAULT;
     plan->tint = run && runs(plan, WR_EFFECT_SPECULAR) ? m->tint : 0;
 }
 

@@ -8,7 +8,7 @@
 WrVerdict wr_decide_kept(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     const WrMaterial *m = &ask->scene->material;
-    if (m->model != WR_REFLECT_GGX || m->energy != WR_ENERGY_KEPT)
+    if (!wr_reflect_shares(&wr_reflects[m->model], m->energy == WR_ENERGY_KEPT))
         return say(WR_VERDICT_NONE, why,
                    "the material's diffuse light does not go by its highlight");
     if (!runs(plan, WR_EFFECT_MODEL)) return say(WR_VERDICT_NONE, why, "no light is worked out");
@@ -20,8 +20,8 @@ WrVerdict wr_decide_kept(const WrPlan *plan, const WrPlanAsk *ask, const char **
 void wr_settle_kept(WrPlan *plan, const WrPlanAsk *ask)
 {
     const WrMaterial *m = &ask->scene->material;
-    plan->kept =
-        m->energy == WR_ENERGY_KEPT && (m->model != WR_REFLECT_GGX || runs(plan, WR_EFFECT_KEPT));
+    plan->kept = m->energy == WR_ENERGY_KEPT &&
+                 (!wr_reflect_shares(&wr_reflects[m->model], true) || runs(plan, WR_EFFECT_KEPT));
 }
 
 /* ---- runs of samples ---- */

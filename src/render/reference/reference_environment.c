@@ -164,8 +164,7 @@ static void look_along(const WrReferenceStage *stage, WrVec3 d, double rgb[3])
 /* Width of the lobe from which facet directions are sampled. */
 static double width_of(const WrMaterial *m, const WrMatter *matter)
 {
-    const bool power = m->model == WR_REFLECT_BLINN_PHONG || m->model == WR_REFLECT_PHONG;
-    return power ? sqrt(2 / (m->shininess + 2)) : matter->alpha;
+    return wr_reflects[m->model].shininess ? sqrt(2 / (m->shininess + 2)) : matter->alpha;
 }
 
 /* Highlights: facets h, weighted by their distribution; each mirrors the light from 2 (v.h) h - v. */
@@ -209,7 +208,7 @@ void wr_reference_surround_light(const WrReferenceStage *stage, const WrMatter *
     const WrMaterial *m = &stage->scene->material;
     for (int c = 0; c < 3; c++) own[c] = white[c] = 0;
     if (stage->surround.count == 0) return;
-    const bool metal = m->model == WR_REFLECT_GGX && is->metal == 1;
+    const bool metal = wr_reflects[m->model].metalness && is->metal == 1;
     if (m->diffuse != 0 && !metal) add_diffuse(stage, is, n, v, colour, share, own);
     if (m->specular != 0 && wr_reflects[m->model].shines)
         add_shine(stage, is, n, v, colour, share, own, white);

@@ -1,5 +1,7 @@
 #include "render/reference/reference_reflection.h"
 
+#include "shade/reflection_models.h"
+
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
@@ -49,7 +51,15 @@ static double fresnel(double c, double ior)
     return fmin(0.5 * a * a * (1 + b * b), 1);
 }
 
-static double phong(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
+/* Directions, unit, n towards the viewer's side; colour: C of the surface. */
+typedef struct Incidence {
+    WrVec3 n, l, v;
+    const double *colour;
+} Incidence;
+
+/* Formulas of models by their names in shade/reflection_models.h. On entry own is Lambert's and white 0. */
+
+static double power_lobe(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
 {
     const double nl = dot(n, l);
     if (!(nl > 0)) return 0;
@@ -61,7 +71,7 @@ static double phong(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVe
     return m->ks * strength * (c > 0.5 ? exp(s * log1p(-dot(off, off) / 2)) : pow(c, s));
 }
 
-static double torrance_sparrow(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
+static double cavities(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
 {
     Facing at;
     if (!face(n, l, v, &at)) return 0;
@@ -72,6 +82,20 @@ static double torrance_sparrow(const WrMatter *m, WrEnergy energy, WrVec3 n, WrV
     return m->ks * whole * d * g * fresnel(at.vh, m->ior) / at.nv;
 }
 
+static void phong(const WrMatter *m, WrEnergy energy, const Incidence *at, double own[3],
+                  double *white)
+{
+    (void)own;
+    *white = power_lobe(m, energy, at->n, at->l, at->v);
+}
+
+static void torrance_sparrow(const WrMatter *m, WrEnergy energy, const Incidence *at, double own[3],
+                             double *white)
+{
+    (void)own;
+    *white = cavities(m, energy, at->n, at->l, at->v);
+}
+
 /* Share that microfacets reflect directly, and the rest, for multiple reflection. */
 static double matt_albedo(const WrMatter *m, double mu)
 {
@@ -80,12 +104,13 @@ static double matt_albedo(const WrMatter *m, double mu)
     return m->a * (1 + m->sigma / pi * g);
 }
 
-static void oren_nayar(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v,
-                       const double colour[3], double own[3])
+static void oren_nayar(const WrMatter *m, WrEnergy energy, const Incidence *at, double own[3],
+                       double *white)
 {
+    const WrVec3 n = at->n, l = at->l, v = at->v;
     const double nl = fmin(fmax(0, dot(n, l)), 1), nv = fmin(fmax(0, dot(n, v)), 1);
     const double q = dot(l, v) - nl * nv, most = fmax(nl, nv);
-    own[0] = own[1] = own[2] = 0;
+    *white = own[0] = own[1] = own[2] = 0;
     if (!(nl > 0)) return;
     if (energy == WR_ENERGY_PUBLISHED) {
         const double rough = m->a + m->b * fmax(0, q) / most;
@@ -96,7 +121,7 @@ static void oren_nayar(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, W
     const double mean = m->a * (1 + (2.0 / 3 - 28 / (15 * pi)) * m->sigma);
     const double left = (1 - matt_albedo(m, nl)) * (1 - matt_albedo(m, nv));
     for (int c = 0; c < 3; c++) {
-        const double rho = fmin(fmax(0, m->kd * colour[c]), 1);
+        const double rho = fmin(fmax(0, m->kd * at->colour[c]), 1);
         const double again =
             m->sigma > 1e-6 ? left / (1 - mean) * rho * mean / (1 - rho * (1 - mean)) : 0;
         own[c] = m->kd * nl * (once + again);
@@ -111,9 +136,10 @@ static double kept_albedo(const WrMatter *m, double mu)
     return fmin(sum, 1);
 }
 
-static void ggx(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v, double *own,
+static void ggx(const WrMatter *m, WrEnergy energy, const Incidence *by, double own[3],
                 double *white)
 {
+    const WrVec3 n = by->n, l = by->l, v = by->v;
     Facing at;
     const double lit = dot(n, l), nv = dot(bent_back(n, v), v), a2 = m->alpha * m->alpha;
     *own = *white = 0;
@@ -135,23 +161,29 @@ static void ggx(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v
                         : energy == WR_ENERGY_KEPT
                             ? (1 - kept_albedo(m, lit)) * (1 - kept_albedo(m, nv)) * m->again
                             : 1 - f;
-    *own = matt * lit * left + m->metal * (1 - p) * lobe;
+    own[0] = own[1] = own[2] = matt * lit * left + m->metal * (1 - p) * lobe;
     *white = (1 - m->metal) * f * lobe + m->metal * p * lobe;
 }
 
-void wr_reference_reflect(const WrMatter *m, WrReflect model, WrEnergy energy, WrVec3 n, WrVec3 l,
+#define CASE_STAGES(ID, formula)                                                                   \
+    case WR_REFLECT_##ID:                                                                          \
+        break; /* wr_reference_lamp */
+#define CASE_UNIFORM(ID, formula)                                                                  \
+    case WR_REFLECT_##ID:                                                                          \
+        formula(m, energy, &at, own, white);                                                       \
+        break;
+#define CASE_ROUGH CASE_UNIFORM
+#define CASE_METAL CASE_UNIFORM
+#define CASE(ID, formula, LOOPS, ...) CASE_##LOOPS(ID, formula)
+
+void wr_reference_reflect(const WrMatter *m, int model, WrEnergy energy, WrVec3 n, WrVec3 l,
                           WrVec3 v, const double colour[3], double own[3], double *white)
 {
-    const double lambert = m->kd * fmax(0, dot(n, l));
+    const Incidence at = { n, l, v, colour };
     *white = 0;
-    own[0] = lambert;
-    switch (model) {
-    case WR_REFLECT_PHONG: *white = phong(m, energy, n, l, v); break;
-    case WR_REFLECT_TORRANCE_SPARROW: *white = torrance_sparrow(m, energy, n, l, v); break;
-    case WR_REFLECT_OREN_NAYAR: oren_nayar(m, energy, n, l, v, colour, own); return;
-    case WR_REFLECT_GGX: ggx(m, energy, n, l, v, own, white); break;
-    case WR_REFLECT_BLINN_PHONG:
+    own[0] = own[1] = own[2] = m->kd * fmax(0, dot(n, l));
+    switch ((WrReflect)model) {
+        WR_REFLECTION_MODELS(CASE)
     case WR_REFLECT_COUNT: break;
     }
-    own[1] = own[2] = own[0];
 }

@@ -98,7 +98,7 @@ static double roughness_at(const WrReferenceStage *stage, WrVec3 object, double 
 /* The material's parameters at a point: alpha is exact, albedos are interpolated between two steps. */
 static WrMatter matter_at(const WrReferenceStage *stage, WrVec3 object, double u, double v)
 {
-    const bool metals = stage->scene->material.model == WR_REFLECT_GGX &&
+    const bool metals = wr_reflects[stage->scene->material.model].metalness &&
                         stage->scene->facets[WR_FACET_METALNESS].image;
     WrMatter out = stage->matter;
     if (metals) out.metal = facet_at(stage, WR_FACET_METALNESS, u, v);
@@ -279,7 +279,7 @@ void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, Wr
 {
     const WrVec3 h = v3_add(l, v);
     const double nl = v3_dot(n, l), hh = v3_dot(h, h);
-    if (m->model != WR_REFLECT_BLINN_PHONG) {
+    if (m->model != WR_REFLECT_DEFAULT) {
         wr_reference_reflect(matter, m->model, m->energy, n, l, v, colour, own, white);
     } else {
         *white = 0;
@@ -331,7 +331,7 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
     place_colour(stage, at->p, u, v, colour);
     const WrMatter matter = matter_at(stage, at->p, u, v);
     double has[3] = { m->colour.x * colour[0], m->colour.y * colour[1], m->colour.z * colour[2] };
-    const bool kept = m->model == WR_REFLECT_GGX && m->energy == WR_ENERGY_KEPT;
+    const bool kept = wr_reflect_shares(&wr_reflects[m->model], m->energy == WR_ENERGY_KEPT);
     for (int c = 0; c < 3 && kept; c++) has[c] = fmin(fmax(has[c], 0), 1);
     for (int i = 0; i < view->light_count; i++) {
         const WrReferenceLight *light = &view->lights[i];
