@@ -38,40 +38,9 @@ check() {
 
 check || exit 1
 [[ $what == check ]] && exit 0
-build=$(cd "$3" && pwd) || exit 1
-mkdir -p "$4" || exit 1
-folder=$(cd "$4" && pwd)
-tree=$folder/tree
-rm -rf "$tree" && mkdir -p "$tree" || exit 1
-(cd "$source" && find src ui -name '*.[ch]' -print0 | tar -c --null -T -) | tar -x -C "$tree" || exit 1
-
-# FILE TAB COMMAND: as the build compiles it, but in the copy, and no further than its meaning.
-SOURCE=$source TREE=$tree perl -MJSON::PP -0777 -ne '
-    for my $e (@{ decode_json($_) }) {
-        my ($file, $command) = ($e->{file}, $e->{command});
-        $file =~ s/^\Q$ENV{SOURCE}\E\/// or next;
-        $command =~ s/ -o \S+ / /;
-        $command =~ s/\Q$ENV{SOURCE}\E\/(src|ui|tests)\b/$ENV{TREE}\/$1/g;
-        $command =~ s/-I\Q$ENV{SOURCE}\E(?=\s)/-I$ENV{TREE}/g;
-        print "$file\tcd $e->{directory} && $command -fsyntax-only -Werror\n";
-    }' "$build/compile_commands.json" >"$folder/commands"
-[[ -s $folder/commands ]] || fail "$build/compile_commands.json tells nothing"
-
-# Says what the compiler says of a file, in FOLDER/said/FILE.
-# shellcheck disable=SC2317  # called by xargs
-try() {
-    local command said=$folder/said/${1//\//_}
-    command=$(awk -F '\t' -v f="$1" '$1 == f { print $2; exit }' "$folder/commands")
-    [[ -n $command ]] || { echo "no command for $1" >"$said"; return; }
-    CCACHE_DISABLE=1 LC_ALL=C bash -c "$command" >"$said" 2>&1 || echo 'it stopped' >>"$said"
-}
-export -f try
-export folder
-try_all() {
-    rm -rf "$folder/said" && mkdir "$folder/said" || exit 1
-    # shellcheck disable=SC2016  # for the shell that is started
-    printf '%s\n' "$@" | sort -u | xargs -P "$(nproc)" -I {} bash -c 'try "$1"' try {}
-}
+# shellcheck source=tests/compile_help.sh
+source "$source/tests/compile_help.sh"
+scratch_tree "$source" "$3" "$4" || fail "$3/compile_commands.json has no commands"
 
 bad=0
 mapfile -t everything < <(grep -v '^#' "$table" | cut -f 4 | tr ' ' '\n' | sort -u)

@@ -9,6 +9,7 @@
 #include "render/kernels/kern.h"
 #include "shade/reflection_models.h"
 #include "render/reference/reference.h"
+#include "render/reference/reference_shade.h"
 #include "scene/scene.h"
 
 static const WrKernelsd *kernels;
@@ -342,6 +343,84 @@ static double apart(const WrScene *scene, const WrField *field)
     return worst;
 }
 
+/* Sums of the reference's formulas over directions around n = (0,0,1), some of the lamp's below the horizon: diffuse
+   light in the surface's colour, highlight, and how far diffuse light is from Lambert's. */
+typedef struct Probe {
+    double own, white, below, from_lambert;
+} Probe;
+
+static Probe probe(const WrMaterial *m)
+{
+    static const double colour[3] = { 0.8, 0.5, 0.3 };
+    const WrVec3 n = { 0, 0, 1 };
+    WrMatter matter;
+    Probe sum = { 0 };
+    wr_scene_matter(m, &matter);
+    for (int i = 0; i < 64; i++) {
+        const WrVec3 l = tilted(-0.3 + 1.3 * (i % 8 + 0.5) / 8, 0.7 * i);
+        const WrVec3 v = tilted((i / 8 + 0.5) / 8, 0.2);
+        double own[3], white;
+        wr_reference_lamp(m, &matter, n, l, v, colour, own, &white);
+        sum.own += own[0], sum.white += white;
+        sum.below += l.z < 0 ? white : 0;
+        sum.from_lambert += fabs(own[0] - m->diffuse * fmax(0, l.z));
+    }
+    return sum;
+}
+
+static bool same_probe(Probe a, Probe b)
+{
+    return a.own == b.own && a.white == b.white;
+}
+
+static bool changes(WrMaterial m, double *number, double to, WrMaterial *at)
+{
+    const Probe before = probe(&m);
+    *number = to;
+    return !same_probe(before, probe(at));
+}
+
+/* Every column of the table is what the formulas do. */
+static void traits_are_what_the_formulas_show(void **state)
+{
+    (void)state;
+    int stages = 0;
+    for (int model = 0; model < wr_reflect_count; model++) {
+        const WrReflectInfo *is = &wr_reflects[model];
+        const WrMaterial base = { .diffuse = 0.9,
+                                  .specular = 0.6,
+                                  .shininess = 20,
+                                  .model = model,
+                                  .roughness = 0.4,
+                                  .metalness = 0.2,
+                                  .ior = 1.5 };
+        WrMaterial m = base;
+        assert_int_equal(is->shininess, changes(base, &m.shininess, 30, &m));
+        m = base;
+        assert_int_equal(is->roughness, changes(base, &m.roughness, 0.6, &m));
+        m = base;
+        assert_int_equal(is->metalness, changes(base, &m.metalness, 0.7, &m));
+        m = base;
+        assert_int_equal(is->ior, changes(base, &m.ior, 1.8, &m));
+        m = base, m.energy = WR_ENERGY_PUBLISHED;
+        assert_int_equal(is->energies, !same_probe(probe(&base), probe(&m)));
+        const Probe lit = probe(&base);
+        assert_int_equal(is->shines, lit.white > 0);
+        assert_int_equal(is->highlight == WR_HIGHLIGHT_HALF, lit.below > 0);
+        m = base, m.ior = 1;
+        assert_int_equal(is->highlight == WR_HIGHLIGHT_CAVITIES,
+                         lit.white > 0 && probe(&m).white == 0);
+        m = base, m.specular = 0;
+        assert_int_equal(is->diffuse == WR_DIFFUSE_LAMBERT, probe(&m).from_lambert < 1e-12);
+        m.roughness = 0;
+        assert_int_equal(is->diffuse == WR_DIFFUSE_REMAINDER, probe(&m).from_lambert > 1e-6);
+        assert_true(!is->facets || is->roughness);
+        stages += is->loops == WR_REFLECT_LOOPS_STAGES;
+    }
+    assert_int_equal(wr_reflects[WR_REFLECT_DEFAULT].loops, WR_REFLECT_LOOPS_STAGES);
+    assert_int_equal(stages, 1);
+}
+
 /* The plan may leave a model out only where the picture stays the same: without a highlight, by every model. */
 static void models_without_a_highlight_are_the_references(void **state)
 {
@@ -390,6 +469,7 @@ int main(void)
         cmocka_unit_test(a_normal_away_from_the_eye_is_the_eyes),
         cmocka_unit_test(widened_facets_are_a_distribution),
         cmocka_unit_test(every_model_with_roughness_takes_it_from_each_sample),
+        cmocka_unit_test(traits_are_what_the_formulas_show),
         cmocka_unit_test(models_without_a_highlight_are_the_references),
         cmocka_unit_test(pictures_are_the_references),
     };
