@@ -18,10 +18,12 @@ typedef struct Coat {
     WrNoise fibre;
 } Coat;
 
-/* The middle of the piece of that row which is nearest to x: its column, and how far x is to its right. */
+/* The piece of a row that is nearest to x: its column, and the distance of x to the right of its middle. A row beyond the
+ * edge is the row at the other end, shift included. So the table also closes with an odd number of rows: the first and
+ * the last row, which meet at the edge, then have the same shift. */
 static int nearest_column(const Coat *c, int row, double x, double *dx)
 {
-    double shift = wr_modulo(row, 2) * 0.5 + 0.5;
+    double shift = wr_modulo(row, c->cells.rows) % 2 * 0.5 + 0.5;
     double place = x / c->cells.cell_width - shift;
     int column = (int)floor(place + 0.5);
     *dx = (place - column) * c->cells.cell_width;
