@@ -107,6 +107,14 @@ sleep 1
 [[ $(grep -c '^wrinkle: tile.wrinkle:1: image' err) == 1 ]] || complain "a broken picture: $(cat err)"
 picture 27x20 4 new.png && mv new.png other/p.png
 expect 5 6 27
+rm other/p.png # a picture that is gone is no reason to wait where the script no longer needs it
+printf 'table 29x20\n' >tile.wrinkle
+expect 6 7 29
+printf 'tabel 29x20\n' >tile.wrinkle
+until_true waits 8
+grep -q '^wrinkle: tile.wrinkle:1: unknown command "tabel"' err || complain "a typo: $(tail -n 2 err)"
+printf 'table 31x20\n' >tile.wrinkle
+expect 7 9 31
 kill -TERM "$child"
 wait "$child"
 child=

@@ -67,11 +67,15 @@ static void expect_rectangle(const char *name, bool mapped)
     wr_mesh_fini(&mesh);
 }
 
+/* m_pose.gltf stores (y, -x, 0) for (x, y, 0). Its joints stand at (3, 0, 0) below a node that turns by a quarter, (a, b)
+   to (-b, a), and moves by (5, 0, 0); inverse bind matrices move by (-3, 5, z): (y, 5 - x) turns to (x - 5, y) and moves
+   to (x, y). z is 0 at the left end; at the right one the mean of 2 and -2. The mesh's own node is ignored. */
 static void files_of_other_programs_are_the_rectangle(void **state)
 {
-    static const char *const names[] = { "m_uv16.gltf",   "m_quant.gltf", "m_skin.gltf",
-                                         "m_skin2.gltf",  "m_uv2.gltf",   "x_ident.gltf",
-                                         "p_comment.ply", "o_bom.obj",    "o_comment_end.obj" };
+    static const char *const names[] = { "m_uv16.gltf",      "m_quant.gltf",  "m_skin.gltf",
+                                         "m_skin2.gltf",     "m_uv2.gltf",    "x_ident.gltf",
+                                         "m_pose.gltf",      "p_comment.ply", "o_bom.obj",
+                                         "o_comment_end.obj" };
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) expect_rectangle(names[i], true);
     expect_rectangle("s_upper.stl", false);
@@ -87,6 +91,23 @@ static void a_texture_transform_moves_coordinates(void **state)
         const double u = (double)mesh.points[i][0] / 2, v = 1 - (double)mesh.points[i][1];
         assert_near((double)mesh.uv[i][0], 0.25 + 2 * v, 1e-6);
         assert_near((double)mesh.uv[i][1], 1 - (0.5 - 0.5 * u), 1e-6);
+    }
+    wr_mesh_fini(&mesh);
+}
+
+/* The example of the Khronos specification of KHR_texture_transform: offset (0, 1), a quarter turn, scale 0.5 show the lower
+   left quadrant of the picture, turned clockwise. So the model's top left corner, glTF's (0, 0), has the quadrant's lower
+   left one, (0, 1); its top right one the quadrant's top left one, (0, 0.5); its lower left one the lower right, (0.5, 1).
+   (The GLSL lines of that text turn the other way; its prose, this example and its test model are followed.) */
+static void a_texture_transform_turns_as_the_specification_shows(void **state)
+{
+    (void)state;
+    WrMesh mesh = read_case("m_quarter.gltf");
+    assert_int_equal(mesh.point_count, 4);
+    for (int i = 0; i < mesh.point_count; i++) {
+        const bool right = mesh.points[i][0] > 1, low = mesh.points[i][1] < 0.5f;
+        assert_near((double)mesh.uv[i][0], low ? 0.5 : 0, 1e-6);
+        assert_near((double)mesh.uv[i][1], right ? 0.5 : 0, 1e-6); /* upwards */
     }
     wr_mesh_fini(&mesh);
 }
@@ -280,6 +301,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_of_other_programs_are_the_rectangle),
         cmocka_unit_test(a_texture_transform_moves_coordinates),
+        cmocka_unit_test(a_texture_transform_turns_as_the_specification_shows),
         cmocka_unit_test(an_extension_that_is_needed_is_named),
         cmocka_unit_test(faces_have_coordinates_of_their_own),
         cmocka_unit_test(strips_are_triangles),

@@ -69,6 +69,14 @@ static void bytes_are_the_codes_in_either_order(void **state)
     }
 }
 
+static void expect_same_bytes(const char *a, const char *b)
+{
+    static unsigned char one[1 << 16], two[1 << 16];
+    const size_t length = read_bytes(a, one, sizeof one);
+    assert_int_equal(read_bytes(b, two, sizeof two), length);
+    assert_memory_equal(one, two, length);
+}
+
 static void the_sidecar_says_what_they_are(void **state)
 {
     (void)state;
@@ -104,6 +112,18 @@ static void the_sidecar_says_what_they_are(void **state)
     text[read_bytes("n.png.json", (unsigned char *)text, sizeof text - 1)] = '\0';
     assert_non_null(strstr(text, "\"convention\": \"-Y "));
     assert_non_null(strstr(text, "\"channels\": 3"));
+    /* and none beside numbers where it is switched off, at any ending; the numbers are the same */
+    must_run(s, "export height h.raw depth=16");
+    assert_int_equal(access("h.raw.json", F_OK), 0);
+    static const char *const endings[] = { "raw", "r16", "r32" };
+    for (int k = 0; k < 3; k++) {
+        char line[80], path[40];
+        snprintf(line, sizeof line, "export height off.%s sidecar=off", endings[k]);
+        must_run(s, line);
+        snprintf(path, sizeof path, "off.%s.json", endings[k]);
+        assert_int_equal(access(path, F_OK), -1);
+    }
+    expect_same_bytes("h.raw", "off.raw");
     must_run(s, "export height z.png sidecar=on range=signed");
     text[read_bytes("z.png.json", (unsigned char *)text, sizeof text - 1)] = '\0';
     assert_non_null(strstr(text, "\"zero_code\": 32768"));

@@ -197,7 +197,8 @@ static bool is_cancelled(const WrCli *cli)
     return wr_cancel_asked(cli->cancel);
 }
 
-/* True if the file or one of its inputs has changed. False while one of them is missing, as during its replacement. */
+/* True if the file or one of its inputs has changed. An input that is missing, as during its replacement, counts when it is
+   back; but a changed script counts at once, since it may no longer need that input. */
 static bool is_another(const WrCli *cli, WrFileStamp *stamp, const Last *last)
 {
     const WrFileStamp now = wr_file_stamp(cli->file);
@@ -207,8 +208,7 @@ static bool is_another(const WrCli *cli, WrFileStamp *stamp, const Last *last)
     for (int i = 0; i < last->inputs.count; i++) {
         const Input *input = &last->inputs.data[i];
         const WrFileStamp own = wr_file_stamp(input->path);
-        if (!own.there) return false;
-        other |= !wr_file_stamp_same(&own, &input->stamp);
+        other |= own.there && !wr_file_stamp_same(&own, &input->stamp);
     }
     return other;
 }

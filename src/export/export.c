@@ -320,14 +320,16 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
     if (!good) return false;
     settle_axes(job->kind, job->options.axes);
     job->numbers = wr_sidecar_takes(path);
+    job->sidecar = job->options.sidecar == WR_EXPORT_SIDECAR_ON ||
+                   (job->options.sidecar == WR_EXPORT_SIDECAR_LEFT_OUT && job->numbers);
     job->analytic = job->scene->analytic.kind != WR_ANALYTIC_OFF;
     set_grid(job);
     job->cell = job->field;
     WrField *sheet = wr_export_sheet(job, &good, err);
     if (sheet) job->field = sheet, job->analytic = false;
-    good = good && (!job->picture && (job->numbers || job->options.sidecar || job->options.mips)
-                        ? write_files(job, path, err)
-                        : write_one(job, path, err));
+    good =
+        good && (!job->picture && (job->sidecar || job->options.mips) ? write_files(job, path, err)
+                                                                      : write_one(job, path, err));
     for (int i = 0; i < job->attribute_count; i++) wr_text_fini(&job->attribute_texts[i]);
     wr_field_free(sheet);
     wr_free(job->u);

@@ -83,6 +83,13 @@ typedef enum WrExportRange {
     WR_EXPORT_RANGE_SIGNED
 } WrExportRange;
 
+/* The JSON file beside a written file that describes it. Left out: only of files of numbers (.raw, .r16, .r32). */
+typedef enum WrExportSidecar {
+    WR_EXPORT_SIDECAR_LEFT_OUT,
+    WR_EXPORT_SIDECAR_ON,
+    WR_EXPORT_SIDECAR_OFF
+} WrExportSidecar;
+
 typedef enum WrExportPart { WR_EXPORT_BOTH, WR_EXPORT_CONVEX, WR_EXPORT_CONCAVE } WrExportPart;
 
 typedef enum WrExportGround {
@@ -153,7 +160,7 @@ typedef struct WrExportOptions {
     bool border;
     bool mips;                /* also writes files of half the size, a quarter and so on */
     bool big;                 /* raw files only: big-endian */
-    bool sidecar;             /* writes a description file beside it; raw files always have one */
+    int sidecar;              /* a WrExportSidecar: is a description file written beside it? */
     bool renderman;           /* bump slopes: negates the slopes */
     double uvslopes;          /* bump slopes: slopes over the cell, divided by this; 0: per texel */
     const char *contact_maps; /* contact: "A;B", kinds; borrowed; NULL: all kinds of the cell */

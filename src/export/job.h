@@ -29,6 +29,7 @@ struct WrExportJob {
     float *map; /* [height][width][channels] for kinds that compute it as a whole */
     struct WrExportPicture *picture; /* output if no file is written; NULL: a file */
     bool numbers;                    /* a raw file (raw_file.h) */
+    bool sidecar;                    /* a sidecar is written beside the file */
     bool analytic;                   /* F is the scene's formula, not the table */
     double *u;                       /* [width] texel centres */
     WrExportReport report;           /* pieces add their counts atomically */

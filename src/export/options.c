@@ -56,7 +56,10 @@ bool wr_export_set_endian(WrExportOptions *options, const char *value, WrError *
 
 bool wr_export_set_sidecar(WrExportOptions *options, const char *value, WrError *err)
 {
-    return set_switch("sidecar", value, &options->sidecar, err);
+    bool on;
+    if (!set_switch("sidecar", value, &on, err)) return false;
+    options->sidecar = on ? WR_EXPORT_SIDECAR_ON : WR_EXPORT_SIDECAR_OFF;
+    return true;
 }
 
 /* ---- sheets ---- */

@@ -187,7 +187,7 @@ bool wr_export_write(WrExportJob *job, const char *path, WrError *err)
     const int count = job->kind->levels ? add_levels(job, &levels, above, out) : 1;
     bool ok =
         job->numbers ? wr_export_numbers(job, path, err) : wr_image_write(path, out, count, err);
-    if (ok && (job->options.sidecar || job->numbers)) ok = wr_export_sidecar(job, path, err);
+    if (ok && job->sidecar) ok = wr_export_sidecar(job, path, err);
     job->report.unseen = !job->report.seen;
     forget_attributes(job);
     wr_levels_free(&levels);

@@ -28,7 +28,9 @@ typedef struct WrGltfChunks {
 /* NULL, or what is wrong with the file. */
 const char *wr_gltf_chunks(const char *bytes, size_t length, WrGltfChunks *out);
 
-/* KHR_texture_transform of a reference to a texture, on glTF's own (u,v) with v downwards:
+/* KHR_texture_transform of a reference to a texture, on glTF's own (u,v) with v downwards. rotation is counter-clockwise as
+ * the picture is seen, from (1, 0) to (0, -1): so say the extension's prose and its example. The GLSL lines beside them turn
+ * the other way; other programs do not follow those.
  *   u' = m[0] u + m[1] v + m[2]      v' = m[3] u + m[4] v + m[5] */
 void wr_gltf_transform(json_object *reference, double m[6]);
 bool wr_gltf_same_transform(json_object *a, json_object *b);

@@ -7,6 +7,7 @@
 #include "image/mesh_build.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define BUFFERS 1024
@@ -18,6 +19,8 @@ typedef struct Gltf {
     WrText *buffers; /* [BUFFERS] decoded data: URIs */
     WrMeshBuild *build;
     int bodies;
+    double (*world)[12]; /* of each node, by its parents; owned; NULL: the file has no skins */
+    int64_t nodes;
 } Gltf;
 
 /* Numbers of an accessor: [count][parts]. */
@@ -186,7 +189,7 @@ static bool read_sparse(Gltf *file, json_object *sparse, Source source, Numbers 
 /* parts: how many numbers a value must have. */
 static bool read_accessor(Gltf *file, int64_t index, int parts, Numbers *out, WrError *err)
 {
-    static const char *const kinds[] = { "SCALAR", "VEC2", "VEC3", "VEC4" };
+    static const char *const kinds[16] = { "SCALAR", "VEC2", "VEC3", "VEC4", [15] = "MAT4" };
     json_object *accessor = item_of(file, "accessors", index);
     json_object *kind = wr_gltf_member(accessor, "type", json_type_string);
     json_object *normalised = wr_gltf_member(accessor, "normalized", json_type_boolean);
@@ -273,8 +276,14 @@ static void own_matrix(json_object *node, double out[12])
 
 /* ---- a primitive ---- */
 
+#define SETS 8       /* of four weights a point, at most */
+#define JOINTS 65536 /* of a skin, at most */
+
 typedef struct Body {
     Numbers points, normals, uv, corners;
+    Numbers joints[SETS], weights[SETS]; /* of a skinned body; four a point */
+    double (*pose)[12]; /* of each joint, its inverse bind matrix included; owned; NULL: no skin */
+    int64_t joint_count;
 } Body;
 
 static void free_body(Body *body)
@@ -283,6 +292,11 @@ static void free_body(Body *body)
     wr_free(body->normals.at);
     wr_free(body->uv.at);
     wr_free(body->corners.at);
+    wr_free(body->pose);
+    for (int k = 0; k < SETS; k++) {
+        wr_free(body->joints[k].at);
+        wr_free(body->weights[k].at);
+    }
 }
 
 /* An attribute that may be missing; as many values as there are points. */
@@ -304,7 +318,74 @@ static bool is_packed(Gltf *file, json_object *primitive, json_object *attribute
            wr_gltf_index(points, "bufferView", -1) < 0;
 }
 
-static bool read_body(Gltf *file, json_object *primitive, Body *body, WrError *err)
+/* ---- skins: a point is moved by the weighted mean of its joints' matrices (glTF 2.0, 3.7.3.3) ---- */
+
+static bool read_weights(Gltf *file, json_object *attributes, Body *body, WrError *err)
+{
+    for (int k = 0; k < SETS; k++) {
+        char joints[16], weights[16];
+        snprintf(joints, sizeof joints, "JOINTS_%d", k);
+        snprintf(weights, sizeof weights, "WEIGHTS_%d", k);
+        if (!read_attribute(file, attributes, joints, 4, body->points.count, &body->joints[k],
+                            err) ||
+            !read_attribute(file, attributes, weights, 4, body->points.count, &body->weights[k],
+                            err))
+            return false;
+        if (!body->joints[k].at || !body->weights[k].at) break;
+    }
+    return true;
+}
+
+static bool read_pose(Gltf *file, json_object *skin, Body *body, WrError *err)
+{
+    json_object *list = wr_gltf_member(skin, "joints", json_type_array);
+    const int64_t bind = wr_gltf_index(skin, "inverseBindMatrices", -1);
+    const int64_t count = list ? (int64_t)json_object_array_length(list) : 0;
+    Numbers inverse = { 0 };
+    if (count < 1 || count > JOINTS)
+        return wr_fail(err, "is damaged: a skin of %lld joints: must be 1..%d", (long long)count,
+                       JOINTS);
+    body->pose = wr_try_alloc((size_t)count, sizeof *body->pose, "a mesh", err);
+    body->joint_count = count;
+    bool good = body->pose && (bind < 0 || read_accessor(file, bind, 16, &inverse, err));
+    if (good && inverse.at && inverse.count < count)
+        good = wr_fail(err, "is damaged: %lld inverse bind matrices for %lld joints",
+                       (long long)inverse.count, (long long)count);
+    for (int64_t i = 0; good && i < count; i++) {
+        json_object *item = wr_gltf_element(list, (int)i);
+        const int64_t node =
+            json_object_is_type(item, json_type_int) ? json_object_get_int64(item) : -1;
+        double m[12] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+        for (int k = 0; inverse.at && k < 12; k++) m[k] = inverse.at[16 * i + k % 4 * 4 + k / 4];
+        if (node < 0 || node >= file->nodes)
+            good = wr_fail(err, "is damaged: a skin names node %lld, which is not there",
+                           (long long)node);
+        else multiply(file->world[node], m, body->pose[i]);
+    }
+    wr_free(inverse.at);
+    return good;
+}
+
+/* The matrix of point i; one without weights stays where it is stored. */
+static bool skin_point(const Body *body, int64_t i, double out[12], WrError *err)
+{
+    double sum = 0, m[12] = { 0 };
+    for (int k = 0; k < SETS && body->joints[k].at && body->weights[k].at; k++)
+        for (int64_t n = 4 * i; n < 4 * i + 4; n++) {
+            const double weight = body->weights[k].at[n], joint = body->joints[k].at[n];
+            if (!(weight > 0)) continue;
+            if (!(joint >= 0 && joint < (double)body->joint_count))
+                return wr_fail(err, "is damaged: point %lld has joint %g: must be 0..%lld",
+                               (long long)i, joint, (long long)body->joint_count - 1);
+            sum += weight;
+            for (int c = 0; c < 12; c++) m[c] += weight * body->pose[(int64_t)joint][c];
+        }
+    for (int c = 0; c < 12; c++) out[c] = sum > 0 ? m[c] / sum : c % 5 == 0;
+    return true;
+}
+
+static bool read_body(Gltf *file, json_object *primitive, json_object *skin, Body *body,
+                      WrError *err)
 {
     json_object *attributes = wr_gltf_member(primitive, "attributes", json_type_object);
     const int64_t points = wr_gltf_index(attributes, "POSITION", -1);
@@ -316,6 +397,8 @@ static bool read_body(Gltf *file, json_object *primitive, Body *body, WrError *e
     if (points < 0) return true; /* nothing is shown of it */
     if (!read_accessor(file, points, 3, &body->points, err)) return false;
     const int64_t count = body->points.count;
+    if (skin && (!read_pose(file, skin, body, err) || !read_weights(file, attributes, body, err)))
+        return false;
     if (file->build->whole &&
         (!read_attribute(file, attributes, "NORMAL", 3, count, &body->normals, err) ||
          !read_attribute(file, attributes, "TEXCOORD_0", 2, count, &body->uv, err)))
@@ -329,17 +412,21 @@ static void move_uv(const double m[6], const double *uv, float out[2])
     out[1] = (float)(1 - (m[3] * uv[0] + m[4] * uv[1] + m[5]));
 }
 
-static bool add_points(WrMeshBuild *build, const Body *body, const double m[12],
-                       const double uv_m[6], WrError *err)
+/* own: the matrix of the node. Sets *mirrored to whether the last point's matrix mirrors. */
+static bool add_points(WrMeshBuild *build, const Body *body, const double own[12],
+                       const double uv_m[6], bool *mirrored, WrError *err)
 {
-    double c[9];
-    const double sign = cofactors(m, c) < 0 ? -1 : 1;
+    double m[12], c[9];
+    memcpy(m, own, sizeof m);
     if (!wr_mesh_build_reserve(build, body->points.count, 0, err)) return false;
     for (int64_t i = 0; i < body->points.count; i++) {
         const double *p = body->points.at + 3 * i,
                      *n = body->normals.at ? body->normals.at + 3 * i : NULL;
         double to[3];
         float normal[3] = { 0, 0, 0 }, uv[2];
+        if (body->pose && !skin_point(body, i, m, err)) return false;
+        *mirrored = cofactors(m, c) < 0;
+        const double sign = *mirrored ? -1 : 1;
         for (int row = 0; row < 3; row++) {
             to[row] =
                 m[4 * row] * p[0] + m[4 * row + 1] * p[1] + m[4 * row + 2] * p[2] + m[4 * row + 3];
@@ -397,23 +484,24 @@ static void name_part(Gltf *file, json_object *mesh, json_object *material)
     wr_mesh_build_part(file->build, text, strlen(text));
 }
 
-static bool add_body(Gltf *file, json_object *mesh, json_object *primitive, const double m[12],
-                     WrError *err)
+/* skin: NULL, or in place of m. */
+static bool add_body(Gltf *file, json_object *mesh, json_object *primitive, json_object *skin,
+                     const double m[12], WrError *err)
 {
     json_object *material = item_of(file, "materials", wr_gltf_index(primitive, "material", -1));
     const int64_t mode = wr_gltf_index(primitive, "mode", 4);
     const int32_t first = file->build->point_count;
-    double c[9], uv_m[6];
+    double uv_m[6];
+    bool mirrored = false;
     Body body = { .points = { 0 } };
     if (++file->bodies > BODIES_MOST)
         return wr_fail(err, "more than %d placings of meshes", BODIES_MOST);
     if (mode < 4 || mode > 6) return true; /* points and lines have no area */
     wr_gltf_transform(wr_gltf_mapped(material), uv_m);
     name_part(file, mesh, material);
-    bool good =
-        read_body(file, primitive, &body, err) &&
-        (!body.points.at || (add_points(file->build, &body, m, uv_m, err) &&
-                             add_triangles(file, &body, mode, first, cofactors(m, c) < 0, err)));
+    bool good = read_body(file, primitive, skin, &body, err) &&
+                (!body.points.at || (add_points(file->build, &body, m, uv_m, &mirrored, err) &&
+                                     add_triangles(file, &body, mode, first, mirrored, err)));
     free_body(&body);
     return good;
 }
@@ -450,32 +538,49 @@ static bool enter(Walk *walk, json_object *list, const double to[12], WrError *e
     return true;
 }
 
-/* The transform of a skinned mesh's node is not looked at (glTF 2.0, 3.7.3.3). */
-static bool add_node(Gltf *file, Walk *walk, WrError *err)
+typedef bool At(Gltf *file, int64_t index, json_object *node, const double to[12], WrError *err);
+
+static bool keep_world(Gltf *file, int64_t index, json_object *node, const double to[12],
+                       WrError *err)
 {
-    static const double nothing[12] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+    (void)node;
+    (void)err;
+    memcpy(file->world[index], to, sizeof file->world[index]);
+    return true;
+}
+
+/* A skinned mesh is placed by its joints alone; its own node's transform is ignored (glTF 2.0, 3.7.3.3). */
+static bool add_mesh(Gltf *file, int64_t node_index, json_object *node, const double to[12],
+                     WrError *err)
+{
+    const int64_t index = wr_gltf_index(node, "mesh", -1);
+    const int64_t skin_index = wr_gltf_index(node, "skin", -1);
+    json_object *mesh = item_of(file, "meshes", index), *primitive;
+    json_object *skin = item_of(file, "skins", skin_index);
+    if ((index >= 0 && !mesh) || (skin_index >= 0 && !skin))
+        return wr_fail(err, "is damaged: node %lld names %s %lld, which is not there",
+                       (long long)node_index, index >= 0 && !mesh ? "mesh" : "skin",
+                       (long long)(index >= 0 && !mesh ? index : skin_index));
+    json_object *list = wr_gltf_member(mesh, "primitives", json_type_array);
+    for (int i = 0; (primitive = wr_gltf_element(list, i)); i++)
+        if (!add_body(file, mesh, primitive, skin, to, err)) return false;
+    return true;
+}
+
+static bool visit_node(Gltf *file, Walk *walk, At *at, WrError *err)
+{
     const Visit visit = walk->open[--walk->count];
-    json_object *node = item_of(file, "nodes", visit.node), *primitive;
+    json_object *node = item_of(file, "nodes", visit.node);
     double own[12], to[12];
     own_matrix(node, own);
     multiply(visit.to, own, to);
-    const int64_t index = wr_gltf_index(node, "mesh", -1);
-    json_object *mesh = item_of(file, "meshes", index);
-    if (index >= 0 && !mesh)
-        return wr_fail(err, "is damaged: node %lld names mesh %lld, which is not there",
-                       (long long)visit.node, (long long)index);
-    json_object *list = wr_gltf_member(mesh, "primitives", json_type_array);
-    const bool skinned = wr_gltf_index(node, "skin", -1) >= 0;
-    for (int i = 0; (primitive = wr_gltf_element(list, i)); i++)
-        if (!add_body(file, mesh, primitive, skinned ? nothing : to, err)) return false;
-    return enter(walk, wr_gltf_member(node, "children", json_type_array), to, err);
+    return at(file, visit.node, node, to, err) &&
+           enter(walk, wr_gltf_member(node, "children", json_type_array), to, err);
 }
 
-/* The default scene's nodes, else the first scene's; a file without scenes shows all nodes that are no one's children. */
-static json_object *roots_of(Gltf *file, int64_t nodes)
+/* All nodes that are no one's children. */
+static json_object *all_roots(Gltf *file, int64_t nodes)
 {
-    json_object *scene = item_of(file, "scenes", wr_gltf_index(file->root, "scene", 0));
-    if (scene) return json_object_get(wr_gltf_member(scene, "nodes", json_type_array));
     json_object *out = json_object_new_array();
     bool *child = wr_alloc((size_t)nodes + 1, sizeof *child);
     for (int64_t i = 0; i < nodes; i++) {
@@ -492,19 +597,41 @@ static json_object *roots_of(Gltf *file, int64_t nodes)
     return out;
 }
 
-static bool add_nodes(Gltf *file, WrError *err)
+/* The default scene's nodes, else the first scene's; a file without scenes shows all. */
+static json_object *shown_roots(Gltf *file, int64_t nodes)
+{
+    json_object *scene = item_of(file, "scenes", wr_gltf_index(file->root, "scene", 0));
+    if (scene) return json_object_get(wr_gltf_member(scene, "nodes", json_type_array));
+    return all_roots(file, nodes);
+}
+
+/* roots: taken over. */
+static bool walk_nodes(Gltf *file, json_object *roots, At *at, WrError *err)
 {
     static const double nothing[12] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
-    json_object *list = wr_gltf_member(file->root, "nodes", json_type_array);
-    Walk walk = { .nodes = list ? (int64_t)json_object_array_length(list) : 0 };
-    json_object *roots = roots_of(file, walk.nodes);
+    Walk walk = { .nodes = file->nodes };
     walk.open = wr_try_alloc((size_t)walk.nodes + 1, sizeof *walk.open, "a mesh", err);
     walk.met = wr_try_alloc((size_t)walk.nodes + 1, sizeof *walk.met, "a mesh", err);
     bool good = walk.open && walk.met && enter(&walk, roots, nothing, err);
-    while (good && walk.count > 0) good = add_node(file, &walk, err);
+    while (good && walk.count > 0) good = visit_node(file, &walk, at, err);
     json_object_put(roots);
     wr_free(walk.open);
     wr_free(walk.met);
+    return good;
+}
+
+static bool add_nodes(Gltf *file, WrError *err)
+{
+    json_object *list = wr_gltf_member(file->root, "nodes", json_type_array);
+    json_object *skins = wr_gltf_member(file->root, "skins", json_type_array);
+    file->nodes = list ? (int64_t)json_object_array_length(list) : 0;
+    bool good = true;
+    if (skins) {
+        file->world = wr_try_alloc((size_t)file->nodes + 1, sizeof *file->world, "a mesh", err);
+        good = file->world && walk_nodes(file, all_roots(file, file->nodes), keep_world, err);
+    }
+    good = good && walk_nodes(file, shown_roots(file, file->nodes), add_mesh, err);
+    wr_free(file->world);
     return good;
 }
 

@@ -13,8 +13,8 @@ typedef struct WrMeshBuild WrMeshBuild;
 
 /* Whether the bytes are a glTF file, text or GLB, of version 2. */
 bool wr_gltf_is(const char *bytes, size_t length);
-/* Read it into `build`: the default scene, each mesh where its node puts it; a skinned mesh as it is stored. Texture
- * coordinates are TEXCOORD_0, with v upwards, moved by the transform of the material's textures (wr_gltf_mapped).
+/* Read it into `build`: the default scene, each mesh where its node puts it; a skinned mesh where its joints put it, without
+ * animation. Texture coordinates are TEXCOORD_0, with v upwards, moved by the transform of the material's textures (wr_gltf_mapped).
  * Errors   one sentence that does not name the file: damage; an extension that the geometry needs, by its name; a part in
  *          another file */
 bool wr_gltf_read(const char *bytes, size_t length, WrMeshBuild *build, WrError *err);
