@@ -356,6 +356,29 @@ static void partly_covered_heights_stay_as_high(void **state)
     wr_session_free(s);
 }
 
+/* Enlarged about its middle, a dab stays there: the table is periodic, so the images of the whole table lie over each other,
+   and the one that was enlarged about that point counts. */
+static void what_is_enlarged_stays_about_its_point(void **state)
+{
+    (void)state;
+    static const char *const lines[][2] = { { "layer add", "transform scale=3,3 about=0.25,0.75" },
+                                            { "bump height=1",
+                                              "transform scale=-3,-3 about=0.25,0.75" } };
+    for (int k = 0; k < 2; k++) {
+        WrSession *s = session_of((const char *[]){
+            "table 64x64", lines[k][0], "dab 0.25,0.75 radius=4 hardness=1", lines[k][1], NULL });
+        const WrField *f = wr_document_field(doc(s));
+        for (int j = 0; j < 64; j++)
+            for (int i = 0; i < 64;
+                 i++) { /* three times the radius, about (16, 16), and what the filter reaches */
+                const double far = hypot(i + 0.5 - 16, j + 0.5 - 16);
+                if (far < 9) assert_near(wr_field_get(f, i, j), 0.1, 0.02);
+                if (far > 21) assert_true(wr_field_get(f, i, j) == 0.0f);
+            }
+        wr_session_free(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -370,6 +393,7 @@ int main(void)
         cmocka_unit_test(the_box_of_a_selection_goes_over_edges),
         cmocka_unit_test(what_cannot_be_moved_is_refused),
         cmocka_unit_test(partly_covered_heights_stay_as_high),
+        cmocka_unit_test(what_is_enlarged_stays_about_its_point),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

@@ -109,6 +109,19 @@ static void a_transform_frame_is_that_of_the_content(void **state)
     assert_in_range(hand->box.j, 41, 43);
     assert_in_range(hand->box.count_i, 10, 13);
     assert_in_range(hand->box.count_j, 10, 13);
+    /* scaled about the frame's middle, it stays there */
+    const WrField *field = wr_document_field(document_of(&bench));
+    assert_true(wr_field_get(field, 16, 40) == 0.0f && wr_field_get(field, 16, 47) > 0.0f);
+    hand->now.scale[0] = hand->now.scale[1] = 2.0;
+    SDL_PushEvent(&(SDL_Event){
+        .key = { .type = SDL_KEYDOWN,
+                 .windowID = SDL_GetWindowID(bench.app->window),
+                 .keysym = { .scancode = SDL_SCANCODE_RETURN, .sym = SDLK_RETURN } } });
+    settle(&bench);
+    field = wr_document_field(document_of(&bench));
+    assert_true(wr_field_get(field, 16, 40) > 0.0f && wr_field_get(field, 16, 56) > 0.0f);
+    assert_true(wr_field_get(field, 8, 48) > 0.0f && wr_field_get(field, 24, 48) > 0.0f);
+    assert_true(wr_field_get(field, 32, 32) == 0.0f);
     run(&bench, "select rect from=0.5,0.5 to=0.75,0.75");
     settle(&bench);
     assert_in_range(hand->box.count_i, 16, 16);

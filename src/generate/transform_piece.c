@@ -5,6 +5,7 @@
 #include "generate/tile_builder.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 const char *const wr_place_filters[] = { WR_PLACE_FILTERS(WR_WORD) NULL };
 
@@ -189,24 +190,41 @@ static void images(const Placed *p, int axis, double from, double to, int *first
     *last = (int)floor((p->box[axis + 2] - from) / n);
 }
 
+/* Numbers of images in the order 0, 1, -1, 2, -2, ...: of those that say as much, the one nearest to the piece's own place
+   counts. A piece larger than the table lies over itself. */
+static int next_image(int image)
+{
+    return image > 0 ? -image : 1 - image;
+}
+
+/* Of the images of one texel, the one that says most. */
+static float take_images(const Placed *p, double x, double y, const int first[2], const int last[2],
+                         float *height)
+{
+    const int most_u = last[0] > -first[0] ? last[0] : -first[0];
+    const int most_v = last[1] > -first[1] ? last[1] : -first[1];
+    double most = 0.0;
+    for (int v = 0; abs(v) <= most_v; v = next_image(v)) {
+        if (v < first[1] || v > last[1]) continue;
+        for (int u = 0; abs(u) <= most_u; u = next_image(u))
+            if (u >= first[0] && u <= last[0])
+                take(p, x + (double)u * p->period[0], y + (double)v * p->period[1], &most, height);
+    }
+    return (float)most;
+}
+
 static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, float *heights,
                        float *cover)
 {
     const Placed *p = ctx;
     (void)worker;
-    int u0, u1, v0, v1;
-    images(p, 0, b->i, b->i + b->count_i, &u0, &u1);
-    images(p, 1, b->j, b->j + b->count_j, &v0, &v1);
+    int first[2], last[2];
+    images(p, 0, b->i, b->i + b->count_i, &first[0], &last[0]);
+    images(p, 1, b->j, b->j + b->count_j, &first[1], &last[1]);
     for (int y = 0; y < b->count_j; y++)
-        for (int x = 0; x < b->count_i; x++) {
-            double most = 0.0;
-            for (int v = v0; v <= v1; v++)
-                for (int u = u0; u <= u1; u++)
-                    take(p, b->i + x + 0.5 + (double)u * p->period[0],
-                         b->j + y + 0.5 + (double)v * p->period[1], &most,
-                         &heights[y * WR_TILE + x]);
-            cover[y * WR_TILE + x] = (float)most;
-        }
+        for (int x = 0; x < b->count_i; x++)
+            cover[y * WR_TILE + x] = take_images(p, b->i + x + 0.5, b->j + y + 0.5, first, last,
+                                                 &heights[y * WR_TILE + x]);
 }
 
 bool wr_place(const WrPlacing *placing, const WrGenerateJob *job, WrNormalMips *out, WrError *err)

@@ -3,7 +3,7 @@
 
    Lengths are texels, with texel (i, j) from i to i + 1 and rows running down. A point p of the source goes to
    at + A (p - from), A = turn * scale; the piece is what lies in the window. Where the table is periodic, so is what is
-   put there: of the images of the piece that reach a texel, the one that says most there counts.
+   put there: of the images of the piece that reach a texel, the one that says most there counts, the nearest of equals.
 
    A piece that is neither scaled nor turned by other than quarter turns is brought to whole texels, and every texel
    has the bits of the one that comes there. */
