@@ -29,8 +29,6 @@ struct WrInput {
     WrInputHold hold;
     bool key_before; /* the event before was a key that went down: its letters belong to it */
     bool dropped[8]; /* buttons whose press was dropped: so is their release */
-    SDL_Keymod mods; /* at the newest key event that was handled */
-    int x, y;        /* at the newest motion or button that was handled */
 };
 
 WrInput *wr_input_new(void)
@@ -116,11 +114,9 @@ static WrInputHold hold_after(const WrApp *app, const SDL_Event *event)
     case SDL_TEXTINPUT: return wr_gui_wants_text(app->gui) ? WR_INPUT_TYPING : WR_INPUT_FREE;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP: return after_button(app, &event->button);
-    case SDL_MOUSEWHEEL: {
-        int x, y;
-        wr_input_pointer(app, &x, &y);
-        return wr_gui_owns_point(app->gui, x, y) ? WR_INPUT_WHEEL : WR_INPUT_FREE;
-    }
+    case SDL_MOUSEWHEEL:
+        return wr_gui_owns_point(app->gui, app->hand->x, app->hand->y) ? WR_INPUT_WHEEL
+                                                                       : WR_INPUT_FREE;
     default: return WR_INPUT_FREE;
     }
 }
@@ -171,6 +167,16 @@ static bool is_stale(WrApp *app, const WrInputItem *item)
     return stale;
 }
 
+/* The modifier keys and the pointer as the event leaves them. */
+static void note_state(WrHand *hand, const SDL_Event *event)
+{
+    if (event->type == SDL_KEYDOWN || event->type == SDL_KEYUP)
+        hand->mods = wr_key_mods((SDL_Keymod)event->key.keysym.mod);
+    if (event->type == SDL_MOUSEMOTION) hand->x = event->motion.x, hand->y = event->motion.y;
+    if (event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_MOUSEBUTTONUP)
+        hand->x = event->button.x, hand->y = event->button.y;
+}
+
 bool wr_input_next(WrApp *app, SDL_Event *event)
 {
     WrInput *input = app->hand->input;
@@ -182,6 +188,7 @@ bool wr_input_next(WrApp *app, SDL_Event *event)
         __atomic_fetch_sub(&input->waiting, 1, __ATOMIC_RELEASE);
         if (is_stale(app, &item)) continue;
         *event = item.event;
+        note_state(app->hand, event);
         return true;
     }
     return false;
@@ -190,11 +197,6 @@ bool wr_input_next(WrApp *app, SDL_Event *event)
 void wr_input_handled(WrApp *app, const SDL_Event *event)
 {
     WrInput *input = app->hand->input;
-    if (event->type == SDL_KEYDOWN || event->type == SDL_KEYUP)
-        input->mods = (SDL_Keymod)event->key.keysym.mod;
-    if (event->type == SDL_MOUSEMOTION) input->x = event->motion.x, input->y = event->motion.y;
-    if (event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_MOUSEBUTTONUP)
-        input->x = event->button.x, input->y = event->button.y;
     const WrInputHold hold = hold_after(app, event);
     if (hold > input->hold) input->hold = hold;
     input->key_before = of_keys(event) && event->type != SDL_KEYUP;
@@ -204,30 +206,4 @@ void wr_input_shown(WrApp *app)
 {
     app->hand->input->key_before = false;
     if (!wr_gui_unsettled(app->gui)) app->hand->input->hold = WR_INPUT_FREE;
-}
-
-/* ---- state at the event that is being handled ---- */
-
-static bool any_waits(const WrInput *input, bool keys)
-{
-    for (int i = input->first; i < input->items.count; i++) {
-        const SDL_Event *event = &input->items.data[i].event;
-        const bool pointer = event->type == SDL_MOUSEMOTION || event->type == SDL_MOUSEBUTTONDOWN ||
-                             event->type == SDL_MOUSEBUTTONUP;
-        if (keys ? event->type == SDL_KEYDOWN || event->type == SDL_KEYUP : pointer) return true;
-    }
-    return false;
-}
-
-int wr_input_mods(const WrApp *app)
-{
-    const WrInput *input = app->hand->input;
-    return wr_key_mods(any_waits(input, true) ? input->mods : SDL_GetModState());
-}
-
-void wr_input_pointer(const WrApp *app, int *x, int *y)
-{
-    const WrInput *input = app->hand->input;
-    if (any_waits(input, false)) *x = input->x, *y = input->y;
-    else SDL_GetMouseState(x, y);
 }

@@ -17,7 +17,8 @@ void wr_input_free(WrInput *input); /* NULL is allowed */
 /* Moves all events of SDL's queue to the end of this one. Called before a picture is shown, too: what came until then
    belongs to the picture before it. */
 void wr_input_take(WrApp *app);
-/* The next event whose turn it is. False: there is none, or it must wait for a picture. */
+/* The next event whose turn it is. False: there is none, or it must wait for a picture. Sets mods, x and y of app->hand to
+   the state at that event: SDL's own state is newer. */
 bool wr_input_next(WrApp *app, SDL_Event *event);
 /* That event was handled. */
 void wr_input_handled(WrApp *app, const SDL_Event *event);
@@ -25,6 +26,3 @@ void wr_input_handled(WrApp *app, const SDL_Event *event);
 void wr_input_shown(WrApp *app);
 /* Events that have not been handled. */
 bool wr_input_waits(const WrApp *app);
-/* Modifier keys at the event that is being handled, WR_MOD_ bits, and the pointer's place, pixels of the window. */
-int wr_input_mods(const WrApp *app);
-void wr_input_pointer(const WrApp *app, int *x, int *y);

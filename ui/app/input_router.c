@@ -42,9 +42,7 @@
 
 static WrPointer pointer_at(const WrApp *app, double x, double y, int button)
 {
-    WrPointer at = {
-        .x = x, .y = y, .pressure = 1.0, .button = button, .mods = wr_input_mods(app)
-    };
+    WrPointer at = { .x = x, .y = y, .pressure = 1.0, .button = button, .mods = app->hand->mods };
     wr_view_to_uv(app->view, x, y, &at.u, &at.v);
     return at;
 }
@@ -305,20 +303,19 @@ static void mouse_button(WrApp *app, const SDL_MouseButtonEvent *event, bool dow
 
 static void wheel(WrApp *app, const SDL_MouseWheelEvent *event)
 {
-    int x, y;
-    wr_input_pointer(app, &x, &y);
+    const int x = app->hand->x, y = app->hand->y;
     if ((blocked(app) && !shows_effect(app)) || wr_gui_owns_point(app->gui, x, y)) return;
     double steps =
         (double)event->preciseY * (event->direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0);
     const WrTool *tool = wr_tool_now(app);
     if (wr_layout_inside(&app->layout->canvas, x, y)) {
         if (!blocked(app) && tool->wheel && tool->wheel(app, steps)) return;
-        if (wr_input_mods(app) & WR_MOD_SHIFT)
+        if (app->hand->mods & WR_MOD_SHIFT)
             wr_view_turn_at(app->view, x, y, app->view->turn + WHEEL_DEG * steps);
         else wr_view_zoom_at(app->view, x, y, app->view->zoom * exp2(steps / 3.0));
         app->hand->at = pointer_at(app, x + 0.5, y + 0.5, app->hand->button);
     } else if (!blocked(app) && wr_layout_inside(&app->layout->patch, x, y)) {
-        if (wr_input_mods(app) & WR_MOD_CTRL) wr_patch_wheel_angle(app, steps);
+        if (app->hand->mods & WR_MOD_CTRL) wr_patch_wheel_angle(app, steps);
         else wr_patch_wheel(app, steps);
     }
 }

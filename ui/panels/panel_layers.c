@@ -4,6 +4,7 @@
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
 #include "ui/state/keys.h"
 #include "ui/state/line.h"
 #include "ui/state/roster.h"
@@ -174,7 +175,7 @@ static void row_name(const WrLayer *layer, double x, double right, bool shown, b
 static bool choose_part(WrApp *app, int i, bool mask)
 {
     const WrDocument *document = wr_app_document(app);
-    bool alone = mask && (SDL_GetModState() & KMOD_ALT), there = document->active == i;
+    bool alone = mask && (app->hand->mods & WR_MOD_ALT), there = document->active == i;
     if (alone) app->mask_alone = !(there && wr_app_shows_mask(app));
     wr_app_redraw(app);
     if (there && document->layers[i].on_mask == mask) return false;

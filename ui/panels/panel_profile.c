@@ -1,5 +1,7 @@
 /* Profile editor of a surface of revolution: a curve with draggable points; each drag is one command. */
 #include "ui/state/app_state.h"
+#include "ui/state/input_router.h"
+#include "ui/state/keys.h"
 #include "ui/state/session_view.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
@@ -113,10 +115,10 @@ static void run(WrApp *app, WrProfileHand *hand)
 
 static void press(WrApp *app, WrProfileHand *hand, int over, double r, double z)
 {
-    const SDL_Keymod mods = SDL_GetModState();
-    if (over >= 0 && (mods & (KMOD_CTRL | KMOD_SHIFT))) {
-        if (mods & KMOD_CTRL ? wr_profile_edit_remove(&hand->edit, over)
-                             : wr_profile_edit_corner(&hand->edit, over))
+    const int mods = app->hand->mods;
+    if (over >= 0 && (mods & (WR_MOD_CTRL | WR_MOD_SHIFT))) {
+        if (mods & WR_MOD_CTRL ? wr_profile_edit_remove(&hand->edit, over)
+                               : wr_profile_edit_corner(&hand->edit, over))
             run(app, hand);
         return;
     }

@@ -9,20 +9,20 @@
 
 #include <SDL.h>
 
-static WrPointer pointer(const SDL_Event *event, int button)
+static WrPointer pointer(const WrApp *app, const SDL_Event *event, int button)
 {
     const bool moves = event->type == SDL_MOUSEMOTION;
     return (WrPointer){ .x = (moves ? event->motion.x : event->button.x) + 0.5,
                         .y = (moves ? event->motion.y : event->button.y) + 0.5,
                         .pressure = 1.0,
                         .button = button,
-                        .mods = wr_key_mods(SDL_GetModState()) };
+                        .mods = app->hand->mods };
 }
 
 /* Lamps, handles and the brush change the scene or the table: those wait. */
 static bool press(WrApp *app, const SDL_Event *event)
 {
-    const WrPointer at = pointer(event, event->button.button);
+    const WrPointer at = pointer(app, event, event->button.button);
     if (at.button == SDL_BUTTON_RIGHT || app->hand->grab != WR_GRAB_NONE) return false;
     if (wr_patch_paints(app) || wr_patch_cube_under(app, &at)) return false;
     app->hand->at = app->hand->start = at;
@@ -47,18 +47,16 @@ static bool wheel(WrApp *app, const SDL_MouseWheelEvent *event)
 {
     const double way = event->direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0;
     const double steps = way * (double)event->preciseY;
-    if (SDL_GetModState() & KMOD_CTRL) wr_patch_wheel_angle(app, steps);
+    if (app->hand->mods & WR_MOD_CTRL) wr_patch_wheel_angle(app, steps);
     else wr_patch_wheel(app, steps);
     return true;
 }
 
 bool wr_patch_look(WrApp *app, const SDL_Event *event)
 {
-    int x, y;
-    SDL_GetMouseState(&x, &y);
     const bool held = app->patch->meanwhile == WR_PATCH_HELD;
     if (held && event->type == SDL_MOUSEMOTION) {
-        const WrPointer at = pointer(event, app->hand->start.button);
+        const WrPointer at = pointer(app, event, app->hand->start.button);
         wr_patch_drag(app, &at);
         app->hand->at = at;
         return true;
@@ -70,7 +68,8 @@ bool wr_patch_look(WrApp *app, const SDL_Event *event)
     if (event->type == SDL_MOUSEBUTTONDOWN)
         return wr_layout_inside(&app->layout->patch, event->button.x, event->button.y) &&
                press(app, event);
-    return event->type == SDL_MOUSEWHEEL && wr_layout_inside(&app->layout->patch, x, y) &&
+    return event->type == SDL_MOUSEWHEEL &&
+           wr_layout_inside(&app->layout->patch, app->hand->x, app->hand->y) &&
            wheel(app, &event->wheel);
 }
 

@@ -60,7 +60,8 @@ bool wr_busy_begin(WrApp *app, const WrBusy *like)
     app->session = wr_session_snapshot(busy->session);
     app->busy = busy;
     wr_job_start(busy->job, busy);
-    while (!is_done(busy) && wr_clock_seconds() - busy->since < QUIET_SECONDS) SDL_Delay(1);
+    const double quiet = like->quiet > 0 ? like->quiet : QUIET_SECONDS;
+    while (!is_done(busy) && wr_clock_seconds() - busy->since < quiet) SDL_Delay(1);
     return busy->is_done;
 }
 
@@ -196,9 +197,11 @@ bool wr_busy_refuse(WrApp *app)
 
 bool wr_busy_close(WrApp *app)
 {
-    if (app->busy) app->busy->closes = true;
-    if (app->busy) wr_app_redraw(app);
-    return app->busy != NULL;
+    if (!app->busy) return false;
+    app->busy->closes = true;
+    if (app->busy->kind == WR_BUSY_ANOTHER) wr_busy_cancel(app->busy); /* nobody wants it now */
+    wr_app_redraw(app);
+    return true;
 }
 
 bool wr_busy_lets_wait(const WrApp *app)
@@ -275,11 +278,8 @@ bool wr_busy_event(WrApp *app, const SDL_Event *event)
 bool wr_busy_look(WrApp *app, const SDL_Event *event)
 {
     if (!app->busy || app->dialog->now != WR_DIALOG_NONE) return false;
-    int x, y;
-    SDL_GetMouseState(&x, &y);
-    if (event->type == SDL_MOUSEBUTTONDOWN) x = event->button.x, y = event->button.y;
     const bool begins = event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_MOUSEWHEEL;
-    if (begins && wr_gui_owns_point(app->gui, x, y)) return false;
+    if (begins && wr_gui_owns_point(app->gui, app->hand->x, app->hand->y)) return false;
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->look && (*p)->look(app, event)) return true;
     return false;

@@ -47,6 +47,8 @@ typedef struct WrInput WrInput;
 typedef struct WrHand {
     WrInput *input;  /* event queue (ui/app/input.h); owned */
     WrPointer at;    /* newest position */
+    int mods;        /* modifier keys at the event that is handled, WR_MOD_ bits */
+    int x, y;        /* pixel under the mouse at that event */
     WrPointer start; /* start of the drag */
     WrGrab grab;
     int button; /* button that started the drag */

@@ -205,8 +205,8 @@ static void key_up(WrGui *gui, int code)
     else ImGui::GetIO().KeysDown[code] = false;
 }
 
-/* What the next frame is to see of them, from the first that waits: true if letters are among it. */
-static bool take_typed(WrGui *gui)
+/* Gives the next frame what it is to see of them, from the first that waits. */
+static void take_typed(WrGui *gui)
 {
     bool letters = false, acted = false;
     int taken = 0;
@@ -236,20 +236,19 @@ static bool take_typed(WrGui *gui)
         }
         gui->typed_held = typed.key.mod;
     }
-    if (taken == 0) return letters;
+    if (taken == 0) return;
     gui->typed_count -= taken;
     memmove(gui->typed_on, gui->typed_on + taken, (size_t)gui->typed_count * sizeof *gui->typed_on);
-    return letters;
 }
 
-/* Those held now, and those that were held while a key went down since the last frame: Ctrl+A counts even if
-   both were let go before there was one. With letters, those that were held as they came. */
+/* Those held at the newest key event, and those that were held while a key went down since the last frame: Ctrl+A counts
+   even if both were let go before there was one. */
 void wr_gui_keys_frame(WrGui *gui)
 {
     if (ImGui::GetCurrentContext() != gui->context) return;
     ImGuiIO &io = ImGui::GetIO();
-    bool letters = take_typed(gui);
-    int mod = (letters ? gui->typed_held : (int)SDL_GetModState()) | gui->held_late;
+    take_typed(gui);
+    int mod = gui->typed_held | gui->held_late;
     io.KeyShift = (mod & KMOD_SHIFT) != 0;
     io.KeyCtrl = (mod & KMOD_CTRL) != 0;
     io.KeyAlt = (mod & KMOD_ALT) != 0;

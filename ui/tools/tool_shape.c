@@ -173,7 +173,7 @@ static void marks(WrApp *app)
     WrSelectPoint points[ROUND_POINTS];
     double box[4], x, y;
     if (!app->draw->active) return;
-    corners(app, wr_key_mods(SDL_GetModState()), box);
+    corners(app, app->hand->mods, box);
     int count = is_round(app) ? round_points(box, app, points) : rect_points(box, app, points);
     wr_overlay_lines(app, points, count, true, 0xfff4f4f4u);
     char text[64];

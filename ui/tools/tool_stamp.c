@@ -227,7 +227,7 @@ static bool key(WrApp *app, SDL_Keycode key)
 
 static bool wheel(WrApp *app, double steps)
 {
-    if (wr_key_mods(SDL_GetModState()) != 0) return false; /* Ctrl and the wheel zoom as ever */
+    if (app->hand->mods != 0) return false; /* Ctrl and the wheel zoom as ever */
     double r = radius_of(app) * exp2(steps / 6.0);
     r = r < 0.5 ? 0.5 : r > 16384.0 ? 16384.0 : r;
     app->stamp->radius = wr_line_round(r, r < 10.0 ? 1 : 0);
