@@ -3,6 +3,7 @@
 #include "test.h"
 #include "test_app.h"
 
+#include "ui/state/action.h"
 #include "ui/state/dialog.h"
 #include "ui/state/input_router.h"
 #include "ui/state/layout.h"
@@ -10,10 +11,12 @@
 #include "ui/canvas/view.h"
 #include "ui/toolkit/focus.h"
 #include "ui/toolkit/gui.h"
+#include "ui/tools/tool_stamp.h"
 
 #include "document/document.h"
 #include "system/thread.h"
 
+#include <math.h>
 #include <string.h>
 
 #define PICTURE_MS 330
@@ -252,6 +255,70 @@ static void a_stroke_after_a_click_is_whole(void **state)
     finish(&bench);
 }
 
+/* Modifier keys are those at the event, not those that are held when it is handled: Ctrl and the wheel zoom, the wheel by
+   itself sizes the stamp. */
+static void a_turn_of_the_wheel_has_the_keys_held_when_it_came(void **state)
+{
+    (void)state;
+    Bench bench;
+    Feed feed = { .count = 0 };
+    begin(&bench);
+    WrApp *app = bench.app;
+    wr_action_run(app, "stamp");
+    for (int i = 0; i < 4; i++) draw_again(app);
+    app->stamp->radius = 20;
+    const double zoom = app->view->zoom;
+    const SDL_Rect c = app->layout->canvas;
+    const Uint32 id = SDL_GetWindowID(app->window);
+    SDL_Keysym ctrl = { .scancode = SDL_SCANCODE_LCTRL, .sym = SDLK_LCTRL, .mod = KMOD_LCTRL };
+    const SDL_Event turned = {
+        .wheel = { .type = SDL_MOUSEWHEEL, .windowID = id, .y = 1, .preciseY = 1 }
+    };
+    add(&feed,
+        &(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION,
+                                  .windowID = id,
+                                  .x = c.x + c.w / 2,
+                                  .y = c.y + c.h / 2 } },
+        0);
+    add(&feed, &(SDL_Event){ .key = { .type = SDL_KEYDOWN, .keysym = ctrl } }, 0);
+    add(&feed, &turned, 0);
+    ctrl.mod = KMOD_NONE;
+    add(&feed, &(SDL_Event){ .key = { .type = SDL_KEYUP, .keysym = ctrl } }, 0);
+    add(&feed, &turned, GAP_MS);
+    run(app, &feed);
+    assert_float_equal(app->view->zoom, zoom * exp2(1.0 / 3.0), 1e-6 * zoom);
+    assert_float_equal(app->stamp->radius, rint(20 * exp2(1.0 / 6.0)), 0); /* once */
+    finish(&bench);
+}
+
+/* The chip's word changes with the first click, before the picture that shows it. */
+static void a_second_click_on_a_button_whose_word_changes_counts(void **state)
+{
+    (void)state;
+    Bench bench;
+    Feed feed = { .count = 0 };
+    begin(&bench);
+    WrApp *app = bench.app;
+    const SDL_Rect patch = app->layout->patch;
+    int x, y, n = 0;
+    for (int i = 0; i < 4; i++) draw_again(app); /* the chip has been measured */
+    bool was = app->settings->turning, found = false;
+    while (!found && find(app, WR_STOP_PRESS, &patch, n++, &x, &y)) {
+        push_motion(app, x, y);
+        draw_again(app);
+        push_button(app, true, SDL_BUTTON_LEFT, x, y);
+        push_button(app, false, SDL_BUTTON_LEFT, x, y);
+        for (int i = 0; i < 6; i++) draw_again(app);
+        found = app->settings->turning != was;
+    }
+    assert_true(found);
+    was = app->settings->turning;
+    for (int i = 0; i < 3; i++) add_click(app, &feed, x, y, i < 2 ? 10 : GAP_MS);
+    run(app, &feed);
+    assert_true(app->settings->turning != was); /* three times */
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -260,6 +327,8 @@ int main(void)
         cmocka_unit_test(what_is_typed_after_a_key_that_opens_a_dialog_goes_to_it),
         cmocka_unit_test(a_click_is_for_what_was_on_the_screen),
         cmocka_unit_test(a_stroke_after_a_click_is_whole),
+        cmocka_unit_test(a_turn_of_the_wheel_has_the_keys_held_when_it_came),
+        cmocka_unit_test(a_second_click_on_a_button_whose_word_changes_counts),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

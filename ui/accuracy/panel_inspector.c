@@ -89,6 +89,7 @@ static void table(const WrInspector *in)
 void wr_panel_inspector(WrApp *app)
 {
     const WrInspector *in = &app->accuracy->inspector;
+    wr_gui_next_id("pin");
     if (wr_gui_chip(in->pinned ? WR_ICON_LOCK : WR_ICON_UNLOCK, in->pinned ? "pinned" : "follows"))
         wr_action_run(app, WR_ACT(inspector_pin));
     wr_gui_tip("Follows the pointer over the patch and over the table, or keeps to its place while "
@@ -96,6 +97,7 @@ void wr_panel_inspector(WrApp *app)
                "changes");
     wr_gui_same_line(6);
     wr_gui_disable(!in->known);
+    wr_gui_next_id("copy");
     if (wr_gui_chip(WR_ICON_COPY, in->copied ? "copied" : "copy"))
         wr_action_run(app, WR_ACT(inspector_copy));
     wr_gui_enable();

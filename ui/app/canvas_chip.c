@@ -190,6 +190,7 @@ void wr_canvas_chip(WrApp *app)
     const WrCanvasRange *range = app->map_shown ? app->map_range : app->range;
     chip_text(app, range, text, sizeof text);
     wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
+    wr_gui_next_id("range"); /* the numbers change under the pointer */
     if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
     wr_gui_tip("What is shown, and which numbers are black and white");
     /* Beside it, as long as the square at the right end has its place. */

@@ -112,6 +112,7 @@ static void buttons(WrApp *app)
     wr_gui_tip("Remove the chosen object");
     wr_gui_enable();
     wr_gui_same_line(12);
+    wr_gui_next_id("ground");
     if (wr_gui_chip(NULL, ground ? "Ground off" : "Ground")) wr_action_run(app, WR_ACT(ground));
     wr_gui_tip(ground
                    ? "Take the floor away"

@@ -172,6 +172,7 @@ void wr_panel_presets(WrApp *app)
     if (!app->presets) app->presets = wr_alloc(1, sizeof *app->presets);
     const int at_hand = chosen(&wr_app_scene(app)->material);
     wr_gui_label("Material");
+    wr_gui_next_id("material");
     if (wr_gui_button(at_hand >= 0 ? wr_material_presets[at_hand].title : "of your own", false))
         wr_gui_popup_open("materials");
     wr_gui_tip("Clay, stone, gold and others, as pictures: a click takes all of their numbers");

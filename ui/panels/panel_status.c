@@ -121,6 +121,7 @@ static void unread_errors(WrApp *app)
     snprintf(count, sizeof count,
              app->messages->unread == 1 ? wr_words("%d error") : wr_words("%d errors"),
              app->messages->unread);
+    wr_gui_next_id("errors");
     if (wr_gui_chip(WR_ICON_ALERT, count)) {
         wr_gui_popup_open("messages");
         dismiss(app);

@@ -206,6 +206,9 @@ bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index
 int wr_gui_tab_rows(const char *const *items, int count, double width);
 WrEdit wr_gui_colour(const char *id, double width, double linear_rgb[3]);
 bool wr_gui_check(const char *label, bool *value);
+/* The next button or chip keeps this id while its label changes with what it does, so that the keyboard's ring stays on it
+   and a quick second click counts. Not where the new label asks to confirm. */
+void wr_gui_next_id(const char *id);
 bool wr_gui_button(const char *label, bool primary);
 /* A flat button of one icon, `units` wide and high. */
 bool wr_gui_icon_button(const char *id, const char *icon, double units, bool selected);

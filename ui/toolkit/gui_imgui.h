@@ -118,6 +118,7 @@ struct WrGui {
     ImGuiID row_drag;
     ImDrawList *pad;                   /* that drawing goes to; NULL: to the views */
     bool as_it_is;                     /* texts are the user's own and are not looked up */
+    const char *next_id;               /* of wr_gui_next_id; NULL: none */
     WrShownWindow shown[WR_GUI_SHOWN]; /* of the picture on the screen, the lowest first */
     int shown_count;
     ImGuiID shown_top; /* the newest menu or dialog that is open there; 0: none */

@@ -29,8 +29,19 @@ bool wr_gui_stands_in(const char *name)
     return true;
 }
 
+extern "C" void wr_gui_next_id(const char *id)
+{
+    wr_gui_current()->next_id = id;
+}
+
 const char *wr_gui_labelled(const char *label, char (&buffer)[320])
 {
+    WrGui *gui = wr_gui_current();
+    if (gui->next_id) {
+        snprintf(buffer, sizeof buffer, "%.250s###%.60s", wr_gui_said(label), gui->next_id);
+        gui->next_id = nullptr;
+        return buffer;
+    }
     char seen[256];
     const char *id = strstr(label, "##");
     const size_t length = id ? (size_t)(id - label) : strlen(label);
