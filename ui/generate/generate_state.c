@@ -57,13 +57,6 @@ void wr_generate_free(WrApp *app)
 
 /* ---- errors ---- */
 
-/* Text after the value in "NAME=VALUE: remedy", or in "NAME: remedy". */
-static const char *rest_of(const char *said, size_t name)
-{
-    const char *colon = strstr(said + name, ": ");
-    return said[name] == '=' && colon ? colon + 2 : said[name] == ':' ? said + name + 2 : said;
-}
-
 /* Messages are "GENERATOR: NAME=VALUE: remedy", "GENERATOR: NAME is missing ..." or "GENERATOR: FILE: fault of the
    file". */
 void wr_generate_blame(WrGenerateHand *hand)
@@ -82,7 +75,6 @@ void wr_generate_blame(WrGenerateHand *hand)
         bool held = length > 0 && strncmp(said, file, length) == 0 && said[length] == ':';
         if (!named && !held) continue;
         hand->blamed = i;
-        hand->blame = named ? rest_of(said, name) : said + length + 2;
         return;
     }
 }

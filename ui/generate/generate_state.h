@@ -64,7 +64,6 @@ typedef struct WrGenerateHand {
     int blamed;
     const char *blame; /* part of err about the parameter */
     int opened;        /* count of openings: each scrolls to the first value */
-    bool blame_seen;   /* the panel showed the error beside the value in the last frame */
     int focus_text;    /* remaining frames in which focusing the text field is tried */
     int asking_file;   /* index of the parameter whose file is being chosen */
 

@@ -140,17 +140,25 @@ static void presets(WrApp *app)
 
 /* ---- messages ---- */
 
-/* Messages that are not shown beside a value; "" if none. */
+/* A file that is still to be chosen is no error. */
+static bool lacks_file(const WrGenerateHand *hand)
+{
+    return hand->blamed >= 0 && hand->generator->params[hand->blamed].kind == WR_PARAM_FILE &&
+           !hand->value[hand->blamed].text[0];
+}
+
+/* The error, or the notes of the preview; "" if there are none. */
 static const char *notes(const WrApp *app)
 {
     const WrGenerateHand *hand = app->generate;
-    if (hand->err.text[0]) return hand->blamed >= 0 && hand->blame_seen ? "" : hand->blame;
+    if (lacks_file(hand)) return "Choose a file to begin.";
+    if (hand->err.text[0]) return hand->blame;
     return hand->active && app->trying ? wr_edit_preview_notes(app->trial) : "";
 }
 
 static void tell(const WrApp *app, const char *text)
 {
-    bool bad = app->generate->err.text[0] != '\0';
+    const bool bad = app->generate->err.text[0] && !lacks_file(app->generate);
     for (const char *at = text; *at;) {
         char line[260];
         size_t length = strcspn(at, "\n");
@@ -183,8 +191,8 @@ static SDL_Rect cut(SDL_Rect *room, int height, bool top)
     return part;
 }
 
-/* Expected duration, if significant, in a row above the buttons. */
-static void expectation(const WrApp *app, SDL_Rect *room)
+/* Expected duration, if significant. */
+static void expectation(const WrApp *app)
 {
     WrText line = { 0 };
     char text[WR_EXPECTATION];
@@ -192,10 +200,18 @@ static void expectation(const WrApp *app, SDL_Rect *room)
     wr_generate_line(app->generate, &line);
     wr_expectation(app, wr_text_get(&line), text);
     wr_text_fini(&line);
-    if (!text[0]) return;
-    SDL_Rect row = cut(room, wr_gui_px(32), false);
-    wr_gui_area_begin("##generate_takes", WR_AREA_BAR, row, WR_COLOUR_BAR);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+    if (text[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+}
+
+/* Errors and notes, or how long it will take, above the buttons. Its space is always kept, so that the values stay where
+   they are when a note appears or goes. */
+static void said(const WrApp *app, SDL_Rect *room)
+{
+    const char *text = notes(app);
+    wr_gui_area_begin("##generate_notes", WR_AREA_PANEL, cut(room, wr_gui_px(42), false),
+                      WR_COLOUR_BAR);
+    if (*text) tell(app, text);
+    else expectation(app);
     wr_gui_area_end();
 }
 
@@ -231,14 +247,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
     SDL_Rect low = cut(&room, wr_gui_px(44), false);
     if (!hand->generator) wr_generate_take(app, wr_generate_last(app));
     wr_generate_blame(hand);
-    expectation(app, &room);
-    const char *said = notes(app);
-    if (*said) {
-        SDL_Rect told = cut(&room, wr_gui_px(42), false);
-        wr_gui_area_begin("##generate_notes", WR_AREA_PANEL, told, WR_COLOUR_BAR);
-        tell(app, said);
-        wr_gui_area_end();
-    }
+    said(app, &room);
     wr_gui_area_begin("##generate_head", WR_AREA_PANEL, top, WR_COLOUR_PANEL);
     head(app);
     wr_gui_area_end();

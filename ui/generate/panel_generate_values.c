@@ -190,17 +190,11 @@ static bool parameter(WrApp *app, int i)
     WrGenerateHand *hand = app->generate;
     const WrParam *p = &hand->generator->params[i];
     wr_gui_push_id(i);
-    if (hand->blamed == i && wr_gui_will_see(wr_gui_px(26))) hand->blame_seen = true;
     wr_gui_label(p->label);
     wr_gui_tip(p->help);
     bool changed = field(app, i, p, &hand->value[i]);
     if (p->kind != WR_PARAM_NUMBER && p->kind != WR_PARAM_WHOLE && p->kind != WR_PARAM_FILE)
         wr_gui_tip(p->help); /* other kinds show their own tip */
-    if (hand->blamed == i) {
-        bool missing = p->kind == WR_PARAM_FILE && !hand->value[i].text[0];
-        wr_gui_text_wrapped(WR_FONT_SMALL, missing ? WR_COLOUR_CELL : WR_COLOUR_BAD,
-                            missing ? "Choose a file to begin." : hand->blame);
-    }
     wr_gui_pop_id();
     return changed;
 }
@@ -310,7 +304,6 @@ static bool parameters(WrApp *app)
 void wr_panel_generate_values(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
-    hand->blame_seen = false;
     bool changed = parameters(app);
     changed |= joining(hand);
     if (wr_app_document(app)->selection)
