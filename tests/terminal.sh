@@ -38,7 +38,6 @@ says() {
     talk=''
 }
 says "$program" run long.wrinkle
-says "$program" paint long.wrinkle
 says "$program" render -o "'f##.png'" --size 8192x8192 --frames 1-2 --do "'dials aa=supersample samples=16'"
 
 # ---- into a file ----

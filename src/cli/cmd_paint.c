@@ -12,8 +12,20 @@ static void keep_note(void *ctx, const char *text)
     wr_text_addf(ctx, "%s\n", text);
 }
 
-/* The window shows notes itself. Output commands among the --do lines are skipped, as in all subcommands except run;
-   they work once the window is open. */
+/* Runs on a worker thread of the window. Output commands among the --do lines are skipped, as in all subcommands except
+   run; they work once the document is open. */
+static bool open_asked(WrSession *session, void *ctx, WrError *err)
+{
+    const WrCli *cli = ctx;
+    wr_session_set_outputs(session, false);
+    const bool good = (!cli->file || wr_session_open(session, cli->file, err)) &&
+                      wr_cli_run_dos(cli, session, err);
+    wr_session_set_outputs(session, true);
+    wr_session_set_journal(session, true);
+    return good;
+}
+
+/* The window shows notes itself. */
 int wr_cli_paint(const WrCli *cli)
 {
     WrError err;
@@ -26,17 +38,15 @@ int wr_cli_paint(const WrCli *cli)
                                  .composites = true,
                                  .smooth = true };
     WrSession *session = wr_session_new(&options);
-    wr_session_set_outputs(session, false);
-    bool good = wr_cli_check_isa(cli, &err);
-    good = good && (!cli->file || wr_session_open(session, cli->file, &err));
-    good = good && wr_cli_run_dos(cli, session, &err);
-    wr_session_set_outputs(session, true);
-    wr_session_set_journal(session, true);
+    const bool given = cli->file || cli->do_count > 0;
     int status = WR_EXIT_FAILED;
-    if (good) {
+    if (!given) wr_session_set_journal(session, true);
+    if (wr_cli_check_isa(cli, &err)) {
         WrAppOptions app = { .session = session,
+                             .open = given ? open_asked : NULL,
+                             .open_ctx = (void *)cli,
                              .file = cli->do_count == 0 ? cli->file : NULL,
-                             .file_given = cli->file || cli->do_count > 0,
+                             .file_given = given,
                              .threads = cli->threads,
                              .isa = cli->isa,
                              .notes = &notes };

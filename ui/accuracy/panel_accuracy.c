@@ -72,27 +72,36 @@ static void cells(const Cell *left, const Cell *right)
 
 /* ---- error ---- */
 
-static void no_error(WrApp *app)
+/* One line that is always there, so that nothing below it jumps: why the numbers are not this view's. */
+static void error_state(const WrApp *app)
 {
     const WrAccuracy *a = app->accuracy;
-    if (app->settings->turning) {
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                            "The patch turns: its error is measured while it rests.");
-        if (wr_gui_chip(WR_ICON_PAUSE, "Let it rest")) wr_action_run(app, WR_ACT(turn));
-    } else if (a->error_of == a->state && a->error_why.text[0]) {
+    const bool failed = a->error_of == a->state && a->error_why.text[0];
+    const bool old = a->error && a->error->of != a->state;
+    if (failed) {
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, a->error_why.text);
-    } else if (!a->error) {
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, "Measuring ...");
+        return;
     }
+    const char *text = old ? "Of the view before; measured anew when it rests."
+                       : app->settings->turning
+                           ? "The patch turns: its error is measured while it rests."
+                       : !a->error ? "Measuring ..."
+                                   : "Of this view.";
+    wr_gui_text_cut(WR_FONT_SMALL, old ? WR_COLOUR_CELL : WR_COLOUR_LABEL, text,
+                    wr_gui_available());
+    wr_gui_tip(text);
 }
 
-static void caption(const WrWork *error, bool old)
+static void caption(const WrWork *error)
 {
     char text[160], number[16];
     wr_gui_space(6);
-    if (old)
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_CELL,
-                            "Of the view before; measured anew when it rests.");
+    if (!error) {
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, " ");
+        wr_gui_space(-6);
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, " ");
+        return;
+    }
     snprintf(text, sizeof text, wr_words("%d \xc3\x97 %d pixels, a reference of %d \xc3\x97 %d"),
              error->measured_w, error->measured_h, error->samples, error->samples);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
@@ -112,9 +121,7 @@ static void error(WrApp *app)
     const WrAccuracy *a = app->accuracy;
     const WrWork *e = a->error;
     wr_gui_heading("ERROR AGAINST THE REFERENCE");
-    if (app->settings->turning || !e || (a->error_of == a->state && a->error_why.text[0]))
-        no_error(app);
-    if (!e) return;
+    error_state(app);
     Cell c[4] = {
         { 0, "rms",
           "Root mean square of the error of linear intensity, over all pixels with something in "
@@ -128,15 +135,17 @@ static void error(WrApp *app)
           "tolerance, whose dials differ from place to place, it is not measured",
           "" },
     };
-    wr_plot_number(e->errors.rms, c[0].value);
-    wr_plot_number(e->errors.max, c[1].value);
-    wr_plot_number(e->errors.p999, c[2].value);
-    wr_plot_number(e->errors.angle_rms, c[3].value);
-    if (!isnan(e->errors.angle_rms)) strcat(c[3].value, "\xc2\xb0");
+    if (e) {
+        wr_plot_number(e->errors.rms, c[0].value);
+        wr_plot_number(e->errors.max, c[1].value);
+        wr_plot_number(e->errors.p999, c[2].value);
+        wr_plot_number(e->errors.angle_rms, c[3].value);
+        if (!isnan(e->errors.angle_rms)) strcat(c[3].value, "\xc2\xb0");
+    }
     wr_gui_space(-2);
     cells(&c[0], &c[1]);
     cells(&c[2], &c[3]);
-    caption(e, e->of != a->state);
+    caption(e);
 }
 
 /* ---- time ---- */

@@ -42,8 +42,8 @@ static void results(const WrWork *work, bool old)
     line("places moved", it->way_mean, " px",
          "Between where a place is seen and where bump shows it");
     wr_gui_space(8);
-    if (old)
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_CELL, "Of the view before; measure it anew.");
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_CELL, /* its space is kept */
+                    old ? "Of the view before; measure it anew." : " ", wr_gui_available());
     wr_illusion_advice(it, &advice);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&advice));
     wr_text_fini(&advice);
@@ -71,6 +71,7 @@ void wr_panel_illusion(WrApp *app)
     if (a->illusion) {
         wr_gui_same_line(8);
         const bool shown = a->look == WR_PATCH_LACKS;
+        wr_gui_next_id("map");
         if (wr_gui_button(shown ? "Picture" : "Map on the patch", false))
             wr_accuracy_show(app, shown ? WR_PATCH_PLAIN : WR_PATCH_LACKS);
         wr_gui_tip("Lay what bump lacks over the patch: its outline red, shading green, shadow "

@@ -120,7 +120,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     wr_preset_browser_start(app);
     wr_generate_new(app);
     wr_accuracy_new(app);
-    wr_app_start(app);
+    if (!wr_app_start(app, err)) return false;
     const char *fonts = wr_gui_missing_fonts(app->gui);
     WrError missing;
     if (fonts && !wr_fail(&missing, "%s", fonts)) wr_app_fail(app, &missing);

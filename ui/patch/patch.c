@@ -223,6 +223,13 @@ static void advance_turn(WrPatch *p, const WrScene *scene, double now)
     else p->turn_deg = fmod(p->turn_deg + TURN_DEG_PER_SECOND * step, 360.0);
 }
 
+/* A turned body became a sheet while the turning rests: nothing but its edge or its back would be seen. */
+static void face_sheet(WrPatch *p, const WrScene *scene)
+{
+    const double turn = p->turn_deg;
+    if (turn > WR_ROCK_DEG && turn < 360.0 - WR_ROCK_DEG && rocks(p, scene)) p->turn_deg = 0.0;
+}
+
 void wr_patch_update(WrApp *app)
 {
     WrPatch *p = app->patch;
@@ -243,6 +250,7 @@ void wr_patch_update(WrApp *app)
         return;
     }
     p->turned_at = now;
+    face_sheet(p, wr_app_scene(app));
     if (differs(app)) {
         bool edited = only_edited(app);
         if (edited ? p->outstanding : !ready) return; /* what an edit reaches is made in no time */
@@ -341,6 +349,7 @@ void wr_patch_overlay(WrApp *app)
     wr_gui_overlay_begin("##turn", room->x + room->w - gap, room->y + gap, 1, 0);
     bool turning = app->settings->turning;
     if (room->w > wr_gui_px(220)) {
+        wr_gui_next_id("paint");
         if (wr_gui_chip(WR_ICON_BRUSH, app->paint->on ? "painting" : "paint"))
             wr_action_run(app, WR_ACT(paint_patch));
         wr_gui_tip(app->paint->on ? "The brush paints on the object, which stands still under it. "
@@ -348,6 +357,7 @@ void wr_patch_overlay(WrApp *app)
                                   : "Paint on the object itself.");
         wr_gui_same_line(6);
     }
+    wr_gui_next_id("turning");
     if (wr_gui_chip(turning ? WR_ICON_PAUSE : WR_ICON_PLAY, turning ? "turning" : "paused"))
         wr_action_run(app, WR_ACT(turn));
     wr_gui_tip(
@@ -373,6 +383,7 @@ static void settle(WrApp *app)
 static void another(WrApp *app)
 {
     app->patch->meanwhile = WR_PATCH_NOTHING;
+    app->patch->turn_deg = app->patch->rock = 0.0; /* it is seen from its front */
     wr_patch_commit_zoom(app, false);
 }
 

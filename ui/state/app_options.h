@@ -4,12 +4,17 @@
 
 #include <stdbool.h>
 
+typedef struct WrError WrError;
 typedef struct WrText WrText;
 
 typedef struct WrAppOptions {
-    /* borrowed; output commands enabled. If file_given, the requested file is open in it already */
+    /* borrowed; output commands enabled. If file_given, the requested file is open in it, or `open` opens it */
     WrSession *session;
-    const char *file;  /* requested file, if nothing else was requested; borrowed; NULL: none */
+    /* Opens what was requested, on a worker thread while the window is shown; NULL: it is open already */
+    bool (*open)(WrSession *session, void *ctx, WrError *err);
+    void *open_ctx;
+    const char
+        *file; /* with open: requested file, if nothing else was requested; borrowed; NULL: none */
     bool file_given;   /* false: the window opens the starter document (samples/bricks.wrinkle) */
     int threads;       /* for the preview, as in wr_pool_new */
     const char *isa;   /* kernel set of the preview, as in wr_renderer_new; NULL: auto */

@@ -1,4 +1,4 @@
-/* busy_internal.h - state of the running background command and its queue. Private to busy*.c and run_line.c. */
+/* busy_internal.h - state of the running background command and its queue. Private to busy*.c, run_line.c and document.c. */
 #pragma once
 #include "ui/state/busy.h"
 
@@ -27,6 +27,7 @@ struct WrBusy {
     bool is_done;
     char *what;        /* owned */
     double since;      /* clock */
+    double quiet;      /* seconds that wr_busy_begin waits for the work; 0: QUIET_SECONDS */
     double furthest;   /* fraction shown so far: progress never goes back */
     double refused_at; /* clock */
     bool cancelled, closes;

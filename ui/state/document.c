@@ -2,7 +2,7 @@
    through the session. */
 #include "ui/state/document.h"
 #include "ui/state/app_options.h"
-#include "ui/state/busy.h"
+#include "ui/state/busy_internal.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"
 #include "ui/state/input_router.h"
@@ -32,6 +32,8 @@
 
 #include <stdlib.h>
 #include <string.h>
+
+#define START_SECONDS 0.25 /* an opening that takes less is not seen at start */
 
 static void note_recent(WrApp *app, const char *path)
 {
@@ -95,6 +97,12 @@ static void lay_flat(WrSession *session, Opened *opened)
     opened->refused = !lines_work(session, lines.data, &opened->why);
     wr_text_fini(&lines);
 }
+
+/* What the command line asked for, on its way. */
+typedef struct Asked {
+    const WrAppOptions *options;
+    Opened opened; /* of options->file */
+} Asked;
 
 static bool open_work(WrSession *session, void *ctx, WrError *err)
 {
@@ -221,27 +229,76 @@ static bool take_starter(WrApp *app, WrError *err)
     return good;
 }
 
-void wr_app_start(WrApp *app)
+/* ---- what the command line asked for ---- */
+
+static bool open_asked(WrSession *session, void *ctx, WrError *err)
 {
-    WrError err;
-    app->hints = true;
-    if (app->options->file_given) {
-        if (wr_session_path(app->session)[0]) note_recent(app, wr_session_path(app->session));
-        if (app->options->file) {
-            Opened opened = { .path = app->options->file };
-            lay_flat(app->session, &opened);
-            wr_app_changed_document(app);
-            take_picture(app, &opened);
-        }
-        wr_app_take_notes(app);
+    Asked *asked = ctx;
+    const WrAppOptions *o = asked->options;
+    if (!o->open(session, o->open_ctx, err)) return false;
+    if (o->file) lay_flat(session, &asked->opened);
+    return true;
+}
+
+/* Takes asked. */
+static void asked_is_open(WrApp *app, Asked *asked)
+{
+    if (wr_session_path(app->session)[0]) note_recent(app, wr_session_path(app->session));
+    wr_app_changed_document(app);
+    if (app->options->file) take_picture(app, &asked->opened);
+    wr_app_take_notes(app);
+    wr_free(asked);
+}
+
+static void asked_is_done(WrApp *app, void *ctx, bool ok, const WrError *err)
+{
+    if (ok) {
+        asked_is_open(app, ctx);
         return;
     }
-    app->file->starter = take_starter(app, &err);
+    wr_busy_fail(app, "opening", err);
+    wr_app_changed_document(app); /* some of the lines may have run */
+    wr_free(ctx);
+}
+
+/* A document that opens in a moment is there in the first picture, and its error ends the program. One that takes longer
+   opens beside the window. */
+static bool start_asked(WrApp *app, WrError *err)
+{
+    Asked *asked = wr_alloc(1, sizeof *asked);
+    *asked = (Asked){ .options = app->options, .opened = { .path = app->options->file } };
+    const WrBusy busy = { .kind = WR_BUSY_ANOTHER,
+                          .what = (char *)"Opening",
+                          .work = open_asked,
+                          .ctx = asked,
+                          .quiet = START_SECONDS };
+    if (!wr_busy_begin(app, &busy)) {
+        app->busy->after = asked_is_done;
+        app->busy->after_ctx = asked;
+        return true;
+    }
+    const bool good = wr_busy_end(app, err);
+    if (good) asked_is_open(app, asked);
+    else wr_free(asked);
+    return good;
+}
+
+bool wr_app_start(WrApp *app, WrError *err)
+{
+    app->hints = true;
+    if (app->options->open) return start_asked(app, err);
+    if (app->options->file_given) {
+        if (wr_session_path(app->session)[0]) note_recent(app, wr_session_path(app->session));
+        wr_app_take_notes(app);
+        return true;
+    }
+    app->file->starter = take_starter(app, err);
     if (!app->file->starter) {
-        wr_app_fail(app, &err);
+        wr_app_fail(app, err);
         make_starter(app);
     }
     wr_app_take_notes(app);
+    return true;
 }
 
 /* ---- question about unsaved work ---- */

@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+typedef struct WrError WrError;
+
 /* Action to continue with after the question about unsaved work. */
 typedef enum WrAfter {
     WR_AFTER_NOTHING,
@@ -47,7 +49,8 @@ void wr_app_tend(WrApp *app); /* idle-time upkeep of the journal */
 /* Load the starter document, if nothing else was requested, on a separate thread while the window opens. No other
    code may use the session until wr_app_start or wr_app_start_end. */
 void wr_app_start_ahead(WrApp *app);
-void wr_app_start(WrApp *app);     /* finish loading the starter, or the requested document */
+/* Opens the starter, or what was requested; that may still be opening in the background. False: it cannot be opened. */
+bool wr_app_start(WrApp *app, WrError *err);
 void wr_app_start_end(WrApp *app); /* wait for the thread; may be called at any time */
 void wr_app_new(WrApp *app);
 void wr_app_open(WrApp *app);
