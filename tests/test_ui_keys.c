@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "ui/state/action_list.h"
 #include "ui/state/keys.h"
 
 #include <string.h>
@@ -76,10 +77,98 @@ static void what_may_be_given_is_read_back(void **state)
         if (!wr_key_can_be_given(may[i])) fail_msg("%s", SDL_GetKeyName(may[i]));
 }
 
+/* ---- other keyboards ---- */
+
+/* The signs of some layouts at the places where a US keyboard has others. */
+static const struct {
+    SDL_Scancode place;
+    SDL_Keycode german, spanish, italian;
+} signs[] = { { SDL_SCANCODE_GRAVE, '^', 0xba, '\\' },
+              { SDL_SCANCODE_MINUS, 0xdf, '\'', '\'' },
+              { SDL_SCANCODE_EQUALS, 0xb4, 0xa1, 0xec },
+              { SDL_SCANCODE_LEFTBRACKET, 0xfc, '`', 0xe8 },
+              { SDL_SCANCODE_RIGHTBRACKET, '+', '+', '+' },
+              { SDL_SCANCODE_SEMICOLON, 0xf6, 0xf1, 0xf2 },
+              { SDL_SCANCODE_APOSTROPHE, 0xe4, 0xb4, 0xe0 },
+              { SDL_SCANCODE_BACKSLASH, '#', 0xe7, 0xf9 },
+              { SDL_SCANCODE_NONUSBACKSLASH, '<', '<', '<' },
+              { SDL_SCANCODE_SLASH, '-', '-', '-' },
+              { SDL_SCANCODE_Y, 'z', 'y', 'y' },
+              { SDL_SCANCODE_Z, 'y', 'z', 'z' } };
+static int keyboard;
+
+static SDL_Keycode sign_at(SDL_Scancode place)
+{
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
+        if (signs[i].place == place)
+            return keyboard == 0   ? signs[i].german
+                   : keyboard == 1 ? signs[i].spanish
+                                   : signs[i].italian;
+    return SDL_GetKeyFromScancode(place);
+}
+
+/* The key that a label names, as the keyboard sends it; false: the keyboard has no such key. */
+static bool press(const char *label, SDL_Keysym *sym)
+{
+    const WrKey key = key_of(label);
+    for (int place = 1; place < SDL_NUM_SCANCODES; place++) {
+        if (sign_at((SDL_Scancode)place) != key.code) continue;
+        *sym = (SDL_Keysym){ .scancode = (SDL_Scancode)place,
+                             .sym = key.code,
+                             .mod = (Uint16)((key.mods & WR_MOD_CTRL ? KMOD_LCTRL : 0) |
+                                             (key.mods & WR_MOD_SHIFT ? KMOD_LSHIFT : 0) |
+                                             (key.mods & WR_MOD_ALT ? KMOD_LALT : 0)) };
+        return true;
+    }
+    return false;
+}
+
+static int check_labels(const WrKeyMap *map)
+{
+#define NAME(name, keys) #name,
+    static const char *const actions[] = { WR_ACTIONS(NAME) };
+#undef NAME
+    int shown = 0;
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
+        char label[32];
+        SDL_Keysym sym;
+        if (!wr_keys_label(map, actions[i], label)[0]) continue;
+        shown++;
+        if (!press(label, &sym))
+            fail_msg("keyboard %d: %s: no key %s", keyboard, actions[i], label);
+        const char *does = wr_keys_find(map, sym);
+        if (!does || strcmp(does, actions[i]) != 0)
+            fail_msg("keyboard %d: %s does %s, not %s", keyboard, label, does ? does : "nothing",
+                     actions[i]);
+    }
+    return shown;
+}
+
+/* Keys that menus, tips and hints show exist on German, Spanish and Italian keyboards and do their action there. */
+static void a_key_that_is_shown_does_its_action_on_every_keyboard(void **state)
+{
+    (void)state;
+    int shown = 0;
+    wr_keys_layout = sign_at;
+    for (keyboard = 0; keyboard < 3; keyboard++)
+        for (int m = 0; m < WR_KEY_MAPS; m++) {
+            WrError err;
+            WrKeyMap *map = wr_keys_new();
+            assert_true(wr_keys_read(map, wr_key_maps[m].text, &err));
+            shown += check_labels(map);
+            wr_keys_free(map);
+        }
+    wr_keys_layout = SDL_GetKeyFromScancode;
+    assert_true(shown > 300);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(a_key_is_taken_from_its_owner),
-                                        cmocka_unit_test(a_file_says_what_the_map_does),
-                                        cmocka_unit_test(what_may_be_given_is_read_back) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_key_is_taken_from_its_owner),
+        cmocka_unit_test(a_file_says_what_the_map_does),
+        cmocka_unit_test(what_may_be_given_is_read_back),
+        cmocka_unit_test(a_key_that_is_shown_does_its_action_on_every_keyboard)
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

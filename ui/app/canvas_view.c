@@ -5,15 +5,18 @@
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/canvas_map.h"
 #include "ui/canvas/view.h"
+#include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
 #include "ui/state/document.h"
 #include "ui/state/input_router.h"
+#include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/state/roster.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/preview/preview.h"
 #include "ui/tools/stroke_input.h"
 #include "ui/tools/symmetry.h"
@@ -139,16 +142,21 @@ static void patch_mark(const WrApp *app)
 
 static void hints(WrApp *app)
 {
-    static const char *const lines[] = { "Drag to paint", "[ and ] change the size",
-                                         "Drag the patch to turn it" };
+    const char *lines[3] = { "Drag to paint", "Drag the patch to turn it" };
+    char down[32], up[32], size[120];
+    int count = 2;
+    wr_keys_label(app->keys, WR_ACT(size_down), down);
+    wr_keys_label(app->keys, WR_ACT(size_up), up);
+    snprintf(size, sizeof size, wr_words("%s and %s change the size"), down, up);
+    if (down[0] && up[0]) lines[count++] = size; /* not on every keyboard */
     const SDL_Rect *room = &app->layout->canvas;
     double s = wr_gui_scale(), pad = 10 * s, gap = 6 * s, h = wr_gui_line_height(WR_FONT_TEXT);
     double wide = 0;
-    for (int i = 0; i < 3; i++) wide = fmax(wide, wr_gui_text_width(WR_FONT_TEXT, lines[i]));
-    double tall = 3 * h + 2 * gap + 2 * pad;
+    for (int i = 0; i < count; i++) wide = fmax(wide, wr_gui_text_width(WR_FONT_TEXT, lines[i]));
+    double tall = count * h + (count - 1) * gap + 2 * pad;
     double x = room->x + 12 * s, y = room->y + room->h - 12 * s - tall;
     wr_gui_draw_fill(x, y, wide + 2 * pad, tall, WR_COLOUR_CHIP, 4 * s);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < count; i++)
         wr_gui_draw_text(x + pad, y + pad + i * (h + gap), WR_FONT_TEXT, WR_COLOUR_TEXT, lines[i]);
 }
 

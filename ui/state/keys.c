@@ -235,16 +235,25 @@ static void say_key(WrKey key, char *buffer, size_t size)
     if (key.code == SDLK_UNKNOWN) drop_plus(buffer);
 }
 
+SDL_Keycode (*wr_keys_layout)(SDL_Scancode place) = SDL_GetKeyFromScancode;
+
+static bool on_some_key(SDL_Keycode code)
+{
+    for (int place = 1; place < SDL_NUM_SCANCODES; place++)
+        if (wr_keys_layout((SDL_Scancode)place) == code) return true;
+    return false;
+}
+
 /* The key to press on this keyboard. A bracket missing in its layout is replaced by the key at the US position.
  * False: no key works, because the character needs AltGr or Shift, or the key at that position has another action. */
 static bool on_this_layout(const WrKeyMap *map, WrKey key, WrKey *pressed)
 {
     const bool sign = key.code > SDLK_SPACE && key.code < 127 && !isalnum((int)key.code);
     *pressed = key;
-    if (!sign || SDL_GetScancodeFromKey(key.code) != SDL_SCANCODE_UNKNOWN) return true;
+    if (!sign || on_some_key(key.code)) return true;
     if (key.code != SDLK_LEFTBRACKET && key.code != SDLK_RIGHTBRACKET) return false;
-    pressed->code = SDL_GetKeyFromScancode(
-        key.code == SDLK_LEFTBRACKET ? SDL_SCANCODE_LEFTBRACKET : SDL_SCANCODE_RIGHTBRACKET);
+    pressed->code = wr_keys_layout(key.code == SDLK_LEFTBRACKET ? SDL_SCANCODE_LEFTBRACKET
+                                                                : SDL_SCANCODE_RIGHTBRACKET);
     return pressed->code != SDLK_UNKNOWN && !find(map, pressed->code, key.mods);
 }
 

@@ -35,6 +35,8 @@ bool wr_keys_read(WrKeyMap *map, const char *text, WrError *err);
 const char *wr_keys_find(const WrKeyMap *map, SDL_Keysym sym);
 /* True if exactly these modifiers (WR_MOD_ bits) are the keys of a modifier action. */
 bool wr_keys_hold(const WrKeyMap *map, const char *action, int held);
+/* The sign on each key of the keyboard: SDL_GetKeyFromScancode, or a test's layout. */
+extern SDL_Keycode (*wr_keys_layout)(SDL_Scancode place);
 /* The first key of an action that exists in this keyboard's layout, as text, "" if none. Returns buffer. */
 char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32]);
 /* All such keys of an action, separated by two spaces. */

@@ -12,6 +12,7 @@
 #include "ui/state/settings.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 #include "ui/tools/tool_shape.h"
@@ -113,7 +114,7 @@ static void commit(WrApp *app)
     WrText line = { 0 };
     int least = is_path(app) ? 2 : 3;
     if (app->draw->anchors.count < least) {
-        wr_app_say(app, "A %s needs %d points", is_path(app) ? "path" : "polygon", least);
+        wr_app_say(app, "A %s needs %d points", wr_words(is_path(app) ? "path" : "polygon"), least);
         return;
     }
     write_line(app, &line);
