@@ -94,7 +94,7 @@ static void write_kind(const char *path, const Kind *kind, TestRandom *random)
 static WrCodecReader *open_by(const WrCodec *codec, int fd)
 {
     char reason[WR_CODEC_REASON] = "";
-    WrCodecReader *reader = codec->open(fd, "png", 1, reason);
+    WrCodecReader *reader = codec->open(fd, "png", 1, false, reason);
     if (!reader) fail_msg("%s", reason);
     return reader;
 }
@@ -247,7 +247,7 @@ static void damage_is_told_in_one_line(void **state)
         const uint8_t byte = (uint8_t)test_random_u64(&random);
         if (round % 3 == 0) assert_int_equal(ftruncate(fd, at), 0);
         else assert_int_equal(pwrite(fd, &byte, 1, at), 1);
-        WrCodecReader *reader = wr_png_codec.open(fd, "png", 1, reason);
+        WrCodecReader *reader = wr_png_codec.open(fd, "png", 1, false, reason);
         if (reader) {
             const WrImagePart *part = &wr_png_codec.part(reader, 0)->part;
             if (part->width <= WIDTH && part->height <= HEIGHT)

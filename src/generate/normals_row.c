@@ -206,7 +206,7 @@ bool wr_picture_normals(const WrParamValue *values, const WrGenerateJob *job, Wr
 {
     const WrParams p = { wr_params_normals, values };
     WrNormals normals = { .p = NULL };
-    WrImage *image = wr_picture_read(&p, "layer", false, job, err);
+    WrImage *image = wr_picture_read(&p, "layer", (WrImageWish){ 0 }, job, err);
     const bool good =
         image && decode(&p, image, job, &normals, err) && make(&p, &normals, job, out, err);
     wr_image_free(image);

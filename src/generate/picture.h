@@ -11,6 +11,7 @@ typedef struct WrError WrError;
 typedef struct WrGenerateJob WrGenerateJob;
 typedef struct WrImage WrImage;
 typedef struct WrImageLabel WrImageLabel;
+typedef struct WrImageWish WrImageWish;
 typedef struct WrParamValue WrParamValue;
 typedef struct WrParams WrParams;
 typedef struct WrNormalMips WrNormalMips;
@@ -72,8 +73,9 @@ extern const char *const wr_picture_labels[];
 /* The label that counts, having said so where it makes no sense; NULL: there is none. */
 const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *image,
                                      const WrGenerateJob *job);
-/* The picture of a row that has `file`, `part` and channels by that name; says what was taken of it. */
-WrImage *wr_picture_read(const WrParams *params, const char *channels, bool keep_lost,
+/* The picture of a row that has `file`, `part` and channels by that name; says what was taken of it. wish: the rest of
+   what is wanted; its channel and part are replaced. */
+WrImage *wr_picture_read(const WrParams *params, const char *channels, WrImageWish wish,
                          const WrGenerateJob *job, WrError *err);
 /* Notes of how reading departed from the file's pixels. */
 void wr_picture_note(const char *path, const WrImage *image, const WrGenerateJob *job);

@@ -47,18 +47,19 @@ const WrParam wr_params_photo[] = {
 
 const char *const wr_picture_labels[] = { WR_PICTURE_LABELS(WR_WORD) NULL };
 
+#define FLAT (1.0 / 255) /* of the heights: less than a step of 8 bits */
+
 double wr_picture_light(double code)
 {
     return code <= 0.04045 ? code / 12.92 : wr_pow((code + 0.055) / 1.055, 2.4);
 }
 
-WrImage *wr_picture_read(const WrParams *params, const char *channels_, bool keep_lost,
+WrImage *wr_picture_read(const WrParams *params, const char *channels_, WrImageWish wish,
                          const WrGenerateJob *job, WrError *err)
 {
     const char *path = wr_param_value(params, "file")->text;
-    const WrImageWish wish = { .channel = wr_param_value(params, channels_)->text,
-                               .part = wr_param_value(params, "part")->text,
-                               .keep_lost = keep_lost };
+    wish.channel = wr_param_value(params, channels_)->text;
+    wish.part = wr_param_value(params, "part")->text;
     WrImage *image = wr_image_read_wish(path, &wish, err);
     if (image && image->taken[0])
         wr_generate_note(job, "%s: took %s (%s= and part= take others)", path, image->taken,
@@ -161,21 +162,47 @@ static bool high_pass(WrSheet *sheet, double sigma, const WrGenerateJob *job, Wr
     return good;
 }
 
-static void bring_to_heights(const WrParams *p, WrSheet *sheet)
+/* Numbers that are no light, such as elevations in metres, come out flat: what to do. t: least and most of the heights'
+   shares of height=, 0..1; cut: values below low or above high. */
+static void note_flat(const char *path, double least, double most, size_t cut, size_t count,
+                      double darkest, double lightest, const WrGenerateJob *job)
+{
+    if (!(lightest > darkest)) return;
+    if (2 * cut > count && (darkest < 0.0 || lightest > 1.0))
+        wr_generate_note(job,
+                         "%s: %zu of %zu values lie outside low and high and are cut (they go "
+                         "from %g to %g): stretch=on takes their range",
+                         path, cut, count, darkest, lightest);
+    else if (most - least < FLAT)
+        wr_generate_note(job,
+                         "%s: its values go from %g to %g, which is nearly flat: stretch=on takes "
+                         "their range",
+                         path, darkest, lightest);
+}
+
+static void bring_to_heights(const WrParams *p, const char *path, WrSheet *sheet,
+                             const WrGenerateJob *job)
 {
     double low = wr_param_number(p, "low"), high = wr_param_number(p, "high");
-    double power = 1.0 / wr_param_number(p, "gamma"), darkest = 0.0, lightest = 1.0;
+    double power = 1.0 / wr_param_number(p, "gamma"), least = 1.0, most = 0.0, from, to;
     double height = wr_param_number(p, "height"), level = wr_param_number(p, "level");
     bool invert = wr_param_whole(p, "invert") == 1;
-    if (wr_param_whole(p, "stretch") == 1) wr_sheet_range(sheet, &darkest, &lightest);
-    double span = lightest > darkest ? lightest - darkest : 1.0;
+    wr_sheet_range(sheet, &from, &to);
+    const bool stretch = wr_param_whole(p, "stretch") == 1;
+    const double darkest = stretch ? from : 0.0, span = !stretch    ? 1.0
+                                                        : to > from ? to - from
+                                                                    : 1.0;
+    size_t cut = 0;
     size_t count = (size_t)sheet->width * (size_t)sheet->height;
     for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) {
         double t = ((sheet->z[k] - darkest) / span - low) / (high - low);
-        t = t > 0.0 ? t < 1.0 ? t : 1.0 : 0.0;
+        if (!(t >= 0.0 && t <= 1.0)) cut++, t = t > 0.0 ? 1.0 : 0.0;
+        if (t < least) least = t;
+        if (t > most) most = t;
         if (power != 1.0) t = wr_pow(t, power);
         sheet->z[k] = level + height * (invert ? 1.0 - t : t);
     }
+    note_flat(path, least, most, cut, count, from, to, job);
 }
 
 static bool check(const WrParams *p, const WrImage *image, const char *path, WrError *err)
@@ -196,7 +223,7 @@ bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrNo
     const char *path = wr_param_value(&p, "file")->text;
     double sigma = wr_param_number(&p, "highpass");
     WrSheet sheet = { .z = NULL };
-    WrImage *image = wr_picture_read(&p, "layer", false, job, err);
+    WrImage *image = wr_picture_read(&p, "layer", (WrImageWish){ 0 }, job, err);
     bool good = image && check(&p, image, path, err) &&
                 wr_sheet_new(&sheet, image->width, image->height, wrap, err);
     if (good) {
@@ -209,7 +236,7 @@ bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrNo
     good = good && wr_picture_fit(&sheet, (WrSeamless)wr_param_whole(&p, "seamless"), job, err) &&
            (!(sigma > 0.0) || high_pass(&sheet, sigma, job, err));
     if (good) {
-        bring_to_heights(&p, &sheet);
+        bring_to_heights(&p, path, &sheet, job);
         good = wr_sheet_relief(&sheet, job, out, err);
     }
     wr_sheet_fini(&sheet);

@@ -34,9 +34,11 @@ const WrParam wr_params_elevation[] = {
     WR_P_CHOICE("sample", "Numbers", SAMPLE_AUTO, samples,
                 "what bare numbers are; auto: u16, or f32 in a file .r32"),
     WR_P_CHOICE("order", "Byte order", LITTLE, orders, "of bare numbers"),
-    WR_P_CHOICE("values", "Values", AUTO, meanings,
-                "what goes from low to high: all codes of the kind, or the range that is there; "
-                "real: heights are scale times the values; auto: code, or real for floats and i16"),
+    WR_P_CHOICE(
+        "values", "Values", AUTO, meanings,
+        "what goes from low to high: all codes of the kind, or the range that is there; "
+        "real: heights are scale times the values; auto: real for floats, signed integers and "
+        "TIFF files that are georeferenced or have a no-data value, else code"),
     WR_P_NUMBER("low", "Low", 0, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
                 "values=code, range: of the lowest"),
     WR_P_NUMBER("high", "High", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
@@ -105,7 +107,9 @@ static bool apply_label(const WrParams *p, WrImage *image, const WrGenerateJob *
 static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[2],
                          const WrGenerateJob *job, Elevation *out, WrError *err)
 {
-    WrImage *image = wr_picture_read(p, "layer", true, job, err);
+    const WrImageWish wish = { .keep_lost = true,
+                               .elevation = wr_param_whole(p, "values") != CODE };
+    WrImage *image = wr_picture_read(p, "layer", wish, job, err);
     if (!image) return false;
     bool good = wr_sheet_new(&out->sheet, image->width, image->height, wrap, err);
     out->labelled = good && apply_label(p, image, job);

@@ -29,8 +29,9 @@ typedef struct WrCodec {
     int version; /* of a module (WR_OIIO_VERSION) */
 
     /* fd: open for reading; borrowed until close. format: OpenImageIO's name or an ending. most: count parts
-       up to this many; more is an error; WR_CODEC_LEVELS: the first part's levels stand in their place. */
-    WrCodecReader *(*open)(int fd, const char *format, int most, char *reason);
+       up to this many; more is an error; WR_CODEC_LEVELS: the first part's levels stand in their place. numbers: integers
+       that are measurements (WrImageWish.elevation) are read as their numbers, not as codes. */
+    WrCodecReader *(*open)(int fd, const char *format, int most, bool numbers, char *reason);
     void (*close)(WrCodecReader *reader);
     int (*parts)(const WrCodecReader *reader);
     const WrCodecPart *(*part)(const WrCodecReader *reader, int part);

@@ -57,7 +57,8 @@ static bool is_memory(const char *reason)
     return strcmp(reason, WR_CODEC_NO_MEMORY) == 0;
 }
 
-WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, WrError *err)
+WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool numbers, bool *memory,
+                           WrError *err)
 {
     char reason[WR_CODEC_REASON] = "";
     const char *format = find_format(fd, ending, err);
@@ -70,7 +71,7 @@ WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, W
     }
     const WrCodec *library = wr_codec(format, err);
     if (!library) return NULL;
-    WrCodecReader *reader = library->open(fd, format, most, reason);
+    WrCodecReader *reader = library->open(fd, format, most, numbers, reason);
     if (!reader) {
         if (memory) *memory = is_memory(reason);
         wr_fail(err, "%s", reason);

@@ -21,9 +21,11 @@ bool wr_decoder_takes_module(int fd, const char *ending);
  * fd       a regular file or a memory file, open for reading; borrowed, and kept until close
  * ending   of the file's name: what it is believed to be where its first bytes tell nothing
  * most     parts up to this many; more is an error
+ * numbers  integers that are measurements are read as numbers (codec.h)
  * memory   set to whether the failure was one of memory; may be NULL
  * Errors   one sentence that does not name the file */
-WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, WrError *err);
+WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool numbers, bool *memory,
+                           WrError *err);
 void wr_decoder_close(WrDecoder *decoder); /* NULL is fine */
 
 int wr_decoder_parts(const WrDecoder *decoder);

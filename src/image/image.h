@@ -93,7 +93,9 @@ typedef struct WrImageWish {
         *part; /* its number, from 1, or its name; a frame of an animation; NULL, "": the first */
     bool
         keep_lost; /* what is not finite stays so (`replaced` counts it none the less), and missing values are NaN */
-    bool elevation; /* of floats, -9999 and -32768 mark missing values, too */
+    bool
+        elevation; /* unsigned integers are numbers, not codes: of 32 bits, and in TIFF of all that are georeferenced or
+                      have a no-data value. Unless keep_lost: of numbers, -9999 and -32768 are missing values, too */
 } WrImageWish;
 WrImage *wr_image_read_wish(const char *path, const WrImageWish *wish, WrError *err);
 /* The same of a file that is in memory; name stands in messages, and its ending counts as a path's. */

@@ -62,7 +62,8 @@ struct WrCodecReader {
     std::vector<float> window;  /* rows of a data window, where it is not the picture */
     std::vector<float> band; /* of a tiled file: rows [band_y, band_y + band_rows) of band_part */
     int band_part = -1, band_y = 0, band_rows = 0, band_channels = 0;
-    bool levels = false; /* parts are levels of the first */
+    bool levels = false;  /* parts are levels of the first */
+    bool numbers = false; /* integers that are measurements are numbers */
 };
 
 static bool check_spec(const ImageSpec &spec, char *reason)
@@ -129,9 +130,10 @@ static bool choose_values(const WrCodecReader &reader, const ImageSpec &spec, Va
     const std::string format = reader.in->format_name();
     std::string problem;
     choose_numbers(spec, format, values);
-    if (format == "fits") choose_fits(spec, values);
     const int directory = reader.levels ? 0 : static_cast<int>(reader.parts.size());
-    if (format == "tiff" && !choose_tiff(spec, reader.fd, directory, values, note, problem))
+    if (format == "fits") choose_fits(spec, reader.fd, directory, values);
+    if (format == "tiff" &&
+        !choose_tiff(spec, reader.fd, directory, reader.numbers, values, note, problem))
         return fail(reason, problem);
     const ImageSpec &first = reader.specs.empty() ? spec : reader.specs[0];
     const bool shares = first.x == spec.x && first.y == spec.y && first.width == spec.width &&
@@ -243,12 +245,13 @@ static std::string name_of(int fd)
     return name;
 }
 
-static WrCodecReader *reader_open(int fd, const char *format, int most, char *reason)
+static WrCodecReader *reader_open(int fd, const char *format, int most, bool numbers, char *reason)
 {
     WrCodecReader *opened = nullptr;
     guarded(reason, [&] {
         auto reader = std::make_unique<WrCodecReader>();
         reader->fd = fd;
+        reader->numbers = numbers;
         reader->path = name_of(fd);
         if (!open_file(*reader, format, most, reason)) return false;
         opened = reader.release();

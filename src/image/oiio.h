@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define WR_OIIO_VERSION 6
+#define WR_OIIO_VERSION 7
 #define WR_OIIO_SYMBOL "wr_oiio_table"
 
 /* Whether the library does not write such a file through what we hand it, but opens it itself: EXR of several

@@ -7,6 +7,7 @@
    OpenEXR. All that is decided here, once, when a part is opened. */
 #pragma once
 #include "image/oiio_fail.hpp"
+#include "image/oiio_fits.hpp"
 #include "image/oiio_tiff.hpp"
 
 #include <OpenImageIO/imageio.h>
@@ -48,20 +49,6 @@ inline bool is_integer(OIIO::TypeDesc type)
     return !type.is_floating_point();
 }
 
-/* A number that stands in a header as a number or as text. */
-inline double number_of(const OIIO::ImageSpec &spec, const char *name, double fallback)
-{
-    const OIIO::ParamValue *found = spec.find_attribute(name);
-    if (!found) return fallback;
-    const bool real = found->type() == OIIO::TypeFloat;
-    std::string text = real ? "" : found->get_string();
-    for (char &letter : text) /* FITS may write an exponent as Fortran does: 1.0D1 */
-        if (letter == 'D' || letter == 'd') letter = 'E';
-    const double value =
-        real ? static_cast<double>(found->get_float()) : std::strtod(text.c_str(), nullptr);
-    return std::isfinite(value) ? value : fallback;
-}
-
 /* Signed integers, and unsigned ones of 32 bits in OpenEXR (IDs), are numbers; other integers are codes. */
 inline void choose_numbers(const OIIO::ImageSpec &spec, const std::string &format, Values &values)
 {
@@ -81,23 +68,32 @@ inline void choose_numbers(const OIIO::ImageSpec &spec, const std::string &forma
 
 /* FITS: the header turns stored numbers into physical ones (FITS standard 4.0, 4.4.2.5): x BSCALE + BZERO; BLANK marks
    integers without a value. Pictures of 8 bits without them stay codes. */
-inline void choose_fits(const OIIO::ImageSpec &spec, Values &values)
+inline void choose_fits(const OIIO::ImageSpec &spec, int fd, int picture, Values &values)
 {
-    values.scale = number_of(spec, "Bscale", 1.0);
-    values.offset = number_of(spec, "Bzero", 0.0);
+    values.scale = fits_number(fd, picture, "BSCALE", 1.0);
+    values.offset = fits_number(fd, picture, "BZERO", 0.0);
     const bool physical = values.scale != 1.0 || values.offset != 0.0;
     if (physical) values.divisor = 0.0;
-    const double none = std::nan("");
-    const double blank = number_of(spec, "Blank", none);
-    if (is_integer(spec.format) && values.divisor == 0.0 && spec.find_attribute("Blank")) {
+    const double blank = fits_number(fd, picture, "BLANK", std::nan(""));
+    if (is_integer(spec.format) && values.divisor == 0.0 && !std::isnan(blank)) {
         values.has_no_data = true;
         values.no_data = blank;
     }
 }
 
+/* Whether unsigned integers of a TIFF are numbers rather than codes. measured: it is georeferenced or has a no-data value;
+   numbers: elevations were asked for. 8 bits whose smallest value is white come inverted from the library: codes. */
+inline bool tiff_has_numbers(const OIIO::ImageSpec &spec, bool measured, bool numbers)
+{
+    if (spec.format == OIIO::TypeDesc::UINT32) return measured || numbers;
+    const bool inverted = spec.format == OIIO::TypeDesc::UINT8 &&
+                          spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0;
+    return measured && numbers && !inverted;
+}
+
 /* TIFF: photometric interpretation 0; GDAL's no-data value; voids of signed elevations. */
-inline bool choose_tiff(const OIIO::ImageSpec &spec, int fd, int directory, Values &values,
-                        std::string &note, std::string &problem)
+inline bool choose_tiff(const OIIO::ImageSpec &spec, int fd, int directory, bool numbers,
+                        Values &values, std::string &note, std::string &problem)
 {
     const int bits = spec.get_int_attribute("oiio:BitsPerSample", 0);
     if (bits > 16 && bits < 32) {
@@ -105,6 +101,9 @@ inline bool choose_tiff(const OIIO::ImageSpec &spec, int fd, int directory, Valu
                   " bits a channel, which is not read: save it with 16 or 32 bits";
         return false;
     }
+    std::string text;
+    const bool measured = tiff_no_data(fd, directory, text);
+    if (tiff_has_numbers(spec, measured, numbers)) values.divisor = 0.0;
     values.alpha = spec.alpha_channel;
     if (spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0) {
         const bool library = spec.format == OIIO::TypeDesc::UINT8;
@@ -112,12 +111,6 @@ inline bool choose_tiff(const OIIO::ImageSpec &spec, int fd, int directory, Valu
         values.invert = !library && values.divisor > 0.0;
         if (values.divisor == 0.0)
             note = "its smallest value is white by its header; numbers stay as they are";
-    }
-    std::string text;
-    const bool map = tiff_no_data(fd, directory, text);
-    if (map && spec.format == OIIO::TypeDesc::UINT32) { /* georeferenced: elevations, not greys */
-        values.divisor = 0.0;
-        values.invert = false;
     }
     char *end = nullptr;
     const double no_data = text.empty() ? 0.0 : std::strtod(text.c_str(), &end);

@@ -10,7 +10,7 @@
 extern const WrCodec wr_png_codec; /* format: "png", one part */
 
 /* The halves of it (png_read.c, png_write.c). */
-WrCodecReader *wr_png_open(int fd, const char *format, int most, char *reason);
+WrCodecReader *wr_png_open(int fd, const char *format, int most, bool numbers, char *reason);
 void wr_png_close(WrCodecReader *reader);
 int wr_png_parts(const WrCodecReader *reader);
 const WrCodecPart *wr_png_part(const WrCodecReader *reader, int part);

@@ -180,10 +180,11 @@ static bool begin(WrCodecReader *reader, char *reason)
     return begin_or_jump(reader, reason);
 }
 
-WrCodecReader *wr_png_open(int fd, const char *format, int most, char *reason)
+WrCodecReader *wr_png_open(int fd, const char *format, int most, bool numbers, char *reason)
 {
     (void)format;
     (void)most;
+    (void)numbers; /* PNG has no tag that says so */
     WrCodecReader *reader = wr_alloc(1, sizeof *reader);
     reader->fd = fd;
     reader->block = wr_alloc(BLOCK, 1);

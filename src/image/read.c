@@ -28,17 +28,18 @@ void wr_image_warm(void)
 }
 
 /* Takes the descriptor over; -1 passes a failure on. */
-static WrImageFile *open_file(const char *name, int fd, int most, bool outside, WrError *err)
+static WrImageFile *open_file(const char *name, int fd, int most, bool numbers, bool outside,
+                              WrError *err)
 {
     if (fd < 0) return NULL;
     WrImageFile file = { .fd = -1 };
     if (!outside) {
         char ending[16];
-        file.decoder = wr_decoder_open(fd, wr_path_ending(name, ending), most, NULL, err);
+        file.decoder = wr_decoder_open(fd, wr_path_ending(name, ending), most, numbers, NULL, err);
         if (file.decoder) file.fd = fd;
         else wr_error_prefix(err, "%s: ", name);
     } else {
-        file.reader = wr_reader_open(name, fd, most, err);
+        file.reader = wr_reader_open(name, fd, most, numbers, err);
     }
     if (file.fd < 0) wr_fd_close(fd);
     if (!file.reader && !file.decoder) return NULL;
@@ -50,13 +51,13 @@ static WrImageFile *open_file(const char *name, int fd, int most, bool outside, 
 
 WrImageFile *wr_image_file_open(const char *path, WrError *err)
 {
-    return open_file(path, wr_reader_file(path, WR_FILE_MOST, err), WR_IMAGE_PARTS_MAX,
+    return open_file(path, wr_reader_file(path, WR_FILE_MOST, err), WR_IMAGE_PARTS_MAX, false,
                      !wr_reader_inside(), err);
 }
 
 WrImageFile *wr_image_file_open_levels(const char *path, WrError *err)
 {
-    return open_file(path, wr_reader_file(path, WR_FILE_MOST, err), WR_CODEC_LEVELS,
+    return open_file(path, wr_reader_file(path, WR_FILE_MOST, err), WR_CODEC_LEVELS, false,
                      !wr_reader_inside(), err);
 }
 
@@ -64,7 +65,7 @@ WrImageFile *wr_image_file_open_levels(const char *path, WrError *err)
 WrImageFile *wr_image_file_take(const char *name, int fd, bool levels, WrError *err)
 {
     bool outside = !wr_reader_inside() && wr_process_has_cage() && wr_process_start(NULL);
-    return open_file(name, fd, levels ? WR_CODEC_LEVELS : WR_IMAGE_PARTS_MAX, outside, err);
+    return open_file(name, fd, levels ? WR_CODEC_LEVELS : WR_IMAGE_PARTS_MAX, false, outside, err);
 }
 
 void wr_image_file_close(WrImageFile *file)
@@ -153,7 +154,8 @@ static int most_parts(const char *name, const WrImageWish *wish)
 
 static WrImageRows *open_rows(const char *name, int fd, const WrImageWish *wish, WrError *err)
 {
-    WrImageFile *file = open_file(name, fd, most_parts(name, wish), !wr_reader_inside(), err);
+    WrImageFile *file =
+        open_file(name, fd, most_parts(name, wish), wish->elevation, !wr_reader_inside(), err);
     return file ? wr_image_rows_take(file, wish, err) : NULL;
 }
 

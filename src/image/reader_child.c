@@ -220,8 +220,8 @@ void wr_serve(const WrWireOrder *order, int file, int channel)
         serve_block(order);
         return;
     }
-    Serving serving = { .decoder =
-                            wr_decoder_open(PICTURE, order->ending, order->most, &memory, &err) };
+    Serving serving = { .decoder = wr_decoder_open(PICTURE, order->ending, order->most,
+                                                   order->numbers == 1, &memory, &err) };
     if (!serving.decoder) {
         answer_failure(memory, &err);
         return;

@@ -275,10 +275,11 @@ static WrReader *new_reader(const char *name, int fd, WrWireTask task, int most,
     return reader;
 }
 
-WrReader *wr_reader_open(const char *name, int fd, int most, WrError *err)
+WrReader *wr_reader_open(const char *name, int fd, int most, bool numbers, WrError *err)
 {
     WrWireOrder order;
     WrReader *reader = new_reader(name, fd, WR_WIRE_PICTURE, most, &order);
+    order.numbers = numbers;
     double deadline = deadline_of(reader);
     bool gone, good = open_once(reader, &order, fd, deadline, &gone, err);
     if (!good && gone) {

@@ -25,9 +25,10 @@ int wr_reader_file(const char *path, uint64_t limit, WrError *err);
  *
  * name     for messages, and for what the file is believed to be where its first bytes tell nothing
  * fd       a regular file or a memory file, open for reading; borrowed for the call
+ * most, numbers   as wr_decoder_open has them
  * Errors   one sentence that names the file
  * Threads  any number at once; each reader belongs to one at a time */
-WrReader *wr_reader_open(const char *name, int fd, int most, WrError *err);
+WrReader *wr_reader_open(const char *name, int fd, int most, bool numbers, WrError *err);
 void wr_reader_close(WrReader *reader); /* NULL is fine */
 
 int wr_reader_parts(const WrReader *reader);

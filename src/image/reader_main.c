@@ -54,7 +54,7 @@ static void warm(Process *process)
     char reason[WR_CODEC_REASON];
     const WrCodec *library = wr_oiio(NULL);
     int nothing = wr_fd_open_nowhere();
-    WrCodecReader *none = library ? library->open(nothing, "tiff", 1, reason) : NULL;
+    WrCodecReader *none = library ? library->open(nothing, "tiff", 1, false, reason) : NULL;
     if (none) library->close(none);
     if (nothing >= 0) wr_fd_close(nothing);
     wr_process_wait_for_threads();

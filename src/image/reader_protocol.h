@@ -28,7 +28,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define WR_WIRE_VERSION 6
+#define WR_WIRE_VERSION 7
 #define WR_WIRE_MAX (512U << 20) /* bytes of a message */
 
 /* What kind of file. */
@@ -38,6 +38,7 @@ typedef struct WrWireOrder {
     uint32_t version; /* WR_WIRE_VERSION */
     uint32_t task;    /* WrWireTask */
     int32_t most;     /* parts */
+    uint32_t numbers; /* 1: integers that are measurements are read as numbers; else 0 */
     uint64_t memory;  /* bytes that reading may take beyond what the process has; 0: no limit */
     uint32_t seconds; /* of processor time, for the whole file */
     char ending[16];

@@ -79,21 +79,26 @@ static void mark_missing(float *values, size_t count)
             values[i] = NAN;
 }
 
-/* Missing values of each channel from their neighbours; a channel of nothing else becomes 0. */
+/* Missing values of each channel from their neighbours. A channel of nothing else becomes 0; an error where no channel but
+   alpha has a value. */
 static bool fill_image(WrImage *image, WrError *err)
 {
     const size_t pixels = (size_t)image->width * (size_t)image->height,
                  each = (size_t)image->channels;
     double *z = wr_try_alloc(pixels, sizeof *z, "a picture's missing values", err);
-    bool good = z != NULL;
+    const size_t colours = each % 2 ? each : each - 1; /* alpha is the last of 2 or 4 */
+    bool good = z != NULL, known = false;
     for (size_t c = 0; good && c < each; c++) {
         for (size_t i = 0; i < pixels; i++) z[i] = (double)image->data[i * each + c];
         const int64_t filled = wr_fill_missing(image->width, image->height, z, err);
         good = filled != -2;
+        known |= c < colours && filled >= 0;
         if (filled > 0) image->filled += filled;
         for (size_t i = 0; filled > 0 && i < pixels; i++) image->data[i * each + c] = (float)z[i];
     }
     wr_free(z);
+    if (good && !known)
+        good = wr_fail(err, "every value is missing (no-data): there is nothing to read");
     if (good) image->replaced = replace_bad_pixels(image->data, pixels, image->channels, false);
     return good;
 }
@@ -286,7 +291,7 @@ WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageWish *wish, WrEr
                             .type = rows->is.type };
     const Part of = { file, rows->part };
     wr_image_label_read(attribute_of, &of, rows->is.type, &rows->head.label);
-    rows->elevation = wish->elevation && rows->is.type == WR_PIXEL_F32;
+    rows->elevation = wish->elevation && !rows->keep && rows->is.type == WR_PIXEL_F32;
     rows->fills = !rows->keep &&
                   (rows->elevation || wr_image_file_attribute(file, rows->part, "wrinkle:no-data"));
     const char *note = wr_image_file_attribute(file, rows->part, "wrinkle:note");
