@@ -10,12 +10,10 @@
 #define LOOKS                                                                                      \
     33 /* sample points along u and along v, with ends: on round surfaces the longest tangents are there */
 #define STEEP 3.75 /* largest slope of value noise in -1..1, per cell */
-#define FINE                                                                                       \
-/* texels per band of the pattern: if two of them lie along a pixel, a band is 1.5 pixels wide */
-3
+/* Texels per band of the pattern: if two of them lie along a pixel, a band is 1.5 pixels wide. */
+#define FINE 3
 
-    bool
-    wr_solid_texture_bounded(const WrScene *scene)
+bool wr_solid_texture_bounded(const WrScene *scene)
 {
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
     int columns, rows;
