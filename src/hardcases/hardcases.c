@@ -114,7 +114,7 @@ bool wr_hardcases_run(const WrHardRequest *request, WrHardReport *out, WrError *
             good = wr_fail(err, "cancelled");
             break;
         }
-        /* What a case runs reports its own way from 0 to 1, which is one part of the whole here. */
+        /* A case reports progress from 0 to 1, which is one part of the whole here. */
         WrProgressPart part;
         const WrProgress *outer = wr_progress_set(wr_progress_part(
             &part, whole, (double)i / WR_HARDCASES, (double)(i + 1) / WR_HARDCASES));

@@ -1,4 +1,4 @@
-/* Hard cases of the formulas that bend the normal: beyond focal distances, extreme slopes, nothing at all. */
+/* Hard cases of the bump formulas: beyond focal distances, extreme slopes, zero vectors. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -10,7 +10,7 @@
 
 static const WrVec3 zero = { 0, 0, 0 };
 
-/* A regular point of a curved surface, in both precisions: the kernel's own numbers, made wide. */
+/* A regular point of a curved surface, in both precisions: the kernel's own numbers, converted to double. */
 typedef struct Sample {
     WrSurfacePointf single;
     WrSurfacePoint at; /* n in double from the same tangents */
@@ -79,8 +79,8 @@ static bool hc14(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* On any surface, slopes of any direction up to the precision's largest number: N' is all D. The tangents are
-   the float point's own; in double they are up to 1e30 long, so that D overflows whatever its slopes. */
+/* On any surface, slopes of any direction up to the precision's largest number: N' consists of D only. The
+   tangents are those of the float point; in double they are up to 1e30 long, so that D overflows for all slopes. */
 static void check_steep(WrHardGauge *g, int i)
 {
     static const double most[] = { 1e30, 1e38, (double)FLT_MAX };
@@ -103,7 +103,7 @@ static void check_steep(WrHardGauge *g, int i)
     wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_perturbed(mode, &s.at, slope), d));
 }
 
-/* On the unit plane straight downhill is -(Fu, Fv). */
+/* On the unit plane the downhill direction is -(Fu, Fv). */
 static bool hc15(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -124,7 +124,7 @@ static bool hc15(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* The largest difference of a component, in last places of numbers near 1. */
+/* The largest difference of a component, in ulps of numbers near 1. */
 static double places(WrVec3 a, WrVec3 b, double ulp)
 {
     const WrVec3 d = v3_sub(a, b);
@@ -199,7 +199,7 @@ static double tangent(WrVec3 a, WrVec3 b)
     return v3_len(v3_cross(a, b)) / v3_dot(a, b);
 }
 
-/* In float up to the last place before the pole. */
+/* In float up to the last number before the pole. */
 static bool hc19(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -225,7 +225,7 @@ static bool hc19(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Equal directions are 0 apart, in whatever precision they were found; small angles are kept. */
+/* Equal directions have the angle 0, in whatever precision they were computed; small angles are preserved. */
 static bool hc20(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -241,8 +241,8 @@ static bool hc20(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Kernels: without tangents, and with infinite ones, n; tangents at right angles of length 1e-40 to 1e37,
-   slope 1: what the formulas make of them. */
+/* Kernels: without tangents, and with infinite ones, the result is n; tangents at right angles of length 1e-40
+   to 1e37, slope 1: the formulas' result. */
 static void kernels_make_unit(WrHardGauge *g)
 {
     static const double sizes[] = { 0, 1e-40, 1e-30, 1e-20, 1, 1e10, INFINITY };
@@ -253,13 +253,13 @@ static void kernels_make_unit(WrHardGauge *g)
         const WrSurfacePointf at = {
             .pu = { t, 0, 0 }, .pv = { 0, t, 0 }, .n_unit = { 0, 0, 1 }, .n_len = t
         };
-        /* |N| is said to be t, so that D has it too; exact counts it from the tangents: t^2 against t */
+        /* |N| is set to t, so that D has it too; exact computes it from the tangents: t^2 instead of t */
         const double flat = (double)t * (double)t;
         const bool none = !(t > 0.0f && isfinite(t));
         WrVec3 want = none ? z : halfway;
         if (mode == WR_BUMP_EXACT && !none) want = (WrVec3){ -1, 0, flat > 1e-12 ? (double)t : 0 };
         if (mode == WR_BUMP_EXACT && !none && flat <= 1e-12) want = across;
-        /* fast arithmetic estimates reciprocals, which a denormal has none of */
+        /* fast arithmetic estimates reciprocals, which denormal numbers do not have */
         const int sets = t > 0.0f && t < FLT_MIN ? g->sets : g->all;
         for (int set = 0; set < sets; set++) {
             WrVec3 perturbed =
@@ -270,7 +270,8 @@ static void kernels_make_unit(WrHardGauge *g)
     }
 }
 
-/* Made unit by the formulas: tangents of any size, no two alike, against the same vector's direction. */
+/* Normalisation by the formulas: tangents of any size and of different lengths, compared with the vector's
+   direction. */
 static void formulas_make_unit(WrHardGauge *g, WrVec3 n)
 {
     for (int i = 0; i < 600; i++) {
@@ -344,7 +345,7 @@ static WrVec3 displaced(const WrShape *shape, double u, double v, double *f, dou
 }
 
 /* The reference is the displaced surface's own cross product, by central differences of order four: steps of
-   1e-3 leave (2 pi 3 1e-3)^4 / 30 = 4e-9 of a slope, and 1e-13 of rounding. */
+   1e-3 have an error of (2 pi 3 1e-3)^4 / 30 = 4e-9 of a slope, and 1e-13 of rounding. */
 static bool hc23(WrHardGauge *g, WrError *err)
 {
     (void)err;

@@ -1,4 +1,4 @@
-/* Hard cases of shadows that objects throw. */
+/* Hard cases of shadows between objects. */
 #include "hardcases/hardcases_internal.h"
 
 #include "field/field.h"
@@ -18,7 +18,7 @@ static WrScene *alone(const char *surface)
     return scene;
 }
 
-/* How many pixels of a convex body change when its own shadow is worked out against the plan's advice. */
+/* Number of pixels of a convex body that change if its own shadow is computed although the plan leaves it out. */
 static bool changes(WrHardGauge *g, WrScene *scene, WrHardPrecision precision, WrError *err)
 {
     WrForce force[WR_EFFECT_COUNT] = { WR_FORCE_NONE };
@@ -46,7 +46,7 @@ static bool hc190(WrHardGauge *g, WrError *err)
     static const char *const surfaces[] = { "sphere", "capsule", "cube", "plane" };
     bool good = true;
     for (int i = 0; i < 12 && good; i++) {
-        if (i % 4 == 1 && i != 5) continue; /* facets take a while */
+        if (i % 4 == 1 && i != 5) continue; /* facets are slow */
         WrScene *scene = alone(surfaces[i % 4]);
         scene->size = i / 4 == 0 ? 1e-4 : i / 4 == 1 ? 0.87 : 3e4;
         scene->posed = true;
@@ -60,8 +60,8 @@ static bool hc190(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* A square of two triangles over the ground, looked at from between: rays to a lamp straight above go through the edge
-   that the two share, and through its corners. */
+/* A square of two triangles above the ground, with the camera between: rays to a lamp straight above pass
+   through the common edge, and through the corners. */
 static WrScene *roofed(WrHardGauge *g, double shift)
 {
     WrScene *ground = alone("plane");
@@ -69,7 +69,8 @@ static WrScene *roofed(WrHardGauge *g, double shift)
     ground->posed = true;
     ground->camera.fit = false, ground->camera.orthographic = true;
     ground->camera.eye = (WrVec3){ 0, 0, 0.3 }, ground->camera.target = (WrVec3){ 0, 0, 0 };
-    ground->camera.size = 1 - 1.0 / SIDE; /* pixels stand at whole sixteenths, but for the shift */
+    /* pixel centres are at multiples of 1/16, except for the shift */
+    ground->camera.size = 1 - 1.0 / SIDE;
     ground->lights[0].where = (WrVec3){ 0, 0, 1 };
     ground->lights[0].shadow = true;
     ground->material.ambient = 0;

@@ -1,4 +1,4 @@
-/* Hard cases of cells of one table, ground made of a layer's heights, and colours by height and slope. */
+/* Hard cases of several cells in one table, terrain from a layer's heights, and colours by height and slope. */
 #include "hardcases/hardcases_later.h"
 
 #include "base/error.h"
@@ -13,7 +13,7 @@
 
 /* ---- HC176: a cube's cells ---- */
 
-/* Random heights, five times as high in the texels that lie outside the cell of face 0, the lowest leftmost one. */
+/* Random heights, five times as high in the texels outside the cell of face 0, the lower left one. */
 static WrField *with_cell(WrHardGauge *g, int w, int h, const WrField *cell)
 {
     WrField *field = wr_hard_rough(g, w, h, WR_WRAP_PERIODIC);
@@ -67,7 +67,7 @@ bool wr_hard_hc176(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* ---- HC177: ground of a layer ---- */
+/* ---- HC177: terrain from a layer ---- */
 
 static const float *row_of(const void *ctx, int j, float *room)
 {
@@ -94,8 +94,9 @@ static bool make_ground(const WrField *field, double height, int cells, Ground *
     return wr_terrain_points(&terrain, &out->points, &out->columns, &out->rows, err);
 }
 
-/* Of a level layer every control point is as high; of one that rises evenly along u, every one from the second cell to
-   the last but one, where the table has whole texels to a cell. The size is any that a layer has, one texel too. */
+/* For a flat layer every control point has its height; for an even slope along u, every one from the second cell
+   to the last but one, if the table has whole texels per cell. The layer has any valid size, including one
+   texel. */
 static bool plain_ground(WrHardGauge *g, int cells, bool rises, WrError *err)
 {
     const int w = rises ? 4 * cells : 1 + (int)(40 * wr_hard_random(g));
@@ -125,7 +126,7 @@ bool wr_hard_hc177(WrHardGauge *g, WrError *err)
         const int cells = 5 + (int)(59 * wr_hard_random(g));
         good = plain_ground(g, cells, k % 2, err);
     }
-    for (int k = 0; k < 4 && good; k++) { /* heights at float's ends */
+    for (int k = 0; k < 4 && good; k++) { /* heights at the limits of float */
         WrField *field = wr_hard_rough(g, 1 + 6 * k, 19 - 6 * k, WR_WRAP_PERIODIC);
         Ground ground;
         for (int i = 0; i < wr_field_width(field); i++)
@@ -171,7 +172,7 @@ static void check_stops(WrHardGauge *g, const WrHeightColormap *of)
     }
     wr_height_colormap_at(of, stops[1].height, 0, rgb);
     wr_hard_holds(g, WR_HARD_DOUBLE, is_colour(rgb, stops[2].rgb));
-    for (int k = 0; k < 8; k++) { /* straight between the first two */
+    for (int k = 0; k < 8; k++) { /* linear between the first two */
         const double t = wr_hard_random(g);
         const double at = stops[0].height + t * (stops[1].height - stops[0].height);
         if (!(at < stops[1].height)) continue;
@@ -183,7 +184,7 @@ static void check_stops(WrHardGauge *g, const WrHeightColormap *of)
     }
 }
 
-/* From an angle on that is the one from which it is alone: a step. */
+/* The angle at which the colour starts equals the angle of full strength: a step. */
 static void check_steep(WrHardGauge *g, WrHeightColormap *of)
 {
     const double angle = wr_hard_between(g, 5, 85), height = of->stops[3].height + 1;
@@ -198,7 +199,7 @@ static void check_steep(WrHardGauge *g, WrHeightColormap *of)
         wr_hard_holds(g, WR_HARD_DOUBLE, fabs(rgb[c] - of->steep_rgb[c]) < 1e-12);
 }
 
-/* Cliffs as high as a float are steep, not NaN; the table rolled has the picture rolled, to the bit. */
+/* Cliffs as high as float's maximum are steep, not NaN; a rolled table gives the rolled picture, to the bit. */
 static bool check_table(WrHardGauge *g, const WrHeightColormap *of, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 13, 9, WR_WRAP_PERIODIC);

@@ -1,5 +1,5 @@
-/* Hard cases past the first: surfaces, tables and heights that come to an end of what there is, and light
-   without a direction. */
+/* Hard cases of HC156 and later: surfaces, tables and heights at the limits of their range, and light without a
+   direction. */
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "document/blend.h"
@@ -15,8 +15,8 @@
 
 /* ---- surfaces ---- */
 
-/* A gentle dish; `how` tells which control points fall together: two at a corner along u, along v, three
-   of the corner, two within an edge, two in the middle, four of them. */
+/* A shallow dish; `how` selects the coincident control points: two at a corner along u, along v, three at the
+   corner, two within an edge, two in the middle, four there. */
 static WrShape coincident(int how)
 {
     static const int pairs[6][3][2] = { { { 1, 0 } },           { { 4, 0 } },
@@ -36,8 +36,8 @@ static WrShape coincident(int how)
     return shape;
 }
 
-/* Along the diagonal n at and beside the corner is all but one, in float as in double (beside it the edges
-   have normals of their own); everywhere it stays unit when perturbed. */
+/* Along the diagonal n is continuous at the corner, in float and in double (the edges beside it have normals of
+   their own); everywhere it has length 1 after perturbation. */
 bool wr_hard_hc156(WrHardGauge *g, WrError *err)
 {
     static const double near[] = { 0, 1e-30, 1e-7, 1e-5 };
@@ -77,8 +77,8 @@ bool wr_hard_hc156(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* The hole closes to a point, and Pu with it: beside it n is away from the tube's centre line, and perturbed
-   normals are unit whatever the table. */
+/* The hole closes to a point where Pu vanishes: beside it n points away from the tube's centre line, and
+   perturbed normals have length 1 for any table. */
 bool wr_hard_hc160(WrHardGauge *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
@@ -121,7 +121,7 @@ bool wr_hard_hc160(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* The kernels' own n and n' there: light that is not a number counts as none, so that pictures hide them. */
+/* Kernel results n and n' there: NaN light counts as none, so pictures would hide it. */
 static void thin_point(WrHardGauge *g, int set, const WrScene *scene, WrHardSlope slope)
 {
     const double unit = scalbn(1.0, -ilogb(wr_shape_radius(&scene->shape)));
@@ -132,7 +132,7 @@ static void thin_point(WrHardGauge *g, int set, const WrScene *scene, WrHardSlop
     wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-5);
 }
 
-/* Sides of 1e-30 beside others of 1: next to no area, and a slope per unit of length without bound. */
+/* Sides of 1e-30 beside others of 1: almost no area, and unbounded slopes per unit of length. */
 bool wr_hard_hc161(WrHardGauge *g, WrError *err)
 {
     static const struct {
@@ -168,7 +168,7 @@ bool wr_hard_hc161(WrHardGauge *g, WrError *err)
 
 /* ---- tables ---- */
 
-/* The table repeated to `times` as many columns or rows: F is the same function. */
+/* The table repeated to `across` and `down` times as many columns and rows: F is the same function. */
 static WrField *repeated(const WrField *field, int across, int down)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -180,7 +180,7 @@ static WrField *repeated(const WrField *field, int across, int down)
     return out;
 }
 
-/* A row, a column and a texel, as pictures: those of the table that says the same in eight. */
+/* Tables of one row, one column and one texel, as pictures: equal to those of the table repeated to eight. */
 bool wr_hard_hc157(WrHardGauge *g, WrError *err)
 {
     static const int sizes[][2] = { { 1, 24 }, { 24, 1 }, { 1, 1 } };
@@ -219,8 +219,8 @@ bool wr_hard_hc157(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* A layer added and all but the same subtracted: what is left is the difference of two stored heights, which
-   is exact, whatever their level; in either order, whatever lies below. */
+/* A layer added and an almost equal one subtracted: the result is the difference of two stored heights, which is
+   exact at any level; in either order, above any layers. */
 bool wr_hard_hc162(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -246,11 +246,11 @@ bool wr_hard_hc162(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Every operation on tables at both ends of what a float can hold: heights stay numbers, and a level table
-   of the largest one is told as it is by operations that leave level places alone. */
+/* Every operation on tables at both limits of float: heights stay finite, and a flat table of the largest height
+   is unchanged by operations that do not affect flat areas. */
 bool wr_hard_hc165(WrHardGauge *g, WrError *err)
 {
-    enum { WIDE = 80, HIGH = 70 }; /* crop takes 64 by itself */
+    enum { WIDE = 80, HIGH = 70 }; /* crop limits itself to 64 */
     static const float ends[] = { FLT_MAX, -FLT_MAX, 1e-45f, -1e-45f, 0x1p-126f, -0.0f, 1e37f };
     bool good = true;
     for (int k = 0; k < wr_op_count * 3 && good; k++) {
@@ -271,7 +271,7 @@ bool wr_hard_hc165(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* +0 and -0 in one table: the picture of a level one, to the bit. */
+/* +0 and -0 in one table: the picture of a flat table, to the bit. */
 bool wr_hard_hc173(WrHardGauge *g, WrError *err)
 {
     WrField *mixed = wr_field_new(24, 24, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, err);
@@ -303,8 +303,7 @@ bool wr_hard_hc173(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* What the kernels look up of it, scaled as far as float goes, is finite: an infinite slope has no direction
-   left. */
+/* Kernel fetches from it, scaled to float's maximum, are finite: an infinite slope has no direction. */
 static bool look_stays_finite(WrHardGauge *g, const WrField *field, const WrScene *scene,
                               WrError *err)
 {
@@ -321,7 +320,7 @@ static bool look_stays_finite(WrHardGauge *g, const WrField *field, const WrScen
     return true;
 }
 
-/* Heights of 1e30 in a table, 1e30 times as high in the scene. */
+/* Heights of 1e30 in a table, with a height of 1e30 in the scene. */
 bool wr_hard_hc175(WrHardGauge *g, WrError *err)
 {
     static const double heights[] = { 1e30, -1e300, 1e-300 };
@@ -344,7 +343,7 @@ bool wr_hard_hc175(WrHardGauge *g, WrError *err)
 
 /* ---- light ---- */
 
-/* The kernels themselves with the lamp, and the eye, in the very place that they light. */
+/* Kernels with the lamp, and the eye, exactly at the lit point. */
 static void touching(WrHardGauge *g)
 {
     for (int k = 0; k < 40; k++) {
@@ -386,8 +385,8 @@ static void touching(WrHardGauge *g)
     }
 }
 
-/* A lamp at a place of the surface, and one inside: no direction there, and every value a number within what
-   the light can give. */
+/* A lamp at a point of the surface, and one inside: the direction is undefined there, but every value is finite
+   and within the light's range. */
 bool wr_hard_hc159(WrHardGauge *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
@@ -408,7 +407,7 @@ bool wr_hard_hc159(WrHardGauge *g, WrError *err)
         scene->material = (WrMaterial){
             .diffuse = 1, .specular = 1, .shininess = 20, .colour = { 1, 1, 1 }, .gate = k % 2
         };
-        /* straight at it, so that the middle sample is the lamp */
+        /* straight towards it, so that the middle sample is at the lamp */
         scene->camera = (WrCamera){ .orthographic = true,
                                     .eye = v3_mad(where, at.n_unit, 3 * radius),
                                     .target = where,

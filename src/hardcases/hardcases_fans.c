@@ -1,4 +1,4 @@
-/* Hard cases of meshes: what corners share, and where triangles meet: folds, tangles, needles, fans. */
+/* Hard cases of meshes: shared corners, folds, tangles, needles, fans. */
 #include "hardcases/hardcases_frames.h"
 
 #include "base/error.h"
@@ -18,10 +18,10 @@ static void take(double x, double y, double z, double nx, double ny, double nz,
     };
 }
 
-/* ---- frames ---- */
+/* ---- tangent frames ---- */
 
-/* The square's diagonal, whose (u,v) are one unit of the last place apart on its two sides: two corners and two frames, and
-   the mesh says so; alike they are one. */
+/* The square's diagonal, whose (u,v) differ by one ulp on its two sides: two corners and two frames, as the mesh
+   reports; with equal (u,v) they are one. */
 bool wr_hard_hc129(WrHardGauge *g, WrError *err)
 {
     for (int apart = 0; apart <= 2; apart++) {
@@ -46,7 +46,7 @@ bool wr_hard_hc129(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Two triangles folded onto each other, tangents opposite and of equal sign: their sum is 0. */
+/* Two triangles folded onto each other, with opposite tangents and equal handedness: their sum is 0. */
 bool wr_hard_hc130(WrHardGauge *g, WrError *err)
 {
     WrHardMesh fold = { .face = { { 0, 1, 2 }, { 1, 0, 3 } }, .corners = 4, .faces = 2 };
@@ -61,8 +61,8 @@ bool wr_hard_hc130(WrHardGauge *g, WrError *err)
     return wr_hard_mesh_tame(g, &fold, err);
 }
 
-/* A triangle two of whose places are one copies the frame of its neighbour's corners; one that is a point and alone has
-   (1,0,0). */
+/* A triangle with two coincident corners copies the frame of its neighbour's corners; a single degenerate one
+   has (1,0,0). */
 bool wr_hard_hc131(WrHardGauge *g, WrError *err)
 {
     WrHardMesh mesh = { .face = { { 0, 1, 2 }, { 0, 0, 1 }, { 3, 3, 3 } },
@@ -77,14 +77,15 @@ bool wr_hard_hc131(WrHardGauge *g, WrError *err)
     if (!wr_hard_mikk(&mesh, frames, err)) return false;
     wr_hard_units(g, &mesh, frames);
     for (int k = 0; k < 3; k++) {
-        const WrTangent *from = &frames[k / 2]; /* corners 0, 0 and 1 of the first */
+        const WrTangent *from = &frames[k / 2]; /* corners 0, 0 and 1 of the first triangle */
         wr_hard_holds(g, WR_HARD_DOUBLE, memcmp(&frames[3 + k], from, sizeof *from) == 0);
         wr_hard_holds(g, WR_HARD_DOUBLE, frames[6 + k].t.x == 1);
     }
     return wr_hard_mesh_tame(g, &mesh, err);
 }
 
-/* Three and more triangles at one edge, with corners drawn at random from few: groups end, frames are frames. */
+/* Three and more triangles at one edge, with corners chosen at random from few: grouping terminates, and frames
+   are valid. */
 bool wr_hard_hc132(WrHardGauge *g, WrError *err)
 {
     for (int round = 0; round < 400; round++) {
@@ -112,7 +113,7 @@ bool wr_hard_hc132(WrHardGauge *g, WrError *err)
         wr_hard_units(g, &mesh, frames);
         for (int i = 0; i < 3 * WR_HARD_FACES; i++)
             wr_hard_holds(g, WR_HARD_DOUBLE, isfinite(v3_len(mean[i].t) + v3_len(mean[i].b)));
-        WrTriangles *made = wr_hard_triangles(&mesh, NULL); /* all may be without area */
+        WrTriangles *made = wr_hard_triangles(&mesh, NULL); /* all may have no area */
         wr_triangles_free(made);
         if (made && round < 6 && !wr_hard_mesh_tame(g, &mesh, err)) return false;
     }
@@ -121,8 +122,8 @@ bool wr_hard_hc132(WrHardGauge *g, WrError *err)
 
 /* ---- normals ---- */
 
-/* Of needles a ten-millionth as wide as long, against the cross product at their corner without rounding: in float the
-   corners' own, in double the gradient's. */
+/* Normals of needles that are a ten-millionth as wide as long, compared with the cross product at their corner
+   without rounding: in float the corners' own, in double the gradient's. */
 bool wr_hard_hc133(WrHardGauge *g, WrError *err)
 {
     for (int round = 0; round < 300; round++) {
@@ -130,7 +131,7 @@ bool wr_hard_hc133(WrHardGauge *g, WrError *err)
         const WrVec3 along = v3_unit((WrVec3){ wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
                                                wr_hard_between(g, 0.1, 1) },
                                      (WrVec3){ 0, 0, 1 });
-        /* the short edge's floats begin at 0, so that it has digits of its own */
+        /* the short edge's floats begin at 0, so that it has full precision */
         const WrVec3 wide = { wr_hard_between(g, 1e-8, 1e-7), wr_hard_between(g, -1e-7, -1e-8),
                               wr_hard_between(g, -1e-7, 1e-7) };
         take(0, 0, 0, 0, 0, 0, &mesh.corner[0]);
@@ -143,7 +144,7 @@ bool wr_hard_hc133(WrHardGauge *g, WrError *err)
             p[k] = (WrVec3){ (double)mesh.corner[k].p[0], (double)mesh.corner[k].p[1],
                              (double)mesh.corner[k].p[2] };
         for (int k = 0; k < 3; k++)
-            for (int i = 0; i < 2; i++) /* exact, and so are the products */
+            for (int i = 0; i < 2; i++) /* exact, as are the products */
                 e[i][k] = (long double)mesh.corner[i + 1].p[k] - (long double)mesh.corner[0].p[k];
         for (int k = 0; k < 3; k++) {
             const int a = (k + 1) % 3, b = (k + 2) % 3;
@@ -164,7 +165,7 @@ bool wr_hard_hc133(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* A normal that is 0 or no number is the mean of its faces', or its face's where those are opposite. */
+/* A zero or NaN normal is replaced by the mean of its faces', or by its face's if those are opposite. */
 bool wr_hard_hc136(WrHardGauge *g, WrError *err)
 {
     static const double bad[4] = { 0, (double)NAN, (double)INFINITY, -0.0 };
@@ -190,9 +191,9 @@ bool wr_hard_hc136(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* ---- where triangles meet ---- */
+/* ---- shared vertices and edges ---- */
 
-/* A fan of `count` triangles about (x, y, 0), from number `from`, every `step`-th. */
+/* A fan of `count` triangles around (x, y, 0), from number `from`, every `step`-th. */
 static WrTriangles *fan(int count, int from, int step, double x, double y, WrError *err)
 {
     float(*points)[3] = wr_alloc((size_t)count + 1, sizeof *points);
@@ -217,8 +218,8 @@ static WrTriangles *fan(int count, int from, int step, double x, double y, WrErr
     return out;
 }
 
-/* Rays through the very vertex of a fan: in double by the reference's tree, in float by pictures whose samples lie on it
-   (it sits on one of a picture of an odd number of pixels). */
+/* Rays exactly through the centre vertex of a fan: in double by the reference's tree, in float by pictures with
+   a sample at it (pictures of an odd size have one). */
 bool wr_hard_hc134(WrHardGauge *g, WrError *err)
 {
     enum { RAYS = 1000000, FANS = 10 };
@@ -265,7 +266,7 @@ bool wr_hard_hc134(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Two fans that hold every other triangle each: at every turn each sample is of one of them, and of one only. */
+/* Two fans with alternating triangles: at every angle each sample belongs to exactly one of them. */
 bool wr_hard_hc135(WrHardGauge *g, WrError *err)
 {
     enum { TURNS = 1000, ACROSS = 24 };

@@ -1,4 +1,4 @@
-/* Hard cases past the first: eyes inside, far away and close by, light from behind, seams. */
+/* Hard cases of HC156 and later: eyes inside, far away and close by, light from behind, seams. */
 #include "hardcases/hardcases_later.h"
 
 #include "base/error.h"
@@ -26,7 +26,7 @@ bool wr_hard_tame(WrHardGauge *g, const WrField *field, const WrScene *scene, Wr
     return good;
 }
 
-/* The part of pixels in which pictures of each arithmetic differ from the reference by more than `off`. */
+/* Share of pixels in which pictures of each arithmetic differ from the reference by more than `off`. */
 static bool against_reference(WrHardGauge *g, const WrFrameRequest *request, int samples,
                               double off, WrError *err)
 {
@@ -54,7 +54,7 @@ static WrScene *scene_of(WrSurfaceKind kind)
     WrScene *scene = wr_scene_new();
     scene->shape = wr_hard_shape(kind);
     scene->posed = true;
-    scene->height = 0.002; /* the reference has a scheme of its own */
+    scene->height = 0.002; /* the reference uses another scheme */
     return scene;
 }
 
@@ -123,7 +123,7 @@ bool wr_hard_hc164(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Orthographic from above, straight and from near: each ray meets the cone. */
+/* Orthographic from above, and a perspective view from near: each ray hits the cone. */
 bool wr_hard_hc167(WrHardGauge *g, WrError *err)
 {
     enum { SIZE = 41 };
@@ -159,7 +159,7 @@ bool wr_hard_hc167(WrHardGauge *g, WrError *err)
 }
 
 /* The middle column looks down by 45 degrees at its middle and by `far` at the ground's end: below that every
-   pixel is ground, by whatever arithmetic. */
+   pixel shows ground, in every arithmetic. */
 static bool down_to_the_feet(WrHardGauge *g, const WrFrameRequest *request, double far,
                              WrError *err)
 {
@@ -182,7 +182,7 @@ static bool down_to_the_feet(WrHardGauge *g, const WrFrameRequest *request, doub
     return good;
 }
 
-/* The plane by its closed form, and as a bent patch by cells: level, so that what counts is where it is. */
+/* The plane in closed form, and as a bent patch by mesh: flat, so that only its position matters. */
 bool wr_hard_hc168(WrHardGauge *g, WrError *err)
 {
     static const double sides[] = { 3, 2e5, 1.7e7 };
@@ -209,12 +209,12 @@ bool wr_hard_hc168(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* A plane without end: from above and below, looking up, along it and away from it, upon it, and from so far that its sides
-   are less than a pixel. What a pixel far away holds is infinite by the formula. */
+/* An infinite plane: from above and below, looking up, along it and away from it, on it, and from so far that
+   its sides are smaller than a pixel. The formula for the area of a far pixel is infinite. */
 bool wr_hard_hc179(WrHardGauge *g, WrError *err)
 {
     static const struct {
-        double eye, up; /* the eye's height; how much the view looks up */
+        double eye, up; /* the eye's height; the upward component of the view */
     } sights[] = { { 0.5, -0.1 },  { 0.5, 0 },    { -0.7, 0.2 }, { -0.7, -0.3 }, { 1e-6, 0 },
                    { -1e-9, 0.1 }, { 40, -0.02 }, { 1e6, -0.5 }, { 1e9, -1.5 },  { 0, 0 } };
     WrField *field = wr_hard_waves(32, 32);
@@ -240,7 +240,7 @@ bool wr_hard_hc179(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Under 0.01 degrees, beside the window that this is at the object. */
+/* Below 0.01 degrees, compared with the equivalent window at the object. */
 bool wr_hard_hc170(WrHardGauge *g, WrError *err)
 {
     enum { SIZE = 72 };
@@ -275,7 +275,7 @@ bool wr_hard_hc170(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Odd sizes put a pixel's centre on the corner that faces the eye, and columns on edges. */
+/* Odd sizes put a pixel's centre on the corner towards the eye, and columns on edges. */
 bool wr_hard_hc171(WrHardGauge *g, WrError *err)
 {
     static const WrVec3 eyes[] = { { 3, 3, 3 }, { 3, 3, 0 }, { 0, -3, 3 }, { 3, 0, 0 } };
@@ -287,7 +287,7 @@ bool wr_hard_hc171(WrHardGauge *g, WrError *err)
         const WrFrameRequest request = {
             .field = field, .scene = scene, .width = size, .height = size
         };
-        /* within the outline whatever the side: the ball in the cube */
+        /* inside the outline for any side: the sphere inscribed in the cube */
         scene->camera =
             (WrCamera){ .orthographic = true, .eye = eyes[k % 4], .up = { 0, 0, 1 }, .size = 0.69 };
         WrReference reference = { 0 };
@@ -307,7 +307,7 @@ bool wr_hard_hc171(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* right, up and forward: of length 1, at right angles, right-handed. */
+/* right, up and forward: unit length, orthogonal, right-handed. */
 bool wr_hard_hc172(WrHardGauge *g, WrError *err)
 {
     WrScene *scene = scene_of(WR_SURFACE_torus);
@@ -338,8 +338,8 @@ bool wr_hard_hc172(WrHardGauge *g, WrError *err)
 
 /* ---- light from behind ---- */
 
-/* v and l all but opposite: what rounding them leaves of h is ulp / |l + v|, and a power s makes s (n'.h) of
-   it, or the root of s near 1. */
+/* v and l almost opposite: the rounding error of h is ulp / |l + v|; a power s makes s (n'.h) of it, or its
+   square root of s near 1. */
 bool wr_hard_hc166(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -350,7 +350,7 @@ bool wr_hard_hc166(WrHardGauge *g, WrError *err)
                                  (WrVec3){ 0, 0, 1 });
         const WrVec3 n = { 0, 0, 1 };
         const WrVec3 aside = v3_unit(v3_cross(v, (WrVec3){ 0.1, 0.2, 1 }), n);
-        /* h at random about n, as wide as the lobe */
+        /* h at random around n, as wide as the lobe */
         const WrVec3 h_way = v3_mad(n, aside, 3.0 * wr_hard_random(g) / sqrt(s));
         const WrVec3 l = v3_unit(v3_mad(v3_neg(v), h_way, tilt), n);
         for (int set = 0; set < g->all; set++) {
@@ -389,7 +389,7 @@ bool wr_hard_hc166(WrHardGauge *g, WrError *err)
 
 /* ---- seams and filters ---- */
 
-/* The kernels' closed forms at rays that meet y = +-0: u is 0 where x > 0 and a half where x < 0. */
+/* The kernels' closed forms for rays that hit y = +-0: u is 0 where x > 0 and a half where x < 0. */
 bool wr_hard_hc169(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -426,8 +426,8 @@ bool wr_hard_hc169(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* A table rolled by half under a body turned by half: what was the seam is now its back. Filters that took
-   the step of u across the seam for a footprint would blur it. */
+/* A table rolled by half on a body turned by half: the former seam is now at its back. Filters that used the
+   step of u across the seam as a footprint would blur it. */
 bool wr_hard_hc174(WrHardGauge *g, WrError *err)
 {
     static const WrSurfaceKind kinds[] = { WR_SURFACE_cylinder, WR_SURFACE_torus,
@@ -461,7 +461,7 @@ bool wr_hard_hc174(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Against the picture without heights, highlights left out: their light is spread, as it should be. */
+/* Compared with the picture without heights, without highlights: the highlight is spread, as it should be. */
 bool wr_hard_hc163(WrHardGauge *g, WrError *err)
 {
     static const double repeats[] = { 1e6, 1e6 / 3.0, 12345.678, -1e6 };

@@ -1,4 +1,4 @@
-/* Hard cases of level tables: nothing to see, and detail on a level of a million. */
+/* Hard cases of flat tables: no detail, and detail at a level of a million. */
 #include "hardcases/hardcases_look.h"
 
 #include "base/error.h"
@@ -33,8 +33,8 @@ static bool hc47(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Slopes of a table at a level of a million against those of the same stored heights less a million (which
-   is exact), heights per texel, in steps of a stored height, 1/16. */
+/* Slopes of a table at a level of a million, compared with those of the same stored heights minus a million
+   (which is exact), heights per texel, in units of the step of stored heights, 1/16. */
 static bool hc48(WrHardGauge *g, WrError *err)
 {
     WrField *low = wr_hard_waves(64, 64), *high = wr_field_share(low);

@@ -1,14 +1,14 @@
-/* The hard case of exact normals at focal distances, where the raised surface has lost a tangent. */
+/* Hard case of exact normals at focal distances, where a tangent of the raised surface vanishes. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "field/field.h"
 #include "scene/scene.h"
 
-/* The heights at which the tangents of P + F n come to lie in one line, det(I - F S) = 0: n_u = a Pu + b Pv
-   and n_v = c Pu + d Pv, and F = -1 / w for each w of (a b; c d) that is not all but 0. On the sphere and on the
-   capsule's balls the two are one, which the root would lose half its digits of; elsewhere such places are left out, and so
-   are those that are so flat that their focal point is ten sizes away, of which the root keeps too few digits. */
+/* The heights at which the tangents of P + F n become parallel, det(I - F S) = 0: n_u = a Pu + b Pv and n_v = c
+   Pu + d Pv, and F = -1 / w for each eigenvalue w of (a b; c d) that is not almost 0. On the sphere and on the
+   capsule's caps the two are equal, and the root would lose half its digits; elsewhere such points are skipped,
+   and so are points so flat that their focal distance is ten sizes, whose root has too few digits. */
 static int focal_heights(const WrShape *shape, const WrSurfacePoint *at, double f[2])
 {
     f[0] = -shape->value[0];
@@ -31,8 +31,8 @@ static int focal_heights(const WrShape *shape, const WrSurfacePoint *at, double 
     return count;
 }
 
-/* At a focal height: n without a slope, as on the sphere with one; else what the tangent that is left makes
-   of the slope, as the formulas have it. */
+/* At a focal height: n without a slope, as on the sphere with one; else the result of the formulas for the
+   remaining tangent and the slope. */
 static void check_focal(WrHardGauge *g, const WrSurfacePoint *at, WrHardSlope slope)
 {
     const bool level = slope.fu == 0.0 && slope.fv == 0.0;
@@ -54,7 +54,7 @@ static void check_focal(WrHardGauge *g, const WrSurfacePoint *at, WrHardSlope sl
     }
 }
 
-/* All lengths times `grow`: sizes of a random mantissa. */
+/* Multiplies all lengths by `grow`: sizes with random mantissas. */
 static WrShape grown(WrShape shape, double grow)
 {
     int at = 0;
@@ -65,7 +65,7 @@ static WrShape grown(WrShape shape, double grow)
     return shape;
 }
 
-/* A surface whose every place is focal at one height looks as it does without heights. */
+/* A surface that is focal everywhere at one height looks as it does without heights. */
 static bool focal_pictures(WrHardGauge *g, WrError *err)
 {
     static const WrSurfaceKind kinds[] = { WR_SURFACE_torus, WR_SURFACE_sphere,
@@ -98,7 +98,7 @@ static bool focal_pictures(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Lines of u and v are no lines of curvature there. */
+/* True if the lines of u and v are not lines of curvature. */
 static bool sheared(WrSurfaceKind kind)
 {
     return kind == WR_SURFACE_bezier || kind == WR_SURFACE_bent ||

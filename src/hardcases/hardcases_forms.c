@@ -1,4 +1,4 @@
-/* Hard cases of surfaces that are given by exponents and by words: superellipsoids, profiles, formulas. */
+/* Hard cases of surfaces defined by exponents and by text: superellipsoids, profiles, formulas. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* n at (u, v) of each kernel set and of the formula, against what it should be. */
+/* n at (u, v) of each kernel set and of the formula, compared with the expected one. */
 static void angles(WrHardGauge *g, const WrShape *shape, double u, double v, WrVec3 want)
 {
     WrSurfacePoint at;
@@ -27,7 +27,7 @@ static bool hc143(WrHardGauge *g, WrError *err)
     for (int k = 0; k < 16; k++) {
         const double e1 = forms[k % 4], e2 = forms[k / 4];
         shape.value[3] = e1, shape.value[4] = e2;
-        /* The pole, from any side but along a cusp; the arm along x; the side of the arm along x. */
+        /* The pole, from any direction except along a cusp; the arm along x; the side of the arm along x. */
         for (int pole = 0; pole < 2; pole++)
             if (e1 < 2) angles(g, &shape, 0.125, pole, (WrVec3){ 0, 0, pole ? 1 : -1 });
         if (e1 < 2 && e2 < 2) angles(g, &shape, 0, 0.5, (WrVec3){ 1, 0, 0 });
@@ -63,7 +63,7 @@ static bool hc144(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Refused, and the message names the column. */
+/* The expression is refused, and the message names the column. */
 static void refused(WrHardGauge *g, const char *expression, const char *column)
 {
     WrError why = { "" };

@@ -1,4 +1,4 @@
-/* Hard cases of meshes: what is shared, and (u,v) that span no area, next to none, or run the other way round. */
+/* Hard cases of meshes: shared functions, and (u,v) with zero, almost zero or mirrored area. */
 #include "hardcases/hardcases_frames.h"
 
 #include "base/error.h"
@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* ---- what is shared ---- */
+/* ---- shared functions ---- */
 
 WrTriangles *wr_hard_triangles(const WrHardMesh *mesh, WrError *err)
 {
@@ -33,7 +33,8 @@ WrScene *wr_hard_above(WrTriangles *triangles, double height)
     WrScene *scene = wr_scene_new();
     scene->shape = wr_hard_shape(WR_SURFACE_mesh);
     wr_scene_set_triangles(scene, triangles, "case", NULL);
-    memset(scene->shape.value + WR_MESH_CENTRE, 0, 3 * sizeof(double)); /* the origin stays it */
+    /* keeps the origin in place */
+    memset(scene->shape.value + WR_MESH_CENTRE, 0, 3 * sizeof(double));
     scene->posed = true;
     scene->height = height;
     scene->lights_given = true;
@@ -81,7 +82,7 @@ void wr_hard_units(WrHardGauge *g, const WrHardMesh *mesh, const WrTangent *fram
 
 /* ---- meshes ---- */
 
-/* How wide and high a triangle of the pairs is: not 1, by which nothing would be seen to be divided. */
+/* Width and height of a triangle of the pairs: not 1, with which a missing division would be invisible. */
 #define ACROSS 0.875
 #define UP 0.75
 
@@ -107,7 +108,7 @@ static void told(WrHardGauge *g, const WrHardMesh *mesh, int32_t collinear, int3
     wr_triangles_free(made);
 }
 
-/* Places of the left and the right triangle, to solve by hand. */
+/* Solves the tangent of the left or the right triangle directly. */
 static bool solve(const WrHardMesh *mesh, int face, WrVec3 *t, double *det)
 {
     WrVec3 p[3], b;
@@ -124,7 +125,7 @@ static bool solve(const WrHardMesh *mesh, int face, WrVec3 *t, double *det)
 
 /* u and v over the plane z = 0, one map for x < 0 and one for the rest. */
 typedef struct Map {
-    double u[3], v[3]; /* of 1, x / ACROSS and y / UP */
+    double u[3], v[3]; /* coefficients of 1, x / ACROSS and y / UP */
 } Map;
 
 enum { SIDE = 44 }; /* pixels of a picture 2.2 units high and wide */
@@ -150,9 +151,9 @@ static WrVec3 by_map(const WrField *field, const WrScene *scene, const Map *map,
     return v3_unit(n, (WrVec3){ 0, 0, 1 });
 }
 
-/* Pictures of a flat mesh in the plane z = 0 within -1..1, under a table of waves `height` high, against n - grad F worked
-   out by the maps of u and v: float by the pictures' normals, double by the reference's. *bent: the largest slope that was
-   met. */
+/* Pictures of a flat mesh in the plane z = 0 within -1..1, under a table of waves `height` high, compared with n
+   - grad F computed from the maps of u and v: float by the pictures' normals, double by the reference's. *bent:
+   the largest slope found. */
 static bool measure_bend(WrHardGauge *g, const WrHardMesh *mesh, const Map map[2], double height,
                          double *bent, WrError *err)
 {
@@ -197,7 +198,7 @@ static bool measure_bend(WrHardGauge *g, const WrHardMesh *mesh, const Map map[2
     return good;
 }
 
-/* Does the pair bend as the maps say, within those bounds, and at least so much at its steepest? */
+/* Checks that the pair bends as the maps require, within those bounds, and at least by `least` at its steepest. */
 static bool bends_within(WrHardGauge *g, const WrHardMesh *mesh, const Map map[2], double height,
                          double least, double in_float, double in_double, WrError *err)
 {
@@ -213,7 +214,7 @@ static bool bends_within(WrHardGauge *g, const WrHardMesh *mesh, const Map map[2
     return good;
 }
 
-/* ---- no area ---- */
+/* ---- zero area ---- */
 
 bool wr_hard_hc28(WrHardGauge *g, WrError *err)
 {
@@ -238,7 +239,7 @@ bool wr_hard_hc28(WrHardGauge *g, WrError *err)
            wr_hard_mesh_tame(g, &thin, err);
 }
 
-/* Along u = |x| the table still bends; across it nothing changes. */
+/* Along u = |x| the table still bends normals; across it nothing changes. */
 bool wr_hard_hc127(WrHardGauge *g, WrError *err)
 {
     static const float line[4][2] = { { 1, 0 }, { 0, 0 }, { 0, 0 }, { 1, 0 } };
@@ -247,7 +248,7 @@ bool wr_hard_hc127(WrHardGauge *g, WrError *err)
     return bends_within(g, &thin, map, 0.1, 0.3, 1e-5, 1e-12, err);
 }
 
-/* With the triangle and without it: the bits of the picture. */
+/* With the triangle and without it: the picture has the same bits. */
 bool wr_hard_hc29(WrHardGauge *g, WrError *err)
 {
     static const float uv[4][2] = { { 1, 0 }, { 0, 0 }, { 0, 1 }, { 1, 0 } };
@@ -289,9 +290,10 @@ bool wr_hard_hc29(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* ---- next to no area ---- */
+/* ---- almost zero area ---- */
 
-/* u = k x, v = k y of 1e-15: det is 1e-30 of either sign, and a table as many times as high bends as another would. */
+/* u = k x, v = k y with 1e-15: det is 1e-30 of either sign, and a proportionally higher table gives the same
+   bend. */
 bool wr_hard_hc30(WrHardGauge *g, WrError *err)
 {
     const double k = (double)1e-15f;
@@ -320,7 +322,8 @@ bool wr_hard_hc30(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* The same, so nearly along a line that det is rounding: no frame, which is told; u and v bend as they say. */
+/* As hc30, but so nearly along a line that det is rounding error: no frame, which is reported; u and v bend as
+   required. */
 bool wr_hard_hc126(WrHardGauge *g, WrError *err)
 {
     static const float slip[] = { 0, -0.0f, 0x1p-24f, -0x1p-24f };
@@ -343,9 +346,9 @@ bool wr_hard_hc126(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* ---- the other way round ---- */
+/* ---- mirrored ---- */
 
-/* u = |x|, v = y: each corner that both share has two frames, of either sign. */
+/* u = |x|, v = y: each corner that both share has two frames, of either handedness. */
 bool wr_hard_hc31(WrHardGauge *g, WrError *err)
 {
     static const float uv[4][2] = { { 1, 0 }, { 0, 0 }, { 0, 1 }, { 1, 0 } };
@@ -366,7 +369,7 @@ bool wr_hard_hc31(WrHardGauge *g, WrError *err)
     return wr_hard_mesh_tame(g, &mesh, err);
 }
 
-/* Bumps are up on both: n' by the map, whose gradient knows no sides. */
+/* Bumps are raised on both sides: n' by the map, whose gradient does not depend on handedness. */
 bool wr_hard_hc128(WrHardGauge *g, WrError *err)
 {
     static const float uv[4][2] = { { 1, 0 }, { 0, 0 }, { 0, 1 }, { 1, 0 } };

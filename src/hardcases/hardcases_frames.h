@@ -1,5 +1,5 @@
-/* hardcases_frames.h - the measurements of meshes and their tangent frames: HC28 to HC31 and HC126 to HC136, in two files.
-   Layer 6, private to this room. */
+/* hardcases_frames.h - measurements of meshes and their tangent frames: HC28 to HC31 and HC126 to HC136, in two
+   files. Private to this module. */
 #pragma once
 #include "hardcases/hardcases_internal.h"
 #include "surface/tangent_frames.h"
@@ -9,25 +9,26 @@
 #define WR_HARD_CORNERS 12
 #define WR_HARD_FACES 8
 
-/* A mesh as it is written down: corners with normals of their own (0: none), and a normal map's (u,v). */
+/* A mesh definition: corners with normals of their own (0: none), and a normal map's (u,v). */
 typedef struct WrHardMesh {
     WrTriangleCorner corner[WR_HARD_CORNERS];
     int32_t face[WR_HARD_FACES][3];
     int32_t corners, faces;
 } WrHardMesh;
 
-/* The surface of it, as a file's; the caller's. NULL and an error as wr_triangles_new. */
+/* The mesh as if read from a file; owned by the caller. NULL and an error as wr_triangles_new. */
 WrTriangles *wr_hard_triangles(const WrHardMesh *mesh, WrError *err);
 
-/* Pictures of a mesh seen from above in every arithmetic and by the reference: each value is a number. */
+/* Pictures of a mesh seen from above in every arithmetic and by the reference: each value is finite. */
 bool wr_hard_mesh_tame(WrHardGauge *gauge, const WrHardMesh *mesh, WrError *err);
-/* The mesh from above, parallel, 2.2 units high about the origin, and one light. Takes the mesh over. */
+/* The mesh from above, orthographic, 2.2 units high about the origin, and one light. Takes ownership of the
+   mesh. */
 WrScene *wr_hard_above(WrTriangles *triangles, double height);
 
-/* MikkTSpace's frames of it, [3 faces]. */
+/* Its MikkTSpace frames, [3 faces]. */
 bool wr_hard_mikk(const WrHardMesh *mesh, WrTangent *out, WrError *err);
-/* One violation for each that is not unit, across the corner's normal and with b = sign n x t; none is asked to be
- * across it whose sign is -1 and t (1,0,0): the frame of what has none. */
+/* Counts a violation for each frame that is not unit, perpendicular to the corner's normal and with b = sign n x
+   t. A frame with sign -1 and t (1,0,0), the value for undefined frames, need not be perpendicular. */
 void wr_hard_units(WrHardGauge *gauge, const WrHardMesh *mesh, const WrTangent *frames);
 
 /* clang-format off */

@@ -1,4 +1,4 @@
-/* What the measurements of the hard cases share: comparisons, points, tables, look-ups, pictures. */
+/* Functions shared by the measurements of the hard cases: comparisons, points, tables, fetches, pictures. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"

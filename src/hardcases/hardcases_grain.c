@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* A pattern by one number of each precision, its colours 0 and 1: what it is at p. */
+/* A pattern in each precision, with colours 0 and 1: its value at p. */
 static WrSolidTexture bare(WrSolidTextureKind kind)
 {
     WrSolidTexture grain = wr_grains[kind].usual;
@@ -15,7 +15,7 @@ static WrSolidTexture bare(WrSolidTextureKind kind)
     return grain;
 }
 
-/* What a pixel is: its step to the right and down, of parallel rays along z. */
+/* A pixel: its steps to the right and down, with parallel rays along z. */
 typedef struct Pixel {
     double right[3], down[3];
 } Pixel;
@@ -47,7 +47,7 @@ static double in_double(WrHardGauge *g, int set, const WrKernGraind *of, WrVec3 
     return s->cr[0];
 }
 
-/* Both by every set: `want`, each deviation times `by`. */
+/* Both precisions with every set: `want`, each deviation times `by`. */
 static void near_all(WrHardGauge *g, const WrKernGraind *of, WrVec3 p, const Pixel *px, double want,
                      double by)
 {
@@ -94,14 +94,14 @@ static bool hc117(WrHardGauge *g, WrError *err)
 
 /* ---- boxes much smaller and larger than rings (HC118, HC119) ---- */
 
-/* The pulses 1 - d .. 1 of all turns from 0 to t, in long double. */
+/* Total length of the pulses 1 - d .. 1 of all turns from 0 to t, in long double. */
 static long double pulses(long double t, long double d)
 {
     const long double whole = floorl(t), rest = t - whole - (1 - d);
     return whole * d + (rest > 0 ? rest : 0);
 }
 
-/* Rings whose edges are w wide, at the distance t. */
+/* Rings with edges of width w, at the distance t. */
 static void ring(WrHardGauge *g, double t, double w, double share, double want, double by)
 {
     WrSolidTexture grain = bare(WR_SOLID_TEXTURE_WOOD);
@@ -123,7 +123,7 @@ static bool hc118(WrHardGauge *g, WrError *err)
     for (int i = 0; i < 140; i++) {
         const double share = near_float(g, 0.05, 0.95), w = (double)(float)widths[i % 7];
         const double whole = i % 3 == 0 ? 1e6 : i % 3 == 1 ? 37 : 0;
-        /* half of them about the edge of a ring */
+        /* half of them near the edge of a ring */
         const double at = i & 1 ? near_float(g, 0, 1) : 1 - share + w * near_float(g, -0.6, 0.6);
         const double t = (double)(float)(whole + fabs(at));
         const long double f = (long double)t - floorl(t), half = (long double)w / 2;
@@ -145,7 +145,7 @@ static bool hc119(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* ---- the same place seen otherwise (HC120) ---- */
+/* ---- one place in different views (HC120) ---- */
 
 static bool hc120(WrHardGauge *g, WrError *err)
 {

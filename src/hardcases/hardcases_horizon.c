@@ -1,4 +1,4 @@
-/* Hard cases of what shadows the relief. */
+/* Hard cases of self-shadowing by the relief. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -7,7 +7,7 @@
 
 #define SIDE 30
 
-/* The horizon by looking at each texel of a period along an axis: direction 0 and 2 along i, 1 and 3 along j. */
+/* The horizon by comparing each texel of a period along an axis: directions 0 and 2 along i, 1 and 3 along j. */
 static double looked_at(const WrField *field, int i, int j, int direction)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -22,7 +22,7 @@ static double looked_at(const WrField *field, int i, int j, int direction)
     return best;
 }
 
-/* A table of w x h texels: level, a ramp that falls at its seam, or rough. */
+/* A table of w x h texels: flat, a ramp that falls at its seam, or rough. */
 static bool table_of(WrHardGauge *g, int w, int h, int kind, WrError *err)
 {
     WrField *field = wr_hard_rough(g, w, h, WR_WRAP_PERIODIC);
@@ -65,7 +65,7 @@ static bool hc122(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* A lamp in the plane of level ground, below it, and straight above any ground. */
+/* A lamp in the plane of flat ground, below it, and straight above any ground. */
 static bool hc123(WrHardGauge *g, WrError *err)
 {
     const double quarter = atan2(1, 0);

@@ -1,5 +1,4 @@
-/* hardcases_internal.h - what the measurements of the hard cases share.
-   Layer 6, private to this room. */
+/* hardcases_internal.h - functions shared by the measurements of the hard cases. Private to this module. */
 #pragma once
 #include "base/vec.h"
 #include "field/wrap.h"
@@ -12,14 +11,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Kernel sets that float is measured with: "ref" and another, both exact, and the other's fast form. */
+/* Kernel sets for float measurements: "ref" and another, both exact, and the other's fast form. */
 #define WR_HARD_SETS 3
 
 struct WrHardGauge {
     const WrKernels *kernels[WR_HARD_SETS]; /* the exact ones, then the fast one */
-    int sets;                               /* exact ones: 1 if they are the same */
-    int all;                                /* with the fast one, if there is one */
-    const WrKernelsd *wide[2];              /* in double; the second may be the first */
+    int sets;                               /* number of exact ones: 1 if they are the same */
+    int all;                                /* number including the fast one, if there is one */
+    const WrKernelsd *wide[2];              /* in double; the second may be equal to the first */
     const char *isa;
     WrPool *pool;
     WrStrip *strip; /* scratch */
@@ -30,17 +29,17 @@ struct WrHardGauge {
     int64_t checks[WR_HARD_PRECISIONS];
 };
 
-/* A deviation, 0 or more; NaN counts as infinite. */
+/* Reports a deviation, 0 or more; NaN counts as infinite. */
 void wr_hard_off(WrHardGauge *gauge, WrHardPrecision precision, double deviation);
-/* |got - want| */
+/* Reports |got - want|. */
 void wr_hard_near(WrHardGauge *gauge, WrHardPrecision precision, double got, double want);
-/* One violation unless ok. */
+/* Reports one violation unless ok. */
 void wr_hard_holds(WrHardGauge *gauge, WrHardPrecision precision, bool ok);
 
-/* 0 <= x < 1, repeatable: splitmix64, begun anew for each case. */
+/* Random number, 0 <= x < 1, repeatable: splitmix64, reseeded for each case. */
 double wr_hard_random(WrHardGauge *gauge);
 double wr_hard_between(WrHardGauge *gauge, double low, double high);
-float wr_hard_float(WrHardGauge *gauge); /* as wr_hard_random, exact in float */
+float wr_hard_float(WrHardGauge *gauge); /* as wr_hard_random, exactly representable in float */
 
 /* ---- points of surfaces ---- */
 
@@ -56,8 +55,8 @@ static inline bool wr_hard_same(WrVec3 a, WrVec3 b)
 WrShape wr_hard_shape(WrSurfaceKind kind);
 /* The bicubic patch of the points f(i, j), i along u. */
 WrShape wr_hard_patch(WrVec3 (*point)(int i, int j));
-/* By a kernel: P, Pu, Pv, n, |N|, n_u, n_v; the others 0. N is n |N|. The shape is scaled by `scale`, a
- * power of two. */
+/* A point by a kernel: P, Pu, Pv, n, |N|, n_u, n_v; the others 0. N is n |N|. The shape is scaled by `scale`, a
+   power of two. */
 WrSurfacePointf wr_hard_point(WrHardGauge *gauge, int set, const WrShape *shape, double scale,
                               int face, float u, float v);
 
@@ -65,34 +64,34 @@ WrSurfacePointf wr_hard_point(WrHardGauge *gauge, int set, const WrShape *shape,
 typedef struct WrHardSlope {
     double f, fu, fv;
 } WrHardSlope;
-/* n' in double, made unit. */
+/* n' in double, normalised. */
 WrVec3 wr_hard_perturbed(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope);
 /* n' by a kernel, seen from the side of n (behind: from the other side). */
 WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
                            WrHardSlope slope, bool behind);
-/* The same by the renderer's kernels in double: set 0 or 1. */
+/* n' by the renderer's kernels in double: set 0 or 1. */
 WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode,
                               const WrSurfacePoint *at, WrHardSlope slope);
-/* The same point in double, for formulas on float's own numbers. */
+/* The point converted to double, for formulas on float's own numbers. */
 WrSurfacePoint wr_hard_widen(const WrSurfacePointf *at);
-/* The float point as it would come out without rounding: doubles rounded once. */
+/* The float point without the rounding of its computation: doubles rounded once. */
 WrSurfacePointf wr_hard_narrow(const WrSurfacePoint *at);
 
 /* ---- tables ---- */
 
-/* A table of heights in -0.5..0.5 at random. Never NULL. */
+/* A table of random heights in -0.5..0.5. Never NULL. */
 WrField *wr_hard_rough(WrHardGauge *gauge, int width, int height, WrWrap wrap);
-/* A smooth one: a few waves of height about 1. */
+/* A smooth table: a few waves of height about 1. */
 WrField *wr_hard_waves(int width, int height);
 bool wr_hard_equal(const WrField *a, const WrField *b);
-/* Texel (i, j) of the result is texel (i + di, j + dj). The caller's. */
+/* Texel (i, j) of the result is texel (i + di, j + dj). Owned by the caller. */
 WrField *wr_hard_rolled(const WrField *field, int di, int dj);
 
-/* The same by wr_field_sample. */
+/* A fetch by wr_field_sample. */
 WrHardSlope wr_hard_sample(const WrField *field, WrScheme scheme, double u, double v);
 bool wr_hard_same_slope(WrHardSlope a, WrHardSlope b); /* every bit */
 
-/* The scene shows rough ground of 5 x 5 patches, 1 unit wide, from above or below and turned at random. */
+/* Sets the scene to rough terrain of 5 x 5 patches, 1 unit wide, seen from above or below and rotated at random. */
 void wr_hard_ground(WrHardGauge *gauge, WrScene *scene);
 
 /* ---- pictures ---- */
@@ -104,22 +103,22 @@ typedef struct WrHardShot {
 bool wr_hard_shoot(WrHardGauge *gauge, const WrFrameRequest *request, WrHardShot *shot,
                    WrError *err);
 void wr_hard_put_away(WrHardShot *shot);
-/* Values of the picture that are not finite. */
+/* Number of non-finite values of the picture. */
 int64_t wr_hard_wild(const WrHardShot *shot);
 
-/* The same in double, by the reference: samples x samples a pixel. Zero-initialise *out; fini it. */
+/* The picture in double, by the reference: samples x samples a pixel. Zero-initialise *out; fini it. */
 bool wr_hard_refer(WrHardGauge *gauge, const WrFrameRequest *request, int samples, WrReference *out,
                    WrError *err);
 int64_t wr_hard_wild_reference(const WrReference *reference);
 
-/* The picture with another arithmetic: the fast kernels', or that of doubles. */
+/* The picture in an arithmetic: exact, by the fast kernels, or in double. */
 typedef enum WrHardWay { WR_HARD_EXACT, WR_HARD_FAST, WR_HARD_WIDE, WR_HARD_WAYS } WrHardWay;
 bool wr_hard_shoot_by(WrHardGauge *gauge, const WrFrameRequest *request, WrHardWay way,
                       WrHardShot *shot, WrError *err);
-/* Values by which two pictures of one size differ by more than `off`, not a number included. */
+/* Number of values by which two pictures of one size differ by more than `off`, including NaN. */
 int64_t wr_hard_differ(const WrHardShot *a, const WrHardShot *b, double off);
 
-/* One light of strength 1 on one place of a plane whose n is (0, 0, 1). */
+/* One light of strength 1 on one point of a plane whose n is (0, 0, 1). */
 typedef struct WrHardLit {
     WrVec3 perturbed, light, view; /* unit; for the reference perturbed.z and view.z are above 0 */
     double diffuse, specular, shininess;
@@ -128,7 +127,7 @@ typedef struct WrHardLit {
 /* Its diffuse and specular parts by the reference; ambient 0. */
 bool wr_hard_shine(const WrHardLit *lit, double part[2], WrError *err);
 
-/* ---- the rows, by file; each list in order of ids ---- */
+/* ---- rows, by file; each list in order of ids ---- */
 
 /* clang-format off */
 #define WR_HARD_ROWS(X)                                                                            \

@@ -1,4 +1,4 @@
-/* The rows of the hard cases past the first: HC156 on. */
+/* Rows of the hard cases of the second part: HC156 on. */
 #include "hardcases/hardcases_later.h"
 
 #define ROW(number, about, situation, rule, u, in_float, in_double, script)                        \

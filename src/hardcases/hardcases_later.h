@@ -1,18 +1,17 @@
-/* hardcases_later.h - the measurements of HC156 on, in files by what they are about, for the one
-   list of their rows.
-   Layer 6, private to this room. */
+/* hardcases_later.h - measurements of HC156 on, in files by subject, for their common list of rows. Private to
+   this module. */
 #pragma once
 #include "hardcases/hardcases_internal.h"
 
 #include <stdbool.h>
 
-/* What a picture of that arithmetic (WrHardWay) tells about. */
+/* The precision that a picture of that arithmetic (WrHardWay) measures. */
 static inline WrHardPrecision wr_hard_precision(int way)
 {
     return way == WR_HARD_WIDE ? WR_HARD_DOUBLE : WR_HARD_FLOAT;
 }
 
-/* Pictures in every arithmetic and by the reference: every value is a number. */
+/* Renders pictures in every arithmetic and by the reference: every value must be finite. */
 bool wr_hard_tame(WrHardGauge *gauge, const WrField *field, const WrScene *scene, WrError *err);
 
 /* clang-format off */

@@ -26,7 +26,7 @@ static double highlight(WrHardGauge *g, int set, WrVec3f perturbed, WrVec3f ligh
     return (double)s->sr[0];
 }
 
-/* The same by those in double. */
+/* The highlight by the kernels in double. */
 static double highlight_wide(WrHardGauge *g, int set, const WrHardLit *lit)
 {
     WrStripd *s = g->wide_strip;
@@ -42,7 +42,7 @@ static double highlight_wide(WrHardGauge *g, int set, const WrHardLit *lit)
     return s->sr[0];
 }
 
-/* (n'.h)^s with sixty-four bits: from |n' - h|, so that no digit of it is lost near 1. */
+/* (n'.h)^s in 64 bits: from |n' - h|, so that no digit is lost near 1. */
 static double lobe_of(WrVec3 perturbed, WrVec3 light, WrVec3 view, double s)
 {
     long double n[3] = { perturbed.x, perturbed.y, perturbed.z },
@@ -58,7 +58,7 @@ static double lobe_of(WrVec3 perturbed, WrVec3 light, WrVec3 view, double s)
     return off < 2 ? (double)expl((long double)s * log1pl(-off / 2)) : 0.0;
 }
 
-/* A unit vector of random direction, in the upper half. */
+/* A random unit vector in the upper half. */
 static WrVec3 random_up(WrHardGauge *g)
 {
     const WrVec3 a = { wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
@@ -66,14 +66,14 @@ static WrVec3 random_up(WrHardGauge *g)
     return v3_unit(a, a);
 }
 
-/* What rounding n', l and v leaves of a highlight's digits: directions are known to a last place or two, and
-   the lobe is as steep as sqrt(s). In those steps, so that one bound stands for all powers. */
+/* Rounding error of a highlight caused by n', l and v, in units of that: directions are accurate to one or two
+   ulps, and the lobe's slope is sqrt(s). So one bound holds for all powers. */
 static double steps(double got, double want, double s, double ulp)
 {
     return fabs(got - want) / (ulp * sqrt(1.0 + s));
 }
 
-/* n' near h, both of any direction: where a high power is not 0. */
+/* n' near h, both in random directions: where a high power is not 0. */
 static bool generic_highlight(WrHardGauge *g, double s, WrError *err)
 {
     const WrVec3 l = random_up(g), v = random_up(g), h = v3_unit(v3_add(l, v), l);
@@ -96,7 +96,7 @@ static bool generic_highlight(WrHardGauge *g, double s, WrError *err)
     return true;
 }
 
-/* A dented plane under a light that shines from where the eye is, as pictures: float against double. */
+/* A dented plane under a light from the eye's position, as pictures: float compared with double. */
 static bool shiny_pictures(WrHardGauge *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
@@ -127,7 +127,7 @@ static bool shiny_pictures(WrHardGauge *g, WrError *err)
         for (int i = 0; i < 4 * 64 * 64 && good; i++) {
             const double want = (double)shots[WR_HARD_WIDE].frame.rgba[i];
             lit += i % 4 == 0 && want > 0.3;
-            for (int way = 0; way < WR_HARD_WIDE; way++) /* n' itself is a few last places off */
+            for (int way = 0; way < WR_HARD_WIDE; way++) /* n' itself has an error of a few ulps */
                 wr_hard_off(g, WR_HARD_FLOAT,
                             steps((double)shots[way].frame.rgba[i], want, s, 0x1p-23));
         }
@@ -135,12 +135,12 @@ static bool shiny_pictures(WrHardGauge *g, WrError *err)
         wr_scene_free(scene);
     }
     if (good)
-        wr_hard_off(g, WR_HARD_FLOAT, lit > 100 ? 0.0 : 1e9); /* else there was nothing to see */
+        wr_hard_off(g, WR_HARD_FLOAT, lit > 100 ? 0.0 : 1e9); /* otherwise nothing was visible */
     wr_field_free(field);
     return good;
 }
 
-/* Directions at random, for each power; the power itself at floats; and that no highlight leaves 0..1. */
+/* Random directions for each power; the power itself for floats; and every highlight must be within 0..1. */
 static bool hc89(WrHardGauge *g, WrError *err)
 {
     static const double powers[] = { 0, 1, 0.5, 30, 1000, 1e5, 1e6 };
@@ -161,7 +161,7 @@ static bool hc89(WrHardGauge *g, WrError *err)
     return shiny_pictures(g, err);
 }
 
-/* n' and h alike but longer than 1 by some last places. */
+/* n' and h equal, but longer than 1 by some ulps. */
 static bool hc90(WrHardGauge *g, WrError *err)
 {
     float c = 1.0f;
@@ -172,7 +172,7 @@ static bool hc90(WrHardGauge *g, WrError *err)
             wr_hard_off(g, WR_HARD_FLOAT, fmax(0.0, highlight(g, set, n, n, n, 1e5, true) - 1.0));
         c = nextafterf(c, 2.0f);
     }
-    for (int k = 0; k < 200; k++) { /* n', l and v one direction, each rounded in its own way */
+    for (int k = 0; k < 200; k++) { /* n', l and v in one direction, each rounded differently */
         const double x = wr_hard_between(g, -1, 1), y = wr_hard_between(g, -1, 1);
         const WrVec3 n = v3_unit((WrVec3){ x, y, 1 }, (WrVec3){ 0, 0, 1 });
         const WrHardLit lit = { .perturbed = n,
@@ -188,7 +188,7 @@ static bool hc90(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* No half vector: light from behind exactly, or no light at all; the plain sum as well as the gated. */
+/* No half vector: light exactly from behind, or no light at all; with and without the gate. */
 static bool hc91(WrHardGauge *g, WrError *err)
 {
     static const double powers[] = { 0, 1, 30 };
@@ -211,8 +211,8 @@ static bool hc91(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* How far a mean of n x n equal values is from the value, in parts of what is allowed: nothing for powers of
-   two (any difference counts 2), else n^2 - 1 last places of the precision. */
+/* Deviation of a mean of n x n equal values from the value, relative to the allowed one: 0 for powers of two
+   (any difference counts 2), else n^2 - 1 ulps of the precision. */
 static double mean_off(double got, double want, int n, int bits)
 {
     const double ulp = ldexp(1.0, ilogb(fmax(fabs(want), 1e-30)) - bits);
@@ -221,7 +221,7 @@ static double mean_off(double got, double want, int n, int bits)
     return exact && off > 0.0 ? 2.0 : off;
 }
 
-/* A level plane under a directional light, seen from afar: all samples of a pixel are equal. */
+/* A flat plane under a directional light, seen from afar: all samples of a pixel are equal. */
 static bool hc92(WrHardGauge *g, WrError *err)
 {
     enum { VALUES = 16 * 16 * 4 };
@@ -242,7 +242,7 @@ static bool hc92(WrHardGauge *g, WrError *err)
         const int n = scene->dials.samples = counts[k];
         WrHardShot many = { .renderer = NULL };
         WrReference refined = { 0 };
-        const bool refers = (n & (n - 1)) == 0; /* the reference takes powers of two alone */
+        const bool refers = (n & (n - 1)) == 0; /* the reference supports only powers of two */
         good = wr_hard_shoot(g, &request, &many, err) &&
                (!refers || wr_hard_refer(g, &request, n, &refined, err));
         for (int i = 0; i < VALUES && good; i++) {
@@ -261,7 +261,7 @@ static bool hc92(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Covariances that no spread of slopes has: a little negative, or more mixed than their parts allow. */
+/* Impossible covariances: slightly negative, or a mixed term larger than the others allow. */
 static bool hc93(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -298,7 +298,7 @@ static bool hc93(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* The full path, whatever a plan would leave out of it. */
+/* The full computation, including everything a plan would leave out. */
 static bool hc94(WrHardGauge *g, WrError *err)
 {
     static const WrSurfaceKind kinds[] = { WR_SURFACE_sphere, WR_SURFACE_plane, WR_SURFACE_torus };

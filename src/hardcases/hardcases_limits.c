@@ -1,4 +1,4 @@
-/* Hard cases of heights: extreme ones, integer ones, and what happens at the edges of cells. */
+/* Hard cases of heights: extreme ones, integer ones, and edges of cells. */
 #include "hardcases/hardcases_look.h"
 
 #include "base/error.h"
@@ -9,7 +9,7 @@
 #include <float.h>
 #include <string.h>
 
-/* One texel at the end of float's range: beyond the scheme's reach not a bit differs. */
+/* One texel at float's maximum: outside the scheme's reach not a bit differs. */
 static bool hc49(WrHardGauge *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 100, 100, WR_WRAP_PERIODIC), *spoilt = wr_field_share(field);
@@ -76,7 +76,7 @@ static bool hc50(WrHardGauge *g, WrError *err)
 
 /* ---- heights as integers ---- */
 
-/* A table as a file of that type gives it back: codes of 0..1. */
+/* A table after saving it as a file of that type: codes of 0..1. */
 static WrField *through_codes(const WrField *field, WrPixelType type, double *worst)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -101,8 +101,8 @@ static WrField *through_codes(const WrField *field, WrPixelType type, double *wo
     return out;
 }
 
-/* Slopes of integer heights against those of the heights themselves, in n / (2 last code): the most that half
-   a code either way can do to a central difference. */
+/* Slopes of integer heights compared with those of the heights themselves, in n / (2 last code): the largest
+   effect of half a code in either direction on a central difference. */
 static bool quantised(WrHardGauge *g, WrPixelType type, WrError *err)
 {
     static const int sizes[] = { 64, 256, 1024 };
@@ -154,7 +154,7 @@ static bool give_rows(void *ctx, int y, int count, void *out, WrError *err)
     return true;
 }
 
-/* Heights to codes to a file in memory. */
+/* Converts heights to codes and to a file in memory. */
 static bool write_codes(const char *name, const float *heights, uint16_t *codes, char **bytes,
                         size_t *length, WrError *err)
 {
@@ -169,7 +169,7 @@ static bool write_codes(const char *name, const float *heights, uint16_t *codes,
     return wr_image_write_bytes(name, &part, bytes, length, err);
 }
 
-/* Saved, read, and saved again: the same bytes, and heights no farther off than half a code. */
+/* Saved, read, and saved again: the same bytes, and heights within half a code. */
 static bool save_twice(WrHardGauge *g, const char *name, const float *heights, uint16_t *codes,
                        WrError *err)
 {
@@ -191,7 +191,7 @@ static bool save_twice(WrHardGauge *g, const char *name, const float *heights, u
     return good;
 }
 
-/* Every code there is, and heights at random. */
+/* Every possible code, and random heights. */
 static bool hc53(WrHardGauge *g, WrError *err)
 {
     float *heights = wr_alloc(CODES, sizeof *heights);
@@ -209,7 +209,7 @@ static bool hc53(WrHardGauge *g, WrError *err)
 
 /* ---- edges of cells ---- */
 
-/* The jump of Fu from one last place before a cell's edge to one after, heights per texel. */
+/* The jump of Fu from one ulp before a cell's edge to one after, heights per texel. */
 static bool hc54(WrHardGauge *g, WrError *err)
 {
     static const WrScheme smooth[] = { WR_SCHEME_CENTRAL, WR_SCHEME_BSPLINE, WR_SCHEME_BSPLINE_FIT,

@@ -1,4 +1,4 @@
-/* Heights and slopes as the renderer looks them up. */
+/* Fetches of heights and slopes by the renderer. */
 #include "hardcases/hardcases_look.h"
 
 #include "base/error.h"

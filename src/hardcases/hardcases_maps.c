@@ -1,4 +1,4 @@
-/* Hard cases of normal maps: codes, signs, and slopes that are too steep. */
+/* Hard cases of normal maps: codes, signs, and extreme slopes. */
 #include "hardcases/hardcases_internal.h"
 
 #include "field/field.h"
@@ -19,7 +19,7 @@ static WrImage *blank(WrPixelType type, int channels)
     return image;
 }
 
-/* Unit and finite, its slopes finite and of the signs of what was read. */
+/* True if it is unit and finite, and its slopes are finite and have the signs of the input. */
 static bool tame(const float n[3])
 {
     double p, q;
@@ -30,7 +30,8 @@ static bool tame(const float n[3])
            p * (double)n[0] <= 0 && q * (double)n[1] <= 0;
 }
 
-/* A picture of the map on a plane or a sphere, in each arithmetic, after the table's bump is taken off; takes the map over. */
+/* Pictures of the map on a plane or a sphere, in each arithmetic, without the table's bump; takes ownership of
+   the map. */
 static bool shoot_map(WrHardGauge *g, WrImage *map, double strength, double repeat, WrAntialias aa,
                       bool wanted_flat, WrError *err)
 {
@@ -66,7 +67,8 @@ static bool shoot_map(WrHardGauge *g, WrImage *map, double strength, double repe
 
 /* ---- codes --------------------------------------------------------------------------------------- */
 
-/* All 128: it stands for 0, and pictures are those without a map. Half 127: neither does, and both lean alike. Floats: 0. */
+/* All 128: it stands for 0, and pictures are those without a map. Half of them 127: neither stands for 0, and
+   both lean equally. Floats: 0. */
 static bool hc137(WrHardGauge *g, WrError *err)
 {
     WrNormalTold told;
@@ -88,7 +90,7 @@ static bool hc137(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Two channels, random: also beyond the rim. */
+/* Two channels, random: also outside the unit circle. */
 static bool hc138(WrHardGauge *g, WrError *err)
 {
     WrNormalTold told;
@@ -130,7 +132,7 @@ static bool hc139(WrHardGauge *g, WrError *err)
     return shoot_map(g, map, 1, 3, WR_AA_FILTER, false, err);
 }
 
-/* ---- what cannot be seen, or only told ----------------------------------------------------------- */
+/* ---- ambiguous or invisible cases ---------------------------------------------------------------- */
 
 /* f(u) + g(v), or f(u + v): green down, 8 bits. */
 static WrImage *waves(bool apart, double power)
@@ -177,8 +179,8 @@ static bool hc141(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Slopes as steep as a map can hold, of either sign side by side, a hundred times as strong, laid a billion times over: their
-   moments. */
+/* The steepest slopes that a map can hold, of either sign side by side, with strength 100, repeated a billion
+   times: their moments. */
 static bool hc142(WrHardGauge *g, WrError *err)
 {
     bool good = true;

@@ -1,12 +1,11 @@
-/* Hard cases of frames: triangles with texture coordinates, sheared tangents, scaled objects. */
+/* Hard cases of tangent frames: triangles with texture coordinates, sheared tangents, scaled objects. */
 #include "hardcases/hardcases_frames.h"
 #include "hardcases/hardcases_stretch.h"
 
 #include "base/error.h"
 #include "shade/bump.h"
 
-/* n - grad F, grad F = [(G Fu - F1 Fv) Pu + (E Fv - F1 Fu) Pv] / (E G - F1^2): does not name the frame's
-   angle anywhere. */
+/* n - grad F, grad F = [(G Fu - F1 Fv) Pu + (E Fv - F1 Fu) Pv] / (E G - F1^2): independent of the frame's angle. */
 static WrVec3 by_gradient(const WrSurfacePoint *at, double fu, double fv)
 {
     const double e = v3_dot(at->pu, at->pu), g = v3_dot(at->pv, at->pv);
@@ -43,7 +42,7 @@ static bool hc32(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* In double alone where what is counted are frames and what a mesh says of itself, none of which floats make. */
+/* Only in double if the checks concern frames and a mesh's report, which are not computed in float. */
 #define FRAME(number, situation, rule)                                                             \
     {                                                                                              \
         .id = "HC" #number, .subject = WR_HARD_GEOMETRY, .what = situation, .holds = rule,         \

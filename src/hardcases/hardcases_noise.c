@@ -1,4 +1,4 @@
-/* Hard cases of single noises: lattice points, far and negative places, hashes, faces of simplices. */
+/* Hard cases of single noises: lattice points, far and negative positions, hashes, faces of simplices. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -17,7 +17,7 @@ static WrNoise noise_of(WrNoiseKind kind, int dim, int period)
     };
 }
 
-/* In double at the points themselves; in float on a grid one in four of whose texels is a lattice point. */
+/* In double at the lattice points themselves; in float on a grid in which one texel in four is a lattice point. */
 static bool hc59(WrHardGauge *g, WrError *err)
 {
     static const WrNoiseKind kinds[] = { WR_NOISE_VALUE, WR_NOISE_GRADIENT, WR_NOISE_PERLIN };
@@ -31,7 +31,7 @@ static bool hc59(WrHardGauge *g, WrError *err)
         for (int a = 0; a < noise.dim; a++)
             wr_hard_near(g, WR_HARD_DOUBLE, slope[a], want_slope[a]);
     }
-    const double offset[2] = { -0.125, 0.125 }; /* texels' centres onto the lattice; v runs up */
+    const double offset[2] = { -0.125, 0.125 }; /* puts texel centres on the lattice; v points up */
     WrOctaves octaves = wr_octaves_default(2);
     octaves.count = 1;
     octaves.cells[0] = octaves.cells[1] = 16;
@@ -48,7 +48,7 @@ static bool hc59(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Across 0 noise moves by no more than its slope, and x - n is x. */
+/* Across 0 noise changes at most by its slope, and x - n equals x. */
 static bool hc60(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -70,7 +70,7 @@ static bool hc60(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Places beyond every integer: brought into the period exactly, and finite without one. */
+/* Positions beyond every exact integer: reduced to the period exactly, and finite without one. */
 static bool hc61(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -114,7 +114,7 @@ static bool hc66(WrHardGauge *g, WrError *err)
         const double number = wr_lattice_number(got);
         const uint32_t linked = wr_lattice_hash_link(
             wr_lattice_hash_link(wr_lattice_hash_start(seed), wr_lattice_hash_part(c[0], 0)),
-            wr_lattice_hash_part(c[1], 1)); /* as rows of a lattice go */
+            wr_lattice_hash_part(c[1], 1)); /* in the order of a lattice's rows */
         wr_hard_holds(g, WR_HARD_DOUBLE, got == h && number > -1.0 && number < 1.0);
         wr_hard_holds(g, WR_HARD_DOUBLE, linked == wr_lattice_hash(seed, c, 2));
         wr_hard_holds(g, WR_HARD_DOUBLE, wr_lattice_number(~got) == -number);
@@ -123,7 +123,7 @@ static bool hc66(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* On a face two simplices meet: last places to either side must agree, less the noise's own slope. */
+/* On a face two simplices meet: values one ulp to either side must agree, apart from the noise's own slope. */
 static bool hc67(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -131,7 +131,7 @@ static bool hc67(WrHardGauge *g, WrError *err)
     const WrNoise sheared = noise_of(WR_NOISE_SHEARED, 2, 0);
     for (int k = 0; k < 1000; k++) {
         const double a = wr_hard_between(g, 0, 9), b = wr_hard_between(g, 0, 9), e = 1e-15 * a;
-        /* x + y/2 a whole number; y one; and between them the halves of a square */
+        /* x + y/2 a whole number; y one; and between them the diagonals of a square */
         const double y = k % 3 == 1 ? floor(b) : b;
         const double x = k % 3 == 0   ? floor(a) - y / 2
                          : k % 3 == 1 ? a

@@ -1,11 +1,11 @@
-/* Hard cases of sums of noise: octaves too fine for the table, sums that do not converge, creases, tiling. */
+/* Hard cases of sums of noise: octaves too fine for the table, divergent sums, creases, tiling. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
 #include "noise/grid.h"
 #include "noise/octaves.h"
 
-/* Octaves whose cells are no smaller than two texels, counted one by one. */
+/* Number of octaves whose cells are at least two texels, counted one by one. */
 static int fitting(double cells, double step, int texels)
 {
     int count = 0;
@@ -35,7 +35,7 @@ static bool hc62(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* A cell of Perlin noise a texel, texel centres on the lattice: nothing is left of it. */
+/* One cell of Perlin noise per texel, texel centres on the lattice: the result is 0. */
 static bool hc63(WrHardGauge *g, WrError *err)
 {
     const double offset[2] = { 0.5, 0.5 };
@@ -104,8 +104,8 @@ static bool hc65(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Any step tiles: a period further on is the same to the bit, at places where u + 1 is exact; and a hair before
-   its end noise is all but what it is there. */
+/* Any step tiles: one period further the value is equal to the bit, at positions where u + 1 is exact; and one
+   ulp before its end the noise is continuous. */
 static bool hc68(WrHardGauge *g, WrError *err)
 {
     static const double steps[] = { 2, 1.99, 1.5, 3 };

@@ -1,4 +1,4 @@
-/* Hard cases of dabs and strokes. Heights are floats; how they change is worked out in double. */
+/* Hard cases of dabs and strokes. Heights are floats; their changes are computed in double. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -34,7 +34,7 @@ static WrSample at(double u, double v, double pressure)
     return (WrSample){ .u = u, .v = v, .pressure = pressure };
 }
 
-/* Texels whose heights differ by how much at most. */
+/* Compares two tables: largest difference of heights. */
 static void compare(WrHardGauge *g, const WrField *a, const WrField *b)
 {
     for (int j = 0; j < wr_field_height(a); j++)
@@ -90,8 +90,7 @@ static bool hc71(WrHardGauge *g, WrError *err)
         wr_field_free(field);
         wr_field_free(was);
     }
-    for (int k = 0; k < 4;
-         k++) { /* no strength, and more than there is: nothing, and float's ends */
+    for (int k = 0; k < 4; k++) { /* strength 0, and above the maximum; and the limits of float */
         static const double strengths[] = { 0, NAN, INFINITY, -INFINITY };
         WrField *field = wr_hard_rough(g, 50, 40, WR_WRAP_PERIODIC), *was = wr_field_share(field);
         const WrBrush brush = brush_of(3, 1, strengths[k]);
@@ -154,7 +153,7 @@ static bool hc74(WrHardGauge *g, WrError *err)
     (void)err;
     static const double pressures[][2] = { { NAN, 0 },      { -3, 0 }, { -INFINITY, 0 },
                                            { INFINITY, 1 }, { 7, 1 },  { 0.5, 0.5 } };
-    for (int k = 0; k < 12; k++) { /* of both samples, and of the second alone */
+    for (int k = 0; k < 12; k++) { /* with both samples, and with the second alone */
         WrField *wild = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC), *tame = wr_field_share(wild);
         const WrBrush brush = brush_of(9, 0.5, 1);
         WrSample a[] = { at(0.5, 0.5, k < 6 ? pressures[k][0] : 0.7),
@@ -191,7 +190,7 @@ static bool hc75(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* A million dabs of 2^-10 are 976.5625 exactly; of FLT_MAX / 10 they stop at FLT_MAX. Relative. */
+/* A million dabs of 2^-10 are exactly 976.5625; dabs of FLT_MAX / 10 stop at FLT_MAX. Relative deviation. */
 static bool hc76(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -215,7 +214,7 @@ static double mean_of(const WrField *field)
     return sum / (w * h);
 }
 
-/* What a pass changes in the mean, and by how much it passes the range that was. */
+/* Change of the mean by one pass, and the excess over the previous range. */
 static void check_pass(WrHardGauge *g, const WrField *was, const WrField *is)
 {
     float low, high, low_now, high_now;

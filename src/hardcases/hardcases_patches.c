@@ -1,4 +1,4 @@
-/* Hard cases of sets of bicubic patches: tables across edges that are turned and mirrored, what a set does not show. */
+/* Hard cases of sets of bicubic patches: tables across rotated and mirrored edges, and missing patches. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -36,7 +36,7 @@ void wr_hard_ground(WrHardGauge *g, WrScene *scene)
 
 /* ---- HC151 ---- */
 
-/* By other u and v: turned by a quarter, or mirrored. */
+/* Changes u and v: rotated by a quarter, or mirrored. */
 static void change_points(float points[48], bool mirror)
 {
     float old[48];
@@ -47,7 +47,7 @@ static void change_points(float points[48], bool mirror)
     }
 }
 
-/* F, and its gradient on the patch, where the patch has u and v. */
+/* F, and its gradient on the patch, at the patch's u and v. */
 static double on_patch(const WrPatches *set, int32_t i, const double uv[2], const WrField *field,
                        WrVec3 *place, WrVec3 *gradient)
 {
@@ -69,7 +69,7 @@ static double on_patch(const WrPatches *set, int32_t i, const double uv[2], cons
     return slope.f;
 }
 
-/* The common edge of a square's four patches is where both have the same place. */
+/* The common edges of a square's four patches: points with equal positions. */
 static void compare_edges(WrHardGauge *g, const WrPatches *set, const WrField *field)
 {
     int met = 0;
@@ -114,8 +114,8 @@ static bool hc151(WrHardGauge *g, WrError *err)
 
 /* ---- HC152 ---- */
 
-/* Smooth ground of 5 x 5 patches; a control point beside an edge slips; a patch is missing; one alone, of whose
-   edges one is drawn together. */
+/* Smooth terrain of 5 x 5 patches; a control point beside an edge is moved; a patch is missing; a single one
+   with one edge shrunk to a point. */
 static bool hc152(WrHardGauge *g, WrError *err)
 {
     bool good = true;

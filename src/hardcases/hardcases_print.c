@@ -1,4 +1,4 @@
-/* The report of the hard cases for people and for programs. */
+/* Report of the hard cases as text and as JSON. */
 #include "hardcases/hardcases.h"
 
 #include "base/text.h"

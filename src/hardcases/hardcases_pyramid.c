@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* F of texel (i, j) of a level that is stored. */
+/* F of texel (i, j) of a stored level. */
 static double pyramid_height(const WrPyramid *pyramid, const WrPyramidLevel *level, int i, int j)
 {
     const size_t texel = (size_t)(j + 1) * (size_t)level->pitch + (size_t)(i + 1);
@@ -24,9 +24,9 @@ static double wave_mean(double from, double to)
     return (s[1] - s[0]) / (2.0 * WR_PI * (to - from));
 }
 
-/* Every level's mean against the table's, to 1e-6; and its texels against the means of one wave along u over
-   their own shares. What samples of the wave miss of it, cut at parts of texels, is at most a third of the
-   steepest texel's rise, 2 pi / w; half a texel's shift along a level would be off by more than that. */
+/* Every level's mean compared with the table's, to 1e-6; and its texels compared with the means of one wave
+   along u over their own shares. The sampling error of the wave, with partial texels, is at most a third of the
+   steepest texel's rise, 2 pi / w; a shift of half a texel along a level would exceed that. */
 static void check_levels(WrHardGauge *g, const WrPyramid *pyramid, const WrField *field)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -73,8 +73,8 @@ static bool hc55(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Footprints as rays leave them: along the surface, from beside it, on tangents that are one or none; all are
-   numbers, and none longer than tables can be. */
+/* Footprints of rays: along the surface, from beside it, with equal or zero tangents; all must be finite, and at
+   most as long as allowed. */
 static void check_footprints(WrHardGauge *g, const WrLook *look)
 {
     static const float lengths[] = { 0, 1e-30f, 1e-3f, 1, 1e18f, INFINITY };
@@ -104,7 +104,7 @@ static void check_footprints(WrHardGauge *g, const WrLook *look)
     }
 }
 
-/* Footprints handed to the kernels as they are: level, taps and what is looked up must be in range. */
+/* Footprints passed directly to the kernels: level, number of fetches and the fetched values must be in range. */
 static bool hc56(WrHardGauge *g, WrError *err)
 {
     static const float sides[] = { 0, 1e-30f, 0.5f, 1, 1e3f, 1e6f, 1e9f, INFINITY, NAN };
@@ -137,8 +137,8 @@ static bool hc56(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* A last place before the seam F and its slopes are all but what they are on it, by every scheme that does not
-   jump there: a table that goes on with its own last column instead of the first shows a crease. */
+/* One ulp before the seam F and its slopes are nearly those on it, by every scheme that is continuous there: a
+   table that repeats its own last column instead of the first would show a crease. */
 static void check_seam(WrHardGauge *g, const WrHardLook *look, const WrField *field)
 {
     if (look->scheme == WR_SCHEME_NEAREST) return;

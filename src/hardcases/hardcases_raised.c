@@ -27,11 +27,11 @@ static WrScene *displaced_of(int k, double height, double dice)
     scene->displaced = true;
     scene->height = height;
     scene->dials.dice = dice;
-    scene->replicate_u = k == 1 ? 1.43 : 2; /* the ball's seam does not close */
+    scene->replicate_u = k == 1 ? 1.43 : 2; /* the sphere's seam is not periodic */
     return scene;
 }
 
-/* An edge of a facet, by where its ends are; forth or back. */
+/* An edge of a facet by the positions of its ends; way: its direction. */
 typedef struct Edge {
     float end[2][3];
     int way;
@@ -50,7 +50,7 @@ static Edge edge_of(const float *from, const float *to)
     return edge;
 }
 
-/* Edges of the facets that are not met as often one way as the other: each is a crack. */
+/* Number of facet edges that do not occur equally often in both directions: each is a crack. */
 static int cracks(const WrTriangles *t)
 {
     const int32_t most = 3 * t->triangle_count;
@@ -108,8 +108,8 @@ static bool hc124(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* All numbers, by facets and by the reference; where facets are as many as there may be, that is said, and the second
-   arithmetic, which takes the same ones, is not waited for. */
+/* All values are finite, by facets and by the reference. If the number of facets reaches its limit, that is
+   reported, and the second arithmetic, which uses the same facets, is skipped. */
 static bool ends(WrHardGauge *g, const WrFrameRequest *request, bool endless, WrError *err)
 {
     WrReference truth = { 0 };
@@ -138,7 +138,7 @@ static bool hc125(WrHardGauge *g, WrError *err)
         WrScene *scene = displaced_of(1, k == 0 ? -1 : 1e6, 0.5);
         scene->shape.value[0] = 1;
         scene->displaced = false;
-        wr_scene_hold_camera(scene, scene, 1); /* that of the base: from within, not from afar */
+        wr_scene_hold_camera(scene, scene, 1); /* the base's camera: from inside, not from afar */
         scene->displaced = true;
         const WrFrameRequest request = {
             .field = k == 0 ? level : rough, .scene = scene, .width = 9, .height = 9

@@ -8,7 +8,7 @@
 #include "base/vec.h"
 
 /* The unit plane with a slope that bends n to lit->perturbed everywhere: F = fu u + fv v. The object's colour is
-   red and highlights are white, which keeps the two parts apart. */
+   red and highlights are white, which separates the two parts. */
 static WrScene *scene_of(const WrHardLit *lit)
 {
     WrScene *scene = wr_scene_new();

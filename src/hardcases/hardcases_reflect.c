@@ -6,14 +6,14 @@
 #include "scene/scene.h"
 #include "shade/reflection_models.h"
 
-/* One lamp of strength 1 on one place. */
+/* One lamp of strength 1 on one point. */
 typedef struct Place {
     WrVec3 n, l, v;
 } Place;
 
 static const WrReflectance ordinary = { WR_REFLECT_GGX, WR_ENERGY_KEPT, 20, 0.5, 0.3, 1.5 };
 
-/* What is reflected, by the kernels. */
+/* Reflected light by the kernels. */
 static double in_float(WrHardGauge *g, int set, const WrReflectance *of, Place at)
 {
     WrStrip *s = g->strip;
@@ -53,7 +53,7 @@ static double in_double(WrHardGauge *g, int set, const WrReflectance *of, Place 
     return s->dr[0] + s->sr[0];
 }
 
-/* 0 or more, and within `most`, by every set and model but Blinn-Phong's. */
+/* Checks that it is 0 or more, and at most `most`, for every set and every model except Blinn-Phong. */
 static void within(WrHardGauge *g, const WrReflectance *numbers, Place at, double most)
 {
     for (int k = 0; k < 2 * (WR_REFLECT_COUNT - 1); k++) {
@@ -99,7 +99,7 @@ static bool hc98(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* GGX by long doubles, of metal: f0 = 1 in its colour. */
+/* GGX in long double, for metal: f0 = 1 in its colour. */
 static double narrow(Place at, double alpha)
 {
     long double n[3] = { at.n.x, at.n.y, at.n.z }, l[3] = { at.l.x, at.l.y, at.l.z };
@@ -157,7 +157,7 @@ static bool hc100(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Fresnel's formula with angles, of an index above 1. */
+/* Fresnel's formula with angles, for an index above 1. */
 static double by_angles(double c, double ior)
 {
     const double i = acos(c), t = asin(sin(i) / ior);
@@ -165,7 +165,8 @@ static double by_angles(double c, double ior)
     return 0.5 * (s * s + p * p);
 }
 
-/* What Torrance and Sparrow's facets of some index reflect of what those of a mirror do, n' being h. */
+/* Ratio of the reflection by Torrance and Sparrow's facets of some index to that of mirror facets, with n' equal
+   to h. */
 static double share(WrHardGauge *g, int set, bool wide, double ior, Place at)
 {
     const WrReflectance of = { WR_REFLECT_TORRANCE_SPARROW, WR_ENERGY_KEPT, 0, 0.5, 0, ior };
@@ -189,7 +190,7 @@ static bool hc102(WrHardGauge *g, WrError *err)
         for (int set = 0; set < g->all; set++)
             wr_hard_near(g, WR_HARD_FLOAT, share(g, set, false, ior, at), want);
         wr_hard_near(g, WR_HARD_DOUBLE, share(g, i & 1, true, ior, at), want);
-        /* beyond the critical angle all of it */
+        /* beyond the critical angle: total reflection */
         wr_hard_near(g, WR_HARD_DOUBLE, share(g, i & 1, true, 0.67, at), 1);
     }
     return true;
@@ -258,7 +259,7 @@ static bool hc108(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* A picture of metal, half or whole, in that colour. */
+/* A picture of partial or full metal, in that colour. */
 static bool of_metal(WrHardGauge *g, double metal, double colour, bool in_double, WrHardShot *shot,
                      WrError *err)
 {

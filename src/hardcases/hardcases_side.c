@@ -1,4 +1,4 @@
-/* Hard cases of the sides that a perturbed normal may turn to: away from the eye, away from the light, edge on. */
+/* Hard cases of perturbed normals that turn away from the eye or the light, or are seen edge on. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -36,7 +36,8 @@ static void shine(WrHardGauge *g, int set, const WrHardLit *lit, double out[2])
     out[1] = (double)s->sr[0];
 }
 
-/* Can the reference stand so? It sees the front of a plane, whose n is not perturbed to its edge. */
+/* True if the reference supports this position: it needs a plane seen from the front, with n not perturbed to
+   its edge. */
 static bool forwards(const WrHardLit *lit)
 {
     return lit->perturbed.z > 0.05 && lit->view.z > 0.05;
@@ -67,7 +68,7 @@ static bool hc24(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* The surface's own n plays no part, as in the paper: what counts is n'.l alone. */
+/* As in the paper, the surface's own n has no influence: only n'.l counts. */
 static bool hc25(WrHardGauge *g, WrError *err)
 {
     for (int i = 0; i < 2000; i++) {
@@ -94,7 +95,7 @@ static bool hc25(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Across n'.l = 0 the gated highlight may jump by ks (n'.h)^s and no more; the plain sum not at all. */
+/* Across n'.l = 0 the gated highlight may jump by at most ks (n'.h)^s; without the gate it is continuous. */
 static bool hc26(WrHardGauge *g, WrError *err)
 {
     for (int i = 0; i < 400; i++) {
@@ -159,7 +160,8 @@ static bool hc27(WrHardGauge *g, WrError *err)
         for (int y = 0; y < SIZE; y++)
             rows += K * (double)shot.frame.rgba[4 * (y * SIZE + SIZE / 2) + 3];
         wr_hard_near(g, WR_HARD_FLOAT, rows, c / 1.25 * SIZE * K);
-        wr_hard_off(g, WR_HARD_FLOAT, 1e3 * (double)wr_hard_wild(&shot)); /* a NaN is far off */
+        /* a NaN counts as a large deviation */
+        wr_hard_off(g, WR_HARD_FLOAT, 1e3 * (double)wr_hard_wild(&shot));
         wr_hard_put_away(&shot);
         WrReference reference = { 0 };
         good = wr_hard_refer(g, &request, K, &reference, err);

@@ -1,4 +1,4 @@
-/* Hard cases of what is in the picture: near planes, insides, shared edges, tiny patches; and of turning. */
+/* Hard cases of visibility: near planes, insides, shared edges, tiny patches; and of rotation. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -19,7 +19,7 @@ static WrScene *scene_of(WrSurfaceKind kind)
     return scene;
 }
 
-/* A place of the scene's surface, in the world, and its frame; the scene is not turned. */
+/* A point of the scene's surface, in the world, and its frame; the scene is not rotated. */
 typedef struct Stand {
     WrVec3 p, n, along; /* n and along are unit */
     double radius;
@@ -33,7 +33,7 @@ static Stand stand_on(const WrScene *scene, double u, double v)
                     v3_unit(at.pu, at.n_unit), wr_shape_radius(&scene->shape) };
 }
 
-/* Pixels whose coverage or red differ from the reference's by more than `off`. */
+/* Number of pixels whose coverage or red differ from the reference's by more than `off`. */
 static int apart(const WrHardShot *shot, const WrReference *reference, double off)
 {
     int differ = 0;
@@ -45,7 +45,7 @@ static int apart(const WrHardShot *shot, const WrReference *reference, double of
     return differ;
 }
 
-/* The plane, as a curved patch that happens to be flat: it goes by mesh and Newton's method. */
+/* The plane as a curved patch that happens to be flat: drawn by mesh and Newton's method. */
 static void curve(WrScene *scene)
 {
     scene->shape = wr_hard_shape(WR_SURFACE_bent);
@@ -60,7 +60,7 @@ static double mean_coverage(const WrFrame *frame)
     return sum / count;
 }
 
-/* An eye inside the patch's extent. The part of pixels in which closed form and mesh differ. */
+/* An eye inside the patch's extent. Share of pixels in which closed form and mesh differ. */
 static bool closed_against_mesh(WrHardGauge *g, WrError *err)
 {
     enum { W = 120, H = 100 };
@@ -97,8 +97,8 @@ static bool closed_against_mesh(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* From a place a twentieth of a radius above every surface, along it: parts lie beside and behind the eye.
-   The part of pixels in which pictures differ from the reference. */
+/* From a point a twentieth of a radius above every surface, along it: parts are beside and behind the eye. Share
+   of pixels in which pictures differ from the reference. */
 static bool among_surfaces(WrHardGauge *g, WrError *err)
 {
     enum { SIZE = 72 };
@@ -138,7 +138,7 @@ static bool hc82(WrHardGauge *g, WrError *err)
     return closed_against_mesh(g, err) && among_surfaces(g, err);
 }
 
-/* The middle column of level ground, looked along from just above it: all of its lower half is ground. */
+/* The middle column of flat ground, seen along it from just above: all of its lower half is ground. */
 static bool lower_half(const float *alpha, int width, int height)
 {
     bool all = true;
@@ -147,7 +147,7 @@ static bool lower_half(const float *alpha, int width, int height)
     return all;
 }
 
-/* Eyes on every surface, looking along it, and a hair above: corners at and behind depth 0. */
+/* Eyes on every surface, looking along it, and slightly above: corners at and behind depth 0. */
 static bool hc83(WrHardGauge *g, WrError *err)
 {
     static const double heights[] = { 0, 1e-300, 1e-30, 1e-9, 1e-3 };
@@ -184,8 +184,8 @@ static bool hc83(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* A lamp beside the eye: the inside is lit, as the reference has it, in all pixels but those where a last
-   place moves the bump. */
+/* A lamp beside the eye: the inside is lit as in the reference, in all pixels except those where one ulp moves
+   the bump. */
 static bool hc84(WrHardGauge *g, WrError *err)
 {
     enum { SIZE = 48, FEW = SIZE * SIZE / 50 };
@@ -195,7 +195,7 @@ static bool hc84(WrHardGauge *g, WrError *err)
     for (int k = 0; k < 3 && good; k++) {
         WrScene *scene = scene_of(bodies[k]);
         const double x = bodies[k] == WR_SURFACE_torus ? 1 : 0; /* inside its tube */
-        scene->height = 0.002; /* the reference has a scheme of its own */
+        scene->height = 0.002; /* the reference uses another scheme */
         scene->lights_given = true;
         scene->lights[0] = (WrLight){
             .kind = WR_LIGHT_POINT, .where = { x, 0, 0.12 }, .colour = { 1, 1, 1 }, .strength = 1
@@ -230,8 +230,8 @@ static bool hc84(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Straight at a place through a window of a tenth of a radius, or at a bent patch that fills the picture
-   and more; or from behind, where triangles are seen the other way round. */
+/* Straight at a point through a window of a tenth of a radius, or at a bent patch larger than the picture; or
+   from behind, where triangles have reversed orientation. */
 static WrScene *filling(WrHardGauge *g, int k, bool behind)
 {
     const bool patch = k >= WR_SURFACE_COUNT;
@@ -244,7 +244,7 @@ static WrScene *filling(WrHardGauge *g, int k, bool behind)
         if (k > WR_SURFACE_COUNT) wr_hard_ground(g, scene);
         return scene;
     }
-    const double across = k == WR_SURFACE_torus ? 0.06 : 0.56; /* of a torus the outer side */
+    const double across = k == WR_SURFACE_torus ? 0.06 : 0.56; /* for a torus the outer side */
     const Stand at = stand_on(scene, wr_hard_between(g, 0.4, 0.6), across);
     const double side = behind ? -3 : 3;
     scene->camera = (WrCamera){ .orthographic = true,
@@ -255,7 +255,7 @@ static WrScene *filling(WrHardGauge *g, int k, bool behind)
     return scene;
 }
 
-/* Every pixel is covered, on any number of threads alike. */
+/* Every pixel is covered, equally for any number of threads. */
 static bool hc85(WrHardGauge *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
@@ -294,7 +294,7 @@ static bool hc85(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* What a picture of 256 x 256 has of the view, found by the reference. */
+/* Coverage of the view by the reference, in a picture of 256 x 256. */
 static bool large_coverage(WrHardGauge *g, const WrFrameRequest *request, double *out, WrError *err)
 {
     enum { SIZE = 256 };
@@ -308,8 +308,8 @@ static bool large_coverage(WrHardGauge *g, const WrFrameRequest *request, double
     return good;
 }
 
-/* Pixels of 2 x 2 units about objects of 1 to 3: coverage against that of a picture of many small pixels, and
-   where it is known against the area; a row of samples more or less on each side is 6 in a hundred. */
+/* Pixels of 2 x 2 units around objects of 1 to 3: coverage compared with that of a picture of many small pixels,
+   and with the area if that is known; one row of samples more or less on each side is 6 percent. */
 static bool hc86(WrHardGauge *g, WrError *err)
 {
     const double sphere = wr_hard_shape(WR_SURFACE_sphere).value[0];
@@ -344,10 +344,10 @@ static bool hc86(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* ---- turning ---- */
+/* ---- rotation ---- */
 
-/* 0.01 rad a frame at 60 Hz, the last ticks of a day, against the same turn reduced in whole degrees: tick t
-   is t 0.01 rad; 36000 ticks of 0.01 degree are a turn. */
+/* 0.01 rad per frame at 60 Hz, the last ticks of a day, compared with the same rotation reduced in whole
+   degrees: tick t is t 0.01 rad; 36000 ticks of 0.01 degree are a full turn. */
 static bool hc87(WrHardGauge *g, WrError *err)
 {
     WrScene *scene = wr_scene_new();

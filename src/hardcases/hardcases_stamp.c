@@ -1,4 +1,4 @@
-/* Hard cases of what is rasterized into a table, and of going back and forth in its history. */
+/* Hard cases of rasterizing into a table, and of going back and forth in its history. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -59,7 +59,7 @@ static bool write_text(Values *values, const char *text, double u, double v, con
     return make(values, like, NULL, out, err);
 }
 
-/* Texels of either part that are not those of the other, moved by half a table. */
+/* Number of texels of either part that differ from the other's, moved by half a table. */
 static void same_rolled(WrHardGauge *g, const WrNormalMips *still, const WrNormalMips *moved, int w,
                         int h)
 {
@@ -91,7 +91,7 @@ static bool hc78(WrHardGauge *g, WrError *err)
         float low, high;
         same_rolled(g, &still, &moved, W, H);
         wr_field_range(still.cover, &low, &high);
-        wr_hard_holds(g, WR_HARD_FLOAT, high == 1.0f); /* there is something to be seen */
+        wr_hard_holds(g, WR_HARD_FLOAT, high == 1.0f); /* something is visible */
     }
     wr_normal_mips_fini(&none);
     wr_normal_mips_fini(&still);
@@ -102,7 +102,7 @@ static bool hc78(WrHardGauge *g, WrError *err)
 
 /* ---- solids ---- */
 
-/* sqrt(max(0, r^2 - d^2)) of the nearest image, of a sphere of that radius at (u, v). */
+/* sqrt(max(0, r^2 - d^2)) of the nearest periodic image, for a sphere of that radius at (u, v). */
 static void check_sphere(WrHardGauge *g, const WrNormalMips *relief, int n, double r, double u,
                          double v)
 {
@@ -112,7 +112,8 @@ static void check_sphere(WrHardGauge *g, const WrNormalMips *relief, int n, doub
         dx -= n * floor(dx / n), dy -= n * floor(dy / n);
         dx = fmin(dx, n - dx), dy = fmin(dy, n - dy);
         const double rest = r * r - dx * dx - dy * dy, d = sqrt(dx * dx + dy * dy);
-        if (rest < 0.0 && d < r + 0.75) continue; /* a rim's texel may show a part of the sphere */
+        /* a texel on the rim may show a part of the sphere */
+        if (rest < 0.0 && d < r + 0.75) continue;
         wr_hard_near(g, WR_HARD_FLOAT, (double)wr_field_get(relief->heights, k % n, k / n),
                      rest > 0.0 ? sqrt(rest) / r : 0.0);
     }
@@ -143,7 +144,7 @@ static bool hc79(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Boxes side by side and into one another, tops in one plane: equal heights wherever they meet. */
+/* Boxes side by side and overlapping, with tops in one plane: equal heights wherever they meet. */
 static bool hc80(WrHardGauge *g, WrError *err)
 {
     Values values;
@@ -204,7 +205,7 @@ static bool hc81(WrHardGauge *g, WrError *err)
         wr_history_push(history, document, "stroke", NULL, (uint64_t)k);
         if (k % EVERY == 0) hashes[k / EVERY] = wr_field_hash(wr_document_field(document));
     }
-    for (int k = 2 * STROKES; k >= 0; k -= EVERY) { /* back to the first, and forth again */
+    for (int k = 2 * STROKES; k >= 0; k -= EVERY) { /* back to the first, and forward again */
         const int state = k > STROKES ? k - STROKES : STROKES - k;
         WrDocument *there = wr_history_go(history, state);
         wr_hard_holds(

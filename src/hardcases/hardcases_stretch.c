@@ -10,9 +10,9 @@
 
 #define SIDE 48 /* pixels */
 #define VIEW 2.4
-#define WHOLE 0.9 /* of the way to the outline, squared, that is looked at */
+#define WHOLE 0.9 /* of the distance to the outline, squared: the tested area */
 
-/* A ball of those sizes, seen along its z axis. */
+/* An ellipsoid of those sizes, seen along its z axis. */
 static WrScene *ball_of(WrVec3 sizes)
 {
     WrScene *scene = wr_scene_new();
@@ -35,7 +35,8 @@ static double half_axis(double size, double largest)
     return fmax(fabs(size), WR_THINNEST * largest);
 }
 
-/* n of the ellipsoid x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 at a pixel's middle, towards the viewer; false near its outline. */
+/* n of the ellipsoid x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 at a pixel's centre, facing the viewer; false near its
+   outline. */
 static bool ellipsoid(const WrScene *scene, int i, WrVec3 *n)
 {
     const double a = half_axis(scene->sizes.x, scene->size);
@@ -59,7 +60,7 @@ static void look(WrHardGauge *g, WrHardPrecision precision, const WrScene *scene
     }
 }
 
-/* By every arithmetic, and by the reference. */
+/* In every arithmetic, and by the reference. */
 static bool try_ball(WrHardGauge *g, WrVec3 sizes, WrError *err)
 {
     WrScene *scene = ball_of(sizes);
@@ -117,7 +118,7 @@ bool wr_hard_hc153(WrHardGauge *g, WrError *err)
 
 /* ---- far away ---- */
 
-/* A ball and a box, 1 apart, and the eye, all moved by `far`. */
+/* A sphere and a box, 1 apart, and the eye, all moved by `far`. */
 static WrScene *pair_at(double far)
 {
     WrScene *first = ball_of((WrVec3){ 0 });

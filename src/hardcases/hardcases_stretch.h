@@ -1,5 +1,5 @@
-/* hardcases_stretch.h - what objects that are stretched, mirrored or flat must keep to.
-   Layer 6, private to the room. */
+/* hardcases_stretch.h - measurements of stretched, mirrored or flat objects.
+   Private to this module. */
 #pragma once
 #include "hardcases/hardcases_internal.h"
 

@@ -12,7 +12,7 @@
 
 static const WrVec3 zero = { 0, 0, 0 };
 
-/* The angle between n in float and what it should be, for each kernel set. */
+/* The angle between n in float and the expected one, for each kernel set. */
 static void angle_f(WrHardGauge *g, const WrShape *shape, float u, float v, WrVec3 want)
 {
     for (int k = 0; k < g->sets; k++) {
@@ -111,8 +111,7 @@ static bool hc04(WrHardGauge *g, WrError *err)
 
 /* ---- Bezier patches ---- */
 
-/* A dish over a quarter of a disc: one index runs round, the other away from the middle, which is one
-   point. */
+/* A dish over a quarter of a disc: one index goes round, the other away from the centre, which is one point. */
 static WrVec3 dish_low(int i, int j)
 {
     static const double round[4][2] = { { 1, 0 }, { 1, 0.5 }, { 0.5, 1 }, { 0, 1 } };
@@ -136,7 +135,7 @@ static bool hc05(WrHardGauge *g, WrError *err)
             const WrVec3 rule = v3_unit(v3_scale(v3_cross(at.puv, at.pv), sign), zero);
             angle_d(g, &dishes[edge], u, edge, rule);
             angle_f(g, &dishes[edge], (float)u, (float)edge, rule);
-            /* and the last place beside the edge has all but the same normal */
+            /* and one ulp beside the edge the normal is nearly the same */
             angle_d(g, &dishes[edge], u, edge ? 1.0 - 0x1p-53 : 1e-300, rule);
             angle_f(g, &dishes[edge], (float)u, edge ? 1.0f - 0x1p-24f : 1e-30f, rule);
         }
@@ -153,8 +152,8 @@ static WrVec3 line_point(int i, int j)
     return v3_scale((WrVec3){ 0.25, -0.125, 0.75 }, i * 0.3125 + j * 0.1875 + 0.0625 * i * j);
 }
 
-/* No normal to be had: the defined one everywhere, bumps do not change it to something that is not unit,
-   and a picture of the patch holds no NaN. */
+/* No normal exists: the result is the defined one everywhere, bumps keep its length 1, and a picture of the
+   patch contains no NaN. */
 static bool degenerate(WrHardGauge *g, const WrShape *shape, WrError *err)
 {
     const WrHardSlope slope = { 0.3, 2, -1 };
@@ -194,7 +193,7 @@ static bool hc06(WrHardGauge *g, WrError *err)
     return degenerate(g, &shape, err);
 }
 
-/* Points on a line of any direction, whose coordinates are rounded: what is left of Pu x Pv is rounding. */
+/* Points on a line of any direction, with rounded coordinates: Pu x Pv is rounding error. */
 static WrShape line_shape(WrHardGauge *g)
 {
     WrShape shape = wr_hard_shape(WR_SURFACE_bezier);
@@ -220,7 +219,7 @@ static bool hc07(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* The normal of a tube points away from the tube's centre line, whatever the two radii. */
+/* The normal of a tube points away from the tube's centre line, for any two radii. */
 static bool hc08(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -242,8 +241,8 @@ static bool hc08(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Pictures of tori of many sizes under the same heights, scale-invariant: all alike, but for the last digits of
-   visibility. A picture that is not counts as off by 1. */
+/* Pictures of tori of many sizes with proportional heights: all equal, except for the last digits of visibility.
+   A different picture counts as a deviation of 1. */
 static bool same_pictures(WrHardGauge *g, WrError *err)
 {
     enum { SIZE = 48 };
@@ -276,7 +275,7 @@ static bool same_pictures(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* invariant: the same n' at any scale; blinn: the same when the heights grow alike. */
+/* invariant: the same n' at any scale; blinn: the same if the heights grow proportionally. */
 static bool hc09(WrHardGauge *g, WrError *err)
 {
     static const double scales[] = { 1e-20, 1e-6, 1e6, 1e20 };
@@ -286,7 +285,7 @@ static bool hc09(WrHardGauge *g, WrError *err)
         const float u = wr_hard_float(g), v = wr_hard_float(g);
         const double fu = wr_hard_between(g, -2, 2), fv = wr_hard_between(g, -2, 2);
         for (int p = 0; p < 2; p++) big.value[p] *= k;
-        /* as the renderer does: lengths brought near 1 by a power of two, heights with them */
+        /* as in the renderer: lengths scaled near 1 by a power of two, and heights with them */
         const double unit = scalbn(1.0, -ilogb(wr_shape_radius(&big)));
         WrSurfacePoint at, far;
         wr_surface_at(&torus, 0, (double)u, (double)v, &at);
@@ -310,7 +309,7 @@ static bool hc09(WrHardGauge *g, WrError *err)
     return same_pictures(g, err);
 }
 
-/* Cosine of the angle between n and a tangent, in last places of the precision. */
+/* Cosine of the angle between n and a tangent, in ulps of the precision. */
 static void upright(WrHardGauge *g, WrHardPrecision p, WrVec3 n, WrVec3 tangent, double ulp)
 {
     wr_hard_off(g, p, fabs(v3_dot(n, tangent)) / v3_len(tangent) / ulp);
@@ -338,8 +337,8 @@ static bool hc10(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* A patch whose tangents are nearly one: sixteen points i a + j (a + e b), a and b at random, e from 1e-6 to
-   1e-3, of any size, rounded to float, which is the patch that both precisions are asked about. */
+/* A patch whose tangents are nearly parallel: sixteen points i a + j (a + e b), a and b at random, e from 1e-6
+   to 1e-3, of any size, rounded to float; both precisions use this rounded patch. */
 static WrShape nearly_shape(WrHardGauge *g, double size)
 {
     WrShape shape = wr_hard_shape(WR_SURFACE_bezier);
@@ -356,7 +355,7 @@ static WrShape nearly_shape(WrHardGauge *g, double size)
     return shape;
 }
 
-/* The tangents' own cross product in sixty-four bits. */
+/* The tangents' own cross product in 64 bits. */
 static WrVec3 true_cross(WrVec3 a, WrVec3 b)
 {
     const long double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
@@ -364,12 +363,12 @@ static WrVec3 true_cross(WrVec3 a, WrVec3 b)
                      (double)(ax * by - ay * bx) };
 }
 
-/* How far n is from that, in last places over the sine; the tangents are as they came out. */
+/* Angle between n and that, in ulps divided by the sine; the tangents are as computed. */
 static void leans(WrHardGauge *g, WrHardPrecision p, const WrSurfacePoint *at, double ulp)
 {
     const WrVec3 normal = true_cross(at->pu, at->pv);
     const double sine = v3_len(normal) / v3_len(at->pu) / v3_len(at->pv);
-    if (!(sine > 16.0 * ulp)) return; /* the patch is a line to this precision */
+    if (!(sine > 16.0 * ulp)) return; /* in this precision the patch is a line */
     wr_hard_off(g, p, v3_angle_rad(at->n_unit, normal) * sine / ulp);
 }
 

@@ -1,4 +1,4 @@
-/* Hard cases of surroundings. */
+/* Hard cases of environments. */
 #include "hardcases/hardcases_internal.h"
 
 #include "base/error.h"
@@ -17,7 +17,7 @@ static double one(WrVec3 d)
     return 0.73;
 }
 
-/* No texel like another, all within 0..1. */
+/* All texels different, within 0..1. */
 static double rough(WrVec3 d)
 {
     const double x = sin(1234.5 * d.x + 789.1 * d.y + 456.7 * d.z) * 43758.5453;
@@ -29,7 +29,7 @@ static double sun(WrVec3 d)
     return v3_dot(d, east) > 0.9998 ? 1e5 : 0.1;
 }
 
-/* Surroundings of w x h texels; the caller's. */
+/* An environment of w x h texels; owned by the caller. */
 static WrEnvironmentMap *around(int w, int h, Sky *sky, WrError *err)
 {
     WrEnvironmentMapTold told;
@@ -44,7 +44,7 @@ static WrEnvironmentMap *around(int w, int h, Sky *sky, WrError *err)
     return made;
 }
 
-/* What a mirror shows by the kernels that looks along d. */
+/* Mirror reflection in direction d by the kernels. */
 static double mirrored(WrHardGauge *g, int set, const WrEnvLookup *m, WrVec3 d)
 {
     WrStrip *s = g->strip;
@@ -87,7 +87,7 @@ static WrVec3 random_unit(WrHardGauge *g)
     return v3_unit(a, (WrVec3){ 0, 0, 1 });
 }
 
-/* The same from both sides of a place where longitudes jump. */
+/* Equal results from both sides of a point where longitudes jump. */
 static void look_twice(WrHardGauge *g, const WrEnvironmentMap *from, const WrEnvLookup *m, WrVec3 a,
                        WrVec3 b)
 {
@@ -221,7 +221,7 @@ static bool hc115(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* m1 of facets in the prefilter of n = v = r: what a linear sky keeps of its slope. */
+/* m1 of the microfacets in the prefilter of n = v = r: the share of a linear sky's slope that remains. */
 static double slope_kept(double alpha)
 {
     const double a2 = alpha * alpha, a = (1 + a2) / 2, k = (1 - a2) / 2;
@@ -242,7 +242,7 @@ static WrEnvironmentBrdf facets_of(double alpha)
 static bool hc101(WrHardGauge *g, WrError *err)
 {
     const double near[] = { 1, 1 - 1e-12, 1 - 1e-6, 0.9991 };
-    const double flat[] = { 1, 2.0 / 3, 1.0 / 4, 0, -1.0 / 24 }; /* of max(0, c) */
+    const double flat[] = { 1, 2.0 / 3, 1.0 / 4, 0, -1.0 / 24 }; /* coefficients of max(0, c) */
     double order[5];
     for (int i = 0; i < 4; i++) {
         const WrEnvironmentBrdf gloss = facets_of(near[i]);

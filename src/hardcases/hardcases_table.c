@@ -1,4 +1,4 @@
-/* Hard cases of looking a parameter up in the table: ends, wraps, repeats, odd sizes. */
+/* Hard cases of fetching from the table: ends, wraps, repeats, odd sizes. */
 #include "hardcases/hardcases_look.h"
 
 #include "base/error.h"
@@ -8,7 +8,7 @@
 
 static const double ends[] = { 0, 1, -0.0, 5, -3 };
 
-/* Look-ups through every scheme and kernel set, reduced in float and in double: call `check` with each. */
+/* Fetches by every scheme and kernel set, reduced in float and in double: calls `check` with each. */
 typedef struct Looker {
     WrHardGauge *g;
     const WrField *field;
@@ -82,8 +82,8 @@ static bool hc35(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* |F(-e) - F(0)|, which may be as much as the largest slope times e; and where 1 - e can be told from 1,
-   |F(-e) - F(1 - e)|. */
+/* |F(-e) - F(0)|, which may be as large as the largest slope times e; and if 1 - e differs from 1, |F(-e) - F(1
+   - e)|. */
 static void check_tiny(const Looker *l)
 {
     static const double tiny[] = { -1e-9, -1e-17, -1e-300 };
@@ -146,7 +146,7 @@ static bool hc38(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Dyadic places about the seams, so that u + 1/2 is exact; the table rolled by half either way. */
+/* Dyadic positions around the seams, so that u + 1/2 is exact; the table rolled by half in either direction. */
 static bool hc39(WrHardGauge *g, WrError *err)
 {
     WrField *field = wr_hard_rough(g, 32, 64, WR_WRAP_PERIODIC);
@@ -179,7 +179,7 @@ static bool hc39(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* How far the reduced place is from r u mod 1 in texels of 64. r u is p + rest exactly. */
+/* Deviation of the reduced position from r u mod 1, in texels of 64. r u is p + rest exactly. */
 static double reduced_off(double u, double r, double got)
 {
     const double p = r * u, rest = fma(r, u, -p);
@@ -212,8 +212,8 @@ static bool hc40(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* At k/128 with 0 repeats F is level, with -1 it is mirrored, with r broken ones it is F at the broken part
-   of r u, r times as steep. Dyadic u, so that 1 - u and r u are exact. */
+/* At k/128 with 0 repeats F is constant, with -1 it is mirrored, with a fractional r it is F at the fractional
+   part of r u, r times as steep. Dyadic u, so that 1 - u and r u are exact. */
 static void check_repeats(WrHardGauge *g, const WrField *field, const WrHardLook *plain,
                           const WrHardLook *turned, double r)
 {
@@ -274,13 +274,13 @@ static void check_ends_of_rows(const Looker *l)
         const WrHardSlope f = by_kernel(l, (float)u, (float)v);
         wr_hard_holds(l->g, WR_HARD_DOUBLE,
                       fabs(d.fu - fu) < 1e-8 * w && fabs(d.fv - fv) < 1e-8 * h);
-        if (w < 1000) /* else float does not know the texel */
+        if (w < 1000) /* else float cannot resolve the texel */
             wr_hard_holds(l->g, WR_HARD_FLOAT,
                           fabs(f.fu - fu) < 1e-3 * w && fabs(f.fv - fv) < 1e-3 * h);
     }
 }
 
-/* Places that are multiples of 2^-15, so that u + 7 is exact in float as well. */
+/* Positions that are multiples of 2^-15, so that u + 7 is exact in float as well. */
 static void check_modulus(const Looker *l)
 {
     for (int k = 0; k < 60; k++) {
@@ -305,7 +305,7 @@ static bool hc46(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* Flat along u (and v): bits of 0, whatever the level. */
+/* Flat along u (and v): exactly 0 at any level. */
 static void check_flat_u(const Looker *l)
 {
     for (int k = 0; k < 40; k++) {
@@ -372,7 +372,7 @@ static void check_board(const Looker *l)
         check_flat_v(l);
     }
     if (l->scheme != WR_SCHEME_BILINEAR) return;
-    /* halfway between two rows' centres nothing is seen of it; on a row's centre all of it */
+    /* halfway between two rows' centres the effect is 0; on a row's centre it is full */
     const float u = 0.03125f * 3, v = 1 - 0.5f / 16;
     wr_hard_holds(l->g, WR_HARD_FLOAT, fabs(fabs(by_kernel(l, u, v).fu) - 16) < 1e-4);
     wr_hard_holds(l->g, WR_HARD_DOUBLE,
