@@ -24,9 +24,9 @@
    detected. samples/accuracy records how often the estimate was right. The true picture is assumed to be the
    limit of 16 x 16 samples: errors of arithmetic or of stored heights remain as in the scene and are not
    counted, nor, except for max=, which uses a finer mesh, errors of the surface's mesh at outlines. If the error
-   of 16 x 16 samples itself exceeds the tolerance, it is reported as not met. Along
-   outlines parallel to the pixels' rows all levels may have equal errors: there the error is assumed to be the
-   largest that such an outline can hide. */
+   of 16 x 16 samples itself exceeds the tolerance, it is reported as not met. Along outlines parallel to the
+   pixels' rows all levels may have equal errors: there the error is assumed to be the largest that such an
+   outline can hide. */
 #pragma once
 #include "base/hash.h"
 #include "render/plan/plan.h"

@@ -119,8 +119,8 @@ void wr_journal_leave(WrJournal *journal);
 /* The functions that write return true when the line is in the file (in the system's memory: a kill cannot undo
    that; wr_journal_sync protects it from a power failure). On false the journal is not safe: the caller
    continues, the reason was reported once. Such a journal ends before the first missing line; nothing already
-   written is harmed. It retries at later calls and, when
-   writing works, requests a restart (WR_JOURNAL_WANT_WHOLE). err may be NULL. */
+   written is harmed. It retries at later calls and, when writing works, requests a restart
+   (WR_JOURNAL_WANT_WHOLE). err may be NULL. */
 
 /* Call before a command runs. text: UTF-8. */
 bool wr_journal_command(WrJournal *journal, const char *text, WrError *err);

@@ -26,8 +26,7 @@ bool wr_journal_sync_path(const char *path, WrError *err);
 
 /* Opens a journal without following a link or waiting for a pipe: -1 with an error unless it is a regular file. */
 int wr_journal_open(const char *path, WrError *err);
-/* Locks without waiting. False: another program has the lock, or `path`
-   no longer names this file. */
+/* Locks without waiting. False: another program has the lock, or `path` no longer names this file. */
 bool wr_journal_lock(int fd, const char *path, WrLock how);
 
 /* wr_journal_keep_file for the journal whose files are in `files`, inside `folder`. from: a descriptor at the
@@ -44,6 +43,6 @@ void wr_journal_clear_files(const char *files, const char *keep_a, const char *k
 /* Removes incomplete files of killed programs from the folder, if they are older than a day. */
 void wr_journal_sweep(const char *folder);
 
-/* wr_journal_read for an open, unread file; `path` is used for messages and for
-   the snapshot's path. The caller closes fd. */
+/* wr_journal_read for an open, unread file; `path` is used for messages and for the snapshot's path. The caller
+   closes fd. */
 bool wr_journal_read_fd(int fd, const char *path, WrJournalRead *out, WrError *err);

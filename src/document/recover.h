@@ -1,7 +1,6 @@
 /* recover.h - recovery of journals that were left behind: listing, reading, and a trial run of a command that
-   may have crashed.
-   All input is validated: a torn, damaged or hostile journal gives the lines
-   with valid checksums, marks those after damage, or gives a clear error.
+   may have crashed. All input is validated: a torn, damaged or hostile journal gives the lines with valid
+   checksums, marks those after damage, or gives a clear error.
 
    Steps of a recovery: wr_journal_list; wr_journal_claim for the chosen one, so that no other program recovers
    it too; wr_journal_read; restore the start state, or the file that was saved last, and compare its hash; run

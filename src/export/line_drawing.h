@@ -1,9 +1,8 @@
 /* line_drawing.h - 3D line drawing of a table with its hidden lines removed: the paper's figure 5. Private to
    this module.
 
-   The heights stand on the unit square, z = relief F, in parallel projection,
-   rotated about the vertical by turn_deg and seen from tilt_deg above the horizon. Lines run along u and along v
-   through texels' centres. */
+   The heights stand on the unit square, z = relief F, in parallel projection, rotated about the vertical by
+   turn_deg and seen from tilt_deg above the horizon. Lines run along u and along v through texels' centres. */
 #pragma once
 #include "export/vector_drawing.h"
 

@@ -1,7 +1,6 @@
 /* hardcases.h - table of the hard cases of bump mapping, with measurements of this program's own code. There are
-   173 inputs at which a naive program divides by zero, loses
-   digits, reads outside its table or shows a seam. Each row states the requirement and measures the program's
-   deviation from it, in float and in double.
+   173 inputs at which a naive program divides by zero, loses digits, reads outside its table or shows a seam.
+   Each row states the requirement and measures the program's deviation from it, in float and in double.
 
    float    the code that renders pictures: the renderer's kernels on strips (of the requested set and of "ref"),
             its contiguous copies of the table, whole frames; also heights as stored in tables

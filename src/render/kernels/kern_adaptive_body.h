@@ -1,11 +1,10 @@
 /* kern_adaptive_body.h - pixels predicted from one sample each, with an error estimate (adaptive.c). Part of
    kern_body.h; single precision only.
 
-   Over a pixel, quadratic light f = f0 + .. + fxx x^2 / 2 + fyy y^2 / 2 has the mean
-   f0 + (fxx + fyy) / 24; samples in K x K cells have 1 - 1 / K^2 of that correction. Second differences of
-   neighbours are fxx and fyy where light is smooth. It is not where third differences are large: at a step H
-   they reach 2 H and the mean is off by H / 2; at a kink J, as between texels, they reach J and it is off by J /
-   12. */
+   Over a pixel, quadratic light f = f0 + .. + fxx x^2 / 2 + fyy y^2 / 2 has the mean f0 + (fxx + fyy) / 24;
+   samples in K x K cells have 1 - 1 / K^2 of that correction. Second differences of neighbours are fxx and fyy
+   where light is smooth. It is not where third differences are large: at a step H they reach 2 H and the mean is
+   off by H / 2; at a kink J, as between texels, they reach J and it is off by J / 12. */
 
 #define MIXED 1e9f /* error if a neighbour is on the other side of the outline */
 

@@ -12,10 +12,9 @@ ALWAYS Ray ray_of(const RAYS *rays, const STRIP *strip, int i, REAL gx, REAL gy,
     return (Ray){ RAY_Q(rays, y, x), RAY_D(rays, y, x) };
 }
 
-/* |q + s d| = R. With m = q.d / d.d the foot of the perpendicular is f = q - m d, and
-   s = -m -+ sqrt((R^2 - f.f) / d.d): no difference of large squares. s is stored relative to the foot. Two short
-   loops: a processor reorders only a limited number of operations, and the two roots wait for the values before
-   them. */
+/* |q + s d| = R. With m = q.d / d.d the foot of the perpendicular is f = q - m d, and s = -m -+ sqrt((R^2 - f.f)
+   / d.d): no difference of large squares. s is stored relative to the foot. Two short loops: a processor
+   reorders only a limited number of operations, and the two roots wait for the values before them. */
 ALWAYS int hit_sphere(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
                       const bool spread, STRIP *strip)
 {
