@@ -26,7 +26,17 @@
    counted, nor, except for max=, which uses a finer mesh, errors of the surface's mesh at outlines. If the error
    of 16 x 16 samples itself exceeds the tolerance, it is reported as not met. Along outlines parallel to the
    pixels' rows all levels may have equal errors: there the error is assumed to be the largest that such an
-   outline can hide. */
+   outline can hide.
+
+   Known doubts, each added to the estimate because a picture broke its bound without it:
+   - an outline, crease, end of the relief or pole that ends in a corner or along a side of a block, where none of
+     the block's samples meets it: the change of the neighbour's nearest pixels counts (tolerance_estimate.c,
+     tolerance_survey.c);
+   - outlines and creases parallel to the pixels' rows or columns, also between two blocks (tolerance_blocks.c);
+   - the greatest error of a pixel is estimated less surely than the rms: for max= estimates stay below 0.75 of the
+     tolerance, for the rms below 0.93 (MARGIN_MAX, MARGIN_RMS in tolerance_pick.c).
+   Details smaller than a pixel in the middle of a block that neither 1 sample nor 2 x 2 meet remain undetected
+   unless a probe meets them. The measurements in samples/accuracy are older than these three. */
 #pragma once
 #include "base/hash.h"
 #include "render/plan/plan.h"
