@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What accuracy costs, as a page: measures the eleven scenes of this folder and what a tolerance chooses on eight of
+# The cost of accuracy, as a page: measures the eleven scenes of this folder and what a tolerance chooses on eight of
 # those and on the eight of unseen/, which nobody looked at while choosing was built, and writes README.md, the plots and
 # the pictures. (contest/ has more scenes, which choosing was tuned on.)
 #
@@ -80,36 +80,36 @@ measure() {
 # What each dial's value is in plain words.
 words=$temporary/words.json
 cat >"$words" <<'END'
-{ "scheme=nearest": "slopes that are one per texel, so that relief breaks into steps",
-  "scheme=bilinear": "slopes of flat facets between texels, with creases where they meet",
-  "scheme=central": "slopes by the difference of the neighbours, as the paper has it",
-  "scheme=bspline": "slopes of a smooth surface near the texels, a little rounded off",
+{ "scheme=nearest": "one constant slope per texel: relief breaks into steps",
+  "scheme=bilinear": "slopes of flat facets between texels, with creases between them",
+  "scheme=central": "slopes by the difference of the neighbours, as in the paper",
+  "scheme=bspline": "slopes of a smooth surface near the texels, slightly rounded",
   "scheme=bspline-fit": "slopes of the smooth surface through all texels",
-  "scheme=catmull": "slopes of a surface through all texels whose bend has creases",
-  "mode=none": "no bump at all", "mode=blinn": "the paper's normal, which leaves a small term out",
+  "scheme=catmull": "slopes of a surface through all texels, with steps of curvature",
+  "mode=none": "no bump at all", "mode=blinn": "the paper's normal, without a small term",
   "mode=exact": "the true normal of the displaced surface",
-  "mode=invariant": "the paper's other normal, which does not flatten where the surface is stretched",
-  "aa=point": "one look at the middle of each pixel: edges become stairs",
-  "aa=filter": "one look at a table that is blurred to the pixel's size",
-  "aa=moments": "one look at the blurred table and at how its slopes scatter",
-  "aa=supersample": "the mean of looks on a grid in each pixel",
-  "aa=adaptive": "more looks only where one and its neighbours tell too little",
-  "spread=regular": "looks on an even grid", "spread=jittered": "looks at random places, so that stairs become grain",
-  "footprint=isotropic": "the pixel's shape in the table taken for a square",
-  "footprint=anisotropic": "the pixel's shape in the table followed, long and thin where it is",
-  "moments=toksvig": "the slopes' scatter as one number", "moments=lean": "the slopes' scatter in both directions",
-  "refine=contrast": "where an estimate calls for them", "refine=bound": "wherever nothing proves that it is not needed",
-  "newton=-1": "the point on the surface solved until it is right",
-  "newton=0": "the point on the surface taken from the grid, not solved",
+  "mode=invariant": "the paper's other normal, independent of stretch",
+  "aa=point": "one sample at the middle of each pixel: stair-stepped edges",
+  "aa=filter": "one sample of a table blurred to the pixel's size",
+  "aa=moments": "one sample of the blurred table and of its slope variance",
+  "aa=supersample": "the mean of a grid of samples in each pixel",
+  "aa=adaptive": "more samples only where one sample and its neighbours are not enough",
+  "spread=regular": "samples on an even grid", "spread=jittered": "samples at random places: grain in place of stair steps",
+  "footprint=isotropic": "the pixel's footprint approximated by a square",
+  "footprint=anisotropic": "the pixel's true footprint, even if long and thin",
+  "moments=toksvig": "slope variance as one number", "moments=lean": "slope variance in both directions",
+  "refine=contrast": "where an estimate requires them", "refine=bound": "wherever they are not proved unnecessary",
+  "newton=-1": "the point on the surface solved to full precision",
+  "newton=0": "the point on the surface from the grid, not solved",
   "newton=1": "the point on the surface solved by one step", "newton=2": "the point on the surface solved by two steps",
   "newton=3": "the point on the surface solved by three steps",
   "heights=double": "heights and slopes in double precision", "heights=float": "heights in single precision",
   "heights=half": "heights of 11 bits and an exponent", "heights=16bit": "heights in 65 536 steps",
-  "heights=8bit": "heights in 256 steps, which show as terraces",
+  "heights=8bit": "heights in 256 steps, visible as terraces",
   "shading=float": "light in single precision", "shading=double": "light in double precision",
-  "shading=half": "light rounded to 11 bits on its way",
+  "shading=half": "light rounded to 11 bits between stages",
   "arithmetic=exact": "the same bits on every processor", "arithmetic=fast": "the processor's own shortcuts",
-  "as it stands": "the scene as its script has it" }
+  "as it stands": "the scene as in its script" }
 END
 
 # The front in pictures: a piece of the picture with each of its settings, and below how far it is off (white: 0.1),
@@ -178,11 +178,11 @@ tell_front() {
     say ''
     jq -r '"Pictures of \(.width) x \(.height) pixels."' "$keep/$1.json" >>"$temporary/page"
     say ''
-    say '| | on the front | ms | RMS error | 99.9 % | largest | in words, what differs |'
+    say '| | best settings | ms | RMS error | 99.9 % | largest | difference in words |'
     say '| ---: | --- | ---: | ---: | ---: | ---: | --- |'
     jq -r --slurpfile words "$words" "$functions"'
-        def word: . as $w | $words[0][$w] // (if startswith("samples=") then "\($w[8:]) x \($w[8:]) looks a pixel"
-            elif startswith("contrast=") then "off by about \($w[9:]) from all looks"
+        def word: . as $w | $words[0][$w] // (if startswith("samples=") then "\($w[8:]) x \($w[8:]) samples a pixel"
+            elif startswith("contrast=") then "within about \($w[9:]) of full sampling"
             elif startswith("mesh=") then "the surface'"'"'s grid 2^\($w[5:]) times as fine"
             elif startswith("texels=") then "the point on the surface solved to \($w[7:]) texels"
             else error("no words for \($w)") end);
@@ -191,10 +191,10 @@ tell_front() {
         "| \($n + 1) | \(.full | kb) | \(.seconds * 1e3 | short) | \(.rms | short)\(if .rms < 3 * $own then " ~" else "" end) | \(.p999 | short) | \(.max | short) | \(.setting | plain) |"' \
         "$keep/$1.json" >>"$temporary/page"
     say ''
-    say '`~`: within three times what the reference itself changed when its samples doubled last; as much of it may be'
-    say "the reference's."
+    say '`~`: within three times the change of the reference at its last doubling of samples; the reference itself may have'
+    say 'an error of this size.'
     say ''
-    say "A piece of each, and how far it is off (white: 0.1): ![the front in pictures]($1-front.png)"
+    say "A crop of each, and its error (white: 0.1): ![the front in pictures]($1-front.png)"
     say ''
 }
 
@@ -203,7 +203,7 @@ tell_conclusions() {
     jq -r "$functions"'
     # The cheapest for each error.
     (0.03, 0.01, 0.004 | . as $e | $e) as $e | cheapest($e) as $r |
-        if $r == null then "- No setting here comes within \($e)."
+        if $r == null then "- No setting here has an error of at most \($e)."
         else "- For an error of at most \($e) choose \($r.full | kb): \($r.seconds | ms), \($r.rms | short) measured." end
     ' "$keep/$1.json" >>"$temporary/page"
     jq -r "$functions"'
@@ -211,27 +211,27 @@ tell_conclusions() {
     named("aa=moments moments=lean footprint=anisotropic") as $m |
     named("heights=8bit") as $h8 | named("heights=16bit") as $h16 |
     (if $p and $f then if more($f.rms; $p.rms) and $f.seconds > $p.seconds then
-        "- **Costlier and worse:** filtered F (anisotropic: up to 16 look-ups a pixel) is worse than point sampling here, \($f.rms | short) against \($p.rms | short), and takes \($f.seconds / $p.seconds | short) times as long."
-        elif more($p.rms; $f.rms) then "- Filtered F (anisotropic: up to 16 look-ups a pixel) is nearer than point sampling, \($f.rms | short) against \($p.rms | short), for \($f.seconds / $p.seconds | short) times its time."
-        else "- Filtered F (anisotropic: up to 16 look-ups a pixel) is as near as point sampling, \($f.rms | short), and takes \($f.seconds / $p.seconds | short) times as long: nothing is gained." end else empty end),
+        "- **Costlier and worse:** filtered F (anisotropic: up to 16 look-ups a pixel) is worse than point sampling here, \($f.rms | short) against \($p.rms | short), and needs \($f.seconds / $p.seconds | short) times as long."
+        elif more($p.rms; $f.rms) then "- Filtered F (anisotropic: up to 16 look-ups a pixel) is more accurate than point sampling, \($f.rms | short) against \($p.rms | short), for \($f.seconds / $p.seconds | short) times its time."
+        else "- Filtered F (anisotropic: up to 16 look-ups a pixel) is as accurate as point sampling, \($f.rms | short), and needs \($f.seconds / $p.seconds | short) times as long: no gain." end else empty end),
     (named("aa=filter footprint=isotropic") as $i | if $i and $p and $f then
         "- Filtered with one look-up (isotropic): \($i.rms | short), for \($i.seconds / $p.seconds | short) times the time of one sample." else empty end),
     (if $m and $f then if more($m.rms; $f.rms) and $m.seconds > $f.seconds then
-        "- **Costlier and worse:** moments are worse than filtering here, \($m.rms | short) against \($f.rms | short), and take \($m.seconds / $f.seconds | short) times as long."
-        else "- Moments are \(if more($f.rms; $m.rms) then "nearer" else "no nearer" end) than filtering, \($m.rms | short) against \($f.rms | short), for \($m.seconds / $f.seconds | short) times its time." end else empty end),
+        "- **Costlier and worse:** moments are worse than filtering here, \($m.rms | short) against \($f.rms | short), and need \($m.seconds / $f.seconds | short) times as long."
+        else "- Moments are \(if more($f.rms; $m.rms) then "more accurate" else "no more accurate" end) than filtering, \($m.rms | short) against \($f.rms | short), for \($m.seconds / $f.seconds | short) times its time." end else empty end),
     (if $m and $p then if more($m.rms; $p.rms) and $m.seconds > $p.seconds then
         "- **Costlier and worse:** moments are worse than one plain sample, \($m.rms | short) against \($p.rms | short)."
         else empty end else empty end),
     (measured | map(select(.setting == "as it stands" and (.full | contains("samples=4")))) | first) as $now |
-    (if $m and $now then "- Beside 4 x 4 samples: moments \($m.rms | short), for \($m.seconds / $now.seconds | short) times the time of \($now.rms | short)\(if more($now.rms; $m.rms) then ", nearer and faster" else "" end)." else empty end),
+    (if $m and $now then "- Compared with 4 x 4 samples: moments \($m.rms | short) against \($now.rms | short), for \($m.seconds / $now.seconds | short) times the time\(if more($now.rms; $m.rms) then ": more accurate and faster" else "" end)." else empty end),
     (if $h8 and $h16 and $h8.own_rms and $h16.own_rms then
-        "- Heights of 8 bits alone leave an error of \($h8.own_rms | short), of 16 bits \($h16.own_rms | short)\(if $h16.own_rms > 0 and $h8.own_rms / $h16.own_rms > 1.5 then ": \($h8.own_rms / $h16.own_rms | short) times less" else ": here the bits do not matter" end)." else empty end),
+        "- Heights of 8 bits alone cause an error of \($h8.own_rms | short), of 16 bits \($h16.own_rms | short)\(if $h16.own_rms > 0 and $h8.own_rms / $h16.own_rms > 1.5 then ": \($h8.own_rms / $h16.own_rms | short) times less" else ": here the bit depth does not matter" end)." else empty end),
     ((measured | map(select(.setting == "mode=exact")) | first) as $x | (measured | map(select(.setting == "as it stands")) | first) as $now |
         if $x and $now then "- The exact normal in place of the paper'"'"'s: \($x.rms | short) against \($now.rms | short), for \($x.seconds / $now.seconds | short) times the time." else empty end),
     (measured as $all | [$all[] | . as $r | select([$all[] | select(.seconds < 0.5 * $r.seconds and .rms < $r.rms)] | length > 0)] |
-        "- \(length) of \($all | length) settings are beaten in error by one that takes less than half their time."),
-    "- Reference: \(.reference.samples) x \(.reference.samples) samples a pixel; the last doubling changed \(.reference.last_rms | short) (RMS)\(if .reference.converged then ", under a tenth of the smallest error told" else ", more than a tenth of the smallest error told: errors near it are partly its own" end).",
-    "- The paper: bump takes 4 times Phong and 2 times a colour picture. Here \(.claim.bump_over_phong | short) and \(.claim.bump_over_colour | short)."
+        "- \(length) of \($all | length) settings have a larger error than another one in less than half their time."),
+    "- Reference: \(.reference.samples) x \(.reference.samples) samples a pixel; the last doubling changed \(.reference.last_rms | short) (RMS)\(if .reference.converged then ", under a tenth of the smallest error listed" else ", more than a tenth of the smallest error listed: errors near it are partly those of the reference" end).",
+    "- In the paper, bump needs 4 times as long as Phong and 2 times as long as a colour picture; here \(.claim.bump_over_phong | short) and \(.claim.bump_over_colour | short)."
     ' "$keep/$1.json" >>"$temporary/page"
 }
 
@@ -269,26 +269,26 @@ tell_kind() {
         def count(f): $rows | map(select(f)) | length;
         def middle: sort | .[length / 2 | floor] * 100 | round | . / 100;
         ($rows | map(select(.best_seconds != null))) as $able |
-        "Of \($n) rows, \(count(.verdict == "held")) hold the tolerance, \(count(.verdict == "BROKEN")) break it unsaid, \(count(.verdict == "not promised")) say that it cannot be promised and do break it, \(count(.verdict == "held, not promised")) say so and hold it, and for \(count(.verdict == "unresolved")) the reference itself is too uncertain. A single setting meets \($able | length); of those the choice takes at most 1.2 times the time of the cheapest in \($able | map(select(.seconds <= 1.2 * .best_seconds)) | length), half of them at most \($able | map(.seconds / .best_seconds) | middle) times; choosing and the first picture together take half of them at most \($able | map(.choosing_seconds / .best_seconds) | middle) times as long. It pays from the first picture on in \($able | map(select(.pays_from == 1)) | length), within ten in \($able | map(select(.pays_from != null and .pays_from <= 10)) | length), never in \($able | map(select(.pays_from == null)) | length)."' \
+        "Of \($n) rows, \(count(.verdict == "held")) hold the tolerance, \(count(.verdict == "BROKEN")) break it without a warning, \(count(.verdict == "not promised")) break it with a warning, \(count(.verdict == "held, not promised")) hold it with a warning, and for \(count(.verdict == "unresolved")) the reference itself is too uncertain. A single setting can meet \($able | length) rows. Compared with the cheapest such setting, each further picture needs at most 1.2 times the time in \($able | map(select(.seconds <= 1.2 * .best_seconds)) | length) of them, at most \($able | map(.seconds / .best_seconds) | middle) times in half of them; the first picture, including the choice, needs at most \($able | map(.choosing_seconds / .best_seconds) | middle) times the time in half of them. The choice pays from the first picture on in \($able | map(select(.pays_from == 1)) | length) rows, within ten in \($able | map(select(.pays_from != null and .pays_from <= 10)) | length), never in \($able | map(select(.pays_from == null)) | length)."' \
         "${files[@]}" >>"$temporary/page"
     say ''
 }
 
 tell_contest() {
     local half=$((${#contestants[@]} / 2))
-    say '## What a tolerance chooses'
+    say '## Choices of a tolerance'
     say ''
     say "Pictures of ${contest_size/x/ x } pixels on one thread. For each scene and tolerance of linear intensity: the error of the"
-    say 'whole picture against the reference; whether it keeps to the tolerance; the time of choosing, which makes the first'
-    say 'picture, and of each more; that of the cheapest single setting that meets the tolerance, found by trying slopes,'
-    say 'normals and ways against aliasing in all combinations, which nobody who wants one picture would do; how the two'
-    say 'compare; and from how many pictures on choosing takes less than knowing that setting beforehand.'
-    say 'Larger pictures were measured so on four scenes, below.'
+    say 'whole picture against the reference; the verdict on the tolerance; the time of the first picture, including the'
+    say 'choice, and of each further one; that of the cheapest single setting within the tolerance, from a full search over slopes,'
+    say 'normals and antialiasing in all combinations; the ratio of the two; and the number of pictures from which the'
+    say 'choice is cheaper than that setting, known in advance.'
+    say 'The last table has larger pictures of four scenes.'
     say ''
     tell_kind rms 'Root mean square, the scenes above' "${contestants[@]:0:half}"
-    tell_kind rms 'Root mean square, scenes that choosing was not tuned on' "${contestants[@]:half}"
+    tell_kind rms 'Root mean square, scenes not used for tuning' "${contestants[@]:half}"
     tell_kind max 'The worst pixel, the scenes above' "${contestants[@]:0:half}"
-    tell_kind max 'The worst pixel, scenes that choosing was not tuned on' "${contestants[@]:half}"
+    tell_kind max 'The worst pixel, scenes not used for tuning' "${contestants[@]:half}"
 }
 
 # Larger pictures: the columns of tell_kind, with the tolerance's kind.
@@ -310,7 +310,7 @@ tell_hard_cases() {
     say '## Hard cases'
     say ''
     [[ -f $keep/hard.json ]] || "$program" accuracy --hard-cases --json >"$keep/hard.json"
-    jq -r '"`wrinkle accuracy --hard-cases` measures \(.cases | length) cases: \(.pass) pass, \(.fail) fail, \(.waits) are of effects still to come.",
+    jq -r '"`wrinkle accuracy --hard-cases` measures \(.cases | length) cases: \(.pass) pass, \(.fail) fail, \(.waits) concern future effects.",
         (.cases[] | select(.verdict == "fail") | "- \(.id), \(.what): fails.")' "$keep/hard.json" >>"$temporary/page"
     say ''
     bash "$here/../../tests/mutate.sh" "$here/../.." tell >>"$temporary/page"
@@ -324,9 +324,9 @@ for name in "${shown[@]}"; do
 done
 for name in "${contestants[@]}"; do compete "$name"; done
 for name in "${large[@]}"; do compete_large "$name"; done
-say '# What accuracy costs'
+say '# The cost of accuracy'
 say ''
-say 'Made by `make.sh` from measurements; the sentences follow from the numbers. Errors are of linear intensity'
+say 'Generated by `make.sh` from measurements, including the sentences. Errors are of linear intensity'
 say 'against the reference in double precision; times are of one thread.'
 say ''
 say 'Reflection, surroundings, shadows and displacement have a page of their own: [light](light/README.md).'
