@@ -1,6 +1,6 @@
-/* accuracy.h - what the Accuracy panel, the comparisons on the patch, the inspector and the gallery of hard cases
-   hold. Everything that takes longer than a moment is done by threads in the background, from snapshots, only
-   while the view rests and somebody looks; what is outdated is cancelled. */
+/* accuracy.h - state of the Accuracy panel, the comparisons on the patch, the inspector and the hard-case gallery.
+   Long computations run on background threads, on snapshots, only while the view is static and a panel shows the
+   result; outdated ones are cancelled. */
 #pragma once
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/app_state.h"
@@ -22,158 +22,160 @@ typedef struct WrJob WrJob;
 typedef struct WrScene WrScene;
 typedef struct WrText WrText;
 
-/* What the patch's view shows. */
+/* Picture shown in the patch view. */
 typedef enum WrPatchLook {
     WR_PATCH_PLAIN,
-    WR_PATCH_SPLIT,   /* A, the scene, left of a line; B, other dials, right of it */
-    WR_PATCH_FLICKER, /* A and B, one after the other */
-    WR_PATCH_ERROR,   /* distance from the reference */
-    WR_PATCH_DROPPED, /* what the small-F approximation leaves out, degrees */
-    WR_PATCH_TILT,    /* between n and n', degrees */
+    WR_PATCH_SPLIT,   /* A, the scene, left of a divider; B, other dials, right of it */
+    WR_PATCH_FLICKER, /* A and B, alternating */
+    WR_PATCH_ERROR,   /* error against the reference */
+    WR_PATCH_DROPPED, /* error of the small-F approximation, degrees */
+    WR_PATCH_TILT,    /* angle between n and n', degrees */
     WR_PATCH_LEVEL,   /* mip level */
     WR_PATCH_HEIGHT,  /* F */
-    WR_PATCH_NORMAL,  /* n', as colours */
-    WR_PATCH_LACKS,   /* what bump lacks of displacement: outline red, shading green, shadow blue */
-    WR_PATCH_RAN,     /* where each effect ran: the preview's own picture, live as that is */
+    WR_PATCH_NORMAL,  /* n', as a colour */
+    /* error of bump mapping against displacement: outline red, shading green, shadow blue */
+    WR_PATCH_LACKS,
+    WR_PATCH_RAN, /* effect heatmap: the preview's own picture, as live as that */
     WR_PATCH_LOOKS
 } WrPatchLook;
-extern const char *const wr_patch_look_names[WR_PATCH_LOOKS]; /* for people */
+extern const char *const wr_patch_look_names[WR_PATCH_LOOKS]; /* display names */
 
-/* A picture laid over the patch. */
+/* A picture drawn over the patch. */
 typedef struct WrPatchLayer {
     SDL_Texture *texture; /* owned */
-    int width, height;    /* pixels of it; 0: none */
-    uint64_t of;          /* the state that it shows */
-    int look;             /* and of maps: which */
-    double low, full;     /* the values at the ends of its scale */
+    int width, height;    /* its size in pixels; 0: none */
+    uint64_t of;          /* state of the document that it shows */
+    int look;             /* for maps: the kind */
+    double low, full;     /* values at the ends of the scale */
 } WrPatchLayer;
 
 typedef struct WrInspector {
-    bool shown;  /* its tab is */
-    bool pinned; /* it stays at its place */
-    bool have;   /* there is a place */
+    bool shown;  /* its tab is visible */
+    bool pinned; /* fixed at its position */
+    bool have;   /* there is a position */
     bool on_table;
-    double x, y; /* of the place: shares of the view; u, v of the patch */
+    double x, y; /* the position: fractions of the view; u, v of the patch */
     WrProbe probe;
-    char object[64];   /* of several, which it is about; "" of the only one */
-    bool known, seen;  /* probe holds; see WrWork.seen */
-    uint64_t asked_of; /* state that was asked about last */
+    char object[64];   /* name of the object if there are several, else "" */
+    bool known, seen;  /* probe is valid; see WrWork.seen */
+    uint64_t asked_of; /* state of the last request */
     bool asked_table;
     double asked_x, asked_y;
-    bool copied; /* what it shows is on the clipboard */
+    bool copied; /* the values were copied to the clipboard */
 } WrInspector;
 
-typedef struct WrCases { /* the gallery of hard cases */
+typedef struct WrCases { /* hard-case gallery */
     char filter[80];
     const WrHardCase *chosen; /* NULL: none */
     WrHardReport *report;     /* owned; NULL: not measured yet */
-    bool wanted;              /* to be measured when nothing else is */
+    bool wanted;              /* to be measured when no other work runs */
 } WrCases;
 
 struct WrAccuracy {
-    /* of what the view shows */
-    WrField *field; /* own shares */
+    /* shared, owned: content of the view */
+    WrField *field; /* shared, owned */
     WrTables *tables;
     WrScene *scene;
     double turn_deg;
     int width, height;
-    uint64_t state;             /* counts what was seen so far */
+    uint64_t state;             /* counter of view states */
     double changed_at;          /* clock */
-    bool error_open, plot_open; /* somebody looks at them, in the last picture of the window */
+    bool error_open, plot_open; /* they were visible in the last frame */
 
     WrWorkTools measure_tools, look_tools, probe_tools;
     WrJob *measure, *looker, *prober;
-    bool measuring;      /* something is under way there ... */
-    WrWorkKind measures; /* ... this */
+    bool measuring;      /* a measurement is running ... */
+    WrWorkKind measures; /* ... of this kind */
 
     WrWork *error;     /* newest result, owned; NULL: none */
-    uint64_t error_of; /* state that was measured, or could not be */
-    WrError error_why; /* why not; "" */
+    uint64_t error_of; /* state that was measured, or whose measurement failed */
+    WrError error_why; /* reason of a failure; "" */
     WrWork *plot;      /* newest ladder, owned; NULL: none */
-    char *plot_base;   /* the scene without its dials that it is about, owned */
-    uint64_t plot_key; /* of the table; and the picture's turn */
+    char *plot_base;   /* the ladder's scene without its dials, owned */
+    uint64_t plot_key; /* key of its table and of the picture's rotation */
     double plot_turn;
-    uint64_t plot_failed; /* state for which there is none */
-    uint64_t fits_of;     /* state that the next two are known for; 0: none */
-    bool fits;            /* the plot is of this table and this scene, but for its dials */
-    int rung;             /* of it with the scene's dials, -1: none */
+    uint64_t plot_failed; /* state whose ladder failed */
+    uint64_t fits_of;     /* state for which the next two members are valid; 0: none */
+    bool fits;            /* the plot belongs to this table and scene, except for the dials */
+    int rung;             /* index of the rung with the scene's dials, -1: none */
     bool plot_asked;
-    WrWork *illusion;     /* newest, owned; NULL: none */
-    bool illusion_wanted; /* to be measured when nothing else is */
+    WrWork *illusion;     /* newest result, owned; NULL: none */
+    bool illusion_wanted; /* to be measured when no other work runs */
     int plot_hot;         /* point under the pointer, -1: none */
 
     WrPatchLook look;
-    double split; /* share of the view left of the line */
+    double split; /* fraction of the view left of the divider */
     bool hold_b;  /* the key that shows B is held */
     SDL_Keycode hold_key;
     double flicker_since;
-    bool flicker_shown; /* B, in the last picture of the window */
-    int chooses;        /* what the dials and the plot set: 0 A, 1 B */
+    bool flicker_shown; /* the last frame showed B */
+    int chooses;        /* side that the dials and the plot change: 0 A, 1 B */
     double b[WR_DIAL_COUNT];
     bool b_given;
-    uint64_t b_serial, look_serial; /* of B's dials: now, and when it was asked for */
-    uint64_t look_of; /* state that pictures or a map were asked for, or could not be had */
+    uint64_t b_serial, look_serial; /* version of B's dials: present, and of the last request */
+    uint64_t look_of; /* state for which pictures or a map were requested, or failed */
     int look_kind;
     WrPatchLayer pair[2], map;
 
-    WrPreviewPicture full_times; /* times and size of the last sharp picture of the preview */
+    WrPreviewPicture full_times; /* times and size of the preview's last full-quality picture */
     WrInspector inspector;
     WrCases cases;
 };
 
-/* Which map it takes, of those that are measured by the reference. */
+/* Kind of reference map for a patch picture. */
 WrProbeMap wr_accuracy_map_of(WrPatchLook look);
 
 /* ---- accuracy_input.c ---- */
 void wr_accuracy_new(WrApp *app);
 void wr_accuracy_free(WrApp *app);
-/* Take what is done, begin what is due; once before each picture. */
+/* Fetch finished work and start due work; once before each frame. */
 void wr_accuracy_update(WrApp *app);
-/* Something is measured or about to be; two pictures that are shown in turn do not count. */
+/* True if a measurement is running or due; alternating pictures do not count. */
 bool wr_accuracy_under_way(const WrApp *app);
-double wr_accuracy_next_time(const WrApp *app); /* clock at which that must be; 0: only on events */
-bool wr_accuracy_works(WrApp *app);             /* a bar of ours moves */
-void wr_accuracy_forget(WrApp *app);            /* textures were lost */
-bool wr_accuracy_rests(const WrApp *app);       /* nothing is held or drawn, nothing turns */
-/* Is a ladder there, for the table and the scene but for its dials? */
+/* clock of the next necessary update; 0: only after events */
+double wr_accuracy_next_time(const WrApp *app);
+bool wr_accuracy_works(WrApp *app);       /* a progress bar is visible */
+void wr_accuracy_forget(WrApp *app);      /* drop textures, which were lost */
+bool wr_accuracy_rests(const WrApp *app); /* nothing is dragged, drawn or rotating */
+/* True if there is a ladder for the table and the scene, except for the dials. */
 bool wr_accuracy_plot_fits(const WrApp *app);
-/* The rung of a ladder that fits with the scene's dials, or -1. */
+/* The rung with the scene's dials in a fitting ladder, or -1. */
 int wr_accuracy_rung(const WrApp *app);
 bool wr_accuracy_busy(WrApp *app, WrWorkKind kind, double *fraction);
 
-/* ---- accuracy_set.c: dials of A, by commands, and of B ---- */
-/* A's dial: of the scene; B's: as last chosen, else the best of all. */
+/* ---- accuracy_set.c: dials of A, changed by commands, and of B ---- */
+/* A's dial: the scene's; B's: the last choice, initially the best. */
 double wr_accuracy_dial(const WrApp *app, int side, int dial);
 void wr_accuracy_set_dial(WrApp *app, int side, int dial, double value);
-/* All dials as a rung of the ladder has them. */
+/* Set all dials to those of a ladder rung. */
 void wr_accuracy_take_rung(WrApp *app, int side, int rung);
 void wr_accuracy_b_from_a(WrApp *app);
 void wr_accuracy_swap(WrApp *app);
 /* The scene with the dials of A or B, without tolerance. The caller frees it. */
 WrScene *wr_accuracy_scene(const WrApp *app, int side);
-/* The dials that the tolerance chose where they are finest become the scene's, the tolerance goes. */
+/* Make the finest dials chosen by the tolerance the scene's dials, and remove the tolerance. */
 void wr_accuracy_keep(WrApp *app);
-/* A's or B's dials in a few words. */
+/* Short description of A's or B's dials. */
 void wr_accuracy_words(const WrApp *app, int side, WrText *text);
 
 /* ---- accuracy_view.c: over the patch ---- */
 void wr_accuracy_show(WrApp *app, WrPatchLook look);
-void wr_accuracy_draw(WrApp *app);    /* pictures, over the preview's */
-void wr_accuracy_overlay(WrApp *app); /* labels, line, scale */
-bool wr_accuracy_on_line(const WrApp *app, double x,
-                         double y); /* the pointer would grasp the line */
+void wr_accuracy_draw(WrApp *app);    /* pictures over the preview */
+void wr_accuracy_overlay(WrApp *app); /* labels, divider, scale */
+/* the pointer can grasp the divider */
+bool wr_accuracy_on_line(const WrApp *app, double x, double y);
 void wr_accuracy_drag_line(WrApp *app, double x);
-/* A finished picture or map becomes a texture. */
+/* Convert a finished picture or map to a texture. */
 void wr_accuracy_lay(WrApp *app, const WrWork *work);
 
 /* ---- panels ---- */
 void wr_panel_accuracy(WrApp *app);
 void wr_panel_accuracy_dials(WrApp *app);     /* panel_accuracy_dials.c */
-void wr_panel_accuracy_tolerance(WrApp *app); /* the same */
+void wr_panel_accuracy_tolerance(WrApp *app); /* panel_accuracy_dials.c */
 void wr_panel_illusion(WrApp *app);           /* panel_illusion.c */
 void wr_panel_accuracy_plot(WrApp *app);      /* panel_accuracy_plot.c */
 void wr_panel_inspector(WrApp *app);          /* panel_inspector.c */
-void wr_inspector_follow(WrApp *app);         /* its place, before each picture */
+void wr_inspector_follow(WrApp *app);         /* update its position, before each frame */
 void wr_dialog_cases(WrApp *app);             /* panel_cases.c */
 void wr_dialog_cases_open(WrApp *app);
 
@@ -196,7 +198,7 @@ void wr_act_accuracy_measure(WrApp *app);
 void wr_act_compare_take(WrApp *app);
 void wr_act_compare_swap(WrApp *app);
 void wr_act_compare_hold(
-    WrApp *app); /* of the hand: held by its key; chosen in a menu it toggles */
+    WrApp *app); /* modifier action: active while its key is held; from a menu it toggles */
 bool wr_is_accuracy(const WrApp *app);
 bool wr_is_inspector(const WrApp *app);
 bool wr_is_inspector_pinned(const WrApp *app);

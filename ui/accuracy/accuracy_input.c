@@ -1,4 +1,4 @@
-/* What is measured when, and where the results go. */
+/* Scheduling of measurements, and their results. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plan.h"
 #include "ui/accuracy/accuracy_work.h"
@@ -58,7 +58,7 @@ static void note_view(WrApp *app)
     a->height = room->h;
     a->state++;
     a->changed_at = wr_clock_seconds();
-    if (a->measuring && a->measures != WR_WORK_CASES) { /* it is about something else */
+    if (a->measuring && a->measures != WR_WORK_CASES) { /* it concerns another state */
         wr_job_cancel(a->measure);
         a->measuring = false;
     }
@@ -138,7 +138,7 @@ static void take_measured(WrApp *app)
             return;
         }
     } else if (work->kind == WR_WORK_LADDER) {
-        a->plot_failed = work->of; /* once is enough; a new state is a new try */
+        a->plot_failed = work->of; /* once is enough; a new state is tried again */
         if (work->done) {
             take_ladder(a, work);
             return;
@@ -164,7 +164,7 @@ static void take_look(WrApp *app)
     if (!work) return;
     if (work->done) wr_accuracy_lay(app, work);
     else wr_app_fail(app, &work->err);
-    if (work->done && work->kind == WR_WORK_ILLUSION) { /* the panel has its numbers */
+    if (work->done && work->kind == WR_WORK_ILLUSION) { /* its numbers go to the panel */
         wr_work_free(app->accuracy->illusion);
         app->accuracy->illusion = work;
         return;
@@ -193,7 +193,7 @@ static void take_probe(WrApp *app)
     wr_work_free(work);
 }
 
-/* ---- what is due ---- */
+/* ---- due work ---- */
 
 static WrWork *new_work(WrApp *app, WrWorkKind kind, WrWorkTools *tools)
 {
@@ -233,10 +233,9 @@ static void begin_measuring(WrApp *app)
     WrAccuracy *a = app->accuracy;
     double due;
     if (a->cases.wanted &&
-        !wr_accuracy_busy(app, WR_WORK_CASES, NULL)) { /* somebody waits for them */
+        !wr_accuracy_busy(app, WR_WORK_CASES, NULL)) { /* the user waits for them */
         a->cases.wanted = false;
-        measure(app,
-                WR_WORK_CASES); /* in the place of what is under way, which begins again later */
+        measure(app, WR_WORK_CASES); /* replaces running work, which restarts later */
         return;
     }
     if (a->illusion_wanted && !a->measuring && wr_accuracy_rests(app)) {
@@ -260,7 +259,7 @@ static bool compares(const WrAccuracy *a)
     return a->look == WR_PATCH_SPLIT || a->look == WR_PATCH_FLICKER || a->hold_b;
 }
 
-/* Pictures or a map are wanted that are not there and were not asked for. */
+/* True if pictures or a map are needed, missing and not yet requested. */
 static bool look_missing(const WrAccuracy *a)
 {
     if (a->look == WR_PATCH_ERROR && !a->hold_b) return false;
@@ -296,7 +295,7 @@ static void begin_probing(WrApp *app)
         in->asked_y == in->y)
         return;
     if (wr_job_busy(a->prober, NULL, NULL))
-        return; /* the newest place is asked for when it is done */
+        return; /* the newest position is requested after the present one */
     in->asked_of = a->state;
     in->asked_table = in->on_table;
     in->asked_x = in->x;
@@ -323,7 +322,7 @@ void wr_accuracy_update(WrApp *app)
     WrAccuracy *a = app->accuracy;
     if (app->drawn_at == 0.0) return;
     if (a->hold_key != SDLK_UNKNOWN && SDL_GetKeyboardFocus() != app->window)
-        a->hold_b = false; /* nobody would tell that it was let go */
+        a->hold_b = false; /* the key's release would be missed */
     note_view(app);
     note_times(app);
     take_measured(app);
@@ -340,7 +339,7 @@ void wr_accuracy_update(WrApp *app)
     if (shown != a->flicker_shown) wr_app_redraw(app);
 }
 
-/* When the next work begins; 0: none is to be done. */
+/* Clock of the next work; 0: none. */
 static double next_work(const WrApp *app)
 {
     const WrAccuracy *a = app->accuracy;

@@ -1,4 +1,4 @@
-/* The accuracy's state, from its beginning to its end. */
+/* Creation and destruction of the accuracy state. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/state/app_options.h"
@@ -23,7 +23,7 @@ void wr_accuracy_new(WrApp *app)
     WrAccuracy *a = app->accuracy = wr_alloc(1, sizeof *a);
     WrWorkTools tools = { .isa = app->options->isa };
     a->measure_tools = a->look_tools = a->probe_tools = tools;
-    /* One thread each: what is computed here must not keep strokes and the preview waiting. */
+    /* One thread each, so that strokes and the preview are not slowed down. */
     a->measure = wr_job_new(&wr_work_jobs, 1, app->job_event);
     a->looker = wr_job_new(&wr_work_jobs, 1, app->job_event);
     a->prober = wr_job_new(&wr_work_jobs, 1, app->job_event);

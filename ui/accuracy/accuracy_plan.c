@@ -11,7 +11,7 @@ WrAccuracyNext wr_accuracy_next(const WrAccuracyMoment *m, double *due)
     const bool plot = asked || (m->plot_open && !m->plot_known);
     if (!error && !plot) return WR_ACCURACY_NOTHING;
     const double wait = error ? WR_ACCURACY_REST : asked ? 0 : WR_ACCURACY_LADDER_REST;
-    if (m->now < m->changed_at + wait) { /* as *due, bit for bit */
+    if (m->now < m->changed_at + wait) { /* bit-identical to *due */
         *due = m->changed_at + wait;
         return WR_ACCURACY_NOTHING;
     }

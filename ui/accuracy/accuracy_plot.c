@@ -3,12 +3,12 @@
 #include <math.h>
 #include <stdio.h>
 
-#define ROOM 1.12 /* beside the outer values */
+#define ROOM 1.12 /* margin beyond the outer values */
 
 static const double steps[3] = { 1, 2, 5 };
 
-/* Of the round numbers, that with this index: 0 is 1, 1 is 2, 2 is 5, 3 is 10, -1 is 0.5. Powers of ten below 1 by
-   division, so that they are the numbers that people write. */
+/* Round number of an index: 0 is 1, 1 is 2, 2 is 5, 3 is 10, -1 is 0.5. Powers of ten below 1 are computed by
+   division, so that they equal the decimal literals. */
 static double round_number(int index)
 {
     const int k = (int)floor(index / 3.0);
@@ -16,7 +16,7 @@ static double round_number(int index)
     return k < 0 ? step / pow(10.0, -k) : step * pow(10.0, k);
 }
 
-/* The index of the largest round number at or below a positive value. */
+/* Index of the largest round number at or below a positive value. */
 static int round_below(double value)
 {
     int index = 3 * (int)floor(log10(value)) - 1;

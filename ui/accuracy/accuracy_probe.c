@@ -16,11 +16,11 @@
 #include <stdio.h>
 
 #define SAME_PLACE                                                                                 \
-    1e-3 /* of the patch: nearer than that the pixel shows the place that was asked for */
+    1e-3 /* of the patch: at a smaller distance the pixel shows the requested position */
 
-/* ---- looking ---- */
+/* ---- visibility ---- */
 
-/* The pixel of the view that a point of the object falls on; false behind the eye. */
+/* Project a point of the object to a pixel of the view; false behind the eye. */
 static bool project(const WrWork *work, WrVec3 p, double *x, double *y)
 {
     WrPlacement at;
@@ -36,7 +36,7 @@ static bool project(const WrWork *work, WrVec3 p, double *x, double *y)
     return true;
 }
 
-/* What does not depend on a pixel, at u, v of the patch's first face. */
+/* Quantities independent of a pixel, at u, v of the patch's first face. */
 static void probe_at(const WrScene *scene, const WrField *field, double u, double v, WrProbe *out)
 {
     *out = (WrProbe){ .hit = true, .u = u, .v = v };
@@ -55,14 +55,14 @@ static void probe_at(const WrScene *scene, const WrField *field, double u, doubl
     out->dropped_deg = wr_bump_tilt_deg(out->perturbed_exact, perturbed[WR_BUMP_BLINN]);
 }
 
-/* The shorter way between two values of a parameter that may close. */
+/* Distance between two values of a parameter, the shorter way if it is periodic. */
 static double apart(double a, double b)
 {
     const double d = fabs(a - b);
     return d < 1 - d ? d : 1 - d;
 }
 
-/* How far before the eye a point of that object lies. */
+/* Depth of a point of that object before the eye. */
 static double depth_of(const WrWork *work, const WrScene *scene, WrVec3 p)
 {
     WrPlacement at;
@@ -71,7 +71,7 @@ static double depth_of(const WrWork *work, const WrScene *scene, WrVec3 p)
     return v3_dot(v3_sub(wr_place_world(&at, p), at.eye), at.forward);
 }
 
-/* The nearest of the objects at that pixel; none: the one at hand has nothing there either. */
+/* Probe the nearest object at that pixel; without a hit, the active one, which is not hit either. */
 static bool probe_nearest(WrWork *work)
 {
     const WrField *const *fields = wr_tables_fields(work->tables);
@@ -115,7 +115,7 @@ bool wr_accuracy_probe(WrWork *work)
     return true;
 }
 
-/* ---- telling ---- */
+/* ---- output ---- */
 
 static WrProbeRow one(const char *name, double value, const char *unit, const char *help)
 {

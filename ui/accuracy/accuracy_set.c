@@ -1,5 +1,4 @@
-/* Setting dials: of A, the scene, by commands like any other change of it; of B, which is nobody's but the
-   window's. */
+/* Changes of dials: of A, the scene, by commands; of B, which is only in the window. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
@@ -17,7 +16,7 @@
 
 #include <string.h>
 
-/* What B is until it is chosen: hardly any error. */
+/* Initial dials of B: almost no error. */
 static void give_b(WrAccuracy *a, const WrScene *scene)
 {
     if (a->b_given) return;
@@ -52,7 +51,7 @@ static void add_dial(WrText *line, int dial, double value)
     else wr_text_add_number(line, value);
 }
 
-/* The scene's dials become these, by as few commands as there are verbs. */
+/* Set the scene's dials with as few commands as possible. */
 static void set_all(WrApp *app, const double value[WR_DIAL_COUNT])
 {
     static const char *const verbs[] = { "bump", "material", "dials" };
@@ -148,7 +147,8 @@ void wr_accuracy_words(const WrApp *app, int side, WrText *text)
     if (dials->aa != WR_AA_SUPERSAMPLE)
         wr_text_addf(text, " %s", wr_dials[WR_DIAL_AA].choice((int)dials->aa));
     if (grid) wr_text_addf(text, " %d\xc3\x97%d", dials->samples, dials->samples);
-    for (int d = WR_DIAL_SAMPLES + 1; d < WR_DIAL_COUNT; d++) { /* where A and B differ */
+    for (int d = WR_DIAL_SAMPLES + 1; d < WR_DIAL_COUNT;
+         d++) { /* dials that differ between A and B */
         const WrDial *dial = &wr_dials[d];
         const double value = dial->get(scene);
         if ((dial->matters && !dial->matters(scene)) || value == wr_accuracy_dial(app, 1 - side, d))

@@ -26,7 +26,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define GRASP_UNITS 7 /* to either side of the line between two pictures */
+#define GRASP_UNITS 7 /* on both sides of the divider */
 
 WR_ROWS(wr_patch_look_names);
 const char *const wr_patch_look_names[WR_PATCH_LOOKS] = {
@@ -47,7 +47,7 @@ void wr_accuracy_show(WrApp *app, WrPatchLook look)
     a->flicker_since = wr_clock_seconds();
     app->patch->look.ran = look == WR_PATCH_RAN;
     if (look != WR_PATCH_PLAIN && look != WR_PATCH_RAN)
-        app->settings->turning = false; /* what is compared must stand still */
+        app->settings->turning = false; /* compared pictures must be static */
     wr_app_redraw(app);
 }
 
@@ -99,7 +99,7 @@ static void colour_of(int look, double value, double low, double full, uint8_t r
     for (int c = 0; c < 3; c++) rgb[c] = (uint8_t)((int)value >> (16 - 8 * c) & 255);
 }
 
-/* Values as colours, low .. full; where there is none, the ground. */
+/* Values as colours, low .. full; the background where there is no value. */
 static void lay_map(WrApp *app, const WrWork *work, int look)
 {
     WrPatchLayer *layer = &app->accuracy->map;
@@ -124,7 +124,7 @@ static void lay_map(WrApp *app, const WrWork *work, int look)
     wr_free(bgra);
 }
 
-/* Its three numbers of each pixel as colours, as the file of `accuracy --illusion --map` has them. */
+/* The three errors of each pixel as colours, as in the file of `accuracy --illusion --map`. */
 static void lay_lacks(WrApp *app, const WrWork *work)
 {
     const WrIllusion *it = &work->illusion;
@@ -157,7 +157,7 @@ void wr_accuracy_lay(WrApp *app, const WrWork *work)
     }
 }
 
-/* ---- what is drawn ---- */
+/* ---- drawing ---- */
 
 static bool pair_ready(const WrAccuracy *a)
 {
@@ -169,7 +169,7 @@ static bool map_ready(const WrAccuracy *a)
     return a->map.texture && a->map.of == a->state && a->map.look == (int)a->look;
 }
 
-/* The pixel column where B begins. */
+/* First pixel column of B. */
 static int line_x(const WrApp *app)
 {
     const SDL_Rect *room = &app->layout->patch;
@@ -215,7 +215,7 @@ void wr_accuracy_draw(WrApp *app)
     }
 }
 
-/* ---- the line ---- */
+/* ---- divider ---- */
 
 bool wr_accuracy_on_line(const WrApp *app, double x, double y)
 {
@@ -233,7 +233,7 @@ void wr_accuracy_drag_line(WrApp *app, double x)
 
 /* ---- labels ---- */
 
-/* A chip of text whose left (anchor 0) or right (1) end is at x, its lower edge at y. */
+/* A text chip with its left (anchor 0) or right (1) end at x and its lower edge at y. */
 static void chip(double x, double y, double anchor, double most, const char *letter,
                  const char *words)
 {
@@ -271,7 +271,7 @@ static void split_labels(const WrApp *app)
 {
     const SDL_Rect *room = &app->layout->patch;
     const double s = wr_gui_scale(), x = line_x(app);
-    /* At the outer corners, where neither picture is covered by the other's name; the ring has its place. */
+    /* Labels are at the outer corners, so that they do not cover the other picture; leave room for the ring. */
     const double left = room->x + 12 * s, right = room->x + room->w - 40 * s;
     const double middle = room->y + room->h / 2.0;
     wr_gui_draw_fill(x - 2 * s, room->y, 4 * s, room->h, 0x80101010u, 0);
@@ -329,11 +329,11 @@ static void draw_scale(const WrApp *app)
     }
 }
 
-/* ---- what ran: colours and their meaning ---- */
+/* ---- legend of the effect heatmap ---- */
 
-#define RAN_LINES 12 /* at most */
+#define RAN_LINES 12 /* limit */
 
-/* The colour in words, and what ran there; false: there is no such line. */
+/* Name of a colour and its effects; false: there is no such line. */
 static bool ran_line(const WrPreviewPicture *picture, int i, WrHeatmapLine *line, WrText *text)
 {
     if (i >= RAN_LINES || !wr_heatmap_line(&picture->counts, i, line)) return false;
@@ -377,7 +377,7 @@ static void draw_ran(const WrApp *app)
     }
 }
 
-/* What the colours say, and below which height nobody sees any of it. */
+/* Meaning of the colours, and the height below which the errors are invisible. */
 static void draw_lacks(const WrApp *app)
 {
     const WrWork *work = app->accuracy->illusion;

@@ -27,10 +27,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define REFERENCE_SAMPLES 8 /* a side, for the error of the resting view */
-#define LADDER_SAMPLES 16   /* a side, of the ladder's reference */
+#define REFERENCE_SAMPLES 8 /* along a side, for the error of the static view */
+#define LADDER_SAMPLES 16   /* along a side, for the ladder's reference */
 #define LADDER_RUNS 3
-#define LADDER_BUDGET 6.0 /* seconds for its timed runs */
+#define LADDER_BUDGET 6.0 /* seconds for timed runs */
 
 char *wr_accuracy_base(const WrScene *scene)
 {
@@ -93,7 +93,7 @@ static WrRenderer *renderer(WrWorkTools *tools, int i, WrPool *pool, WrError *er
     return tools->renderer[i];
 }
 
-/* By the dials, or by those that the tolerance chooses. */
+/* Render with the dials, or with those chosen by the tolerance. */
 static bool render(WrWork *work, int i, WrPool *pool, const WrFrameRequest *request, WrFrame *frame)
 {
     WrRenderer *r = renderer(work->tools, i, pool, &work->err);
@@ -103,7 +103,7 @@ static bool render(WrWork *work, int i, WrPool *pool, const WrFrameRequest *requ
     WrChoice choice = { 0 };
     bool good = wr_tolerance_choose(r, request, &choice, frame, &work->err);
     wr_choice_fini(&choice);
-    frame->plan = NULL; /* it was the choice's */
+    frame->plan = NULL; /* it was borrowed from the choice */
     return good;
 }
 
@@ -136,7 +136,7 @@ static bool pair(WrWork *work, WrPool *pool, const WrProgress *progress)
 
 /* ---- the error ---- */
 
-/* Each pixel's largest error of R, G and B; NAN where neither picture has anything. */
+/* Largest error of R, G and B in each pixel; NAN where both pictures are empty. */
 static bool keep_errors(WrWork *work, const float *rgba, const WrReference *reference)
 {
     const size_t count = (size_t)reference->width * (size_t)reference->height;
@@ -152,8 +152,8 @@ static bool keep_errors(WrWork *work, const float *rgba, const WrReference *refe
     return true;
 }
 
-/* All that the reference's picture depends on: the scene but for its dials, though not for those that are models of their
-   own; tables, turn, size. Caller frees. */
+/* Text of all inputs of the reference picture: the scene without dials, except dials that change the model; tables,
+   rotation, size. The caller frees it. */
 static char *reference_key(const WrWork *work, const WrReferenceRequest *wanted)
 {
     WrText text = { 0 };
@@ -168,8 +168,8 @@ static char *reference_key(const WrWork *work, const WrReferenceRequest *wanted)
     return text.data;
 }
 
-/* The reference's picture: the one that is kept where nothing that it depends on has changed, as when dials are tried on a
-   scene that rests. Of several objects none is kept: their texts are not asked for. */
+/* The reference picture: the cached one if its inputs are unchanged, as when dials are varied on a static scene. With
+   several objects there is no cache, since its key would be incomplete. */
 static bool bring_reference(WrWork *work, const WrReferenceRequest *wanted, WrPool *pool)
 {
     WrWorkTools *tools = work->tools;
@@ -279,7 +279,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Outlines and poles must not make all else of a map black. */
+/* Percentiles limit the scale, so that silhouettes and poles do not darken the rest of a map. */
 static void find_ends(WrWork *work)
 {
     const size_t count = work->values ? (size_t)work->measured_w * (size_t)work->measured_h : 0;

@@ -1,5 +1,4 @@
-/* The Accuracy tab: what the patch shows, the error and the time of the picture, what other dials would cost,
-   the dials themselves. */
+/* The Accuracy tab: picture of the patch, error and time, cost of other dials, the dials. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
@@ -18,7 +17,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- what the patch shows ---- */
+/* ---- picture of the patch ---- */
 
 static void show(WrApp *app)
 {
@@ -40,7 +39,7 @@ static void show(WrApp *app)
 /* ---- numbers in two columns ---- */
 
 typedef struct Cell {
-    WrColour colour; /* of the disc before the name; 0: none */
+    WrColour colour; /* colour of the disc before the name; 0: none */
     const char *name, *tip;
     char value[32];
 } Cell;
@@ -150,7 +149,7 @@ static void error(WrApp *app)
 
 /* ---- time ---- */
 
-/* Of wr_series. */
+/* Indices into wr_series. */
 static const int stage_colours[] = { 6, 0, 2, 1, 4, 3 };
 _Static_assert(WR_LENGTH(stage_colours) == WR_PICTURE_STAGES, "a colour for each stage");
 
@@ -199,7 +198,7 @@ static void stages(WrApp *app)
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, words);
 }
 
-/* ---- all ---- */
+/* ---- whole tab ---- */
 
 void wr_panel_accuracy(WrApp *app)
 {

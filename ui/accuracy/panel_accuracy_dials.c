@@ -1,5 +1,5 @@
-/* The dials, made from their table, of the scene or of what it is compared with; and the tolerance, which sets
-   them by measuring. */
+/* Dials of the scene or of the compared side, built from their table; and the tolerance, which sets them by
+   measurement. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
@@ -83,7 +83,7 @@ void wr_panel_accuracy_tolerance(WrApp *app)
     WR_ROWS(fresh);
     static const struct {
         const char *name;
-        double value; /* to begin with */
+        double value; /* initial value */
     } fresh[WR_TOLERANCE_COUNT] = {
         [WR_ROW(WR_TOLERANCE_NONE)] = { "Off", 0 },
         [WR_ROW(WR_TOLERANCE_RMS)] = { "RMS", 0.004 },
@@ -119,7 +119,7 @@ static void choose(WrApp *app, int side, int id)
         wr_accuracy_set_dial(app, side, id, index);
 }
 
-/* A slider over the rungs that are worth trying; typing reaches all that is allowed. */
+/* A slider over the useful values; typing allows the whole range. */
 static void number(WrApp *app, int side, int id, double reset)
 {
     const WrDial *dial = &wr_dials[id];

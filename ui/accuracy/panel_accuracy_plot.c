@@ -1,5 +1,5 @@
-/* Error against time of all settings that the ladder tried, both logarithmic: the front that nothing beats, the
-   present setting ringed; a click uses a point. */
+/* Plot of error against time of all settings in the ladder, both logarithmic: the Pareto front, and a ring around the
+   present setting. A click on a point applies it. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
@@ -23,16 +23,16 @@
 #include <stdio.h>
 
 #define TICKS 6
-#define PLOT_UNITS 210 /* its height */
-#define REACH_UNITS 12 /* from the pointer to a point */
+#define PLOT_UNITS 210 /* height of the plot */
+#define REACH_UNITS 12 /* hit radius of a point */
 
 _Static_assert(WR_SERIES == WR_AXIS_COUNT + 1, "and one for several axes at once");
 
 typedef struct Plot {
     WrPlotAxis time, error; /* seconds; RMS */
-    double floor;           /* the reference's own error: nothing is known below it */
-    double x, y, w, h;      /* of the field between the axes, pixels */
-    double (*points)[2];    /* [count] pixels; far away where a rung has none */
+    double floor;           /* the reference's own error: smaller errors are unknown */
+    double x, y, w, h;      /* area between the axes, pixels */
+    double (*points)[2];    /* [count] pixels; far outside for a rung without a point */
     int count;
 } Plot;
 
@@ -41,7 +41,7 @@ static bool has_point(const WrRung *rung)
     return !rung->model && !rung->note.text[0] && rung->seconds > 0 && rung->errors.rms > 0;
 }
 
-/* Smaller errors than the reference's own say nothing: they lie on its line. */
+/* Errors below the reference's own are not measurable, so they are drawn at its line. */
 static double error_of(const Plot *plot, const WrRung *rung)
 {
     return fmax(rung->errors.rms, plot->floor);
@@ -127,7 +127,7 @@ static void draw_axes(const WrPad *pad, const Plot *plot)
                      pad->y + 5 * s, WR_FONT_SMALL, WR_COLOUR_TEXT, time);
 }
 
-/* The front from its quickest to its most exact. */
+/* The front from fastest to most accurate. */
 static void draw_front(const WrLadder *ladder, const Plot *plot, WrColour colour)
 {
     int last = -1;
@@ -156,7 +156,7 @@ static void draw_points(const WrAccuracy *a, const Plot *plot, int present, bool
 {
     const double s = wr_gui_scale();
     const WrLadder *ladder = &a->plot->ladder;
-    for (int pass = 0; pass < 2; pass++) /* those of the front on top */
+    for (int pass = 0; pass < 2; pass++) /* points of the front on top */
         for (int i = 0; i < plot->count; i++) {
             const WrRung *rung = &ladder->rungs[i];
             if (rung->front != (pass == 1)) continue;
@@ -172,7 +172,7 @@ static void draw_points(const WrAccuracy *a, const Plot *plot, int present, bool
                            WR_COLOUR_ACCENT, 1.5 * s);
 }
 
-/* ---- words ---- */
+/* ---- texts ---- */
 
 static void tell_rung(const WrLadder *ladder, int index, bool present)
 {
@@ -189,7 +189,7 @@ static void tell_rung(const WrLadder *ladder, int index, bool present)
     wr_text_fini(&text);
 }
 
-/* Two lines, always, so that nothing below jumps when the pointer comes. */
+/* Always two lines high, so that nothing below moves when the pointer enters. */
 static void tell(const WrAccuracy *a, int present, bool old)
 {
     if (a->plot_hot >= 0) tell_rung(&a->plot->ladder, a->plot_hot, a->plot_hot == present);

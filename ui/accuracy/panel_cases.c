@@ -1,5 +1,4 @@
-/* The gallery of hard cases: what must hold, how far from it the program's own code is, and the case itself on
-   the patch. */
+/* Hard-case gallery: requirement and measured deviation of each case, and the case itself on the patch. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
@@ -28,7 +27,7 @@ void wr_dialog_cases_open(WrApp *app)
     if (!cases->chosen) cases->chosen = wr_hardcase(0);
     if (!cases->report) cases->wanted = true;
     wr_dialog_open(app, WR_DIALOG_CASES);
-    app->redraw = 8; /* until the field has the keyboard */
+    app->redraw = 8; /* until the field has the keyboard focus */
 }
 
 static const WrHardResult *result_of(const WrCases *cases, int index)
@@ -36,7 +35,7 @@ static const WrHardResult *result_of(const WrCases *cases, int index)
     return cases->report ? &cases->report->results[index] : NULL;
 }
 
-/* Waiting and lacking come first in what is said of a row that was not measured. */
+/* State of a row that was not measured: waiting or unavailable. */
 static const char *verdict_of(const WrHardCase *row, const WrHardResult *result)
 {
     if (result) return wr_hard_verdicts[result->verdict];
@@ -79,7 +78,7 @@ static void worst(double end, const WrHardCase *row, const WrHardResult *result,
           result->worst[p] <= row->bound[p] ? WR_COLOUR_TEXT : WR_COLOUR_BAD);
 }
 
-/* Right ends of the columns as shares of the row. */
+/* Right ends of the columns as fractions of the row. */
 #define END_FLOAT 0.69
 #define END_DOUBLE 0.79
 #define END_UNIT 0.805
@@ -97,7 +96,7 @@ static void head(void)
                     { "unit", END_UNIT, false },
                     { "verdict", END_VERDICT, true } };
     wr_gui_row_begin(-1, 22, false);
-    /* As wide as the list below, whose bar stands inside it. */
+    /* As wide as the list below, whose scroll bar is inside it. */
     const double left = wr_gui_px(20), wide = wr_gui_row_width() - 2 * left - wr_gui_px(10);
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
         const double x = left + columns[i].at * wide;
@@ -230,7 +229,7 @@ void wr_dialog_cases(WrApp *app)
     }
     if (shown == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "None has these words.");
     wr_gui_list_end();
-    if (!among && first) cases->chosen = first; /* what Return opens is seen */
+    if (!among && first) cases->chosen = first; /* the row for Return must be visible */
     detail(cases);
     bool scene = cases->chosen->scene != NULL;
     wr_gui_disable(!scene);

@@ -1,5 +1,5 @@
-/* What bump mapping lacks of displacement, in the Accuracy tab: numbers of the view as it was when they were asked for, and
-   what follows from them. */
+/* Error of bump mapping against displacement, in the Accuracy tab: numbers for the view at the time of the request,
+   and their interpretation. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plot.h"
 #include "ui/state/app_state.h"

@@ -1,4 +1,4 @@
-/* The inspector: every quantity of the formulas under the pointer, on the patch or on the table. */
+/* Inspector: all quantities of the formulas under the pointer, on the patch or on the table. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_probe.h"
 #include "ui/state/action.h"
@@ -15,9 +15,9 @@
 #include <math.h>
 #include <stdio.h>
 
-/* ---- which place ---- */
+/* ---- position ---- */
 
-/* A parameter of the patch that lands at `t` of the table, 0..1, by `repeat`; false if none does. */
+/* A patch parameter that `repeat` maps to the table position `t`, 0..1; false if there is none. */
 static bool parameter_at(double t, double repeat, double *out)
 {
     *out = repeat > 0 ? t / repeat : repeat < 0 ? (t - 1) / repeat : 0.5;

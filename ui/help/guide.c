@@ -22,19 +22,19 @@
 #include <string.h>
 
 #define FOLDER "ui/guide/"
-#define INDEX "README.md" /* its links are the pages, in their order */
+#define INDEX "README.md" /* its links define the pages and their order */
 #define PAGE_BYTES (4u << 20)
 #define FOUND_MAX 80
-#define COLUMN 250 /* units of the list of pages */
+#define COLUMN 250 /* width of the page list in units */
 
 struct WrGuide {
     WR_ARRAY(WrGuidePage) pages;
-    WR_ARRAY(double) scrolls; /* of each page, pixels */
-    int page;                 /* that is open */
-    int marked;               /* block that is pointed out; -1: none */
+    WR_ARRAY(double) scrolls; /* scroll position of each page, pixels */
+    int page;                 /* index of the open page */
+    int marked;               /* highlighted block; -1: none */
     int jump;                 /* block to scroll to; -1: none */
-    bool opened;              /* another page: its scroll is put back */
-    bool focus;               /* typing goes to the search again */
+    bool opened;              /* another page was opened: restore its scroll position */
+    bool focus;               /* give the keyboard focus to the search field */
     char query[80], asked[80];
     WrGuideFound found[FOUND_MAX];
     int found_count, chosen;
@@ -78,7 +78,7 @@ static int find_page(const WrGuide *guide, const char *name, size_t length)
     return -1;
 }
 
-/* Every page that the index leads to. A page that is missing is told of as one. */
+/* Read every page linked from the index. A missing page becomes a page with a note. */
 static void read_linked(WrGuide *guide, int index)
 {
     for (int i = 0; i < guide->pages.data[index].blocks.count; i++)
@@ -103,7 +103,7 @@ static WrGuide *guide_of(WrApp *app)
     WrError err;
     guide->marked = guide->jump = -1;
     guide->pictures = wr_guide_pictures_new(app->renderer, app->job_event);
-    add_page(guide, "", ""); /* the keys */
+    add_page(guide, "", ""); /* the page of keys */
     if (read_page(guide, INDEX, &err)) read_linked(guide, guide->pages.count - 1);
     else add_page(guide, INDEX, err.text);
     return app->guide = guide;
@@ -122,7 +122,7 @@ void wr_guide_free(WrApp *app)
     app->guide = NULL;
 }
 
-/* They may have been set anew since. */
+/* Update the page of keys, which may have changed. */
 static void refresh_keys(WrApp *app, WrGuide *guide)
 {
     WrText text = { 0 };
@@ -144,7 +144,7 @@ static void open_page(WrApp *app, WrGuide *guide, int page, int block)
 
 /* ---- links ---- */
 
-/* "Files and exports" is led to as #files-and-exports. */
+/* True if the heading "Files and exports" matches the anchor #files-and-exports. */
 static bool heading_is(const char *heading, const char *anchor, size_t length)
 {
     size_t n = 0;
@@ -173,7 +173,7 @@ static void follow(WrApp *app, WrGuide *guide, const char *link, int length)
     open_page(app, guide, page, block);
 }
 
-/* ---- searching ---- */
+/* ---- search ---- */
 
 static void choose(WrApp *app, WrGuide *guide, int chosen)
 {
@@ -244,7 +244,7 @@ static void list_pages(WrApp *app, WrGuide *guide)
 
 /* ---- the page ---- */
 
-/* Where the keys, a link or a search lead; below 0: nowhere else. */
+/* Scroll position requested by keys, a link or the search; below 0: none. */
 static double scroll_to(WrGuide *guide, const WrGuiPage *field)
 {
     double page = field->bottom - field->top, to = -1;
@@ -265,7 +265,7 @@ static void show_page(WrApp *app, WrGuide *guide, double tall)
     int length;
     WrGuiPage field = wr_gui_page_begin("page", 0, tall);
     const WrGuidePage *page = &guide->pages.data[guide->page];
-    wr_gui_as_it_is(true); /* the page of keys speaks for itself, the others are English */
+    wr_gui_as_it_is(true); /* the page of keys is translated, the others are English */
     if (wr_guide_layout(&guide->layout, page, field.w, guide->pictures)) wr_app_redraw(app);
     const char *link =
         wr_guide_draw(&guide->layout, &field, guide->marked, guide->pictures, &length);

@@ -1,4 +1,4 @@
-/* guide.h - the help of the window: the pages of ui/guide, and the keys as they are set. */
+/* guide.h - help browser: the pages of ui/guide, and a page of the present keys. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -7,7 +7,7 @@ typedef struct WrText WrText;
 typedef struct WrGuide WrGuide;
 
 void wr_guide_free(WrApp *app);
-/* The page of keys as Markdown: those of every action that has any. */
+/* The page of keys as Markdown: the keys of every action. */
 void wr_guide_keys(const WrApp *app, WrText *text);
-/* In the dialog: search, pages and the page that is open, so many pixels tall. */
+/* Content of the dialog: search, list of pages and the open page, with that height in pixels. */
 void wr_guide_show(WrApp *app, double tall);

@@ -12,25 +12,25 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MARGIN 16    /* units beside the text */
+#define MARGIN 16    /* units on both sides of the text */
 #define INDENT 18    /* of items */
 #define CELL_GAP 14  /* between columns */
-#define LEADING 1.34 /* of a line, by the height of its letters */
+#define LEADING 1.34 /* line height divided by the font size */
 #define LINK WR_COLOUR_LINK
 #define GROUND WR_COLOUR_GROUND
 #define MARKED WR_COLOUR_MARKED
 
-/* A text that is being set, word by word. */
+/* Text being laid out, word by word. */
 typedef struct Flow {
-    double left, right; /* pixels of the window, or of the page while nothing is drawn */
-    double x, y;        /* where the next word stands; the top of its line */
-    double widest;      /* how far a line reached beyond `left` */
-    double word;        /* the widest word */
+    double left, right; /* pixels of the window, or of the page during layout without drawing */
+    double x, y;        /* position of the next word; top of its line */
+    double widest;      /* largest line width so far */
+    double word;        /* widest word */
     WrFont font;
     WrColour colour;
     bool draw;
-    const WrGuiPage *field; /* for the pointer; NULL while nothing is drawn */
-    const char *link;       /* under the pointer; NULL: none */
+    const WrGuiPage *field; /* pointer state; NULL during layout without drawing */
+    const char *link;       /* link under the pointer; NULL: none */
     int link_length;
 } Flow;
 
@@ -39,7 +39,7 @@ static double line_height(WrFont font)
     return rint(wr_gui_line_height(font) * LEADING);
 }
 
-/* The bytes of a word, whole characters, that are no wider than `room`; at least one character. */
+/* Number of bytes of a word, at character boundaries, that fit into `room`; at least one character. */
 static int bytes_in(WrFont font, char *word, int length, double room)
 {
     while (length > 1) {
@@ -65,7 +65,7 @@ static WrColour colour_of(const Flow *flow, WrGuideStyle style)
     return style == WR_GUIDE_PLAIN ? flow->colour : WR_COLOUR_STRONG;
 }
 
-/* from: where the ground behind code begins, and a link can be pointed at. */
+/* from: start of the background behind code, and of a link's clickable area. */
 static void draw_word(Flow *flow, const WrGuideSpan *span, const char *word, double from,
                       double width)
 {
@@ -86,7 +86,7 @@ static void draw_word(Flow *flow, const WrGuideSpan *span, const char *word, dou
     wr_gui_draw_text(flow->x, flow->y + gap, font, colour_of(flow, span->style), word);
 }
 
-/* One word, before which a gap may stand; what is too wide for a line is cut. */
+/* Lay out one word, with a gap before it if needed; a word wider than a line is split. */
 static void set_word(Flow *flow, const WrGuideSpan *span, char *word, int length, double gap,
                      bool inside)
 {
@@ -121,7 +121,7 @@ static void set_span(Flow *flow, const WrGuideSpan *span)
 {
     char word[400];
     double space = wr_gui_text_width(flow->font, " "), gap = 0;
-    bool inside = false; /* a word of the same span stands before */
+    bool inside = false; /* a word of the same span precedes */
     for (int i = 0; i < span->length;) {
         int length = 0;
         if (span->text[i] == ' ') {
@@ -139,7 +139,7 @@ static void set_span(Flow *flow, const WrGuideSpan *span)
     flow->x += gap;
 }
 
-/* Set a cell's Markdown; returns its height. */
+/* Lay out a cell's Markdown; returns its height. */
 static double set_text(Flow *flow, const char *text)
 {
     double top = flow->y;
@@ -151,7 +151,7 @@ static double set_text(Flow *flow, const char *text)
     return flow->y - top;
 }
 
-/* Code goes on, indented, where it is wider than the line. */
+/* Code wider than the line continues indented. */
 static double set_code(Flow *flow, const char *text)
 {
     WrGuideSpan span = { WR_GUIDE_PLAIN, text, (int)strlen(text), NULL, 0 };
@@ -160,7 +160,7 @@ static double set_code(Flow *flow, const char *text)
     flow->x = flow->left + (double)indent * wr_gui_text_width(flow->font, "n");
     flow->left += wr_gui_px(INDENT);
     double hang = flow->left;
-    if (flow->x < hang) { /* the first line begins at the left */
+    if (flow->x < hang) { /* the first line starts at the left */
         flow->left = flow->x;
         const char *rest = text + indent;
         char word[400];
@@ -177,7 +177,7 @@ static double set_code(Flow *flow, const char *text)
     return flow->y - top;
 }
 
-/* ---- where blocks stand ---- */
+/* ---- layout of blocks ---- */
 
 static WrFont font_for(const WrGuideBlock *block)
 {
@@ -201,7 +201,7 @@ static double space_above(const WrGuideBlock *block, bool first)
     }
 }
 
-/* How wide each column of a table would be, and must be. */
+/* Preferred and smallest width of each column of a table. */
 static void measure(const WrGuidePage *page, int first, double want[], double least[], int *columns)
 {
     *columns = 0;
@@ -219,7 +219,8 @@ static void measure(const WrGuidePage *page, int first, double want[], double le
     }
 }
 
-/* Share `room` among the columns: all that they want, or their widest words and a share of the rest. */
+/* Distribute `room` to the columns: their preferred widths if they fit, else their widest words and a share of the
+   rest. */
 static void share(double column[], const double want[], const double least[], int columns,
                   double room)
 {
@@ -251,7 +252,7 @@ static void place_columns(WrGuideLayout *layout, int first, double room)
     }
 }
 
-/* Set a block, drawn or not; returns its height. */
+/* Lay out a block, drawn or not; returns its height. */
 static double set_block(const WrGuideBlock *block, const WrGuidePlace *place, double x, double y,
                         double width, Flow *flow)
 {
@@ -290,7 +291,7 @@ static double set_block(const WrGuideBlock *block, const WrGuidePlace *place, do
     return tall + 1;
 }
 
-/* As large as it is, or as the width allows. */
+/* The picture's own size, limited to the width. */
 static double picture_size(const char *path, double width, WrGuidePictures *pictures, double *wide,
                            SDL_Texture **texture)
 {
@@ -372,7 +373,7 @@ const char *wr_guide_draw(const WrGuideLayout *layout, const WrGuiPage *field, i
             continue;
         }
         set_block(block, place, x, y, room, &flow);
-        if (block->kind == WR_GUIDE_ROW) /* a line below each */
+        if (block->kind == WR_GUIDE_ROW) /* a line below each row */
             wr_gui_draw_fill(x, y + place->height - 1, room, 1, WR_COLOUR_EDGE, 0);
         if (block->kind == WR_GUIDE_HEADING && block->level == 1)
             wr_gui_draw_fill(x, y + place->height + 1, room, 1, WR_COLOUR_ACCENT, 0);

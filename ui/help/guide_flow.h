@@ -1,4 +1,4 @@
-/* guide_flow.h - a page of the guide laid out in a width, and drawn. */
+/* guide_flow.h - layout and drawing of a guide page in a given width. */
 #pragma once
 #include "ui/toolkit/gui_page.h"
 #include "ui/help/guide_page.h"
@@ -10,23 +10,23 @@
 
 typedef struct WrGuidePlace {
     double y, height;              /* pixels, from the top of the page */
-    double column[WR_GUIDE_CELLS]; /* of a row: widths */
+    double column[WR_GUIDE_CELLS]; /* of a row: column widths */
 } WrGuidePlace;
 
-/* Where each block stands, for one page in one width. */
+/* Positions of the blocks of one page in one width. */
 typedef struct WrGuideLayout {
     const WrGuidePage *page; /* borrowed; NULL: none yet */
     double width, scale;
-    int pictures;                  /* that were there when it was made */
-    WR_ARRAY(WrGuidePlace) places; /* one a block */
+    int pictures;                  /* pictures loaded at the time of the layout */
+    WR_ARRAY(WrGuidePlace) places; /* one per block */
     double height;
 } WrGuideLayout;
 
 void wr_guide_layout_fini(WrGuideLayout *layout);
-/* Bring it up to date. True if anything moved. */
+/* Update the layout. True if a position changed. */
 bool wr_guide_layout(WrGuideLayout *layout, const WrGuidePage *page, double width,
                      WrGuidePictures *pictures);
-/* Draw what is seen of it; marked: a block that is pointed out, -1: none. Returns the target of the link under
- * the pointer, within the page, and its length, or NULL. */
+/* Draw the visible part; marked: highlighted block, -1: none. Returns the target of the link under the pointer,
+ * within the page, and its length, or NULL. */
 const char *wr_guide_draw(const WrGuideLayout *layout, const WrGuiPage *field, int marked,
                           WrGuidePictures *pictures, int *length);

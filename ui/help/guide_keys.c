@@ -1,4 +1,4 @@
-/* The keys, told in the order in which one comes to need them; those that are not told of follow. */
+/* Page of keys: a table in order of importance, followed by the remaining actions. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
@@ -12,8 +12,8 @@
 #include <string.h>
 
 typedef struct Row {
-    const char *action; /* or a gesture, where there is none of that name */
-    const char *text;   /* NULL: the action's own label */
+    const char *action; /* or a gesture, if no action has that name */
+    const char *text;   /* NULL: the action's label */
 } Row;
 
 static const Row painting[] = {
@@ -136,7 +136,7 @@ static void add_head(WrText *text, const char *title)
     wr_text_addf(text, "\n## %s\n\n| %s | |\n| --- | --- |\n", wr_words(title), wr_words("keys"));
 }
 
-/* A key may be a bar or a backquote. */
+/* Escape a bar or a backquote, which may be a key. */
 static void add_row(WrText *text, const char *keys, const char *words)
 {
     wr_text_add(text, "| ");

@@ -10,14 +10,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- reading ---- */
+/* ---- parsing ---- */
 
 typedef struct Reader {
     WrGuidePage *page;
-    WrText open;      /* the text or item whose lines are being joined */
-    WrGuideKind kind; /* of it */
+    WrText open;      /* the open text or item whose lines are being joined */
+    WrGuideKind kind; /* kind of the open text */
     int level;
-    bool blank, comment; /* the line before was blank; inside a comment of several lines */
+    bool blank, comment; /* the previous line was blank; inside a multi-line comment */
 } Reader;
 
 static WrGuideBlock *add(WrGuidePage *page, WrGuideKind kind, int level)
@@ -31,7 +31,7 @@ static void add_cell(WrGuideBlock *block, const char *text, size_t length)
     if (block->cells < WR_GUIDE_CELLS) block->cell[block->cells++] = wr_strndup(text, length);
 }
 
-/* A text that is nothing but pictures becomes a block for each. */
+/* A text of nothing but pictures becomes one block for each. */
 static bool add_pictures(WrGuidePage *page, const char *text)
 {
     const char *p = text;
@@ -54,7 +54,7 @@ static bool add_pictures(WrGuidePage *page, const char *text)
     return p > text;
 }
 
-/* The text or item that is open has ended. */
+/* Close the open text or item. */
 static void finish(Reader *r)
 {
     const char *text = wr_text_get(&r->open);
@@ -69,14 +69,14 @@ static size_t trimmed(const char *text, size_t length)
     return length;
 }
 
-/* | a | b |: a bar within `code` or behind a backslash parts no cells. */
+/* | a | b |: a bar within `code` or after a backslash separates no cells. */
 static void add_row(Reader *r, const char *line, size_t length)
 {
     WrGuidePage *page = r->page;
     const WrGuideBlock *last =
         page->blocks.count ? &page->blocks.data[page->blocks.count - 1] : NULL;
     bool joined = !r->blank && last && last->kind == WR_GUIDE_ROW;
-    if (joined && strspn(line, "|-: ") >= length) return; /* the line under the head */
+    if (joined && strspn(line, "|-: ") >= length) return; /* the line below the table head */
     WrGuideBlock *row = add(page, WR_GUIDE_ROW, joined ? 0 : 1);
     row->joined = joined;
     const char *end = line + length, *from = line + 1;
@@ -102,7 +102,7 @@ static void add_code(Reader *r, const char *line, size_t length)
     add_cell(block, line, length);
 }
 
-/* What stands before an item's words: 0, it is none. */
+/* Length of an item's marker; 0: not an item. */
 static size_t item_mark(const char *line, int *number)
 {
     size_t digits = strspn(line, "0123456789");
@@ -113,7 +113,7 @@ static size_t item_mark(const char *line, int *number)
     return digits + 2;
 }
 
-/* Whether the line is a comment or part of one. */
+/* True if the line is a comment or part of one. */
 static bool in_comment(Reader *r, const char *line, size_t length)
 {
     char text[8] = "";
@@ -192,7 +192,7 @@ void wr_guide_page_fini(WrGuidePage *page)
 
 /* ---- spans ---- */
 
-/* `code`, *emphasis*, **strong**: where the mark at p closes, or NULL. */
+/* `code`, *emphasis*, **strong**: position of the closing mark for the one at p, or NULL. */
 static const char *closes(const char *p, const char *mark, size_t length)
 {
     if (strncmp(p, mark, length) != 0 || p[length] == ' ' || !p[length]) return NULL;
@@ -200,7 +200,7 @@ static const char *closes(const char *p, const char *mark, size_t length)
     return end && end > p + length && end[-1] != ' ' ? end : NULL;
 }
 
-/* [words](target), with ! in front too. */
+/* Parse [words](target), with an optional ! before. */
 static bool link_at(const char *p, WrGuideSpan *span, const char **end)
 {
     if (!(p[0] == '[' || (p[0] == '!' && p[1] == '['))) return false;
@@ -233,7 +233,7 @@ static bool marked_at(const char *p, WrGuideSpan *span, const char **end)
     return link_at(p, span, end);
 }
 
-/* A backslash before a sign that would be a mark. */
+/* True for a backslash before a mark character. */
 static bool is_escape(const char *p)
 {
     return p[0] == '\\' && p[1] && strchr("|*<", p[1]);
@@ -243,7 +243,7 @@ bool wr_guide_span(const char **at, WrGuideSpan *span)
 {
     const char *from = *at, *end;
     if (!*from) return false;
-    if (is_escape(from)) { /* the sign alone */
+    if (is_escape(from)) { /* the character alone */
         *span = (WrGuideSpan){ WR_GUIDE_PLAIN, from + 1, 1, NULL, 0 };
         *at = from + 2;
         return true;
@@ -277,11 +277,11 @@ char *wr_guide_plain(const WrGuideBlock *block, int cell, char *buffer, size_t s
     return buffer;
 }
 
-/* ---- searching ---- */
+/* ---- search ---- */
 
-#define BLOCK_WORDS 8192 /* bytes of a block that are searched */
+#define BLOCK_WORDS 8192 /* searched bytes of a block */
 
-/* All the words of a block, of a row those of its cells. */
+/* Words of a block; of a row, those of all cells. */
 static void words_of(const WrGuideBlock *block, char *out, size_t size)
 {
     size_t used = 0;
@@ -295,7 +295,7 @@ static void words_of(const WrGuideBlock *block, char *out, size_t size)
     }
 }
 
-/* All words of the query are in the block; or some of them in it and the others in its heading. */
+/* True if all words of the query are in the block, or some of them in it and the others in its heading. */
 static bool answers(const WrGuideBlock *block, const WrGuideBlock *heading, const char *query)
 {
     char words[BLOCK_WORDS] = "";
@@ -309,7 +309,7 @@ static bool answers(const WrGuideBlock *block, const WrGuideBlock *heading, cons
     return wr_search_score(words, query) > 0;
 }
 
-/* How well: 0 headings, 1 what the query begins (a row of a table for a word), 2 all else. */
+/* Rank of a match: 0 headings, 1 blocks that start with the query (rows for a word), 2 others. */
 static int rank_of(const WrGuideBlock *block, const char *query)
 {
     char first[200];
@@ -318,7 +318,7 @@ static int rank_of(const WrGuideBlock *block, const char *query)
     return SDL_strncasecmp(first, query, strlen(query)) == 0 ? 1 : 2;
 }
 
-/* One pass over all pages, for one rank. */
+/* One pass over all pages for one rank. */
 static int search(const WrGuidePage *pages, int count, const char *query, int rank,
                   WrGuideFound *out, int found, int most)
 {

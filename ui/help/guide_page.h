@@ -1,9 +1,8 @@
-/* guide_page.h - a page of the guide as blocks: the part of Markdown that the guide is written in. Pure; tested
-   without a window.
+/* guide_page.h - a guide page as blocks, parsed from the guide's subset of Markdown. Pure; tested without a window.
 
-   Headings (#, ##, ###), paragraphs, items (- and 1.), tables, code (indented by four blanks), pictures that stand
-   alone; within a text `code`, *emphasis*, **strong**, [links](target) and ![pictures](path), of which only the words
-   are shown. Comments (<!-- -->) are left out. Code within an item is not told apart. */
+   Supported: headings (#, ##, ###), paragraphs, items (- and 1.), tables, code (indented by four blanks), pictures on
+   lines of their own; within a text `code`, *emphasis*, **strong**, [links](target) and ![pictures](path), of which
+   only the words are shown. Comments (<!-- -->) are left out. Code within an item is treated as text. */
 #pragma once
 #include "base/array.h"
 
@@ -13,28 +12,28 @@ typedef enum WrGuideKind {
     WR_GUIDE_HEADING,
     WR_GUIDE_TEXT,
     WR_GUIDE_ITEM,
-    WR_GUIDE_CODE,   /* one line of it */
-    WR_GUIDE_ROW,    /* of a table */
-    WR_GUIDE_PICTURE /* cell 0 its words, cell 1 its path as it stands */
+    WR_GUIDE_CODE,   /* one line of code */
+    WR_GUIDE_ROW,    /* row of a table */
+    WR_GUIDE_PICTURE /* cell 0: its words, cell 1: its path as written */
 } WrGuideKind;
 
-#define WR_GUIDE_CELLS 10 /* columns of a table, at most; what follows is one with the last */
+#define WR_GUIDE_CELLS 10 /* limit of columns in a table; further ones are joined with the last */
 
 typedef struct WrGuideBlock {
     WrGuideKind kind;
-    int level; /* of a heading, 1..3; of an item its number, 0: none; of a row 1 for the first, which heads the rest */
-    bool joined;                /* a row or code goes on from the block before */
-    int cells;                  /* 1 but of rows */
-    char *cell[WR_GUIDE_CELLS]; /* Markdown of one line, owned; of code plain text */
+    int level;   /* heading: 1..3; item: its number, 0: none; row: 1 for the head row */
+    bool joined; /* a row or code that continues the previous block */
+    int cells;   /* 1 except for rows */
+    char *cell[WR_GUIDE_CELLS]; /* owned; Markdown of one line; for code plain text */
 } WrGuideBlock;
 
 typedef struct WrGuidePage {
-    char *name;  /* of its file: "window.md"; owned */
-    char *title; /* its first heading, or its name; owned */
+    char *name;  /* file name: "window.md"; owned */
+    char *title; /* the first heading, or the file name; owned */
     WR_ARRAY(WrGuideBlock) blocks;
 } WrGuidePage;
 
-/* Read a page. Never fails: what is no Markdown is text. */
+/* Parse a page. Never fails: anything else than Markdown is text. */
 void wr_guide_parse(WrGuidePage *page, const char *name, const char *text);
 void wr_guide_page_fini(WrGuidePage *page);
 
@@ -48,22 +47,23 @@ typedef enum WrGuideStyle {
 
 typedef struct WrGuideSpan {
     WrGuideStyle style;
-    const char *text; /* within the Markdown */
+    const char *text; /* points into the Markdown */
     int length;       /* bytes */
-    const char *link; /* of a link: where it leads; else NULL */
+    const char *link; /* target of a link; else NULL */
     int link_length;
 } WrGuideSpan;
 
-/* The next span of a cell's Markdown; *at begins at the cell and is moved. False at its end. */
+/* The next span of a cell's Markdown; *at starts at the cell and advances. False at its end. */
 bool wr_guide_span(const char **at, WrGuideSpan *span);
-/* A cell's words without the marks, or as they stand where the block is code. Returns buffer. */
+/* A cell's words without marks, or unchanged if the block is code. Returns buffer. */
 char *wr_guide_plain(const WrGuideBlock *block, int cell, char *buffer, size_t size);
 
 typedef struct WrGuideFound {
     int page, block;
 } WrGuideFound;
 
-/* Where all words of a query stand: blocks in whose cells, or in whose heading and cells, each is found; headings
- * first, then what begins with it. Returns how many of out[0..most) are set. An empty query finds nothing. */
+/* Find the blocks in which every word of a query occurs in the cells, or in heading and cells; headings first, then
+ * blocks that start with the query. Returns the number of entries written to out[0..most). An empty query finds
+ * nothing. */
 int wr_guide_search(const WrGuidePage *pages, int count, const char *query, WrGuideFound *out,
                     int most);

@@ -14,11 +14,11 @@
 #include <math.h>
 #include <string.h>
 
-#define PICTURES_FOLDER "ui/guide/" /* that paths are relative to */
+#define PICTURES_FOLDER "ui/guide/" /* base folder of relative paths */
 
 typedef struct Picture {
     char *path;           /* owned */
-    SDL_Texture *texture; /* owned; NULL: not there yet, or never */
+    SDL_Texture *texture; /* owned; NULL: not loaded yet, or failed */
     int width, height;
     bool tried;
 } Picture;
@@ -27,14 +27,14 @@ struct WrGuidePictures {
     SDL_Renderer *renderer; /* borrowed */
     WrJob *job;
     WR_ARRAY(Picture) list;
-    int made, index; /* how many are there; which the job reads */
+    int made, index; /* number of loaded pictures; index of the one being read */
     bool reading;
 };
 
 typedef struct Work {
     char *path; /* owned */
     int width, height;
-    uint32_t *argb; /* owned; NULL: it cannot be read */
+    uint32_t *argb; /* owned; NULL: unreadable */
 } Work;
 
 static void drop(void *arg)

@@ -1,12 +1,14 @@
-/* guide_picture.h - the pictures of the guide, read in the background. */
+/* guide_picture.h - pictures of the guide, loaded in the background. */
 #pragma once
 #include <SDL.h>
 
 typedef struct WrGuidePictures WrGuidePictures;
 
-/* done_event: an SDL event type, pushed when another one is there. */
+/* done_event: an SDL event type, pushed when another picture is loaded. */
 WrGuidePictures *wr_guide_pictures_new(SDL_Renderer *renderer, Uint32 done_event);
-void wr_guide_pictures_free(WrGuidePictures *pictures); /* NULL is fine; before the renderer */
-/* The picture of that path, as a page writes it; NULL while it is not there, or if it cannot be read. */
+/* NULL is allowed; must be freed before the renderer */
+void wr_guide_pictures_free(WrGuidePictures *pictures);
+/* The picture of that path, as written in a page; NULL if it is not loaded yet, or unreadable. */
 SDL_Texture *wr_guide_picture(WrGuidePictures *pictures, const char *path, int *width, int *height);
-int wr_guide_pictures_made(const WrGuidePictures *pictures); /* how many are there: more is news */
+/* number of loaded pictures, to detect new ones */
+int wr_guide_pictures_made(const WrGuidePictures *pictures);

@@ -1,4 +1,4 @@
-/* The guide, and what this program is. */
+/* Dialogs of the guide and of information about the program. */
 #include "ui/help/panel_help.h"
 #include "ui/state/app_state.h"
 #include "ui/state/dialog.h"

@@ -1,4 +1,4 @@
-/* panel_help.h - the dialog of the guide, and what this program is. */
+/* panel_help.h - dialogs of the guide and of information about the program. */
 #pragma once
 #include "ui/state/app_state.h"
 

@@ -1,4 +1,4 @@
-/* The patch's view: what is wished of the preview and when, and what is drawn. */
+/* The patch view: requests to the preview and their timing, and drawing. */
 #include "ui/patch/patch.h"
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
@@ -33,11 +33,12 @@
 #include <math.h>
 
 #define TURN_DEG_PER_SECOND 14.0
-#define PICTURE_SECONDS (1.0 / 40.0) /* between moving pictures */
-#define QUICK_SECONDS (1.0 / 150.0)  /* the same while it is painted on: soon, not often */
-#define REST_SECONDS 0.12            /* without change before the picture is made sharp */
+#define PICTURE_SECONDS (1.0 / 40.0) /* least interval of moving pictures */
+#define QUICK_SECONDS (1.0 / 150.0)  /* the interval while painting: low latency */
+/* time without change before the picture is rendered at full quality */
+#define REST_SECONDS 0.12
 
-/* ---- wishes ---- */
+/* ---- requests ---- */
 
 bool wr_patch_paints(const WrApp *app)
 {
@@ -54,13 +55,13 @@ static double picture_seconds(const WrApp *app)
     return is_painted(app) ? QUICK_SECONDS : PICTURE_SECONDS;
 }
 
-/* Nobody can aim at what moves. */
+/* Rotation stops during aiming and dragging. */
 static bool is_held(const WrApp *app)
 {
     return app->hand->grab == WR_GRAB_PATCH_PAINT || (wr_patch_paints(app) && app->hand->on_patch);
 }
 
-/* It stops as it is shown, not as it was wished for last. */
+/* Stop at the displayed rotation, not at the last requested one. */
 static void hold_still(WrApp *app)
 {
     WrPatch *p = app->patch;
@@ -77,7 +78,7 @@ static bool turns(const WrApp *app)
            !wr_grab_on_patch(app->hand->grab);
 }
 
-/* The tables of the scene's objects, where not all have that of all layers. The caller's. */
+/* Prepared tables of the scene's objects, if some use a table other than the composite. The caller frees them. */
 static WrTables *tables_of(const WrApp *app)
 {
     return wr_document_tables(wr_app_document(app), wr_app_scene(app), &app->patch->table_cache,
@@ -101,8 +102,8 @@ static bool differs(const WrApp *app)
            p->wished_h != app->layout->patch.h || !wr_preview_look_same(&p->wished_look, &p->look);
 }
 
-/* Only the table differs from what a resting, finished picture shows (or is being refreshed to show): the
- * preview then renders what the edit reaches, at once sharp. */
+/* True if only the table differs from a static, finished picture (or one being refreshed). The preview then
+ * re-renders only the dirty region, at full quality. */
 static bool only_edited(const WrApp *app)
 {
     const WrPatch *p = app->patch;
@@ -147,7 +148,7 @@ static void wish(WrApp *app, bool moving)
     p->rest_at = p->wished_at + REST_SECONDS;
 }
 
-/* What was chosen for the document as it rests here goes with it when it is saved. */
+/* Store the dials chosen for the static document, to be saved with it. */
 static void keep_chosen(WrApp *app, const WrPreviewPicture *picture)
 {
     const WrPatch *p = app->patch;
@@ -156,7 +157,7 @@ static void keep_chosen(WrApp *app, const WrPreviewPicture *picture)
     wr_session_keep_chosen(app->session, picture->kept);
 }
 
-/* Only what is another one than in the picture that the texture has goes there. */
+/* Copy only the changed parts of the picture to the texture. */
 static void put_picture(WrApp *app, const WrPreviewPicture *picture, uint64_t had)
 {
     WrPatch *p = app->patch;
@@ -201,10 +202,10 @@ static void take_picture(WrApp *app)
         SDL_SetTextureScaleMode(p->texture, SDL_ScaleModeLinear);
     }
     put_picture(app, picture, had);
-    if (app->redraw < 1) app->redraw = 1; /* the widgets have nothing to settle */
+    if (app->redraw < 1) app->redraw = 1; /* widgets need no second frame */
 }
 
-/* Bodies turn; where the back of a sheet would be seen, mirrored, all rock to and fro. */
+/* Closed surfaces rotate; if the mirrored back of an open one would become visible, all objects rock to and fro. */
 static bool rocks(WrPatch *p, const WrScene *scene)
 {
     if (p->rock_scene == scene) return p->rocks;
@@ -218,7 +219,7 @@ static void advance_turn(WrPatch *p, const WrScene *scene, double now)
 {
     double step = now - p->turned_at;
     p->turned_at = now;
-    if (step > 0.2) step = 0.2; /* after a pause it goes on, it does not jump */
+    if (step > 0.2) step = 0.2; /* after a pause the rotation continues without a jump */
     if (rocks(p, scene)) p->turn_deg = wr_rotation_rock(&p->rock, p->turn_deg, step);
     else p->turn_deg = fmod(p->turn_deg + TURN_DEG_PER_SECOND * step, 360.0);
 }
@@ -253,12 +254,12 @@ void wr_patch_update(WrApp *app)
     face_sheet(p, wr_app_scene(app));
     if (differs(app)) {
         bool edited = only_edited(app);
-        if (edited ? p->outstanding : !ready) return; /* what an edit reaches is made in no time */
+        if (edited ? p->outstanding : !ready) return; /* a partial re-render is fast */
         wish(app, !edited);
         p->refreshing = edited;
         p->outstanding = true;
     } else if (p->wished_painted && !is_painted(app) && !p->wished_moving && !p->outstanding) {
-        wish(app, false); /* what was only quick may become fine */
+        wish(app, false); /* a rough picture may be refined now */
     } else if (p->wished_moving && !p->outstanding && now >= p->rest_at) {
         wish(app, false);
     }
@@ -307,7 +308,7 @@ void wr_patch_draw(WrApp *app)
                                 &(SDL_Rect){ 0, 0, picture->width, picture->height }, room);
 }
 
-/* How far the picture is from its best: a ring that closes. */
+/* Quality of the picture: a ring that closes. */
 static void draw_ring(const WrApp *app, const WrPreviewPicture *picture)
 {
     const SDL_Rect *room = &app->layout->patch;
@@ -319,7 +320,7 @@ static void draw_ring(const WrApp *app, const WrPreviewPicture *picture)
                         2.0 * s);
 }
 
-/* That an effect was left out by hand, or added, is not to be forgotten. */
+/* Show a reminder that an effect was disabled or forced by hand. */
 static void draw_look(const WrApp *app)
 {
     const WrPreviewLook *look = &app->patch->look;
@@ -370,7 +371,7 @@ void wr_patch_overlay(WrApp *app)
                      over ? (app->hand->at.y - room->y) / room->h : -1.0);
 }
 
-/* ---- the part ---- */
+/* ---- component ---- */
 
 static void settle(WrApp *app)
 {

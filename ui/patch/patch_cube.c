@@ -16,13 +16,13 @@
 #include <SDL.h>
 #include <math.h>
 
-#define HALF_UNITS 21.0 /* of a side */
+#define HALF_UNITS 21.0 /* half the side of the cube */
 #define MARGIN_UNITS 12.0
-#define TOP_UNITS 46.0 /* below the chips */
+#define TOP_UNITS 46.0 /* distance from the top, below the chips */
 #define TURN_SECONDS 0.28
-#define LEAST_UNITS 260.0 /* of the view, to have one */
+#define LEAST_UNITS 260.0 /* least size of a view with a cube */
 
-/* Where it is, how it stands; false: there is no room for it. */
+/* Position and orientation of the cube; false: there is no room for it. */
 typedef struct Cube {
     WrRotation stands;
     double x, y, half;
@@ -33,14 +33,14 @@ static WrRotation turntable(const WrApp *app)
     return wr_rotation_axis((WrVec3){ 0, 1, 0 }, app->patch->turn_deg);
 }
 
-/* The world in the camera's axes. */
+/* Rotation from the world to the camera's axes. */
 static WrRotation of_camera(const WrPlacement *at)
 {
     const WrVec3 r = at->right, u = at->up, f = at->forward;
     return (WrRotation){ { r.x, r.y, r.z, u.x, u.y, u.z, -f.x, -f.y, -f.z } };
 }
 
-/* A scene's only object stands by its own axes; several by the world's. */
+/* With a single object the cube shows the object's axes; with several, the world's. */
 static bool several(const WrScene *scene)
 {
     return scene->other_count > 0;
@@ -96,7 +96,7 @@ bool wr_patch_cube_under(const WrApp *app, const WrPointer *at)
     return find(app, &cube) && side_at(&cube, at->x, at->y, side);
 }
 
-/* ---- turning by itself ---- */
+/* ---- animated rotation ---- */
 
 void wr_patch_cube_click(WrApp *app, const WrPointer *at)
 {
@@ -112,7 +112,7 @@ void wr_patch_cube_click(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-/* Round the target, so that the cube stands like that. */
+/* Orbit the camera around the target to the given orientation of the cube. */
 static void place_camera(WrApp *app, const WrRotation *stands)
 {
     const WrRotation turn = turntable(app), back = wr_rotation_inverse(stands),
@@ -125,7 +125,7 @@ static void place_camera(WrApp *app, const WrRotation *stands)
     camera->up = wr_rotation_apply(&world, (WrVec3){ 0, 1, 0 });
 }
 
-/* The object, under the camera as it is. */
+/* Rotate the object under the present camera. */
 static void place_object(WrApp *app, const WrRotation *stands)
 {
     WrPlacement at;
@@ -142,7 +142,7 @@ void wr_patch_cube_update(WrApp *app, bool now)
 {
     WrPatchCube *p = &app->patch->cube;
     if (p->began == 0.0) return;
-    if (!app->live) { /* something else ended it */
+    if (!app->live) { /* another action ended the live scene */
         p->began = 0.0;
         return;
     }
@@ -169,7 +169,7 @@ static void spot(const Cube *cube, const double at[3], double *x, double *y)
     *y = cube->y - cube->half * c.y;
 }
 
-/* The part of the face of axis `k` at `end` between low and high along its other two axes. */
+/* Draw the part of the face of axis `k` at `end` between low and high along its other two axes. */
 static void part(const Cube *cube, int k, double end, const double low[2], const double high[2],
                  WrColour colour)
 {
@@ -196,7 +196,7 @@ static void face(const Cube *cube, int k, int end, const int *hot)
                                              { "Below", "Above" },
                                              { "Back", "Front" } };
     const double all[2] = { -1, -1 }, whole[2] = { 1, 1 };
-    const double m = cube->stands.m[6 + k] * end; /* how much it faces the viewer */
+    const double m = cube->stands.m[6 + k] * end; /* cosine towards the viewer */
     if (m < 0.02) return;
     part(cube, k, end, all, whole, hot ? WR_COLOUR_BUTTON_HOT : WR_COLOUR_BUTTON);
     if (hot && hot[k] == end) {

@@ -1,5 +1,5 @@
-/* patch_cube.h - the cube in the patch's corner that stands as the patch does: a click on a face, an edge or a corner turns
-   it to the front, a drag turns it by hand. */
+/* patch_cube.h - orientation cube in the patch's corner. A click on a face, an edge or a corner rotates it to the
+   front; a drag rotates freely. */
 #pragma once
 #include "ui/preview/rotation.h"
 
@@ -9,17 +9,17 @@ typedef struct WrApp WrApp;
 typedef struct WrPointer WrPointer;
 
 typedef struct WrPatchCube {
-    bool pressed;        /* the drag began on it */
-    double began;        /* clock at which it began to turn by itself; 0: it does not */
-    WrRotation from, to; /* of the cube */
+    bool pressed;        /* the drag started on the cube */
+    double began;        /* clock at the start of the animation; 0: none */
+    WrRotation from, to; /* orientations of the cube */
 } WrPatchCube;
 
 void wr_patch_cube_draw(const WrApp *app);
-/* The pointer is on it. */
+/* True if the pointer is over it. */
 bool wr_patch_cube_under(const WrApp *app, const WrPointer *at);
-/* It was clicked there. */
+/* Handle a click. */
 void wr_patch_cube_click(WrApp *app, const WrPointer *at);
-/* Turn on, if it does; the end becomes one command. now: at once to the end. */
+/* Advance the animation; its end becomes one command. now: jump to the end. */
 void wr_patch_cube_update(WrApp *app, bool now);
-/* Pixels across which a drag on it turns it by half a turn. */
+/* Drag distance in pixels for half a rotation. */
 double wr_patch_cube_span(void);

@@ -1,4 +1,4 @@
-/* The patch in the hand: turned, its lights moved, come closer to; each becomes one command when it is let go. */
+/* Dragging on the patch: rotation, lights, zoom; each becomes one command at its end. */
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
@@ -35,7 +35,7 @@ bool wr_patch_place(const WrApp *app, WrPlacement *out)
            wr_scene_place(wr_app_scene(app), app->patch->turn_deg, (double)r->w / r->h, out, NULL);
 }
 
-/* The pad on which lights stand: the view without its edges. */
+/* Rectangle in which lights are placed: the view without its edges. */
 static void pad(const WrApp *app, double *cx, double *cy, double *rx, double *ry)
 {
     const SDL_Rect *r = &app->layout->patch;
@@ -58,7 +58,7 @@ static void light_spot(const WrApp *app, const WrPlacement *at, const WrLight *l
     *y = cy - ry * dy;
 }
 
-/* The light under a pixel, or -1. */
+/* Index of the light under a pixel, or -1. */
 static int light_under(const WrApp *app, const WrPointer *p)
 {
     WrPlacement at;
@@ -78,7 +78,7 @@ bool wr_patch_control_under(const WrApp *app, const WrPointer *at)
     return wr_patch_cube_under(app, at) || light_under(app, at) >= 0;
 }
 
-/* Put the light that is held where (x, y) says; its distance stays. */
+/* Move the dragged light to the direction of (x, y); its distance is unchanged. */
 static void move_light(WrApp *app, double x, double y)
 {
     WrPlacement at;
@@ -105,9 +105,9 @@ static void commit_light(WrApp *app)
     wr_text_fini(&line);
 }
 
-/* ---- surroundings ---- */
+/* ---- environment ---- */
 
-/* Half a turn for a drag across the view; what is near follows the hand, as when the patch turns. */
+/* A drag across the view is half a rotation; the near side follows the pointer, as in the rotation of the patch. */
 static void turn_surroundings(WrApp *app, const WrPointer *at)
 {
     const double dx = at->x - app->hand->start.x;
@@ -127,10 +127,10 @@ static void commit_surroundings(WrApp *app)
     wr_text_fini(&line);
 }
 
-/* ---- turning by hand ----
+/* ---- rotation by dragging ----
 
-   One object is turned itself; among several the camera goes round its target, and one of them turns by its handles.
-   With the middle button the camera goes round whatever there is. */
+   A single object is rotated itself. With several objects the camera orbits its target, and one object is rotated by
+   its handles. The middle button always orbits the camera. */
 
 static bool several(const WrApp *app)
 {
@@ -148,7 +148,8 @@ static void start_orbit(WrApp *app)
     if (wr_patch_place(app, &at)) app->patch->from_camera.eye = at.eye;
 }
 
-/* Half a turn for a drag across the view, about the world's y axis and across it; never over the top. */
+/* Half a rotation for a drag across the view, about the world's y axis and the horizontal axis; limited at the
+   poles. */
 static void orbit_camera(WrApp *app, double dx, double dy, double span)
 {
     const WrCamera *from = &app->patch->from_camera;
@@ -170,13 +171,13 @@ static void pan_camera(WrApp *app, const WrPlacement *at, double dx, double dy)
     const WrVec3 by = v3_mad(v3_scale(at->right, -dx * pixel), at->up, dy * pixel);
     WrCamera *camera = &wr_app_live(app)->camera;
     if (camera->fit) camera->frame = 0;
-    camera->fit = false; /* the target's distance would change its own */
+    camera->fit = false; /* "fit" would recompute the target's distance */
     camera->eye = v3_add(from->eye, by);
     camera->target = v3_add(from->target, by);
 }
 
-/* Pixels of a drag that turns by half a turn: across the view, and from nearer by than where all is seen so many more as
-   the front is larger, so that it goes with the hand. */
+/* Drag distance in pixels for half a rotation: the width of the view. Closer than the full view it grows with the
+   size of the object, so that its surface follows the pointer. */
 static double half_turn(const WrApp *app, const WrPlacement *at)
 {
     const SDL_Rect *r = &app->layout->patch;
@@ -184,7 +185,7 @@ static double half_turn(const WrApp *app, const WrPlacement *at)
     const double across = r->w < r->h ? r->w : r->h, least = 0.02 * at->ball;
     if (app->patch->cube.pressed) return wr_patch_cube_span();
     double away = v3_len(v3_sub(camera->eye, camera->target));
-    double fits = at->ball * r->h / (at->half_height * across); /* where the ball fills the view */
+    double fits = at->ball * r->h / (at->half_height * across); /* bounding sphere fills the view */
     if (at->orthographic) return across * fmax(1.0, fits);
     return across * fmax(1.0, fmax(fits - at->ball, least) / fmax(away - at->ball, least));
 }
@@ -206,7 +207,7 @@ static void orbit(WrApp *app, const WrPointer *p)
     scene->rotate_deg = wr_line_round_vec(deg, 2);
 }
 
-/* Eye, target and size of the camera as it was dragged. */
+/* Run eye, target and size of the dragged camera as a command. */
 void wr_patch_commit_camera(WrApp *app)
 {
     const WrCamera *camera = &app->live->camera;
@@ -224,7 +225,7 @@ void wr_patch_commit_camera(WrApp *app)
 
 static void commit_orbit(WrApp *app)
 {
-    app->hand->grab = WR_GRAB_NONE; /* a command would end what is held, once more */
+    app->hand->grab = WR_GRAB_NONE; /* a command would end the drag a second time */
     if (!app->live) {
         if (app->patch->cube.pressed) {
             wr_patch_cube_click(app, &app->hand->start);
@@ -349,7 +350,8 @@ void wr_patch_wheel_angle(WrApp *app, double steps)
 
 void wr_patch_commit_zoom(WrApp *app, bool now)
 {
-    if (app->patch->zoom_commit_at == 0.0 || app->busy) return; /* it waits for what runs */
+    if (app->patch->zoom_commit_at == 0.0 || app->busy)
+        return; /* it waits for the running command */
     app->patch->zoom_commit_at = 0.0;
     if (!app->live || !now) {
         wr_app_live_end(app);
@@ -367,7 +369,7 @@ void wr_patch_commit_zoom(WrApp *app, bool now)
     wr_text_fini(&line);
 }
 
-/* ---- on the patch ---- */
+/* ---- input on the patch ---- */
 
 void wr_patch_draw_lights(const WrApp *app)
 {

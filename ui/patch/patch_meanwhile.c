@@ -1,5 +1,5 @@
-/* The patch while a command runs beside the window: it is turned, moved and come closer to as ever, and what comes of that
-   becomes a command when the other one is done. */
+/* The patch while a command runs in the background: rotation, panning and zoom still work, and their result becomes a
+   command afterwards. */
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
 #include "ui/state/keys.h"
@@ -19,7 +19,7 @@ static WrPointer pointer(const WrApp *app, const SDL_Event *event, int button)
                         .mods = app->hand->mods };
 }
 
-/* Lamps, handles and the brush change the scene or the table: those wait. */
+/* Lights, handles and the brush change the scene or the table, so they must wait. */
 static bool press(WrApp *app, const SDL_Event *event)
 {
     const WrPointer at = pointer(app, event, event->button.button);

@@ -18,7 +18,7 @@
 #include <math.h>
 #include <string.h>
 
-#define REACH 9.0 /* units: as near a handle is under the pointer */
+#define REACH 9.0 /* units: hit radius of a handle */
 
 /* ---- picking ---- */
 
@@ -48,7 +48,7 @@ void wr_patch_picks_forget(WrApp *app)
     p->scene = NULL;
 }
 
-/* Painting reaches the table that the object wears. */
+/* Painting edits the table of the object. */
 static void use_layer(WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
@@ -77,13 +77,13 @@ bool wr_patch_choose(WrApp *app, const WrPointer *at)
     return true;
 }
 
-/* ---- the handles ---- */
+/* ---- handles ---- */
 
-/* The chosen object's ball in the view. */
+/* The active object's bounding sphere in the view. */
 typedef struct Ball {
     WrPlacement at;
-    double x, y, radius; /* pixels of the window; radius at least that of a hand's reach */
-    double pixel;        /* world units, at its centre's depth */
+    double x, y, radius; /* pixels of the window; radius at least that of a handle */
+    double pixel;        /* world units per pixel at the depth of its centre */
 } Ball;
 
 static bool find_ball(const WrApp *app, Ball *ball)
@@ -105,7 +105,7 @@ static bool find_ball(const WrApp *app, Ball *ball)
     return true;
 }
 
-/* The square stands to the lower right. */
+/* The square is at the lower right. */
 static void size_spot(const Ball *ball, double *x, double *y)
 {
     *x = ball->x + ball->radius * sqrt(0.5);
@@ -141,7 +141,7 @@ void wr_patch_handle_press(WrApp *app, const WrPointer *at)
     app->patch->from_sizes = scene->sizes;
 }
 
-/* World -> before the turntable turned. */
+/* Rotate from world space to the space before the turntable rotation. */
 static WrVec3 turned_back(WrVec3 v, double turn_deg)
 {
     const WrRotation back = wr_rotation_axis((WrVec3){ 0, 1, 0 }, -turn_deg);

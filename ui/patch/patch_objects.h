@@ -1,5 +1,5 @@
-/* patch_objects.h - the objects of a scene on the patch: chosen by a click, moved, sized and turned by the handles of
-   the chosen one. */
+/* patch_objects.h - objects of a scene on the patch: chosen by a click; moved, resized and rotated by the handles of
+   the active one. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
@@ -9,20 +9,20 @@
 
 typedef enum WrHandle {
     WR_HANDLE_NONE,
-    WR_HANDLE_MOVE, /* the disc in the middle: across the view */
-    WR_HANDLE_SIZE, /* the square on the ring */
-    WR_HANDLE_TURN  /* the ring: as a ball that is rolled */
+    WR_HANDLE_MOVE, /* disc in the middle: moves across the view */
+    WR_HANDLE_SIZE, /* square on the ring: resizes */
+    WR_HANDLE_TURN  /* ring: rotates like a trackball */
 } WrHandle;
 
-/* What is under each pixel of the picture that is shown; made anew when another one is. NULL: there is none. Borrowed. */
+/* Pick buffers for the displayed picture, rebuilt for another picture. NULL: none. Borrowed. */
 const WrPatchPicks *wr_patch_picks(WrApp *app);
 void wr_patch_picks_forget(WrApp *app);
-/* Make the object of the scene that the pointer is over the chosen one, and its layer, if it wears one of its own, the
-   active one. False beside all of them. */
+/* Make the object under the pointer the active one, and its layer the active layer if it has one of its own. False if
+   there is no object. */
 bool wr_patch_choose(WrApp *app, const WrPointer *at);
 
 WrHandle wr_patch_handle_under(const WrApp *app, const WrPointer *at);
 void wr_patch_handle_press(WrApp *app, const WrPointer *at);
 void wr_patch_handle_drag(WrApp *app, const WrPointer *at);
-void wr_patch_handle_release(WrApp *app); /* one command for what was dragged */
+void wr_patch_handle_release(WrApp *app); /* one command for the drag */
 void wr_patch_handles_draw(const WrApp *app);

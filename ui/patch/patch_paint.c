@@ -1,8 +1,7 @@
-/* Painting on the patch: the pen goes over the object, the table under it is painted by the same strokes
-   as on the canvas. The way between two events is cut into steps of a few pixels, each looked up exactly
-   (patch_pick.h). Where the next step lies elsewhere in the table than the surface's slopes there say,
-   something jumped: the outline of a nearer part, another face of the cube, an edge, a seam of a
-   replication that does not close. The stroke ends there and another one begins. */
+/* Painting on the patch: the pen moves over the object, and the table below is painted by the same strokes as on the
+   canvas. The path between two events is divided into steps of a few pixels, each located exactly (patch_pick.h). If
+   the next step is elsewhere in the table than the surface derivatives predict, the path has crossed a silhouette, a
+   cube edge, a border, or a seam of a replication that does not close. The stroke ends there and a new one begins. */
 #include "ui/state/action_list.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/state/app_state.h"
@@ -31,11 +30,11 @@
 
 #define STEP_PIXELS 4.0
 #define STEPS_MAX 256
-#define JUMP_FACTOR 6.0 /* of what the slopes say, that a step may go */
-#define JUMP_TEXELS 4.0 /* and in any case */
-#define RING_STEPS 3    /* of the outline on the object: one of its points in between */
+#define JUMP_FACTOR 6.0 /* largest step, as a multiple of the prediction */
+#define JUMP_TEXELS 4.0 /* step that is always accepted */
+#define RING_STEPS 3    /* brush outline on the object: one of its points between them */
 
-/* Of the chosen object. */
+/* Picking for the active object. */
 static const WrPatchPick *picker(WrApp *app)
 {
     const WrPatchPicks *picks = wr_patch_picks(app);
@@ -47,7 +46,7 @@ void wr_patch_paint_free(WrApp *app)
     wr_patch_picks_forget(app);
 }
 
-/* Where the chosen object is seen there. */
+/* Point of the active object under the pixel, if visible. */
 static bool spot_under(WrApp *app, double x, double y, WrPatchSpot *spot)
 {
     const WrPatchPicks *picks = wr_patch_picks(app);
@@ -67,7 +66,7 @@ bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v)
     return true;
 }
 
-/* ---- pieces ---- */
+/* ---- steps ---- */
 
 static void lift(WrApp *app)
 {
@@ -87,7 +86,7 @@ static void put_down(WrApp *app, const WrPointer *at, const WrPatchSpot *spot)
     wr_strokes_sample(app, at, scene->replicate_u * spot->u, scene->replicate_v * spot->v);
 }
 
-/* Texels from one place of the table to another, the shortest way round where it wraps. */
+/* Distance in texels between two table positions, the shortest way round on periodic axes. */
 static double texels(double from, double to, int size, WrWrap wrap)
 {
     double d = to - from;
@@ -95,7 +94,7 @@ static double texels(double from, double to, int size, WrWrap wrap)
     return d * size;
 }
 
-/* Does the surface lead from the last spot to this one, or did something jump? */
+/* True if the surface is continuous from the last point to this one. */
 static bool leads(WrApp *app, const WrPatchSpot *spot)
 {
     const WrPatchSpot *last = &app->paint->last;
@@ -108,9 +107,11 @@ static bool leads(WrApp *app, const WrPatchSpot *spot)
     double du = texels(ru * last->u, ru * spot->u, w, wr_field_wrap_u(field));
     double dv = texels(rv * last->v, rv * spot->v, h, wr_field_wrap_v(field));
     const WrPatchSpot *ends[2] = { last, spot };
-    for (int i = 0; i < 2; i++) { /* near an outline the slopes of one end may be far larger */
+    for (int i = 0; i < 2; i++) { /* near a silhouette the derivatives of one end may be far
+                                     larger */
         double j[4];
-        if (!wr_patch_pick_slopes(picker(app), ends[i], j)) return true; /* a pole: no telling */
+        if (!wr_patch_pick_slopes(picker(app), ends[i], j))
+            return true; /* a pole: no decision possible */
         most =
             fmax(most, hypot(ru * w * (j[0] * dx + j[1] * dy), rv * h * (j[2] * dx + j[3] * dy)));
     }
@@ -128,7 +129,7 @@ static void step_to(WrApp *app, const WrPointer *at)
     put_down(app, at, &spot);
 }
 
-/* The pointer, steadied, went straight to `at`. */
+/* Continue the smoothed stroke straight to `at`. */
 static void draw_to(WrApp *app, const WrPointer *at)
 {
     WrPatchPaint *p = app->paint;
@@ -177,9 +178,9 @@ void wr_patch_paint_release(WrApp *app, const WrPointer *at)
     lift(app);
 }
 
-/* ---- the outline on the object ---- */
+/* ---- brush outline on the object ---- */
 
-/* Where a place near (u, v) is seen: around a closed axis, not over the edge of an open one. */
+/* Position near (u, v) on the object: wraps on a closed axis, ends at the edge of an open one. */
 static bool on_object(const WrPatchPick *pick, const WrScene *scene, int face, double u, double v,
                       WrPatchSpot *out, bool *hidden)
 {
@@ -191,7 +192,7 @@ static bool on_object(const WrPatchPick *pick, const WrScene *scene, int face, d
     return wr_patch_pick_project(pick, face, u, v, out, hidden);
 }
 
-/* Points of the outline on the object, pixels of the window; seen: 0 not at all, 1 hidden, 2 in sight. */
+/* Points of the brush outline on the object, pixels of the window; seen: 0 none, 1 hidden, 2 visible. */
 typedef struct Ring {
     double x[WR_BRUSH_MARK_POINTS * RING_STEPS + 1], y[WR_BRUSH_MARK_POINTS * RING_STEPS + 1];
     int seen[WR_BRUSH_MARK_POINTS * RING_STEPS + 1];
@@ -236,8 +237,7 @@ static void draw_ring(const Ring *ring, bool erases)
     }
 }
 
-/* Where the pointer over the canvas is on the object: in every copy that the replication makes, up to a
- * few. */
+/* Mark the canvas pointer's position on the object, in a limited number of copies made by the replication. */
 static void draw_marks(const WrApp *app, const WrPatchPick *pick)
 {
     const WrScene *scene = wr_app_scene(app);

@@ -7,22 +7,22 @@
 #include <SDL.h>
 #include <stdbool.h>
 
-/* Painting on the patch (patch_paint.c). */
+/* State of painting on the patch (patch_paint.c). */
 typedef struct WrPatchPaint {
-    bool on;             /* the pointer over the patch paints instead of turning it */
+    bool on;             /* dragging over the patch paints instead of rotating it */
     WrPatchPicks *picks; /* owned */
-    WrScene *scene;      /* own share; what they were made for */
+    WrScene *scene;      /* scene for which they were made; shared, owned */
     double turn_deg;
     SDL_Rect room;
-    bool inside; /* the last step lay on the object */
+    bool inside; /* the last step was on the object */
     WrPatchSpot last;
-    WrPointer at; /* where the last step ended */
+    WrPointer at; /* end of the last step */
 } WrPatchPaint;
 
-/* Where the table is that lies under a pointer on the patch; false beside the object. */
+/* Table position under a pointer on the patch; false beside the object. */
 bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v);
 void wr_patch_paint_press(WrApp *app, const WrPointer *at);
 void wr_patch_paint_drag(WrApp *app, const WrPointer *at);
 void wr_patch_paint_release(WrApp *app, const WrPointer *at);
-void wr_patch_paint_overlay(WrApp *app); /* the brush's outline on the object */
+void wr_patch_paint_overlay(WrApp *app); /* draw the brush's outline on the object */
 void wr_patch_paint_free(WrApp *app);

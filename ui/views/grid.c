@@ -8,8 +8,8 @@
 #include <stdio.h>
 
 #define NEAR_UNITS 7.0
-#define CLOSEST_UNITS 5.0 /* between two lines that are drawn */
-#define LABEL_UNITS 44.0  /* between two numbers of the ruler */
+#define CLOSEST_UNITS 5.0 /* least distance of two drawn lines */
+#define LABEL_UNITS 44.0  /* least distance of two numbers on the ruler */
 #define LINE 0x704a8fdcu
 
 double wr_grid_step(const WrApp *app, int axis)
@@ -27,7 +27,7 @@ double wr_grid_snap(const WrApp *app, int axis, double texel)
     return fabs(line - texel) * app->view->zoom < NEAR_UNITS * wr_gui_scale() ? line : texel;
 }
 
-/* The number of texels from the cell's left or upper edge, at the line's end (px, py). */
+/* Distance in texels from the cell's left or upper edge, at the line's end (px, py). */
 static void number(const WrCanvasView *v, int axis, double px, double py, double texel, double most)
 {
     char text[24];

@@ -1,4 +1,4 @@
-/* The outline of the selection on every copy of the cell, as a marching dashed line. */
+/* Outline of the selection on every copy of the cell, as an animated dashed line. */
 #include "ui/views/marks.h"
 #include "ui/canvas/marching_ants.h"
 #include "ui/canvas/outline.h"
@@ -20,9 +20,9 @@
 #include <SDL.h>
 #include <math.h>
 
-#define STEP_SECONDS 0.2 /* of the march */
-#define IDLE_SECONDS 20  /* without the user's doing anything, after which it stands */
-#define DASH 4           /* pixels at scale 1, of each colour */
+#define STEP_SECONDS 0.2 /* period of the animation */
+#define IDLE_SECONDS 20  /* the animation stops after this time without user input */
+#define DASH 4           /* length of a dash, pixels at scale 1 */
 
 void wr_marks_update(WrApp *app)
 {
@@ -46,7 +46,7 @@ void wr_marks_try(WrApp *app, const WrOutlineAsk *ask)
     wr_app_redraw(app);
 }
 
-/* The pixels, white and black in turn along the line. */
+/* Draw the pixels, alternately white and black along the line. */
 static void draw(const WrApp *app, const WrMarchingAnts *ants, int phase)
 {
     static const uint32_t colours[2] = { 0xfffafafau, 0xff101010u };
@@ -118,7 +118,7 @@ static bool works(WrApp *app)
     return wr_outliner_busy(app->marks->outliner, NULL, NULL);
 }
 
-/* The outline of the selection moves on. */
+/* Advance the animation. */
 static void update(WrApp *app)
 {
     double now = wr_clock_seconds(), due = wr_marks_next_time(app);

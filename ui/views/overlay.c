@@ -1,4 +1,4 @@
-/* Lines and marks on the canvas, on every copy of the cell that is seen. */
+/* Lines and marks on the canvas, on every visible copy of the cell. */
 #include "ui/views/overlay.h"
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-#define COPIES_MAX 49 /* that are drawn; beyond, only the nearest */
+#define COPIES_MAX 49 /* limit of drawn copies; beyond it, only the nearest */
 
 WrSelectPoint wr_overlay_uv(const WrApp *app, double x, double y)
 {
@@ -25,7 +25,7 @@ WrSelectPoint wr_overlay_home(const WrApp *app, double u, double v)
                             wr_field_wrap_v(field) == WR_WRAP_PERIODIC ? -floor(v) : 0.0 };
 }
 
-/* Of a point of what stands in the copy i cells to the right and j up. */
+/* Pixel of a point in the copy i cells to the right and j up. */
 static void pixel_of(const WrApp *app, WrSelectPoint p, int i, int j, double *x, double *y)
 {
     const WrCanvasView *view = app->view;
@@ -34,7 +34,7 @@ static void pixel_of(const WrApp *app, WrSelectPoint p, int i, int j, double *x,
     wr_view_place(view, (p.u + i) * view->table_w + dx, (1.0 - p.v - j) * view->table_h + dy, x, y);
 }
 
-/* Whole cells by which what lies in low..high (u and v) must be moved to be seen: *from .. *to. */
+/* Shifts by whole cells, *from .. *to, at which content in low..high (u and v) is visible. */
 typedef struct Shifts {
     int from_u, to_u, from_v, to_v;
 } Shifts;
@@ -90,7 +90,7 @@ void wr_overlay_lines(const WrApp *app, const WrSelectPoint *points, int count, 
         }
 }
 
-/* Call `draw` at each place in pixels. */
+/* Call `draw` for each visible copy, in pixels. */
 static void at_copies(const WrApp *app, double u, double v, WrColour colour,
                       void (*draw)(double x, double y, WrColour colour))
 {

@@ -1,5 +1,5 @@
-/* The seam meter: a square on the canvas, one side an edge of the cell; quiet where the table goes on
-   smoothly, orange where it jumps. */
+/* Seam meter: a square on the canvas whose sides stand for the cell's edges; grey where the table is continuous,
+   orange where it jumps. */
 #include "ui/views/panel_seam.h"
 #include "ui/toolkit/words.h"
 #include "ui/state/app_state.h"
@@ -48,7 +48,8 @@ static void add_numbers(WrText *tip, const WrSeamEdge *edge)
                  edge->across[WR_SEAM_SLOPE], edge->inside[WR_SEAM_SLOPE]);
 }
 
-/* Measured as the canvas lays the copies, when the table rests: a stroke wraps and makes no seams. */
+/* Measure with the canvas's tiling, while the table is unchanged; not during strokes, which wrap and make no
+   seams. */
 static void measure(WrApp *app)
 {
     const WrField *field = wr_app_field(app);

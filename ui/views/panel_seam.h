@@ -1,4 +1,4 @@
-/* panel_seam.h - how well the cell's edges meet, on the canvas. */
+/* panel_seam.h - seam meter: continuity of the table across the cell's edges. */
 #pragma once
 #include "ui/state/app_state.h"
 
