@@ -1,5 +1,5 @@
-/* What each action does, in a line: in menus, beside what the pointer or the keys are at, and in the search, which finds them by
-   these words too. And which of them may be done while a command runs. */
+/* One line of help for each action, used in menus, tips and the search; and the actions that are allowed while a
+   command runs. */
 #include "ui/app/roster_list.h"
 #include "ui/state/action_list.h"
 

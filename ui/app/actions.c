@@ -1,4 +1,4 @@
-/* The one table of actions: menus, keys and buttons all go by it. */
+/* The table of actions, used by menus, keys and buttons. */
 #include "ui/app/actions.h"
 #include "ui/app/actions_look.h"
 #include "ui/accuracy/accuracy.h"

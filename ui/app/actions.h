@@ -1,4 +1,4 @@
-/* actions.h - actions of the hand, layers and selections, for the table in actions.c; nobody else includes it. */
+/* actions.h - handlers of brush, layer and selection actions for the table in actions.c. Private to actions*.c. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -90,7 +90,7 @@ void wr_act_offset_half(WrApp *app);
 bool wr_can_several_layers(const WrApp *app);
 bool wr_can_merge(const WrApp *app); /* there is a layer below */
 bool wr_can_raise(const WrApp *app);
-bool wr_can_mask_selection(const WrApp *app); /* something is selected */
+bool wr_can_mask_selection(const WrApp *app); /* the selection is not empty */
 void wr_act_copy(WrApp *app);
 void wr_act_copy_shown(WrApp *app);
 void wr_act_cut(WrApp *app);

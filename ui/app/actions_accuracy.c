@@ -21,7 +21,7 @@ bool wr_is_accuracy(const WrApp *app)
     return app->settings->panels && app->settings->tab == wr_tab_find(app, "Accuracy");
 }
 
-/* Where there is no room for it below, it is at the end of the Accuracy tab. */
+/* Without room below, the inspector is at the end of the Accuracy tab. */
 void wr_act_inspector(WrApp *app)
 {
     WrInspector *in = &app->accuracy->inspector;
@@ -88,7 +88,7 @@ bool wr_is_compare_hold(const WrApp *app)
     return app->accuracy->hold_b;
 }
 
-/* ---- what the patch shows ---- */
+/* ---- picture of the patch ---- */
 
 #define LOOK(name, value)                                                                          \
     void wr_act_look_##name(WrApp *app)                                                            \

@@ -1,4 +1,4 @@
-/* Actions of the brush: its values and modes, presets, symmetry, key maps. */
+/* Actions of the brush: parameters, modes, presets, symmetry, key maps. */
 #include "ui/app/actions.h"
 #include "ui/canvas/canvas.h"
 #include "ui/state/app_state.h"
@@ -63,7 +63,7 @@ void wr_act_hardness_down(WrApp *app)
     add_hardness(app, -0.05);
 }
 
-/* Two digits: 0.1, 0.12, 0.14, 0.17 ... Of modes that do not go by strength, opacity in twentieths. */
+/* Steps of two digits: 0.1, 0.12, 0.14, 0.17 ... For modes without strength, opacity in steps of 1/20. */
 static void scale_strength(WrApp *app, double factor)
 {
     WrBrush *brush = &app->settings->brush;
@@ -88,7 +88,7 @@ void wr_act_strength_down(WrApp *app)
     scale_strength(app, 1.0 / 1.2);
 }
 
-/* Each of them has its own strength, once it was changed. */
+/* Each of the two modes keeps its own strength once it was changed. */
 void wr_act_swap_mode(WrApp *app)
 {
     WrBrush *brush = &app->settings->brush;
@@ -104,7 +104,7 @@ void wr_act_level_mode(WrApp *app)
     app->settings->brush.mode = WR_BRUSH_TO;
 }
 
-/* Mode and strength as the brush began. */
+/* Reset mode and strength to the initial values. */
 void wr_act_reset_values(WrApp *app)
 {
     WrBrush *brush = &app->settings->brush, own = wr_preset_browser_own(app);
@@ -118,7 +118,7 @@ void wr_act_reset_values(WrApp *app)
     wr_app_say(app, "Mode, strength, height, opacity and flow are the brush's own again");
 }
 
-/* The height that the brush goes by, in twentieths of what is seen from black to white. */
+/* Change the brush's target height by 1/20 of the displayed range. */
 static void move_height(WrApp *app, int steps)
 {
     WrBrush *brush = &app->settings->brush;

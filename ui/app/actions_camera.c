@@ -1,4 +1,4 @@
-/* Actions of the patch's camera and of what stands under the objects: each is one command line. */
+/* Actions of the patch's camera and of the floor: each is one command line. */
 #include "ui/app/actions.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
@@ -28,7 +28,7 @@ void wr_act_view_back(WrApp *app)
     wr_app_run_line(app, "view back");
 }
 
-/* A zoom that is not a view yet can be gone back from too. */
+/* A pending wheel zoom can be undone too. */
 bool wr_can_view_back(const WrApp *app)
 {
     return wr_session_views_back(app->session) > 0 || app->patch->zoom_commit_at > 0.0;
@@ -41,7 +41,7 @@ bool wr_can_view_forward(const WrApp *app)
 
 void wr_act_view_forward(WrApp *app)
 {
-    wr_app_settle(app); /* which leaves none to go forward to */
+    wr_app_settle(app); /* afterwards there is no view to redo */
     if (wr_can_view_forward(app)) wr_app_run_line(app, "view forward");
 }
 
@@ -65,7 +65,7 @@ void wr_act_pose_reset(WrApp *app)
     wr_text_fini(&line);
 }
 
-/* The turntable stands then as a picture in a file has it. */
+/* Set a standard view; the turntable stops at its angle in picture files. */
 static void look_from(WrApp *app, WrSide side)
 {
     wr_patch_commit_zoom(app, true);
@@ -130,7 +130,7 @@ void wr_act_orbit_down(WrApp *app)
     orbit(app, 0, -1);
 }
 
-/* What is seen now, or, while it turns, all that will be. */
+/* Fit the visible surface or, during rotation, everything visible in a full turn. */
 void wr_act_camera_fill(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->patch;
@@ -155,7 +155,7 @@ void wr_act_camera_kind(WrApp *app)
     wr_app_run_linef(app, "camera %s", wr_camera_names[wr_is_perspective(app)]);
 }
 
-/* Under the first free name of view 1, view 2 ... */
+/* Save under the first free name of view 1, view 2 ... */
 void wr_act_view_keep(WrApp *app)
 {
     char name[24];
@@ -166,7 +166,7 @@ void wr_act_view_keep(WrApp *app)
     wr_app_run_linef(app, "camera save \"%s\"", name);
 }
 
-/* ---- the ground ---- */
+/* ---- floor ---- */
 
 bool wr_is_ground(const WrApp *app)
 {

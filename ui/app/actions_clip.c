@@ -1,4 +1,4 @@
-/* Copy, cut and paste: what is copied is a file that `picture paste` reads, so that a line of the history says which. */
+/* Copy, cut and paste. A copy is a file that `picture paste` reads, so that the line in the history names it. */
 #include "ui/app/actions.h"
 #include "ui/canvas/view.h"
 #include "ui/state/busy.h"
@@ -31,9 +31,9 @@
 #include <string.h>
 #include <time.h>
 
-#define KEPT 20 /* copies, whose lines in histories can be run again */
+#define KEPT 20 /* number of kept copies, so that lines in histories can run again */
 
-/* "STATE/clipboard", beside the journals; made if it is missing. */
+/* "STATE/clipboard", beside the journals; created if missing. */
 static bool clip_folder(WrText *path, WrError *err)
 {
     if (!wr_journal_folder(path, err)) return false;
@@ -59,7 +59,7 @@ static int by_name(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* The names tell the time: the oldest go. */
+/* File names contain the time: remove the oldest. */
 static void forget_old(const char *path)
 {
     Names names = { 0 };
@@ -77,7 +77,7 @@ static void forget_old(const char *path)
     wr_array_free(&names);
 }
 
-/* A path for a new copy, with that ending. tail: between the date and the ending. */
+/* A path for a new copy with that extension. tail: between the date and the extension. */
 static bool new_path(WrText *path, const char *tail, const char *ending, WrError *err)
 {
     struct tm date;
@@ -91,12 +91,12 @@ static bool new_path(WrText *path, const char *tail, const char *ending, WrError
     return true;
 }
 
-/* ---- where a copy was ---- */
+/* ---- position of a copy ---- */
 
-/* The file's name keeps the place, so that any window can paste in place: "copy-DATE-at-U-V.exr". */
+/* The file name contains the position, so that any window can paste in place: "copy-DATE-at-U-V.exr". */
 static const char place_mark[] = "-at-";
 
-/* The middle of what is selected, of the table without a selection. */
+/* Centre of the selection, or of the table without a selection. */
 static void add_place(const WrApp *app, WrText *tail)
 {
     const WrField *field = wr_app_field(app), *selection = wr_app_document(app)->selection;
@@ -110,7 +110,7 @@ static void add_place(const WrApp *app, WrText *tail)
     wr_text_add_number(tail, v - floor(v));
 }
 
-/* at: u, v. False: it is no copy of ours. */
+/* at: u, v. False: the file is not such a copy. */
 static bool find_place(const char *path, double at[2])
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -136,7 +136,9 @@ static bool copy(WrApp *app, const char *of)
     wr_text_add_word(&line, wr_text_get(&path));
     if (of) wr_text_addf(&line, " of=%s", of);
     good = good && wr_app_run_line(app, wr_text_get(&line));
-    if (good) SDL_SetClipboardText(wr_text_get(&path)); /* other windows of ours find it by that */
+    if (good)
+        SDL_SetClipboardText(wr_text_get(&path)); /* other windows of the program find the
+                                                           copy by its path */
     if (good) wr_app_say(app, "Copied");
     wr_text_fini(&path);
     wr_text_fini(&line);
@@ -172,7 +174,7 @@ static bool save_bytes(const char *path, const char *bytes, size_t length, WrErr
     return wr_file_commit(&target, err);
 }
 
-/* What the system's clipboard holds, as a file: a picture of another program, or the path of one. */
+/* Write the system clipboard's content to a file: a picture of another program, or use the path it contains. */
 static bool find_picture(WrText *path, WrError *err)
 {
     char *bytes = NULL, *text;
@@ -191,7 +193,7 @@ static bool find_picture(WrText *path, WrError *err)
     return is_path || wr_fail(err, "the clipboard holds neither heights nor a picture");
 }
 
-/* Where a copy was; else the middle of what the canvas shows. */
+/* Position of the copy; else the centre of the visible canvas. */
 static void add_at(const WrApp *app, const char *path, WrText *line)
 {
     double at[2];
@@ -208,7 +210,7 @@ static void add_at(const WrApp *app, const char *path, WrText *line)
     wr_text_add_number(line, at[1]);
 }
 
-/* A picture that is larger than the table is shrunk into it. */
+/* Scale a picture down that is larger than the table. */
 static bool add_size(const WrApp *app, const char *path, WrText *line, WrError *err)
 {
     WrImageRows *rows = wr_image_rows_open(path, &(WrImageWish){ 0 }, err);
@@ -220,7 +222,7 @@ static bool add_size(const WrApp *app, const char *path, WrText *line, WrError *
     return true;
 }
 
-/* Onto a mask a picture is placed by hand, as any generator's work; heights become a layer at once. */
+/* On a mask the picture is placed interactively like a generator; on heights it becomes a layer at once. */
 static void paste_on_mask(WrApp *app, const char *path)
 {
     WrText line = { 0 };

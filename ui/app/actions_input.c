@@ -1,4 +1,4 @@
-/* Actions of the painting hand: straight lines, the patch, a mouse's pressure, steadying. */
+/* Actions of pointer input: straight lines, painting on the patch, simulated pressure, stroke smoothing. */
 #include "ui/app/actions.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"

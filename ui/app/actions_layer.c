@@ -13,7 +13,7 @@
 
 #include <stdio.h>
 
-/* Of the active layer, as commands count. */
+/* Number of the active layer in command lines. */
 static int number(const WrApp *app)
 {
     return wr_app_document(app)->active + 1;
@@ -169,7 +169,7 @@ void wr_act_select_mask(WrApp *app)
     wr_app_run_linef(app, "select mask %d", number(app));
 }
 
-/* ---- what can be done ---- */
+/* ---- availability ---- */
 
 void wr_act_filter_edit(WrApp *app)
 {

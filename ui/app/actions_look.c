@@ -171,7 +171,7 @@ void wr_act_grid_coarser(WrApp *app)
     parts(app, app->settings->grid_parts / 2);
 }
 
-/* ---- how the table stands ---- */
+/* ---- tiling of the table ---- */
 
 #define TURN_DEG 15.0
 
@@ -217,7 +217,7 @@ TILING(half_drop, WR_TILING_HALF_DROP)
 TILING(brick, WR_TILING_BRICK)
 #undef TILING
 
-/* ---- parts of the window ---- */
+/* ---- areas of the window ---- */
 
 void wr_act_view_both(WrApp *app)
 {

@@ -1,4 +1,4 @@
-/* actions_look.h - what the canvas shows: the table in its colours, or a map of it; and the window's own colours. */
+/* actions_look.h - handlers of display actions: table colours and maps on the canvas, themes of the window. */
 #pragma once
 #include <stdbool.h>
 

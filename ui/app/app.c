@@ -1,4 +1,4 @@
-/* The window: SDL, the event loop, what is drawn when. */
+/* The window: SDL, the main loop, scheduling of frames. */
 #include "ui/app/app.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
@@ -64,14 +64,14 @@
 #include <math.h>
 #include <stdio.h>
 
-#define FRAME_SECONDS (1.0 / 125.0) /* least time between two pictures of the window */
+#define FRAME_SECONDS (1.0 / 125.0) /* least time between two frames */
 #define DRAWN_SECONDS                                                                              \
     (1.0 / 300.0)         /* while the pointer is held, so that what it does is seen at once */
-#define CARET_SECONDS 0.3 /* a text field's caret blinks, messages go */
-#define BAR_SECONDS 0.1   /* between pictures of a bar that fills */
-#define YOUNG_MS 3 /* between looks whether it is done, while events are left where they are */
+#define CARET_SECONDS 0.3 /* interval for a text field's blinking caret and for messages */
+#define BAR_SECONDS 0.1   /* interval for progress bars */
+#define YOUNG_MS 3        /* interval of completion checks while events are held back */
 
-/* ---- life ---- */
+/* ---- life cycle ---- */
 
 bool wr_app_begin(WrApp *app, WrError *err)
 {
@@ -195,13 +195,13 @@ static void handle(WrApp *app, const SDL_Event *event)
     WrPenEvent pen;
     wr_busy_tend(app);
     if (is_hand(event)) app->fitted = true;
-    if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
+    if (event->type == app->ready_event) return; /* wr_patch_update fetches the picture */
     if (event->type == app->rest_event) {
         wr_idle_probe_asked(app);
         return;
     }
     while (wr_pen_next_before(app->pen, event, &pen)) wr_hand_pen(app, &pen);
-    if (event->type == app->job_event) { /* what the result is needed for takes it */
+    if (event->type == app->job_event) { /* the component that needs the result fetches it */
         wr_app_redraw(app);
         return;
     }
@@ -210,7 +210,7 @@ static void handle(WrApp *app, const SDL_Event *event)
     app->input_at = wr_clock_seconds();
     wr_app_redraw(app);
     if (wr_busy_look(app, event)) return;
-    if (event->type == SDL_QUIT) { /* a signal; a second one does not wait for an answer */
+    if (event->type == SDL_QUIT) { /* a signal; a second one skips the question */
         if (app->dialog->now == WR_DIALOG_UNSAVED) app->quit = true;
         else wr_app_quit(app);
     } else if (event->type == SDL_WINDOWEVENT) {
@@ -319,7 +319,7 @@ static void draw(WrApp *app, double now)
     wr_gui_frame_begin(app->gui, width, height, now - app->drawn_at);
     wr_app_draw_parts(app, true);
     wr_thumbs_update(app);
-    wr_input_take(app); /* it came while the picture before this one was on the screen */
+    wr_input_take(app); /* these came while the previous frame was on the screen */
     wr_gui_frame_end(app->gui);
     wr_input_shown(app);
     wr_hand_look(app);
@@ -329,9 +329,9 @@ static void draw(WrApp *app, double now)
     if (app->drawn) app->drawn(app);
 }
 
-/* ---- the loop ---- */
+/* ---- main loop ---- */
 
-/* Something is being computed in the background: its bar moves. */
+/* True if a background computation shows a progress bar. */
 static bool works(WrApp *app)
 {
     bool any = wr_edit_preview_busy(app->trial, NULL, NULL);
@@ -345,7 +345,7 @@ static double frame_seconds(const WrApp *app)
     return app->hand->grab != WR_GRAB_NONE ? DRAWN_SECONDS : FRAME_SECONDS;
 }
 
-/* Milliseconds until something is due without an event; -1: never. */
+/* Milliseconds until an update is due without an event; -1: never. */
 static int wait_time(WrApp *app, double now)
 {
     double next = 1e300;
@@ -371,7 +371,7 @@ static int wait_time(WrApp *app, double now)
     return ms < 0.0 ? 0 : ms > 60000.0 ? 60000 : (int)ms;
 }
 
-/* What pens and fingers did since the last time; they come by a way of their own. */
+/* Move pen and finger events to the queue; they do not come through SDL. */
 static bool take_pens(WrApp *app)
 {
     WrPenEvent event;
@@ -383,7 +383,7 @@ static bool take_pens(WrApp *app)
     return any;
 }
 
-/* Each of what needed one does without. */
+/* Report once that the system refused threads; the work is done without them. */
 static void tell_refused(WrApp *app)
 {
     if (wr_thread_refused())
@@ -391,7 +391,7 @@ static void tell_refused(WrApp *app)
                         "until it is done");
 }
 
-/* All events whose turn it is. True if there was one. */
+/* Handle all events that need not wait. True if there was one. */
 static bool handle_input(WrApp *app)
 {
     SDL_Event event;
@@ -405,7 +405,7 @@ static bool handle_input(WrApp *app)
     return any;
 }
 
-/* Wait for what is due, and do what the user asks for. */
+/* Wait for events or due updates, and handle them. */
 static void take_events(WrApp *app)
 {
     int wait = wait_time(app, wr_clock_seconds());
@@ -413,7 +413,7 @@ static void take_events(WrApp *app)
     else if (wait > 0) SDL_WaitEventTimeout(NULL, wait);
     wr_input_take(app);
     bool came = handle_input(app);
-    /* Those of pens stand behind events that wait. */
+    /* Pen events follow the waiting events. */
     if (!wr_input_waits(app) && take_pens(app)) came = true;
     if (came) return;
     if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || app->messages->list.count > 0 ||

@@ -1,5 +1,5 @@
-/* app.h - the window: paint a table on the left, watch it wrinkle a turning patch on the right.
-   Layer 7. The only header of ui/ that others include. */
+/* app.h - entry points of the window: a canvas with the table on the left, a rotating 3D preview on the right. The
+   only header of ui/ for other modules. */
 #pragma once
 #include "ui/state/app_options.h"
 
@@ -8,37 +8,37 @@
 
 typedef struct WrError WrError;
 
-/* Open the window and stay until it is closed. Returns the process's exit status: 0, or 1 with a
- * message on standard error when there is no display to open it on.
+/* Open the window and run it until it is closed. Returns the process's exit status: 0, or 1 with a message on
+ * standard error if there is no display.
  *
- * Environment: WRINKLE_RENDERER=software|opengl, WRINKLE_SCALE=0.75..3 (size of everything),
- * WRINKLE_DIALOG=own (never the desktop's file dialog), WRINKLE_TIMING=1 (milliseconds to the first
- * picture on standard error; a time of wr_clock_seconds: counted from there, and the window closes
- * after it). Settings: $XDG_CONFIG_HOME/wrinkle/window.conf; keys: keys.conf there. */
+ * Environment: WRINKLE_RENDERER=software|opengl, WRINKLE_SCALE=0.75..3 (scale of all widgets), WRINKLE_DIALOG=own
+ * (never the native file dialog), WRINKLE_TIMING=1 (milliseconds to the first frame on standard error; a time of
+ * wr_clock_seconds instead of 1: counted from there, and the window closes afterwards). Settings:
+ * $XDG_CONFIG_HOME/wrinkle/window.conf; keys: keys.conf in that folder. */
 int wr_app_run(const WrAppOptions *options);
 
-/* How soon a pointer's motion is seen: milliseconds from the moment that the system has an event until a
-   picture of the window shows what it did. */
+/* Latency of pointer input: milliseconds from the arrival of an event in the system to the first frame with its
+   effect. */
 typedef struct WrAppDelays {
-    double half, most, nearly_all, all; /* of the events: within this many ms (50, 95, 99, 100 %) */
+    double half, most, nearly_all, all; /* percentiles of the events in ms (50, 95, 99, 100 %) */
 } WrAppDelays;
 
 typedef struct WrAppLatency {
-    /* asked for */
+    /* input */
     double radius;       /* of the brush, texels */
-    double seconds;      /* of scribbling, 0.5..600 */
-    bool turning;        /* the patch turns meanwhile */
+    double seconds;      /* duration of scribbling, 0.5..600 */
+    bool turning;        /* the patch rotates meanwhile */
     int width, height;   /* of the window, pixels; 0: 1440 x 900 */
-    double idle_seconds; /* that nothing happens before, and nothing turns; 0: none */
-    /* measured */
-    double idle; /* of one processor, 0..: what the program takes while nothing happens */
+    double idle_seconds; /* idle period before, without rotation; 0: none */
+    /* results */
+    double idle; /* fraction of one processor, 0..: the program's load while idle */
     int64_t events, pictures;
-    WrAppDelays pointer; /* the outline stands at the pointer's place */
-    WrAppDelays canvas;  /* the table's picture holds all that the event paints */
-    WrAppDelays preview; /* so does the patch's picture */
+    WrAppDelays pointer; /* the brush outline is at the pointer's position */
+    WrAppDelays canvas;  /* the canvas shows everything the event has painted */
+    WrAppDelays preview; /* the patch shows everything the event has painted */
 } WrAppLatency;
 
-/* Open a window that nobody sees (without a display), leave it alone for a while, scribble on its canvas for a while, the
- * same each time, at 125 events a second of real time, and measure. The session's document is painted on.
- * Reads and writes no settings. Error: no window, nothing measured, interrupted. */
+/* Measure latency in a hidden window (no display needed): an idle period, then scribbling on the canvas, always the
+ * same, at 125 events per second of real time. Paints on the session's document. Reads and writes no settings. Error:
+ * no window, no measurement, interrupted. */
 bool wr_app_latency(const WrAppOptions *options, WrAppLatency *latency, WrError *err);

@@ -1,4 +1,4 @@
-/* One block of memory for the state of all subjects. */
+/* One memory block for the state of all components. */
 #include "ui/app/app_store.h"
 #include "ui/app/roster_list.h"
 #include "ui/app/timing.h"
@@ -37,7 +37,7 @@
 #include "field/seam.h"
 
 typedef struct Store {
-    WrApp app; /* the first: who frees it frees all */
+    WrApp app; /* the first member: freeing it frees the block */
     WrSettings settings;
     WrSettings settings_known;
     WrLayout layout;

@@ -1,6 +1,6 @@
-/* app_store.h - where the window's state lies. */
+/* app_store.h - allocation of the window's state. */
 #pragma once
 #include "ui/state/app_state.h"
 
-/* All zero but for the roster, each subject in its place. wr_free frees it whole. */
+/* State with all members zero except the roster and the pointers to each component. wr_free frees it as a whole. */
 WrApp *wr_store_new(void);

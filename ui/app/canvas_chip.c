@@ -26,12 +26,12 @@ const WrCanvasMapRow wr_canvas_maps[WR_CANVAS_SHOWN] = {
     [WR_CANVAS_BENT] = { "Normals", WR_FIELD_MAP_SLOPE_U, WR_CANVAS_NORMALS, 0, 1, true },
 };
 
-#define LOOKS 3 /* of heights */
+#define LOOKS 3 /* displays of heights */
 
-/* ---- the range, in a popup of the chip ---- */
+/* ---- range popup ---- */
 
-/* All heights that there are or that are shown, lowest first, in the colours that they have on the canvas: so
-   what lies beyond the range is seen at its ends. */
+/* Colour ramp over all existing or displayed heights, lowest first, in the canvas colours: heights beyond the range
+   are visible at its ends. */
 static void ramp(const WrApp *app, const char *id, double wide, double tall)
 {
     const WrCanvasRange *r = app->map_shown ? app->map_range : app->range;
@@ -70,7 +70,7 @@ static void choose_way(WrApp *app, int way)
     look->high = way == 1 ? 1.0 : app->range->high;
 }
 
-/* What is shown, in two rows: the table and its slopes, maps of it. */
+/* Choice of display in two rows: the table and its slopes, and maps of it. */
 static void choose_shown(WrCanvasLook *look)
 {
     static const WrCanvasShown rows[2][4] = {
@@ -153,7 +153,7 @@ static void chip_text(const WrApp *app, const WrCanvasRange *range, char *text, 
     else snprintf(text, size, "%s %.3g \xe2\x80\x93 %.3g", name, range->low, range->high);
 }
 
-/* A ball in the corner that is lit as the relief is: dragged, the light follows. */
+/* Light direction of relief shading: a shaded ball in the corner; dragging it moves the light. */
 static void light(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->canvas;
@@ -193,7 +193,7 @@ void wr_canvas_chip(WrApp *app)
     wr_gui_next_id("range"); /* the numbers change under the pointer */
     if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
     wr_gui_tip("What is shown, and which numbers are black and white");
-    /* Beside it, as long as the square at the right end has its place. */
+    /* Beside the range button, if there is room for the square at the right end. */
     bool ranged = !app->map_shown || !wr_canvas_maps[look->shown].two;
     if (ranged && room->w > wr_gui_text_width(WR_FONT_TEXT, text) + wr_gui_px(180)) {
         wr_gui_same_line(6);

@@ -1,4 +1,4 @@
-/* canvas_chip.h - the chip on the canvas that says what it shows, and over which range; its popup; the light of a relief. */
+/* canvas_chip.h - canvas chip: the displayed map and its range, with a popup; light direction of relief shading. */
 #pragma once
 #include "ui/canvas/canvas.h"
 
@@ -8,13 +8,13 @@
 
 typedef struct WrApp WrApp;
 
-/* A map that can be shown in the table's place. */
+/* A map that can be shown instead of the table. */
 typedef struct WrCanvasMapRow {
     const char *name;
     WrFieldMapKind kind;
     WrCanvasColours colours;
-    double low, high; /* low 0 and high 0: from the lowest number of the map to 0 */
-    bool two;         /* slopes along v go with it */
+    double low, high; /* low 0 and high 0: from the map's lowest value to 0 */
+    bool two;         /* with slopes along v as second component */
 } WrCanvasMapRow;
 extern const WrCanvasMapRow wr_canvas_maps[WR_CANVAS_SHOWN];
 

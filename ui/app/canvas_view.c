@@ -1,4 +1,4 @@
-/* The table's view: its picture, and what lies on it. */
+/* Canvas view: the table's picture and overlays. */
 #include "ui/app/canvas_view.h"
 #include "ui/app/canvas_chip.h"
 #include "base/enum_rows.h"
@@ -35,8 +35,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MEANS_BUDGET 0.012 /* seconds a picture may take for the means of large tables */
-#define GRID_FROM 8.0      /* zoom from which texels get a grid */
+#define MEANS_BUDGET 0.012 /* time limit in seconds for averaging a large table in one frame */
+#define GRID_FROM 8.0      /* zoom from which a pixel grid is drawn */
 
 static WrRangeHold range_hold(const WrApp *app)
 {
@@ -45,7 +45,7 @@ static WrRangeHold range_hold(const WrApp *app)
     return held ? WR_RANGE_WIDENS : WR_RANGE_RESTS;
 }
 
-/* The map that is wanted in the table's place; NULL: none, or none yet. second: what goes with it, or NULL. */
+/* The requested map in place of the table; NULL: none, or not ready. second: its second component, or NULL. */
 static const WrField *map_of(WrApp *app, const WrField *field, const WrField **second)
 {
     *second = NULL;
@@ -56,7 +56,7 @@ static const WrField *map_of(WrApp *app, const WrField *field, const WrField **s
                                    scene->scheme, wr_scene_relief(scene),
                                    scene->cell.w, scene->cell.h };
     WrMapJob job = wr_map_default(&ground);
-    job.directions = 8; /* near things only, so that little is made anew while it is painted */
+    job.directions = 8; /* short range only, so that a dab changes a small region */
     job.reach = 48;
     const WrField *map =
         wr_canvas_map_bring(app->canvas_map, field, wr_canvas_maps[now].kind, &job);
@@ -81,7 +81,7 @@ void wr_canvas_view_draw(WrApp *app)
     if (wr_app_shows_mask(app))
         look = (WrCanvasLook){ .colours = WR_CANVAS_GREY, .low = 0.0, .high = 1.0 };
     double x, y,
-        zoom = app->view->zoom; /* the light stays where it is, whatever is turned beneath it */
+        zoom = app->view->zoom; /* the light is fixed to the screen when the canvas is rotated */
     wr_view_step_back(app->view, look.light_x * zoom, -look.light_y * zoom, &x, &y);
     look.light_x = x;
     look.light_y = -y;
@@ -97,7 +97,7 @@ void wr_canvas_view_draw(WrApp *app)
     wr_marks_draw(app);
 }
 
-/* Lines between texels, faint: dark on light and light on dark. */
+/* Faint lines between texels: dark on light and light on dark. */
 static void pixel_grid(const WrApp *app)
 {
     const WrCanvasView *v = app->view;
@@ -109,7 +109,7 @@ static void pixel_grid(const WrApp *app)
             wr_grid_line(v, axis, at, low, high, 0x30808080u);
 }
 
-/* The real cell. */
+/* Outline of the cell. */
 static void cell_outline(const WrApp *app)
 {
     const WrCanvasView *v = app->view;
@@ -127,7 +127,7 @@ static void cell_outline(const WrApp *app)
     }
 }
 
-/* Where the pointer on the patch is in the table. */
+/* Mark the patch pointer's position in the table. */
 static void patch_mark(const WrApp *app)
 {
     double u, v, x, y, s = wr_gui_scale();
@@ -184,9 +184,9 @@ void wr_canvas_view_overlay(WrApp *app)
 
 /* ---- the view ---- */
 
-#define FIT_MARGIN 0.36 /* enough of the copies around the cell that seams are seen */
+#define FIT_MARGIN 0.36 /* margin around the cell, so that seams are visible */
 
-/* Nobody has zoomed or moved the view since it was fitted into its room. */
+/* True if the user has not zoomed or moved the view since it was fitted. */
 static bool is_fitted(const WrCanvasView *view)
 {
     WrCanvasView fitted = *view;
@@ -204,7 +204,7 @@ void wr_app_place_view(WrApp *app)
     if (w != view->table_w || h != view->table_h) app->view_placed = false;
     if ((room->w != view->w || room->h != view->h) && room->w > 0 && app->view_placed &&
         app->hand->grab == WR_GRAB_NONE && is_fitted(view))
-        app->view_placed = false; /* the window has another size: fit again */
+        app->view_placed = false; /* the window's size has changed: fit again */
     view->x = room->x;
     view->y = room->y;
     view->w = room->w > 0 ? room->w : 1;
@@ -219,7 +219,7 @@ void wr_app_place_view(WrApp *app)
     app->view_placed = true;
 }
 
-/* ---- the part ---- */
+/* ---- component ---- */
 
 static void draw(WrApp *app)
 {

@@ -19,15 +19,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What a worker is done with may be taken one step later, and asks for pictures then. */
+/* A finished worker's result may be fetched one step later and then request a frame. */
 #define CALM_STEPS 3
 
 struct WrIdleProbe {
     Uint32 ask_event;
     int fifo;
     WrThread thread;
-    int asked, answered; /* questions; the window's thread */
-    int calm;            /* steps at rest in a row since the newest question */
+    int asked, answered; /* request counts; used by the window's thread */
+    int calm;            /* consecutive idle steps since the newest request */
 };
 
 static void push(const WrIdleProbe *rest)
@@ -36,7 +36,7 @@ static void push(const WrIdleProbe *rest)
     SDL_PushEvent(&event);
 }
 
-/* The byte 'q' ends it: only the program itself writes that. */
+/* The byte 'q' ends the thread: only the program itself writes it. */
 static void *thread_main(void *ctx)
 {
     const WrIdleProbe *rest = ctx;
@@ -73,13 +73,13 @@ void wr_idle_probe_asked(WrApp *app)
     if (!rest) return;
     rest->asked++;
     rest->calm = 0;
-    wr_pen_sync(app->pen); /* what the server had until now is in SDL's queue at the next look */
+    wr_pen_sync(app->pen); /* afterwards all events of the server are in SDL's queue */
 }
 
 static bool is_calm(WrApp *app, bool busy)
 {
     const WrPatch *p = app->patch;
-    /* A widget that is held, and two pictures in turn, may stay so for ever. */
+    /* A held widget and alternating pictures may last for ever, so they do not count. */
     bool held = wr_gui_holds_mouse(app->gui);
     bool patch = p->outstanding || wr_patch_next_time(app) > 0.0 ||
                  !wr_preview_settled(app->preview) ||
@@ -96,14 +96,14 @@ void wr_idle_probe_step(WrApp *app, bool busy)
     if (!rest || rest->answered == rest->asked) return;
     if (!is_calm(app, busy)) {
         rest->calm = 0;
-        return; /* what is due or under way makes the next step */
+        return; /* pending work starts the next step */
     }
     if (++rest->calm < CALM_STEPS) {
         SDL_Event nothing = { .type = app->ready_event };
         SDL_PushEvent(&nothing);
         return;
     }
-    wr_pen_sync(app->pen); /* the server has the picture */
+    wr_pen_sync(app->pen); /* the server has the frame */
     rest->answered = rest->asked;
     fprintf(stderr, "at rest %d\n", rest->answered);
     fflush(stderr);

@@ -1,17 +1,16 @@
-/* idle_probe.h - tells a test when the window is at rest, so that none has to guess how long that takes.
-   Where WRINKLE_REST names a FIFO, each byte in it is a question; the answer is a line "at rest N" on standard
-   error, N counting from 1, once every event that the X server had at the question is dealt with and nothing
-   is left to compute or to draw. */
+/* idle_probe.h - idle notifications for tests, so that these need not wait for fixed times. WRINKLE_REST names a
+   FIFO; each byte in it is a request. The answer is a line "at rest N" on standard error, N counting from 1, when
+   every event that the X server had at the request is handled and no computation or drawing is left. */
 #pragma once
 #include "ui/state/app_state.h"
 
 #include <SDL.h>
 #include <stdbool.h>
 
-/* NULL where nobody asks. ask_event: an SDL event type of one's own. */
+/* NULL without WRINKLE_REST. ask_event: a separate SDL event type. */
 WrIdleProbe *wr_idle_probe_new(Uint32 ask_event);
 void wr_idle_probe_free(WrIdleProbe *rest);
-/* The event came. */
+/* Handle the request event. */
 void wr_idle_probe_asked(WrApp *app);
-/* At the end of each step. busy: something is under way that the window's own clock does not know. */
+/* Called at the end of each step. busy: work is running that the main loop's timers do not include. */
 void wr_idle_probe_step(WrApp *app, bool busy);

@@ -1,5 +1,4 @@
-/* Memory that is kept for the next table or picture goes back to the system when the window has been left alone for a
-   while. */
+/* Release of memory kept for the next table or picture, after an idle period of the window. */
 #include "ui/app/idle_trim.h"
 #include "ui/state/app_state.h"
 
@@ -16,7 +15,7 @@ static double next_time(const WrApp *app)
 
 static void update(WrApp *app)
 {
-    if (app->busy) app->thrifty_at = 0.0; /* what it leaves is given back afterwards */
+    if (app->busy) app->thrifty_at = 0.0; /* a running command's memory is released afterwards */
     const double due = next_time(app), now = wr_clock_seconds();
     if (due == 0.0 || now < due) return;
     wr_field_trim();

@@ -1,4 +1,4 @@
-/* idle_trim.h - memory that nobody uses, while nobody uses the window. */
+/* idle_trim.h - release of cached memory after an idle period. */
 #pragma once
 #include "ui/state/roster.h"
 

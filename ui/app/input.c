@@ -9,26 +9,26 @@
 
 #include <string.h>
 
-/* Which events wait for a picture. */
+/* Kinds of events that wait for a frame. */
 typedef enum WrInputHold {
     WR_INPUT_FREE,
-    WR_INPUT_TYPING, /* all but keys and letters: the widgets keep the order of those themselves */
-    WR_INPUT_WHEEL,  /* all but turns of the wheel */
+    WR_INPUT_TYPING, /* all except keys and letters: the widgets keep their order themselves */
+    WR_INPUT_WHEEL,  /* all except wheel events */
     WR_INPUT_ALL
 } WrInputHold;
 
 typedef struct WrInputItem {
     SDL_Event event;
-    unsigned widget; /* of a press: what was on the screen at its place */
+    unsigned widget; /* of a press: identifier of the widget on the screen at its position */
 } WrInputItem;
 
 struct WrInput {
     WR_ARRAY(WrInputItem) items;
-    int first;   /* of items that were not handled */
-    int waiting; /* how many there are; atomic: tests read it from another thread */
+    int first;   /* index of the first unhandled item */
+    int waiting; /* number of unhandled items; atomic: tests read it from another thread */
     WrInputHold hold;
-    bool key_before; /* the event before was a key that went down: its letters belong to it */
-    bool dropped[8]; /* buttons whose press was dropped: so is their release */
+    bool key_before; /* the previous event was a key press: its letters belong to it */
+    bool dropped[8]; /* buttons whose press was dropped: their release is dropped too */
 };
 
 WrInput *wr_input_new(void)
@@ -58,8 +58,8 @@ void wr_input_take(WrApp *app)
     if (input->first == input->items.count) input->first = input->items.count = 0;
     const int before = input->items.count;
     SDL_PumpEvents();
-    __atomic_fetch_add(&input->waiting, 1,
-                       __ATOMIC_RELEASE); /* more than none, while they change hands */
+    /* more than zero during the transfer */
+    __atomic_fetch_add(&input->waiting, 1, __ATOMIC_RELEASE);
     while (SDL_PeepEvents(&item.event, 1, SDL_GETEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT) > 0) {
         item.widget = item.event.type == SDL_MOUSEBUTTONDOWN
                           ? wr_gui_widget_at(app->gui, item.event.button.x, item.event.button.y)
@@ -69,14 +69,14 @@ void wr_input_take(WrApp *app)
     __atomic_fetch_add(&input->waiting, input->items.count - before - 1, __ATOMIC_RELEASE);
 }
 
-/* ---- what an event does to the focus ---- */
+/* ---- effect of an event on the focus ---- */
 
 static bool is_modifier(SDL_Scancode code)
 {
     return code >= SDL_SCANCODE_LCTRL && code <= SDL_SCANCODE_RGUI;
 }
 
-/* A key whose effect stays within the text that is being typed. */
+/* True for a key whose effect stays within the edited text. */
 static bool edits_text(const SDL_Keysym *key)
 {
     const SDL_Scancode code = key->scancode;
@@ -96,7 +96,7 @@ static WrInputHold after_key(const WrApp *app, const SDL_KeyboardEvent *key)
 {
     if (is_modifier(key->keysym.scancode)) return WR_INPUT_FREE;
     if (wr_gui_wants_text(app->gui) && edits_text(&key->keysym)) return WR_INPUT_TYPING;
-    /* A key that is held, such as one for the brush's size, opens nothing at its second time. */
+    /* A repeated key, such as one for the brush's size, cannot open a widget. */
     return key->repeat && !widgets_listen(app) ? WR_INPUT_FREE : WR_INPUT_ALL;
 }
 
@@ -121,7 +121,7 @@ static WrInputHold hold_after(const WrApp *app, const SDL_Event *event)
     }
 }
 
-/* ---- whose turn it is ---- */
+/* ---- order of events ---- */
 
 static bool of_keys(const SDL_Event *event)
 {
@@ -140,7 +140,7 @@ static bool passes(const WrInput *input, const SDL_Event *event)
     return false;
 }
 
-/* A number field that was clicked takes keys at once, though the click might have become a double click. */
+/* A clicked number field accepts keys at once, though the click might have become a double click. */
 static bool begins_typing(WrApp *app, const SDL_Event *event)
 {
     const bool key = event->type == SDL_KEYDOWN && !is_modifier(event->key.keysym.scancode);
@@ -150,7 +150,7 @@ static bool begins_typing(WrApp *app, const SDL_Event *event)
     return true;
 }
 
-/* A press on a place where another widget stands by now, and its release. */
+/* True for a press at a position where another widget is now, and for its release. */
 static bool is_stale(WrApp *app, const WrInputItem *item)
 {
     WrInput *input = app->hand->input;
@@ -180,7 +180,7 @@ static void note_state(WrHand *hand, const SDL_Event *event)
 bool wr_input_next(WrApp *app, SDL_Event *event)
 {
     WrInput *input = app->hand->input;
-    if (!app->visible) input->hold = WR_INPUT_FREE; /* no picture will come */
+    if (!app->visible) input->hold = WR_INPUT_FREE; /* no frame will follow */
     while (wr_input_waits(app)) {
         const WrInputItem item = input->items.data[input->first];
         if (!passes(input, &item.event) || begins_typing(app, &item.event)) return false;

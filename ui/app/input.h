@@ -1,8 +1,7 @@
-/* input.h - the queue of input events, in the order in which they came.
-   An event that may move the keyboard focus (a click on a widget, Enter in a text, a key that runs an action) holds all
-   later events back until a picture of the window shows its effect. So keys never overtake clicks, however slow pictures
-   are. A press counts for the widget that was on the screen when the press came: if another one has taken that place
-   since, the press is dropped. */
+/* input.h - queue of input events in order of arrival. An event that may move the keyboard focus (a click on a
+   widget, Enter in a text field, a key of an action) holds back all later events until a frame shows its effect, so
+   keys never overtake clicks, however slow frames are. A press belongs to the widget that was on the screen at that
+   time; if another one is there now, the press is dropped. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -14,15 +13,15 @@ typedef struct WrInput WrInput;
 WrInput *wr_input_new(void);
 void wr_input_free(WrInput *input); /* NULL is allowed */
 
-/* Moves all events of SDL's queue to the end of this one. Called before a picture is shown, too: what came until then
-   belongs to the picture before it. */
+/* Move all events of SDL's queue to the end of this one. Also called before a frame is shown, since events up to then
+   belong to the previous frame. */
 void wr_input_take(WrApp *app);
 /* The next event whose turn it is. False: there is none, or it must wait for a picture. Sets mods, x and y of app->hand to
    the state at that event: SDL's own state is newer. */
 bool wr_input_next(WrApp *app, SDL_Event *event);
-/* That event was handled. */
+/* Report that the event was handled. */
 void wr_input_handled(WrApp *app, const SDL_Event *event);
-/* A picture was shown. */
+/* Report that a frame was shown. */
 void wr_input_shown(WrApp *app);
-/* Events that have not been handled. */
+/* True if there are unhandled events. */
 bool wr_input_waits(const WrApp *app);

@@ -1,4 +1,4 @@
-/* Pointer and keys: who gets an event, and what the pointer holds meanwhile. */
+/* Pointer and keys: routing of events, and the target of a drag. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/input_targets.h"
 #include "ui/app/input.h"
@@ -47,7 +47,8 @@ static WrPointer pointer_at(const WrApp *app, double x, double y, int button)
     return at;
 }
 
-/* A mouse has whole pixels, which stand for their middles, and no pressure: it is made up if asked for. */
+/* Mouse positions are whole pixels, taken at their centres. A mouse has no pressure; it is simulated if the setting
+   is on. */
 static WrPointer mouse_at(WrApp *app, int x, int y, int button, Uint32 milliseconds, bool pressed)
 {
     WrPointer at = pointer_at(app, x + 0.5, y + 0.5, button);
@@ -66,7 +67,7 @@ static bool blocked(const WrApp *app)
     return app->dialog->now != WR_DIALOG_NONE;
 }
 
-/* A dialog is open whose effect the canvas shows: it may be looked at from all sides. */
+/* True if the open dialog has a visible effect on the canvas: the views may then be panned and rotated. */
 static bool shows_effect(const WrApp *app)
 {
     return blocked(app) && app->roster->dialogs[app->dialog->now].shows_effect;
@@ -98,7 +99,7 @@ static void press_canvas(WrApp *app, const WrPointer *at)
     if (needs_idle && wr_busy_refuse(app)) return;
     hand->grab = WR_GRAB_TOOL;
     if (tool->paints && !hand->line && wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods)) {
-        /* a drag sizes the brush, a click draws a line: known when it moves, or is let go */
+        /* a drag resizes the brush, a click draws a line: decided at the first motion or the release */
         hand->grab = WR_GRAB_RESIZE;
         app->brush->resize_radius = app->settings->brush.radius;
         return;
@@ -114,7 +115,7 @@ static void press_patch(WrApp *app, const WrPointer *at)
                !wr_patch_control_under(app, at)) {
         if (app->busy && !wr_busy_lets_wait(app) && wr_busy_refuse(app)) return;
         if (!app->busy && !wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods))
-            wr_patch_choose(app, at); /* a command, which ends what is held */
+            wr_patch_choose(app, at); /* a command, which ends a drag */
         app->hand->grab = WR_GRAB_PATCH_PAINT;
         wr_patch_paint_press(app, at);
     } else if (!wr_busy_refuse(app)) {
@@ -122,7 +123,7 @@ static void press_patch(WrApp *app, const WrPointer *at)
     }
 }
 
-/* A button went down that no widget gets. */
+/* Handle a press outside the widgets. */
 static void press(WrApp *app, const WrPointer *at, int device)
 {
     WrHand *hand = app->hand;
@@ -143,7 +144,7 @@ static void press(WrApp *app, const WrPointer *at, int device)
     }
 }
 
-/* Shift and a click without moving: a straight line from the last stroke. */
+/* Shift and a click without motion: a straight line from the last stroke. */
 static void finish_resize(WrApp *app, const WrPointer *at)
 {
     if (fabs(at->x - app->hand->start.x) > 3.0) return;
@@ -175,19 +176,19 @@ static void let_go(WrApp *app, const WrPointer *at, int device)
         release(app, at);
 }
 
-/* End what is being held, keeping what was done. */
+/* End a drag, keeping its result. */
 static void end_held(WrApp *app)
 {
     if (app->hand->grab == WR_GRAB_RESIZE) {
         app->settings->brush.radius = app->brush->resize_radius;
         app->hand->grab = WR_GRAB_NONE;
     }
-    app->brush->straight = false; /* aimed, not drawn */
+    app->brush->straight = false; /* not drawn yet */
     if (app->hand->grab != WR_GRAB_NONE) release(app, &app->hand->at);
     wr_strokes_finish(app);
 }
 
-/* End it as if it had not begun. */
+/* End a drag, discarding its result. */
 static void cancel_held(WrApp *app)
 {
     if (app->select->active) {
@@ -205,7 +206,7 @@ static void cancel_held(WrApp *app)
 
 /* ---- motion and wheel ---- */
 
-/* A height, from the canvas or from the table under the patch. */
+/* Pick a height from the canvas, or from the table under the patch. */
 static void pick(WrApp *app, const WrPointer *at)
 {
     WrPointer there = *at;
@@ -240,7 +241,7 @@ static void drag(WrApp *app, const WrPointer *at)
     }
 }
 
-/* Is the pointer, at that pixel, over a view and over no widget? */
+/* Update the view under the pointer at that pixel, if no widget is there. */
 static void look(WrApp *app, int x, int y)
 {
     WrHand *hand = app->hand;
@@ -265,7 +266,7 @@ void wr_hand_look(WrApp *app)
 {
     WrHand *hand = app->hand;
     bool canvas = hand->on_canvas, patch = hand->on_patch;
-    /* The view may have come, or moved, since the pointer did. */
+    /* The view may have appeared or moved since the last pointer motion. */
     if (hand->grab == WR_GRAB_NONE)
         wr_view_to_uv(app->view, hand->at.x, hand->at.y, &hand->at.u, &hand->at.v);
     if (hand->grab != WR_GRAB_NONE || SDL_GetMouseFocus() != app->window) return;
@@ -275,8 +276,8 @@ void wr_hand_look(WrApp *app)
 
 /* ---- the mouse ---- */
 
-/* What only echoes a pen or a finger, whose own events say more. What the mouse holds it holds to the end:
- * of a pen that pressed without hovering first the press may have come as the mouse's. */
+/* True for a mouse event that only duplicates a pen or finger event, which contains more. A drag started by the mouse
+ * stays with the mouse: the press of a pen that did not hover before may arrive as a mouse press. */
 static bool is_echo(const WrApp *app, Uint32 which)
 {
     if (which == SDL_TOUCH_MOUSEID) return true;
@@ -322,7 +323,7 @@ static void wheel(WrApp *app, const SDL_MouseWheelEvent *event)
 
 /* ---- pens and fingers ---- */
 
-/* The tip is the left button; the barrel's second picks a height, its third pans. */
+/* The tip is the left button; the second barrel button picks a height, the third pans. */
 static int pen_button(int button)
 {
     return button == 1   ? SDL_BUTTON_LEFT
@@ -360,7 +361,7 @@ void wr_hand_pen(WrApp *app, const WrPenEvent *event)
         if (holds) wr_hand_let_go(app);
         return;
     }
-    if (hand->grab != WR_GRAB_NONE && !holds) return;                 /* one at a time */
+    if (hand->grab != WR_GRAB_NONE && !holds) return;                 /* one pointer at a time */
     if (event->finger && !holds && wr_pen_in_range(app->pen)) return; /* a palm */
     int button = event->kind == WR_PEN_MOTION ? hand->button : pen_button(event->button);
     WrPointer at = pointer_at(app, event->x, event->y, button);
@@ -387,11 +388,11 @@ static void space(WrApp *app, bool down)
     }
     if (down && !hand->space) hand->space_used = false;
     hand->space = down;
-    /* Space may be let go before the button: the drag goes on. */
+    /* Space may be released before the button: the drag continues. */
     wr_app_redraw(app);
 }
 
-/* Keys that mean something while they are held. True if `action` is one of them. */
+/* Handle modifier actions. True if `action` is one of them. */
 static bool hold(WrApp *app, const char *action, const SDL_KeyboardEvent *event)
 {
     WrHand *hand = app->hand;
@@ -419,7 +420,7 @@ static bool hold(WrApp *app, const char *action, const SDL_KeyboardEvent *event)
 
 #define TAP_SECONDS 0.4
 
-/* Held for a while, or painted with meanwhile, the key for painting on the patch switches back. */
+/* After a long press, or after painting during it, the release of the key for painting on the patch switches back. */
 static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
 {
     WrHand *hand = app->hand;
@@ -435,7 +436,7 @@ static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
     }
 }
 
-/* Keys that lead to other parts of the window, also out of a text that is being typed. */
+/* Keys for other areas of the window, also while a text is typed. */
 static bool leaves_text(const WrApp *app, const SDL_KeyboardEvent *event)
 {
     const char *action = wr_keys_find(app->keys, event->keysym);
@@ -462,7 +463,7 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
         return;
     }
     const bool enters = event->keysym.sym == SDLK_RETURN || event->keysym.sym == SDLK_KP_ENTER;
-    if (enters && mods == WR_MOD_CTRL && wr_generate_writes(app)) { /* as in their field */
+    if (enters && mods == WR_MOD_CTRL && wr_generate_writes(app)) { /* as in its text field */
         wr_generate_commit(app);
         return;
     }

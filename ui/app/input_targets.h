@@ -1,4 +1,4 @@
-/* input_targets.h - who gets an event of the pointer or the keys. */
+/* input_targets.h - routing of pointer and key events to widgets, views and drags. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
@@ -8,8 +8,8 @@
 
 void wr_hand_event(WrApp *app, const SDL_Event *event);
 void wr_hand_pen(WrApp *app, const WrPenEvent *event);
-/* After a picture of the window: where widgets came or went, the pointer is on a view or no more, though it did
-   not move. */
+/* Update the view under the pointer after a frame, since widgets may have appeared or vanished without a pointer
+   motion. */
 void wr_hand_look(WrApp *app);
 
 extern const WrPart wr_part_hand;

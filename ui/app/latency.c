@@ -1,5 +1,5 @@
-/* The window measured: a thread scribbles with a mouse that is not there, at a real mouse's pace, and each
-   picture of the window says which of the events it shows. */
+/* Latency measurement: a thread scribbles with a simulated mouse at real speed, and each frame records the events it
+   shows. */
 #include "ui/app/app.h"
 #include "ui/app/loop.h"
 #include "ui/app/app_store.h"
@@ -24,20 +24,21 @@
 #include <stdlib.h>
 
 #define EVENTS_A_SECOND 125
-#define STROKE_EVENTS 500 /* then the button is let go for a moment */
+#define STROKE_EVENTS 500 /* events per stroke; then the button is released briefly */
 #define PAUSE_EVENTS 25
-#define SETTLE_SECONDS 1.5 /* before the first event: first pictures, caches */
-#define MOST_SECONDS 60.0  /* that the beginning is waited for, with a large table */
-#define BUSY 0.10          /* of a processor: more than that is no rest */
-#define LAST_SECONDS 5.0   /* after the last one, for all to be seen */
+#define SETTLE_SECONDS 1.5 /* before the first event: first frames, caches */
+#define MOST_SECONDS 60.0  /* limit for the start with a large table */
+#define BUSY 0.10          /* processor load above which the window is not idle */
+#define LAST_SECONDS 5.0   /* time after the last event for its display */
 
 struct WrLatency {
-    int64_t count; /* events in all */
-    double *at;    /* [count] clock when the system had event i; written by the thread before it is
-                          sent, read after it came */
-    float *delay[3]; /* [count] ms until seen: pointer, canvas, preview */
-    int64_t seen[3]; /* events seen so far */
-    bool *paints;    /* [count] the button is down */
+    int64_t count; /* number of events */
+    /* [count] clock when the system had event i; written by the thread before it is sent, read
+       after its arrival */
+    double *at;
+    float *delay[3]; /* [count] ms until displayed: pointer, canvas, preview */
+    int64_t seen[3]; /* events displayed so far */
+    bool *paints;    /* [count] the button is pressed */
     int64_t pictures;
     SDL_Rect room; /* of the canvas */
     Uint32 window_id;
@@ -47,7 +48,7 @@ struct WrLatency {
 
 /* ---- the scribble ---- */
 
-/* A hand that goes round and to and fro, never twice the same way; 0..1 both ways. */
+/* Pseudo-random motion in circles and zigzags that never repeats; 0..1 in both directions. */
 static void scribble(double t, double *x, double *y)
 {
     *x = 0.5 + 0.28 * sin(2.9 * t) + 0.13 * sin(11.3 * t + 1) + 0.02 * sin(47 * t);
@@ -97,7 +98,7 @@ static void *feed(void *arg)
     return NULL;
 }
 
-/* ---- what is seen ---- */
+/* ---- displayed events ---- */
 
 static void note(WrLatency *latency, int which, int64_t upto, double now)
 {
@@ -144,7 +145,7 @@ static void step_for(WrApp *app, double seconds)
 {
     double end = wr_clock_seconds() + seconds;
     while (wr_clock_seconds() < end && !app->quit) {
-        SDL_Event nothing = { .type = app->job_event }; /* a step that waits for ever ends */
+        SDL_Event nothing = { .type = app->job_event }; /* ends a step that waits for events */
         SDL_PushEvent(&nothing);
         wr_app_step(app);
         SDL_Delay(4);
@@ -156,14 +157,13 @@ static bool stopped(const WrApp *app)
     return app->quit || wr_cancel_asked(app->options->cancel);
 }
 
-/* ---- doing nothing ---- */
+/* ---- idle load ---- */
 
 typedef struct Alarm {
     double seconds;
     Uint32 event;
-    double at,
-        processor;     /* the clock, and what the program has used of processors, when it rings */
-    volatile int rang; /* atomic */
+    double at, processor; /* clock and processor time of the program when the timer fires */
+    volatile int rang;    /* atomic */
 } Alarm;
 
 static void *ring(void *arg)
@@ -185,7 +185,7 @@ static void wait_once(WrApp *app)
     SDL_WaitEvent(&event);
 }
 
-/* Of a processor, while `step` is done again and again and nobody does anything. */
+/* Processor load during repeated calls of `step` without input. */
 static double share_of(WrApp *app, void (*step)(WrApp *app), double seconds)
 {
     WrThread thread;
@@ -197,14 +197,14 @@ static double share_of(WrApp *app, void (*step)(WrApp *app), double seconds)
     return (alarm.processor - before) / (alarm.at - start);
 }
 
-/* Without a display SDL looks for events a thousand times a second, which is not the window's work. */
+/* Without a display SDL polls for events a thousand times per second, which is not the window's load. */
 static double measure_idle(WrApp *app, double seconds)
 {
     const double both = share_of(app, wr_app_step, seconds);
     return fmax(0.0, both - share_of(app, wait_once, fmin(seconds, 2.0)));
 }
 
-/* First pictures are drawn and caches made: however long that takes with a large table. */
+/* Draw the first frames and fill caches, however long that takes with a large table. */
 static void settle(WrApp *app)
 {
     const double end = wr_clock_seconds() + MOST_SECONDS;

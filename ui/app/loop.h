@@ -1,4 +1,4 @@
-/* loop.h - one window's life. */
+/* loop.h - life cycle and main loop of a window. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -6,11 +6,11 @@
 
 typedef struct WrError WrError;
 
-/* One window's life, for wr_app_run and latency.c. end after begin even if that failed. */
+/* For wr_app_run and latency.c. Call end after begin even if begin failed. */
 bool wr_app_begin(WrApp *app, WrError *err);
-void wr_app_step(WrApp *app); /* wait for something, do it, draw */
+void wr_app_step(WrApp *app); /* wait for events, handle them, draw */
 void wr_app_end(WrApp *app);
 
-/* What stands in a picture of the window, between wr_gui_frame_begin and wr_gui_frame_end: menus, panels, dialogs and what
-   lies over the views; `views`: the table and the patch too. */
+/* Draw menus, panels, dialogs and overlays, between wr_gui_frame_begin and wr_gui_frame_end; `views`: canvas and
+   patch too. */
 void wr_app_draw_parts(WrApp *app, bool views);

@@ -1,4 +1,4 @@
-/* The roster of this program: all dialogs, tabs, parts and files' purposes. */
+/* The roster: all dialogs, tabs, components and file purposes. */
 #include "ui/app/roster_list.h"
 #include "base/enum_rows.h"
 #include "ui/accuracy/accuracy.h"
@@ -72,7 +72,7 @@ static const WrTab tabs[] = { { "Brushes", NULL, wr_panel_brushes, false, false 
                               { "Generate", NULL, wr_panel_generate, true, false },
                               { "Accuracy", wr_panel_accuracy, NULL, true, false } };
 
-/* In the order in which they are updated and drawn. */
+/* In the order of update and drawing. */
 static const WrPart *const parts[] = {
     &wr_part_hand,     &wr_part_tools,  &wr_part_strokes, &wr_part_select,   &wr_part_clone,
     &wr_part_canvas,   &wr_part_marks,  &wr_part_stamp,   &wr_part_generate, &wr_part_patch,

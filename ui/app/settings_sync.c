@@ -1,4 +1,4 @@
-/* The settings while the window is open: written when they changed, once a second at most, between gestures. */
+/* Saving of settings while the window is open: after changes, at most once per second, between drags. */
 #include "ui/app/settings_sync.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"
@@ -12,7 +12,7 @@
 
 #define CHECK_SECONDS 1.0
 
-/* As they are now; its texts are the program's. */
+/* The present settings; the program owns their texts. */
 static WrSettings current(const WrApp *app)
 {
     WrSettings now = *app->settings;
@@ -26,7 +26,8 @@ static bool write_changes(WrApp *app, bool last)
     WrSettings now = current(app);
     if (wr_settings_equal(app->settings_known, &now)) return true;
     if (!wr_settings_update(app->settings_known, &now, last)) return false;
-    wr_settings_take_lists(app->settings, app->settings_known); /* another window's too */
+    /* includes additions of other windows */
+    wr_settings_take_lists(app->settings, app->settings_known);
     return true;
 }
 
@@ -39,7 +40,7 @@ void wr_settings_begin(WrApp *app)
 
 double wr_settings_next_time(const WrApp *app)
 {
-    /* What is changed is drawn. */
+    /* A changed setting causes a frame, so without a newer frame nothing has changed. */
     bool due = app->settings_failed || app->drawn_at > app->settings_at;
     bool busy = app->hand->grab != WR_GRAB_NONE || wr_session_in_stroke(app->session);
     return due && !busy && !app->latency ? app->settings_at + CHECK_SECONDS : 0.0;

@@ -1,4 +1,4 @@
-/* How long the window's pictures take, for who asks. */
+/* Frame times of the window on request. */
 #include "ui/app/timing.h"
 #include "ui/state/app_state.h"
 #include "ui/preview/preview.h"
@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* WRINKLE_TIMING: milliseconds to the first picture at once, the rest at the end; where that is a time of the clock above
-   1, when the command was given, they are counted from there, and the window closes. */
+/* WRINKLE_TIMING: print milliseconds to the first frame at once, the rest at the end. A value above 1 is the clock at
+   the start command: times are counted from it, and the window closes. */
 static void tell_first(WrApp *app)
 {
     const char *asked = getenv("WRINKLE_TIMING");
@@ -28,7 +28,8 @@ void wr_timing_note(WrApp *app, double seconds)
 {
     WrTiming *t = app->timing;
     if (t->pictures++ == 0) tell_first(app);
-    /* The first picture file is read at once then; its reader starts beside the window, not before it. */
+    /* Start the reader process after the first frames, so that the first picture file loads fast and the start is not
+       delayed. */
     if (t->pictures == 2 && !app->latency) wr_image_warm();
     t->seconds += seconds;
     t->slowest = seconds > t->slowest ? seconds : t->slowest;

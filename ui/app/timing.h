@@ -1,12 +1,12 @@
-/* timing.h - how long the window's own pictures take, for WRINKLE_TIMING. */
+/* timing.h - frame times of the window for WRINKLE_TIMING. */
 #pragma once
 #include "ui/state/app_state.h"
 
-typedef struct WrTiming { /* of the window's own pictures */
+typedef struct WrTiming { /* frame times */
     int pictures;
     double seconds, slowest;
 } WrTiming;
 
-/* WRINKLE_TIMING: a picture of the window took so long; and all of them, at the end. */
+/* Record the time of a frame; print the summary at the end. */
 void wr_timing_note(WrApp *app, double seconds);
 void wr_timing_tell(const WrApp *app);

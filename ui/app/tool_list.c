@@ -1,4 +1,4 @@
-/* The one list of tools, in the order of the strip: a new tool is a file with its row, and a line here. */
+/* The list of tools, in the order of the tool strip: a new tool is a file with its row, and a line here. */
 #include "ui/app/tool_list.h"
 #include "ui/generate/generate_state.h"
 #include "ui/tools/tool.h"

@@ -1,7 +1,7 @@
-/* tool_list.h - all tools, in the order of the strip. */
+/* tool_list.h - list of all tools, in the order of the tool strip. */
 #pragma once
 #include "ui/tools/tool.h"
 
-/* All of them, in the order of the strip. */
+/* All tools; NULL-terminated. */
 extern const WrTool *const wr_tools[];
 #define WR_TOOL_COUNT 19

@@ -1,4 +1,4 @@
-/* The window on the desktop: opened in whatever way the display knows, and kept on the screen. */
+/* The system window: created with the best driver for the display, and kept on the screen. */
 #include "ui/app/window.h"
 #include "system/process.h"
 #include "ui/state/app_options.h"
@@ -24,7 +24,8 @@ double wr_window_scale(SDL_Window *window)
     int display = SDL_GetWindowDisplayIndex(window);
     if (dpi == 0.0f && (display < 0 || SDL_GetDisplayDPI(display, NULL, &dpi, NULL) != 0))
         return 1.0;
-    double scale = floor((double)dpi / 96.0 * 4.0 + 0.25) / 4.0; /* displays that say 97 mean 96 */
+    /* displays that report 97 mean 96 */
+    double scale = floor((double)dpi / 96.0 * 4.0 + 0.25) / 4.0;
     return scale < 1.0 ? 1.0 : scale > 3.0 ? 3.0 : scale;
 }
 
@@ -48,7 +49,7 @@ static SDL_Window *open_window(const WrApp *app)
     return SDL_CreateWindow("Wrinkle", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, w, h, flags);
 }
 
-/* One way to put pictures on the screen: true if a picture really gets there. */
+/* Try one way to present frames: true if pixels reach the screen. */
 static bool try_screen(WrApp *app, WrScreenWay way)
 {
     bool direct = way == WR_SCREEN_DIRECT;
@@ -67,7 +68,7 @@ static bool try_screen(WrApp *app, WrScreenWay way)
     return false;
 }
 
-/* The ways from the best down. What did not work is said on standard error; SDL's word of the last one stays. */
+/* Try the ways from best to worst. Failures are printed to standard error; SDL_GetError has the last one. */
 static bool open_screen(WrApp *app)
 {
     WrScreenWay ways[WR_SCREEN_WAYS];
@@ -92,7 +93,7 @@ static void choose_display(void)
     if (driver && !SDL_GetHint(SDL_HINT_VIDEODRIVER)) SDL_SetHint(SDL_HINT_VIDEODRIVER, driver);
 }
 
-/* SDL falls back on a driver that shows nothing where there is no display: nobody could see or close that window. */
+/* Without a display SDL falls back to a driver without output; such a window could be neither seen nor closed. */
 static bool has_display(void)
 {
     if (!wr_display_unseen(SDL_GetHint(SDL_HINT_VIDEODRIVER), SDL_GetCurrentVideoDriver()))
@@ -116,7 +117,7 @@ bool wr_window_open(WrApp *app)
     SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
     SDL_SetHint(SDL_HINT_APP_NAME, "wrinkle");
     SDL_SetHint(SDL_HINT_QUIT_ON_LAST_WINDOW_CLOSE, "0");
-    /* SDL turns these into SDL_QUIT, but only where nobody else has taken them. */
+    /* SDL turns these signals into SDL_QUIT, but only without other handlers. */
     wr_process_drop_interrupts();
     choose_display();
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0 || !has_display() || !open_screen(app)) return false;
@@ -173,7 +174,7 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
         if (!(SDL_GetWindowFlags(app->window) & SDL_WINDOW_MAXIMIZED))
             app->settings->maximized = false;
         break;
-    case SDL_WINDOWEVENT_FOCUS_GAINED: /* the desktop's scale may be another by now */
+    case SDL_WINDOWEVENT_FOCUS_GAINED: /* the desktop's scale may have changed */
     case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = wr_window_scale(app->window); break;
     default: break;
     }

@@ -1,14 +1,15 @@
-/* window.h - the window of the system. */
+/* window.h - system window: creation, scale and position. */
 #pragma once
 #include "ui/state/app_state.h"
 
 #include <SDL.h>
 #include <stdbool.h>
 
-bool wr_window_open(WrApp *app); /* hidden, with its renderer; false: SDL_GetError says why */
+/* hidden, with its renderer; false: the cause is in SDL_GetError */
+bool wr_window_open(WrApp *app);
 double wr_window_scale(
     SDL_Window *window); /* what the desktop, or its display, asks for, in steps of 1/4 */
-/* The window with what a window manager put around it stays within what the desktop leaves free, so that the
-   status line is on the screen. Known only once it is shown, and looked at until a hand has been at it. */
+/* Keep the window with its decoration inside the desktop's usable area, so that the status line is visible. The
+   decoration is known only after the window is shown; checked until the first user input. */
 void wr_window_keep(WrApp *app);
 void wr_window_event(WrApp *app, const SDL_Event *event);
