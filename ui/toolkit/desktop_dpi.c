@@ -1,4 +1,4 @@
-/* What desktops say of their scale, read. */
+/* Parsers for the desktop's scale. */
 #include "ui/toolkit/desktop.h"
 
 #include "base/text.h"
@@ -53,7 +53,7 @@ static size_t padded(size_t count)
 
 enum { WHOLE, STRING, COLOUR };
 
-/* The value of a setting; only a whole number is told. */
+/* The value of a setting; only integers are returned. */
 static uint32_t value_of(Reading *r, unsigned type)
 {
     if (type == WHOLE) return number(r, 4);

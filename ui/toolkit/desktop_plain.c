@@ -1,4 +1,4 @@
-/* No desktop of X: what a system gets that nobody has written a file for, in the place of desktop_x11.c. */
+/* Fallback for desktop_x11.c on systems without X. */
 #include "ui/toolkit/desktop.h"
 
 double wr_desktop_dpi(SDL_Window *window)

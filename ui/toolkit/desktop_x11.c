@@ -1,4 +1,4 @@
-/* The desktop's scale, asked of the X server that SDL is connected to. */
+/* The desktop's scale, read from the X server that SDL is connected to. */
 #include "ui/toolkit/desktop.h"
 
 #include <SDL_syswm.h>
@@ -6,16 +6,16 @@
 #include <X11/Xlib.h>
 #include <stdio.h>
 
-#define LONGEST (1 << 18) /* units of 4 bytes of a property */
+#define LONGEST (1 << 18) /* size limit of a property in units of 4 bytes */
 
-/* A window may go while it is asked about. */
+/* A window may vanish during the request. */
 static int ignore_error(Display *display, XErrorEvent *event)
 {
     (void)display, (void)event;
     return 0;
 }
 
-/* Bytes of a window's property, closed by a 0 that is not counted; NULL: there is none. XFree's. */
+/* Bytes of a window's property, with a terminating 0 that is not counted; NULL: missing. Freed by XFree. */
 static unsigned char *property(Display *display, Window window, Atom name, Atom type, size_t *count)
 {
     Atom is;

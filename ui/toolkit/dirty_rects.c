@@ -7,7 +7,7 @@
 
 #define SIDE_BITS 5 /* squares of 32 x 32 pixels */
 #define SIDE (1 << SIDE_BITS)
-/* Pixels that are drawn needlessly for the sake of one rectangle less. */
+/* Pixels drawn unnecessarily that are acceptable for one rectangle less. */
 #define SPARE (8 * SIDE * SIDE)
 
 struct WrDirtyRects {
@@ -59,7 +59,7 @@ void wr_dirty_rects_begin(WrDirtyRects *damage, int width, int height)
     memset(damage->now, 0, squares(damage) * sizeof *damage->now);
 }
 
-/* The squares that a box touches, from first to last; false: none. */
+/* Range of squares touched by a box; false: none. */
 static bool reach(const WrDirtyRects *damage, const SDL_Rect *box, SDL_Point *first,
                   SDL_Point *last)
 {
@@ -78,7 +78,8 @@ void wr_dirty_rects_add(WrDirtyRects *damage, const SDL_Rect *box, uint64_t what
     for (int y = first.y; y <= last.y; y++) {
         uint64_t *row = damage->now + (size_t)y * (size_t)damage->columns;
         for (int x = first.x; x <= last.x; x++) {
-            const uint64_t mixed = (row[x] ^ what) * 0x9e3779b97f4a7c15u; /* odd: bijective */
+            /* odd, so the product is bijective */
+            const uint64_t mixed = (row[x] ^ what) * 0x9e3779b97f4a7c15u;
             row[x] = mixed ^ mixed >> 29;
         }
     }
@@ -112,7 +113,7 @@ static SDL_Rect join(const SDL_Rect *a, const SDL_Rect *b)
     return both;
 }
 
-/* To the list, or into the one that grows least by it where that costs little, or no room is left. */
+/* Add to the list, or merge into the rectangle that grows least if that is cheap or the list is full. */
 static void collect(SDL_Rect rects[WR_DIRTY_RECTS_RECTS], int *count, const SDL_Rect *more)
 {
     int best = -1;
@@ -126,7 +127,7 @@ static void collect(SDL_Rect rects[WR_DIRTY_RECTS_RECTS], int *count, const SDL_
     else rects[best] = join(&rects[best], more);
 }
 
-/* Those that overlap become one, until none do. */
+/* Merge overlapping rectangles until none overlap. */
 static void part(SDL_Rect rects[WR_DIRTY_RECTS_RECTS], int *count)
 {
     for (int i = 0; i < *count; i++)
@@ -134,7 +135,7 @@ static void part(SDL_Rect rects[WR_DIRTY_RECTS_RECTS], int *count)
             if (!SDL_HasIntersection(&rects[i], &rects[j])) continue;
             rects[i] = join(&rects[i], &rects[j]);
             rects[j] = rects[--*count];
-            i = -1; /* from the beginning: it may overlap others now */
+            i = -1; /* from the start: it may overlap others now */
             break;
         }
 }
@@ -144,7 +145,7 @@ static bool contains(const SDL_Rect *a, const SDL_Rect *b)
     return b->x >= a->x && b->y >= a->y && b->x + b->w <= a->x + a->w && b->y + b->h <= a->y + a->h;
 }
 
-/* True if one had to grow. */
+/* True if a rectangle had to grow. */
 static bool take_whole(SDL_Rect *rects, int count, const SDL_Rect *box)
 {
     for (int i = 0; i < count; i++) {
@@ -184,7 +185,7 @@ int wr_dirty_rects_end(WrDirtyRects *damage, const SDL_Rect *whole, int count,
         if (!SDL_IntersectRect(&whole[i], &room, &seen) || !take_whole(rects, found, &seen))
             continue;
         part(rects, &found);
-        i = -1; /* it may touch others now */
+        i = -1; /* it may touch other boxes now */
     }
     for (int i = 0; i < found; i++) SDL_IntersectRect(&rects[i], &room, &rects[i]);
     uint64_t *spare = damage->before;

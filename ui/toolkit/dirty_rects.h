@@ -1,5 +1,5 @@
-/* dirty_rects.h - which parts of a picture are not as in the picture before: what is drawn is noted for each square that it
-   touches, in order, and squares whose notes differ are drawn again. No pixel is looked at. */
+/* dirty_rects.h - changed regions of a frame against the previous one. Each drawing operation adds its hash to every
+   square it touches, in order; squares with different hashes are redrawn. Pixels are not compared. */
 #pragma once
 #include <SDL.h>
 #include <stdint.h>
@@ -9,17 +9,17 @@
 typedef struct WrDirtyRects WrDirtyRects;
 
 WrDirtyRects *wr_dirty_rects_new(void);
-void wr_dirty_rects_free(WrDirtyRects *damage); /* NULL is fine */
-/* Another picture of width x height pixels, both above 0. Of another size than the last one all is damaged. */
+void wr_dirty_rects_free(WrDirtyRects *damage); /* NULL is allowed */
+/* Start a frame of width x height pixels, both above 0. After a change of size all is dirty. */
 void wr_dirty_rects_begin(WrDirtyRects *damage, int width, int height);
-/* Something is drawn on top of what was; no pixel beyond `box` is touched. what: a hash of all that it looks like,
-   place and all. */
+/* Add an operation, drawn over the previous ones; it touches no pixel beyond `box`. what: hash of its appearance,
+   including its position. */
 void wr_dirty_rects_add(WrDirtyRects *damage, const SDL_Rect *box, uint64_t what);
-/* What is drawn within `box` is not as it was, though its hash may be: at any time, for the next end. */
+/* Mark `box` as dirty although its hash may be equal; allowed at any time, takes effect at the next end. */
 void wr_dirty_rects_touch(WrDirtyRects *damage, const SDL_Rect *box);
-/* All is damaged, at the next end. */
+/* Mark everything as dirty at the next end. */
 void wr_dirty_rects_forget(WrDirtyRects *damage);
-/* The picture is complete: rectangles that must be drawn again; they do not overlap. Each of the `count` boxes in `whole`
-   that they touch lies in one of them altogether. Returns how many there are, 0: none. */
+/* Finish the frame: returns the number of rectangles to redraw (0: none), which do not overlap. Each of the `count`
+   boxes in `whole` that they touch is completely inside one of them. */
 int wr_dirty_rects_end(WrDirtyRects *damage, const SDL_Rect *whole, int count,
                        SDL_Rect rects[WR_DIRTY_RECTS_RECTS]);

@@ -1,21 +1,21 @@
-/* display.h - by which system of windows the window opens, and what that means for pens. SDL 2 knows pens of no system, and
-   ours are read from X servers; XWayland is one, and passes on what pens send. */
+/* display.h - choice of the window system, and its effect on pens. SDL 2 supports no pens; the program reads them
+   from X servers. XWayland is one and forwards pen events. */
 #pragma once
 #include <stdbool.h>
 
-/* What the environment says; each may be NULL. */
+/* Environment variables; each may be NULL. */
 typedef struct WrDisplayEnv {
-    const char *driver;  /* SDL_VIDEODRIVER: the user's own choice, which holds */
+    const char *driver;  /* SDL_VIDEODRIVER: the user's choice, which takes precedence */
     const char *x11;     /* DISPLAY */
     const char *wayland; /* WAYLAND_DISPLAY */
     const char *session; /* XDG_SESSION_TYPE */
 } WrDisplayEnv;
 
 WrDisplayEnv wr_display_env(void);
-/* What SDL shall try, in this order; NULL: what it tries by itself. */
+/* Drivers for SDL to try, in this order; NULL: SDL's default. */
 const char *wr_display_driver(const WrDisplayEnv *env);
-/* SDL has opened a driver that shows nothing, and nobody asked for it. asked: SDL's hint for the driver, or NULL. */
+/* True if SDL has opened a driver without output that was not requested. asked: SDL's hint for the driver, or
+   NULL. */
 bool wr_display_unseen(const char *asked, const char *opened);
-/* Why the window came where it is and what follows for pens, when SDL has opened it by that driver; NULL: nothing to
-   say. In English; not the caller's. */
+/* Message on the chosen driver and its effect on pens; NULL: none. In English; static. */
 const char *wr_display_word(const WrDisplayEnv *env, const char *opened);

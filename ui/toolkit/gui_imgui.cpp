@@ -1,4 +1,4 @@
-/* The widget library's context: style, events, frames. */
+/* Context of the widget library: style, events, frames. */
 #include "ui/toolkit/gui_imgui_focus.h"
 #include "ui/toolkit/retained_frame.h"
 
@@ -84,11 +84,12 @@ static void set_style(double scale)
     ImGui::GetStyle() = style;
 }
 
-/* ---- life ---- */
+/* ---- creation ---- */
 
 static const char *get_clipboard(void *ctx)
 {
-    WrGui *gui = static_cast<WrGui *>(ctx); /* keeps the text, which must outlive the call */
+    /* stores a copy, since the text must outlive the call */
+    WrGui *gui = static_cast<WrGui *>(ctx);
     char *held = SDL_GetClipboardText();
     SDL_utf8strlcpy(gui->clipboard, held ? held : "", sizeof gui->clipboard);
     SDL_free(held);
@@ -226,7 +227,7 @@ try {
 }
 WR_CAUGHT(false)
 
-/* ---- what is on the screen ---- */
+/* ---- displayed frame ---- */
 
 static bool is_hidden(const ImGuiWindow *window)
 {
@@ -286,7 +287,7 @@ extern "C" bool wr_gui_holds_mouse(const WrGui *)
 
 extern "C" bool wr_gui_wants_text(const WrGui *)
 {
-    /* Between two frames the library's own flag is that of the frame before the last. */
+    /* Between two frames ImGui's own flag is one frame late. */
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     return g.WithinFrameScope ? g.IO.WantTextInput
                               : g.WantTextInputNextFrame == 1 && g.ActiveId != 0;
@@ -310,7 +311,7 @@ extern "C" bool wr_gui_popup_open_now(const WrGui *)
     return ImGui::GetCurrentContext()->OpenPopupStack.Size > dialogs_open();
 }
 
-/* Windows that fit their content are measured in a frame that does not show them. */
+/* Auto-sized windows are measured in an invisible first frame. */
 static bool window_comes(const ImGuiContext &g)
 {
     for (const ImGuiWindow *window : g.Windows)
@@ -318,8 +319,8 @@ static bool window_comes(const ImGuiContext &g)
     return false;
 }
 
-/* How large those that fit their content are, and what they would fit: another number when either changed. A
-   dialog says in every frame that it wants to fit. */
+/* Sum of the present and ideal sizes of auto-sized windows: it changes if one of them does. Dialogs request
+   auto-sizing in every frame. */
 static double fitted_sizes(const ImGuiContext &g)
 {
     double sum = 0.0;
@@ -367,7 +368,7 @@ try {
     bool lets_go = false;
     io.DeltaTime = (float)(seconds > 1e-4 ? (seconds < 0.5 ? seconds : 0.5) : 1e-4);
     for (int i = 0; i < 3;
-         i++) { /* pressed and let go since the last frame: pressed for one frame */
+         i++) { /* pressed and released since the last frame: pressed for one frame */
         io.MouseDown[i] = !gui->again[i] && (gui->held[i] || gui->pressed[i]);
         if (gui->again[i]) lets_go = true;
         else gui->pressed[i] = false;
@@ -382,7 +383,7 @@ try {
     ImGuiContext &g = *ImGui::GetCurrentContext();
     gui->popups = g.OpenPopupStack.Size;
     gui->tip_waits = false;
-    int keep = dialogs_open(); /* a dialog's own lists close, the dialog decides for itself */
+    int keep = dialogs_open(); /* close lists of a dialog; the dialog decides for itself */
     gui->list_open = g.OpenPopupStack.Size > keep;
     if (gui->close_popups && g.OpenPopupStack.Size > keep) ImGui::ClosePopupToLevel(keep, true);
     gui->close_popups = false;
@@ -398,7 +399,7 @@ try {
     wr_gui_focus_end(gui);
     ImGui::Render();
     note_shown(gui);
-    if (gui->armed_since < 0) gui->armed = 0; /* it was to be typed into, and is gone */
+    if (gui->armed_since < 0) gui->armed = 0; /* its field is gone */
     double sizes = fitted_sizes(*ImGui::GetCurrentContext());
     gui->fits = sizes != gui->fitted;
     gui->fitted = sizes;

@@ -1,8 +1,8 @@
-/* The widgets by keys alone: which of them has the ring, where a key moves it, what a key does to it. Each widget says in
-   every frame that it is there (wr_gui_stop); a key that comes is settled before the next frame by what stood in the last. */
+/* Keyboard navigation: the widget with the ring, movement by keys, and keys passed to the widget. Each widget
+   registers in every frame (wr_gui_stop); a key is handled before the next frame with the stops of the last one. */
 #include "ui/toolkit/gui_imgui_focus.h"
 
-/* ---- what there is ---- */
+/* ---- registration ---- */
 
 bool wr_gui_is_list(const ImGuiWindow *window)
 {
@@ -50,12 +50,13 @@ static bool grouped(WrKeyStopKind kind)
            kind == WR_STOP_TILE || kind == WR_STOP_LIST;
 }
 
-/* Neighbours of a kind; segments and tabs also of one set. */
+/* Neighbours of a kind form a group; segments and tabs only within one set. */
 static int group_of(const WrFocus *focus, const WrKeyStop *stop, ImGuiID set)
 {
     static int newest;
     static ImGuiID newest_set;
-    const WrKeyStop *last = nullptr; /* of its window: the entries of an open menu stand between */
+    /* last one of its window: entries of an open menu come between */
+    const WrKeyStop *last = nullptr;
     if (focus->coming_count == 0) newest = 0;
     if (!grouped(stop->kind)) return 0;
     for (int i = focus->coming_count - 1; i >= 0 && !last; i--)
@@ -127,7 +128,7 @@ void wr_gui_stop_scrolled()
     wr_gui_stop_at(WR_STOP_SCROLL, window->ID, false, window->InnerRect.Min, window->InnerRect.Max);
 }
 
-/* ---- what a widget asks ---- */
+/* ---- queries by widgets ---- */
 
 bool wr_gui_focused(ImGuiID id)
 {
@@ -160,7 +161,7 @@ int wr_gui_focus_arrows(ImGuiID id, bool both)
 
 /* ---- frames ---- */
 
-/* How many of the popups of the last frame are open still. */
+/* Number of the last frame's popups that are still open. */
 static int levels_kept(const WrFocus *focus)
 {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
@@ -171,7 +172,7 @@ static int levels_kept(const WrFocus *focus)
     return kept;
 }
 
-/* What closed since the last frame gives it back, what opened gets it. */
+/* Closed popups restore the earlier focus; opened ones get the focus. */
 static void follow_popups(WrFocus *focus)
 {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
@@ -224,7 +225,7 @@ void wr_gui_focus_begun(WrGui *gui)
     if (focus->close_to >= 0 && g.OpenPopupStack.Size > focus->close_to)
         ImGui::ClosePopupToLevel(focus->close_to, false);
     if (focus->shown && g.IO.MouseDelta.x == 0 && g.IO.MouseDelta.y == 0)
-        g.NavDisableMouseHover = true; /* what the pointer rests on is not what is meant */
+        g.NavDisableMouseHover = true; /* the widget under the pointer is not the target */
 }
 
 static void draw_ring(const WrKeyStop *stop)
@@ -243,7 +244,7 @@ static void draw_ring(const WrKeyStop *stop)
     list->AddRectFilled(ImVec2(ring.Max.x - w, ring.Min.y), ring.Max, ink);
 }
 
-/* Where it was is gone: to what stands in that place now. */
+/* The focused widget has vanished: focus the one now at its position. */
 static void keep_place(WrFocus *focus)
 {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
@@ -271,7 +272,7 @@ void wr_gui_focus_end(WrGui *gui)
     if (focus->stepped && !wr_gui_find_stop(focus, focus->stepped)) focus->stepped = 0;
 }
 
-/* ---- from outside ---- */
+/* ---- calls from other modules ---- */
 
 extern "C" void wr_gui_focus_part(WrGui *gui, int way)
 {
@@ -333,6 +334,6 @@ extern "C" unsigned wr_gui_under_pointer(void)
     if (g.HoveredIdDisabled || !window) return 0;
     if (g.HoveredId == ImGui::GetWindowScrollbarID(window, ImGuiAxis_X) ||
         g.HoveredId == ImGui::GetWindowScrollbarID(window, ImGuiAxis_Y))
-        return 0; /* the keys scroll what it scrolls */
+        return 0; /* keys scroll its content */
     return g.HoveredId;
 }

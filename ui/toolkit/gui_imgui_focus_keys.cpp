@@ -1,4 +1,4 @@
-/* What a key does to the focus: where it moves the ring, what it presses, and which keys it takes from the canvas. */
+/* Handling of keys by the focus: movement of the ring, presses, and the keys withheld from the canvas. */
 #include "ui/toolkit/gui_imgui_focus.h"
 
 extern "C" {
@@ -8,15 +8,15 @@ extern "C" {
 #include <math.h>
 #include <string.h>
 
-#define TAP_SECONDS 0.4 /* for which Alt is held at most when it calls the menus */
+#define TAP_SECONDS 0.4 /* longest press of Alt that opens the menus */
 
-/* Menus and lists of things to press; not dialogs. */
+/* True for menus and lists of entries; not for dialogs. */
 static bool is_menu(const ImGuiWindow *window)
 {
     return window && !wr_gui_is_dialog(window);
 }
 
-/* ---- moving ---- */
+/* ---- movement ---- */
 
 void wr_gui_go_to(WrFocus *focus, const WrKeyStop *stop)
 {
@@ -41,7 +41,7 @@ const WrKeyStop *wr_gui_entrance(const ImGuiContext &g, const WrFocus *focus, co
     return first ? first : stop;
 }
 
-/* The next that is not of the same group; round at the ends. */
+/* The next stop outside the group; wraps at the ends. */
 static const WrKeyStop *next_of(const WrFocus *focus, int way, bool groups)
 {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
@@ -64,7 +64,7 @@ static void move_by(WrFocus *focus, int way, bool groups)
     if (to) wr_gui_go_to(focus, to);
 }
 
-/* The nearest of the group above or below: tiles stand in rows. */
+/* The nearest stop of the group above or below: tiles are in rows. */
 static const WrKeyStop *beyond(const WrFocus *focus, const WrKeyStop *now, int way)
 {
     const WrKeyStop *best = nullptr;
@@ -95,7 +95,7 @@ static void press(WrFocus *focus, ImGuiID id)
     ImGui::ActivateItem(id);
 }
 
-/* The menu beside the one that is open, opened in its place. */
+/* Open the neighbouring menu in place of the open one. */
 static bool other_menu(WrFocus *focus, int way)
 {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
@@ -103,7 +103,7 @@ static bool other_menu(WrFocus *focus, int way)
     const WrKeyStop *from = wr_gui_find_stop(focus, focus->openers[0]);
     if (!from || from->kind != WR_STOP_MENU) return false;
     const WrKeyStop *to = beside(focus, from, way);
-    for (const WrKeyStop *s = from; !to && s; s = beside(focus, s, -way)) /* round */
+    for (const WrKeyStop *s = from; !to && s; s = beside(focus, s, -way)) /* wraps */
         if (!beside(focus, s, -way)) to = s;
     if (!to) return false;
     focus->close_to = 0;
@@ -113,7 +113,7 @@ static bool other_menu(WrFocus *focus, int way)
     return true;
 }
 
-/* In a menu: along it, into one within it, back, or to the one beside it. True if that was it. */
+/* Keys in a menu: along it, into a submenu, back, or to the neighbouring menu. True if handled. */
 static bool key_in_menu(WrFocus *focus, const WrKeyStop *now, SDL_Scancode key)
 {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
@@ -127,7 +127,7 @@ static bool key_in_menu(WrFocus *focus, const WrKeyStop *now, SDL_Scancode key)
     return true;
 }
 
-/* ---- a key ---- */
+/* ---- key handling ---- */
 
 static int way_of(SDL_Scancode key)
 {
@@ -164,14 +164,15 @@ static void scroll(const WrFocus *focus, double pages)
     window->ScrollTargetCenterRatio.y = 0;
 }
 
-/* Along a group: where one of it is chosen, that changes with it. */
+/* Move along a group; if one of it is chosen, the choice moves too. */
 static void arrow_in_group(WrFocus *focus, const WrKeyStop *now, SDL_Scancode key)
 {
     const bool across = key == SDL_SCANCODE_LEFT || key == SDL_SCANCODE_RIGHT;
     const WrKeyStop *to = now->kind == WR_STOP_TILE && !across ? beyond(focus, now, way_of(key))
                                                                : beside(focus, now, way_of(key));
     if (to) wr_gui_go_to(focus, to);
-    else if (!across) scroll(focus, 0.3 * way_of(key)); /* more of them may stand there */
+    /* more of them may be beyond the visible part */
+    else if (!across) scroll(focus, 0.3 * way_of(key));
     if (to && (now->kind == WR_STOP_SEGMENT || now->kind == WR_STOP_TAB)) press(focus, to->id);
 }
 
@@ -196,7 +197,7 @@ static void end_of_group(WrFocus *focus, const WrKeyStop *now, bool last)
     wr_gui_go_to(focus, to);
 }
 
-/* Typed texts, numbers and what opens by itself see to it themselves (focus->key). */
+/* Text fields, number fields and widgets that open a list handle keys themselves (focus->key). */
 static void key_on(WrFocus *focus, const WrKeyStop *now, const SDL_Keysym *key)
 {
     const SDL_Scancode code = key->scancode;
@@ -224,7 +225,7 @@ static void take(WrFocus *focus, const SDL_Keysym *key)
         focus->stop_typing = ImGui::GetIO().WantTextInput;
         move_by(focus, key->mod & KMOD_SHIFT ? -1 : 1, true);
         now = wr_gui_find_stop(focus, focus->at);
-        focus->pressed = now && now->kind == WR_STOP_TEXT; /* one can type at once */
+        focus->pressed = now && now->kind == WR_STOP_TEXT; /* so that typing can start at once */
     } else if (code == SDL_SCANCODE_ESCAPE) {
         focus->shown = focus->in_menus = false;
         focus->at = 0;
@@ -249,7 +250,7 @@ void wr_gui_take_key(WrFocus *focus)
 
 /* ---- events ---- */
 
-/* Keys that mean something to what the ring is round. */
+/* True for keys used by the widget with the ring. */
 static bool is_for(const WrGui *gui, const WrKeyStop *now, const SDL_Keysym *key)
 {
     const SDL_Scancode code = key->scancode;
@@ -273,18 +274,18 @@ static bool wants(const WrGui *gui, const SDL_Keysym *key)
     if (typing) return false;
     const ImGuiWindow *top = wr_gui_top_of(g);
     const WrKeyStop *now = wr_gui_find_stop(focus, focus->at);
-    if (is_menu(top)) { /* what has no stops, a list of words, goes by itself */
+    if (is_menu(top)) { /* a list without stops handles keys itself */
         bool any = false;
         for (int i = 0; i < focus->count && !any; i++) any = wr_gui_reachable(g, &focus->stops[i]);
         if (!any || key->scancode == SDL_SCANCODE_ESCAPE) return false;
         return is_arrow(key->scancode) || (shown && is_for(gui, now, key));
     }
     if (!shown) return false;
-    if (key->scancode == SDL_SCANCODE_ESCAPE) return !top; /* the dialog's own */
+    if (key->scancode == SDL_SCANCODE_ESCAPE) return !top; /* of the dialog itself */
     return is_for(gui, now, key);
 }
 
-/* Alt by itself, and nothing else meanwhile. */
+/* True for Alt alone, without other keys in between. */
 static bool alt_tapped(WrFocus *focus, const SDL_Event *event)
 {
     const bool key = event->type == SDL_KEYDOWN || event->type == SDL_KEYUP;
@@ -314,7 +315,9 @@ bool wr_gui_focus_event(WrGui *gui, const SDL_Event *event)
     if (event->type != SDL_KEYDOWN) return false;
     focus->took = wants(gui, &event->key.keysym);
     if (!focus->took) return false;
-    if (event->key.repeat && focus->waiting_count > 1) return true; /* the window is behind */
+    if (event->key.repeat && focus->waiting_count > 1)
+        return true; /* the window is slower than the key
+                                                                       repeat */
     if (focus->waiting_count < WR_GUI_WAITING)
         focus->waiting[focus->waiting_count++] = event->key.keysym;
     return true;

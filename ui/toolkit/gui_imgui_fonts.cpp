@@ -1,4 +1,4 @@
-/* Faces and their spacing: Inter if it is there, else what is; icons from Material Design. */
+/* Fonts and letter spacing: Inter if installed, else a fallback; icons from Material Design. */
 #include "ui/toolkit/gui_imgui.h"
 #include "ui/toolkit/gui_sdl.h"
 
@@ -18,7 +18,7 @@ extern "C" {
 
 #define SYSTEM_FONTS "/usr/share/fonts"
 
-/* The first of these files that is there; below WRINKLE_FONTS if that is set. The caller frees it. */
+/* The first of these files that is readable; relative to WRINKLE_FONTS if that is set. The caller frees it. */
 static char *first_readable(const char *const *paths)
 {
     const char *folder = getenv("WRINKLE_FONTS");
@@ -47,20 +47,21 @@ static const char *const bold_faces[] = { SYSTEM_FONTS "/opentype/inter/Inter-Se
                                           SYSTEM_FONTS
                                           "/truetype/liberation/LiberationSans-Bold.ttf",
                                           nullptr };
-static const float face_ems[] = { 14.0f, 14.0f, 12.0f }; /* units: text, bold, small */
+/* font sizes in units: text, bold, small */
+static const float face_ems[] = { 14.0f, 14.0f, 12.0f };
 static const char *const icon_faces[] = {
     SYSTEM_FONTS "/truetype/materialdesignicons-webfont/materialdesignicons-webfont.ttf", nullptr
 };
 
-/* A face's file, and its numbers as the type's designer gave them. */
+/* A font file and its metrics as designed. */
 struct Face {
-    char *bytes; /* owned; NULL: the widget library's own face */
+    char *bytes; /* owned; NULL: ImGui's built-in font */
     size_t length;
     stbtt_fontinfo info;
     float em; /* pixels */
-    float
-        units; /* of a line, from the highest ascender to the lowest descender, in units of `scale` */
-    float scale; /* pixels a unit */
+    /* line height, from the highest ascender to the lowest descender, in units of `scale` */
+    float units;
+    float scale; /* pixels per unit */
 };
 
 static bool open_face(Face *face, const char *path, float em)
@@ -82,8 +83,8 @@ static bool open_face(Face *face, const char *path, float em)
 }
 
 #if IMGUI_VERSION_NUM < 19200
-/* Advances as they were drawn (the widget library rounds each up, which spreads words), and one width for
-   all digits, so that numbers do not jitter as they change. */
+/* Restore the designed advances (ImGui rounds each up, which spreads words), and give all digits the same width, so
+   that changing numbers do not jitter. */
 static void space_letters(ImFont *font, const Face *face)
 {
     float digit = 0.0f;
@@ -110,20 +111,20 @@ static void space_letters(ImFont *font, const Face *face)
     font->BuildLookupTable();
 }
 #else
-/* Letters are drawn as they are needed, with their own advances. */
+/* In this version letters are rasterised on demand, with their own advances. */
 static void space_letters(ImFont *, const Face *)
 {
 }
 #endif
 
-/* Sizes of type are of its em; the widget library wants the height of a line. */
+/* Convert the em size to the line height, which ImGui expects. */
 static ImFont *add_face(ImFontAtlas *atlas, const Face *face)
 {
     static const ImWchar ranges[] = { 0x20,   0x17f,  0x370,  0x3ff,  0x400,  0x45f, 0x2010,
                                       0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0 };
     ImFontConfig config;
     config.OversampleH = config.OversampleV = 1;
-    config.FontDataOwnedByAtlas = false; /* it makes a copy */
+    config.FontDataOwnedByAtlas = false; /* ImGui makes a copy */
     return atlas->AddFontFromMemoryTTF(face->bytes, (int)face->length,
                                        roundf(face->units * face->scale), &config, ranges);
 }
@@ -185,7 +186,7 @@ extern "C" const char *wr_gui_missing_fonts(const WrGui *gui)
     return gui->no_text ? "no font for text was found: install fonts-inter" : nullptr;
 }
 
-/* Sharp stems: whole pixels upwards only, so that letters keep their distances. */
+/* Snap stems to whole pixels only vertically, so that letter spacing is unchanged. */
 static void choose_rasterizer(ImFontAtlas *atlas)
 {
 #if IMGUI_VERSION_NUM >= 19200
@@ -210,7 +211,7 @@ bool wr_gui_build_fonts(WrGui *gui, WrError *err)
     atlas->GetTexDataAsRGBA32(&pixels, &width, &height);
     for (int i = 0; i < WR_FONT_ICON; i++)
         if (faces[i].bytes) space_letters(gui->fonts[i], &faces[i]);
-    atlas->ClearInputData(); /* the faces' bytes go */
+    atlas->ClearInputData(); /* frees the font bytes */
     for (Face &face : faces) wr_free(face.bytes);
     if (!pixels) return wr_fail(err, "no font could be drawn");
     if (gui->atlas) SDL_DestroyTexture(gui->atlas);

@@ -1,9 +1,9 @@
-/* Icons that the font of icons lacks, drawn on a square of 24 units. */
+/* Icons missing in the icon font, drawn on a grid of 24 units. */
 #include "ui/toolkit/gui_imgui.h"
 
 #include <string.h>
 
-/* Where a unit of the square lies. */
+/* Transformation from the grid to the window. */
 struct Sheet {
     ImDrawList *list;
     ImVec2 at;
@@ -21,7 +21,7 @@ static void box(const Sheet &sheet, float x0, float y0, float x1, float y1, floa
     sheet.list->AddRectFilled(on(sheet, x0, y0), on(sheet, x1, y1), sheet.ink, round * sheet.unit);
 }
 
-/* A rubber stamp: its knob, its neck, its foot, and the line that it leaves. */
+/* A rubber stamp: knob, neck, foot, and the printed line. */
 static void stamp(const Sheet &sheet)
 {
     sheet.list->AddCircleFilled(on(sheet, 12, 5.6f), 3.4f * sheet.unit, sheet.ink, 24);
@@ -31,7 +31,7 @@ static void stamp(const Sheet &sheet)
     box(sheet, 4, 19.6f, 20, 21.4f, 0);
 }
 
-/* One half, its axis, and the other half as the mirror shows it. */
+/* One half, the axis, and the mirrored half. */
 static void mirror(const Sheet &sheet)
 {
     for (int i = 0; i < 4; i++) {

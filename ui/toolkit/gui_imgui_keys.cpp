@@ -1,5 +1,5 @@
-/* Keys on their way to the widget library. From 1.87 on it has a queue of key events and names of its own
-   for keys; before, an array of them by the platform's numbers. This file alone knows which. */
+/* Passing of keys to ImGui. Version 1.87 and later has a queue of key events and its own key codes; earlier ones an
+   array by the platform's codes. Only this file depends on the version. */
 #include "ui/toolkit/gui_imgui.h"
 
 extern "C" {
@@ -49,8 +49,8 @@ static bool is_key(int code)
 
 #if IMGUI_VERSION_NUM >= 18700
 
-/* The library spreads what comes between two frames over as many frames as it takes, so that no key is
-   missed; held ones count with the key that goes down while they are. */
+/* ImGui spreads the events between two frames over several frames, so that no key is missed; modifiers are applied
+   with the key press they belong to. */
 
 #if IMGUI_VERSION_NUM >= 18900
 #define MOD(name) ImGuiMod_##name
@@ -104,7 +104,7 @@ void wr_gui_keys_frame(WrGui *)
 bool wr_gui_keys_seen(WrGui *)
 {
     for (const auto &pair : keys)
-        if (ImGui::IsKeyDown(pair.imgui)) return true; /* its end may wait in the queue */
+        if (ImGui::IsKeyDown(pair.imgui)) return true; /* its release may be in the queue */
     return false;
 }
 
@@ -127,15 +127,16 @@ void wr_gui_keys_begin()
     for (const auto &pair : keys) ImGui::GetIO().KeyMap[pair.imgui] = pair.sdl;
 }
 
-/* Of what comes between two frames the library takes all letters first, none while Ctrl is down, and of the keys that
-   move and delete one. So a frame gets letters, or one such key; the rest waits for the next, which comes at once. */
+/* From the events between two frames ImGui takes all letters first (none while Ctrl is held), and only one of the
+   keys that move or delete. So a frame gets letters, or one such key; the rest waits for the next frame, which
+   follows at once. */
 
 static bool is_held_key(int code)
 {
     return code >= SDL_SCANCODE_LCTRL && code <= SDL_SCANCODE_RGUI;
 }
 
-/* Of a key that goes down: it does something to a text, or with it, besides what letters come of it. */
+/* True for a key that has an effect in a text field besides its letters. */
 static bool acts(const SDL_Keysym &key)
 {
     if (key.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)) return true;
@@ -145,8 +146,8 @@ static bool acts(const SDL_Keysym &key)
     return false;
 }
 
-/* Of a key that goes down while a text is typed: what it does is letters, or Shift for them, so that it can go down
-   more than once in a frame. */
+/* True for a key whose effect in a text field is only letters, or Shift for them: it may be pressed several times in
+   a frame. */
 static bool tells_by_letters(const SDL_Keysym &key)
 {
     bool shift = key.scancode == SDL_SCANCODE_LSHIFT || key.scancode == SDL_SCANCODE_RSHIFT;
@@ -185,7 +186,7 @@ void wr_gui_keys_release(WrGui *gui)
     int letters = 0;
     for (int i = 0; i < gui->typed_count; i++)
         if (gui->typed_on[i].letters[0]) gui->typed_on[letters++] = gui->typed_on[i];
-    gui->typed_count = letters; /* they were typed, wherever the keys go now */
+    gui->typed_count = letters; /* typed earlier, whatever gets the keys now */
     gui->typed_held = 0;
 }
 
@@ -201,7 +202,7 @@ static void key_down(WrGui *gui, const SDL_Keysym &key)
 static void key_up(WrGui *gui, int code)
 {
     if (gui->pressed_now[code])
-        gui->released_late[code] = true; /* seen for one frame, then let go */
+        gui->released_late[code] = true; /* pressed for one frame, then released */
     else ImGui::GetIO().KeysDown[code] = false;
 }
 
@@ -221,10 +222,10 @@ static void take_typed(WrGui *gui)
         if (typed.down) {
             int code = typed.key.scancode;
             bool down = ImGui::GetIO().KeysDown[code];
-            if (down && !gui->released_late[code])
-                continue; /* held: the library repeats it itself */
+            if (down && !gui->released_late[code]) continue; /* held: ImGui repeats it itself */
             bool act = !is_held_key(code) && acts(typed.key);
-            /* Let go since the last frame, which it must see first; but letters of a text tell for themselves. */
+            /* Released since the last frame: the frame must first see the release. Not for letters, which are passed
+               as text. */
             bool anew = down || ImGui::GetIO().KeysDownDuration[code] >= 0.0f;
             if ((anew && !tells_by_letters(typed.key)) || (act && acted) ||
                 (letters && acts(typed.key)))

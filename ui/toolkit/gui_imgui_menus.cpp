@@ -17,7 +17,7 @@ try {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(tight ? 7 : 14), px(6)));
     ImGui::PushStyleColor(ImGuiCol_MenuBarBg, wr_gui_colour_of(WR_COLOUR_BAR));
     ImGui::BeginMainMenuBar();
-    ImGui::SetCursorPosX(px(5)); /* its first word over the first word of the row below */
+    ImGui::SetCursorPosX(px(5)); /* aligns its first word with the row below */
     return (double)ImGui::GetWindowHeight();
 }
 WR_CAUGHT(0.0)
@@ -38,7 +38,7 @@ try {
     const ImGuiID id = ImGui::GetID(shown);
     ImGuiWindow *window = ImGui::GetCurrentWindow();
     bool open = !wr_gui_tells_all && ImGui::BeginMenu(shown);
-    /* Where it is open its own window is what is current now. */
+    /* While a menu is open, its own window is the current one. */
     if (!open) wr_gui_stop(WR_STOP_MENU, false);
     else wr_gui_stop_open(window, id);
     if (wr_gui_tells_all) ImGui::MenuItem(shown);
@@ -93,7 +93,7 @@ extern "C" void wr_gui_popup_end(void)
     else ImGui::EndPopup();
 }
 
-/* title up to ## is its heading. */
+/* title up to ## is the heading. */
 static bool dialog(const char *title, ImVec2 at, ImVec2 pivot, float width, float least, bool dim)
 {
     ImGui::GetStyle().Colors[ImGuiCol_ModalWindowDimBg] =
@@ -183,7 +183,7 @@ try {
 }
 WR_CAUGHT(false)
 
-/* What is typed takes the place of what stood there, as in fields of one line. */
+/* Typing replaces the whole text, as in single-line fields. */
 static int select_all(ImGuiInputTextCallbackData *data)
 {
     data->SelectAll();

@@ -1,4 +1,4 @@
-/* Fields for numbers and colours, and drawing on the views. */
+/* Number fields and colour fields, and drawing on the views. */
 #include "ui/toolkit/gui_imgui.h"
 
 extern "C" {
@@ -14,7 +14,7 @@ extern "C" {
 
 #define DOUBLE_CLICK_SECONDS 0.28
 
-/* ---- value <-> place in the field ---- */
+/* ---- value <-> position in the field ---- */
 
 /* The nearest value of the hard range. */
 static double allowed(const WrNumber *spec, double value)
@@ -39,7 +39,7 @@ static void print_value(const WrNumber *spec, double value, char *text, size_t s
     else snprintf(text, size, "%.4g", value);
 }
 
-/* As it would be printed: a drag gives 0.3, not 0.30000000000000004. */
+/* Round to the displayed digits: a drag gives 0.3, not 0.30000000000000004. */
 static double round_as_shown(const WrNumber *spec, double value)
 {
     char text[64];
@@ -137,7 +137,7 @@ static WrEdit reset(const WrNumber *spec, double *value)
     return *value != before ? WR_EDIT_DONE : WR_EDIT_NONE;
 }
 
-/* The field while it is not being typed into. */
+/* The field while no text is typed. */
 static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *spec, double *value)
 {
     ImVec2 at = ImGui::GetCursorScreenPos();
@@ -163,7 +163,7 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
         if (gui->moved && (ImGui::IsItemActive() || ImGui::IsItemDeactivated()))
             gui->drag_value =
                 value_at(spec, gui->drag_from + (double)(dx / width) * (io.KeyShift ? 0.1 : 1.0));
-        /* Held still it changes nothing: the caller has it already. */
+        /* Without a motion there is no change: the caller has the value already. */
         edit = gui->moved && *value != gui->drag_value ? WR_EDIT_LIVE : WR_EDIT_NONE;
         if (gui->moved) *value = gui->drag_value;
         if (!ImGui::IsItemActive()) {
@@ -181,9 +181,9 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
     return edit;
 }
 
-/* ---- by keys ---- */
+/* ---- keys ---- */
 
-/* A hundredth of the way, or a thousandth, but no less than what is shown. */
+/* Step of 1/100 or 1/1000 of the range, but at least the last displayed digit. */
 static double stepped(const WrNumber *spec, double value, int way, bool fine)
 {
     const double share = (double)way * (fine ? 0.001 : 0.01);
@@ -196,7 +196,7 @@ static double stepped(const WrNumber *spec, double value, int way, bool fine)
     return allowed(spec, next < low ? low : next > high ? high : next);
 }
 
-/* Arrows change it, live while one is held; Enter types into it; Backspace and Delete reset it. */
+/* Arrow keys change the value, live while held; Enter starts typing; Backspace and Delete reset. */
 static WrEdit by_keys(WrGui *gui, ImGuiID item, const WrNumber *spec, double *value)
 {
     WrFocus *focus = &gui->focus;
@@ -269,7 +269,7 @@ try {
                                 ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoLabel |
                                     ImGuiColorEditFlags_DisplayRGB |
                                     ImGuiColorEditFlags_DisplayHex)) {
-            for (int k = 0; k < 3; k++) /* four digits are finer than any screen's codes */
+            for (int k = 0; k < 3; k++) /* four digits are finer than any display */
                 rgb[k] = round(decode((double)code[k]) * 1e4) / 1e4;
             edit = WR_EDIT_LIVE;
         }

@@ -1,9 +1,9 @@
-/* Fields to draw on and to point at. */
+/* Pads: areas for custom drawing and pointing. */
 #include "ui/toolkit/gui_imgui.h"
 
 #include <imgui_internal.h>
 
-/* Where the keys point. */
+/* Pointer of the keyboard. */
 static void draw_cross(ImDrawList *list, const WrFocus *focus)
 {
     const float arm = (float)wr_gui_px(7), half = (float)wr_gui_px(1) / 2;

@@ -1,4 +1,4 @@
-/* Fields of text, drawn by hand. */
+/* Scrolling areas for custom text drawing. */
 #include "ui/toolkit/gui_imgui.h"
 #include "ui/toolkit/gui_page.h"
 

@@ -1,4 +1,4 @@
-/* Rows that hold widgets, pictures, bars. */
+/* Rows that contain widgets, pictures, bars. */
 #include "ui/toolkit/gui_imgui.h"
 
 #include <imgui_internal.h>
@@ -12,7 +12,7 @@ static float px(double units)
     return (float)wr_gui_px(units);
 }
 
-/* The window's full width, over its padding. */
+/* Full width of the window, including its padding. */
 static void full_width(float *left, float *right)
 {
     const ImGuiWindow *window = ImGui::GetCurrentWindow();
@@ -112,13 +112,13 @@ try {
     }
     WrGui *gui = wr_gui_current();
     const bool was = gui->as_it_is;
-    gui->as_it_is = true; /* it is said already */
+    gui->as_it_is = true; /* already translated */
     wr_gui_text(font, colour, cut);
     gui->as_it_is = was;
 }
 WR_CAUGHT()
 
-/* The longest word is what must have room. */
+/* The longest word must fit. */
 extern "C" void wr_gui_text_within(WrFont font, WrColour colour, const char *text, double width)
 try {
     ImFont *face = wr_gui_current()->fonts[font];
@@ -257,7 +257,7 @@ try {
     at.y += floorf((h - bar) / 2);
     ImDrawList *list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, ImVec2(at.x + w, at.y + bar), wr_gui_colour_of(WR_COLOUR_FIELD));
-    double t = fmod(ImGui::GetTime(), 1.6) / 0.8; /* there and back */
+    double t = fmod(ImGui::GetTime(), 1.6) / 0.8; /* back and forth */
     float from = fraction < 0 ? (float)(0.75 * (t < 1 ? t : 2 - t)) : 0.0f, long_way = w - 2;
     list->AddRectFilled(ImVec2(at.x + 1 + roundf(long_way * from), at.y + 1),
                         ImVec2(at.x + 1 + roundf(long_way * (from + (float)f)), at.y + bar - 1),

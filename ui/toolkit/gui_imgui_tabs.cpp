@@ -1,4 +1,4 @@
-/* One of several side by side: segments and tabs. */
+/* Choice of one of several side by side: segments and tabs. */
 #include "ui/toolkit/gui_imgui.h"
 
 #include <imgui_internal.h>
@@ -31,7 +31,7 @@ static bool segment(const char *id, const char *said, ImVec2 size, WrColour grou
     return pressed;
 }
 
-/* In a row; closer to one another where there is little room, and in several rows where there is less. */
+/* In one row; more tightly if there is little room, and in several rows if there is less. */
 extern "C" bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours,
                                 int count, int *index)
 try {
@@ -70,7 +70,7 @@ static float tabs_wide(const char *const *items, int count)
     return wide;
 }
 
-/* Where even the small face leaves them hardly apart they stand in two rows. */
+/* Two rows if even the small font leaves hardly a gap. */
 extern "C" int wr_gui_tab_rows(const char *const *items, int count, double width)
 try {
     ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
@@ -110,8 +110,8 @@ try {
     ImVec2 origin = ImGui::GetWindowPos();
     float width = ImGui::GetWindowWidth(), h = px(32);
     int rows = wr_gui_tab_rows(items, count, (double)width), each = (count + rows - 1) / rows;
-    list->PushClipRect(origin,
-                       ImVec2(origin.x + width, origin.y + h * (float)rows)); /* over the padding */
+    /* over the padding */
+    list->PushClipRect(origin, ImVec2(origin.x + width, origin.y + h * (float)rows));
     bool small = rows > 1 || tabs_wide(items, count) + px(6) * (float)count > width;
     if (small) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
     for (int row = 0; row < rows; row++) {

@@ -1,4 +1,4 @@
-/* Pictures to choose from, fields with a hint, parts that fold. */
+/* Picture tiles, fields with a hint, foldable headings. */
 #include "ui/toolkit/gui_imgui.h"
 
 #include <imgui_internal.h>
@@ -61,7 +61,7 @@ extern "C" void wr_gui_centre(double side)
 extern "C" void wr_gui_centre_end(double side)
 {
     float up = roundf(((float)side - ImGui::GetFrameHeight()) / 2.0f);
-    ImGui::GetCurrentWindow()->DC.CursorPosPrevLine.y += up; /* where the same line goes on */
+    ImGui::GetCurrentWindow()->DC.CursorPosPrevLine.y += up; /* for content in the same line */
 }
 
 extern "C" bool wr_gui_will_see(double side)

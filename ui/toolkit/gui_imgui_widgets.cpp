@@ -12,7 +12,7 @@ extern "C" {
 #include <stdio.h>
 #include <string.h>
 
-#define TIP_SECONDS 0.4f /* of resting before a tip is shown */
+#define TIP_SECONDS 0.4f /* pointer rest time before a tip */
 
 static float px(double units)
 {
@@ -26,10 +26,11 @@ extern "C" void wr_gui_area_begin(const char *name, WrAreaKind kind, SDL_Rect re
 try {
     ImGui::SetNextWindowPos(ImVec2((float)rect.x, (float)rect.y));
     ImGui::SetNextWindowSize(ImVec2((float)rect.w, (float)rect.h));
+    /* it would end a drag */
     ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                              ImGuiWindowFlags_NoSavedSettings |
                              ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
-                             ImGuiWindowFlags_NoFocusOnAppearing; /* it would end what is held */
+                             ImGuiWindowFlags_NoFocusOnAppearing;
     ImVec2 padding(px(12), px(12));
     if (kind == WR_AREA_PANEL) {
         flags &= ~ImGuiWindowFlags_NoScrollbar;
@@ -76,7 +77,7 @@ try {
 }
 WR_CAUGHT()
 
-/* ---- placing ---- */
+/* ---- layout ---- */
 
 extern "C" void wr_gui_same_line(double gap_units)
 {
@@ -142,7 +143,7 @@ static void text_in(WrFont font, WrColour colour, const char *text, bool wrapped
     ImGui::PopFont();
 }
 
-/* In a bar that has no room for it: small, in two lines. */
+/* In a bar without enough room: small, in two lines. */
 static bool text_in_lines(WrColour colour, const char *text, float room)
 {
     ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
@@ -172,7 +173,7 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_text_wrapped(WrFont font, WrColour colour, const char *text)
 try {
-    /* What is wrong is mostly put together, by rooms that know nothing of languages. */
+    /* Error messages are composed by modules without translations. */
     char said[WR_SENTENCE];
     const bool wrong = colour == WR_COLOUR_BAD && !wr_gui_current()->as_it_is;
     text_in(font, colour, wrong ? wr_sentence(text, said, sizeof said) : text, true);
@@ -185,7 +186,7 @@ try {
 }
 WR_CAUGHT()
 
-/* What is too long for its column in the small face too stands above its field. */
+/* A label too long even in the small font is placed above its field. */
 extern "C" void wr_gui_label(const char *text)
 try {
     ImGui::AlignTextToFramePadding();
@@ -214,8 +215,8 @@ extern "C" double wr_gui_line_height(WrFont font)
     return (double)wr_gui_size_of(wr_gui_current()->fonts[font]);
 }
 
-/* Seconds for which the pointer has been on the last item. The library's own timer begins anew in each frame on an item
- * that lies over another, as icons in rows do. */
+/* Seconds the pointer has been on the last item. ImGui's own timer restarts in each frame on an item that overlaps
+ * another, such as icons in rows. */
 static double rested()
 {
     WrGui *gui = wr_gui_current();
@@ -227,7 +228,8 @@ static double rested()
     return ImGui::GetTime() - gui->tip_since;
 }
 
-/* Has the pointer been on the last item for so long that its tip shows, or the ring round it, which has it by that name? */
+/* True if the pointer has rested on the last item long enough for its tip, or if the ring is on the item with that
+   identifier. */
 static bool wants_tip(ImGuiID id, const char *text)
 {
     if (text && wr_gui_tells_all) wr_gui_said(text);
@@ -240,8 +242,8 @@ static bool wants_tip(ImGuiID id, const char *text)
     return rests;
 }
 
-/* Beside a menu, where it covers no entry; left of the column along the right edge, where it covers neither the next field
-   nor the one before; under what has the ring, since the pointer is elsewhere. */
+/* Position of the tip: beside a menu, so that it covers no entry; left of the right panel, so that it covers no
+   neighbouring fields; below the item with the ring, since the pointer is elsewhere. */
 static void place_tip(bool focused)
 {
     const ImGuiWindow *window = ImGui::GetCurrentWindow();
@@ -276,7 +278,9 @@ void wr_gui_tip_of(ImGuiID id, const char *text)
 try {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     const bool grey = g.LastItemData.InFlags & ImGuiItemFlags_Disabled;
-    if (grey && wr_gui_current()->grey_why) return; /* that is what is told of all of it */
+    if (grey && wr_gui_current()->grey_why)
+        return; /* the common tip of the disabled group is
+                                                       shown */
     if (!wants_tip(id, text)) return;
     place_tip(wr_gui_focused(id));
     show_tip(text);
@@ -288,7 +292,7 @@ extern "C" void wr_gui_tip(const char *text)
     wr_gui_tip_of(ImGui::GetItemID(), text);
 }
 
-/* ---- grey, and why ---- */
+/* ---- disabled widgets and their tip ---- */
 
 extern "C" void wr_gui_hold(const char *why)
 {
@@ -311,7 +315,7 @@ try {
         return;
     }
     const ImGuiWindow *window = ImGui::GetCurrentWindow();
-    if (window->Pos.x > 0.5f * g.IO.DisplaySize.x) /* beside the column, as place_tip has it */
+    if (window->Pos.x > 0.5f * g.IO.DisplaySize.x) /* beside the panel, as in place_tip */
         ImGui::SetNextWindowPos(ImVec2(window->Pos.x - px(4), g.IO.MousePos.y), 0,
                                 ImVec2(1.0f, 0.5f));
     show_tip(why);
@@ -326,7 +330,7 @@ static bool chooser_moved()
            ImGui::IsWindowAppearing();
 }
 
-/* The arrows move along an open list, Return takes: the row that it took, or -1. */
+/* Arrow keys move along an open list, Return accepts: the accepted row, or -1. */
 static int choose_by_key(ImGuiID list, int count, int index)
 {
     WrGui *gui = wr_gui_current();
@@ -353,8 +357,8 @@ try {
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
     const float room = ImGui::CalcItemWidth() - 2 * padding.x;
     float said_wide = ImGui::CalcTextSize(now).x;
-    const bool tight = said_wide > room; /* then it is in the small face */
-    /* Drawn here: a face that is chosen across BeginCombo would be given back to the list's own window. */
+    const bool tight = said_wide > room; /* shown in the small font */
+    /* Drawn here: a font pushed across BeginCombo would be popped in the list's own window. */
     const ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
     if (tight) said_wide = small->CalcTextSizeA(small->FontSize, FLT_MAX, 0.0f, now).x;
     wr_gui_fits(now, said_wide, tight ? room + padding.x : room);
@@ -400,7 +404,7 @@ try {
 }
 WR_CAUGHT(false)
 
-/* Its words go on below where the line ends. */
+/* The text wraps to further lines below. */
 extern "C" bool wr_gui_check(const char *label, bool *value)
 try {
     char said[320], box[340];

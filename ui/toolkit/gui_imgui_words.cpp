@@ -1,4 +1,4 @@
-/* What widgets say: looked up, and looked at whether it has room. */
+/* Translation of widget texts, and reports of texts that are too wide. */
 #include "ui/toolkit/gui_imgui.h"
 
 #include <imgui_internal.h>
@@ -20,7 +20,7 @@ const char *wr_gui_said(const char *text)
     return wr_gui_current()->as_it_is ? text : wr_words(text);
 }
 
-/* In the place of a popup that is not open, where all is told. */
+/* Test mode: stand-in for a popup that is not open. */
 bool wr_gui_stands_in(const char *name)
 {
     if (!wr_gui_tells_all) return false;
@@ -61,7 +61,7 @@ void wr_gui_fits(const char *text, float width, float room)
         wr_gui_cut(text, (double)width, (double)room);
 }
 
-/* By the clip of the drawing, which is narrower than the window where it scrolls. */
+/* Uses the clip rectangle, which is narrower than the window if it scrolls. */
 void wr_gui_fits_window(const char *text)
 {
     if (!wr_gui_cut) return;
@@ -69,7 +69,7 @@ void wr_gui_fits_window(const char *text)
     if (window->SkipItems || window->HiddenFramesCanSkipItems > 0 ||
         window->HiddenFramesCannotSkipItems > 0)
         return;
-    if (window->Flags & ImGuiWindowFlags_AlwaysAutoResize) return; /* it grows */
+    if (window->Flags & ImGuiWindowFlags_AlwaysAutoResize) return; /* it grows with its content */
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     wr_gui_fits(text, high.x - low.x, window->ClipRect.Max.x - low.x);
 }

@@ -19,8 +19,8 @@ static bool same_colour(SDL_Color a, SDL_Color b)
     return a.r == b.r && a.g == b.g && a.b == b.b && a.a == b.a;
 }
 
-/* Two triangles that make an upright rectangle of one colour: its first corner is the upper left one, its third the lower
- * right one, and so is the texture's. */
+/* True for two triangles that form an axis-aligned rectangle of one colour: the first corner is the upper left one,
+ * the third the lower right one, and the same holds for the texture. */
 static bool is_rectangle(const WrGuiVertex *vertices, const uint16_t *indices)
 {
     if (indices[3] != indices[0] || indices[4] != indices[2]) return false;
@@ -34,7 +34,7 @@ static bool is_rectangle(const WrGuiVertex *vertices, const uint16_t *indices)
            c->v >= a->v;
 }
 
-/* The pixels whose middles lie inside, as two triangles would cover them. */
+/* Pixels whose centres lie inside, as two triangles would cover them. */
 static void make_fill(const WrGuiVertex *a, const WrGuiVertex *c, WrGuiPiece *piece)
 {
     int x0 = (int)ceilf(a->x - 0.5f), x1 = (int)ceilf(c->x - 0.5f);
@@ -43,7 +43,7 @@ static void make_fill(const WrGuiVertex *a, const WrGuiVertex *c, WrGuiPiece *pi
     piece->kind = x1 > x0 && y1 > y0 ? WR_GUI_FILL : WR_GUI_NOTHING;
 }
 
-/* A whole number that sums of fractions may have missed by a little. */
+/* Round a sum of fractions that may deviate slightly from an integer. */
 static int whole(float x)
 {
     return (int)floorf(x + 0.01f);
@@ -65,7 +65,7 @@ static bool make_copy(const WrGuiCommand *command, const WrGuiVertex *a, const W
     return true;
 }
 
-/* The pixels between the corners, and one more on each side. */
+/* Bounding box of the corners, enlarged by one pixel. */
 static void make_triangle(const WrGuiCommand *command, bool white, WrGuiPiece *piece)
 {
     const uint16_t *indices = command->indices + piece->first;
@@ -75,7 +75,7 @@ static void make_triangle(const WrGuiCommand *command, bool white, WrGuiPiece *p
         x0 = fminf(x0, at->x), x1 = fmaxf(x1, at->x);
         y0 = fminf(y0, at->y), y1 = fmaxf(y1, at->y);
     }
-    const float most = 1e6f; /* far beyond any window; NaN is nowhere */
+    const float most = 1e6f; /* far beyond any window; also excludes NaN */
     if (!(x0 > -most && y0 > -most && x1 < most && y1 < most)) return;
     const int left = (int)floorf(x0) - 1, top = (int)floorf(y0) - 1;
     piece->to = (SDL_Rect){ left, top, (int)ceilf(x1) + 1 - left, (int)ceilf(y1) + 1 - top };
@@ -151,7 +151,7 @@ void wr_gui_sdl_piece_draw(WrGuiPen *pen, const WrGuiCommand *command, const WrG
     }
 }
 
-/* SDL blends pixel by pixel even where nothing shines through. */
+/* Opaque fills skip blending, which SDL does for each pixel even at full alpha. */
 void wr_gui_sdl_fill(SDL_Renderer *renderer, const SDL_Rect *place, uint32_t argb)
 {
     const bool opaque = argb >> 24 == 255;
@@ -175,7 +175,7 @@ SDL_Texture *wr_gui_sdl_texture(SDL_Renderer *renderer, int width, int height, c
     return texture;
 }
 
-/* Counted over all textures, so that one that comes where another was is told from it. */
+/* The count is shared by all textures, so that a new texture at the same address has another revision. */
 void wr_gui_sdl_update(SDL_Texture *texture, const SDL_Rect *place, const void *pixels, int pitch)
 {
     static uintptr_t newest;

@@ -10,31 +10,31 @@
 
 typedef enum Kind { FILL, COPY, POINTS, PIECE } Kind;
 
-/* Something that is drawn. */
+/* A recorded operation. */
 typedef struct Item {
     Kind kind;
     uint32_t argb;
-    SDL_Rect box;     /* no pixel beyond it is touched */
-    WrGuiPiece piece; /* and of which command; of copies: `of` and `to` */
+    SDL_Rect box;     /* touches no pixel beyond */
+    WrGuiPiece piece; /* piece of a command; of copies: `of` and `to` */
     int command;
     SDL_Texture *texture;
-    int first, count; /* points */
+    int first, count; /* range of points */
 } Item;
 
 struct WrRetainedFrame {
     SDL_Renderer *renderer; /* borrowed */
-    SDL_Window *window;     /* borrowed; NULL: the renderer draws elsewhere */
-    WrDirtyRects *damage;   /* owned; NULL: all is drawn each time */
+    SDL_Window *window;     /* borrowed; NULL: the renderer draws to another target */
+    WrDirtyRects *damage;   /* owned; NULL: every frame is drawn completely */
     int width, height;      /* pixels */
-    volatile int lost;      /* atomic: what was put on the screen may be gone */
+    volatile int lost;      /* atomic: the presented pixels may be lost */
     WR_ARRAY(Item) items;
     WR_ARRAY(WrGuiCommand) commands;
     WR_ARRAY(SDL_Point) points;
-    WR_ARRAY(SDL_Rect) whole; /* scaled copies */
+    WR_ARRAY(SDL_Rect) whole; /* boxes of scaled copies */
     WrGuiPen pen;
 };
 
-/* What makes the system, or SDL, forget the window's pixels. */
+/* Events after which the system, or SDL, has lost the window's pixels. */
 static int SDLCALL watch(void *ctx, SDL_Event *event)
 {
     WrRetainedFrame *kept = ctx;
@@ -84,7 +84,7 @@ SDL_Renderer *wr_retained_frame_renderer(const WrRetainedFrame *kept)
     return kept->renderer;
 }
 
-/* ---- what is drawn ---- */
+/* ---- recording ---- */
 
 typedef struct Words {
     uint32_t word[32];
@@ -239,7 +239,7 @@ void wr_retained_frame_command(WrRetainedFrame *kept, const WrGuiCommand *comman
     }
 }
 
-/* ---- drawing it ---- */
+/* ---- drawing ---- */
 
 static void draw_item(WrRetainedFrame *kept, const Item *item)
 {
@@ -263,7 +263,7 @@ static void draw_item(WrRetainedFrame *kept, const Item *item)
     }
 }
 
-/* All that touches a rectangle, and only within it. */
+/* Draw all operations that touch a rectangle, clipped to it. */
 static void draw_within(WrRetainedFrame *kept, const SDL_Rect *room)
 {
     SDL_Rect clip = *room;
@@ -285,7 +285,7 @@ static void draw_within(WrRetainedFrame *kept, const SDL_Rect *room)
     SDL_RenderSetClipRect(kept->renderer, NULL);
 }
 
-/* Only what was drawn goes to the screen, where SDL has a way for that. */
+/* Present only the drawn rectangles, if SDL supports that. */
 static void put(WrRetainedFrame *kept, const SDL_Rect *rects, int count)
 {
     SDL_RenderFlush(kept->renderer);

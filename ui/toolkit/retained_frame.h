@@ -1,6 +1,6 @@
-/* retained_frame.h - the picture of the window. What is drawn is noted first; at the end only what is not as in the picture before
-   is drawn and put on the screen, where SDL draws by software: there each pixel counts. Elsewhere all of it is. The window's
-   thread alone. */
+/* retained_frame.h - retained frame of the window. Drawing operations are recorded; with SDL's software renderer,
+   where each pixel is expensive, only regions that changed since the previous frame are drawn and presented at the
+   end. With other renderers the whole frame is drawn. Window thread only. */
 #pragma once
 #include "ui/toolkit/gui_sdl.h"
 
@@ -10,33 +10,36 @@ extern "C" {
 
 typedef struct WrRetainedFrame WrRetainedFrame;
 
-WrRetainedFrame *wr_retained_frame_new(SDL_Renderer *renderer); /* which is borrowed */
-void wr_retained_frame_free(WrRetainedFrame *kept); /* before the renderer; NULL is fine */
+WrRetainedFrame *wr_retained_frame_new(SDL_Renderer *renderer); /* the renderer is borrowed */
+/* must be freed before the renderer; NULL is allowed */
+void wr_retained_frame_free(WrRetainedFrame *kept);
 SDL_Renderer *wr_retained_frame_renderer(const WrRetainedFrame *kept);
 
-/* Each of these is drawn on top of those before. Pixels of the window, colours 0xAARRGGBB; what is pointed at is copied,
-   but for textures. */
-void wr_retained_frame_clear(WrRetainedFrame *kept,
-                             uint32_t argb); /* a new picture begins, in one colour */
+/* Record an operation over the previous ones. Pixels of the window, colours 0xAARRGGBB; pointed-to data is copied,
+   except textures. */
+/* starts a frame with one colour */
+void wr_retained_frame_clear(WrRetainedFrame *kept, uint32_t argb);
 void wr_retained_frame_fill(WrRetainedFrame *kept, const SDL_Rect *place, uint32_t argb);
-/* Texels `of` (NULL: all) at `to`; the texture, which is borrowed, must last until the end. */
+/* Copy texels `of` (NULL: all) to `to`; the texture is borrowed and must stay valid until the end. */
 void wr_retained_frame_copy(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rect *of,
                             const SDL_Rect *to);
-/* The same, whose maker tells by wr_retained_frame_changed what changes in it, so that not all is drawn; scaled, all is. */
+/* Copy a texture whose owner reports changes by wr_retained_frame_changed, so that only these are redrawn; if scaled,
+   it is redrawn as a whole. */
 void wr_retained_frame_copy_told(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rect *of,
                                  const SDL_Rect *to);
-/* Such pixels within `place` of the window are others now; at any time, for the next end. */
+/* Report changed pixels of such a texture within `place` of the window; allowed at any time, takes effect at the next
+   end. */
 void wr_retained_frame_changed(WrRetainedFrame *kept, const SDL_Rect *place);
 void wr_retained_frame_points(WrRetainedFrame *kept, const SDL_Point *points, int count,
                               uint32_t argb);
-/* Of the widgets; what it borrows lasts until the next picture begins. */
+/* Record widgets; borrowed data must stay valid until the next frame begins. */
 void wr_retained_frame_command(WrRetainedFrame *kept, const WrGuiCommand *command);
 
-/* Draw it, and put it on the screen. */
+/* Draw and present the frame. */
 void wr_retained_frame_end(WrRetainedFrame *kept);
-/* What was noted is not drawn after all; the next picture is drawn whole. */
+/* Discard the recorded frame; the next one is drawn completely. */
 void wr_retained_frame_drop(WrRetainedFrame *kept);
-/* Draw all of the picture again, as noted, and put it on the screen: gives the pixels that are there. For tests. */
+/* Draw the whole recorded frame again and present it: the result must equal the displayed pixels. For tests. */
 void wr_retained_frame_draw_whole(WrRetainedFrame *kept);
 
 #ifdef __cplusplus

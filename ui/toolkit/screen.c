@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-/* A window's surface goes to the display without acceleration only where SDL's driver can do that: Wayland's, for
- * one, has no such way, and a window that insists on it is never shown. */
+/* True if SDL's driver can show a window surface without acceleration. Wayland's cannot, and a window that requires
+ * it is never shown. */
 static bool has_direct(const char *driver)
 {
     return driver && (strcmp(driver, "x11") == 0 || strcmp(driver, "dummy") == 0 ||

@@ -8,10 +8,10 @@
 #include <string.h>
 
 #define PARTS 6
-#define DEEPEST 4 /* sentences in sentences */
+#define DEEPEST 4 /* depth of nested sentences */
 
-/* The first that fits holds. %s stands for anything but nothing; what it is may be a sentence itself. What comes before a
-   colon is looked at last. */
+/* The first matching format counts. %s matches any text except an empty one, and the match may itself be a sentence.
+   Formats that start before a colon are tried last. */
 #define FORM(text) text
 static const char *const forms[] = {
     FORM("unknown command \"%s\": did you mean %s?"),
@@ -121,7 +121,7 @@ typedef struct Part {
     size_t length;
 } Part;
 
-/* What stands in the places of a form's %s. */
+/* Match a format; the parts are the texts at its %s. */
 static bool fits(const char *form, const char *text, size_t length, Part parts[PARTS])
 {
     const char *end = text + length;
@@ -161,7 +161,7 @@ static void put(Out *out, const char *text, size_t length)
 
 static bool say(const char *text, size_t length, int depth, Out *out);
 
-/* A translated form, with its parts in the places of %s, or of %2$s for the second. */
+/* Insert the parts into a translated format at %s, or at %2$s for the second. */
 static void fill(const char *form, const Part parts[PARTS], int depth, Out *out)
 {
     int next = 0;
@@ -176,7 +176,7 @@ static void fill(const char *form, const Part parts[PARTS], int depth, Out *out)
     }
 }
 
-/* False, and nothing is put, where there is no form for it. */
+/* False, without output, if no format matches. */
 static bool say(const char *text, size_t length, int depth, Out *out)
 {
     Part parts[PARTS];

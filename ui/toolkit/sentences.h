@@ -1,5 +1,5 @@
-/* sentences.h - what the program put together, an error or a note, in the user's language: found again by the form that it
-   was made of. What no form fits stays English, as do names, numbers and commands in it. One thread, the window's. */
+/* sentences.h - translation of composed messages (errors and notes). The message is matched against known format
+   strings; unmatched text stays English, as do names, numbers and commands inside. Window thread only. */
 #pragma once
 #include <stddef.h>
 
@@ -7,9 +7,10 @@
 extern "C" {
 #endif
 
-/* out: the caller's, size bytes, at least 1; where the sentence is too long it is cut between letters. Returns `out`. */
+/* out: buffer of the caller, size bytes, at least 1; longer sentences are truncated at a character boundary. Returns
+   `out`. */
 const char *wr_sentence(const char *english, char *out, size_t size);
-#define WR_SENTENCE 1200 /* bytes: room for the longest error */
+#define WR_SENTENCE 1200 /* bytes: enough for the longest error */
 
 #ifdef __cplusplus
 }

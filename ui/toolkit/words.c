@@ -1,5 +1,5 @@
-/* The .mo file as GNU gettext's manual has it ("The Format of GNU MO Files"): a header of words of 32 bits, two tables of
-   (length, place) for the originals, which are sorted, and for the translations, each text with a zero behind it. */
+/* Reader of .mo files as in GNU gettext's manual ("The Format of GNU MO Files"): a header of 32-bit words, two tables
+   of (length, offset) for the originals, which are sorted, and for the translations; each text ends with a zero. */
 #include "ui/toolkit/words.h"
 
 #include "base/error.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define MAGIC 0x950412deu
-#define MOST (8u << 20) /* bytes of a file */
+#define MOST (8u << 20) /* size limit of a file */
 
 const WrLanguage wr_languages[] = { { "", "As the system" },
                                     { "en", "English" },
@@ -23,7 +23,7 @@ const int wr_language_count = WR_LENGTH(wr_languages);
 void (*wr_words_missed)(const char *english);
 void (*wr_words_asked)(const char *english);
 
-/* ---- a file ---- */
+/* ---- catalogue file ---- */
 
 struct WrCatalogue {
     char *bytes; /* owned */
@@ -37,7 +37,7 @@ static uint32_t word_at(const char *bytes, size_t place)
     return word;
 }
 
-/* A table of texts lies within the file, and each text within it and ends where it says. */
+/* Check that a table of texts is inside the file, and that each text is inside and zero-terminated. */
 static bool is_table(const char *bytes, size_t size, uint32_t at, uint32_t count)
 {
     if (at > size || (size_t)count * 8 > size - at) return false;
@@ -74,7 +74,7 @@ static const char *text_at(const WrCatalogue *c, uint32_t table, uint32_t i)
 
 const char *wr_catalogue_find(const WrCatalogue *c, const char *english)
 {
-    if (!english[0]) return NULL; /* it stands for the head of the file */
+    if (!english[0]) return NULL; /* it is the header of the file */
     uint32_t low = 0, high = c->count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
@@ -112,7 +112,7 @@ const char *wr_words_of(const char *language, const char *all, const char *messa
 {
     const char *locale = said(all) ? all : said(messages) ? messages : said(lang);
     const bool plain = locale && (strcmp(locale, "C") == 0 || strcmp(locale, "POSIX") == 0);
-    if (plain) return "en"; /* LANGUAGE does not count there */
+    if (plain) return "en"; /* LANGUAGE is ignored in the C locale */
     for (const char *at = said(language); at && *at;) {
         const size_t length = strcspn(at, ":");
         const char *found = known(at, length);
@@ -123,15 +123,15 @@ const char *wr_words_of(const char *language, const char *all, const char *messa
     return found ? found : "en";
 }
 
-/* ---- what is spoken ---- */
+/* ---- present language ---- */
 
 static struct {
-    WrCatalogue *read[WR_LENGTH(wr_languages)]; /* kept: texts out of them may be held */
+    WrCatalogue *read[WR_LENGTH(wr_languages)]; /* never freed: their texts may be in use */
     bool tried[WR_LENGTH(wr_languages)];
-    int now; /* of wr_languages; 0: English */
+    int now; /* row of wr_languages; 0: English */
 } spoken;
 
-/* Beside the program in its build folder, or where it is installed. */
+/* From the build folder beside the program, or from its installation. */
 static WrCatalogue *read_file(const char *code)
 {
     static const char *const places[] = { "locale", "../share/locale" };
