@@ -22,7 +22,8 @@ typedef uint32_t WrColour; /* 0xAARRGGBB */
     X(OFF, 0xff5c5c5cu, 0xffacacacu, 0xff8a8a8au)   /* icons of states that are off */             \
     X(ACCENT, 0xff4a8fdcu, 0xff1f6fc4u, 0xffffd400u)                                               \
     X(SELECTED, 0xff3f6fa8u, 0xffa5cbf2u, 0xff0050c8u)                                             \
-    X(FILL, 0xff3a6290u, 0xffb5d3f3u, 0xff003c96u) /* filled part of a slider, below its value */  \
+    X(FILL, 0xff3a6290u, 0xffb5d3f3u,                                                              \
+      0xff003c96u) /* filled part of a slider's field, below its value */                          \
     X(FILL_HOT, 0xff42709fu, 0xffa0c6eeu, 0xff0050c8u)                                             \
     X(ROW_HOT, 0xff323232u, 0xffdfe6eeu, 0xff303030u)                                              \
     X(ROW_SELECTED, 0xff36475cu, 0xffc0dbf6u, 0xff0050c8u)                                         \
@@ -37,8 +38,10 @@ typedef uint32_t WrColour; /* 0xAARRGGBB */
     X(RAISE, 0xffc7772eu, 0xffb4560au, 0xffff9a3cu)                                                \
     X(LOWER, 0xff2e86b8u, 0xff17739fu, 0xff4cc2ffu)                                                \
     X(LEVEL, 0xff6f7a86u, 0xff6f7a86u, 0xffb0b8c0u) /* mode `to` */                                \
-    X(CELL, 0xffe8a25cu, 0xffa8540au, 0xffffb000u)  /* outline of the cell; warning text */        \
-    X(CHIP, 0xe0202020u, 0xe8f4f4f4u, 0xff000000u)  /* labels over the canvas or the patch */      \
+    X(CELL, 0xffe8a25cu, 0xffa8540au,                                                              \
+      0xffffb000u) /* outline of the cell; text of warnings in the window */                       \
+    X(CHIP, 0xe0202020u, 0xe8f4f4f4u,                                                              \
+      0xff000000u) /* background of labels over the canvas or the patch */                         \
     X(CHIP_HOT, 0xf0343434u, 0xf8ffffffu, 0xff303030u)                                             \
     X(BAD, 0xffe0694fu, 0xffb3261eu, 0xffff7a66u)     /* error message */                          \
     X(WARN, 0xffe8a25cu, 0xff4a2a00u, 0xffffb000u)    /* poor result */                            \
