@@ -16,27 +16,27 @@
 #include <math.h>
 #include <string.h>
 
-#define DIRTY_MAX 4096 /* tiles; more than that and the whole picture is made anew */
+#define DIRTY_MAX 4096 /* tiles; with more, the whole picture is redrawn */
 
 struct WrCanvas {
-    WrCanvasCells *cells[2]; /* of the second: slopes along v */
-    int fields;              /* that are shown together */
-    WrRetainedFrame *kept;   /* that is drawn for; borrowed */
+    WrCanvasCells *cells[2]; /* second component: slopes along v */
+    int fields;              /* number of fields shown together */
+    WrRetainedFrame *kept;   /* frame that is drawn into; borrowed */
     SDL_Texture *texture;
-    int width, height;          /* of pixels */
-    uint32_t *pixels;           /* [height][width], ARGB, not turned */
-    uint32_t *turned;           /* as the texture, where the view is turned; else NULL */
-    WrCellTaps *columns, *rows; /* [2][width], [2][height]: the second where copies are moved */
+    int width, height;          /* picture size */
+    uint32_t *pixels;           /* [height][width], ARGB, before rotation */
+    uint32_t *turned;           /* size of the texture, if the view is rotated; else NULL */
+    WrCellTaps *columns, *rows; /* [2][width], [2][height]: the second one for shifted copies */
     bool *moved_column,
-        *moved_row; /* [width], [height]: a copy that the tiling moves down, to the right */
-    float *line[2]; /* one row of cells: [tiles_u * side] */
-    float *value[2], *above; /* [width]: what a row's pixels hold, and that row before */
-    bool *needed;            /* [tiles_u] tile columns that a rectangle looks at */
+        *moved_row;          /* [width], [height]: the tiling shifts that copy down, to the right */
+    float *line[2];          /* sums of one cell row: [tiles_u * side] */
+    float *value[2], *above; /* [width]: values of the present row, and of the previous one */
+    bool *needed;            /* [tiles_u] tile columns used by a rectangle */
     WrCanvasInk ink;
-    WrCanvasView view, flat; /* of the picture held, and not turned */
+    WrCanvasView view, flat; /* view of the present picture, and without rotation */
     WrCanvasLook look;
     double low, high;
-    double follows[2]; /* the automatic range; empty: to be chosen anew */
+    double follows[2]; /* the automatic range; empty: to be chosen again */
     float table_low, table_high;
     bool valid, flooded;
     WR_ARRAY(SDL_Point) dirty; /* tiles */
@@ -105,7 +105,7 @@ double wr_canvas_contour_step(const WrCanvas *canvas)
 
 /* ---- the picture ---- */
 
-/* Along one axis: where copies stand, and half a cell before, which is what a copy shows that is moved. */
+/* Taps along one axis, and again shifted by half a cell for copies that the tiling shifts. */
 static void make_taps_along(WrCellTaps *taps, bool *moved, int count, bool reversed, double from,
                             double zoom, int size, int level, bool wraps)
 {
@@ -131,7 +131,7 @@ static void make_taps(WrCanvas *canvas, const WrField *field, int level)
                     level, wraps_v);
 }
 
-/* Add up the cell rows that one pixel row weighs, over the tile columns that are needed. */
+/* Weighted sum of the cell rows under one pixel row, over the needed tile columns. */
 static void make_line(WrCanvas *canvas, int field, const WrCellTaps *row, int tiles_u, int level,
                       double deadline)
 {
@@ -151,7 +151,7 @@ static void make_line(WrCanvas *canvas, int field, const WrCellTaps *row, int ti
     }
 }
 
-/* What pixels x0 to x1 of a row hold; NaN beyond the table. */
+/* Values of pixels x0 to x1 of a row; NaN beyond the table. */
 static void make_values(WrCanvas *canvas, const WrCellTaps *row, const WrCellTaps *columns, int x0,
                         int x1, int tiles_u, int level, double deadline)
 {
@@ -168,7 +168,7 @@ static void make_values(WrCanvas *canvas, const WrCellTaps *row, const WrCellTap
     }
 }
 
-/* above: canvas->above holds the row before. */
+/* above: canvas->above contains the previous row. */
 static void paint_line(WrCanvas *canvas, const WrCellTaps *columns, int x0, int x1, bool above,
                        uint32_t *out)
 {
@@ -182,7 +182,7 @@ static void paint_line(WrCanvas *canvas, const WrCellTaps *columns, int x0, int 
         if (columns[x].outside) out[x] = WR_COLOUR_SURROUND;
 }
 
-/* For the next row, whose contours look at this one. */
+/* Keep the row for the contours of the next one. */
 static void keep_above(WrCanvas *canvas)
 {
     float *value = canvas->value[0];
@@ -190,21 +190,21 @@ static void keep_above(WrCanvas *canvas)
     canvas->above = value;
 }
 
-/* The tile columns that columns x0 to x1 look at. */
+/* Mark the tile columns used by pixel columns x0 to x1. */
 static void need(WrCanvas *canvas, const WrCellTaps *columns, int x0, int x1, int shift)
 {
     for (int x = x0; x < x1; x++)
         for (int k = 0; k < WR_TAPS; k++) canvas->needed[columns[x].cell[k] >> shift] = true;
 }
 
-/* Columns x0 to x1 of a rectangle, by one set of rows. */
+/* Paint columns x0 to x1 of a rectangle with one set of rows. */
 static void paint_run(WrCanvas *canvas, SDL_Rect rect, int x0, int x1, const WrCellTaps *rows,
                       const WrField *field, int level, double deadline)
 {
     int tiles_u = wr_field_tiles_u(field), shift = 6 - level, left = x0 > 0 ? x0 - 1 : 0;
     bool brick = canvas->flat.tiling == WR_TILING_BRICK;
     bool lined = canvas->look.colours == WR_CANVAS_CONTOURS, above = false;
-    int first = lined && rect.y > 0 ? rect.y - 1 : rect.y; /* lines look at the row above */
+    int first = lined && rect.y > 0 ? rect.y - 1 : rect.y; /* contours need the previous row */
     size_t bytes = (size_t)(x1 - x0) * sizeof *canvas->pixels;
     memset(canvas->needed, 0, (size_t)tiles_u * sizeof *canvas->needed);
     need(canvas, canvas->columns, left, x1, shift);
@@ -229,7 +229,7 @@ static void paint_run(WrCanvas *canvas, SDL_Rect rect, int x0, int x1, const WrC
     }
 }
 
-/* What was painted goes to the texture, turned if the view is. */
+/* Copy painted pixels to the texture, rotated if the view is. */
 static void put(WrCanvas *canvas, SDL_Rect rect)
 {
     const WrCanvasView *view = &canvas->view;
@@ -264,7 +264,7 @@ static void paint_rect(WrCanvas *canvas, SDL_Rect rect, const WrField *field, in
     put(canvas, rect);
 }
 
-/* ---- what changed ---- */
+/* ---- changes ---- */
 
 static void note_dirty(int tx, int ty, void *ctx)
 {
@@ -276,7 +276,7 @@ static void note_dirty(int tx, int ty, void *ctx)
     wr_array_push(&canvas->dirty, ((SDL_Point){ tx, ty }));
 }
 
-/* Paint every copy of one tile that is in view. */
+/* Paint all visible copies of one tile. */
 static void paint_tile(WrCanvas *canvas, SDL_Point tile, const WrField *field, int level,
                        double deadline)
 {
@@ -290,7 +290,7 @@ static void paint_tile(WrCanvas *canvas, SDL_Point tile, const WrField *field, i
             wr_view_tiling_shift(v, i, j, &dx, &dy);
             double x = i * w + tile.x * WR_TILE + dx - left,
                    y = j * h + tile.y * WR_TILE + dy - top;
-            /* two pixels more on each side: footprints overlap the tile's edge, and lines look at their neighbours */
+            /* two more pixels on each side: footprints overlap the tile's edge, and contours depend on neighbours */
             int x0 = (int)floor(x * z) - 2, x1 = (int)ceil((x + tw) * z) + 2;
             int y0 = (int)floor(y * z) - 2, y1 = (int)ceil((y + th) * z) + 2;
             const int width = x1 - x0;
@@ -335,7 +335,7 @@ static bool make_buffers(WrCanvas *canvas, const WrCanvasView *view, int cells)
     return true;
 }
 
-/* They are there, for this size of the view, of the picture before it is turned, and of the table's rows. */
+/* True if the buffers exist for this size of the view, of the picture before rotation, and of the table's rows. */
 static bool has_buffers(const WrCanvas *canvas, const WrCanvasView *view)
 {
     const WrCanvasView flat = wr_view_flat(view);
@@ -354,7 +354,7 @@ static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, WrRangeHold
         memcpy(shown, canvas->follows, sizeof shown);
     }
     double low = shown[0], high = shown[1];
-    if (!(high - low > 1e-30)) high = low + 1e-30; /* never divide by nothing */
+    if (!(high - low > 1e-30)) high = low + 1e-30; /* avoids a division by zero */
     if (low != canvas->low || high != canvas->high || look->colours != canvas->look.colours ||
         look->marks != canvas->look.marks || look->light_x != canvas->look.light_x ||
         look->light_y != canvas->look.light_y)
@@ -365,7 +365,7 @@ static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, WrRangeHold
     if (!canvas->valid) wr_canvas_ink_make(&canvas->ink, look, low, high);
 }
 
-/* Bring the cells of both fields up to date. True: all may be different. */
+/* Update the cells of both fields. True if everything may have changed. */
 static bool look_at(WrCanvas *canvas, const WrField *field, const WrField *second, int level)
 {
     const WrField *fields[2] = { field, second };

@@ -1,5 +1,5 @@
-/* canvas.h - the picture of the table on the canvas: grey or false colour, repeated in all directions,
-   box-filtered at every zoom, kept in a texture of which only what changed is made anew. */
+/* canvas.h - picture of the table on the canvas: grey or false colour, tiled in all directions, box-filtered at every
+   zoom. Only changed parts of its texture are redrawn. */
 #pragma once
 #include "ui/canvas/canvas_range.h"
 #include "ui/canvas/view.h"
@@ -16,13 +16,13 @@ typedef struct WrCanvas WrCanvas;
 typedef enum WrCanvasColours {
     WR_CANVAS_GREY,
     WR_CANVAS_SIGNED,
-    WR_CANVAS_CONTOURS, /* lines of equal height */
-    WR_CANVAS_RELIEF,   /* slopes, lit */
-    WR_CANVAS_NORMALS,  /* slopes, as a normal map has them */
+    WR_CANVAS_CONTOURS, /* contour lines */
+    WR_CANVAS_RELIEF,   /* shaded relief */
+    WR_CANVAS_NORMALS,  /* colours of a normal map */
     WR_CANVAS_COLOURS
 } WrCanvasColours;
 
-/* What is shown: the table, or a map of it (canvas_map.h). */
+/* Displayed content: the table, or a map of it (canvas_map.h). */
 typedef enum WrCanvasShown {
     WR_CANVAS_HEIGHTS,
     WR_CANVAS_OCCLUSION,
@@ -30,40 +30,41 @@ typedef enum WrCanvasShown {
     WR_CANVAS_CURVATURE,
     WR_CANVAS_SLOPE,
     WR_CANVAS_ROUGHNESS,
-    WR_CANVAS_LIT,  /* its slopes along u and v */
-    WR_CANVAS_BENT, /* the same, as normals */
+    WR_CANVAS_LIT,  /* its slopes along u and v, as shaded relief */
+    WR_CANVAS_BENT, /* its slopes as normals */
     WR_CANVAS_SHOWN
 } WrCanvasShown;
 
 typedef struct WrCanvasLook {
     WrCanvasShown shown;
     WrCanvasColours colours; /* of heights; SIGNED: blue below zero, white at zero, orange above */
-    bool automatic;          /* low and high follow the table (canvas_range.h) */
-    bool marks;              /* what lies beyond them is tinted: warm above, cool below */
-    double low, high;        /* heights shown as black and white; low < high */
-    double light_x, light_y; /* of a relief: to the right and up, of a unit vector towards it */
+    bool automatic;          /* low and high are adjusted to the table (canvas_range.h) */
+    bool marks;              /* tint heights beyond the range: warm above, cool below */
+    double low, high;        /* heights displayed as black and white; low < high */
+    /* of shaded relief: right and up components of the unit vector towards the light */
+    double light_x, light_y;
 } WrCanvasLook;
 
 typedef struct WrCanvasRange {
-    double low, high;             /* shown as black and white */
-    double table_low, table_high; /* that there are */
+    double low, high;             /* values displayed as black and white */
+    double table_low, table_high; /* range of the table */
 } WrCanvasRange;
 
 WrCanvas *wr_canvas_new(void);
-void wr_canvas_free(WrCanvas *canvas); /* before the renderer; NULL is fine */
+void wr_canvas_free(WrCanvas *canvas); /* must be freed before the renderer; NULL is allowed */
 
-/* Heights between two of its lines. */
+/* Height difference between two contour lines. */
 double wr_canvas_contour_step(const WrCanvas *canvas);
 
-/* Bring the picture up to date and draw it into the view's rectangle. Takes at most about `budget`
- * seconds for the means of large tables; true if it would be better with another call. second: slopes along v, where `field`
- * holds those along u; else NULL. kept: borrowed until the next call. hold: of an automatic range. */
+/* Update the picture and draw it into the view's rectangle. Averaging large tables takes at most about `budget`
+ * seconds; true if another call would improve the picture. second: slopes along v, if `field` holds those along u;
+ * else NULL. kept: borrowed until the next call. hold: mode of the automatic range. */
 bool wr_canvas_draw(WrCanvas *canvas, WrRetainedFrame *kept, const WrCanvasView *view,
                     const WrField *field, const WrField *second, const WrCanvasLook *look,
                     WrRangeHold hold, double budget, WrCanvasRange *range);
-/* The automatic range becomes the table's own with the next picture. */
+/* Reset the automatic range to the table's own with the next picture. */
 void wr_canvas_fit_range(WrCanvas *canvas);
-/* The colour of a height, 0xffRRGGBB, as in the last picture. */
+/* The colour of a height in the last picture, 0xffRRGGBB. */
 uint32_t wr_canvas_colour(const WrCanvas *canvas, double height);
-/* The renderer lost its textures: make them anew. */
+/* The renderer lost its textures: create them again. */
 void wr_canvas_forget(WrCanvas *canvas);

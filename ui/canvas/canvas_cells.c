@@ -8,10 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-#define CACHE_LIMIT (96u << 20) /* bytes of means; beyond it the cache starts anew */
+/* size limit of the means in bytes; beyond it the cache is cleared */
+#define CACHE_LIMIT (96u << 20)
 
 typedef struct Block {
-    float *mean; /* owned; NULL until looked at (and always at level 0) */
+    float *mean; /* owned; NULL until first used (and always at level 0) */
     bool rough;
 } Block;
 
@@ -19,13 +20,13 @@ struct WrCanvasCells {
     WrField *field; /* shared */
     int level, tiles_u, tiles_v;
     Block *blocks;               /* [tiles_v * tiles_u] */
-    size_t bytes;                /* of means */
-    bool rough;                  /* some block that was handed out is */
-    float *tile_low, *tile_high; /* [tiles_v * tiles_u]; NULL until the range is asked for */
+    size_t bytes;                /* size of the means */
+    bool rough;                  /* some returned block was rough */
+    float *tile_low, *tile_high; /* [tiles_v * tiles_u]; NULL until the range is requested */
     bool *tile_known;
-    float *row_low, *row_high; /* the same of each row of tiles, [tiles_v] */
-    bool *row_known;           /* all of its tiles are */
-    WrTileVisitor changed;     /* of the look under way */
+    float *row_low, *row_high; /* ranges of the rows of tiles, [tiles_v] */
+    bool *row_known;           /* the range of each of its tiles is known */
+    WrTileVisitor changed;     /* callback of the running update */
     void *ctx;
 };
 
@@ -107,7 +108,7 @@ bool wr_cells_look(WrCanvasCells *cells, const WrField *field, int level, WrTile
     return !another;
 }
 
-/* Means over squares of 2^level texels; squares at the table's edge count only texels inside it. */
+/* Means over squares of 2^level texels; squares at the table's edge contain only texels inside. */
 static void make_means(const WrCanvasCells *cells, int tx, int ty, const float *tile, float *mean)
 {
     int step = 1 << cells->level, side = WR_TILE >> cells->level;
@@ -119,7 +120,7 @@ static void make_means(const WrCanvasCells *cells, int tx, int ty, const float *
         int y0 = j * step, y1 = y0 + step < h ? y0 + step : h;
         for (int i = 0; i < side; i++) {
             int x0 = i * step, x1 = x0 + step < w ? x0 + step : w;
-            if (x0 >= x1 || y0 >= y1) continue; /* never looked at */
+            if (x0 >= x1 || y0 >= y1) continue; /* never used */
             float sum = 0.0f;
             for (int y = y0; y < y1; y++)
                 for (int x = x0; x < x1; x++) sum += tile[WR_TILE * y + x];
@@ -128,7 +129,7 @@ static void make_means(const WrCanvasCells *cells, int tx, int ty, const float *
     }
 }
 
-/* One texel in place of each mean: its first, which is always inside the table. */
+/* One texel in place of each mean: the first, which is always inside the table. */
 static void make_rough(const WrCanvasCells *cells, const float *tile, float *mean)
 {
     int step = 1 << cells->level, side = WR_TILE >> cells->level;
@@ -203,7 +204,7 @@ static void make_ranges(WrCanvasCells *cells)
     cells->row_high = wr_alloc(rows, sizeof(float));
 }
 
-/* Of the tiles of one row, those that changed looked at again. */
+/* Update the range of a row from its changed tiles. */
 static void row_range(WrCanvasCells *cells, int ty)
 {
     float low = INFINITY, high = -INFINITY;

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#define BEYOND 0.01f /* of a code: so far off it counts as beyond */
-#define MAJOR 5      /* every so many contours one is stronger */
-#define LINES 10     /* about so many over the range */
+#define BEYOND 0.01f /* of a code: tolerance before a value counts as beyond the range */
+#define MAJOR 5      /* every fifth contour is a major one */
+#define LINES 10     /* approximate number over the range */
 
 static uint32_t mix(const double a[3], const double b[3], double t)
 {
@@ -23,7 +23,7 @@ static void make_marks(WrCanvasInk *ink, bool marks)
                                               : 0xfff0b070u;
 }
 
-/* Under contours the greys are lighter and nearer to each other, so that the lines stand out. */
+/* With contours the greys are lighter and of lower contrast, so that the lines are visible. */
 static uint32_t grey_of(int code, bool lined)
 {
     uint32_t g = lined ? (uint32_t)(110 + code * 130 / 255) : (uint32_t)code;
@@ -46,7 +46,7 @@ static void make_palette(WrCanvasInk *ink, bool marks)
     make_marks(ink, marks);
 }
 
-/* What is level stays a middle grey whatever the light, so that dents and bumps have room. */
+/* A level surface is middle grey for any light, so that there is room for darker and lighter slopes. */
 static void make_tones(WrCanvasInk *ink)
 {
     double level = fmax((double)ink->light[2], 0.05), gamma = log(0.55) / log(level);
@@ -86,7 +86,7 @@ static int code_of(float scaled)
     if (scaled < -BEYOND) return WR_CANVAS_INK_CODES;
     if (scaled > WR_CANVAS_INK_CODES - 1 + BEYOND) return WR_CANVAS_INK_CODES + 1;
     float code = scaled + 0.5f;
-    code = code > 0.0f ? code : 0.0f; /* NaN too */
+    code = code > 0.0f ? code : 0.0f; /* also maps NaN to 0 */
     return (int)(code < WR_CANVAS_INK_CODES - 1 ? code : WR_CANVAS_INK_CODES - 1);
 }
 
@@ -96,7 +96,8 @@ uint32_t wr_canvas_ink_colour(const WrCanvasInk *ink, double height)
         (float)((height - ink->low) * (WR_CANVAS_INK_CODES - 1) / (ink->high - ink->low)))];
 }
 
-/* Of the contour between two steps; 0: they are the same, or one is NaN. The stronger wins: zero, then every fifth. */
+/* Colour of the contour between two steps; 0: the steps are equal, or one is NaN. Zero has priority, then every
+   fifth. */
 static uint32_t line_between(double a, double b)
 {
     double low = fmin(a, b), high = fmax(a, b);

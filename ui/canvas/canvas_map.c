@@ -9,18 +9,18 @@
 
 #include <string.h>
 
-#define BATCH 64 /* tiles that are made before they are put into the table */
+#define BATCH 64 /* tiles computed before they are stored in the table */
 
-/* What a map was made of. */
+/* Inputs of a map. */
 typedef struct Made {
-    WrField *source; /* shared; NULL: nothing yet */
+    WrField *source; /* shared; NULL: none yet */
     WrField *map;
     WrFieldMapKind kind;
-    WrMapJob job; /* its field: NULL */
+    WrMapJob job; /* its field is NULL */
 } Made;
 
 typedef struct Work {
-    Made made;   /* of the source that it has; its map is the old one until all tiles are made */
+    Made made;   /* of the map's source; the map is the old one until all tiles are done */
     bool *dirty; /* [tiles] */
     int tiles_u, tiles_v;
     bool good;
@@ -47,7 +47,7 @@ static void drop(void *arg)
     wr_free(work);
 }
 
-/* ---- on the job's thread ------------------------------------------------------------------------- */
+/* ---- on the worker thread ------------------------------------------------------------------------ */
 
 typedef struct Batch {
     const Work *work;
@@ -109,7 +109,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     wr_free(batch);
 }
 
-/* ---- the window's side --------------------------------------------------------------------------- */
+/* ---- on the window's thread ---------------------------------------------------------------------- */
 
 WrCanvasMap *wr_canvas_map_new(int threads, Uint32 done_event)
 {
@@ -135,13 +135,14 @@ static bool same_job(const WrMapJob *a, const WrMapJob *b)
            a->sigma == b->sigma && a->box == b->box && a->base == b->base;
 }
 
-/* A tile of the table changed: those whose texels lie within `support` of it are dirty. */
+/* Dirty tiles for a changed tile of the table: those with texels within `support` of it. */
 typedef struct Spread {
     Work *work;
     int support, w, h;
 } Spread;
 
-/* Marks along one axis: from, and how many. A tile at the end may be a small one, beyond which more are reached. */
+/* Range of dirty tiles along one axis: first and count. The last tile may be small, so that the support reaches
+   beyond it. */
 static void reach(int tile, int support, int size, int tiles, int *from, int *count)
 {
     const int end = (tile + 1) * WR_TILE < size ? (tile + 1) * WR_TILE : size;
@@ -150,7 +151,7 @@ static void reach(int tile, int support, int size, int tiles, int *from, int *co
         *from = 0, *count = tiles;
         return;
     }
-    /* in texels of the periodic axis; on a clamped one a few tiles more do no harm */
+    /* in texels of the periodic axis; on a clamped one a few more tiles are harmless */
     low = (low + size) % size, high %= size;
     *from = low / WR_TILE;
     *count = high / WR_TILE - *from + 1;
@@ -170,7 +171,7 @@ static void note_change(int tx, int ty, void *ctx)
             work->dirty[(y + j) % work->tiles_v * work->tiles_u + (x + i) % work->tiles_u] = true;
 }
 
-/* What has to be made so that the map is one of this table. */
+/* The work needed to update the map to this table. */
 static Work *work_for(WrCanvasMap *map, const WrField *field, WrFieldMapKind kind,
                       const WrMapJob *job)
 {
@@ -221,7 +222,7 @@ const WrField *wr_canvas_map_bring(WrCanvasMap *map, const WrField *field, WrFie
     WrMapJob plain = *job;
     plain.ground.field = NULL;
     take(map);
-    /* One at a time, so that what is painted without a pause is seen too. */
+    /* One job at a time, so that continuous painting still shows intermediate results. */
     if (!is_of(&map->made, field, kind, &plain) && !wr_job_busy(map->job, NULL, NULL))
         wr_job_start(map->job, work_for(map, field, kind, &plain));
     const bool shown =

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define LEVEL_REACH 0.5  /* heights from zero that a level table shows, at least */
-#define ROOM 0.25        /* more than it must, as a part of the range */
-#define USED_LEAST 0.125 /* of the range by the table */
+#define LEVEL_REACH 0.5  /* least range on each side of zero for a level table */
+#define ROOM 0.25        /* margin, as a fraction of the range */
+#define USED_LEAST 0.125 /* least used fraction of the range */
 #define SLIGHT                                                                                     \
-    0.25 /* dents that are so much shallower than the bumps are high do not cost half of the greys */
+    0.25 /* if dents are much shallower than bumps are high, they must not take half of the greys */
 
 static void own_range(double range[2], double low, double high)
 {

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#define PARTS 256 /* of a pixel, in the weights */
+#define PARTS 256 /* subdivisions of a pixel in the weights */
 
 typedef struct Turn {
     double c, s;
@@ -19,7 +19,7 @@ static Turn turn_of(double degrees)
     return turn;
 }
 
-/* a + (b - a) t / PARTS of all four channels, two at a time. */
+/* a + (b - a) t / PARTS for all four channels, two at a time. */
 static uint32_t blend(uint32_t a, uint32_t b, uint32_t t)
 {
     const uint32_t mask = 0x00ff00ffu;
@@ -33,7 +33,7 @@ static int within(int at, int size)
     return at < 0 ? 0 : at >= size ? size - 1 : at;
 }
 
-/* Places are whole numbers of 2^-32 of a pixel: quarters are exact, rows do not drift. */
+/* Positions are integers in units of 2^-32 pixel: quarter turns are exact, and rows do not drift. */
 #define FIXED 4294967296.0
 
 typedef struct Source {
@@ -62,7 +62,8 @@ void wr_canvas_turn(const uint32_t *from, int from_w, int from_h, uint32_t *to, 
     const int64_t step_x = llrint(t.c * FIXED), step_y = llrint(-t.s * FIXED);
     for (int j = rect.y; j < rect.y + rect.h; j++) {
         const double dx = rect.x + 0.5 - to_w / 2.0, dy = j + 0.5 - to_h / 2.0;
-        const double half = 0.5 - 0.5 / PARTS; /* of a pixel, and rounding to the nearest part */
+        /* half a pixel, and rounding to the nearest subdivision */
+        const double half = 0.5 - 0.5 / PARTS;
         int64_t x = llrint((t.c * dx + t.s * dy + from_w / 2.0 - half) * FIXED);
         int64_t y = llrint((t.c * dy - t.s * dx + from_h / 2.0 - half) * FIXED);
         uint32_t *out = to + (size_t)j * (size_t)to_w + (size_t)rect.x;

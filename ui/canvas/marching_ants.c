@@ -7,7 +7,7 @@
 #include <SDL.h>
 #include <math.h>
 
-#define COPIES_MAX 4096 /* of a line: a cell may be a pixel wide */
+#define COPIES_MAX 4096 /* copies of a line: a cell may be one pixel wide */
 
 typedef struct Spot {
     double x, y;  /* pixels */
@@ -21,7 +21,7 @@ void wr_marching_ants_free(WrMarchingAnts *ants)
     wr_array_free(&ants->pixels);
 }
 
-/* The part t0..t1 of a segment that lies in low..high along one axis; false: none. */
+/* Parameters t0..t1 of the part of a segment inside low..high along one axis; false: none. */
 static bool clip(double from, double to, double low, double high, double *t0, double *t1)
 {
     double d = to - from;
@@ -33,7 +33,7 @@ static bool clip(double from, double to, double low, double high, double *t0, do
     return *t0 <= *t1;
 }
 
-/* The pixels of one segment inside the view, the last one left to the next segment. */
+/* Pixels of one segment inside the view; the last pixel belongs to the next segment. */
 static void add_segment(WrMarchingAnts *ants, const WrCanvasView *view, Spot a, Spot b)
 {
     double t0 = 0.0, t1 = 1.0;
@@ -54,7 +54,7 @@ static void add_segment(WrMarchingAnts *ants, const WrCanvasView *view, Spot a, 
     }
 }
 
-/* The line in pixels where it stands, points nearer than half a pixel left out, closed. */
+/* The closed line in pixels at its own position, without points closer than half a pixel. */
 static void to_pixels(const WrSelectPoint *points, int count, int wind_u, int wind_v,
                       const WrCanvasView *view, Spots *spots)
 {
@@ -75,7 +75,7 @@ static void to_pixels(const WrSelectPoint *points, int count, int wind_u, int wi
     }
 }
 
-/* The copies to try along one axis: those that are seen, moved by the line's own reach in cells. */
+/* Range of copies along one axis: the visible ones, extended by the line's own size in cells. */
 static void copies(int from, int to, double low, double high, bool wraps, int *first, int *last)
 {
     *first = *last = 0;
@@ -84,7 +84,7 @@ static void copies(int from, int to, double low, double high, bool wraps, int *f
     *last = to - (int)floor(low);
 }
 
-/* The line's box in pixels. */
+/* Bounding box of the line in pixels. */
 static void box_of(const Spots *spots, double box[4])
 {
     box[0] = box[2] = INFINITY;
@@ -120,7 +120,7 @@ void wr_marching_ants_add(WrMarchingAnts *ants, const WrSelectPoint *points, int
                           int wind_v, const WrCanvasView *view, bool wraps_u, bool wraps_v)
 {
     Spots spots = { 0 };
-    if (count < 1) return; /* one is enough for a straight line round the table */
+    if (count < 1) return; /* one is enough for a straight line around the table */
     to_pixels(points, count, wind_u, wind_v, view, &spots);
     double box[4], low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
     box_of(&spots, box);

@@ -35,9 +35,9 @@ static void drop(void *arg)
     wr_free(work);
 }
 
-/* ---- on the job's thread ---- */
+/* ---- on the worker thread ---- */
 
-/* As the select command makes it, with its default relief. */
+/* Selection by slope as in the select command, with the default height scale. */
 static WrField *by_slope(const Work *work, const WrField *field, WrPool *pool)
 {
     double relief = fabs(work->document->scene->height) * wr_field_width(field);
@@ -80,7 +80,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     wr_field_free(selection);
 }
 
-/* ---- the window's side ---- */
+/* ---- on the window's thread ---- */
 
 WrOutliner *wr_outliner_new(int threads, Uint32 done_event)
 {

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#define NOTHING 0x48 /* grey of what a layer says nothing about */
+#define NOTHING 0x48 /* grey of uncovered areas */
 
 static float texel(const WrField *field, double u, double v)
 {
@@ -13,7 +13,7 @@ static float texel(const WrField *field, double u, double v)
     return wr_field_get(field, i < w ? i : w - 1, j < h ? j : h - 1);
 }
 
-/* Mean of four texels of pixel (x, y). */
+/* Mean of four texels for pixel (x, y). */
 static float pixel(const WrField *field, int x, int y, int side)
 {
     double sum = 0.0;

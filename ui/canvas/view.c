@@ -152,7 +152,7 @@ void wr_view_to_uv(const WrCanvasView *view, double px, double py, double *u, do
     *v = 1.0 - y / view->table_h;
 }
 
-/* Move the centre so that the place `x`, `y`, as if copies stood straight, is under the pixel. */
+/* Move the centre so that the position `x`, `y`, ignoring the tiling's shifts, is under the pixel. */
 static void put_under(WrCanvasView *view, double px, double py, double x, double y)
 {
     double after_x, after_y;
@@ -190,7 +190,7 @@ void wr_view_pan(WrCanvasView *view, double dx, double dy)
 
 void wr_view_keep_near(WrCanvasView *view)
 {
-    /* what moves every other copy is the same again after two */
+    /* a tiling that shifts every other copy has a period of two copies */
     double w = view->tiling == WR_TILING_HALF_DROP ? 2.0 * view->table_w : view->table_w;
     double h = view->tiling == WR_TILING_BRICK ? 2.0 * view->table_h : view->table_h;
     view->centre_x -= floor(view->centre_x / w) * w;

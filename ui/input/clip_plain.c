@@ -1,4 +1,4 @@
-/* No pictures: what a system gets whose clipboard nobody has written a file for, in the place of clip_x11.c. */
+/* Fallback for clip_x11.c on other systems: no pictures. */
 #include "ui/input/clip.h"
 
 bool wr_clip_picture(char **bytes, size_t *length, const char **ending)

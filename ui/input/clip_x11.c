@@ -1,5 +1,5 @@
-/* Pictures of the X server's clipboard, on a connection of our own: SDL's would take our events. What is large comes
-   in pieces (INCR of the Inter-Client Communication Conventions Manual, section 2.7.2). */
+/* Pictures from the X server's clipboard, on a separate connection, since SDL's would take our events. Large data
+   arrives in pieces (INCR of the Inter-Client Communication Conventions Manual, section 2.7.2). */
 #include "ui/input/clip.h"
 
 #include "base/array.h"
@@ -19,12 +19,12 @@ typedef WR_ARRAY(char) Bytes;
 typedef struct Asking {
     Display *display;
     Window window;
-    Atom clipboard, type, incr, property; /* type: of the picture that is asked for */
+    Atom clipboard, type, incr, property; /* type: of the requested picture */
     double until;
     Bytes got;
 } Asking;
 
-/* The next event of that type that is about our property. */
+/* The next event of that type for our property. */
 static bool wait_for(Asking *ask, int type, XEvent *event)
 {
     while (wr_clock_seconds() < ask->until) {
@@ -34,13 +34,14 @@ static bool wait_for(Asking *ask, int type, XEvent *event)
                 return true;
             continue;
         }
-        SDL_PumpEvents(); /* where we hold it, SDL answers that we have no picture */
+        /* if this program owns the clipboard, SDL answers that there is no picture */
+        SDL_PumpEvents();
         SDL_Delay(2);
     }
     return false;
 }
 
-/* What the property holds is appended, and the property removed, which asks for the next piece. */
+/* Append the property's content and delete the property, which requests the next piece. */
 static bool take(Asking *ask, Atom *type, unsigned long *count)
 {
     unsigned char *data = NULL;
@@ -84,10 +85,10 @@ static bool ask(Asking *ask)
     return take_all(ask);
 }
 
-/* What the clipboard is asked for, the best first: a name of the format, a file's ending and first bytes. */
+/* Requested formats, best first: MIME type, file extension and first bytes. */
 static const struct {
     const char *type, *ending, *magic;
-    int length; /* of magic */
+    int length; /* length of magic */
 } formats[] = { { "image/png", "png", "\x89PNG\r\n\x1a\n", 8 },
                 { "image/tiff", "tif", "II*\0", 4 },
                 { "image/tiff", "tif", "MM\0*", 4 },
@@ -104,7 +105,7 @@ static bool is_format(const Bytes *bytes, int i)
            memcmp(bytes->data, formats[i].magic, (size_t)formats[i].length) == 0;
 }
 
-/* Asks for the formats in turn. The index of the one that came, -1: none. */
+/* Request the formats in turn. Index of the received one, -1: none. */
 static int ask_all(Asking *asking)
 {
     for (int i = 0; i < FORMATS; i++) {

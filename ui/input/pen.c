@@ -1,5 +1,4 @@
-/* The queue of pen events, and what becomes of a device's numbers. Where they come from is pen_x11.c,
-   pen_finger.c and pen_record.c. */
+/* Queue of pen events, and calibration of device values. The sources are pen_x11.c, pen_finger.c and pen_record.c. */
 #include "ui/input/pen.h"
 #include "ui/toolkit/words.h"
 #include "ui/input/pen_curve.h"
@@ -14,15 +13,16 @@
 #include <math.h>
 #include <string.h>
 
-#define ECHO_SECONDS 0.1  /* mouse events this long after a pen's are its echo */
-#define RANGE_SECONDS 1.0 /* a pen that was heard of so lately is near */
-#define MARKS_MOST 512    /* keys and buttons that nobody asked about */
-#define STILL_EVENTS 8    /* with the tip down and the same pressure: it does not work */
+#define ECHO_SECONDS 0.1  /* mouse events within this time after a pen event are its duplicates */
+#define RANGE_SECONDS 1.0 /* a pen with an event this recent is near the surface */
+#define MARKS_MOST 512    /* limit of unread keys and buttons */
+/* events with the tip down and constant pressure: pressure does not work */
+#define STILL_EVENTS 8
 
-/* ---- life ---- */
+/* ---- creation ---- */
 
-/* Seen by SDL in the thread that asks the server for events, which is the window's. Others push events
-   too: of these kinds only keys and buttons, which are not the hand's then. */
+/* Called by SDL in the thread that reads the server's events, the window's. Other threads push events too; from them
+   only keys and buttons are of these kinds, and they are not user input. */
 static int SDLCALL watch(void *data, SDL_Event *event)
 {
     WrPen *pen = data;
@@ -82,7 +82,7 @@ void wr_pen_free(WrPen *pen)
 
 /* ---- devices ---- */
 
-/* Names go into lines of text: without control characters, and cut at a whole UTF-8 character. */
+/* Names are printed in lines of text: remove control characters, and truncate at a UTF-8 character boundary. */
 static void copy_name(char out[96], const char *name)
 {
     size_t n = 0;
@@ -149,7 +149,7 @@ void wr_pen_set_curve(WrPen *pen, int index, const WrPenCurve *curve)
     wr_pen_keep_curve(pen, name, curve);
 }
 
-/* ---- numbers ---- */
+/* ---- values ---- */
 
 double wr_pen_seconds(WrPenUnit *unit, uint32_t ms)
 {
@@ -167,7 +167,7 @@ double wr_pen_seconds(WrPenUnit *unit, uint32_t ms)
     return unit->clock_offset + (double)unit->clock_ms * 1e-3;
 }
 
-/* A number of a device within low..high; one that is not is counted. */
+/* Clamp a device value to low..high; invalid ones are counted. */
 static double taken(WrPenUnit *unit, double value, double low, double high, double before)
 {
     if (isfinite(value) && value >= low && value <= high) return value;
@@ -196,7 +196,7 @@ void wr_pen_watch(WrPenUnit *unit, double raw, bool down)
     unit->raw_known = true;
 }
 
-/* It has no pressure, or promises one and never moves it. */
+/* True if the pen has no pressure, or claims to have it but never changes it. */
 static bool is_mute(const WrPenUnit *unit)
 {
     return !unit->shown.has_pressure || (!unit->raw_moved && unit->still > STILL_EVENTS);
@@ -206,11 +206,11 @@ void wr_pen_feed(WrPen *pen, int index, const WrPenReading *r)
 {
     WrPenUnit *unit = &pen->units.data[index];
     unsigned before = unit->held, bit = 0;
-    if (wr_pen_replaying(pen)) return; /* a file stands in for devices */
+    if (wr_pen_replaying(pen)) return; /* a file replaces the devices */
     if (r->kind == WR_PEN_DOWN || r->kind == WR_PEN_UP) {
         if (r->button < 1 || r->button > WR_PEN_BUTTONS) return;
         bit = 1u << r->button;
-        if (((before & bit) != 0) == (r->kind == WR_PEN_DOWN)) return; /* as it was */
+        if (((before & bit) != 0) == (r->kind == WR_PEN_DOWN)) return; /* unchanged */
     }
     unsigned held = r->kind == WR_PEN_LOST ? 0
                     : r->kind == WR_PEN_UP ? before & ~bit
@@ -268,7 +268,7 @@ void wr_pen_lose(WrPen *pen, int index)
 
 void wr_pen_push(WrPen *pen, const WrPenEvent *event)
 {
-    if (pen->taken >= 2 * WR_PEN_KEEP) { /* forget what was taken long ago */
+    if (pen->taken >= 2 * WR_PEN_KEEP) { /* drop old events that were read */
         int gone = pen->taken - WR_PEN_KEEP;
         pen->queue.count -= gone;
         pen->taken -= gone;
@@ -307,7 +307,7 @@ static void drop_marks(WrPen *pen, int count)
 void wr_pen_mark(WrPen *pen, const SDL_Event *event)
 {
     WrPenMark mark = { event->type, event->common.timestamp, wr_pen_total(pen) };
-    if (pen->marks.count >= MARKS_MOST) drop_marks(pen, MARKS_MOST / 2); /* nobody asked for them */
+    if (pen->marks.count >= MARKS_MOST) drop_marks(pen, MARKS_MOST / 2); /* unread */
     wr_array_push(&pen->marks, mark);
 }
 
@@ -316,7 +316,7 @@ bool wr_pen_next_before(WrPen *pen, const SDL_Event *before, WrPenEvent *event)
     for (int i = 0; i < pen->marks.count; i++) {
         WrPenMark mark = pen->marks.data[i];
         if (mark.type != before->type || mark.timestamp != before->common.timestamp) continue;
-        drop_marks(pen, i); /* others took the events of these */
+        drop_marks(pen, i); /* the events before these were read */
         if (pen->first + pen->taken < mark.total) return wr_pen_next(pen, event);
         drop_marks(pen, 1);
         break;
@@ -346,7 +346,7 @@ bool wr_pen_recent(const WrPen *pen, int64_t number, WrPenEvent *event)
     return true;
 }
 
-/* ---- the mouse beside it ---- */
+/* ---- duplicate mouse events ---- */
 
 bool wr_pen_moves_mouse(const WrPen *pen)
 {
@@ -364,7 +364,7 @@ bool wr_pen_in_range(const WrPen *pen)
     return wr_clock_seconds() - pen->pen_at < RANGE_SECONDS;
 }
 
-/* ---- what is wrong ---- */
+/* ---- diagnosis ---- */
 
 static void diagnose(const WrPenUnit *unit, WrText *words)
 {

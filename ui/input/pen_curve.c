@@ -18,7 +18,7 @@ WrPenCurve wr_pen_curve_default(void)
                          .count = 2 };
 }
 
-/* Nothing passes that is not a number: all comparisons with NaN are false. */
+/* Rejects NaN too, since all comparisons with NaN are false. */
 bool wr_pen_curve_valid(const WrPenCurve *c)
 {
     bool valid = c->minimum >= 0.0 && c->minimum < c->maximum && c->maximum <= 1.0 &&
@@ -32,13 +32,13 @@ bool wr_pen_curve_valid(const WrPenCurve *c)
 
 static double clamp01(double x)
 {
-    return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; /* NaN: 0 */
+    return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; /* NaN becomes 0 */
 }
 
-/* ---- the curve through the points: cubic Hermite pieces with Fritsch and Carlson's limit on the
-        slopes, so that it rises wherever the points do and never overshoots ---- */
+/* ---- interpolation: cubic Hermite pieces with the slope limit of Fritsch and Carlson, so that the curve is monotone
+   where the points are and never overshoots ---- */
 
-/* A point on the left (right) edge takes the place of (0,0) ((1,1)). */
+/* A point on the left (right) edge replaces (0,0) ((1,1)). */
 static int knots_of(const WrPenCurve *c, double x[KNOTS], double y[KNOTS])
 {
     int count = 0;
@@ -55,7 +55,7 @@ static bool is_straight(const WrPenCurve *c)
     return straight;
 }
 
-/* Inside: the harmonic mean of the two secants, weighted by their lengths; 0 where one is flat. */
+/* Inner points: the harmonic mean of the two secants, weighted by their lengths; 0 if one is flat. */
 static double slope_inside(double h0, double h1, double d0, double d1)
 {
     if (d0 <= 0.0 || d1 <= 0.0) return 0.0;
@@ -63,7 +63,7 @@ static double slope_inside(double h0, double h1, double d0, double d1)
     return (w0 + w1) / (w0 / d0 + w1 / d1);
 }
 
-/* At an end: the parabola's slope there, between 0 and three times the first secant. */
+/* End points: the parabola's slope, limited to 0 .. three times the first secant. */
 static double slope_at_end(double h0, double h1, double d0, double d1)
 {
     double s = ((2.0 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
@@ -72,7 +72,7 @@ static double slope_at_end(double h0, double h1, double d0, double d1)
 
 static double curve_at(const WrPenCurve *c, double p)
 {
-    if (is_straight(c)) return p; /* to the last bit */
+    if (is_straight(c)) return p; /* exact */
     double x[KNOTS], y[KNOTS], h[KNOTS], d[KNOTS], s[KNOTS];
     int n = knots_of(c, x, y), i = 0;
     if (p <= x[0]) return y[0];
@@ -99,7 +99,7 @@ double wr_pen_curve_apply(const WrPenCurve *curve, double raw)
     return clamp01(clamp01(curve_at(curve, p)) * curve->gain);
 }
 
-/* ---- one line ---- */
+/* ---- text form ---- */
 
 void wr_pen_curve_print(const WrPenCurve *c, char *text, int size)
 {
@@ -119,7 +119,7 @@ void wr_pen_curve_print(const WrPenCurve *c, char *text, int size)
     wr_text_fini(&line);
 }
 
-/* A number up to one of the marks; *text goes to the mark. */
+/* Parse a number that ends at one of the marks; *text moves to the mark. */
 static bool number(const char **text, const char *marks, double *value)
 {
     const size_t length = strcspn(*text, marks);
@@ -153,9 +153,9 @@ bool wr_pen_curve_parse(const char *text, WrPenCurve *curve)
     return true;
 }
 
-/* ---- pressure for a mouse ---- */
+/* ---- simulated pressure of a mouse ---- */
 
-#define SETTLE_SECONDS 0.04 /* a change of speed is half through after this time */
+#define SETTLE_SECONDS 0.04 /* half-life of a change of speed */
 
 double wr_fake_pressure(WrFakePressure *fake, double distance, double seconds)
 {

@@ -1,5 +1,5 @@
-/* No pens: what a system gets whose tablets nobody has written a file for, in the place of pen_x11.c. Fingers are SDL's,
-   and a pen then is the mouse that the system makes of it, without pressure. */
+/* Fallback for pen_x11.c on other systems: no pens. Fingers come through SDL; the system presents a pen as a mouse
+   without pressure. */
 #include "ui/input/pen_internal.h"
 
 WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why)

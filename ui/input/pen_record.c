@@ -1,4 +1,4 @@
-/* Pen events to a text file and back. */
+/* Recording and replay of pen events in a text file. */
 #include "ui/input/pen.h"
 #include "ui/input/pen_internal.h"
 
@@ -33,7 +33,7 @@ WR_ROWS_END(event_names, WR_PEN_KINDS);
 enum { DEVICES(WR_WORD_ID) };
 static const char *const device_names[] = { DEVICES(WR_WORD) };
 
-/* ---- to a file ---- */
+/* ---- recording ---- */
 
 bool wr_pen_record(WrPen *pen, const char *path, WrError *err)
 {
@@ -93,7 +93,7 @@ void wr_pen_record_event(WrPen *pen, const WrPenEvent *e)
     wr_text_fini(&line);
 }
 
-/* ---- from a file ---- */
+/* ---- parsing ---- */
 
 typedef struct FileDevice {
     bool declared;
@@ -109,7 +109,7 @@ typedef WR_ARRAY(WrPenEvent) Events;
 
 typedef struct Reader {
     FileDevice devices[DEVICES_MOST];
-    Events events; /* `device` counts as in the file */
+    Events events; /* `device` is the file's index */
 } Reader;
 
 typedef struct Field {
@@ -159,7 +159,7 @@ static bool whole_of(const Field *f, const char *what, int high, int *value, WrE
     return true;
 }
 
-/* device INDEX KIND PRESSURE TILT LOW HIGH NAME */
+/* Parse: device INDEX KIND PRESSURE TILT LOW HIGH NAME */
 static bool read_device(Reader *reader, const char *at, const char *end, WrError *err)
 {
     Field f[6];
@@ -193,7 +193,7 @@ static bool read_device(Reader *reader, const char *at, const char *end, WrError
     return true;
 }
 
-/* Whether a device can do that after what it did before; notes what it did. */
+/* True if the event is possible in the device's state; updates the state. */
 static bool follows(FileDevice *d, const WrPenEvent *e, WrError *err)
 {
     bool button = e->kind == WR_PEN_DOWN || e->kind == WR_PEN_UP;
@@ -216,7 +216,7 @@ static bool follows(FileDevice *d, const WrPenEvent *e, WrError *err)
     return true;
 }
 
-/* EVENT SECONDS INDEX BUTTON HELD X Y RAW PRESSURE TILT_X TILT_Y */
+/* Parse: EVENT SECONDS INDEX BUTTON HELD X Y RAW PRESSURE TILT_X TILT_Y */
 static bool read_event(Reader *reader, const Field *name, const char *at, const char *end,
                        WrError *err)
 {
@@ -282,9 +282,9 @@ static bool read_all(Reader *reader, const char *bytes, size_t length, const cha
     return true;
 }
 
-/* ---- the replay ---- */
+/* ---- replay ---- */
 
-/* Devices of the file become devices of the pen. */
+/* Map devices of the file to devices of the pen. */
 static void take_devices(WrPen *pen, Reader *reader)
 {
     int index[DEVICES_MOST] = { 0 };
@@ -357,7 +357,7 @@ static void replay_one(WrPen *pen, const WrPenEvent *e)
     wr_pen_push(pen, e);
 }
 
-/* What the file left held is let go. */
+/* Release buttons still held at the end of the file. */
 static void finish(WrPen *pen)
 {
     const WrPenReplay *replay = &pen->replay;
@@ -401,6 +401,6 @@ void wr_pen_record_start(WrPen *pen)
     if (to && to[0] && !wr_pen_record(pen, to, &err)) fprintf(stderr, "wrinkle: %s\n", err.text);
     if (!from || !from[0]) return;
     if (wr_pen_replay(pen, from, 1.0, &err))
-        pen->replay.delay = 1.0; /* the window is drawn first */
+        pen->replay.delay = 1.0; /* after the window is drawn */
     else fprintf(stderr, "wrinkle: %s\n", err.text);
 }

@@ -1,10 +1,10 @@
-/* Pens of XInput2, on the connection to the X server that SDL has already.
+/* Pens of XInput2, on SDL's connection to the X server.
 
-   Each pen is a slave device of the server and is listened to by itself. A master device would not do:
-   its events would come in place of those that SDL makes its mouse of.
+   Each pen is a slave device of the server and is selected individually. Selecting a master device would replace the
+   events from which SDL makes its mouse.
 
-   Where a pen is is computed from its own axes. The event's own place is one event late in its whole
-   part, since the server fills it in before it moves the pointer. */
+   A pen's position is computed from its own axes. The position in the event is one event late in its integer part,
+   since the server fills it in before it moves the pointer. */
 #include "ui/input/pen.h"
 #include "ui/input/pen_internal.h"
 
@@ -18,13 +18,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TOOL_TYPE WR_PEN_AXES /* behind the names of the axes */
+#define TOOL_TYPE WR_PEN_AXES /* index after the names of the axes */
 #define ATOMS (WR_PEN_AXES + 1)
 
 struct WrPenX11 {
     Display *display; /* SDL's */
     Window window, root;
-    int opcode; /* of the extension's events */
+    int opcode; /* extension number in events */
     Atom atoms[ATOMS];
     int root_w, root_h; /* pixels of all displays together */
 };
@@ -32,17 +32,17 @@ struct WrPenX11 {
 static const char *const atom_names[ATOMS] = { "Abs X",      "Abs Y",      "Abs Pressure",
                                                "Abs Tilt X", "Abs Tilt Y", "Wacom Tool Type" };
 
-/* A device may be pulled out between two questions about it: the server then says that it does not know
-   it, and without a handler of ours that would end the program. */
+/* A device may be unplugged between two requests. The server then sends an error, which would end the program without
+   this handler. */
 static int ignore_error(Display *display, XErrorEvent *event)
 {
     (void)display, (void)event;
     return 0;
 }
 
-/* ---- what a device is ---- */
+/* ---- classification of devices ---- */
 
-/* Whether `word` (lower case) stands in the text, and is a word of its own if `whole`. */
+/* True if `word` (lower case) is in the text; as a separate word if `whole`. */
 static bool has_word(const char *text, const char *word, bool whole)
 {
     size_t n = strlen(word);
@@ -60,7 +60,7 @@ static bool named_like_pen(const char *name)
            has_word(name, "pen", true);
 }
 
-/* What the driver calls it: STYLUS, ERASER, PAD, TOUCH, CURSOR; "" if it does not say. */
+/* The driver's type: STYLUS, ERASER, PAD, TOUCH, CURSOR; "" if unknown. */
 static void tool_type(const WrPenX11 *x, int id, char out[32])
 {
     Atom type;
@@ -97,7 +97,7 @@ static bool is_absolute(const WrPenAxis *axis)
     return axis->number >= 0 && axis->absolute && axis->high > axis->low;
 }
 
-/* Whether this is a pen, and with which axes. */
+/* True for a pen; also finds its axes. */
 static bool is_pen(const WrPenX11 *x, const XIDeviceInfo *info, WrPenAxis axes[WR_PEN_AXES],
                    bool *eraser)
 {
@@ -120,7 +120,7 @@ static bool is_pen(const WrPenX11 *x, const XIDeviceInfo *info, WrPenAxis axes[W
     return true;
 }
 
-/* ---- the table of devices ---- */
+/* ---- table of devices ---- */
 
 static void measure_root(WrPenX11 *x)
 {
@@ -147,7 +147,7 @@ static void adopt(WrPen *pen, const XIDeviceInfo *info, const WrPenAxis axes[WR_
         if (pen->units.data[i].server_id == info->deviceid) index = i;
     if (index < 0) {
         index = wr_pen_unit(pen, info->name, eraser, false);
-        if (pen->units.data[index].server_id >= 0) { /* a second one of the same name */
+        if (pen->units.data[index].server_id >= 0) { /* a second device of that name */
             char name[96];
             snprintf(name, sizeof name, "%.80s (%d)", info->name, info->deviceid);
             index = wr_pen_unit(pen, name, eraser, false);
@@ -168,7 +168,7 @@ static void adopt(WrPen *pen, const XIDeviceInfo *info, const WrPenAxis axes[WR_
     listen_to(pen->x11, pen->x11->window, info->deviceid, events, 4);
 }
 
-/* Whether that unit is among the pens that the server has now. */
+/* True if the server still lists that device. */
 static bool is_listed(const WrPenUnit *unit, const XIDeviceInfo *list, int count)
 {
     for (int i = 0; i < count; i++)
@@ -201,7 +201,7 @@ static void scan(WrPen *pen)
     XSetErrorHandler(before);
 }
 
-/* ---- life ---- */
+/* ---- creation ---- */
 
 WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why)
 {
@@ -244,12 +244,12 @@ void wr_pen_x11_sync(WrPenX11 *x)
 void wr_pen_x11_free(WrPenX11 *x)
 {
     if (x) SDL_EventState(SDL_SYSWMEVENT, SDL_DISABLE);
-    wr_free(x); /* the connection is SDL's */
+    wr_free(x); /* the connection belongs to SDL */
 }
 
 /* ---- events ---- */
 
-/* An event only holds the axes that changed. */
+/* An event contains only the changed axes. */
 static void take_axes(WrPenUnit *unit, const XIValuatorState *state)
 {
     const double *value = state->values;
@@ -261,7 +261,7 @@ static void take_axes(WrPenUnit *unit, const XIValuatorState *state)
     }
 }
 
-/* Pixels of the screens together; the whole range of the axis lies over their whole width. */
+/* Position in pixels of all screens; the axis range covers their whole width. */
 static double on_root(const WrPenAxis *axis, int pixels)
 {
     return (axis->value - axis->low) * pixels / (axis->high + 1.0 - axis->low);
@@ -290,7 +290,7 @@ static WrPenReading reading_of(const WrPen *pen, const WrPenUnit *unit)
     return r;
 }
 
-/* A button that we believe down is not: somebody else took its release. */
+/* True if a button recorded as pressed is not: another client received its release. */
 static bool missed_release(const WrPenUnit *unit, const XIButtonState *buttons)
 {
     for (int b = 1; b <= WR_PEN_BUTTONS; b++)
@@ -307,11 +307,11 @@ static void device_event(WrPen *pen, const XIDeviceEvent *event)
         if (pen->units.data[i].server_id == event->deviceid) index = i;
     if (index < 0 || (event->flags & XIPointerEmulated)) return;
     WrPenUnit *unit = &pen->units.data[index];
-    if (!unit->shown.has_place) { /* SDL's mouse events are all there is */
+    if (!unit->shown.has_place) { /* only SDL's mouse events are available */
         unit->shown.events++;
         return;
     }
-    if (event->evtype == XI_ButtonPress) measure_root(pen->x11); /* displays come and go */
+    if (event->evtype == XI_ButtonPress) measure_root(pen->x11); /* displays may have changed */
     take_axes(unit, &event->valuators);
     if (missed_release(unit, &event->buttons)) wr_pen_lose(pen, index);
     WrPenReading r = reading_of(pen, unit);

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#define STEP 3.0 /* pixels of the pointer's way between points of a curve */
+#define STEP 3.0 /* pixels along the pointer's path between points of a curve */
 
 static double mix(double a, double b, double t)
 {
@@ -27,31 +27,31 @@ void wr_relight_begin(WrRelight *steady, WrRelightKind kind, double length,
     steady->pointer = steady->follower = *at;
 }
 
-/* The follower after the pointer went `s` pixels from `a` in the direction (mx, my). */
+/* Position of the follower after the pointer has moved `s` pixels from `a` in the direction (mx, my). */
 static void follow_smooth(const WrRelight *steady, const WrRelightPoint *a, double mx, double my,
                           double s, double *x, double *y)
 {
     double length = steady->length, decay = exp(-s / length);
-    double lag = s + length * (decay - 1.0); /* of s - L + L exp(-s/L), without cancellation at 0 */
+    double lag = s + length * (decay - 1.0); /* s - L + L exp(-s/L), without cancellation at 0 */
     *x = a->x + mx * lag + (steady->follower.x - a->x) * decay;
     *y = a->y + my * lag + (steady->follower.y - a->y) * decay;
 }
 
-/* The same on a string. True if it was dragged at all. */
+/* Position of the follower on a string. True if it was dragged. */
 static bool follow_string(const WrRelight *steady, const WrRelightPoint *a, double mx, double my,
                           double s, double *x, double *y)
 {
     double length = steady->length, px = steady->follower.x, py = steady->follower.y;
-    /* from the follower to the pointer: along its way and across it */
+    /* vector from the follower to the pointer: along and across the pointer's path */
     double dx = a->x - px, dy = a->y - py;
     double along = dx * mx + dy * my, across = dy * mx - dx * my;
     double reach = length * length - across * across;
     double half = reach > 0.0 ? sqrt(reach) : 0.0;
-    double slack = half - along; /* way until the string is taut */
+    double slack = half - along; /* distance until the string is taut */
     if (s <= slack) return false;
     if (slack > 0.0) along = half;
     double dragged = slack > 0.0 ? s - slack : s;
-    /* Taut: along = L cos t, across = L sin t. A string that a rounding left too long is not pulled in. */
+    /* Taut: along = L cos t, across = L sin t. A string left slightly too long by rounding is not pulled in. */
     double t = atan2(across, along);
     t = 2.0 * atan(tan(t / 2.0) * exp(-dragged / length));
     double qx = a->x + mx * s, qy = a->y + my * s;
@@ -70,7 +70,7 @@ int wr_relight_move(WrRelight *steady, const WrRelightPoint *to,
         out[0] = *to;
         return 1;
     }
-    if (!(way > 0.0)) { /* only pressure, tilt or time moved on */
+    if (!(way > 0.0)) { /* only pressure, tilt or time changed */
         steady->pointer = *to;
         return 0;
     }

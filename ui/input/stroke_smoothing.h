@@ -1,13 +1,13 @@
-/* stroke_smoothing.h - a steadier hand: what is drawn follows the pointer along a smoother way. No window needed.
+/* stroke_smoothing.h - stroke stabilizer: the drawn line follows the pointer along a smoother path. No window needed.
 
-   Both kinds go by the way that the pointer goes, not by time or by the number of events: the same path
-   gives the same line however it was cut into motions, up to rounding. Between two places of the pointer
-   its path is straight, and what follows it has a closed form:
+   Both kinds depend on the pointer's path length, not on time or the number of events: the same path results in the
+   same line for any division into motions, up to rounding. Between two pointer positions the path is straight, and
+   the follower has a closed form:
 
-   smooth   p' = (q - p) / L along the pointer's way s: for q = a + m s,
+   smooth   p' = (q - p) / L along the pointer's path length s: for q = a + m s,
             p(s) = q(s) - L m + (p(0) - a + L m) exp(-s/L)
-   string   p hangs on a string of length L: it rests while |q - p| < L and then is dragged along a tractrix,
-            tan(t/2) = tan(t0/2) exp(-s/L), t the angle between the string and the pointer's way */
+   string   p is on a string of length L: it rests while |q - p| < L and is then dragged along a tractrix,
+            tan(t/2) = tan(t0/2) exp(-s/L), t the angle between the string and the pointer's path */
 #pragma once
 #include <stdbool.h>
 
@@ -26,20 +26,18 @@ typedef struct WrRelightPoint {
 typedef struct WrRelight {
     WrRelightKind kind;
     double length;           /* L, pixels; 0: off */
-    WrRelightPoint pointer;  /* newest place of the pointer */
-    WrRelightPoint follower; /* and of what is drawn */
+    WrRelightPoint pointer;  /* newest position of the pointer */
+    WrRelightPoint follower; /* newest position of the drawn line */
 } WrRelight;
 
-/* What comes out of one motion: at most this many points, a few pixels apart on curves. */
+/* Limit of points resulting from one motion, a few pixels apart on curves. */
 #define WR_RELIGHT_POINTS 64
 
-/* The line begins at `at`, which is its first point. */
+/* Start the line at `at`, its first point. */
 void wr_relight_begin(WrRelight *steady, WrRelightKind kind, double length,
                       const WrRelightPoint *at);
-/* The pointer moved on straight to `to`. Returns how many points follow on the line. A follower that rests
- * gives none. */
+/* The pointer moved straight to `to`. Returns the number of new points on the line; none while the follower rests. */
 int wr_relight_move(WrRelight *steady, const WrRelightPoint *to,
                     WrRelightPoint out[WR_RELIGHT_POINTS]);
-/* The line ends: a smooth one comes to the pointer; one on a string does so only if `catch_up`. Returns 0 or
- * 1 points. */
+/* End the line: a smooth one is drawn to the pointer, one on a string only if `catch_up`. Returns 0 or 1 points. */
 int wr_relight_end(WrRelight *steady, bool catch_up, WrRelightPoint *out);

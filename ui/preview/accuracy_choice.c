@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Cheap to good. */
+/* Rank from cheap to accurate. */
 static int scheme_rank(WrScheme scheme)
 {
     switch (scheme) {
@@ -25,13 +25,13 @@ static int scheme_rank(WrScheme scheme)
     return 0;
 }
 
-/* Samples of a pixel. */
+/* Samples per pixel. */
 static int grid(const WrScene *scene)
 {
     return scene->dials.aa == WR_AA_SUPERSAMPLE ? scene->dials.samples : 1;
 }
 
-/* "6.3 %: exact bspline-fit 8x8, edges", a line a part: all dials are too many words for a panel. */
+/* "6.3 %: exact bspline-fit 8x8, edges", one line per part; listing all dials would be too long for a panel. */
 static void say_parts(const WrChoice *choice, WrText *text)
 {
     int64_t all = 0;

@@ -1,4 +1,4 @@
-/* accuracy_choice.h - what a tolerance chose for a picture, as the window keeps it. */
+/* accuracy_choice.h - dials that a tolerance chose for a picture, for display in the window. */
 #pragma once
 #include "accuracy/tolerance.h"
 #include "scene/dials.h"
@@ -6,12 +6,13 @@
 #include <stdbool.h>
 
 typedef struct WrChosen {
-    bool any; /* a tolerance chose the dials of this picture */
+    bool any; /* a tolerance chose this picture's dials */
     bool met;
-    bool kept;        /* the document had them, for this very picture */
+    bool kept;        /* they were stored in the document for this very picture */
     char reason[480]; /* one or two sentences */
-    char lines[2000]; /* a line a part: share, dials, kinds of blocks */
-    /* One setting for all blocks that is as fine as the finest of any: keeps to the tolerance too. By WrDialId */
+    char lines[2000]; /* one line per part: share, dials, kinds of blocks */
+    /* One setting for all blocks, as fine as the finest of any block, so that it also meets the tolerance. By
+       WrDialId */
     double finest[WR_DIAL_COUNT];
 } WrChosen;
 

@@ -8,9 +8,9 @@
 
 #define SQUARE 8.0 /* pixels of the window */
 
-static const float greys[2] = { 0.32f, 0.13f }; /* linear: codes of 155 and 101 */
+static const float greys[2] = { 0.32f, 0.13f }; /* linear; 8-bit values 155 and 101 */
 
-/* Premultiplied colour, developed, over a grey, which is the window's own. */
+/* Composite a tone-mapped premultiplied colour over a display grey. */
 static void put(const float *from, float grey, const WrTone *tone, uint8_t *to)
 {
     for (int c = 0; c < 3; c++) {
@@ -26,7 +26,7 @@ void wr_chequer_behind(const WrFrame *frame, const WrTone *tone, double scale, u
 {
     static const float nothing[4] = { 0, 0, 0, 0 };
     const double side = fmax(1.0, SQUARE * scale);
-    uint8_t bare[2][4]; /* where nothing covers, which is most of it */
+    uint8_t bare[2][4]; /* uncovered pixels, which are the majority */
     for (int k = 0; k < 2; k++) put(nothing, greys[k], tone, bare[k]);
     for (int y = 0; y < frame->height; y++) {
         const int row = (int)(y / side);

@@ -5,12 +5,13 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define FASTER 0.5 /* pace at which a time that falls is believed ... */
+#define FASTER 0.5 /* smoothing factor for decreasing times ... */
 #define SLOWER 0.25
 #define ROOM                                                                                       \
-    0.75 /* of what is allowed, for a finer way to be tried: it is left only when it takes more than all */
-#define WOBBLE 0.15 /* of the scale */
-/* Pictures until a way that was too slow is tried again: twice as many each time, until one has lasted so long. */
+    0.75 /* fraction of the allowed time for trying a finer mode; a mode is left only when it
+            exceeds the whole time */
+#define WOBBLE 0.15 /* tolerated variation of the scale */
+/* Pictures before a mode that was too slow is tried again: doubled each time, until one try has lasted this long. */
 #define PATIENCE 40
 #define PATIENCE_MOST 1200
 #define LASTED 300
@@ -21,7 +22,7 @@ const char *const wr_moving_names[] = { [WR_ROW(WR_MOVING_POINT)] = "1 \xc3\x97 
                                         [WR_ROW(WR_MOVING_GRID)] = "2 \xc3\x97 2" };
 WR_ROWS_END(wr_moving_names, WR_MOVING_WAYS);
 
-/* Times the way below, to reckon with before it is known. */
+/* Cost relative to the next coarser mode, before it is measured. */
 WR_ROWS(dearer);
 static const double dearer[] = { [WR_ROW(WR_MOVING_POINT)] = 1,
                                  [WR_ROW(WR_MOVING_EDGES)] = 1.8,
@@ -58,7 +59,7 @@ static void go_down(WrMoving *moving)
     moving->patience = moving->patience > 0 ? 2 * moving->patience : PATIENCE;
     if (moving->patience > PATIENCE_MOST) moving->patience = PATIENCE_MOST;
     moving->wait = moving->patience;
-    moving->lasted = LASTED; /* it has not */
+    moving->lasted = LASTED; /* it failed */
 }
 
 static void go_up(WrMoving *moving)

@@ -12,7 +12,7 @@ static void stripe(uint8_t *pixel, bool dark)
     pixel[2] = dark ? 0 : 200;
 }
 
-/* Pixels of a row that hold a code of 255. */
+/* Number of pixels in a row with a value of 255. */
 static int count_row(const uint8_t *bgra, int width)
 {
     int count = 0;
@@ -20,7 +20,7 @@ static int count_row(const uint8_t *bgra, int width)
     for (int x = 0; x < width; x++) {
         uint32_t pixel;
         memcpy(&pixel, bgra + 4 * (size_t)x, 4);
-        /* A byte of 0 where one of 255 was; the fourth does not count. */
+        /* A byte of 0 wherever one of 255 was; the fourth is ignored. */
         const uint32_t none = ~pixel;
         count += (none & 0xffu) == 0 || (none & 0xff00u) == 0 || (none & 0xff0000u) == 0;
     }

@@ -1,7 +1,7 @@
-/* overexposure.h - pixels of a finished picture that show no more light than they do: full in some colour. */
+/* overexposure.h - over-exposed pixels of a finished picture: a channel at 255. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The share of pixels, [height][width] B,G,R,A, that hold a code of 255; mark: those become black and violet, in stripes. */
+/* Share of over-exposed pixels in [height][width] B,G,R,A; mark: replace them by black and violet stripes. */
 double wr_overexposed(uint8_t *bgra, int width, int height, bool mark);

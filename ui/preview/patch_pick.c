@@ -11,17 +11,18 @@
 #include <float.h>
 #include <math.h>
 
-#define NET 96  /* cells along a side of a curved surface */
-#define FLAT 8  /* of a flat one with straight edges */
+#define NET 96  /* grid cells along a side of a curved surface */
+#define FLAT 8  /* grid cells of a flat one with straight edges */
 #define BLOCK 8 /* cells along a block's side */
 #define NEWTON_STEPS 12
 #define HAIR 0.3          /* pixels */
 #define CLOSE_ENOUGH 1e-7 /* pixels */
-#define HIDDEN_BY 0.02    /* of the object's radius: nearer by more than that hides */
+/* fraction of the object's radius: a surface nearer by more than this hides the point */
+#define HIDDEN_BY 0.02
 
 typedef struct Knot {
     double x, y, close; /* pixels; 1/depth or -depth: larger is nearer */
-    bool out;           /* not before the eye */
+    bool out;           /* behind the eye */
 } Knot;
 
 typedef struct Bounds {
@@ -31,9 +32,9 @@ typedef struct Bounds {
 struct WrPatchPick {
     WrShape shape;
     const WrSurfaceInfo *info;
-    double axes[9], shift[3]; /* object -> right, up, forward of the camera */
+    double axes[9], shift[3]; /* object space -> right, up, forward of the camera */
     double scale_x,
-        scale_y; /* pixels for 1 of right (up) at depth 1, or of anything, orthographic */
+        scale_y; /* pixels per unit right (up) at depth 1; at any depth if orthographic */
     double middle_x, middle_y, radius;
     bool orthographic;
     int cells;      /* along a side */
@@ -50,7 +51,7 @@ static WrVec3 turned(const WrPatchPick *pick, WrVec3 p)
                      a[6] * p.x + a[7] * p.y + a[8] * p.z };
 }
 
-/* Camera axes: z is the depth. */
+/* Camera space: z is the depth. */
 static WrVec3 seen_from_eye(const WrPatchPick *pick, WrVec3 p)
 {
     WrVec3 q = turned(pick, p);
@@ -77,7 +78,7 @@ static Knot knot_at(const WrPatchPick *pick, int face, double u, double v)
     return knot;
 }
 
-/* ---- the net ---- */
+/* ---- grid of projected points ---- */
 
 static const Knot *knots_of(const WrPatchPick *pick, int face)
 {
@@ -170,7 +171,7 @@ void wr_patch_pick_free(WrPatchPick *pick)
 
 /* ---- picking ---- */
 
-/* The nearest cell under a pixel: how near, and (u, v) there by the corners' weights. */
+/* The nearest cell under a pixel: its depth, and (u, v) interpolated from its corners. */
 typedef struct Found {
     double close, u, v;
     int face;
@@ -187,7 +188,7 @@ static void try_triangle(const Knot *const k[3], const double uv[3][2], double x
     if (!(fabs(area) > 1e-12)) return;
     double px = x - k[0]->x, py = y - k[0]->y;
     double s = (px * by - py * bx) / area, t = (ax * py - ay * px) / area;
-    const double slip = 1e-6; /* neighbours overlap rather than leave a gap */
+    const double slip = 1e-6; /* cells overlap slightly, to leave no gaps */
     if (!(s >= -slip && t >= -slip && s + t <= 1.0 + slip)) return;
     double close = (1.0 - s - t) * k[0]->close + s * k[1]->close + t * k[2]->close;
     if (best->any && close <= best->close) return;
@@ -231,7 +232,7 @@ static Found find(const WrPatchPick *pick, double x, double y)
     return best;
 }
 
-/* The spot at (u, v), and how its pixel moves with them: { dx/du, dx/dv, dy/du, dy/dv }. */
+/* The point at (u, v), and the Jacobian of its pixel position: { dx/du, dx/dv, dy/du, dy/dv }. */
 static bool spot_at(const WrPatchPick *pick, int face, double u, double v, WrPatchSpot *out,
                     double slopes[4])
 {
@@ -274,7 +275,7 @@ static double off(const WrPatchSpot *spot, double x, double y)
     return hypot(spot->x - x, spot->y - y);
 }
 
-/* Newton's method on (u, v) -> pixel, with shorter steps where a whole one leads away. */
+/* Newton's method from pixel to (u, v), with shorter steps if a full one increases the error. */
 static bool polish(const WrPatchPick *pick, double x, double y, WrPatchSpot *spot)
 {
     double slopes[4], inverse[4], longest = 2.0 / pick->cells;
@@ -303,7 +304,7 @@ static bool polish(const WrPatchPick *pick, double x, double y, WrPatchSpot *spo
     return off(spot, x, y) < 1.0;
 }
 
-/* The net's flat cells leave a hair of the object free along its outline: looked for from a little inside. */
+/* The grid's flat cells miss a thin rim of the object along its silhouette: search from slightly inside. */
 static bool pick_near(const WrPatchPick *pick, double x, double y, WrPatchSpot *out)
 {
     static const double around[4][2] = { { -1, -1 }, { 1, -1 }, { -1, 1 }, { 1, 1 } };

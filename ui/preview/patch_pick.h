@@ -1,8 +1,8 @@
-/* patch_pick.h - which point of the surface lies under a pixel of the patch, exactly and at once, and where a
-   point of the surface is seen. No window needed.
+/* patch_pick.h - exact picking: the surface point under a pixel of the patch, and the pixel of a surface point. No
+   window needed.
 
-   A net of projected points of P(u,v) finds the nearest face of a net's cell under the pixel; Newton's
-   method on the projection then makes (u,v) exact for any place between pixels. */
+   A grid of projected points of P(u,v) yields the nearest cell under the pixel; Newton's method on the projection
+   then computes (u,v) exactly for any sub-pixel position. */
 #pragma once
 #include <stdbool.h>
 
@@ -13,23 +13,23 @@ typedef struct WrPatchPick WrPatchPick;
 
 typedef struct WrPatchSpot {
     double u, v;  /* of the patch, 0..1 */
-    int face;     /* 0 but on the cube */
+    int face;     /* 0 except on the cube */
     double x, y;  /* pixels from the view's left and top edge */
-    double depth; /* along the view, scene units: larger is farther */
+    double depth; /* depth along the view in scene units: larger is farther */
 } WrPatchSpot;
 
-/* For a scene as it stands after a turn about the world's y axis, in a view of width x height pixels. NULL
- * and an error if there is no such picture. The caller owns it; it keeps no share of the scene. */
+/* For a scene rotated about the world's y axis, in a view of width x height pixels. NULL and an error if it cannot be
+ * rendered. The caller owns it; it holds no reference to the scene. */
 WrPatchPick *wr_patch_pick_new(const WrScene *scene, double turn_deg, int width, int height,
                                WrError *err);
-void wr_patch_pick_free(WrPatchPick *pick); /* NULL is fine */
+void wr_patch_pick_free(WrPatchPick *pick); /* NULL is allowed */
 
-/* The nearest point of the surface under (x, y); false where there is none. */
+/* The nearest surface point under (x, y); false if there is none. */
 bool wr_patch_pick_at(const WrPatchPick *pick, double x, double y, WrPatchSpot *out);
-/* Where (u, v) of a face is; false before the eye's plane. *hidden: something nearer is in front of it, or
- * the surface turns its back there. hidden may be NULL, which is cheaper. */
+/* Position of (u, v) of a face; false behind the eye's plane. *hidden: a nearer surface covers it, or it faces away.
+ * hidden may be NULL, which is faster. */
 bool wr_patch_pick_project(const WrPatchPick *pick, int face, double u, double v, WrPatchSpot *out,
                            bool *hidden);
-/* How (u, v) change with x and y at a spot: jacobian = { du/dx, du/dy, dv/dx, dv/dy }. False where the
- * surface is seen edge-on, or has no tangent plane. */
+/* Derivatives of (u, v) by pixel position: jacobian = { du/dx, du/dy, dv/dx, dv/dy }. False if the surface is seen
+ * edge-on, or has no tangent plane. */
 bool wr_patch_pick_slopes(const WrPatchPick *pick, const WrPatchSpot *at, double jacobian[4]);

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 struct WrPatchPicks {
-    WrPatchPick *pick[WR_OBJECTS_MAX]; /* of each object; NULL: it is not shown. Owned */
+    WrPatchPick *pick[WR_OBJECTS_MAX]; /* one per object; NULL: hidden. Owned */
     int count;
 };
 

@@ -1,4 +1,4 @@
-/* picture_heatmap.h - the preview's picture in false colours: where each effect ran. */
+/* picture_heatmap.h - effect heatmap of the preview: false colours for the effects that ran in each pixel. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>
@@ -7,13 +7,13 @@ typedef struct WrError WrError;
 typedef struct WrFrameRequest WrFrameRequest;
 typedef struct WrPreviewPicture WrPreviewPicture;
 
-/* What each pixel took, as the renderer left it: of pixels that a resting view keeps it is kept too. */
+/* Effects of each pixel from the renderer; pixels reused in a static view keep theirs. */
 typedef struct WrPictureRan {
-    uint8_t *map; /* [height][width], owned by whom this is; NULL: none yet */
+    uint8_t *map; /* [height][width], owned; NULL: none yet */
     int width, height;
 } WrPictureRan;
 
-/* Have the request fill the map. Errors: no memory. */
+/* Make the request fill the map. Errors: out of memory. */
 bool wr_picture_ran_bring(WrPictureRan *ran, WrFrameRequest *request, WrError *err);
-/* Into the picture's pixels, of the same size, and its counts. */
+/* Write the colours to the picture's pixels, of the same size, and its counts. */
 void wr_picture_ran_show(const WrPictureRan *ran, WrPreviewPicture *out);

@@ -1,4 +1,4 @@
-/* How long the newest picture of the patch took: one figure, the same wherever it is shown. */
+/* Time of the newest patch picture: one figure for all places that show it. */
 #include "ui/preview/preview.h"
 #include "ui/toolkit/words.h"
 
@@ -20,7 +20,7 @@ double wr_picture_time(const WrPreviewPicture *picture, double ms[WR_PICTURE_STA
                                               t->bump,    t->shade,      t->resolve };
     double all = 0.0, total = picture->seconds * 1e3;
     for (int i = 0; i < WR_PICTURE_STAGES; i++) all += spent[i];
-    /* Threads work side by side, so that their times together are more than a clock's. */
+    /* Threads run in parallel, so the sum of their times exceeds wall time; scale it. */
     for (int i = 0; i < WR_PICTURE_STAGES; i++) ms[i] = all > 0.0 ? total * spent[i] / all : 0.0;
     return total;
 }

@@ -33,7 +33,7 @@ void wr_picture_put(WrPreviewPicture *picture, const WrFrame *frame, const WrFra
     picture->clipped = wr_overexposed(picture->bgra, frame->width, frame->height, look->marked);
 }
 
-/* ---- a picture ---- */
+/* ---- pixels of a picture ---- */
 
 void wr_picture_free(WrPreviewPicture *picture)
 {
@@ -59,7 +59,7 @@ static const uint8_t *row_of(const WrPreviewPicture *picture, int y)
     return picture->bgra + 4 * (size_t)picture->width * (size_t)y;
 }
 
-/* The first pixel of a row that is another one, looked for in front of `most`; and the last, behind `least`. */
+/* The first differing pixel of a row before `most`; and the last one after `least`. */
 static int first_other(const uint8_t *a, const uint8_t *b, int most)
 {
     int x = 0;

@@ -1,4 +1,4 @@
-/* picture_upload.h - from a rendered frame to the pixels of the preview's picture. */
+/* picture_upload.h - conversion of a rendered frame to the preview's pixels, and comparison of pictures. */
 #pragma once
 #include <stdbool.h>
 
@@ -10,14 +10,15 @@ typedef struct WrPool WrPool;
 typedef struct WrPreviewLook WrPreviewLook;
 typedef struct WrPreviewPicture WrPreviewPicture;
 
-/* scale: the frame's pixels to one of the view's; ran: what each took, where the look asks for that. */
+/* scale: frame pixels per view pixel; ran: effects of each pixel, if the view mode needs them. */
 void wr_picture_put(WrPreviewPicture *picture, const WrFrame *frame, const WrFrameRequest *request,
                     const WrPreviewLook *look, double scale, const WrPictureRan *ran, WrPool *pool);
 
-void wr_picture_free(WrPreviewPicture *picture); /* NULL is fine */
-/* Room for its pixels, width and height at least 1. Errors: no memory; it is as it was then. */
+void wr_picture_free(WrPreviewPicture *picture); /* NULL is allowed */
+/* Allocate pixels, width and height at least 1. Errors: out of memory; the picture is then unchanged. */
 bool wr_picture_room(WrPreviewPicture *picture, int width, int height, WrError *err);
-/* Set `changed` and `since` by the picture before (NULL: there is none), whose pixels must not change meanwhile. */
+/* Set `changed` and `since` by comparison with the previous picture (NULL: none), whose pixels must not change
+   meanwhile. */
 void wr_picture_compare(WrPreviewPicture *picture, const WrPreviewPicture *before);
-/* `missed`, the picture before it, is never handed over: it counts from what that counts from. */
+/* `missed`, the previous picture, will never be delivered: refer to the one before it. */
 void wr_picture_follow(WrPreviewPicture *picture, const WrPreviewPicture *missed);

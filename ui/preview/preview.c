@@ -23,13 +23,13 @@
 #include <math.h>
 #include <string.h>
 
-#define MOVING_SECONDS 0.016 /* that a picture may take while something moves */
-#define QUICK_SECONDS 0.005  /* and while it is painted on besides: seen within 1/60 s */
+#define MOVING_SECONDS 0.016 /* time limit of a moving picture */
+#define QUICK_SECONDS 0.005  /* time limit while painting: visible within 1/60 s */
 #define EDIT_SECONDS                                                                               \
-    0.012 /* that a refresh after an edit may take before finer samples are given up */
+    0.012 /* time limit of an update after an edit; beyond it fewer samples are used */
 
 typedef struct Wish {
-    WrField *field; /* own shares; NULL: no wish */
+    WrField *field; /* shared, owned; NULL: no request */
     WrTables *tables;
     WrScene *scene;
     double turn_deg;
@@ -41,16 +41,16 @@ typedef struct Wish {
 } Wish;
 
 struct WrPreview {
-    WrMutex lock; /* guards what follows, up to the next blank line */
+    WrMutex lock; /* protects the members up to the next blank line */
     WrCond wake;
     bool started, quit;
-    Wish next; /* not taken up yet */
+    Wish next; /* not started yet */
     bool settled;
-    double point_x, point_y;   /* asked for */
+    double point_x, point_y;   /* requested */
     bool point_new, point_hit; /* not looked up yet; on the object */
     double point_u, point_v;
     WrPreviewPicture *done, *shown; /* owned */
-    bool fresh;                     /* done is newer than shown */
+    bool fresh;                     /* `done` is newer than `shown` */
     bool failed;
     WrError error;
 
@@ -60,18 +60,19 @@ struct WrPreview {
     char *isa; /* owned */
     Uint32 ready_event;
 
-    /* of the thread alone; without one, of the window's */
+    /* used only by the thread, or by the window's if there is none */
     WrPool *pool;         /* owned, as is the renderer */
-    WrRenderer *renderer; /* NULL: not made yet, or not to be had */
+    WrRenderer *renderer; /* NULL: not created yet, or failed */
     Wish now;
     WrPreviewPicture *work;         /* owned */
-    const WrPreviewPicture *newest; /* of the two above, that was finished last; NULL: none yet */
+    const WrPreviewPicture *newest; /* the one of these two finished last; NULL: none yet */
     WrPreviewLevel level;           /* reached for `now` */
     WrMoving moving;
-    WrPictureRan ran;    /* of the last picture that showed where effects ran */
-    WrChoice choice;     /* of the last picture under a tolerance */
-    double edit_seconds; /* of the last refresh after an edit with more than one sample a pixel */
-    bool edited;         /* the picture under way is such a refresh */
+    WrPictureRan ran; /* of the last effect heatmap */
+    WrChoice choice;  /* of the last picture under a tolerance */
+    /* time of the last update after an edit with more than one sample per pixel */
+    double edit_seconds;
+    bool edited; /* the running picture is such an update */
     uint64_t serial;
     int last_width, last_height; /* of the last picture */
 };
@@ -126,7 +127,7 @@ void wr_preview_free(WrPreview *preview)
     wr_free(preview);
 }
 
-/* ---- the thread ---- */
+/* ---- the worker thread ---- */
 
 static void fail(WrPreview *preview, const WrError *err)
 {
@@ -148,7 +149,7 @@ static WrDials dials_for(const Wish *wish, WrPreviewLevel level, WrMovingWay way
     const WrAntialias aa = dials.aa;
     int own = aa == WR_AA_SUPERSAMPLE ? dials.samples : 1;
     bool rests = level == WR_PREVIEW_SMOOTH || level == WR_PREVIEW_FINAL;
-    /* Filtered and adaptive pictures are as the scene has them once the view rests. */
+    /* Filtered and adaptive pictures use the scene's own method once the view is static. */
     if (rests && aa != WR_AA_POINT && aa != WR_AA_SUPERSAMPLE) return dials;
     dials.aa = WR_AA_POINT;
     dials.samples = 1;
@@ -164,7 +165,7 @@ static WrDials dials_for(const Wish *wish, WrPreviewLevel level, WrMovingWay way
     return dials;
 }
 
-/* What was only prepared, such as a new table's slopes, says nothing about the next picture. */
+/* One-time preparations, such as slopes of a new table, do not predict the next picture's time. */
 static void learn(WrPreview *preview, const WrPreviewPicture *picture)
 {
     const Wish *wish = &preview->now;
@@ -179,8 +180,8 @@ static bool has_tolerance(const Wish *wish)
     return wish->scene->tolerance.kind != WR_TOLERANCE_NONE;
 }
 
-/* Block by block with the dials that keep to the scene's tolerance: those that this view has already, those that the
-   document keeps, or, where neither are for this picture, chosen now. */
+/* Render block by block with dials that meet the scene's tolerance: those already chosen for this view, those stored
+   in the document, or, if neither fits this picture, newly chosen ones. */
 static bool by_tolerance(WrPreview *preview, const WrFrameRequest *wanted, WrPreviewPicture *out,
                          WrFrame *frame, WrError *err)
 {
@@ -188,7 +189,7 @@ static bool by_tolerance(WrPreview *preview, const WrFrameRequest *wanted, WrPre
     WrChoice *choice = &preview->choice;
     WrFrameRequest request = *wanted;
     request.dials = NULL;
-    request.codes.wanted = false; /* its blocks are put together as floats */
+    request.codes.wanted = false; /* the blocks are assembled as floats */
     request.keep = false;
     wr_chosen_recall(preview->now.chosen, &request, choice);
     request.map = NULL;
@@ -253,7 +254,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     return true;
 }
 
-/* Look up the point asked for in the last picture. */
+/* Look up the requested point in the last picture. */
 static void answer_point(WrPreview *preview, WrRenderer *renderer, int width, int height)
 {
     wr_mutex_lock(&preview->lock);
@@ -270,7 +271,8 @@ static void answer_point(WrPreview *preview, WrRenderer *renderer, int width, in
     wr_mutex_unlock(&preview->lock);
 }
 
-/* Is the wish what is shown, but for an edit of the table? Then it is brought up to date where that reaches. */
+/* True if the request differs from the displayed picture only by an edit of the table, so that only the dirty region
+   needs an update. */
 static bool only_edited(const WrPreview *preview)
 {
     const Wish *now = &preview->now, *next = &preview->next;
@@ -280,7 +282,7 @@ static bool only_edited(const WrPreview *preview)
            now->height == next->height;
 }
 
-/* Take up the next wish, or go on with the present one; false: nothing to do. Called under the lock. */
+/* Start the next request, or refine the present one; false: nothing to do. Called with the lock held. */
 static bool choose(WrPreview *preview, WrPreviewLevel *level)
 {
     if (preview->next.field) {
@@ -312,7 +314,7 @@ static bool choose(WrPreview *preview, WrPreviewLevel *level)
     return false;
 }
 
-/* Hand the finished picture over. Called under the lock. */
+/* Deliver the finished picture. Called with the lock held. */
 static void publish(WrPreview *preview)
 {
     WrPreviewPicture *finished = preview->work;
@@ -349,7 +351,8 @@ static void begin(WrPreview *preview)
     if (!preview->renderer) fail(preview, &err);
 }
 
-/* One picture, or one answer; false: nothing is left to do. Called under the lock, let go meanwhile. */
+/* Make one picture, or one answer; false: nothing left to do. Called with the lock held, which is released
+   meanwhile. */
 static bool step(WrPreview *preview)
 {
     WrPreviewLevel level;
@@ -376,7 +379,7 @@ static bool step(WrPreview *preview)
 static void *thread_main(void *arg)
 {
     WrPreview *preview = arg;
-    wr_thread_step_back(); /* so that the window's own thread goes first */
+    wr_thread_step_back(); /* lower priority than the window's thread */
     begin(preview);
     wr_mutex_lock(&preview->lock);
     while (!preview->quit)
@@ -385,7 +388,7 @@ static void *thread_main(void *arg)
     return NULL;
 }
 
-/* The system gives no thread: on the caller's, which waits, and no finer than every pixel once. */
+/* Without a thread: render on the caller's thread, which waits, with at most one sample per pixel. */
 static void work_in_place(WrPreview *preview)
 {
     begin(preview);
@@ -395,7 +398,7 @@ static void work_in_place(WrPreview *preview)
     wr_mutex_unlock(&preview->lock);
 }
 
-/* ---- the window's side ---- */
+/* ---- on the window's thread ---- */
 
 void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
 {
@@ -412,7 +415,7 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
                             .moving = wish->moving,
                             .painting = wish->painting,
                             .look = wish->look };
-    /* A moving picture is done in a moment; a sharp one would hold up the new wish. */
+    /* A moving picture ends soon; a high-quality one would delay the new request. */
     if (!preview->now.moving) __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
     preview->settled = false;
     if (!preview->started)

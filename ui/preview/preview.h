@@ -1,7 +1,7 @@
-/* preview.h - the patch, rendered by a thread of its own from snapshots, so that no stroke ever waits for
-   a picture: coarse while something moves, then sharp step by step when it rests.
+/* preview.h - asynchronous rendering of the patch from snapshots, so that strokes never wait for a picture: low
+   quality during motion, then refined step by step in a static view.
 
-   All calls but those of the thread itself come from the window's thread. */
+   All calls except those of the thread itself are from the window's thread. */
 #pragma once
 #include "ui/preview/accuracy_choice.h"
 #include "ui/preview/moving.h"
@@ -21,95 +21,95 @@ typedef struct WrTables WrTables;
 
 typedef struct WrPreview WrPreview;
 
-/* How good the picture is. */
+/* Quality of the picture. */
 typedef enum WrPreviewLevel {
     WR_PREVIEW_NONE,
-    WR_PREVIEW_MOVING, /* as coarse as it takes for 60 pictures a second, or as fine as that allows (moving.h); fast
-                          arithmetic */
-    WR_PREVIEW_FULL,   /* every pixel once, the scene's arithmetic */
-    WR_PREVIEW_SMOOTH, /* 2 x 2 samples a pixel */
-    WR_PREVIEW_FINAL, /* 4 x 4, or more if the scene's dials say so; with a tolerance, what it chooses */
+    WR_PREVIEW_MOVING, /* adapted to 60 pictures per second (moving.h); fast arithmetic */
+    WR_PREVIEW_FULL,   /* one sample per pixel, the scene's arithmetic */
+    WR_PREVIEW_SMOOTH, /* 2 x 2 samples per pixel */
+    /* 4 x 4, or more if the scene's dials require it; with a tolerance, the chosen dials */
+    WR_PREVIEW_FINAL,
     WR_PREVIEW_LEVELS
 } WrPreviewLevel;
 
-/* threads: as in wr_pool_new. isa: as in wr_renderer_new. ready_event: an SDL event type, pushed
- * whenever a picture or an answer is there. The thread starts with the first wish. */
+/* threads: as in wr_pool_new. isa: as in wr_renderer_new. ready_event: an SDL event type, pushed when a picture or an
+ * answer is ready. The thread starts with the first request. */
 WrPreview *wr_preview_new(int threads, const char *isa, Uint32 ready_event);
-/* Stops the thread, cancelling what it does. NULL is fine. */
+/* Stops the thread and cancels its work. NULL is allowed. */
 void wr_preview_free(WrPreview *preview);
 
-/* How a picture is shown, besides what the scene says. */
+/* View mode: changes to the display besides the scene. */
 typedef struct WrPreviewLook {
-    bool ran;        /* where each effect ran, in false colours, instead */
-    bool marked;     /* pixels that are full in some colour are striped */
-    WrForce force;   /* one effect is left out, or run though it need not: before and after */
-    WrEffect effect; /* which; of no meaning without force */
+    bool ran;        /* effect heatmap instead of the picture */
+    bool marked;     /* stripes on over-exposed pixels */
+    WrForce force;   /* force one effect off or on, for a comparison */
+    WrEffect effect; /* that effect; ignored without force */
 } WrPreviewLook;
 bool wr_preview_look_same(const WrPreviewLook *a, const WrPreviewLook *b);
 
 typedef struct WrPreviewWish {
     const WrField *field; /* shared by the call, as is the scene */
     const WrScene *scene;
-    const WrTables *tables; /* of its objects; NULL: `field` is that of all */
+    const WrTables *tables; /* prepared tables of its objects; NULL: all use `field` */
     double turn_deg;
     int width, height; /* of the view, pixels */
-    int64_t tag;       /* comes back with the picture */
+    int64_t tag;       /* returned with the picture */
     const char *
-        chosen; /* the dials that the document keeps for its tolerance; NULL: none; copied by the call */
-    bool painting; /* edits follow one another: be quick rather than fine, and do not refine yet */
+        chosen; /* stored dials of the document for its tolerance; NULL: none; copied by the call */
+    bool painting; /* edits follow in quick succession: prefer speed and do not refine */
     WrPreviewLook look;
-    bool moving; /* more wishes will follow at once: do not go beyond WR_PREVIEW_MOVING */
+    bool moving; /* further requests follow at once: do not go beyond WR_PREVIEW_MOVING */
 } WrPreviewWish;
 
-/* Replace the wish. A sharp picture under way for an older one is given up. */
+/* Replace the request. A high-quality picture in progress for an older one is cancelled. */
 void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish);
 
-/* Ask for the (u,v) under a point of the view, as fractions of its width and height; outside 0..1: ask
- * for nothing. The answer follows every picture until another point is asked for. */
+/* Request the (u,v) under a point of the view, as fractions of its width and height; outside 0..1: no request. The
+ * answer is updated with every picture until another point is requested. */
 void wr_preview_point(WrPreview *preview, double x, double y);
-/* True if that point lies on the object in the newest picture, and where. */
+/* True if that point is on the object in the newest picture; returns its position. */
 bool wr_preview_point_hit(WrPreview *preview, double *u, double *v);
 
 /* A finished picture. */
 typedef struct WrPreviewPicture {
     int width, height; /* pixels of bgra */
-    uint8_t *bgra;     /* [height][width][4] */
+    uint8_t *bgra;     /* BGRA, [height][width][4] */
     WrPreviewLevel level;
     double turn_deg;
     double seconds; /* wall time, conversion included */
     WrStageTimes times;
     WrPlan plan;
-    bool ran;               /* it shows where each effect ran, ... */
-    WrHeatmapCounts counts; /* ... on so many pixels */
-    double clipped;         /* share of its pixels that are full in some colour */
-    WrChosen chosen;        /* what the scene's tolerance chose for it */
+    bool ran;               /* it is an effect heatmap, ... */
+    WrHeatmapCounts counts; /* ... with these pixel counts */
+    double clipped;         /* share of over-exposed pixels */
+    WrChosen chosen;        /* dials chosen by the scene's tolerance */
     char *
-        kept; /* the same as the document keeps it (wr_choice_write); owned; NULL: nothing was chosen */
-    WrMovingWay way;  /* of WR_PREVIEW_MOVING ... */
-    double scale;     /* ... and its size beside the view's */
-    int64_t tag;      /* of the wish that it shows */
-    uint64_t serial;  /* counts pictures; 0: none yet */
-    SDL_Rect changed; /* pixels beyond it are as in the picture of serial `since` */
-    uint64_t since;   /* handed over before this one; 0: there is none such, all is changed */
+        kept; /* their text form for the document (wr_choice_write); owned; NULL: nothing was chosen */
+    WrMovingWay way;  /* mode of WR_PREVIEW_MOVING ... */
+    double scale;     /* ... and its size relative to the view */
+    int64_t tag;      /* from the request */
+    uint64_t serial;  /* counter of pictures; 0: none yet */
+    SDL_Rect changed; /* pixels outside are equal to the picture of serial `since` */
+    uint64_t since;   /* an earlier delivered picture; 0: none, everything has changed */
 } WrPreviewPicture;
 
 /* ---- picture_time.c ---- */
-#define WR_PICTURE_STAGES 6 /* of WrStageTimes */
+#define WR_PICTURE_STAGES 6 /* number of WrStageTimes */
 extern const char *const wr_picture_stages[];
-/* Milliseconds that it took by the clock, and each stage's share of them: the figure of the status line, the
-   Accuracy tab and the Plan tab. */
+/* Wall time in milliseconds, distributed to the stages; shown in the status line, the Accuracy tab and the Plan
+   tab. */
 double wr_picture_time(const WrPreviewPicture *picture, double ms[WR_PICTURE_STAGES]);
-/* Of a picture made while something moves: "2 x 2", "1 x 1 at 60 %"; "" of others. */
+/* Mode of a moving picture: "2 x 2", "1 x 1 at 60 %"; "" for others. */
 #define WR_PICTURE_MOVING 40
 void wr_picture_moving(const WrPreviewPicture *picture, char text[WR_PICTURE_MOVING]);
-/* The same in a sentence, with what it counts. */
+/* The mode in a sentence with its meaning. */
 #define WR_PICTURE_WORDS 200
 void wr_picture_words(const WrPreviewPicture *picture, char text[WR_PICTURE_WORDS]);
 
-/* ---- of a preview ---- */
-/* The newest finished picture; stays as it is until the next call. */
+/* ---- queries of a preview ---- */
+/* The newest finished picture; unchanged until the next call. */
 const WrPreviewPicture *wr_preview_picture(WrPreview *preview);
-/* The thread has nothing left to do for the present wish. */
+/* True if the thread has finished the present request. */
 bool wr_preview_settled(WrPreview *preview);
-/* What went wrong since the last call, or false. */
+/* The error since the last call; false: none. */
 bool wr_preview_error(WrPreview *preview, WrError *err);

@@ -41,7 +41,7 @@ WrRotation wr_rotation_inverse(const WrRotation *r)
     return (WrRotation){ { m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8] } };
 }
 
-/* The axis of half a turn: a column of R + 1, the longest. */
+/* The axis of a half turn: the longest column of R + 1. */
 static WrVec3 half_turn_axis(const double *m)
 {
     WrVec3 best = { 1, 0, 0 };
@@ -106,7 +106,7 @@ WrRotation wr_rotation_dragged(const WrRotation *rotation, double turn_deg, WrVe
     WrRotation about_up = wr_rotation_axis(up, 180.0 * dx / span);
     WrRotation about_right = wr_rotation_axis(right, 180.0 * dy / span);
     WrRotation drag = wr_rotation_times(&about_right, &about_up);
-    /* Shown is T R. Wanted: T R' = D T R, so R' = T^-1 D T R. */
+    /* Displayed is T R. Required: T R' = D T R, so R' = T^-1 D T R. */
     WrRotation turn = wr_rotation_axis((WrVec3){ 0, 1, 0 }, turn_deg);
     WrRotation back = wr_rotation_axis((WrVec3){ 0, 1, 0 }, -turn_deg);
     WrRotation tr = wr_rotation_times(&turn, rotation);
@@ -119,8 +119,8 @@ static double larger(double x, double y)
     return fabs(x) > fabs(y) ? fabs(x) : fabs(y);
 }
 
-/* With r = max(|x|, |y|), the angle from the viewer's axis goes as r^2: usual lights stand well out, in
- * the corners, where the object does not hide them. */
+/* With r = max(|x|, |y|), the angle from the view axis is proportional to r^2: common light directions are then near
+ * the pad's corners, where the object does not hide them. */
 void wr_light_to_pad(WrVec3 towards, double *x, double *y)
 {
     double side = sqrt(towards.x * towards.x + towards.y * towards.y);
@@ -140,9 +140,9 @@ WrVec3 wr_light_from_pad(double x, double y)
     return (WrVec3){ k * x, k * y, c };
 }
 
-#define ROCK_SECONDS 12.0 /* there and back */
+#define ROCK_SECONDS 12.0 /* period */
 
-/* The way's place that has this angle: on the way there or on the way back, as it was. */
+/* The phase with this angle; of the two per period, the one in the previous direction of motion. */
 static double rock_from(double turn_deg, double before)
 {
     double sine = (turn_deg > 180.0 ? turn_deg - 360.0 : turn_deg) / WR_ROCK_DEG;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* A ray along the view meets the slabs of the three axes; the last that it enters is the face. */
+/* Intersect a ray along the view with the slabs of the three axes; the last one entered is the face. */
 bool wr_cube_at(const WrRotation *cube, double x, double y, int side[3])
 {
     const WrRotation back = wr_rotation_inverse(cube);
