@@ -1,5 +1,5 @@
-/* What lies over the canvas while the brush is in hand: its outline in two tones, turned and sized as the
-   next dab would be, with its copies; the string of a steadied hand; the straight line that is aimed. */
+/* Overlays of the brush on the canvas: its outline in two tones with the rotation and size of the next dab, and its
+   copies; the string of the stabilizer; the straight line being aimed. */
 #include "ui/tools/brush_outline.h"
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
@@ -62,18 +62,18 @@ int wr_brush_mark_points(const WrBrushMark *mark, double points[][2])
     for (int i = 0; i < count; i++) {
         double a = 6.28318530717958648 * (mark->square ? (i + 0.5) / 4.0 : (double)i / count);
         double long_way = mark->radius * cos(a), across = mark->radius * sin(a);
-        if (mark->square) { /* the square's corners lie on the outline's circle times sqrt(2) */
+        if (mark->square) { /* the square's corners are on the outline's circle times sqrt(2) */
             long_way *= 1.41421356237309505;
             across *= 1.41421356237309505;
         }
         across /= mark->aspect;
         points[i][0] = long_way * c - across * s;
-        points[i][1] = -(long_way * s + across * c); /* down the screen */
+        points[i][1] = -(long_way * s + across * c); /* y points down */
     }
     return count;
 }
 
-/* One outline about (x, y) in pixels; `copy` turns or mirrors it (NULL: as it is). */
+/* One outline about (x, y) in pixels; `copy` rotates or mirrors it (NULL: unchanged). */
 static void outline(const WrBrushMark *mark, const WrCanvasView *view, double x, double y,
                     const WrCopy *copy, WrColour dark, WrColour light)
 {
@@ -106,7 +106,7 @@ static void outline(const WrBrushMark *mark, const WrCanvasView *view, double x,
     }
 }
 
-/* The real cell, or what holds it where it is turned. */
+/* Rectangle of the cell, or its bounding box in a rotated view. */
 static SDL_Rect cell_box(const WrCanvasView *view)
 {
     double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY, x, y;
@@ -118,7 +118,7 @@ static SDL_Rect cell_box(const WrCanvasView *view)
     return (SDL_Rect){ (int)x0, (int)y0, (int)(x1 - x0), (int)(y1 - y0) };
 }
 
-/* Inside the real cell: what the stroke touches there from the other side of an edge, or from a copy. */
+/* Inside the cell: the areas that the stroke touches across an edge, or by a copy. */
 static void outline_in_cell(const WrApp *app, const WrBrushMark *mark, double x, double y)
 {
     const WrField *field = wr_app_field(app);
@@ -136,7 +136,7 @@ static void outline_in_cell(const WrApp *app, const WrBrushMark *mark, double x,
     wr_gui_draw_unclip();
 }
 
-/* Where the symmetry's copies of the dab fall, faintly; in the cell that the pointer is in. */
+/* Faint outlines at the symmetry's copies of the dab, in the cell under the pointer. */
 static void outline_copies(const WrApp *app, const WrBrushMark *mark, double x, double y)
 {
     const WrField *field = wr_app_field(app);
@@ -216,7 +216,7 @@ void wr_brush_overlay(WrApp *app)
         return;
     }
     if (app->brush->drawing && steady->kind != WR_RELIGHT_OFF) {
-        px = steady->follower.x; /* the outline is where it is drawn, not where the pointer is */
+        px = steady->follower.x; /* the outline is at the drawn position, not at the pointer */
         py = steady->follower.y;
     }
     wr_brush_show_string(app);

@@ -1,5 +1,5 @@
-/* The option row: values of the brush that several tools show, and how many of a tool's options find room. What does
-   not fit is behind the button at its end. */
+/* Option row: brush parameters shared by several tools, and layout of a tool's options. Options that do not fit are
+   in a popup at the row's end. */
 #include "ui/tools/option.h"
 
 #include "base/enum_rows.h"
@@ -22,7 +22,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MORE_UNITS 44 /* room for the button at the end */
+#define MORE_UNITS 44 /* width reserved for the popup's button */
 
 static void label(const char *text)
 {
@@ -30,7 +30,7 @@ static void label(const char *text)
     wr_gui_same_line(8);
 }
 
-/* ---- values of the brush ---- */
+/* ---- brush parameters ---- */
 
 const WrBrushModeInfo *wr_option_mode_of(const WrApp *app)
 {
@@ -218,7 +218,7 @@ static void put(WrApp *app, const WrOption *item, bool in_row)
     item->draw(app, wr_gui_px(in_row ? item->units : 140));
 }
 
-/* As many as fit, in their order; the rest in a popup. */
+/* Show as many as fit, in order; the rest in a popup. */
 void wr_option_row(WrApp *app, const WrOption *items, int count)
 {
     wr_gui_same_line(0);
@@ -245,7 +245,7 @@ void wr_option_row(WrApp *app, const WrOption *items, int count)
     wr_gui_popup_end();
 }
 
-/* The picture of the brush; a click opens the tab. */
+/* The brush's picture; a click opens the tab. */
 static void thumbnail(WrApp *app)
 {
     int index = wr_preset_browser_find(app, wr_preset_browser_chosen(app));

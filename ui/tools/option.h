@@ -1,4 +1,4 @@
-/* option.h - the row of options under the menu: what the tool in hand needs. Each tool puts its own there. */
+/* option.h - option row below the menu, filled by the current tool. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -8,18 +8,18 @@ typedef struct WrBrushModeInfo WrBrushModeInfo;
 
 typedef struct WrOption {
     const char *label; /* "" for none */
-    double units;      /* width that `draw` gets */
-    double extra;      /* units that it takes besides */
+    double units;      /* width for `draw` */
+    double extra;      /* additional width */
     void (*draw)(WrApp *app, double width);
-    bool here; /* wanted by the tool as it is */
+    bool here; /* relevant in the tool's present state */
 } WrOption;
 
-/* As many as fit, in their order; the rest in a popup. */
+/* Show as many as fit, in order; the rest in a popup. */
 void wr_option_row(WrApp *app, const WrOption *items, int count);
-/* The brush's picture, the tool's own options, then the brush's. first: [first_count <= 12]. */
+/* The brush's picture, the tool's own options, then the brush parameters. first: [first_count <= 12]. */
 void wr_option_brush_row(WrApp *app, const WrOption *first, int first_count);
 
-/* Values of the brush. width: pixels. */
+/* Brush parameters. width: pixels. */
 void wr_option_mode(WrApp *app, double width);
 void wr_option_fill_mode(WrApp *app, double width); /* only modes that can fill an area */
 void wr_option_strength(WrApp *app, double width);
@@ -28,4 +28,5 @@ void wr_option_opacity(WrApp *app, double width);
 void wr_option_hardness(WrApp *app, double width);
 void wr_option_pressure(WrApp *app, double width);
 void wr_option_symmetry(WrApp *app, double width);
-const WrBrushModeInfo *wr_option_mode_of(const WrApp *app); /* what the brush's mode uses */
+/* parameters used by the brush's mode */
+const WrBrushModeInfo *wr_option_mode_of(const WrApp *app);

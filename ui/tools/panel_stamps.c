@@ -1,4 +1,4 @@
-/* Choosing the picture of the stamp tool. */
+/* Choice of the stamp tool's picture. */
 #include "ui/state/action.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
@@ -18,7 +18,7 @@
 
 #define TILE_UNITS 64
 
-/* A file's name as a person writes it: "wood-grain_2.png" is Wood grain 2. */
+/* Readable form of a file name: "wood-grain_2.png" is Wood grain 2. */
 static void name_of(const char *path, WrText *out)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -38,7 +38,7 @@ static int index_of(const WrApp *app, const char *path)
     return -1;
 }
 
-/* What was opened by hand joins those that were found. */
+/* Add a file opened by the user to the list. */
 static int offer(WrApp *app, const char *path)
 {
     int index = index_of(app, path);
@@ -84,7 +84,7 @@ void wr_stamp_picker(WrApp *app)
     wr_gui_centre(wr_gui_px(32));
     if (wr_gui_tile("picture", picture, wr_gui_px(32), false, false)) {
         wr_gui_popup_open("stamps");
-        app->redraw = 4; /* a list in a popup takes its time to settle */
+        app->redraw = 4; /* a list in a popup needs several frames for its layout */
     }
     wr_gui_centre_end(wr_gui_px(32));
     wr_gui_tip("Click to choose a picture; the wheel sizes the stamp");

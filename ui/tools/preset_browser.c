@@ -1,4 +1,4 @@
-/* What is chosen of the presets: its values go into settings.brush, its name into the commands. */
+/* The current preset: its values are copied to settings.brush, its name to the command lines. */
 #include "ui/tools/preset_browser.h"
 #include "ui/state/app_state.h"
 #include "ui/state/messages.h"
@@ -59,10 +59,9 @@ WrBrush wr_preset_browser_own(const WrApp *app)
     return shelf->tuned ? wr_preset_brush(shelf->tuned) : wr_brush_default();
 }
 
-/* ---- choosing ---- */
+/* ---- choice ---- */
 
-/* Take over a preset (owned from now on, NULL: none) with changed settings, which are owned too. Strokes
- * under way keep to their own. */
+/* Use a preset (NULL: none) with its changed settings; ownership of both passes. Running strokes keep their own. */
 static void install(WrApp *app, WrPreset *preset, WrPreset *tuned)
 {
     WrPresetBrowser *shelf = app->shelf;
@@ -72,7 +71,7 @@ static void install(WrApp *app, WrPreset *preset, WrPreset *tuned)
     shelf->preset = preset;
     shelf->tuned = tuned;
     app->settings->brush.preset = tuned;
-    app->brush->now.preset = NULL; /* it is only looked at while a stroke is drawn */
+    app->brush->now.preset = NULL; /* only read while a stroke is drawn */
     app->brush->now.tip = NULL;
 }
 
@@ -84,7 +83,7 @@ static void drop_tip(WrApp *app)
     wr_settings_set_text(&app->brush_files->tip, NULL);
 }
 
-/* The values of what was chosen; what belongs to the hand and not to the brush stays. */
+/* Copy the preset's values; settings of the user's hand, which are not part of a brush, are unchanged. */
 static void take_values(WrApp *app)
 {
     WrPresetBrowser *shelf = app->shelf;
@@ -113,7 +112,7 @@ bool wr_preset_browser_choose(WrApp *app, const char *id)
             return false;
         }
     }
-    char *copy = wr_strdup(id); /* it may be a text that changes below */
+    char *copy = wr_strdup(id); /* id may point to a text that changes below */
     install(app, preset, preset ? wr_preset_share(preset) : NULL);
     drop_tip(app);
     wr_settings_set_text(&app->brush_files->preset, preset ? copy : NULL);
@@ -196,7 +195,7 @@ void wr_preset_browser_step(WrApp *app, int by)
     wr_preset_browser_choose(app, list[at]);
 }
 
-/* ---- presets of one's own ---- */
+/* ---- user presets ---- */
 
 static bool is_name(const char *name)
 {
@@ -208,7 +207,7 @@ static bool is_name(const char *name)
 
 #define TIP_MAX (64u << 20) /* bytes */
 
-/* What lies there are these bytes, or nothing. A picture that another preset goes by is never replaced. */
+/* True if the file contains these bytes, or does not exist. The picture of another preset is never replaced. */
 static bool is_free_for(const char *path, const char *bytes, size_t length, WrError *err)
 {
     char *there = NULL;
@@ -221,7 +220,7 @@ static bool is_free_for(const char *path, const char *bytes, size_t length, WrEr
            wr_fail(err, "%s: another picture of this name lies there; rename one of them", path);
 }
 
-/* The picture that goes with a preset lies beside it and stays there: a copy has one of its own. */
+/* A preset's picture must be in its folder, so a copy of the preset needs a copy of the picture. */
 static bool copy_tip(const WrApp *app, const char *folder, WrError *err)
 {
     const char *path = app->brush_files->tip;
@@ -238,14 +237,14 @@ static bool copy_tip(const WrApp *app, const char *folder, WrError *err)
     return ok;
 }
 
-/* What is kept of a brush that has no preset: libmypaint's default settings. */
+/* Base of a saved brush without a preset: libmypaint's default settings. */
 static WrPreset *plain(WrError *err)
 {
     static const char text[] = "{\"version\":3,\"settings\":{}}";
     return wr_preset_parse(text, sizeof text - 1, "brush", NULL, err);
 }
 
-/* The file of a preset of one's own. Caller frees. */
+/* File of a user preset. The caller frees it. */
 static char *preset_path(const char *folder, const char *name)
 {
     WrText file = { 0 };
@@ -305,7 +304,7 @@ bool wr_preset_browser_save(WrApp *app, const char *name)
 
 void wr_preset_browser_take(WrApp *app, const char *path)
 {
-    (void)path; /* of that name, as it is typed */
+    (void)path; /* of that name, as typed */
     wr_preset_browser_save(app, app->shelf->name);
 }
 
@@ -327,7 +326,7 @@ bool wr_preset_browser_delete(WrApp *app, const char *id)
     return true;
 }
 
-/* ---- from one time to the next ---- */
+/* ---- storage in the settings ---- */
 
 void wr_preset_browser_start(WrApp *app)
 {

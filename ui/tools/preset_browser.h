@@ -1,4 +1,4 @@
-/* preset_browser.h - the brushes to choose from: presets, their small pictures, and what is chosen. */
+/* preset_browser.h - brush presets: library, thumbnails, and the current choice. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -14,63 +14,64 @@ typedef struct WrApp WrApp;
 typedef struct WrThumbs WrThumbs;
 
 #define WR_ROUND                                                                                   \
-    "round" /* What of the brush comes from files, as command lines name it. settings.brush.preset and .tip are what
-   was read from them, owned by the window. */
+    "round" /* files of the brush, as named in command lines. settings.brush.preset and .tip are
+               loaded from them and owned by the window. */
 typedef struct WrBrushSources {
     char *preset; /* id of the preset, owned; NULL: none */
-    char *tip;    /* path of a tip that is not the preset's own, owned; NULL: none */
+    char *tip;    /* path of a tip other than the preset's own, owned; NULL: none */
     char *set;    /* "name=value;...", owned; NULL: the preset's own settings */
 } WrBrushSources;
 
-/* the brush without a preset, where lists name presets */
+/* name of the brush without a preset in lists */
 
 typedef struct WrPresetBrowser {
-    WrLibrary *library; /* owned; NULL until somebody asks */
-    WrPreset *preset;   /* the one chosen, as its file says; owned; NULL: none */
-    WrPreset *tuned;    /* the same with brush_files.set, what settings.brush.preset is; owned */
-    WrTip *tip;         /* of brush_files.tip, what settings.brush.tip is; owned */
-    WrBrushMode before; /* mode to go back to from erasing */
-    WrBrushMode kept;   /* the brush's own while a tool paints with another */
+    WrLibrary *library; /* owned; NULL until first used */
+    WrPreset *preset;   /* the chosen one, as in its file; owned; NULL: none */
+    /* the chosen one with brush_files.set, target of settings.brush.preset; owned */
+    WrPreset *tuned;
+    WrTip *tip;         /* tip of brush_files.tip, target of settings.brush.tip; owned */
+    WrBrushMode before; /* mode to restore after erasing */
+    WrBrushMode kept;   /* the brush's mode while a tool uses another one */
     WrThumbs *thumbs;   /* owned */
-    uint64_t serial;    /* counts how often the library was looked through */
+    uint64_t serial;    /* number of library scans */
     /* the tab */
     char search[80];
-    int group;         /* 0 all, 1 favourites, 2 used last, 3.. groups of the library */
-    int part;          /* 0 presets, 1 the brush, where there is room for one of them only */
-    char pressed[256]; /* id whose menu is open */
-    char name[80];     /* of a preset to be saved */
+    int group;         /* 0 all, 1 favourites, 2 recently used, 3.. groups of the library */
+    int part;          /* 0 presets, 1 brush parameters, if there is room for only one */
+    char pressed[256]; /* id of the preset with the open menu */
+    char name[80];     /* name of a new preset */
 } WrPresetBrowser;
 
-/* Looks through the folders at the first call. */
+/* The library; scans the folders at the first call. */
 const WrLibrary *wr_preset_browser_library(WrApp *app);
-/* Look again: presets were saved or removed. */
+/* Scan again after presets were saved or removed. */
 void wr_preset_browser_refresh(WrApp *app);
-/* Index in the library, or -1: the round brush, or not there. */
+/* Index in the library, or -1: the round brush, or missing. */
 int wr_preset_browser_find(WrApp *app, const char *id);
-/* Id of what is chosen, WR_ROUND without a preset. */
+/* Id of the chosen preset, WR_ROUND without one. */
 const char *wr_preset_browser_chosen(const WrApp *app);
-/* Take a preset, and its values; a failure becomes a message. WR_ROUND: none. */
+/* Choose a preset and copy its values; a failure becomes a message. WR_ROUND: none. */
 bool wr_preset_browser_choose(WrApp *app, const char *id);
-/* The values that the preset has by itself (the round brush: those it begins with). */
+/* The preset's own values (of the round brush: its defaults). */
 WrBrush wr_preset_browser_own(const WrApp *app);
-/* One base value of the preset in place of its own; NAN: its own again. */
+/* Override one base value of the preset; NAN: restore its own. */
 void wr_preset_browser_tune(WrApp *app, const char *name, double value);
-void wr_preset_browser_tune_all(WrApp *app,
-                                const char *set); /* all at once; NULL: all its own again */
-/* A picture as a tip, NULL: none. Leaves the preset. */
+/* override all at once; NULL: restore all */
+void wr_preset_browser_tune_all(WrApp *app, const char *set);
+/* Use a picture as tip, NULL: none. Deselects the preset. */
 bool wr_preset_browser_tip(WrApp *app, const char *path);
-/* The brush as a preset of the user's own, and choose it. */
+/* Save the brush as a user preset, and choose it. */
 bool wr_preset_browser_save(WrApp *app, const char *name);
-void wr_preset_browser_ask_save(WrApp *app,
-                                const char *name); /* the same, asking first where it is taken */
-void wr_preset_browser_take(WrApp *app, const char *path); /* it may be replaced: save shelf.name */
-/* Remove one of the user's own. */
+/* the same, with a question if the name exists */
+void wr_preset_browser_ask_save(WrApp *app, const char *name);
+void wr_preset_browser_take(WrApp *app, const char *path); /* after a yes: save shelf.name */
+/* Delete a user preset. */
 bool wr_preset_browser_delete(WrApp *app, const char *id);
-/* The one before in the list of those used; the next or the one before among the favourites. */
+/* Switch to the previously used one; to the next or previous favourite. */
 void wr_preset_browser_last(WrApp *app);
 void wr_preset_browser_step(WrApp *app, int by);
 
-/* What the settings remember, at the start; and put it into a copy of them, whose texts stay the shelf's. */
+/* Load the choice from the settings at the start; and copy it to a copy of the settings, which borrows the texts. */
 void wr_preset_browser_start(WrApp *app);
 void wr_preset_browser_remember(const WrApp *app, WrSettings *settings);
 void wr_preset_browser_free(WrApp *app);

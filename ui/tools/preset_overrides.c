@@ -10,7 +10,7 @@ typedef struct Pair {
     size_t name_length, value_length;
 } Pair;
 
-/* The next pair at *at; false at the end. Parts without '=' are passed over. */
+/* The next pair at *at; false at the end. Parts without '=' are skipped. */
 static bool next(const char **at, Pair *pair)
 {
     while (*at && **at) {
@@ -52,7 +52,7 @@ void wr_tuning_put_text(const char *set, const char *name, const char *value, Wr
     wr_text_clear(out);
     for (const char *at = set; next(&at, &pair);) {
         bool same = is(&pair, name);
-        if (same && there) continue; /* taken out, or there twice */
+        if (same && there) continue; /* removed, or a duplicate */
         add_name(out, pair.name, pair.name_length);
         if (same) wr_text_add(out, value);
         else wr_text_add_n(out, pair.value, pair.value_length);

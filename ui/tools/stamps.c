@@ -1,5 +1,4 @@
-/* The pictures that the stamp tool offers: those in the folders of brushes that are not the thumbnail of a
-   preset. */
+/* Pictures of the stamp tool: those in the brush folders that are not thumbnails of presets. */
 #include "ui/tools/stamps.h"
 #include "ui/state/app_state.h"
 #include "ui/tools/tool_stamp.h"
@@ -15,8 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DEPTH_MAX 3     /* of folders in folders */
-#define STAMPS_MAX 2000 /* of all folders */
+#define DEPTH_MAX 3     /* depth of nested folders */
+#define STAMPS_MAX 2000 /* limit for all folders */
 
 static bool has_ending(const char *name, const char *ending)
 {
@@ -34,7 +33,7 @@ static bool is_picture(const char *name)
     return false;
 }
 
-/* NAME.png beside NAME.myb, or NAME_prev.png, shows what a preset paints. */
+/* NAME.png beside NAME.myb, or NAME_prev.png, is the thumbnail of a preset. */
 static bool is_thumbnail(const char *folder, const char *name)
 {
     const char *dot = strrchr(name, '.');

@@ -1,6 +1,6 @@
-/* Strokes by hand. Samples are handed to the session at once, which journals them; they are drawn for a few
-   milliseconds before each picture, so that a large brush never keeps the pointer waiting. A stroke that
-   is let go before it is drawn goes on being drawn; the next one waits its turn. */
+/* Strokes by the pointer. Samples are passed to the session at once, which journals them; they are drawn for a few
+   milliseconds per frame, so that a large brush never blocks the pointer. A stroke released before it is fully drawn
+   continues to be drawn; the next one waits. */
 #include "ui/state/action_list.h"
 #include "ui/tools/stroke_input.h"
 #include "ui/state/busy.h"
@@ -30,7 +30,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define WORK_SECONDS 0.004 /* that drawing may take before a picture of the window */
+#define WORK_SECONDS 0.004 /* drawing time per frame */
 
 void wr_strokes_head(const WrApp *app, const WrBrush *brush, WrText *line)
 {
@@ -41,7 +41,7 @@ void wr_strokes_head(const WrApp *app, const WrBrush *brush, WrText *line)
     wr_brush_line(line, brush, &base, &names);
 }
 
-/* Whole and below 1e9: short in a line, and another one for each stroke. */
+/* An integer below 1e9, which is short in a line; different for each stroke. */
 static uint64_t new_seed(WrApp *app)
 {
     uint64_t x = (uint64_t)(wr_clock_seconds() * 1e6) + 0x9e3779b97f4a7c15u * ++app->brush->seeds;
@@ -49,7 +49,7 @@ static uint64_t new_seed(WrApp *app)
     return 1 + (x >> 20) % 999999999u;
 }
 
-/* Lowers what raises, and the other way round, with the strength that was last used for it. */
+/* Swap raising and lowering, with the strength last used for the other. */
 static void invert(const WrApp *app, WrBrush *brush)
 {
     const double other = app->settings->other_strength;
@@ -68,7 +68,7 @@ WrBrush wr_strokes_brush(WrApp *app, const WrPointer *at)
     return brush;
 }
 
-/* ---- jobs ---- */
+/* ---- queued strokes ---- */
 
 static void drop_job(WrBrushHand *hand, int index)
 {
@@ -78,7 +78,7 @@ static void drop_job(WrBrushHand *hand, int index)
     for (int i = index; i < hand->jobs.count; i++) hand->jobs.data[i] = hand->jobs.data[i + 1];
 }
 
-/* Begin the oldest job in the session; dropped, with a message, if that fails. */
+/* Begin the oldest stroke in the session; dropped, with a message, if that fails. */
 static bool open_first(WrApp *app)
 {
     WrBrushHand *hand = app->brush;
@@ -117,7 +117,7 @@ static void close_first(WrApp *app)
     wr_app_title(app);
 }
 
-/* Draw until `end` on the clock. */
+/* Draw until the clock reads `end`. */
 static void work_until(WrApp *app, double end)
 {
     WrBrushHand *hand = app->brush;
@@ -137,13 +137,13 @@ static void work_until(WrApp *app, double end)
     hand->shown = hand->taken;
 }
 
-/* What ran is done, or given up: the one of this number is drawn now, or dropped. */
+/* The background command has ended or was cancelled: draw or drop the stroke of this number. */
 static void draw_late(WrApp *app, const char *text, bool dropped)
 {
     WrBrushHand *hand = app->brush;
     int i = 0;
     while (i < hand->jobs.count && hand->jobs.data[i].waits != atoi(text)) i++;
-    if (i == hand->jobs.count) return; /* cancelled by hand */
+    if (i == hand->jobs.count) return; /* cancelled by the user */
     hand->jobs.data[i].waits = 0;
     if (!dropped) {
         work_until(app, 1e300);
@@ -180,7 +180,7 @@ void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v)
     if (!hand->drawing || hand->jobs.count == 0) return;
     const WrBrush *brush = &hand->now;
     bool presses = brush->preset || brush->pressure != WR_PRESSURE_NONE;
-    /* Tilt and time mean something to presets alone; without them lines stay short. */
+    /* Only presets use tilt and time; without them lines stay short. */
     WrSample sample = { .u = u, .v = v, .pressure = presses ? at->pressure : 1.0 };
     if (brush->preset) {
         sample.tilt_x = at->tilt_x;

@@ -1,4 +1,4 @@
-/* stroke_input.h - strokes by hand, drawn a few milliseconds a picture. */
+/* stroke_input.h - strokes by the pointer, drawn for a few milliseconds per frame. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
@@ -13,52 +13,53 @@
 typedef struct WrPointer WrPointer;
 typedef struct WrText WrText;
 
-/* One stroke: being drawn by the session, or waiting for the one before it to be done. */
+/* One stroke: being drawn by the session, or waiting for the previous one. */
 typedef struct WrStrokeJob {
-    char *head; /* the command without points, owned; NULL once the session has it */
-    WR_ARRAY(WrSample) samples; /* not handed to the session yet */
-    bool released;              /* the pointer let go: no more will come */
-    int waits; /* its number while it waits for what runs beside the window (ui/state/busy.h); else 0 */
+    char *head; /* command line without points, owned; NULL once the session has it */
+    WR_ARRAY(WrSample) samples; /* not yet passed to the session */
+    bool released;              /* the pointer was released: no more samples will follow */
+    int waits; /* its number while it waits for a background command (ui/state/busy.h); else 0 */
 } WrStrokeJob;
 
 typedef struct WrBrushHand {
     WR_ARRAY(WrStrokeJob) jobs; /* oldest first; the first may be open in the session */
-    bool opened;                /* the first is */
-    bool unfinished;            /* the session has more to draw of it */
-    bool drawing;               /* the pointer is down and draws the last job */
+    bool opened;                /* the first is open */
+    bool unfinished;            /* the session has undrawn samples of it */
+    bool drawing;               /* the pointer is pressed and extends the last stroke */
     bool on_patch;              /* on the patch */
-    WrBrush now;                /* the brush of the stroke under way: eraser, seed */
-    double began;               /* seconds of its first sample */
-    double pressure;            /* newest */
+    WrBrush now;                /* brush of the present stroke, with eraser and seed */
+    double began;               /* time of its first sample in seconds */
+    double pressure;            /* newest pressure */
     double way_x, way_y;        /* newest direction in pixels, for outlines that follow it */
     WrRelight steady;
-    bool have_last; /* where the last stroke ended, for straight lines */
+    bool have_last; /* end of the last stroke, for straight lines */
     double last_u, last_v;
     bool straight; /* a straight line is being aimed */
     double line_u, line_v, to_u, to_v;
-    double resize_radius; /* at the start of a resize */
-    uint64_t line_key;    /* of the table when last_u, last_v were set: no lines into others */
-    int strokes;          /* begun so far */
-    uint32_t seeds;       /* strokes with chance in them so far */
-    int64_t taken, shown; /* pointer events handed to the session, and drawn (latency.c) */
+    double resize_radius; /* radius at the start of a resize */
+    /* key of the table when last_u, last_v were set: no lines into other tables */
+    uint64_t line_key;
+    int strokes;          /* number of strokes so far */
+    uint32_t seeds;       /* number of strokes with random numbers so far */
+    int64_t taken, shown; /* pointer events passed to the session, and drawn (latency.c) */
 } WrBrushHand;
 
-/* The stroke command without points for a brush, with the files that *app->brush_files names. */
+/* Append the stroke command without points for a brush, with the files in *app->brush_files. */
 void wr_strokes_head(const WrApp *app, const WrBrush *brush, WrText *line);
-/* The brush as a pointer has it: the eraser's end erases, held keys smooth or invert; a new seed where there
-   is chance in it. */
+/* The brush for a pointer: the eraser end erases, held keys smooth or invert; a new seed if it uses random
+   numbers. */
 WrBrush wr_strokes_brush(WrApp *app, const WrPointer *at);
 bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at);
-/* One sample at (u, v) of the table, unwrapped, with the pointer's pressure, tilt and time. */
+/* Add a sample at (u, v) of the table, unwrapped, with the pointer's pressure, tilt and time. */
 void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v);
-void wr_strokes_end(WrApp *app);         /* no more samples; what is left is drawn by and by */
-void wr_strokes_work(WrApp *app);        /* once before each picture */
-bool wr_strokes_waits(const WrApp *app); /* more is left to draw */
-/* One is drawn or left to draw: a step as soon as anything else is asked for. */
+void wr_strokes_end(WrApp *app);         /* no more samples; the rest is drawn in later frames */
+void wr_strokes_work(WrApp *app);        /* once before each frame */
+bool wr_strokes_waits(const WrApp *app); /* there are undrawn samples */
+/* True if a stroke is being drawn or undrawn; it becomes a step before any other command. */
 bool wr_strokes_under_way(const WrApp *app);
-void wr_strokes_finish(WrApp *app); /* draw all that is left, now */
-void wr_strokes_cancel(WrApp *app); /* the stroke that is drawn never was */
-/* Over the canvas: those that wait for what runs beside the window. */
+void wr_strokes_finish(WrApp *app); /* draw the rest now */
+void wr_strokes_cancel(WrApp *app); /* discard the present stroke */
+/* Overlay on the canvas: strokes that wait for a background command. */
 void wr_strokes_marks(const WrApp *app);
 void wr_strokes_free(WrApp *app);
 

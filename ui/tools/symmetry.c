@@ -1,5 +1,4 @@
-/* Symmetry: its values on a small panel over the canvas, its axes and its centre, which can be dragged,
-   on the table. */
+/* Symmetry: parameters in a small panel over the canvas; axes and draggable centre on the table. */
 #include "ui/tools/symmetry.h"
 #include "ui/canvas/view.h"
 #include "ui/state/app_state.h"
@@ -36,9 +35,9 @@ static bool is_shown(const WrApp *app)
     return app->settings->symmetric || app->settings->symmetry_panel;
 }
 
-/* ---- on the canvas ---- */
+/* ---- drawing on the canvas ---- */
 
-/* Across all that is seen: upright at u, or level at v. */
+/* A line across the whole view: vertical at u, or horizontal at v. */
 static void axis_line(const WrApp *app, int axis, double texel)
 {
     double low[2], high[2], x0, y0, x1, y1;
@@ -48,7 +47,7 @@ static void axis_line(const WrApp *app, int axis, double texel)
     wr_gui_draw_line(x0, y0, x1, y1, AXIS, wr_gui_scale());
 }
 
-/* Spokes half a cell long: a turn is about the centre, in every cell. */
+/* Spokes of half a cell's length: rotation is about the centre of each cell. */
 static void spokes(const WrApp *app, const WrSymmetry *s)
 {
     const WrCanvasView *view = app->view;
@@ -64,7 +63,7 @@ static void spokes(const WrApp *app, const WrSymmetry *s)
     }
 }
 
-/* Where the lattice puts what is painted at the centre. */
+/* Copies of the centre in the lattice. */
 static void lattice(const WrApp *app, const WrSymmetry *s)
 {
     if (s->repeat_u * s->repeat_v > 256) return;
@@ -110,7 +109,7 @@ bool wr_symmetry_press(WrApp *app, const WrPointer *at)
     return hypot(at->x - x, at->y - y) <= 9.0 * wr_gui_scale();
 }
 
-/* To whole and half texels, so that mirrors can be exact; with Shift to eighths of the cell. */
+/* Snap to whole and half texels, so that mirroring can be exact; with Shift to eighths of the cell. */
 static double snapped(double u, int size, bool shift)
 {
     double steps = shift ? 8.0 : 2.0 * size, at = rint(u * steps) / steps;
@@ -179,7 +178,7 @@ static bool numbers(WrSymmetry *s)
     return changed;
 }
 
-/* Only staggers with which the lattice closes round the cell: k/M. */
+/* Allow only offsets k/M, with which the lattice closes around the cell. */
 static void close_lattice(WrSymmetry *s)
 {
     double steps = s->repeat_u, k = rint(s->stagger * steps);
@@ -205,7 +204,7 @@ void wr_panel_symmetry(WrApp *app)
     bool moved = mirrors(&settings->symmetry);
     moved |= numbers(&settings->symmetry);
     if (moved) close_lattice(&settings->symmetry);
-    if (moved) on = true; /* who turns the numbers wants to see them */
+    if (moved) on = true; /* a change of the parameters makes the symmetry visible */
     wr_gui_label("");
     if (wr_gui_chip(NULL, "Reset")) {
         settings->symmetry = wr_settings_default().symmetry;

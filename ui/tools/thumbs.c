@@ -1,5 +1,5 @@
-/* Small pictures of presets, read and shrunk on a thread of their own, a few at a time; a preset without a
-   picture paints one. */
+/* Thumbnails of presets, loaded and scaled on a separate thread, a few at a time; presets without a picture paint a
+   sample. */
 #include "ui/tools/thumbs.h"
 #include "ui/canvas/thumb.h"
 #include "ui/state/app_state.h"
@@ -26,19 +26,19 @@
 #include <math.h>
 #include <string.h>
 
-#define BATCH 6           /* pictures that are made at once */
-#define PAINTED_TEXELS 96 /* side of the table that a preset without a picture paints on */
+#define BATCH 6           /* pictures per job */
+#define PAINTED_TEXELS 96 /* side of the table for painted samples */
 
 typedef struct Item {
     int slot;                  /* that it is for */
     char *id, *path, *picture; /* owned; picture may be NULL, path too: the round brush */
-    char *stamp;               /* path of a stamp, owned, in place of these */
-    uint32_t *argb;            /* [side * side], owned; NULL: it could not be made */
+    char *stamp;               /* path of a stamp, owned; alternative to these */
+    uint32_t *argb;            /* [side * side], owned; NULL: failed */
 } Item;
 
 typedef struct Batch {
     int count, side;
-    uint64_t round; /* of the wishes that it answers: older ones are dropped */
+    uint64_t round; /* round of the requests; older ones are dropped */
     Item items[BATCH];
 } Batch;
 
@@ -49,14 +49,14 @@ typedef struct Slot {
 
 struct WrThumbs {
     WrJob *job;
-    WR_ARRAY(Slot) slots; /* of presets by 2 (index + 1), of stamps by 2 index + 1 */
-    WR_ARRAY(int) wishes; /* slots seen in this picture of the window, without a picture yet */
+    WR_ARRAY(Slot) slots; /* presets at 2 (index + 1), stamps at 2 index + 1 */
+    WR_ARRAY(int) wishes; /* slots visible in this frame that have no picture yet */
     int side;
     uint64_t round;
-    uint64_t of; /* shelf.serial that the slots are for */
+    uint64_t of; /* shelf.serial of the slots */
 };
 
-/* ---- on the job's thread ---- */
+/* ---- on the worker thread ---- */
 
 static void drop(void *arg)
 {
@@ -77,7 +77,8 @@ static uint32_t code(double x)
     return (uint32_t)(x < 0.0 ? 0.0 : x > 1.0 ? 255.0 : floor(x * 255.0 + 0.5));
 }
 
-/* Mean of a box of pixels as grey, since a brush paints heights and no colours; alpha over the ground of fields. */
+/* Mean grey of a box of pixels, since a brush paints heights, not colours; composited over the background of
+   fields. */
 static uint32_t box_mean(const WrImage *image, int x0, int y0, int x1, int y1)
 {
     double sum[3] = { 0 };
@@ -95,7 +96,7 @@ static uint32_t box_mean(const WrImage *image, int x0, int y0, int x1, int y1)
     return 0xff000000u | grey << 16 | grey << 8 | grey;
 }
 
-/* The middle square of a picture, shrunk (or grown) to side x side. */
+/* The middle square of a picture, scaled to side x side. */
 static void shrink(const WrImage *image, int side, uint32_t *argb)
 {
     int w = image->width, h = image->height, least = w < h ? w : h;
@@ -110,7 +111,7 @@ static void shrink(const WrImage *image, int side, uint32_t *argb)
         }
 }
 
-/* Modes that only change what is there get something to change. */
+/* Provide heights for modes that only change existing ones. */
 static void prepare_ground(const WrBrush *brush, WrField *field)
 {
     const WrBrushModeInfo *mode = &wr_brush_modes[brush->mode];
@@ -122,7 +123,7 @@ static void prepare_ground(const WrBrush *brush, WrField *field)
         }
 }
 
-/* An S on level ground, from the left to the right, harder in its middle. */
+/* An S on a flat table, from left to right, with more pressure in its middle. */
 static void paint_sample(const WrBrush *of, WrField *field)
 {
     WrBrush brush = *of;
@@ -142,7 +143,7 @@ static void paint_sample(const WrBrush *of, WrField *field)
     wr_stroke_free(stroke);
 }
 
-/* Heights as if lit from the upper left, so that they look like relief. */
+/* Shading from the upper left, to show the relief. */
 static void emboss(const WrField *field, int side, uint32_t *argb)
 {
     float low, high;
@@ -175,7 +176,7 @@ static bool paint(const Item *item, int side, uint32_t *argb)
     return ok;
 }
 
-/* The first cell, light where it paints. */
+/* The first cell, bright where it paints. */
 static bool print_stamp(const char *path, int side, uint32_t *argb)
 {
     WrError err;
@@ -184,7 +185,7 @@ static bool print_stamp(const char *path, int side, uint32_t *argb)
     WrTip *tip = wr_tip_read(path, &err);
     if (!tip) return false;
     wr_tip_size(tip, 0, &w, &h);
-    double longer = w > h ? w : h, over = 1.0 - 2.0 / side; /* a free edge */
+    double longer = w > h ? w : h, over = 1.0 - 2.0 / side; /* leaves a margin */
     wr_tip_view(tip, 0, side / longer, &view);
     for (int y = 0; y < side; y++)
         for (int x = 0; x < side; x++) {
@@ -223,7 +224,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
         make(&batch->items[i], batch->side);
 }
 
-/* ---- the window's side ---- */
+/* ---- on the window's thread ---- */
 
 void wr_thumbs_forget(WrApp *app)
 {
@@ -240,7 +241,7 @@ static WrThumbs *thumbs_of(WrApp *app)
 {
     static const WrJobKind kind = { run, drop };
     WrThumbs *there = app->shelf->thumbs;
-    if (there && there->of != app->shelf->serial) { /* other presets */
+    if (there && there->of != app->shelf->serial) { /* another library */
         wr_thumbs_forget(app);
         there->of = app->shelf->serial;
     }
@@ -303,7 +304,7 @@ static void take(WrApp *app, Batch *batch)
     wr_app_redraw(app);
 }
 
-/* What is to be made for a slot; false if it is there no more. */
+/* Describe the work for a slot; false if the slot is gone. */
 static bool describe(WrApp *app, int place, Item *item)
 {
     const WrLibrary *library = wr_preset_browser_library(app);

@@ -1,4 +1,4 @@
-/* Which tool is in hand. */
+/* The current tool. */
 #include "ui/tools/tool.h"
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
@@ -21,7 +21,7 @@ int wr_tool_find(const WrApp *app, const char *action)
     return -1;
 }
 
-/* A tool that paints with a mode of its own gives the brush back its mode when it is left. */
+/* When a tool with its own brush mode is left, the brush's mode is restored. */
 void wr_tool_choose(WrApp *app, int index)
 {
     const WrTool *old = wr_tool_now(app), *tool = app->roster->tools[index];

@@ -1,5 +1,5 @@
-/* The brush: gestures become strokes. Freehand, straight lines from the last stroke (Shift and a click) or
-   by a key that is held, picking a height, sizing. */
+/* The brush tool: conversion of pointer input to strokes. Freehand; straight lines from the last stroke (Shift+click)
+   or with a held key; picking a height; resizing. */
 #include "ui/tools/tool_brush.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
@@ -30,7 +30,7 @@ static WrRelightPoint steady_point(const WrPointer *at)
     return (WrRelightPoint){ at->x, at->y, at->pressure, at->tilt_x, at->tilt_y, at->seconds };
 }
 
-/* As the table sees the hand: in a mirror the pen leans to the other side, and a turned table turns beneath it. */
+/* Convert to the table's coordinates: mirroring flips the tilt, and a rotated view rotates it. */
 static void sample(WrApp *app, const WrPointer *at, double u, double v)
 {
     WrPointer seen = *at;
@@ -76,7 +76,7 @@ void wr_brush_steady_move(WrApp *app, const WrPointer *at,
         WrPointer to = pointer_of(at, &out[i]);
         draw(app, &to);
     }
-    wr_app_redraw(app); /* a string moves though nothing is drawn */
+    wr_app_redraw(app); /* the string moves although nothing is drawn */
 }
 
 void wr_brush_steady_end(WrApp *app, const WrPointer *at,
@@ -99,7 +99,7 @@ static void draw_at(WrApp *app, const WrPointer *at)
 
 /* ---- straight lines ---- */
 
-/* Where the line that is aimed ends, in pixels: with Ctrl or Shift at the nearest of 24 directions. */
+/* End of the aimed line in pixels: with Ctrl or Shift at the nearest of 24 directions. */
 static void aim(WrApp *app, const WrPointer *at)
 {
     WrBrushHand *hand = app->brush;
@@ -117,8 +117,8 @@ static void aim(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-/* From one place on to another, however many copies of the cell lie between: a stroke joins samples by the
- * shortest way round, so none may be half a cell from the next. */
+/* Straight line to a position any number of cells away. A stroke joins samples by the shortest way round, so each
+ * step must be shorter than half a cell. */
 static void straight_on(WrApp *app, const WrPointer *at, double u, double v, double to_u,
                         double to_v)
 {
@@ -127,7 +127,7 @@ static void straight_on(WrApp *app, const WrPointer *at, double u, double v, dou
     for (int i = 1; i <= pieces; i++) sample(app, at, u + du * i / pieces, v + dv * i / pieces);
 }
 
-/* The line as it was aimed. The pressure is the most that was. */
+/* Draw the aimed line with the highest pressure reached. */
 static void draw_line(WrApp *app, const WrPointer *at)
 {
     WrBrushHand *hand = app->brush;
@@ -173,7 +173,7 @@ void wr_brush_press(WrApp *app, const WrPointer *at)
     }
 }
 
-/* Between copies that the tiling moves the table jumps under the pointer: another stroke begins there. */
+/* True at a border between copies that the tiling shifts: the table position jumps, so another stroke begins. */
 static bool crosses(const WrApp *app, const WrPointer *at)
 {
     const WrPointer *before = &app->hand->at;

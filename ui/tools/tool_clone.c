@@ -1,5 +1,5 @@
-/* Painting with heights from elsewhere: Ctrl or Alt and a click says where from; the first stroke after it
-   ties that place to the pointer, and later strokes keep the distance. */
+/* Clone tool: Ctrl or Alt and a click sets the source. The first stroke afterwards fixes the offset between source
+   and pointer, which later strokes keep. */
 #include "ui/state/action_list.h"
 #include "ui/tools/tool_clone.h"
 #include "ui/state/app_state.h"
@@ -38,7 +38,7 @@ static void set_source(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-/* The shortest way round on axes that wrap, to what a line can say. */
+/* The shortest difference on periodic axes, rounded as in lines. */
 static double short_way(double d, bool wraps)
 {
     double shortest = wraps ? d - floor(d + 0.5) : d;
@@ -65,7 +65,7 @@ static void press(WrApp *app, const WrPointer *at)
             short_way(draw->source_v - at->v, wr_field_wrap_v(field) == WR_WRAP_PERIODIC);
     }
     WrPointer plain = *at;
-    plain.mods &= WR_MOD_SHIFT; /* with others the brush would pick */
+    plain.mods &= WR_MOD_SHIFT; /* other modifiers would pick a height */
     wr_brush_press(app, &plain);
 }
 

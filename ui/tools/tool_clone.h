@@ -1,11 +1,11 @@
-/* tool_clone.h - where cloned heights come from. */
+/* tool_clone.h - source of cloned heights. */
 #pragma once
 #include "ui/state/roster.h"
 
 #include <stdbool.h>
 
 typedef struct WrCloneHand {
-    bool source, anchored; /* a source was set; and a stroke tied it to the pointer */
+    bool source, anchored; /* a source is set; a stroke has fixed the offset */
     double source_u, source_v;
 } WrCloneHand;
 

@@ -1,4 +1,4 @@
-/* Filling what is connected: a click does to all of it what the brush's mode does. */
+/* Fill tool: a click applies the brush's mode to the connected region. */
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"

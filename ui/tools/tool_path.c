@@ -1,6 +1,5 @@
-/* Polygons and Bezier paths with the brush: presses put anchors, a drag pulls a path's arms; anchors and
-   arms can be moved until Enter, or a double click, paints it. Backspace takes the last back, Escape gives
-   up. */
+/* Polygons and Bezier paths painted with the brush. A press adds an anchor, a drag pulls out its handles; both can be
+   moved until Enter or a double click paints the path. Backspace removes the last anchor, Escape cancels. */
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
@@ -29,7 +28,7 @@
 
 #define NEAR_UNITS 8.0
 #define DOUBLE_SECONDS 0.35
-#define CURVE_POINTS 24 /* of a piece, on the canvas */
+#define CURVE_POINTS 24 /* segments of a drawn piece */
 
 enum { PART_ANCHOR, PART_IN, PART_OUT };
 
@@ -50,7 +49,7 @@ static bool is_near(const WrApp *app, const WrPointer *at, double x, double y)
     return hypot(px - at->x, py - at->y) < NEAR_UNITS * wr_gui_scale();
 }
 
-/* What of the path is under the pointer; arms first, they lie on top. */
+/* Find the anchor or handle under the pointer; handles first, since they are on top. */
 static bool find(const WrApp *app, const WrPointer *at, int *index, int *part)
 {
     const WrDrawHand *draw = app->draw;
@@ -124,7 +123,7 @@ static void commit(WrApp *app)
     wr_text_fini(&line);
 }
 
-/* ---- the gesture ---- */
+/* ---- dragging ---- */
 
 static void put_anchor(WrApp *app, const WrPointer *at)
 {
@@ -176,7 +175,7 @@ static void drag(WrApp *app, const WrPointer *at)
         double dx = x - a->x, dy = y - a->y;
         *a = (WrAnchor){ x, y, a->in_x + dx, a->in_y + dy, a->out_x + dx, a->out_y + dy };
     } else {
-        bool both = !(at->mods & WR_MOD_ALT); /* Alt breaks the arms apart */
+        bool both = !(at->mods & WR_MOD_ALT); /* Alt moves one handle independently */
         double ox = 2.0 * a->x - x, oy = 2.0 * a->y - y;
         bool out = draw->part == PART_OUT;
         if (out || both) {
@@ -197,7 +196,7 @@ static void release(WrApp *app, const WrPointer *at)
     if (draw->active && draw->held >= 0 && draw->held < draw->anchors.count &&
         draw->part != PART_ANCHOR &&
         hypot(at->x - app->hand->start.x, at->y - app->hand->start.y) < 3.0) {
-        WrAnchor *a = &draw->anchors.data[draw->held]; /* a click: a corner without arms */
+        WrAnchor *a = &draw->anchors.data[draw->held]; /* a click: a corner without handles */
         if (hypot(a->out_x - a->x, a->out_y - a->y) * app->view->zoom < 4.0)
             *a = (WrAnchor){ a->x, a->y, a->x, a->y, a->x, a->y };
     }
@@ -226,7 +225,7 @@ static bool key(WrApp *app, SDL_Keycode key)
     return true;
 }
 
-/* ---- on the canvas ---- */
+/* ---- drawing on the canvas ---- */
 
 static void draw_piece(const WrApp *app, const WrAnchor *a, const WrAnchor *b, WrColour colour)
 {

@@ -1,5 +1,5 @@
-/* Ramps: a drag says from where to where heights lead from low to high. Shift keeps to multiples of 15
-   degrees, Escape gives up. */
+/* Ramp tool: a drag sets start and end, where the height goes from low to high. Shift snaps to multiples of 15
+   degrees, Escape cancels. */
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
@@ -99,7 +99,7 @@ static void ring(const WrApp *app, double radius, WrColour colour)
     wr_overlay_lines(app, points, 72, true, colour);
 }
 
-/* Across the way, at its ends: where a linear ramp begins and where it is done. */
+/* A bar across the drag at its end: the limit of a linear ramp. */
 static void bar(const WrApp *app, double x, double y)
 {
     const WrDrawHand *draw = app->draw;

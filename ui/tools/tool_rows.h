@@ -1,4 +1,4 @@
-/* tool_rows.h - the tools' rows, each at the end of the tool's own file. */
+/* tool_rows.h - declarations of the tools' rows; each is at the end of the tool's .c file. */
 #pragma once
 #include "ui/tools/tool.h"
 

@@ -1,4 +1,4 @@
-/* Selecting by hand: a drag draws a shape on any copy of the cell, and across its edges. */
+/* Selection tools: a drag draws a shape on any copy of the cell, and across its edges. */
 #include "ui/tools/tool_select.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action.h"
@@ -75,7 +75,7 @@ static void put_ellipse(WrApp *app, double x0, double y0, double x1, double y1)
     }
 }
 
-/* The sides of a rectangle's drag, on the edges of texels. */
+/* The sides of a dragged rectangle, on texel borders. */
 static void corners(const WrApp *app, const WrPointer *at, double box[4])
 {
     double x, y;
@@ -101,7 +101,7 @@ static void follow(WrApp *app, const WrPointer *at)
     else put_ellipse(app, box[0], box[1], box[2], box[3]);
 }
 
-/* ---- the gesture ---- */
+/* ---- dragging ---- */
 
 static void press(WrApp *app, const WrPointer *at)
 {
@@ -115,7 +115,7 @@ static void press(WrApp *app, const WrPointer *at)
     hand->points.count = 0;
     texel_at(app, at, &hand->x, &hand->y);
     app->hints = false;
-    wr_image_warm_writing(); /* it may be copied next */
+    wr_image_warm_writing(); /* prepare for a copy of the selection */
     follow(app, at);
     wr_app_redraw(app);
 }
@@ -134,7 +134,7 @@ void wr_select_cancel(WrApp *app)
     wr_app_redraw(app);
 }
 
-/* What all points are moved by so that the first lies in the real cell: whole cells. */
+/* Shift by whole cells that moves the first point into the cell. */
 static WrSelectPoint home(const WrApp *app)
 {
     WrSelectPoint first = app->select->points.data[0];
@@ -185,7 +185,7 @@ static void write_box(const WrApp *app, const WrPointer *at, WrSelectPoint shift
     }
 }
 
-/* A click without a drag gives the selection up, as painters expect. */
+/* A click without a drag clears the selection, as in other paint programs. */
 static bool is_click(const WrApp *app, const WrPointer *at)
 {
     bool near_by = fabs(at->x - app->hand->start.x) < CLICK_PIXELS &&

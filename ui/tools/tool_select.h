@@ -1,4 +1,4 @@
-/* tool_select.h - a selection that is being drawn. */
+/* tool_select.h - selection being drawn. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"

@@ -1,5 +1,5 @@
-/* Rectangles and ellipses with the brush: a drag draws them on any copy of the cell, and across its edges.
-   Shift makes squares and circles, Ctrl begins in the middle, Escape gives up. */
+/* Rectangles and ellipses painted with the brush: a drag draws them on any copy of the cell, and across its edges.
+   Shift makes squares and circles, Ctrl starts at the centre, Escape cancels. */
 #include "ui/tools/tool_shape.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
@@ -55,7 +55,7 @@ static bool is_round(const WrApp *app)
     return strcmp(wr_tool_now(app)->action, WR_ACT(shape_ellipse)) == 0;
 }
 
-/* The two corners, by what is held. */
+/* The two corners, with the modifiers applied. */
 static void corners(const WrApp *app, int mods, double box[4])
 {
     const WrDrawHand *draw = app->draw;

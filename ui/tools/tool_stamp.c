@@ -1,6 +1,6 @@
-/* A stamp: a picture, or the round brush, put onto the table once. What would come of it is shown under
-   the pointer, on the table and on the patch, on a snapshot: press where its middle goes, drag for its turn
-   and size, let go. The wheel sizes it, Enter puts it where the pointer is, Escape gives up. */
+/* Stamp tool: a picture, or the round brush, applied once. A preview under the pointer is shown on canvas and patch,
+   computed on a snapshot. Press to set the centre, drag for rotation and size, release to apply. The wheel changes
+   the size, Enter applies at the pointer, Escape cancels. */
 #include "ui/tools/tool_stamp.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
@@ -92,9 +92,9 @@ void wr_stamp_forget(WrApp *app)
     app->stamp->tip_path = NULL;
 }
 
-/* ---- what would come of it ---- */
+/* ---- preview ---- */
 
-/* The middle, as the command will say it. */
+/* The centre, rounded as in the command. */
 static void place_of(const WrApp *app, double *u, double *v)
 {
     const WrStampHand *draw = app->stamp;
@@ -112,7 +112,7 @@ static bool is_wanted(const WrApp *app)
            (app->stamp->placed || (app->hand->on_canvas && !app->hand->space));
 }
 
-/* All of a brush that a stamp goes by. */
+/* Compare all brush values that a stamp uses. */
 static bool same_brush(const WrBrush *a, const WrBrush *b)
 {
     const WrSymmetry *s = &a->symmetry, *t = &b->symmetry;
@@ -151,7 +151,7 @@ static void leave(WrApp *app)
     app->stamp->trying = false;
 }
 
-/* ---- the gesture ---- */
+/* ---- dragging ---- */
 
 static void commit(WrApp *app)
 {
@@ -227,7 +227,7 @@ static bool key(WrApp *app, SDL_Keycode key)
 
 static bool wheel(WrApp *app, double steps)
 {
-    if (app->hand->mods != 0) return false; /* Ctrl and the wheel zoom as ever */
+    if (app->hand->mods != 0) return false; /* Ctrl+wheel still zooms */
     double r = radius_of(app) * exp2(steps / 6.0);
     r = r < 0.5 ? 0.5 : r > 16384.0 ? 16384.0 : r;
     app->stamp->radius = wr_line_round(r, r < 10.0 ? 1 : 0);
@@ -235,9 +235,9 @@ static bool wheel(WrApp *app, double steps)
     return true;
 }
 
-/* ---- on the canvas ---- */
+/* ---- drawing on the canvas ---- */
 
-/* Its frame: the picture's edges, turned; a circle for the round brush. */
+/* Its frame: the picture's rotated edges; a circle for the round brush. */
 static void overlay(WrApp *app)
 {
     WrSelectPoint points[48];

@@ -1,4 +1,4 @@
-/* tool_stamp.h - a stamp: a picture, or the round brush, put onto the table once. */
+/* tool_stamp.h - stamp tool: a picture, or the round brush, applied once. */
 #pragma once
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"
@@ -10,23 +10,23 @@
 
 #include <stdbool.h>
 
-/* settings.brush's mode and values, with a picture, size and turn of its own. */
+/* Mode and values of settings.brush, with separate picture, size and rotation. */
 typedef struct WrStampHand {
     WrTip *tip;     /* owned; NULL: none chosen */
     char *tip_path; /* owned */
     double radius, angle_deg, first_radius, first_angle;
-    bool placed, dragged;   /* it lies on the table; its turn and size were dragged */
-    double u, v;            /* where */
-    WrEditPreviewAsk tried; /* what was asked for last */
+    bool placed, dragged;   /* its position is set; rotation and size were dragged */
+    double u, v;            /* its position */
+    WrEditPreviewAsk tried; /* last requested preview */
     WrBrush tried_brush;
     bool trying;
-    WR_ARRAY(char *) stamps; /* pictures to choose from, owned */
+    WR_ARRAY(char *) stamps; /* available pictures, owned */
     bool stamps_known;
 } WrStampHand;
 
-/* That picture, NULL: the round brush. False: it cannot be read; a message says why. */
+/* Use that picture, NULL: the round brush. False: unreadable, with a message. */
 bool wr_stamp_choose(WrApp *app, const char *path);
-void wr_stamp_take(WrApp *app, const char *path); /* of a file that was chosen */
-void wr_stamp_forget(WrApp *app);                 /* at the end */
+void wr_stamp_take(WrApp *app, const char *path); /* handler of a chosen file */
+void wr_stamp_forget(WrApp *app);                 /* free it */
 
 extern const WrPart wr_part_stamp;

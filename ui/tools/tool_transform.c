@@ -1,5 +1,5 @@
-/* Free transform: a drag inside the frame moves what is selected, its handles scale it, a drag outside turns it. Enter
-   applies, Escape gives up. Shift keeps to an axis, to the proportions, to 15 degrees; Alt lets nothing snap. */
+/* Transform tool: a drag inside the frame moves the selection, its handles scale it, a drag outside rotates it. Enter
+   applies, Escape cancels. Shift constrains to an axis, to the aspect ratio, to 15 degrees; Alt disables snapping. */
 #include "ui/tools/tool_transform.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
@@ -26,16 +26,17 @@
 #include <SDL.h>
 #include <math.h>
 
-#define NEAR_UNITS 9.0   /* of a handle */
-#define SNAP_UNITS 6.0   /* from the cell's edges and middles */
-#define SNAP_DEGREES 2.0 /* from quarter turns */
-#define NEARLY_ALL 0.9   /* of an axis */
+#define NEAR_UNITS 9.0   /* hit radius of a handle */
+#define SNAP_UNITS 6.0   /* snap distance to the cell's edges and centre */
+#define SNAP_DEGREES 2.0 /* snap angle to quarter turns */
+#define NEARLY_ALL 0.9   /* fraction of an axis that counts as filled */
 
 static const WrTransformValues still = { .scale = { 1.0, 1.0 } };
 
-/* ---- the piece ---- */
+/* ---- transformed piece ---- */
 
-/* Where the active layer has content; an axis that it fills nearly, or a layer without any, is taken whole. */
+/* Bounding box of the active layer's content; on an axis that it nearly fills, or for a layer without content, the
+   whole axis. */
 static WrSelectBox content_box(const WrDocument *document)
 {
     const WrLayer *layer = &document->layers[document->active];
@@ -74,7 +75,7 @@ static bool is_still(const WrTransformHand *hand)
            v->scale[1] == 1.0;
 }
 
-/* A place of the piece, 0..1 along its axes from the left and the top, in texels. */
+/* A position in the piece, 0..1 along its axes from the left and the top, in texels. */
 static void place_of(const WrTransformHand *hand, const WrTransformValues *v, double along,
                      double down, double out[2])
 {
@@ -94,8 +95,8 @@ static void add_pair(WrText *line, const char *name, double a, double b)
     wr_text_add_number(line, b);
 }
 
-/* The command turns and scales about the middle of the selection, of the table without one: the frame's middle, where
-   that is another point, is named. */
+/* The command rotates and scales about the centre of the selection, or of the table without one. If the frame's
+   centre is another point, the line must name it. */
 static void add_middle(const WrApp *app, WrText *line)
 {
     const WrTransformHand *hand = app->transform;
@@ -167,19 +168,18 @@ static void apply(WrApp *app)
     wr_text_fini(&line);
 }
 
-/* Another tool: what was made is kept, as a step. Another document: nothing of it is this one's. */
+/* On a change of the tool the result is kept as a step; on a change of the document it is dropped. */
 static void leave(WrApp *app)
 {
     const WrTransformHand *hand = app->transform;
     const bool ours = hand->measured && hand->revision == wr_session_revision(app->session);
-    if (app->trying && ours && !is_still(hand))
-        apply(app); /* nothing is tried of an old document */
+    if (app->trying && ours && !is_still(hand)) apply(app); /* no preview of the old document */
     else cancel(app);
 }
 
-/* ---- the gesture ---- */
+/* ---- dragging ---- */
 
-/* The pointer in texels from the middle of the nearest copy of the piece, as `v` has it. */
+/* The pointer relative to the centre of the nearest copy of the piece, in texels. */
 static void from_middle(const WrApp *app, const WrTransformValues *v, const WrPointer *at,
                         double out[2])
 {
@@ -219,7 +219,7 @@ static bool find_handle(const WrApp *app, const double at[2], int side[2])
     return false;
 }
 
-/* Along the piece's own axes. */
+/* Components along the piece's own axes. */
 static void to_own(const WrTransformValues *v, const double at[2], double out[2])
 {
     double c = cos(v->turn * WR_RAD_PER_DEG), s = sin(v->turn * WR_RAD_PER_DEG);
@@ -249,7 +249,7 @@ static void press(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-/* One of the piece's edges or its middle onto one of the cell's, or onto the grid, where they are near. */
+/* Snap an edge or the centre of the piece to one of the cell's, or to the grid. */
 static double snapped(const WrApp *app, int axis, double move, double from, double count)
 {
     const double cell = axis ? app->view->table_h : app->view->table_w;
@@ -290,7 +290,7 @@ static void turn(WrApp *app, const WrPointer *at, const double here[2])
     hand->now.turn = deg - 360.0 * rint(deg / 360.0);
 }
 
-/* The handle follows the pointer, and the one across stays. */
+/* The handle follows the pointer, and the opposite one is fixed. */
 static void scale(WrApp *app, const WrPointer *at, const double here[2])
 {
     WrTransformHand *hand = app->transform;
@@ -353,7 +353,7 @@ static bool key(WrApp *app, SDL_Keycode key)
     return true;
 }
 
-/* ---- on the canvas ---- */
+/* ---- drawing on the canvas ---- */
 
 static void marks(WrApp *app)
 {
@@ -379,7 +379,7 @@ static void marks(WrApp *app)
         }
 }
 
-/* ---- the option row ---- */
+/* ---- option row ---- */
 
 static void number(WrApp *app, const char *id, double width, const WrNumber *spec, double *value)
 {
@@ -455,7 +455,7 @@ static void switches(WrApp *app, double width)
     wr_gui_tip("What is selected stays where it is too");
     wr_gui_same_line(10);
     wr_gui_check("all layers", &hand->all);
-    if (all != hand->all) { /* another frame, the values stay */
+    if (all != hand->all) { /* another frame with the same values */
         const WrTransformValues now = hand->now;
         hand->measured = false;
         measure(app);

@@ -1,4 +1,4 @@
-/* tool_transform.h - what is moved, turned and scaled by hand, until it is applied. */
+/* tool_transform.h - state of the transform tool until it is applied. */
 #pragma once
 #include "ui/state/app_state.h"
 
@@ -14,7 +14,7 @@ typedef enum WrTransformPart {
     WR_TRANSFORM_SCALE /* by one of eight handles */
 } WrTransformPart;
 
-/* As the arguments of `transform`. Lengths are texels, rows running down. */
+/* Arguments of `transform`. Lengths are texels, y pointing down. */
 typedef struct WrTransformValues {
     double move[2]; /* right, up */
     double scale[2];
@@ -22,13 +22,13 @@ typedef struct WrTransformValues {
 } WrTransformValues;
 
 typedef struct WrTransformHand {
-    bool measured; /* the box is that of the selection by the document's revision, */
+    bool measured; /* the box is up to date for the document's revision, */
     uint64_t revision;
-    bool any; /* and there is one */
+    bool any; /* and is not empty */
     WrSelectBox box;
-    WrTransformValues now, first; /* first: as the drag began */
+    WrTransformValues now, first; /* first: at the start of the drag */
     bool leave, all;
     WrTransformPart part;
     int side[2];    /* of the handle: -1, 0, 1 along the piece's axes, right and down */
-    double from[2]; /* where the drag began, texels from the piece's middle as it was */
+    double from[2]; /* start of the drag, texels from the piece's centre at that time */
 } WrTransformHand;

@@ -1,4 +1,4 @@
-/* Moving and zooming the canvas. */
+/* Tools for panning and zooming the canvas. */
 #include "ui/tools/tool_view.h"
 #include "ui/canvas/view.h"
 #include "ui/state/action_list.h"
