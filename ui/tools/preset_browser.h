@@ -14,16 +14,16 @@ typedef struct WrApp WrApp;
 typedef struct WrThumbs WrThumbs;
 
 #define WR_ROUND                                                                                   \
-    "round" /* files of the brush, as named in command lines. settings.brush.preset and .tip are
-               loaded from them and owned by the window. */
+    "round" /* name of the round brush, which has no preset, in lists of presets and in the settings of the window */
+/* Files of the brush, as named in command lines. settings.brush.preset and .tip are loaded from them and owned by the
+   window. */
 typedef struct WrBrushSources {
     char *preset; /* id of the preset, owned; NULL: none */
     char *tip;    /* path of a tip other than the preset's own, owned; NULL: none */
     char *set;    /* "name=value;...", owned; NULL: the preset's own settings */
 } WrBrushSources;
 
-/* name of the brush without a preset in lists */
-
+/* State of the preset browser. */
 typedef struct WrPresetBrowser {
     WrLibrary *library; /* owned; NULL until first used */
     WrPreset *preset;   /* the chosen one, as in its file; owned; NULL: none */
