@@ -94,6 +94,7 @@ static double difference(double a, double b)
     return d >= 0 ? d : INFINITY;
 }
 
+/* A pixel is inside if both coverages are 1, an edge if either is between 0 and 1 or they differ. */
 static void gather_pixel(const float *a, const double *b, Gathered *gathered, WrErrors *out)
 {
     double squares = 0, most = 0;

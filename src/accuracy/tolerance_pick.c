@@ -67,6 +67,8 @@ static void raise_cell(Study *study, int u, int v)
             }
 }
 
+/* Each block gets the cheapest option whose largest error is within the limit; if there is none, the most
+   accurate. */
 static void pick_most(Study *study, double most, bool free_pairs)
 {
     for (int64_t b = 0; b < study->count; b++) {
@@ -173,6 +175,8 @@ static int find_uniform(const Study *study, double squares, double cost)
     return found;
 }
 
+/* Greedy: steps by decreasing gain until the sum of squares is small enough. On a convex hull the gains of one
+   block's steps decrease, so its steps are taken in order. */
 static void pick_sum(Study *study, double squares, bool free_pairs)
 {
     Option sum;
@@ -189,6 +193,7 @@ static void pick_sum(Study *study, double squares, bool free_pairs)
             take(&study->block[b], &(Option){ all / LEVELS, all % LEVELS, 0, { 0, 0 } });
 }
 
+/* Greedy, as pick_sum, until the next step would exceed the cost. */
 static void pick_within(Study *study, double cost, bool free_pairs)
 {
     Option sum;
@@ -212,6 +217,7 @@ void wr_study_pick(Study *study, const WrTolerance *tolerance, bool free_pairs)
     else pick_sum(study, rms * rms * 3 * fmax(study->pixels, 1), free_pairs);
 }
 
+/* Several settings need a pass over the pixels for each, and their blocks are scattered. */
 double wr_study_cost(const Study *study)
 {
     bool used[OPTIONS] = { false };

@@ -12,7 +12,7 @@
 
 #define TEXELS (WR_TILE * WR_TILE)
 
-/* The composite of layers first .. last - 1 on the ground; owned by the caller. */
+/* The composite of `count` layers on the ground; owned by the caller. */
 static WrField *composite_of(const WrLayer *layers, int count, int solo, WrPool *pool)
 {
     WrComposite *composite = wr_composite_new();
@@ -100,6 +100,7 @@ typedef struct Change {
     WrField *out;
 } Change;
 
+/* Heights of a layer with mode add that turns `below` into `with`. */
 static void change_tile(int tx, int ty, void *ctx)
 {
     const Change *change = ctx;

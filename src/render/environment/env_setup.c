@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <string.h>
 
+/* out = a b, row-major 3 x 3. */
 static void product(const double a[9], const double b[9], double out[9])
 {
     for (int r = 0; r < 3; r++)

@@ -220,6 +220,7 @@ static void count_row(const WrRefiner *r, int y)
     }
 }
 
+/* Decides a pixel: 0: the prediction suffices; WR_OPEN: try K samples; WR_OPEN_ALL: take K x K. */
 static int opened(const WrRefiner *r, int x, int y)
 {
     const WrTileScratch *s = r->scratch;
@@ -233,6 +234,8 @@ static int opened(const WrRefiner *r, int x, int y)
     return off <= rule->most && fine <= WR_FINE ? 0 : all ? WR_OPEN_ALL : WR_OPEN;
 }
 
+/* weight: the mean of K x K samples has 1 - 1 / K^2 of the second-difference correction; slope: possible error
+   of jittered samples. */
 static void open_by_contrast(const WrRefiner *r)
 {
     WrTileScratch *s = r->scratch;

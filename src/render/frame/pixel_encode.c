@@ -63,6 +63,7 @@ typedef struct Fill {
     const WrPixelEncoder *coder;
 } Fill;
 
+/* The direction is linear in the pixel position, from the first pixel's centre. */
 static void fill_row(int row, int worker, void *ctx)
 {
     (void)worker;

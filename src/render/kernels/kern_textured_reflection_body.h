@@ -1,9 +1,10 @@
-/* kern_textured_reflection_body.h - lamps and surroundings on strips whose samples have roughness and metalness of their own (strip->rough,
-   strip->metal). A part of kern_body.h; the formulas are in shade/reflection_body.h and shade/environment_map_body.h.
+/* kern_textured_reflection_body.h - lamps and environment on strips with roughness and metalness for each sample
+   (strip->rough, strip->metal). Part of kern_body.h; the formulas are in shade/reflection_body.h and
+   shade/environment_map_body.h.
 
-   What goes by a table of roughness is three loops, as a look-up is: places, rows mixed four numbers at a time, arithmetic. */
+   Fetches from a table of roughness are three loops: positions, rows mixed four numbers at a time, arithmetic. */
 
-/* Between which sixteenths of roughness the samples are. */
+/* Position of the samples among the sixteenths of roughness. */
 typedef struct Steps {
     int low[WR_SPAN];
     REAL t[WR_SPAN];
@@ -22,7 +23,7 @@ ALWAYS int next_step(int low)
     return low + 1 < WR_TEXTURED_REFLECTION_STEPS ? low + 1 : low;
 }
 
-/* reflect_terms of x, all but the last of it: four sums a sample. */
+/* reflect_terms of x without its last sum: four partial sums per sample. */
 ALWAYS void vary_parts(const REAL (*table)[WR_TEXTURED_REFLECTION_TERMS], const Steps *at,
                        const REAL *restrict x, int count, REAL *restrict part)
 {
@@ -49,7 +50,7 @@ ALWAYS void vary_values(const REAL *of, const Steps *at, int count, REAL *restri
     }
 }
 
-/* The material as it is at a sample, but for what its highlights leave. */
+/* The material at a sample, except for the energy left by its highlights. */
 ALWAYS MATTER vary_matter(const MATTER *m, const bool kept, REAL roughness, REAL metal)
 {
     const REAL rough = between(roughness, K_(0), K_(1)), s = rough, ss = s * s;
@@ -57,7 +58,8 @@ ALWAYS MATTER vary_matter(const MATTER *m, const bool kept, REAL roughness, REAL
     out.alpha = larger(rough * rough, K_(WR_ALPHA_LEAST));
     out.metal = between(metal, K_(0), K_(1));
     out.scale = kept ? m->scale : out.alpha * out.alpha;
-    if (!kept) /* oren-nayar's, as wr_matter_init computes them; loops of other models drop them */
+    /* of oren-nayar, as in wr_matter_init; unused for other models, so their loops omit them */
+    if (!kept)
         out.a = K_(1) - K_(0.5) * ss / (ss + K_(0.33)), out.b = K_(0.45) * ss / (ss + K_(0.09));
     if (kept) {
         out.a = K_(1) / (K_(1) + K_(0.28779340921080631) * s); /* 1/2 - 2/(3 pi) */
@@ -69,7 +71,7 @@ ALWAYS MATTER vary_matter(const MATTER *m, const bool kept, REAL roughness, REAL
     return out;
 }
 
-/* What highlights of facets leave to diffuse light, of each sample. */
+/* Share of energy that microfacet highlights leave for diffuse light, for each sample. */
 ALWAYS void vary_left(const VARY *vary, const STRIP *strip, REAL *restrict left)
 {
     REAL to_lamp[WR_SPAN], to_eye[WR_SPAN], lamp[4 * WR_SPAN], eye[4 * WR_SPAN], again[WR_SPAN];
@@ -146,7 +148,7 @@ WR_REFLECTION_MODELS(VARY_LOOPS)
 #define VARY_CASE_METAL VARY_CASE_ROUGH
 #define VARY_CASE(ID, formula, LOOPS, ...) VARY_CASE_##LOOPS(ID, formula)
 
-/* What one lamp adds, by a model that goes by roughness. */
+/* Adds one lamp, by a model with roughness. */
 static void kern_reflect_vary(const LIGHT *light, const MATTER *m, const VARY *vary, int model,
                               bool kept, WrReflectSpread how, STRIP *strip)
 {
@@ -192,19 +194,19 @@ ALWAYS void surround_vary(const SURROUND *how, const VARY *vary, const bool twic
     }
 }
 
-/* Diffuse light of surroundings. */
+/* Adds diffuse environment light. */
 FLAT static void kern_surround_vary(const SURROUND *how, const VARY *vary, STRIP *strip)
 {
     if (vary->again_twice) surround_vary(how, vary, true, strip);
     else surround_vary(how, vary, false, strip);
 }
 
-/* Which of the blurred surroundings a sample's lobe is between: by the logarithm of its width, under the last lobe by the
-   width. */
+/* Position of a sample's lobe among the blurred environments: by the logarithm of its width; below the narrowest
+   lobe by the width. */
 typedef struct Rungs {
     int low[WR_SPAN], high[WR_SPAN];
     REAL t[WR_SPAN];
-    REAL u[WR_SPAN], v[WR_SPAN]; /* where they are looked up, 0..1, v downwards */
+    REAL u[WR_SPAN], v[WR_SPAN]; /* fetch position, 0..1, v downwards */
 } Rungs;
 
 ALWAYS void find_rung(REAL alpha, int i, Rungs *to)
@@ -245,7 +247,8 @@ ALWAYS void find_rungs(const MIRROR *how, const bool spread, STRIP *strip, Steps
     }
 }
 
-/* A blurred picture of the surroundings at u, v. The whole number below x without a call: x is above -1. */
+/* Fetches a blurred environment at u, v. The integer part of x is computed without a call, because x is above
+   -1. */
 ALWAYS Four vary_look(const WrKernRung *rung, REAL u, REAL v)
 {
     const REAL W = (REAL)rung->width, H = (REAL)rung->height;
@@ -271,7 +274,7 @@ ALWAYS void mix_rungs(const VARY *vary, const Rungs *at, int count, REAL *restri
     }
 }
 
-/* Shares of what is mirrored: by metalness, unless that is the same everywhere. */
+/* Shares of the mirrored environment: by metalness, unless that is constant. */
 ALWAYS void
 mirror_shares(const REAL (*of)[WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECTION_TERMS],
               bool alike, const Steps *at, const REAL *restrict x, const STRIP *strip,
@@ -295,7 +298,7 @@ mirror_shares(const REAL (*of)[WR_TEXTURED_REFLECTION_STEPS][WR_TEXTURED_REFLECT
     }
 }
 
-/* What is mirrored, blurred as wide as the sample's facets and the spread of its slopes are. */
+/* Adds the mirrored environment, blurred by the width of the sample's microfacets and the spread of its slopes. */
 FLAT static void kern_mirror_vary(const MIRROR *how, const VARY *vary, bool spread, STRIP *strip)
 {
     REAL x[WR_SPAN], own[WR_SPAN], white[WR_SPAN];

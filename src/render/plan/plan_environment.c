@@ -1,10 +1,10 @@
-/* What the plan decides about light of surroundings. */
+/* Plan rows of environment light. */
 #include "render/plan/plan_internal.h"
 
 #include "scene/scene.h"
 #include "shade/environment_blur.h"
 
-/* Do they send any light? */
+/* True if the environment sends any light. */
 static bool shine(const WrScene *scene)
 {
     const WrEnvironment *e = &scene->environment;
@@ -97,7 +97,7 @@ bool wr_plan_graded(const WrPlan *plan, const WrScene *scene)
 {
     WrEnvironmentBrdf gloss;
     wr_scene_gloss(&scene->material, &gloss);
-    const bool narrow = gloss.alpha < WR_BLUR_LEAST; /* for a blurred picture of its own */
+    const bool narrow = gloss.alpha < WR_BLUR_LEAST; /* too narrow for a separate blurred picture */
     const bool blurred = runs(plan, WR_EFFECT_BLUR) && (runs(plan, WR_EFFECT_SPREAD) || narrow);
     return runs(plan, WR_EFFECT_MIRROR) && (blurred || runs(plan, WR_EFFECT_VARIED));
 }

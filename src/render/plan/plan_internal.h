@@ -49,7 +49,7 @@ static inline bool roughens(const WrScene *scene)
                                      wr_reflects[scene->material.model].roughness);
 }
 
-/* Does the model reflect nothing but diffuse light, by its ior? */
+/* True if the model reflects only diffuse light, because of its ior. */
 static inline bool lacks_highlight(const WrMaterial *m)
 {
     return wr_reflects[m->model].highlight == WR_HIGHLIGHT_CAVITIES && m->ior == 1;

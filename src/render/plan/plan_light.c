@@ -1,4 +1,4 @@
-/* What the plan decides about light: diffuse reflection, highlights, and by which model. */
+/* Plan rows of light: diffuse reflection, highlights, and the reflection model. */
 #include "render/plan/plan_internal.h"
 
 #include "field/horizon.h"
@@ -37,7 +37,7 @@ WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const cha
     return say(WR_VERDICT_RUN, why, "a light shines and specular is not 0");
 }
 
-/* Why Blinn-Phong's stages do what another model would, or NULL. */
+/* Reason why another model equals Blinn-Phong's stages, or NULL. */
 static const char *same_model(const WrPlan *plan, const WrScene *scene)
 {
     const WrMaterial *m = &scene->material;
@@ -71,7 +71,7 @@ void wr_settle_model(WrPlan *plan, const WrPlanAsk *ask)
     plan->tint = run && runs(plan, WR_EFFECT_SPECULAR) ? m->tint : 0;
 }
 
-/* Is light worked out that goes by roughness? */
+/* True if light that depends on roughness is computed. */
 static bool goes_by_facets(const WrPlan *plan)
 {
     return runs(plan, WR_EFFECT_MODEL) || runs(plan, WR_EFFECT_SURROUND) ||
@@ -114,7 +114,7 @@ WrVerdict wr_decide_varied(const WrPlan *plan, const WrPlanAsk *ask, const char 
     return say(WR_VERDICT_RUN, why, "the solid texture drives roughness");
 }
 
-/* Why the relief's horizon is not known, or NULL. */
+/* Reason why the relief's horizons are not available, or NULL. */
 static const char *no_horizon(const WrPlan *plan, const WrPlanAsk *ask)
 {
     const WrVec3 sizes = ask->scene->sizes;
@@ -131,7 +131,7 @@ static const char *no_horizon(const WrPlan *plan, const WrPlanAsk *ask)
     return NULL;
 }
 
-/* Does every lamp that shines let rays meet a displaced surface's own relief? */
+/* True if every enabled lamp uses shadow rays against a displaced surface's own relief. */
 static bool rays_tell(const WrPlan *plan, const WrPlanAsk *ask)
 {
     bool all = runs(plan, WR_EFFECT_DISPLACED) && ask->dials->rays > 0;
@@ -177,7 +177,7 @@ void wr_settle_cast(WrPlan *plan, const WrPlanAsk *ask)
     if (runs(plan, WR_EFFECT_CAST)) plan->rays = ask->dials->rays;
 }
 
-/* Light that occlusion keeps away: ambient, and that of surroundings. */
+/* True if there is light that ambient occlusion reduces: ambient light, and that of the environment. */
 static bool has_sky(const WrPlan *plan, const WrMaterial *m)
 {
     return m->ambient != 0 || runs(plan, WR_EFFECT_SURROUND);

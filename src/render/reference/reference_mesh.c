@@ -25,6 +25,7 @@ static WrVec3 corner(const WrTriangles *t, int32_t i, int k)
 
 /* ---- the tree ---- */
 
+/* Three times the mean of a triangle's corners along an axis. */
 static double middle(const WrTriangles *t, int32_t i, int axis)
 {
     double sum = 0;
@@ -114,6 +115,8 @@ static Shear shear_of(WrVec3 d)
     return s;
 }
 
+/* Woop, Benthin and Wald: the edge functions e0, e1, e2 of the sheared triangle decide; a ray on an edge (0)
+   counts as inside for both neighbours, so that no ray passes between them. */
 static void test(const WrReferenceMesh *m, int32_t i, bool cull, const WrReferenceRay *ray,
                  const Shear *s, WrReferenceHit *best)
 {

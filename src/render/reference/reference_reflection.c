@@ -51,14 +51,16 @@ static double fresnel(double c, double ior)
     return fmin(0.5 * a * a * (1 + b * b), 1);
 }
 
-/* Directions, unit, n towards the viewer's side; colour: C of the surface. */
+/* Directions, unit, n facing the viewer; colour: C of the surface. */
 typedef struct Incidence {
     WrVec3 n, l, v;
     const double *colour;
 } Incidence;
 
-/* Formulas of models by their names in shade/reflection_models.h. On entry own is Lambert's and white 0. */
+/* Formulas of the models named in shade/reflection_models.h. On entry own is Lambert's and white 0. */
 
+/* Phong's lobe (r.v)^s with r = 2 (n.l) n - l, gated by n.l > 0. Near 1 the cosine is 1 - |r - v|^2 / 2, whose
+   power keeps its digits. Energy-conserving form: times (s + 2) / 2 n.l. */
 static double power_lobe(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
 {
     const double nl = dot(n, l);
@@ -71,6 +73,8 @@ static double power_lobe(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l,
     return m->ks * strength * (c > 0.5 ? exp(s * log1p(-dot(off, off) / 2)) : pow(c, s));
 }
 
+/* D G F / (n.v) as in Blinn 1977, with D = (c3^2 / (cos^2 (c3^2 - 1) + 1))^2, here c3 for c3^2; 1 - cos^2 is
+   written as sin^2, which keeps its digits near the peak. */
 static double cavities(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
 {
     Facing at;
@@ -136,6 +140,8 @@ static double kept_albedo(const WrMatter *m, double mu)
     return fmin(sum, 1);
 }
 
+/* GGX's D with sin^2 for 1 - cos^2, times Smith's height-correlated masking, n.l and pi; Schlick's Fresnel term
+   with v.h = |l + v| / 2. Metal (share m->metal) reflects in the surface's colour. */
 static void ggx(const WrMatter *m, WrEnergy energy, const Incidence *by, double own[3],
                 double *white)
 {

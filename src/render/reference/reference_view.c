@@ -176,6 +176,8 @@ static double within(double t)
     return t > 0 ? t < 1 ? t : 1 : 0;
 }
 
+/* Roots relative to the foot of the perpendicular from the centre: R^2 - foot^2 is not a difference of large
+   squares, however far the ray starts. The nearer root counts unless it is in front of the near plane. */
 static bool hit_sphere(const WrReferenceView *view, const WrReferenceRay *ray, WrReferenceHit *hit)
 {
     const double R = view->shape->value[0], dd = v3_dot(ray->d, ray->d);
@@ -195,6 +197,7 @@ static bool hit_sphere(const WrReferenceView *view, const WrReferenceRay *ray, W
     return true;
 }
 
+/* As the sphere, in x and y only; rays parallel to the axis hit nothing, because the tube is open. */
 static bool hit_cylinder(const WrReferenceView *view, const WrReferenceRay *ray,
                          WrReferenceHit *hit)
 {
@@ -244,6 +247,7 @@ static bool hit_cone(const WrReferenceView *view, const WrReferenceRay *ray, WrR
     return false;
 }
 
+/* The plane of each visible face: (u,v) are the dot products with Pu and Pv, which are perpendicular. */
 static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, WrReferenceHit *hit)
 {
     bool found = false;

@@ -36,6 +36,7 @@ static double row(const WrDicing *d, const WrDiceCell *c, int y)
     return y == c->nv ? v[1] : v[0] + (v[1] - v[0]) * y / c->nv;
 }
 
+/* All points of a cell are stored, including those that a coarser edge leaves unused: indices stay regular. */
 static void make_points(const WrDicing *d, const WrDiceCell *c)
 {
     int32_t at = c->corner;
@@ -62,6 +63,8 @@ static int32_t corner_of(const WrDiceCell *c, int x, int y)
     return c->corner + y * (c->nu + 1) + x;
 }
 
+/* Two triangles per square. Where an edge has fewer cuts, corner_of repeats corners and some triangles are
+   degenerate, but no gap opens. */
 static void make_triangles(const WrDicing *d, const WrDiceCell *c)
 {
     WrTriangle *out = d->triangles + c->triangle;

@@ -19,6 +19,7 @@ typedef struct Rounding {
     const WrField *source;
 } Rounding;
 
+/* Rounds to the format and back to float: half by the nearest binary16, integers by their code over low .. high. */
 static float round_height(const WrQuantizedHeights *r, float f)
 {
     if (r->format == WR_HEIGHTS_HALF) return wr_round_half(f);

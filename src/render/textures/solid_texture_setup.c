@@ -2,6 +2,7 @@
 
 #include "noise/octaves.h"
 
+/* A kernel unit is 1 / scale object units: lengths are multiplied by scale, frequencies divided. */
 void wr_solid_texture_kern_fill(const WrSolidTexture *grain, WrSolidTextureKind kind, bool noisy,
                                 bool faded, double scale, WrKernGraind *out)
 {

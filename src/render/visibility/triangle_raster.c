@@ -61,6 +61,8 @@ static WrVec3 face_normal(const WrTriangles *t, int32_t i)
     return v3_unit(v3_cross(v3_sub(corner_at(t, i, 1), a), v3_sub(corner_at(t, i, 2), a)), none);
 }
 
+/* Bounding sphere and normal cone of a block: the axis is the mean of the face normals, and the margin of 1e-9
+   covers rounding. */
 static void make_cone(int block, int worker, void *ctx)
 {
     (void)worker;
@@ -144,6 +146,8 @@ static void include_box(WrViewMeshBlock *in, const WrViewMeshBlock *b)
     in->clipped |= b->clipped;
 }
 
+/* Bounds of the projected corners. Corners behind the near plane have no position: a block with some of them has
+   unknown bounds, one with only such corners is empty. */
 static WrViewMeshBlock bound_block(const WrViewTriangles *to, int32_t block)
 {
     WrViewMeshBlock b = nothing;
