@@ -1,4 +1,4 @@
-/* brush_help.h - what the tests of brushes share: tables, samples, strokes, comparisons. */
+/* brush_help.h - shared helpers of the brush tests: tables, samples, strokes, comparisons. */
 #pragma once
 #include "base/hash.h"
 #include "field/field.h"
@@ -88,7 +88,7 @@ static inline void run_stroke(WrField *field, const WrBrush *brush, const WrSamp
     run_on(&ground, brush, samples, count);
 }
 
-/* An arrow, so that turns and mirror images show. */
+/* An asymmetric arrow, so that rotations and mirror images are detectable. */
 static inline WrTip *arrow_tip(void)
 {
     float values[24 * 12];
@@ -98,7 +98,7 @@ static inline WrTip *arrow_tip(void)
     return wr_tip_new(24, 12, values, 0, NULL);
 }
 
-/* The ways a brush of a mode may be drawn. */
+/* Variants of drawing with a brush of one mode. */
 enum { WAY_PLAIN, WAY_FLOW, WAY_BUILDUP, WAY_ELLIPSE, WAY_TIP, WAY_JITTER, WAY_COUNT };
 
 static inline WrBrush brush_by(int way, WrBrush brush, const WrTip *tip)

@@ -1,5 +1,5 @@
-/* cancel_lines.h - lines of every command that may take long, and a session that they have something to do in. After
-   test.h; in one file of a test. */
+/* cancel_lines.h - lines of every long command, and a session with data for them. Include after test.h, in only one
+   file of a test. */
 #pragma once
 #include "base/hash.h"
 #include "base/pool.h"
@@ -21,7 +21,7 @@ static inline uint64_t look_at_folder(void)
     return sum;
 }
 
-/* ---- a session with something in it ---- */
+/* ---- a session with data ---- */
 
 static const char *const shape_of[] = {
     "grid cells=16x16 width=9",
@@ -49,10 +49,10 @@ static inline WrSession *busy_session(WrPool *pool, int side)
     return s;
 }
 
-/* Large work. A file that a line reads is made before. */
+/* Large work. Files to be read are written before. */
 static const char *const lines[] = {
     "grid cells=512x512 width=2",
-    "image big.exr fit=table", /* it is a normal map */
+    "image big.exr fit=table", /* the file is a normal map */
     "image big.exr fit=table labels=ignore",
     "dab 0.5,0.5 radius=400",
     "stroke radius=200 strength=0.1 points=0.1,0.1;0.9,0.9;0.1,0.9;0.9,0.1;0.5,0.2;0.2,0.8",
@@ -150,7 +150,7 @@ static const char *const lines[] = {
 };
 #define LINES (int)(sizeof lines / sizeof *lines)
 
-/* What is written stays; everything else is undone. */
+/* Written files stay; everything else is undone. */
 static inline void take_back_line(WrSession *session, const char *line)
 {
     static const char *const outputs[] = { "save", "export", "render", "maps", "copy" };

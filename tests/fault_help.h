@@ -1,4 +1,5 @@
-/* fault_help.h - running something in a child while a call goes wrong, and counting how it ended. After test.h. */
+/* fault_help.h - runs of a function in a child process with an injected fault, and counts of the outcomes. Include
+   after test.h. */
 #pragma once
 #include "fault.h"
 
@@ -17,14 +18,14 @@
 
 #define FAULT_TENTH 10
 
-/* A tenth of the cases in every run, all with WR_FULL=1; `salt` has the runs of several tests differ. */
+/* A tenth of the cases in every run, all with WR_FULL=1; `salt` varies the selection between tests. */
 static inline bool fault_is_wanted(int64_t index, int64_t salt)
 {
     const char *full = getenv("WR_FULL");
     return (full && full[0] == '1') || (index + salt) % FAULT_TENTH == 0;
 }
 
-/* Modes that mean something for a kind of call. */
+/* True for modes that apply to a kind of call. */
 static inline bool fault_fits(FaultKind kind, FaultMode mode)
 {
     if (mode == FAULT_ERROR || mode == FAULT_KILL) return true;
@@ -34,7 +35,7 @@ static inline bool fault_fits(FaultKind kind, FaultMode mode)
     return kind == FAULT_WRITE && (mode == FAULT_SHORT || mode == FAULT_TORN);
 }
 
-/* How many of each. */
+/* Counts of the outcomes. */
 typedef struct FaultTally {
     long cases, errors, successes, killed_old, killed_new;
     long kills[FAULT_PLACES][FAULT_STAGES];
@@ -65,7 +66,7 @@ static inline void fault_add(FaultTally *to, const FaultTally *t)
         (&to->kills[0][0])[i] += (&t->kills[0][0])[i];
 }
 
-/* fork, but the child ends with its parent, and after two minutes. */
+/* fork, but the child ends with its parent, and after two minutes at the latest. */
 static inline pid_t fault_fork(void)
 {
     pid_t child = fork();
@@ -83,7 +84,7 @@ static inline int fault_wait(pid_t child)
     return status;
 }
 
-/* The caller's, wr_free. */
+/* The caller frees the bytes with wr_free. */
 static inline void fault_read_whole(const char *path, char **bytes, size_t *length)
 {
     WrError err;
@@ -100,11 +101,11 @@ static inline bool fault_holds(const char *path, const char *bytes, size_t lengt
     return same;
 }
 
-/* Of the current folder. */
+/* Count in the current folder. */
 static inline int fault_hidden_files(void)
 {
     DIR *dir = opendir(".");
-    int hidden = -2; /* . and .. */
+    int hidden = -2; /* excludes . and .. */
     assert_non_null(dir);
     for (struct dirent *entry; (entry = readdir(dir));) hidden += entry->d_name[0] == '.';
     closedir(dir);

@@ -1,4 +1,4 @@
-/* fuzz_tip.h - what holds for every tip that is given back. */
+/* fuzz_tip.h - invariants of every loaded brush tip. */
 #pragma once
 #include "base/error.h"
 #include "brush/tip.h"

@@ -1,4 +1,4 @@
-/* generate_help.h - making reliefs in tests. After test.h. */
+/* generate_help.h - helpers of the generator tests. Include after test.h. */
 #pragma once
 #include "base/error.h"
 #include "field/field.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What a job says besides, joined. */
+/* Joined notes of a job. */
 typedef struct Said {
     char text[2000];
 } Said;
@@ -33,7 +33,7 @@ static inline WrParamValue *value_of(const WrGenerator *g, WrParamValue *values,
     return &values[i];
 }
 
-/* Defaults, and what cannot be left out made up: a small formula. */
+/* Defaults, and a small formula for required parameters. */
 static inline void usual_values(const WrGenerator *g, WrParamValue *values)
 {
     static const double term[] = { 1, 2, 0.5, 30, 0 };
@@ -43,7 +43,7 @@ static inline void usual_values(const WrGenerator *g, WrParamValue *values)
             values[i] = (WrParamValue){ .points = term, .count = 1 };
 }
 
-/* Families that need files or fonts of their own are tested by themselves. */
+/* Families that need files or fonts have separate tests. */
 static inline bool stands_alone(const WrGenerator *g)
 {
     for (int i = 0; g->params[i].name; i++)
@@ -53,7 +53,7 @@ static inline bool stands_alone(const WrGenerator *g)
     return true;
 }
 
-/* Make it, which must succeed; the heights, the caller's. Coverage is dropped. */
+/* Run the generator, which must succeed; the caller frees the heights. Coverage is dropped. */
 static inline WrField *made(const WrGenerator *g, const WrParamValue *values, const WrField *like,
                             WrPool *pool, bool coarse)
 {
@@ -66,7 +66,7 @@ static inline WrField *made(const WrGenerator *g, const WrParamValue *values, co
     return relief.heights;
 }
 
-/* The same from a list of settings: name, number, name, number, ..., NULL. */
+/* Run it with a list of settings: name, number, name, number, ..., NULL. */
 typedef struct Setting {
     const char *name;
     double value;
@@ -84,7 +84,7 @@ static inline WrField *made_with(const char *family, const char *name, const Set
     return made(g, values, like, NULL, false);
 }
 
-/* a[i - di, j + dj] (dj upwards) is b[i, j] in every bit. */
+/* True if a[i - di, j + dj] (dj upwards) equals b[i, j] bit for bit. */
 static inline bool is_rolled(const WrField *a, const WrField *b, int di, int dj)
 {
     int w = wr_field_width(a), h = wr_field_height(a);

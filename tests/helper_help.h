@@ -1,5 +1,5 @@
-/* helper_help.h - what the tests of the process that reads strangers' files share: who runs, and pictures that must or
-   must not read. */
+/* helper_help.h - shared helpers of the tests of the reader process: process queries, and pictures that must or must
+   not be readable. */
 #pragma once
 #include "base/error.h"
 #include "test.h"
@@ -28,7 +28,7 @@
 #define SANITIZED 0
 #endif
 
-/* ---- what runs ---- */
+/* ---- processes ---- */
 
 static inline bool is_reader(pid_t pid)
 {
@@ -69,7 +69,7 @@ static inline pid_t the_process(void)
     return found[0];
 }
 
-/* The one child that reads a file now. Those of files closed before end a moment later. */
+/* The only child that is reading a file. Children for already closed files end a moment later. */
 static inline pid_t the_child(void)
 {
     pid_t found[64];
@@ -81,7 +81,7 @@ static inline pid_t the_child(void)
     return found[0];
 }
 
-/* Children end a moment after they were told to. */
+/* Wait: children end shortly after the request. */
 static inline void expect_no_children(void)
 {
     pid_t found[64];
@@ -101,7 +101,7 @@ static inline int open_descriptors(void)
     return count;
 }
 
-/* A number of /proc/PID/status, -1 if it is not there. */
+/* A number in /proc/PID/status, -1 if missing. */
 static inline long status_of(pid_t pid, const char *name)
 {
     char path[64], line[256];
@@ -114,7 +114,7 @@ static inline long status_of(pid_t pid, const char *name)
     return value;
 }
 
-/* A zombie that nobody has reaped yet counts as gone: it has no memory. */
+/* A zombie counts as gone: it has no memory. */
 static inline void expect_gone(pid_t pid)
 {
     double until = wr_clock_seconds() + 10.0;
@@ -150,7 +150,7 @@ static inline void expect_good(const char *path)
     wr_image_free(image);
 }
 
-/* One line that begins with the file's name and holds the word. */
+/* The message must be one line that begins with the file's name and contains the word. */
 static inline void expect_message(const WrError *err, const char *name, const char *word)
 {
     if (strncmp(err->text, name, strlen(name)) != 0 || strchr(err->text, '\n') ||
@@ -169,7 +169,7 @@ static inline WrImageFile *open_good(const char *path)
 static inline void expect_unreadable(WrImageFile *file, const char *name, const char *word)
 {
     static float out[SIDE * SIDE];
-    for (int again = 0; again < 2; again++) { /* and the second time as well */
+    for (int again = 0; again < 2; again++) { /* also when read a second time */
         WrError err = { "" };
         assert_false(wr_image_file_read(file, 0, out, &err));
         expect_message(&err, name, word);

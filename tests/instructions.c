@@ -1,6 +1,6 @@
-/* What instructions.sh counts: frames of pairs of scenes, one that has an effect and leaves it out and one that never names
-   it, at two sizes; and frames after a dab. Each that is counted is drawn by wr_test_counted, whose calls the counter
-   tells apart; a line a call says what it was. */
+/* Workload of instructions.sh: frames of pairs of scenes (one that has an effect and skips it, one without it) in two
+   sizes; and frames after a dab. Each counted frame is drawn by wr_test_counted, which the counter recognises; each
+   call prints a line with its description. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -16,7 +16,7 @@
 
 #define SMALL 64
 #define LARGE 256
-#define SHEET 512 /* pixels of the picture that is painted on */
+#define SHEET 512 /* side in pixels of the painted picture */
 
 typedef struct Stage {
     WrScene *scene;
@@ -186,7 +186,7 @@ static void strike(Stage *stage)
     wr_field_free(stage->field);
 }
 
-/* What is looked for or made once in a program is not of any frame. */
+/* One-time work of the program, not part of any frame. */
 static void first(void)
 {
     Stage stage = stage_of(bump);
@@ -200,7 +200,7 @@ static void first(void)
     strike(&stage);
 }
 
-/* One frame, the first: what is prepared is the same at both sizes. */
+/* The first frame: preparations are the same in both sizes. */
 static void draw(const char *what, const char *form, Change change, int side)
 {
     Stage stage = stage_of(change);
@@ -215,7 +215,7 @@ static void draw(const char *what, const char *form, Change change, int side)
     strike(&stage);
 }
 
-/* A sheet at rest, all of it and after a small dab. */
+/* A static plane: complete, and after a small dab. */
 static void dab(int size)
 {
     Stage stage = stage_of(square);
@@ -228,7 +228,7 @@ static void dab(int size)
         .field = stage.field, .scene = stage.scene, .width = SHEET, .height = SHEET, .keep = true
     };
     if (!wr_renderer_frame(renderer, &request, &frame, NULL)) exit(1);
-    request.turn_deg = 1; /* the table's copies are there, the picture is new */
+    request.turn_deg = 1; /* the table is prepared, the picture is new */
     if (!wr_test_counted(renderer, &request, &frame)) exit(1);
     printf("dab|all|%d|%lld\n", size, (long long)frame.shaded);
     WrField *edited = wr_field_share(stage.field);

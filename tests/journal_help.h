@@ -1,4 +1,4 @@
-/* journal_help.h - what the journals' tests share: a folder of their own, files, children. */
+/* journal_help.h - shared helpers of the journal tests: a temporary folder, files, children. */
 #pragma once
 #include "base/text.h"
 #include "base/file.h"
@@ -26,8 +26,8 @@ static inline void remove_tree(const char *path)
     nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS);
 }
 
-/* A new empty folder; *state is its path. In memory where there is such a disk: these tests sync a
-   lot, and only a loss of power could tell the difference. $TMPDIR to have it elsewhere. */
+/* A new empty folder; *state is its path. On a memory disk if there is one: these tests sync often, and only a power
+   failure could show a difference. $TMPDIR sets another place. */
 static inline int make_place(void **state)
 {
     const char *above = getenv("TMPDIR");
@@ -71,7 +71,7 @@ static inline bool exists(const char *path)
     return lstat(path, &info) == 0;
 }
 
-/* How many entries a folder has, . and .. not counted; 0 if there is none. */
+/* Number of entries in a folder, without . and ..; 0 if it does not exist. */
 static inline int count_entries(const char *path)
 {
     int count = -2;
@@ -88,7 +88,7 @@ static inline void sleep_seconds(double seconds)
     nanosleep(&time, NULL);
 }
 
-/* A journal that never syncs by itself: tests that only kill need no disk. */
+/* A journal that never syncs by itself: tests that only kill processes need no sync. */
 static inline WrJournal *begin_at(const char *folder)
 {
     WrJournalOptions options = { .folder = folder, .program = "9.9", .sync_seconds = -1 };
@@ -96,7 +96,7 @@ static inline WrJournal *begin_at(const char *folder)
     return wr_journal_begin(&options, &start);
 }
 
-/* NAME.files beside a journal. Caller frees. */
+/* NAME.files beside a journal. The caller frees it. */
 static inline char *files_of(const char *journal_path)
 {
     WrText text = { 0 };
@@ -105,7 +105,7 @@ static inline char *files_of(const char *journal_path)
     return text.data;
 }
 
-/* Memory that a child and its parent both see. */
+/* Memory shared by a child and its parent. */
 static inline void *shared_memory(size_t bytes)
 {
     void *block = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -113,14 +113,14 @@ static inline void *shared_memory(size_t bytes)
     return block;
 }
 
-/* Wait until a child's counter is at least `want`; the child must live. */
+/* Wait until a child's counter is at least `want`; the child must not end. */
 static inline void await(const volatile long *counter, long want)
 {
     for (int i = 0; i < 20000 && *counter < want; i++) sleep_seconds(0.0005);
     assert_true(*counter >= want);
 }
 
-/* fork, but the child ends with its parent: a test that fails leaves none behind. */
+/* fork, but the child ends with its parent, so that a failed test leaves no process. */
 static inline pid_t fork_bound(void)
 {
     pid_t child = fork();
@@ -136,8 +136,8 @@ static inline void kill_child(pid_t child)
     assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
 }
 
-/* Run a function in a child, where it may change limits, users and mounts. It returns 0, or the
-   line of the check that failed; 77 says that this system does not allow it. */
+/* Run a function in a child, where it may change limits, users and mounts. Returns 0, or the line of the failed
+   check; 77 means that the system does not allow it. */
 static inline int run_apart(int (*function)(const char *place), const char *place)
 {
     int status, *line = shared_memory(sizeof *line);

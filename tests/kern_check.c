@@ -1,7 +1,7 @@
-/* kern_check.c - every span kernel of every instruction set that this processor has, on random strips of
-   every length 0..67 (and a full one), against the plain C of "ref": `exact` sets must give the same bits,
-   `fast` sets stay within the stated bound. Nothing past the strip's length may change.
-   kern_check [--seed N]; kern_check --bench prints nanoseconds a sample instead. */
+/* kern_check.c - every span kernel of every instruction set of this processor, on random strips of every length 0..67
+   (and a full one), against the plain C of "ref": `exact` sets must be bit-identical, `fast` sets stay within the
+   stated bound. No value past the strip's length may change. kern_check [--seed N]; kern_check --bench prints
+   nanoseconds per sample instead. */
 #include "test.h"
 
 #include "base/error.h"
@@ -89,14 +89,14 @@ static void fill_strip(TestRandom *random, WrStrip *s)
     }
     s->suu[3] = s->suv[3] = s->svv[3] = 0.0f;
     s->rx[5] = s->ry[5] = s->wx[5] = s->wy[5] = 0.0f;
-    /* The corners of each range: level slopes, no normal, ends of the parameters. */
+    /* Corners of each range: level slopes, no normal, limits of the parameters. */
     s->fu[3] = s->fv[3] = s->f[3] = 0.0f;
     s->fu[5] = 3e38f, s->fv[5] = -1e38f;
     s->n_len[7] = 0.0f;
     s->u[9] = 0.0f, s->v[9] = 1.0f, s->u[11] = 1.0f, s->v[11] = 0.0f;
 }
 
-/* A view of the unit ball from (0, 0, 4), 64 samples high. */
+/* A view of the unit sphere from (0, 0, 4), 64 samples high. */
 static WrRays some_rays(bool perspective)
 {
     const float step = 2.4f / 64;
@@ -165,7 +165,7 @@ static void bench_fini(Bench *b)
     wr_pyramid_drop(&b->range);
 }
 
-/* One kernel under test: which one is (family, member). Returns false past the last member. */
+/* Test of one kernel, identified by (family, member). Returns false past the last member. */
 typedef bool (*Run)(const WrKernels *k, Bench *b, int member, int count);
 
 static const int ways[] = { WR_INVERT_SPHERE, WR_INVERT_CYLINDER, WR_INVERT_CONE };
@@ -182,7 +182,7 @@ static bool run_hit(const WrKernels *k, Bench *b, int member, int count)
     return true;
 }
 
-/* u and v, the normal alone, the frame, from points about the surface. */
+/* u and v, the normal alone, the frame, from points near the surface. */
 static bool run_round(const WrKernels *k, Bench *b, int member, int count)
 {
     static const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
@@ -235,7 +235,7 @@ static bool run_points(const WrKernels *k, Bench *b, int member, int count)
     return true;
 }
 
-/* Members run through schemes, then through periodic and clamped axes, narrow and wide. */
+/* Members vary the scheme, then periodic and clamped axes, narrow and wide. */
 static bool run_look(const WrKernels *k, Bench *b, int member, int count)
 {
     if (member >= 8 * WR_SCHEME_COUNT) return false;
@@ -255,7 +255,7 @@ static bool run_bump(const WrKernels *k, Bench *b, int member, int count)
     return true;
 }
 
-/* Blinn's n' of a sphere, from its tangents or at once. */
+/* Blinn's n' of a sphere, from its tangents or in one step. */
 static bool run_bend(const WrKernels *k, Bench *b, int member, int count)
 {
     WrStrip *s = &b->strip;
@@ -290,7 +290,7 @@ static bool run_light(const WrKernels *k, Bench *b, int member, int count)
     }
 }
 
-/* All of a light at once, then codes of what came of it. */
+/* All parts of a light in one pass, then conversion to codes. */
 static bool run_shade(const WrKernels *k, Bench *b, int member, int count)
 {
     if (member >= 32) return false;
@@ -303,7 +303,7 @@ static bool run_shade(const WrKernels *k, Bench *b, int member, int count)
     return true;
 }
 
-/* The models of reflection, either form, as smooth as they are and roughened; highlights tinted. */
+/* The reflection models in both forms, unchanged and roughened; coloured highlights. */
 static bool run_reflect(const WrKernels *k, Bench *b, int member, int count)
 {
     const int model = member / 10, way = member % 10;
@@ -366,7 +366,7 @@ static bool run_surround(const WrKernels *k, Bench *b, int member, int count)
     return member < 8;
 }
 
-/* Smooth in roughness and in n.v, as shares of light are. */
+/* Smooth functions of roughness and n.v, as light shares are. */
 static void fill_shares(float (*of)[WR_TEXTURED_REFLECTION_TERMS], float first)
 {
     for (int i = 0; i < WR_TEXTURED_REFLECTION_STEPS * WR_ALBEDO_TERMS; i++) {
@@ -375,7 +375,7 @@ static void fill_shares(float (*of)[WR_TEXTURED_REFLECTION_TERMS], float first)
     }
 }
 
-/* Roughness and metalness by sample: models of reflection, surroundings' diffuse light, what is mirrored. */
+/* Roughness and metalness per sample: reflection models, diffuse environment light, reflections. */
 static bool run_vary(const WrKernels *k, Bench *b, int member, int count)
 {
     static const WrReflect models[] = { WR_REFLECT_TORRANCE_SPARROW, WR_REFLECT_OREN_NAYAR,
@@ -416,8 +416,8 @@ static bool run_vary(const WrKernels *k, Bench *b, int member, int count)
     return member < 24;
 }
 
-/* Lamps of either kind, hard and round, over a table's horizons; how open it is; what is kept. Shares are compared in the
-   strip. */
+/* Lights of both kinds, point and area, over a table's horizons; ambient occlusion; caching. Shares are compared in
+   the strip. */
 static bool run_shadow(const WrKernels *k, Bench *b, int member, int count)
 {
     enum { WIDE = 7, HIGH = 5, WAYS = 8 };
@@ -431,7 +431,7 @@ static bool run_shadow(const WrKernels *k, Bench *b, int member, int count)
         horizon.steepest = fmaxf(horizon.steepest, slope[i]);
     }
     light.radius = member & 2 ? 0.3 : 0;
-    for (int i = 0; i < count; i += 3) /* faces the viewer, whatever n' is */
+    for (int i = 0; i < count; i += 3) /* faces the viewer for any n' */
         s->bx[i] = s->nx[i], s->by[i] = s->ny[i], s->bz[i] = s->nz[i];
     if (member < 4) s->count += 100 * (int)k->shadow(&light, &horizon, s, share);
     else if (member == 4) k->open(&horizon, s, share);
@@ -452,7 +452,7 @@ static bool run_hit_at(const WrKernels *k, Bench *b, int member, int count)
     return true;
 }
 
-/* Footprints, levels, pyramids on periodic and clamped axes, highlights widened. */
+/* Footprints, levels, mip pyramids on periodic and clamped axes, widened highlights. */
 static bool run_filter(const WrKernels *k, Bench *b, int member, int count)
 {
     WrStrip *s = &b->strip;
@@ -530,8 +530,8 @@ static bool near_enough(float a, float b, bool exact)
     return fabs((double)a - (double)b) <= FAST_BOUND * scale;
 }
 
-/* Compare two strips of `length` samples: results in the first places (rows of pairs and fours: more), nothing changed
-   past them but for what fills whole vectors. Every member after `index` is rows of WR_SPAN four-byte values. */
+/* Compare two strips of `length` samples: results in the first elements (more for rows of pairs and fours); no change
+   past them except in whole vectors. Every member after `index` consists of rows of WR_SPAN four-byte values. */
 static void compare(const WrStrip *got, const WrStrip *want, int length, bool exact,
                     const char *what)
 {
@@ -547,9 +547,8 @@ static void compare(const WrStrip *got, const WrStrip *want, int length, bool ex
                      (double)a[i], (double)b[i]);
 }
 
-/* Results that multiply rounding, so that fast arithmetic is free in them: Newton may stop elsewhere when a
-   residual ties (its point is what counts); the footprint of nearly parallel tangents; where a bound ceases
-   to be. */
+/* Results that amplify rounding, so that fast arithmetic is unconstrained: Newton may stop elsewhere when a residual
+   ties (only its point counts); the footprint of nearly parallel tangents; the limit of a bound's validity. */
 static bool ill_posed(Run run, int member)
 {
     return run == run_polish || run == run_bound || (run == run_filter && member < 2);
@@ -606,7 +605,7 @@ static void fast_kernels_stay_within_their_bound(void **state)
     }
 }
 
-/* Codes are whole numbers: every set gives the same, of strips and of premultiplied colours. */
+/* Codes are integers: every set returns the same, for strips and for premultiplied colours. */
 static void all_sets_make_the_same_codes(void **state)
 {
     (void)state;

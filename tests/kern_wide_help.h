@@ -1,5 +1,5 @@
-/* kern_wide_help.h - what the tests of the kernels of several stages share: the sets, spheres seen from anywhere outside, samples
-   of two strips beside each other. */
+/* kern_wide_help.h - shared helpers of the tests of fused kernels: instruction sets, spheres seen from outside,
+   comparison of two strips. */
 #pragma once
 #include "test.h"
 
@@ -9,7 +9,7 @@
 #include "render/kernels/kern.h"
 #include "render/simd/simd_kernels.h"
 
-#define FAST_BOUND 2e-4 /* scene/dials.h: of 1, or of the value if that is larger */
+#define FAST_BOUND 2e-4 /* scene/dials.h: absolute below 1, else relative */
 
 typedef struct Sets {
     const WrKernels *ref;
@@ -17,7 +17,7 @@ typedef struct Sets {
     const char *name;
 } Sets;
 
-/* Set i of those that this processor has; false: no more, or not that one (name NULL). */
+/* Instruction set i that this processor supports; false: no more, or not this one (name NULL). */
 static inline bool set_of(int i, Sets *sets)
 {
     const char *const names[] = { "v3", "v4" };
@@ -56,7 +56,7 @@ static inline void put3(float to[3], WrVec3 a)
     to[0] = (float)a.x, to[1] = (float)a.y, to[2] = (float)a.z;
 }
 
-/* A ball from anywhere outside, some 100 samples wide or much more. */
+/* A sphere from a random viewpoint outside, from some 100 samples to much wider. */
 static inline Scenery some_scenery(TestRandom *random)
 {
     Scenery s = { .shine = { between(random, 0.05, 1), between(random, 15, 300),
@@ -96,7 +96,7 @@ static inline Scenery some_scenery(TestRandom *random)
     return s;
 }
 
-/* The stages: what is met, and its frame. */
+/* Separate stages: intersection and frame. */
 static inline void met_by_stages(const Sets *sets, const Scenery *s, float gx, float gy, int count,
                                  WrStrip *strip)
 {
@@ -107,14 +107,14 @@ static inline void met_by_stages(const Sets *sets, const Scenery *s, float gx, f
     round->normals(&s->shape, strip);
 }
 
-/* How far apart are they as turns? */
+/* Distance of two periodic parameters. */
 static inline double turns_off(double a, double b)
 {
     const double d = fabs(a - b);
     return fmin(d, fabs(1 - d));
 }
 
-/* Nearly along the surface rounding tells whether it is met, and where. */
+/* For grazing rays, rounding decides about the hit and its position. */
 static inline bool is_grazing(const Scenery *s, const WrStrip *strip, int i)
 {
     const WrVec3 p = { strip->px[i], strip->py[i], strip->pz[i] };
@@ -125,7 +125,8 @@ static inline bool is_grazing(const Scenery *s, const WrStrip *strip, int i)
     return v3_dot(n, v) < 0.03;
 }
 
-/* Walk the samples that both have; those that one alone has lie at the outline. Returns how many were compared. */
+/* Compare samples that both have; samples of only one must be at the silhouette. Returns the number of
+   comparisons. */
 typedef void Compare(const WrStrip *got, int i, const WrStrip *want, int k, const char *set);
 
 static inline int compare(const Scenery *s, const WrStrip *got, const WrStrip *want,

@@ -1,6 +1,6 @@
-/* looks.h - how long threads work between two looks at whether they should stop: of their own processor's time, so
-   that neither a busy machine nor waiting for others counts. The test is linked so that these stand in for the
-   functions of base/progress.h (tests/CMakeLists.txt). After test.h; in one file of a test. */
+/* looks.h - measurement of the time between two cancellation checks of a thread, in its own processor time, so that
+   machine load and waiting do not count. The test is linked so that these functions replace those of base/progress.h
+   (tests/CMakeLists.txt). Include after test.h, in only one file of a test. */
 #pragma once
 #include "base/progress.h"
 
@@ -10,17 +10,17 @@
 
 #define LOOKS_FRAMES 24
 
-/* Of the whole test. */
+/* State of the whole test. */
 static struct Looks {
     pthread_mutex_t lock;
-    volatile unsigned round;   /* what threads saw in another does not count */
+    volatile unsigned round;   /* measurements of threads in another round do not count */
     double longest;            /* seconds */
-    void *where[LOOKS_FRAMES]; /* the calls that ended it */
+    void *where[LOOKS_FRAMES]; /* call stack of the second check */
     int frames;
-    void (*hook)(void); /* called at each look, in place of measuring; NULL: none */
+    void (*hook)(void); /* called at each check instead of the measurement; NULL: none */
 } looks = { .lock = PTHREAD_MUTEX_INITIALIZER };
 
-/* Read and written by any thread. */
+/* Accessed by any thread. */
 static inline double looks_longest(void)
 {
     double longest;
@@ -28,7 +28,7 @@ static inline double looks_longest(void)
     return longest;
 }
 
-/* The lock is held, but where no other thread works. */
+/* Call with the lock held, or while no other thread runs. */
 static inline void looks_set(double longest)
 {
     __atomic_store(&looks.longest, &longest, __ATOMIC_RELAXED);
@@ -55,7 +55,7 @@ static inline void look(void)
     last = (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
 }
 
-/* This thread begins to work. */
+/* This thread starts work. */
 static inline void looks_begin(void)
 {
     looks_set(0.0);
@@ -63,7 +63,7 @@ static inline void looks_begin(void)
     look();
 }
 
-/* It has ended: the longest time between two looks of any thread, ms. */
+/* Work has ended: the longest time between two checks in any thread, ms. */
 static inline double looks_end(void)
 {
     look();

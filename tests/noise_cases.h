@@ -1,9 +1,9 @@
-/* noise_cases.h - noises of every kind, and how tests look at them. */
+/* noise_cases.h - noises of all kinds, and helpers to check them. */
 #pragma once
 #include "noise/octaves.h"
 
-/* Every kind, dimension and fade, repeating where it can after periods that differ by axis, and not
- * repeating where that is allowed. Returns how many there are. */
+/* Every kind, dimension and fade, periodic where possible with different periods on each axis, and not periodic where
+ * allowed. Returns their number. */
 #define NOISE_CASES 61
 static inline int noise_cases(WrNoise *out)
 {
@@ -24,7 +24,7 @@ static inline int noise_cases(WrNoise *out)
     return count;
 }
 
-/* For messages. */
+/* Name for messages. */
 static inline const char *noise_case_name(const WrNoise *noise)
 {
     static char text[80];
@@ -33,7 +33,7 @@ static inline const char *noise_case_name(const WrNoise *noise)
     return text;
 }
 
-/* A place inside a cell, at least 1/50 from its borders, within 8 cells of the origin. */
+/* A point inside a cell, at least 1/50 from its borders, within 8 cells of the origin. */
 static inline void random_place(TestRandom *r, double *t)
 {
     for (int a = 0; a < WR_NOISE_AXES; a++)

@@ -1,4 +1,4 @@
-/* preset_help.h - brush presets made of a few words. After test.h. */
+/* preset_help.h - brush presets from a short description. Include after test.h. */
 #pragma once
 #include "base/error.h"
 #include "base/text.h"

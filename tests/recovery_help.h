@@ -1,9 +1,9 @@
-/* recovery_help.h - what there is to recover. After test.h. */
+/* recovery_help.h - helpers of the recovery tests. Include after test.h. */
 #pragma once
 #include "base/memory.h"
 #include "command/recovery.h"
 
-/* The one journal there is. Caller frees. */
+/* The only journal. The caller frees it. */
 static inline char *only_journal(void)
 {
     WrRecoverable *found;

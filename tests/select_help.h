@@ -1,4 +1,4 @@
-/* select_help.h - what the tests of selections share. */
+/* select_help.h - shared helpers of the selection tests. */
 #pragma once
 #include "base/error.h"
 #include "field/field.h"
@@ -21,7 +21,7 @@ static inline WrField *periodic(int width, int height)
     return table(width, height, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
 }
 
-/* A result that must be there. */
+/* A result that must not be NULL. */
 static inline WrField *good(WrField *field, const WrError *err)
 {
     if (!field) fail_msg("%s", err->text);
@@ -33,7 +33,7 @@ static inline int wrapped(int i, int n)
     return (i % n + n) % n;
 }
 
-/* `a` moved to the right and down by whole texels. */
+/* `a` shifted right and down by whole texels. */
 static inline WrField *rolled(const WrField *a, int di, int dj)
 {
     int width = wr_field_width(a), height = wr_field_height(a);

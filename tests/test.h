@@ -1,4 +1,4 @@
-/* test.h - what every test file needs. cmocka wants these headers first. */
+/* test.h - common header of all tests. cmocka needs these headers first. */
 #pragma once
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The tests of a room are one program: their main has another name each (wr_test in tests/CMakeLists.txt), and runner.c
-   calls it. */
+/* The tests of a module are one program: each main is renamed (wr_test in tests/CMakeLists.txt) and called by
+   runner.c. */
 #ifdef main
 int main(void);
 #endif
@@ -28,7 +28,7 @@ int main(void);
                      fabs(a_ - b_), t_);                                                           \
     } while (0)
 
-/* Same bits: tells -0 from 0 and takes NaN for itself. */
+/* Bit equality: distinguishes -0 from 0; a NaN equals itself. */
 static inline bool same_bits(double a, double b)
 {
     return memcmp(&a, &b, sizeof a) == 0;

@@ -1,4 +1,4 @@
-/* test_app.h - a whole window without a display, for tests that give it events. After test.h. */
+/* test_app.h - a complete window without a display, for tests that send events. Include after test.h. */
 #pragma once
 #include "test_window.h"
 
@@ -16,7 +16,7 @@
 
 #include <SDL.h>
 
-#define PATIENCE 120.0 /* seconds until waiting in vain is a failure */
+#define PATIENCE 120.0 /* seconds of waiting before a test fails */
 
 typedef struct Bench {
     WrPool *pool;
@@ -53,7 +53,7 @@ static inline void finish(Bench *bench)
     wr_pool_free(bench->pool);
 }
 
-/* Until the next picture is drawn, whether there is something new or not. */
+/* Run until the next frame, even if nothing has changed. */
 static inline void draw_again(WrApp *app)
 {
     const double before = app->drawn_at;
@@ -65,7 +65,7 @@ static inline void draw_again(WrApp *app)
     }
 }
 
-/* The pointer, as the system tells of it. */
+/* Pointer events as from the system. */
 static inline void push_motion(const WrApp *app, int x, int y)
 {
     SDL_PushEvent(&(SDL_Event){

@@ -145,7 +145,7 @@ static void length_and_unit_survive_any_scale(void **state)
     assert_true(v3_unit((WrVec3){ INFINITY, 0, 0 }, fallback).y == 1);
 }
 
-/* A power of two changes no bit, however many: whether numbers are scaled first or not. */
+/* Scaling by any power of two changes no bit of the result. */
 static void length_and_unit_know_no_scale(void **state)
 {
     (void)state;
@@ -221,7 +221,7 @@ static void a_failed_write_leaves_the_old_file_whole(void **state)
     WrFileTarget target;
     assert_true(wr_file_begin(&target, link, &err));
     wr_file_abort(&target);
-    assert_true(wr_file_write(link, "new", 3, &err)); /* through the link, keeping the mode */
+    assert_true(wr_file_write(link, "new", 3, &err)); /* through the link, with the mode kept */
     char *bytes;
     size_t length;
     struct stat info;
@@ -243,7 +243,7 @@ static void a_failed_write_leaves_the_old_file_whole(void **state)
     assert_non_null(strstr(err.text, "does not exist"));
     unlink(path);
     unlink(link);
-    assert_int_equal(rmdir(folder), 0); /* nothing else was left behind */
+    assert_int_equal(rmdir(folder), 0); /* no other file remains */
     wr_free(path);
     wr_free(link);
 }
@@ -283,9 +283,10 @@ static void what_is_half_written_is_nobody_elses_and_has_no_name_to_guess(void *
     assert_true(wr_file_put(&target, "new", 3, &err));
     assert_true(wr_file_commit(&target, &err));
     assert_int_equal(stat(path, &info), 0);
-    assert_int_equal(info.st_mode & 07777, 0640); /* by the umask, which was left as it is */
+    /* Sixty-four random bits: neither the process id nor a counter predicts the next name. */
+    assert_int_equal(info.st_mode & 07777, 0640);
     assert_int_equal(umask(mask), 0027);
-    /* Sixty-four random bits: neither the process nor a count tells the next name. */
+    /* after umask, which is unchanged */
     assert_true(wr_file_begin(&target, path, &err));
     assert_true(hidden_file(folder, second));
     wr_file_abort(&target);
@@ -301,7 +302,7 @@ static void what_is_half_written_is_nobody_elses_and_has_no_name_to_guess(void *
     wr_free(path);
 }
 
-/* In the place of the system's: no chance at all for the next so many calls. */
+/* Replaces the system's random numbers: none for this many calls. */
 static int known_next;
 
 ssize_t getrandom(void *bytes, size_t length, unsigned flags)
@@ -317,7 +318,7 @@ ssize_t getrandom(void *bytes, size_t length, unsigned flags)
     return (ssize_t)length;
 }
 
-/* Whoever does know the name has put a link there: it is not followed, and another name is taken. */
+/* An attacker who guesses the name has put a link there: it is not followed, and another name is used. */
 static void a_planted_link_is_not_written_through(void **state)
 {
     (void)state;
@@ -332,7 +333,7 @@ static void a_planted_link_is_not_written_through(void **state)
         assert_int_equal(hard ? link(victim, planted) : symlink(victim, planted), 0);
         known_next = 1;
         assert_true(wr_file_write(path, "other", 5, &err));
-        assert_true(known_next <= 0); /* it was asked */
+        assert_true(known_next <= 0); /* it was called */
         int fd = open(victim, O_RDONLY | O_CLOEXEC);
         assert_int_equal(read(fd, text, sizeof text), 5);
         close(fd);
@@ -346,7 +347,7 @@ static void a_planted_link_is_not_written_through(void **state)
     wr_free(victim);
 }
 
-/* A file NAME of the folder, as a killed program left it; whether it is there after a sweep. */
+/* Create a file NAME in the folder as a killed program leaves it; true if it is still there after a sweep. */
 static bool stays(const char *folder, const char *name)
 {
     char *path = wr_path_join(folder, name);
@@ -373,10 +374,11 @@ static void what_dead_processes_left_is_swept_and_nothing_else(void **state)
         bool swept;
     } names[] = {
         { ".a.exr.%d-%08x-0123456789abcdef.part.exr", true },
-        { ".a.exr.%d-%07x0-0123456789abcdef.part.exr", false }, /* another machine's */
+        { ".a.exr.%d-%07x0-0123456789abcdef.part.exr", false }, /* of another machine */
         { ".a.exr.%d-%08x-0123456789abcdef-1.part.exr", false },
         { ".a.exr.%d-%08x-.part.exr", false },
-        { ".a.exr.%d-0123456789abcdef.part.exr", true }, /* of older versions, as the next two */
+        /* of older versions, as are the next two */
+        { ".a.exr.%d-0123456789abcdef.part.exr", true },
         { ".a.%d-f.part", true },
         { ".a.part.exr.%d-17.part.exr", true },
         { "a.exr.%d-0123456789abcdef.part.exr", false },
@@ -392,22 +394,22 @@ static void what_dead_processes_left_is_swept_and_nothing_else(void **state)
         snprintf(name, sizeof name, names[i].form, (int)dead, (unsigned)wr_file_host());
         if (stays(folder, name) == names[i].swept) fail_msg("%s", name);
     }
-    snprintf(name, sizeof name, ".a.exr.%d-12.part.exr", (int)getppid()); /* lives */
+    snprintf(name, sizeof name, ".a.exr.%d-12.part.exr", (int)getppid()); /* a running process */
     assert_true(stays(folder, name));
-    /* Held by somebody, whatever the name says: a process of another container, say. */
+    /* A locked file is in use, whatever its name: for example by a process of another container. */
     snprintf(name, sizeof name, "%s/.a.exr.%d-12.part.exr", folder, (int)dead);
     int fd = open(name, O_RDWR | O_CREAT | O_EXCL, 0600);
     assert_int_equal(flock(fd, LOCK_EX), 0);
     wr_file_sweep(folder);
     assert_int_equal(access(name, F_OK), 0);
     close(fd);
-    if (geteuid() == 0) { /* another user's */
+    if (geteuid() == 0) { /* of another user */
         assert_int_equal(chown(name, 12345, 12345), 0);
         wr_file_sweep(folder);
         assert_int_equal(access(name, F_OK), 0);
     }
     unlink(name);
-    assert_int_equal(symlink("nothing", name), 0); /* no file of ours is a link */
+    assert_int_equal(symlink("nothing", name), 0); /* temporary files are never links */
     wr_file_sweep(folder);
     struct stat info;
     assert_int_equal(lstat(name, &info), 0);
@@ -415,7 +417,7 @@ static void what_dead_processes_left_is_swept_and_nothing_else(void **state)
     assert_int_equal(rmdir(folder), 0);
 }
 
-/* The next file written in a folder removes what is left of the one before. */
+/* Writing a file in a folder removes leftovers of the previous write. */
 static void a_killed_write_is_cleared_away_by_the_next(void **state)
 {
     (void)state;
@@ -441,7 +443,7 @@ static void a_killed_write_is_cleared_away_by_the_next(void **state)
     wr_free(other);
 }
 
-/* In the place of the system's: a disk that does not hold what was written. */
+/* Replaces the system's functions: a disk that corrupts written data. */
 static bool disk_lies;
 
 ssize_t pread(int fd, void *bytes, size_t length, off_t at)
@@ -471,7 +473,7 @@ static void what_does_not_read_back_is_not_written(void **state)
     wr_free(path);
 }
 
-/* How often something in that folder was opened since `watch` was made or asked. */
+/* Number of opened files in that folder since `watch` was created or last read. */
 static int opened(int watch)
 {
     char events[4096] __attribute__((aligned(8)));
@@ -485,7 +487,7 @@ static int opened(int watch)
     return count;
 }
 
-/* Opening a pipe wakes whoever waits at its other end; a device may do anything. */
+/* Opening a pipe wakes the process at its other end; opening a device may have any effect. */
 static void what_is_no_file_is_neither_opened_nor_replaced(void **state)
 {
     (void)state;
@@ -496,14 +498,14 @@ static void what_is_no_file_is_neither_opened_nor_replaced(void **state)
     assert_int_equal(mkfifo(path, 0600), 0);
     int watch = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     assert_true(inotify_add_watch(watch, path, IN_OPEN) >= 0);
-    alarm(60); /* nothing of this may wait */
+    alarm(60); /* none of this may block */
     assert_int_equal(wr_file_open(path, 100, NULL, &err), -1);
     assert_non_null(strstr(err.text, "is a pipe"));
     assert_int_equal(wr_file_peek(path, bytes, sizeof bytes), 0);
     assert_int_equal(opened(watch), 0);
     assert_false(wr_file_write(path, "text", 4, &err));
     assert_non_null(strstr(err.text, "not a regular file"));
-    assert_int_equal(wr_file_create(path, &err), -1); /* nobody reads it */
+    assert_int_equal(wr_file_create(path, &err), -1); /* no reader */
     alarm(0);
     struct stat info;
     assert_true(lstat(path, &info) == 0 && S_ISFIFO(info.st_mode));
@@ -542,7 +544,8 @@ static void a_limit_is_what_may_still_be_read(void **state)
     unlink(path);
 }
 
-/* A folder of all, and in it a file of user 54321's that group and others may write and that acts as its owner. */
+/* A world-writable folder with a file of user 54321 that is writable for group and others and has the set-user-id
+   bit. */
 static void make_anothers(const char *folder, const char *path)
 {
     int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
@@ -578,7 +581,7 @@ static void rights_of_another_group_are_not_passed_on(void **state)
     wr_free(path);
 }
 
-/* What lists of rights look like to the system: a version, then kinds of users with what they may. */
+/* Binary form of an access control list: a version, then entries of user kinds with permissions. */
 typedef struct Rights {
     uint32_t version;
     struct {
@@ -603,11 +606,11 @@ static mode_t mode_in_folder_with(const Rights *rights, int entries, mode_t mask
     if (listed) unlink(path);
     assert_int_equal(rmdir(folder), 0);
     wr_free(path);
-    if (!listed) skip(); /* this file system has no such lists */
+    if (!listed) skip(); /* this file system does not support such lists */
     return info.st_mode & 07777;
 }
 
-/* Such a list counts in the place of the umask, whether it names users or not. */
+/* Such a list replaces the umask, whether it names users or not. */
 static void what_a_folder_passes_on_a_new_file_has(void **state)
 {
     (void)state;
@@ -621,9 +624,9 @@ static void what_a_folder_passes_on_a_new_file_has(void **state)
 
 /* ---- checksums of what is written ---- */
 
-#define MOST 3000000 /* bytes of a file in these tests */
+#define MOST 3000000 /* file size limit in bytes */
 
-/* Writes of any length at any place, as encoders and archives make them: the file is what a copy in memory is. */
+/* Writes of any length at any position, as encoders and archives make them: the file equals a copy in memory. */
 static void bytes_written_in_any_order_are_checked(void **state)
 {
     (void)state;
@@ -643,7 +646,7 @@ static void bytes_written_in_any_order_are_checked(void **state)
             const int64_t most = run % 3 == 0 ? 700000 : run % 3 == 1 ? 40 : 5000;
             const int64_t many = 1 + (int64_t)(test_random(&random) * (double)most);
             int64_t at = test_random(&random) < 0.5
-                             ? end /* or over what is there, or behind it */
+                             ? end /* or over existing bytes, or after them */
                              : (int64_t)(test_random(&random) * 1.2 * (double)end);
             if (at + many > MOST) at = MOST - many;
             for (int64_t i = 0; i < many; i++) piece[i] = (uint8_t)test_random_u64(&random);
@@ -664,7 +667,7 @@ static void bytes_written_in_any_order_are_checked(void **state)
     wr_free(path);
 }
 
-/* One bit of 600 000 bytes is another, at the beginning, inside, at the end; or the file is longer, or shorter. */
+/* One flipped bit of 600 000 bytes, at the start, in the middle, at the end; or a file that is longer or shorter. */
 static void a_byte_that_changes_on_the_disk_fails_the_commit(void **state)
 {
     (void)state;
@@ -685,7 +688,7 @@ static void a_byte_that_changes_on_the_disk_fails_the_commit(void **state)
         struct stat info;
         assert_true(stat(path, &info) == 0 && info.st_size == 3);
     }
-    /* What is changed before a later write covers its neighbours is not taken for what was written. */
+    /* A corruption before a later write to neighbouring bytes is still detected. */
     WrFileTarget target;
     assert_true(wr_file_begin(&target, path, &err));
     assert_true(wr_file_put(&target, zeros, 600000, &err));
@@ -699,7 +702,7 @@ static void a_byte_that_changes_on_the_disk_fails_the_commit(void **state)
     wr_free(path);
 }
 
-/* More than the head of a spool goes on while it is written; its writer then returns to the head. */
+/* Data beyond the head of a spool is passed on while it is written; the writer then returns to the head. */
 static void a_spool_passes_on_what_lies_behind_its_head(void **state)
 {
     (void)state;
@@ -720,7 +723,8 @@ static void a_spool_passes_on_what_lies_behind_its_head(void **state)
         assert_true(wr_fd_write(spool.fd, (char *)model + at, (size_t)(left < step ? left : step)));
         assert_true(wr_spool_move(&spool, &to));
     }
-    assert_true(spool.moved > WR_SPOOL_HEAD); /* some has gone on, and its memory is given back: */
+    /* some data was passed on, and its memory is freed: */
+    assert_true(spool.moved > WR_SPOOL_HEAD);
     struct stat info;
     assert_int_equal(fstat(spool.fd, &info), 0);
     assert_true((int64_t)info.st_blocks * 512 < whole - (8 << 20));

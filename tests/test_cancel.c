@@ -1,6 +1,6 @@
-/* Everything that may take long can be cancelled: each command of the table, on a large table, is told to stop at
-   a report of its own progress, and leaves no trace. What it does afterwards is counted in pieces of work and in
-   reports, not in seconds, so that no machine is too slow or too fast for the test. */
+/* Cancellation of every long operation: each command, on a large table, is cancelled at one of its own progress
+   reports and must leave no trace. Its work afterwards is counted in pieces and reports, not in seconds, so that the
+   speed of the machine does not matter. */
 #include "test.h"
 #include "looks.h"
 #include "test_folder.h"
@@ -19,16 +19,16 @@
 #include <sys/stat.h>
 
 #define THREADS 2
-#define PIECES_AFTER (2 * THREADS) /* that were under way, or began in the same moment */
+#define PIECES_AFTER (2 * THREADS) /* running, or started at the same moment */
 #define REPORTS_AFTER 4
-#define SOON 100 /* ms between two looks: what is slower is told in full */
+#define SOON 100 /* ms between two checks: slower ones are printed in detail */
 
 static bool is_whole(void)
 {
     return getenv("WR_FULL") != NULL;
 }
 
-/* Texels along the table's side. */
+/* Side of the table in texels. */
 static int side(void)
 {
     return is_whole() ? 4096 : 256;
@@ -38,9 +38,9 @@ static int side(void)
 
 typedef struct Stop {
     volatile int cancel;
-    int reports, at; /* so far; the one to stop at, 0: never */
-    int64_t pieces;  /* begun when it was told */
-    double since;    /* clock then */
+    int reports, at; /* reports so far; the one to cancel at, 0: never */
+    int64_t pieces;  /* started before the cancellation */
+    double since;    /* clock at the cancellation */
 } Stop;
 
 static void hear(void *ctx, double fraction)
@@ -55,7 +55,7 @@ static void hear(void *ctx, double fraction)
 
 /* ---- the commands ---- */
 
-/* "NAME FORM", or its beginning: done at once whatever the table's size, or not a command of the table's. */
+/* "NAME FORM", or its prefix: instant for any table size, or not a table command. */
 static const char *const instant[] = {
     "object",       "table",
     "view",         "surface",
@@ -78,7 +78,7 @@ static const char *const instant[] = {
     "gltf",         "filter",
 };
 
-/* What generators need besides their defaults; those that read other files are tried elsewhere. */
+/* Arguments that generators need besides their defaults; generators that read files are tested elsewhere. */
 static const char *line_of(const WrGenerator *g, WrText *line)
 {
     static const struct {
@@ -120,7 +120,7 @@ static void assert_untouched(const Rig *rig, const char *line, int at)
     if (look_at_folder() != rig->folder) fail_msg("%s: left a file behind", line);
 }
 
-/* Tell the line to stop at that report. False: it was done before. */
+/* Cancel the line at that report. False: it ended before. */
 static bool stop_at(Rig *rig, const char *line, int at, double *ms)
 {
     WrError err = { "" };
@@ -143,7 +143,7 @@ static bool stop_at(Rig *rig, const char *line, int at, double *ms)
     return true;
 }
 
-/* Back to where the line began. */
+/* Restore the state before the line. */
 static void take_back(Rig *rig, const char *line)
 {
     take_back_line(rig->session, line);
@@ -162,7 +162,7 @@ static void tell(const char *line, double took, const Stop *whole, double gap, d
         backtrace_symbols_fd(looks.where, looks.frames, 1);
 }
 
-/* Once to its end, which its reports and its looks are counted by. */
+/* One complete run, which counts reports and checks. */
 static double run_whole(Rig *rig, const char *line, Stop *whole, double *gap)
 {
     WrError err = { "" };
@@ -179,7 +179,7 @@ static double run_whole(Rig *rig, const char *line, Stop *whole, double *gap)
     return took;
 }
 
-/* Large tables are worked on once to the end; small ones are stopped late as well. */
+/* Large tables are processed once completely; on small ones late cancellation is tested too. */
 static void try_line(Rig *rig, const char *line)
 {
     Stop whole = { 0 };
@@ -218,7 +218,8 @@ static void each_command_stops_at_a_report_and_leaves_no_trace(void **state)
     wr_pool_free(pool);
 }
 
-/* A whole run of it on a large table takes long, and by its texels: a smaller one has pieces that are as large. */
+/* True if a complete run on a large table takes long in proportion to its texels: on a smaller one the pieces are as
+   large. */
 static bool is_long(const char *line)
 {
     static const char *const begin[] = { "terrain hydraulic", "solid letters", "solid surface",
@@ -282,7 +283,7 @@ static void each_command_is_tried_or_known_to_be_instant(void **state)
 
 /* ---- what is no command ---- */
 
-/* False: it was done before. */
+/* False: it ended before. */
 static bool cancelled_at(int at, bool (*work)(WrSession *, WrError *), WrSession *session)
 {
     WrError err = { "" };

@@ -1,4 +1,4 @@
-/* The table on the canvas: turned, mirrored, its copies moved by half a cell; drawn as the geometry says. */
+/* The table on the canvas: rotated, mirrored, with shifted copies; drawn as the geometry requires. */
 #include "test.h"
 
 #include "field/field.h"
@@ -26,7 +26,7 @@ static WrCanvasView random_view(TestRandom *r, int w, int h)
     return view;
 }
 
-/* By hand: a view turned by a quarter clockwise shows what was right of its middle below it. */
+/* By hand: a view rotated by a quarter clockwise shows the right side at the bottom. */
 static void a_quarter_turn_puts_right_below(void **state)
 {
     (void)state;
@@ -39,12 +39,12 @@ static void a_quarter_turn_puts_right_below(void **state)
     wr_view_to_pixel(&view, 24, 10, &px, &py);
     assert_near(px, 17 + 100, 1e-12);
     assert_near(py, 5 + 50 + 3 * 4, 1e-12);
-    wr_view_to_pixel(&view, 20, 12, &px, &py); /* and what was below, to the left */
+    wr_view_to_pixel(&view, 20, 12, &px, &py); /* and the bottom at the left */
     assert_near(px, 17 + 100 - 3 * 2, 1e-12);
     assert_near(py, 5 + 50, 1e-12);
 }
 
-/* By hand: the copies beside the cell stand half a cell lower, those beyond them do not. */
+/* By hand: copies in the adjacent column are half a cell lower, those in the next are not. */
 static void copies_are_moved_by_half_a_cell(void **state)
 {
     (void)state;
@@ -87,8 +87,8 @@ static void pixels_and_texels_stay_each_others_inverse(void **state)
     }
 }
 
-/* Turning, zooming and panning: the place under the pointer is the same, by whole cells; also for centres that were
-   brought home across copies that are moved. */
+/* Rotating, zooming and panning keep the position under the pointer, up to whole cells; also for centres moved back
+   to the cell across shifted copies. */
 static void what_is_under_the_pointer_stays_there(void **state)
 {
     (void)state;
@@ -169,7 +169,7 @@ static WrField *random_field(TestRandom *r, int w, int h)
     return field;
 }
 
-/* The texel under a place of the window, or false if another one is nearer to it than `reach` pixels. */
+/* The texel under a position of the window; false if another texel is closer than `reach` pixels. */
 static bool texel_at(const WrCanvasView *view, const WrField *field, double px, double py,
                      double reach, float *height)
 {
@@ -193,7 +193,7 @@ static void assert_shown(const Shown *s, const WrCanvasView *view, const WrField
             float height = 0;
             if (!texel_at(view, field, i + 0.5, j + 0.5, reach, &height)) continue;
             seen++;
-            /* a height between two codes may be either's */
+            /* a height between two codes may have either */
             if (pixel(s, i, j) != wr_canvas_colour(s->canvas, (double)height - 1e-6) &&
                 pixel(s, i, j) != wr_canvas_colour(s->canvas, (double)height + 1e-6))
                 fail_msg("pixel %d, %d at %g degrees, zoom %g, tiling %d: %08x, not %08x", i, j,
@@ -204,7 +204,7 @@ static void assert_shown(const Shown *s, const WrCanvasView *view, const WrField
     assert_true(seen > 500);
 }
 
-/* Where one texel fills all that a pixel can have a share in, the pixel is its colour. */
+/* If one texel fills the whole footprint of a pixel, the pixel has its colour. */
 static void every_pixel_shows_the_texel_under_it(void **state)
 {
     (void)state;
@@ -217,13 +217,13 @@ static void every_pixel_shows_the_texel_under_it(void **state)
         view.zoom = 12 + 8 * test_random(&r);
         if (k < 12) view.turn = quarters[k % 4], view.zoom = 3 + 2 * test_random(&r);
         view.tiling = (WrTiling)(k % 3);
-        if (k % 2 && k % 3) { /* a copy that is moved, and the edge where it begins */
+        if (k % 2 && k % 3) { /* a shifted copy, and its border */
             view.centre_x = k % 3 == 1 ? 149 + 9 : 149 / 2.0 + 9;
             view.centre_y = k % 3 == 1 ? 149 / 2.0 + 9 : 149 + 9;
         }
         show(&s, &view, field);
         assert_shown(&s, &view, field, k < 12 ? 0.51 : 2.2);
-        /* what is painted is put into the same picture, on all its copies */
+        /* painting updates the same picture, on all its copies */
         for (int i = 0; i < 32 * 40; i++) /* all in one tile of nine */
             wr_field_set(field, i % 32, i / 32, (float)(1.9 * test_random(&r) - 0.95));
         show(&s, &view, field);
@@ -233,7 +233,7 @@ static void every_pixel_shows_the_texel_under_it(void **state)
     }
 }
 
-/* Every pixel of an outline lies on a line of the table that it outlines, whichever copy it is on. */
+/* Every pixel of an outline is on the outlined line of the table, on any copy. */
 static void outlines_follow_the_copies(void **state)
 {
     (void)state;
@@ -278,7 +278,8 @@ static void contours_are_few_and_at_round_heights(void **state)
     assert_true(wr_canvas_ink_step(3, 3) > 0);
 }
 
-/* A slant: a pixel is a line where its height and its left or upper neighbour's are not between the same two multiples. */
+/* A ramp: a pixel belongs to a contour if its height and its left or upper neighbour's are not between the same two
+   multiples. */
 static void contours_lie_between_two_pixels_that_differ(void **state)
 {
     (void)state;
@@ -291,7 +292,7 @@ static void contours_lie_between_two_pixels_that_differ(void **state)
     int lines = 0;
     for (int i = 0; i < 97; i++) {
         rows[0][i] = (float)(0.0113 * i - 0.31);
-        rows[1][i] = rows[0][i] + 0.0371F; /* more than from the left */
+        rows[1][i] = rows[0][i] + 0.0371F; /* more than horizontally */
     }
     wr_canvas_ink_heights(&ink, rows[1] + 1, rows[1][0], rows[0] + 1, 96, out);
     for (int i = 1; i < 97; i++) {
@@ -301,7 +302,7 @@ static void contours_lie_between_two_pixels_that_differ(void **state)
         for (int k = -5; k < 10; k++) {
             if (!(left < k * step && here >= k * step) && !(over < k * step && here >= k * step))
                 continue;
-            /* the ground's, every fifth, and the others; a pixel here has one at most */
+            /* zero, every fifth, and the others; each pixel has at most one here */
             line = true;
             ink_of = k == 0 ? 0xffc05a10u : k % 5 == 0 ? 0xff101010u : 0xff505860u;
         }
@@ -338,7 +339,8 @@ static void reliefs_are_lit_by_the_cosine_and_level_ground_is_grey(void **state)
     }
 }
 
-/* Of a slope of 45 degrees to the right the normal leans to the left; in the window too, where a slope up leans down. */
+/* For a slope of 45 degrees to the right the normal leans to the left; also in the window, where an upward slope
+   leans down. */
 static void normals_have_the_colours_of_a_map(void **state)
 {
     (void)state;

@@ -104,7 +104,7 @@ static void save_load_save_gives_the_same_bytes_with_every_part(void **state)
     wr_session_free(b);
 }
 
-/* A copy of one file, put under another's name as another program would. */
+/* Replace a file by a copy of another one, as another program would. */
 static void put_in_place(const char *from, const char *to)
 {
     char *bytes;
@@ -121,15 +121,16 @@ static void a_file_that_another_program_has_written_since_is_seen(void **state)
     WrError err;
     Notes notes = { 0 };
     WrSession *s = rich(&notes);
-    assert_false(wr_session_file_changed(s)); /* it has none */
+    assert_false(wr_session_file_changed(s)); /* there is no file */
     assert_true(wr_session_save(s, "own.exr", &err));
     assert_false(wr_session_file_changed(s));
     put_in_place("own.exr", "own.exr");
-    assert_true(wr_session_file_changed(s)); /* the same bytes in another file: nobody knows */
+    /* the same bytes in another file: not distinguishable */
+    assert_true(wr_session_file_changed(s));
     assert_true(wr_session_open(s, "own.exr", &err));
     assert_false(wr_session_file_changed(s));
     must_run(s, "layer solo off");
-    assert_false(wr_session_file_changed(s)); /* by its own work it does not change */
+    assert_false(wr_session_file_changed(s)); /* unchanged by the session's own save */
     FILE *file = fopen("own.exr", "ae");
     assert_true(file && fputc('x', file) == 'x' && fclose(file) == 0);
     assert_true(wr_session_file_changed(s)); /* in place */
@@ -170,7 +171,7 @@ static void the_hash_covers_everything_that_is_saved(void **state)
     WrHash before = wr_session_hash(s);
     wr_session_save(s, "before.exr", &err);
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
-        if (strcmp(changes[i], "fill 7") == 0) { /* only a layer that is shown can be filled */
+        if (strcmp(changes[i], "fill 7") == 0) { /* only a visible layer can be filled */
             must_run(s, "layer solo off");
             before = wr_session_hash(s);
         }
@@ -232,7 +233,7 @@ static void write_parts(const char *path, const char *version, Part *parts, int 
     if (!wr_image_write(path, outs, count, &err)) fail_msg("%s", err.text);
 }
 
-/* The flag in the second word of an EXR file that says that it has several parts. */
+/* The multi-part flag in the second word of an EXR file. */
 static bool has_parts(const char *path)
 {
     char *bytes;
@@ -252,7 +253,7 @@ static WrSession *open_saved(Notes *notes, const char *path)
     return s;
 }
 
-/* Programs that open no EXR file of several parts open those. */
+/* For programs that cannot open multi-part EXR files. */
 static void one_layer_that_is_f_is_a_file_of_one_part(void **state)
 {
     (void)state;
@@ -284,7 +285,7 @@ static void one_layer_that_is_f_is_a_file_of_one_part(void **state)
     assert_same_files("one.exr", "again.exr");
     assert_null(strstr(wr_text_get(&notes.text), "newer"));
     wr_session_free(t);
-    /* What F alone cannot say needs parts; what was saved so is still version 2. */
+    /* Features beyond F alone need parts; a file saved in that way is still version 2. */
     const char *const further[] = { "layer set 1 lock=off opacity=0.5",
                                     "layer set 1 opacity=1",
                                     "select rect from=0.1,0.1 to=0.5,0.5",
@@ -328,8 +329,8 @@ static void a_newer_version_opens_but_is_not_saved_over(void **state)
     assert_int_equal(doc(s)->active, 1);
     assert_int_equal(doc(s)->solo, -1);
     assert_true(wr_field_get(doc(s)->layers[1].heights, 5, 5) == 2);
-    assert_true(wr_field_get(doc(s)->layers[1].cover, 5, 5) == 1); /* brought to 0..1 */
-    assert_true(doc(s)->scene->posed); /* what stands after the unknown line */
+    assert_true(wr_field_get(doc(s)->layers[1].cover, 5, 5) == 1); /* limited to 0..1 */
+    assert_true(doc(s)->scene->posed);                             /* line after the unknown one */
     char *before, *after;
     size_t length, length_after;
     read_bytes("new.exr", &before, &length);
@@ -349,7 +350,7 @@ static void a_newer_version_opens_but_is_not_saved_over(void **state)
     assert_memory_equal(before, after, length);
     wr_free(before);
     wr_free(after);
-    wr_session_reset(s); /* another document may take the name */
+    wr_session_reset(s); /* another document may use the name */
     assert_true(wr_session_save(s, "new.exr", &err));
     wr_session_free(s);
     wr_text_fini(&notes.text);
@@ -406,7 +407,7 @@ static int count_of(int full)
     return all && *all && strcmp(all, "0") != 0 ? full : full / 10;
 }
 
-/* It loads or says why not; what it loads can be used. */
+/* The file loads or reports an error; a loaded document is usable. */
 static void try_file(const char *path)
 {
     WrLoaded loaded = { 0 };
@@ -438,7 +439,7 @@ static void hostile_documents_load_or_say_why_not(void **state)
     char *bytes;
     size_t length;
     read_bytes("whole.exr", &bytes, &length);
-    size_t header = length < 6000 ? length : 6000; /* where names and settings are */
+    size_t header = length < 6000 ? length : 6000; /* region of names and settings */
     for (int i = 0; i < rounds; i++) {
         char *copy = wr_alloc(length, 1);
         size_t keep = length;

@@ -58,14 +58,14 @@ static WrScene *own_scene(WrDocument *document)
     return document->scene = scene;
 }
 
-/* A mesh where the kind is of one, else a plane. */
+/* A mesh for kinds that need one, else a plane. */
 static void fit_surface(WrDocument *document, const WrExportKind *kind)
 {
     const bool mesh = kind->on_surface && kind->make;
     wr_shape_default(mesh ? WR_SURFACE_mesh : WR_SURFACE_plane, &own_scene(document)->shape);
 }
 
-/* Options as a command gives them: "range=auto", ... ended by NULL. */
+/* Options as in a command: "range=auto", ..., NULL-terminated. */
 static WrExportOptions options_of(const char *kind, const char *const *settings)
 {
     WrExportOptions options = wr_export_default();
@@ -154,7 +154,7 @@ static void every_16_bit_code_survives_the_default_range(void **state)
     wr_document_free(document);
 }
 
-/* Heights far outside 0..1: the range is the table's own unless told, and the label tells it. */
+/* Heights far outside 0..1: by default the range is the table's own, and the label records it. */
 static void nothing_is_clipped_unless_it_is_asked_for(void **state)
 {
     (void)state;
@@ -169,7 +169,7 @@ static void nothing_is_clipped_unless_it_is_asked_for(void **state)
         assert_true(report.code_low == (double)low && report.code_high == (double)high);
         WrImage *image = read_back(files[k]);
         const double last = image->type == WR_PIXEL_U8 ? 255 : 65535;
-        if (k < 2) { /* BMP keeps no text */
+        if (k < 2) { /* BMP stores no text */
             assert_int_equal(image->label.kind, WR_LABEL_HEIGHT);
             assert_true(wr_image_apply_range(image));
             for (int t = 0; t < 37 * 51; t++)
@@ -182,7 +182,7 @@ static void nothing_is_clipped_unless_it_is_asked_for(void **state)
     }
 }
 
-/* The table after a trip through an integer file of range 0,1. */
+/* The table after a round trip through an integer file with range 0,1. */
 static WrField *through_file(const WrDocument *document, const char *depth, const char *path)
 {
     export_to(document, "height", SETTINGS(depth, "range=0,1"), path);
@@ -193,7 +193,7 @@ static WrField *through_file(const WrDocument *document, const char *depth, cons
     return back;
 }
 
-/* amplitude 1, n texels a unit: a slope is a multiple of n / (2 codes), so a gentle slope is terraces */
+/* amplitude 1, n texels per unit: a slope is a multiple of n / (2 codes), so a gentle slope becomes terraces */
 static void hc51_hc52_slopes_of_integer_heights_are_multiples_of_the_quantum(void **state)
 {
     (void)state;
@@ -216,7 +216,8 @@ static void hc51_hc52_slopes_of_integer_heights_are_multiples_of_the_quantum(voi
             int steps = 0;
             for (int i = 1; i < n - 1; i++) {
                 double f = wr_field_get(field, i, 0), g = wr_field_get(back, i, 0);
-                assert_near(g, f, 0.5 / files[d].codes + 1e-7); /* half a code, and float */
+                /* half a code, and float precision */
+                assert_near(g, f, 0.5 / files[d].codes + 1e-7);
                 double slope =
                     n * (wr_field_get(back, i + 1, 0) - wr_field_get(back, i - 1, 0)) / 2;
                 double error = slope - 0.01;
@@ -273,7 +274,7 @@ static void signed_heights_keep_zero_exact_and_mirror(void **state)
     const int codes8[5] = { 128, 255, 1, 128 + 51, 128 - 51 }; /* 127 / 2.5 = 50.8 */
     for (int i = 0; i < 5; i++) assert_int_equal(code_at(image, i, 0, 0), codes8[i]);
     wr_image_free(image);
-    wr_field_set(field, 2, 0, -5.0f); /* the deepest dent sets the scale as well */
+    wr_field_set(field, 2, 0, -5.0f); /* the deepest dent determines the scale too */
     report = export_to(document, "height", SETTINGS("range=signed"), "s.png");
     assert_true(report.amplitude == 5.0 && report.clipped == 0);
     image = read_back("s.png");
@@ -281,7 +282,7 @@ static void signed_heights_keep_zero_exact_and_mirror(void **state)
     assert_int_equal(code_at(image, 1, 0, 0), 32768 + 16384); /* 16383.5 */
     wr_image_free(image);
     wr_document_free(document);
-    document = document_of(new_field(2, 2, WR_WRAP_PERIODIC)); /* no amplitude at all */
+    document = document_of(new_field(2, 2, WR_WRAP_PERIODIC)); /* no amplitude */
     export_to(document, "height", SETTINGS("range=signed"), "s.png");
     image = read_back("s.png");
     assert_int_equal(code_at(image, 1, 1, 0), 32768);
@@ -415,8 +416,7 @@ static void normals_of_a_wave_agree_with_its_closed_form_within_half_a_code(void
 static void heights_of_a_formula_are_its_values_at_texel_centres(void **state)
 {
     (void)state;
-    WrDocument *document =
-        document_of(random_field(60, 20, WR_WRAP_PERIODIC, 5, 6)); /* not looked at */
+    WrDocument *document = document_of(random_field(60, 20, WR_WRAP_PERIODIC, 5, 6)); /* unused */
     set_wave(own_scene(document), 3, 2, 0.5);
     WrExportReport report = export_to(document, "height", NULL, "formula.exr");
     WrImage *image = read_back("formula.exr");
@@ -434,7 +434,7 @@ static void heights_of_a_formula_are_its_values_at_texel_centres(void **state)
     wr_document_free(document);
 }
 
-/* A table's normals against the sampling functions of the field room, which know nothing of stencils. */
+/* A table's normals against the sampling functions of the field module, which do not use stencils. */
 static void check_scheme(int scheme, WrWrap wrap)
 {
     enum { W = 32, H = 64 }; /* powers of two: texel centres are exact, also for creased bilinear */
@@ -470,7 +470,8 @@ static void normals_of_a_table_follow_every_scheme(void **state)
     }
 }
 
-/* What stands on a level of a million is what stands on 0: heights differ by whole 1/8, which both tables hold. */
+/* A table on a level of a million has the normals of one on 0: heights differ by multiples of 1/8, which both
+   represent exactly. */
 static void a_high_level_leaves_normals_as_they_were(void **state)
 {
     (void)state;
@@ -533,7 +534,7 @@ static void the_upper_flank_of_a_bump_is_bright_green_in_plus_y_only(void **stat
     for (int i = 0; i < 32 * 32; i++) {
         assert_int_equal(code_at(plus, i % 32, i / 32, 0), code_at(minus, i % 32, i / 32, 0));
         int sum = code_at(plus, i % 32, i / 32, 1) + code_at(minus, i % 32, i / 32, 1);
-        assert_true(sum == 65535 || sum == 65536); /* 65536 where both round up from the middle */
+        assert_true(sum == 65535 || sum == 65536); /* 65536 if both round up from the middle */
     }
     wr_image_free(plus);
     wr_image_free(minus);
@@ -558,7 +559,7 @@ static void hc96_values_that_are_not_finite_are_replaced_and_counted(void **stat
     (void)state;
     WrDocument *document = document_of(new_field(16, 4, WR_WRAP_PERIODIC));
     WrScene *scene = own_scene(document);
-    set_wave(scene, 0, 0, 1e300); /* beyond float everywhere */
+    set_wave(scene, 0, 0, 1e300); /* overflows float everywhere */
     const char *paths[] = { "inf.png", "inf.exr" };
     for (int k = 0; k < 2; k++) {
         WrExportReport report = export_to(document, "height", NULL, paths[k]);
@@ -631,7 +632,7 @@ static void dither_keeps_the_mean_and_whole_codes(void **state)
             if (k == 0) assert_int_equal(got, 100);
             sum += got;
         }
-        /* 8 x 8 texels anywhere have nearly the mean: no clumps (random dither would stray by 0.06) */
+        /* any 8 x 8 texels have nearly the mean: no clumps (random dither would deviate by 0.06) */
         for (int at = 0; at < 120; at += 5) {
             double block = 0;
             for (int i = 0; i < 64; i++) block += code_at(image, at + i % 8, at + i / 8, 0);
@@ -662,7 +663,7 @@ static void a_line_drawing_leaves_as_a_picture_and_as_vectors(void **state)
     size_t length;
     WrError err;
     assert_true(wr_file_read("drawn.svg", 1 << 20, &text, &length, &err));
-    int strokes = 0; /* one path a line: 12 along u, 20 along v, none broken */
+    int strokes = 0; /* one path per line: 12 along u, 20 along v, none broken */
     for (size_t i = 0; i < length; i++) strokes += text[i] == 'M';
     assert_int_equal(strokes, 12 + 20);
     assert_non_null(strstr(text, "viewBox=\"0 0 1024 768\""));
@@ -670,7 +671,7 @@ static void a_line_drawing_leaves_as_a_picture_and_as_vectors(void **state)
     wr_document_free(document);
 }
 
-/* What a lone texel of height 0.3 holds: as a code from 0 to 1, and as a float. NULL ends the list. */
+/* Expected value of a single texel of height 0.3: as a code from 0 to 1, and as a float. NULL-terminated. */
 static const struct {
     const char *kind;
     double code, number;
@@ -690,7 +691,7 @@ static void hc95_a_single_texel_leaves_as_every_kind(void **state)
     own_scene(document)->height = 0.1;
     for (int kind = 0; kind < WR_EXPORT_KIND_COUNT; kind++)
         for (int k = wr_export_kinds[kind].floats; k < 3 && !wr_export_kinds[kind].write; k++) {
-            if (wr_export_kinds[kind].levels) continue; /* test_bump_slopes has it */
+            if (wr_export_kinds[kind].levels) continue; /* tested in test_bump_slopes */
             fit_surface(document, &wr_export_kinds[kind]);
             export_to(document, wr_export_kinds[kind].name, NULL, paths[k]);
             WrImage *image = read_back(paths[k]);
@@ -762,7 +763,7 @@ static void exports_that_cannot_be_leave_no_file(void **state)
         assert_int_equal(report.width, 42);
     }
     wr_document_free(document);
-    assert_int_equal(system("ls -A | grep -q -e '^no' -e part"), 256); /* grep found nothing */
+    assert_int_equal(system("ls -A | grep -q -e '^no' -e part"), 256); /* grep found no file */
 }
 
 static void a_full_disk_leaves_nothing_half_written(void **state)

@@ -1,9 +1,9 @@
-/* Everything that is written, while the disk fails, is full, or the program is killed: it ends in an error over a
-   whole old file or in success over the very bytes of a run without trouble; after a kill the file is the old or
-   the new one, and the next write leaves nothing else behind.
+/* Writing of every kind of file while the disk fails or is full, or the program is killed. The result is an error
+   with the old file intact, or success with exactly the bytes of an undisturbed run. After a kill the file is the old
+   or the new one, and the next write removes all leftovers.
 
-   The calls of the C library are the shim's (fault.h), in children of this process, so that no case starts the
-   libraries anew. A tenth of the cases in every run, all with WR_FULL=1. */
+   The C library's calls are intercepted (fault.h), in child processes, so that libraries are started only once. A
+   tenth of the cases in every run, all with WR_FULL=1. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -24,12 +24,12 @@
 #include <sys/stat.h>
 
 #define OLD "what was there before, and is worth keeping\n"
-#define VICTIM "victim" /* a file that nothing here names */
+#define VICTIM "victim" /* a file that no test refers to */
 
-/* What is written, one of each kind of file and each way to it. */
+/* A written file: one of each kind and way of writing. */
 typedef struct Job {
     const char *file, *line;
-    bool plain; /* of the document of one layer */
+    bool plain; /* for the document of one layer */
 } Job;
 
 static const Job jobs[] = {
@@ -76,7 +76,7 @@ typedef struct World {
 static World world;
 static void make_old(const Job *job);
 
-/* What every run would do first, done once: children inherit the library and go on using the same reader. */
+/* Common initialisation, done once: child processes inherit the libraries and use the same reader. */
 static void warm(void)
 {
     wr_image_warm();
@@ -113,7 +113,7 @@ static int end_world(void **state)
 
 /* ---- one run ---- */
 
-/* Run the job; the process ends with 0, or 1 and what was said. */
+/* Run the job; the process ends with 0, or 1 and an error message. */
 static void run_job(const Job *job)
 {
     WrError err = { "" };
@@ -134,7 +134,7 @@ static bool is_old(const char *path)
     return fault_holds(path, OLD, sizeof OLD - 1);
 }
 
-/* The bytes of a run without trouble. */
+/* Bytes of an undisturbed run. */
 typedef struct Good {
     char *bytes;
     size_t length;
@@ -160,7 +160,7 @@ static Good make_good(const Job *job)
     return good;
 }
 
-/* What every run must have ended in. The old file is there again afterwards. */
+/* Checks after every run; restores the old file. */
 static void check_end(const Job *job, const Good *good, int status, FaultTally *tally,
                       const char *what)
 {
@@ -220,14 +220,14 @@ static void run_fault(const Job *job, const Good *good, FaultKind kind, int64_t 
     check_end(job, good, status, tally, what);
 }
 
-/* Few, and each of them is what some line alone guards: in every run, for some of the jobs. */
+/* Important cases, each guarded by a single line of code: run every time, for some of the jobs. */
 static bool is_telling(int job, FaultKind kind, FaultMode mode)
 {
     bool end = kind == FAULT_SYNC || kind == FAULT_RENAME || kind == FAULT_CLOSE;
     return kind == FAULT_UNLINK || (mode == FAULT_ERROR && end && job % 7 == 0);
 }
 
-/* Each write to the disk in turn with a bit flipped, and dropped, though it reports success. */
+/* For each write to disk: flip a bit, or drop it, though success is reported. */
 static void try_silent(const Job *job, const Good *good, int64_t writes, FaultTally *tally)
 {
     for (int64_t n = 1; n <= writes; n++)
@@ -257,7 +257,8 @@ static void every_call_may_fail(void **state)
             counted.counts[FAULT_WRITE] - counted.seen[FAULT_WRITE][FAULT_MEMORY];
         try_silent(job, &good, on_disk, &tally);
         assert_true(counted.counts[FAULT_WRITE] > 0 && counted.counts[FAULT_RENAME] == 1);
-        assert_int_equal(counted.seen[FAULT_SYNC][FAULT_FOLDER], 1); /* the new name is kept, too */
+        /* the folder is synced after the rename */
+        assert_int_equal(counted.seen[FAULT_SYNC][FAULT_FOLDER], 1);
         assert_int_equal(counted.careless, 0);
         for (int kind = 0; kind < FAULT_KINDS; kind++)
             for (int64_t n = 1; n <= counted.counts[kind]; n++)
@@ -275,7 +276,7 @@ static void every_call_may_fail(void **state)
 
 /* ---- the journal of what could not be saved ---- */
 
-/* How many journals hold the work. */
+/* Number of journals with the work. */
 static int journals(void)
 {
     DIR *dir = opendir("state/journals");
@@ -295,7 +296,7 @@ static int journals(void)
     return count;
 }
 
-/* Work in a journaled session, and save it while the n-th call goes wrong. */
+/* Work in a journaled session, and save while the n-th call fails. */
 static void save_journaled(FaultKind kind, int64_t n, FaultMode mode)
 {
     WrError err;
@@ -306,7 +307,7 @@ static void save_journaled(FaultKind kind, int64_t n, FaultMode mode)
     wr_fault_arm(kind, n, mode, ENOSPC);
     bool good = wr_session_save(session, "work.exr", &err);
     wr_fault_state()->armed = 0;
-    _exit(good ? 0 : 1); /* as a crash would end it */
+    _exit(good ? 0 : 1); /* as in a crash */
 }
 
 static void a_save_that_fails_keeps_the_journal(void **state)
@@ -320,7 +321,7 @@ static void a_save_that_fails_keeps_the_journal(void **state)
             if (child == 0) save_journaled(kinds[k], 1, (FaultMode)mode);
             int status = fault_wait(child);
             bool there = access("work.exr", F_OK) == 0;
-            /* After a save it stays, and says so. */
+            /* After a save the journal stays, and the report says so. */
             if (there != (status == 0) || (!there && journals() != 1))
                 fail_msg("%s, %s: status %x, %d journals", wr_fault_kinds[kinds[k]],
                          wr_fault_modes[mode], status, journals());
@@ -336,7 +337,7 @@ static void a_save_that_fails_keeps_the_journal(void **state)
     assert_int_equal(system("rm -rf state"), 0);
 }
 
-/* What was told to be saved, or drawn, outlives a loss of power: 0 if nothing waits to be synced. */
+/* A completed save or stroke survives a power failure: returns 0 if no data waits for a sync. */
 static void work_in_safety(void)
 {
     WrError err;
@@ -402,7 +403,7 @@ static void no_room_by_a_limit(void **state)
     fault_add(&world.all, &tally);
 }
 
-/* A disk of some pages. False where this system mounts none. */
+/* A disk of a few pages. False if the system does not allow mounting. */
 static bool mount_disk(size_t pages)
 {
     char options[64];
@@ -439,7 +440,8 @@ static void no_room_on_the_disk(void **state)
                 fail_msg("%s: %s: status %x (%s)", job->line, what, status, *world.said);
             check_end(job, &good, status, &tally, what);
             assert_int_equal(chdir(".."), 0);
-            assert_int_equal(umount2("disk", MNT_DETACH), 0); /* a reader may be about to end */
+            /* a reader process may still be ending */
+            assert_int_equal(umount2("disk", MNT_DETACH), 0);
         }
         wr_free(good.bytes);
     }

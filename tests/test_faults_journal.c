@@ -1,7 +1,6 @@
-/* The journal while calls fail and kills fall, through its beginning, its lines, its compaction into snapshots and
-   its closing: what is read back afterwards is every command that was under way before, or after the last one that
-   ended; a journal that failed once comes back to be safe. Kills fall on every call; a tenth in every run, all with
-   WR_FULL=1. */
+/* The journal with failing calls and kills during its start, its lines, its compaction into snapshots and its end.
+   Reading it back yields every command up to the last one in progress or finished; a journal that failed once becomes
+   safe again. Kills at every call; a tenth in every run, all with WR_FULL=1. */
 #include "test.h"
 #include "fault_help.h"
 #include "journal_help.h"
@@ -15,22 +14,22 @@
 #include <errno.h>
 
 #define COMMANDS 14
-#define COMPACT 5 /* a snapshot after so many */
+#define COMPACT 5 /* commands between snapshots */
 
 typedef struct Shared {
     int begun, ended; /* commands */
-    int closed;       /* the journal was left, safe */
+    int closed;       /* the journal ended while safe */
 } Shared;
 
 static Shared *shared;
 
-/* What calls itself safe has its name. */
+/* A journal that claims to be safe must exist under its name. */
 static void must_be_there(const WrJournal *journal)
 {
     if (wr_journal_state(journal).safe && access(wr_journal_path(journal), F_OK) != 0) _exit(5);
 }
 
-/* The journal begins anew from a snapshot of what `count` commands led to. */
+/* Restart the journal from a snapshot after `count` commands. */
 static bool restart(WrJournal *journal, const WrDocument *document, int count)
 {
     WrText path = { 0 };
@@ -47,14 +46,14 @@ static bool restart(WrJournal *journal, const WrDocument *document, int count)
     return good;
 }
 
-/* What a session does between two commands, when the journal asks. */
+/* Upkeep between two commands, as in a session. */
 static void tend(WrJournal *journal, const WrDocument *document, int count)
 {
     if (wr_journal_state(journal).want != WR_JOURNAL_WANT_NOTHING)
         restart(journal, document, count);
 }
 
-/* A copy of a file beside the journal: there and whole, or refused. */
+/* Copy a file into the journal's folder: complete, or refused. */
 static void keep(WrJournal *journal, const char *folder)
 {
     WrText file = { 0 }, copy = { 0 };
@@ -89,7 +88,7 @@ static void run_journal(const char *folder)
         tend(journal, document, i);
         if (i % COMPACT == 0) restart(journal, document, i);
     }
-    /* The fault may have come just now: what the program does next has the journal try again. */
+    /* If the fault has just occurred, the next commands make the journal try again. */
     for (int i = 0; i < 3 && !wr_journal_state(journal).safe; i++) {
         wr_journal_note(journal, "", NULL);
         restart(journal, document, COMMANDS);
@@ -100,7 +99,7 @@ static void run_journal(const char *folder)
     _exit(0);
 }
 
-/* The one journal in a folder, or NULL. */
+/* The only journal in a folder, or NULL. */
 static char *find_journal(const char *folder)
 {
     char *found = NULL;
@@ -116,7 +115,7 @@ static char *find_journal(const char *folder)
     return found;
 }
 
-/* A snapshot that a journal starts from is a whole document. */
+/* The snapshot at a journal's start is a complete document. */
 static void check_snapshot(const char *path, const char *what)
 {
     WrLoaded loaded;
@@ -128,7 +127,7 @@ static void check_snapshot(const char *path, const char *what)
     wr_free(loaded.scene_text);
 }
 
-/* How many commands a recovery has; -1: there is no journal. *gap: it says itself that some are missing. */
+/* Number of commands in a recovery; -1: there is no journal. *gap: it reports missing ones. */
 static int commands_in(const char *folder, bool *gap, const char *what)
 {
     WrJournalRead read = { 0 };
@@ -180,7 +179,7 @@ static int run_case(const char *folder, FaultKind kind, int64_t n, FaultMode mod
 {
     static const int errors[] = { ENOSPC, EIO, EDQUOT };
     WrText victim = { 0 };
-    wr_text_addf(&victim, "%s.victim", folder); /* a file that nothing here names */
+    wr_text_addf(&victim, "%s.victim", folder); /* a file that no test refers to */
     write_bytes(wr_text_get(&victim), "whole", 5);
     remove_tree(folder);
     *shared = (Shared){ 0 };
@@ -219,8 +218,8 @@ static void the_journal_recovers_whatever_fails(void **state)
         for (int64_t n = 1; n <= counted.counts[kind]; n++)
             for (int mode = 0; mode < FAULT_MODES; mode++) {
                 char what[80];
-                /* A journal is read after a crash alone, where a line with a wrong checksum ends what is recovered; it
-                   comes back to be safe once its disk lets it. */
+                /* A journal is read only after a crash; a line with a wrong checksum ends the recovery. It becomes
+                   safe again when the disk works. */
                 if (mode == FAULT_FLIP || mode == FAULT_DROP || mode == FAULT_STUCK ||
                     !fault_fits((FaultKind)kind, (FaultMode)mode) ||
                     (!fault_is_wanted(index++, 0) && mode != FAULT_PLANT && kind != FAULT_RENAME))

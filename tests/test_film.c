@@ -1,5 +1,5 @@
-/* Films: what is said and what stays where ffmpeg is missing, dies, hangs, lies or is cancelled. The program is a script
-   in its place, which keeps frames as they are; tests/films.sh has the real one. */
+/* Films: messages and remaining files if ffmpeg is missing, dies, hangs, writes wrong data or is cancelled. A script
+   replaces the program and stores frames unchanged; tests/films.sh uses the real one. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -22,7 +22,7 @@ static char path_before[4096];
 
 /* ---- the script ---- */
 
-/* A program named ffmpeg, the only one in a folder that PATH begins with. NULL: PATH leads to an empty folder. */
+/* Create a program named ffmpeg, the only one in the first folder of PATH. NULL: PATH is an empty folder. */
 static void put_ffmpeg(const char *text)
 {
     char path[4400], here[256];
@@ -98,7 +98,7 @@ static bool is_old(const char *path)
     return n == 3 && strcmp(text, "old") == 0;
 }
 
-/* Files of this folder whose names begin with a dot. */
+/* Number of files in this folder whose names begin with a dot. */
 static int left_over(void)
 {
     int count = 0;
@@ -108,7 +108,7 @@ static int left_over(void)
     return count;
 }
 
-/* It fails with those words, and what was there is there. */
+/* It must fail with that message and leave the old file. */
 static void expect_failure(const char *script, double patience, const char *words)
 {
     WrError err = { "" };
@@ -167,7 +167,8 @@ static void odd_sizes_of_mp4_repeat_their_last_column_and_row(void **state)
 static void without_ffmpeg_its_package_is_named(void **state)
 {
     (void)state;
-#ifndef __SANITIZE_THREAD__ /* which makes a fork of a vfork, so that what the child finds is not told */
+#ifndef __SANITIZE_THREAD__ /* the sanitizer makes a fork of a vfork, so the child's error is
+                               lost */
     expect_failure(NULL, 0,
                    "films are made by the program ffmpeg, which is not installed "
                    "(Debian's package ffmpeg)");
@@ -207,7 +208,7 @@ static void what_it_wrote_is_read_back(void **state)
     expect_failure(CODEC "if [ $READS = 1 ]; then cat \"$FILE\"; else cat >once; "
                          "cat once once >\"$FILE\"; rm once; fi",
                    0, "5 frames were handed to ffmpeg, more stand in the file");
-    /* the same colours one code brighter here and there */
+    /* the same colours, some of them one code brighter */
     expect_failure(CODEC "if [ $READS = 1 ]; then tr '\\100' '\\101' <\"$FILE\"; "
                          "else cat >\"$FILE\"; fi",
                    0, "other colours");
@@ -254,7 +255,7 @@ static void cancelled(const char *script)
 static void cancel_ends_it_wherever_it_is(void **state)
 {
     (void)state;
-    cancelled(": >runs; exec sleep 100");                 /* takes nothing */
+    cancelled(": >runs; exec sleep 100");                 /* reads nothing */
     cancelled("cat >/dev/null; : >runs; exec sleep 100"); /* does not end */
     cancelled(CODEC "if [ $READS = 1 ]; then : >runs; exec sleep 100; else cat >\"$FILE\"; fi");
 }
@@ -300,10 +301,10 @@ static void it_is_killed_with_this_program(void **state)
     assert_true(runs(pid));
     kill(child, SIGKILL);
     waitpid(child, NULL, 0);
-    while (runs(pid)) wr_thread_sleep_ms(1); /* else the test hangs */
+    while (runs(pid)) wr_thread_sleep_ms(1); /* otherwise the test hangs */
     put_ffmpeg(KEEPS);
     if (!make("turn.apng", 0, &report, &err)) fail_msg("%s", err.text);
-    assert_int_equal(left_over(), 0); /* what it left half-written was swept away */
+    assert_int_equal(left_over(), 0); /* its partial file was removed */
 }
 
 /* ---- what is refused ---- */

@@ -1,4 +1,4 @@
-/* Filter layers by command lines: made, changed, undone, refused, masked, joined, kept in files. */
+/* Filter layers by command lines: creation, changes, undo, refusals, masks, merging, files. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -40,7 +40,7 @@ static void a_filter_is_made_above_the_active_layer_and_changed_by_its_number(vo
     assert_string_equal(doc(s)->layers[1].name, "Gaussian blur");
     WrField *blurred = now(s);
     assert_false(same_field(plain, blurred));
-    /* what `adjust` makes of the bottom layer is the same */
+    /* equal to `adjust` on the bottom layer */
     WrSession *other = hilly();
     must_run(other, "adjust blur sigma=2.5");
     assert_true(same_field(blurred, wr_document_field(doc(other))));
@@ -49,14 +49,14 @@ static void a_filter_is_made_above_the_active_layer_and_changed_by_its_number(vo
     assert_false(same_field(blurred, wr_document_field(doc(s))));
     must_run(s, "undo");
     assert_true(same_field(blurred, wr_document_field(doc(s))));
-    /* it follows what is done below */
+    /* it is updated after changes below */
     must_run(s, "layer use 1");
     must_run(s, "dab 0.31,0.77 radius=9 strength=0.6");
     must_run(other, "undo");
     must_run(other, "dab 0.31,0.77 radius=9 strength=0.6");
     must_run(other, "adjust blur sigma=2.5");
     assert_true(same_field(wr_document_field(doc(s)), wr_document_field(doc(other))));
-    must_run(s, "undo 2"); /* the stroke and what was chosen */
+    must_run(s, "undo 2"); /* the stroke and the choice of layer */
     must_run(s, "undo");
     assert_true(same_field(plain, wr_document_field(doc(s))));
     wr_field_free(plain);
@@ -91,7 +91,7 @@ static void its_heights_are_refused_and_its_mask_is_painted(void **state)
     must_run(s, "dab 0.5,0.5 radius=5 hardness=1 strength=1 mode=to to=1");
     assert_near(f_at(s, 38, 26), (double)wr_field_get(plain, 38, 26) + 0.5, 1e-6);
     assert_near(f_at(s, 3, 3), (double)wr_field_get(plain, 3, 3), 0.0);
-    /* operations on all layers leave it its empty heights, and turn its mask */
+    /* operations on all layers keep its empty heights, and transform its mask */
     must_run(s, "layer use 2 part=heights");
     must_run(s, "adjust add amount=1 layers=all");
     assert_near(f_at(s, 3, 3), (double)wr_field_get(plain, 3, 3) + 2.0, 1e-6);
@@ -116,10 +116,10 @@ static void joining_and_doubling_keep_what_is_seen(void **state)
     assert_true(is_close(seen, wr_document_field(doc(s)), 1e-6));
     assert_null(doc(s)->layers[1].filter.op);
     must_run(s, "undo");
-    must_run(s, "layer merge 2"); /* onto the bottom: exactly */
+    must_run(s, "layer merge 2"); /* onto the bottom layer: exact */
     assert_true(same_field(seen, wr_document_field(doc(s))));
     must_run(s, "undo");
-    must_run(s, "layer merge 4"); /* a plain one onto a filter */
+    must_run(s, "layer merge 4"); /* an ordinary layer onto a filter */
     assert_true(is_close(seen, wr_document_field(doc(s)), 1e-6));
     must_run(s, "undo");
     must_run(s, "layer flatten");
@@ -131,7 +131,7 @@ static void joining_and_doubling_keep_what_is_seen(void **state)
     assert_near(doc(s)->layers[2].filter.param[0], 1.3, 0);
     must_run(s, "layer set 3 opacity=0");
     assert_true(same_field(seen, wr_document_field(doc(s))));
-    /* alone: all that it filters, without what lies above */
+    /* solo: its whole input, without layers above */
     must_run(s, "layer solo 2");
     WrSession *below = hilly();
     must_run(below, "layer set 2 visible=off");
@@ -161,7 +161,7 @@ static void files_keep_filters_and_older_ones_stay_as_they_were(void **state)
     WrSession *out = wr_session_new(&writes);
     must_run(out, "table 41x23");
     must_run(out, "save old.exr");
-    check_version("old.exr", "3"); /* nothing new in it */
+    check_version("old.exr", "3"); /* uses no new feature */
     must_run(out, "grid cells=3x2 width=4");
     must_run(out, "filter median radius=2.25 window=square");
     must_run(out, "layer mask 2 from=white");
@@ -182,7 +182,7 @@ static void files_keep_filters_and_older_ones_stay_as_they_were(void **state)
         wr_session_free(in);
     }
     check_version("a.exr", "9");
-    /* one layer that is a filter is no plain table */
+    /* a single filter layer is not a plain table */
     must_run(out, "layer delete 1");
     must_run(out, "layer delete 2");
     must_run(out, "save single.exr");
@@ -225,7 +225,7 @@ static void files_with_filters_that_are_none_are_refused(void **state)
     }
 }
 
-/* Undo of an edit below filters keeps tiles of the layer, never composites. */
+/* Undo of an edit below filters stores tiles of the layer, not composites. */
 static void undo_costs_what_the_edit_touched(void **state)
 {
     (void)state;
@@ -242,7 +242,7 @@ static void undo_costs_what_the_edit_touched(void **state)
     wr_session_free(s);
 }
 
-/* As where memory lacks for its work: what fails here is the operation, by values that no command would set. */
+/* Simulates a lack of memory: the operation fails, by values that no command can set. */
 static void break_filter(WrSession *s, int layer, double to)
 {
     ((WrDocument *)doc(s))->layers[layer].filter.param[1] = to;
@@ -271,7 +271,7 @@ static void what_a_filter_cannot_be_carried_out_for_is_refused(void **state)
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
         WrError err = { "" };
         must_run(s, "undo");
-        must_run(s, "redo"); /* whose composite nobody made yet */
+        must_run(s, "redo"); /* whose composite is not computed yet */
         break_filter(s, 1, 0.17);
         if (wr_session_run(s, refused[i], &err)) fail_msg("%s went through", refused[i]);
         if (!strstr(err.text, "'Levels' cannot be carried out (levels: "))
@@ -281,7 +281,7 @@ static void what_a_filter_cannot_be_carried_out_for_is_refused(void **state)
     assert_int_not_equal(access("lacks.ora", F_OK), 0);
     assert_int_not_equal(access("lacks.png", F_OK), 0);
     must_run(s, "layer use 1");
-    must_run(s, "dab 0.5,0.5 radius=3 strength=1"); /* what does not look at it goes on */
+    must_run(s, "dab 0.5,0.5 radius=3 strength=1"); /* lines that do not need it still work */
     must_run(s, "undo 2");
     must_run(s, "layer set 3 blend=mix");
     must_run(s, "layer use 3");
@@ -302,7 +302,7 @@ static void what_a_filter_cannot_be_carried_out_for_is_refused(void **state)
     wr_session_free(s);
 }
 
-/* A filter that was tried is not made again: the composite is the trial's, the very table. */
+/* A previewed filter is not computed again: the composite is the preview's table itself. */
 static void a_filter_that_was_made_before_is_taken(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Filter layers: what they make, and that what an edit leaves alone is not made again, with the same bits. */
+/* Filter layers: their results, and partial recomputation after an edit with identical bits. */
 #include "test.h"
 
 #include "base/error.h"
@@ -20,7 +20,7 @@ static int pick(TestRandom *r, int count)
     return (int)(test_random(r) * count);
 }
 
-/* Values that are not special; each operation that keeps the table's size. */
+/* Ordinary values for each operation that keeps the table's size. */
 static const char *const kinds[] = {
     "blur sigma=%.3f",
     "sharpen amount=0.7 sigma=%.3f",
@@ -45,7 +45,7 @@ static const char *const kinds[] = {
 };
 enum {
     KINDS = sizeof kinds / sizeof *kinds,
-    NEAR = 13 /* the first ones do not look at the whole table */
+    NEAR = 13 /* the first ones do not depend on the whole table */
 };
 
 static WrFilter filter_of(int kind, double value)
@@ -82,7 +82,7 @@ static WrField *like(const WrDocument *document, float level)
                         wr_field_wrap_v(f), level, NULL);
 }
 
-/* One change of anything that a composite is made of. */
+/* One random change of any input of a composite. */
 static void edit(TestRandom *r, WrDocument *document)
 {
     int i = pick(r, document->layer_count);
@@ -155,7 +155,7 @@ static void edits_under_filters_give_what_all_of_it_made_anew_gives(void **state
             assert_same(wr_document_composite(document, pool), wr_document_field(anew), k,
                         document->layers[document->layer_count - 1].name);
             wr_document_free(anew);
-            if (k % 25 < 24) continue; /* a share goes on from what the first one knows */
+            if (k % 25 < 24) continue; /* a share reuses the cached data */
             WrDocument *shared = wr_document_share(document);
             wr_document_free(document);
             document = shared;
@@ -165,11 +165,11 @@ static void edits_under_filters_give_what_all_of_it_made_anew_gives(void **state
     wr_pool_free(pool);
 }
 
-/* Each operation, one edit after the other, most of them at the edges; heights of ever other ranges. */
+/* Each operation after many edits, most of them at the edges, with varying height ranges. */
 static void each_operation_made_again_is_the_operation(void **state)
 {
     (void)state;
-    /* long ones whose last tile is narrower than what filters reach, and stands far from the first */
+    /* long tables whose last tile is narrower than the filters' support and far from the first */
     static const struct {
         int width, height;
         WrWrap u;
@@ -190,7 +190,7 @@ static void each_operation_made_again_is_the_operation(void **state)
                 int j = k % 3       ? pick(&r, height)
                         : k % 4 < 2 ? height - 1 - pick(&r, 4)
                                     : pick(&r, 4);
-                if (k == 7) /* from one edge's reach to the next tile's */
+                if (k == 7) /* from one edge's support to the next tile's */
                     for (int at = 3; at < 62; at++)
                         wr_field_set(in, at % width, at % height, (float)between(&r, -1, 2));
                 else if (k % 3 == 1) scribble(&r, in, false);
@@ -213,7 +213,7 @@ static void each_operation_made_again_is_the_operation(void **state)
         if (!seen[k] && !wr_ops[k].reshapes) fail_msg("%s was not tried", wr_ops[k].name);
 }
 
-/* ---- what it is, by formulas of this file's own ---- */
+/* ---- results, by independent formulas ---- */
 
 static double wrapped(const double *f, int w, int h, int i, int j)
 {
@@ -268,8 +268,8 @@ static void count_tile(int tx, int ty, void *ctx)
     ++*(int *)ctx;
 }
 
-/* A dab at a corner, under a blur that reaches 12 texels: the tiles at the table's four corners change, no other is
-   made again or copied. */
+/* A dab at a corner below a blur with a support of 12 texels: the tiles at the table's four corners change; no other
+   tile is computed or copied. */
 static void an_edit_makes_only_the_tiles_again_that_the_filter_reaches(void **state)
 {
     (void)state;
@@ -287,7 +287,7 @@ static void an_edit_makes_only_the_tiles_again_that_the_filter_reaches(void **st
     wr_field_changes(before, wr_document_field(document), count_tile, &changed);
     assert_int_equal(changed, 4);
     wr_field_free(before);
-    /* in the middle of a tile: that tile alone */
+    /* in the middle of a tile: only that tile changes */
     before = wr_field_share(wr_document_field(document));
     wr_field_set(document->layers[0].heights, 64 * 7 + 31, 64 * 4 + 20, 9.0f);
     changed = 0;
@@ -335,7 +335,7 @@ static void what_is_printed_reads_back_and_nothing_else_does(void **state)
     }
 }
 
-/* An object that wears a filter layer has to notice what is done below it. */
+/* An object whose table is a filter layer depends on changes below the layer. */
 static void a_filters_key_changes_with_what_lies_below(void **state)
 {
     (void)state;

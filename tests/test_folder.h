@@ -1,5 +1,5 @@
-/* test_folder.h - a group of tests that runs in a folder of its own: cmocka_run_group_tests(tests,
-   enter_folder, remove_folder). After test.h. */
+/* test_folder.h - temporary folder for a group of tests: cmocka_run_group_tests(tests, enter_folder, remove_folder).
+   Include after test.h. */
 #pragma once
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@ static inline int enter_folder(void **state)
     return *state ? chdir(folder) : -1;
 }
 
-/* The same for each test of a group: a folder of its own, by cmocka_unit_test_setup_teardown(test, enter_own_folder,
+/* Temporary folder for each test of a group: cmocka_unit_test_setup_teardown(test, enter_own_folder,
    leave_own_folder). */
 static inline int enter_own_folder(void **state)
 {
@@ -30,7 +30,7 @@ static inline int leave_own_folder(void **state)
     return system(command);
 }
 
-/* With a folder `state` in it for what the program keeps, where nobody looks for files left behind. */
+/* With a subfolder `state` for the program's files, which is not checked for leftovers. */
 static inline int enter_state_folder(void **state)
 {
     if (enter_folder(state) != 0) return -1;

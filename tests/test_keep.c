@@ -1,6 +1,6 @@
-/* Edits of the table under a view that rests (E29): after each of 500 at random, at corners and edges of the table too, every
-   pixel has the bits of a whole new picture, of any surface, scheme, way against aliasing and kind of axis; and what no edit
-   reaches is not drawn. */
+/* Dirty regions (E29): edits of the table in a static view. After each of 500 random edits, also at corners and edges
+   of the table, every pixel is bit-identical to a new picture, for any surface, scheme, anti-aliasing method and kind
+   of axis; unaffected parts are not rendered. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -12,7 +12,7 @@ static int below(TestRandom *random, int n)
     return (int)(n * test_random(random));
 }
 
-/* Not level, but without a central difference: what goes by slopes alone finds none. */
+/* Not level, but with zero central differences: effects that depend on slopes find none. */
 static WrField *chequered_field(TestRandom *random)
 {
     const int w = 2 * (9 + below(random, 60)), h = 2 * (7 + below(random, 50));
@@ -29,13 +29,13 @@ static WrField *some_field(TestRandom *random)
     const WrWrap wraps[] = { WR_WRAP_PERIODIC, WR_WRAP_CLAMP };
     WrField *field =
         wr_field_new(w, h, wraps[below(random, 2)], wraps[below(random, 2)], 0.5f, NULL);
-    if (test_random(random) < 0.2) return field; /* level ground */
+    if (test_random(random) < 0.2) return field; /* a level table */
     for (int j = 0; j < h; j++)
         for (int i = 0; i < w; i++) wr_field_set(field, i, j, (float)test_random(random));
     return field;
 }
 
-/* One sample a pixel of closed forms is what most views are: more of it than of all else. */
+/* Most cases have one sample per pixel on closed-form surfaces, as most views do. */
 static WrScene *some_scene(TestRandom *random, int k)
 {
     static const char *const surfaces[] = { "sphere", "plane", "torus", "cube", "cone", "bezier" };
@@ -56,7 +56,7 @@ static WrScene *some_scene(TestRandom *random, int k)
     return scene;
 }
 
-/* A small one that repeats, smooth here and there, so that horizons differ in how far they reach. */
+/* A small periodic table, smooth in places, so that horizon distances vary. */
 static WrField *hiding_field(TestRandom *random)
 {
     const int w = 21 + below(random, 60), h = 18 + below(random, 50);
@@ -67,7 +67,7 @@ static WrField *hiding_field(TestRandom *random)
     return field;
 }
 
-/* Its relief throws shadows, or hides the sky from itself, or both. */
+/* Its relief casts shadows, or occludes the sky, or both. */
 static WrScene *hiding_scene(TestRandom *random, int k)
 {
     static const char *const surfaces[] = { "sphere", "plane", "torus", "bezier" };
@@ -80,7 +80,7 @@ static WrScene *hiding_scene(TestRandom *random, int k)
     return scene;
 }
 
-/* Texels beside each other get other heights; every third time at a corner or an edge. */
+/* Change adjacent texels; every third time at a corner or an edge. */
 static void edit(TestRandom *random, WrField *field, int step)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -120,7 +120,7 @@ static Drawn check_scene(TestRandom *random, int k, bool hides)
         request.keep = true;
         if (!wr_renderer_frame(renderer, &request, &frame, &err)) fail_msg("%s", err.text);
         request.keep = false;
-        WrRenderer *other = wr_renderer_new(pool, NULL, NULL); /* it knows nothing of before */
+        WrRenderer *other = wr_renderer_new(pool, NULL, NULL); /* has no cached data */
         assert_true(wr_renderer_frame(other, &request, &fresh, &err));
         if (request.codes.wanted ? memcmp(frame.codes, fresh.codes, size * sizeof *frame.codes)
                                  : memcmp(frame.rgba, fresh.rgba, frame_bytes(&frame)))
@@ -128,7 +128,7 @@ static Drawn check_scene(TestRandom *random, int k, bool hides)
         assert_int_equal(frame.covered, fresh.covered);
         wr_renderer_free(other);
         if (step > 0) drawn.kept += frame.shaded, drawn.whole += fresh.shaded;
-        WrField *next = wr_field_share(field); /* what a renderer keeps is the old one */
+        WrField *next = wr_field_share(field); /* the renderer caches the old one */
         edit(random, next, step);
         wr_field_free(field);
         field = next;
@@ -149,7 +149,7 @@ static void every_pixel_is_that_of_a_new_picture_after_any_edit(void **state)
     assert_in_range(all.kept, 1, all.whole / 3);
 }
 
-/* Shadows and occlusion reach beyond the edit: as far as it changed the horizon. */
+/* Shadows and occlusion extend beyond the edit as far as the horizon changed. */
 static void shadows_are_those_of_a_new_picture_after_any_edit(void **state)
 {
     (void)state;
@@ -162,7 +162,7 @@ static void shadows_are_those_of_a_new_picture_after_any_edit(void **state)
     assert_in_range(all.kept, 1, all.whole * 9 / 10);
 }
 
-/* What was left out of a table without slopes comes back with the first of them. */
+/* Effects skipped for a table without slopes run after the first slope. */
 static void the_first_slope_is_seen(void **state)
 {
     (void)state;
@@ -186,7 +186,7 @@ static void the_first_slope_is_seen(void **state)
     wr_field_free(field);
 }
 
-/* Of one texel no more than a few patches of a sphere, and nothing where it is out of sight. */
+/* An edit of one texel costs a few patches of a sphere, and nothing if it is hidden. */
 static void a_dab_costs_the_pixels_that_it_reaches(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void a_dab_costs_the_pixels_that_it_reaches(void **state)
         assert_true(wr_renderer_frame(renderer, &request, &frame, NULL));
         drawn += frame.shaded;
         unseen += frame.shaded == 0;
-        if (step / 8 != 0 && step / 8 != 7) /* where all of u meets at a pole more is in a patch */
+        if (step / 8 != 0 && step / 8 != 7) /* near a pole a patch covers more of the edit */
             assert_in_range(frame.shaded, 0, whole / 80);
     }
     assert_in_range(unseen, 64 / 4, 64 * 3 / 4);

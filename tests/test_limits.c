@@ -1,6 +1,6 @@
-/* Legal values do not run away: each argument of each command that makes heights at its least and its most, on a
-   small table. What takes longer than anybody waits must stop when it is told to: a watchdog tells it after a
-   time so generous that no machine's speed matters, and what does not stop then is the fault. */
+/* Legal values end in reasonable time: each argument of each height command at its minimum and maximum, on a small
+   table. Slow commands must react to cancellation: a watchdog cancels after a time so long that the machine's speed
+   does not matter; a command that does not stop then fails the test. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -15,15 +15,15 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#define PATIENCE 10.0 /* seconds until a line is told to stop */
-#define MERCY 120.0   /* until one that was told is given up */
+#define PATIENCE 10.0 /* seconds before a line is cancelled */
+#define MERCY 120.0   /* seconds after the cancellation before a failure */
 
 /* ---- the watchdog ---- */
 
 typedef struct Dog {
-    pthread_mutex_t lock;      /* guards since, and telling the line that it is about */
+    pthread_mutex_t lock;      /* protects `since` and the reported line */
     volatile int cancel, stop; /* atomic */
-    double since;              /* clock; 0: nothing runs */
+    double since;              /* clock; 0: no line runs */
     char line[256];
 } Dog;
 
@@ -44,7 +44,7 @@ static void *watch(void *arg)
     return NULL;
 }
 
-/* A line begins or ends: now, or 0. */
+/* Start or end of a line: the clock, or 0. */
 static void set_since(Dog *dog, double since)
 {
     pthread_mutex_lock(&dog->lock);
@@ -59,7 +59,7 @@ static const char *const verbs[] = { "grid", "dab",     "stroke",  "shape",   "f
                                      "ramp", "pattern", "noise",   "formula", "text",
                                      "rim",  "solid",   "terrain", "select",  "adjust" };
 
-/* What is not left out: positional arguments, and those that must be given. */
+/* Required arguments: positional ones, and those that must be given. */
 static const char *needed(const WrCommand *command, const char *form)
 {
     static const struct {
@@ -160,7 +160,7 @@ static void try_form(Trials *t, const WrCommand *command, int form, const char *
         }
 }
 
-/* Two of them together, which ran for minutes. */
+/* Combinations of two values that once ran for minutes. */
 static const char *const known[] = {
     "solid cylinder radius=16384 length=100",
     "solid torus rows=1024 across=1024",

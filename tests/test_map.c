@@ -1,5 +1,5 @@
-/* test_map.c - what the renderer notes of each pixel is what it did there: seen in the counts of the plan's rows and
-   in pictures that are known pixel by pixel. */
+/* test_map.c - the effect map of a picture matches the effects that ran: compared with the counts of the plan's rows
+   and with pictures known pixel by pixel. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -59,7 +59,7 @@ static bool same_pixel(const Mapped *a, const Mapped *b, int i)
     return memcmp(pixel(a, i), pixel(b, i), 4 * sizeof(float)) == 0;
 }
 
-/* Slopes on a few tiles alone. */
+/* Slopes on a few tiles only. */
 static WrField *mostly_level(void)
 {
     WrField *field = wr_field_new(512, 512, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
@@ -76,7 +76,7 @@ static WrImage *checker(int width, int height)
     return image;
 }
 
-/* One sample a pixel: the rows' counts are the map's, and where the picture has something. */
+/* With one sample per pixel the rows' counts equal the map's, also where the picture is empty. */
 static void check_counts(WrScene *scene, const WrField *field)
 {
     Mapped *one = start(1), *four = start(4), *plain = start(2);
@@ -123,8 +123,8 @@ static void one_sample_is_counted_as_the_rows_count(void **state)
     wr_field_free(fields[1]);
 }
 
-/* Where it is said that one sample was taken the picture is that of one sample, moved by what its neighbours tell but
-   not over an outline; where K x K, that of K x K. */
+/* Pixels marked with one sample equal the one-sample picture, adjusted by their neighbours but not across a
+   silhouette; pixels marked K x K equal the K x K picture. */
 static void samples_are_those_that_were_taken(void **state)
 {
     WrField *field = bumpy_field(64, 64);
@@ -140,7 +140,7 @@ static void samples_are_those_that_were_taken(void **state)
         draw(all, scene, field, false, true);
         scene->dials.aa = WR_AA_ADAPTIVE;
         draw(adaptive, scene, field, false, true);
-        /* A mesh is finer for more samples, and Newton's method begins elsewhere: other last bits. */
+        /* A mesh is finer with more samples, and Newton's method starts elsewhere: the last bits differ. */
         const bool closed = !wr_plan_runs(all->shot.frame.plan, WR_EFFECT_DEPTH);
         int64_t of[4] = { 0 };
         for (int i = 0; i < PIXELS; i++) {
@@ -167,7 +167,7 @@ static void samples_are_those_that_were_taken(void **state)
     wr_field_free(field);
 }
 
-/* A view that rests: what an edit changed was rendered, and not all was. */
+/* A static view: the map marks the parts rendered again after an edit. */
 static void tiles_rendered_again_are_told(void **state)
 {
     WrField *field = bumpy_field(64, 64);
@@ -190,7 +190,7 @@ static void tiles_rendered_again_are_told(void **state)
     wr_field_free(field);
 }
 
-/* A view that rests without a map is drawn whole for one. */
+/* A static view without a map is rendered completely for one. */
 static void a_map_of_a_resting_view_is_whole(void **state)
 {
     WrField *field = bumpy_field(64, 64);
@@ -207,7 +207,7 @@ static void a_map_of_a_resting_view_is_whole(void **state)
     wr_field_free(field);
 }
 
-/* What the dark side is spared: counted as the rows count it, and told from light without bump. */
+/* Skipped work on the dark side: counted as in the rows, and distinguished from light without bump. */
 static void the_dark_side_is_told(void **state)
 {
     WrField *field = mostly_level();

@@ -1,5 +1,4 @@
-/* test_mesh_grids.h - meshes that are cut from surfaces, for tests of the renderer.
-   After test_render_scenes.h. */
+/* test_mesh_grids.h - meshes sampled from surfaces, for the renderer tests. Include after test_render_scenes.h. */
 #pragma once
 #include "base/error.h"
 #include "base/exactmath.h"
@@ -10,7 +9,7 @@
 
 typedef void MeshPlace(double u, double v, float p[3], float n[3]);
 
-/* A grid of nu x nv cells; of those of one row or column both corners may lie together. */
+/* A grid of nu x nv cells; with a single row or column both corners may coincide. */
 static inline WrTriangles *mesh_grid(MeshPlace *place, int nu, int nv, bool mapped)
 {
     const int count = (nu + 1) * (nv + 1);

@@ -1,5 +1,5 @@
-/* The command normalmap: what it reads, tells, changes and refuses; what documents keep of it; that a map of our own
-   export turns the normal as its table does. */
+/* The command normalmap: inputs, notes, changes and refusals; storage in documents; the map exported by the program
+   bends normals like its table. */
 #include "test.h"
 #include "recovery_help.h"
 #include "test_folder.h"
@@ -28,7 +28,8 @@ static WrSession *told_session(Said *said)
     return wr_session_new(&options);
 }
 
-/* Codes of f = sin(3 u + 2 v) and the like, of so many bits; centre: of 8 bits, 128 and 255 round it; down: green so. */
+/* Codes of f = sin(3 u + 2 v) and similar, with `bits` bits; centre: of 8 bits, 128 and 255 round it; down: green
+   direction. */
 static void write_map(const char *path, int bits, bool down, bool flat, double power)
 {
     enum { W = 24, H = 17 };
@@ -78,7 +79,7 @@ static void what_was_taken_is_told(void **state)
     assert_true(map_of(s)->green_down && map_of(s)->laid.own && map_of(s)->laid.ru == 1);
     must_run(s, "normalmap floats.exr");
     expect_told(&said, "floats, the vectors' own (coding=signed); green down, found");
-    assert_false(map_of(s)->laid.own); /* another file's settings are its own */
+    assert_false(map_of(s)->laid.own); /* settings of another file are not kept */
     must_run(s, "normalmap flat.png");
     expect_told(&said, "code 128 stands for 0; green up, undecided");
     must_run(s, "normalmap bent.png green=up");
@@ -99,7 +100,7 @@ static void settings_change_without_the_file(void **state)
     const float y = image->data[1];
     must_fail(s, "colour repeat=once", "no colour picture");
     must_run(s, "colour up.png");
-    must_run(s, "colour repeat=once"); /* likewise */
+    must_run(s, "colour repeat=once"); /* also not kept */
     assert_true(doc(s)->scene->colour_laid.own && doc(s)->scene->colour);
     must_run(s, "undo");
     assert_false(doc(s)->scene->colour_laid.own);
@@ -122,7 +123,8 @@ static void settings_change_without_the_file(void **state)
     wr_session_free(s);
 }
 
-/* To the object's axes nothing changes; back again what looks away is brought to the horizon, and counted. */
+/* Converting to the object's axes changes nothing; converting back moves vectors that face away to the horizon and
+   counts them. */
 static void the_space_changes_without_the_file(void **state)
 {
     (void)state;
@@ -184,8 +186,8 @@ static void draw(WrSession *session, float *out)
     memcpy(out, frame.rgba, 60 * 40 * 4 * sizeof *out);
 }
 
-/* Maps of 8 and 16 bits and of floats on objects of their own, one beside a colour picture: from a document, an
-   OpenRaster file and a script they come back bit for bit. The pictures are gone by then, but for the script. */
+/* Maps of 8 and 16 bits and of floats on separate objects, one beside a colour picture, are restored bit for bit from
+   a document, an OpenRaster file and a script. The picture files are deleted before, except for the script. */
 static void files_bring_them_back(void **state)
 {
     (void)state;
@@ -226,14 +228,14 @@ static void files_bring_them_back(void **state)
             assert_true(x->green_down == y->green_down && x->object == y->object);
         }
         must_run(b, "object choose two");
-        must_run(b, "normalmap green=up"); /* of what has no file any more */
+        must_run(b, "normalmap green=up"); /* of a map without a file */
         wr_session_free(b);
         if (i == 2) assert_int_equal(unlink("8.png") | unlink("16.tif") | unlink("f.exr"), 0);
     }
     wr_session_free(a);
 }
 
-/* What a crash leaves behind: the map comes back though its file is gone, and off is no file though there is one. */
+/* Crash recovery: the map is restored without its file; `off` is not a file, even if one has that name. */
 static void maps_are_recovered_without_their_files(void **state)
 {
     (void)state;
@@ -292,7 +294,8 @@ static void write_ball(const char *path)
     wr_text_fini(&text);
 }
 
-/* The picture with the table's bump, and that of the map of it on a flat table: within what the format's angle may change. */
+/* The picture with the table's bump against that with its exported map on a flat table: equal within the angular
+   precision of the format. */
 static void an_exported_map_gives_the_bumped_picture(void **state)
 {
     (void)state;
@@ -314,7 +317,7 @@ static void an_exported_map_gives_the_bumped_picture(void **state)
         must_run(s, objects[k / 6]);
         said.text[0] = '\0';
         must_run(s, "bump height=0.02");
-        must_run(s, k / 6 == 3 ? "replicate 1,1" : "replicate 2,1"); /* frames do not shrink */
+        must_run(s, k / 6 == 3 ? "replicate 1,1" : "replicate 2,1"); /* frames are not reduced */
         draw(s, bumped);
         snprintf(line, sizeof line, "export normal%cy %s", down ? '-' : '+', files[k % 3].file);
         must_run(s, line);
@@ -322,8 +325,9 @@ static void an_exported_map_gives_the_bumped_picture(void **state)
         snprintf(line, sizeof line, "normalmap %s", k % 3 == 2 ? "n.exr" : "n.png");
         must_run(s, line);
         expect_told(&said, down ? "green down, as its label says" : "green up, as its label says");
-        if (k / 24) must_run(s, "normalmap frame=gradient"); /* the square's (u,v) are unit ones */
-        must_run(s, "bump height=0.9");                      /* of the flat table: not the map's */
+        if (k / 24) must_run(s, "normalmap frame=gradient"); /* the square has unit (u,v) */
+        /* affects the flat table, not the map */
+        must_run(s, "bump height=0.9");
         draw(s, mapped);
         double worst = 0;
         for (int i = 0; i < 60 * 40 * 4; i++)
@@ -334,7 +338,7 @@ static void an_exported_map_gives_the_bumped_picture(void **state)
     }
 }
 
-/* A map along the object's axes has the surface in it, and any mode of the bump. */
+/* A map along the object's axes includes the surface and any bump mode. */
 static void a_map_along_the_axes_gives_the_bumped_picture(void **state)
 {
     (void)state;
@@ -366,7 +370,7 @@ static void a_map_along_the_axes_gives_the_bumped_picture(void **state)
     }
 }
 
-/* Some of so many numbers stand half way between two codes, as near as floats tell. */
+/* With so many numbers, some are half way between two codes as exactly as floats allow. */
 static void numbers_between_two_codes_are_written_too(void **state)
 {
     (void)state;
@@ -379,7 +383,7 @@ static void numbers_between_two_codes_are_written_too(void **state)
     wr_session_free(s);
 }
 
-/* Of a mesh, by MikkTSpace: shaded by those frames it is the bumped picture. */
+/* On a mesh, by MikkTSpace: shaded with those frames it equals the bumped picture. */
 static void a_baked_map_gives_the_bumped_picture(void **state)
 {
     (void)state;
@@ -407,7 +411,7 @@ static void a_baked_map_gives_the_bumped_picture(void **state)
         }
         const double rms = sqrt(sum / (60 * 40 * 4));
         if (getenv("WR_SHOW")) printf("baked %s: %g, rms %g\n", meshes[k / 2], worst, rms);
-        /* Slopes jump at the ball's edges, which a map's texels blur. */
+        /* Slopes jump at the sphere's edges, which the map's texels blur. */
         if (!(worst < (k / 2 ? 0.03 : 6e-4) && rms < (k / 2 ? 6e-4 : 2e-4)))
             fail_msg("case %d: %g, rms %g", k, worst, rms);
         wr_session_free(s);

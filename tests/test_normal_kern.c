@@ -1,4 +1,4 @@
-/* The inner loops of normal maps: every instruction set against the formulas, one texel at a time. */
+/* Inner loops of normal maps: every instruction set against the formulas, one texel at a time. */
 #include "test.h"
 
 #include "export/normal_kern.h"
@@ -39,7 +39,7 @@ static void tilt(const WrNormalJob *job, int i, double *x, double *y)
     *y = -job->height * (-job->rows * down) / job->cell_h;
 }
 
-/* What a code is, but where it lies on the edge between two. */
+/* Value of a code, except at the border between two. */
 static void check_code(int code, long double last, long double n)
 {
     long double exact = last * (n / 2 + 0.5L), part = exact - floorl(exact);
@@ -101,7 +101,7 @@ static void tilts_and_codes_are_their_formulas_for_any_count(void **state)
                 }
 }
 
-/* Wherever one stands, and only within the count. */
+/* At any position within the count. */
 static void one_slope_beyond_all_bounds_is_told(void **state)
 {
     (void)state;
@@ -121,7 +121,7 @@ static void one_slope_beyond_all_bounds_is_told(void **state)
             }
 }
 
-/* Of the texels from the third on, of a row: how many blocks are in doubt; what is not has the formula's codes. */
+/* Number of uncertain blocks among the texels of a row from the third on; the others have the formula's codes. */
 static int check_near(const WrNormalKernels *kern, const WrNormalJob *job, int count)
 {
     uint8_t bytes[3 * COUNT + 1];
@@ -158,20 +158,20 @@ static void codes_in_single_precision_are_right_or_in_doubt(void **state)
                                 .last = 255,
                                 .green = k % 3 ? -1.0 : 1.0 };
             const int count = COUNT - k % 37, blocks = count / WR_NORMAL_BLOCK;
-            fill(k % 4 ? 0.07 : 5.0, (uint64_t)k); /* ordinary, and nearly upright */
+            fill(k % 4 ? 0.07 : 5.0, (uint64_t)k); /* ordinary, and nearly vertical */
             assert_true(check_near(kern, &job, count) < blocks / 2);
-            texels[1][2 + 16] =
-                k % 8 < 4 ? INFINITY : NAN; /* that block sees it, and both its neighbours */
+            /* in the support of that block and its two neighbours */
+            texels[1][2 + 16] = k % 8 < 4 ? INFINITY : NAN;
             assert_true(check_near(kern, &job, count) >= 1);
-            fill(1e30, (uint64_t)k); /* their squares are beyond float */
+            fill(1e30, (uint64_t)k); /* their squares overflow float */
             assert_int_equal(check_near(kern, &job, count), blocks);
-            fill(0.0, 0); /* level, of which no code may be in doubt: they are many */
+            fill(0.0, 0); /* level: codes must be certain, since such texels are frequent */
             assert_int_equal(check_near(kern, &job, count), 0);
         }
 }
 
-/* Heights such that the first component, or the second, of one texel in sixteen is within a few hundred-thousandths of
- * the edge between two codes. */
+/* Heights for which the first or second component of one texel in sixteen is within a few hundred-thousandths of the
+ * border between two codes. */
 static void fill_near_edges(const WrNormalJob *job, bool second, TestRandom *random)
 {
     const double to[2] = { job->height * job->width / 2 / job->cell_w,
@@ -208,7 +208,7 @@ static void codes_beside_the_edges_between_them_are_right_or_in_doubt(void **sta
         }
 }
 
-/* The six numbers of bump slopes, and means of four, by every instruction set; what is too large is told. */
+/* The six moments of bump slopes, and means of four, for every instruction set; overflows are reported. */
 static void moments_are_products_and_their_means(void **state)
 {
     (void)state;
@@ -254,7 +254,8 @@ static void moments_are_products_and_their_means(void **state)
     }
 }
 
-/* Codes by the C library's rounding, of numbers on the edge between two, far beyond all, and any; what is outside. */
+/* Codes rounded by the C library: numbers at the border between two codes, extreme numbers, random numbers; clamped
+   values are counted. */
 static void codes_of_numbers_are_rounded_cut_and_counted(void **state)
 {
     (void)state;

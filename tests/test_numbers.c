@@ -1,5 +1,5 @@
-/* test_numbers.c - heights as bare numbers with a sidecar: bytes as they should be in either order, read back by every
-   door; sidecars that a stranger made up; EXR of halves. */
+/* test_numbers.c - heights as raw numbers with a sidecar: exact bytes in both orders, reading by every command;
+   sidecars of other programs; half-float EXR. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -105,14 +105,14 @@ static void the_sidecar_says_what_they_are(void **state)
     assert_int_equal(fscanf(sum, "%64s", hash), 1);
     pclose(sum);
     assert_non_null(strstr(text, hash));
-    /* beside a picture only where it is asked for */
+    /* beside a picture only on request */
     must_run(s, "export normal-y n.png");
     assert_int_equal(access("n.png.json", F_OK), -1);
     must_run(s, "export normal-y n.png sidecar=on");
     text[read_bytes("n.png.json", (unsigned char *)text, sizeof text - 1)] = '\0';
     assert_non_null(strstr(text, "\"convention\": \"-Y "));
     assert_non_null(strstr(text, "\"channels\": 3"));
-    /* and none beside numbers where it is switched off, at any ending; the numbers are the same */
+    /* and none beside raw numbers if it is off, for any extension; the numbers are the same */
     must_run(s, "export height h.raw depth=16");
     assert_int_equal(access("h.raw.json", F_OK), 0);
     static const char *const endings[] = { "raw", "r16", "r32" };
@@ -130,7 +130,7 @@ static void the_sidecar_says_what_they_are(void **state)
     wr_session_free(s);
 }
 
-/* ImageMagick reads them when it is told what the sidecar tells. */
+/* ImageMagick reads them with the parameters from the sidecar. */
 static void another_program_reads_them(void **state)
 {
     (void)state;
@@ -229,7 +229,7 @@ static void sidecars_that_are_wrong_are_refused(void **state)
         must_fail(s, "image w.r16", wrong[k][1]);
         wr_session_free(s);
     }
-    /* what is right, with labels of no use, is read; floats that are none become 0 and are told */
+    /* valid files with unused labels are read; NaN and infinities become 0 with a note */
     Said said;
     WrSession *s = listening(&said);
     write_text("w.r16.json", "{\"width\": 2, \"height\": 3, \"type\": \"u16\", \"labels\": 7}");
@@ -265,7 +265,7 @@ static void a_full_disk_leaves_both_files_as_they_were(void **state)
     signal(SIGXFSZ, handler);
     assert_false(good);
     if (!strstr(err.text, "cannot be written")) fail_msg("%s", err.text);
-    must_run(s, "image full.r16"); /* the old pair is whole: its hash is right */
+    must_run(s, "image full.r16"); /* the old pair is complete: its hash matches */
     assert_int_equal(wr_field_width(wr_document_field(doc(s))), W);
     assert_int_equal(system("ls -A | grep -q part"), 256);
     wr_session_free(s);
@@ -282,7 +282,7 @@ static void halves_that_do_not_reach_are_refused(void **state)
     must_fail(s, "export height h.exr depth=16", "65504");
     must_fail(s, "export height h.r16 depth=32", "16 bits");
     must_fail(s, "export height h.raw depth=8", "depth=8");
-    must_run(s, "image h.exr"); /* the old one */
+    must_run(s, "image h.exr"); /* the old file */
     assert_true(f_at(s, 3, 3) == 65504);
     wr_session_free(s);
 }

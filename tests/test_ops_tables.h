@@ -1,4 +1,4 @@
-/* test_ops_tables.h - tables for the tests of the table operations. */
+/* test_ops_tables.h - tables for the tests of table operations. */
 #pragma once
 #include "base/error.h"
 #include "base/hash.h"
@@ -38,14 +38,14 @@ static inline int wrapped(int i, int n, WrWrap wrap)
     return ((i % n) + n) % n;
 }
 
-/* Any indices: periodic, or the edge texel repeated. */
+/* Texel at any indices: periodic, or clamped to the edge. */
 static inline float at(const WrField *field, int i, int j)
 {
     return wr_field_get(field, wrapped(i, wr_field_width(field), wr_field_wrap_u(field)),
                         wrapped(j, wr_field_height(field), wr_field_wrap_v(field)));
 }
 
-/* A table with texel (i, j) from (i - di, j - dj), made texel by texel. */
+/* A table with texel (i, j) from (i - di, j - dj), built texel by texel. */
 static inline WrField *rolled(const WrField *field, int di, int dj)
 {
     int width = wr_field_width(field), height = wr_field_height(field);
@@ -98,7 +98,7 @@ typedef struct OpCall {
     double param[WR_OP_VALUES];
 } OpCall;
 
-/* Every way in which an operation works that keeps the table's size, and filters alone first. */
+/* Calls of all operations that keep the table's size; filters first, then moves. */
 enum { FILTER_CALLS = 17, MOVE_CALLS = 26, SAME_SIZE_CALLS = 31 };
 static const OpCall same_size_calls[SAME_SIZE_CALLS] = {
     { "blur", { 0.0 } },
@@ -118,7 +118,7 @@ static const OpCall same_size_calls[SAME_SIZE_CALLS] = {
     { "invert", { 0 } },
     { "warp", { 7.3, 3, 2, 0, 5 } },
     { "warp", { 3.6, 2, 1, 1, 77 } },
-    /* from here on, flat tables change */
+    /* from here on, flat tables change too */
     { "invert", { 1 } },
     { "levels", { -0.4, 0.4, 1.0, 0.0, 2.0 } },
     { "levels", { 0.0, 0.5, 2.2, 0.1, -1.0 } },

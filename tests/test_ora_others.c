@@ -1,5 +1,5 @@
-/* What other programs make of an OpenRaster file of ours: a reader that knows the format alone, its list of
-   layers, their pictures and composite-ops, gets the picture that we have; and nobody asks for a profile. */
+/* OpenRaster files of the program in other programs: an independent reader of the format (layer list, pictures,
+   composite-ops) computes the same picture; no program asks for a colour profile. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -57,10 +57,10 @@ static void attribute(const char *element, const char *name, char *value, size_t
     snprintf(value, size, "%.*s", (int)strcspn(at, "\""), at);
 }
 
-/* How it blends, and what its user has hidden. */
+/* Blend behaviour of another program, and layers hidden by its user. */
 typedef struct Stranger {
-    double
-        gamma; /* of the scale on which greys are blended: 1, codes as they are; 2.2, light, as MyPaint has it */
+    /* of the scale for blending greys: 1, codes unchanged; 2.2, linear light, as in MyPaint */
+    double gamma;
     bool hides_composite;
 } Stranger;
 
@@ -88,7 +88,7 @@ static bool is_composite(const char *layer)
     return at && at < strstr(layer, "/>");
 }
 
-/* Joins the layers below the topmost one first. Returns how many are shown. */
+/* Composite the layers below the topmost one first. Returns the number of visible layers. */
 static int compose(zip_t *archive, const char *layer, Stranger by, double *grey, double *alpha)
 {
     char src[40], operation[40], opacity[40], visibility[40];
@@ -100,7 +100,7 @@ static int compose(zip_t *archive, const char *layer, Stranger by, double *grey,
     attribute(layer, "visibility", visibility, sizeof visibility);
     if (strcmp(visibility, "hidden") == 0) return shown;
     if (by.hides_composite && is_composite(layer)) return shown;
-    if (shown == 0) { /* some programs show nothing of what is added to nothing */
+    if (shown == 0) { /* some programs show nothing for an addition to an empty picture */
         assert_string_equal(operation, "svg:src-over");
         assert_true(atof(opacity) == 1);
     }
@@ -136,10 +136,11 @@ static WrField *random_cover(TestRandom *random)
 }
 
 typedef enum Kind {
-    PLAIN, /* heights that no sum takes out of the range, and those that are factors 0 or more */
-    NEGATIVE, /* likewise, some below 0, and no factors: those mean the same only where black is height 0 */
-    WHOLE, /* each texel of a layer is there or is not, and nothing is added */
-    ANY,   /* every blend, whatever it meets */
+    PLAIN, /* heights whose sums stay in range, and factors of 0 or more */
+    /* also negative heights, and no factors, which are portable only where black is height 0 */
+    NEGATIVE,
+    WHOLE, /* coverage is 0 or 1, and no additions */
+    ANY,   /* every blend mode with any values */
     KINDS
 } Kind;
 
@@ -248,7 +249,7 @@ static void others_see_the_picture_that_we_have(void **state)
             const int layers = document->layer_count;
             check_picture(archive, layers, (Stranger){ 1, false });
             check_picture(archive, layers, (Stranger){ 2.2, false });
-            /* Who hides the composite and blends codes as they are has the picture from the layers. */
+            /* A viewer that hides the composite and blends codes unchanged computes the picture from the layers. */
             if (kind != ANY) check_picture(archive, layers, (Stranger){ 1, true });
             seen++;
         }
@@ -267,7 +268,7 @@ static uint32_t number_at(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* Krita asks for the profile of each 16-bit picture that has no iCCP chunk; gAMA and sRGB do not help. */
+/* Krita asks for the profile of each 16-bit picture without an iCCP chunk; gAMA and sRGB do not help. */
 static void check_profile(zip_t *archive, const char *name)
 {
     size_t length;
@@ -303,7 +304,7 @@ static void every_picture_of_16_bits_names_its_profile(void **state)
     wr_document_free(document);
 }
 
-/* What libpng and colour engines look at; all numbers are big-endian. */
+/* Fields read by libpng and colour engines; all numbers are big-endian. */
 static void the_profile_is_sound(void **state)
 {
     (void)state;
@@ -312,7 +313,7 @@ static void the_profile_is_sound(void **state)
     assert_int_equal(number_at(p), sizeof p);
     assert_memory_equal(p + 12, "mntrRGB XYZ ", 12);
     assert_memory_equal(p + 36, "acsp", 4);
-    assert_int_equal(number_at(p + 68), 0xf6d6); /* D50, as the format has it */
+    assert_int_equal(number_at(p + 68), 0xf6d6); /* D50, as required by the format */
     assert_int_equal(number_at(p + 72), 0x10000);
     assert_int_equal(number_at(p + 76), 0xd32d);
     uint32_t tags = number_at(p + 128), end = 132 + 12 * tags;
@@ -321,12 +322,12 @@ static void the_profile_is_sound(void **state)
         const uint8_t *tag = p + 132 + 12 * i;
         uint32_t from = number_at(tag + 4), size = number_at(tag + 8);
         assert_true(from % 4 == 0 && from <= end && from + size <= sizeof p);
-        if (from == end) end += (size + 3) & ~3u; /* one after the other, nothing between */
+        if (from == end) end += (size + 3) & ~3u; /* consecutive, without gaps */
         for (int c = 0; c < 3 && memcmp(tag + 1, "XYZ", 3) == 0; c++)
             white[c] += (int32_t)number_at(p + from + 8 + 4 * (uint32_t)c) / 65536.0;
     }
     assert_int_equal(end, sizeof p);
-    assert_near(white[0], 0.9642, 1e-4); /* the primaries make white */
+    assert_near(white[0], 0.9642, 1e-4); /* the primaries add up to white */
     assert_near(white[1], 1.0, 1e-4);
     assert_near(white[2], 0.8249, 3e-4);
 }

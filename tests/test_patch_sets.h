@@ -1,4 +1,5 @@
-/* test_patch_sets.h - sets of bicubic patches for tests, and their edges, worked out anew. After test.h. */
+/* test_patch_sets.h - sets of bicubic patches for tests, and an independent computation of their edges. Include after
+   test.h. */
 #pragma once
 #include "base/error.h"
 #include "base/file.h"
@@ -8,7 +9,7 @@
 
 #include <string.h>
 
-/* A sheet that is bent and twisted; no two rows alike. */
+/* A bent and twisted patch without equal rows. */
 static const float wavy_patch[48] = {
     0, 0,    0, 1,    0.1f,  0.5f, 2,    -0.1f, -0.4f, 3,    0,    0.2f, 0.1f,  1,    -0.3f, 1.1f,
     1, 0.2f, 2, 1.1f, -0.6f, 3.1f, 0.9f, -0.3f, 0,     2.2f, 0.4f, 0.9f, 2,     0.7f, 2.1f,  1.9f,
@@ -51,7 +52,7 @@ static inline WrVec3 patch_on_edge(const float *points, int edge, double t)
     return patch_at(points, uv[0], uv[1]).p;
 }
 
-/* Do edges a and b, 4 * patch + edge, run through the same places? */
+/* True if edges a and b, 4 * patch + edge, have the same points. */
 static inline bool same_edge(const WrPatches *set, int32_t a, int32_t b, bool *turned)
 {
     const float *p = set->patch[a / 4].point, *q = set->patch[b / 4].point;
@@ -77,7 +78,7 @@ static inline bool patch_edge_is_open(const WrPatches *set, int32_t patch, int e
                          patch_on_edge(set->patch[patch].point, edge, 0.5))) > 1e-9;
 }
 
-/* The curve's points of its lower and its upper half. */
+/* Control points of the lower and the upper half of a curve. */
 static inline void halve_curve(double p[4][3], double low[4][3], double high[4][3])
 {
     for (int k = 0; k < 3; k++) {
@@ -89,7 +90,7 @@ static inline void halve_curve(double p[4][3], double low[4][3], double high[4][
     }
 }
 
-/* Its quarters: lower left, lower right, upper left, upper right. */
+/* Quarters of a patch: lower left, lower right, upper left, upper right. */
 static inline void quarter(const float whole[48], float out[4][48])
 {
     double half[2][4][4][3], part[2][4][3];
@@ -110,7 +111,7 @@ static inline void quarter(const float whole[48], float out[4][48])
         }
 }
 
-/* The same patch by other u and v: turned by so many quarters, then mirrored. */
+/* The same patch with other u and v: rotated by that many quarter turns, then mirrored. */
 static inline void turn_points(float points[48], int quarters, bool mirror)
 {
     for (int k = 0; k < quarters + mirror; k++) {

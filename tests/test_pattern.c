@@ -1,4 +1,4 @@
-/* Patterns against what geometry says of them. */
+/* Patterns against geometric facts. */
 #include "test.h"
 
 #include "base/exactmath.h"
@@ -14,7 +14,7 @@ static double mean_of(const WrField *field)
     return sum / w / h;
 }
 
-/* A field and its mirror image, or itself moved by so many texels, agree. */
+/* Compare a field with its mirror image, or with itself shifted by whole texels. */
 static double moved_difference(const WrField *f, int di, int dj)
 {
     int w = wr_field_width(f), h = wr_field_height(f);
@@ -66,14 +66,14 @@ static void a_rounded_box_is_measured_from_its_straight_and_round_sides(void **s
     assert_near(wr_inside_box(9, 0, 10, 6, 2), 1, 0);
     assert_near(wr_inside_box(10, 6, 10, 6, 0), 0, 0);
     assert_near(wr_inside_box(-13, -10, 10, 6, 0), -5, 1e-14);
-    assert_near(wr_inside_box(10, 6, 10, 6, 2), 2 - sqrt(8), 1e-14); /* the corner is cut off */
+    assert_near(wr_inside_box(10, 6, 10, 6, 2), 2 - sqrt(8), 1e-14); /* without the corner */
     assert_near(wr_inside_box(8, 4, 10, 6, 2), 2, 1e-14);
 }
 
 /* ---- areas ---- */
 
-/* Lines of 12 texels in cells of 64, steps: 1 - (1 - 12/64)^2 of the table, exactly, though no edge lies
- * between texels. */
+/* Lines of 12 texels in cells of 64, with steps: exactly 1 - (1 - 12/64)^2 of the table, though no edge is between
+ * texels. */
 static void a_grid_of_steps_covers_the_area_of_its_lines(void **state)
 {
     (void)state;
@@ -105,7 +105,7 @@ static void stripes_of_steps_cover_their_part_in_any_direction(void **state)
     wr_field_free(like);
 }
 
-/* A hemisphere over a disc of radius r: 2/3 pi r^2 of its height. */
+/* A hemisphere over a disc of radius r: volume 2/3 pi r^2 times its height. */
 static void domes_hold_the_volume_of_hemispheres(void **state)
 {
     (void)state;
@@ -118,7 +118,7 @@ static void domes_hold_the_volume_of_hemispheres(void **state)
     wr_field_free(like);
 }
 
-/* Hexagons without joint cover everything, whatever their proportions; with one, what it leaves. */
+/* Hexagons without joints cover everything, for any aspect ratio; with joints, the remaining area. */
 static void hexagons_fill_the_plane_but_for_their_joints(void **state)
 {
     (void)state;
@@ -128,7 +128,7 @@ static void hexagons_fill_the_plane_but_for_their_joints(void **state)
     const Setting some[] = { { "joint", 4 },  { "bevel", 0 }, { "uneven", 0 }, { "tilt", 0 },
                              { "pillow", 0 }, { "rough", 0 }, { "across", 6 }, { 0 } };
     WrField *all = made_with("pattern", "hexagons", none, like);
-    /* half covered at the very edges by both neighbours: what is missing is less than the edges' length */
+    /* both neighbours cover half of a border texel: the loss is less than the length of the edges */
     assert_true(mean_of(all) > 0.96);
     WrField *part = made_with("pattern", "hexagons", some, like);
     /* 6 across of width 40: an area of sqrt(3)/2 (40 - 4)^2 of sqrt(3)/2 40^2 */
@@ -177,7 +177,7 @@ static void plain_cloth_changes_warp_and_weft_in_the_next_thread(void **state)
     const Setting s[] = { { "across", 8 }, { "rows", 8 }, { "fibre", 0 }, { 0 } };
     WrField *like = table_of(128, 128), *f = made_with("pattern", "weave", s, like);
     assert_true(moved_difference(f, 16, 16) < 1e-6);
-    for (int j = 0; j < 128; j++) /* transposed and one thread on: weft for warp */
+    for (int j = 0; j < 128; j++) /* transposed and shifted by one thread: weft and warp swapped */
         for (int i = 0; i < 128; i++)
             assert_near((double)wr_field_get(f, i, j),
                         (double)wr_field_get(f, (127 - j + 16) % 128, 127 - i), 1e-6);
@@ -234,7 +234,7 @@ static void a_bond_that_does_not_close_is_said_and_so_is_stretch(void **state)
     wr_field_free(like);
 }
 
-/* With points in the middles of square cells, f1 is the distance to the middle of one's cell. */
+/* With points at the centres of square cells, f1 is the distance to the cell's centre. */
 static void voronoi_of_unscattered_points_is_known(void **state)
 {
     (void)state;
@@ -257,7 +257,7 @@ static void voronoi_of_unscattered_points_is_known(void **state)
     wr_field_free(like);
 }
 
-/* The nearest point is found, however far points stray: against all points, with all their images. */
+/* The nearest point is found for any displacement of points: compared with all points and all their images. */
 static void voronoi_finds_the_nearest_of_all_scattered_points(void **state)
 {
     (void)state;
@@ -286,7 +286,7 @@ static void voronoi_finds_the_nearest_of_all_scattered_points(void **state)
     wr_field_free(like);
 }
 
-/* What comes out is `height` at most, of pieces that lean and are rough as much more as the help says. */
+/* The result is at most `height`; tilted and rough pieces may exceed it by the amount stated in the help. */
 static void patterns_keep_to_the_height_that_they_promise(void **state)
 {
     (void)state;
@@ -337,7 +337,7 @@ static void scratches_only_lower_where_there_is_no_burr_and_height_scales_them(v
     wr_field_free(like);
 }
 
-/* Links taken for solids: the chain's highest line is the upright links' top, outer radius over the ground. */
+/* Links as solids: the chain's highest line is the top of the upright links, outer radius above the base. */
 static void a_chain_is_highest_along_its_upright_links(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_plan.c - the table of effects: each runs where its row says so and nowhere else, what is said is what ran, and
-   what is left out changes the picture no more than its row's proof allows. */
+/* test_plan.c - the table of effects: each effect runs exactly under the conditions of its row, reports match the
+   run, and skipped effects change the picture no more than the row's proof allows. */
 #include "test.h"
 #include "test_render_scenes.h"
 #include "test_mesh_grids.h"
@@ -11,11 +11,11 @@
 
 #define SIDE 64
 
-/* A scene of its own and a table, for a case to change. */
+/* A separate scene and table, to be changed by a case. */
 typedef struct Stage {
     WrScene *scene;
     WrField *field;
-    bool rests; /* the picture was made before, and one texel has changed since */
+    bool rests; /* the picture was rendered before, and one texel has changed since */
 } Stage;
 
 typedef void (*Change)(Stage *stage);
@@ -80,7 +80,7 @@ static void no_replication(Stage *stage)
     stage->scene->replicate_u = stage->scene->replicate_v = 0;
 }
 
-/* Differences over two texels see nothing of it. */
+/* Central differences over two texels are 0. */
 static void checkered(Stage *stage)
 {
     for (int i = 0; i < 64 * 64; i++)
@@ -168,7 +168,7 @@ static void bounded(Stage *stage)
     stage->scene->dials.aa = WR_AA_ADAPTIVE;
     stage->scene->dials.refine = WR_REFINE_BOUND;
     stage->scene->dials.contrast = 0.3;
-    stage->scene->dials.samples = 8; /* of 4 x 4 bounds would cost more than they spare */
+    stage->scene->dials.samples = 8; /* 4 x 4 bounds would cost more than they save */
     stage->scene->height = 0.001;
 }
 
@@ -399,15 +399,15 @@ static void mesh_dark(Stage *stage)
 /* ---- the cases ------------------------------------------------------------------------------------- */
 
 enum {
-    NOTHING = -1 /* there is nothing to run, even by force */
+    NOTHING = -1 /* cannot run, even if forced */
 };
 
 typedef struct Off {
     Change change;
-    double apart; /* how far a picture may be off when the effect is forced; or NOTHING */
+    double apart; /* allowed difference of the picture if the effect is forced; or NOTHING */
 } Off;
 
-/* A wall before the sphere; beside it both are seen. */
+/* A wall in front of the sphere, or beside it. */
 static void one_behind(Stage *stage)
 {
     WrScene *scene = stage->scene, *wall = wr_scene_clone(scene);
@@ -535,7 +535,7 @@ static void facets_published(Stage *stage)
     stage->scene->material.energy = WR_ENERGY_PUBLISHED;
 }
 
-/* Half of the picture is nearer than a texel, the other farther. */
+/* Half of the picture is closer than texel size, the other farther. */
 static void moments_of_facets(Stage *stage)
 {
     moments(stage);
@@ -589,7 +589,7 @@ static void phong_dull(Stage *stage)
     stage->scene->material.specular = 0;
 }
 
-/* Of no light but the highlight, which is 0. */
+/* Only the highlight is lit, with intensity 0. */
 static void metal_black(Stage *stage)
 {
     of_facets(stage);
@@ -672,7 +672,7 @@ static void to_horizon_parallel(Stage *stage)
 }
 
 typedef struct Case {
-    Change on; /* NULL: it runs by force alone */
+    Change on; /* NULL: it runs only by force */
     Off off[5];
 } Case;
 
@@ -861,7 +861,7 @@ static Shot forced(const Stage *stage, WrEffect effect, WrForce how)
     return shot;
 }
 
-/* What `explain` says of each effect is what the stages noted. */
+/* The output of `explain` for each effect matches the recorded stages. */
 static void says_what_ran(const Shot *shot, WrEffect about, const char *how)
 {
     for (int e = 0; e < WR_EFFECT_COUNT; e++) {
@@ -931,7 +931,7 @@ static void what_is_left_out_changes_no_more_than_its_proof_allows(void **state)
     }
 }
 
-/* Where the bound is known no pixel is farther from K x K than `contrast`. */
+/* With a known bound no pixel differs from K x K by more than `contrast`. */
 static void a_bound_keeps_within_its_contrast(void **state)
 {
     (void)state;
@@ -945,7 +945,7 @@ static void a_bound_keeps_within_its_contrast(void **state)
     strike(&stage);
 }
 
-/* What rows say of runs is worth asking: most of a plastic ball has no highlight. */
+/* Statistics of runs are worth testing: most of a plastic sphere has no highlight. */
 static void faint_highlights_are_not_worked_out(void **state)
 {
     (void)state;
@@ -953,7 +953,7 @@ static void faint_highlights_are_not_worked_out(void **state)
     for (int k = 0; k < 2; k++) {
         Stage stage = stage_of(changes[k]);
         take_surface(&stage, "plane");
-        stage.scene->height *= 0.07; /* runs that slope little show little more than their middle */
+        stage.scene->height *= 0.07; /* runs of small slope show little beyond their middle */
         Shot shot = forced(&stage, WR_EFFECT_FAINT, WR_FORCE_NONE);
         const WrPlanRow *shine = &shot.frame.plan->rows[WR_EFFECT_SPECULAR];
         if (!(shine->pixels > 0 && shine->pixels < shot.frame.shaded * 7 / 10))
@@ -964,7 +964,7 @@ static void faint_highlights_are_not_worked_out(void **state)
     }
 }
 
-/* The inner walls of a closed body are seen from within it. */
+/* The inner walls of a closed object are visible from inside. */
 static void backs_are_seen_from_within(void **state)
 {
     (void)state;
@@ -1001,7 +1001,7 @@ static void rows_are_whole(void **state)
     }
 }
 
-/* Whatever a row owns, or that it runs, makes another picture's plan. */
+/* A difference in any setting that a row controls, or in whether it runs, makes plans different. */
 static void plans_are_compared_in_all_that_rows_own(void **state)
 {
     (void)state;
@@ -1023,7 +1023,7 @@ static void plans_are_compared_in_all_that_rows_own(void **state)
     strike(&stage);
 }
 
-/* A stage's time is its effect's where that runs, else a cost of its own; none is lost. */
+/* A stage's time is charged to its effect if that runs, else to a separate cost; none is lost. */
 static void every_stage_is_charged_once(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Brush presets: what is read, what it means, and what comes back from print. */
+/* Brush presets: parsing, meaning, and printing. */
 #include "test.h"
 
 #include "base/error.h"
@@ -9,7 +9,7 @@
 
 #include <libmypaint/mypaint-brush-settings.h>
 
-/* A preset with these settings, which must be right. */
+/* A preset with these settings, which must be valid. */
 static WrPreset *with_settings(const char *settings)
 {
     WrText text = { 0 };
@@ -136,7 +136,7 @@ static void values_and_curves_are_those_of_the_file(void **state)
     assert_int_equal(wr_preset_curve(preset, setting("hardness"), input("random"), &points), 4);
     assert_true(points[1][0] == 0.5f && points[2][0] == 0.5f && points[2][1] == 0.5f);
     assert_int_equal(wr_preset_curve(preset, setting("hardness"), input("speed1"), &points), 0);
-    /* What the file says of a setting replaces all that was usual. */
+    /* A setting in the file replaces all defaults of that setting. */
     assert_true(wr_preset_is_constant(preset, setting("opaque_multiply")));
     wr_preset_free(preset);
 }
@@ -164,7 +164,7 @@ static void values_beyond_their_range_are_brought_into_it(void **state)
     assert_true(wr_preset_value(preset, setting("dabs_per_actual_radius")) == 64.0);
     assert_true(wr_preset_value(preset, setting("hardness")) == 0.01);
     assert_int_equal(wr_preset_curve(preset, setting("opaque"), input("pressure"), &points), 2);
-    assert_true(points[1][1] == 2.0f); /* as wide as its setting's range */
+    assert_true(points[1][1] == 2.0f); /* limited to the setting's range */
     assert_int_equal(wr_preset_skipped(preset), 4);
     wr_preset_free(preset);
 }
@@ -271,7 +271,7 @@ static void printing_and_reading_give_the_same_text_again(void **state)
     wr_preset_free(preset);
 }
 
-/* The logarithm in the file cannot hold a radius exactly; what comes back is rounded to a millionth. */
+/* The logarithm in the file cannot represent a radius exactly; the result is rounded to a millionth. */
 static void a_brushs_radius_survives_its_logarithm(void **state)
 {
     (void)state;
@@ -345,7 +345,7 @@ static void with_draws_curves_which_files_keep(void **state)
                                      &err);
     if (!other) fail_msg("%s", err.text);
     WrText text = { 0 };
-    for (int round = 0; round < 2; round++) { /* as made, and read from its own file */
+    for (int round = 0; round < 2; round++) { /* as created, and as read from its own file */
         assert_curve(other, "opaque", "pressure", drawn, 4);
         assert_curve(other, "opaque", "speed1", own, 2);
         assert_curve(other, "hardness", "random", wobble, 2);
@@ -360,7 +360,7 @@ static void with_draws_curves_which_files_keep(void **state)
         if (!other) fail_msg("%s", err.text);
     }
     wr_preset_free(other);
-    assert_curve(preset, "opaque", "pressure", line, 2); /* it is as it was */
+    assert_curve(preset, "opaque", "pressure", line, 2); /* unchanged */
     other = wr_preset_with(preset, "opaque:pressure=;opaque:speed1=0,1|1,0;opaque:speed1=", &err);
     if (!other) fail_msg("%s", err.text);
     assert_true(wr_preset_is_constant(other, setting("opaque")));

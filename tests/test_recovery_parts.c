@@ -1,5 +1,5 @@
-/* What comes back of a journal that is damaged, or of which a command fails; under which name a document comes
-   back; and that nothing is removed before all of it is safe. WR_FULL=1 takes the full counts, else a tenth. */
+/* Recovery from a damaged journal, or with a failing command; the name of the recovered document; no removal before
+   everything is safe. WR_FULL=1 runs the full counts, else a tenth. */
 #include "test.h"
 #include "journal_help.h"
 #include "recovery_help.h"
@@ -9,7 +9,7 @@
 #include "command/recovery.h"
 #include "command/session.h"
 
-static char *folder; /* for journals and documents; of each test its own */
+static char *folder; /* for journals and documents; a separate one for each test */
 
 static int setup(void **state)
 {
@@ -42,7 +42,7 @@ static void save(WrSession *session, const char *path)
     if (!wr_session_save(session, path, &err)) fail_msg("%s", err.text);
 }
 
-/* What these lines make of an empty document. */
+/* Hash of the document that these lines make from an empty one. */
 static WrHash made_by(const char *const *lines)
 {
     WrSession *session = new_session(false);
@@ -81,7 +81,7 @@ static void assert_hash(const WrSession *session, WrHash want, const WrRecovered
         fail_msg("not the document that it was (%s)", wr_text_get(&how->report));
 }
 
-/* The journal with the line that holds `text` made unreadable, or the first line where text is NULL. */
+/* Damage the journal line that contains `text`, or the first line if text is NULL. */
 static void damage(const char *journal, const char *text)
 {
     WrText bytes = read_bytes(journal);
@@ -123,7 +123,7 @@ static void damage_in_the_middle_leaves_what_is_before_it_and_what_follows(void 
     assert_non_null(strstr(wr_text_get(&how.report), "2 of 4 commands"));
     wr_recovered_fini(&how);
     wr_session_free(session);
-    assert_true(exists(journal)); /* the rest of it is nowhere else */
+    assert_true(exists(journal)); /* the only copy of the rest */
     session = recover(journal, true, &how);
     assert_hash(session, made_by(all), &how);
     assert_true(how.done == 4 && !how.whole && !how.more && !how.removed);
@@ -152,7 +152,7 @@ static void a_command_that_fails_ends_it_or_is_left_out(void **state)
     char *journal = only_journal();
     WrRecovered how;
     const char *const before[] = { five[0], NULL };
-    /* The second undo takes back what failed here: nothing is left of it to be undone. */
+    /* The second undo reverts the command that failed here: nothing of it remains to be undone. */
     const char *const rest[] = { five[0], five[2], NULL };
     WrSession *session = recover(journal, false, &how);
     assert_hash(session, made_by(before), &how);
@@ -222,7 +222,7 @@ static void a_first_line_whose_guess_fits_the_document_is_as_good_as_whole(void 
     char *journal = left_by(five);
     WrRecovered how;
     WrText bytes = read_bytes(journal);
-    bytes.data[strlen("wrinkle-journal 2 ")] ^= 1; /* its checksum */
+    bytes.data[strlen("wrinkle-journal 2 ")] ^= 1; /* damages its checksum */
     write_bytes(journal, bytes.data, bytes.length);
     wr_text_fini(&bytes);
     WrSession *session = recover(journal, false, &how);
@@ -279,7 +279,7 @@ static void a_journal_goes_only_when_the_saved_file_was_read_back(void **state)
     WrSession *session = new_session(false), *other = new_session(false);
     assert_true(wr_session_recover(session, journal, false, &how, &err));
     assert_true(how.whole && !how.removed && exists(journal));
-    assert_null(wr_journal_claim(journal, NULL)); /* nobody else takes it meanwhile */
+    assert_null(wr_journal_claim(journal, NULL)); /* locked against others */
     run(other, "table 64x64");
     save(other, bad);
     assert_false(wr_recovered_saved(&how, session, bad, &err));
@@ -295,7 +295,7 @@ static void a_journal_goes_only_when_the_saved_file_was_read_back(void **state)
 
 /* ---- the name ---- */
 
-/* Recovered it is that document, of that name, and unsaved; and it can be undone that many steps. */
+/* The recovered document has that hash and that name, is unsaved, and has that many undo steps. */
 static void assert_back(const char *path, WrHash want, int undo)
 {
     WrRecovered how;
@@ -306,7 +306,7 @@ static void assert_back(const char *path, WrHash want, int undo)
     assert_string_equal(wr_session_path(session), path);
     assert_true(wr_session_revision(session) != wr_session_saved_revision(session));
     assert_int_equal(wr_session_history_position(session), undo);
-    /* And killed again. */
+    /* Killed a second time. */
     wr_recovered_fini(&how);
     leave(session);
     wr_free(journal);
@@ -319,7 +319,7 @@ static void assert_back(const char *path, WrHash want, int undo)
     wr_free(journal);
 }
 
-/* Saved as my.exr after two commands, painted on, killed; what becomes of the file meanwhile is `after`. */
+/* Saved as my.exr after two commands, painted on, killed; `after` changes the file afterwards. */
 static void saved_and_killed(void (*after)(const char *path), int undo)
 {
     char *path = in(folder, "my.exr");
@@ -327,7 +327,7 @@ static void saved_and_killed(void (*after)(const char *path), int undo)
     run(session, five[0]);
     run(session, five[1]);
     save(session, path);
-    assert_int_equal(journals(), 0); /* ours is in use */
+    assert_int_equal(journals(), 0); /* the session's own journal is in use */
     run(session, five[2]);
     WrHash want = wr_session_hash(session);
     leave(session);
@@ -398,13 +398,13 @@ static void what_was_saved_is_not_offered(void **state)
     WrSession *session = new_session(true);
     run(session, five[0]);
     save(session, path);
-    run(session, "rotate 10,20,30"); /* looked at in another way */
+    run(session, "rotate 10,20,30"); /* a change of the view */
     leave(session);
     assert_int_equal(journals(), 0);
     session = new_session(true);
     run(session, five[0]);
     save(session, path);
-    assert_true(wr_session_journal_anew(session, NULL)); /* as a long one is shortened */
+    assert_true(wr_session_journal_anew(session, NULL)); /* as when a long journal is shortened */
     leave(session);
     assert_int_equal(journals(), 0);
     wr_free(path);
@@ -434,13 +434,13 @@ static void a_kill_between_a_save_and_its_record_leaves_the_journal_as_it_was(vo
     wr_free(path);
 }
 
-/* Opened, painted, saved over itself, painted: each step once. */
+/* Opened, painted, saved over itself, painted: each step is recovered once. */
 static void an_opened_document_comes_back_with_each_step_once(void **state)
 {
     (void)state;
     char *path = in(folder, "my.exr");
     for (int saves = 0; saves < 2; saves++) {
-        for (int before = 0; before < 2; before++) { /* a step before the journal is on */
+        for (int before = 0; before < 2; before++) { /* with a step before the journal is enabled */
             WrSession *session = new_session(false);
             run(session, five[0]);
             run(session, five[1]);
@@ -462,7 +462,7 @@ static void an_opened_document_comes_back_with_each_step_once(void **state)
     wr_free(path);
 }
 
-/* The journal of a step on a document that another program has changed since. Caller frees. */
+/* The journal of one step on a document that another program has changed since. The caller frees it. */
 static char *left_by_one_step_on(const char *path, WrHash *want)
 {
     WrSession *session = new_session(false);
@@ -479,7 +479,7 @@ static char *left_by_one_step_on(const char *path, WrHash *want)
     return only_journal();
 }
 
-/* The journal has a copy of it. Where that is gone too nothing is made of the other one, and the journal stays. */
+/* The journal has a copy of the file. If that is missing too, the changed file is not used, and the journal stays. */
 static void what_a_journal_began_with_comes_back_or_nothing_does(void **state)
 {
     (void)state;
@@ -489,7 +489,7 @@ static void what_a_journal_began_with_comes_back_or_nothing_does(void **state)
     char *path = in(folder, "my.exr"), *journal = left_by_one_step_on(path, &want);
     WrSession *session = recover(journal, false, &how);
     assert_hash(session, want, &how);
-    assert_true(wr_session_file_changed(session)); /* so that saving asks first */
+    assert_true(wr_session_file_changed(session)); /* saving then asks first */
     wr_recovered_fini(&how);
     wr_session_free(session);
     wr_free(journal);
@@ -507,7 +507,7 @@ static void what_a_journal_began_with_comes_back_or_nothing_does(void **state)
     wr_free(files), wr_free(journal), wr_free(path);
 }
 
-/* A document of one step is saved and let go; then a new session, with a journal. */
+/* A document of one step is saved and closed; then a new session with a journal. */
 static WrSession *after_saving(const char *path)
 {
     WrSession *session = new_session(false);
@@ -517,7 +517,7 @@ static WrSession *after_saving(const char *path)
     return new_session(true);
 }
 
-/* Written over before the journal began, its file says nothing of the document. */
+/* A file overwritten before the journal began cannot serve as its start. */
 static void a_file_that_changed_before_the_first_step_is_no_beginning(void **state)
 {
     (void)state;
@@ -537,7 +537,7 @@ static void a_file_that_changed_before_the_first_step_is_no_beginning(void **sta
     wr_free(journal), wr_free(path);
 }
 
-/* The last of the lines are lost: what is left is brought back, and the journal stays. */
+/* The last lines are lost: the rest is recovered, and the journal stays. */
 static void damage_at_the_end_is_not_all(void **state)
 {
     (void)state;
@@ -549,7 +549,7 @@ static void damage_at_the_end_is_not_all(void **state)
     wr_recovered_fini(&how);
     wr_session_free(session);
     assert_int_equal(journals(), 1);
-    /* And so it does when what was left has been saved. */
+    /* It also stays after the rest was saved. */
     WrError err = { "" };
     char *path = in(folder, "my.exr");
     session = new_session(false);
@@ -563,7 +563,8 @@ static void damage_at_the_end_is_not_all(void **state)
     wr_free(journal), wr_free(path);
 }
 
-/* It may be what crashed, so it is tried apart; one that cannot be done had done nothing. */
+/* The last command may have caused the crash, so it is tried in a child process; a command that fails had no
+   effect. */
 static void a_last_command_that_fails_is_left_out_and_nothing_is_missing(void **state)
 {
     (void)state;
@@ -583,7 +584,7 @@ static void a_last_command_that_fails_is_left_out_and_nothing_is_missing(void **
     wr_free(journal), wr_free(place);
 }
 
-/* What was done to the one before was given up; what comes now is not its going on. */
+/* The earlier document was discarded; later steps are not its continuation. */
 static void another_document_has_another_journal(void **state)
 {
     (void)state;
@@ -653,10 +654,10 @@ static void a_document_is_saved_in_place_only_if_nobody_changed_it(void **state)
 
 #define STEPS 40
 
-/* Saving starts threads, which a fork does not take along: so all of it is done in children. */
+/* Saving starts threads, which do not survive a fork, so everything runs in child processes. */
 typedef struct Shared {
     volatile long done;
-    WrHash hashes[STEPS + 1]; /* after so many steps */
+    WrHash hashes[STEPS + 1]; /* after each number of steps */
     int offered, saved;
     char *paths[2]; /* owned */
 } Shared;
@@ -697,7 +698,7 @@ static _Noreturn void take_steps(Shared *shared)
     for (;;) pause();
 }
 
-/* What was being done when it was killed may have been done. */
+/* The operation in progress at the kill may have completed. */
 static int look_at_what_is_left(Shared *shared)
 {
     long done = shared->done;
@@ -711,7 +712,7 @@ static int look_at_what_is_left(Shared *shared)
     if (count) {
         CHECK(wr_session_recover(session, found[0].journal, false, &how, NULL));
         CHECK(how.whole && how.removed);
-    } else { /* all of it is saved: the last step, or the one that was being done */
+    } else { /* everything is saved: hash of the last step, or of the one in progress */
         long last = done % 4 == 3 ? done : done - 1;
         CHECK(last % 4 == 3);
         CHECK(wr_session_open(session, shared->paths[last / 8 % 2], NULL));
@@ -765,7 +766,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         PLACED(
-            killed_among_saves_what_is_offered_and_what_is_saved_is_all_there_was), /* before any thread */
+            killed_among_saves_what_is_offered_and_what_is_saved_is_all_there_was), /* before any thread starts */
         PLACED(damage_in_the_middle_leaves_what_is_before_it_and_what_follows),
         PLACED(a_command_that_fails_ends_it_or_is_left_out),
         PLACED(undo_does_not_reach_across_what_is_lost),

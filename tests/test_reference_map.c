@@ -1,5 +1,5 @@
-/* The reference renders a normal map apart from the kernels: its normals and theirs agree, with and without a table's
-   bump, on surfaces and meshes; what an inspector tells is the same. */
+/* Normal maps in the reference, independently of the kernels: both sets of normals agree, with and without a table's
+   bump, on surfaces and meshes; the inspector's values are the same. */
 #include "test.h"
 #include "test_mesh_grids.h"
 #include "test_render_scenes.h"
@@ -45,8 +45,8 @@ static int falling(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* The worst angle, degrees, between the picture's normals and the reference's, but for the few pixels where rounding
-   decides which texel, which triangle or which side is met; and how many pixels have both. */
+/* The largest angle in degrees between the picture's normals and the reference's, except for the few pixels where
+   rounding decides about texel, triangle or side; and the number of pixels with both. */
 static double worst_angle(const WrScene *scene, const WrField *field, int *count)
 {
     static float normals[HIGH * WIDE][3];
@@ -90,7 +90,7 @@ static double worst_angle(const WrScene *scene, const WrField *field, int *count
     return worst;
 }
 
-/* By frames of the place, or by the object's axes. */
+/* With tangent frames, or along the object's axes. */
 static void turn_by(WrScene *scene, int k)
 {
     static const WrNormalFrame frames[] = { WR_FRAME_MIKK, WR_FRAME_LECTURE, WR_FRAME_AUTO };
@@ -124,9 +124,9 @@ static WrScene *scene_number(int k)
         scene->normals.laid = (WrTextureSample){ .own = true, .ru = 1.5, .rv = k % 2 ? 1 : -2 };
     scene->bump = k % 7 == 5 ? WR_BUMP_INVARIANT : k % 7 == 3 ? WR_BUMP_EXACT : WR_BUMP_BLINN;
     if (k >= 12) turn_by(scene, k / 2 + k / 12);
-    if (k % 7 != 5 && scene->height != 0) scene->bump = WR_BUMP_EXACT; /* the truth */
+    if (k % 7 != 5 && scene->height != 0) scene->bump = WR_BUMP_EXACT; /* the exact formula */
     scene->dials.shading = WR_SHADING_DOUBLE;
-    if (k % 5 == 3) /* normals of the object's axes go by the cofactors, mirrored or not */
+    if (k % 5 == 3) /* normals along the object's axes transform by cofactors, mirrored or not */
         scene->sizes = (WrVec3){ 1, 0.6, k % 2 ? -0.8 : 0.8 };
     return scene;
 }

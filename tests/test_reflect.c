@@ -1,5 +1,5 @@
-/* test_reflect.c - reflection models: their kernels against numbers worked out apart, white furnaces by quadrature,
-   reciprocity, limits, and pictures against the reference. Numbers of the first test are from quadrature of the published
+/* test_reflect.c - reflection models: kernels against independent values, white furnaces by quadrature, reciprocity,
+   limits, and pictures against the reference. The values of the first test are from quadrature of the published
    formulas with 320 x 320 nodes, and from closed forms. */
 #include "test.h"
 #include "test_render_scenes.h"
@@ -26,7 +26,7 @@ static WrKernMatterd matter_of(const WrReflectance *of, double kd, double ks)
     return matter;
 }
 
-/* pi f (n.l) of one strip's directions: the red channel, what is in the surface's colour and what is white. */
+/* pi f (n.l) for one strip's directions in the red channel: the part in the surface's colour and the white part. */
 static void reflect(const WrReflectance *of, double kd, double ks, WrStripd *s)
 {
     const WrKernMatterd matter = matter_of(of, kd, ks);
@@ -59,8 +59,8 @@ static double at_once(const WrReflectance *of, double kd, double ks, WrVec3 l, W
     return sum;
 }
 
-/* The integral of f (n.l): of diffuse light over directions, of facets over their normals h, which a highlight of width
-   alpha is even in. */
+/* The integral of f (n.l): diffuse light over directions; facets over half vectors h, where a highlight of width
+   alpha is even. */
 static double albedo(const WrReflectance *of, double kd, double ks, double nv, bool facets, int n)
 {
     const double a = fmax(of->roughness * of->roughness, 1e-3);
@@ -112,7 +112,7 @@ static void albedos_are_those_of_the_published_formulas(void **state)
     WrReflectance facets = { WR_REFLECT_TORRANCE_SPARROW, WR_ENERGY_KEPT, 0, sqrt(.3), 0, 1e4 };
     assert_near(albedo(&facets, 0, 1, 1, true, 200), .86401, 1e-3);
     assert_near(albedo(&facets, 0, 1, .3, true, 200), .91012, 1e-3);
-    facets.energy = WR_ENERGY_PUBLISHED; /* 4 c^2 times that */
+    facets.energy = WR_ENERGY_PUBLISHED; /* 4 c^2 times the energy term */
     assert_near(albedo(&facets, 0, 1, .3, true, 200), .91012 * 4 * .09, 1e-3);
     const WrReflectance qualitative = {
         WR_REFLECT_OREN_NAYAR, WR_ENERGY_PUBLISHED, 0, WR_PI / 18, 0, 1.5
@@ -121,7 +121,7 @@ static void albedos_are_those_of_the_published_formulas(void **state)
     const WrReflectance gltf = { WR_REFLECT_GGX, WR_ENERGY_PUBLISHED, 0, .2, 0, 1.5 };
     const double sum = albedo(&gltf, 1, 0, .1, false, 200) + albedo(&gltf, 0, 1, .1, true, 200);
     assert_near(sum, 1.4279, 2e-3);
-    assert_near(albedo(&fujii, 1, 0, .3, false, 200), 1, 1e-3); /* what is reflected again too */
+    assert_near(albedo(&fujii, 1, 0, .3, false, 200), 1, 1e-3); /* includes multiple reflections */
 }
 
 /* HC103 */
@@ -184,7 +184,7 @@ static void limits_are_finite(void **state)
                 }
 }
 
-/* HC106: n' straight away from the eye is bent until it is the eye's direction, and is finite about there. */
+/* HC106: an n' facing away from the eye is bent to the eye's direction; the result is finite near that. */
 static void a_normal_away_from_the_eye_is_the_eyes(void **state)
 {
     (void)state;
@@ -193,7 +193,7 @@ static void a_normal_away_from_the_eye_is_the_eyes(void **state)
         const WrReflectance of = { kind, WR_ENERGY_PUBLISHED, 0, .37, 1, 1.5 };
         WrStripd *s = wr_alloc(1, sizeof *s);
         s->count = 200;
-        for (int i = 0; i < s->count; i++) { /* n' turns through -v; the lamp stands before it */
+        for (int i = 0; i < s->count; i++) { /* n' rotates through -v; the light is in front */
             const double turn = (i - 100) * 1e-4;
             put(s, i, (WrVec3){ 0, 0, 1 }, (WrVec3){ sin(turn), 0, -cos(turn) });
         }
@@ -206,9 +206,10 @@ static void a_normal_away_from_the_eye_is_the_eyes(void **state)
     }
 }
 
-/* HC109: facets widened by covariances of rank 1, huge ones, and ones a rounding below 0: D is that of M = alpha^2 + 2 C, by
-   formulas of its own, so that D (n.h) integrates to 1; what is below 0 widens nothing. Seen along the lamp, where V and F are
-   known; at slopes sqrt(M) r (cos, sin), where D (n.h)^4 sqrt(det M) is (1 / pi) / (1 + r^2)^2. */
+/* HC109: facets widened by covariances of rank 1, by huge ones, and by ones slightly below 0 from rounding. D is that
+   of M = alpha^2 + 2 C, by independent formulas, so that D (n.h) integrates to 1; negative ones widen nothing. Viewed
+   along the light, where V and F are known; at slopes sqrt(M) r (cos, sin), where D (n.h)^4 sqrt(det M) is (1 / pi) /
+   (1 + r^2)^2. */
 static void widened_facets_are_a_distribution(void **state)
 {
     static const double covariances[][3] = {
@@ -248,7 +249,7 @@ static void widened_facets_are_a_distribution(void **state)
                 fail_msg("covariance %zu, %d: %.12g, not %.12g", k, i, got, want);
         }
     }
-    s->count = 1; /* below 0 by a rounding */
+    s->count = 1; /* negative by rounding */
     put(s, 0, tilted(.9, .3), tilted(.8, 2.1));
     s->ex[0] = 1, s->ey[0] = s->ez[0] = 0, s->see[0] = -1e-12, s->sef[0] = 1e-12,
     s->sff[0] = -1e-12;
@@ -275,8 +276,8 @@ static void a_normal_turned_past_the_eye_makes_no_jump(void **state)
     }
 }
 
-/* Samples with a roughness of their own go through loops that each model has to be listed in: a model that is not would
-   be black there. With the same roughness everywhere the published forms are those without it. */
+/* Samples with individual roughness use loops that list each model; a model missing there would be black. With
+   constant roughness the published forms equal those without it. */
 static void every_model_with_roughness_takes_it_from_each_sample(void **state)
 {
     (void)state;
@@ -343,8 +344,8 @@ static double apart(const WrScene *scene, const WrField *field)
     return worst;
 }
 
-/* Sums of the reference's formulas over directions around n = (0,0,1), some of the lamp's below the horizon: diffuse
-   light in the surface's colour, highlight, and how far diffuse light is from Lambert's. */
+/* Sums of the reference's formulas over directions around n = (0,0,1), some below the light's horizon: diffuse light
+   in the surface's colour, highlight, and deviation of diffuse light from Lambert's. */
 typedef struct Probe {
     double own, white, below, from_lambert;
 } Probe;
@@ -380,7 +381,7 @@ static bool changes(WrMaterial m, double *number, double to, WrMaterial *at)
     return !same_probe(before, probe(at));
 }
 
-/* Every column of the table is what the formulas do. */
+/* Every column of the table matches the formulas. */
 static void traits_are_what_the_formulas_show(void **state)
 {
     (void)state;
@@ -421,7 +422,7 @@ static void traits_are_what_the_formulas_show(void **state)
     assert_int_equal(stages, 1);
 }
 
-/* The plan may leave a model out only where the picture stays the same: without a highlight, by every model. */
+/* The plan may skip a model only if the picture is unchanged: without a highlight, for every model. */
 static void models_without_a_highlight_are_the_references(void **state)
 {
     (void)state;

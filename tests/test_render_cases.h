@@ -1,5 +1,5 @@
-/* test_render_cases.h - scenes that between them go every way through the renderer, for tests of what must hold of all.
-   After test.h. */
+/* test_render_cases.h - scenes that together cover all paths through the renderer, for tests of common properties.
+   Include after test.h. */
 #pragma once
 #include "test_render_scenes.h"
 
@@ -12,7 +12,7 @@ typedef struct Case {
     WrSpread spread;
     WrRefine refine;
     bool orthographic, colour;
-    double zoom; /* of the picture's height, in radii of the object; 0: as the camera fits it */
+    double zoom; /* height of the picture in radii of the object; 0: the camera's fit */
 } Case;
 
 static const Case cases[] = {

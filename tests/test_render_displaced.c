@@ -1,4 +1,4 @@
-/* Displaced surfaces: outlines against closed forms, what is left out, what never ends. */
+/* Displaced surfaces: silhouettes against closed forms, skipped displacement, endless cases. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -16,7 +16,7 @@ static WrScene *displaced_of(const char *surface, double height)
 
 /* ---- closed forms ---- */
 
-/* The ball of radius R + c, seen from d, has the outline of radius f (R + c) / sqrt(d^2 - (R + c)^2). */
+/* The sphere of radius R + c, seen from d, has a silhouette of radius f (R + c) / sqrt(d^2 - (R + c)^2). */
 static void a_raised_ball_is_a_larger_ball(void **state)
 {
     (void)state;
@@ -36,7 +36,8 @@ static void a_raised_ball_is_a_larger_ball(void **state)
     }
 }
 
-/* A plane that faces the eye at d and comes nearer by c grows by d / (d - c), which bump does not show. */
+/* A plane at distance d that faces the eye and is raised by c grows by d / (d - c), which bump mapping does not
+   show. */
 static void a_raised_plane_comes_nearer(void **state)
 {
     (void)state;
@@ -59,7 +60,7 @@ static void a_raised_plane_comes_nearer(void **state)
     wr_field_free(field);
 }
 
-/* ---- what never ends (HC125) ---- */
+/* ---- endless cases (HC125) ---- */
 
 static void no_heights_make_nonsense(void **state)
 {
@@ -68,7 +69,7 @@ static void no_heights_make_nonsense(void **state)
     for (int k = 0; k < 2; k++) {
         WrField *field = k == 0 ? level_field(37, 22, 1) : random_field(31, 17, 5);
         WrScene *scene = displaced_of("sphere", height[k]), *base = scene_of("sphere");
-        wr_scene_hold_camera(scene, base, 40.0 / 33); /* from within, not from afar */
+        wr_scene_hold_camera(scene, base, 40.0 / 33); /* from inside, not from afar */
         Shot shot = shoot(scene, field, 40, 33, 2, "auto", false);
         for (int i = 0; i < 40 * 33 * 4; i++) assert_true(isfinite(shot.frame.rgba[i]));
         const char *why = shot.frame.plan->rows[WR_EFFECT_DISPLACED].reason;
@@ -80,9 +81,9 @@ static void no_heights_make_nonsense(void **state)
     }
 }
 
-/* ---- what is left out (E50) ---- */
+/* ---- skipped displacement (E50) ---- */
 
-/* Less than half a pixel: bump, with its bits. */
+/* Below half a pixel: bit-identical to bump mapping. */
 static void what_nobody_sees_is_bump(void **state)
 {
     (void)state;

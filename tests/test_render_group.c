@@ -1,4 +1,4 @@
-/* Several objects: samples where they are called for, and hits that are found once while the view rests. */
+/* Several objects: adaptive samples, and cached hits in a static view. */
 #include "test.h"
 #include "test_render_sets.h"
 
@@ -38,7 +38,7 @@ static void scratch(Set *set)
     }
 }
 
-/* Under a contrast of 0 no estimate is good enough but where all light is equal. */
+/* With a contrast of 0 no estimate suffices except under constant light. */
 static void refined_pixels_have_the_bits_of_all_samples(void **state)
 {
     (void)state;
@@ -59,7 +59,7 @@ static void refined_pixels_have_the_bits_of_all_samples(void **state)
     }
 }
 
-/* Pixels of which a channel is off by more than that. */
+/* Number of pixels with a channel that differs by more than `within`. */
 static int count_off(const Shot *all, const Shot *some, double than)
 {
     int off = 0;
@@ -72,7 +72,7 @@ static int count_off(const Shot *all, const Shot *some, double than)
     return off;
 }
 
-/* How many are so in pictures of each object alone. */
+/* Sum of these numbers for separate pictures of each object. */
 static int count_alone(const Set *set, int k, double within)
 {
     int off = 0;
@@ -90,7 +90,7 @@ static int count_alone(const Set *set, int k, double within)
     return off;
 }
 
-/* The promise that one object has, where objects hide each other too; and it is worth it. */
+/* The guarantee for one object also holds for overlapping objects, and saves time. */
 static void an_estimate_keeps_near_all_samples(void **state)
 {
     (void)state;
@@ -108,7 +108,8 @@ static void an_estimate_keeps_near_all_samples(void **state)
         const int off = count_off(&all, &some, within);
         const int alone = count_alone(&set, samples, within);
         if (off >
-            alone + W * H / 1000) /* slivers between the first samples, of one before the other */
+            alone + W * H / 1000) /* slivers between the first samples, of one object in front of
+                                     another */
             fail_msg("set %d, K = %d: %d pixels off, alone %d, %g at most", k, samples, off, alone,
                      (double)worst_difference(&all, &some));
         assert_in_range(llabs(all.frame.covered - some.frame.covered), 0, off);
@@ -120,7 +121,7 @@ static void an_estimate_keeps_near_all_samples(void **state)
     assert_in_range(taken, 1, 3 * most / 4);
 }
 
-/* Do the pixel and those beside it show several objects? */
+/* True if the pixel and its neighbours show several objects. */
 static bool is_between(const Shot *point, int x, int y)
 {
     int seen = 0, first = -1, object, face;
@@ -135,7 +136,7 @@ static bool is_between(const Shot *point, int x, int y)
     return seen > 0;
 }
 
-/* However much light may be off: where another object is next, all samples are taken. */
+/* For any contrast: at borders between objects all samples are taken. */
 static void all_samples_are_taken_between_objects(void **state)
 {
     (void)state;
@@ -164,7 +165,7 @@ static void all_samples_are_taken_between_objects(void **state)
 
 /* ---- what a resting view looks at is known ---- */
 
-/* What decides nothing about which object a sample shows. */
+/* A change that does not affect which object a sample shows. */
 static void change_look(TestRandom *random, Set *set)
 {
     const int own = (int)(set->count * test_random(random));
@@ -191,7 +192,7 @@ static void change_view(TestRandom *random, Set *set)
     set->together = scene;
 }
 
-/* A frame of the renderer against a new one's. Was depth asked for? */
+/* A frame of the renderer against a new renderer's. True if visibility was computed. */
 static bool looks_anew(WrRenderer *renderer, const Set *set, int step)
 {
     WrError err = { "" };
@@ -236,7 +237,7 @@ static void hits_are_found_once_while_objects_rest(void **state)
     assert_in_range(anew, 10, 1000);
 }
 
-/* What filled all of the picture goes aside: what was behind it was never looked at. */
+/* An object that filled the picture moves aside: the objects behind it had no cached visibility. */
 static void what_was_hidden_is_looked_at_when_it_is_seen(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
-/* Where knots tell samples without a depth buffer (knots.h): a block of one sheet is one in which every sample is covered by one
-   triangle, counted here one by one; what is told of it lies on the ray, by the surface's formula in double; and pictures are
-   those that every sample's own depth and Newton's method make, however they are cut, edited and shared out. */
+/* Sparse hits without a depth buffer (sparse_hits.h). A block of one layer is one in which a single triangle covers
+   every sample, verified here sample by sample. Interpolated points are on the ray, by the surface's formula in
+   double precision. Pictures equal those with separate depth and Newton's method for every sample, for any division,
+   edits and threads. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -22,8 +23,9 @@ typedef struct Seen {
     WrWideSheet sheet;
     WrPool *pool;
     double turn;
-    int finer;     /* 2^finer times as many cells */
-    bool crumpled; /* vertices lie anywhere near a coarse grid's: cells of any side, side by side */
+    int finer; /* 2^finer times as many cells */
+    /* vertices are displaced from a coarse grid: cells of any orientation, side by side */
+    bool crumpled;
     unsigned char count[H + 16]
                        [W + 16]; /* triangles over each sample, up to the ends of the last blocks */
 } Seen;
@@ -134,7 +136,7 @@ static void count_layers(Seen *seen)
 
 /* ---- what is told ---- */
 
-/* How many samples of the grid a place lies beside the ray of (x, y). */
+/* Distance in samples of a point from the ray of (x, y). */
 static double off_ray(const Seen *seen, WrVec3 p, double x, double y)
 {
     const WrRaysd *rays = &wr_view_grid(&seen->view, 1)->rays_d;
@@ -168,7 +170,7 @@ static void expect_same(const char *what, const float *x, const float *y, const 
 static void check_sheet(const Seen *seen, int x, int y, int count, WrStrip *strip)
 {
     const double *by = wr_view_grid(&seen->view, 1)->rays_d.qx;
-    const double step = v3_len((WrVec3){ by[0], by[1], by[2] }); /* a sample */
+    const double step = v3_len((WrVec3){ by[0], by[1], by[2] }); /* per sample */
     wr_sparse_hits_row(&seen->knots, seen->wide, x, y, count, 3, strip);
     for (int i = 3; i < 3 + count; i++) {
         const WrSurfacePoint at = place_at(seen, strip->u[i], strip->v[i]);
@@ -183,10 +185,10 @@ static void check_sheet(const Seen *seen, int x, int y, int count, WrStrip *stri
     }
 }
 
-/* A run that begins and ends anywhere has the numbers of its blocks one by one, to the bit. */
+/* A run with any start and end is bit-identical to its blocks one by one. */
 static void check_run(const Seen *seen, int x, int y, TestRandom *random, WrStrip *strip)
 {
-    enum { BEFORE = 9 }; /* samples in the strip, which stay */
+    enum { BEFORE = 9 }; /* existing samples in the strip, unchanged */
     int end = x + 1;
     while (end < W - 8 && end - x < 240 &&
            wr_sparse_hits_at(&seen->knots, end, y) == WR_SPARSE_HITS_SHEET)
@@ -213,12 +215,12 @@ static void check_run(const Seen *seen, int x, int y, TestRandom *random, WrStri
     }
 }
 
-/* Blocks of each kind. */
+/* Counts of blocks by kind. */
 typedef struct Kinds {
     int nothing, deep, sheet, between;
 } Kinds;
 
-/* What the depth tile says of a sample. */
+/* Content of the depth tile for a sample. */
 static void check_tile(const Seen *seen, const WrDepthTile *tile, int kind, int x, int y)
 {
     const size_t at = (size_t)(y - tile->y) * (size_t)tile->w + (size_t)(x - tile->x);
@@ -267,7 +269,7 @@ static WrScene *some_scene(TestRandom *random, int k)
 static void look_at(Seen *seen, int first, int rows, TestRandom *random, Kinds *kinds,
                     WrStrip *strip)
 {
-    enum { X = 5, Y = 3, WIDE = W - 9 }; /* a tile that begins within blocks */
+    enum { X = 5, Y = 3, WIDE = W - 9 }; /* a tile that starts within blocks */
     enum { ROOM = W * H + WR_WALK_PAD };
     static float close[ROOM], u[ROOM], v[ROOM];
     WrDepthTile tile = { .x = X,
@@ -290,7 +292,7 @@ static void look_at(Seen *seen, int first, int rows, TestRandom *random, Kinds *
     }
 }
 
-/* Of both sets, many views, and bands. */
+/* Both sets, many views, and bands. */
 static void blocks_show_what_they_are_told_to(void **state)
 {
     (void)state;
@@ -329,7 +331,7 @@ static void blocks_show_what_they_are_told_to(void **state)
 
 /* ---- pictures ---- */
 
-/* The same pixels are covered as without knots, which a given number of steps goes without, and look alike. */
+/* The same pixels are covered as without sparse hits, which a fixed number of steps disables, with the same look. */
 static void pictures_are_those_without(void **state)
 {
     (void)state;
@@ -339,7 +341,7 @@ static void pictures_are_those_without(void **state)
         WrScene *scene = some_scene(&random, k), *plain = wr_scene_clone(scene);
         scene->replicate_u = scene->replicate_v = plain->replicate_u = plain->replicate_v = 1;
         plain->dials.newton = 4;
-        const int w = k % 4 < 2 ? 235 : 117; /* rows one by one, and several at a time */
+        const int w = k % 4 < 2 ? 235 : 117; /* row by row, and several rows at once */
         Shot a = shoot(scene, field, w, 190, 2, "auto", false);
         Shot b = shoot(plain, field, w, 190, 1, "auto", false);
         assert_int_equal(a.frame.covered, b.frame.covered);
@@ -353,7 +355,7 @@ static void pictures_are_those_without(void **state)
     wr_field_free(field);
 }
 
-/* Of a view that is drawn anew, some of whose blocks alone are asked for, or which an edit reaches: the bits of the whole. */
+/* Views drawn again, partly requested, or partly affected by an edit: bit-identical to the whole. */
 static void parts_have_the_bits_of_the_whole(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Meshes out of files: pictures of them against the surfaces that they are cut from, against the reference, and against
-   themselves on every set of instructions and number of threads. */
+/* Meshes from files: pictures against the sampled surfaces, against the reference, and between instruction sets and
+   numbers of threads. */
 #include "test.h"
 #include "test_render_scenes.h"
 #include "test_mesh_grids.h"
@@ -10,7 +10,7 @@
 
 /* ---- meshes ---- */
 
-/* An open sheet with a fold, whose parts hide each other. */
+/* An open surface with a fold, whose parts hide each other. */
 static void on_wave(double u, double v, float p[3], float n[3])
 {
     const double a = 7 * u;
@@ -91,7 +91,7 @@ static void the_bits_are_the_same(void **state)
     wr_field_free(field);
 }
 
-/* What a view that rests keeps gives the bits of a whole picture, and picking finds what is seen. */
+/* Cached parts of a static view are bit-identical to a whole picture, and picking finds the visible point. */
 static void resting_views_and_picks(void **state)
 {
     (void)state;
@@ -145,8 +145,8 @@ static void resting_views_and_picks(void **state)
 
 /* ---- what it must be ---- */
 
-/* Root mean square and worst difference of linear intensity where both are covered wholly; *apart: pixels that one of them
-   alone covers. */
+/* RMS and largest difference of linear intensity where both cover the pixel fully; *apart: pixels covered by only
+   one. */
 static double difference(const float *a, const float *b, int pixels, double *worst, int *apart)
 {
     double sum = 0;
@@ -165,7 +165,8 @@ static double difference(const float *a, const float *b, int pixels, double *wor
     return count > 0 ? sqrt(sum / count) : 1;
 }
 
-/* A plane that is cut up is the plane, to rounding of u and v: within 2e-5 of an intensity of 1 at these slopes. */
+/* A triangulated plane equals the plane up to rounding of u and v: within 2e-5 of an intensity of 1 at these
+   slopes. */
 static void a_cut_plane_is_the_plane(void **state)
 {
     (void)state;
@@ -191,8 +192,8 @@ static void a_cut_plane_is_the_plane(void **state)
     wr_field_free(field);
 }
 
-/* The finer a sphere is cut, the nearer is its picture to the sphere's: by nearly two each time that cells are halved:
-   the gradients of u and v are of first order, places and normals of second. */
+/* The error of a triangulated sphere decreases by nearly two when cells are halved: gradients of u and v are of first
+   order, positions and normals of second. */
 static void cut_spheres_tend_to_the_sphere(void **state)
 {
     (void)state;
@@ -221,7 +222,7 @@ static void cut_spheres_tend_to_the_sphere(void **state)
     wr_field_free(field);
 }
 
-/* The reference goes by rays and a tree, in double. */
+/* The reference uses rays and a tree, in double precision. */
 static void the_reference_agrees(void **state)
 {
     (void)state;
@@ -236,7 +237,7 @@ static void the_reference_agrees(void **state)
         double worst;
         int apart;
         const double rms = difference(got.frame.rgba, rgba, w * h, &worst, &apart);
-        /* samples within a 512th of an edge may see the neighbour */
+        /* samples within a 512th of an edge may belong to the neighbour */
         if (!(rms < 2e-3 && apart < 30)) fail_msg("mesh %d: rms %g, %d apart", i, rms, apart);
         wr_free(rgba);
         put_away(&got);
@@ -247,7 +248,7 @@ static void the_reference_agrees(void **state)
 
 /* ---- edges ---- */
 
-/* A fan of `count` triangles about the middle, from number `from`, every `step`-th. */
+/* A fan around the centre: every `step`-th of `count` triangles, starting at number `from`. */
 static WrTriangles *fan(int count, int from, int step)
 {
     float(*points)[3] = wr_alloc((size_t)count + 1, sizeof *points);
@@ -292,9 +293,8 @@ static Shot shoot_flat(const WrScene *scene, const WrField *field)
     return shot;
 }
 
-/* HC134, HC135: no sample is lost at the vertex or at the edges of a fan, and none is met twice: two fans that each hold
-   every other triangle cover all of the picture between them, and nothing both. Turned by right angles, edges go through
-   samples exactly. */
+/* HC134, HC135: no sample is lost or hit twice at the vertex or the edges of a fan: two fans of alternate triangles
+   together cover the whole picture without overlap. Rotated by right angles, edges pass exactly through samples. */
 static void each_sample_has_one_owner(void **state)
 {
     (void)state;
@@ -306,7 +306,7 @@ static void each_sample_has_one_owner(void **state)
         Shot shots[2];
         for (int i = 0; i < 2; i++) {
             halves[i] = flat_on(fan(count, i, 2), k % 8 == 0 ? 90 * (k / 8) : 0.36 * 7.3 * k);
-            /* both are looked at alike, wherever the middle of their balls is */
+            /* the same camera for both, whatever the centres of their bounding spheres */
             wr_shape_default(WR_SURFACE_mesh, &halves[i]->shape);
             halves[i]->shape.value[WR_MESH_RADIUS] = 1;
             halves[i]->shape.value[WR_MESH_KEY] = i + 2 * k;
@@ -325,8 +325,8 @@ static void each_sample_has_one_owner(void **state)
     wr_field_free(field);
 }
 
-/* HC128: of two triangles whose (u,v) mirror each other, and a table that does so too, the pictures mirror: bumps are up on
-   both. HC127: where (u,v) lie along a line slopes along it still bend. */
+/* HC128: for two triangles with mirrored (u,v), and a table mirrored in the same way, the pictures mirror: bumps are
+   raised on both. HC127: if (u,v) are collinear, slopes along the line still bend. */
 static void mirrored_and_thin_maps_are_bent(void **state)
 {
     (void)state;
@@ -366,7 +366,7 @@ static void mirrored_and_thin_maps_are_bent(void **state)
                 assert_near((double)a[1], (double)b[1], 1e-5);
                 most = fmax(most, fabs((double)a[0]));
             }
-        assert_true(most > 0.05); /* they are bent */
+        assert_true(most > 0.05); /* normals are bent */
         wr_renderer_free(renderer);
         wr_pool_free(pool);
         wr_scene_free(scene);
@@ -374,7 +374,7 @@ static void mirrored_and_thin_maps_are_bent(void **state)
     wr_field_free(field);
 }
 
-/* Random triangles, needles and (u,v) of any size: no number of the picture is none. */
+/* Random triangles, slivers and (u,v) of any size: all values of the picture are finite. */
 static void no_mesh_makes_nonsense(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Parallax: what hides what against closed forms by hand, against the displaced surface and against the reference; where it is
-   left out; what is not special. */
+/* Parallax: visibility against closed forms, against the displaced surface and against the reference; conditions
+   under which it is skipped; special cases. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -7,7 +7,7 @@
 #include "render/plan/plan.h"
 #include "scene/objects.h"
 
-/* Waves of a few texels' length up to `most` a period. */
+/* Waves a few texels long, slopes up to `most` per period. */
 static WrField *wavy_field(int w, int h)
 {
     WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
@@ -32,8 +32,8 @@ static WrScene *parallax_of(const char *surface, double height)
 
 #define STEP_SIDE 211
 
-/* A plateau of height c behind a step at y = 0, seen from (0, y, z) along a column of pixels: by hand. Its top's part that is
-   seen, its wall, or the ground. */
+/* A plateau of height c behind a step at y = 0, seen from (0, y, z) along a column of pixels, computed by hand:
+   visible part of its top, its wall, or the ground. */
 static double step_seen(double eye_y, double eye_z, double c, double dir_y, double dir_z)
 {
     const double ground = eye_y - eye_z * dir_y / dir_z;
@@ -48,7 +48,7 @@ static void a_step_hides_what_is_behind_it(void **state)
     static const double eyes[][2] = { { -1.37, 1.13 }, { 1.19, 1.47 } };
     const double c = 0.1173;
     WrField *field = wr_field_new(8, 64, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    for (int j = 2; j < 32; j++) /* 1/2 < v < 31/32: what repeats is level where it meets */
+    for (int j = 2; j < 32; j++) /* 1/2 < v < 31/32: a periodic table is level at its seam */
         for (int i = 0; i < 8; i++) wr_field_set(field, i, j, 1.0f);
     for (int k = 0; k < 2; k++) {
         WrScene *scene = parallax_of("plane", c);
@@ -81,7 +81,8 @@ static void a_step_hides_what_is_behind_it(void **state)
     wr_field_free(field);
 }
 
-/* A plane that faces the eye at d and comes nearer by c grows by d / (d - c), and goes away likewise. */
+/* A plane at distance d that faces the eye and is raised by c grows by d / (d - c); lowering works in the same
+   way. */
 static void a_raised_plane_comes_nearer(void **state)
 {
     (void)state;
@@ -100,8 +101,8 @@ static void a_raised_plane_comes_nearer(void **state)
     }
 }
 
-/* A ball whose heights are all c is one of radius R + c, a tube likewise: each pixel's cover, also where c leaves the base's own
-   outline, and the light on them. */
+/* A sphere with height c everywhere is a sphere of radius R + c, and a tube accordingly: compared are the coverage of
+   each pixel, also outside the base's silhouette, and the shading. */
 static void a_raised_ball_is_a_larger_ball(void **state)
 {
     (void)state;
@@ -132,7 +133,7 @@ static void a_raised_ball_is_a_larger_ball(void **state)
 
 /* ---- beside the surface itself ---- */
 
-/* rms of two pictures where both are opaque, and pixels that one covers more than the other by over a half. */
+/* RMS difference where both pictures are opaque; and number of pixels whose coverage differs by over a half. */
 static double apart(const Shot *a, const Shot *b, int *outline)
 {
     double sum = 0;
@@ -153,16 +154,16 @@ typedef struct Case {
     const char *surface;
     double height, turn; /* about x, degrees */
     WrScheme scheme;
-    bool jagged;  /* the table's heights are random */
-    double most;  /* of what bump lacks, is left */
-    int outlines; /* pixels; below 0: as the base has them */
+    bool jagged;  /* random heights */
+    double most;  /* largest remaining fraction of the bump error */
+    int outlines; /* pixels; below 0: the base's silhouette */
 } Case;
 
 /* kind 0: bump, 1: parallax, 2: displaced. */
 static Shot shape_of(const Case *at, int kind, const WrField *field)
 {
     WrScene *scene = parallax_of(at->surface, at->height);
-    wr_scene_hold_camera(scene, scene, 160.0 / 131); /* one for all three */
+    wr_scene_hold_camera(scene, scene, 160.0 / 131); /* the same camera for all three */
     scene->parallax = kind == 1, scene->displaced = kind == 2;
     scene->bump = WR_BUMP_EXACT;
     scene->scheme = at->scheme;
@@ -174,8 +175,8 @@ static Shot shape_of(const Case *at, int kind, const WrField *field)
     return shot;
 }
 
-/* On a plane rays meet the same relief, edges and all, also from behind and where a spline overshoots; on curved bases what is
-   left is of third order, and most where u and v are stretched, as they are at a pole. */
+/* On a plane rays meet the same relief, edges included, also from behind and where a spline overshoots. On curved
+   bases the remaining error is of third order, largest where u and v are stretched, as at a pole. */
 static void it_is_the_displaced_surface(void **state)
 {
     (void)state;
@@ -205,7 +206,7 @@ static void it_is_the_displaced_surface(void **state)
     wr_field_free(jagged);
 }
 
-/* Along a tube's axis its base is not seen at all: what stands out of it is, as of the displaced one. */
+/* Along a tube's axis its base is invisible, but its relief is visible, as on the displaced tube. */
 static void the_relief_of_a_tube_is_seen_along_its_axis(void **state)
 {
     (void)state;
@@ -229,7 +230,8 @@ static void the_relief_of_a_tube_is_seen_along_its_axis(void **state)
     wr_field_free(field);
 }
 
-/* A relief that stands before its base's ball is not left out behind another object that the ball lies behind (E52). */
+/* A relief in front of its base's bounding sphere is not skipped behind another object that hides the sphere
+   (E52). */
 static void what_rises_before_others_is_seen(void **state)
 {
     (void)state;
@@ -285,7 +287,7 @@ static void the_reference_marches_to_the_same_place(void **state)
     wr_field_free(field);
 }
 
-/* ---- what is left out (E85) ---- */
+/* ---- skipped parallax (E85) ---- */
 
 static bool forced_apart(double height, double *off)
 {
@@ -313,7 +315,8 @@ static bool forced_apart(double height, double *off)
     return same;
 }
 
-/* Under half a pixel it is bump, with its bits; and had it been worked out, nobody would have seen it. F = 0: the same. */
+/* Below half a pixel the picture equals bump mapping bit for bit, and parallax would make no visible difference. F =
+   0: the same. */
 static void what_nobody_sees_is_bump(void **state)
 {
     (void)state;
@@ -353,7 +356,7 @@ static void the_bits_are_the_same(void **state)
     wr_field_free(field);
 }
 
-/* Along the plane, from within the relief, from behind; heights beyond all measure; every scheme, ends and all. */
+/* Views along the plane, from inside the relief, from behind; extreme heights; every scheme with its ends. */
 static void no_view_makes_nonsense(void **state)
 {
     (void)state;
@@ -380,7 +383,7 @@ static void no_view_makes_nonsense(void **state)
     wr_field_free(field);
 }
 
-/* An edit changes what hides what far from it: a view at rest has the bits of a new picture. */
+/* An edit changes visibility far from it: a static view must be bit-identical to a new picture. */
 static void an_edit_is_seen_from_afar(void **state)
 {
     (void)state;

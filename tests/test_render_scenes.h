@@ -1,5 +1,4 @@
-/* test_render_scenes.h - scenes, pictures of them and comparisons, for the tests of the renderer.
-   After test.h. */
+/* test_render_scenes.h - scenes, their pictures and comparisons, for the renderer tests. Include after test.h. */
 #pragma once
 #include "base/error.h"
 #include "field/field.h"
@@ -24,7 +23,7 @@ static inline WrField *bumpy_field(int w, int h)
     return field;
 }
 
-/* Random mantissas, no row like another. */
+/* Random mantissas; all rows differ. */
 static inline WrField *random_field(int w, int h, uint64_t seed)
 {
     TestRandom random = { seed };
@@ -45,8 +44,8 @@ static inline void look_from(WrScene *scene, double x, double y, double z)
     scene->camera.eye = (WrVec3){ x, y, z };
 }
 
-/* The radius in pixels of a ball of radius r seen from d in the middle of a picture of `side` pixels: its outline is where
-   lines from the eye touch it, r / sqrt(d^2 - r^2) from the axis at distance 1. */
+/* The radius in pixels of a sphere of radius r seen from distance d in the middle of a picture of `side` pixels: its
+   silhouette is where rays from the eye touch it, at r / sqrt(d^2 - r^2) from the axis at distance 1. */
 static inline double seen_radius(const WrScene *scene, int side, double r, double d)
 {
     const double f = 0.5 * side / tan(scene->camera.fov_deg * WR_PI / 360);
@@ -89,7 +88,7 @@ static inline void put_away(Shot *shot)
     wr_pool_free(shot->pool);
 }
 
-/* All that a view of the test's own was made of. */
+/* Free everything that a test's own view consists of. */
 static inline void free_view(WrRenderer *renderer, WrPool *pool, WrScene *scene, WrField *field)
 {
     wr_renderer_free(renderer);
@@ -118,7 +117,7 @@ static inline float worst_difference(const Shot *a, const Shot *b)
     return worst;
 }
 
-/* A view at rest after each of a few edits of the table has the bits of a new picture (E29). */
+/* A static view after each of several edits of the table is bit-identical to a new picture (E29). */
 static inline void expect_refreshed(const WrScene *scene, int which)
 {
     WrField *field = random_field(300, 200, 4);
@@ -140,7 +139,7 @@ static inline void expect_refreshed(const WrScene *scene, int which)
     wr_field_free(field);
 }
 
-/* The same picture by the reference, one sample a pixel: R,G,B,A as floats. The caller frees it (wr_free). */
+/* The reference's picture, one sample per pixel: R,G,B,A as floats. The caller frees it (wr_free). */
 static inline float *true_picture(const WrScene *scene, const WrField *field, int w, int h)
 {
     WrPool *pool = wr_pool_new(2);

@@ -1,5 +1,5 @@
-/* test_render_sets.h - several random objects, each alone and all together, for the tests of pictures of several.
-   After test.h. */
+/* test_render_sets.h - several random objects, separately and together, for tests of multi-object pictures. Include
+   after test.h. */
 #pragma once
 #include "scene/objects.h"
 #include "test_render_scenes.h"
@@ -8,9 +8,9 @@
 #define H 61
 #define MOST 5
 
-/* Objects as scenes of their own, and all of them as one. */
+/* Objects as separate scenes, and all of them in one. */
 typedef struct Set {
-    WrScene *alone[MOST]; /* with the camera and the lights of all */
+    WrScene *alone[MOST]; /* with the camera and lights of the whole */
     WrField *field[MOST];
     WrScene *together;
     const WrField *fields[MOST];

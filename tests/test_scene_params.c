@@ -1,4 +1,4 @@
-/* The scene's numbers as one table: what a new scene has, what commands take and print, what the plan looks at. */
+/* Scene parameters: values of a new scene, arguments and output of commands, inputs of the plan. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -40,14 +40,14 @@ static void ranges_defaults_and_words_are_sound(void **state)
         }
         const size_t size = p->components ? (size_t)p->components * sizeof(double) : sizeof(bool);
         assert_true(p->place + size <= (p->of_light ? sizeof(WrLight) : sizeof(WrScene)));
-        for (int j = 0; j < i; j++) { /* nothing stands twice */
+        for (int j = 0; j < i; j++) { /* no duplicates */
             const WrSceneParam *q = &wr_scene_params[j];
             assert_false(strcmp(p->command, q->command) == 0 && strcmp(p->name, q->name) == 0);
         }
     }
 }
 
-/* Values that are not special, within the range. */
+/* Ordinary values within the range. */
 static void draw(TestRandom *random, const WrSceneParam *p, double *values)
 {
     const double low = p->low > -50 ? p->low : -50, high = p->high < 50 ? p->high : 50;
@@ -77,7 +77,7 @@ static void assert_set(const WrScene *scene, int index, const double *values, co
     wr_scene_param_get(p, owner_of(p, (WrScene *)scene), got);
     for (int k = 0; k < (p->components ? p->components : 1); k++)
         if (got[k] != values[k]) fail_msg("%s: number %d is %.17g", line, k, got[k]);
-    for (int j = 0; j < WR_SCENE_PARAM_COUNT; j++) { /* and nothing else */
+    for (int j = 0; j < WR_SCENE_PARAM_COUNT; j++) { /* and no other parameter */
         const WrSceneParam *q = &wr_scene_params[j];
         if (j == index || q->of_light || q->place == p->place) continue;
         const double *want = q->fallback, off = 0;
@@ -139,8 +139,8 @@ static void assert_material(const WrMaterial *have, const WrMaterial *want, cons
     assert_true(have->ior == want->ior && have->tint == want->tint);
 }
 
-/* Each replaces all that another material had, comes back from its lines, and what else is given comes after it; no
-   white surface of it gives back more than it gets. */
+/* Each preset replaces all values of another material, is restored from its lines, and comes before other arguments;
+   no white surface with it reflects more than it receives. */
 static void a_preset_is_a_whole_material(void **state)
 {
     (void)state;
@@ -184,7 +184,7 @@ static WrPlan plan_of(WrRenderer *renderer, const WrField *field, const WrScene 
     return *frame.plan;
 }
 
-/* Every row with every kind of value over scenes of all sorts: it changes a plan if, and only if, it says so. */
+/* Every row with every kind of value over all sorts of scenes: it changes a plan if, and only if, the row says so. */
 static void the_plan_looks_at_what_says_so_and_at_nothing_else(void **state)
 {
     static const char *const scenes[][4] = {
@@ -249,7 +249,7 @@ static void the_plan_looks_at_what_says_so_and_at_nothing_else(void **state)
     wr_renderer_free(renderer);
 }
 
-/* What a line leaves out is off, also where it is a word. */
+/* A switch omitted in a line is off, also if it is a word. */
 static void what_is_left_out_of_a_light_is_off(void **state)
 {
     (void)state;

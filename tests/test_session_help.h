@@ -1,4 +1,4 @@
-/* test_session_help.h - running command lines that must succeed or fail. After test.h. */
+/* test_session_help.h - command lines that must succeed or fail. Include after test.h. */
 #pragma once
 #include "base/error.h"
 #include "document/document.h"
@@ -11,7 +11,7 @@ static inline void must_run(WrSession *session, const char *line)
     if (!wr_session_run(session, line, &err)) fail_msg("%s\n  %s", line, err.text);
 }
 
-/* A session after these lines; NULL ends them. */
+/* A session after these lines, NULL-terminated. */
 static inline WrSession *session_of(const char *const *lines)
 {
     WrSession *session = wr_session_new(NULL);
@@ -19,7 +19,7 @@ static inline WrSession *session_of(const char *const *lines)
     return session;
 }
 
-/* The line fails with a message that holds `word`, and changes nothing. */
+/* The line must fail with a message that contains `word`, and change nothing. */
 static inline void must_fail(WrSession *session, const char *line, const char *word)
 {
     WrError err = { "" };
@@ -44,7 +44,7 @@ static inline bool same_field(const WrField *a, const WrField *b)
     return wr_hash_equal(wr_field_hash(a), wr_field_hash(b));
 }
 
-/* What a session notes: .note = hear_note, .note_ctx = &said. */
+/* Notes of a session: .note = hear_note, .note_ctx = &said. */
 typedef struct Said {
     char text[2000];
 } Said;
@@ -55,7 +55,7 @@ static inline void hear_note(void *ctx, const char *text)
     snprintf(said->text + strlen(said->text), sizeof said->text - strlen(said->text), "%s\n", text);
 }
 
-/* A session that notes to `said` and may write files. */
+/* A session that sends notes to `said` and may write files. */
 static inline WrSession *listening(Said *said)
 {
     const WrSessionOptions options = { .note = hear_note, .note_ctx = said, .outputs = true };

@@ -1,4 +1,4 @@
-/* What the objects stand in: the background, the camera, the ground, tables of an object's own. */
+/* Surroundings of the objects: background, camera, floor, separate tables. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -72,7 +72,8 @@ static void a_document_keeps_its_background(void **state)
     }
 }
 
-/* The borders have the two colours, the codes between go down evenly, and bands and tolerances change nothing. */
+/* The borders have the two colours, the codes between decrease evenly, and bands and tolerances make no
+   difference. */
 static void a_gradient_is_even_and_whole(void **state)
 {
     (void)state;
@@ -99,7 +100,8 @@ static void a_gradient_is_even_and_whole(void **state)
     wr_session_free(banded);
 }
 
-/* The same before surroundings, developed: bands, tolerances and float files too; documents keep how. */
+/* The same in front of an environment, with tone mapping: bands, tolerances and float files too; documents store the
+   settings. */
 static void surroundings_stand_behind_and_light_is_developed(void **state)
 {
     (void)state;
@@ -143,7 +145,7 @@ static void surroundings_stand_behind_and_light_is_developed(void **state)
     wr_session_free(other);
 }
 
-/* Alpha is coverage, colours are not premultiplied, and edges are mixed with what lies behind them. */
+/* Alpha is coverage, colours are not premultiplied, and edges are blended with the background. */
 static void edges_stand_before_their_background(void **state)
 {
     (void)state;
@@ -186,7 +188,7 @@ typedef struct Box {
     int x0, y0, x1, y1;
 } Box;
 
-/* Where a picture shows anything. */
+/* Bounding box of non-empty pixels. */
 static Box covered(WrSession *session, int width, int height, double turn)
 {
     WrError err;
@@ -202,7 +204,7 @@ static Box covered(WrSession *session, int width, int height, double turn)
     return box;
 }
 
-/* The outline keeps 2 % from the nearer pair of borders, and is in the middle. */
+/* The silhouette keeps 2 % from the nearer pair of borders and is centred. */
 static void expect_filled(WrSession *session, const char *what, int width, int height)
 {
     const Box box = covered(session, width, height, 0);
@@ -234,7 +236,7 @@ static void a_filled_picture_has_no_room_left(void **state)
         snprintf(line, sizeof line, "%s, %s", wr_surfaces[kind]->name, cameras[kind / 3 % 3]);
         expect_filled(session, line, size[0], size[1]);
     }
-    /* Several, far apart, and one that is hidden. */
+    /* Several distant objects, and a hidden one. */
     must_run(session, "surface sphere R=0.3");
     must_run(session, "object add far at=1.7,0.9,-3 size=0.5");
     must_run(session, "surface cube");
@@ -252,7 +254,7 @@ static void a_filled_picture_has_no_room_left(void **state)
     wr_session_free(session);
 }
 
-/* What filled a picture of 3:2 is as wide a part of narrower ones, and none of it lies outside. */
+/* A fit for a 3:2 picture keeps its relative width in narrower ones, without cropping. */
 static void narrower_pictures_see_the_whole(void **state)
 {
     (void)state;
@@ -274,8 +276,8 @@ static void narrower_pictures_see_the_whole(void **state)
         const Box again = covered(session, 330, 517, 0);
         assert_memory_equal(&again, &tall, sizeof again);
         must_run(session, kind ? "camera orthographic fit=on" : "camera perspective fit=on");
-        must_run(session,
-                 "camera dolly 1.25"); /* from a view that fitted: the frame was another's */
+        /* from a fitted view: the frame was of another window */
+        must_run(session, "camera dolly 1.25");
         assert_near(scene_of(session)->camera.frame, 0, 0);
         wr_session_free(session);
     }
@@ -312,7 +314,7 @@ static void the_camera_goes_where_it_is_sent(void **state)
     assert_back(session, 2, 0, 0);
     must_run(session, "camera orbit -90,30");
     assert_back(session, 0, 1, sqrt(3.0));
-    must_run(session, "camera orbit 0,200"); /* not over the top */
+    must_run(session, "camera orbit 0,200"); /* stops at the pole */
     assert_true(back_of(session).y > 1.99 && back_of(session).z > 0);
     must_run(session, "camera from front");
     must_run(session, "camera dolly 0.5");
@@ -390,7 +392,7 @@ static void only_what_shows_no_back_turns_whole(void **state)
         { { "surface sphere" }, false },
         { { "surface cube" }, false },
         { { "surface torus" }, false },
-        { { "surface cylinder" }, false }, /* stands: one looks at it from outside all round */
+        { { "surface cylinder" }, false }, /* upright: seen from outside on all sides */
         { { "surface cylinder", "rotate 0,90,0" }, true },
         { { "surface revolution" }, false },
         { { "surface revolution", "rotate 0,90,0" }, true },
@@ -433,11 +435,11 @@ static void the_ground_lies_under_what_is_shown(void **state)
     assert_true(wr_shape_endless(&ground_of(session)->shape));
     assert_int_equal(scene_of(session)->chosen, 0);
     const double ball = wr_scene_ball(scene_of(session), false);
-    assert_near(ball, 0.5, 1e-9); /* a camera that fits does not mind it */
+    assert_near(ball, 0.5, 1e-9); /* a fitted camera ignores it */
     must_run(session, "object add box at=2,-0.3,0 size=2 turn=0,0,0");
     must_run(session, "surface cube s=0.5");
     must_run(session, "object set at=2,-0.3,0");
-    must_run(session, "ground on colour=0.2,0.5,0.1"); /* laid anew, as large as it was */
+    must_run(session, "ground on colour=0.2,0.5,0.1"); /* created again with its former size */
     assert_near(ground_of(session)->at.y, -1.3, 1e-12);
     assert_true(ground_of(session)->material.colour.y == 0.5 && ground_of(session)->size < 6.1);
     must_run(session, "object hide");
@@ -451,7 +453,7 @@ static void the_ground_lies_under_what_is_shown(void **state)
     must_run(other, "ground off");
     assert_null(ground_of(other));
     must_fail(other, "ground off", "there is no ground");
-    must_run(other, "ground on size=3"); /* as it was before grounds went on */
+    must_run(other, "ground on size=3"); /* as before floors were endless */
     assert_false(wr_shape_endless(&ground_of(other)->shape));
     must_run(other, "ground on endless=on");
     assert_true(wr_shape_endless(&ground_of(other)->shape) && ground_of(other)->size == 3);
@@ -464,7 +466,7 @@ static void the_ground_lies_under_what_is_shown(void **state)
     wr_session_free(other);
 }
 
-/* It stands still under what turns: a picture of it alone is the same at any turn. */
+/* The floor does not turn with the objects: a picture of it alone is the same for any turn. */
 static void the_ground_does_not_turn(void **state)
 {
     (void)state;
@@ -490,7 +492,7 @@ static void the_ground_does_not_turn(void **state)
 
 /* ---- tables of its own ---- */
 
-/* A document of that size with a ramp, in both kinds of files and as a picture of codes. */
+/* A document of that size with a ramp, in both file formats and as an integer picture. */
 static void write_tables(const char *size)
 {
     WrSession *session = wr_session_new(&(WrSessionOptions){ .outputs = true });
@@ -534,9 +536,9 @@ static void a_file_becomes_the_table_of_one_object(void **state)
         assert_int_equal(doc(session)->layer_count, 2);
         assert_string_equal(scene_of(session)->layer, "shell");
         assert_near(worn_at(session, 32, 20), 0.5 + 0.5 / 64 + 0.25, k / 3 ? 0.01 : 1e-4);
-        assert_true(f_at(session, 32, 20) == 0); /* all the others see nothing of it */
+        assert_true(f_at(session, 32, 20) == 0); /* no other object shows it */
         assert_true((strstr(said.text, "resampled to the table's 64x48") != NULL) == (k >= 3));
-        must_run(session, "dab 0.5,0.5 radius=6 strength=2"); /* it is painted on */
+        must_run(session, "dab 0.5,0.5 radius=6 strength=2"); /* it can be painted */
         assert_true(worn_at(session, 32, 24) > 2.2 && f_at(session, 32, 24) == 0);
         must_run(session, "save kept.exr");
         WrSession *other = wr_session_new(NULL);
@@ -546,10 +548,10 @@ static void a_file_becomes_the_table_of_one_object(void **state)
         assert_int_equal(doc(session)->layer_count, 1);
         assert_null(scene_of(session)->layer);
         must_run(session, "redo");
-        must_run(session, line); /* once more: a layer with a name of its own */
+        must_run(session, line); /* again: a layer with a separate name */
         assert_string_equal(scene_of(session)->layer, "shell 2");
         must_run(session, "object hide");
-        must_fail(session, "fill 1", "is hidden"); /* nobody would see it */
+        must_fail(session, "fill 1", "is hidden"); /* it would be invisible */
         must_fail(session, "object set table=shell.exr layer=1", "do not go together");
         must_fail(session, "object set table=none.exr", "none.exr");
         wr_session_free(session);
@@ -589,7 +591,7 @@ static void sizes_along_the_axes_are_kept(void **state)
     }
 }
 
-/* Places go there and back, and products with them stay. */
+/* The conversion is invertible, and products are preserved. */
 static void stretched_places_are_each_others_inverse(void **state)
 {
     (void)state;

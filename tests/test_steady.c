@@ -1,5 +1,5 @@
-/* A view that rests but for its light (E76): what light looks at is noted at the second change and used from the third on, and
-   each picture has the bits of a whole new one, whatever commands came between, of one object and of several. */
+/* Relight cache (E76): a static view with changing lights. It is filled at the second change and used from the third.
+   Each picture is bit-identical to a new one, after any sequence of commands, for one object and for several. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -14,12 +14,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Of a picture: a tile that is packed, and one that is not, beside each other with 300. */
+/* Picture size with a packed and an unpacked tile beside each other. */
 #define WIDTH 131
 #define HEIGHT 37
-#define STEPS 26 /* of one scene */
+#define STEPS 26 /* for one scene */
 
-/* Light and material alone. */
+/* Changes of light and material only. */
 static const char *const light_lines[] = {
     "light directional to=0.3,-0.2,1 index=1",
     "light directional to=-1,0.4,-0.3 strength=1.7 index=1",
@@ -51,7 +51,7 @@ static const char *const light_lines[] = {
     "light point at=1.1,-0.4,0.9 size=7",
 };
 
-/* What moves points or normals, or what light then looks at besides them; a number takes %d. */
+/* Changes of points, normals, or other inputs of lighting; %d stands for a number. */
 static const char *const other_lines[] = {
     "bump height=0.0%d",
     "bump mode=exact",
@@ -91,7 +91,7 @@ static const char *const other_lines[] = {
 
 #define COUNT(lines) (int)(sizeof(lines) / sizeof *(lines))
 
-/* Of several objects, besides. */
+/* For several objects, additionally. */
 static const char *const group_lines[] = {
     "object choose first",
     "object choose ring",
@@ -104,7 +104,7 @@ static const char *const group_lines[] = {
     "object show box",
 };
 
-/* A ring before and behind the first, and a box that cuts it. */
+/* A ring around the first object, and a box that intersects it. */
 static const char *const group_made[] = {
     "object set name=first",
     "object add ring at=0.3,0.2,0.1 size=0.8",
@@ -118,13 +118,13 @@ static const char *const group_made[] = {
 
 typedef struct Rig {
     WrSession *session;
-    WrRenderer *renderer, *other; /* other: of pictures of which nothing is kept */
+    WrRenderer *renderer, *other; /* other: renders without a cache */
     WrPool *pool;
     int width;
     bool codes;
-    int known;   /* pictures that worked out light alone */
-    int hidden;  /* of those, that asked nothing about shadows, though there are some */
-    int painted; /* of those, that looked a picture up */
+    int known;   /* pictures with lighting alone recomputed */
+    int hidden;  /* of these, without shadow tests though the scene has shadows */
+    int painted; /* of these, with a texture fetched again */
 } Rig;
 
 static WrFrameRequest request_of(const Rig *rig, bool keep)
@@ -150,7 +150,7 @@ static bool knows_shadows(const WrPlan *plan)
     return (cast->run || relief->run) && !cast->ran && !relief->ran;
 }
 
-/* The picture that rests has the bits of a whole new one. */
+/* The cached picture is bit-identical to a new one. */
 static void compare(Rig *rig, const char *line)
 {
     WrError err = { "" };
@@ -183,7 +183,7 @@ static void step(Rig *rig, const char *format, int digit)
     compare(rig, line);
 }
 
-/* Pictures that random numbers make, small ones. */
+/* Small pictures with random pixels. */
 static void write_pictures(void)
 {
     unsigned seed = 5;
@@ -208,7 +208,7 @@ static Rig rig_of(int width, bool codes)
     rig.other = wr_renderer_new(rig.pool, NULL, &err);
     must_run(rig.session, "table 75x52");
     must_run(rig.session, "noise perlin");
-    must_run(rig.session, "dials gloss=4 horizons=8"); /* cheaper */
+    must_run(rig.session, "dials gloss=4 horizons=8"); /* faster */
     return rig;
 }
 
@@ -220,7 +220,7 @@ static void free_rig(Rig *rig)
     wr_pool_free(rig->pool);
 }
 
-/* Random lines, four of five of them of light; others: what else may be told, in two lists. */
+/* Random lines, four of five of them about light; others: two lists of further lines. */
 static void wander(Rig *rig, unsigned seed, const char *const *others, int count)
 {
     for (int i = 0; i < STEPS; i++) {
@@ -260,7 +260,7 @@ static void light_alone_gives_the_same_bits(void **state)
                  8 * STEPS, painted);
 }
 
-/* Of several objects, in front of one another, one of them painted. */
+/* Several overlapping objects, one of them painted. */
 static void light_alone_of_several_gives_the_same_bits(void **state)
 {
     (void)state;
@@ -283,11 +283,11 @@ static void light_alone_of_several_gives_the_same_bits(void **state)
                  4 * STEPS, painted);
 }
 
-/* A line, or "width N" of pictures from now on, and how many pictures so far worked out light alone. */
+/* A line, or "width N" for later pictures; and the expected number of pictures with lighting alone recomputed. */
 typedef struct Step {
     const char *line;
     int known;
-    int hidden; /* and of those, asked nothing about shadows */
+    int hidden; /* of these, without shadow tests */
 } Step;
 
 static void walk(Rig *rig, const Step *steps, int count)
@@ -306,12 +306,12 @@ static void walk(Rig *rig, const Step *steps, int count)
     free_rig(rig);
 }
 
-/* The second change of light notes, the third uses it; an edit of the table, or of the view, forgets it. */
+/* The second change fills the cache, the third uses it; an edit of the table or the view clears it. */
 static void light_alone_is_worked_out(void **state)
 {
     (void)state;
     static const Step steps[] = { { "light directional to=0.3,0.1,-1 index=1", 0,
-                                    0 }, /* from behind: dark runs are noted too */
+                                    0 }, /* from behind: dark runs are cached too */
                                   { "material diffuse=0.6", 0, 0 },
                                   { "material diffuse=0.7", 1, 0 },
                                   { "light directional to=1,1,2 index=1", 2, 0 },
@@ -334,7 +334,7 @@ static void light_alone_is_worked_out(void **state)
     walk(&rig, steps, COUNT(steps));
 }
 
-/* Of several: all of them are noted at once, and one whose place among the scene's changes is new. */
+/* With several objects: all are cached at once, including one new in the list of changes. */
 static void light_alone_of_several_is_worked_out(void **state)
 {
     (void)state;
@@ -361,15 +361,15 @@ static void light_alone_of_several_is_worked_out(void **state)
     walk(&rig, steps, COUNT(steps));
 }
 
-/* Pictures are looked up anew, and so is grain, whatever there was before: a change of them is one of light; that there is
-   a picture is not. */
+/* Textures and solid textures are fetched again, so changing them counts as a change of light; adding or removing a
+   texture does not. */
 static void pictures_and_roughness_are_light(void **state)
 {
     (void)state;
     static const Step steps[] = { { "roughness rough.pgm", 0, 0 },
                                   { "material metalness=0.6", 0, 0 },
                                   { "environment studio turn=40", 1, 0 },
-                                  { "colour spots.ppm", 2, 0 }, /* u and v are known */
+                                  { "colour spots.ppm", 2, 0 }, /* u and v are cached */
                                   { "material metalness=0.3", 3, 0 },
                                   { "colour spots.ppm repeat=3,1.5", 4, 0 },
                                   { "roughness rough.pgm repeat=0.7,2", 5, 0 },
@@ -393,7 +393,7 @@ static void pictures_and_roughness_are_light(void **state)
     walk(&rig, steps, COUNT(steps));
 }
 
-/* What is seen of a lamp stays while it does: of the relief, and of other objects. */
+/* Visibility of a light stays cached while it is valid: of the relief, and of other objects. */
 static void shadows_stay_with_their_lamps(void **state)
 {
     (void)state;
@@ -405,7 +405,7 @@ static void shadows_stay_with_their_lamps(void **state)
         { "material colour=0.9,0.5,0.2", 3, 2 },
         { "light point at=-1,1.2,0.7 size=8 shadow=on", 4, 2 },
         { "light point at=-1,1.2,0.7 size=8 strength=0.6 shadow=on index=2", 5, 3 },
-        { "dials rays=8", 6, 3 }, /* as many as directions of horizons */
+        { "dials rays=8", 6, 3 }, /* one per horizon direction */
         { "light point at=-1,1.2,0.7 size=2 strength=0.6 shadow=on index=2", 7, 3 },
         { "material occlusion=on", 8, 4 },
         { "material model=ggx", 9, 5 },
@@ -417,8 +417,7 @@ static void shadows_stay_with_their_lamps(void **state)
         { "material shadow=on", 13, 8 }
     };
     Rig rig = rig_of(400, true);
-    must_run(rig.session,
-             "camera orthographic size=0.25"); /* points are wanted for shadows alone */
+    must_run(rig.session, "camera orthographic size=0.25"); /* points are needed for shadows only */
     must_run(rig.session, "surface sphere");
     must_run(rig.session, "light directional to=0.8,0.3,0.5 shadow=on");
     must_run(rig.session, "bump height=0.06");
@@ -430,7 +429,7 @@ static void shadows_stay_with_their_lamps(void **state)
     walk(&rig, steps, COUNT(steps));
 }
 
-/* Footprints, the widths of highlights, and every sample of a pixel are noted. */
+/* Footprints, highlight widths, and every sample of a pixel are cached. */
 static void filtered_and_many_samples_are_noted(void **state)
 {
     (void)state;
@@ -462,7 +461,7 @@ static void filtered_and_many_samples_are_noted(void **state)
     walk(&rig, steps, COUNT(steps));
 }
 
-/* What vectors draw of a sphere is made anew as soon as it is read from memory. */
+/* Vector kernels recompute a plain sphere as fast as reading it from memory. */
 static void many_samples_of_a_plain_sphere_are_not_kept(void **state)
 {
     (void)state;
@@ -475,7 +474,7 @@ static void many_samples_of_a_plain_sphere_are_not_kept(void **state)
                                   { "material diffuse=0.45", 1, 0 } };
     WrError err = { "" };
     const WrKernels *fast = wr_kernels_get("auto", true, &err);
-    if (!fast || !wr_wide_of(fast)) skip(); /* this processor has none of those */
+    if (!fast || !wr_wide_of(fast)) skip(); /* this processor has no such kernels */
     Rig rig = rig_of(77, false);
     must_run(rig.session, "surface sphere");
     must_run(rig.session, "replicate 4,2");

@@ -1,5 +1,5 @@
-/* test_surface_points.h - what the surface tests share: the formulas in both precisions, and the
-   members of a point by number. */
+/* test_surface_points.h - shared helpers of the surface tests: the formulas in both precisions, and members of a
+   point by index. */
 #pragma once
 #include "surface/formula.h"
 #include "surface/surface.h"
@@ -17,7 +17,7 @@ static const FloatAt float_at[WR_SURFACE_COUNT] = {
 #include "surface/surface_list.h"
 };
 
-/* Members of a point by number, in either precision: P Pu Pv Puu Puv Pvv N n n_u n_v. */
+/* Members of a point by index, in either precision: P Pu Pv Puu Puv Pvv N n n_u n_v. */
 enum { P, PU, PV, PUU, PUV, PVV, N, UNIT, NU, NV, MEMBERS };
 static const char *const member_names[MEMBERS] = { "P",   "Pu", "Pv", "Puu", "Puv",
                                                    "Pvv", "N",  "n",  "n_u", "n_v" };
@@ -31,7 +31,7 @@ static inline WrVec3 member_f(const WrSurfacePointf *o, int which)
     return (WrVec3){ (double)a.x, (double)a.y, (double)a.z };
 }
 
-/* Evaluate the same numbers in both precisions; u and v exact in float. */
+/* Evaluate the same numbers in both precisions; u and v are exact in float. */
 static inline void both(const WrShape *shape, int face, float u, float v, WrSurfacePoint *o,
                         WrSurfacePointf *of)
 {
@@ -63,7 +63,7 @@ static inline bool all_finite_f(const WrSurfacePointf *o)
     return good && fabs(v3_len(member_f(o, UNIT)) - 1) < 1e-6;
 }
 
-/* Edges, corners and the middle, in both precisions. */
+/* Edges, corners and the centre, in both precisions. */
 static inline void assert_finite_everywhere(const WrShape *shape, bool single)
 {
     static const float steps[] = { 0, 1e-30f, 0x1p-20f, 0.25f, 0.5f, 0.7f, 1 - 0x1p-24f, 1 };
@@ -80,13 +80,13 @@ static inline void assert_finite_everywhere(const WrShape *shape, bool single)
     }
 }
 
-/* Which member is which other's derivative: along v, of, told. */
+/* Derivative pairs: along v, base member, derivative member. */
 enum { DERIVATIVES = 8 };
 static const int derivatives[DERIVATIVES][3] = { { 0, P, PU },    { 1, P, PV },   { 0, PU, PUU },
                                                  { 1, PU, PUV },  { 1, PV, PVV }, { 0, PV, PUV },
                                                  { 0, UNIT, NU }, { 1, UNIT, NV } };
 
-/* How far derivative r of the point `o` at (u, v) is from differences of fourth order, the step h. */
+/* Difference between derivative r of the point `o` at (u, v) and fourth-order finite differences with step h. */
 static inline double derivative_off(const WrShape *shape, const WrSurfacePoint *o, int r, double u,
                                     double v, double h)
 {
@@ -102,7 +102,7 @@ static inline double derivative_off(const WrShape *shape, const WrSurfacePoint *
     return v3_len(v3_sub(got, member(o, rule[2])));
 }
 
-/* Each derivative that a point has, within `within` of 10 and its own size. */
+/* Check each derivative of a point to `within`, relative to 10 plus its own size. */
 static inline void expect_derivatives(const WrShape *shape, double u, double v, double h,
                                       double within, const char *what)
 {

@@ -1,5 +1,5 @@
-/* test_surround.c - surroundings as a light: their picture and its harmonics against closed forms, pictures under them
-   against the integral over all directions. */
+/* test_surround.c - environment light: its picture and spherical harmonics against closed forms, pictures against the
+   integral over all directions. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -10,7 +10,7 @@
 
 typedef double Sky(WrVec3 d, int c);
 
-/* Surroundings of w x h texels; data: what each direction sends. */
+/* An environment of w x h texels; data: radiance of each direction. */
 static WrEnvironmentMap *surroundings(int w, int h, Sky *sky)
 {
     WrEnvironmentMapTold told;
@@ -30,7 +30,7 @@ static WrEnvironmentMap *surroundings(int w, int h, Sky *sky)
 
 static const double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
-/* E / pi of a normal, up to that order. */
+/* E / pi for a normal, up to that order. */
 static double light_up_to(const WrEnvironmentMap *s, const double axes[9], int order, WrVec3 n,
                           int c)
 {
@@ -72,7 +72,7 @@ static double half(WrVec3 d, int c)
     return d.y > 0 ? 1 : 0;
 }
 
-/* Of L = a + b (d.e): a, then a + 2/3 b (n.e), and nothing more. */
+/* For L = a + b (d.e): a, then a + 2/3 b (n.e), and no further terms. */
 static void fewer_orders_leave_out_what_is_beyond_them(void **state)
 {
     (void)state;
@@ -102,7 +102,7 @@ static void harmonics_are_those_of_the_closed_forms(void **state)
         for (int c = 0; c < 3; c++) {
             assert_near(light_of(one, unturned, n, c),
                         1.1 + 0.3 * c + 2.0 / 3 * (0.7 - 0.2 * c) * x, 6e-4);
-            /* x^2 = 1/3 + (x^2 - 1/3), of which the cosine lobe leaves a quarter */
+            /* x^2 = 1/3 + (x^2 - 1/3); the cosine lobe keeps a quarter of the latter */
             assert_near(light_of(two, unturned, n, c),
                         2.3 + c + 1.5 * (1.0 / 3 + (x * x - 1.0 / 3) / 4), 1.5e-3);
         }
@@ -123,7 +123,7 @@ static double sun(WrVec3 d, int c)
     return (int)(512 * u) == 301 && (int)(256 * (1 - v)) == lit_texel ? 1e5 : 0;
 }
 
-/* Of a small sun the harmonics are the delta's, and off by no more than the sharp bounds. */
+/* For a small sun the harmonics approach those of a delta, within the sharp bounds. */
 static void a_sun_is_within_the_bounds(void **state)
 {
     (void)state;
@@ -153,7 +153,7 @@ static double speckled(WrVec3 d, int c)
     return test_random(&random);
 }
 
-/* HC111, HC112: nothing jumps at the seam or about the poles, whatever the sizes are. */
+/* HC111, HC112: continuous at the seam and near the poles, for any size. */
 static void poles_and_seam_are_continuous(void **state)
 {
     static const int sizes[][2] = { { 1, 1 }, { 1, 5 }, { 7, 1 }, { 13, 6 }, { 16, 9 } };
@@ -201,7 +201,7 @@ static void places_are_the_directions_inverse(void **state)
     }
 }
 
-/* HC114: what strangers' files hold becomes light, and is told. */
+/* HC114: invalid values of a file are converted to valid light and reported. */
 static void what_is_no_light_is_told(void **state)
 {
     (void)state;
@@ -211,7 +211,7 @@ static void what_is_no_light_is_told(void **state)
     memcpy(image->data, numbers, sizeof numbers);
     image->type = WR_PIXEL_F32;
     WrEnvironmentMap *s = wr_environment_map_new(image, &told, NULL);
-    assert_int_equal(told.lost, 3); /* of each of the three colours */
+    assert_int_equal(told.lost, 3); /* in each of the three colours */
     assert_int_equal(told.below, 6);
     assert_int_equal(told.above, 6);
     const float *got = s->image->data;
@@ -239,7 +239,7 @@ static WrScene *scene_under(WrEnvironmentMap *light, int model, int energy)
     m->roughness = .37, m->metalness = .23, m->ior = 1.61;
     m->colour = (WrVec3){ .91, .53, .17 };
     scene->dials.aa = WR_AA_POINT;
-    scene->scheme = WR_SCHEME_BSPLINE_FIT; /* so that n' is the reference's */
+    scene->scheme = WR_SCHEME_BSPLINE_FIT; /* makes n' equal to the reference's */
     scene->bump = WR_BUMP_EXACT;
     scene->posed = true;
     scene->rotate_deg = (WrVec3){ 23, 41, 7 };
@@ -247,7 +247,7 @@ static WrScene *scene_under(WrEnvironmentMap *light, int model, int energy)
     return scene;
 }
 
-/* How far the picture is off, at most; *middle: of pixels that face the viewer. */
+/* Largest difference of the picture; *middle: of pixels that face the viewer. */
 static double apart(const WrScene *scene, const WrField *field, double *middle)
 {
     enum { W = 17, H = 15 };
@@ -265,7 +265,8 @@ static double apart(const WrScene *scene, const WrField *field, double *middle)
     return worst;
 }
 
-/* Bumps, a turned object and turned surroundings, against the integral: Lambert's to rounding where harmonics are exact. */
+/* Bumps, a rotated object and a rotated environment against the integral: Lambert's agrees to rounding where
+   harmonics are exact. */
 static void diffuse_light_is_the_integral(void **state)
 {
     (void)state;
@@ -292,7 +293,7 @@ static void diffuse_light_is_the_integral(void **state)
     wr_field_free(field);
 }
 
-/* What is reflected, blurred by each model's lobe, against the integral of its formula. */
+/* Reflections blurred by each model's lobe, against the integral of its formula. */
 static void reflections_are_the_integral(void **state)
 {
     (void)state;
@@ -329,7 +330,7 @@ static void reflections_are_the_integral(void **state)
     wr_field_free(field);
 }
 
-/* The mean of c = l.r by the lobe of GGX facets that n = v = r has, in closed form. */
+/* Closed form for the mean of c = l.r over the lobe of GGX facets with n = v = r. */
 static double facets_mean(double alpha)
 {
     const double a2 = alpha * alpha, a = (1 + a2) / 2, k = (1 - a2) / 2;
@@ -337,7 +338,7 @@ static double facets_mean(double alpha)
     return 2 * a2 * (a * a / a2 - a2 - 2 * a * log(a / a2)) / (k * k * k * w);
 }
 
-/* A linear sky stays one. */
+/* A linear sky stays linear. */
 static void expect_blurred(const WrEnvironmentMap *s, const WrEnvironmentBrdf *g, double mean,
                            WrPool *pool)
 {
@@ -373,8 +374,8 @@ static void lobes_have_their_closed_forms(void **state)
     wr_blur_orders(&all, 2, order);
     assert_near(order[1], 2.0 / 3, 1e-6);
     wr_blur_orders(&power, 2, order);
-    assert_near(order[1], 12.3 / 13.3, 1e-5); /* of c^s the mean of c is (s + 1) / (s + 2) */
-    wr_blur_orders(&half_power, 2, order);    /* x^p of x = (1 + c) / 2 */
+    assert_near(order[1], 12.3 / 13.3, 1e-5); /* for c^s the mean of c is (s + 1) / (s + 2) */
+    wr_blur_orders(&half_power, 2, order);    /* x^p for x = (1 + c) / 2 */
     assert_near(order[1], 2 * (21.7 / 2 + 1) / (21.7 / 2 + 2) - 1, 1e-5);
     wr_environment_map_free(s);
     wr_pool_free(pool);
@@ -389,10 +390,10 @@ static double white(WrVec3 d, int c)
 static double nearly_white(WrVec3 d, int c)
 {
     (void)c;
-    return d.x > 0.9 ? 1 + 1e-6 : 1; /* looked up, since it is not of one colour */
+    return d.x > 0.9 ? 1 + 1e-6 : 1; /* fetched, since it is not constant */
 }
 
-/* HC115: of one colour, and looked up */
+/* HC115: constant, and fetched */
 static void a_white_furnace_is_white(void **state)
 {
     (void)state;
@@ -437,7 +438,7 @@ static Shot turned_by(double turn_deg, int columns, const WrField *field)
     return shot;
 }
 
-/* HC116, and a turn is what shifting the picture's columns does. */
+/* HC116: a rotation equals a shift of the picture's columns. */
 static void turning_is_shifting_the_picture(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* What a tolerance chooses: it holds on the whole picture, it says when it cannot, its frame is what its
-   settings give. */
+/* Choice of dials by a tolerance: it holds on the whole picture, failures are reported, and the frame equals that of
+   the chosen settings. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -22,7 +22,7 @@ typedef struct Bench {
     WrSession *session;
     WrRenderer *renderer;
     WrFrameRequest request;
-    WrScene *scene; /* the session's, to set a tolerance in */
+    WrScene *scene; /* the session's, to set a tolerance */
 } Bench;
 
 static Bench bench_of(const char *const *lines)
@@ -65,7 +65,7 @@ static WrFrame frame_of(Bench *bench, const WrChoice *choice)
     return frame;
 }
 
-/* most: samples a side. The caller ends it with wr_reference_fini. */
+/* most: samples along a side. The caller ends it with wr_reference_fini. */
 static WrReference reference_of(const Bench *bench, int most)
 {
     WrError err;
@@ -118,7 +118,7 @@ static void the_measured_error_keeps_to_the_tolerance_or_it_says_so(void **state
         wr_reference_fini(&reference);
         bench_fini(&bench);
     }
-    /* All but the finest on the most broken scene is within what 16 x 16 samples do. */
+    /* All tolerances except the finest on the most fragmented scene are reachable with 16 x 16 samples. */
     assert_in_range(met, 10, 12);
 }
 
@@ -139,8 +139,8 @@ static void expect_to_hold(const char *const *scene, const double tolerances[2],
     bench_fini(&bench);
 }
 
-/* Along such outlines 2 x 2, 4 x 4 and 8 x 8 samples may agree on the same wrong coverage; some of these lie between two
-   blocks, of which one shows nothing at any level. */
+/* Along such outlines 2 x 2, 4 x 4 and 8 x 8 samples may agree on the same wrong coverage; some are between two
+   blocks, one of which is empty at every level. */
 static void outlines_that_run_with_the_pixels_rows_do_not_deceive(void **state)
 {
     (void)state;
@@ -159,7 +159,7 @@ static void outlines_that_run_with_the_pixels_rows_do_not_deceive(void **state)
     }
 }
 
-/* A spot in one corner of a flat table. */
+/* A bump in one corner of a flat table. */
 static void relief_in_a_corner_of_the_picture_is_seen(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static void relief_in_a_corner_of_the_picture_is_seen(void **state)
     }
 }
 
-/* No number of samples mends what the usual mesh loses there. */
+/* No number of samples repairs the silhouette error of the usual mesh. */
 static void outlines_of_a_mesh_are_no_coarser_than_the_tolerance(void **state)
 {
     (void)state;
@@ -191,7 +191,7 @@ static void outlines_of_a_mesh_are_no_coarser_than_the_tolerance(void **state)
     expect_to_hold(ring, (const double[2]){ 0.0025, 0.0012 }, 32);
 }
 
-/* Two pictures: one sample a pixel, and the best. It is no dearer than the others would have been. */
+/* Two pictures: one sample per pixel, and the best setting. It costs no more than the others would. */
 static void the_best_is_taken_at_once_where_choosing_would_cost_as_much(void **state)
 {
     (void)state;
@@ -225,7 +225,7 @@ static void the_best_is_taken_at_once_where_choosing_would_cost_as_much(void **s
     bench_fini(&bench);
 }
 
-/* What 2 x 2 would change there is foretold by what a few of them tell. */
+/* The effect of 2 x 2 samples is predicted from a few of them. */
 static void calm_insides_are_not_rendered_twice(void **state)
 {
     (void)state;
@@ -344,7 +344,7 @@ static void each_block_has_the_bits_of_its_setting_alone(void **state)
     bench_fini(&bench);
 }
 
-/* The picture that comes with a choice is the one that its settings make. */
+/* The picture delivered with a choice equals the one rendered with its settings. */
 static void choosing_gives_the_picture_that_the_choice_makes(void **state)
 {
     (void)state;
@@ -390,7 +390,7 @@ static void expect_the_same(const WrChoice *a, const WrChoice *b)
     assert_true(a->rms == b->rms && a->max == b->max);
 }
 
-/* No clock decides: whatever else the machine does, however many threads it has, the dials are the same. */
+/* No clock is involved: the dials do not depend on machine load or the number of threads. */
 static void the_same_picture_gets_the_same_dials(void **state)
 {
     (void)state;
@@ -440,8 +440,8 @@ static void a_choice_is_kept_while_its_picture_stays(void **state)
     bench_fini(&bench);
 }
 
-/* The largest error of any pixel against the reference, on scenes with outlines, corners and highlights. */
-/* Of a turn's frames: the dials are chosen once, and hold on frames that they were not chosen on. */
+/* The largest error of any pixel against the reference, on scenes with silhouettes, corners and highlights. */
+/* For a turn's frames, dials are chosen once and hold on frames that were not used for the choice. */
 static void one_choice_does_for_all_frames_of_a_turn(void **state)
 {
     (void)state;
@@ -455,7 +455,7 @@ static void one_choice_does_for_all_frames_of_a_turn(void **state)
     assert_true(wr_tolerance_turn(bench.renderer, &bench.request, turns, 12, &choice, &err));
     assert_true(choice.met);
     assert_non_null(strstr(choice.reason, "12 frames: met; dials chosen on "));
-    /* By the clock, which the machine's other work disturbs. */
+    /* Measured times, which other load disturbs. */
     assert_true(strstr(choice.reason, "it pays from frame ") ||
                 strstr(choice.reason, "it never pays"));
     const unsigned char *chosen = choice.part_of;
@@ -503,7 +503,7 @@ static void the_worst_pixel_keeps_to_the_tolerance_or_it_says_so(void **state)
             WrChoice choice = choose(&bench, WR_TOLERANCE_MAX, tolerances[t]);
             const WrFrame frame = frame_of(&bench, &choice);
             wr_errors_measure(frame.rgba, NULL, &reference, NULL, &errors);
-            assert_true(choice.max > 0); /* nothing is measured by itself */
+            assert_true(choice.max > 0); /* nothing is measured automatically */
             if (choice.met && errors.max > tolerances[t])
                 fail_msg("scene %d: %g, not %g: %s", (int)i, errors.max, tolerances[t],
                          choice.reason);
@@ -516,7 +516,7 @@ static void the_worst_pixel_keeps_to_the_tolerance_or_it_says_so(void **state)
     assert_in_range(met, 8, 15);
 }
 
-/* Seconds are turned into counted work by a speed that is measured once and kept. */
+/* Seconds are converted to an operation count by a speed that is measured once and stored. */
 static void a_time_buys_the_same_dials_again(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The dials that a tolerance chose are written down with the document: the same picture again, and nothing chosen
-   anew; of use only for what they were chosen for; damaged ones are refused. */
+/* Stored dials of a tolerance in a document: the same picture is rendered again without a new choice; they are used
+   only if they fit; damaged ones are refused. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -29,7 +29,7 @@ static int remove_folder(void **state)
     return rmdir(folder);
 }
 
-/* A file of the test's folder; the caller ends it with gone. */
+/* A file in the test's folder; the caller removes it with gone. */
 static char *test_path(const char *name)
 {
     WrText text = { 0 };
@@ -61,7 +61,7 @@ static const char *const ring[] = { "table 64x64", "fill 0", "surface torus R=1 
 static const char *const formula[] = { "analytic fourier terms=3,0,0.5,0,0;0,4,0.4,30,60",
                                        "surface cylinder", "bump mode=blinn height=0.03", NULL };
 
-/* The second wears a layer that the composite does not show. */
+/* The table of the second object is a layer that is not in the composite. */
 static const char *const worn[] = { "table 64x64",
                                     "grid cells=8x8 width=2",
                                     "layer rename 1 net",
@@ -73,7 +73,7 @@ static const char *const worn[] = { "table 64x64",
                                     "object add ball at=1.1,0.3,-0.4 size=0.9 layer=marks",
                                     NULL };
 
-/* What notes a session gave, one a line. */
+/* Collect a session's notes, one per line. */
 static void add_note(void *ctx, const char *text)
 {
     wr_text_add(ctx, text);
@@ -89,7 +89,7 @@ static WrSession *opened(const char *path, WrText *notes)
     return session;
 }
 
-/* The picture's hash; *studies: how many frames were studied for it. */
+/* The picture's hash; *studies: number of frames analysed for it. */
 static WrHash picture(WrSession *session, int width, int height, int *studies)
 {
     WrError err;
@@ -100,7 +100,7 @@ static WrHash picture(WrSession *session, int width, int height, int *studies)
                          (WrHash){ 0, 0 });
 }
 
-/* The scene under that tolerance, rendered once and saved. */
+/* The scene with that tolerance, rendered once and saved. */
 static WrHash save_chosen(const char *const *scene, const char *tolerance, const char *path)
 {
     WrError err;
@@ -140,7 +140,7 @@ static void a_saved_document_has_the_same_picture_and_chooses_nothing_anew(void 
         }
 }
 
-/* Saved again without a picture made, it keeps what it kept. */
+/* A document saved again without a picture keeps the stored dials. */
 static void what_a_document_keeps_stays_when_it_is_saved_again(void **state)
 {
     (void)state;
@@ -192,8 +192,8 @@ static void another_picture_than_the_kept_one_is_chosen_anew_with_a_note(void **
     gone(path);
 }
 
-/* A stroke on what one object alone wears makes another picture, though the composite stays; one on a layer that no object
-   shows does not. */
+/* A stroke on the table of one object changes the picture, though the composite is unchanged; a stroke on an unused
+   layer does not. */
 static void dials_are_for_what_objects_wear(void **state)
 {
     (void)state;
@@ -216,7 +216,7 @@ static void dials_are_for_what_objects_wear(void **state)
     gone(path);
 }
 
-/* An edit that is undone leaves what was written down of use; a tolerance given anew does not. */
+/* An edit that is undone leaves the stored dials valid; a new tolerance does not. */
 static void kept_dials_are_for_the_document_as_it_was_saved(void **state)
 {
     (void)state;
@@ -238,7 +238,7 @@ static void kept_dials_are_for_the_document_as_it_was_saved(void **state)
     gone(path);
 }
 
-/* A line as save writes it for a picture of 16 x 16 pixels: `where` is its first such piece, and becomes `bad`. */
+/* A saved line for a picture of 16 x 16 pixels, with its first `where` replaced by `bad`. */
 static void expect_damaged(const char *where, const char *bad, const char *what)
 {
 #define HASH "0123456789abcdef0123456789abcdef"
@@ -283,14 +283,14 @@ static void damaged_dials_are_refused_with_one_clear_error(void **state)
     expect_damaged("a.a2", "a.a0", "blocks");
     expect_damaged("a.a2", "a99999999999999999999", "blocks");
     expect_damaged("a.a2", "{.a2", "blocks");
-    expect_damaged(" blocks=a.a2", "", "parts"); /* it is torn off: the parts have no end */
+    expect_damaged(" blocks=a.a2", "", "parts"); /* truncated: the list has no end */
     WrSession *session = wr_session_new(NULL);
     must_fail(session, "tolerance off chosen=x", "chosen");
     must_fail(session, "tolerance rms=0.1 chosen=\"\"", "chosen");
     wr_session_free(session);
 }
 
-/* Blocks of twice the side, as they were written once: each stands for four. */
+/* Blocks of twice the side, from an earlier version: each stands for four. */
 static void dials_of_wider_blocks_are_read(void **state)
 {
     (void)state;
@@ -315,7 +315,7 @@ static void dials_of_wider_blocks_are_read(void **state)
     wr_field_free(field);
 }
 
-/* So many blocks that their settings take more text than a line should: then all get the finest. */
+/* With very many blocks the settings would exceed the length of a line: then all get the finest. */
 static void what_would_be_too_long_becomes_one_setting(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* What a hand does while something long runs beside the window: done at once, put off and done in order, or refused with
-   words. Without a display. */
+/* User actions during a long background command: done at once, queued in order, or refused with a message. Without a
+   display. */
 #include "test.h"
 #include "test_folder.h"
 #include "ui_busy_help.h"
@@ -51,8 +51,8 @@ static bool is_written(const char *line)
     return found;
 }
 
-/* One thing after the other, each by a hand and seen before the next: a tab, the guide and back, a setting that is on the
-   disk while the work still runs, the brush's size. */
+/* One action after the other, each seen before the next: a tab, the guide and back, a setting saved to disk while the
+   command still runs, the brush's size. */
 static bool use_the_window(Long *work)
 {
     WrApp *app = work->app;
@@ -68,7 +68,7 @@ static bool use_the_window(Long *work)
     switch (++work->stage) {
     case 1: push_click(panel->x + panel->w / 2, panel->y + 16); break;
     case 2: push_key(SDLK_F1, 0); break;
-    case 3: push_key(SDLK_ESCAPE, 0); break; /* of the guide, and not of the work */
+    case 3: push_key(SDLK_ESCAPE, 0); break; /* of the guide, not of the command */
     case 4: push_key(SDLK_g, KMOD_LALT); break;
     case 5: push_key(SDLK_RIGHTBRACKET, 0); break;
     }
@@ -96,13 +96,13 @@ static void the_window_is_used_meanwhile(void **state)
 static bool drag_on(Long *work)
 {
     WrApp *app = work->app;
-    if (!wr_busy_greys(app)) return false; /* its bar is there then */
+    if (!wr_busy_greys(app)) return false; /* the bar is visible then */
     if (work->stage++ == 1)
         SDL_PushEvent(&(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = 400, .y = 51 } });
     return app->settings->brush.radius > 34.0;
 }
 
-/* That the bar comes is no reason to let go of what is held. */
+/* The appearance of the progress bar does not end a drag. */
 static void a_slider_is_dragged_through_the_beginning(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void a_slider_is_dragged_through_the_beginning(void **state)
     finish(&bench);
 }
 
-/* A stroke's end and the next click come between two pictures, as on a machine that has much to do. */
+/* A stroke's end and the next click arrive between two frames, as on a slow machine. */
 static bool click_at_once(Long *work)
 {
     WrApp *app = work->app;
@@ -151,7 +151,8 @@ static void a_click_right_after_another_is_not_lost(void **state)
     finish(&bench);
 }
 
-/* An action that changes the document is grey, and its key refused with words, but not what can wait. */
+/* Actions that change the document are disabled, and their keys refused with a message, except those that can
+   wait. */
 static bool try_to_edit(Long *work)
 {
     WrApp *app = work->app;
@@ -165,7 +166,7 @@ static bool try_to_edit(Long *work)
         app->busy->refused_at = -1e9;
         push_key(SDLK_j, KMOD_LCTRL);
     }
-    return app->busy->refused_at > 0.0; /* the bar says so */
+    return app->busy->refused_at > 0.0; /* the bar shows a message */
 }
 
 static void an_edit_is_refused_with_words(void **state)
@@ -228,11 +229,11 @@ static void what_waits_is_done_in_its_order(void **state)
     const char *stroke = wr_session_history_line(bench.session, before);
     assert_int_equal(strncmp(stroke, "stroke ", 7), 0);
     assert_string_equal(wr_session_history_line(bench.session, before + 1), "layer set 1 lock=on");
-    assert_int_equal(app->messages->unread, 1); /* that the layer is locked */
+    assert_int_equal(app->messages->unread, 1); /* the layer is locked */
     finish(&bench);
 }
 
-/* Given up: what waited is thrown away, with words. */
+/* Cancelled: queued actions are dropped with a message. */
 static bool paint_and_give_up(Long *work)
 {
     WrApp *app = work->app;
@@ -272,7 +273,7 @@ static void what_waits_is_dropped_with_what_is_given_up(void **state)
     finish(&bench);
 }
 
-/* Lines name layers by numbers, which mean others when the work has added one. */
+/* Lines refer to layers by number; the numbers change when the command adds a layer. */
 static void what_waits_is_not_done_to_other_layers(void **state)
 {
     (void)state;
@@ -294,7 +295,7 @@ static void what_waits_is_not_done_to_other_layers(void **state)
     finish(&bench);
 }
 
-/* A widget that runs a line is in the midst of a picture, which is not held up: the loop ends the work. */
+/* A widget that runs a line is inside a frame, which must not block: the main loop finishes the line. */
 static void a_line_of_a_widget_does_not_hold_its_picture_up(void **state)
 {
     (void)state;
@@ -304,15 +305,15 @@ static void a_line_of_a_widget_does_not_hold_its_picture_up(void **state)
     const WrHash before = wr_session_hash(bench.session);
     app->in_frame = true;
     assert_true(wr_app_run_line(app, "render x.png size=16384x16384"));
-    assert_true(wr_app_run_line(app, "material ks=0.37")); /* the same press meant both */
+    assert_true(wr_app_run_line(app, "material ks=0.37")); /* part of the same press */
     app->in_frame = false;
     assert_non_null(app->busy);
     assert_int_equal(app->waits->items.count, 1);
-    assert_true(app->session != bench.session); /* nobody touches it */
+    assert_true(app->session != bench.session); /* still a snapshot */
     const double end = wr_clock_seconds() + PATIENCE;
     while (wr_busy_is_young(app) && wr_clock_seconds() < end) draw_again(app);
     app->in_frame = true;
-    assert_false(wr_app_run_line(app, "material ks=0.41")); /* another one */
+    assert_false(wr_app_run_line(app, "material ks=0.41")); /* a separate action */
     app->in_frame = false;
     push_key(SDLK_ESCAPE, 0);
     while (app->busy && wr_clock_seconds() < end) draw_again(app);
@@ -327,7 +328,7 @@ static void a_line_of_a_widget_does_not_hold_its_picture_up(void **state)
     finish(&bench);
 }
 
-/* Escape gives the stroke up that is drawn, and not the work; it waits no more. */
+/* Escape cancels the stroke being drawn, not the command; it is removed from the queue. */
 static bool give_the_stroke_up(Long *work)
 {
     WrApp *app = work->app;
@@ -362,7 +363,7 @@ static void a_stroke_that_waits_is_given_up_by_hand(void **state)
     finish(&bench);
 }
 
-/* Nobody waits for the journal to be tended: a wish to close comes meanwhile, and is done. */
+/* Journal upkeep has no waiting caller: a request to close arrives meanwhile and is executed. */
 static bool see_a_few(Long *work)
 {
     return ++work->stage > 5;

@@ -1,6 +1,5 @@
-/* What the window is told while something long is being done: it hears it at once, or afterwards, or says that it
-   will not. Without a display; the long work is the test's own, and ends when the test has seen what it waits
-   for. */
+/* Events of the window during a long command: handled at once, handled afterwards, or refused with a message. Without
+   a display; the long command belongs to the test and ends when the test has seen the expected state. */
 #include "test.h"
 #include "test_folder.h"
 #include "ui_busy_help.h"
@@ -34,7 +33,8 @@ static void step_until(WrApp *app, const bool *reached)
 {
     double end = wr_clock_seconds() + PATIENCE;
     while (!*reached && wr_clock_seconds() < end) {
-        SDL_PushEvent(&(SDL_Event){ .type = app->ready_event }); /* or it might wait for a hand */
+        /* otherwise it might wait for user input */
+        SDL_PushEvent(&(SDL_Event){ .type = app->ready_event });
         wr_app_step(app);
     }
     assert_true(*reached);
@@ -50,7 +50,7 @@ static void step_until_open(WrApp *app, const char *path)
     assert_string_equal(wr_session_path(app->session), path);
 }
 
-/* A document in the folder; caller frees the path. */
+/* A document in the folder; the caller frees the path. */
 static char *some_file(const char *name)
 {
     WrError err = { "" };
@@ -65,8 +65,8 @@ static char *some_file(const char *name)
 
 /* ---- the tests ---- */
 
-/* The views are looked at as ever: a key of the canvas at once; the patch by hand, which becomes one step of the history
-   when the work is done. */
+/* The views react as usual: a canvas key at once; a rotation of the patch becomes one step of the history after the
+   command. */
 static void the_views_are_alive_meanwhile(void **state)
 {
     (void)state;
@@ -94,9 +94,9 @@ static void the_views_are_alive_meanwhile(void **state)
                               button(SDL_MOUSEBUTTONUP, x + 40, y) },
                   .count = 3 };
     assert_true(run(&drag, &err));
-    assert_non_null(app->live); /* what is seen, until it is a command */
+    assert_non_null(app->live); /* shown until it is a command */
     WrHash after = wr_session_hash(bench.session);
-    assert_memory_equal(&before, &after, sizeof before); /* not while the work ran */
+    assert_memory_equal(&before, &after, sizeof before); /* not while the command ran */
     for (int i = 0; i < 50 && app->live; i++) draw_again(app);
     assert_null(app->live);
     after = wr_session_hash(bench.session);
@@ -104,7 +104,7 @@ static void the_views_are_alive_meanwhile(void **state)
     finish(&bench);
 }
 
-/* What would touch the document is done neither while the work runs nor afterwards. */
+/* Changes of the document are made neither during the command nor afterwards. */
 static void what_changes_the_document_is_refused_meanwhile(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void what_the_window_is_told_holds_at_once(void **state)
     SDL_WindowEvent hidden = { .type = SDL_WINDOWEVENT,
                                .windowID = SDL_GetWindowID(app->window),
                                .event = SDL_WINDOWEVENT_MINIMIZED };
-    app->hand->space = true; /* held when it began */
+    app->hand->space = true; /* held at its start */
     Long work = { .app = app,
                   .events = { { .window = hidden }, key(SDL_KEYUP, SDLK_SPACE) },
                   .count = 2 };
@@ -157,13 +157,13 @@ static void a_dropped_file_opens_afterwards(void **state)
     SDL_DropEvent drop = { .type = SDL_DROPFILE, .file = SDL_strdup(path) };
     Long work = { .app = bench.app, .events = { { .drop = drop } }, .count = 1 };
     assert_true(run(&work, &err));
-    assert_string_equal(wr_session_path(bench.session), ""); /* not before it was done */
+    assert_string_equal(wr_session_path(bench.session), ""); /* not before its end */
     step_until_open(bench.app, path);
     finish(&bench);
     wr_free(path);
 }
 
-/* The answer of the desktop's dialog, here a program that answers at once. */
+/* The answer of the native file dialog, here a program that answers at once. */
 static void a_chosen_file_is_taken_afterwards(void **state)
 {
     (void)state;
@@ -192,7 +192,8 @@ static void a_chosen_file_is_taken_afterwards(void **state)
     wr_free(path);
 }
 
-/* Nobody asked for the journal to be tended: what is pressed meanwhile is done all the same, and Escape gives nothing up. */
+/* Journal upkeep was not requested by the user: actions meanwhile are done all the same, and Escape cancels
+   nothing. */
 static void all_waits_while_the_journal_is_tended(void **state)
 {
     (void)state;
@@ -237,14 +238,14 @@ static void a_cancel_is_no_error_and_then_it_closes(void **state)
     WrHash after = wr_session_hash(bench.session);
     assert_memory_equal(&before, &after, sizeof before);
     step_until(app, &app->quit);
-    wr_fail(&err, "the disk is full"); /* what nobody gave up is one */
+    wr_fail(&err, "the disk is full"); /* a failure that the user did not cause is an error */
     app->gave_up = false;
     wr_busy_fail(app, "something", &err);
     assert_int_equal(app->messages->unread, 1);
     finish(&bench);
 }
 
-/* There is nothing else to undo yet, and all of it comes before the stroke is drawn. */
+/* There is nothing else to undo yet, and the undo comes before the stroke is drawn. */
 static void the_first_stroke_is_undone_before_it_is_drawn(void **state)
 {
     (void)state;
@@ -273,7 +274,7 @@ static void the_first_stroke_is_undone_before_it_is_drawn(void **state)
     finish(&bench);
 }
 
-/* Motion, button up and leaving the window come before one picture: the number is where the button went up. */
+/* Motion, button release and leaving the window arrive before one frame: the number is that at the release. */
 static void a_number_is_where_the_button_went_up(void **state)
 {
     (void)state;

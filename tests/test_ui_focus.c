@@ -1,6 +1,6 @@
-/* The keyboard alone: every widget that the pointer finds is one that the keys come to, in the order in which it is seen,
-   and none of them keeps the keys. The pointer is led over points of a Halton sequence; what lies under it is what the
-   widget library says, which knows nothing of the keys' list. */
+/* Keyboard-only use: every widget that the pointer can reach can be reached by keys, in visual order, and none of
+   them traps the keys. The pointer is moved over points of a Halton sequence; the widget below it comes from the
+   widget library, independently of the list of stops. */
 #include "test.h"
 
 #include "window_walk.h"
@@ -12,7 +12,7 @@
 
 static int complaints;
 
-/* All that is wrong is told before the test fails. */
+/* All faults are printed before the test fails. */
 #define COMPLAIN(...) (complaints++ < 40 ? (void)printf(__VA_ARGS__) : (void)0)
 
 static void send(Walk *walk, Uint32 type, SDL_Scancode code, Uint16 mod)
@@ -21,7 +21,7 @@ static void send(Walk *walk, Uint32 type, SDL_Scancode code, Uint16 mod)
     wr_gui_event(walk->app->gui, &(SDL_Event){ .key = { .type = type, .keysym = keysym } });
 }
 
-/* A key, and pictures until the window is at rest. */
+/* Press a key, and draw frames until the window is idle. */
 static void tap(Walk *walk, SDL_Scancode code, Uint16 mod)
 {
     send(walk, SDL_KEYDOWN, code, mod);
@@ -51,7 +51,7 @@ static int index_of(const Place *place, unsigned id)
     return -1;
 }
 
-/* Stops that stood there while the keys went round: lists scroll meanwhile. */
+/* Collect the stops seen during a tour by keys: lists scroll meanwhile. */
 static void gather(Walk *walk, Place *place)
 {
     int count;
@@ -73,13 +73,13 @@ static void note_focus(Walk *walk, Place *place)
         return;
     }
     const WrKeyStop *stop = &place->stops[at];
-    for (int i = 0; i < place->count; i++) /* the arrows go along a group */
+    for (int i = 0; i < place->count; i++) /* arrow keys move along a group */
         if (i == at || (stop->group && place->stops[i].group == stop->group &&
                         place->stops[i].window == stop->window))
             place->reached[i] = true;
 }
 
-/* Once round by Tab, or by Shift+Tab. */
+/* One tour by Tab, or by Shift+Tab. */
 static void go_round(Walk *walk, Place *place, Uint16 mod)
 {
     if (walk->app->dialog->now == WR_DIALOG_NONE) wr_gui_focus_part(walk->app->gui, 1);
@@ -119,7 +119,7 @@ static void find_by_pointer(Walk *walk, const Place *place, int points)
     }
 }
 
-/* What has the name of another does what is meant for that one. */
+/* Equal names would make a widget act for another one. */
 static void see_names(const Walk *walk)
 {
     int count;
@@ -131,7 +131,7 @@ static void see_names(const Walk *walk)
                          walk->where, s[j].x0, s[j].y0, s[j].kind, s[i].x0, s[i].y0);
 }
 
-/* Where the eye goes: down, and in a row to the right. */
+/* Reading order: down, and to the right within a row. */
 static void see_order(const Walk *walk)
 {
     int count;
@@ -149,7 +149,7 @@ static void see_order(const Walk *walk)
 
 static int places, stops_seen;
 
-/* Of things of a kind, whose panels are alike, some. */
+/* Of similar objects with equal panels only some are tested. */
 static bool is_left_out(const Walk *walk)
 {
     static const char *const alike[] = { "generator", "surface", "dialog of adjust", "curves of" };
@@ -217,7 +217,7 @@ static void leave_bench(Walk *walk)
     walk_close(walk);
 }
 
-/* Tab until a stop of a kind has the ring, the nth of them from here. */
+/* Press Tab until the nth stop of a kind has the ring. */
 static WrKeyStop come_to(Walk *walk, WrKeyStopKind kind, int nth)
 {
     if (!wr_gui_focus_now(walk->app->gui)) {
@@ -243,7 +243,7 @@ static void arrows_move_numbers_and_a_press_types_into_them(void **state)
     enter_bench(&walk);
     WrBrush *brush = &walk.app->settings->brush;
     brush->hardness = 0.5;
-    come_to(&walk, WR_STOP_NUMBER, 1); /* the brush's size stands before it */
+    come_to(&walk, WR_STOP_NUMBER, 1); /* the brush's size comes before it */
     for (int i = 0; i < 3; i++) send(&walk, SDL_KEYDOWN, SDL_SCANCODE_RIGHT, 0);
     send(&walk, SDL_KEYUP, SDL_SCANCODE_RIGHT, 0);
     for (int i = 0; i < 6; i++) walk_frame(&walk);
@@ -255,7 +255,8 @@ static void arrows_move_numbers_and_a_press_types_into_them(void **state)
     assert_true(wr_gui_wants_text(walk.app->gui));
     wr_gui_event(walk.app->gui, &(SDL_Event){ .text = { SDL_TEXTINPUT, .text = "0.7" } });
     walk_frame(&walk);
-    tap(&walk, SDL_SCANCODE_TAB, 0); /* what was typed counts, and the next one has the ring */
+    /* the typed value is applied, and the next field has the ring */
+    tap(&walk, SDL_SCANCODE_TAB, 0);
     for (int i = 0; i < 3; i++) walk_frame(&walk);
     assert_float_equal(brush->hardness, 0.7, 1e-12);
     assert_false(wr_gui_wants_text(walk.app->gui));
@@ -265,7 +266,7 @@ static void arrows_move_numbers_and_a_press_types_into_them(void **state)
     leave_bench(&walk);
 }
 
-/* A drag of many steps is one change of the scene; so is an arrow that is held. */
+/* A drag of many steps is one change of the scene, and so is a held arrow key. */
 static void a_held_arrow_is_one_step_of_the_history(void **state)
 {
     (void)state;
@@ -274,12 +275,12 @@ static void a_held_arrow_is_one_step_of_the_history(void **state)
     wr_tab_show(walk.app, "Scene");
     walk_frame(&walk);
     WrKeyStop stop = come_to(&walk, WR_STOP_NUMBER, 0);
-    while (stop.x0 < 1000 || stop.y0 < 90) { /* in the panel at the right */
+    while (stop.x0 < 1000 || stop.y0 < 90) { /* in the right panel */
         tap(&walk, SDL_SCANCODE_TAB, 0);
         stop = come_to(&walk, WR_STOP_NUMBER, 0);
     }
     uint64_t before = 0;
-    /* one of those that are seen while they move */
+    /* a value whose preview is live */
     for (int n = 0; n < 12 && !walk.app->live; n++) {
         tap(&walk, SDL_SCANCODE_TAB, 0);
         come_to(&walk, WR_STOP_NUMBER, 0);
@@ -326,7 +327,7 @@ static void only_what_a_widget_needs_is_taken_from_the_canvas(void **state)
     SDL_Event press = { .button = { SDL_MOUSEBUTTONDOWN, .button = SDL_BUTTON_LEFT, .x = 5,
                                     .y = 5 } };
     wr_gui_event(gui, &press);
-    assert_int_equal(wr_gui_focus_now(gui), 0); /* the hand is at the pointer again */
+    assert_int_equal(wr_gui_focus_now(gui), 0); /* the keys belong to the canvas again */
     leave_bench(&walk);
 }
 
@@ -343,11 +344,11 @@ static void keys_lead_through_the_menus(void **state)
         for (int i = 0; i < 4; i++) walk_frame(&walk);
         assert_true(wr_gui_popup_open_now(gui));
         for (int i = 0; i < 8; i++) tap(&walk, SDL_SCANCODE_RIGHT, 0); /* from File to View */
-        tap(&walk, SDL_SCANCODE_DOWN, 0); /* its second entry, after the grey */
+        tap(&walk, SDL_SCANCODE_DOWN, 0); /* its second entry, after the disabled one */
         if (run == 0) tap(&walk, SDL_SCANCODE_RETURN, 0);
         for (int i = 0; i < 4 && run == 0; i++) walk_frame(&walk);
         if (run == 1) break;
-        walk.app->visible = false; /* what waits for a picture that is seen does not */
+        walk.app->visible = false; /* a hidden window does not wait for a frame */
         wr_deferred_run(walk.app);
         walk.app->visible = true;
         assert_int_equal(look->colours, WR_CANVAS_SIGNED);

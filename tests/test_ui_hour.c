@@ -1,6 +1,6 @@
-/* An hour of somebody's painting, its pauses left out: strokes, layers, filters, letters, turns of the patch and steps back
-   and forth through a window that nobody sees. Memory stays within what undo may take and a constant; what is saved is
-   what the journal brings back. WR_HOUR=SECONDS takes so many of the 3600; WR_HOUR_TELL=1 tells the bytes of each tenth. */
+/* An hour of painting without its pauses: strokes, layers, filters, text, rotations of the patch, undo and redo
+   through a hidden window. Memory stays within the undo budget plus a constant; the saved document equals the
+   recovered one. WR_HOUR=SECONDS runs only that many of the 3600; WR_HOUR_TELL=1 prints the bytes of each tenth. */
 #include "test.h"
 #include "test_app.h"
 
@@ -18,13 +18,13 @@
 
 #define SIDE 512
 #define BUDGET (48 << 20)
-/* Bytes beyond undo's budget and what the window has when it opens: 115 MB of the library of pictures, which the journal
-   loads when it begins anew; the layers, each with its composite and what a filter keeps; what is shown and rendered. */
+/* Bytes beyond the undo budget and the window's memory at its start: 115 MB for the picture library, which the
+   journal loads when it restarts; the layers with their composites and filter results; displayed and rendered
+   pictures. */
 #define CONSTANT (168 << 20)
-/* And what the second half may take more than the first: chance, which was 2 MB. A tile of 16 KB that each stroke left
-   behind would be 16 MB. */
+/* Allowed growth in the second half, random: 2 MB in practice. A 16 KB tile leaked by each stroke would be 16 MB. */
 #define SLACK (8 << 20)
-#define FILLING (24 << 20) /* the same in less than an hour: undo's memory still fills */
+#define FILLING (24 << 20) /* the limit for less than an hour: the undo budget is still filling */
 #define LAYERS_MOST 6
 
 typedef struct Hour {
@@ -62,7 +62,7 @@ static void step(Hour *hour)
     wr_app_step(hour->bench.app);
 }
 
-/* A line with bends across a part of the window. */
+/* A curved line across a part of the window. */
 static void drag(Hour *hour, const SDL_Rect *room, int which)
 {
     const int count = (int)some(hour, 6, 50);
@@ -142,7 +142,7 @@ static void act(Hour *hour, const char *name)
     if (hour->bench.app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(hour->bench.app);
 }
 
-/* What a second of an hour has, on the whole. */
+/* Average actions of one second. */
 static void second(Hour *hour)
 {
     WrApp *app = hour->bench.app;
@@ -188,11 +188,11 @@ static void begin_hour(Hour *hour)
     bench->app->options = &bench->options;
     bench->app->session = bench->session;
     if (!wr_app_begin(bench->app, &err)) fail_msg("%s", err.text);
-    bench->app->settings->panels = false; /* more room for the table and the patch */
+    bench->app->settings->panels = false; /* more room for canvas and patch */
     for (int i = 0; i < 20; i++) step(hour);
 }
 
-/* The document that is saved, the one in the window, and the one that the journal brings back are one. */
+/* The saved document, the one in the window, and the recovered one are equal. */
 static void compare(Hour *hour)
 {
     WrError err = { "" };
@@ -204,7 +204,7 @@ static void compare(Hour *hour)
     WrHash opened = wr_session_hash(other);
     assert_memory_equal(&opened, &hash, sizeof hash);
     wr_session_free(other);
-    /* One more stroke, which nothing but the journal has. */
+    /* One more stroke, recorded only in the journal. */
     line(hour, "stroke points=0.1,0.2;0.53,0.47;0.81,0.3 radius=17.3 strength=0.21");
     const WrHash last = wr_session_hash(hour->bench.session);
     assert_memory_not_equal(&last, &hash, sizeof hash);

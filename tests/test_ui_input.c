@@ -1,5 +1,5 @@
-/* Input at three pictures of the window a second: events are handled in the order in which they came, keys go where the click
-   before them put the focus, and a click counts for what was on the screen when it came. */
+/* Input at three frames per second: events are handled in order of arrival, keys go to the widget focused by the
+   click before them, and a click belongs to the frame on the screen at its time. */
 #include "test.h"
 #include "test_app.h"
 
@@ -20,7 +20,7 @@
 #include <string.h>
 
 #define PICTURE_MS 330
-#define GAP_MS 120 /* between events: several of them come within a picture */
+#define GAP_MS 120 /* between events: several of them arrive within a frame */
 #define MOST 64
 
 static void slow(WrApp *app)
@@ -35,7 +35,7 @@ typedef struct Feed {
     SDL_Event events[MOST];
     int gap[MOST]; /* ms after it */
     int count;
-    Uint32 end; /* the event type that says that all were pushed */
+    Uint32 end; /* event type that marks the end */
     volatile int done;
 } Feed;
 
@@ -63,7 +63,7 @@ static void add_click(const WrApp *app, Feed *feed, int x, int y, int gap)
             down ? 0 : gap);
 }
 
-/* letter: what comes of it, 0: nothing. */
+/* letter: resulting text, 0: none. */
 static void add_key(Feed *feed, SDL_Scancode code, Uint16 mod, char letter, int gap)
 {
     const SDL_Keysym key = { .scancode = code, .sym = SDL_GetKeyFromScancode(code), .mod = mod };
@@ -88,13 +88,13 @@ static void *push_all(void *ctx)
     return NULL;
 }
 
-/* Until all of them came, and eight pictures more. */
+/* Run until all events are handled, and eight frames more. */
 static void run(WrApp *app, Feed *feed)
 {
     WrThread thread;
     feed->end = app->ready_event;
     app->drawn = slow;
-    draw_again(app); /* the events come while pictures are drawn */
+    draw_again(app); /* events arrive during frames */
     assert_true(wr_thread_begin(&thread, push_all, feed));
     while (!__atomic_load_n(&feed->done, __ATOMIC_ACQUIRE)) draw_again(app);
     wr_thread_join(thread);
@@ -104,7 +104,7 @@ static void run(WrApp *app, Feed *feed)
 
 /* ---- places ---- */
 
-/* The middle of the n-th stop of a kind whose place lies within `inside`. */
+/* Centre of the n-th stop of a kind inside `inside`. */
 static bool find(const WrApp *app, WrKeyStopKind kind, const SDL_Rect *inside, int n, int *x,
                  int *y)
 {
@@ -124,7 +124,7 @@ static const SDL_Rect all_of_it = { 0, 0, 900, 700 };
 
 /* ---- tests ---- */
 
-/* The first number field of the option row is the brush's size; the field has the keys when they come. */
+/* The first number field of the option row is the brush's size; it must have the focus when the keys arrive. */
 static void keys_after_a_click_on_a_number_go_into_it(void **state)
 {
     (void)state;
@@ -147,7 +147,7 @@ static void keys_after_a_click_on_a_number_go_into_it(void **state)
     finish(&bench);
 }
 
-/* Two keys of actions after the number: they are the canvas's again. */
+/* Two action keys after the number belong to the canvas again. */
 static void keys_after_enter_are_the_canvas_s(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void keys_after_enter_are_the_canvas_s(void **state)
     finish(&bench);
 }
 
-/* Blind: the search is called, what is typed goes to it, and Enter runs what was found. */
+/* Typing ahead: a key opens the search, the text goes to it, and Enter runs the result. */
 static void what_is_typed_after_a_key_that_opens_a_dialog_goes_to_it(void **state)
 {
     (void)state;
@@ -185,8 +185,8 @@ static void what_is_typed_after_a_key_that_opens_a_dialog_goes_to_it(void **stat
     finish(&bench);
 }
 
-/* The second click came while the screen showed the canvas, before the dialog was there: it presses nothing in it, and as
-   the dialog is open it does not paint either. */
+/* The second click came while the screen showed the canvas, before the dialog appeared: it must not press a button of
+   the dialog, and must not paint either. */
 static void a_click_is_for_what_was_on_the_screen(void **state)
 {
     (void)state;
@@ -195,7 +195,7 @@ static void a_click_is_for_what_was_on_the_screen(void **state)
     int x, y;
     begin(&bench);
     WrApp *app = bench.app;
-    wr_dialog_open(app, WR_DIALOG_NEW); /* where its last button will be */
+    wr_dialog_open(app, WR_DIALOG_NEW); /* position of its last button */
     for (int i = 0; i < 30; i++) draw_again(app);
     SDL_Rect canvas = app->layout->canvas;
     int count = 0;
@@ -217,7 +217,7 @@ static void a_click_is_for_what_was_on_the_screen(void **state)
     finish(&bench);
 }
 
-/* A stroke right after a click on the panels is one stroke, with all its motions. */
+/* A stroke right after a click on the panels is one stroke with all its motions. */
 static void a_stroke_after_a_click_is_whole(void **state)
 {
     (void)state;
@@ -255,8 +255,7 @@ static void a_stroke_after_a_click_is_whole(void **state)
     finish(&bench);
 }
 
-/* Modifier keys are those at the event, not those that are held when it is handled: Ctrl and the wheel zoom, the wheel by
-   itself sizes the stamp. */
+/* Modifier keys are those at the event, not at its handling: Ctrl+wheel zooms, the wheel alone resizes the stamp. */
 static void a_turn_of_the_wheel_has_the_keys_held_when_it_came(void **state)
 {
     (void)state;
@@ -291,7 +290,7 @@ static void a_turn_of_the_wheel_has_the_keys_held_when_it_came(void **state)
     finish(&bench);
 }
 
-/* The chip's word changes with the first click, before the picture that shows it. */
+/* The chip's text changes with the first click, before the frame that shows it. */
 static void a_second_click_on_a_button_whose_word_changes_counts(void **state)
 {
     (void)state;
@@ -301,7 +300,7 @@ static void a_second_click_on_a_button_whose_word_changes_counts(void **state)
     WrApp *app = bench.app;
     const SDL_Rect patch = app->layout->patch;
     int x, y, n = 0;
-    for (int i = 0; i < 4; i++) draw_again(app); /* the chip has been measured */
+    for (int i = 0; i < 4; i++) draw_again(app); /* the chip's layout is measured */
     bool was = app->settings->turning, found = false;
     while (!found && find(app, WR_STOP_PRESS, &patch, n++, &x, &y)) {
         push_motion(app, x, y);

@@ -1,5 +1,5 @@
-/* Keys that are given anew: taken from whoever had them, and written so that a file of them, with its comments, says the
-   same when it is read. */
+/* Reassigned keys: removed from their former actions, and written so that a key file, comments included, reads back
+   the same. */
 #include "test.h"
 
 #include "base/error.h"
@@ -26,8 +26,9 @@ static void a_key_is_taken_from_its_owner(void **state)
     wr_keymap_bind(map, "fill", key_of("Ctrl+Y"));
     assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Y")), "fill");
     assert_string_equal(wr_keys_label(map, "fill", label), "Ctrl+Y");
-    assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Shift+Z")), "redo"); /* its others stay */
-    wr_keymap_bind(map, "fill", key_of("Shift+F11")); /* and its own old ones go */
+    /* its other keys stay */
+    assert_string_equal(wr_keys_owner(map, key_of("Ctrl+Shift+Z")), "redo");
+    wr_keymap_bind(map, "fill", key_of("Shift+F11")); /* and its old keys are removed */
     assert_null(wr_keys_owner(map, key_of("Ctrl+Y")));
     wr_keys_take(map, "fill");
     assert_null(wr_keys_owner(map, key_of("Shift+F11")));
@@ -35,7 +36,7 @@ static void a_key_is_taken_from_its_owner(void **state)
     wr_keys_free(map);
 }
 
-/* What a file says after the edit is what the map says, and what was in it of others stays. */
+/* After the edit the file matches the map, and its other content is unchanged. */
 static void a_file_says_what_the_map_does(void **state)
 {
     (void)state;
@@ -79,7 +80,7 @@ static void what_may_be_given_is_read_back(void **state)
 
 /* ---- other keyboards ---- */
 
-/* The signs of some layouts at the places where a US keyboard has others. */
+/* Characters of some layouts at positions where a US keyboard has others. */
 static const struct {
     SDL_Scancode place;
     SDL_Keycode german, spanish, italian;
@@ -107,7 +108,7 @@ static SDL_Keycode sign_at(SDL_Scancode place)
     return SDL_GetKeyFromScancode(place);
 }
 
-/* The key that a label names, as the keyboard sends it; false: the keyboard has no such key. */
+/* The key of a label as sent by the keyboard; false: the keyboard has no such key. */
 static bool press(const char *label, SDL_Keysym *sym)
 {
     const WrKey key = key_of(label);
@@ -144,7 +145,8 @@ static int check_labels(const WrKeyMap *map)
     return shown;
 }
 
-/* Keys that menus, tips and hints show exist on German, Spanish and Italian keyboards and do their action there. */
+/* Keys shown in menus, tips and hints exist on German, Spanish and Italian keyboards and trigger their action
+   there. */
 static void a_key_that_is_shown_does_its_action_on_every_keyboard(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What the status line says, and what waits to be read. */
+/* Messages of the status line, and unread messages. */
 #include "test.h"
 
 #include "base/error.h"
@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#define LATER 1e9 /* of the clock: notes are old by then */
+#define LATER 1e9 /* clock at which notes have expired */
 
 static const char *shown(const WrApp *app, double now)
 {
@@ -38,25 +38,25 @@ static void the_newest_message_is_what_is_seen(void **state)
     wr_app_say(app, "Saved elsewhere");
     assert_string_equal(shown(app, now), "Saved elsewhere");
     assert_string_equal(shown(app, LATER), ""); /* the line is free again ... */
-    assert_int_equal(app->messages->unread, 1); /* ... but for the count */
+    assert_int_equal(app->messages->unread, 1); /* ... except for the count */
     fail_with(app, "no such file");
     assert_string_equal(shown(app, LATER), "no such file");
     assert_int_equal(app->messages->unread, 2);
-    wr_messages_overtake(app->messages,
-                         now - 1); /* what began before the error tells nothing of it */
+    /* an action begun before the error does not outdate it */
+    wr_messages_overtake(app->messages, now - 1);
     assert_string_equal(shown(app, LATER), "no such file");
     wr_messages_overtake(app->messages, LATER);
     assert_int_equal(app->messages->unread, 0);
     assert_string_equal(shown(app, LATER), "");
     fail_with(app, "no such font");
-    assert_int_equal(app->messages->unread, 1); /* only what is new is counted */
+    assert_int_equal(app->messages->unread, 1); /* only new ones are counted */
     app->messages->unread = 0;
     assert_string_equal(shown(app, now), "");
     wr_messages_free(app->messages);
     wr_free(app);
 }
 
-/* The status line, the Accuracy tab and the Plan tab tell the same, and its parts add up to it. */
+/* The status line, the Accuracy tab and the Plan tab show the same time, and its parts add up to it. */
 static void a_picture_has_one_time(void **state)
 {
     (void)state;

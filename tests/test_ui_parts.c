@@ -1,5 +1,4 @@
-/* What the window's panels and outlines stand on: searching, small pictures, seams, marching outlines and
-   work in the background. */
+/* Building blocks of panels and canvas: search, thumbnails, seams, marching ants, background jobs. */
 #include "test.h"
 
 #include "base/error.h"
@@ -58,7 +57,7 @@ static void assert_range(const double range[2], double low, double high)
         fail_msg("the range is %g .. %g, not %g .. %g", range[0], range[1], low, high);
 }
 
-/* From an empty range. */
+/* The range chosen from an empty one. */
 static void assert_own(double low, double high, double black, double white)
 {
     double range[2] = { 0 };
@@ -74,26 +73,27 @@ static void a_range_shows_a_new_table_in_the_middle_and_signs_around_it(void **s
     assert_own(0.25, 0.75, 0.25, 0.75);
     assert_own(-0.25, 0.125, -0.25, 0.25); /* zero is mid-grey */
     assert_own(0, 1, 0, 1);
-    assert_own(-0.055, 0.9375, -0.055, 0.9375); /* slight dents do not wash the bumps out */
-    assert_own(-0.5, 0, -0.5, 0.5);             /* a level table that was lowered */
+    /* slight dents do not reduce the contrast of the bumps */
+    assert_own(-0.055, 0.9375, -0.055, 0.9375);
+    assert_own(-0.5, 0, -0.5, 0.5); /* a lowered level table */
 }
 
-/* What was on the table before keeps its grey, but for what room the new heights must have. */
+/* Earlier heights keep their grey, except for the room needed by new heights. */
 static void a_range_moves_only_the_end_that_is_passed(void **state)
 {
     (void)state;
     double range[2] = { 0, 1 };
     wr_range_follow(range, -0.3, 1, WR_RANGE_RESTS); /* a stroke below 0 */
     assert_range(range, -0.3, 1);
-    wr_range_follow(range, 0, 1, WR_RANGE_RESTS); /* taken back */
+    wr_range_follow(range, 0, 1, WR_RANGE_RESTS); /* undone */
     assert_range(range, -0.3, 1);
-    wr_range_follow(range, -5, 7, WR_RANGE_STAYS); /* a stamp hovers */
+    wr_range_follow(range, -5, 7, WR_RANGE_STAYS); /* a stamp preview */
     assert_range(range, -0.3, 1);
     wr_range_follow(range, 0.4, 0.45, WR_RANGE_WIDENS);
     assert_range(range, -0.3, 1);
-    wr_range_follow(range, 0.4, 0.45, WR_RANGE_RESTS); /* next to nothing would be seen */
+    wr_range_follow(range, 0.4, 0.45, WR_RANGE_RESTS); /* almost nothing would be visible */
     assert_range(range, 0.4, 0.45);
-    wr_range_follow(range, 0.4, 0.4, WR_RANGE_RESTS); /* all of it is one grey in any case */
+    wr_range_follow(range, 0.4, 0.4, WR_RANGE_RESTS); /* a single grey in any case */
     assert_range(range, 0.4, 0.45);
 }
 
@@ -103,7 +103,7 @@ static void a_range_only_widens_while_something_is_painted(void **state)
     double range[2] = { 0 }, before;
     wr_range_follow(range, 0, 0, WR_RANGE_WIDENS);
     int changes = 0;
-    for (int i = 0; i <= 1000; i++) { /* a stroke that goes up */
+    for (int i = 0; i <= 1000; i++) { /* an increasing stroke */
         before = range[1];
         wr_range_follow(range, 0, i / 100.0, WR_RANGE_WIDENS);
         assert_true(range[0] == -0.5 && range[1] >= i / 100.0 && range[1] >= before);
@@ -111,13 +111,13 @@ static void a_range_only_widens_while_something_is_painted(void **state)
     }
     assert_in_range(changes, 1, 20); /* not with each dab */
     before = range[1];
-    wr_range_follow(range, 0, 10, WR_RANGE_RESTS); /* the button is let go: nothing jumps */
+    wr_range_follow(range, 0, 10, WR_RANGE_RESTS); /* released: no jump */
     assert_true(range[1] == before);
 }
 
 /* ---- icons ---- */
 
-/* By the header's own lines: an icon that is added has a word too. */
+/* Based on the lines of the header: every new icon needs a word too. */
 static void every_icon_has_a_word_where_its_font_is_missing(void **state)
 {
     (void)state;
@@ -154,12 +154,13 @@ static void every_driver_has_a_way_to_the_screen_that_it_knows(void **state)
         const char *driver = drivers[i % 5], *wish = wishes[i / 5 % 3];
         bool gpu = i >= 15, card = wish ? wish[0] == 'o' : gpu;
         int count = wr_screen_ways(driver, gpu, wish, ways);
-        assert_in_range(count, 2, WR_SCREEN_WAYS); /* there is always one to fall back on */
+        assert_in_range(count, 2, WR_SCREEN_WAYS); /* there is always a fallback */
         assert_int_equal(ways[0] == WR_SCREEN_OPENGL, card);
         assert_int_equal(ways[count - 1], WR_SCREEN_ANY);
         bool direct = false;
         for (int k = 0; k < count; k++) direct |= ways[k] == WR_SCREEN_DIRECT;
-        assert_int_equal(direct, i % 5 == 0 || i % 5 == 2); /* Wayland shows nothing that way */
+        /* Wayland cannot show a window in that way */
+        assert_int_equal(direct, i % 5 == 0 || i % 5 == 2);
     }
 }
 
@@ -181,7 +182,8 @@ static void a_sheet_rocks_smoothly_and_never_shows_its_back(void **state)
     }
     assert_true(fabs(most - 35) < 0.1 && fabs(least + 35) < 0.1);
     assert_in_range(swings, 18, 22);
-    assert_true(wr_rotation_rock(&way, 170, 0) < 36); /* a body gave way to a sheet */
+    /* a closed surface was replaced by an open one */
+    assert_true(wr_rotation_rock(&way, 170, 0) < 36);
     assert_true(wr_rotation_rock(&way, 200, 0) > 324);
 }
 
@@ -195,8 +197,8 @@ static void a_window_keeps_to_the_room_that_the_desktop_leaves(void **state)
     SDL_Rect fits;
     assert_true(wr_layout_window(&room, &(SDL_Rect){ 0, 0, 1440, 900 }, borders, &fits));
     assert_true(SDL_RectEquals(&fits, &(SDL_Rect){ 1, 46, 1438, 849 }));
-    assert_false(wr_layout_window(&room, &fits, borders, &fits)); /* and then it rests */
-    /* What is small enough is moved only as far as it takes. */
+    assert_false(wr_layout_window(&room, &fits, borders, &fits)); /* then nothing more changes */
+    /* A window that fits is moved only as far as necessary. */
     assert_true(wr_layout_window(&room, &(SDL_Rect){ 700, 500, 1000, 600 }, borders, &fits));
     assert_true(SDL_RectEquals(&fits, &(SDL_Rect){ 439, 295, 1000, 600 }));
     assert_false(wr_layout_window(&room, &(SDL_Rect){ 100, 100, 800, 600 }, borders, &fits));
@@ -344,7 +346,7 @@ static const char *const actions[] = {
 #undef WORD
 };
 
-/* `keys` as wr_keys_list tells them. */
+/* `keys` in the form of wr_keys_list. */
 static void assert_each_finds(const WrKeyMap *map, const char *keys, const char *action)
 {
     WrError err;
@@ -367,7 +369,7 @@ static void assert_each_finds(const WrKeyMap *map, const char *keys, const char 
     }
 }
 
-/* No two actions of a map may want the same key. */
+/* No two actions of a key map may have the same key. */
 static void no_key_of_a_map_that_is_shipped_means_two_things(void **state)
 {
     (void)state;
@@ -454,8 +456,7 @@ static void a_small_picture_shows_the_table_upright(void **state)
     wr_field_free(field);
 }
 
-/* A layer: what is raised is lighter than the ground, what is lowered darker, what it says nothing about is
-   neither. */
+/* A layer's thumbnail: raised areas are lighter than the background, lowered ones darker, uncovered ones neither. */
 static void a_layers_picture_tells_up_from_down_from_nothing(void **state)
 {
     (void)state;
@@ -510,7 +511,7 @@ static double slope_in_u(double u, double v)
 static double ridge(double u, double v)
 {
     (void)v;
-    return 4 * u * (1 - u); /* meets itself at 0, but not in slope */
+    return 4 * u * (1 - u); /* continuous at the seam, but not in slope */
 }
 
 static void waves_that_fit_the_cell_have_no_seam(void **state)
@@ -555,7 +556,7 @@ static void an_axis_that_ends_has_no_seam_to_measure(void **state)
     WrField *field = wr_field_new(64, 64, WR_WRAP_CLAMP, WR_WRAP_PERIODIC, 0, NULL);
     WrField *tiny = wr_field_new(1, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 0; j < 64; j++) wr_field_set(field, 0, j, 9.0f);
-    /* its ends are laid side by side, as another program that repeats it does: 9 against 0 */
+    /* its ends are adjacent in another program that repeats it: 9 against 0 */
     const WrSeam seam = wr_seam_measure(field, NULL), none = wr_seam_measure(tiny, NULL);
     assert_true(seam.u.ends && !seam.v.ends && seam.v.order == 2);
     assert_false(none.u.measured || none.v.measured);
@@ -566,8 +567,7 @@ static void an_axis_that_ends_has_no_seam_to_measure(void **state)
 
 /* ---- marching outlines ---- */
 
-/* A table of 100 x 100 texels at two pixels a texel: copies every 200 pixels; the real cell stands from
-   (100, 50) on. */
+/* A table of 100 x 100 texels at two pixels per texel: copies every 200 pixels; the cell starts at (100, 50). */
 static WrCanvasView ants_view(void)
 {
     return (WrCanvasView){ .x = 10,
@@ -610,7 +610,7 @@ static void an_outline_is_drawn_on_every_copy_that_is_seen(void **state)
     wr_marching_ants_free(&ants);
 }
 
-/* A band round the table: its edges are lines without ends. */
+/* A band around the table: its edges are lines without ends. */
 static void hc73_an_outline_that_runs_round_the_table_goes_on_over_the_edge(void **state)
 {
     (void)state;
@@ -655,7 +655,7 @@ static void a_huge_outline_is_cut_off_and_says_so(void **state)
     wr_marching_ants_free(&ants);
 }
 
-/* Zoomed far in, a side of millions of pixels costs what is seen of it. */
+/* Zoomed far in, a side of millions of pixels costs only its visible part. */
 static void only_what_is_seen_of_a_long_side_is_walked(void **state)
 {
     (void)state;
@@ -676,7 +676,7 @@ static void only_what_is_seen_of_a_long_side_is_walked(void **state)
 
 typedef struct Piece {
     volatile int *dropped, *ran; /* counters, atomic */
-    double seconds;              /* unless it is cancelled */
+    double seconds;              /* unless cancelled */
     int number;
     bool cancelled;
 } Piece;
@@ -734,7 +734,7 @@ static void the_newest_piece_of_work_wins_and_the_others_are_dropped(void **stat
     wr_job_start(job, piece_of(2, 0));
     wr_job_start(job, piece_of(3, 0));
     Piece *piece = wait_for(job);
-    while (piece->number != 3) { /* 2 may have been done before 3 was asked for: then it is gone */
+    while (piece->number != 3) { /* 2 may have finished before 3 was started: then it is dropped */
         drop_piece(piece);
         piece = wait_for(job);
     }
@@ -767,7 +767,7 @@ static void cancelled_work_gives_nothing_and_interrupted_work_what_it_has(void *
     assert_int_equal(dropped, 3);
 }
 
-/* ---- the panel's two parts ---- */
+/* ---- the two parts of the panel ---- */
 
 static void the_layers_get_their_share_of_the_panel_where_there_is_room(void **state)
 {

@@ -1,4 +1,4 @@
-/* What the inspector tells of a place, and what the window keeps of a tolerance's choice. */
+/* The inspector's values at a point, and the stored choice of a tolerance in the window. */
 #include "test.h"
 
 #include "accuracy/tolerance.h"
@@ -39,8 +39,8 @@ static void assert_vector(WrVec3 a, WrVec3 b, double tolerance)
     assert_near(a.z, b.z, tolerance);
 }
 
-/* A place found through a pixel, asked for again by its u and v, is the same place: then the projection, the
-   formulas and the reference's inversion agree. */
+/* A point found through a pixel, requested again by its u and v, is the same point: the projection, the formulas and
+   the reference's inversion agree. */
 static void a_place_is_the_same_by_its_pixel_and_by_its_parameters(void **state)
 {
     (void)state;
@@ -80,7 +80,7 @@ static void a_place_is_the_same_by_its_pixel_and_by_its_parameters(void **state)
     wr_field_free(field);
 }
 
-/* The middle of the back of a sphere, and the exact formulas there all the same. */
+/* The centre of a sphere's back: no footprint, but the exact formulas. */
 static void what_the_view_does_not_show_has_no_footprint(void **state)
 {
     (void)state;
@@ -107,7 +107,7 @@ static void what_the_view_does_not_show_has_no_footprint(void **state)
     wr_field_free(field);
 }
 
-/* A ball before a plane: the pixel tells of what is seen there, whichever of them is at hand. */
+/* A sphere in front of a plane: the pixel reports the visible object, whichever is active. */
 static void of_several_objects_the_nearest_is_told(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void of_several_objects_the_nearest_is_told(void **state)
     wr_field_free(field);
 }
 
-/* A flat table turns no normal, on any surface. */
+/* A flat table bends no normal, on any surface. */
 static void a_flat_table_turns_nothing_and_drops_nothing(void **state)
 {
     (void)state;
@@ -210,7 +210,7 @@ static void the_finest_of_each_axis_is_kept_of_kinds_that_are_there(void **state
     assert_string_equal(chosen.lines, "50.0 %: blinn central 6\xc3\x97"
                                       "6, the liveliest relief\n50.0 %: blinn catmull 1\xc3\x97"
                                       "1, edges");
-    choice.parts[0].blocks = choice.parts[1].blocks = 0; /* nothing is seen */
+    choice.parts[0].blocks = choice.parts[1].blocks = 0; /* nothing is visible */
     wr_chosen_from(&choice, &chosen);
     assert_false(chosen.any);
     wr_choice_fini(&choice);
@@ -243,8 +243,8 @@ static void a_cancelled_piece_of_work_is_not_done(void **state)
     wr_field_free(field);
 }
 
-/* A scene without height has no slopes to be wrong about: what is left is sampling, whose error falls with the
-   samples; and the map of errors has its largest where the numbers say. */
+/* A scene without height has no slope error. The rest is sampling error, which decreases with the number of samples;
+   the error map has its maximum at the reported value. */
 static void the_measured_error_falls_with_the_samples(void **state)
 {
     (void)state;
@@ -278,7 +278,7 @@ static void the_measured_error_falls_with_the_samples(void **state)
     wr_field_free(field);
 }
 
-/* What is tried on a scene that rests. */
+/* Variations on a static scene. */
 static void other_samples(WrScene *scene, WrField *field)
 {
     (void)field;
@@ -295,7 +295,7 @@ static void other_scheme(WrScene *scene, WrField *field)
 static void other_light(WrScene *scene, WrField *field)
 {
     (void)field;
-    scene->lights_given = true; /* as every command about lights says */
+    scene->lights_given = true; /* as every light command does */
     scene->lights[0].strength *= 0.71;
 }
 
@@ -317,7 +317,8 @@ static void other_heights(WrScene *scene, WrField *field)
     wr_field_set(field, 5, 7, wr_field_get(field, 5, 7) + 0.9F);
 }
 
-/* The error of one more piece of work of the same tools, and of new ones: the same, whether the reference was kept or not. */
+/* The error from further work with the same tools equals that with new ones, whether the reference was cached or
+   not. */
 static void expect_kept(WrWorkTools *tools, WrPool *pool, WrField *field, WrScene *scene,
                         double turn, bool kept)
 {

@@ -1,6 +1,6 @@
-/* Every row of every panel, option bar and dialog is changed once by keys and once by the pointer; an error message fails.
-   The rows come from the window's list of widgets (ui/toolkit/focus.h), the kinds of lights, surfaces, materials and so on from
-   their tables, so that a new row is tested without a line here. */
+/* Every row of every panel, option bar and dialog is changed once by keys and once by the pointer; an error message
+   fails the test. The rows come from the window's list of widgets (ui/toolkit/focus.h), the kinds of lights,
+   surfaces, materials and so on from their tables, so that new rows are tested automatically. */
 #include "test.h"
 
 #include "window_walk.h"
@@ -17,7 +17,7 @@
 #include <time.h>
 
 #define ROWS_MOST 2000
-#define STEPS_MOST 40 /* that a list is gone down by keys */
+#define STEPS_MOST 40 /* steps through a list by keys */
 
 static int rows_changed, rows_of_document, complaints;
 
@@ -30,7 +30,7 @@ static void key(Walk *walk, SDL_Scancode code)
     wr_gui_event(walk->app->gui, &(SDL_Event){ .key = { .type = SDL_KEYUP, .keysym = keysym } });
 }
 
-/* Pictures until every change has reached the document. */
+/* Frames until every change has reached the document. */
 static void settle(Walk *walk)
 {
     WrApp *app = walk->app;
@@ -87,7 +87,7 @@ static void click(Walk *walk, double x, double y)
     settle(walk);
 }
 
-/* ---- what was said ---- */
+/* deferred work does not wait for a drawn frame */
 
 static void forget_messages(Walk *walk)
 {
@@ -108,7 +108,7 @@ static void see_messages(Walk *walk, const WrKeyStop *stop, const char *act)
     forget_messages(walk);
 }
 
-/* The text that was typed into a row may be refused, with the text that would be right or the file that is missing. */
+/* A text typed into a row may be refused, with a message that contains a valid text or the missing file. */
 static void see_answer(Walk *walk, const WrKeyStop *stop)
 {
     static const char *const answers[] = { "must be ", "No such file" };
@@ -142,7 +142,7 @@ static Base base_of(const Walk *walk)
                    .dialog = walk->app->dialog->now };
 }
 
-/* A scene in which every optional row of the panel is there: two objects, each kind of light, pictures, a solid texture. */
+/* A scene with every optional row of the panel: two objects, each kind of light, pictures, a solid texture. */
 static void fill(Walk *walk)
 {
     static const char *const lines[] = { "light directional to=-1,1,2 size=2",
@@ -159,7 +159,7 @@ static void fill(Walk *walk)
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) walk_run(walk, lines[i]);
 }
 
-/* A button made another document: this test's own comes back. */
+/* After a button replaced the document: restore the test's document. */
 static void fill_again(Walk *walk)
 {
     wr_session_reset(walk->session);
@@ -168,7 +168,7 @@ static void fill_again(Walk *walk)
         if ((*p)->another) (*p)->another(walk->app);
 }
 
-/* Undoes what a change did: the next row is changed in the same document, at the same place. */
+/* Undo a change, so that the next row is tested in the same document, at the same place. */
 static void back_to(Walk *walk, const Base *base)
 {
     WrError err;
@@ -199,7 +199,7 @@ static bool find(Walk *walk, unsigned id, WrKeyStop *stop)
     return false;
 }
 
-/* Scrolls to the row and gives it the ring; false if it is not there, or greyed. */
+/* Scroll to the row and focus it; false if it is missing or disabled. */
 static bool come_to(Walk *walk, unsigned id, WrKeyStop *stop)
 {
     if (!wr_gui_focus_on(walk->app->gui, id)) return false;
@@ -242,7 +242,7 @@ static void by_keys(Walk *walk, const WrKeyStop *stop)
         type(walk, "1");
         tap(walk, SDL_SCANCODE_RETURN);
         see_answer(walk, stop);
-        tap(walk, SDL_SCANCODE_RETURN); /* a refused text goes again by Escape */
+        tap(walk, SDL_SCANCODE_RETURN); /* Escape restores a refused text */
         tap(walk, SDL_SCANCODE_ESCAPE);
         break;
     case WR_STOP_PAD:
@@ -293,7 +293,7 @@ static void change_row(Walk *walk, unsigned id, const Base *base)
 
 /* ---- one place ---- */
 
-/* The menus, the tool strip and the status line are the same at every place: their rows are changed at the first. */
+/* Menus, tool strip and status line are the same at every place: they are tested only at the first. */
 static unsigned known[4 * ROWS_MOST];
 static int known_count;
 
@@ -305,7 +305,7 @@ static bool is_new(unsigned id)
     return true;
 }
 
-/* The rows of what is open; where a dialog is, its own. */
+/* The rows of the open place; of a dialog, its own. */
 static int list_rows(Walk *walk, WrKeyStop *out)
 {
     int count, n = 0;
@@ -318,7 +318,7 @@ static int list_rows(Walk *walk, WrKeyStop *out)
     return n;
 }
 
-/* The rows that are at no earlier place. */
+/* The rows not seen at an earlier place. */
 static int list_new(Walk *walk, WrKeyStop *out)
 {
     static WrKeyStop all[ROWS_MOST];
@@ -336,7 +336,7 @@ static void change_rows(Walk *walk, const WrKeyStop *rows, int count)
     for (int i = 0; i < count; i++) change_row(walk, rows[i].id, &base);
 }
 
-/* Rows near a choice belong to the thing whose kind it chooses. Of the others some are changed, all with WR_FULL. */
+/* Rows near a choice belong to the object whose kind it sets. Of the others some are changed, all with WR_FULL. */
 static void change_again(Walk *walk, const WrKeyStop *rows, int count, int choice, int step)
 {
     const Base base = base_of(walk);
@@ -345,8 +345,8 @@ static void change_again(Walk *walk, const WrKeyStop *rows, int count, int choic
             change_row(walk, rows[i].id, &base);
 }
 
-/* Each choice of the panel, at each of its items: what the panel shows then is changed as well. Kinds have rows of one
-   name, so the panel's other rows are changed again. */
+/* Each choice of the panel at each of its items: rows shown then are changed as well. Kinds have rows of the same
+   names, so the panel's other rows are changed again. */
 static void change_kinds(Walk *walk, const WrKeyStop *rows, int count)
 {
     static WrKeyStop fresh[ROWS_MOST];
@@ -391,7 +391,7 @@ static void examine(Walk *walk)
     fflush(stdout);
 }
 
-/* Things that a line adds to the scene, and no choice of the panel. */
+/* Objects added by a line, not by a choice of the panel. */
 static bool open_with(Walk *walk, int which)
 {
     static const char *const lines[] = { "surface patches file=" WR_SOURCE_DIR "/samples/cube.bpt",

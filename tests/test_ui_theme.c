@@ -1,5 +1,5 @@
-/* The window's themes: what is read stands out from what it is written on, in each of them, by the contrast ratio of
-   WCAG 2.1 (relative luminance of sRGB; 1.4.3: 4.5 for words, 1.4.11: 3 for signs). */
+/* Themes of the window: contrast of text and background in each of them, by the contrast ratio of WCAG 2.1 (relative
+   luminance of sRGB; 1.4.3: 4.5 for text, 1.4.11: 3 for icons). */
 #include "test.h"
 
 #include "accuracy/metrics.h"
@@ -58,7 +58,7 @@ static void words_can_be_read_in_every_theme(void **state)
     wr_theme_set(WR_THEME_DARK);
 }
 
-/* Greys are judged against what surrounds them: it has no colour of its own. */
+/* The surroundings are neutral, for correct perception of greys. */
 static void the_surround_is_neutral(void **state)
 {
     (void)state;
@@ -75,7 +75,8 @@ static void the_surround_is_neutral(void **state)
 
 typedef double Lab[3];
 
-/* Machado, Oliveira and Fernandes 2009, severity 1, on linear RGB: without the cones for red, for green; and all. */
+/* Machado, Oliveira and Fernandes 2009, severity 1, on linear RGB: without red cones, without green cones; and normal
+   vision. */
 static const double seen[3][3][3] = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
                                       { { 0.152286, 1.052583, -0.204868 },
                                         { 0.114503, 0.786281, 0.099216 },
@@ -106,7 +107,8 @@ static void lab_of(WrColour c, int eyes, Lab out)
     out[2] = 200.0 * (y - z);
 }
 
-/* Of one another, by every pair of eyes. 2.3 can just be told apart side by side; apart it takes several times that. */
+/* Pairwise distance for each kind of vision. 2.3 is just distinguishable side by side; apart several times that is
+   needed. */
 static void assert_apart(const char *what, const WrColour *colours, int count, double least)
 {
     for (int eyes = 0; eyes < 3; eyes++)
@@ -152,7 +154,7 @@ static WrColour packed(const uint8_t rgb[3])
     return 0xff000000u | (WrColour)rgb[0] << 16 | (WrColour)rgb[1] << 8 | rgb[2];
 }
 
-/* A scale is read by its lightness: it rises all the way for every pair of eyes, by as much as can be seen. */
+/* A scale is read by lightness: it must increase visibly over its whole length for each kind of vision. */
 static void scales_rise_for_all_eyes(void **state)
 {
     (void)state;
@@ -170,7 +172,7 @@ static void scales_rise_for_all_eyes(void **state)
     }
 }
 
-/* What ran where, each with as many samples: by the map itself. */
+/* Colours of the effect heatmap, for equal numbers of samples. */
 static void what_ran_is_told_apart_by_all_eyes(void **state)
 {
     (void)state;

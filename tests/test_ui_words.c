@@ -1,4 +1,4 @@
-/* The window's words: all that it can show is led past, and each text of the program's own has a German one. */
+/* Translations of the window: a walk through all its texts; each text of the program must have a German one. */
 #include "test.h"
 
 #include "window_walk.h"
@@ -16,7 +16,7 @@
 
 #define MISSED_MOST 4000
 
-/* Texts of the program itself: not what was put together out of them, and not the user's. */
+/* True for texts of the program itself: not composed ones, and not the user's. */
 extern const char __executable_start[], _end[];
 
 static struct {
@@ -57,7 +57,7 @@ static void every_text_that_the_window_shows_has_a_translation(void **state)
     (void)state;
     Walk walk;
     walk_open(&walk, "de");
-    if (strcmp(wr_words_language(), "de") != 0) { /* built without msgfmt */
+    if (strcmp(wr_words_language(), "de") != 0) { /* a build without msgfmt */
         walk_close(&walk);
         skip();
     }
@@ -68,10 +68,10 @@ static void every_text_that_the_window_shows_has_a_translation(void **state)
     walk_close(&walk);
     for (int i = 0; i < missed.count; i++) print_text(missed.text[i]);
     assert_int_equal(missed.count, 0);
-    assert_true(missed.asked > 1000); /* numbers and names were among what was asked for */
+    assert_true(missed.asked > 1000); /* numbers and names were among the requested texts */
 }
 
-/* Pages are read from files, so the walk does not know their titles for the program's own. */
+/* Page titles are read from files, so the walk does not recognise them as texts of the program. */
 static void every_page_of_the_guide_has_a_title_in_german(void **state)
 {
     (void)state;
@@ -139,7 +139,7 @@ static void note_help(const char *english)
         if (roster->helps[i] == english) menu_told[i] = true;
 }
 
-/* A line of its own, that says more than the name, and that the menus show. */
+/* A separate line with more information than the name, shown in menus. */
 static void every_action_has_a_help_line(void **state)
 {
     (void)state;
@@ -170,7 +170,7 @@ static void note_told(const char *english)
     told = told || strcmp(english, told_of) == 0;
 }
 
-/* Commands answer to their verb in the search, which then takes the line; in German they are explained in German. */
+/* The search finds commands by verb and then accepts the line; in German their help is German. */
 static void every_command_is_reached_by_the_search(void **state)
 {
     (void)state;
@@ -184,7 +184,7 @@ static void every_command_is_reached_by_the_search(void **state)
         walk_frame(&walk);
         walk_frame(&walk);
         snprintf(walk.app->finder->text, sizeof walk.app->finder->text, "%s ", (*c)->name);
-        walk.app->finder->line = true; /* as its row in the list does */
+        walk.app->finder->line = true; /* as by its row in the list */
         told_of = (*c)->help;
         told = false;
         wr_words_asked = note_told;
@@ -234,7 +234,7 @@ static void no_key_does_two_things(void **state)
 
 static struct {
     Walk *walk;
-    char text[200][80]; /* told once each */
+    char text[200][80]; /* printed once each */
     int count, told;
 } cuts;
 
@@ -275,7 +275,7 @@ static void no_text_is_cut(void **state)
                 wr_gui_cut = note_cut;
                 const bool narrow = k == 0 || sizes[k - 1][0] < 900 * scales[s];
                 if (narrow) walk_all(&walk);
-                else walk_tabs(&walk); /* the rest has more room than in the narrowest */
+                else walk_tabs(&walk); /* the rest has more room than in the narrowest window */
                 wr_gui_cut = NULL;
             }
         }

@@ -1,5 +1,5 @@
-/* How a document is looked at is no edit: undo leaves it, it has a history of its own, a document is not
-   unsaved for it, and yet saves, scripts and recoveries hold it. WR_FULL=1 takes the full counts. */
+/* View history: undo does not affect it, it does not make a document unsaved, but saves, scripts and recoveries
+   contain it. WR_FULL=1 runs the full counts. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -37,7 +37,7 @@ static void undo_takes_edits_back_and_leaves_the_view(void **state)
     must_run(s, "undo");
     assert_true(f_at(s, 3, 3) == 1 && turned(s) == 20);
     assert_true(doc(s)->scene->camera.fov_deg == 20);
-    must_run(s, "rotate 30,0,0"); /* a view leaves what can be done again */
+    must_run(s, "rotate 30,0,0"); /* a view keeps the redo steps */
     must_run(s, "redo");
     assert_true(f_at(s, 3, 3) == 2 && turned(s) == 30);
     must_run(s, "undo 3");
@@ -80,7 +80,7 @@ static void views_have_a_way_back_of_their_own(void **state)
     must_run(s, "rotate 10,0,0");
     must_run(s, "fill 1");
     must_run(s, "rotate 20,0,0");
-    must_run(s, "rotate 20,0,0"); /* shows nothing new */
+    must_run(s, "rotate 20,0,0"); /* no change */
     must_run(s, "rotate 30,0,0");
     assert_int_equal(wr_session_views_back(s), 3);
     must_run(s, "view back");
@@ -134,7 +134,7 @@ static void a_document_is_not_unsaved_for_a_view_and_saves_hold_it(void **state)
     wr_session_free(s);
 }
 
-/* A document that is opened as an edit brings its view; undone, the one before it is back. */
+/* A document opened as an edit includes its view; undo restores the earlier view. */
 static void undoing_an_open_brings_the_view_before_it_back(void **state)
 {
     (void)state;
@@ -153,7 +153,7 @@ static void undoing_an_open_brings_the_view_before_it_back(void **state)
     must_run(s, "undo 2");
     assert_true(turned(s) == 10 && wr_hash_equal(before, wr_session_hash(s)));
     must_run(s, "undo");
-    assert_true(turned(s) == 10); /* a step that brought none */
+    assert_true(turned(s) == 10); /* a step without a view */
     must_run(s, "redo 2");
     assert_true(turned(s) == 70 && wr_hash_equal(opened, wr_session_hash(s)));
     must_run(s, "view back");
@@ -195,12 +195,12 @@ static void scripts_hold_the_views_that_they_need(void **state)
     assert_int_equal(lines_of("s.wrinkle", "rotate"), 1);
     replays_to("s.wrinkle", wr_session_hash(s));
     assert_true(wr_session_save(s, "turned.exr", &err));
-    must_run(s, "view back 3"); /* as it was at first: no view is needed */
+    must_run(s, "view back 3"); /* as initially: no view line is needed */
     assert_true(wr_session_save_history(s, "s.wrinkle", &err));
     assert_int_equal(lines_of("s.wrinkle", "rotate") + lines_of("s.wrinkle", "camera"), 0);
     replays_to("s.wrinkle", wr_session_hash(s));
     must_run(s, "open turned.exr");
-    must_run(s, "view back"); /* a pose that no rotate had set */
+    must_run(s, "view back"); /* a pose not set by rotate */
     assert_false(doc(s)->scene->posed);
     assert_true(wr_session_save_history(s, "s.wrinkle", &err));
     replays_to("s.wrinkle", wr_session_hash(s));
@@ -225,7 +225,7 @@ static int journals(void)
     return count;
 }
 
-/* The session ends as by a crash: what is recovered. */
+/* End the session as in a crash, and recover. */
 static WrSession *crashed(WrSession *session)
 {
     WrRecoverable *found;
@@ -244,7 +244,7 @@ static WrSession *crashed(WrSession *session)
     return s;
 }
 
-/* Snapshots beside the journals: what cannot be replayed needs one, and nothing else. */
+/* Number of snapshots beside the journals: only lines that cannot be replayed need one. */
 static int snapshots(void)
 {
     glob_t found;
@@ -268,12 +268,12 @@ static void views_alone_leave_nothing_to_recover(void **state)
     must_run(s, "view back");
     wr_session_journal_leave(s);
     assert_int_equal(journals(), 0);
-    must_run(s, "fill 2"); /* now there is: with the view, on the document as it was opened */
+    must_run(s, "fill 2"); /* now one is needed: with the view, on the document as opened */
     must_run(s, "rotate 27,0,0");
     assert_int_equal(snapshots(), 0);
     s = crashed(s);
     assert_true(turned(s) == 27 && f_at(s, 3, 3) == 2);
-    must_run(s, "view back"); /* farther than the journal knows */
+    must_run(s, "view back"); /* beyond the journal's start */
     WrHash hash = wr_session_hash(s);
     s = crashed(s);
     assert_true(wr_hash_equal(hash, wr_session_hash(s)));
@@ -296,7 +296,7 @@ static void a_script_that_only_looks_is_recovered(void **state)
     wr_session_free(s);
 }
 
-/* Its journal begins with what the script did, and must know the view that the undo brings back. */
+/* The journal begins after the script's lines, and must contain the view that the undo restores. */
 static void undoing_an_open_of_a_script_is_recovered(void **state)
 {
     (void)state;
@@ -314,7 +314,7 @@ static void undoing_an_open_of_a_script_is_recovered(void **state)
     wr_session_free(s);
 }
 
-/* Edits, undo, redo, opens, views and their way back; now and then the journal begins anew. */
+/* Edits, undo, redo, opens, views and view undo; sometimes the journal restarts. */
 static void random_line(TestRandom *random, char *line, size_t size)
 {
     int steps = 1 + (int)(3 * test_random(random)), x = (int)(360 * test_random(random));

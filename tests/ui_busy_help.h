@@ -1,5 +1,5 @@
-/* ui_busy_help.h - long work beside a window without a display, which ends when the test has seen what it waits for. After
-   test.h. */
+/* ui_busy_help.h - long work beside a window without a display, which ends when the test has seen the expected state.
+   Include after test.h. */
 #pragma once
 #include "test_app.h"
 
@@ -17,16 +17,17 @@
 typedef struct Long {
     WrApp *app;
     WrBusyKind kind;
-    SDL_Event events[3]; /* happen meanwhile */
+    SDL_Event events[3]; /* sent meanwhile */
     int count;
-    bool gives_up; /* it ends when it is cancelled */
-    bool in_vain;  /* the window did not look at them */
+    bool gives_up; /* it ends when cancelled */
+    bool in_vain;  /* the window did not handle them */
 
-    /* Called by the window's thread after each picture meanwhile, until it is true: then the work ends. Or NULL. */
+    /* Called by the window's thread after each frame meanwhile, until it returns true: then the work ends. Or
+       NULL. */
     bool (*watch)(struct Long *work);
-    int stage;        /* the watch's own */
+    int stage;        /* for `watch` */
     volatile int end; /* atomic */
-    const char *line; /* that it runs at its end, or NULL */
+    const char *line; /* run at its end, or NULL */
 } Long;
 
 static Long *watched;
@@ -35,7 +36,7 @@ static inline void picture_drawn(WrApp *app)
 {
     if (!watched || !app->busy || __atomic_load_n(&watched->end, __ATOMIC_RELAXED)) return;
     if (watched->watch(watched)) __atomic_store_n(&watched->end, 1, __ATOMIC_RELEASE);
-    app->redraw = 2; /* and another one */
+    app->redraw = 2; /* and another frame */
 }
 
 static inline bool untaken(const Long *work)

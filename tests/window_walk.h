@@ -1,5 +1,5 @@
-/* window_walk.h - a window without a display that is led through all that it can show: its tabs, dialogs, tools,
-   generators and kinds of things, each for a picture or two that nobody draws. After test.h. */
+/* window_walk.h - a walk through everything a window without a display can show: tabs, dialogs, tools, generators,
+   kinds of objects, each for one or two frames that are not drawn. Include after test.h. */
 #pragma once
 #include "test_window.h"
 
@@ -44,7 +44,7 @@
 
 #include <SDL.h>
 
-/* Opens place `which` of a kind of places; false past the last, or where there is none. */
+/* Opens place `which` of a kind; false past the last, or if it does not exist. */
 typedef struct Walk Walk;
 typedef bool WalkOpen(Walk *walk, int which);
 
@@ -53,10 +53,10 @@ struct Walk {
     WrPool *pool;
     WrSession *session;
     WrAppOptions options;
-    char where[120]; /* the place that is open */
+    char where[120]; /* name of the open place */
     WalkOpen *open;  /* opens it again: open(walk, which) */
     int which;
-    void (*shown)(Walk *walk); /* called at each place; NULL: a picture of it is made */
+    void (*shown)(Walk *walk); /* called at each place; NULL: a frame is made */
 };
 
 static inline void walk_run(Walk *walk, const char *line)
@@ -65,7 +65,7 @@ static inline void walk_run(Walk *walk, const char *line)
     if (!wr_session_run(walk->session, line, &err)) fail_msg("%s: %s", line, err.text);
 }
 
-/* A document that has something of everything. */
+/* A document that uses all features. */
 static inline void walk_fill(Walk *walk)
 {
     static const char *const lines[] = { "table 64x48", "surface torus", "layer add",
@@ -74,7 +74,7 @@ static inline void walk_fill(Walk *walk)
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) walk_run(walk, lines[i]);
 }
 
-/* That document, in a window that speaks a language. */
+/* That document in a window with the given language. */
 static inline void walk_open(Walk *walk, const char *language)
 {
     WrError err = { "" };
@@ -95,7 +95,7 @@ static inline void walk_open(Walk *walk, const char *language)
     walk->app->session = walk->session;
     if (!wr_app_begin(walk->app, &err)) fail_msg("%s", err.text);
     wr_gui_tells_all = true;
-    walk->app->hints = walk->app->file->starter = true; /* as in the first window */
+    walk->app->hints = walk->app->file->starter = true; /* as at the first start */
     walk->app->hand->on_canvas = true;
 }
 
@@ -108,7 +108,7 @@ static inline void walk_close(Walk *walk)
     wr_pool_free(walk->pool);
 }
 
-/* All panels say what they hold. */
+/* All panels show their content. */
 static inline void walk_frame(Walk *walk)
 {
     WrApp *app = walk->app;
@@ -175,12 +175,12 @@ static inline void walk_tools(Walk *walk)
 
 static inline void walk_close_dialog(Walk *walk)
 {
-    walk_frame(walk); /* it has measured itself */
+    walk_frame(walk); /* its layout is measured */
     if (walk->app->dialog->now != WR_DIALOG_NONE) wr_dialog_close(walk->app);
-    wr_app_try_end(walk->app); /* as its Cancel does */
+    wr_app_try_end(walk->app); /* as by its Cancel */
 }
 
-/* Each by the action that opens it where there is one, so that it has what it needs. */
+/* Open each dialog by its action, if there is one, so that it has its data. */
 static inline bool walk_open_dialog(Walk *walk, int which)
 {
     static const char *const actions[] = {
@@ -212,7 +212,7 @@ static inline bool walk_open_preset(Walk *walk, int which)
 
 static inline bool walk_open_curves(Walk *walk, int which)
 {
-    int i = 0; /* of those that are used */
+    int i = 0; /* of the used ones */
     for (; i < wr_preset_setting_count(); i++)
         if (wr_preset_setting(i)->use != WR_SETTING_IGNORED && which-- == 0) break;
     if (i == wr_preset_setting_count()) return false;
@@ -232,8 +232,8 @@ static inline void walk_dialogs(Walk *walk)
     WrApp *app = walk->app;
     walk_each(walk, walk_open_dialog, walk_close_dialog);
     walk_each(walk, walk_open_adjust, walk_close_dialog);
-    const WrLibrary *library =
-        wr_preset_browser_library(app); /* ours come first; each has curves */
+    /* the program's own come first; each has curves */
+    const WrLibrary *library = wr_preset_browser_library(app);
     if (wr_library_count(library) > 0)
         wr_preset_browser_choose(app, wr_library_entry(library, 0)->id);
     assert_non_null(app->shelf->preset);
@@ -270,7 +270,7 @@ static inline bool walk_open_surface(Walk *walk, int which)
     char line[64];
     wr_tab_show(walk->app, "Scene");
     snprintf(line, sizeof line, "surface %s", wr_surfaces[which]->name);
-    wr_session_run(walk->session, line, &err); /* those that need a file stay as they were */
+    wr_session_run(walk->session, line, &err); /* those that need a file keep the previous state */
     return walk_name(walk, "surface %s", wr_surfaces[which]->name);
 }
 
