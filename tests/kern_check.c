@@ -3,6 +3,7 @@
    stated bound. No value past the strip's length may change. kern_check [--seed N]; kern_check --bench prints
    nanoseconds per sample instead. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,5 +1,6 @@
 /* Maps on the canvas: what follows an edit is what a map made anew holds, and no more tiles are made than it can reach. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,6 +1,7 @@
 /* How edges meet, by each scheme: against differences of texels that are written down here, and against the scheme
    itself a hair before and after the edge. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/text.h"

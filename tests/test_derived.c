@@ -1,5 +1,6 @@
 /* Maps of the table's derivatives: slopes, steepness and curvature against forms differentiated by hand. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_folder.h"
 
 #include "base/error.h"

@@ -1,5 +1,6 @@
 /* Exports: codes and normals against their formulas, through real files. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_folder.h"
 
 #include "base/error.h"

@@ -1,6 +1,7 @@
 /* A plane that goes on to the horizon: near by it is the finite one to the bit, far away it fades, its picture is that of the
    reference, and eyes below it, on it and far off see numbers. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "image/image.h"

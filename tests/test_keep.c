@@ -2,6 +2,7 @@
    of the table, every pixel is bit-identical to a new picture, for any surface, scheme, anti-aliasing method and kind
    of axis; unaffected parts are not rendered. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #define SCENES 25

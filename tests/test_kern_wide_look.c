@@ -1,6 +1,7 @@
 /* test_kern_wide_look.c - how the kernels of several stages look tables and pictures up, against the stages in the plain C of
    "ref". */
 #include "kern_wide_help.h"
+#include "field/scheme_list.h"
 
 #include "render/textures/slope_pyramid.h"
 

@@ -1,4 +1,5 @@
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "accuracy/report.h"
 #include "base/error.h"

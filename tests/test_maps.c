@@ -1,5 +1,6 @@
 /* Maps of a whole table: against closed forms and sums written out, for all schemes, sizes and moved tables. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_folder.h"
 
 #include "base/error.h"

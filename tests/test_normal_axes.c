@@ -1,5 +1,6 @@
 /* Normal maps with other axes, strengths, and along the object's axes: beside the formulas; what labels say of them. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_folder.h"
 
 #include "base/error.h"

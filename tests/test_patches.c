@@ -1,5 +1,6 @@
 /* Sets of bicubic patches: files, what hangs together, how they are cut, and the table on them. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/file.h"

@@ -1,6 +1,7 @@
 /* test_plan.c - the table of effects: each effect runs exactly under the conditions of its row, reports match the
    run, and skipped effects change the picture no more than the row's proof allows. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 #include "test_mesh_grids.h"
 

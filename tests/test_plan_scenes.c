@@ -2,6 +2,7 @@
    written by hand, and no other; with all forced on the same bits, on any number of threads and set of instructions.
    And what comes back when the least of what a proof went by changes. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "base/file.h"

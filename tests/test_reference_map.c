@@ -1,6 +1,7 @@
 /* Normal maps in the reference, independently of the kernels: both sets of normals agree, with and without a table's
    bump, on surfaces and meshes; the inspector's values are the same. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_mesh_grids.h"
 #include "test_render_scenes.h"
 

@@ -1,5 +1,6 @@
 /* The reference's own table, normal, probe and maps. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "base/memory.h"

@@ -1,5 +1,6 @@
 /* Displaced surfaces in the reference: closed forms, outlines included; where sheets meet; beside a search of another kind. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "base/error.h"

@@ -1,6 +1,7 @@
 /* The reference and the fast path at its most exact, two programs that share no kernel, show the same
    pictures: every surface, and each thing that a scene may hold. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "base/memory.h"

@@ -2,6 +2,7 @@
    surface, then the paper's formulas from shade/bump.h. And what must not depend on anything: threads,
    instruction sets, what was rendered before. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "field/field.h"

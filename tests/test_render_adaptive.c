@@ -1,5 +1,6 @@
 /* test_render_adaptive.c - jittered and adaptive sampling, and the bound that one of its rules keeps. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "field/field.h"

@@ -1,6 +1,7 @@
 /* Shadows that objects throw on one another and on themselves: pictures against closed forms and against the reference,
    which lets its own rays meet the objects' own forms. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 #include "test_mesh_grids.h"
 

@@ -1,6 +1,7 @@
 /* Pictures of a cube whose faces each have a cell of the table: what is painted in other cells shows on none of its pixels,
    however they are looked up, and the picture is that of the reference. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "render/reference/reference.h"

@@ -1,6 +1,7 @@
 /* Runs of samples that all lights are behind are spared light and bump: the picture is that of all of it, to the bit,
    on every surface, number of threads and set of instructions. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "image/image.h"

@@ -1,6 +1,7 @@
 /* test_render_dials.c - every rung of every dial on hard scenes: finite, unit, the same on any threads and
    instruction set; the mask of blocks and the normals of a request; storage and visibility dials. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "base/memory.h"

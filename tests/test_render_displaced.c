@@ -1,5 +1,6 @@
 /* Displaced surfaces: silhouettes against closed forms, skipped displacement, endless cases. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "render/kernels/kern.h"

@@ -1,6 +1,7 @@
 /* test_render_double.c - the pictures of double precision against those of single: every scheme, normal mode,
    surface and filter, on tables of random heights that no sum f(u) + g(v) can stand for. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "field/field.h"

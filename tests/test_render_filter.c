@@ -1,5 +1,6 @@
 /* test_render_filter.c - pyramids of slopes, footprints, filtered pictures, highlights widened by moments. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "base/memory.h"

@@ -1,5 +1,6 @@
 /* Samples where the table has no slope are spared the bump: the picture is that of all of it, to the bit. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "render/textures/slope_bounds.h"

@@ -1,6 +1,7 @@
 /* Meshes from files: pictures against the sampled surfaces, against the reference, and between instruction sets and
    numbers of threads. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 #include "test_mesh_grids.h"
 

@@ -1,6 +1,7 @@
 /* Parallax: visibility against closed forms, against the displaced surface and against the reference; conditions
    under which it is skipped; special cases. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "render/kernels/kern.h"

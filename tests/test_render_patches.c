@@ -1,6 +1,7 @@
 /* Pictures of sets of bicubic patches: against the one patch that a set was cut from, against the reference, and against
    themselves on every set of instructions. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 #include "test_patch_sets.h"
 

@@ -1,6 +1,7 @@
 /* test_render_relief.c - a normal map's slopes are added to the table's: a map of a table gives the picture of that
    table, alone and beside another; filtered as the table is. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_mesh_grids.h"
 #include "test_render_scenes.h"
 

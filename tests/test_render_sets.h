@@ -2,6 +2,7 @@
    after test.h. */
 #pragma once
 #include "scene/objects.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #define W 90

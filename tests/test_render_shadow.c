@@ -1,5 +1,6 @@
 /* Shadows that the relief throws on itself: pictures against the reference, which marches rays through the table. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "field/field.h"

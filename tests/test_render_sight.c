@@ -2,6 +2,7 @@
    is that of a new renderer, to the bit, without depth buffer and Newton's method; a change of view, size or shape, and
    whatever makes (u,v) otherwise, begins anew (S29). */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 static double one_of(TestRandom *random, const double *values, int count)

@@ -1,5 +1,6 @@
 /* Scenes: ownership, where things stand, and F with its factors. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"

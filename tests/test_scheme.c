@@ -1,5 +1,6 @@
 /* Schemes of interpolation and differentiation: orders of convergence, identities, hard look-ups. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "base/memory.h"
 #include "field/field.h"

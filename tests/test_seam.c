@@ -1,5 +1,6 @@
 /* The seam test of a table, against patterns whose edges are known by how they are made. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/memory.h"

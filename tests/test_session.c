@@ -1,5 +1,6 @@
 /* Sessions: every edit and scene command, failures that change nothing, strokes in progress. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_session_help.h"
 
 #include "base/error.h"

@@ -1,5 +1,6 @@
 /* Solids as files: closed, outside out, of the volume that closed forms say, and no texel farther off than was asked. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_folder.h"
 
 #include "base/error.h"

@@ -1,6 +1,7 @@
 /* test_surround.c - environment light: its picture and spherical harmonics against closed forms, pictures against the
    integral over all directions. */
 #include "test.h"
+#include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
 #include "image/image.h"

@@ -1,5 +1,6 @@
 /* Tables that the compiler counts have words and functions in every row; lists that end by themselves do too. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "command/command_table.h"
 #include "document/blend.h"

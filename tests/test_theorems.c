@@ -1,6 +1,7 @@
 /* Theorems that the accuracy of pictures rests on, where no other test has them: A1, A2, A7 and A8 stand in
    test_scheme.c, A3 to A5, A9 and A10 in test_bump.c, A11 and A12 of noise in test_noise.c. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "render/reference/reference.h"
 #include "test_render_scenes.h"

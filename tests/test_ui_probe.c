@@ -1,5 +1,6 @@
 /* The inspector's values at a point, and the stored choice of a tolerance in the window. */
 #include "test.h"
+#include "field/scheme_list.h"
 
 #include "accuracy/tolerance.h"
 #include "base/memory.h"

@@ -2,6 +2,7 @@
 #include "accuracy/ladder_internal.h"
 
 #include "base/error.h"
+#include "field/scheme_list.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"

@@ -1,5 +1,6 @@
 /* Settings that the ladder tries. */
 #include "accuracy/ladder.h"
+#include "field/scheme_list.h"
 
 #include "scene/objects.h"
 #include "scene/scene.h"

@@ -2,6 +2,7 @@
 #include "accuracy/tolerance.h"
 
 #include "accuracy/tolerance_internal.h"
+#include "field/scheme_list.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"

@@ -1,6 +1,7 @@
 /* Price of samples by counted work, not time: so the same picture gets the same dials on any machine at any
    time. */
 #include "accuracy/tolerance_internal.h"
+#include "field/scheme_list.h"
 #include "base/enum_rows.h"
 
 /* Nanoseconds of one sample on one thread, by regression over all surfaces, slopes and normals at 512 x 512.

@@ -6,6 +6,7 @@
    fewer (zeros left out). Only the stages of a sphere under one directional light and a perspective camera with one
    sample per pixel are counted; other pictures have no count. */
 #include "cli/bench_sections.h"
+#include "field/scheme_list.h"
 #include "image/image.h"
 #include "render/frame/frame.h"
 #include "scene/scene.h"

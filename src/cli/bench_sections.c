@@ -1,6 +1,7 @@
 /* The table of sections and their pictures. */
 #include "cli/bench_sections.h"
 #include "base/error.h"
+#include "field/scheme_list.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
 #include "cli/bench.h"

@@ -2,6 +2,7 @@
 #include "cli/tolerance_contest.h"
 
 #include "accuracy/ladder_internal.h"
+#include "field/scheme_list.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"

@@ -1,5 +1,6 @@
 /* Surface and bump commands: surface, rotate, analytic, bump, replicate. */
 #include "base/error.h"
+#include "field/scheme_list.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
 #include "base/text.h"

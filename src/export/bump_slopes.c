@@ -1,6 +1,7 @@
 /* Bump slopes: a height, its two slopes and their products, per texel, on every mip level down to one texel.
    Levels above 0 are means of the texels they cover, so that moments of slopes stay moments. */
 #include "export/mip_files.h"
+#include "field/scheme_list.h"
 
 #include "base/memory.h"
 #include "export/job.h"

@@ -1,6 +1,7 @@
 #include "export/export.h"
 
 #include "base/error.h"
+#include "field/scheme_list.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/pool.h"

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "field/scheme_list.h"
 #include "base/enum_rows.h"
 #include "base/suggest.h"
 #include "export/contact_sheet.h"

@@ -1,4 +1,5 @@
 #include "export/job.h"
+#include "field/scheme_list.h"
 
 #include "base/memory.h"
 #include "base/vec.h"
@@ -65,7 +66,7 @@ typedef struct Strip {
 
 WrNormalStencil wr_normal_stencil(int scheme)
 {
-    switch ((WrScheme)scheme) {
+    switch ((WrSchemeId)((WrScheme)scheme)) {
     case WR_SCHEME_BSPLINE:
     case WR_SCHEME_BSPLINE_FIT: return WR_STENCIL_SPLINE;
     case WR_SCHEME_BILINEAR: return WR_STENCIL_FORWARD;

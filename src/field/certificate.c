@@ -1,6 +1,7 @@
 #include "field/certificate.h"
 
 #include "base/memory.h"
+#include "field/scheme_list.h"
 #include "base/text.h"
 #include "field/analytic.h"
 #include "field/field.h"

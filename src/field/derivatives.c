@@ -1,6 +1,7 @@
 #include "field/derivatives.h"
 
 #include "base/memory.h"
+#include "field/scheme_list.h"
 #include "field/analytic.h"
 #include "field/field.h"
 
@@ -35,7 +36,7 @@ static const Stencil spline = { { 0, 1 / 6.0, 4 / 6.0, 1 / 6.0, 0 },
 
 static const Stencil *stencil_of(WrScheme scheme)
 {
-    switch (scheme) {
+    switch ((WrSchemeId)scheme) {
     case WR_SCHEME_BSPLINE:
     case WR_SCHEME_BSPLINE_FIT: return &spline;
     case WR_SCHEME_BILINEAR: return &bilinear;

@@ -5,6 +5,7 @@
 #include "field/scheme.h"
 
 #include "base/memory.h"
+#include "field/scheme_list.h"
 #include "base/enum_rows.h"
 #include "field/field.h"
 
@@ -140,6 +141,7 @@ const WrSchemeInfo wr_schemes[WR_SCHEME_COUNT] = {
                                     WR_TAPS_TABLE, eval_catmull },
 };
 WR_ROWS_END(wr_schemes, WR_SCHEME_COUNT);
+const int wr_scheme_count = WR_SCHEME_COUNT;
 
 int wr_scheme_find(const char *name)
 {

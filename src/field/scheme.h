@@ -18,15 +18,9 @@
 
 typedef struct WrField WrField;
 
-typedef enum WrScheme {
-    WR_SCHEME_NEAREST,
-    WR_SCHEME_BILINEAR,
-    WR_SCHEME_CENTRAL,
-    WR_SCHEME_BSPLINE,
-    WR_SCHEME_BSPLINE_FIT,
-    WR_SCHEME_CATMULL,
-    WR_SCHEME_COUNT
-} WrScheme;
+/* A WrSchemeId of field/scheme_list.h; 0 <= scheme < wr_scheme_count. An int, because this header is included widely and the
+   list by few. */
+typedef int WrScheme;
 
 /* What a scheme works on. */
 typedef enum WrSchemeTaps {
@@ -52,7 +46,8 @@ typedef struct WrSchemeInfo {
     WrSchemeEval eval;
 } WrSchemeInfo;
 
-extern const WrSchemeInfo wr_schemes[WR_SCHEME_COUNT];
+extern const WrSchemeInfo wr_schemes[]; /* [wr_scheme_count] */
+extern const int wr_scheme_count;
 /* The scheme of that name, or -1. */
 int wr_scheme_find(const char *name);
 

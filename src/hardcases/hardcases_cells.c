@@ -1,5 +1,6 @@
 /* Hard cases of several cells in one table, terrain from a layer's heights, and colours by height and slope. */
 #include "hardcases/hardcases_later.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,6 +1,7 @@
 /* Hard cases of HC156 and later: surfaces, tables and heights at the limits of their range, and light without a
    direction. */
 #include "base/error.h"
+#include "field/scheme_list.h"
 #include "base/exactmath.h"
 #include "document/blend.h"
 #include "field/field.h"

@@ -1,5 +1,6 @@
 /* Hard cases of flat tables: no detail, and detail at a level of a million. */
 #include "hardcases/hardcases_look.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "field/field.h"

@@ -1,5 +1,6 @@
 /* Hard case of exact normals at focal distances, where a tangent of the raised surface vanishes. */
 #include "hardcases/hardcases_internal.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "field/field.h"

@@ -2,6 +2,7 @@
 #include "hardcases/hardcases_frames.h"
 
 #include "base/error.h"
+#include "field/scheme_list.h"
 #include "base/memory.h"
 #include "field/field.h"
 #include "hardcases/hardcases_later.h"

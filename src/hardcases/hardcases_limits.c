@@ -1,5 +1,6 @@
 /* Hard cases of heights: extreme ones, integer ones, and edges of cells. */
 #include "hardcases/hardcases_look.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/memory.h"

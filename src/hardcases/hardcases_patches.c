@@ -1,5 +1,6 @@
 /* Hard cases of sets of bicubic patches: tables across rotated and mirrored edges, and missing patches. */
 #include "hardcases/hardcases_internal.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/memory.h"

@@ -1,5 +1,6 @@
 /* Hard cases of filtered tables, seams of closed surfaces, and the spline through the samples. */
 #include "hardcases/hardcases_look.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"

@@ -1,5 +1,6 @@
 /* Hard cases of fetching from the table: ends, wraps, repeats, odd sizes. */
 #include "hardcases/hardcases_look.h"
+#include "field/scheme_list.h"
 
 #include "base/error.h"
 #include "field/field.h"

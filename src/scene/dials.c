@@ -2,6 +2,7 @@
 #include "scene/dials.h"
 
 #include "base/enum_rows.h"
+#include "field/scheme_list.h"
 #include "base/text.h"
 #include "scene/scene.h"
 

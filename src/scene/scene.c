@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "base/memory.h"
+#include "field/scheme_list.h"
 #include "base/enum_rows.h"
 #include "field/field.h"
 #include "image/image.h"

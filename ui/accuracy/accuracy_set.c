@@ -1,5 +1,6 @@
 /* Changes of dials: of A, the scene, by commands; of B, which is only in the window. */
 #include "ui/accuracy/accuracy.h"
+#include "field/scheme_list.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/roster.h"

@@ -1,5 +1,6 @@
 /* Bump and material sections of the scene panel. */
 #include "ui/state/action.h"
+#include "field/scheme_list.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
 #include "ui/state/scene_line.h"

@@ -1,6 +1,7 @@
 #include "ui/preview/accuracy_choice.h"
 
 #include "accuracy/tolerance.h"
+#include "field/scheme_list.h"
 #include "base/text.h"
 #include "field/scheme.h"
 #include "scene/dials.h"
@@ -13,7 +14,7 @@
 /* Rank from cheap to accurate. */
 static int scheme_rank(WrScheme scheme)
 {
-    switch (scheme) {
+    switch ((WrSchemeId)scheme) {
     case WR_SCHEME_BSPLINE_FIT: return 5;
     case WR_SCHEME_CATMULL: return 4;
     case WR_SCHEME_BSPLINE: return 3;

@@ -2,6 +2,7 @@
    or with a held key; picking a height; resizing. */
 #include "ui/tools/tool_brush.h"
 #include "ui/canvas/view.h"
+#include "field/scheme_list.h"
 #include "ui/state/action_list.h"
 #include "ui/state/app_state.h"
 #include "ui/state/input_router.h"

@@ -6,6 +6,7 @@
    bits of `supersample`; no pixel depends on the division into tiles. */
 #include "render/frame/adaptive_internal.h"
 #include "render/visibility/silhouette.h"
+#include "field/scheme_list.h"
 #include "render/pipeline/pipeline.h"
 #include "system/clock.h"
 

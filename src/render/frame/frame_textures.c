@@ -1,5 +1,6 @@
 /* Tables that a renderer keeps up to date: height copies, pyramids, the colour picture. */
 #include "base/error.h"
+#include "field/scheme_list.h"
 #include "base/memory.h"
 #include "field/field.h"
 #include "image/image.h"

@@ -3,6 +3,7 @@
    for double precision. Plain loops over structure-of-arrays strips; no branches except ?: on
    scalars, no library call that does not vectorise. Deliberately without a guard. */
 #include "base/enum_rows.h"
+#include "field/scheme_list.h"
 #include "shade/reflection_models.h"
 #include "noise/lattice.h"
 #include "render/kernels/kern.h"
@@ -53,6 +54,7 @@
 #define GRAIN WrKernGraind
 #define VARY WrKernVaryd
 #define REFLECT_KERNEL WrReflectKerneld
+#define LOOK_KERNEL WrLookKerneld
 #define SKYLINE WrKernHorizond
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
@@ -78,6 +80,7 @@
 #define GRAIN WrKernGrain
 #define VARY WrKernVary
 #define REFLECT_KERNEL WrReflectKernel
+#define LOOK_KERNEL WrLookKernel
 #define SKYLINE WrKernHorizon
 #define NEWTON WrNewton
 #define KERNELS WrKernels
@@ -234,6 +237,17 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kernels/kern_adaptive_body.h"
 #endif
 
+WR_ROWS(kern_looks);
+static LOOK_KERNEL const kern_looks[] = {
+    [WR_ROW(WR_SCHEME_NEAREST)] = kern_look_nearest,
+    [WR_ROW(WR_SCHEME_BILINEAR)] = kern_look_bilinear,
+    [WR_ROW(WR_SCHEME_CENTRAL)] = kern_look_central,
+    [WR_ROW(WR_SCHEME_BSPLINE)] = kern_look_bspline,
+    [WR_ROW(WR_SCHEME_BSPLINE_FIT)] = kern_look_bspline,
+    [WR_ROW(WR_SCHEME_CATMULL)] = kern_look_catmull,
+};
+WR_ROWS_END(kern_looks, WR_SCHEME_COUNT);
+
 WR_ROWS(kernels);
 const KERNELS WR_KERN_TABLE = {
     .name = WR_KERN_NAME,
@@ -275,14 +289,7 @@ const KERNELS WR_KERN_TABLE = {
     .curvature = {
 #include "surface/surface_list.h"
     },
-    .look = {
-        [WR_ROW(WR_SCHEME_NEAREST)] = kern_look_nearest,
-        [WR_ROW(WR_SCHEME_BILINEAR)] = kern_look_bilinear,
-        [WR_ROW(WR_SCHEME_CENTRAL)] = kern_look_central,
-        [WR_ROW(WR_SCHEME_BSPLINE)] = kern_look_bspline,
-        [WR_ROW(WR_SCHEME_BSPLINE_FIT)] = kern_look_bspline,
-        [WR_ROW(WR_SCHEME_CATMULL)] = kern_look_catmull,
-    },
+    .look = kern_looks,
     .footprint = kern_footprint,
     .footprint_met = kern_footprint_met,
     .spread = kern_spread,
@@ -343,4 +350,4 @@ const KERNELS WR_KERN_TABLE = {
     .bound_normal = kern_bound_normal,
     .bound_light = kern_bound_light,
 };
-WR_ROWS_END(kernels, WR_SCHEME_COUNT + WR_BUMP_COUNT);
+WR_ROWS_END(kernels, WR_BUMP_COUNT);

@@ -126,6 +126,7 @@ typedef struct WR_T(WrKernGrain) {
     REAL frequency[WR_SOLID_TEXTURE_OCTAVES], amplitude[WR_SOLID_TEXTURE_OCTAVES],
         offset[WR_SOLID_TEXTURE_OCTAVES][3];
 } WR_T(WrKernGrain);
+typedef void (*WR_T(WrLookKernel))(const WR_T(WrLook) * look, WR_T(WrStrip) * strip);
 typedef void (*WR_T(WrReflectKernel))(const WR_T(WrKernLight) * light,
                                       const WR_T(WrKernMatter) * matter, WrReflectSpread how,
                                       WR_T(WrStrip) * strip);
@@ -235,7 +236,7 @@ typedef struct WR_T(WrKernels) {
     void (*curvature[WR_SURFACE_COUNT])(const SHAPE *shape, int face, WR_T(WrStrip) * strip);
 
     /* F, Fu, Fv of the table. */
-    void (*look[WR_SCHEME_COUNT])(const WR_T(WrLook) * look, WR_T(WrStrip) * strip);
+    const WR_T(WrLookKernel) * look; /* [wr_scheme_count] */
     /* The footprint of one pixel, `pixel` samples wide, at x, y; after geometry. */
     void (*footprint)(const WR_T(WrRays) * rays, const WR_T(WrLook) * look, REAL pixel,
                       WR_T(WrStrip) * strip);

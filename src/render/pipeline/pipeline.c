@@ -4,6 +4,7 @@
 #include "base/kernmath.h"
 #include "base/vec.h"
 #include "field/horizon.h"
+#include "field/scheme_list.h"
 #include "render/shadows/shadow_rays.h"
 #include "render/simd/simd_kernels.h"
 #include "render/visibility/sparse_hits.h"

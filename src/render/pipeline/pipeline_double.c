@@ -3,6 +3,7 @@
 #include "base/vec.h"
 #include "render/pipeline/pipeline.h"
 #include "field/horizon.h"
+#include "field/scheme_list.h"
 #include "render/shadows/shadow_rays.h"
 #include "render/textures/slope_pyramid.h"
 #include "render/textures/normal_mips.h"

@@ -1,6 +1,7 @@
 /* Effect table: for each effect the condition under which a scene needs it, the reason, the proof for leaving it
    out, its stages and its settings. Rows are decided in order: a row may read those before it. */
 #include "render/plan/plan_internal.h"
+#include "field/scheme_list.h"
 #include "base/enum_rows.h"
 
 #include "field/analytic.h"

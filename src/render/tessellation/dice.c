@@ -1,6 +1,7 @@
 #include "render/tessellation/dice_internal.h"
 
 #include "base/error.h"
+#include "field/scheme_list.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "field/scheme.h"

@@ -1,6 +1,7 @@
 #include "render/tessellation/displacement_lookup.h"
 
 #include "base/memory.h"
+#include "field/scheme_list.h"
 #include "field/field.h"
 #include "field/scheme.h"
 

@@ -1,6 +1,7 @@
 #include "render/visibility/parallax.h"
 
 #include "field/field.h"
+#include "field/scheme_list.h"
 #include "field/scheme.h"
 #include "render/tessellation/displacement_lookup.h"
 #include "scene/scene.h"
