@@ -1,4 +1,5 @@
-/* See fault.h. Calls of the system are made without the C library, which is what stands behind this. */
+/* Implementation of fault.h. System calls are made directly, since this library replaces the C library's
+   functions. */
 #include "fault.h"
 
 #include <dlfcn.h>
@@ -73,7 +74,7 @@ static void note_written(int fd)
     let_go_written();
 }
 
-/* True if that is a file that had not been synced; it is forgotten. */
+/* True if the file was not synced; its record is removed. */
 static bool forget_written(int folder, const char *path, int flags)
 {
     struct stat info;
@@ -98,7 +99,7 @@ static int index_of(const char *word, size_t length, const char *const *words, i
     return -1;
 }
 
-/* "write,3,error,28" */
+/* Parse "write,3,error,28". */
 static void take_orders(const char *text)
 {
     const char *comma = strchr(text, ',');
@@ -157,7 +158,7 @@ static FaultPlace place_of_path(const char *path)
     return FAULT_OTHER;
 }
 
-/* False: nothing that keeps bytes. */
+/* False for descriptors that store no bytes. */
 static bool place_of(int fd, FaultPlace *place)
 {
     struct stat info;
@@ -175,16 +176,16 @@ static bool place_of(int fd, FaultPlace *place)
     return true;
 }
 
-/* Of the modes that report success. */
+/* True for modes that report success. */
 static bool is_silent(void)
 {
     return state->mode == FAULT_FLIP || state->mode == FAULT_DROP;
 }
 
-/* Count a call; true if it is the one, and the program is still there to see it fail. */
+/* Count a call; true for the selected one, unless the program ends here. */
 static bool is_the_one(FaultKind kind, FaultPlace place)
 {
-    /* A memory file is memory, which is trusted; the calls that reach the disk are counted alone. */
+    /* Memory files are reliable; only calls that reach the disk are counted. */
     if (is_silent() && place == FAULT_MEMORY) return false;
     int64_t n = __atomic_add_fetch(&state->counts[kind], 1, __ATOMIC_RELAXED);
     __atomic_add_fetch(&state->seen[kind][place], 1, __ATOMIC_RELAXED);
@@ -197,8 +198,8 @@ static bool is_the_one(FaultKind kind, FaultPlace place)
         errno = state->error;
         return true;
     }
-    bool again =
-        state->mode == FAULT_PLANT && n > state->n && n < state->n + 3; /* three in a row */
+    /* three in a row */
+    bool again = state->mode == FAULT_PLANT && n > state->n && n < state->n + 3;
     if (n != state->n && !again) return false;
     state->fell = 1;
     state->fell_place = (int)place;
@@ -243,7 +244,7 @@ static ssize_t torn(ssize_t written)
     return written;
 }
 
-/* Write with one bit flipped in the middle, or nothing. `at`: negative where the descriptor's place is meant. */
+/* Write with one bit flipped in the middle, or not at all. `at`: negative for the descriptor's position. */
 static ssize_t silently(int fd, const void *bytes, size_t length, off_t at)
 {
     if (state->mode == FAULT_DROP || length == 0) {
@@ -403,7 +404,7 @@ SHOWN int unlinkat(int folder, const char *path, int flags)
     return fails_path(FAULT_UNLINK, path) ? -1 : (int)syscall(SYS_unlinkat, folder, path, flags);
 }
 
-/* A descriptor is closed whatever it says. */
+/* A descriptor is closed even if close fails. */
 SHOWN int close(int fd);
 SHOWN int close(int fd)
 {

@@ -1,7 +1,6 @@
-/* fuzz_font.c - fonts from strangers: whatever the bytes, a font is refused with a message or gives a text
-   whose answer is sound, within which every outline can be drawn. The first byte chooses what goes before
-   the rest: nothing, or the beginnings of PSF 1, PSF 2 and BDF files and of a packed one, or a small true
-   font of each kind with the fuzzer's bytes laid over it. */
+/* fuzz_font.c - untrusted fonts: for any bytes, a font is refused with a message or gives a text with a valid result,
+   in which every outline can be drawn. The first byte selects the prefix: none, the starts of PSF 1, PSF 2, BDF and
+   compressed files, or a small valid font of each kind with the fuzzer's bytes written over it. */
 #include "base/error.h"
 #include "base/text.h"
 #include "image/font_internal.h"
@@ -23,7 +22,7 @@ static const char bdf[] =
     "STARTCHAR A\nENCODING 65\nSWIDTH 800 0\nDWIDTH 4 0\nBBX 3 4 0 0\nBITMAP\n"
     "40\nA0\nE0\nA0\nENDCHAR\nENDFONT\n";
 
-/* By its length the font stands alone, borrows from a sound one, or lends to it. */
+/* Depending on its length the font is used alone, with a valid fallback, or as a fallback for one. */
 static void shape_varied(const uint8_t *bytes, size_t length, const char *axes)
 {
     const WrFontFile own = { bytes, length };
@@ -54,14 +53,14 @@ static void shape(const uint8_t *bytes, size_t length)
     shape_varied(bytes, length, NULL);
 }
 
-/* Pairs of a place (two bytes) and a value are laid over the file. */
+/* Pairs of an offset (two bytes) and a value are written over the file. */
 static void change(uint8_t *file, size_t length, const uint8_t *data, size_t size)
 {
     for (; size >= 3; data += 3, size -= 3)
         file[((size_t)data[0] << 8 | data[1]) % length] = data[2];
 }
 
-/* A true font that is there wherever the program is. */
+/* A valid font that is always installed with the program. */
 static const uint8_t *whole_font(const char *path, size_t *length)
 {
     uint8_t *bytes = NULL;
@@ -74,7 +73,7 @@ static const uint8_t *whole_font(const char *path, size_t *length)
     return bytes;
 }
 
-/* The beginnings of tables hold what is most worth changing. */
+/* The starts of tables contain the most sensitive fields. */
 static void shape_changed(const char *path, const char *axes, const uint8_t *data, size_t size)
 {
     size_t length;

@@ -1,5 +1,5 @@
-/* The brush in commands: presets, tips and symmetry replay to the same bits, files that changed are errors,
-   erasing leads back to what lies below, strokes drawn bit by bit are those drawn at once. */
+/* The brush in commands: presets, tips and symmetry replay bit-identically, changed files are errors, erasing
+   restores the content below, strokes drawn in parts equal those drawn at once. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"

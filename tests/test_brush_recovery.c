@@ -1,5 +1,5 @@
-/* A crash after painting with presets and tips: what was painted comes back though their files changed or
-   went away meanwhile. */
+/* A crash after painting with presets and tips: the painting is recovered though their files have changed or
+   vanished. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -27,7 +27,7 @@ static void write_tip(const char *path, int shade)
         fail_msg("%s", err.text);
 }
 
-/* With the tip beside it if that is named. */
+/* With the tip beside it if it names one. */
 static void write_preset(const char *path, double radius, const char *tip)
 {
     char text[1024], more[300] = "", hex[65];
@@ -48,7 +48,7 @@ static void write_preset(const char *path, double radius, const char *tip)
     if (!wr_file_write(path, text, strlen(text), &err)) fail_msg("%s", err.text);
 }
 
-/* The one journal there is, recovered. */
+/* Recover the only journal. */
 static WrHash recovered(void)
 {
     WrRecoverable *found;
@@ -87,7 +87,7 @@ static void make_brushes(void)
     write_preset("b/stamp.myb", 2.8, "leaf.png");
 }
 
-/* Run the lines and draw half a stroke, and be killed; returns what the document was. */
+/* Run the lines, draw half a stroke, and be killed; returns the document's hash. */
 static WrHash paint_and_be_killed(void)
 {
     int pipes[2], status;
@@ -152,8 +152,7 @@ static void killed_and_recovered_though_the_files_are_gone(void **state)
     assert_true(wr_hash_equal(want, recovered()));
 }
 
-/* A redo of what was done before there was a journal makes it begin anew, from a snapshot: without the copies
-   that it had. */
+/* A redo to a state before the journal restarts it from a snapshot, without its former copies. */
 static void a_journal_that_begins_anew_keeps_the_files_again(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What a check says of pictures that are made here of closed forms. */
+/* Results of the check for pictures generated here from closed forms. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -13,7 +13,7 @@
 #define H 53
 #define BIT(problem) (1u << (problem))
 
-/* F and its slopes, per cell, v up; `turns` along u: whole numbers are seamless. */
+/* F and its slopes, per cell, v up; `turns` along u: integers are seamless. */
 static double height(double u, double v, double turns, double *p, double *q)
 {
     const double x = 2 * WR_PI * (turns * u + 2 * v) + 0.7134, y = 6 * WR_PI * v + 2.219;
@@ -53,7 +53,7 @@ static bool sheet_rows(void *ctx, int y, int rows, void *out, WrError *err)
     return true;
 }
 
-/* label: of our own, or NULL. */
+/* label: of this program, or NULL. */
 static void write_sheet(const char *path, Sheet *s, const char *label)
 {
     static const char *const slopes[] = { "p", "q" };
@@ -114,7 +114,7 @@ static void edges_that_meet_are_seamless_and_others_are_told(void **state)
     }
 }
 
-/* A break in three of 53 rows, and one of the slope alone: x^2 about the middle. */
+/* A jump in three of 53 rows, and one of the slope only: x^2 about the middle. */
 static void short_breaks_and_creases_are_seams(void **state)
 {
     (void)state;
@@ -128,7 +128,7 @@ static void short_breaks_and_creases_are_seams(void **state)
     assert_int_equal(check_sheet(&crease, NULL).problems, BIT(WR_CHECK_SEAM_V));
 }
 
-/* Samples at i/(W - 1): the last column is the first. */
+/* Samples at i/(W - 1): the last column repeats the first. */
 static void a_repeated_line_is_told(void **state)
 {
     (void)state;
@@ -198,7 +198,7 @@ static void what_is_not_finite_is_told(void **state)
 
 /* ---- normals ---- */
 
-/* scale: of every third vector's length. twist: of green by other slopes than the height's. */
+/* scale: length factor of every third vector. twist: green from other slopes than the heights'. */
 static Sheet normals(int bits, bool down, double scale, bool twist)
 {
     Sheet s = { .channels = 3, .bits = bits };
@@ -237,8 +237,8 @@ static void greens_lengths_and_curls_are_found(void **state)
     }
 }
 
-/* Most of a map is flat, so that its code 128 stands for 0; a steep disc stands in it. What rounding makes of unit vectors is
- * no wrong length, and a blue of 128 does not look away. */
+/* Most of a map is flat, with code 128 for 0, around a steep disc. Rounding of unit vectors is no wrong length, and a
+ * blue of 128 does not face away. */
 static void a_steep_disc_in_flat_ground_is_good(void **state)
 {
     (void)state;
@@ -261,7 +261,7 @@ static void a_steep_disc_in_flat_ground_is_good(void **state)
     }
 }
 
-/* Sharp veins in smooth stone, cut where they do not meet: a few texels inside are as sharp as the seam is all along. */
+/* Sharp veins in smooth marble, cut where they do not match: a few texels inside are as sharp as the whole seam. */
 static void a_cut_through_marble_is_a_seam(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The command language: parsing, canonical printing, and the table that both go by. */
+/* The command language: parsing, canonical printing, and the table that both use. */
 #include "test.h"
 
 #include "base/error.h"
@@ -98,7 +98,7 @@ static void a_quoted_word_keeps_every_byte(void **state)
     wr_call_free(call);
 }
 
-/* Each line with words that its message must hold. */
+/* Each line with words that its message must contain. */
 static void mistakes_are_named_with_what_would_be_right(void **state)
 {
     (void)state;
@@ -318,7 +318,7 @@ static void make_line(const WrCommand *command, int form, bool all, TestRandom *
     if (form >= 0 && command->form(form, &row)) wr_text_addf(line, " %s", row.name);
     for (int i = 0; i < count; i++) {
         if (specs[i].type == WR_ARG_TEXT && !specs[i].may_be_empty)
-            continue; /* what it may hold is another room's affair */
+            continue; /* its content is checked by another module */
         if (!specs[i].required && !all && test_random(random) < 0.5) continue;
         wr_text_add(line, test_random(random) < 0.2 ? " \t " : " ");
         if (!specs[i].positional) wr_text_addf(line, "%s=", specs[i].name);
@@ -381,7 +381,7 @@ static void random_lines_of_every_command_survive_print_and_parse(void **state)
 
 typedef struct BadCheck {
     WrSession *session;
-    WrText line; /* a good line before the argument in question */
+    WrText line; /* a valid line before the tested argument */
 } BadCheck;
 
 static void expect_refused(BadCheck *check, const char *verb, const char *line)
@@ -391,7 +391,7 @@ static void expect_refused(BadCheck *check, const char *verb, const char *line)
     if (!strstr(err.text, verb)) fail_msg("%s\n  does not name %s: %s", line, verb, err.text);
 }
 
-/* A value that is right, without chance. */
+/* A valid value, without random choice. */
 static void add_right(const WrArgSpec *s, WrText *line)
 {
     if (s->type == WR_ARG_CHOICE) wr_text_add(line, wr_arg_word(s, 0));
@@ -404,7 +404,7 @@ static void add_right(const WrArgSpec *s, WrText *line)
         }
 }
 
-/* Put `bad` in for number `part` of the first tuple of an otherwise right value. */
+/* Insert `bad` for number `part` of the first tuple of an otherwise valid value. */
 static void add_wrong_part(const WrArgSpec *s, int part, const char *bad, WrText *line)
 {
     WrText right = { 0 };
@@ -416,7 +416,7 @@ static void add_wrong_part(const WrArgSpec *s, int part, const char *bad, WrText
     wr_text_fini(&right);
 }
 
-/* The line with all required arguments but `skip`, up to where that one would come. */
+/* The line with all required arguments except `skip`, up to its position. */
 static void begin_line(const WrCommand *command, int form, const WrArgSpec *specs, int count,
                        int skip, WrText *line)
 {
@@ -482,7 +482,7 @@ static void check_bad_arguments(const WrCommand *command, int form, void *ctx)
             try_numbers(check, command, s);
             continue;
         }
-        if (s->may_be_empty) continue; /* any text is right */
+        if (s->may_be_empty) continue; /* any text is valid */
         WrText line = { 0 };
         wr_text_addf(&line, "%s%s", wr_text_get(&check->line),
                      s->type == WR_ARG_PATH || s->type == WR_ARG_NAME ? "\"\"" : "no-such-value");
@@ -493,14 +493,14 @@ static void check_bad_arguments(const WrCommand *command, int form, void *ctx)
     wr_text_add(&check->line, "nosuchname=1");
     expect_refused(check, command->name, wr_text_get(&check->line));
     begin_line(command, form, specs, count, -1, &check->line);
-    wr_text_add(&check->line, "surplus surplus surplus"); /* some take a value or two */
+    wr_text_add(&check->line, "surplus surplus surplus"); /* some accept a value or two */
     expect_refused(check, command->name, wr_text_get(&check->line));
 }
 
 static void every_argument_of_every_command_refuses_bad_values(void **state)
 {
     (void)state;
-    WrSessionOptions options = { 0 }; /* outputs off: a line that got through would write nothing */
+    WrSessionOptions options = { 0 }; /* outputs off: an accepted line would write no file */
     BadCheck check = { .session = wr_session_new(&options) };
     WrHash before = wr_session_hash(check.session);
     for_each_form(check_bad_arguments, &check);
@@ -555,7 +555,7 @@ static void damaged_lines_never_crash_and_print_stably_where_they_parse(void **s
 
 /* ---- help ---- */
 
-/* Nesting and strings of JSON text that the program made; commas and colons where they belong. */
+/* Nesting and strings of the program's JSON text; commas and colons in the correct places. */
 static void check_json(const char *json)
 {
     char stack[64];
@@ -594,7 +594,7 @@ static void check_json(const char *json)
     assert_int_equal(depth, 0);
 }
 
-/* What the session, its journal and recovery read of a row, kept by every row. */
+/* Requirements of the session, its journal and recovery on every row. */
 static void rows_agree_with_what_the_session_does_for_them(void **state)
 {
     int back = 0, forward = 0, streams = 0, views = 0;
@@ -662,7 +662,7 @@ static void help_tells_each_brush_mode_and_what_it_goes_by(void **state)
             snprintf(row, sizeof row, "\n%21s%s ", "", wr_brush_modes[i].name);
             assert_non_null(strstr(wr_text_get(&text), row));
         }
-        assert_non_null(strstr(wr_text_get(&text), "(source=)\n")); /* clone alone */
+        assert_non_null(strstr(wr_text_get(&text), "(source=)\n")); /* only clone */
         assert_non_null(strstr(wr_text_get(&text), "(strength= to=)\n"));
         wr_text_fini(&text);
     }

@@ -1,4 +1,4 @@
-/* What ships with the program is found; also run by outside.sh, from another build folder. */
+/* Files installed with the program are found; also run by outside.sh, from another build folder. */
 #include "test.h"
 
 #include "base/file.h"
@@ -13,7 +13,7 @@ static void samples_brushes_and_guide_are_found_without_being_told(void **state)
     unsetenv("WRINKLE_DATA");
     assert_true(wr_data_find("samples/bricks.wrinkle", &path));
     assert_true(wr_data_find("brushes", &path));
-    assert_true(wr_data_find("ui/guide/README.md", &path)); /* what F1 shows */
+    assert_true(wr_data_find("ui/guide/README.md", &path)); /* opened by F1 */
     assert_false(wr_data_find("no/such/file", &path));
     wr_text_fini(&path);
 }

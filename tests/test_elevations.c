@@ -1,6 +1,6 @@
-/* test_elevations.c - elevations, vectors and display windows at every command that reads such files: the same numbers at
-   each, missing values filled, and an error or a note where nothing useful would come of it. Files are made here, byte by
-   byte. */
+/* test_elevations.c - elevations, vectors and display windows in every command that reads such files: equal numbers
+   in each, missing values filled, and an error or a note where the result would be useless. Files are made here, byte
+   by byte. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -23,7 +23,7 @@
 typedef struct Dem {
     const char *name;
     int bits, format;
-    bool geo;            /* has a pixel scale, as GeoTIFF */
+    bool geo;            /* has a pixel scale, as in GeoTIFF */
     const char *no_data; /* GDAL's tag; NULL: none */
     double missing;      /* the value of three pixels */
     bool white_is_0;
@@ -76,7 +76,7 @@ static double all_missing(int x, int y)
     return NAN;
 }
 
-/* TIFF 6.0: header, pixels, what tags point to, one directory. */
+/* TIFF 6.0: header, pixels, data of tags, one directory. */
 static void write_dem(const Dem *dem, double (*elevation)(int, int))
 {
     const unsigned size = WIDTH * HEIGHT * (unsigned)dem->bits / 8, scale = 8 + size;
@@ -112,7 +112,8 @@ static void write_dem(const Dem *dem, double (*elevation)(int, int))
     put_tag(file, 279, 4, 1, size);
     put_tag(file, 339, 3, 1, (unsigned)dem->format);
     if (dem->geo) put_tag(file, 33550, 12, 3, scale);
-    assert_true(length == 0 || (length > 4 && length <= 16)); /* else it stands in the tag itself */
+    /* otherwise it is in the tag itself */
+    assert_true(length == 0 || (length > 4 && length <= 16));
     if (dem->no_data) put_tag(file, 42113, 2, length, text);
     put(file, 0, 4);
     assert_int_equal(fclose(file), 0);
@@ -149,7 +150,7 @@ static void a_table_has_the_elevations_of_the_file(void **state)
             for (int x = 0; x < WIDTH; x++) {
                 const double z = (double)f_at(s, x, y), want = sloped(x, y);
                 const bool filled = dems[d].missing != 0 && is_missing(x, y);
-                /* filled ones lie between the rows above and below */
+                /* filled ones are between the rows above and below */
                 if (fabs(z - want) > (filled ? 30.0 : 0.0))
                     fail_msg("%s at %d,%d: %g instead of %g", dems[d].name, x, y, z, want);
             }
@@ -157,7 +158,7 @@ static void a_table_has_the_elevations_of_the_file(void **state)
     }
 }
 
-/* Constant ground of 200 with three missing values is flat: 200 times its height. */
+/* Constant terrain of 200 with three missing values is flat: 200 times its height. */
 static void a_terrain_has_the_elevations_of_the_file(void **state)
 {
     (void)state;
@@ -178,7 +179,7 @@ static void a_terrain_has_the_elevations_of_the_file(void **state)
     }
 }
 
-/* Codes of a grey picture without such a tag are shares of the largest, at the same commands. */
+/* Codes of a grey picture without such a tag are fractions of the largest, in the same commands. */
 static void codes_without_a_tag_stay_codes(void **state)
 {
     (void)state;
@@ -208,7 +209,7 @@ static void a_file_of_nothing_but_missing_values_is_refused(void **state)
     for (size_t d = 0; d < DEMS; d++) {
         if (dems[d].missing == 0) continue;
         write_dem(&dems[d], all_missing);
-        /* without a tag, -9999 is a number like others but for elevations */
+        /* without a tag, -9999 is an ordinary number except for elevations */
         const bool only_elevations = strcmp(dems[d].name, "f32.tif") == 0;
         for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
             if (only_elevations && (k == 0 || k == 3)) continue;
@@ -284,7 +285,7 @@ static void fits_exponents_may_be_written_with_d(void **state)
 
 #define SIDE 16
 
-/* Unit normals of the heights 0.05 sin 2 pi x/SIDE, coded as their own numbers. */
+/* Unit normals of the heights 0.05 sin 2 pi x/SIDE, stored as plain numbers. */
 typedef struct Vectors {
     int order
         [3]; /* the channel that x, y, z go into: EXR keeps channels in the order of their names */
@@ -317,7 +318,7 @@ static void write_vectors(const char *path, const char *const names[3], Vectors 
     if (!wr_image_write(path, &out, 1, &err)) fail_msg("%s", err.text);
 }
 
-/* Channels X, Y, Z are one vector: each command makes of them what it makes of R, G, B. */
+/* Channels X, Y, Z are one vector: each command treats them like R, G, B. */
 static void a_vector_is_read_like_a_colour(void **state)
 {
     (void)state;
@@ -348,14 +349,14 @@ static void a_vector_is_read_like_a_colour(void **state)
                                         sizeof *map->data);
             wr_session_free(s);
         }
-        /* the normals are those of a wave of 0.1 from foot to crest */
+        /* the normals are those of a wave of 0.1 from trough to crest */
         if (k == 1) assert_near((double)f_at(want, 4, 3) - (double)f_at(want, 12, 3), 0.1, 1e-3);
         wr_session_free(want);
     }
 }
 
-/* A picture of 30 x 20 of which 15 x 10 at (10,5) are stored: light comes from where they lie in the whole, 0 from elsewhere.
-   One that is stored beyond its edges, 30 x 20 about 20 x 12, loses what is outside. */
+/* A picture of 30 x 20 with a data window of 15 x 10 at (10,5): light comes from its position in the whole, 0 from
+   elsewhere. A data window larger than the picture, 30 x 20 around 20 x 12, is cropped. */
 static void surroundings_are_the_display_window(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* The dabs that libmypaint makes along a path: where they fall, what they carry, and that no preset or path
-   makes it run away. */
+/* Dabs of libmypaint along a path: positions, values, and termination for any preset or path. */
 #include "test.h"
 
 #include "base/array.h"
@@ -58,7 +57,7 @@ static void run(Record *record, const WrBrush *brush, const WrEnginePoint *point
     }
 }
 
-/* An even, straight motion in `events` pieces. */
+/* An even, straight motion in `events` steps. */
 static void run_line(Record *record, const WrBrush *brush, WrEnginePoint a, WrEnginePoint b,
                      int events)
 {
@@ -147,7 +146,7 @@ static void corners_within_a_step_are_not_cut(void **state)
     Record record = { 0 };
     WrPreset *preset = preset_of(STILL ", \"dabs_per_actual_radius\": {\"base_value\": 2}");
     WrBrush brush = plain(preset, 2.0);
-    /* There and back again within one step of 1/256 s. */
+    /* Forth and back within one step of 1/256 s. */
     WrEnginePoint points[] = { at(0, 0, 0), at(50, 0, 0.001), at(50, 50, 0.002), at(0, 50, 0.003) };
     run(&record, &brush, points, 4);
     bool corner[2] = { false, false };
@@ -174,7 +173,7 @@ static void a_tap_makes_one_dab_where_it_is(void **state)
     assert_int_equal(record.dabs.count, 1);
     assert_near(record.dabs.data[0].x, 31, 0.1);
     assert_near(record.dabs.data[0].y, 47, 1e-4);
-    /* Opacity 1 times pressure 1/2, made linear for the 4 dabs that usually lie over one another. */
+    /* Opacity 1 times pressure 1/2, linearised for the 4 dabs that usually overlap. */
     assert_near(record.dabs.data[0].alpha, 1 - pow(0.5, 1 / (1 + 0.9 * 3)), 0.01);
     assert_true(record.dabs.data[0].dx == 0 && record.dabs.data[0].dy == 0);
     brush.radius = 0;
@@ -243,11 +242,11 @@ static void tilt_leans_as_mypaint_says(void **state)
 {
     (void)state;
     Record record = { 0 };
-    /* The dab is moved 10 radii (a quarter turn on from it) to the side that the pen leans to. */
+    /* The dab is offset by 10 radii (rotated by a quarter turn) to the side of the pen's tilt. */
     WrPreset *preset = preset_of(STILL ", \"offset_angle_asc\": {\"base_value\": 10}");
     WrBrush brush = plain(preset, 4.0);
     static const double tilts[][4] = {
-        /* tilt; way to the right, down */
+        /* tilt; path to the right, down */
         { 0, 0.5, 40, 0 },
         { -0.5, 0, 0, 40 },
         { 0, -0.5, -40, 0 },
@@ -289,7 +288,7 @@ static void smudging_drags_heights_of_any_size(void **state)
         if (dab->x < 90) assert_near(dab->dragged, -5e6, 1);
         before = dab->dragged;
     }
-    assert_near(before, 7.0, 0.5); /* the low ground is forgotten by and by */
+    assert_near(before, 7.0, 0.5); /* the earlier height fades gradually */
     wr_array_free(&record.dabs);
     wr_preset_free(preset);
 }
@@ -341,7 +340,7 @@ static void the_brush_turns_and_scatters_dabs_on_top_of_its_preset(void **state)
                                        "\"dabs_per_actual_radius\": {\"base_value\": 4}");
     WrBrush brush = plain(preset, 8.0);
     run_line(&record, &brush, at(0, 0, 0), at(300, 0, 1), 1);
-    assert_near(record.dabs.data[9].angle_rad, 0.0, 1e-12); /* round dabs are not turned */
+    assert_near(record.dabs.data[9].angle_rad, 0.0, 1e-12); /* round dabs are not rotated */
     brush.follow = true;
     brush.angle_deg = 30.0;
     brush.aspect = 2.0;
@@ -361,7 +360,7 @@ static void the_brush_turns_and_scatters_dabs_on_top_of_its_preset(void **state)
             high[k] = fmax(high[k], values[k]);
         }
     }
-    /* Of 1500 dabs some come close to each end, and none goes beyond. */
+    /* Of 1500 dabs some come close to each end, and none exceeds it. */
     assert_true(low[0] > -4.01 && low[0] < -3.6 && high[0] < 4.01 && high[0] > 3.6);
     assert_true(low[1] > 9.9 && low[1] < 11 && high[1] < 50.1 && high[1] > 49);
     assert_true(low[2] > 5.99 && low[2] < 6.1 && high[2] < 8.01 && high[2] > 7.9);
@@ -472,7 +471,7 @@ static void presets_that_would_flood_a_step_with_dabs_do_not(void **state)
     static const char *const settings[] = {
         "\"dabs_per_actual_radius\": {\"base_value\": 1e6}, \"dabs_per_basic_radius\": "
         "{\"base_value\": 1e6}, \"dabs_per_second\": {\"base_value\": 1e6}",
-        /* Curves go on beyond their last point: here to 1e30 and more. */
+        /* Curves are extrapolated beyond their last point: here to 1e30 and more. */
         "\"elliptical_dab_ratio\": {\"base_value\": 1, \"inputs\": {\"speed1\": [[0, 0], [1e-30, "
         "9]]}}",
         "\"dabs_per_second\": {\"base_value\": 0, \"inputs\": {\"pressure\": [[0, 0], [1e-30, "
@@ -519,7 +518,7 @@ static void points_that_are_not_numbers_do_no_harm(void **state)
     assert_true(record.dabs.count > 10);
     for (int i = 0; i < record.dabs.count; i++)
         assert_true(record.dabs.data[i].x > 5 && record.dabs.data[i].x < 105);
-    run(&record, &brush, points, 2); /* none that counts */
+    run(&record, &brush, points, 2); /* without a valid dab */
     assert_int_equal(record.dabs.count, 0);
     run(&record, &brush, points, 0);
     assert_int_equal(record.dabs.count, 0);

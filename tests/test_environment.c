@@ -1,4 +1,4 @@
-/* The command environment: what it takes, tells and refuses, and what documents keep of it. */
+/* The command environment: arguments, notes, refusals, and storage in documents. */
 #include "test.h"
 #include "recovery_help.h"
 #include "test_folder.h"
@@ -48,7 +48,7 @@ static void sets_files_and_settings_are_taken(void **state)
     wr_session_free(s);
 }
 
-/* HC114: a stranger's file is taken, what is no light of it is told. */
+/* HC114: an arbitrary file is accepted; invalid light values are reported. */
 static void what_is_no_light_is_told(void **state)
 {
     (void)state;
@@ -79,7 +79,7 @@ static void reopened_as(const WrSession *s, const char *path)
     wr_session_free(t);
 }
 
-/* Also of several objects, whichever is at hand; the file itself may be gone. */
+/* Also with several objects, whichever is active; the file itself may be deleted. */
 static void documents_keep_them(void **state)
 {
     (void)state;

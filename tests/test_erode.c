@@ -1,4 +1,4 @@
-/* Weather: what falls, flows and slides is never lost. */
+/* Erosion: rain, flow and slides conserve mass. */
 #include "test.h"
 #include "generate_help.h"
 
@@ -8,7 +8,7 @@
 
 static const WrGenerateJob alone = { .pool = NULL };
 
-/* Hills of 0..1 that close. */
+/* Periodic hills of 0..1. */
 static WrField *hills(int width, int height, WrWrap wrap)
 {
     WrField *f = wr_field_new(width, height, wrap, wrap, 0.0f, NULL);
@@ -33,7 +33,7 @@ static double sum_of(const WrField *f)
 
 static const char *const weathers[] = { "thermal", "hydraulic" };
 
-/* To the rounding of each height to float. */
+/* Up to the rounding of each height to float. */
 static void no_ground_is_lost_on_any_edges(void **state)
 {
     (void)state;
@@ -47,7 +47,7 @@ static void no_ground_is_lost_on_any_edges(void **state)
     }
 }
 
-/* In double, where nothing is rounded to float: all is there to the last digits. */
+/* In double precision, without rounding to float: conserved to the last digits. */
 static void the_sum_of_heights_stays_to_rounding(void **state)
 {
     (void)state;
@@ -135,8 +135,8 @@ static void drops_in_tiles_fall_alike_on_1_2_and_7_threads_and_lose_nothing(void
     wr_field_free(f);
 }
 
-/* Rain shapes the edge between tiles as it does their middle: the mean change along rows of a slope that is
- * the same everywhere does not tell where tiles end. */
+/* Rain shapes the border between tiles like their interior: the mean change along rows of a uniform slope does not
+ * reveal the tiles. */
 static void tiles_of_drops_cannot_be_seen(void **state)
 {
     (void)state;
@@ -153,7 +153,7 @@ static void tiles_of_drops_cannot_be_seen(void **state)
     for (int i = 0; i < W; i++) mean += change[i] / W;
     for (int i = 0; i < W; i++) spread += pow(change[i] - mean, 2) / W;
     spread = sqrt(spread);
-    for (int k = 0; k < 4; k++) { /* four tiles: about each edge a strip of 20 texels */
+    for (int k = 0; k < 4; k++) { /* four tiles: a strip of 20 texels around each border */
         double strip = 0.0;
         for (int i = -10; i < 10; i++) strip += change[(k * W / 4 + i + W) % W] / 20.0;
         assert_near(strip, mean, spread);
@@ -181,7 +181,7 @@ static void stones_slide_alike_wherever_the_table_begins(void **state)
     wr_field_free(b);
 }
 
-/* After long enough nothing is steeper than the angle of rest, along axes and diagonals. */
+/* After a long time no slope exceeds the angle of repose, along axes and diagonals. */
 static void slopes_come_down_to_the_angle_of_rest(void **state)
 {
     (void)state;
@@ -206,7 +206,7 @@ static void slopes_come_down_to_the_angle_of_rest(void **state)
     wr_field_free(g);
 }
 
-/* What is nowhere steeper is left alone. */
+/* Gentler slopes are unchanged. */
 static void gentle_slopes_do_not_slide(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The memory that commands are said to need before they begin, against what they take. */
+/* Memory estimates of commands, compared with their actual use. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -29,8 +29,7 @@ static WrEstimate estimate_of(const WrSession *session, const char *line)
     return out;
 }
 
-/* A generator's form has a row of its own, or one that says that nothing is known; any other verb at least
-   one for all of it. */
+/* Each generator form has a separate row, or one without an estimate; any other verb at least one for all forms. */
 static void every_edit_and_output_has_a_price(void **state)
 {
     (void)state;
@@ -60,7 +59,7 @@ static void every_example_is_estimated_and_nothing_changes(void **state)
     wr_session_free(s);
 }
 
-/* Heights and coverage, as the layer's own tables hold them. */
+/* Heights and coverage, as the layer's tables store them. */
 static void memory_is_near_what_tables_hold(void **state)
 {
     (void)state;
@@ -102,7 +101,7 @@ static void memory_rises_with_size_and_counts(void **state)
 
 /* ---- memory ---- */
 
-/* Sanitizers keep memory of their own. */
+/* Sanitizers use additional memory. */
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 static double status_bytes(const char *name)
 {
@@ -115,7 +114,7 @@ static double status_bytes(const char *name)
     return kb * 1024.0;
 }
 
-/* Bytes of memory by which a process that runs the line grows at most; 0: this system does not tell. */
+/* Peak growth in bytes of a process that runs the line; 0: unknown on this system. */
 static double peak_of(WrSession *s, const char *line)
 {
     int ends[2];
@@ -126,7 +125,7 @@ static double peak_of(WrSession *s, const char *line)
         WrError err;
         int fd = open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC);
         wr_field_trim();
-        malloc_trim(0); /* what is free already is not used again unseen */
+        malloc_trim(0); /* so that free memory is not reused unnoticed */
         double before = status_bytes("VmRSS");
         bool good = fd >= 0 && write(fd, "5", 1) == 1 && wr_session_run(s, line, &err);
         peak = status_bytes("VmHWM") - before;
@@ -141,8 +140,8 @@ static double peak_of(WrSession *s, const char *line)
 }
 #endif
 
-#define FACTOR 2.2 /* more than that it is not off either way */
-#define BEGUN 8e6  /* bytes: a block of tiles of which some were there before */
+#define FACTOR 2.2 /* largest ratio in either direction */
+#define BEGUN 8e6  /* bytes: a block of tiles, some of which existed before */
 
 static void memory_is_near_the_peak_of_a_process(void **state)
 {
@@ -175,7 +174,7 @@ static void memory_is_near_the_peak_of_a_process(void **state)
 #endif
 }
 
-/* Of a large picture a band is held; under a tolerance, all of it. */
+/* One band of a large picture is in memory; under a tolerance, all of it. */
 static void large_pictures_take_the_memory_of_a_band(void **state)
 {
     (void)state;

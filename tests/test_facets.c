@@ -1,5 +1,5 @@
-/* test_facets.c - pictures of roughness and metalness: against the reference, which looks them up in double and works each
-   place out by itself; over footprints against its many samples. */
+/* test_facets.c - roughness and metalness maps: against the reference, which fetches them in double precision and
+   computes each point separately; over footprints against its many samples. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -12,7 +12,7 @@
 
 enum { W = 61, H = 47 };
 
-/* Random numbers of 0..1, smoothed by nothing. */
+/* Random numbers of 0..1, not smoothed. */
 static WrImage *numbers(int w, int h, uint64_t seed)
 {
     TestRandom random = { seed };
@@ -44,7 +44,7 @@ static WrReference truth_of(const WrScene *scene, const WrField *field, int samp
     return r;
 }
 
-/* The largest difference of what both cover whole, and its root of the mean square. */
+/* The largest difference where both cover fully, and its RMS. */
 static double worst_of(const WrScene *scene, const WrField *field, const WrReference *r,
                        double *rms)
 {
@@ -64,7 +64,7 @@ static double worst_of(const WrScene *scene, const WrField *field, const WrRefer
 static WrScene *worn(WrReflect model, const char *surface)
 {
     WrScene *scene = scene_of(surface);
-    scene->height = 0; /* the reference has slopes of its own */
+    scene->height = 0; /* excludes differences of slopes */
     scene->posed = true;
     scene->rotate_deg = (WrVec3){ 31.7, -12.9, 71.3 };
     scene->dials.aa = WR_AA_POINT;
@@ -74,7 +74,7 @@ static WrScene *worn(WrReflect model, const char *surface)
     return scene;
 }
 
-/* Lamps: either picture, both, laid with numbers of their own, on tables that repeat and that end. */
+/* Lights: either map, or both, with separate tiling, on periodic and clamped tables. */
 static void pictures_are_the_references(void **state)
 {
     static const WrReflect models[] = { WR_REFLECT_GGX, WR_REFLECT_OREN_NAYAR,
@@ -93,7 +93,7 @@ static void pictures_are_the_references(void **state)
         if (in_double) scene->dials.shading = WR_SHADING_DOUBLE;
         const WrField *field = k % 7 == 3 ? ends : round;
         WrReference r = truth_of(scene, field, 1);
-        /* the albedo of kept facets goes straight between sixteenths of roughness */
+        /* the albedo of cached facets is linear between sixteenths of roughness */
         const double off = worst_of(scene, field, &r, NULL);
         if (!(off <= (kept ? 5e-3 : in_double ? 1e-5 : 2e-3)))
             fail_msg("%d, %s on %s: %g", k, wr_reflects[models[k % 3]].name, surfaces[k % 4], off);
@@ -104,8 +104,8 @@ static void pictures_are_the_references(void **state)
     wr_field_free(ends);
 }
 
-/* A picture of one number is that number of the material's, whatever it says; also of what is mirrored, where the picture's
-   surroundings come in rungs. */
+/* A constant map equals that number in the material, whatever the material's own is; also for reflections, where the
+   environment is prefiltered in levels. */
 static void an_even_picture_is_the_number(void **state)
 {
     (void)state;
@@ -135,8 +135,8 @@ static void an_even_picture_is_the_number(void **state)
     wr_field_free(field);
 }
 
-/* Many texels a pixel: their means are nearer to what 8 x 8 samples come to than one of them is, where light does not go by
-   roughness as steeply as under narrow lobes. */
+/* Many texels per pixel: their means are closer to 8 x 8 samples than one texel is, where shading depends less
+   steeply on roughness than under narrow lobes. */
 static void footprints_have_their_means(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Files that belong together - a set, a file and its sidecar, levels, a contact sheet - while calls fail or the program is killed: an error leaves every old file; after a kill the next
-   program that looks into the folder makes it all old or all new, and nothing else stays. And lists of files that
-   belong together which nobody honest wrote. */
+/* Sets of files (a map set, a file and its sidecar, mip levels, a contact sheet) with failing calls or kills: an
+   error leaves every old file; after a kill the next program that accesses the folder makes the set all old or all
+   new, without leftovers. And hostile lists of such sets. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -19,7 +19,7 @@
 #define OLD "what was there before"
 #define FILES_MOST 3
 
-/* A line, and what it writes. */
+/* A line, and its files. */
 typedef struct Together {
     const char *line, *files[FILES_MOST + 1];
 } Together;
@@ -33,9 +33,9 @@ static const Together groups[] = {
 };
 #define GROUPS (int)(sizeof groups / sizeof *groups)
 
-static const Together *now;     /* of them */
-static int count;               /* of its files */
-static char *fresh[FILES_MOST]; /* the bytes of a run without trouble */
+static const Together *now;     /* current one */
+static int count;               /* number of its files */
+static char *fresh[FILES_MOST]; /* the bytes of an undisturbed run */
 static size_t fresh_length[FILES_MOST];
 
 static WrSession *session;
@@ -107,7 +107,7 @@ static bool all_are(bool fresh_ones, bool there)
     return all;
 }
 
-/* old: files stood there before. */
+/* old: files existed before. */
 static void run_fault(FaultKind kind, int64_t n, FaultMode mode, bool old, FaultTally *tally)
 {
     make_old(old);
@@ -122,7 +122,8 @@ static void run_fault(FaultKind kind, int64_t n, FaultMode mode, bool old, Fault
     tally->cases++;
     if (WIFSIGNALED(status)) {
         tally->kills[state->fell_place][state->fell_stage]++;
-        wr_file_sweep("."); /* as any program of ours does that writes or opens something here */
+        /* as any process of the program does before it writes or opens a file here */
+        wr_file_sweep(".");
         tally->killed_old += is_old(0, old), tally->killed_new += is_new(0);
     }
     const bool all_old = all_are(false, old), all_new = all_are(true, old);
@@ -151,8 +152,8 @@ static FaultState count_calls(void)
     return counted;
 }
 
-/* How often the calls that a fault may be planted in come. All of names and syncing of the first group, of others
- * every other kill and all renames that fail from some one on; of writing a tenth. */
+/* Frequency of the tested calls. For the first group all rename and sync calls; for others every other kill and all
+ * series of failing renames; of writes a tenth. */
 static void try_faults(const FaultState *counted, bool old, FaultTally *tally)
 {
     for (int kind = 0; kind < FAULT_KINDS; kind++)
@@ -179,8 +180,8 @@ static void try_group(const Together *group)
     for (int i = 0; i < count; i++) fault_read_whole(group->files[i], &fresh[i], &fresh_length[i]);
     assert_int_equal(counted.counts[FAULT_RENAME], count);
     assert_int_equal(counted.careless, 0);
-    assert_int_equal(counted.counts[FAULT_SYNC],
-                     count + 3); /* they, their list, the folder twice */
+    /* the files, their list, the folder twice */
+    assert_int_equal(counted.counts[FAULT_SYNC], count + 3);
     for (int old = 0; old < 2; old++) try_faults(&counted, old, &tally);
     fault_tell(group->files[0], &tally);
     assert_true(tally.killed_old > 0 && tally.killed_new > 0);
@@ -197,7 +198,7 @@ static void what_belongs_together_is_all_old_or_all_new(void **state)
 
 /* ---- lists ---- */
 
-/* A list of a process that is gone, with one file that waits. */
+/* Create the list of an ended process, with one waiting file. */
 static void plant(long process, const char *list, const char *temporary)
 {
     char name[120], text[300];
@@ -226,15 +227,16 @@ static void a_list_is_followed_only_where_it_is_whole_and_of_its_folder(void **s
         const char *list, *temporary;
         bool taken;
     } lists[] = {
-        { FIRST "%s/x.png\n/\n", NULL, true },      { FIRST "%s/x.png\n", NULL, false }, /* torn */
+        /* truncated */
+        { FIRST "%s/x.png\n/\n", NULL, true },      { FIRST "%s/x.png\n", NULL, false },
         { "%s/x.png\n/\n", NULL, false },           /* no first line */
         { FIRST "%s/../x.png\n/\n", NULL, false },  /* another folder */
-        { FIRST "%s/sub/x.png\n/\n", NULL, false }, /* likewise */
-        { FIRST "%s/x.png\n/\n", "kept", false },   /* a file that waits for nothing */
+        { FIRST "%s/sub/x.png\n/\n", NULL, false }, /* another folder */
+        { FIRST "%s/x.png\n/\n", "kept", false },   /* a file that is not waiting */
         { FIRST "%s/.\n/\n", NULL, false },         { FIRST "%s\n/\n", NULL, false },
     };
     assert_int_equal(mkdir("lists", 0777), 0);
-    assert_int_equal(chdir("lists"), 0); /* so that what stands above it is ours, too */
+    assert_int_equal(chdir("lists"), 0); /* so that the folder above belongs to the test too */
     assert_int_equal(mkdir("sub", 0777), 0);
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         put("x.png", OLD);

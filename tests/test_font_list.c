@@ -1,5 +1,5 @@
-/* The list of installed fonts: what it names, what it leaves out, and that a font over which fontconfig falls takes
-   nothing with it. */
+/* The list of installed fonts: included and excluded files; a font that crashes fontconfig does not affect the
+   others. */
 #include "test.h"
 
 #include "test_folder.h"
@@ -19,7 +19,7 @@
 #define BOLD "/usr/share/fonts/truetype/dejavu/DejaVuSerif-Bold.ttf"
 #define INDIAN "/usr/share/fonts/truetype/lohit-devanagari/Lohit-Devanagari.ttf"
 
-/* In fontconfig's place: it dies where it is told to, as a hostile font could make it. */
+/* Replaces fontconfig: crashes on request, as a hostile font could cause it. */
 static bool deadly;
 static pid_t self;
 
@@ -38,15 +38,15 @@ static void copy_damaged(const char *from, const char *to, int every)
     if (!wr_file_read(from, 1 << 24, &bytes, &length, &err)) fail_msg("%s", err.text);
     for (size_t i = 0; every > 0 && i < length; i += (size_t)every) bytes[i] ^= 0x5a;
     if (every < 0) length /= 3;
-    FILE *file =
-        fopen(to, "wb"); /* other programs write names with line breaks; this one refuses to */
+    /* other programs may write names with line breaks; this one refuses */
+    FILE *file = fopen(to, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, length, file), length);
     fclose(file);
     wr_free(bytes);
 }
 
-/* A folder of fonts, three whole and four not, is all that fontconfig knows. */
+/* A folder of fonts, three valid and four not, is all that fontconfig finds. */
 static void make_fonts(void)
 {
     char text[600], folder[300];
@@ -59,7 +59,7 @@ static void make_fonts(void)
     copy_damaged(SANS, "fonts/torn.ttf", -1);
     copy_damaged(BOLD, "fonts/garbled.ttf", 37);
     copy_damaged("fonts/one.ttf", "fonts/a\nline.ttf", 0);
-    copy_damaged(SANS, "fonts/a.pfb", 0); /* the same face, as if it were Type 1 */
+    copy_damaged(SANS, "fonts/a.pfb", 0); /* the same font, presented as Type 1 */
     assert_true(wr_file_write("fonts/empty.ttf", "", 0, &err));
     assert_true(wr_file_write("fonts/text.ttf", "no font", 7, &err));
     const int length =
@@ -110,7 +110,7 @@ static void whole_fonts_are_listed_by_family_and_no_others(void **state)
     assert_string_equal(bold->family, "DejaVu Serif");
     assert_string_equal(bold->style, "Bold");
     assert_string_equal(indian->family, "Lohit Devanagari");
-    assert_true(sans < bold && bold < indian); /* by name */
+    assert_true(sans < bold && bold < indian); /* sorted by name */
     assert_null(named(&list, "a\nline.ttf"));
     assert_null(named(&list, "empty.ttf"));
     assert_null(named(&list, "a.pfb"));
@@ -119,7 +119,8 @@ static void whole_fonts_are_listed_by_family_and_no_others(void **state)
     wr_font_list_fini(&list);
 }
 
-/* Lohit has Latin letters or not by its version: a sample is the name only where it has them all. */
+/* Lohit has Latin letters or not, depending on its version: a sample is the name only if the font has all its
+   letters. */
 static void a_sample_is_made_of_letters_that_the_font_has(void **state)
 {
     (void)state;
@@ -131,7 +132,7 @@ static void a_sample_is_made_of_letters_that_the_font_has(void **state)
         FcChar32 c;
         FcPattern *font = FcFreeTypeQuery((const FcChar8 *)list.data[i].path, 0, NULL, &blank);
         FcCharSet *has = NULL;
-        if (!font) continue; /* a damaged one that was read at first */
+        if (!font) continue; /* a damaged one that could be read at first */
         assert_int_equal(FcPatternGetCharSet(font, FC_CHARSET, 0, &has), FcResultMatch);
         const FcChar8 *at = (const FcChar8 *)list.data[i].sample;
         assert_true(*at != '\0');

@@ -1,4 +1,4 @@
-/* What every generator keeps to, row by row of every family. */
+/* Common properties of all generators, row by row of every family. */
 #include "test.h"
 #include "generate_help.h"
 
@@ -39,7 +39,7 @@ static void every_row_is_complete(void **state)
     assert_null(wr_family_find("patterns"));
 }
 
-/* Not a number is caught too. */
+/* NaN is detected too. */
 static void check_threads(const WrGenerator *g)
 {
     WrField *like = table_of(200, 150), *first = NULL;
@@ -66,7 +66,7 @@ static void heights_are_finite_and_the_same_for_any_number_of_threads(void **sta
     for_each_row(check_threads);
 }
 
-/* 128 x 64 texels: places are exact. The move crosses tiles and both edges. */
+/* 128 x 64 texels: positions are exact. The shift crosses tiles and both edges. */
 static void check_roll(const WrGenerator *g)
 {
     if (wr_generator_param_find(g, "origin") < 0) return;
@@ -100,8 +100,8 @@ static void an_origin_moved_by_whole_texels_rolls_the_relief_bit_for_bit(void **
     for_each_row(check_roll);
 }
 
-/* Half a texel more or less, where nothing is exact: it must stay what it was, not jump. A row whose lines
- * are thinner than the texels of a small table changes a good deal, but its mean does not. */
+/* A shift by half a texel, where nothing is exact, must not cause a jump. Lines thinner than a texel of a small table
+ * change considerably, but their mean does not. */
 static void check_part_of_a_texel(const WrGenerator *g)
 {
     if (wr_generator_param_find(g, "origin") < 0) return;
@@ -129,7 +129,7 @@ static void an_origin_moved_by_part_of_a_texel_keeps_the_mean(void **state)
     for_each_row(check_part_of_a_texel);
 }
 
-/* A coarse preview has the same size and edges and is about as high. */
+/* A coarse preview has the same size and edges and about the same height. */
 static void check_coarse(const WrGenerator *g)
 {
     WrField *like = wr_field_new(160, 96, WR_WRAP_CLAMP, WR_WRAP_PERIODIC, 0.5f, NULL);
@@ -162,7 +162,7 @@ static void a_coarse_preview_has_the_size_the_edges_and_about_the_heights(void *
     for_each_row(check_coarse);
 }
 
-/* Each parameter beyond each end of its range, and not a number: one error that names it. */
+/* Each parameter beyond each end of its range, and NaN: one error that names it. */
 static void check_bad_values(const WrGenerator *g)
 {
     WrField *like = table_of(16, 16);
@@ -197,8 +197,8 @@ static void bad_values_give_one_error_that_names_the_parameter(void **state)
     for_each_row(check_bad_values);
 }
 
-/* Every parameter at each end of its range by itself, on the smallest and on odd tables (in an ordinary run each high
- * end on one of those, by turns): it either works, and heights are finite, or says what is wrong. */
+/* Every parameter at each end of its range separately, on the smallest and on odd tables (in an ordinary run each
+ * high end on one of those, alternating): it works with finite heights, or reports an error. */
 static void check_ends(const WrGenerator *g)
 {
     const bool full = getenv("WR_FULL");

@@ -1,5 +1,5 @@
-/* Materials of glTF files: what the command gltf takes of them, read back against what was put into them here; pictures out of
-   a GLB's buffer, a data: URI and a file beside; files that lie about themselves. */
+/* Materials of glTF files: results of the command gltf compared with the data written here; pictures from a GLB's
+   buffer, a data: URI and a separate file; inconsistent files. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -17,7 +17,7 @@
 
 enum { W = 7, H = 5 };
 
-/* A picture of three channels; no code is another's, none is left alone by sRGB. */
+/* A picture of three channels; all codes differ, and sRGB conversion changes each. */
 static uint8_t code_of(int x, int y, int c, int kind)
 {
     return (uint8_t)(20 + (x * 37 + y * 11 + c * 71 + kind * 53) % 211);
@@ -46,7 +46,7 @@ static void put_number(FILE *file, size_t x)
     for (int k = 0; k < 4; k++) fputc((int)(x >> 8 * k & 0xff), file);
 }
 
-/* A GLB of a JSON text and a buffer; `more` bytes are claimed of the buffer beyond those that are there. */
+/* Write a GLB with a JSON text and a buffer; the header claims `more` bytes beyond the buffer. */
 static void put_glb(const char *name, const char *json, const char *bin, size_t length, size_t more)
 {
     const size_t text = strlen(json), padded = (text + 3) / 4 * 4;
@@ -120,7 +120,7 @@ static void expect_steel(const WrSession *session)
                     code_of(x, y, 2, 1) / 255.0, 1e-6);
         const double nx = code_of(x, y, 0, 2), ny = code_of(x, y, 1, 2), nz = code_of(x, y, 2, 2);
         const float *n = scene->normals.image->data + 3 * i;
-        /* along the same direction, whether or not it was made unit: x z' = z x' */
+        /* the same direction, normalised or not: x z' = z x' */
         const double ax = 2 * nx / 255 - 1, ay = 2 * ny / 255 - 1, az = 2 * nz / 255 - 1;
         if (az > 0.1) {
             assert_near(ax * (double)n[2], az * (double)n[0], 0.02);
@@ -145,7 +145,7 @@ static const char *const steel_told[] = { "material 2 of 2 \"Steel\"",
                                           "other materials",
                                           NULL };
 
-/* Out of the buffer of a GLB, at offsets that are no multiples of anything. */
+/* From the buffer of a GLB, at unaligned offsets. */
 static void a_glb_gives_numbers_and_pictures(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void a_glb_gives_numbers_and_pictures(void **state)
     expect_steel(s);
     must_run(s, "undo 1");
     assert_int_equal(scene_of_session(s)->material.model, WR_REFLECT_BLINN_PHONG);
-    /* by their names, as documents and scripts have them */
+    /* by name, as in documents and scripts */
     must_run(s, "gltf steel.glb part=2");
     must_run(s, "colour \"steel.glb#1\" repeat=once");
     assert_near((double)scene_of_session(s)->colour->data[0], linear(code_of(0, 0, 0, 1)), 1e-6);
@@ -188,7 +188,7 @@ static void a_glb_gives_numbers_and_pictures(void **state)
     must_fail(s, "gltf steel.glb part=Brass", "no material \"Brass\"");
     put_glb("short.glb", json, bin, at, 9);
     must_fail(s, "gltf short.glb", "longer than the file");
-    /* documents hold the pictures themselves */
+    /* documents contain the pictures themselves */
     WrError err = { "" };
     must_run(s, "gltf steel.glb");
     if (!wr_session_save(s, "kept.exr", &err)) fail_msg("%s", err.text);
@@ -209,7 +209,7 @@ static void put_text(const char *name, const char *text)
     fclose(file);
 }
 
-/* RFC 4648, written apart. */
+/* RFC 4648, implemented independently. */
 static void add_base64(WrText *to, const unsigned char *bytes, size_t length)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -222,7 +222,7 @@ static void add_base64(WrText *to, const unsigned char *bytes, size_t length)
     while (to->length % 4 != 0) wr_text_add(to, "=");
 }
 
-/* One picture as a data: URI, one beside, one below, by an escaped name. */
+/* One picture as a data: URI, one beside the file, one in a subfolder with an escaped name. */
 static void a_gltf_gives_pictures_of_its_own_and_from_beside(void **state)
 {
     (void)state;
@@ -280,7 +280,7 @@ static void lies_are_told(void **state)
         { "{" ASSET "\"materials\":[{", "damaged" },
         { "[[[[", "damaged" },
     };
-    /* these are taken, without the picture */
+    /* these are loaded, without the picture */
     static const struct {
         const char *image, *words;
     } pictures[] = {

@@ -1,7 +1,7 @@
-/* test_grain.c - solid textures: pictures against the reference, which has formulas and noise of its own, in single and
-   double precision, on surfaces posed at random angles; as colours and as bumps; filtered ones against its many samples.
-   Every sample agrees, but on the torus five of a thousand: it is met by steps of Newton, and a place
-   within rounding of a step's edge may be on either side. */
+/* test_grain.c - solid textures: pictures against the reference, which has separate formulas and noise, in single and
+   double precision, on surfaces at random rotations; as colours and as bumps; filtered ones against its many samples.
+   All samples agree, except five of a thousand on the torus: its hits come from Newton's method, and a point within
+   rounding of a step's edge may be on either side. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -30,7 +30,7 @@ static WrReference truth_of(const WrScene *scene, const WrField *field, int samp
     return r;
 }
 
-/* The share of samples that are farther from the reference than `enough`, and how many there are. */
+/* Fraction of samples that differ from the reference by more than `enough`, and their number. */
 static double differ(const WrScene *scene, const WrField *field, double enough, int *shown)
 {
     WrReference r = truth_of(scene, field, 1);
@@ -55,7 +55,7 @@ static WrScene *grainy(WrSolidTextureKind kind, const char *surface, int number)
     scene->grain = wr_grains[kind].usual;
     scene->grain.axis = (WrSolidTextureAxis)((kind + (unsigned)number) % WR_SOLID_TEXTURE_AXES);
     scene->grain.rings *= 0.8137, scene->grain.cells *= 1.193;
-    scene->height = 0; /* the reference has slopes of its own */
+    scene->height = 0; /* excludes differences of slopes */
     scene->posed = true;
     scene->rotate_deg = (WrVec3){ 31.7 + 50 * number, 12.9 * kind, -71.3 };
     scene->dials.aa = WR_AA_POINT;
@@ -82,7 +82,7 @@ static void pictures_are_the_references(void **state)
     wr_field_free(field);
 }
 
-/* Slopes of steps' edges are steps again: a sample within rounding of one may be on either side. */
+/* Slopes at steps' edges are steps again: a sample within rounding of one may be on either side. */
 static void bumps_are_the_references(void **state)
 {
     (void)state;
@@ -106,7 +106,7 @@ static void bumps_are_the_references(void **state)
 
 /* ---- roughness ---- */
 
-/* Lamps on facets whose roughness the texture drives. */
+/* Lights on facets with textured roughness. */
 static void roughness_is_the_references(void **state)
 {
     static const WrReflect models[] = { WR_REFLECT_GGX, WR_REFLECT_OREN_NAYAR,
@@ -125,7 +125,7 @@ static void roughness_is_the_references(void **state)
         scene->material.metalness = 0.37, scene->material.specular = 0.7;
         scene->material.diffuse = 0.8;
         if (in_double) scene->dials.shading = WR_SHADING_DOUBLE;
-        /* the albedo of kept facets goes straight between sixteenths of roughness */
+        /* the albedo of cached facets is linear between sixteenths of roughness */
         const bool kept = models[k % 3] == WR_REFLECT_GGX && k / 6 == 0;
         const double off = differ(scene, field, kept ? 5e-3 : in_double ? 1e-5 : 2e-3, &shown);
         if (!(shown > 200 && off == 0))
@@ -162,8 +162,8 @@ static WrScene *under_sky(double roughness)
     return scene;
 }
 
-/* Surroundings are mirrored alike by a roughness that is the material's and by one that a texture drives, at a rung of
-   the blur and, nearly, between; under 1/8 the blur goes over to the mirror without a step. */
+/* Reflections of the environment are equal for a constant roughness and an equal textured one, at a prefilter level
+   and, nearly, in between; below 1/8 the blur changes to the mirror without a step. */
 static void rungs_of_the_blur_meet(void **state)
 {
     static const double at[] = { 0.5, 0.25, 0.41, 0.17 };
@@ -192,7 +192,7 @@ static void rungs_of_the_blur_meet(void **state)
     wr_field_free(field);
 }
 
-/* Slopes finer than pixels blur what a smooth surface mirrors. */
+/* Slopes finer than pixels blur reflections of a smooth surface. */
 static void slopes_widen_what_is_mirrored(void **state)
 {
     (void)state;
@@ -220,7 +220,7 @@ static void slopes_widen_what_is_mirrored(void **state)
 /* ---- filtered ---- */
 
 typedef struct Far {
-    double rms, mean; /* from the reference; of the means' difference */
+    double rms, mean; /* difference from the reference; difference of the means */
 } Far;
 
 static Far far_from(const WrScene *scene, const WrField *field, const WrReference *r)
@@ -236,8 +236,8 @@ static Far far_from(const WrScene *scene, const WrField *field, const WrReferenc
     return (Far){ sqrt(squares / all), fabs(sum / all) };
 }
 
-/* Rings and cells of about a pixel: filters are nearer than points, and as bright as the truth (HC121). What noise alone
-   fades is what a pixel could show half of. */
+/* Rings and cells of about a pixel: filters are closer to the truth than point samples, and equally bright (HC121).
+   Noise alone is faded where a pixel could show half of it. */
 static void filtered_ones_are_nearer(void **state)
 {
     (void)state;
@@ -263,7 +263,8 @@ static void filtered_ones_are_nearer(void **state)
     wr_field_free(field);
 }
 
-/* Seen at a grazing angle noise of about a pixel along, and of much less across, is no farther from the truth than one sample. */
+/* At a grazing angle, noise of about a pixel along the view and much less across has no larger error than one
+   sample. */
 static void grazing_is_no_worse(void **state)
 {
     (void)state;
@@ -288,7 +289,7 @@ static void grazing_is_no_worse(void **state)
     wr_field_free(field);
 }
 
-/* Samples are spared where bands are wide, and nothing is lost: by the eye's measure the picture is that of all samples. */
+/* Samples are saved where bands are wide, without a visible difference from the picture with all samples. */
 static void adaptive_spares_samples(void **state)
 {
     (void)state;
@@ -322,7 +323,7 @@ static void adaptive_spares_samples(void **state)
     wr_field_free(field);
 }
 
-/* Up to the horizon of ground without end, whatever the dials say. */
+/* Endless ground up to the horizon, for any dials. */
 static void ground_without_end_is_its_mean(void **state)
 {
     (void)state;
@@ -338,7 +339,7 @@ static void ground_without_end_is_its_mean(void **state)
     Shot shot = shoot(scene, field, W, H, 2, "auto", false);
     int far = 0;
     for (int x = 0; x < W; x++)
-        for (int y = 1; y < H; y++) { /* the row below the horizon's */
+        for (int y = 1; y < H; y++) { /* the row below the horizon */
             const float *here = shot.frame.rgba + 4 * (y * W + x), *above = here - 4 * W;
             if (!(here[3] == 1 && above[3] < 1)) continue;
             assert_near((double)here[0], 0.5, 0.15);
@@ -351,9 +352,9 @@ static void ground_without_end_is_its_mean(void **state)
     wr_field_free(field);
 }
 
-/* ---- turned (HC120) ---- */
+/* ---- rotation (HC120) ---- */
 
-/* An object that turns by quarters with its camera shows the same bits: its grain is in it. */
+/* An object rotated by quarters together with its camera gives the same bits: the texture is fixed to it. */
 static void turning_leaves_the_grains_bits(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What was done: undo and redo of everything, bit for bit; the budget; the history as a script. */
+/* History: bit-identical undo and redo of everything; the memory budget; the history as a script. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -19,7 +19,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A tenth of the counts, unless the full ones are asked for. */
+/* A tenth of the counts, unless the full ones are requested. */
 static int count_of(int full)
 {
     const char *all = getenv("WR_FULL");
@@ -93,7 +93,7 @@ static void undo_redo_and_their_limits(void **state)
     assert_true(doc(s)->scene->shape.kind == WR_SURFACE_torus);
     assert_false(wr_session_go(s, 4, &err));
     assert_false(wr_session_go(s, -1, &err));
-    must_run(s, "fill 3"); /* the branch of fill 2 is gone */
+    must_run(s, "fill 3"); /* the branch of fill 2 is dropped */
     assert_int_equal(wr_session_history_count(s), 3);
     assert_string_equal(wr_session_history_line(s, 2), "fill 3");
     must_fail(s, "redo", "nothing to redo");
@@ -179,13 +179,13 @@ static void the_oldest_states_go_when_the_budget_is_full(void **state)
     must_fail(s, "undo 31", "can be undone");
     assert_true(wr_session_go(s, oldest, &err));
     must_fail(s, "undo", "0 can be undone; older states were given up");
-    /* undone states count too: the last of them goes first, never the present one */
+    /* undone states count too: the last of them is dropped first, never the present one */
     must_run(s, "history budget=0");
     assert_int_equal(wr_session_history_count(s), oldest);
     must_run(s, "fill 7");
     must_run(s, "fill 8");
     assert_int_equal(wr_session_history_oldest(s), oldest + 1); /* the last step stays */
-    /* heights of states can be looked at, without going there, as far as they were kept */
+    /* heights of kept states can be read without going there */
     assert_true(wr_field_get(wr_session_history_heights(s, oldest + 2), 3, 3) == 8);
     assert_true(wr_field_get(wr_session_history_heights(s, oldest + 1), 3, 3) == 7);
     assert_null(wr_session_history_heights(s, oldest));
@@ -193,7 +193,7 @@ static void the_oldest_states_go_when_the_budget_is_full(void **state)
     assert_null(wr_session_history_heights(s, -1));
     must_run(s, "undo");
     assert_true(wr_field_get(wr_document_field(doc(s)), 3, 3) == 7);
-    /* of a filter those under it, which are what it changes */
+    /* for a filter, those of the layer below, which it changes */
     must_run(s, "filter invert");
     assert_true(wr_field_get(wr_session_history_heights(s, wr_session_history_position(s)), 3, 3) ==
                 7);
@@ -278,7 +278,7 @@ static bool make_line(const WrCommand *command, int form, TestRandom *random, Wr
     return true;
 }
 
-/* Any command that is not an output; paint, layers and selections more often than their number. */
+/* Any command except output; paint, layers and selections with higher probability. */
 static void random_line(TestRandom *random, WrText *line)
 {
     static const char *const often[] = { "dab",    "stroke", "layer", "select",
@@ -297,7 +297,7 @@ static void random_line(TestRandom *random, WrText *line)
     }
 }
 
-/* Of all that undo brings back: how it is looked at stays (test_views.c). */
+/* Hash of everything that undo restores; the view is not included (test_views.c). */
 static WrHash hash_of_edits(const WrSession *session)
 {
     WrText all = { 0 }, rest = { 0 };
@@ -318,7 +318,7 @@ static bool has_edits(const WrSession *session, WrHash hash)
 
 typedef struct Walk {
     WrSession *session;
-    WrHash *hashes; /* [steps + 2] of the states; 0 is the empty beginning */
+    WrHash *hashes; /* [steps + 2] of the states; 0 is the empty start */
     int failed;
 } Walk;
 
@@ -362,7 +362,7 @@ static void random_commands_undo_redo_and_replay_bit_for_bit(void **state)
     WrPool *first = wr_pool_new(3);
     Walk walk = random_walk(steps, seed, first);
     WrSession *s = walk.session;
-    assert_true(4 * walk.failed < 3 * steps); /* about two in five are out of place */
+    assert_true(4 * walk.failed < 3 * steps); /* about two in five are not applicable */
     WrHash end = wr_session_hash(s);
     int position = wr_session_history_position(s);
     if (!wr_session_save_history(s, "walk.wrinkle", &err)) fail_msg("%s", err.text);
@@ -423,7 +423,7 @@ static void the_script_of_an_opened_document_opens_it_first(void **state)
     must_run(s, "undo");
     WrHash hash = wr_session_hash(s);
     const char *places[] = { "h.wrinkle", "sub/h.wrinkle", "other/h.wrinkle" };
-    for (int i = 0; i < 3; i++) { /* the picture is found from wherever the script lies */
+    for (int i = 0; i < 3; i++) { /* the picture is found from any place of the script */
         assert_true(wr_session_save_history(s, places[i], &err));
         check_replay(places[i], hash);
     }
@@ -442,7 +442,7 @@ static void the_script_of_an_opened_document_opens_it_first(void **state)
     assert_true(wr_file_read("sub/h.wrinkle", 100000, &text, &length, &err));
     assert_true(strncmp(text, "open d.exr sha256=", 18) == 0);
     wr_free(text);
-    assert_true(wr_session_save(s, "sub/d.exr", &err)); /* another content now */
+    assert_true(wr_session_save(s, "sub/d.exr", &err)); /* its content has changed */
     WrSession *t = wr_session_new(NULL);
     assert_false(wr_session_open(t, "sub/h.wrinkle", &err));
     assert_non_null(strstr(err.text, "another content"));

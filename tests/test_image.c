@@ -1,4 +1,4 @@
-/* Pictures: what goes out comes back, bit for bit where the format can; hostile files; full disks. */
+/* Pictures: round trips, bit-identical where the format allows; hostile files; full disks. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -22,7 +22,7 @@ static size_t type_size(WrPixelType type)
     return type == WR_PIXEL_U8 ? 1 : type == WR_PIXEL_U16 ? 2 : 4;
 }
 
-/* The file must not exist, nor may anything half-written lie about. */
+/* The file must not exist, and no partial file either. */
 static int files_here(void)
 {
     FILE *list = popen("ls -A | wc -l", "r");
@@ -82,7 +82,7 @@ static void every_type_comes_back_exactly(void **state)
     const struct {
         const char *path;
         WrPixelType type;
-        unsigned channels; /* decimal digits: the counts to try */
+        unsigned channels; /* decimal digits: numbers of channels to test */
     } cases[] = {
         { "a.png", WR_PIXEL_U8, 1234 },   { "a.png", WR_PIXEL_U16, 1234 },
         { "a.exr", WR_PIXEL_F32, 1234 },  { "a.tif", WR_PIXEL_U8, 1234 },
@@ -176,7 +176,7 @@ static void hc96_nan_becomes_code_0_and_is_counted(void **state)
     int64_t clipped = -1;
     assert_int_equal(wr_image_codes(WR_PIXEL_U8, in, 8, u8, &clipped), 3);
     assert_int_equal(clipped, 2);
-    const uint8_t want8[8] = { 0, 0, 0, 0, 255, 255, 128, 64 }; /* 127.5 goes away from 0 */
+    const uint8_t want8[8] = { 0, 0, 0, 0, 255, 255, 128, 64 }; /* 127.5 is rounded away from 0 */
     assert_memory_equal(u8, want8, 8);
     assert_int_equal(wr_image_codes(WR_PIXEL_U16, in, 8, u16, NULL), 3);
     const uint16_t want16[8] = { 0, 0, 0, 0, 65535, 65535, 32768, 16384 };
@@ -283,7 +283,7 @@ static void parts_names_attributes_and_many_channels_come_back(void **state)
     }
     assert_true(wr_image_file_read(file, 1, values, &err));
     assert_true(values[0] == -7.0f && values[17] == 10.0f);
-    assert_true(wr_image_file_read_rows(file, 0, 100, 1, values, &err)); /* and back up again */
+    assert_true(wr_image_file_read_rows(file, 0, 100, 1, values, &err)); /* and upwards again */
     assert_true(wr_image_file_read_rows(file, 1, 1, 1, values, &err));
     assert_true(values[0] == 2.0f);
     free(values);
@@ -383,7 +383,7 @@ static void the_same_picture_is_the_same_bytes_a_second_later(void **state)
 
 /* ---- hostile files ---- */
 
-/* By which the libraries know the file, or that stood for it: no user knows them. */
+/* Internal names used with the libraries, or replacing file names: a user cannot interpret them. */
 static bool has_inner_name(const char *message)
 {
     return strstr(message, "/proc") || strstr(message, "/fd/") || strstr(message, "\"it\"") ||
@@ -399,7 +399,7 @@ static void check_refused(const char *path, const char *word)
         !strstr(err.text, word) || has_inner_name(err.text))
         fail_msg("message '%s' for %s: should name it and say '%s'", err.text, path, word);
     if (getenv("WR_TELL")) printf("%s\n", err.text);
-    WrImageFile *file = wr_image_file_open(path, &err); /* opening may succeed, reading may not */
+    WrImageFile *file = wr_image_file_open(path, &err); /* opening may succeed and reading fail */
     if (!file) return;
     WrImagePart part = wr_image_file_part(file, 0);
     float *out =
@@ -420,8 +420,8 @@ static void truncated_files_are_refused_at_every_length(void **state)
         WrError err;
         write_named(kinds[k]);
         assert_true(wr_file_read(kinds[k], 1 << 24, &bytes, &length, &err));
-        size_t whole =
-            length; /* of pixels: TGA ends in a footer of 26 bytes and a developer area */
+        /* bytes of pixels: TGA ends with a footer of 26 bytes and a developer area */
+        size_t whole = length;
         if (strcmp(kinds[k], "k.tga") == 0) whole = 18 + 60 * 70 * 3;
         snprintf(path, sizeof path, "cut.%s", kinds[k] + 2);
         for (size_t cut = 1; cut <= 24; cut++) {
@@ -467,7 +467,7 @@ static void damaged_bytes_never_crash_a_reader(void **state)
             bytes[at] = (char)test_random_u64(&random);
             assert_true(wr_file_write(path, bytes, length, &err));
             err.text[0] = '\0';
-            WrImage *image = wr_image_read(path, &err); /* may well be a picture still */
+            WrImage *image = wr_image_read(path, &err); /* may still be a valid picture */
             assert_true(image ? image->width <= WR_IMAGE_MAX : err.text[0] != '\0');
             wr_image_free(image);
             bytes[at] = was;
@@ -501,7 +501,7 @@ static void what_is_no_picture_is_refused_with_a_reason(void **state)
     for (int k = 0; k < KINDS; k++) {
         char path[16];
         snprintf(path, sizeof path, "noise.%s", kinds[k] + 2);
-        if (k == 5) noise[1] = 9; /* TGA has no signature: a wrong colour map type is one */
+        if (k == 5) noise[1] = 9; /* TGA has no signature: an invalid colour map type */
         assert_true(wr_file_write(path, noise, sizeof noise, &err));
         check_refused(path, "");
     }
@@ -541,8 +541,8 @@ static void one_bit_and_sixteen_bit_pnm_read_sensibly(void **state)
     assert_true(wr_file_write("deep.pgm", "P5 2 1 65535\n\x12\x34\xff\xff", 17, &err));
     image = wr_image_read("deep.pgm", &err);
     if (!image) fail_msg("%s", err.text);
-    assert_near(image->data[0], 0x1234 / 65535.0,
-                1.01 / 65535); /* the library loses up to one code */
+    /* the library loses up to one code */
+    assert_near(image->data[0], 0x1234 / 65535.0, 1.01 / 65535);
     assert_near(image->data[1], 1.0, 1.01 / 65535);
     wr_image_free(image);
 }
@@ -620,8 +620,8 @@ static void a_failed_write_leaves_the_old_file_and_nothing_else(void **state)
     assert_non_null(strstr(err.text, "folder does not exist"));
 }
 
-/* A limit on file sizes stands for the full disk: writes fail in the same places. Down to the last byte: what
-   libraries write when they close a file is where they forget to look. */
+/* A limit on file sizes simulates a full disk: writes fail at the same points, down to the last byte, since errors in
+   the final writes of libraries are easily overlooked. */
 static void a_full_disk_is_an_error_and_leaves_nothing_half_written(void **state)
 {
     (void)state;
@@ -682,7 +682,7 @@ static void many_threads_read_at_once(void **state)
     assert_int_equal(good, 64);
 }
 
-/* This program in a folder of its own, with neither the reader nor the module beside it. */
+/* This program in a separate folder, without the reader and the module. */
 static void a_missing_module_is_an_error_and_the_variable_finds_it(void **state)
 {
     (void)state;
@@ -774,7 +774,7 @@ static bool rows_of_one(void *ctx, int y, int rows, void *out, WrError *err)
     return true;
 }
 
-/* Read back as `parts`, it is right, or wrong for that reason. */
+/* Read back as `parts`, it must pass, or fail for that reason. */
 static void assert_doubted(int fd, const WrImageOut *parts, int count, const WrHash *digests,
                            const char *reason)
 {
@@ -822,7 +822,7 @@ static void whatever_does_not_come_back_is_told(void **state)
     parts[0].channels = 2, parts[0].attributes = &other;
     assert_doubted(fd, parts, 2, digests, "wrinkle:scene of part 1");
     parts[0].attributes = &text;
-    /* The two places of chunks stand right before the first chunk; without the second it is not found. */
+    /* The two offsets of chunks are right before the first chunk; without the second it is not found. */
     uint64_t chunk = 0, none = 0;
     off_t at = 8;
     while (pread(fd, &chunk, 8, at) == 8 && chunk != (uint64_t)at + 16) at++;
@@ -845,7 +845,7 @@ int main(int argc, char **argv)
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(
-            many_threads_read_at_once), /* first: the module is loaded by several at once */
+            many_threads_read_at_once), /* first: several threads load the module at once */
         cmocka_unit_test(every_type_comes_back_exactly),
         cmocka_unit_test(whatever_does_not_come_back_is_told),
         cmocka_unit_test(hc95_single_pixels_and_lines_are_pictures_and_none_is_not),

@@ -1,4 +1,4 @@
-/* The journal as it is written and read: round trips, strokes, damage, kills. */
+/* Writing and reading of the journal: round trips, strokes, damage, kills. */
 #include "test.h"
 #include "journal_help.h"
 
@@ -87,7 +87,7 @@ static void a_stroke_is_put_together_from_its_samples(void **state)
     wr_journal_read_fini(&read);
     assert_true(wr_journal_stroke_add(journal, "0.5,0.6", NULL));
     assert_true(wr_journal_stroke_end(journal, NULL));
-    assert_read(wr_journal_path(journal), &read); /* drawn, but nobody says that it was applied */
+    assert_read(wr_journal_path(journal), &read); /* drawn, but not recorded as applied */
     assert_string_equal(read.lines[0].text, "stroke radius=2 points=0.1,0.2;0.3,0.4;0.5,0.6");
     assert_true(read.unfinished && !read.in_stroke);
     wr_journal_read_fini(&read);
@@ -137,7 +137,7 @@ static void samples_without_a_stroke_are_refused(void **state)
 
 /* ---- damage ---- */
 
-/* "command 0", "command 1", ... each with its end; the file's bytes. Caller frees both. */
+/* "command 0", "command 1", ... each with its end; the file's bytes. The caller frees both. */
 static WrText make_small(const char *folder, int commands, char **path)
 {
     WrJournal *journal = begin_at(folder);
@@ -153,11 +153,11 @@ static WrText make_small(const char *folder, int commands, char **path)
     return bytes;
 }
 
-/* A journal of make_small of which `records` records are good; its good part ends at `good`. */
+/* A journal of make_small of which `records` records are valid; the valid part ends at `good`. */
 static void assert_prefix(const WrJournalRead *read, int records, size_t good, size_t size)
 {
     assert_int_equal(read->count, (records + 1) / 2);  /* c d c d ... */
-    if (read->total == read->count && read->lost <= 1) /* nothing whole behind it */
+    if (read->total == read->count && read->lost <= 1) /* no complete record after it */
         assert_int_equal(read->unfinished, records % 2);
     for (int i = 0; i < read->count; i++) {
         char text[32];
@@ -168,7 +168,7 @@ static void assert_prefix(const WrJournalRead *read, int records, size_t good, s
     assert_int_equal(*read->damage != '\0', size != good);
 }
 
-/* Whole lines in bytes[0..length), and where the last of them ends. */
+/* Number of complete lines in bytes[0..length), and the end of the last. */
 static int count_lines(const char *bytes, size_t length, size_t *end)
 {
     int lines = 0;
@@ -214,12 +214,12 @@ static void a_journal_that_ends_in_its_header_is_refused(void **state)
     wr_free(path);
 }
 
-/* What stands behind one flipped bit is there but for what that hit: a line, or two where it made them one. */
+/* Everything after one flipped bit is read except the damaged line, or two lines if the bit joined them. */
 static void assert_behind(const WrJournalRead *read, const char *bytes, size_t at, int line)
 {
     bool joined = bytes[at] == '\n';
     int next = 0,
-        first = line + (joined ? 2 : 1); /* of the lines that are whole again; 0 is the header */
+        first = line + (joined ? 2 : 1); /* first valid line after the damage; 0 is the header */
     for (int i = 0; i < read->count; i++) next = i + 1;
     for (int i = read->count; i < read->total; i++) {
         int number = atoi(read->lines[i].text + strlen("command "));
@@ -227,10 +227,10 @@ static void assert_behind(const WrJournalRead *read, const char *bytes, size_t a
         assert_true(read->lines[i].done);
         next = number + 1;
     }
-    int expected = 0; /* commands of make_small whose own line, 1 + 2k, is behind the damage */
+    int expected = 0; /* commands of make_small whose own line, 1 + 2k, is after the damage */
     for (int k = 0; k < 4; k++) expected += 1 + 2 * k >= first;
     assert_int_equal(read->total - read->count, expected);
-    assert_true(read->lost <= 3); /* the end of a command goes with its begin */
+    assert_true(read->lost <= 3); /* the end of a command is lost with its start */
 }
 
 static void any_flipped_bit_is_noticed_and_what_stands_before_it_is_kept(void **state)
@@ -258,7 +258,7 @@ static void any_flipped_bit_is_noticed_and_what_stands_before_it_is_kept(void **
     wr_free(path);
 }
 
-/* Write lines a, b of the file in each other's place, or leave b out (a < 0). */
+/* Write the file with lines a and b exchanged, or without b (a < 0). */
 static void write_shuffled(const char *path, const WrText *bytes, int a, int b)
 {
     char *starts[32], *line = bytes->data;
@@ -285,7 +285,7 @@ static void lines_that_are_swapped_or_missing_in_the_middle_are_noticed(void **s
             if (a == 0) continue;
             write_shuffled(path, &bytes, a, b);
             assert_read(path, &read);
-            int records = (a < 0 ? b : a) - 1; /* those before the first wrong line */
+            int records = (a < 0 ? b : a) - 1; /* records before the first wrong line */
             assert_int_equal(read.count, (records + 1) / 2);
             assert_true(*read.damage && read.dropped_bytes > 0 && read.lost > 0);
             wr_journal_read_fini(&read);
@@ -295,8 +295,8 @@ static void lines_that_are_swapped_or_missing_in_the_middle_are_noticed(void **s
     wr_free(path);
 }
 
-/* A journal of a stroke of five calls between two commands, of which the lines first..last (0: the header)
-   are made unreadable. */
+/* A journal of a stroke of five calls between two commands; the lines first..last (0: the header) are made
+   unreadable. */
 static void read_without(const char *folder, int first, int last, WrJournalRead *read)
 {
     WrJournal *journal = begin_at(folder);
@@ -334,7 +334,7 @@ static void what_damage_in_the_middle_of_a_stroke_leaves(void **state)
         { 8, 8, 1, 3, 1, { "before", "stroke points=0.0,0;0.1,0;0.2,0;0.3,0", "after" } },
         { 9, 9, 2, 3, 1, { "before", "stroke points=0.0,0;0.1,0;0.2,0;0.3,0;0.4,0", "after" } },
         { 10, 10, 2, 3, 1, { "before", "stroke points=0.0,0;0.1,0;0.2,0;0.3,0;0.4,0", "after" } },
-        /* Another stroke could have begun in between: what follows is not drawn to this one. */
+        /* Another stroke could have begun in the gap: later samples are not added to this one. */
         { 5, 6, 2, 3, 6, { "before", "stroke points=0.0,0", "after" } },
         { 3, 3, 1, 2, 8, { "before", "after" } },
         { 1, 1, 0, 2, 2, { "stroke points=0.0,0;0.1,0;0.2,0;0.3,0;0.4,0", "after" } },
@@ -358,7 +358,7 @@ static void what_damage_in_the_middle_of_a_stroke_leaves(void **state)
         int sound = cases[i].first == 0 ? cases[i].total : cases[i].count;
         assert_int_equal(wr_journal_sound_end(&read, 0, true), sound);
         assert_int_equal(wr_journal_sound_end(&read, 0, false), cases[i].count);
-        assert_int_equal(read.unfinished, cases[i].first == 12); /* nothing says that it ended */
+        assert_int_equal(read.unfinished, cases[i].first == 12); /* no record of its end */
         for (int k = 0, holed = 0; k < read.total; k++)
             if ((holed += read.lines[k].holed) > 0)
                 assert_true(cases[i].last == 6 || cases[i].last == 8);
@@ -407,7 +407,7 @@ static void the_last_save_is_on_record(void **state)
     wr_journal_finish(journal);
 }
 
-/* Written by a program of format 1: checksums go over the line before's. */
+/* Written by format 1: each checksum includes that of the previous line. */
 static const char old_journal[] =
     "wrinkle-journal 1 df6422f71d2a45d5c6b92e0e3aad07e0 0.1.0 1795335881 empty "
     "c209fe4d3c493072d905a35e9e58fe65 \\e \\e \\e\n"
@@ -432,7 +432,7 @@ static void a_journal_of_the_old_format_is_read_whole_and_behind_damage(void **s
     assert_true(read.count == 5 && read.total == 5 && !*read.damage && !read.dropped_bytes);
     assert_string_equal(read.lines[4].text, "dab 0.25,0.75 radius=6 strength=0.3");
     wr_journal_read_fini(&read);
-    for (size_t at = 0; at < size; at++) { /* at most one line more than the damage hit */
+    for (size_t at = 0; at < size; at++) { /* at most one line more than the damaged one */
         memcpy(bytes, old_journal, sizeof bytes);
         bytes[at] ^= 1;
         write_bytes(path, bytes, size);
@@ -441,8 +441,8 @@ static void a_journal_of_the_old_format_is_read_whole_and_behind_damage(void **s
         wr_journal_read_fini(&read);
     }
     memcpy(bytes, old_journal, sizeof bytes);
-    *strstr(bytes, "0.25") =
-        '9'; /* its checksum can be read: so the lines behind it can be proved */
+    /* its checksum is readable, so the following lines can be verified */
+    *strstr(bytes, "0.25") = '9';
     write_bytes(path, bytes, size);
     assert_read(path, &read);
     assert_true(read.count == 1 && read.total == 4 && read.lost == 2);
@@ -465,12 +465,12 @@ static void a_damaged_first_line_leaves_what_makes_sense_of_it_or_the_newest_sna
     wr_journal_command(journal, "a", NULL);
     wr_journal_leave(journal);
     WrText bytes = read_bytes(path);
-    *strstr(bytes.data, "9.9") = '8'; /* the version of the program: the rest makes sense */
+    *strstr(bytes.data, "9.9") = '8'; /* the program's version: the rest is valid */
     write_bytes(path, bytes.data, bytes.length);
     assert_read(path, &read);
     assert_true(read.headless && read.start.kind == WR_JOURNAL_EMPTY && read.start.hash.high == 2);
     wr_journal_read_fini(&read);
-    *strstr(bytes.data, "empty") = 'E'; /* nothing does */
+    *strstr(bytes.data, "empty") = 'E'; /* nothing is valid */
     write_bytes(path, bytes.data, bytes.length);
     assert_read(path, &read);
     assert_true(read.headless && read.start.kind == WR_JOURNAL_SNAPSHOT);
@@ -571,7 +571,7 @@ static void files_that_are_no_journals_are_refused(void **state)
     write_bytes(path, "dab 0,0\n", 8);
     assert_false(wr_journal_read(path, &read, &err));
     assert_non_null(strstr(err.text, "not a journal"));
-    WrJournal *journal = begin_at(*state); /* somebody else put the link to it there */
+    WrJournal *journal = begin_at(*state); /* another user put the link there */
     assert_int_equal(symlink(wr_journal_path(journal), link), 0);
     assert_false(wr_journal_read(link, &read, &err));
     wr_journal_finish(journal);
@@ -625,7 +625,7 @@ static void a_line_over_the_limit_is_not_written_and_the_journal_says_so(void **
 /* ---- kills ---- */
 
 typedef struct Counters {
-    volatile long begun, written; /* commands: before and after they are appended */
+    volatile long begun, written; /* command numbers: before and after appending */
     char path[512];
 } Counters;
 
@@ -678,7 +678,7 @@ static void a_kill_at_any_moment_loses_at_most_the_command_under_way(void **stat
     munmap(counters, sizeof *counters);
 }
 
-/* Commands are numbered from 1; a snapshot holds the number of the last before it. */
+/* Commands are numbered from 1; a snapshot stores the number of the last one before it. */
 static void restart_forever(const char *folder, Counters *counters)
 {
     WrJournal *journal = begin_at(folder);

@@ -1,13 +1,12 @@
-/* test_kern_wide.c - the kernels of several stages at once against the stages themselves, in the plain C of "ref": codes are
-   the same, all else is within the bound of fast arithmetic. What tables and pictures are looked up by:
-   test_kern_wide_look.c. */
+/* test_kern_wide.c - fused kernels against the separate stages in the plain C of "ref": codes are equal, other values
+   within the bound of fast arithmetic. Fetches of tables and textures: test_kern_wide_look.c. */
 #include "kern_wide_help.h"
 
 #include "render/frame/srgb_encode.h"
 
 /* ---- codes ---- */
 
-/* grey: what stands in the other channels is nobody's. */
+/* grey: the other channels are undefined. */
 static void expect_codes(const Sets *sets, const uint32_t *bins, WrStrip *strip, bool grey)
 {
     uint32_t want[WR_SPAN], got[WR_SPAN + 1];
@@ -22,7 +21,7 @@ static void expect_codes(const Sets *sets, const uint32_t *bins, WrStrip *strip,
     assert_true(got[strip->count] == 0x12345678U);
 }
 
-/* A number near a border, anywhere, beyond both ends, or none. */
+/* A number near a border, anywhere, beyond both ends, or NaN. */
 static float some_light(TestRandom *random, int kind)
 {
     const int border = 1 + (int)(255 * test_random(random));
@@ -85,7 +84,7 @@ static void same_place(const WrStrip *got, int i, const WrStrip *want, int k, co
     same_parameters(got, i, want, k, set);
 }
 
-/* The same of the same sample, whatever its place in the strip. */
+/* Equal values for equal samples, at any position in the strip. */
 static void give_picture(WrStrip *strip)
 {
     for (int k = 0; k < strip->count; k++) {
@@ -95,7 +94,7 @@ static void give_picture(WrStrip *strip)
     }
 }
 
-/* Level ones, and some that are steeper than any surface. */
+/* Level ones, and some steeper than any surface. */
 static void give_slopes(int round, WrStrip *strip)
 {
     for (int k = 0; k < strip->count; k++) {
@@ -114,7 +113,7 @@ static bool is_behind(const WrKernLight *light, const WrStrip *strip, int k)
            1e-4f;
 }
 
-/* Rows of many views: points, light of smooth ones, and of bent ones. */
+/* Rows of many views: points, lighting of smooth and of bent normals. */
 static void spheres_are_those_of_the_stages(void **state)
 {
     (void)state;
@@ -142,7 +141,7 @@ static void spheres_are_those_of_the_stages(void **state)
             give_slopes(round, want);
             give_slopes(round, got);
             const bool near = s.rays.perspective, pictured = round & 2;
-            for (int way = 0; way < 2; way++) { /* bent, and as it is */
+            for (int way = 0; way < 2; way++) { /* bent, and unchanged */
                 give_picture(got), give_picture(want);
                 sets.ref->bump[way ? WR_BUMP_NONE : WR_BUMP_BLINN](&s.rays, want);
                 sets.ref->shade[light->point][near][1][pictured](&s.rays, light, &s.shine,
@@ -163,7 +162,7 @@ static void spheres_are_those_of_the_stages(void **state)
     wr_free(want);
 }
 
-/* A whole exponent, however small, a lamp far away. */
+/* An integer exponent, however small, and a distant light. */
 static void make_broad(TestRandom *random, Scenery *s)
 {
     s->light.point = false;
@@ -171,7 +170,7 @@ static void make_broad(TestRandom *random, Scenery *s)
     s->shine.shininess = floorf(between(random, 1, test_random(random) < 0.5 ? 20 : 140));
 }
 
-/* What comes of it where red tells all, and where a picture's colours come between. */
+/* Result if the red channel suffices, and if a texture's colours are multiplied in. */
 static void expect_smooth(const Sets *sets, const Scenery *s, const WrSphereRows *ball, float gx,
                           float gy, int count, const WrStrip *want, WrStrip *got)
 {
@@ -191,7 +190,7 @@ static void expect_smooth(const Sets *sets, const Scenery *s, const WrSphereRows
     wr_free(all);
 }
 
-/* All of it in one pass, from the ray to the colour. */
+/* Everything in one pass, from the ray to the colour. */
 static void smooth_spheres_are_those_of_the_stages(void **state)
 {
     (void)state;
@@ -230,7 +229,7 @@ static void smooth_spheres_are_those_of_the_stages(void **state)
     wr_free(want);
 }
 
-/* The light alone, from any n' and P. */
+/* Lighting alone, from any n' and P. */
 static void one_lamp_is_that_of_the_stages(void **state)
 {
     (void)state;

@@ -1,8 +1,9 @@
-/* Newton's method, normals and bent normals in vectors written by hand: samples are made from places of a surface by its formula
-   in double, and those places have to come out again; what a resting view resumes has the bits of what it was. */
+/* Vector kernels of Newton's method, normals and bent normals: samples are generated from surface points by the
+   formula in double precision, and the kernels must find these points again; data resumed in a static view is
+   bit-identical. */
 #include "kern_wide_help.h"
 
-#define MET_BOUND 8e-6 /* places of samples are rounded */
+#define MET_BOUND 8e-6 /* sample positions are rounded */
 #define REACH (1.0f / 48)
 
 typedef struct Bench {
@@ -15,7 +16,7 @@ typedef struct Bench {
     WrVec3 corner, right, up, back, eye;
     double step, away;
     WrStrip *got, *was, *want;
-    WrSurfacePoint at[WR_SPAN]; /* where the samples are */
+    WrSurfacePoint at[WR_SPAN]; /* surface points of the samples */
 } Bench;
 
 /* In double, unlike those of kern_wide_help.h. */
@@ -43,7 +44,7 @@ static void choose_surface(TestRandom *random, WrSurfaceKind kind, Bench *b)
     const bool closed = kind == WR_SURFACE_torus;
     b->how =
         (WrNewton){ .reach_u = REACH, .reach_v = REACH, .closed_u = closed, .closed_v = closed };
-    for (int k = 0; k < 81; k++) { /* as mesh.c measures it */
+    for (int k = 0; k < 81; k++) { /* as measured in mesh.c */
         WrSurfacePoint at;
         wr_surface_at(&b->shape, 0, k % 9 / 8.0, k / 9 / 8.0, &at);
         b->how.uu = fmaxf(b->how.uu, 1.3f * (float)v3_len(at.puu));
@@ -71,14 +72,14 @@ static void choose_view(TestRandom *random, Bench *b)
     put3(b->rays.dy, v3_scale(b->up, -b->step / b->away));
 }
 
-/* Is the surface there seen at no sharp angle? */
+/* True if the surface there is not seen at a grazing angle. */
 static bool is_open(const Bench *b, const WrSurfacePoint *at)
 {
     const WrVec3 v = b->rays.perspective ? v3_sub(b->eye, at->p) : b->back;
     return at->n_len > 0.3 && fabs(v3_dot(at->n_unit, v)) > 0.35 * v3_len(v);
 }
 
-/* Samples at places of the surface, and guesses that lie up to `off` of a cell beside them. */
+/* Samples at surface points, and initial guesses up to `off` of a cell away. */
 static void choose_samples(TestRandom *random, double off, Bench *b)
 {
     WrStrip *s = b->got;
@@ -90,7 +91,7 @@ static void choose_samples(TestRandom *random, double off, Bench *b)
             wr_surface_at(&b->shape, 0, u, v, &b->at[i]);
             if (is_open(b, &b->at[i])) break;
         }
-        if (!is_open(b, &b->at[i])) s->count = i; /* all of it looks away */
+        if (!is_open(b, &b->at[i])) s->count = i; /* all of it faces away */
         const WrVec3 p = b->at[i].p;
         if (b->rays.perspective) t = b->away / (b->away - v3_dot(p, b->back));
         s->x[i] = (float)((v3_dot(p, b->right) * t + 1.5) / b->step);
@@ -141,7 +142,7 @@ static void expect_bits(const Bench *b)
                 fail_msg("%s: number %d of sample %d is resumed otherwise", b->sets.name, k, i);
 }
 
-/* Good guesses take one evaluation and a last step; coarse ones several. Returns how many took a last step. */
+/* Good guesses need one evaluation and a final step; coarse ones several. Returns the number of final steps. */
 static int solve(Bench *b, double off)
 {
     int landed = 0;
@@ -186,7 +187,7 @@ static void places_come_out_again(void **state)
     wr_free(b.was);
 }
 
-/* Frames of any kind, some nearly without an area; level places, steep ones, and some that are too steep for these. */
+/* Frames of any kind, some nearly degenerate; level points, steep ones, and some too steep for these kernels. */
 static void give_frames(TestRandom *random, int round, WrStrip *s)
 {
     s->count = 1 + (int)(WR_SPAN * test_random(random));
@@ -234,7 +235,7 @@ static void bent_normals_are_those_of_the_stage(void **state)
     wr_free(b.want);
 }
 
-/* Where Pu and Pv are one it says so, in whatever lane, and not of what lies beyond the strip. */
+/* Parallel Pu and Pv are reported, in any lane, but not beyond the strip. */
 static void thin_places_are_told(void **state)
 {
     (void)state;
@@ -255,7 +256,7 @@ static void thin_places_are_told(void **state)
     wr_free(b.got);
 }
 
-/* Spindles and threads have places where |N| is 0, or N the other way. */
+/* Spindle tori and threads have points where |N| is 0, or N is reversed. */
 static void only_rings_are_for_vectors(void **state)
 {
     (void)state;

@@ -23,8 +23,8 @@ static WrRung *settings_of(const WrScene *scene, WrAxis axis, int *count)
     return rungs;
 }
 
-/* A setting is the whole picture's: all objects take its scheme and normals, but for one of another model; what a setting does
-   not name each keeps. */
+/* A setting applies to the whole picture: all objects use its scheme and normals, except one with another model;
+   other dials stay per object. */
 static void all_objects_take_a_setting(void **state)
 {
     (void)state;
@@ -51,8 +51,8 @@ static void all_objects_take_a_setting(void **state)
         assert_int_equal(wr_scene_object(best, i)->scheme, WR_SCHEME_BSPLINE_FIT);
         assert_int_equal(wr_scene_object(best, i)->bump, model ? WR_BUMP_INVARIANT : WR_BUMP_EXACT);
     }
-    assert_int_equal(wr_scene_object(scene, 1)->scheme,
-                     WR_SCHEME_NEAREST); /* the first is as it was */
+    /* the first is unchanged */
+    assert_int_equal(wr_scene_object(scene, 1)->scheme, WR_SCHEME_NEAREST);
     WrScene *all[6] = { one, two, scene, a, b, best };
     for (int i = 0; i < 6; i++) wr_scene_free(all[i]);
 }
@@ -84,7 +84,7 @@ static void a_formula_has_no_schemes_and_a_plane_no_mesh(void **state)
     WrAnalyticTerm term = { 1, 0, 0.5, 0, 0 };
     WrScene *scene = wr_scene_new();
     WrRung *rungs = settings_of(scene, WR_AXIS_VISIBILITY, &count);
-    assert_int_equal(count, 1); /* as it stands */
+    assert_int_equal(count, 1); /* as it is */
     wr_free(rungs);
     scene->analytic = (WrAnalytic){ WR_ANALYTIC_POLY, 1, &term };
     rungs = settings_of(scene, WR_AXIS_DERIVATIVE, &count);
@@ -105,7 +105,7 @@ static void no_two_rungs_are_the_same_scene(void **state)
         WrScene *a = wr_setting_apply(&rungs[i].setting, scene);
         for (int k = 0; k < i; k++) {
             if (rungs[i].axis == WR_AXIS_COUNT && rungs[k].axis != WR_AXIS_COUNT)
-                continue; /* a combination may come down to one dial in some scenes */
+                continue; /* in some scenes a combination reduces to one dial */
             WrScene *b = wr_setting_apply(&rungs[k].setting, scene);
             bool same = true;
             for (int d = 0; d < WR_DIAL_COUNT; d++)
@@ -185,7 +185,7 @@ static WrRung arithmetic_rung(int dial, double value, double own_rms)
                      .own_rms = own_rms };
 }
 
-/* Whether the rung of that index, of a scene of float heights and shading, is told as a fault. */
+/* True if the rung of that index, in a scene with float heights and shading, is reported as a fault. */
 static bool at_fault(WrRung *rungs, int count, double as_it_stands, int which)
 {
     WrScene *scene = wr_scene_new();
@@ -208,18 +208,18 @@ static void more_bits_and_a_larger_error_are_told_as_a_fault(void **state)
     WrRung wide[] = { arithmetic_rung(WR_DIAL_HEIGHTS, WR_HEIGHTS_DOUBLE, 0.0312),
                       arithmetic_rung(WR_DIAL_HEIGHTS, WR_HEIGHTS_8, 0.05) };
     assert_true(at_fault(wide, 2, 0.0007, 0));
-    assert_false(at_fault(wide, 2, 0.03, 0)); /* within what roundings may do */
+    assert_false(at_fault(wide, 2, 0.03, 0)); /* within rounding errors */
     assert_false(at_fault(wide, 2, 0.0007, 1));
     WrRung shades[] = { arithmetic_rung(WR_DIAL_SHADING, WR_SHADING_HALF, 0.001),
                         arithmetic_rung(WR_DIAL_SHADING, WR_SHADING_DOUBLE, 0.02) };
-    assert_true(at_fault(shades, 2, NAN, 1)); /* than halves */
+    assert_true(at_fault(shades, 2, NAN, 1)); /* more than half precision explains */
     WrRung fast[] = { arithmetic_rung(WR_DIAL_ARITHMETIC, WR_ARITHMETIC_FAST, 0.3) };
-    assert_false(at_fault(fast, 1, 0.0007, 0)); /* a cheap rung may err */
+    assert_false(at_fault(fast, 1, 0.0007, 0)); /* a cheap rung may have errors */
     fast[0].note.text[0] = 'x';
     assert_false(at_fault(fast, 1, 0.5, 0));
     WrRung other[] = { arithmetic_rung(WR_DIAL_SHADING, WR_SHADING_DOUBLE, 0.02),
                        arithmetic_rung(WR_DIAL_HEIGHTS, WR_HEIGHTS_8, 0.001) };
-    assert_false(at_fault(other, 2, NAN, 0)); /* of two dials neither is the dearer */
+    assert_false(at_fault(other, 2, NAN, 0)); /* neither of two dials is the more expensive */
 }
 
 /* ---- a small measurement ---- */
@@ -252,7 +252,7 @@ static const WrRung *rung_named(const WrLadder *ladder, const char *name)
     return found;
 }
 
-/* One measurement serves all tests of this group. */
+/* One measurement shared by all tests of this group. */
 typedef struct Measured {
     WrField *field;
     WrScene *scene;
@@ -293,8 +293,8 @@ static int forget(void **state)
 
 static void more_samples_come_nearer_where_theory_says_so(void **state)
 {
-    /* At the sphere's outline k x k samples are off by O(1/k) at worst: 16 x 16 must beat a single one
-       by far, and slopes of a better order must beat none at all. */
+    /* At the sphere's silhouette k x k samples have an error of O(1/k) at worst: 16 x 16 must be far better than one,
+       and slopes of higher order better than none. */
     const Measured *m = *state;
     const WrRung *one = &m->ladder.rungs[0];
     const WrRung *many =
@@ -304,7 +304,7 @@ static void more_samples_come_nearer_where_theory_says_so(void **state)
     assert_true(many->errors.rms < one->errors.rms / 4);
     assert_true(many->errors.coverage_rms < one->errors.coverage_rms / 4);
     assert_true(flat->own_rms > 4 * rung_named(&m->ladder, "mode=exact")->own_rms);
-    assert_true(isnan(many->own_rms)); /* a combination is no axis' own */
+    assert_true(isnan(many->own_rms)); /* a combination belongs to no axis */
 }
 
 static void no_rung_of_arithmetic_is_at_fault(void **state)
@@ -388,7 +388,7 @@ static void a_plot_is_drawn_whole_or_not_at_all(void **state)
     assert_non_null(strstr(err.text, ".png or .svg"));
     assert_int_not_equal(access(bmp, F_OK), 0);
     unlink(svg);
-    assert_int_equal(rmdir(folder), 0); /* nothing else stays */
+    assert_int_equal(rmdir(folder), 0); /* no other file stays */
     wr_free(bytes);
     wr_free(svg);
     wr_free(bmp);

@@ -1,4 +1,4 @@
-/* Maps of a whole table: against closed forms and sums written out, for all schemes, sizes and moved tables. */
+/* Maps of a whole table: against closed forms and explicit sums, for all schemes, sizes and shifted tables. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_folder.h"
@@ -56,9 +56,9 @@ static void make(Made *made, WrFieldMapKind kind, WrPool *pool)
     assert_int_equal(replaced, 0);
 }
 
-/* ---- derivatives of the scheme at hand ----------------------------------------------------------- */
+/* ---- derivatives of a scheme ----------------------------------------------------------------------- */
 
-/* Slopes at a place by the scheme itself, in scene units. */
+/* Slopes at a point by the scheme itself, in scene units. */
 static void slopes_at(const Made *made, double x, double y, double *p, double *q)
 {
     const WrDerivatives *g = &made->job.ground;
@@ -69,7 +69,8 @@ static void slopes_at(const Made *made, double x, double y, double *p, double *q
     *q = g->height * fv / g->cell_h;
 }
 
-/* A hair off the centre, where bilinear's slopes jump, and off the middle between two, where those of central do. */
+/* Slightly off the centre, where bilinear's slopes jump, and off the middle between two, where those of central
+   do. */
 static double bend_at(const Made *made, int i, int j)
 {
     const double e = 1e-7, dx = made->job.ground.cell_w / made->w,
@@ -86,7 +87,7 @@ static double bend_at(const Made *made, int i, int j)
     return -((1 + q * q) * r - 2 * p * q * s + (1 + p * p) * t) / (2 * n * n * n);
 }
 
-/* What stencils give is what the schemes' own functions give, which are asked for any place. */
+/* Stencils give the same values as the schemes' functions, evaluated at any point. */
 static void slopes_and_bends_are_the_schemes_own(void **state)
 {
     (void)state;
@@ -125,7 +126,7 @@ static void slopes_and_bends_are_the_schemes_own(void **state)
     wr_field_free(field);
 }
 
-/* A paraboloid on clamped axes: a r^2 has H = -a at its foot, seen from above a dent, and a saddle none. */
+/* A paraboloid on clamped axes: a r^2 has H = -a at its vertex, a dent seen from above; a saddle has 0. */
 static void curvature_of_paraboloids_is_known(void **state)
 {
     (void)state;
@@ -139,7 +140,8 @@ static void curvature_of_paraboloids_is_known(void **state)
         for (int scheme = 0; scheme < WR_SCHEME_COUNT; scheme++) {
             Made made = made_of(field, (WrScheme)scheme);
             make(&made, WR_FIELD_MAP_CURVATURE, NULL);
-            if (scheme == WR_SCHEME_BILINEAR) { /* its slope there is that half a texel on */
+            if (scheme == WR_SCHEME_BILINEAR) { /* its slope there is that of half a texel
+                                                   further */
                 const double p = 0.37 * a * 1.3 / 31, q = 0.37 * b * 0.8 / 21;
                 const double n2 = 1 + p * p + q * q;
                 assert_near(made.out[10 * 31 + 15],
@@ -153,7 +155,8 @@ static void curvature_of_paraboloids_is_known(void **state)
 
 /* ---- roughness, cavity --------------------------------------------------------------------------- */
 
-/* A wave of whole boxes: its slopes' variance is half the square of their amplitude, so alpha^2 = base^2 + A^2 / 2. */
+/* A wave of whole boxes: the variance of its slopes is half the square of their amplitude, so alpha^2 = base^2 + A^2
+   / 2. */
 static void roughness_of_a_sine_is_known(void **state)
 {
     (void)state;
@@ -194,7 +197,7 @@ static void roughness_is_the_variance_of_a_box(void **state)
     wr_field_free(field);
 }
 
-/* How deep a texel lies below the mean of all others, weighed by a Gaussian over their distance on the torus. */
+/* Depth of a texel below the mean of all others, weighted by a Gaussian of their distance on the torus. */
 static void a_cavity_is_what_lies_below_its_blur(void **state)
 {
     (void)state;
@@ -225,7 +228,8 @@ static void a_cavity_is_what_lies_below_its_blur(void **state)
 
 /* ---- all of them --------------------------------------------------------------------------------- */
 
-/* HC155: 1x1, 1xN, 2x3 and odd sizes, in all schemes, by all threads; moved by whole texels, to the bit. */
+/* HC155: 1x1, 1xN, 2x3 and odd sizes, in all schemes, with all threads; bit-identical after shifts by whole
+   texels. */
 static void moved_tables_give_moved_maps(void **state)
 {
     (void)state;
@@ -252,7 +256,7 @@ static void moved_tables_give_moved_maps(void **state)
     wr_pool_free(pool);
 }
 
-/* A part is that part of the whole, as far as its texels lie within the support; of the cavity to rounding. */
+/* A part equals that part of the whole, if its texels are within the support; for the cavity up to rounding. */
 static void parts_are_those_of_the_whole(void **state)
 {
     (void)state;
@@ -275,7 +279,7 @@ static void parts_are_those_of_the_whole(void **state)
     wr_field_free(field);
 }
 
-/* An edit changes nothing farther away than the support says, and something as near as that or nearer. */
+/* An edit changes nothing beyond the support, and something within it. */
 static void an_edit_reaches_no_farther_than_the_support(void **state)
 {
     (void)state;
@@ -401,7 +405,7 @@ static void parts_of_curvature_and_wear_are_as_defined(void **state)
     wr_document_free(document);
 }
 
-/* One direction is its channel of all; they are named by their degrees. */
+/* One direction equals its channel in the whole; names contain degrees. */
 static void horizons_leave_one_by_one_or_together(void **state)
 {
     (void)state;
@@ -436,7 +440,7 @@ static void horizons_leave_one_by_one_or_together(void **state)
     wr_document_free(document);
 }
 
-/* A formula in the table's place: its own slopes, and heights at the texels. */
+/* A formula in place of the table: its own slopes, and heights at the texels. */
 static void maps_of_a_formula_are_those_of_its_table(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Mesh files of several kinds, and files that are none, are broken, or mean harm. */
+/* Mesh files of several kinds, and files that are invalid, damaged or malicious. */
 #include "test.h"
 
 #include "base/error.h"
@@ -27,7 +27,7 @@ static void refuse(const char *name, const void *bytes, size_t length, const cha
     assert_null(mesh.block);
 }
 
-/* Sum of areas, and the signed volume, which for a closed surface does not depend on the origin. */
+/* Sum of areas, and the signed volume, which is independent of the origin for a closed surface. */
 static void measures(const WrMesh *mesh, double *area, double *volume)
 {
     *area = *volume = 0.0;
@@ -114,7 +114,7 @@ static void a_binary_stl_file_is_read(void **state)
     wr_mesh_fini(&mesh);
 }
 
-/* One triangle of area 1/2, its buffer inside; two nodes, one twice as large and turned on its side. */
+/* One triangle of area 1/2, with embedded buffer; two nodes, one scaled by two and rotated on its side. */
 static const char triangle_gltf[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
     "\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"scale\":[2,2,2],\"rotation\":[0.7071067811865476,0,0,"
@@ -132,7 +132,7 @@ static size_t put(char *out, size_t at, const void *from, size_t size, bool turn
     return at + size;
 }
 
-/* The box of box_obj, in both orders of bytes (this machine's is taken for little). */
+/* The box of box_obj, in both byte orders (this machine is assumed to be little-endian). */
 static void a_binary_ply_file_of_either_order_is_read(void **state)
 {
     (void)state;
@@ -186,7 +186,7 @@ static void a_written_out_stl_file_is_read(void **state)
     wr_text_fini(&text);
 }
 
-/* One triangle: a piece of JSON and a piece of numbers, each of whole fours of bytes. */
+/* One triangle: a JSON chunk and a binary chunk, each padded to four bytes. */
 static void a_glb_file_is_read(void **state)
 {
     (void)state;
@@ -226,7 +226,7 @@ static void the_nodes_of_a_gltf_file_are_put_where_they_belong(void **state)
     measures(&mesh, &area, &volume);
     assert_near(area, 0.5 + 2.0, 1e-5);
     for (int i = 0; i < mesh.point_count; i++) high = fmax(high, (double)mesh.points[i][2]);
-    assert_near(high, 9.0, 1e-5); /* its y, doubled, stands up from 7 */
+    assert_near(high, 9.0, 1e-5); /* its doubled y goes up from 7 */
     wr_mesh_fini(&mesh);
 }
 
@@ -282,7 +282,7 @@ static void files_that_are_no_meshes_are_refused_with_a_reason(void **state)
     refuse("a.png", "\x89PNG\r\n\x1a\n", 8, "of a kind that can be read (.png)");
     refuse("a.ply", "hello", 5, "cannot be read");
     refuse("a.obj", "", 0, "0 bytes: must be");
-    /* What is counted off one by one, though nothing is there. */
+    /* Header counts without data. */
     static const char vertices[] = "ply\nformat ascii 1.0\nelement vertex 2147483647\nend_header\n";
     refuse("much.ply", vertices, sizeof vertices - 1, "says that it holds 2147483647 elements");
     static const char faces[] = "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\n"
@@ -299,7 +299,7 @@ static void files_that_are_no_meshes_are_refused_with_a_reason(void **state)
     assert_non_null(strstr(err.text, "is a device"));
 }
 
-/* A buffer in another file, which is there: it must not be looked at. */
+/* A buffer in another existing file, which must not be opened. */
 static void what_a_file_points_to_is_not_opened(void **state)
 {
     (void)state;
@@ -321,7 +321,7 @@ static void what_a_file_points_to_is_not_opened(void **state)
     unlink(other);
 }
 
-/* Every length up to the whole: a mesh or one sentence. Indices beyond the points likewise. */
+/* Every length up to the whole: a mesh or one message. The same for out-of-range indices. */
 static void truncated_files_and_wild_indices_are_harmless(void **state)
 {
     (void)state;
@@ -329,7 +329,7 @@ static void truncated_files_and_wild_indices_are_harmless(void **state)
     size_t length = tetrahedron_stl(stl);
     WrError err = { "" };
     WrMesh mesh;
-    setenv("WRINKLE_READER_SECONDS", "1", 1); /* some broken files are read for ever */
+    setenv("WRINKLE_READER_SECONDS", "1", 1); /* some damaged files are read for ever */
     for (size_t n = 1; n < length; n += 17) {
         if (wr_mesh_read_bytes("cut.stl", stl, n, &mesh, &err)) wr_mesh_fini(&mesh);
         else assert_non_null(strstr(err.text, "cut.stl: "));
@@ -348,7 +348,7 @@ static void truncated_files_and_wild_indices_are_harmless(void **state)
     unsetenv("WRINKLE_READER_SECONDS");
 }
 
-/* A header that promises more than memory holds ends in one sentence, and the next file is read. */
+/* A header with a count beyond memory ends in one message, and the next file is read. */
 static void a_file_that_promises_too_much_is_refused(void **state)
 {
     (void)state;

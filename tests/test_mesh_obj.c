@@ -1,4 +1,4 @@
-/* OBJ files with all that they hold, read without the library and by it. */
+/* OBJ files with all features, read without the library and by it. */
 #include "test.h"
 
 #include "base/error.h"
@@ -15,7 +15,7 @@ static const char mapped_obj[] = "o left\ng left\nusemtl skin\n"
                                  "o right\ng right\nusemtl horn\n"
                                  "v 2 0 0\nf 2 5 3\n";
 
-/* Each corner has the normal and the (u,v) that the file gives it; a part, its name; what is missing, nothing. */
+/* Each corner has the file's normal and (u,v); a part has its name; missing data stays missing. */
 static void whole_files(void **state)
 {
     (void)state;
@@ -43,7 +43,7 @@ static void whole_files(void **state)
     }
     wr_mesh_fini(&mesh);
     if (!wr_mesh_read_bytes("a.obj", mapped_obj, strlen(mapped_obj), &mesh,
-                            &err)) /* not asked for */
+                            &err)) /* not requested */
         fail_msg("%s", err.text);
     assert_null(mesh.uv);
     assert_null(mesh.parts);
@@ -65,7 +65,7 @@ static int below(uint32_t *seed, int count)
     return (int)(any(seed) * count);
 }
 
-/* A corner of one of the four forms, counted from the start or from the end. */
+/* A corner in one of the four forms, counted from the start or from the end. */
 static void add_corner(WrText *text, uint32_t *seed, int form, int count)
 {
     static const char *const joints[] = { " %d", " %d/%d", " %d//%d", " %d/%d/%d" };
@@ -78,7 +78,7 @@ static void add_corner(WrText *text, uint32_t *seed, int form, int count)
     wr_text_add(text, corner);
 }
 
-/* A number in one of the forms that programs write, or its shortest. */
+/* A number in one of the forms written by programs, or its shortest. */
 static void add_number(WrText *text, uint32_t *seed, bool odd)
 {
     static const char *const forms[] = { "%.6f", "%.3f", "%.9g", "%+.5e", "%.17g" };
@@ -86,14 +86,14 @@ static void add_number(WrText *text, uint32_t *seed, bool odd)
     wr_text_addf(text, forms[below(seed, 5)], 20 * any(seed) - 10);
 }
 
-/* The end of a line, with what else a file may have there. */
+/* A line end, with other allowed text before it. */
 static void add_end(WrText *text, uint32_t *seed, bool odd)
 {
     static const char *const ends[] = { "\n", "\r\n", "\n# f 1 2 3\n\n" };
     wr_text_addf(text, odd ? " \t%s  " : "%s", ends[below(seed, 3)]);
 }
 
-/* coloured: with three numbers more, as some programs write. */
+/* coloured: with three further numbers, as some programs write. */
 static void add_place(WrText *text, uint32_t *seed, bool odd, bool coloured)
 {
     static const char *const kinds[] = { "v", "vt", "vn" };
@@ -105,7 +105,7 @@ static void add_place(WrText *text, uint32_t *seed, bool odd, bool coloured)
     }
 }
 
-/* Each material begins a part of its own, whose faces have one form. odd: with blanks wherever they may be. */
+/* Each material starts a new part, whose faces have one form. odd: with blanks wherever allowed. */
 static void random_obj(WrText *text, uint32_t seed, bool odd)
 {
     const bool coloured = seed % 2;
@@ -155,7 +155,7 @@ static WrMesh whole_obj(const char *text)
     return mesh;
 }
 
-/* A word that it does not know leaves a file to the library, which passes over it. */
+/* An unknown word leaves the file to the library, which skips the word. */
 static void an_obj_file_is_what_the_library_makes_of_it(void **state)
 {
     (void)state;
@@ -166,7 +166,7 @@ static void an_obj_file_is_what_the_library_makes_of_it(void **state)
         wr_text_add(&text, "\nbevel off\n");
         WrMesh other = whole_obj(text.data);
         expect_alike(&own, &other);
-        assert_true(own.point_count < other.point_count); /* it was read in another way */
+        assert_true(own.point_count < other.point_count); /* it was read by another path */
         wr_mesh_fini(&own);
         wr_mesh_fini(&other);
         wr_text_fini(&text);
@@ -192,7 +192,7 @@ static void blanks_do_not_matter(void **state)
     wr_text_fini(&odd);
 }
 
-/* Whatever it leaves to the library is still read, or refused with the library's reason. */
+/* A file left to the library is read, or refused with the library's reason. */
 static void what_is_unusual_is_left_to_the_library(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static void what_is_unusual_is_left_to_the_library(void **state)
     static const char on[] = "v 0 0 0\nv 1 0 \\\n0\nv 0 1 0\nf 1 2 3\n";
     static const char wild[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n";
     WrMesh mesh = whole_obj(five);
-    assert_int_equal(mesh.triangle_count, 3); /* a pentagon with a dent */
+    assert_int_equal(mesh.triangle_count, 3); /* a concave pentagon */
     wr_mesh_fini(&mesh);
     mesh = whole_obj(ahead);
     wr_mesh_fini(&mesh);

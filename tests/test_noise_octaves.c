@@ -1,4 +1,4 @@
-/* Sums of noise: what is asked for, what is dropped, modes, slopes, warping. */
+/* Sums of noise octaves: requested and dropped octaves, modes, slopes, warping. */
 #include "test.h"
 
 #include "base/error.h"
@@ -57,8 +57,8 @@ static void the_sum_is_the_lectures_series(void **state)
         assert_true(plan.octave[i].noise.lattice.seed != plan.octave[i - 1].noise.lattice.seed);
 }
 
-/* With one lattice for all octaves the sum is g(t) + g(2t)/2 + g(4t)/4 + ... of one g with n cells, as the lecture writes
-   it; g is here evaluated at each place by itself. */
+/* With one lattice for all octaves the sum is g(t) + g(2t)/2 + g(4t)/4 + ... of one g with n cells, as in the
+   lecture; here g is evaluated separately at each point. */
 static void one_lattice_is_the_lectures_literal_sum(void **state)
 {
     (void)state;
@@ -91,7 +91,7 @@ static void one_lattice_is_the_lectures_literal_sum(void **state)
             assert_near(wr_octaves_at(&plan, p, NULL), sum, 1e-9);
         }
     }
-    /* at the origin all octaves stand on one lattice point: value noise is 1 + 1/2 + 1/4 times its height there */
+    /* at the origin all octaves are at one lattice point: value noise is 1 + 1/2 + 1/4 times its height there */
     WrOctaves value = wr_octaves_default(2);
     value.kind = WR_NOISE_VALUE;
     value.count = 3;
@@ -101,7 +101,7 @@ static void one_lattice_is_the_lectures_literal_sum(void **state)
     const double origin[2] = { 0, 0 };
     assert_near(wr_octaves_at(&plan, origin, NULL),
                 1.75 * wr_noise_at(&plan.octave[0].noise, origin, NULL), 1e-12);
-    /* a step that is not whole tiles all the same */
+    /* a step that is not an integer tiles all the same */
     value.step = 1.7;
     const WrOctavesPlan odd = plan_of(&value);
     const double a[2] = { 0.3, 0.1 }, b[2] = { 1.3, -0.9 };
@@ -140,8 +140,8 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median error of the analytic slope against central differences of step h; *bad is the share of
- * places where it is over 1/100, which only a crease within h of the place may bring. */
+/* The median error of the analytic slope against central differences of step h; *bad is the fraction of points with
+ * an error over 1/100, possible only within h of a crease. */
 static double slope_error(double (*at)(const void *, const double *, double *), const void *ctx,
                           int dim, double h, double *bad)
 {
@@ -220,8 +220,8 @@ static void hc62_octaves_beyond_half_a_cell_a_texel_are_dropped(void **state)
     assert_true(wr_octaves_at(&plan, (double[]){ 0.3, 0.4 }, NULL) == 0.0 && plan.bound == 0.0);
 }
 
-/* W texels and a lattice of 2W cells: texel centres are lattice points, whole and odd. Of W cells, they
- * are the cells' middles. */
+/* W texels and a lattice of 2W cells: texel centres are odd lattice points. With W cells they are the cells' centres.
+ */
 static void hc63_samples_on_the_lattice_see_no_perlin_noise_and_white_value_noise(void **state)
 {
     (void)state;
@@ -314,8 +314,8 @@ static void what_cannot_be_summed_is_refused_with_a_reason(void **state)
     assert_refused(bad, "needs a period");
 }
 
-/* At its lattice points perlin noise is 0 and |f| has a crease: the slope is 0 there, and on either side
- * of it those of +f and -f. */
+/* At its lattice points perlin noise is 0 and |f| has a crease: the slope is 0 there, and that of +f and -f on either
+ * side. */
 static void hc65_turbulence_has_slope_zero_on_its_creases(void **state)
 {
     (void)state;
@@ -390,8 +390,8 @@ static void hc68_counts_of_cells_are_whole_and_both_frequency_and_period(void **
     assert_int_equal(plan.octave[3].noise.lattice.period[0], 0);
 }
 
-/* Independent octaves of amplitude r^-i and frequency s^i have slopes of one size if r = s, so the mean
- * squares add up: the rms slope grows as the square root of their number. */
+/* Independent octaves of amplitude r^-i and frequency s^i have slopes of equal size if r = s, so the mean squares add
+ * up: the RMS slope grows as the square root of their number. */
 static void slopes_grow_as_the_root_of_the_octaves_when_r_is_s(void **state)
 {
     (void)state;

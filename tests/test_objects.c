@@ -1,4 +1,4 @@
-/* The command `object`: what it changes, that it can be undone, and that scripts and documents bring it back. */
+/* The command `object`: changes, undo, and restoration by scripts and documents. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -50,11 +50,11 @@ static void commands_are_about_the_chosen_one(void **state)
     assert_int_equal(ball->bump, WR_BUMP_INVARIANT);
     assert_true(ball->replicate_u == 1 && ball->material.diffuse == 0.72 && ball->size == 1);
     assert_int_equal(band->shape.kind, WR_SURFACE_ribbon);
-    assert_int_equal(band->bump,
-                     WR_BUMP_BLINN); /* one that is added begins as in an empty document */
+    assert_int_equal(band->bump, WR_BUMP_BLINN); /* a new one starts as in an empty document */
     assert_true(band->replicate_v == 3 && band->at.x == -1.2 && band->size == 0.73);
     assert_string_equal(band->layer, "marks");
-    assert_int_equal(box->shape.kind, WR_SURFACE_cube); /* a copy has all else of what it copies */
+    /* a copy keeps all other settings of its original */
+    assert_int_equal(box->shape.kind, WR_SURFACE_cube);
     assert_true(box->replicate_v == 3 && box->material.diffuse == 0.61 && box->size == 0.73);
     assert_true(box->posed && box->rotate_deg.y == -40 && !box->layer);
     assert_int_equal(band->analytic.kind, WR_ANALYTIC_OFF);
@@ -72,14 +72,14 @@ static void commands_are_about_the_chosen_one(void **state)
     assert_int_equal(wr_scene_object_find(scene_of(session), "band"), -1);
     must_run(session, "object remove ball");
     assert_int_equal(wr_scene_object_count(scene_of(session)), 2);
-    assert_true(scene_of(session)->material.diffuse == 0.5); /* still at hand */
+    assert_true(scene_of(session)->material.diffuse == 0.5); /* still active */
     must_run(session, "object remove");
     assert_int_equal(wr_scene_object_count(scene_of(session)), 1);
     assert_true(scene_of(session)->material.diffuse == 0.61);
     wr_session_free(session);
 }
 
-/* With several objects it is the same edit as turn=, under that name; undo takes it back. */
+/* With several objects it is the same edit as turn=, under that name; undo reverts it. */
 static void rotate_turns_the_chosen_one(void **state)
 {
     (void)state;
@@ -111,7 +111,7 @@ static void expect_heights(const char *path, const WrField *want)
     wr_image_free(image);
 }
 
-/* Of each object the layer that it wears, else that of all. */
+/* The table of each object: its own layer, else the composite. */
 static void exports_take_the_table_of_an_object(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void files_bring_them_back(void **state)
     wr_session_free(session);
 }
 
-/* What a step of the history costs: a picture counts where no object of the other state has it. */
+/* Memory of a history step: a picture counts if no object of the other state has it. */
 static void pictures_count_once_whichever_object_is_at_hand(void **state)
 {
     (void)state;
@@ -270,7 +270,7 @@ static void pictures_count_once_whichever_object_is_at_hand(void **state)
     wr_session_free(session);
 }
 
-/* A layer of an object's own is drawn there alone, as if nothing else were in the document. */
+/* The layer of one object is displayed alone, as if the document had no other. */
 static void a_layer_of_its_own_shows_alone(void **state)
 {
     (void)state;
@@ -285,11 +285,12 @@ static void a_layer_of_its_own_shows_alone(void **state)
     draw(session, alone);
     assert_memory_equal(own, alone, sizeof own);
     must_run(session, "undo");
-    must_run(session, "layer rename marks strokes"); /* it is worn under its new name */
+    must_run(session, "layer rename marks strokes"); /* it stays the table under its new name */
     draw(session, alone);
     assert_memory_equal(own, alone, sizeof own);
     assert_string_equal(scene_of(session)->layer, "strokes");
-    must_run(session, "layer delete strokes"); /* it is gone: all layers', and no failure */
+    /* it is deleted: the composite is used, without a failure */
+    must_run(session, "layer delete strokes");
     must_run(session, "layer set 1 visible=on");
     draw(session, own);
     assert_memory_not_equal(own, alone, sizeof own);
@@ -334,7 +335,7 @@ static void a_floor_is_seen_from_above_only(void **state)
         assert_true(all > ball + 400);
         free(a);
         free(b);
-        must_run(with, "object choose ground"); /* one that turns with the others is no floor */
+        must_run(with, "object choose ground"); /* one that turns with the others is not a floor */
         must_run(with, "object set still=off");
         must_run(with, cameras[k][0]);
         a = picture_of(with, &all);

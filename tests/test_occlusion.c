@@ -1,4 +1,5 @@
-/* Occlusion and horizons of tables: against looking at every texel of the lines, in double, and against closed forms. */
+/* Ambient occlusion and horizons of tables: against a search over every texel of the lines, in double precision, and
+   against closed forms. */
 #include "test.h"
 
 #include "base/error.h"
@@ -73,7 +74,7 @@ static double texel(const WrField *f, int i, int j)
                                 turned(j, wr_field_height(f), wr_field_wrap_v(f)));
 }
 
-/* The height where a step of t texels in direction k leads: what lies between two texels is between their heights. */
+/* Height after a step of t texels in direction k: linear between two texels. */
 static double on_line(const WrField *f, int i, int j, double x, double y, int t)
 {
     const double u = i + t * x, v = j - t * y;
@@ -83,7 +84,7 @@ static double on_line(const WrField *f, int i, int j, double x, double y, int t)
            (1 - s) * r * texel(f, a, b + 1) + s * r * texel(f, a + 1, b + 1);
 }
 
-/* Direction k of n round the square, from u to v. */
+/* Direction k of n around the square, from u to v. */
 static void square(int k, int n, double *x, double *y)
 {
     const double turn = 8.0 * k / n; /* eighths */
@@ -109,7 +110,7 @@ static double looked(const Map *map, int i, int j, int k, int far)
 static const int sizes[][2] = { { 1, 1 }, { 1, 5 },  { 6, 1 }, { 2, 3 },
                                 { 7, 9 }, { 11, 8 }, { 6, 14 } };
 
-/* HC122, HC155: all directions of small tables, on all wraps, as far as lines go until they have nothing new. */
+/* HC122, HC155: all directions of small tables, with all wrap modes, as far as lines find new texels. */
 static void horizons_are_what_looking_finds(void **state)
 {
     (void)state;
@@ -146,8 +147,8 @@ static void make(Map *map, WrPool *pool)
         fail_msg("%s", err.text);
 }
 
-/* The share of the sky of a plane that rises by p, q, whose horizons have these slopes: the formula of the hemisphere's
- * integral over each sector, by its own angles. */
+/* Visible fraction of the sky for a plane with slopes p, q and these horizon slopes: the hemisphere's integral over
+ * each sector, by its own angles. */
 static double sky(const WrOcclusion *how, const double *slope, double p, double q)
 {
     const double n = sqrt(1 + p * p + q * q);
@@ -192,7 +193,7 @@ static void occlusion_is_the_sky_that_horizons_leave(void **state)
     wr_field_free(field);
 }
 
-/* Level ground sees all, whatever its height; 1 to the bit. */
+/* Level ground sees the whole sky at any height; exactly 1. */
 static void level_ground_sees_the_whole_sky(void **state)
 {
     (void)state;
@@ -207,7 +208,7 @@ static void level_ground_sees_the_whole_sky(void **state)
     wr_field_free(field);
 }
 
-/* In the middle of a round pit: cos^2 of the rim's angle, R^2 / (R^2 + d^2). The rim is met within a texel. */
+/* In the centre of a round pit: cos^2 of the rim's angle, R^2 / (R^2 + d^2). The rim is found within a texel. */
 static void a_round_pit_sees_what_its_rim_leaves(void **state)
 {
     (void)state;
@@ -229,8 +230,8 @@ static void a_round_pit_sees_what_its_rim_leaves(void **state)
     wr_field_free(field);
 }
 
-/* On the floor of a trench between walls at x1 and x2: 1/2 (1/sqrt(1 + d^2/x1^2) + 1/sqrt(1 + d^2/x2^2)); directions
- * are few, and their error falls with the square of their number. */
+/* On the floor of a trench between walls at x1 and x2: 1/2 (1/sqrt(1 + d^2/x1^2) + 1/sqrt(1 + d^2/x2^2)); the error
+ * falls with the square of the number of directions. */
 static void a_trench_sees_what_its_walls_leave(void **state)
 {
     (void)state;
@@ -257,7 +258,8 @@ static void a_trench_sees_what_its_walls_leave(void **state)
     wr_field_free(field);
 }
 
-/* A cos 2 pi x: from the trough the horizon's slope is 2 pi A 0.724611 along x, where tan(y / 2) = y; to the square of a texel. */
+/* A cos 2 pi x: from the trough the horizon's slope is 2 pi A 0.724611 along x, where tan(y / 2) = y; with an error
+   of second order in the texel size. */
 static void the_horizon_of_a_trough_is_known(void **state)
 {
     (void)state;
@@ -275,7 +277,8 @@ static void the_horizon_of_a_trough_is_known(void **state)
     wr_field_free(field);
 }
 
-/* A plane tilted against a level horizon sees (1 + cos) / 2; in one that is its own, all. Of wide level ground each. */
+/* A plane tilted against a level horizon sees (1 + cos) / 2; against its own plane, everything. Both on wide level
+   ground. */
 static void a_tilted_plane_sees_what_it_faces(void **state)
 {
     (void)state;
@@ -292,7 +295,7 @@ static void a_tilted_plane_sees_what_it_faces(void **state)
     wr_field_free(field);
 }
 
-/* Odd and unequal sizes, lines that do not close among them: rolled by whole texels, on other threads. */
+/* Odd and unequal sizes, including lines that do not close: rolled by whole texels, with other threads. */
 static void a_moved_table_gives_the_moved_map(void **state)
 {
     (void)state;
@@ -321,7 +324,7 @@ static void a_moved_table_gives_the_moved_map(void **state)
     }
 }
 
-/* A part of the table within a reach is that part of the whole's map, to the bit. */
+/* A part of the table within reach is bit-identical to that part of the whole map. */
 static void a_part_is_that_of_the_whole(void **state)
 {
     (void)state;
@@ -338,7 +341,7 @@ static void a_part_is_that_of_the_whole(void **state)
 
 enum { ROWS = 70, COUNT = ROWS * WR_SKY_LANES, SHARED = 77 };
 
-/* What a set of instructions makes of the same numbers. */
+/* Results of an instruction set for the same input. */
 typedef struct Made {
     float slope[COUNT], loss[SHARED], best[SHARED];
     int32_t highest[WR_SKY_LANES], found;
@@ -368,7 +371,7 @@ static void work_of(const WrSkyKernels *k, int turn, const int32_t *h, float (*i
     k->look(in[2], in[0], in[1], 0.25f, 0.7f, SHARED, made->best);
 }
 
-/* All sets of instructions give the same bits. */
+/* All instruction sets are bit-identical. */
 static void kernels_agree_to_the_bit(void **state)
 {
     (void)state;
@@ -387,7 +390,8 @@ static void kernels_agree_to_the_bit(void **state)
     }
 }
 
-/* The next row in which a lane is higher: beside looking at all of them, from every start, both ways. */
+/* The next row in which a lane is higher: compared with a search over all of them, from every start, in both
+   directions. */
 static void the_next_higher_row_is_found(void **state)
 {
     (void)state;
@@ -406,7 +410,7 @@ static void the_next_higher_row_is_found(void **state)
     }
 }
 
-/* Cliffs and planes that are all but upright: beside the formula in double. */
+/* Cliffs and nearly vertical planes: compared with the formula in double precision. */
 static void walls_are_walls(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* OpenRaster files: ours come back bit for bit and are what others expect; strangers' become layers; hostile
-   ones one clear sentence. */
+/* OpenRaster files: the program's own are restored bit for bit and valid for others; files of other programs become
+   layers; hostile ones give one clear message. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -35,7 +35,7 @@ static WrField *random_field(int width, int height, WrWrap u, WrWrap v, double l
 static const char *const names[] = { "base", "a <b> & \"c\"\n\td\xc3\xa9", "bad \x01\xff name",
                                      "" };
 
-/* Four layers that between them use everything that a layer can have. */
+/* Four layers that together use every feature of a layer. */
 static WrDocument *make_document(int width, int height)
 {
     const WrWrap u = WR_WRAP_CLAMP, v = WR_WRAP_PERIODIC;
@@ -101,9 +101,8 @@ static void what_was_saved_comes_back_bit_for_bit(void **state)
         assert_string_equal(wr_text_get(&notes), "");
         assert_string_equal(loaded.scene_text, scene);
         assert_true(loaded.newer_version == 0.0);
-        for (int i = 0; i < 4; i++)
-            assert_string_equal(loaded.document->layers[i].name,
-                                i == 3 ? "layer 4" : names[i]); /* none has no name */
+        for (int i = 0; i < 4; i++) /* without a name */
+            assert_string_equal(loaded.document->layers[i].name, i == 3 ? "layer 4" : names[i]);
         wr_free(loaded.document->layers[3].name);
         loaded.document->layers[3].name = wr_strdup("");
         assert_true(wr_hash_equal(wr_document_hash(loaded.document, loaded.scene_text), before));
@@ -158,7 +157,7 @@ static void the_same_document_gives_the_same_bytes_a_while_later(void **state)
     WrError err;
     save(document, "x", "a.ora");
     assert_true(wr_file_read("a.ora", 1 << 24, &a, &length_a, &err));
-    usleep(2100000); /* times in archives are even seconds */
+    usleep(2100000); /* archives store even seconds */
     WrLoaded loaded = load("a.ora", NULL);
     wr_free(loaded.document->layers[3].name);
     loaded.document->layers[3].name = wr_strdup("");
@@ -223,7 +222,7 @@ static void the_archive_is_laid_out_as_the_format_wants(void **state)
     wr_document_free(document);
 }
 
-/* Programs that know no filters see through it. */
+/* Transparent in programs without filters. */
 static void a_filters_preview_is_transparent(void **state)
 {
     (void)state;
@@ -267,7 +266,8 @@ static void previews_show_heights_over_the_stated_range(void **state)
             double height = wr_field_get(heights, x, y);
             double want = (height - low) / ((double)high - low);
             if (i >= 0 && document->layers[i].blend == WR_BLEND_MULTIPLY)
-                want = height > 0 ? height < 1 ? height : 1 : 0; /* the factor that others take */
+                /* the factor used by other programs */
+                want = height > 0 ? height < 1 ? height : 1 : 0;
             double alpha = 1.0;
             if (i >= 0 && document->layers[i].cover)
                 alpha *= wr_field_get(document->layers[i].cover, x, y);
@@ -282,7 +282,7 @@ static void previews_show_heights_over_the_stated_range(void **state)
     wr_document_free(document);
 }
 
-/* ---- strangers' files ---- */
+/* ---- files of other programs ---- */
 
 typedef struct Part {
     const char *name, *bytes;
@@ -338,7 +338,8 @@ static void a_strangers_layers_become_heights_and_coverage(void **state)
         " <filter type='x'><layer src='data/none.png'/></filter>\n"
         " <layer src='data/full.png' selected='true' edit-locked='true'/>\n"
         "</stack></image>\n";
-    static const uint8_t rgba[2 * 2 * 4] = { 255, 0,   0, 255, 9,  9,  9,  9, /* row 0 is above */
+    /* row 0 is at the top */
+    static const uint8_t rgba[2 * 2 * 4] = { 255, 0,   0, 255, 9,  9,  9,  9,
                                              0,   255, 0, 128, 70, 70, 70, 0 };
     static const uint8_t grey[2] = { 51, 102 };
     uint8_t full[6 * 4 * 3];
@@ -373,7 +374,7 @@ static void a_strangers_layers_become_heights_and_coverage(void **state)
         assert_true(wr_field_get(in->cover, i % 6, i / 6) == (there ? 1.0f : 0.0f));
         assert_near(wr_field_get(in->heights, i % 6, i / 6), there ? 102 / 255.0 : 0.0, 1e-6);
     }
-    /* y = -1: its second row lies on the first one. Green's share of luma; where alpha is 0 nothing. */
+    /* y = -1: its second row is on the first one. Green's share of luma; nothing where alpha is 0. */
     assert_string_equal(top->name, "top <1>");
     assert_true(top->visible && top->opacity == 0.25f && top->blend == WR_BLEND_ADD);
     for (int i = 0; i < 24; i++) {
@@ -390,7 +391,7 @@ static void a_strangers_layers_become_heights_and_coverage(void **state)
 static void a_file_of_ours_from_another_program_keeps_its_pictures(void **state)
 {
     (void)state;
-    /* As a program writes it that knows nothing of our attributes: the PNGs alone. */
+    /* As written by a program that ignores our attributes: the PNGs alone. */
     static const char xml[] = "<image w='3' h='1'><stack><layer name='a' src='data/layer1.png'/>"
                               "</stack></image>";
     static const uint8_t codes[3] = { 0, 128, 255 };
@@ -405,7 +406,7 @@ static void a_file_of_ours_from_another_program_keeps_its_pictures(void **state)
     drop(&loaded);
 }
 
-/* Subtract leaves as difference, the nearest that there is, and comes back as itself where our attributes are gone. */
+/* Subtract is saved as difference, the nearest available mode, and restored if our attributes are missing. */
 static void difference_comes_back_as_subtract(void **state)
 {
     (void)state;
@@ -428,7 +429,7 @@ static void difference_comes_back_as_subtract(void **state)
     drop(&loaded);
 }
 
-/* The composite is for others: it is no layer of ours, and does not count as one. */
+/* The composite is for other programs: it is not loaded as a layer. */
 static void the_composite_for_others_is_passed_over(void **state)
 {
     (void)state;
@@ -660,7 +661,7 @@ static void a_failed_save_leaves_the_old_file_and_nothing_else(void **state)
     assert_false(wr_ora_save(document, "", "nowhere/a.ora", NULL, &err));
     assert_non_null(strstr(err.text, "folder does not exist"));
     assert_int_equal(files_here(), before);
-    /* A device that is always full stands for the full disk, where there is one to mount. */
+    /* A device that is always full simulates a full disk, if mounting is possible. */
     mkdir("disk", 0777);
     if (system("mount -t tmpfs -o size=16k tmpfs disk 2>/dev/null") == 0) {
         assert_true(wr_file_write("disk/a.ora", "precious", 8, &err));

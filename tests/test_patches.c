@@ -1,4 +1,4 @@
-/* Sets of bicubic patches: files, what hangs together, how they are cut, and the table on them. */
+/* Sets of bicubic patches: files, connectivity, tessellation, and the table on them. */
 #include "test.h"
 #include "field/scheme_list.h"
 
@@ -30,7 +30,7 @@ static WrTriangles *teapot(bool slip, WrPatchTable table)
     float(*points)[48];
     int32_t count;
     points = teapot_points(&count);
-    if (slip) { /* as in a copy that goes round: patch 12 has 1.2 for 1.12 */
+    if (slip) { /* as in a circulating copy: patch 12 has 1.2 for 1.12 */
         int found = 0;
         for (int i = 0; i < 16; i++) {
             float *p = points[11] + 3 * i;
@@ -47,7 +47,7 @@ static WrTriangles *teapot(bool slip, WrPatchTable table)
 
 /* ---- what is found ---- */
 
-/* HC152: what the numbers of Newell's pot have in them is told. */
+/* HC152: note on the open edges and degenerate patches of Newell's teapot. */
 static void the_teapot_is_told_of(void **state)
 {
     (void)state;
@@ -69,8 +69,9 @@ static void the_teapot_is_told_of(void **state)
     wr_triangles_free(slipped);
 }
 
-/* HC85: triangles of neighbours have the same corners along the edge, so that no sample falls between: of all edges of
-   triangles that one triangle has alone, each lies on an open edge. The pot, cut finely and otherwise on either side. */
+/* HC85: triangles of neighbouring patches have the same corners along the common edge, so that no sample is lost:
+   every edge that belongs to one triangle is on an open edge. The teapot, with different subdivision on both
+   sides. */
 static void neighbours_are_cut_alike(void **state)
 {
     (void)state;
@@ -78,7 +79,7 @@ static void neighbours_are_cut_alike(void **state)
     float(*place)[3] = wr_alloc((size_t)pot->corner_count, sizeof *place);
     for (int32_t i = 0; i < pot->corner_count; i++)
         memcpy(place[i], pot->corners[i].p, sizeof *place);
-    /* the sum over all directed edges, of a hash that changes sign with the direction, leaves open ones alone */
+    /* the sum over all directed edges, of a hash that changes sign with the direction, leaves only open ones */
     double sum[3] = { 0, 0, 0 }, alone = 0;
     for (int32_t i = 0; i < pot->triangle_count; i++)
         for (int k = 0; k < 3; k++) {
@@ -90,7 +91,8 @@ static void neighbours_are_cut_alike(void **state)
             sum[0] += n.x, sum[1] += n.y, sum[2] += n.z;
             alone += fabs(n.x);
         }
-    /* the loops' own: rim and lid are circles about the axis, of radius 1.4 and 1.3; spout and handle lie in planes */
+    /* the same for the loops: rim and lid are circles about the axis, of radius 1.4 and 1.3; spout and handle are in
+       planes */
     double want[3] = { 0, 0, 0 };
     const WrPatches *set = pot->patches;
     for (int32_t i = 0; i < set->count; i++)
@@ -111,7 +113,7 @@ static void neighbours_are_cut_alike(void **state)
     wr_triangles_free(pot);
 }
 
-/* Along the whole of every patch its triangles are as near as is said, and their (u,v) too. */
+/* Over the whole of every patch the triangles and their (u,v) are within the stated distance. */
 static void triangles_are_near(void **state)
 {
     (void)state;
@@ -142,7 +144,7 @@ static const struct {
 } ways[] = { { 0, false }, { 1, false }, { 2, false }, { 3, false },
              { 0, true },  { 1, true },  { 2, true },  { 3, true } };
 
-/* F and its gradient on the surface, of the table on the patch. */
+/* F and its gradient on the surface, for the table on the patch. */
 static void on_patch(const WrPatches *set, int32_t i, double u, double v, const WrField *field,
                      WrScheme scheme, double *f, WrVec3 *grad)
 {
@@ -160,8 +162,8 @@ static void on_patch(const WrPatches *set, int32_t i, double u, double v, const 
     *grad = v3_add(v3_scale(gu, fu), v3_scale(gv, fv));
 }
 
-/* HC151: of a patch that was cut in four, some of them turned by quarters, some mirrored, F has the same bits on both sides
-   of each common edge and its gradient is the same, whether each has the whole table or a quarter of it. */
+/* HC151: a patch divided into four, some rotated by quarters, some mirrored: F is bit-identical on both sides of each
+   common edge and its gradient is equal, whether each part has the whole table or a quarter. */
 static void the_table_runs_on(void **state)
 {
     (void)state;
@@ -209,7 +211,7 @@ static void the_table_runs_on(void **state)
     wr_field_free(field);
 }
 
-/* Of cells of their own, each within its margin: no tap of a cubic scheme in a cell of 64 texels reaches another's. */
+/* Separate cells with margins: no tap of a cubic scheme in a cell of 64 texels reaches another cell. */
 static void cells_are_apart(void **state)
 {
     (void)state;
@@ -228,8 +230,8 @@ static void cells_are_apart(void **state)
     wr_triangles_free(pot);
 }
 
-/* A ground of patches is where the spline through the picture's means is: level where that is level, and tilted evenly
-   where it is; it runs on smoothly. */
+/* A terrain of patches equals the spline through the picture's means: level where that is level, evenly tilted where
+   it is tilted; smooth across patches. */
 static void terrains_are_smooth(void **state)
 {
     (void)state;
@@ -346,7 +348,7 @@ static void texts_are_read_or_told(void **state)
     assert_non_null(strstr(err.text, "line 20: \"1\" is not expected"));
 }
 
-/* Whatever the bytes, they are refused with a sentence or give a set whose places are finite. */
+/* Any bytes are refused with a message, or give a set with finite points. */
 static void hostile_texts_end(void **state)
 {
     (void)state;
@@ -377,7 +379,7 @@ static void hostile_texts_end(void **state)
     wr_free(good);
 }
 
-/* Sets that are nothing, a line, a point, huge, or of one patch many times: a sentence or a set, never a crash. */
+/* Sets that are empty, a line, a point, huge, or one patch repeated: a message or a set, never a crash. */
 static void odd_sets_end(void **state)
 {
     (void)state;

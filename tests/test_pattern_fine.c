@@ -1,4 +1,4 @@
-/* Patterns in a coarse table against the same patterns eight times as fine, averaged. */
+/* Patterns in a coarse table against averages of the same patterns eight times as fine. */
 #include "test.h"
 
 #include "generate_help.h"
@@ -6,8 +6,8 @@
 #define SIDE 96
 #define FINE 8
 
-/* Lengths in texels grow with the table. What is finer than they are (a rough surface, wood, strays of edges)
- * goes by the texels that there are, so the two tables would not show the same. */
+/* Lengths in texels grow with the table. Finer features (a rough surface, wood, displaced edges) depend on the number
+ * of texels, so the two tables would differ. */
 static WrField *made_at(const WrGenerator *g, int scale)
 {
     static const char *const without[] = { "rough", "wood", "wobble", "jagged" };
@@ -24,9 +24,9 @@ static WrField *made_at(const WrGenerator *g, int scale)
     return f;
 }
 
-/* The root mean square of what differs from the mean of each texel's FINE x FINE, over the range. */
+/* RMS difference from the mean of each texel's FINE x FINE, relative to the range. */
 typedef struct Errors {
-    double filtered, sampled; /* of the coarse table; of the fine one's texel nearest the centre */
+    double filtered, sampled; /* of the coarse table; of the fine texel nearest to the centre */
 } Errors;
 
 static Errors errors_of(const WrField *coarse, const WrField *fine)
@@ -48,9 +48,8 @@ static Errors errors_of(const WrField *coarse, const WrField *fine)
     return (Errors){ sqrt(filtered) / SIDE / range, sqrt(sampled) / SIDE / range };
 }
 
-/* All of them are nearer to the mean of a texel than a sample at its middle is, by far where an edge is
- * filtered in closed form; and near. Voronoi's ridges, scales' and scratches' crossings are not smoothed as
- * far as that: nearer, and near. */
+/* All are closer to the mean of a texel than a sample at its centre, much closer where an edge is filtered in closed
+ * form. Voronoi's ridges, and crossings of scales and scratches, are less smooth: only closer. */
 static void a_texel_is_the_mean_of_eight_by_eight_samples_rather_than_one(void **state)
 {
     (void)state;

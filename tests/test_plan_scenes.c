@@ -1,6 +1,6 @@
-/* test_plan_scenes.c - the catalogue of scenes S01 to S32, as ui/guide/plan.md lists them: of each the effects that run,
-   written by hand, and no other; with all forced on the same bits, on any number of threads and set of instructions.
-   And what comes back when the least of what a proof went by changes. */
+/* test_plan_scenes.c - the catalogue of scenes S01 to S32, as in ui/guide/plan.md: exactly the listed effects run in
+   each; with all effects forced the picture is bit-identical, on any number of threads and instruction set. And the
+   effects that run after the smallest change to an input of a proof. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -70,7 +70,7 @@ static void from_behind(Stage *stage)
     stage->scene->lights[0].where = (WrVec3){ 0, 0, -1 };
 }
 
-/* F rises evenly: the ends of the table are its only steps. */
+/* F increases evenly: the ends of the table are its only steps. */
 static void ramp(Stage *stage)
 {
     WrField *field = wr_field_new(64, 64, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0, NULL);
@@ -143,7 +143,7 @@ static void bricks_near(Stage *stage)
     stage->scene->replicate_u = stage->scene->replicate_v = 0.25;
 }
 
-/* A lamp 10 degrees above the plane; slopes far below that, and far above. */
+/* A light 10 degrees above the plane; slopes far below that, and far above. */
 static void grazed(Stage *stage, double height)
 {
     take_surface(stage, "plane");
@@ -221,7 +221,7 @@ static void all_at_once(Stage *stage)
     stage->scene->dials.shading = WR_SHADING_HALF;
 }
 
-/* Solid noise that turns normals, of which a pixel holds many cells, or few. */
+/* Solid noise that bends normals, with many cells per pixel, or few. */
 static void noise_far(Stage *stage)
 {
     WrSolidTexture *grain = &stage->scene->grain;
@@ -257,7 +257,7 @@ static void constant_surroundings(Stage *stage)
     wr_image_free(image);
 }
 
-/* Of the faces that are seen, 0 has bumps, 3 letters, here two strokes, and 4 nothing at all. */
+/* Of the visible faces, 0 has bumps, 3 letters (here two strokes), and 4 is empty. */
 static void faces(Stage *stage)
 {
     WrField *field = level_field(1152, 768, 0.25);
@@ -274,7 +274,7 @@ static void faces(Stage *stage)
     stage->scene->rotate_deg = (WrVec3){ 30, 20, 0 };
 }
 
-/* A small sphere, which would cost a colour picture, wholly behind a larger one. */
+/* A small sphere with a colour texture, completely behind a larger one. */
 static void hidden_sphere(Stage *stage)
 {
     WrScene *front = stage->scene, *back = wr_scene_clone(front);
@@ -286,26 +286,26 @@ static void hidden_sphere(Stage *stage)
     front->others = wr_alloc(1, sizeof *front->others);
     front->others[front->other_count++] = back;
     front->chosen = 1;
-    front->camera.fit = false; /* which would mind the other */
+    front->camera.fit = false; /* a fit would include the other */
     front->camera.eye = (WrVec3){ 0, 0, 4 };
 }
 
-/* ---- what runs in each ----------------------------------------------------------------------------- */
+/* ---- expected effects ----------------------------------------------------------------------------- */
 
 #define E(name) WR_EFFECT_BIT(WR_EFFECT_##name)
 #define NEW (E(AGAIN) | E(STEADY))
 #define LIGHT (E(DIFFUSE) | E(SPECULAR))
 #define NEAR (E(PERSPECTIVE) | NEW) /* a new picture in perspective */
 #define ROUND (E(PARAMETERS) | E(TANGENTS))
-#define RELIEF (E(BUMP) | E(GRADIENT) | E(GROUND)) /* a table with slopes all over */
-#define OPEN E(BACK)                               /* a sheet, whose back can be seen */
-#define MET (E(DEPTH) | E(NEWTON))                 /* a surface without a closed inverse */
+#define RELIEF (E(BUMP) | E(GRADIENT) | E(GROUND)) /* a table with slopes everywhere */
+#define OPEN E(BACK)                               /* an open surface, whose back is visible */
+#define MET (E(DEPTH) | E(NEWTON))                 /* a surface without a closed-form inverse */
 
 typedef struct Scene {
     const char *id;
-    Change change; /* NULL: it awaits parts that the program lacks */
+    Change change; /* NULL: the scene needs features that the program lacks */
     WrEffects run;
-    double apart; /* of class B: how far all forced may be off */
+    double apart; /* class B: allowed difference with all effects forced */
 } Scene;
 
 static const Scene scenes[] = {
@@ -339,7 +339,7 @@ static const Scene scenes[] = {
     { "S27", from_within, LIGHT | NEAR | ROUND | RELIEF | OPEN, 0 },
     { "S28", constant_surroundings,
       LIGHT | NEAR | ROUND | RELIEF | E(SURROUND) | E(MIRROR) | E(DARK), 1e-5 },
-    /* S29 and S30 are about a second picture: below */
+    /* S29 and S30 concern a second picture: below */
     { "S31", not_a_number, LIGHT | NEAR | RELIEF | OPEN, 0 },
     { "S32", all_at_once,
       LIGHT | NEAR | RELIEF | MET | E(COLOUR) | E(WIDE) | E(EXACT) | E(CURVATURE) | E(SAMPLES) |
@@ -412,7 +412,7 @@ static void all_forced_make_the_same_picture(void **state)
 
 /* ---- counts ---------------------------------------------------------------------------------------- */
 
-/* S02, S06, S14, S15: on how much of the picture. */
+/* S02, S06, S14, S15: fraction of the picture. */
 static void effects_run_where_they_are_called_for(void **state)
 {
     (void)state;
@@ -441,7 +441,7 @@ static void effects_run_where_they_are_called_for(void **state)
     strike(&stage);
 }
 
-/* S24: bumps where the face has any; of the letters only near them, of the level face never. */
+/* S24: bumps where the face has any; near the letters only, on the level face never. */
 static void each_face_has_a_plan_of_its_own(void **state)
 {
     (void)state;
@@ -467,7 +467,7 @@ static void each_face_has_a_plan_of_its_own(void **state)
     strike(&stage);
 }
 
-/* S25: no sample of the hidden sphere is shaded; one that comes out at the side is, with its picture of colours. */
+/* S25: no sample of the hidden sphere is shaded; a part visible at the side is, with its colour texture. */
 static void what_is_hidden_is_not_shaded(void **state)
 {
     (void)state;
@@ -488,7 +488,7 @@ static void what_is_hidden_is_not_shaded(void **state)
     strike(&stage);
 }
 
-/* S07: inside the sheet one sample a pixel, along its outline all. */
+/* S07: one sample per pixel inside the surface, all along its silhouette. */
 static void a_ramp_is_refined_along_its_outline_alone(void **state)
 {
     uint8_t map[200 * 200] = { 0 };
@@ -522,7 +522,7 @@ static void a_ramp_is_refined_along_its_outline_alone(void **state)
     strike(&stage);
 }
 
-/* S29: another light makes no table again. S30: a dab on the corner of the table reaches four places. */
+/* S29: another light does not rebuild tables. S30: a dab on the corner of the table affects four places. */
 static void second_pictures_make_what_changed(void **state)
 {
     WrFrame frame;
@@ -566,7 +566,7 @@ static void second_pictures_make_what_changed(void **state)
     strike(&stage);
 }
 
-/* ---- the least change ------------------------------------------------------------------------------ */
+/* ---- smallest changes ------------------------------------------------------------------------------ */
 
 static void least_texel(Stage *stage)
 {
@@ -668,9 +668,9 @@ static void what_is_left_out_comes_back_by_the_least_change(void **state)
     }
 }
 
-/* ---- the page -------------------------------------------------------------------------------------- */
+/* ---- guide page ----------------------------------------------------------------------------------- */
 
-/* The guide has a row for each scene, and says which await something. */
+/* The guide has a row for each scene, and marks those that need missing features. */
 static void the_guide_lists_them(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* PNG by libpng against PNG by OpenImageIO: every kind of pixel, upright and interlaced, with what files say of
-   themselves; rows in any order; and what we write, read by both. */
+/* PNG by libpng against PNG by OpenImageIO: every kind of pixel, interlaced or not, with metadata; rows in any order;
+   and files of the program read by both. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -39,7 +39,7 @@ static const Kind kinds[] = {
     { "palette, see-through", 8, PNG_COLOR_TYPE_PALETTE, true, true },
 };
 
-/* Colours of the palette, and a chunk of transparency. */
+/* Colours of the palette, and a transparency chunk. */
 static void say_colours(png_structp png, png_infop info, const Kind *kind, TestRandom *random)
 {
     png_color colours[256];
@@ -80,9 +80,8 @@ static void write_kind(const char *path, const Kind *kind, TestRandom *random)
     if (kind->interlaced) png_set_eXIf_1(png, info, sizeof exif, exif);
     png_write_info(png, info);
     for (int y = 0; y < HEIGHT; y++) {
-        for (size_t i = 0; i < sizeof rows[y]; i++)
-            rows[y][i] =
-                (png_byte)(test_random_u64(random) % (y % 3 ? 256 : 4)); /* some are see-through */
+        for (size_t i = 0; i < sizeof rows[y]; i++) /* some are transparent */
+            rows[y][i] = (png_byte)(test_random_u64(random) % (y % 3 ? 256 : 4));
         all[y] = rows[y];
     }
     png_write_image(png, all);
@@ -107,7 +106,7 @@ static void assert_same_text(const WrCodec *a, const WrCodecReader *by_a, const 
         fail_msg("%s: %s and %s", name, left ? left : "none", right ? right : "none");
 }
 
-/* Rows from anywhere, in bands and with channels as they come. */
+/* Rows from any position, in bands, with all channels. */
 static void assert_same_file(const char *path, const char *what, TestRandom *random)
 {
     static float ours[HEIGHT * WIDTH * 4], theirs[HEIGHT * WIDTH * 4];
@@ -208,7 +207,7 @@ static bool has_chunk(const char *path, const char *name)
     return false;
 }
 
-/* With a gAMA chunk ImageMagick, browsers and others would change a normal map's numbers. */
+/* With a gAMA chunk ImageMagick, browsers and others would change the numbers of a normal map. */
 static void of_numbers_no_colour_space_is_said(void **state)
 {
     (void)state;
@@ -230,7 +229,7 @@ static void of_numbers_no_colour_space_is_said(void **state)
     }
 }
 
-/* Damage anywhere is told or does no harm; nothing is said on standard error. */
+/* Damage at any position is reported or harmless; nothing is printed to standard error. */
 static void damage_is_told_in_one_line(void **state)
 {
     (void)state;

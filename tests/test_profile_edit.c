@@ -1,4 +1,4 @@
-/* A profile under the hand: what is written of it is what was read, but for what was moved. */
+/* Profile editor: the written text equals the read one, except for moved points. */
 #include "test.h"
 
 #include "base/text.h"
@@ -45,10 +45,10 @@ static void points_are_moved_added_and_taken_away(void **state)
     WrProfileEdit edit = edit_of("0,-1;0.34,-1;0.34,-1;0.6,0;0.3,1");
     assert_int_equal(wr_profile_edit_near(&edit, 0.33, -0.98, 0.1), 1);
     assert_int_equal(wr_profile_edit_near(&edit, 0.33, -0.5, 0.1), -1);
-    wr_profile_edit_move(&edit, 1, 0.4, -0.9, 0.02); /* a corner goes as one */
+    wr_profile_edit_move(&edit, 1, 0.4, -0.9, 0.02); /* a corner moves as one */
     expect(&edit, "0,-1;0.4,-0.9;0.4,-0.9;0.6,0;0.3,1");
-    wr_profile_edit_move(&edit, 2, -0.3, 0.12349,
-                         0.02); /* within, a curve must not touch the axis */
+    /* inside, a curve must not touch the axis */
+    wr_profile_edit_move(&edit, 2, -0.3, 0.12349, 0.02);
     expect(&edit, "0,-1;0.4,-0.9;0.4,-0.9;0.02,0.123;0.3,1");
     wr_profile_edit_move(&edit, 3, 0.01, 1, 0.02); /* at an end it may */
     wr_profile_edit_move(&edit, 2, 0.6, 0, 0.02);

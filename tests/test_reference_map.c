@@ -151,7 +151,7 @@ static void pictures_have_the_references_normals(void **state)
     }
 }
 
-/* A mesh before another, both turned by frames: what is hidden does not take the other's triangles. */
+/* A mesh in front of another, both with tangent frames: a hidden point does not use the other mesh's triangles. */
 static void objects_that_hide_each_other_have_them_too(void **state)
 {
     (void)state;
@@ -191,8 +191,8 @@ static WrTriangles *triangle_of(const Corner corner[3])
     return wr_triangles_new(&source, NULL);
 }
 
-/* Sheared (u,v): T by hand is (2,-1,0) and B of the lecture (1,1,0), made unit; MikkTSpace's B is n x T. Mirrored, both run
-   the other way of v. The map leans by 0.6 along x, or y, everywhere. */
+/* Sheared (u,v): T by hand is (2,-1,0), and B in the lecture is (1,1,0), normalised; MikkTSpace's B is n x T.
+   Mirrored, both run against v. The map tilts by 0.6 along x, or y, everywhere. */
 static void one_triangle_turns_the_map_as_by_hand(void **state)
 {
     static const Corner sheared[3] = { { { 0, 0, 0 }, { 0.5f, 0 } },
@@ -243,7 +243,7 @@ static void one_triangle_turns_the_map_as_by_hand(void **state)
         WrFrame frame;
         int seen = 0;
         assert_true(wr_renderer_frame(renderer, &request, &frame, NULL));
-        /* mirrored by u: T turns round, and B of MikkTSpace stays: it is the sign that turns n x T */
+        /* mirrored in u: T is reversed, and MikkTSpace's B stays, since the sign reverses n x T */
         const double turn = cases[which].channel == 0 ? sign : 1;
         for (int i = 0; i < 40 * 40; i++) {
             const float *n = normals[i];
@@ -267,8 +267,8 @@ static void one_triangle_turns_the_map_as_by_hand(void **state)
     }
 }
 
-/* A fold: normals at the corners lean apart by 50 degrees, so that their mean is shorter than 1 between them. The lecture's
-   n' = 0.6 T + 0.8 N takes each of length 1; with the mean as it is, the map would lean by 2 degrees more. */
+/* A fold: the corner normals differ by 50 degrees, so their mean between them is shorter than 1. The lecture's n' =
+   0.6 T + 0.8 N uses unit vectors; with the unnormalised mean, the map would tilt by 2 degrees more. */
 static void a_fold_takes_the_normal_of_length_1(void **state)
 {
     static const float p[3][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
@@ -310,7 +310,7 @@ static void a_fold_takes_the_normal_of_length_1(void **state)
                                 NULL) ||
             !probe.hit)
             continue;
-        /* (u, v) = (1/2, 0) + b (1/2, 1/2) + c (-1/2, 1): b and c are the shares of the second and third corner */
+        /* (u, v) = (1/2, 0) + b (1/2, 1/2) + c (-1/2, 1): b and c are the weights of the second and third corner */
         const double du = probe.u - 0.5, b = (2 * du + probe.v) * 2 / 3, c = probe.v - b / 2;
         const double mean[3] = { 0, c * sin(lean), 1 - c + c * cos(lean) };
         const double length = sqrt(mean[1] * mean[1] + mean[2] * mean[2]), t = 1 / sqrt(5);
@@ -329,7 +329,7 @@ static void a_fold_takes_the_normal_of_length_1(void **state)
     wr_scene_free(scene);
 }
 
-/* The probe of a pixel has the normal of the picture, and the intensity. */
+/* The probe of a pixel has the picture's normal and intensity. */
 static void a_probe_has_the_map(void **state)
 {
     (void)state;
@@ -362,7 +362,7 @@ static void a_probe_has_the_map(void **state)
     }
 }
 
-/* Far away, under aa=filter: the mean of slopes, which many samples of the reference come near to. */
+/* Far away, with aa=filter: the mean of slopes, close to many samples of the reference. */
 static void filtered_maps_come_near_the_reference(void **state)
 {
     static const char *const surfaces[] = { "plane", "mesh", "sphere" };
@@ -410,7 +410,8 @@ static void filtered_maps_come_near_the_reference(void **state)
     }
 }
 
-/* A ball whose table is 1 everywhere, displaced by c, is a ball of R + c: what is told of a pixel is that ball's. */
+/* A sphere with height 1 everywhere, displaced by c, is a sphere of radius R + c: the probe of a pixel matches that
+   sphere. */
 static void a_displaced_ball_is_told_of_as_a_larger_one(void **state)
 {
     (void)state;

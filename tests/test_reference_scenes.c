@@ -1,5 +1,5 @@
-/* The reference and the fast path at its most exact, two programs that share no kernel, show the same
-   pictures: every surface, and each thing that a scene may hold. */
+/* The reference and the fast path in its most exact mode, which share no kernel, render the same pictures: every
+   surface, and each element of a scene. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -18,8 +18,8 @@
 
 #define SIZE 120
 
-/* Where the base itself, without its bumps, turns by less than 12 degrees to every neighbour: away from
-   outlines, creases and where one part hides another. */
+/* True where the base, without bumps, bends by less than 12 degrees to every neighbour: away from silhouettes,
+   creases and occlusion borders. */
 static bool smooth(const WrReference *base, int x, int y)
 {
     const double *n = base->normal + 3 * (y * SIZE + x);
@@ -49,8 +49,8 @@ static WrReference reference_of(const WrScene *scene, const WrField *field, WrPo
     return out;
 }
 
-/* Where the base is smooth: the largest difference is under `bound`. Elsewhere the fast path's outline, of a
- * mesh a quarter of a pixel off at most, may differ in one pixel in a hundred. */
+/* Where the base is smooth, the largest difference is below `bound`. Elsewhere the fast path's silhouette, from a
+ * mesh with an error of at most a quarter of a pixel, may differ in one pixel in a hundred. */
 static void assert_agree(WrScene *scene, const WrField *field, double bound)
 {
     scene->scheme = WR_SCHEME_BSPLINE_FIT;
@@ -81,8 +81,8 @@ static void assert_agree(WrScene *scene, const WrField *field, double bound)
     put_away(&shot);
 }
 
-/* A stretched object, and what it is; how many pixels it covers. Where normals are turned by flatness, so are float's errors: single precision keeps to
- * a 32nd (wr_scene_is_thin). */
+/* A stretched object and its kind; returns the number of covered pixels. Flattening magnifies errors of normals:
+ * single precision is limited to a factor of 32 (wr_scene_is_thin). */
 static int assert_sees(WrScene *scene, const WrField *field, const char *what, int k)
 {
     scene->scheme = WR_SCHEME_BSPLINE_FIT;
@@ -108,7 +108,7 @@ static int assert_sees(WrScene *scene, const WrField *field, const char *what, i
     return covered;
 }
 
-/* Float has 24 bits; n' loses up to W of them to slopes, and the highlight's power s of what is left. */
+/* Float has 24 bits; n' loses up to W of them to slopes, and the highlight's power s of the rest. */
 #define FLOAT_BOUND 2e-5
 
 static void every_surface_looks_alike(void **state)
@@ -123,7 +123,7 @@ static void every_surface_looks_alike(void **state)
     wr_field_free(field);
 }
 
-/* HC153: of sizes that differ, mirror or flatten, near and far, with lights that have a place. */
+/* HC153: different scales, mirrored or flattened, near and far, with positional lights. */
 static void hc153_stretched_objects_look_alike(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void hc153_stretched_objects_look_alike(void **state)
     wr_field_free(field);
 }
 
-/* A stretched ball is an ellipsoid, whichever program draws it. */
+/* A stretched sphere is an ellipsoid in both renderers. */
 static void hc153_a_stretched_ball_is_an_ellipsoid(void **state)
 {
     (void)state;
@@ -174,7 +174,7 @@ static void hc153_a_stretched_ball_is_an_ellipsoid(void **state)
         for (int c = 0; c < 3; c++) same &= fabs((double)p[c] - (double)q[c]) < 2e-4;
         covered += p[3] > 0, inner += p[3] > 0 && same, unlike += !same;
     }
-    assert_true(covered > 1000 && inner > 900 && 50 * unlike < covered); /* along the outline */
+    assert_true(covered > 1000 && inner > 900 && 50 * unlike < covered); /* along the silhouette */
     put_away(&a);
     put_away(&b);
     wr_scene_free(ball);
@@ -182,7 +182,7 @@ static void hc153_a_stretched_ball_is_an_ellipsoid(void **state)
     wr_field_free(field);
 }
 
-/* Scenes of surfaces that are given by words; each text of the row, or NULL. */
+/* Scenes of surfaces with text parameters; each text of the row, or NULL. */
 static WrScene *scene_of_words(const char *surface, const char *const *text)
 {
     WrError err = { "" };
@@ -213,7 +213,7 @@ static void profiles_and_formulas_look_alike(void **state)
     WrField *field = bumpy_field(32, 32);
     for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
         WrScene *scene = scene_of_words(words[k][0], words[k] + 1);
-        /* A float in radians, up to 9 pi, is off by 1e-6, and slopes are divided by lengths that shrink to 0.07. */
+        /* A float in radians, up to 9 pi, has an error of 1e-6, and slopes are divided by lengths down to 0.07. */
         assert_agree(scene, field, k < 3 ? FLOAT_BOUND : k == 3 ? 2e-4 : 8e-4);
         wr_scene_free(scene);
     }
@@ -263,7 +263,7 @@ static void lights_of_every_kind_shine_alike(void **state)
     wr_field_free(field);
 }
 
-/* Heights that differ at the two ends of an axis, so that clamping shows. */
+/* Heights that differ at the two ends of an axis, to reveal clamping. */
 static WrField *uneven_field(WrWrap wrap_u, WrWrap wrap_v)
 {
     WrField *field = wr_field_new(24, 18, wrap_u, wrap_v, 0, NULL);
@@ -369,7 +369,7 @@ static void the_other_model_is_its_own_reference(void **state)
     wr_field_free(field);
 }
 
-/* Surfaces of no extent, and those that Newton's method likes least, end and give finite pictures. */
+/* Degenerate surfaces, and the hardest ones for Newton's method, terminate with finite pictures. */
 static void hc06_hc07_hc08_odd_surfaces_give_finite_pictures(void **state)
 {
     (void)state;
@@ -379,7 +379,7 @@ static void hc06_hc07_hc08_odd_surfaces_give_finite_pictures(void **state)
         double *v = scene->shape.value;
         for (int i = 0; k == 0 && i < 48; i++) v[i] = 0.25;                /* one point */
         for (int i = 0; k == 1 && i < 48; i++) v[i] = i / 3 % 4 * (i % 3); /* a line */
-        for (int i = 0; k == 2 && i < 12; i++) v[i] = 0; /* an edge that is a point */
+        for (int i = 0; k == 2 && i < 12; i++) v[i] = 0; /* an edge degenerated to a point */
         if (k == 3) v[1] = 0;
         if (k == 4) v[0] = v[1] = 0.6;
         if (k == 5) v[0] = 0.3, v[1] = 0.7;
@@ -392,7 +392,7 @@ static void hc06_hc07_hc08_odd_surfaces_give_finite_pictures(void **state)
     wr_field_free(field);
 }
 
-/* Scaled by 10^20 either way with its heights, an object is the same picture. */
+/* Scaled by 10^20 either way together with its heights, an object gives the same picture. */
 static void hc09_size_does_not_matter(void **state)
 {
     (void)state;
@@ -407,7 +407,7 @@ static void hc09_size_does_not_matter(void **state)
         int unlike = 0;
         for (int i = 0; i < SIZE * SIZE * 4; i++)
             unlike += !(fabs(r[k].rgba[i] - r[0].rgba[i]) < 1e-6);
-        assert_in_range(unlike, 0, 8); /* rounding on the outline */
+        assert_in_range(unlike, 0, 8); /* rounding on the silhouette */
         wr_scene_free(scene);
     }
     for (int k = 0; k < 3; k++) wr_reference_fini(&r[k]);
@@ -437,7 +437,7 @@ static double root_from(const WrShape *shape, const WrReferenceRay *ray, double 
     return INFINITY;
 }
 
-/* No root that a search from 400 starts finds is nearer than the reference's. */
+/* No root found by a search from 400 starts is nearer than the reference's. */
 static void the_nearest_root_is_found_where_surfaces_fold(void **state)
 {
     (void)state;
@@ -460,7 +460,7 @@ static void the_nearest_root_is_found_where_surfaces_fold(void **state)
                 nearest = fmin(nearest, root_from(&scene->shape, &ray, (i % 20 + 0.5) / 20,
                                                   (i / 20 + 0.5) / 20.0));
             assert_false(nearest < hit.s - 1e-9);
-            if (isfinite(hit.s)) { /* and what it found lies on the ray */
+            if (isfinite(hit.s)) { /* and the root is on the ray */
                 WrSurfacePoint at;
                 wr_surface_at(&scene->shape, 0, hit.u, hit.v, &at);
                 const WrVec3 off = v3_cross(v3_sub(at.p, ray.q), ray.d);

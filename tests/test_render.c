@@ -1,6 +1,6 @@
-/* The renderer against an independent one: rays marched in double against the implicit equation of each
-   surface, then the paper's formulas from shade/bump.h. And what must not depend on anything: threads,
-   instruction sets, what was rendered before. */
+/* The renderer against an independent one: rays marched in double precision against the implicit equation of each
+   surface, then the paper's formulas from shade/bump.h. And invariance: threads, instruction sets, earlier
+   pictures. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -13,7 +13,7 @@
 
 /* ---- the independent renderer ------------------------------------------------------------------- */
 
-/* Zero on the surface, in object space; outside the surface's ends: not a number. */
+/* Zero on the surface, in object space; NaN outside the surface's ends. */
 static double implicit(const WrShape *shape, WrVec3 p)
 {
     const double *a = shape->value;
@@ -27,7 +27,7 @@ static double implicit(const WrShape *shape, WrVec3 p)
     }
 }
 
-/* (u, v) of a point of the surface; false if it lies past the surface's ends. */
+/* (u, v) of a surface point; false beyond the surface's ends. */
 static bool invert(const WrShape *shape, WrVec3 p, double *u, double *v)
 {
     const double *a = shape->value;
@@ -104,7 +104,7 @@ static WrVec3 shade(const WrScene *scene, const WrPlacement *place, WrVec3 eye, 
     return (WrVec3){ red, red, red };
 }
 
-/* Compare the red channel of every pixel; rims (grazing, or next to another coverage) apart. */
+/* Compare the red channel of every pixel; silhouettes (grazing, or next to another coverage) separately. */
 static void compare_with_marched(const char *surface, WrBumpMode mode, WrScheme scheme, bool ortho)
 {
     enum { SIDE = 48 };
@@ -213,8 +213,8 @@ static double apart(const Shot *a, const Shot *b)
     return most;
 }
 
-/* Of every surface, smooth or with its curvature looked at; on flat ones the exact normal is left out, and is the same to
-   rounding (E12). */
+/* Every surface, smooth or with curvature terms; on flat ones the exact normal is skipped, equal up to rounding
+   (E12). */
 static void every_surface_is_planned_to_the_bits_of_all_effects(void **state)
 {
     (void)state;
@@ -262,7 +262,7 @@ static void an_edit_refreshes_what_a_new_renderer_would_make(void **state)
     }
 }
 
-/* E29: only tiles that an edit reaches are rendered again, and nobody can tell. */
+/* E29: only affected tiles are rendered again, with an identical result. */
 static void a_resting_view_is_refreshed_to_the_bits_of_a_new_picture(void **state)
 {
     (void)state;
@@ -290,18 +290,18 @@ static void a_resting_view_is_refreshed_to_the_bits_of_a_new_picture(void **stat
             if (!same_picture(&kept, &fresh)) fail_msg("%s, step %d", surfaces[kind], step);
             assert_true(kept.frame.covered == covered && fresh.frame.covered == covered);
             assert_true(kept.frame.shaded <= whole);
-            if (kind == 0) assert_true(kept.frame.shaded < whole); /* its tiles see parts of v */
+            if (kind == 0) assert_true(kept.frame.shaded < whole); /* its tiles show parts of v */
             put_away(&fresh);
         }
         assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
-        assert_int_equal(kept.frame.shaded, 0); /* nothing changed: nothing is done */
+        assert_int_equal(kept.frame.shaded, 0); /* no change, no work */
         put_away(&kept);
         wr_scene_free(scene);
         wr_field_free(field);
     }
 }
 
-/* A patch that hides itself in places. */
+/* A patch that occludes itself in places. */
 static WrScene *folded_patch(void)
 {
     TestRandom random = { 41 };
@@ -329,7 +329,7 @@ static void fast_arithmetic_stays_near_the_exact_picture(void **state)
     wr_field_free(field);
 }
 
-/* Samples whose colours are more than `most` apart. */
+/* Samples whose colours differ by more than `most`. */
 static int samples_apart(const Shot *a, const Shot *b, float most)
 {
     int count = 0;
@@ -342,8 +342,8 @@ static int samples_apart(const Shot *a, const Shot *b, float most)
     return count;
 }
 
-/* Spheres have kernels of their own there (kern_wide.h): under one lamp, before any other stages, and where those cannot
-   be asked, as from within. Rounding may tell of a sample at the outline whether it is met. */
+/* Spheres have special kernels there (kern_wide.h): with one light, before other stages, and fallback where these do
+   not apply, as from inside. Rounding may decide whether a sample at the silhouette is a hit. */
 static void fast_spheres_stay_near_the_exact_ones(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Shadows that objects throw on one another and on themselves: pictures against closed forms and against the reference,
-   which lets its own rays meet the objects' own forms. */
+/* Cast shadows between objects and self-shadowing: pictures against closed forms and against the reference, which
+   intersects its own rays with the objects' exact shapes. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -26,7 +26,7 @@ static WrScene *bare(const char *surface)
     return scene;
 }
 
-/* The ground, and before it another object: both in one scene, seen from straight above. */
+/* The ground and another object in one scene, seen from straight above. */
 static WrScene *above_ground(const char *surface, WrVec3 at, double size)
 {
     WrScene *ground = bare("plane");
@@ -67,13 +67,13 @@ static Shot shot_of(const WrScene *scene, const WrForce *force)
     return shot;
 }
 
-/* Where a pixel's centre is on the ground. */
+/* Position of a pixel's centre on the ground. */
 static WrVec3 ground_at(int k)
 {
     return (WrVec3){ ((k % SIDE + 0.5) / SIDE - 0.5) * 4, (0.5 - (k / SIDE + 0.5) / SIDE) * 4, 0 };
 }
 
-/* A ball hides a lamp where the way to it passes nearer to its middle than its radius. */
+/* A sphere hides a light where the line to it passes closer to the centre than its radius. */
 static void a_balls_shadow_is_an_ellipse(void **state)
 {
     (void)state;
@@ -88,7 +88,8 @@ static void a_balls_shadow_is_an_ellipse(void **state)
         for (int k = 0; k < SIDE * SIDE; k++) {
             const WrVec3 p = ground_at(k);
             const WrVec3 off = v3_sub(at, p), up = { 0, 0, 1 };
-            if (off.x * off.x + off.y * off.y < 0.45 * 0.45) continue; /* the ball itself is seen */
+            if (off.x * off.x + off.y * off.y < 0.45 * 0.45)
+                continue; /* the sphere itself is visible */
             const WrVec3 l = v3_unit(kind ? v3_sub(lamp->where, p) : lamp->where, up);
             const double along = v3_dot(off, l), by = sqrt(v3_dot(off, off) - along * along);
             if (fabs(by - 0.437) < 1e-4) continue;
@@ -103,7 +104,7 @@ static void a_balls_shadow_is_an_ellipse(void **state)
     }
 }
 
-/* From far along the way to the lamp, onto something small. */
+/* From far along the line to the light, onto a small object. */
 static void far_bodies_reach(void **state)
 {
     (void)state;
@@ -124,7 +125,7 @@ static void far_bodies_reach(void **state)
     }
 }
 
-/* The edge of a wide board is straight: what is seen of a round lamp is a segment of its disc. */
+/* The edge of a wide board is straight: the visible part of a round light is a segment of its disc. */
 static void a_boards_edge_has_the_penumbra_of_a_disc(void **state)
 {
     (void)state;
@@ -153,7 +154,7 @@ static void a_boards_edge_has_the_penumbra_of_a_disc(void **state)
     wr_scene_free(scene);
 }
 
-/* Shares of what is covered: hidden, and otherwise than the reference has it by over a hundredth. */
+/* Fractions of covered pixels: in shadow, and different from the reference by over a hundredth. */
 static void compare(const WrScene *scene, double *dark, double *off)
 {
     WrField *field = bumpy_field(17, 11);
@@ -201,7 +202,7 @@ static void objects_shadow_themselves_as_the_reference_has_it(void **state)
     }
 }
 
-/* Stretched, turned, of other size, mirrored: places of one object in another's space. */
+/* Stretched, rotated, scaled, mirrored: positions of one object in another's space. */
 static void objects_shadow_one_another_as_the_reference_has_it(void **state)
 {
     const char *const surfaces[] = { "torus", "cube", "cylinder", "cone" };
@@ -221,8 +222,8 @@ static void objects_shadow_one_another_as_the_reference_has_it(void **state)
     }
 }
 
-/* A ball of few facets that is shaded as if it were round hides no lamp from itself, nowhere: no facet is dark where
-   the normals say that it is lit. */
+/* A coarsely triangulated sphere with smooth shading never shadows itself: no facet is dark where the normals are
+   lit. */
 static void facets_throw_no_steps_on_a_round_body(void **state)
 {
     (void)state;
@@ -241,7 +242,7 @@ static void facets_throw_no_steps_on_a_round_body(void **state)
     wr_scene_free(scene);
 }
 
-/* Whatever is proved not to be needed has the bits of what does it all the same. */
+/* Skipping tests by a proof leaves the picture bit-identical. */
 static void what_cannot_reach_is_left_out(void **state)
 {
     (void)state;
@@ -266,7 +267,7 @@ static void what_cannot_reach_is_left_out(void **state)
     }
 }
 
-/* Lamps that do not shine are not drawn: the others keep their own softness. */
+/* Lights of intensity 0 get no samples: the others keep their own softness. */
 static void dark_lamps_change_no_other(void **state)
 {
     (void)state;
@@ -288,7 +289,7 @@ static void dark_lamps_change_no_other(void **state)
 
 /* ---- displaced ---- */
 
-/* Of heights that are all c a ball throws the shadow of one whose radius is larger by c, or smaller. */
+/* With height c everywhere a sphere casts the shadow of a sphere with radius R + c. */
 static void a_raised_ball_throws_its_own_shadow(void **state)
 {
     (void)state;
@@ -305,7 +306,7 @@ static void a_raised_ball_throws_its_own_shadow(void **state)
         int dark = 0;
         for (int i = 0; i < SIDE * SIDE; i++) {
             const WrVec3 off = v3_sub(at, ground_at(i));
-            if (hypot(off.x, off.y) < radius + 0.05) continue; /* the ball itself is seen */
+            if (hypot(off.x, off.y) < radius + 0.05) continue; /* the sphere itself is visible */
             const WrVec3 l = v3_unit(scene->lights[0].where, (WrVec3){ 0, 0, 1 });
             const double along = v3_dot(off, l), by = sqrt(v3_dot(off, off) - along * along);
             if (fabs(by - radius) < 2e-3) continue;
@@ -320,7 +321,7 @@ static void a_raised_ball_throws_its_own_shadow(void **state)
     }
 }
 
-/* A ball whose relief is too low to be seen is as bright as one that is not displaced. */
+/* A sphere with a relief too low to be visible is as bright as one without displacement. */
 static void a_relief_too_low_to_be_seen_darkens_nothing(void **state)
 {
     (void)state;
@@ -337,7 +338,7 @@ static void a_relief_too_low_to_be_seen_darkens_nothing(void **state)
         for (int i = 0; i < SIDE * SIDE; i++)
             other += fabs((double)(shot.frame.rgba[4 * i] - plain.frame.rgba[4 * i])) > 0.05;
         print_message("%d of %d pixels differ\n", other, SIDE * SIDE);
-        assert_true(other < 40); /* of outlines; the ball has 290 */
+        assert_true(other < 40); /* silhouette pixels; the sphere has 290 */
         put_away(&shot);
         put_away(&plain);
         wr_scene_free(scene);
@@ -345,7 +346,8 @@ static void a_relief_too_low_to_be_seen_darkens_nothing(void **state)
     }
 }
 
-/* Against the plan a displaced ball is shown as its base, or its table moves nothing: then its lamps are hidden by bases too. */
+/* If displacement is forced off, or the table moves nothing, the sphere is shown as its base: lights are then hidden
+   by bases too. */
 static void what_is_shown_undisplaced_throws_its_bases_shadow(void **state)
 {
     (void)state;
@@ -367,7 +369,7 @@ static void what_is_shown_undisplaced_throws_its_bases_shadow(void **state)
     }
 }
 
-/* On the ground, on themselves; where the relief's own shadow is asked for too, rays tell of both. */
+/* Shadows on the ground and on the objects themselves; if the relief's own shadow is on, rays include both. */
 static void raised_objects_shadow_as_the_reference_has_it(void **state)
 {
     static const char *const surfaces[] = { "torus", "sphere" };

@@ -1,5 +1,5 @@
-/* Runs of samples that all lights are behind are spared light and bump: the picture is that of all of it, to the bit,
-   on every surface, number of threads and set of instructions. */
+/* Runs of samples facing away from all lights skip lighting and bump: the picture is bit-identical to the full
+   computation, on every surface, number of threads and instruction set. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -16,7 +16,7 @@ static double between(TestRandom *random, double a, double b)
     return a + (b - a) * test_random(random);
 }
 
-/* Gentle but for a texel here and there, beside the borders of tiles and at the table's ends too. */
+/* Smooth except for single texels, also beside tile borders and at the table's ends. */
 static WrField *some_field(TestRandom *random)
 {
     const int w = 64 + (int)(200 * test_random(random)), h = 64 + (int)(150 * test_random(random));
@@ -112,11 +112,11 @@ static void the_dark_side_has_the_bits_of_all_of_it(void **state)
         wr_scene_free(scene);
         wr_field_free(field);
     }
-    assert_in_range(spared, rounds / 5, rounds); /* or nothing was tried */
+    assert_in_range(spared, rounds / 5, rounds); /* otherwise nothing was tested */
     assert_in_range(bumped, rounds / 20, rounds);
 }
 
-/* A plane seen from the front, its light a little behind it: dark all over but for what one texel turns to the light. */
+/* A plane seen from the front with the light slightly behind: dark except where one texel faces the light. */
 static void one_texel_brings_the_light_back(void **state)
 {
     static const int where[][2] = { { 0, 0 },   { 255, 255 }, { 63, 64 }, { 64, 63 },
@@ -149,7 +149,7 @@ static void one_texel_brings_the_light_back(void **state)
     wr_field_free(field);
 }
 
-/* A bar across the table, with slopes along one parameter alone, that alone brings the light. */
+/* A bar across the table, with slopes along one parameter, causes the only light. */
 static void slopes_along_either_parameter_count(void **state)
 {
     (void)state;
@@ -180,8 +180,8 @@ static void slopes_along_either_parameter_count(void **state)
     }
 }
 
-/* Fast arithmetic bends a sphere's normals without its tangents, which this asks for: as many samples are spared, and what
-   the renderer drew before is forgotten. */
+/* Fast arithmetic bends a sphere's normals without tangents, which this test needs: the same number of samples is
+   skipped, and data of earlier pictures is cleared. */
 static void fast_arithmetic_spares_as_much(void **state)
 {
     (void)state;
@@ -195,7 +195,7 @@ static void fast_arithmetic_spares_as_much(void **state)
     WrRenderer *renderer = wr_renderer_new(NULL, "auto", &err);
     Shot exact = shoot(scene, field, 150, 150, 1, "auto", false);
     scene->dials.arithmetic = WR_ARITHMETIC_FAST;
-    for (int shine = 5; shine < 60; shine += 40) { /* the stages; several at once */
+    for (int shine = 5; shine < 60; shine += 40) { /* separate stages; fused kernels */
         scene->material.shininess = shine;
         Shot fast = shoot(scene, field, 150, 150, 1, "auto", false);
         WrFrame frame;
@@ -221,7 +221,7 @@ static void fast_arithmetic_spares_as_much(void **state)
     wr_field_free(field);
 }
 
-/* A view that rests: what was dark may come to light by an edit. */
+/* A static view: an edit may bring light to dark runs. */
 static void edits_bring_the_light_back(void **state)
 {
     TestRandom random = { 5 };

@@ -1,5 +1,5 @@
-/* The renderer where it is hard: near planes, insides, edges, tiny patches, seams, backs, odd sizes,
-   values that are no numbers, scales of twenty decades, poles. */
+/* The renderer in hard cases: near planes, views from inside, edges, tiny patches, seams, back faces, odd sizes, NaN,
+   scales of twenty decades, poles. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -23,8 +23,8 @@ static void all_finite(const Shot *shot)
         assert_true(isfinite(shot->frame.rgba[i]));
 }
 
-/* A camera inside the patch's extent: parts lie behind the eye. The mesh must give what closed forms of
-   the same plane give. */
+/* A camera inside the patch's extent: parts are behind the eye. The mesh must match closed forms of the same
+   plane. */
 static void hc82_hc83_a_patch_across_the_near_plane_is_clipped(void **state)
 {
     (void)state;
@@ -34,7 +34,7 @@ static void hc82_hc83_a_patch_across_the_near_plane_is_clipped(void **state)
         .eye = { 0, 0.0, 0.05 }, .target = { 0, 1, 0 }, .up = { 0, 0, 1 }, .fov_deg = 90
     };
     Shot closed = shoot(scene, field, 120, 100, 2, "auto", false);
-    /* The same square as a bent patch with its corner not moved goes by mesh and Newton. */
+    /* The same square as a bent patch with its corner unmoved uses mesh and Newton. */
     wr_shape_default(WR_SURFACE_bent, &scene->shape);
     scene->shape.value[2] = scene->shape.value[3] = scene->shape.value[4] = 0;
     scene->posed = true;
@@ -46,7 +46,8 @@ static void hc82_hc83_a_patch_across_the_near_plane_is_clipped(void **state)
     int differ = 0;
     for (int i = 0; i < 120 * 100; i++)
         differ += fabsf(closed.frame.rgba[4 * i] - mesh.frame.rgba[4 * i]) > 2e-3f;
-    assert_true(differ < 60); /* rims, and the far strip where texels are smaller than rounding */
+    /* silhouettes, and the distant strip where texels are smaller than rounding */
+    assert_true(differ < 60);
     put_away(&closed);
     put_away(&mesh);
     wr_scene_free(scene);
@@ -86,7 +87,8 @@ static void hc85_no_background_shows_through_shared_edges(void **state)
     scene->shape.value[4] = 0.3;
     scene->camera = (WrCamera){ .eye = { 0, 0, 1.2 }, .up = { 0, 1, 0 }, .fov_deg = 20 };
     scene->posed = true;
-    for (int size = 97; size < 120; size += 11) { /* sizes that put edges on samples and off them */
+    for (int size = 97; size < 120; size += 11) { /* sizes that put edges on samples and beside
+                                                     them */
         Shot shot = shoot(scene, field, size, size, 3, "auto", false);
         assert_int_equal(shot.frame.covered, size * size);
         put_away(&shot);
@@ -120,8 +122,8 @@ static void hc86_a_patch_smaller_than_a_pixel_has_the_right_mean_coverage(void *
 static void hc57_the_seam_of_a_closed_surface_does_not_show(void **state)
 {
     (void)state;
-    /* A cylinder turned so that u = 0 faces the viewer, against one whose table is rolled by half a
-       period and which is turned by half a turn: the seam then lies at the back. */
+    /* A cylinder rotated so that u = 0 faces the viewer, against one with its table rolled by half a period and
+       rotated by half a turn: its seam is at the back. */
     WrField *field = bumpy_field(64, 32), *rolled = bumpy_field(64, 32);
     for (int j = 0; j < 32; j++)
         for (int i = 0; i < 64; i++)
@@ -144,8 +146,8 @@ static void hc57_the_seam_of_a_closed_surface_does_not_show(void **state)
     wr_field_free(rolled);
 }
 
-/* The paper: seen from behind, dents and bumps change places. The plane from behind is the plane from the
-   front with its table mirrored and its heights negated. */
+/* The paper: from behind, dents and bumps are exchanged. The plane from behind equals the plane from the front with
+   its table mirrored and its heights negated. */
 static void hc23_from_behind_dents_and_bumps_exchange(void **state)
 {
     (void)state;
@@ -255,7 +257,8 @@ static void scales_of_20_decades_give_the_same_picture(void **state)
 {
     (void)state;
     WrField *field = bumpy_field(32, 32);
-    const double scales[] = { 1e-20, 1e20 }; /* HC09 in pictures: object, height and camera alike */
+    /* HC09 in pictures: object, height and camera scaled together */
+    const double scales[] = { 1e-20, 1e20 };
     for (int k = 0; k < 2; k++) {
         WrScene *scene = scene_of("torus");
         Shot plain = shoot(scene, field, 64, 64, 1, "auto", false);
@@ -309,7 +312,7 @@ static void what_lies_under_a_pixel_is_found(void **state)
                 bool hit = wr_renderer_pick(shot.renderer, x + 0.5, y + 0.5, &u, &v, &face);
                 assert_true(hit == (shot.frame.rgba[4 * (y * 90 + x) + 3] > 0));
                 if (!hit) continue;
-                WrSurfacePoint at; /* its point must lie on the pixel's ray again */
+                WrSurfacePoint at; /* the hit must be on the pixel's ray */
                 wr_surface_at(&scene->shape, face, u, v, &at);
                 WrVec3 p = v3_sub(at.p, place.centre);
                 const double *m = place.rotation;
@@ -333,7 +336,7 @@ static void what_lies_under_a_pixel_is_found(void **state)
     wr_field_free(field);
 }
 
-/* Tiles outside what the object can cover are left out: whether a ray meets it is asked without them. */
+/* Tiles outside the object's bounds are skipped: compare with intersection tests that do not use them. */
 static void no_pixel_is_lost_wherever_the_camera_stands(void **state)
 {
     (void)state;
@@ -418,7 +421,7 @@ static void a_white_picture_changes_nothing_and_a_grey_one_scales(void **state)
     wr_field_free(field);
 }
 
-/* Of a cube's outline: what of a pixel's samples is on it, by slabs in double, from the placement alone. */
+/* Number of a pixel's samples on a cube, by slabs in double precision, from the placement alone. */
 static int samples_on_cube(const WrPlacement *at, double half, int side, int k, int i, int j)
 {
     int on = 0;
@@ -427,7 +430,7 @@ static int samples_on_cube(const WrPlacement *at, double half, int side, int k, 
         const double y = (1 - 2 * (j + (n / k + 0.5) / k) / side) * at->half_height;
         const WrVec3 d = v3_add(at->forward, v3_add(v3_scale(at->right, x), v3_scale(at->up, y)));
         double low = -INFINITY, high = INFINITY;
-        for (int axis = 0; axis < 3; axis++) { /* to the object: by the rotation's columns */
+        for (int axis = 0; axis < 3; axis++) { /* to object space: by the rotation's columns */
             const double *r = at->rotation + axis;
             const double o = r[0] * at->eye.x + r[3] * at->eye.y + r[6] * at->eye.z;
             const double v = r[0] * d.x + r[3] * d.y + r[6] * d.z;
@@ -439,7 +442,7 @@ static int samples_on_cube(const WrPlacement *at, double half, int side, int k, 
     return on;
 }
 
-/* Faces join on to each other, and to nothing else: no sample beside the object is of it. */
+/* Faces meet without gaps and do not extend beyond the object: no sample beside it is covered. */
 static void outlines_of_flat_faces_have_the_samples_that_are_on_them(void **state)
 {
     (void)state;
@@ -450,7 +453,7 @@ static void outlines_of_flat_faces_have_the_samples_that_are_on_them(void **stat
     WrScene *scene = scene_of("cube");
     scene->shape.value[0] = 0.6;
     scene->posed = true;
-    scene->rotate_deg = (WrVec3){ 28, -53, 0 }; /* pictures are turned by 15 */
+    scene->rotate_deg = (WrVec3){ 28, -53, 0 }; /* pictures are rotated by 15 */
     scene->camera.fit = true;
     scene->camera.fov_deg = 35;
     scene->camera.target = (WrVec3){ 0, 0, 0 };

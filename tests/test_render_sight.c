@@ -1,6 +1,6 @@
-/* A view that rests goes on from what it looked at: after any change of light, material, table, bump or scheme its picture
-   is that of a new renderer, to the bit, without depth buffer and Newton's method; a change of view, size or shape, and
-   whatever makes (u,v) otherwise, begins anew (S29). */
+/* uv cache of a static view: after any change of light, material, table, bump or scheme the picture is bit-identical
+   to a new renderer's, without depth buffer and Newton's method; a change of view, size or shape, or of other inputs
+   of (u,v), clears the cache (S29). */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -20,7 +20,7 @@ static WrScene *curved_scene(TestRandom *random)
     return scene;
 }
 
-/* What (u,v) do not depend on. */
+/* A change without effect on (u,v). */
 static void change_look(TestRandom *random, WrScene *scene, WrField **field)
 {
     WrField *next = wr_field_share(*field);
@@ -36,7 +36,7 @@ static void change_look(TestRandom *random, WrScene *scene, WrField **field)
     *field = next;
 }
 
-/* What they do depend on. */
+/* A change with effect on (u,v). */
 static void change_view(TestRandom *random, WrScene *scene, double *turn)
 {
     static const double turns[] = { 3.3, -40, 77.7 };

@@ -1,5 +1,5 @@
-/* The cage of the reader process (src/system/sandbox.h): each thing that a caged process must not do, tried from
-   inside, with Landlock and without, for each has to hold alone. */
+/* The sandbox of the reader process (src/system/sandbox.h): each forbidden action is tried from inside, with Landlock
+   and without, since each mechanism must work alone. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -36,7 +36,7 @@
 #define SECONDS 10
 #define FILE_FD 4 /* as in the reader process */
 
-/* Known before: in the cage one may not even ask. */
+/* Read before: inside the sandbox even asking is forbidden. */
 static pid_t *parent_place(void)
 {
     static pid_t parent;
@@ -48,7 +48,7 @@ static pid_t the_parent(void)
     return *parent_place();
 }
 
-/* ---- what is tried; true: it was done ---- */
+/* ---- forbidden actions; true: it succeeded ---- */
 
 static bool opens_a_path(void)
 {
@@ -123,7 +123,7 @@ static bool makes_a_namespace(void)
 static bool runs_a_program(void)
 {
     char *const arguments[] = { (char *)"true", NULL };
-    execv("/bin/true", arguments); /* if it comes back, that failed */
+    execv("/bin/true", arguments); /* if it returns, it failed */
     return false;
 }
 static bool signals_its_parent(void)
@@ -174,7 +174,7 @@ static bool traces(void)
 }
 static bool reads_its_parent(void)
 {
-    char here[8], *there = here; /* the same address: this process is its copy */
+    char here[8], *there = here; /* the same address: this process is a copy */
     struct iovec to = { here, sizeof here }, from = { there, sizeof here };
     return process_vm_readv(the_parent(), &to, 1, &from, 1, 0) > 0;
 }
@@ -202,7 +202,7 @@ static bool takes_more_memory(void)
     return malloc((size_t)200 << 20) != NULL;
 }
 
-/* ---- what it needs; true: it was not possible ---- */
+/* ---- necessary actions; true: it was impossible ---- */
 
 static bool cannot_read_its_file(void)
 {
@@ -247,7 +247,7 @@ typedef enum Parts { FILTER = 1, LANDLOCK = 2 } Parts;
 static const struct {
     const char *what;
     bool (*done)(void);
-    int kept_by; /* each of these parts forbids it alone; 0: the limits do */
+    int kept_by; /* each of these mechanisms forbids it alone; 0: the limits do */
 } attempts[] = {
     { "opens a path", opens_a_path, FILTER | LANDLOCK },
     { "opens its own file again", opens_its_own_file_again, FILTER | LANDLOCK },
@@ -298,7 +298,7 @@ static bool enter(int parts)
     return !(parts & FILTER) || wr_sandbox_filter_calls();
 }
 
-/* One attempt in a process of its own; whether it was done. parts 0: by what the reader process calls. */
+/* One attempt in a child process; true if it succeeded. parts 0: as set up by the reader process. */
 static bool is_done(int index, int parts)
 {
     int status;
@@ -343,13 +343,13 @@ static void the_filter_holds_where_landlock_is_missing(void **state)
         if (is_done(i, FILTER)) fail_msg("without Landlock a caged process %s", attempts[i].what);
 }
 
-/* Kernels since 5.13. */
+/* Available in kernels since 5.13. */
 static bool has_landlock(void)
 {
     return syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION) >= 1;
 }
 
-/* In the place of the library's: a filter that was never loaded. */
+/* Replaces the library's function: a filter that was never loaded. */
 static bool unfiltered;
 
 int seccomp_load(const scmp_filter_ctx filter)
@@ -381,7 +381,7 @@ static void landlock_keeps_files_by_itself(void **state)
             fail_msg("with Landlock alone a process %s", attempts[i].what);
 }
 
-/* Else the tests above prove nothing. */
+/* Otherwise the tests above prove nothing. */
 static void without_a_cage_most_of_it_works(void **state)
 {
     (void)state;
@@ -400,7 +400,7 @@ static void without_a_cage_most_of_it_works(void **state)
         assert_int_equal(waitpid(pid, &status, 0), pid);
         done += status == 0 ? 0 : 1;
     }
-    assert_true(done >= 20); /* some need rights that this process may not have */
+    assert_true(done >= 20); /* some need privileges that this process may lack */
 }
 
 static rlim_t limit_of(__rlimit_resource_t what)
@@ -409,7 +409,7 @@ static rlim_t limit_of(__rlimit_resource_t what)
     return getrlimit(what, &now) == 0 ? now.rlim_max : 0;
 }
 
-/* With root's rights a limit could be raised again. */
+/* With root privileges a limit could be raised again. */
 static void limits_are_set_and_no_rights_are_left(void **state)
 {
     (void)state;
@@ -429,7 +429,7 @@ static void limits_are_set_and_no_rights_are_left(void **state)
     assert_int_equal(status, 0);
 }
 
-/* A process that works for ever is told why it ends, and ends even if it does not listen. */
+/* A process that computes for ever gets the reason of its end, and ends even if it ignores the signal. */
 static void processor_time_is_limited(void **state)
 {
     (void)state;

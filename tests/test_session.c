@@ -73,8 +73,8 @@ static void grid_is_half_open_at_a_line_of_odd_width(void **state)
 {
     (void)state;
     WrSession *s = session_of((const char *[]){ "table 16x16", "grid cells=4x1 width=3", NULL });
-    /* Row 8 lies far from the one boundary along v. Offsets from a boundary are -1.5, -0.5, 0.5, 1.5:
-       the first three are on the line. */
+    /* Row 8 is far from the only boundary along v. Offsets from a boundary are -1.5, -0.5, 0.5, 1.5: the first three
+       are on the line. */
     for (int i = 0; i < 16; i++) {
         bool on = i % 4 == 0 || i % 4 == 2 || i % 4 == 3;
         assert_true(wr_field_get(field_of(s), i, 8) == (on ? 1 : 0));
@@ -384,7 +384,7 @@ static void random_samples(TestRandom *random, WrSample *samples, int count)
 {
     double u = 0.5, v = 0.5;
     for (int i = 0; i < count; i++) {
-        u += (test_random(random) - 0.5) * 0.1; /* leaves the table now and then */
+        u += (test_random(random) - 0.5) * 0.1; /* sometimes leaves the table */
         v += (test_random(random) - 0.4) * 0.1;
         samples[i] =
             (WrSample){ u, v, test_random(random) * 1.2, test_random(random) - 0.5, 0, i / 97.0 };
@@ -407,7 +407,7 @@ static void an_open_stroke_equals_its_finished_line(void **state)
     must_run(b, wr_session_last_command(a));
     assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
     assert_string_equal(wr_session_last_command(a), wr_session_last_command(b));
-    /* In two pieces, and from the printed line's own numbers: the same again. */
+    /* In two parts, and from the numbers of the printed line: the same result. */
     assert_true(wr_session_stroke_begin(c, "stroke strength=0.25 radius=11.5", &err));
     assert_true(wr_session_stroke_add(c, samples, 123, &err));
     assert_true(wr_session_stroke_add(c, samples + 123, SAMPLES - 123, &err));
@@ -501,7 +501,7 @@ static void a_snapshot_of_an_open_stroke_stays_as_it_was(void **state)
     wr_session_free(s);
 }
 
-/* As the window does with what a dialog has shown: what was made on a snapshot is what the line would make. */
+/* As the window does after a dialog's preview: the result from a snapshot equals that of the line. */
 static void a_line_whose_work_is_done_is_as_if_it_had_run(void **state)
 {
     (void)state;
@@ -530,7 +530,7 @@ static void a_line_whose_work_is_done_is_as_if_it_had_run(void **state)
         wr_session_free(took);
     }
     assert_false(wr_session_takes_made("table 3x3"));
-    assert_false(wr_session_takes_made("text abc")); /* names a font's file */
+    assert_false(wr_session_takes_made("text abc")); /* contains the name of a font file */
     assert_false(wr_session_takes_made("no such line"));
 }
 

@@ -86,7 +86,7 @@ static void a_script_with_mark_and_crlf_runs_and_one_with_nul_does_not(void **st
     assert_true(wr_file_write("b.wrinkle", "fill 3\nfill\0 4\n", 15, &err));
     assert_false(wr_session_run_script(s, "b.wrinkle", &err));
     assert_non_null(strstr(err.text, "b.wrinkle:2: "));
-    assert_true(wr_field_get(field_of(s), 7, 7) == 3); /* what ran before stays */
+    assert_true(wr_field_get(field_of(s), 7, 7) == 3); /* the effect of earlier lines stays */
     wr_session_free(s);
     wr_text_fini(&notes.text);
 }
@@ -206,7 +206,7 @@ static void a_script_reads_beside_itself_and_writes_here(void **state)
     if (!wr_session_run_script(s, "sub/a.wrinkle", &err)) fail_msg("%s", err.text);
     assert_true(exists("out.exr") && !exists("sub/out.exr"));
     assert_true(wr_field_get(field_of(s), 0, 0) == 1);
-    assert_false(wr_session_run(s, "image g.png", &err)); /* no script runs now */
+    assert_false(wr_session_run(s, "image g.png", &err)); /* no script is running */
     wr_session_free(s);
     wr_text_fini(&notes.text);
 }
@@ -229,7 +229,7 @@ static void save_and_open_give_the_same_document(void **state)
     must_run(a, "save d.exr");
     assert_true(wr_session_saved_revision(a) == wr_session_revision(a));
     assert_string_equal(wr_session_path(a), "d.exr");
-    assert_int_equal(wr_session_history_count(a), 8); /* views and save are not in it */
+    assert_int_equal(wr_session_history_count(a), 8); /* without views and save */
     if (!wr_session_open(b, "d.exr", &err)) fail_msg("%s", err.text);
     assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
     assert_string_equal(wr_session_path(b), "d.exr");
@@ -352,7 +352,7 @@ static void rendered_files_hold_linear_float_or_srgb_over_the_background(void **
     assert_int_equal(linear->channels, 4);
     assert_int_equal(codes->channels, 3);
     assert_int_equal(codes->type, WR_PIXEL_U8);
-    /* No light: I = C ka on the plane in the middle, nothing in the corner. */
+    /* No light: I = C ka on the plane in the middle, 0 in the corner. */
     const float *middle = linear->data + (size_t)(16 * 64 + 32) * 4;
     const float expected[4] = { 0.2f, 0.1f, 0.5f, 1 };
     for (int c = 0; c < 4; c++) {
@@ -388,7 +388,7 @@ static void a_cancelled_script_stops_with_an_error(void **state)
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_own_folder, leave_own_folder)
 
-/* A document is looked at before it is trusted: what it says of its scene can neither write nor open files. */
+/* A document is checked before use: its scene lines can neither write nor open files. */
 static void a_document_holds_no_commands_but_of_its_scene(void **state)
 {
     (void)state;
@@ -406,7 +406,7 @@ static void a_document_holds_no_commands_but_of_its_scene(void **state)
     assert_int_not_equal(access("stolen.exr", F_OK), 0);
 }
 
-/* What a surface is given by in words goes where its numbers go: undo, documents, scene text. */
+/* Text parameters of a surface are stored with its numbers: undo, documents, scene text. */
 static void a_surfaces_texts_travel_with_the_document(void **state)
 {
     (void)state;

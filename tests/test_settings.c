@@ -1,4 +1,4 @@
-/* The settings' file: several windows write it, and any of them may be killed. */
+/* The settings file: written by several windows, any of which may be killed. */
 #include "test.h"
 
 #include "base/file.h"
@@ -14,7 +14,7 @@ static int setup(void **state)
     return make_place(state) == 0 ? setenv("XDG_CONFIG_HOME", *state, 1) : -1;
 }
 
-/* A window: what it knows of the file, and what it has. */
+/* A window: last known state of the file, and its own settings. */
 typedef struct Window {
     WrSettings known, own;
 } Window;
@@ -80,7 +80,7 @@ static void two_windows_keep_what_each_of_them_changed(void **state)
     assert_string_equal(c.own.pens[1], "0 0 1 1 0 0 2 Small Pen");
     assert_null(c.own.pens[2]);
     assert_true(wr_settings_equal(&b.own, &b.known));
-    assert_int_equal(wr_settings_favourite(&b.own, "wrinkle/pinch"), -1); /* seen in b too */
+    assert_int_equal(wr_settings_favourite(&b.own, "wrinkle/pinch"), -1); /* visible in b too */
     close_window(&a), close_window(&b), close_window(&c);
 }
 
@@ -125,7 +125,7 @@ static void a_file_that_is_gone_or_empty_is_written_anew(void **state)
     wr_free(path);
 }
 
-/* A lock is no way to have other files made. */
+/* A lock file cannot be used to create other files. */
 static void a_planted_link_is_no_lock(void **state)
 {
     Window a = open_window();
@@ -134,7 +134,7 @@ static void a_planted_link_is_no_lock(void **state)
     unlink(lock);
     assert_int_equal(symlink(victim, lock), 0);
     a.own.width += 10;
-    write_window(&a); /* at the end of the program it is written all the same */
+    write_window(&a); /* at the end of the program it is written in any case */
     assert_false(exists(victim));
     Window b = open_window();
     assert_int_equal(b.own.width, a.own.width);
@@ -168,7 +168,7 @@ static void while_another_writes_it_waits(void **state)
     munmap((void *)ready, sizeof *ready);
 }
 
-/* Two windows that write all the time, of which one is killed: each has what it wrote last, and all before. */
+/* Two windows that write continuously, one of which is killed: the settings last written by each are in the file. */
 static void killed_while_writing_nothing_that_was_written_is_lost(void **state)
 {
     (void)state;

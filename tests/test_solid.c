@@ -1,4 +1,4 @@
-/* The family of solids: where they stand, how high they come out, and what is refused. */
+/* The family of solids: positions, resulting heights, and refusals. */
 #include "test.h"
 #include "generate_help.h"
 
@@ -14,7 +14,7 @@ typedef struct Asked {
     WrParamValue values[WR_GENERATOR_PARAMS];
 } Asked;
 
-/* A solid by its name with numbers set: name, value, ..., NULL. */
+/* A solid by its name with parameters: name, value, ..., NULL. */
 static Asked ask(const char *name, const Setting *settings)
 {
     Asked asked = { .row = wr_generator_find("solid", name) };
@@ -57,7 +57,7 @@ static void refuse(const Asked *asked, const char *words)
 
 /* ---- heights ---- */
 
-/* height=1: a half sphere rises to 1, whatever its radius; let in by half of it, to a half. */
+/* height=1: a half sphere rises to 1 for any radius; sunk by half of it, to a half. */
 static void a_rivet_rises_to_its_height_less_what_is_sunk(void **state)
 {
     (void)state;
@@ -121,7 +121,7 @@ static void hc79_a_moved_solid_is_a_rolled_one_over_edges_bit_for_bit(void **sta
     wr_field_free(like);
 }
 
-/* 100 x 100 rivets over a table: each cell is the first one, bit for bit. */
+/* 100 x 100 rivets over a table: each cell equals the first one, bit for bit. */
 static void ten_thousand_rivets_are_alike_and_quickly_there(void **state)
 {
     (void)state;
@@ -141,7 +141,8 @@ static void ten_thousand_rivets_are_alike_and_quickly_there(void **state)
         }
         wr_pool_free(pool);
     }
-    assert_true(wr_clock_seconds() - start < 20.0); /* a tenth of a second each; more if checked */
+    /* a tenth of a second each; more with sanitizers */
+    assert_true(wr_clock_seconds() - start < 20.0);
     assert_true(is_rolled(first.heights, first.heights, 16, 0));
     assert_true(is_rolled(first.heights, first.heights, 0, 16 * 7));
     assert_false(is_rolled(first.heights, first.heights, 8, 0));
@@ -169,8 +170,7 @@ static void the_seed_alone_decides_about_accidents(void **state)
 
 /* ---- nets ---- */
 
-/* A sphere of the surfaces against the formula: FINE of solid_surface.c along the normal, and the rounding
- * of corners. */
+/* A sphere surface against the formula: FINE of solid_surface.c along the normal, and the rounding of corners. */
 static void a_surface_is_what_its_formula_says_within_a_fiftieth_of_a_texel(void **state)
 {
     (void)state;
@@ -213,7 +213,7 @@ static void every_surface_can_be_seen_from_above(void **state)
     wr_field_free(like);
 }
 
-/* Those that are given by words: a cone of a profile is the cone, a flat disc of formulas lies flat. */
+/* Surfaces with text parameters: a cone from a profile equals the cone, a flat disc from formulas is flat. */
 static void surfaces_of_words_can_be_seen_from_above(void **state)
 {
     (void)state;
@@ -248,7 +248,7 @@ static void surfaces_of_words_can_be_seen_from_above(void **state)
     wr_field_free(like);
 }
 
-/* A slanted square in a file: a plane, fitted by its box. */
+/* A slanted square in a file: a plane, fitted by its bounding box. */
 static void a_mesh_is_fitted_to_its_size_and_stands_on_the_ground(void **state)
 {
     (void)state;
@@ -277,7 +277,7 @@ static void a_mesh_is_fitted_to_its_size_and_stands_on_the_ground(void **state)
 
 /* ---- letters ---- */
 
-/* A full block in the built-in font would do; any text must be level on top, and its flanks slope. */
+/* A solid block in the built-in font would suffice; any text must be level on top, with sloping sides. */
 static void letters_are_level_on_top_and_bevelled_at_their_edges(void **state)
 {
     (void)state;
@@ -303,7 +303,7 @@ static void letters_are_level_on_top_and_bevelled_at_their_edges(void **state)
     wr_field_free(like);
 }
 
-/* Letters are symmetrical under half a turn where the text is: 'H' about its middle. */
+/* Letters are symmetric under half a turn if the text is: 'H' about its centre. */
 static void letters_turned_by_half_a_turn_are_upside_down(void **state)
 {
     (void)state;

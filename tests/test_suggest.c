@@ -1,4 +1,5 @@
-/* Every word that a user can mistype, with one letter swapped, missing or doubled: the message suggests the right one. */
+/* Every word that a user can mistype, with one letter swapped, missing or doubled: the message suggests the correct
+   one. */
 #include "test.h"
 
 #include "base/error.h"
@@ -16,8 +17,8 @@
 
 /* ---- mistyped words ---- */
 
-/* One edit apart: a letter more or less, another letter, or two neighbours swapped. Written without the distance that the
-   program computes. */
+/* One edit apart: a letter more or less, another letter, or two neighbours swapped. Independent of the program's
+   distance function. */
 static bool one_edit(const char *a, const char *b)
 {
     size_t n = strlen(a), m = strlen(b), same = 0;
@@ -31,7 +32,7 @@ static bool one_edit(const char *a, const char *b)
            strcasecmp(a + same + 2, b + same + 2) == 0;
 }
 
-/* Typo i of a word; false past the last. Three kinds at each place. */
+/* Typo i of a word; false past the last. Three kinds at each position. */
 static bool typo(const char *word, int i, char out[WORD_MAX + 2])
 {
     const size_t n = strlen(word), at = (size_t)i / 3;
@@ -48,14 +49,14 @@ static bool typo(const char *word, int i, char out[WORD_MAX + 2])
     return true;
 }
 
-/* What the program answers to a mistyped word. */
+/* The program's answer to a mistyped word. */
 typedef void (*Ask)(const void *ctx, const char *typed, WrError *err);
 
 typedef struct Tally {
     int asked, suggested;
 } Tally;
 
-/* The answer suggests `word`, and each other word of the list that is as near. */
+/* The answer must suggest `word`, and every other word of the list that is as near. */
 static void check_answer(const char *word, const char *typed, WrWordList list, const void *ctx,
                          const WrError *err, Tally *tally)
 {
@@ -264,7 +265,7 @@ static void sets_are_suggested(void **state)
 
 /* ---- values without names ---- */
 
-/* A value of each argument that must have a name: one in the middle of its range, or its first word. */
+/* A value for each named argument: one in the middle of its range, or its first word. */
 static bool value_for(const WrArgSpec *spec, WrText *text)
 {
     wr_text_clear(text);
@@ -273,7 +274,7 @@ static bool value_for(const WrArgSpec *spec, WrText *text)
     return text->length > 0 && spec->type != WR_ARG_TEXT && spec->type != WR_ARG_LIST;
 }
 
-/* Whatever the command: one value too many names an argument that takes it, or says what the command takes. */
+/* For any command: one value too many suggests an argument that accepts it, or lists the command's arguments. */
 static void check_extra(const Form *form, const WrArgSpec *spec, int *named)
 {
     WrText value = { 0 }, line = { 0 };
@@ -370,7 +371,7 @@ static void help_shows_one_argument(void **state)
     wr_text_fini(&text);
 }
 
-/* Each form and each argument of each command has a help of its own. */
+/* Each form and each argument of each command has separate help. */
 static void help_has_every_part(void **state)
 {
     (void)state;

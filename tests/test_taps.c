@@ -1,4 +1,4 @@
-/* The blur's inner loop: every instruction set against the sum written out, and against one another. */
+/* The blur's inner loop: every instruction set against the explicit sum, and against each other. */
 #include "test.h"
 
 #include "base/hash.h"
@@ -11,9 +11,9 @@
 #define REACH 43
 #define LANES WR_TAPS_LANES
 #define PITCH 256
-#define COUNT 11 /* elements: fours, and some over */
+#define COUNT 11 /* elements: fours and a rest */
 #define ROWS (2 * REACH + COUNT)
-#define TO 19 /* floats from one element of the result to the next: there is a gap */
+#define TO 19 /* distance in floats of the result's elements: there is a gap */
 #define MIDDLE (&heights[REACH][REACH])
 
 static float heights[ROWS][PITCH], weights[REACH + 1];
@@ -29,7 +29,7 @@ static int fill(void **state)
     return 0;
 }
 
-/* Elements one after the other, and below one another. */
+/* Elements in sequence, and below each other. */
 static const ptrdiff_t steps[] = { LANES, PITCH };
 
 static void each_texel_gets_its_taps_along_rows_and_columns(void **state)
@@ -63,7 +63,7 @@ static void all_instruction_sets_give_the_same_bits_for_any_count_and_reach(void
                 wr_taps_v1.add(weights, reach, MIDDLE + 1, step, count, plain, TO);
                 wr_taps_at(index)->add(weights, reach, MIDDLE + 1, step, count, other, TO);
                 assert_memory_equal(plain, other, sizeof plain);
-                for (int i = 0; i < COUNT * TO; i++) /* nothing beside the elements is written */
+                for (int i = 0; i < COUNT * TO; i++) /* nothing else is written */
                     if (i % TO >= LANES || i / TO >= count) assert_true(other[i] == 77.0f);
             }
 }
@@ -97,7 +97,7 @@ static void turned_rows_are_columns(void **state)
     }
 }
 
-/* Whole numbers, so that sums are exact in any order. */
+/* Integers, so that sums are exact in any order. */
 static void boxes_are_their_sums_to_the_nearest_whole_number(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static uint32_t bits_of(float x)
     return bits;
 }
 
-/* Equal heights and what is no number have the bits of before, what is beyond float its ends; nothing beside is touched. */
+/* Equal heights and NaN keep their bits, overflows become the limits; nothing else is written. */
 static void settled_heights_are_finite_and_keep_their_bits(void **state)
 {
     (void)state;

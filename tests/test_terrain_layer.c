@@ -1,5 +1,5 @@
-/* `surface terrain layer=`: ground of a layer's form, coloured by its height. After whatever edits, picture, form and hash are those of a session that
-   makes the same anew; what is form is no bump. */
+/* `surface terrain layer=`: a terrain from a layer's heights, coloured by height. After any edits, picture, form and
+   hash equal those of a new session with the same document; the form is not also a bump. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -40,7 +40,8 @@ static float *picture_of(WrSession *session)
     return copy;
 }
 
-/* The session's picture, of a renderer that has drawn all before it, beside that of a new one that opens its document. */
+/* The session's picture, from a renderer with history, compared with that of a new session that opens its
+   document. */
 static void assert_as_anew(WrSession *session, const char *what)
 {
     WrError err = { "" };
@@ -113,11 +114,11 @@ static void edits_reshape_the_ground_to_the_bits_of_a_new_one(void **state)
         forms += scene_in(session)->triangles->key != key;
         key = scene_in(session)->triangles->key;
     }
-    assert_in_range(forms, 8, 32); /* only what touches the layer makes another form */
+    assert_in_range(forms, 8, 32); /* only edits of the layer rebuild the form */
     wr_session_free(session);
 }
 
-/* The spline of a layer is that of the picture that it is exported as. */
+/* The form of a layer equals that of its exported picture. */
 static void a_layer_has_the_form_of_its_picture(void **state)
 {
     (void)state;
@@ -131,7 +132,7 @@ static void a_layer_has_the_form_of_its_picture(void **state)
     must_run(b, "export height h.exr");
     must_run(b, "surface terrain file=h.exr cells=9 height=0.3");
     assert_true(scene_in(a)->triangles->key == scene_in(b)->triangles->key);
-    must_run(a, "adjust multiply factor=1.5"); /* twice as high as a second one */
+    must_run(a, "adjust multiply factor=1.5"); /* so that it is twice as high as a second one */
     must_run(b, "surface terrain file=h.exr cells=9 height=0.45");
     assert_near(scene_in(a)->triangles->radius, scene_in(b)->triangles->radius, 1e-6);
     if (!wr_session_open(b, "h.exr", &err)) fail_msg("%s", err.text);
@@ -158,9 +159,9 @@ static void form_and_bump_are_two_layers(void **state)
     must_run(s, "surface terrain layer=hill cells=4");
     assert_non_null(strstr(said.text, "layer 2 is hidden"));
     assert_false(is_visible(s, 1));
-    assert_true(f_at(s, 10, 10) == 0);              /* no bump any more */
+    assert_true(f_at(s, 10, 10) == 0);              /* no longer a bump */
     must_run(s, "dab 0.5,0.5 radius=5 strength=1"); /* though hidden, it can be painted */
-    must_run(s, "layer set hill visible=on");       /* both, where somebody wants that */
+    must_run(s, "layer set hill visible=on");       /* both, on request */
     must_run(s, "surface terrain layer=hill cells=5");
     assert_true(is_visible(s, 1));
     must_run(s, "layer rename hill mound");
@@ -179,7 +180,7 @@ static void form_and_bump_are_two_layers(void **state)
     wr_session_free(s);
 }
 
-/* Two objects of two forms, of which one is not at hand. */
+/* Two objects with two forms, one of them not active. */
 static void each_object_has_its_own_form(void **state)
 {
     (void)state;

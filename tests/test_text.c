@@ -1,5 +1,4 @@
-/* Text in relief: against areas and distances worked out here from the outlines, and what must not change
-   when a table is rolled. */
+/* Text in relief: against areas and distances computed here from the outlines; invariance when a table is rolled. */
 #include "test.h"
 #include "generate_help.h"
 
@@ -18,9 +17,9 @@
 
 typedef struct Text {
     const char *text;
-    int font; /* of wr_font_names */
+    int font; /* index for wr_font_names */
     double size, u, v;
-    const Setting *more; /* ends with name NULL; or NULL */
+    const Setting *more; /* the last row has name NULL; or NULL */
     const double *points;
     int point_count;
     double lattice[2];
@@ -107,7 +106,7 @@ static double area_of(const WrFontOutline *o)
     return fabs(sum);
 }
 
-/* The nearest of all sides, one after the other. */
+/* The nearest of all edges, one after the other. */
 static double distance_to(const WrFontOutline *o, double x, double y)
 {
     double least = 1e30;
@@ -140,7 +139,7 @@ static void one_texel_is_cut_in_closed_form(void **state)
 {
     (void)state;
     bool centre;
-    const double odd = 1e-5; /* corners have odd places */
+    const double odd = 1e-5; /* corners have odd positions */
     WrTextPiece down = { U / 4 + 1, 0, U / 4 + 1, U, 0, 0 };
     assert_near(texel(&down, 1, 0, &centre), 0.75, odd); /* inside to the right */
     assert_true(centre);
@@ -155,15 +154,15 @@ static void one_texel_is_cut_in_closed_form(void **state)
     assert_near(texel(NULL, 0, 2, &centre), 1.0, 0);
 }
 
-/* Two sides that cross in the middle: inside of a figure X, two triangles of a quarter each; where the
- * numbers are 1 and -1 both count. */
+/* Two crossing edges: the inside of an X, two triangles of a quarter each; winding numbers 1 and -1 both count as
+ * inside. */
 static void sides_that_cross_are_taken_apart(void **state)
 {
     (void)state;
     bool centre;
     WrTextPiece x[2] = { { 1, 0, U - 1, U, 0, 0 }, { 1, U, U - 1, 0, 0, 0 } };
     assert_near(texel(x, 2, 0, &centre), 0.5, 1e-4);
-    /* one more round about all of it makes the lower triangle 0; two more, nothing */
+    /* another turn around everything makes the lower triangle 0; two more, nothing */
     assert_near(texel(x, 2, 1, &centre), 0.75, 1e-4);
     assert_near(texel(x, 2, 2, &centre), 1.0, 0);
     WrTextPiece twice[2] = { x[0], x[0] };
@@ -253,7 +252,7 @@ static void a_bitmap_text_is_freetypes_own_bitmap_bit_for_bit(void **state)
 
 #define FINE 8
 
-/* The mean of FreeType's coverage in one of our texels: that of FINE x FINE of its pixels. */
+/* The mean of FreeType's coverage in one texel: FINE x FINE of its pixels. */
 static double mean_of(const FT_GlyphSlot g, int i, int j)
 {
     double sum = 0.0;
@@ -266,8 +265,8 @@ static double mean_of(const FT_GlyphSlot g, int i, int j)
     return sum / (FINE * FINE);
 }
 
-/* Our chords stay within 1/64 texel of a curve, FreeType's within 1/11 of its pixels, which are an eighth of
- * a texel; a slanted rim is up to 1.42 long in a texel. */
+/* Our chords stay within 1/64 texel of a curve, FreeType's within 1/11 of its pixels, which are an eighth of a texel;
+ * a slanted edge is up to 1.42 long in a texel. */
 static void coverage_is_that_of_freetypes_own_rasterizer(void **state)
 {
     (void)state;
@@ -313,7 +312,7 @@ static void coverage_adds_up_to_the_outlines_area_at_any_angle(void **state)
         const Setting more[] = { { "rotate", turns[k] }, { NULL, 0 } };
         Text t = { "o&", SANS, 90.0, 0.513, 0.477, more, NULL, 0, { 0 } };
         WrNormalMips r = relief_of(&t, like, NULL);
-        /* chords of 1/64 texel, all on the inner side of convex curves, on some 700 texels of rim */
+        /* chords of 1/64 texel, all inside convex curves, over some 700 texels of edge */
         assert_near(sum_of(r.cover), area, 700.0 / 64.0);
         assert_true(area > 1500.0);
         wr_normal_mips_fini(&r);
@@ -322,8 +321,8 @@ static void coverage_adds_up_to_the_outlines_area_at_any_angle(void **state)
     wr_font_outline_fini(&o);
 }
 
-/* A slope of one height in `bevel` texels shows the distance itself, averaged over a texel, which changes
- * nothing on a straight slope. */
+/* A bevel of height 1 over `bevel` texels is the distance itself, averaged over a texel, which changes nothing on a
+ * straight slope. */
 static void slopes_follow_the_exact_distance_from_the_outline(void **state)
 {
     (void)state;
@@ -354,7 +353,7 @@ static void slopes_follow_the_exact_distance_from_the_outline(void **state)
     wr_font_outline_fini(&o);
 }
 
-/* The profile's formula, at a place far from corners: the stem of an l. */
+/* The profile's formula, far from corners: on the stem of an l. */
 static void each_profile_has_its_formula_on_a_straight_stem(void **state)
 {
     (void)state;
@@ -365,7 +364,8 @@ static void each_profile_has_its_formula_on_a_straight_stem(void **state)
         WrNormalMips r = relief_of(&t, like, NULL);
         int first = 0;
         while (wr_field_get(r.cover, first, 128) < 1.0f) first++;
-        double edge = first - (double)wr_field_get(r.cover, first - 1, 128); /* where the rim is */
+        /* position of the edge */
+        double edge = first - (double)wr_field_get(r.cover, first - 1, 128);
         for (int i = first + 1; i < first + 10; i++) {
             double d = i + 0.5 - edge, mean = 0.0;
             for (int k = 0; k < 1000; k++) {
@@ -383,7 +383,8 @@ static void each_profile_has_its_formula_on_a_straight_stem(void **state)
     wr_field_free(like);
 }
 
-/* Twice the same letters at the same place are once the letters, bit for bit: the winding number counts. */
+/* The same letters drawn twice at the same position equal the letters once, bit for bit: the winding number
+   counts. */
 static void overlapping_letters_are_one_shape(void **state)
 {
     (void)state;
@@ -407,8 +408,8 @@ static void overlapping_letters_are_one_shape(void **state)
 
 /* ---- edges ---- */
 
-/* HC78: over the edges and corners, wider than the table, and far away: moved by whole texels, the table
- * rolls, bit for bit. */
+/* HC78: over edges and corners, wider than the table, and far away: a shift by whole texels rolls the table, bit for
+ * bit. */
 static void hc78_a_moved_text_is_the_rolled_table(void **state)
 {
     (void)state;
@@ -433,8 +434,8 @@ static void hc78_a_moved_text_is_the_rolled_table(void **state)
     wr_field_free(like);
 }
 
-/* HC78: on a small table a large glyph lies over itself; unrolled on a large one it shows which texels are
- * wholly inside of any of its images, and which wholly outside of all. */
+/* HC78: on a small table a large glyph overlaps itself; unrolled on a large one it shows which texels are completely
+ * inside or outside all images. */
 static void hc78_a_glyph_wider_than_the_table_wraps_onto_itself(void **state)
 {
     (void)state;
@@ -464,8 +465,7 @@ static void hc78_a_glyph_wider_than_the_table_wraps_onto_itself(void **state)
     wr_field_free(large);
 }
 
-/* HC78: clipped, what lies on the table is what a table twice as large has there, and nothing comes back on
- * the other side. */
+/* HC78: when clipped, the part on the table equals that on a table twice as large, and nothing wraps around. */
 static void hc78_clipping_leaves_what_is_on_the_table(void **state)
 {
     (void)state;
@@ -552,7 +552,7 @@ static void text_around_the_table_repeats_exactly(void **state)
     wr_field_free(like);
 }
 
-/* Along the diagonal of a square table: moved by a repeat, (1,1)/2 of the table, it is itself. */
+/* Along the diagonal of a square table: a shift by one repeat, (1,1)/2 of the table, changes nothing. */
 static void text_along_a_lattice_direction_closes(void **state)
 {
     (void)state;
@@ -572,7 +572,7 @@ static void text_along_a_lattice_direction_closes(void **state)
     wr_field_free(like);
 }
 
-/* A straight path to the right is a line of text; one upwards is that turned by 90 degrees. */
+/* A straight path to the right is a line of text; one upwards is the same rotated by 90 degrees. */
 static void a_straight_path_is_a_turned_line(void **state)
 {
     (void)state;
@@ -626,7 +626,7 @@ static bool keep(void *ctx, const char *param, const char *value, WrError *err)
     return true;
 }
 
-/* U+10FFFD is in no font, the Hindi word in none that is named sans. */
+/* U+10FFFD is in no font, the Hindi word in none named sans. */
 static void hc78_missing_glyphs_are_told_and_drawn(void **state)
 {
     (void)state;
@@ -672,7 +672,7 @@ static void hc78_bytes_that_are_not_utf8_are_told_and_drawn(void **state)
     assert_true(try_text(&t, &job, &bad, &err));
     assert_string_equal(said.text, "2 bytes of the text are not UTF-8: drawn as U+FFFD\n");
     t.text = "a\xef\xbf\xbd\xef\xbf\xbd"
-             "b"; /* the very character is sound */
+             "b"; /* the next character is valid */
     assert_true(try_text(&t, &job, &sign, &err));
     assert_int_equal(strlen(said.text),
                      strlen("2 bytes of the text are not UTF-8: drawn as U+FFFD\n"));
@@ -682,7 +682,7 @@ static void hc78_bytes_that_are_not_utf8_are_told_and_drawn(void **state)
     wr_field_free(like);
 }
 
-/* Letters that the font lacks are lent, and told from where; asked for by that name they are the same. */
+/* Letters missing in the font come from a fallback font, with a note; requested by that name they are the same. */
 static void hc78_lent_letters_are_told_and_come_again_by_name(void **state)
 {
     (void)state;
@@ -709,7 +709,7 @@ static void hc78_lent_letters_are_told_and_come_again_by_name(void **state)
     value_of(g, values, "text")->text = t.text;
     value_of(g, values, "file")->text = SANS_FILE;
     value_of(g, values, "size")->number[0] = 32.0;
-    value_of(g, values, "fallback2")->text = path; /* the place in the list does not matter */
+    value_of(g, values, "fallback2")->text = path; /* the position in the list does not matter */
     assert_true(wr_generator_make(g, values, &job, &named, &err));
     assert_true(same(&lent, &named));
     wr_normal_mips_fini(&lent);

@@ -1,4 +1,4 @@
-/* The verb `text`: what a line of it does to a document, and what is kept of it. */
+/* The verb `text`: effect of a line on a document, and the stored line. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -24,7 +24,7 @@ static void hc78_an_empty_text_leaves_every_bit_as_it_was(void **state)
     wr_session_free(s);
 }
 
-/* Lines on top of each other: \n in the language is two letters, and the kept line says the same. */
+/* Several lines of text: \n in the command language is two characters, and the stored line is the same. */
 static void hc78_new_lines_survive_being_kept(void **state)
 {
     (void)state;
@@ -63,8 +63,8 @@ static void a_font_file_is_kept_with_its_checksum(void **state)
     wr_session_free(s);
 }
 
-/* What a line leaves to the machine is in the line that is kept: the content of the named font, the fonts that
- * lent letters. So it gives the same whatever is installed, or says that it cannot. */
+/* Choices made by the program are added to the stored line: checksum of the named font, fallback fonts of single
+ * letters. The line then gives the same result on any machine, or an error. */
 static void the_kept_line_names_the_fonts_that_wrote_it(void **state)
 {
     (void)state;
@@ -82,14 +82,14 @@ static void the_kept_line_names_the_fonts_that_wrote_it(void **state)
     assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(again)));
     assert_string_equal(kept, wr_session_last_command(again));
     static const char *const sums[] = { " fallback_sha256=", " sha256=" };
-    for (int i = 0; i < 2; i++) { /* another content than then */
+    for (int i = 0; i < 2; i++) { /* the file has changed */
         char *digit = strstr(kept, sums[i]) + strlen(sums[i]), was = *digit;
         *digit = was == '0' ? '1' : '0';
         assert_false(wr_session_run(again, kept, &err));
         assert_non_null(strstr(err.text, "another content"));
         *digit = was;
     }
-    must_run(s, "text \xf4\x8f\xbf\xbd font=sans size=30"); /* in no font, now or ever */
+    must_run(s, "text \xf4\x8f\xbf\xbd font=sans size=30"); /* in no font at all */
     assert_non_null(strstr(wr_session_last_command(s), " missing=sign"));
     wr_free(kept);
     wr_session_free(s);

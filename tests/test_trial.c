@@ -1,5 +1,4 @@
-/* What the window shows before a change is made: computed beside the document, which never changes, and the
-   same as what the command then makes. */
+/* Edit previews: computed without changing the document, and equal to the command's result. */
 #include "test.h"
 
 #include "base/error.h"
@@ -41,7 +40,7 @@ static void assert_same_heights(const WrField *a, const WrField *b)
     assert_memory_equal(&x, &y, sizeof x);
 }
 
-/* Try, then do: the composite that was shown is the one that comes, bit for bit. */
+/* Preview, then run: both composites are bit-identical. */
 static void try_then_run(const WrEditPreviewAsk *ask, const char *line)
 {
     WrError err;
@@ -72,14 +71,14 @@ static void an_operation_that_is_tried_comes_out_as_its_command(void **state)
         "adjust invert about=zero layers=all");
 }
 
-/* Coverage goes along where texels only move. */
+/* Coverage moves along if texels only move. */
 static void an_offset_that_is_tried_moves_what_layers_say_too(void **state)
 {
     (void)state;
     try_then_run(
         &(WrEditPreviewAsk){ .op = wr_op_find("offset"), .param = { 100, 31 }, .all_layers = true },
         "adjust offset du=100 dv=31 layers=all");
-    /* where that overshoots, what a layer says stays within 0 to 1 */
+    /* if the filter overshoots, coverage stays within 0 to 1 */
     try_then_run(&(WrEditPreviewAsk){ .op = wr_op_find("warp"),
                                       .param = { 23.7, 9, 3, 0, 7 },
                                       .all_layers = true },
@@ -95,7 +94,7 @@ static void a_layers_settings_that_are_tried_come_out_as_their_command(void **st
         "layer set 2 blend=smooth-max opacity=0.5 radius=0.25");
 }
 
-/* Inside the selection, onto the active layer, as it blends. */
+/* Inside the selection, onto the active layer, with its blend mode. */
 static void a_generator_that_is_tried_comes_out_as_its_command(void **state)
 {
     (void)state;
@@ -148,8 +147,8 @@ static double mean_difference(const WrField *a, const WrField *b)
     return sum / width / height;
 }
 
-/* Lines of 24 texels with bevels of 8, 128 apart, made at half the size: a length that were not halved
-   would fill as many texels too much on either side, a tenth of the table and more. */
+/* Lines of 24 texels with bevels of 8, 128 apart, made at half the size: a length that is not halved would cover as
+   many texels too much on both sides, a tenth of the table and more. */
 static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
 {
     (void)state;
@@ -160,7 +159,7 @@ static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
     WrEditPreviewAsk ask = { .line = line, .rough = true };
     wr_edit_preview_ask(trial, wr_session_document(session), &ask);
     wait_until_done(trial);
-    assert_true(wr_edit_preview_rough(trial)); /* the exact one begins when this is taken */
+    assert_true(wr_edit_preview_rough(trial)); /* the exact one starts when this is fetched */
     WrField *rough = wr_field_share(wr_edit_preview_field(trial));
     wait_until_done(trial);
     assert_false(wr_edit_preview_rough(trial));
@@ -229,7 +228,7 @@ static const WrOutline *outline_of(WrOutliner *outliner, const WrSession *sessio
     return wr_outliner_get(outliner, &serial);
 }
 
-/* The longest way across an outline in u. */
+/* The largest width of an outline in u. */
 static double width_of(const WrOutline *outline)
 {
     double low = 1e9, high = -1e9;
@@ -247,7 +246,7 @@ static void outlines_show_what_a_selection_would_become(void **state)
     WrOutliner *outliner = wr_outliner_new(1, SDL_USEREVENT);
     const WrOutline *now = outline_of(outliner, session, &(WrOutlineAsk){ 0 });
     assert_non_null(now);
-    assert_near(width_of(now), 0.9, 1.5 / 256); /* 0.3 to 1.2, over the edge */
+    assert_near(width_of(now), 0.9, 1.5 / 256); /* 0.3 to 1.2, across the edge */
     const WrOutline *grown =
         outline_of(outliner, session, &(WrOutlineAsk){ .kind = WR_OUTLINE_GROW, .by = 5 });
     assert_non_null(grown);

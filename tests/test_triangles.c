@@ -1,4 +1,4 @@
-/* Meshes as surfaces: what is made of a file's arrays, and that nothing of it is lost on the way to a document. */
+/* Meshes as surfaces: conversion of a file's arrays, without loss on the way to a document. */
 #include "test.h"
 
 #include "base/error.h"
@@ -59,7 +59,8 @@ static void a_cube_is_a_body(void **state)
     assert_near(volume(t), 1, 1e-12);
     assert_near(t->centre[1], 0.5, 0);
     assert_near(t->radius, sqrt(0.75), 1e-9);
-    /* by angles each face counts a right angle at a corner, however it is cut: the normals are the diagonals */
+    /* weighted by angles each face contributes a right angle at a corner, for any division: the normals are the
+       diagonals */
     for (int i = 0; i < 8; i++)
         for (int k = 0; k < 3; k++) {
             const double away = t->corners[i].p[k] > 0 ? 1 : -1;
@@ -68,7 +69,7 @@ static void a_cube_is_a_body(void **state)
     wr_triangles_free(t);
 }
 
-/* Inside out it is turned; with a hole it is a sheet. */
+/* An inside-out mesh is reversed; one with a hole is an open surface. */
 static void bodies_are_told(void **state)
 {
     (void)state;
@@ -90,7 +91,7 @@ static void bodies_are_told(void **state)
     t = make(&source);
     assert_false(t->closed);
     wr_triangles_free(t);
-    memcpy(turned, cube_corners, sizeof turned); /* one the other way round */
+    memcpy(turned, cube_corners, sizeof turned); /* one reversed */
     turned[3][1] = cube_corners[3][2], turned[3][2] = cube_corners[3][1];
     source = cube_source();
     source.corners = (const int32_t(*)[3])turned;
@@ -99,7 +100,7 @@ static void bodies_are_told(void **state)
     wr_triangles_free(t);
 }
 
-/* Two tips over a ring of many: the edges at them are looked for from the other end. Each breakage is seen. */
+/* Two tips over a ring of many triangles: their edges are found from the other end. Each defect is detected. */
 static void hubs_are_bodies_too(void **state)
 {
     (void)state;
@@ -122,7 +123,7 @@ static void hubs_are_bodies_too(void **state)
     WrTriangles *t = make(&source);
     assert_true(t->closed);
     wr_triangles_free(t);
-    memcpy(corners[2 * RING], corners[77], sizeof corners[0]); /* one twice */
+    memcpy(corners[2 * RING], corners[77], sizeof corners[0]); /* a duplicate */
     source.triangle_count++;
     t = make(&source);
     assert_false(t->closed);
@@ -135,7 +136,7 @@ static void hubs_are_bodies_too(void **state)
     wr_free(corners);
 }
 
-/* HC136: a normal that is 0 or no number comes from the faces about the place, and is counted. */
+/* HC136: a normal that is 0 or NaN is replaced by that of the adjacent faces, and counted. */
 static void bad_normals_are_mended(void **state)
 {
     (void)state;
@@ -151,7 +152,7 @@ static void bad_normals_are_mended(void **state)
                                  .triangle_count = 2 };
     WrTriangles *t = make(&source);
     assert_int_equal(t->told.bad_normal, 2);
-    /* the faces about the place look opposite ways and add up to nothing: each corner takes its face's */
+    /* the adjacent faces are opposite and add up to 0: each corner uses its face's normal */
     assert_int_equal(t->told.face_normal, 2);
     for (int i = 0; i < t->corner_count; i++) assert_near(fabs((double)t->corners[i].n[2]), 1, 0);
     wr_triangles_free(t);
@@ -185,7 +186,7 @@ static void empty_triangles_are_left_out(void **state)
     assert_non_null(strstr(err.text, "no triangle has an area"));
 }
 
-/* Each begins at the corner between its two shortest edges, in the winding that it had. */
+/* Each triangle starts at the corner between its two shortest edges, with unchanged winding. */
 static void the_longest_edge_is_opposite(void **state)
 {
     (void)state;
@@ -251,7 +252,7 @@ static void parts_keep_their_triangles(void **state)
     (void)state;
     WrTriangles *t = strip(20, 1);
     assert_int_equal(t->part_count, 20);
-    assert_int_equal(t->corner_count, 42); /* shared ones are one */
+    assert_int_equal(t->corner_count, 42); /* shared ones are merged */
     for (int32_t i = 0; i < t->triangle_count; i++) {
         const int part = wr_triangles_part(t, i);
         const float x = t->corners[t->triangles[i].corner[0]].p[0];
@@ -281,7 +282,7 @@ static void documents_bring_it_back(void **state)
     assert_memory_equal(back->centre, t->centre, sizeof t->centre);
     assert_near(back->radius, t->radius, 0);
     wr_triangles_free(back);
-    /* what a stranger may have made of it */
+    /* random corruption */
     TestRandom random = { 9 };
     for (int i = 0; i < 3000; i++) {
         const size_t at = (size_t)(test_random(&random) * (double)count);
@@ -295,7 +296,7 @@ static void documents_bring_it_back(void **state)
     wr_triangles_free(t);
 }
 
-/* Over (u,v) that are met twice painting shows twice. */
+/* Where (u,v) are used twice, painting appears twice. */
 static void overlaps_are_told(void **state)
 {
     (void)state;

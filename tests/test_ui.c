@@ -1,4 +1,4 @@
-/* The window's geometry, keys, settings and filtered cells: all that can be tested without a window. */
+/* Geometry, keys, settings and filtered cells of the window: everything testable without a window. */
 #include "test.h"
 
 #include "base/error.h"
@@ -63,7 +63,7 @@ static void zooming_keeps_the_texel_under_the_pointer(void **state)
         wr_view_to_texel(&view, px, py, &x0, &y0);
         wr_view_zoom_at(&view, px, py, exp2(10 * test_random(&r) - 5));
         wr_view_to_texel(&view, px, py, &x1, &y1);
-        /* the same texel, perhaps of another copy */
+        /* the same texel, possibly of another copy */
         assert_near((x1 - x0) / 512 - rint((x1 - x0) / 512), 0, 1e-9);
         assert_near((y1 - y0) / 256 - rint((y1 - y0) / 256), 0, 1e-9);
     }
@@ -84,7 +84,7 @@ static void panning_moves_the_picture_by_the_pixels_dragged(void **state)
     assert_true(view.centre_y >= 0 && view.centre_y < 256);
 }
 
-/* A mirror at the canvas's middle: what was as far to the left of it is to the right. */
+/* Mirrored at the canvas's centre: a point at the left appears at the right. */
 static void a_mirrored_view_shows_left_at_the_right(void **state)
 {
     (void)state;
@@ -98,7 +98,7 @@ static void a_mirrored_view_shows_left_at_the_right(void **state)
         wr_view_to_pixel(&mirrored, x, y, &qx, &qy);
         assert_near(qx, 2 * middle - px, 1e-9);
         assert_near(qy, py, 1e-9);
-        wr_view_pan(&mirrored, 31, -7); /* under the pointer it goes with the hand all the same */
+        wr_view_pan(&mirrored, 31, -7); /* under the pointer it still moves with the drag */
         wr_view_to_texel(&mirrored, qx + 31, qy - 7, &px, &py);
         assert_near((px - x) / 512 - rint((px - x) / 512), 0, 1e-9);
         assert_near((py - y) / 256 - rint((py - y) / 256), 0, 1e-9);
@@ -135,7 +135,7 @@ static void an_outline_in_the_middle_of_the_cell_has_no_copies(void **state)
     assert_near(copies[0].dy, 0, 0);
 }
 
-/* Near the right edge the stroke comes in on the left; in a corner, on three other corners. */
+/* Near the right edge the stroke enters at the left; in a corner, at three other corners. */
 static void hc73_an_outline_over_an_edge_shows_on_the_other_side(void **state)
 {
     (void)state;
@@ -147,7 +147,7 @@ static void hc73_an_outline_over_an_edge_shows_on_the_other_side(void **state)
     assert_int_equal(wr_view_outline_copies(&view, true, true, 505, 250, 20, copies), 4);
     assert_int_equal(wr_view_outline_copies(&view, false, true, 505, 250, 20, copies), 2);
     assert_int_equal(wr_view_outline_copies(&view, false, false, 505, 250, 20, copies), 1);
-    /* the diagonal copy only where the disc itself reaches the corner */
+    /* the diagonal copy only if the disc itself reaches the corner */
     assert_int_equal(wr_view_outline_copies(&view, true, true, 512 - 15, 256 - 15, 20, copies), 3);
 }
 
@@ -162,7 +162,7 @@ static void an_outline_on_a_copy_is_brought_home(void **state)
     assert_near(copies[0].dy, -7 * 256, 0);
 }
 
-/* ---- rotation ---- */
+/* x rotates y to z, y rotates z to x, z rotates x to y; x comes first. */
 
 static void assert_same_rotation(const WrRotation *a, const WrRotation *b, double tolerance)
 {
@@ -197,7 +197,7 @@ static void angles_of_any_rotation_give_that_rotation_again(void **state)
     }
 }
 
-/* Where y is +-90 degrees, x and z turn about the same axis. */
+/* At y = +-90 degrees, x and z rotate about the same axis. */
 static void gimbal_lock_still_gives_the_rotation_again(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static void a_drag_to_the_right_moves_the_front_to_the_right(void **state)
         WrRotation before = wr_rotation_times(&table, &own);
         WrRotation now = wr_rotation_dragged(&own, turn, right, up, 100, 0, 1000);
         WrRotation after = wr_rotation_times(&table, &now);
-        /* the object point that was in front has moved by 18 degrees to the right, whatever the turn */
+        /* the object point in front has moved by 18 degrees to the right, for any rotation */
         WrRotation back = wr_rotation_from_deg((WrVec3){ 0, 0, 0 });
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++) back.m[3 * i + j] = before.m[3 * j + i];
@@ -245,7 +245,7 @@ static void a_drag_down_moves_the_front_down_and_no_drag_changes_nothing(void **
     assert_same_rotation(&now, &own, 1e-14);
 }
 
-/* ---- the light's pad ---- */
+/* ---- pad of the light ---- */
 
 static void places_of_lights_are_taken_back_to_their_directions(void **state)
 {
@@ -271,7 +271,7 @@ static void a_light_from_the_upper_left_stands_at_the_upper_left(void **state)
     wr_light_to_pad((WrVec3){ 0, 0, 1 }, &x, &y);
     assert_near(x, 0, 0);
     assert_near(y, 0, 0);
-    wr_light_to_pad((WrVec3){ 0, 0, -1 }, &x, &y); /* straight from behind: somewhere, but finite */
+    wr_light_to_pad((WrVec3){ 0, 0, -1 }, &x, &y); /* straight from behind: undefined, but finite */
     assert_true(isfinite(x) && isfinite(y));
     wr_light_to_pad((WrVec3){ 0.3, 0, -1 }, &x, &y); /* from behind: the rim */
     assert_near(x, 1, 1e-12);
@@ -298,7 +298,7 @@ static void check_layout(const WrLayoutInput *in)
         assert_true(r[i]->x + r[i]->w <= in->width && r[i]->y + r[i]->h <= in->height);
         for (int j = 0; j < i; j++) assert_false(overlap(r[i], r[j]));
     }
-    /* no gaps: the areas add up to the window under the menu */
+    /* no gaps: the areas add up to the window below the menu */
     assert_int_equal(area, (long)in->width * (in->height - in->menu_height));
 }
 
@@ -361,8 +361,8 @@ static void keys_find_their_actions(void **state)
     assert_string_equal(wr_keys_find(map, keysym(SDLK_s, KMOD_LCTRL)), "save");
     assert_string_equal(wr_keys_find(map, keysym(SDLK_s, KMOD_RCTRL | KMOD_LSHIFT)), "save_as");
     assert_null(wr_keys_find(map, keysym(SDLK_s, KMOD_LCTRL | KMOD_LALT)));
-    assert_string_equal(wr_keys_find(map, keysym(SDLK_b, KMOD_NUM)),
-                        "brush"); /* locks do not count */
+    /* locks are ignored */
+    assert_string_equal(wr_keys_find(map, keysym(SDLK_b, KMOD_NUM)), "brush");
     assert_string_equal(wr_keys_find(map, keysym(SDLK_z, KMOD_CTRL)), "undo");
     assert_string_equal(wr_keys_find(map, keysym(SDLK_y, KMOD_CTRL)), "redo");
     assert_string_equal(wr_keys_find(map, keysym(SDLK_PLUS, 0)), "zoom_in");
@@ -490,7 +490,7 @@ static void recent_files_are_few_and_without_doubles(void **state)
 
 /* ---- cells and taps ---- */
 
-/* The mean over a pixel's footprint, straight from the definition. */
+/* The mean over a pixel's footprint, by definition. */
 static double mean_over(const double *texels, int size, double from, double to)
 {
     double sum = 0;
@@ -569,7 +569,7 @@ static void count_tile(int tx, int ty, void *ctx)
     ++*(int *)ctx;
 }
 
-/* 100 x 70 texels: tiles at the right and lower edge are cut off; means count what is inside. */
+/* 100 x 70 texels: tiles at the right and lower edge are cut off; means include only texels inside. */
 static void means_of_cut_off_tiles_count_only_what_is_inside(void **state)
 {
     (void)state;
@@ -619,7 +619,7 @@ static void an_edit_is_seen_and_costs_its_tile_alone(void **state)
     wr_field_free(field);
 }
 
-/* Whatever is edited, raised or taken back, the least and the greatest height are those of the whole table. */
+/* After any edit or undo, the range is that of the whole table. */
 static void the_range_follows_every_edit(void **state)
 {
     (void)state;
@@ -643,7 +643,7 @@ static void the_range_follows_every_edit(void **state)
     wr_field_free(field);
 }
 
-/* With no time left, one texel stands for each mean, and the cache says so until it is made good. */
+/* With no time left, single texels replace means, and the cache reports it until they are computed. */
 static void late_means_are_rough_and_made_good_later(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The window's picture, of which only what changed is drawn: after whatever is done in the window, each picture has the
-   pixels that it has when all of it is drawn. */
+/* Retained frame of the window: after any change, the partially drawn frame is pixel-identical to a completely drawn
+   one. */
 #include "test.h"
 #include "test_app.h"
 
@@ -17,13 +17,13 @@
 
 /* ---- rectangles ---- */
 
-/* Which squares must be drawn, found by the definition: those in which what was drawn is another list. */
+/* Dirty squares by definition: those with another list of operations. */
 typedef struct Square {
     uint64_t list[8];
     int count;
 } Square;
 
-#define ACROSS 11 /* squares of 32 pixels, of a picture that ends within the last ones */
+#define ACROSS 11 /* squares of 32 pixels; the frame ends inside the last ones */
 #define DOWN 7
 #define WIDE 341
 #define TALL 203
@@ -68,7 +68,7 @@ static void what_changed_is_covered_by_rectangles_that_do_not_overlap(void **sta
         const bool touch = k % 5 == 4;
         memset(now, 0, sizeof now);
         wr_dirty_rects_begin(damage, WIDE, TALL);
-        /* Things that are mostly those of the picture before. */
+        /* Operations that are mostly those of the previous frame. */
         TestRandom same = { 7 + (uint64_t)(k / 4) };
         for (int i = 0; i < 5; i++) {
             const SDL_Rect box = some_box(k % 4 == 1 && i == 4 ? &r : &same);
@@ -107,7 +107,7 @@ static void what_changed_is_covered_by_rectangles_that_do_not_overlap(void **sta
     wr_dirty_rects_begin(damage, 99, 55);
     assert_int_equal(wr_dirty_rects_end(damage, NULL, 0, rects), 1);
     assert_true(SDL_RectEquals(&rects[0], &all));
-    assert_true(none > 50 && few > 20); /* pictures that are as they were; several places at once */
+    assert_true(none > 50 && few > 20); /* unchanged frames; several changed places at once */
     wr_dirty_rects_free(damage);
 }
 
@@ -143,8 +143,8 @@ static void some_pixels(TestRandom *r, SDL_Texture *texture)
     wr_gui_sdl_update(texture, NULL, pixels, 4 * PIXELS);
 }
 
-/* By turns a rectangle without the texture, a letter, a picture scaled, any two triangles, and two that make a rectangle
-   from its last corner on. */
+/* In turn: a rectangle without texture, a letter, a scaled picture, any two triangles, and two that form a rectangle
+   starting at its last corner. */
 static void some_shape(TestRandom *r, Drawing *d, int i)
 {
     WrGuiVertex *at = &d->vertices[4 * i];
@@ -182,7 +182,7 @@ static void draw(Drawing *d)
     wr_retained_frame_end(d->kept);
 }
 
-/* One thing becomes another. */
+/* Change one operation. */
 static void change(TestRandom *r, Drawing *d)
 {
     WrGuiVertex *at = &d->vertices[(int)(4 * SHAPES * test_random(r))];
@@ -200,7 +200,7 @@ static void change(TestRandom *r, Drawing *d)
     case 6: d->points[(int)(5 * test_random(r))].x += 1; break;
     case 7: d->argb ^= (uint32_t)(16777216 * test_random(r)); break;
     case 8: d->fill.w += 2; break;
-    case 9: { /* what lies above goes below */
+    case 9: { /* the topmost moves to the bottom */
         WrGuiVertex held[4], *other = &d->vertices[4 * (int)(SHAPES * test_random(r))];
         at = &d->vertices[4 * (int)(SHAPES * test_random(r))];
         memcpy(held, at, sizeof held);
@@ -257,7 +257,7 @@ static void whatever_changes_in_a_picture_is_drawn(void **state)
 static struct {
     uint32_t *partial, *whole;
     int width, height, pictures;
-    int differed; /* pictures from those before */
+    int differed; /* frames that differ from the previous one */
     const char *doing;
 } seen;
 
@@ -268,7 +268,7 @@ static void read_pixels(WrApp *app, uint32_t *pixels)
         0);
 }
 
-/* After each picture of the window. */
+/* Called after each frame. */
 static void compare(WrApp *app)
 {
     int w, h;
@@ -296,7 +296,7 @@ static void compare(WrApp *app)
 
 static void step(WrApp *app)
 {
-    app->drawn_at -= 1; /* whatever the clock says */
+    app->drawn_at -= 1; /* independent of the clock */
     SDL_PushEvent(&(SDL_Event){ .type = app->ready_event });
     wr_app_step(app);
 }
@@ -306,7 +306,7 @@ static int within(TestRandom *r, int low, int size)
     return low + (int)((0.05 + 0.9 * test_random(r)) * size);
 }
 
-/* The pointer goes over a part of the window, held down or not. */
+/* Move the pointer over a part of the window, pressed or not. */
 static void drag(WrApp *app, TestRandom *r, const SDL_Rect *room, int which)
 {
     int x = within(r, room->x, room->w), y = within(r, room->y, room->h);

@@ -1,4 +1,4 @@
-/* The patch's pictures under a tolerance: what the document keeps is used, what is chosen is handed back. */
+/* Pictures of the patch with a tolerance: stored dials are used, chosen dials are returned. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -12,7 +12,7 @@
 static const char *const ball[] = { "table 64x64",      "grid cells=4x4 width=6", "surface sphere",
                                     "bump height=0.05", "tolerance rms=0.02",     NULL };
 
-/* The finest picture of the document as it stands, with those dials kept. */
+/* The finest picture of the document with those stored dials. */
 static const WrPreviewPicture *finest(WrPreview *preview, const WrSession *session,
                                       const char *kept, double turn_deg)
 {
@@ -51,7 +51,7 @@ static void what_a_view_chose_is_what_the_document_keeps(void **state)
     assert_true(picture->chosen.any && !picture->chosen.kept && picture->chosen.met);
     const WrHash chosen = hash_of(picture);
     assert_non_null(picture->kept);
-    /* Handed to the document, its picture of that size takes the same dials and chooses nothing ... */
+    /* Stored in the document, its picture of that size uses the same dials without a new choice ... */
     WrError err;
     WrFrame frame;
     wr_session_keep_chosen(session, picture->kept);
@@ -94,8 +94,8 @@ static int start_events(void **state)
     return SDL_Init(SDL_INIT_EVENTS);
 }
 
-/* Whoever holds a copy of the last picture that he took, and puts into it what is said to have changed since, has the
-   newest one; also when others were missed in between, and when sizes change. */
+/* A copy of the last fetched picture, updated in the reported changed region, equals the newest picture; also if
+   pictures in between were skipped, and if sizes change. */
 static void what_is_said_to_have_changed_makes_the_picture(void **state)
 {
     (void)state;
@@ -103,7 +103,8 @@ static void what_is_said_to_have_changed_makes_the_picture(void **state)
     static uint8_t copy[4 * WIDE * TALL];
     TestRandom r = { 77 };
     WrError err;
-    WrPreviewPicture *pictures[3]; /* taken, finished last, and one that is free, in any order */
+    /* the fetched one, the last finished one, and a free one, in any order */
+    WrPreviewPicture *pictures[3];
     uint64_t had = 0;
     int few = 0, wide = WIDE, tall = TALL, last = -1;
     bool fresh = false;
@@ -127,7 +128,7 @@ static void what_is_said_to_have_changed_makes_the_picture(void **state)
         if (fresh) wr_picture_follow(p, before);
         last = now;
         fresh = true;
-        if (test_random(&r) < 0.4) continue; /* it is missed */
+        if (test_random(&r) < 0.4) continue; /* it is skipped */
         const SDL_Rect all = { 0, 0, wide, tall };
         const SDL_Rect part = p->since == had && had != 0 ? p->changed : all;
         few += part.w * part.h < wide * tall / 2;

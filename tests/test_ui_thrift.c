@@ -1,4 +1,4 @@
-/* What is kept for the next table or picture is given back to the system while nobody uses the window. */
+/* Memory kept for the next table or picture is released while the window is idle. */
 #include "test.h"
 #include "test_app.h"
 
@@ -18,7 +18,8 @@ static void keep_a_block(void)
     wr_free(block);
 }
 
-/* Whether the block goes with the next picture, so long after the last event and the last time that it did. */
+/* True if the block is freed with the next frame, `alone` seconds after the last event and `since` the last
+   release. */
 static bool goes(WrApp *app, double alone, double since)
 {
     const double now = wr_clock_seconds();
@@ -37,13 +38,13 @@ static void a_window_that_is_left_alone_gives_memory_back(void **state)
 #endif
     Bench bench;
     begin(&bench);
-    for (int i = 0; i < 5; i++) draw_again(bench.app); /* its threads have what they need */
+    for (int i = 0; i < 5; i++) draw_again(bench.app); /* its threads have allocated their memory */
     keep_a_block();
-    if (wr_process_space() == 0) skip();    /* the system does not tell */
-    assert_false(goes(bench.app, 10, 100)); /* somebody may go on in a moment */
+    if (wr_process_space() == 0) skip();    /* unknown on this system */
+    assert_false(goes(bench.app, 10, 100)); /* the user may continue soon */
     assert_true(goes(bench.app, 30, 100));
     keep_a_block();
-    assert_false(goes(bench.app, 30, 25)); /* nothing was asked of it since */
+    assert_false(goes(bench.app, 30, 25)); /* no event since */
     assert_true(goes(bench.app, 30, 35));
     finish(&bench);
 }

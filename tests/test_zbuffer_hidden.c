@@ -1,5 +1,5 @@
-/* What is hidden below others is not drawn, and that changes no bit of what is seen; work is counted in squares
-   drawn, so that no machine is too slow for the test. */
+/* Hidden parts are not rasterised, without changing any visible bit; work is counted in rasterised squares, so that
+   the speed of the machine does not matter. */
 #include "test.h"
 
 #include "base/error.h"
@@ -29,7 +29,7 @@ static WrZLetters *frame(double size)
     return wr_zletters_new(contours, 2, 0.25 * size, 0.05 * size, WR_Z_BEVEL_ROUND, &err);
 }
 
-/* Copies of one shape, as the solids' commands place them: at random, or on a lattice, upright or turned. */
+/* Copies of one shape as placed by the solids' commands: at random, or on a lattice, upright or rotated. */
 static WrZSolid *crowd(TestRandom *r, WrZShape shape, const WrZLetters *letters, int count,
                        double size)
 {
@@ -124,7 +124,7 @@ static void hidden_triangles_change_no_bit(void **state)
     }
 }
 
-/* A disc as large as may be on the smallest table that takes it: only what its first copies leave is drawn. */
+/* The largest possible disc on the smallest table: only the parts left by its first copies are rasterised. */
 static void a_solid_larger_than_the_table_costs_what_is_seen(void **state)
 {
     (void)state;
@@ -154,8 +154,8 @@ static void a_solid_larger_than_the_table_costs_what_is_seen(void **state)
     }
 }
 
-/* Lattices far closer than their copies are wide: in a square of the table almost all of them are hidden, by all
-   others together. */
+/* Lattices much closer than the copies' width: in a square of the table almost all copies are hidden by the others
+   together. */
 static void copies_in_copies_cost_what_is_seen(void **state)
 {
     (void)state;
