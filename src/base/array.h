@@ -4,8 +4,7 @@
  *   wr_array_push(&lights, light);
  *   for (int i = 0; i < lights.count; i++) use(&lights.data[i]);
  *   wr_array_free(&lights);
- *
- * Layer 0. */
+ * */
 #pragma once
 #include "base/memory.h"
 

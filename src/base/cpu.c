@@ -2,7 +2,7 @@
 
 #include <stddef.h>
 
-/* By single features: GCC and clang agree on those only. */
+/* The single features are checked because GCC and clang agree only on their names. */
 int wr_cpu_level(void)
 {
 #ifdef __x86_64__

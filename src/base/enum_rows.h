@@ -1,4 +1,4 @@
-/* enum_rows.h - tables with a row for each word of an enumeration, which the compiler counts. Layer 0.
+/* enum_rows.h - tables with one row per enumerator, checked at compile time.
 
        WR_ROWS(wr_blends);
        const WrBlendMode wr_blends[WR_BLEND_COUNT] = {
@@ -7,13 +7,12 @@
        };
        WR_ROWS_END(wr_blends, WR_BLEND_COUNT);
 
-   A length tells neither of a word in the middle that has no row, nor of the last one where the table is as
-   long as it was told to be: both are zeros, and what is called through them stops the program. Here rows
-   are counted: none is outside the table, none stands twice, so where there are as many as words, each has
-   its own. Several tables within one initialiser are counted together.
-
-   What chooses by such a word instead of keeping a table is a switch without a default, which must name each
-   (-Wswitch). Lists without numbers of their own are counted by WR_LENGTH. */
+   The array length alone does not detect a missing row: the row is zeros, and a call through its
+   function pointers crashes. Here the rows are counted. No row is outside the table and none appears
+   twice, so if their number equals the number of enumerators, each enumerator has its own. Several
+   tables within one initialiser are counted together. Code that selects by an enumerator without a
+   table uses a switch without a default, which must list every enumerator (-Wswitch). WR_LENGTH counts
+   lists that have no enumeration. */
 #pragma once
 
 #pragma GCC diagnostic error "-Woverride-init"
@@ -23,7 +22,7 @@
 #define WR_ROWS_END(table, count)                                                                  \
     _Static_assert(__COUNTER__ - table##_rows_ == (count), #table ": not a row for each")
 
-/* The words of an enumeration that has nothing beside them, in one list with its enumerators:
+/* X-macros for an enumeration and the list of its words, without other columns:
 
        #define BONDS(X) X(RUNNING, "running") X(STACK, "stack")
        typedef enum Bond { BONDS(WR_WORD_ID) } Bond;
@@ -31,5 +30,5 @@
 #define WR_WORD_ID(id, word) id,
 #define WR_WORD(id, word) word,
 
-/* How many elements an array has. */
+/* Number of elements of an array. */
 #define WR_LENGTH(array) ((int)(sizeof(array) / sizeof *(array)))

@@ -3,7 +3,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-/* Cut a byte string that vsnprintf may have cut inside a UTF-8 sequence. */
+/* Removes an incomplete UTF-8 sequence from the end: vsnprintf may have cut inside it. */
 static void trim_utf8(char *text, size_t capacity)
 {
     size_t length = strlen(text);

@@ -6,8 +6,8 @@
 void wr_sincos_turns(double u, double *sine, double *cosine)
 {
     double r = u - rint(u);       /* -1/2 .. 1/2, exact */
-    double q = rint(4.0 * r);     /* nearest quarter turn, -2 .. 2 */
-    double x = 2.0 * (r - q / 4); /* half turns from it, -1/4 .. 1/4, exact */
+    double q = rint(4.0 * r);     /* nearest quarter turn, times 4: -2 .. 2 */
+    double x = 2.0 * (r - q / 4); /* distance from it in turns, -1/8 .. 1/8, exact */
     double s = Sleef_cinz_sinpid1_u05purec(x), c = Sleef_cinz_cospid1_u05purec(x);
     switch ((int)q & 3) {
     case 0: *sine = s, *cosine = c; break;

@@ -1,11 +1,12 @@
-/* exactmath.h - transcendental functions whose bits are the same on every processor (SLEEF's
-   FMA-free scalar functions), for heights and for the double-precision path. libm's differ by
-   processor, so nothing that ends in a height may call them.
-   Layer 0. */
+/* exactmath.h - transcendental functions with the same bits on every processor (SLEEF's FMA-free scalar
+   functions).
+
+   Used for heights and for the double-precision path. The results of libm differ between processors, so
+   no computation of a height may call it. */
 #pragma once
 
 /* sin and cos of 2 pi u, u in turns, any finite value. The reduction is exact: whole, half and quarter
-   turns give exactly 0, 1, -1. Error under 1 ulp. */
+   turns return exactly 0, 1 or -1. Error under 1 ulp. */
 void wr_sincos_turns(double u, double *sine, double *cosine);
 
 double wr_exp2(double x);            /* 1 ulp */

@@ -15,14 +15,14 @@ struct WrFft {
     int factor[FACTORS];
     double *turn;   /* [n][2] exp(-2 pi i k / n) */
     double *half;   /* [n][2] exp(-pi i k / (2 n)), for the cosine transform */
-    WrFft *inner;   /* Bluestein: of a power of two, else NULL */
+    WrFft *inner;   /* for Bluestein: transform of a power-of-two length; else NULL */
     double *chirp;  /* [n][2] exp(-pi i k^2 / n) */
-    double *answer; /* [inner->n][2] transform of the chirp turned round, over inner->n */
+    double *answer; /* [inner->n][2] transform of the conjugate chirp, divided by inner->n */
 };
 
 /* ---- plans ---- */
 
-/* 4 first: its passes are the cheapest. */
+/* Radix 4 comes first: its passes are the cheapest. */
 static bool factorise(WrFft *fft)
 {
     static const int radices[] = { 4, 2, 3, 5, 7, 11, 13 };
@@ -102,11 +102,11 @@ size_t wr_fft_scratch(const WrFft *fft)
     return fft->inner ? 4 * (size_t)fft->inner->n : 2 * (size_t)fft->n;
 }
 
-/* ---- passes ----
+/* ---- passes ---- With n = r m and the elements `stride` apart, one pass computes for each lane q:
 
-   With n = r m and numbers standing `stride` apart in lanes q:
      out[q + stride (r p + k)] = w^(p k) sum over j of in[q + stride (p + m j)] exp(-2 pi i j k / r),
-   w = exp(-2 pi i / n): after all passes the numbers stand in their natural order. */
+
+   w = exp(-2 pi i / n). After all passes the results are in natural order (Stockham: no bit reversal). */
 
 typedef struct Pass {
     int radix, m, stride;
@@ -200,8 +200,8 @@ static void run_passes(const WrFft *fft, double *z, double *scratch)
     if (from != z) memcpy(z, from, (size_t)fft->n * 2 * sizeof *z);
 }
 
-/* Bluestein: j k = (j^2 + k^2 - (k - j)^2)/2, so X[k] = c[k] sum of (x[j] c[j]) / c[k - j], a convolution.
- * Its way back is a forward transform of conjugates. */
+/* Bluestein: j k = (j^2 + k^2 - (k - j)^2)/2, so X[k] = c[k] sum of (x[j] c[j]) / c[k - j], a
+ * convolution. Its inverse transform is computed as a forward transform of conjugates. */
 static void run_chirp(const WrFft *fft, double *z, double *scratch)
 {
     int n = fft->n, size = fft->inner->n;
@@ -233,10 +233,10 @@ void wr_fft_run(const WrFft *fft, double *z, double *scratch)
     else run_passes(fft, z, scratch);
 }
 
-/* ---- real lines: two of them are one complex one ---- */
+/* ---- real lines: two of them form one complex line ---- */
 
-/* Hartley's: H[k] = Re A[k] - Im A[k], where A[k] = (Z[k] + conj Z[-k])/2, B[k] = (Z[k] - conj Z[-k])/2i.
- * It is its own inverse over n. */
+/* Hartley transform: H[k] = Re A[k] - Im A[k], where A[k] = (Z[k] + conj Z[-k])/2, B[k] = (Z[k] - conj
+ * Z[-k])/2i. It is its own inverse up to the factor n. */
 static void hartley(const WrFft *fft, double *a, double *b, double *scratch)
 {
     int n = fft->n;
@@ -253,7 +253,7 @@ static void hartley(const WrFft *fft, double *a, double *b, double *scratch)
     }
 }
 
-/* Where x[j] goes: even places forwards, then odd ones backwards (Makhoul 1980). */
+/* Index to which x[j] moves: even indices forwards, then odd ones backwards (Makhoul 1980). */
 static int fold(int j, int n)
 {
     return j % 2 == 0 ? j / 2 : n - 1 - j / 2;
@@ -279,7 +279,8 @@ static void cosine_forward(const WrFft *fft, double *a, double *b, double *scrat
     }
 }
 
-/* V[k] = exp(pi i k / 2n) (C[k] - i C[n-k]), C[n] = 0; back by a forward transform of the conjugate. */
+/* V[k] = exp(pi i k / 2n) (C[k] - i C[n-k]), C[n] = 0. The inverse is a forward transform of the
+ * conjugate. */
 static void cosine_back(const WrFft *fft, double *a, double *b, double *scratch)
 {
     int n = fft->n;

@@ -87,7 +87,7 @@ char *wr_config_path(const char *name)
     return path.data;
 }
 
-/* Told by the build; a fuzzer that is made of single files has none. */
+/* Defined by the build. Fuzzers, which are built from single files, do not define it. */
 #ifndef WR_BUILD_FOLDER
 #define WR_BUILD_FOLDER ""
 #define WR_SOURCE_FOLDER ""
@@ -97,10 +97,11 @@ char *wr_program_folder(void)
 {
     char exe[4096];
     if (wr_process_program(exe, sizeof exe)) return wr_path_folder(exe);
-    return wr_strdup(*WR_BUILD_FOLDER ? WR_BUILD_FOLDER : "."); /* the system does not say */
+    return wr_strdup(*WR_BUILD_FOLDER ? WR_BUILD_FOLDER : "."); /* the system does not report the
+                                                                   path */
 }
 
-/* The checkout that the program was made from, if it runs where it was built; else NULL. */
+/* The checkout that the program was built from, if the program runs in its build folder; else NULL. */
 static const char *source_folder(const char *program_folder)
 {
     WrFileStamp here = wr_file_stamp(program_folder), built = wr_file_stamp(WR_BUILD_FOLDER);

@@ -1,7 +1,7 @@
-/* Whole files that take their places together (file.h).
+/* Group commit of several files (file.h).
 
-   Before the first gets its name a list of all lies in their folder, on the disk: lines "TEMPORARY/TARGET" between a
-   first and a last one that tell that it is whole. */
+   Before the first rename, a list of all files is written to their folder and synced: lines
+   "TEMPORARY/TARGET" between a first and a last line that mark it as complete. */
 #include "base/array.h"
 #include "base/error.h"
 #include "base/file_internal.h"
@@ -20,14 +20,15 @@
 
 typedef struct Member {
     char *temporary, *path; /* owned */
-    char *before;           /* where what stood there waits meanwhile; owned; NULL: nothing did */
-    bool linked;            /* that is a second name of it, and not the only one */
+    char *before;           /* temporary name of the previous target file; owned; NULL: there was
+                               none */
+    bool linked;            /* `before` is a hard link beside the original name */
     bool placed;
 } Member;
 
 struct WrFileGroup {
     WR_ARRAY(Member) members;
-    char *list; /* owned; NULL: none was written */
+    char *list; /* owned; NULL: not written */
 };
 
 static _Thread_local WrFileGroup *here;
@@ -60,7 +61,7 @@ bool wr_file_group_takes(WrFileTarget *target)
     return true;
 }
 
-/* Once more where it will not go: nobody else removes it before this process has ended. */
+/* Removes a file, with one retry: no other process removes it before this one has ended. */
 static void take_away(const char *path)
 {
     if (!wr_path_remove(path) && errno != ENOENT) wr_path_remove(path);
@@ -116,7 +117,7 @@ static bool put_list(WrFileGroup *group, const WrText *text)
     return false;
 }
 
-/* One file needs none: it has its name or has not. */
+/* A single file needs no list: one rename is atomic. */
 static bool write_list(WrFileGroup *group, const char *folder)
 {
     if (group->members.count < 2) return true;
@@ -141,8 +142,9 @@ static void drop_list(WrFileGroup *group)
 
 /* ---- names ---- */
 
-/* What stands there gets a second name, before anything is renamed: this needs room in the folder, a rename over a name
-   that is there hardly does. Where the file system has no second names, place renames it. */
+/* Gives the existing target a second name before any rename. Creating a name needs space in the folder;
+   a rename over an existing name hardly does. On file systems without hard links, place() renames the
+   target. */
 static bool link_before(Member *m)
 {
     if (!wr_path_is_there(m->path)) return true;
@@ -161,8 +163,8 @@ static bool place(Member *m)
     return m->placed;
 }
 
-/* Give what stood there its name again. A disk that refuses to rename may still link and unlink; the name is empty for a
-   moment then. */
+/* Restores the previous target. A disk that refuses to rename may still link and unlink; then the name
+   is missing for a moment. */
 static bool name_before(const Member *m)
 {
     return wr_path_rename(m->before, m->path) ||
@@ -170,7 +172,8 @@ static bool name_before(const Member *m)
             (wr_path_link(m->before, m->path) || wr_path_rename(m->before, m->path)));
 }
 
-/* As it was. False: the new file stands there, or nothing, and what stood there keeps its other name. */
+/* Restores one member. False: the new file or no file has the target's name, and the previous file
+ * keeps its temporary name. */
 static bool put_back(Member *m)
 {
     const bool moved = m->placed || (m->before && !m->linked && wr_path_is_there(m->before));
@@ -206,7 +209,7 @@ static bool place_all(WrFileGroup *group, WrError *err)
         for (m = first; m < behind && place(m);) m++;
     if (m == behind) return true;
     wr_fail(err, "%s: cannot be written (%s)", m->path, wr_file_why(errno, why));
-    drop_list(group); /* first, so that nobody goes on with it */
+    drop_list(group); /* first, so that no sweep continues the group */
     put_all_back(group, err);
     return false;
 }
@@ -241,7 +244,7 @@ bool wr_file_group_commit(WrFileGroup *group, WrError *err)
 
 /* ---- after a kill ---- */
 
-/* A name that stands in this folder. */
+/* True for a plain name of this folder, without a path. */
 static bool is_plain(const char *name)
 {
     return *name && strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && !strchr(name, '/');

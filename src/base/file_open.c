@@ -1,4 +1,4 @@
-/* The one door to files that somebody else names. */
+/* Opening of files named by others (file.h). */
 #include "base/file.h"
 
 #include "base/error.h"
@@ -21,7 +21,8 @@ static bool check_kind(const char *path, const WrFileInfo *info, WrError *err)
     return wr_fail(err, "%s: is %s; a file is needed", path, kinds[info->kind]);
 }
 
-/* Asked before it is opened, since opening a device may do things, and again after: it may be another now. */
+/* The kind is checked before opening, since opening a device may have effects, and again after it: the
+ * file may have been replaced. */
 static int open_regular(const char *path, unsigned how, WrFileInfo *info, WrError *err)
 {
     bool there = wr_path_info(path, info);

@@ -1,10 +1,10 @@
-/* Checksums of what was handed to a file (file_internal.h).
+/* Checksums of the bytes written to a file (file_internal.h).
 
-   The file is a list of extents without gaps, in the order of their offsets, each with its checksum. What is written at
-   the end makes the last extent longer, up to EXTENT bytes. What is written over earlier bytes (an encoder's header, the
-   lengths in an archive) replaces extents; of one that it covers in part the rest gets a checksum of its own, after the
-   bytes that stand in the file were compared with the checksum of the whole. So every byte is compared once at least
-   with what was handed over, and none is held in memory. */
+   The file is a list of contiguous extents in the order of their offsets, each with a checksum. A write
+   at the end extends the last extent, up to EXTENT bytes. A write over earlier bytes (an encoder's
+   header, the lengths in an archive) replaces extents. If it covers an extent in part, the whole extent
+   is read back and compared first, then its remaining part gets its own checksum. So every byte is
+   compared at least once and none is kept in memory. */
 #include "base/array.h"
 #include "base/file_internal.h"
 #include "base/hash.h"
@@ -85,7 +85,7 @@ static void grow(WrFileSums *sums, const char *bytes, int64_t length)
     }
 }
 
-/* Bytes that nobody writes are zeros in the file. */
+/* Gaps read as zeros. */
 static void grow_by_zeros(WrFileSums *sums, int64_t length)
 {
     static const char zeros[1 << 14];
@@ -95,7 +95,7 @@ static void grow_by_zeros(WrFileSums *sums, int64_t length)
 
 /* ---- over earlier bytes ---- */
 
-/* Read an extent into `block` and compare it with its checksum. errno EIO: the file holds other bytes. */
+/* Reads an extent into `block` and compares its checksum. errno EIO: the file contains other bytes. */
 static bool read_back(WrFileSums *sums, int fd, const Extent *e)
 {
     if (!sums->block) sums->block = wr_alloc_unset((size_t)EXTENT, 1);
@@ -110,7 +110,7 @@ static bool read_back(WrFileSums *sums, int fd, const Extent *e)
     return wr_hash_equal(hash_of(sums->block, e->length), e->hash);
 }
 
-/* The first extent that ends behind `at`. */
+/* Index of the first extent that ends after `at`. */
 static int find(const WrFileSums *sums, int64_t at)
 {
     int low = 0, high = sums->extents.count;
@@ -123,7 +123,7 @@ static int find(const WrFileSums *sums, int64_t at)
     return low;
 }
 
-/* Extents [first, first + count) become others. */
+/* Replaces the extents [first, first + count) by others. */
 static void replace(WrFileSums *sums, int first, int count, const Extent *others, int other_count)
 {
     const int behind = sums->extents.count - first - count;
@@ -134,7 +134,7 @@ static void replace(WrFileSums *sums, int first, int count, const Extent *others
     sums->extents.count = first + other_count + behind;
 }
 
-/* At most EXTENT bytes over [at, at + length), all before the end. */
+/* Overwrites at most EXTENT bytes, [at, at + length), all before the end. */
 static bool write_over(WrFileSums *sums, int fd, const char *bytes, int64_t length, int64_t at)
 {
     const int64_t end = at + length;

@@ -1,5 +1,4 @@
-/* Files that take the place of others: there whole or not at all. Everything that the program writes goes
-   through here. */
+/* Atomic replacement of files (file.h). Every file that the program writes uses it. */
 #include "base/error.h"
 #include "base/file_internal.h"
 #include "base/hash.h"
@@ -17,11 +16,11 @@
 #include <stdint.h>
 #include <string.h>
 
-#define TRIES 16 /* at a name that nobody has */
+#define TRIES 16 /* attempts to find a free name */
 
 /* ---- names ---- */
 
-/* Follow symbolic links by hand, so that a link to a file that does not exist yet works too. */
+/* Links are followed by hand, so that a link to a file that does not exist yet works too. */
 static char *resolve_links(const char *path, WrError *err)
 {
     char *now = wr_strdup(path);
@@ -55,7 +54,7 @@ char *wr_file_hidden_name(const char *folder, const char *name, const char *endi
     return text.data;
 }
 
-/* Digits of the base; returns what follows them, NULL if there are none. */
+/* Skips digits of the base; returns the rest, NULL if there are no digits. */
 static const char *skip_digits(const char *text, int base)
 {
     const char *p = text;
@@ -63,7 +62,7 @@ static const char *skip_digits(const char *text, int base)
     return p > text ? p : NULL;
 }
 
-/* In a folder that several machines write to, another's processes cannot be asked for. */
+/* In a folder shared by several machines, only processes of this machine can be checked. */
 long wr_file_owner(const char *name)
 {
     const char *tail = NULL;
@@ -84,7 +83,8 @@ long wr_file_owner(const char *name)
 
 void wr_file_sweep(const char *folder)
 {
-    for (int pass = 0; pass < 2; pass++) { /* files that a list names must not be removed before */
+    for (int pass = 0; pass < 2; pass++) { /* files of a group's list must not be removed before the
+                                              list is processed */
         WrFolder *dir = wr_folder_open(folder);
         for (const char *name; dir && (name = wr_folder_next(dir));) {
             long pid = wr_file_owner(name);
@@ -103,7 +103,7 @@ void wr_file_outlive_size_limit(void)
     wr_process_outlive_file_limit();
 }
 
-/* ---- what the system says ---- */
+/* ---- messages of the system ---- */
 
 static const struct {
     int error;
@@ -113,7 +113,7 @@ static const struct {
     { EDQUOT, "make room, or write where there is no quota" },
     { EROFS, "write to another disk" },
     { EIO, "the disk may be failing: write to another" },
-    { EFBIG, NULL }, /* by the limit */
+    { EFBIG, NULL }, /* from the file size limit */
 };
 
 const char *wr_file_why(int error, char text[WR_FILE_WHY])
@@ -167,7 +167,7 @@ static bool check_place(const char *path, const char *real, const char *folder, 
     return true;
 }
 
-/* A file that was not there before, nobody else's to read, and locked as long as it is ours. */
+/* Creates a new file that only the user can read, locked until it is released. */
 static bool create(WrFileTarget *target, const char *folder, WrError *err)
 {
     const char *slash = strrchr(target->path, '/'), *name = slash ? slash + 1 : target->path;
@@ -184,7 +184,8 @@ static bool create(WrFileTarget *target, const char *folder, WrError *err)
     }
     if (target->fd < 0) return fail_by_system(target, err);
     wr_fd_lock(target->fd,
-               WR_LOCK_ALONE); /* some file systems cannot; the name tells the process */
+               WR_LOCK_ALONE); /* some file systems have no locks; the process id in the name is
+                                  enough */
     return true;
 }
 
@@ -202,8 +203,8 @@ static bool is_control(char c)
     return ((unsigned char)c < 0x20 && c != '\t') || c == 0x7f;
 }
 
-/* Commands are lines of text, so a file whose name has a line break or another control character could not be opened again.
-   The message shows ? in its place, to stay one line. */
+/* Commands are lines of text, so a file whose name contains a line break or another control character
+   could not be opened again. The message shows ? for it, to stay one line. */
 static bool check_letters(const char *path, WrError *err)
 {
     char shown[120];
@@ -266,7 +267,7 @@ void wr_file_sync_folder(const char *path)
     char *folder = wr_path_folder(path);
     int fd = wr_fd_open(folder, WR_OPEN_READ);
     if (fd >= 0) {
-        wr_fd_sync(fd); /* some file systems cannot; the rename itself stands */
+        wr_fd_sync(fd); /* not supported by some file systems; the rename is valid anyway */
         wr_fd_close(fd);
     }
     wr_free(folder);
@@ -306,7 +307,7 @@ bool wr_file_commit(WrFileTarget *target, WrError *err)
         wr_fd_close(fd);
         errno = saved;
     }
-    /* Only a file that was closed without trouble: some file systems tell then what went wrong. */
+    /* Some file systems report write errors only on close. */
     good = good && wr_fd_close(fd);
     if (good && wr_file_group_takes(target)) return true;
     good = good && wr_path_rename(target->temporary, target->path);
@@ -322,7 +323,7 @@ bool wr_file_commit(WrFileTarget *target, WrError *err)
 
 void wr_file_abort(WrFileTarget *target)
 {
-    /* Once more where it will not go: nobody else removes it before this process has ended. */
+    /* One retry: no other process removes the file before this one has ended. */
     if (target->temporary && !wr_path_remove(target->temporary) && errno != ENOENT)
         wr_path_remove(target->temporary);
     release(target);

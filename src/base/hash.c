@@ -19,7 +19,7 @@ WrHash wr_hash_bytes(const void *bytes, size_t count, WrHash seed)
 }
 
 struct WrHashStream {
-    XXH3_state_t *state; /* the library's, which has it aligned */
+    XXH3_state_t *state; /* the library aligns it */
 };
 
 WrHashStream *wr_hash_stream_new(void)
@@ -102,7 +102,7 @@ bool wr_sha256_file(const char *path, char hex[65], WrError *err)
     return true;
 }
 
-/* ---- beside other work ---- */
+/* ---- on a helper thread ---- */
 
 struct WrSha256Work {
     char *path;

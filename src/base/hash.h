@@ -1,6 +1,5 @@
-/* hash.h - checksums: a fast 128-bit one for the identity of heights, SHA-256 for files that commands
-   read, and integer mixing for random choices.
-   Layer 0. */
+/* hash.h - checksums: a fast 128-bit hash that identifies heights, SHA-256 for files read by commands,
+   and integer mixing for random choices. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
@@ -14,7 +13,7 @@ typedef struct WrHash {
 
 /* XXH3, 128 bits: the same on every processor. seed chains one hash into the next. */
 WrHash wr_hash_bytes(const void *bytes, size_t count, WrHash seed);
-/* The same with seed 0 of bytes that come in pieces. Begin anew as often as wanted; get leaves it as it is. */
+/* Incremental XXH3 with seed 0. begin restarts it; get does not change the state. */
 typedef struct WrHashStream WrHashStream;
 WrHashStream *wr_hash_stream_new(void);
 void wr_hash_stream_begin(WrHashStream *stream);
@@ -30,11 +29,12 @@ void wr_hash_print(WrHash hash, char text[33]);
 void wr_sha256_bytes(const void *bytes, size_t count, char hex[65]);
 bool wr_sha256_file(const char *path, char hex[65], WrError *err);
 
-/* The same of a file while the caller does something else, such as wait for a reader: begin, then end, always both. It
- * stops when the work of the thread that begins it is told to. */
+/* SHA-256 of a file on a helper thread, while the caller does other work. Every begin needs one end.
+ * Stops when the work of the calling thread is cancelled. */
 typedef struct WrSha256Work WrSha256Work;
 WrSha256Work *wr_sha256_begin(const char *path);
-bool wr_sha256_end(WrSha256Work *work, char hex[65], WrError *err); /* waits for it, and frees it */
+bool wr_sha256_end(WrSha256Work *work, char hex[65], WrError *err); /* waits for the result and
+                                                                       frees `work` */
 
 /* A well-mixed 32-bit value of x (bijective). */
 static inline uint32_t wr_mix32(uint32_t x)

@@ -1,7 +1,8 @@
-/* kernmath.h - single-precision transcendental functions for span loops: branch-free, no library call,
-   so that compilers vectorise them, and built of + - * / sqrt and integer operations alone, so that
-   every processor gives the same bits (the build forbids contraction).
-   Layer 0. Polynomials: interpolation at Chebyshev nodes, checked in tests/test_base.c. */
+/* kernmath.h - single-precision transcendental functions for loops over spans.
+
+   They are free of branches and library calls, so that compilers vectorise them, and use only + - * /
+   sqrt and integer operations, so that every processor returns the same bits (the build forbids
+   contraction). Polynomials: interpolation at Chebyshev nodes, checked in tests/test_base.c. */
 #pragma once
 #include <math.h>
 #include <stdbool.h>
@@ -25,13 +26,13 @@ static inline int32_t wr_float_bits(float value)
     return u.i;
 }
 
-/* Asked of the bits: compilers that may take it for granted do not look at those. */
+/* Tests the bits: a compiler that assumes finite numbers cannot remove this test. */
 static inline bool wr_is_finite_f(float x)
 {
     return (wr_float_bits(x) & INT32_MAX) < 0x7f800000;
 }
 
-/* A power of two that brings m, finite and not negative, below 4, and what is not 0 to no less than 2^-22. */
+/* A power of two that scales m, finite and not negative, below 4, and any m > 0 to at least 2^-22. */
 static inline float wr_scale_down_f(float m)
 {
     const int32_t power = wr_float_bits(m) & 0x7f800000,
@@ -39,13 +40,13 @@ static inline float wr_scale_down_f(float m)
     return wr_bits_float(0x7f000000 - (power < most ? power : most));
 }
 
-/* The nearest IEEE binary16, ties to even; at most 65504, which infinities and no numbers become too. */
+/* The nearest IEEE binary16, ties to even; at most 65504, which infinities and NaN become too. */
 static inline float wr_round_half(float x)
 {
     const int32_t bits = wr_float_bits(x), sign = bits & INT32_MIN, all = bits & INT32_MAX;
     const int32_t most = 0x477fe000, size = all < most ? all : most; /* 65504 */
     const int32_t near = (size + 0xfff + (size >> 13 & 1)) & ~0x1fff;
-    /* Below 2^-14 steps are 2^-24, the last place of 1/2. */
+    /* Below 2^-14 the spacing is 2^-24, the last bit of 1/2. */
     const int32_t low = wr_float_bits((wr_bits_float(size) + 0.5f) - 0.5f);
     return wr_bits_float(sign | (size < 0x38800000 ? low : near));
 }
@@ -72,10 +73,10 @@ static inline float wr_atan2_turns_f(float y, float x)
 {
     float ax = fabsf(x), ay = fabsf(y);
     float small = ax < ay ? ax : ay, large = ax < ay ? ay : ax;
-    float steep = small > 0.41421356f * large ? 1.0f : 0.0f; /* above an eighth of a half turn */
+    float steep = small > 0.41421356f * large ? 1.0f : 0.0f; /* angle above 1/16 turn */
     float num = steep != 0.0f ? small - large : small;
     float den = steep != 0.0f ? small + large : large;
-    /* The least normal number in the place of 0: a choice would put the division under a mask, where it is slow. */
+    /* The smallest normal number replaces 0: a conditional would mask the division, which is slow. */
     float t = num / (den > 1.17549435e-38f ? den : 1.17549435e-38f), z = t * t;
     float a = t * (0.159154937f +
                    z * (-0.0530516058f +
@@ -88,19 +89,20 @@ static inline float wr_atan2_turns_f(float y, float x)
     return a < 1.0f ? a : 0.0f;
 }
 
-/* The same in radians, -pi < result <= pi. */
+/* The angle of (x, y) in radians, -pi < result <= pi. */
 static inline float wr_atan2_f(float y, float x)
 {
     const float turns = wr_atan2_turns_f(y, x);
     return (turns > 0.5f ? turns - 1.0f : turns) * 6.28318548f;
 }
 
-/* log2 of a positive normal number, whose 1 - x is `below`: near 1 that is what counts, and x itself tells
-   it to 6e-8 alone. Relative error under 1.5e-7 of the true log2(1 - below) from 0.71 to 1.41. */
+/* log2 of a positive normal number x, given `below` = 1 - x. Near 1 the result depends on `below`; x
+   alone would limit it to 6e-8 absolute. Relative error under 1.5e-7 of the true log2(1 - below) for x
+   from 0.71 to 1.41. */
 static inline float wr_log2_below_f(float x, float below)
 {
     int32_t bits = wr_float_bits(x);
-    int32_t e = (bits - 0x3f3504f3) >> 23; /* mantissa brought to sqrt(1/2) .. sqrt(2) */
+    int32_t e = (bits - 0x3f3504f3) >> 23; /* mantissa reduced to sqrt(1/2) .. sqrt(2) */
     float f = wr_bits_float(bits - (int32_t)((uint32_t)e << 23)) - 1.0f;
     f = e == 0 ? -below : f;
     float p = 1.44269502f +
@@ -126,7 +128,7 @@ static inline float wr_exp2_f(float x)
 {
     x = x < -126.0f ? -126.0f : x;
     x = x > 127.0f ? 127.0f : x;
-    float n = (float)((int32_t)(x + 126.5f) - 126), f = x - n; /* the nearest whole number */
+    float n = (float)((int32_t)(x + 126.5f) - 126), f = x - n; /* the nearest integer */
     float p =
         1.0f + f * (0.693147182f +
                     f * (0.240226507f +
@@ -136,8 +138,8 @@ static inline float wr_exp2_f(float x)
 }
 
 /* x^s for 0 <= x <= 1 and s >= 0, with 1 - x as `below`: pow(0,0) = 1, pow(0,s) = 0, result 0..1 (HC89,
-   HC90). Values below 2^-100 become 0: nobody sees them, and what they are multiplied with must not come to a number
-   that processors are slow at. */
+   HC90). Values below 2^-100 become 0: they are invisible, and their products must not become denormal,
+   which is slow. */
 static inline float wr_pow_below_f(float x, float below, float s)
 {
     below = below > 0.0f ? below : 0.0f;

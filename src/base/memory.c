@@ -7,26 +7,27 @@
 #include <stdint.h>
 #include <string.h>
 
-#define LARGE ((size_t)8 << 20) /* bytes; malloc takes such blocks from the system, untouched */
-/* From here on it does so whatever was freed before: they begin with a large page. */
+/* bytes; malloc maps such blocks from the system, zeroed and untouched */
+#define LARGE ((size_t)8 << 20)
+/* From this size on, malloc maps blocks whatever was freed before; they start at a large page. */
 #define PAGED ((size_t)33 << 20)
 #define PAGE ((size_t)2 << 20)
-/* Bytes of blocks that are kept. */
+/* Range of block sizes, in bytes, that are cached after wr_free. */
 #define KEPT_LEAST ((size_t)4 << 20)
 #ifdef __SANITIZE_ADDRESS__
-#define KEPT_MOST ((size_t)0) /* what is used after it was given back shall be seen */
+#define KEPT_MOST ((size_t)0) /* no cache: the sanitizer must detect any use after free */
 #else
 #define KEPT_MOST ((size_t)128 << 20)
 #endif
-#define KEPT 2 /* blocks */
+#define KEPT 2 /* cached blocks */
 
-/* Stands before each block. */
+/* Header before each block. */
 typedef struct Head {
-    void *raw;   /* what malloc gave */
-    size_t kept; /* the block's bytes, if it is kept when it is given back; else 0 */
+    void *raw;   /* pointer returned by malloc */
+    size_t kept; /* bytes of a block that may be cached when freed; else 0 */
 } Head;
 
-/* Given back, and not yet taken again; guarded by `lock`. */
+/* Cache of freed blocks; guarded by `lock`. */
 static void *kept[KEPT];
 static WrMutex lock = WR_MUTEX_READY;
 
@@ -35,15 +36,15 @@ static Head *head_of(void *block)
     return (Head *)block - 1;
 }
 
-/* Blocks above LARGE come from mmap by way of malloc's own threshold; zeroing them by hand would touch
-   every page, so calloc is asked for and its pointer aligned by hand. */
+/* Blocks above LARGE come from mmap through malloc's own threshold. Zeroing them by hand would touch
+   every page, so calloc is used and its pointer is aligned by hand. */
 static void *aligned(size_t bytes, bool zeroed)
 {
     const size_t align = bytes >= PAGED ? PAGE : WR_ALIGN;
     if (bytes > SIZE_MAX - align - sizeof(Head)) return NULL;
     size_t whole = bytes + align + sizeof(Head);
     char *raw = zeroed ? calloc(1, whole) : malloc(whole);
-    if (!raw && whole >= KEPT_LEAST) { /* what is kept may be what it lacks */
+    if (!raw && whole >= KEPT_LEAST) { /* cached blocks may be using the memory that is missing */
         wr_memory_trim();
         raw = zeroed ? calloc(1, whole) : malloc(whole);
     }
@@ -97,7 +98,7 @@ static void give(void *block)
     if (block) free(head_of(block)->raw);
 }
 
-/* One that is large enough, and not much larger; or NULL. */
+/* Takes a cached block that is large enough and not much larger; NULL if none. */
 static void *take_kept(size_t bytes)
 {
     void *block = NULL;
@@ -112,7 +113,7 @@ static void *take_kept(size_t bytes)
     return block;
 }
 
-/* What is to be freed in its place: what was kept longest, if anything. */
+/* Caches a block; returns the block to free instead: the oldest one, or NULL. */
 static void *keep(void *block)
 {
     wr_mutex_lock(&lock);

@@ -1,6 +1,7 @@
-/* memory.h - allocation.
-   Small things abort with a message when memory is gone; things sized by the user report.
-   Layer 0. */
+/* memory.h - aligned allocation.
+
+   Allocations of bounded size abort with a message when memory is exhausted; allocations sized by the
+   user return an error. */
 #pragma once
 #include <stddef.h>
 
@@ -8,26 +9,25 @@ typedef struct WrError WrError;
 
 #define WR_ALIGN 64 /* bytes; every block starts on a cache line */
 
-/* count * size bytes, zeroed, 64-byte aligned; aborts with a message if there is none.
-   For things of a bounded, small size. Free with wr_free. */
+/* count * size bytes, zeroed, 64-byte aligned; aborts with a message when out of memory. For small,
+   bounded sizes. Free with wr_free. */
 void *wr_alloc(size_t count, size_t size);
 
-/* The same with whatever the memory held before: for what is written whole at once. */
+/* wr_alloc without zeroing: for blocks that are written completely at once. */
 void *wr_alloc_unset(size_t count, size_t size);
 
-/* As wr_alloc for sizes that come from the user: NULL and an error that names `what` and the bytes
-   when count * size overflows or memory is gone. Large blocks come zeroed from the system and
-   untouched. */
+/* wr_alloc for sizes chosen by the user: returns NULL and an error that names `what` and the bytes when
+   count * size overflows or memory is exhausted. Large blocks come zeroed from the system, untouched. */
 void *wr_try_alloc(size_t count, size_t size, const char *what, WrError *err);
 
-/* The same of any content, for what is written whole; errors likewise. Since the system clears what it hands out, two such
-   blocks of 4 to 128 MB that were given back are kept for the next who asks here for about as much. Any thread. */
+/* wr_try_alloc without zeroing. Because the system clears fresh pages, up to two freed blocks of 4 to
+   128 MB are cached and reused for a request of about the same size. Any thread. */
 void *wr_try_alloc_unset(size_t count, size_t size, const char *what, WrError *err);
-/* What is kept goes back to the system. Any thread. */
+/* Returns the cached blocks to the system. Any thread. */
 void wr_memory_trim(void);
 
-/* Grow or shrink a block of wr_alloc or wr_realloc; keeps the first min(old, new) bytes. Aborts when
-   memory is gone. old_count is what was asked for before. */
+/* Resizes a block of wr_alloc or wr_realloc; keeps the first min(old, new) bytes. Aborts when out of
+   memory. old_count is the count of the previous allocation. */
 void *wr_realloc(void *block, size_t old_count, size_t count, size_t size);
 
 void wr_free(void *block); /* NULL is fine */

@@ -7,14 +7,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define LOOK_MS 20 /* between two looks at whether somebody wants it to stop */
+#define LOOK_MS 20 /* interval between cancellation checks of a waiting thread */
 
-/* Of all that is done so: how many are under way is a fact of the process. */
+/* State of the process: number of initialisations that are running. */
 static WrMutex lock = WR_MUTEX_READY;
 static WrCond changed = WR_COND_READY;
 static int under_way;
 
-/* A library that is being loaded holds a lock that the program's end waits for. */
+/* A library that is being loaded holds a lock that the process exit waits for. */
 static void leave_at_once(int status)
 {
     wr_mutex_lock(&lock);
@@ -33,7 +33,7 @@ void wr_once_async_watch_end(void)
     wr_mutex_unlock(&lock);
 }
 
-/* The lock is held, and let go meanwhile. */
+/* Called with the lock held; releases it during the work. */
 static void work_here(WrOnceAsync *aside)
 {
     WrError why = { "" };
@@ -55,7 +55,8 @@ static void *thread_main(void *aside)
     return NULL;
 }
 
-/* The lock is held. Signals are for the threads that were there before. here: on this thread, as well as where there is no other to be had. */
+/* Called with the lock held. Signals are handled by the existing threads only. here: run on this
+ * thread, which is also the fallback if no thread can be started. */
 static void begin(WrOnceAsync *aside, bool here)
 {
     if (aside->done || aside->busy) return;

@@ -1,30 +1,31 @@
-/* once_async.h - work that nothing can tell to stop, such as the loading of libraries: a thread of its own does it, and
-   who waits for it can be told to stop (base/progress.h).
-   Layer 0. */
+/* once_async.h - one-time initialisation on a helper thread; waiters can be cancelled.
+
+   For work that cannot be interrupted, such as loading libraries (base/progress.h). */
 #pragma once
 #include "base/error.h"
 
 #include <stdbool.h>
 
-/* What is done once for the whole process; one static variable each. All but `work` and `ctx` is private. */
+/* One initialisation of the process; a static variable each. All members but `work` and `ctx` are
+ * private. */
 typedef struct WrOnceAsync {
     bool (*work)(void *ctx, WrError *err);
     void *ctx;
     bool busy, done;
-    WrError why; /* it failed, the last time */
+    WrError why; /* error of the last failed attempt */
 } WrOnceAsync;
 
-/* Wait until the work is done; whoever comes first begins it. A failure is not kept: the next call tries again. Who
- * is cancelled meanwhile does not wait: the work goes on by itself, and serves the next call. Who cannot be cancelled
- * does it on his own thread.
+/* Waits until the work is done; the first caller starts it. A failure is not cached: the next call
+ * retries. A cancelled caller returns at once; the work continues and serves the next call. A caller
+ * that cannot be cancelled runs the work on its own thread.
  *
- * Errors   the work's own, or "cancelled"
- * Threads  any; what the work wrote can be read where this returned true */
+ * Errors   those of the work, or "cancelled"
+ * Threads  any; results of the work are visible after this returned true */
 bool wr_once_async_wait(WrOnceAsync *aside, WrError *err);
 
-/* Begin ahead of need, if nobody has, and return at once. */
+/* Starts the work in advance, unless it is running or done, and returns at once. */
 void wr_once_async_begin(WrOnceAsync *aside);
 
-/* The end of the program does not wait for work that is still under way; handlers of its end that were registered
- * before this call (any number of times) are then left out. The two above call it. */
+/* Lets the process exit without waiting for running work; exit handlers that were registered before
+ * this call (it may be called several times) are then skipped. The two functions above call it. */
 void wr_once_async_watch_end(void);

@@ -12,18 +12,18 @@ typedef struct Worker {
 
 struct WrPool {
     WrMutex run_lock; /* one run at a time */
-    WrMutex lock;     /* guards what follows */
+    WrMutex lock;     /* guards the members below */
     WrCond wake, done;
-    unsigned generation; /* counts runs */
-    int active;          /* workers inside the present run */
+    unsigned generation; /* number of the current run */
+    int active;          /* workers inside the current run */
     bool quit;
     int next; /* next piece; atomic */
     int count;
     WrPiece piece;
     void *ctx;
-    bool told;        /* the caller's progress hears of each of its pieces */
-    WrProgress quiet; /* the caller's progress as the others have it: without reports */
-    int threads;      /* the caller included */
+    bool told;        /* the caller's progress is reported after each of its pieces */
+    WrProgress quiet; /* the caller's progress for other threads: cancellation without reports */
+    int threads;      /* including the caller */
     Worker *workers;
 };
 
@@ -34,7 +34,7 @@ int64_t wr_pool_pieces(void)
     return __atomic_load_n(&begun, __ATOMIC_RELAXED);
 }
 
-/* False: somebody wants it to stop. */
+/* False: the work was cancelled. */
 static bool run_piece(int index, int count, int worker, bool told, WrPiece piece, void *ctx)
 {
     if (told && worker == 0) wr_progress_tell((double)index / count);
@@ -115,7 +115,8 @@ int wr_pool_threads(const WrPool *pool)
     return pool ? pool->threads : 1;
 }
 
-/* All on this thread. A pool of one still lets only one run in at a time: scratch memory goes by worker. */
+/* Runs all pieces on this thread. A pool of one thread still serialises runs: scratch memory is indexed
+ * by worker. */
 static void run_here(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
 {
     if (pool) wr_mutex_lock(&pool->run_lock);
@@ -148,7 +149,7 @@ static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool t
 
 static bool run(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
 {
-    if (told) wr_progress_tell(0.0); /* whoever takes the first piece */
+    if (told) wr_progress_tell(0.0); /* whichever thread takes the first piece */
     if (count <= 0) return !wr_progress_stopped();
     if (!pool || pool->threads == 1 || count == 1) run_here(pool, count, piece, ctx, told);
     else run_on_all(pool, count, piece, ctx, told);

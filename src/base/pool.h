@@ -1,5 +1,6 @@
-/* pool.h - a blocking pool of threads for jobs that are cut into pieces.
-   Waiting threads sleep: an idle program uses no processor. Layer 0. */
+/* pool.h - a blocking thread pool for jobs that are cut into pieces.
+
+   Waiting threads sleep: an idle program uses no processor time. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>
@@ -9,19 +10,19 @@ typedef struct WrPool WrPool;
 /* threads 0 means one per processor. The caller of run is one of them, so a pool of 1 starts none.
    Never fails; if a thread cannot be started the pool is smaller. */
 WrPool *wr_pool_new(int threads);
-void wr_pool_free(WrPool *pool);         /* NULL is fine; no run may be under way */
-int wr_pool_threads(const WrPool *pool); /* how many work, the caller included; NULL gives 1 */
+void wr_pool_free(WrPool *pool);         /* NULL is allowed; no run may be active */
+int wr_pool_threads(const WrPool *pool); /* number of workers, including the caller; NULL gives 1 */
 
-/* Call piece(index, worker, ctx) once for each index in 0..count-1, on any thread and in any order,
-   and return when all are done. worker is 0..threads-1, never in use twice at a time: index scratch
-   memory by it. pool may be NULL: then all run here. One run at a time; a second caller waits.
-   A piece must not call wr_pool_run on the same pool.
-   Where the caller's own progress (progress.h) is cancelled, pieces that have not begun are left out: then it
-   returns false. Pieces have that progress as their own, but only the caller's may report. */
+/* Calls piece(index, worker, ctx) once for each index in 0..count-1, on any thread and in any order,
+   and returns when all are done. worker is 0..threads-1 and never used twice at a time: index scratch
+   memory by it. If pool is NULL, all pieces run on the caller's thread. One run at a time; a second
+   caller waits. A piece must not call wr_pool_run on the same pool. If the caller's thread progress
+   (progress.h) is cancelled, pieces that have not begun are skipped and the function returns false.
+   Pieces inherit that progress, but only the caller's thread may report. */
 typedef void (*WrPiece)(int index, int worker, void *ctx);
 bool wr_pool_run(WrPool *pool, int count, WrPiece piece, void *ctx);
-/* The same, and the caller's own progress is told which part of the pieces was begun. */
+/* wr_pool_run that also reports the fraction of started pieces to the caller's progress. */
 bool wr_pool_run_told(WrPool *pool, int count, WrPiece piece, void *ctx);
 
-/* Pieces that this process has begun so far, for tests that count work. */
+/* Number of pieces that this process has started, for tests that count work. */
 int64_t wr_pool_pieces(void);

@@ -10,7 +10,7 @@ bool wr_cancel_asked(const volatile int *cancel)
     return cancel && __atomic_load_n(cancel, __ATOMIC_RELAXED) != 0;
 }
 
-/* Not inline: a test measures the time between two looks by standing in for these. */
+/* Not inline: a test replaces these functions to measure the time between two checks. */
 bool wr_progress_cancelled(const WrProgress *progress)
 {
     return progress && wr_cancel_asked(progress->cancel);

@@ -1,59 +1,62 @@
-/* progress.h - how long work says how far it is, and how it is told to stop.
-   Layer 0. */
+/* progress.h - progress reports and cancellation of long work. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-/* The caller's; any member, and the pointer to the struct itself, may be NULL. */
+/* Owned by the caller; any member, and the pointer to the struct itself, may be NULL. */
 typedef struct WrProgress {
-    /* The work stops soon after this becomes other than 0. Any thread may set it; it must then stay set
+    /* The work stops soon after this becomes nonzero. Any thread may set it; it must then stay set
        until the work has returned. */
     volatile int *cancel;
-    /* Called now and then on the thread that asked for the work, fraction rising from 0 to 1. It may
-       set *cancel. */
+    /* Called at intervals on the thread that started the work, with a fraction rising from 0 to 1. It
+       may set *cancel. */
     void (*report)(void *ctx, double fraction);
-    void *ctx; /* handed to report */
+    void *ctx; /* passed to report */
 } WrProgress;
 
-/* Is it other than 0? NULL: no. However it was set, by any thread or by a signal. */
+/* True if *cancel is nonzero, set by any thread or signal handler. NULL: false. */
 bool wr_cancel_asked(const volatile int *cancel);
-/* Has somebody asked the work to stop? Any thread may ask. */
+/* True if the work was cancelled. Any thread. */
 bool wr_progress_cancelled(const WrProgress *progress);
 
-/* Tell how far the work is. True if it should go on. */
+/* Reports the fraction done. True if the work should continue. */
 bool wr_progress_step(const WrProgress *progress, double fraction);
 
-/* "0:07 left", from how far work is and how long that took; "" while that says nothing yet. */
+/* Formats "0:07 left" from the fraction done and the seconds used; "" while that is no reliable
+ * estimate. */
 #define WR_PROGRESS_LEFT 24
 void wr_progress_left(double fraction, double seconds, char text[WR_PROGRESS_LEFT]);
 
-/* ---- the thread's own ----
-   Who asks for long work says here what it looks at: a session, a job in the background. Loops far below find it
-   without anybody in between handing it on; the pieces of a pool's run find it too. Where it is cancelled a
-   function may return with half of its work done, as long as its caller, who asks too, throws that away. */
+/* ---- progress of the thread ---- The caller of long work (a session, a background job) sets a
+   progress for its thread. Deep loops find it without passing it through every function; the pieces of
+   a pool's run inherit it. After cancellation a function may return with half of its work done, if its
+   caller also checks for cancellation and discards the result. */
 
-/* What this thread's work reports to and is stopped by; NULL: nothing. */
+/* Progress and cancellation of this thread's work; NULL: none. */
 const WrProgress *wr_progress_here(void);
-/* Set it; returns what was there, to be put back when the work has returned. */
+/* Sets it; returns the previous value, which the caller restores when the work has returned. */
 const WrProgress *wr_progress_set(const WrProgress *progress);
 
-/* Has this thread's work been asked to stop? */
+/* True if this thread's work was cancelled. */
 bool wr_progress_stopped(void);
-/* Tell how far it is. True if it should go on. */
+/* Reports the fraction done to it. True if the work should continue. */
 bool wr_progress_tell(double fraction);
 
-/* How often this thread has asked either, for tests that count work between two looks. */
+/* Number of the thread's calls of the two functions above, for tests that count work between two
+ * checks. */
 int64_t wr_progress_looks(void);
 
-/* A part of the whole: 0..1 of it is from..to of the other. */
+/* A sub-range of a progress: its 0..1 is from..to of the whole. */
 typedef struct WrProgressPart {
-    WrProgress progress; /* hand this on */
+    WrProgress progress; /* pass this to the sub-task */
     const WrProgress *whole;
     double from, to;
 } WrProgressPart;
-/* Fill in *part as that part of `whole`, which may be NULL and must outlive it. Returns &part->progress. */
+/* Fills in *part as that range of `whole`, which may be NULL and must outlive it. Returns
+ * &part->progress. */
 const WrProgress *wr_progress_part(WrProgressPart *part, const WrProgress *whole, double from,
                                    double to);
-/* Make it that part of the thread's own. Returns what to give wr_progress_set afterwards. */
+/* Makes it a range of the thread's progress and sets it. Returns the value to restore with
+ * wr_progress_set. */
 const WrProgress *wr_progress_enter(WrProgressPart *part, double from, double to);

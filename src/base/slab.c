@@ -4,14 +4,15 @@
 
 #include <stdbool.h>
 
-#define BLOCK ((size_t)8 << 20) /* bytes: memory.c asks for large pages from there on */
-#define IDLE 10 /* blocks that are kept for the next who asks: a table of 4096 x 4096 */
+#define BLOCK ((size_t)8 << 20) /* bytes: the size from which memory.c requests large pages */
+#define IDLE 10                 /* empty blocks kept for reuse: enough for a table of 4096 x 4096 */
 
-/* The beginning of a block; pieces follow. Each has the slab's address in the WR_ALIGN bytes before it. */
+/* Header of a block; the pieces follow. The WR_ALIGN bytes before each piece contain the slab's
+ * address. */
 typedef struct WrSlab {
-    struct WrSlab *before, *after; /* in one of the lists, while it has pieces left */
-    void *given;      /* the last piece that was given back; it begins with the one before */
-    size_t used, cut; /* pieces that are out; that were ever cut off */
+    struct WrSlab *before, *after; /* links of one of the lists, while it has free pieces */
+    void *given;      /* the last freed piece, which starts with a pointer to the previous one */
+    size_t used, cut; /* pieces in use; pieces ever cut */
 } WrSlab;
 
 static size_t rounded(size_t bytes)
@@ -39,7 +40,7 @@ static WrSlab **slab_of(void *piece)
     return (WrSlab **)(void *)((char *)piece - WR_ALIGN);
 }
 
-/* The lock is held. */
+/* Called with the lock held. */
 static void *cut(const WrSlabs *slabs, WrSlab *slab)
 {
     const size_t pitch = WR_ALIGN + rounded(slabs->bytes);
@@ -54,7 +55,7 @@ static bool is_full(const WrSlabs *slabs, const WrSlab *slab)
     return !slab->given && rounded(sizeof *slab) + (slab->cut + 1) * pitch > BLOCK;
 }
 
-/* The lock is held. One that has pieces left, best one that is in use. */
+/* Called with the lock held. Returns a block with free pieces, preferably one in use. */
 static WrSlab *slab_with_room(WrSlabs *slabs)
 {
     if (slabs->begun) return slabs->begun;
@@ -70,7 +71,7 @@ static WrSlab *slab_with_room(WrSlabs *slabs)
     return slab;
 }
 
-/* The lock is held. */
+/* Called with the lock held. */
 static void *take(WrSlabs *slabs)
 {
     WrSlab *slab = slab_with_room(slabs);
@@ -82,7 +83,7 @@ static void *take(WrSlabs *slabs)
     return piece;
 }
 
-/* The lock is held. What is to be freed, or NULL. */
+/* Called with the lock held. Returns the block to free, or NULL. */
 static WrSlab *give(WrSlabs *slabs, void *piece)
 {
     WrSlab *slab = *slab_of(piece);

@@ -1,26 +1,27 @@
-/* slab.h - many pieces of one size, cut from blocks that are so large that the system gives them large pages: a hundred
-   times fewer to ask for, and to look up.
-   Layer 0. Any thread may take and give back. With the address sanitizer each piece is a block of its own. */
+/* slab.h - an allocator for many pieces of one size.
+
+   Pieces are cut from blocks large enough for large pages, which need a hundred times fewer page faults
+   and page look-ups. Any thread may take and free pieces. With the address sanitizer each piece is a
+   block of its own. */
 #pragma once
 #include "system/thread.h"
 
 #include <stddef.h>
 
-/* Of one size, as long as the program runs: { WR_SLABS_OF(bytes) }. */
+/* All pieces of one size, for the life of the program: { WR_SLABS_OF(bytes) }. */
 typedef struct WrSlabs {
-    size_t bytes; /* of a piece */
-    WrMutex lock; /* guards what follows */
-    struct WrSlab *begun,
-        *idle; /* blocks in use that have pieces left; of which nothing is taken */
+    size_t bytes;                /* of a piece */
+    WrMutex lock;                /* guards the members below */
+    struct WrSlab *begun, *idle; /* blocks in use with free pieces; blocks without used pieces */
     int idle_count;
 } WrSlabs;
 
 #define WR_SLABS_OF(size) .bytes = (size), .lock = WR_MUTEX_READY
 
-/* A piece, aligned to WR_ALIGN, of any content; without memory the program ends, as in memory.h. */
+/* Returns a piece aligned to WR_ALIGN with undefined content; aborts when out of memory, like memory.h. */
 void *wr_slab_take(WrSlabs *slabs);
-/* What was taken from the same; NULL does nothing. Of the blocks of which nothing is taken any more some are kept for the
- * next who asks, since the system clears what it hands out; the others go back to it. */
+/* Frees a piece of the same slabs; NULL does nothing. Some empty blocks are cached for reuse, because
+ * the system clears fresh pages; the others return to the system. */
 void wr_slab_give(WrSlabs *slabs, void *piece);
-/* Those that are kept go back as well. Any thread; pieces that are out stay as they are. */
+/* Returns the cached empty blocks to the system. Any thread; pieces in use are unchanged. */
 void wr_slab_trim(WrSlabs *slabs);

@@ -7,7 +7,7 @@
 #include <errno.h>
 
 #define TAIL ((int64_t)1 << 20)  /* bytes before the end that may be incomplete */
-#define LEAST ((int64_t)8 << 20) /* bytes that are worth a move */
+#define LEAST ((int64_t)8 << 20) /* smallest number of bytes worth moving */
 #define BLOCK ((int64_t)1 << 18)
 
 bool wr_spool_open(WrSpool *spool)
@@ -22,7 +22,7 @@ void wr_spool_close(WrSpool *spool)
     spool->fd = -1;
 }
 
-/* Bytes [from, to) of the memory file. */
+/* Copies bytes [from, end) of the memory file. */
 static bool copy(const WrSpool *spool, int64_t from, int64_t end, const WrByteSink *to)
 {
     char *block = wr_alloc_unset((size_t)BLOCK, 1);

@@ -1,26 +1,25 @@
-/* spool.h - a memory file for libraries and programs that write to nothing but a file's name, on its way to where its
-   bytes belong (sink.h).
-   Layer 0.
+/* spool.h - a memory file for libraries that can write only to a file name, forwarded to a byte sink
+   (sink.h).
 
-   So those bytes go through the same door as all others, however they were written. Of a large file the part behind
-   the first WR_SPOOL_HEAD bytes goes on while the rest is being written, and its memory is given back: whoever writes
-   there may return to the first bytes, where headers and tables lie, and once it is at its end to what it wrote last; to
-   nothing else. */
+   So these bytes are written and checked like all others. For large files, the part after the first
+   WR_SPOOL_HEAD bytes is forwarded during writing and its memory is released. The writer may return
+   only to the first bytes, which contain headers and tables, and near its end to the bytes it wrote
+   last. */
 #pragma once
 #include "base/sink.h"
 
-#define WR_SPOOL_HEAD ((int64_t)64 << 20) /* bytes that stay until the end */
+#define WR_SPOOL_HEAD ((int64_t)64 << 20) /* bytes kept until the end */
 
 typedef struct WrSpool {
-    int fd;        /* to be written by whoever needs a name (system/fd.h, wr_fd_name) */
-    int64_t moved; /* bytes behind the head up to here have gone on */
+    int fd;        /* written under its name (system/fd.h, wr_fd_name) */
+    int64_t moved; /* offset up to which bytes after the head were forwarded */
 } WrSpool;
 
 bool wr_spool_open(WrSpool *spool); /* false and errno */
-/* What was written so far, but for the head and the last few bytes, which may not be complete. */
+/* Forwards the bytes written so far, except the head and the last few bytes, which may be incomplete. */
 bool wr_spool_move(
     WrSpool *spool,
-    const WrByteSink *to); /* false and errno; errno ECANCELED: it was told to stop */
-/* All that is left; nobody writes any more. */
+    const WrByteSink *to); /* on failure false and errno; errno ECANCELED: the work was cancelled */
+/* Forwards all remaining bytes; the writer has finished. */
 bool wr_spool_end(WrSpool *spool, const WrByteSink *to);
-void wr_spool_close(WrSpool *spool); /* fine twice, and when it was never opened (fd -1) */
+void wr_spool_close(WrSpool *spool); /* may be called twice, and on a spool never opened (fd -1) */

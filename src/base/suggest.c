@@ -6,12 +6,12 @@
 #include <ctype.h>
 #include <string.h>
 
-/* Scores are twice the edits, so that the beginning of a word has a place between one edit and two. */
+/* Scores are twice the edits, so that a matching prefix ranks between one edit and two. */
 #define SCORE_OF_BEGINNING 3
 #define SHORTEST_BEGINNING 2
 
-/* Words of Blender, Krita, Substance, ImageMagick and POV-Ray, and the words that mean the same here. A list may have
-   some of them; a word here may stand for different things in different lists. */
+/* Words of Blender, Krita, Substance, ImageMagick and POV-Ray with their equivalents here. A list may
+   contain only some of them; one word may have different equivalents in different lists. */
 static const struct {
     const char *typed, *meant[4]; /* unused places: NULL */
 } habits[] = {
@@ -116,7 +116,7 @@ static int most_edits(size_t length)
     return length < 5 ? 1 : length < 8 ? 2 : 3;
 }
 
-/* Without the dashes of an option, which all options begin with. */
+/* Skips the dashes of an option, which all options share. */
 static const char *letters_of(const char *word)
 {
     return word + strspn(word, "-");
@@ -129,7 +129,7 @@ static bool begins(const char *word, const char *whole)
            strncmp(word, whole, length) == 0;
 }
 
-/* -1: too far. A word is never suggested that has no letter in common with what was typed. */
+/* -1: too far. A word without a letter in common with the typed word is never suggested. */
 static int score_of(const char *word, const char *candidate)
 {
     int edits = wr_text_distance(word, candidate);
@@ -141,7 +141,7 @@ static int score_of(const char *word, const char *candidate)
     return score;
 }
 
-/* The places of the words that habits[row] gives, at most WR_NEAREST_MAX, those first that it names first. */
+/* Indices of the words that `meant` lists, at most WR_NEAREST_MAX, in its order. */
 static int find_meant(const char *const meant[4], WrWordList list, const void *ctx,
                       int places[WR_NEAREST_MAX])
 {
@@ -175,7 +175,7 @@ int wr_nearest(const char *word, WrWordList list, const void *ctx, int places[WR
         int score = score_of(typed, candidate);
         if (score < 0 || (best >= 0 && score > best)) continue;
         if (score != best) count = 0;
-        else if (strcmp(candidate, nearest) == 0) continue; /* the same word twice in the list */
+        else if (strcmp(candidate, nearest) == 0) continue; /* duplicate word in the list */
         best = score;
         strcpy(nearest, candidate);
         if (count < WR_NEAREST_MAX) places[count] = i;

@@ -65,7 +65,7 @@ void wr_text_addf(WrText *text, const char *format, ...)
     va_end(again);
 }
 
-/* Print with `digits` significant digits under the C locale. */
+/* Prints with `digits` significant digits in the C locale. */
 static void print_digits(double value, int digits, char *buffer)
 {
     wr_locale_print_plain(buffer, WR_NUMBER_SIZE, value, digits);
@@ -84,7 +84,7 @@ char *wr_number_print(double value, char *buffer)
     if (!isfinite(value)) return strcpy(buffer, isnan(value) ? "nan" : value < 0 ? "-inf" : "inf");
     for (int digits = 1; digits <= 17; digits++) {
         if (digits > 6 && digits < 15)
-            continue; /* few values stop there; saves most of the tries */
+            continue; /* few values need so few digits; this saves most attempts */
         print_digits(value, digits, buffer);
         if (wr_locale_read_double(buffer, NULL) == value) break;
     }

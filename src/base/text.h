@@ -1,5 +1,4 @@
-/* text.h - growing text, and numbers as text without a locale.
-   Layer 0. */
+/* text.h - growing text, and locale-independent conversion between numbers and text. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,18 +27,18 @@ char *wr_number_print(double value, char *buffer);
 char *wr_number_print_float(float value, char *buffer);
 void wr_text_add_number(WrText *text, double value);
 
-/* Read a number that fills text[0..length): decimal, optional sign, fraction, exponent. No hex, no
-   inf or nan, no surrounding space. Values beyond the range of double are refused. */
+/* Reads a number that fills text[0..length): decimal, optional sign, fraction, exponent. No hex, no inf
+   or nan, no surrounding space. Values beyond the range of double are rejected. */
 bool wr_number_parse(const char *text, size_t length, double *value);
 
-/* The same but for capitals among the letters A to Z. */
+/* True if equal, ignoring the case of the letters A to Z. */
 bool wr_text_same_letters(const char *a, const char *b);
-/* Edits that make one word another: insertions, deletions, changes, swaps of neighbours. Of words longer
-   than WR_WORD_MAX bytes only so much is compared. */
+/* Edit distance of two words: insertions, deletions, changes, swaps of neighbours. Only the first
+   WR_WORD_MAX bytes of a longer word are compared. */
 #define WR_WORD_MAX 63
 int wr_text_distance(const char *a, const char *b);
 
-/* A JSON string with its quotes; invalid UTF-8 bytes become U+FFFD. */
+/* Appends a JSON string with its quotes; invalid UTF-8 bytes become U+FFFD. */
 void wr_text_add_json_string(WrText *text, const char *bytes);
-/* A JSON number with up to 17 digits, or null when not finite. */
+/* Appends a JSON number with up to 17 digits, or null when not finite. */
 void wr_text_add_json_number(WrText *text, double value);

@@ -1,7 +1,7 @@
-/* vec.h - three-component vectors in double (WrVec3, v3_) and float (WrVec3f, v3f_), and the generic
-   names v_add, v_cross, ... which choose by the type of the first vector, so that a formula can be
-   written once and compiled in either precision.
-   Layer 0. */
+/* vec.h - three-component vectors in double (WrVec3, v3_) and float (WrVec3f, v3f_).
+
+   The generic names v_add, v_cross, ... select by the type of the first vector, so that a formula is
+   written once and compiled in both precisions. */
 #pragma once
 #include <math.h>
 #include <stdbool.h>
@@ -54,8 +54,8 @@ WR_VEC_FUNCTIONS(WrVec3f, float, v3f)
 #define v_dot(a, b) _Generic((a), WrVec3 : v3_dot, WrVec3f : v3f_dot)(a, b)
 #define v_cross(a, b) _Generic((a), WrVec3 : v3_cross, WrVec3f : v3f_cross)(a, b)
 
-/* Squares of numbers of this size are far from both ends of double: nothing need be scaled, and scaling by a power of two
-   changes no bit. */
+/* True if squares of numbers of this size are far from overflow and underflow. Then scaling is not
+   needed; scaling by a power of two would not change any bit. */
 static inline bool v3_is_tame(double largest)
 {
     return largest > 0x1p-200 && largest < 0x1p200;
@@ -87,7 +87,8 @@ static inline WrVec3 v3_unit(WrVec3 a, WrVec3 fallback)
         int e = ilogb(m);
         b = (WrVec3){ scalbn(a.x, -e), scalbn(a.y, -e), scalbn(a.z, -e) };
     }
-    /* Divided, not multiplied by a reciprocal: sqrt(x x) is |x|, so that a vector along an axis comes out 1. */
+    /* Divided, not multiplied by a reciprocal: sqrt(x x) is |x|, so that a vector along an axis becomes
+     * exactly 1. */
     double len = sqrt(v3_dot(b, b));
     return (WrVec3){ b.x / len, b.y / len, b.z / len };
 }
@@ -103,7 +104,7 @@ static inline WrVec3f v3f_from(WrVec3 a)
     return (WrVec3f){ (float)a.x, (float)a.y, (float)a.z };
 }
 
-/* Number by number. */
+/* Component-wise product. */
 static inline WrVec3 v3_times(WrVec3 a, WrVec3 b)
 {
     return (WrVec3){ a.x * b.x, a.y * b.y, a.z * b.z };

@@ -1,5 +1,5 @@
 /* bench_libmypaint.h - the yardstick of the brush's speed: libmypaint's own surface.
-   Layer 2, for the program's benchmark alone.
+   For the program's benchmark alone.
    The same motion, with libmypaint's default brush (hardness 0.8, two dabs a radius): by the library's
    MyPaintFixedTiledSurface (16-bit RGBA), by our engine into our tiles, and as plain round dabs of ours at
    the same distance. All on one thread, pages touched once before. */

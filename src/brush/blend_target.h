@@ -1,5 +1,5 @@
 /* blend_target.h - what covering modes move heights to, tile by tile, from the table as it was.
-   Layer 2, inside this room. */
+   Private to this module. */
 #pragma once
 #include "brush/mode.h"
 

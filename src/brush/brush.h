@@ -1,5 +1,5 @@
 /* brush.h - brushes: dabs and strokes that change a height table.
-   Layer 2. Plain double arithmetic in a fixed order, so a replay gives the same bits on every processor
+   Plain double arithmetic in a fixed order, so a replay gives the same bits on every processor
    and any number of threads, however the motion was cut into events. One exception: where the dabs of a
    preset fall, and how large they are, is libmypaint's arithmetic (preset.h).
 

@@ -1,6 +1,6 @@
 /* brush_kernels.h - the inner loops of the brush, compiled once per instruction set. All sets give the same bits:
    only + - * sqrt, comparisons and conversions, without contraction.
-   Layer 2, inside this room. Counts are multiples of WR_BRUSH_BLOCK up to WR_TILE: whole vectors, whose
+   Private to this module. Counts are multiples of WR_BRUSH_BLOCK up to WR_TILE: whole vectors, whose
    remainders would cost more than they. */
 #pragma once
 #include "brush/capsule.h"

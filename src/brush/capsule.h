@@ -1,5 +1,5 @@
 /* capsule.h - the footprint of one straight motion of the round brush: a disc drawn along a segment.
-   Layer 2, inside this room. In texel coordinates: x to the right, y down, texel (i, j)'s centre at
+   Private to this module. In texel coordinates: x to the right, y down, texel (i, j)'s centre at
    x = i, y = j; not wrapped. */
 #pragma once
 #include <stdbool.h>

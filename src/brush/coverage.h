@@ -1,5 +1,5 @@
 /* coverage.h - a stroke's coverage: pages of 64 x 64 texels beside the tiles, and the heights made of them.
-   Layer 2, inside this room.
+   Private to this module.
    Dabs only add to the coverage; the heights of all that changed are made at once, when they are wanted.
    That is the same whenever it happens, since they come from the heights before the stroke. */
 #pragma once

@@ -1,5 +1,5 @@
 /* dab.h - one touch of a brush, and who makes them.
-   Layer 2, inside this room. Texel coordinates as in capsule.h: texel (i, j) has its centre at x = i,
+   Private to this module. Texel coordinates as in capsule.h: texel (i, j) has its centre at x = i,
    y = j, y down; not wrapped. */
 #pragma once
 #include <stdbool.h>

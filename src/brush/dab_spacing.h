@@ -1,5 +1,5 @@
 /* dab_spacing.h - dabs at equal steps along the path: the round brush and tips.
-   Layer 2, inside this room.
+   Private to this module.
    Dab k + 1 lies `spacing` radii of dab k farther along the path's length; so how the path was cut into
    samples changes places by rounding only. What is random goes by the seed and the dab's number. */
 #pragma once

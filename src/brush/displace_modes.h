@@ -1,5 +1,5 @@
 /* displace_modes.h - dabs that change the heights that they find.
-   Layer 2, inside this room.
+   Private to this module.
    A dab's box is copied out, changed and written back. It takes about 16 bytes a texel; where there is no
    memory for that the dab does nothing. */
 #pragma once

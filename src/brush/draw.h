@@ -1,5 +1,5 @@
 /* draw.h - motions and dabs put onto a table, once for each copy that symmetry makes.
-   Layer 2, inside this room. */
+   Private to this module. */
 #pragma once
 #include "brush/coverage.h"
 #include "brush/displace_modes.h"

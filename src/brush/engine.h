@@ -1,5 +1,5 @@
 /* engine.h - libmypaint makes the dabs of a preset's stroke.
-   Layer 2, inside this room. The engine is fed at fixed steps of WR_ENGINE_STEP seconds, interpolated
+   Private to this module. The engine is fed at fixed steps of WR_ENGINE_STEP seconds, interpolated
    from the samples, so that how the motion was cut into events does not matter: samples that lie on one
    straight, even motion give the dabs of its two ends. Samples without time of their own move at
    WR_ENGINE_SPEED. A rest longer than WR_ENGINE_REST counts as that long, and a motion slower than 4 texels

@@ -1,6 +1,6 @@
 /* engine_internal.h - the two halves of the engine: how the library is driven (engine.c), and the path that it
    is driven along (engine_path.c).
-   Layer 2, inside this room. */
+   Private to this module. */
 #pragma once
 #include <libmypaint/mypaint-brush.h>
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 /* library.h - where presets are found.
-   Layer 2. A preset's id is its collection and its path without ending: "wrinkle/groove", "user/mine",
+   A preset's id is its collection and its path without ending: "wrinkle/groove", "user/mine",
    "mypaint2/classic/charcoal", "mypaint1/deevad/rounded". A name without collection means the first that
    has it, in that order: user, wrinkle, mypaint2, mypaint1. */
 #pragma once

@@ -1,5 +1,5 @@
 /* mode.h - what the modes do to heights. A new mode is one function and one row of wr_brush_modes.
-   Layer 2, inside this room. */
+   Private to this module. */
 #pragma once
 #include "brush/brush.h"
 #include "brush/brush_kernels.h"

@@ -1,5 +1,5 @@
 /* paint.h - places in texels, brushes put into range, and single dabs without a stroke.
-   Layer 2, inside this room. Texel coordinates as in capsule.h. */
+   Private to this module. Texel coordinates as in capsule.h. */
 #pragma once
 #include "brush/shape.h"
 

@@ -1,5 +1,5 @@
 /* preset.h - brush presets: MyPaint's .myb files, version 3, read and checked by ourselves.
-   Layer 2. Strangers' text never reaches the library's own parser, which aborts on much of it: the JSON
+   Strangers' text never reaches the library's own parser, which aborts on much of it: the JSON
    is read here, every curve has 2..64 finite points whose x never falls (two points at one x are a step),
    every value is clamped to its setting's range, and what would make a stroke endless is limited. Settings
    and inputs that this program does not know are passed over; anything else that is wrong is an error that

@@ -1,5 +1,5 @@
 /* preset_internal.h - what a preset is made of, for the files that read, print and run it.
-   Layer 2, inside this room. Settings and inputs go by libmypaint's own numbers. */
+   Private to this module. Settings and inputs go by libmypaint's own numbers. */
 #pragma once
 #include <libmypaint/mypaint-brush-settings.h>
 #include <stdbool.h>

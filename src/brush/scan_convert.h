@@ -1,5 +1,5 @@
 /* scan_convert.h - a shape cut into runs of texels, tile by tile.
-   Layer 2, inside this room. */
+   Private to this module. */
 #pragma once
 #include "brush/shape.h"
 #include "field/wrap.h"

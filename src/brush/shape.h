@@ -1,5 +1,5 @@
 /* shape.h - the footprint of one dab or motion: which texels it reaches and how strongly.
-   Layer 2, inside this room. Texel coordinates as in capsule.h. */
+   Private to this module. Texel coordinates as in capsule.h. */
 #pragma once
 #include "brush/brush.h"
 #include "brush/dab.h"

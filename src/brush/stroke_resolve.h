@@ -1,5 +1,5 @@
 /* stroke_resolve.h - heights made anew from those before the stroke and from its coverage.
-   Layer 2, inside this room. */
+   Private to this module. */
 #pragma once
 #include "brush/blend_target.h"
 

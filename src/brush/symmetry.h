@@ -1,5 +1,5 @@
 /* symmetry.h - the copies of a stroke: mirrors, turns about a point, and a lattice over the cell.
-   Layer 2. Everything happens in texel space, so that copies keep their shape in a cell that is not
+   Everything happens in texel space, so that copies keep their shape in a cell that is not
    square.
 
    The copies are all products of

@@ -1,5 +1,5 @@
 /* tip.h - stamps: pictures in place of a brush's round falloff.
-   Layer 2. Any picture (its Rec. 709 luma of the codes times its alpha; float values are clamped to
+   Any picture (its Rec. 709 luma of the codes times its alpha; float values are clamped to
    0..1), GIMP's .gbr (version 1 and 2; grey: 255 is full paint; RGBA: luma times alpha) and .gih (several
    pictures and rules which comes next, of up to 4 ranks). 8-bit tips are smoothed when they are loaded, so
    that heights do not come in stairs: the values move within half a code, and edges and what is black

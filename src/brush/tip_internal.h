@@ -1,5 +1,5 @@
 /* tip_internal.h - the inside of a tip, for those who make one.
-   Layer 2, inside this room. */
+   Private to this module. */
 #pragma once
 #include "brush/tip.h"
 

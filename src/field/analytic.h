@@ -1,5 +1,5 @@
 /* analytic.h - F(u,v) as a formula, usable wherever a table is, with exact derivatives.
-   Layer 1. Source: Blinn 1978 section 3, "a bivariate polynomial or bivariate Fourier series". */
+   Source: Blinn 1978 section 3, "a bivariate polynomial or bivariate Fourier series". */
 #pragma once
 
 typedef enum WrAnalyticKind {

@@ -1,5 +1,4 @@
 /* certificate.h - seam certificate of a cell: how smoothly F goes on where its edges meet, by the pattern and by the scheme.
-   Layer 1.
 
    The pattern is judged by its texels (field/seam.h): a photograph that is torn at its edge has no smoothness there,
    whatever the scheme. Of a pattern that meets, the scheme says how smooth the join is. The certificate's class is the

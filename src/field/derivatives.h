@@ -1,5 +1,4 @@
 /* derivatives.h - the slopes and bends of a table's relief over a cell, at the texels' centres.
-   Layer 1.
 
    Every scheme's are a fixed stencil of table entries there (of coefficients for the splines), so that no position is
    rounded: a table that is moved by whole texels over its periodic axes gives the moved numbers, to the bit. */

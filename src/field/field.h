@@ -1,6 +1,6 @@
 /* field.h - the height table F(u,v): W x H float32 texels in tiles of 64 x 64, shared by reference and
    copied on write, so that a snapshot is one pointer and an edit costs what it touches.
-   Layer 1. Knows nothing of files, windows, brushes or commands.
+   Knows nothing of files, windows, brushes or commands.
 
    Texel (i, j): column i from the left, row j from the TOP; its centre is u = (i + 0.5)/W,
    v = 1 - (j + 0.5)/H. Heights are in table units, unbounded, always finite; 0 is the ground. */

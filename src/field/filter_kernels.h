@@ -1,7 +1,7 @@
 /* filter_kernels.h - the inner loops of blurs (ops_blur.c, ops_blur_wide.c), and of what all operations end with (ops_build.c),
    compiled once per instruction set. All sets give the same bits: only + - * and comparisons, in the same order, without
    contraction.
-   Layer 1, private to this room. */
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

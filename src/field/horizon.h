@@ -1,5 +1,5 @@
 /* horizon.h - how high the relief stands about each of its points: what shadows and occludes it.
-   Layer 1. Slopes are heights over distances, both of the table: of table units over texels here. */
+   Slopes are heights over distances, both of the table: of table units over texels here. */
 #pragma once
 #include "base/exactmath.h"
 

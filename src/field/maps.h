@@ -1,5 +1,4 @@
 /* maps.h - maps of a table, as rows of one table: exports and views of the canvas are made of them.
-   Layer 1.
 
    | map       | a texel holds                                                                     |
    | occlusion | what its plane sees of the sky, 0..1 (occlusion.h)                                |

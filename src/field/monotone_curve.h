@@ -1,6 +1,5 @@
 /* monotone_curve.h - a smooth curve through a few points that never turns back between two of them: Fritsch and Carlson's
    monotone cubic ("Monotone piecewise cubic interpolation", SIAM J. Numer. Anal. 17, 1980).
-   Layer 1.
 
    With h the width of an interval, d its slope, and m0, m1 the slopes at its ends, at s from its left end
      y = y0 + s (m0 + s ((3 d - 2 m0 - m1)/h + s (m0 + m1 - 2 d)/h^2)).

@@ -1,5 +1,4 @@
 /* occlusion.h - maps of what stands about each texel of a table: how much of the sky its plane sees, and horizons.
-   Layer 1.
 
    Directions go round a square in equal steps (horizon.h): they meet texels, so that every number on a line is a texel or
    lies between two at halves or quarters. Each direction counts with the part of the circle that it is nearest to.

@@ -1,6 +1,6 @@
 /* occlusion_kern.h - the inner loops of occlusion.c, compiled once per instruction set. All sets give the same bits: only
    + - * /, comparisons and conversions, without contraction.
-   Layer 1, private to this room. */
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* occlusion_lattice.h - the lines that occlusion.c and occlusion_near.c look along.
-   Layer 1, private to this room. */
+   Private to this module. */
 #pragma once
 #include "field/occlusion.h"
 #include "field/occlusion_kern.h"

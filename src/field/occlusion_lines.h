@@ -1,5 +1,5 @@
 /* occlusion_lines.h - all lines of one course over a whole table, swept and put down.
-   Layer 1, private to this room. */
+   Private to this module. */
 #pragma once
 #include "field/occlusion_lattice.h"
 

@@ -1,7 +1,7 @@
 /* occlusion_wide_body.h - the sweep of occlusion_kern.h for processors that hold eight lanes of 64 bits, part of
    occlusion_body.h's text: the same comparisons in whole numbers, so the same bits. What a row looks at is gathered as
    one number, and the two halves of the lanes stop by themselves.
-   Layer 1, private to this room. A header without a guard, by intention. */
+   Private to this module. A header without a guard, by intention. */
 
 /* Half of the lanes: row * LANES + lane of what is looked at, in the lower halves how much higher it is, and what may be
  * seen over it. */

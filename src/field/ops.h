@@ -1,7 +1,6 @@
 /* ops.h - table operations: a table in, a new table out. Blur, median, levels, resize and the like, in
    one const table of rows, by which commands, menus, live preview and tests are made: a new operation is
    one function and one row.
-   Layer 1.
 
    What all of them keep to:
    - Periodic axes wrap; on a clamped axis the edge texel is repeated outwards.

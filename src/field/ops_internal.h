@@ -1,6 +1,6 @@
 /* ops_internal.h - what the files of the table operations share: the job, the builder that turns blocks of
    new heights into a table that shares its unchanged tiles, and the operations' functions.
-   Layer 1, private to ops*.c.
+   Private to ops*.c.
 
    An operation gives a function that makes any block of the result from the input. The builder calls
    it on the pool's threads for one batch of blocks at a time, blends with the mask, compares with what

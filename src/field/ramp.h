@@ -1,5 +1,4 @@
 /* ramp.h - heights that lead from one place to another: linear, radial, cone.
-   Layer 1.
 
    In texels x = W u, y = H v (v up), with d = to - from, not reduced, and e the way from `from` to a
    texel's centre; |d| must not be 0. Heights are low + t (high - low), low where t = 0, high where t = 1:

@@ -1,5 +1,4 @@
 /* scheme.h - how F and its derivatives are made from table entries: the ladder's first axis.
-   Layer 1.
 
    | scheme      | value                | derivative                             | order F, Fu | continuity |
    | nearest     | the texel            | central difference at that texel       | 1, 1        | none       |

@@ -1,6 +1,6 @@
 /* seam.h - seam test of a table: height, slope and second difference across its edges, compared with the same across the
    lines inside.
-   Layer 1. Reads texels alone; the smoothness of an interpolation scheme is in field/certificate.h.
+   Reads texels alone; the smoothness of an interpolation scheme is in field/certificate.h.
 
    A line lies between two neighbouring columns (rows). With texels t0 t1 | t2 t3 across it, three differences are taken
    at each place along it:

@@ -1,7 +1,6 @@
 /* select.h - selections: which part of a table an operation or a layer acts on, how it is made, combined
    and drawn. A selection is a WrField of 0..1 with the table's size and wrap; none at all (NULL) means
    everything.
-   Layer 1.
 
    Everything wraps: on a periodic axis a shape is there with all its periodic images, so it may cross
    the edges or be larger than the table, and a texel's coverage is the part of its square that lies in

@@ -1,5 +1,5 @@
 /* select_internal.h - what the files of selections share.
-   Layer 1, private to select*.c; ramp.c builds its table with it too. */
+   Private to select*.c; ramp.c builds its table with it too. */
 #pragma once
 #include "field/select.h"
 

@@ -1,7 +1,7 @@
 /* shape_outline.h - the outlines of shapes as points: rectangles with round corners, ellipses, polygons, Bezier
    paths. Shapes keep their form in texels: they are turned there, where a cell that is not square would
    shear them.
-   Layer 1. Only + - * / sqrt and base/exactmath.h: the same bits on every processor. */
+   Only + - * / sqrt and base/exactmath.h: the same bits on every processor. */
 #pragma once
 #include "field/select.h"
 

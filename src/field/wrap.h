@@ -1,5 +1,4 @@
-/* wrap.h - what headers need of a table without its functions: its tile, its size, its edges.
-   Layer 1. */
+/* wrap.h - what headers need of a table without its functions: its tile, its size, its edges. */
 #pragma once
 
 #define WR_TILE 64         /* texels along a tile's side */

@@ -1,5 +1,5 @@
 /* erode.h - weather over whole tables, in place.
-   Layer 4, private to this room.
+   Private to this module.
 
    Both only move material: the sum of heights stays what it was, to rounding. A flat table stays as it is,
    bit for bit. On clamped axes nothing leaves the table. */

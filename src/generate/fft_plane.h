@@ -1,6 +1,6 @@
 /* fft_plane.h - what is made of Fourier transforms (base/fft.h) on a plane of heights: differential equations on a torus, on
    a sheet with free edges, or with one axis of each.
-   Layer 4, private to this room. */
+   Private to this module. */
 #pragma once
 #include "base/fft.h"
 

@@ -1,7 +1,7 @@
 /* generator.h - things rasterized into a table: patterns, noise, text, solids, terrain, pictures. One const
    table of rows, by which commands, the Generate panel, live preview and tests are made: a new generator is
    one function and one row in its family's table.
-   Layer 4. Knows tables, never documents or layers.
+   Knows tables, never documents or layers.
 
    What all of them keep to:
    - They wrap: on a periodic axis the pattern crosses the edge exactly, and the table rolled by whole

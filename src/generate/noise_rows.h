@@ -1,6 +1,5 @@
 /* noise_rows.h - the family "noise": what its parameters describe, for filling tables and for asking at one
    point.
-   Layer 4.
 
      F(u,v) = level + amplitude N(p),   p = (u, v) - origin
 

@@ -1,6 +1,6 @@
 /* normals.h - heights out of normal maps, by least squares: Frankot and Chellappa's (1988) on a ring, the
    same with free edges on a sheet.
-   Layer 4, private to this room. */
+   Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/fft_plane.h"

@@ -1,5 +1,5 @@
 /* param.h - rows of parameters, and reading their values by name.
-   Layer 4, private to this room. */
+   Private to this module. */
 #pragma once
 #include "generate/generator.h"
 

@@ -1,6 +1,6 @@
 /* pattern.h - what the patterns share: the grid that they are drawn on, edges, and pieces that differ from
    one another.
-   Layer 4, private to this room.
+   Private to this module.
 
    A pattern is a function of a place: x texels to the right of the origin, y upwards, within one table.
    It gives 0..1 or thereabouts, and a row's `height` multiplies it. All things stand whole numbers of

@@ -1,5 +1,5 @@
 /* picture.h - heights out of pictures.
-   Layer 4, private to this room. */
+   Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/terrain.h"

@@ -1,5 +1,5 @@
 /* solid.h - what the solids share: where they stand, how often, and how high.
-   Layer 4, private to this room. */
+   Private to this module. */
 #pragma once
 #include "generate/param.h"
 #include "generate/zbuffer.h"

@@ -1,6 +1,6 @@
 /* terrain.h - whole tables in double, for what cannot be made tile by tile; and what terrain and pictures
    share.
-   Layer 4, private to this room. */
+   Private to this module. */
 #pragma once
 #include "base/progress.h"
 #include "field/wrap.h"

@@ -1,6 +1,6 @@
 /* terrain_raw.h - elevations in files without a header: nothing but numbers, row by row from the north
    (.r16, .raw, .r32).
-   Layer 4, private to this room. */
+   Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 

@@ -1,6 +1,6 @@
 /* text.h - closed outlines turned into a relief: which part of each texel they cover, how far each texel is
    inside of them, and a profile over that distance.
-   Layer 4, private to this room.
+   Private to this module.
 
    Outlines are polygons in texels, x to the right, y down, from the table's top left corner. A place is
    inside where the winding number of all of them together, with all their periodic images, is not 0; so

@@ -1,5 +1,5 @@
 /* text_layout.h - where a text's letters stand on the table: in lines, turned, on a path, around the table.
-   Layer 4, private to this room. */
+   Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/param.h"

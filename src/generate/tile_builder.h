@@ -1,5 +1,5 @@
 /* tile_builder.h - a relief made tile by tile on the pool's threads.
-   Layer 4, private to this room. */
+   Private to this module. */
 #pragma once
 #include "generate/generator.h"
 

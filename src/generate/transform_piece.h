@@ -1,5 +1,4 @@
 /* transform_piece.h - a piece of a table put elsewhere: moved, turned, scaled, mirrored, round the edges of periodic axes.
-   Layer 4.
 
    Lengths are texels, with texel (i, j) from i to i + 1 and rows running down. A point p of the source goes to
    at + A (p - from), A = turn * scale; the piece is what lies in the window. Where the table is periodic, so is what is

@@ -1,6 +1,6 @@
 /* zbuffer.h - a depth buffer over the table: what is seen of triangles and solids from straight above, by
    parallel projection along -Z (Blinn 1978, figure 7: the Z values are the bump function).
-   Layer 4, inside this room.
+   Private to this module.
 
    Texel coordinates: texel (i, j) has its centre at x = i, y = j, y down; z, in texels as well, rises
    towards the viewer. On periodic axes everything is there with all its images.

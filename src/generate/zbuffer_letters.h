@@ -1,6 +1,6 @@
 /* zbuffer_letters.h - bodies cut out along outlines, with a rounded or slanted upper edge: letters in three
    dimensions.
-   Layer 4, inside this room.
+   Private to this module.
 
    A body stands on the plane w = 0 and rises to w = depth over all places (p, q) inside its outlines by the
    nonzero rule, however they cross. Within `bevel` of the outline it is lower: at distance d by

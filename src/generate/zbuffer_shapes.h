@@ -1,5 +1,5 @@
 /* zbuffer_shapes.h - where a line a + b t runs inside of simple bodies.
-   Layer 4, private to the depth buffer. */
+   Private to the depth buffer. */
 #pragma once
 #include <math.h>
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 /* zbuffer_tile.h - one tile of the depth buffer while it is drawn.
-   Layer 4, private to the depth buffer. */
+   Private to the depth buffer. */
 #pragma once
 #include "base/array.h"
 #include "field/field.h"

@@ -1,6 +1,6 @@
 /* assimp.h - the border to the module that holds Assimp (wrinkle_assimp.so). The module exports one symbol,
    wr_assimp_table; everything goes through it, and no exception crosses it.
-   Private to this room. C and C++. */
+   Private to this module. C and C++. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

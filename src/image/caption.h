@@ -1,6 +1,5 @@
 /* caption.h - lines of small type in a picture: names under samples, numbers on charts. One of the program's
-   own faces (Inter, else DejaVu Sans), never a stranger's; no shaping, so for short Latin labels.
-   Layer 1. */
+   own faces (Inter, else DejaVu Sans), never a stranger's; no shaping, so for short Latin labels. */
 #pragma once
 #include <stdint.h>
 

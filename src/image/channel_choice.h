@@ -1,5 +1,5 @@
 /* channel_choice.h - which channels of a part a picture is made of.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 

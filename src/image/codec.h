@@ -1,6 +1,6 @@
 /* codec.h - what reads and writes picture files of one or more formats: OpenImageIO, which is a module (oiio.h), and
    libpng, which is there at once (png_codec.h). No exception crosses this border.
-   Private to this room. C and C++.
+   Private to this module. C and C++.
 
    Every function that can fail writes one line into reason[WR_CODEC_REASON] and returns false or NULL.
    The callers have checked the file's existence and kind; these functions check what the file says of

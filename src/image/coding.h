@@ -1,5 +1,4 @@
 /* coding.h - coding of unit vectors in a picture: as they are (signed), or with -1..1 stored as 0..1 (unit).
-   Layer 1.
 
    Codes of 8 and 16 bits are always unit. Files of floats hold either. Without a choice the distribution decides: for each
    texel the distance of its length from 1 is taken both ways, at most 1 (of two channels, how much it is over 1); numbers

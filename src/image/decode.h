@@ -1,6 +1,6 @@
 /* decode.h - a picture file read within this process: finds out the format and drives the module. What
    the reader process does for strangers' files, and what reading "inside" does without it.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include "base/hash.h"
 #include "image/image.h"

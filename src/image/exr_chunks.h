@@ -1,5 +1,5 @@
 /* exr_chunks.h - whether an OpenEXR file of several parts, or of tiles, just written in their order, is whole.
-   Private to this room.
+   Private to this module.
 
    The library writes the tables of where its chunks lie when it closes a file, and is silent if it cannot;
    readers then put up with zeros there, some by searching the file, others not at all. Here every entry

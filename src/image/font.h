@@ -1,5 +1,4 @@
 /* font.h - text as outlines: font files of all kinds, bitmap and outline, shaped for any script.
-   Layer 1.
 
    A font file is read and text is shaped by it in the reader process (reader_protocol.h), since fonts come from
    strangers; what it answers is checked here number by number. All of it is whole numbers in the font's

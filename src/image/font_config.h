@@ -1,5 +1,5 @@
 /* font_config.h - fontconfig, made ready for use.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 /* font_internal.h - what the files of fonts share.
-   Layer 1, private to font*.c and the reader process.
+   Private to font*.c and the reader process.
 
    A shaped text travels as one block: a WrFontHead, then the arrays in the order of its counts. */
 #pragma once

@@ -1,5 +1,4 @@
-/* font_list.h - the fonts that are installed.
-   Layer 1. */
+/* font_list.h - the fonts that are installed. */
 #pragma once
 #include "base/array.h"
 

@@ -1,6 +1,6 @@
 /* format.h - what we know of picture formats without opening a file: what each can hold, and how the
    files of each begin.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

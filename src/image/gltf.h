@@ -1,5 +1,5 @@
 /* gltf.h - a .gltf file whose buffers stand in files beside it, made one file.
-   Layer 1. glTF 2.0, 3.6.1.1 and 5.3 (Buffer): `uri` is a relative path, percent-encoded, or a data: URI.
+   glTF 2.0, 3.6.1.1 and 5.3 (Buffer): `uri` is a relative path, percent-encoded, or a data: URI.
 
    The reader process looks at one file alone. So the program itself takes in what the buffers name, as base64 in the place
    of their names, and the reader gets what any exporter could have written. Pictures that are named are left as they are. */

@@ -1,5 +1,5 @@
 /* gltf_internal.h - JSON, chunks, names and texture transforms of glTF files.
-   Layer 1, private to src/image. */
+   Private to src/image. */
 #pragma once
 #include <json-c/json.h>
 #include <stdbool.h>

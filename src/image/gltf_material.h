@@ -1,5 +1,5 @@
 /* gltf_material.h - what a glTF file says of its materials: numbers, and pictures that it holds or that lie beside it.
-   Layer 1. glTF 2.0: 3.9 (materials), 3.8 (textures), 4.4 (GLB). Pictures are only fetched here, as bytes; the reader
+   glTF 2.0: 3.9 (materials), 3.8 (textures), 4.4 (GLB). Pictures are only fetched here, as bytes; the reader
    process decodes them (image.h), as any stranger's. */
 #pragma once
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 /* gltf_mesh.h - the triangles of a glTF 2.0 file: nodes, meshes, accessors.
-   Private to this room. Part of the reader process, and of reading "inside". glTF 2.0: 3.5 (nodes), 3.6 (accessors),
+   Private to this module. Part of the reader process, and of reading "inside". glTF 2.0: 3.5 (nodes), 3.6 (accessors),
    3.7 (meshes, skins); KHR_mesh_quantization, KHR_texture_transform.
 
    It is read here because the library takes no normalised integers, wants texture coordinates in the order of their

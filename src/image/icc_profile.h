@@ -1,5 +1,4 @@
-/* icc_profile.h - the ICC profile of sRGB, for files of programs that ask which one is meant where none is there.
-   Layer 1. */
+/* icc_profile.h - the ICC profile of sRGB, for files of programs that ask which one is meant where none is there. */
 #pragma once
 #include <stddef.h>
 #include <stdint.h>

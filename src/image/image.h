@@ -1,5 +1,5 @@
 /* image.h - pictures in memory and picture files of every kind that OpenImageIO knows.
-   Layer 1. The library behind it is loaded on first use: a program that opens no picture never pays
+   The library behind it is loaded on first use: a program that opens no picture never pays
    for it. */
 #pragma once
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 /* image_info.h - reading the label of a file (WrImageLabel, image.h).
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include "image/image.h"
 

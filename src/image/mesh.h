@@ -1,5 +1,5 @@
 /* mesh.h - files of triangles: OBJ, PLY, STL, glTF and what else the library reads.
-   Layer 1. Knows no tables. Files are strangers' and are read by the reader process, as pictures are. */
+   Knows no tables. Files are strangers' and are read by the reader process, as pictures are. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* mesh_build.h - a mesh under construction, in double precision: what every reader of mesh files fills in.
-   Layer 1, private to src/image. Part of the reader process, and of reading "inside".
+   Private to src/image. Part of the reader process, and of reading "inside".
 
    Coordinates stay double until the end. A mesh that lies far from the origin, as in the coordinates of a map, would lose
    its relief to 32-bit floats; then the lowest corner of its box is subtracted first (WrMesh, origin). */

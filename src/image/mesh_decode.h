@@ -1,5 +1,5 @@
 /* mesh_decode.h - a mesh file read within this process, and what travels from the reader process.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include "image/mesh.h"
 

@@ -1,5 +1,5 @@
 /* mesh_obj.h - OBJ files of polygons, in double precision and several times as fast as the library reads them.
-   Private to this room. Part of the reader process, and of reading "inside". */
+   Private to this module. Part of the reader process, and of reading "inside". */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

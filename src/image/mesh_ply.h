@@ -1,5 +1,5 @@
 /* mesh_ply.h - PLY files: written out or binary, of either order of bytes.
-   Private to this room. Part of the reader process, and of reading "inside".
+   Private to this module. Part of the reader process, and of reading "inside".
 
    They are read here and not by the library because it crashes on damaged ones by the hundred, overwrites the (u,v) of a
    point where faces have their own, drops strips and cuts coordinates to 32-bit floats. Every count is compared with

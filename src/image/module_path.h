@@ -1,5 +1,5 @@
 /* module_path.h - where the parts of the program that are not linked into it lie.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include "base/once_async.h"
 

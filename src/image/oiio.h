@@ -1,6 +1,6 @@
 /* oiio.h - the border to the module that holds OpenImageIO (wrinkle_oiio.so). The module exports one
    symbol, wr_oiio_table; everything goes through it.
-   Private to this room. C and C++. */
+   Private to this module. C and C++. */
 #pragma once
 #include "image/codec.h"
 

@@ -1,6 +1,6 @@
 /* png.h - whether a PNG file is whole, before the library sees it: libpng allocates what a damaged length
    says, and forgives a missing end.
-   Private to this room. Source: PNG specification (ISO/IEC 15948), 5.3 chunk layout, annex D. */
+   Private to this module. Source: PNG specification (ISO/IEC 15948), 5.3 chunk layout, annex D. */
 #pragma once
 #include <stdbool.h>
 #include <stdio.h>

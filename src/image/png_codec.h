@@ -1,7 +1,7 @@
 /* png_codec.h - PNG files by libpng, which is there at once, where OpenImageIO takes a quarter of a second to be
    loaded. What is read is what OpenImageIO reads: palettes as colours, codes of fewer than 8 bits as 8, transparency
    as alpha, our texts from the description.
-   Private to this room. Source: PNG specification (ISO/IEC 15948). */
+   Private to this module. Source: PNG specification (ISO/IEC 15948). */
 #pragma once
 #include "image/codec.h"
 

@@ -1,5 +1,5 @@
 /* read_internal.h - what reading whole pictures, and reading back what was written, need of reading.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 

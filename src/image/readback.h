@@ -1,5 +1,5 @@
 /* readback.h - reading back a picture file that was just written, by the reader process.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include "image/format.h"
 

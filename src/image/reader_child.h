@@ -1,5 +1,5 @@
 /* reader_child.h - a child of the reader process: reads one file for the program.
-   Private to this room. Part of the reader process alone. */
+   Private to this module. Part of the reader process alone. */
 #pragma once
 #include "image/reader_protocol.h"
 

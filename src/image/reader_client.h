@@ -1,6 +1,6 @@
 /* reader_client.h - a picture or font file read by the reader process (reader_protocol.h), so that a hostile file can harm that
    process alone. The same functions as decode.h has.
-   Private to this room.
+   Private to this module.
 
    Every number and text that comes back is checked here as if a stranger had sent it. A reading that
    gives no sign of life for a minute (and a second more for each MB of the file) is ended; so is one that

@@ -1,6 +1,6 @@
 /* reader_process.h - the reader process as the program keeps it: started when first needed, started again when
    it was killed, and kept waiting for the next file.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include "image/reader_protocol.h"
 

@@ -1,5 +1,5 @@
 /* reader_protocol.h - what the program and its reader process say to each other.
-   Private to this room.
+   Private to this module.
 
    The program starts the reader process once. Orders go to it over the control socket, one packet each: a
    WrWireOrder with two descriptors, the file to read and one end of a channel. The process forks; its

@@ -1,5 +1,5 @@
 /* scan.h - a cursor over the text of a mesh file, and its numbers in double precision.
-   Layer 1, private to src/image. Part of the reader process, and of reading "inside". */
+   Private to src/image. Part of the reader process, and of reading "inside". */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,5 +1,4 @@
-/* sidecar.h - files of nothing but numbers, and the JSON beside each that says what they are ("h.r16", "h.r16.json").
-   Layer 1. */
+/* sidecar.h - files of nothing but numbers, and the JSON beside each that says what they are ("h.r16", "h.r16.json"). */
 #pragma once
 #include <stdbool.h>
 

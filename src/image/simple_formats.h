@@ -2,7 +2,7 @@
    P6; OpenImageIO gives half of 16-bit codes one too low), GIMP's patterns (.pat), SRTM elevations (.hgt) and run-length
    BMP (OpenImageIO refuses the end of line before the end of the bitmap, which ImageMagick writes).
    Part of what reads strangers' files: the reader process, or reading "inside".
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include "image/image.h"
 

@@ -1,5 +1,5 @@
 /* stl.h - STL files: binary, or written out in letters of either case.
-   Private to this room. Part of the reader process, and of reading "inside".
+   Private to this module. Part of the reader process, and of reading "inside".
 
    They are read here because the library takes no capitals and cuts written-out coordinates to 32-bit floats. */
 #pragma once

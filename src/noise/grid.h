@@ -1,5 +1,4 @@
 /* grid.h - tables filled with sums of noise, quickly.
-   Layer 1.
 
    Texel (i, j) of a table of width x height stands at u = (i + 0.5)/width, v = 1 - (j + 0.5)/height.
    On such a grid a 2D noise of square cells is one in 1D along each row: with y the row's place between

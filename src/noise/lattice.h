@@ -1,6 +1,6 @@
 /* lattice.h - what noise is made from: whole points, each with a prescribed value and slope, and the
    fades that blend between them.
-   Layer 1. Knows base only.
+   Knows base only.
 
    Coordinates t are in cells: lattice points stand at whole numbers. A lattice repeats after
    period[a] cells along axis a; its index is taken by floored modulus, so that coordinates below 0

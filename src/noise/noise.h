@@ -1,5 +1,4 @@
 /* noise.h - value, gradient and simplex noise with their analytic gradients, at one point.
-   Layer 1.
 
    x = t - floor(t) within a cell, per axis; alpha the fade; sums over the corners k of the cell
    (simplex), p_k their places, f_k and g_k the values and slopes prescribed there.

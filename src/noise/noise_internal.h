@@ -1,5 +1,5 @@
 /* noise_internal.h - what the files of this room share.
-   Layer 1, private to this room. */
+   Private to this module. */
 #pragma once
 #include "noise/grid.h"
 

@@ -1,6 +1,6 @@
 /* octave_kernels.h - the inner loops of octaves on square cells (grid_octave.c), compiled once per instruction set.
    All sets give the same bits: only + - * / floor, comparisons and conversions, without contraction.
-   Layer 1, private to this room.
+   Private to this module.
 
    Columns holds what a piece's columns are to the lattice, once for all rows; LatticeRow what a row of the
    lattice prescribes at the lattice columns that the piece touches, once for all texel rows between it and

@@ -1,5 +1,4 @@
 /* octaves.h - sums of noise at growing frequencies and falling amplitudes, and grids filled with them.
-   Layer 1.
 
      N(p) = sum over i of r^-i f_i(s^i n0 p + offset_i)          the lecture; fractional Brownian motion
 

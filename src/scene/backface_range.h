@@ -1,5 +1,4 @@
-/* backface_range.h - does the turntable show backs? On the back of an open surface one sees the table mirrored.
-   Layer 4. */
+/* backface_range.h - does the turntable show backs? On the back of an open surface one sees the table mirrored. */
 #pragma once
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 /* background.h - what stands behind the objects in 8-bit pictures and in the window: a colour, two that go over into
    each other from top to bottom, the surroundings, or nothing. Float pictures have their coverage instead.
-   Layer 4. Colours are linear RGB. */
+   Colours are linear RGB. */
 #pragma once
 #include <stdbool.h>
 

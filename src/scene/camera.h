@@ -1,5 +1,5 @@
 /* camera.h - from where a scene is looked at. Plain data; placed by wr_scene_place of scene.h.
-   Layer 4. World space is right-handed, y up; lengths in scene units, angles in degrees. */
+   World space is right-handed, y up; lengths in scene units, angles in degrees. */
 #pragma once
 #include "base/vec.h"
 

@@ -1,5 +1,5 @@
 /* camera_control.h - the camera moved: to a side, round its target, sideways, nearer, and to where the objects fill the picture.
-   Layer 4. All change a scene that may be changed, by its camera; what they give is checked by wr_scene_place. */
+   All change a scene that may be changed, by its camera; what they give is checked by wr_scene_place. */
 #pragma once
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 /* dials.h - the dials of accuracy: every approximation that a picture may make, as a setting of the scene.
-   Layer 4. One table, wr_dials: the command's arguments, the scene's lines, the ladder that
+   One table, wr_dials: the command's arguments, the scene's lines, the ladder that
    `wrinkle accuracy` climbs and the window's Accuracy panel are all made from it. A new dial is one
    member of WrDials (or of the scene) and one row. */
 #pragma once

@@ -1,5 +1,5 @@
 /* environment.h - the surroundings of a scene: which, how they are turned, and how strong their light is.
-   Layer 4. All objects have them in common. */
+   All objects have them in common. */
 #pragma once
 #include "shade/environment_map.h"
 

@@ -1,6 +1,5 @@
 /* export_settings.h - what the export sheet was told last: which maps leave, for whom, where to. It goes with the document;
-   nothing is written by it.
-   Layer 3. */
+   nothing is written by it. */
 #pragma once
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 /* height_colormap.h - colours that go by height, slope and cavity, of a terrain's form or of a table: sand below, meadows above, rock
    where it is steep, dirt in hollows. They become a colour picture (WrScene.colour), which the renderer and its reference look up as any other.
-   Layer 4. Colours are linear. */
+   Colours are linear. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,5 +1,4 @@
-/* material_preset.h - materials by name, to begin with: each is a model of reflection (shade/reflection.h) and its numbers.
-   Layer 4. */
+/* material_preset.h - materials by name, to begin with: each is a model of reflection (shade/reflection.h) and its numbers. */
 #pragma once
 #include "scene/scene.h"
 

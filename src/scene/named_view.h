@@ -1,5 +1,5 @@
 /* named_view.h - views of a scene that were given names, so that they can be gone back to.
-   Layer 4. Of several objects a view is the camera alone. */
+   Of several objects a view is the camera alone. */
 #pragma once
 #include "scene/camera.h"
 

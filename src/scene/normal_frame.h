@@ -1,4 +1,4 @@
-/* normal_frame.h - the axes that the vectors of a normal map stand in. Layer 4. */
+/* normal_frame.h - the axes that the vectors of a normal map stand in. */
 #pragma once
 
 /* Which way x and y of a tangent plane's map run (normal_map.h). */

@@ -1,5 +1,5 @@
 /* normal_map.h - pictures of normals, as programs write them, read as unit vectors of the tangent plane and as slopes.
-   Layer 4. A picture of normals is data: its numbers are never colour-converted. They are decoded once, when a file is
+   A picture of normals is data: its numbers are never colour-converted. They are decoded once, when a file is
    read: what is kept of it, in memory and in documents, are unit vectors, of which nothing is rebuilt or made unit again
    for a picture (E59).
 

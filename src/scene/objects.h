@@ -1,5 +1,5 @@
 /* objects.h - the objects of a scene: each with surface, pose, place, material and table of its own, under the same lights
-   and camera. Layer 4.
+   and camera.
 
    Objects are numbered from 0 in the order in which they were added. One is at hand: its properties are the members of
    WrScene, and commands act on it. The others hang in `others` as scenes of one object each, whose lights, camera and

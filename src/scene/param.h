@@ -1,7 +1,6 @@
 /* param.h - what of a scene is a number, a vector, a colour or a switch, each in one row: the command that sets it, its
    range, unit, default and words. Commands, the lines that a document keeps, a new scene and the window's panels go by
-   it. What is a choice is a row of wr_dials (scene/dials.h).
-   Layer 4. */
+   it. What is a choice is a row of wr_dials (scene/dials.h). */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,7 +2,7 @@
    lights, camera, dials. Plain data with defaults and checks.
    A scene may hold several objects (objects.h). What stands here of one (surface to place) is of the one at
    hand, which commands act on; the others are scenes of one object each.
-   Layer 4. A scene that is shared is never written to: edits clone it (wr_scene_clone), so a
+   A scene that is shared is never written to: edits clone it (wr_scene_clone), so a
    snapshot is one pointer. World space is right-handed, y up; colours are linear; angles here in
    degrees. */
 #pragma once

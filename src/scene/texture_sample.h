@@ -1,6 +1,5 @@
 /* texture_sample.h - a picture that is laid over u and v, looked up in double: what pictures are measured against and what
-   inspectors tell. The kernels have look-ups of their own, on purpose.
-   Layer 4. */
+   inspectors tell. The kernels have look-ups of their own, on purpose. */
 #pragma once
 #include "scene/scene.h"
 

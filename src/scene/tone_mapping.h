@@ -1,5 +1,5 @@
 /* tone_mapping.h - how light becomes the 8-bit codes of a picture: exposure, and what is done with light that no code can show.
-   Layer 4. Float pictures keep the light as it is. */
+   Float pictures keep the light as it is. */
 #pragma once
 #include <stdbool.h>
 

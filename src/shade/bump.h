@@ -1,6 +1,6 @@
 /* bump.h - the paper in one page: how F(u,v) turns the normal of P(u,v). The meaning; every faster
    form must agree with it.
-   Layer 3. Double precision; N = Pu x Pv is not unit; n = N/|N| or its limit where N = 0.
+   Double precision; N = Pu x Pv is not unit; n = N/|N| or its limit where N = 0.
 
    blinn      N' = N + D,  D = Fu (n x Pv) - Fv (n x Pu)                       Blinn 1978 section 2
               drops the terms in F: right while F is small against the radii of curvature.

@@ -1,5 +1,4 @@
-/* bump_mode.h - the ways in which a table turns the normal, by name; what each means is in bump.h.
-   Layer 3. */
+/* bump_mode.h - the ways in which a table turns the normal, by name; what each means is in bump.h. */
 #pragma once
 
 typedef enum WrBumpMode {

@@ -1,6 +1,5 @@
 /* environment_blur.h - surroundings blurred by a lobe: for each direction the mean of what comes from about it. By spherical harmonics:
-   a lobe about an axis multiplies those of each order by one number.
-   Layer 3. */
+   a lobe about an axis multiplies those of each order by one number. */
 #pragma once
 #include "shade/environment_brdf.h"
 #include "shade/environment_map.h"

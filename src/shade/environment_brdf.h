@@ -1,6 +1,6 @@
 /* environment_brdf.h - how a surface reflects its surroundings: for each model the shares of diffuse light and of what lies about the
    mirrored direction, as polynomials, and the lobe that the latter is blurred by.
-   Layer 3. The reference renderer integrates a lamp's formulas over all directions instead.
+   The reference renderer integrates a lamp's formulas over all directions instead.
 
    A lamp's share is pi f (n.l) (shade/reflection.h), so surroundings give (1/pi) of its integral with L over directions:
      diffuse    kd matt(n.v) E(n') / pi         exact under one colour; else matt is taken as if it did not depend on l

@@ -1,6 +1,5 @@
 /* environment_map.h - surroundings as a light: a picture by longitude and latitude of what comes from each direction, out of a
    file or of a built-in set, and what diffuse light takes of it.
-   Layer 3.
 
    y is up. The picture's middle is -z, +x is at three quarters of its width, as seen from inside:
      u = 1/2 + atan2(x, -z) / 2 pi,   v = 1/2 + atan2(y, hypot(x, z)) / pi

@@ -1,6 +1,6 @@
 /* environment_map_body.h - light of surroundings at one sample: the formulas, written once for both precisions and for every
    kernel, after reflection_body.h.
-   Layer 3. No branch but ?:. No include guard: compiled once a precision. The reference renderer has its own. */
+   No branch but ?:. No include guard: compiled once a precision. The reference renderer has its own. */
 
 /* E / pi of a direction n by wr_environment_map_form's terms; nowhere below 0. */
 R_INLINE REAL surround_light(const REAL *f, VEC n)

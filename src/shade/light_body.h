@@ -1,5 +1,5 @@
 /* light_body.h - light and reflection at one sample: the formulas, written once for both precisions and for every kernel.
-   Layer 3. After surface/formula.h's names for one precision, or the kernels' (render/kernels/kern_body.h): REAL, VEC, K_,
+   After surface/formula.h's names for one precision, or the kernels' (render/kernels/kern_body.h): REAL, VEC, K_,
    R_INLINE, v_dot, r_sqrt, r_pow_below. No branch but ?:, so that loops over samples vectorise. No include guard:
    compiled once a precision. The reference renderer has its own, on purpose.
 

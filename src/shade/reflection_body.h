@@ -1,6 +1,6 @@
 /* reflection_body.h - what a surface reflects of one lamp, by the models of shade/reflection.h but Blinn-Phong's, which is
    light_body.h's: pi f (n.l) at one sample. Written once for both precisions and for every kernel, after light_body.h.
-   Layer 3. No branch but ?:, so that loops over samples vectorise; what is the same for all samples is an argument that
+   No branch but ?:, so that loops over samples vectorise; what is the same for all samples is an argument that
    is known when it is compiled. No include guard: compiled once a precision. The reference renderer has its own.
 
      phong              kd (n.l) + ks (r.v)^s,  r = 2 (n.l) n - l                               Phong 1975

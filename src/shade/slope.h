@@ -1,5 +1,5 @@
 /* slope.h - from what a table holds to what turns the normal: height, replication and the unit of length.
-   Layer 3. The reference renderer has its own, on purpose. */
+   The reference renderer has its own, on purpose. */
 #pragma once
 #include "shade/bump.h"
 

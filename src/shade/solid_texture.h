@@ -1,6 +1,6 @@
 /* solid_texture.h - solid textures: a pattern in space out of which an object is cut, so that its grain goes through it and stays
    where it is however the object turns.
-   Layer 3. The reference renderer has formulas of its own, on purpose.
+   The reference renderer has formulas of its own, on purpose.
 
    At the point P of the object, in scene units, before it is turned and stretched:
 

@@ -1,6 +1,6 @@
 /* solid_texture_body.h - solid textures over boxes: what patterns come to where a pixel holds w of them, in closed form. Written once
    for both precisions and for every kernel, after light_body.h.
-   Layer 3. No branch but ?:. No include guard: compiled once a precision. The reference renderer has its own.
+   No branch but ?:. No include guard: compiled once a precision. The reference renderer has its own.
 
    t is where a pixel's middle lies in the pattern, w how much of it the pixel holds: the side of a box.
 

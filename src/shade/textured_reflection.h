@@ -1,7 +1,7 @@
 /* textured_reflection.h - what reflection goes by where roughness and metalness are not the same everywhere: the shares of light that are
    worked out once for a material, at sixteenths of roughness, between which they go straight; and the rungs that
    surroundings are blurred by.
-   Layer 3. The reference renderer works each place out by itself. */
+   The reference renderer works each place out by itself. */
 #pragma once
 #include "shade/environment_brdf.h"
 

@@ -1,6 +1,6 @@
 /* data.h - what numbers alone do not say of a surface: the texts that its command gives, and what was made of them once
    for all samples. Shared and never changed.
-   Layer 2. Owned by the scene that a shape belongs to (wr_scene_set_shape); shapes borrow it. */
+   Owned by the scene that a shape belongs to (wr_scene_set_shape); shapes borrow it. */
 #pragma once
 #include "surface/expression.h"
 #include "surface/profile.h"

@@ -1,6 +1,5 @@
 /* expression.h - formulas of the user's own: an expression in u and v as a program for a machine with a stack, run with
    exact first and second derivatives (second-order dual numbers), over one sample or many (expression_body.h).
-   Layer 2.
 
      numbers, u, v, pi;  + - * / ^, parentheses;  sqrt sin cos exp log abs (x),  pow atan2 min max (x, y); angles in radians
      ^ binds before the sign and from the right: -2^2 = -4, 2^3^2 = 512 */

@@ -1,6 +1,6 @@
 /* patches.h - sets of bicubic Bezier patches: the teapot. Each is cut into triangles, by which rays find it (triangles.h);
    place, normal and tangents are then its own, at the (u,v) where the ray meets it (bezier.h has the formulas).
-   Layer 2. Object space, the file's own unit and axes. Knows no files. Immutable once made.
+   Object space, the file's own unit and axes. Knows no files. Immutable once made.
 
    Patches that share a whole edge, bit for bit, either way round, are neighbours, and have the same places along it: no
    ray passes between them (HC85). An edge whose four points are one has no length: the normal there is the limit that

@@ -1,5 +1,5 @@
 /* patches_internal.h - a set of patches while it is made.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include "surface/patches.h"
 

@@ -1,5 +1,4 @@
 /* profile.h - the profile of a surface of revolution: a smooth curve through points (r, z), as cubics along v.
-   Layer 2.
 
    v goes by the length of the chords between the points, 0..1, so that the table is stretched alike all along. Between
    corners the curve is the cubic spline with continuous curvature, straight at its ends. A point given twice in a row is

@@ -1,6 +1,6 @@
 /* surface.h - parametric surfaces P(u,v), 0 <= u,v <= 1, oriented so that N = Pu x Pv points
    outward or up. One file each (plane.h, torus.h, ...), one list of them (surface_list.h).
-   Layer 2. Object space; lengths in scene units; angles of parametrisation are whole turns,
+   Object space; lengths in scene units; angles of parametrisation are whole turns,
    phi = 2 pi u. */
 #pragma once
 #include "base/vec.h"

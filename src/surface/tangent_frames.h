@@ -1,6 +1,5 @@
 /* tangent_frames.h - tangent frames of triangles, for maps that are baked in them. Heights need none: their slopes go by
-   wr_triangle_gradients (triangles.h), which is exact where frames are not there or lose the shear.
-   Layer 2. */
+   wr_triangle_gradients (triangles.h), which is exact where frames are not there or lose the shear. */
 #pragma once
 #include "surface/triangles.h"
 

@@ -1,7 +1,6 @@
 /* terrain.h - heights in rows as bicubic patches: a uniform cubic B-spline through nothing and near everything, C2, each
    cell of which is one patch, bit for bit with its neighbours. z = h(u,v) over the rectangle 0..a, 0..b, so Pu x Pv points
-   up; laid out by WR_PATCH_SPLIT the chart's u and v run over the whole of it.
-   Layer 2. */
+   up; laid out by WR_PATCH_SPLIT the chart's u and v run over the whole of it. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

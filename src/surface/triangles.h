@@ -1,6 +1,6 @@
 /* triangles.h - a surface of triangles: corners with normals and texture coordinates, in parts with the names of
    their materials.
-   Layer 2. Object space, the file's own unit and axes. Knows no files: image/mesh.h reads those. Immutable once made:
+   Object space, the file's own unit and axes. Knows no files: image/mesh.h reads those. Immutable once made:
    any number of threads may read it.
 
    What is made of what a file says:

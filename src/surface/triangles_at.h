@@ -1,5 +1,5 @@
 /* triangles_at.h - the places of a mesh, or of a set of patches, that have given texture coordinates.
-   Layer 2. Texture coordinates are compared modulo 1, as the table repeats; where they overlap there are several places,
+   Texture coordinates are compared modulo 1, as the table repeats; where they overlap there are several places,
    and none where the mesh leaves a gap. */
 #pragma once
 #include "surface/surface.h"

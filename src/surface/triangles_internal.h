@@ -1,5 +1,5 @@
 /* triangles_internal.h - a mesh while it is made.
-   Private to this room. */
+   Private to this module. */
 #pragma once
 #include "surface/triangles.h"
 

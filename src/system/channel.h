@@ -1,5 +1,5 @@
 /* channel.h - two processes of this machine that talk, and hand open files to each other.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

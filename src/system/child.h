@@ -1,5 +1,5 @@
 /* child.h - other processes: programs that are started, copies of this one, and how they ended.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include "system/process.h"
 

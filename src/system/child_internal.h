@@ -1,5 +1,5 @@
 /* child_internal.h - what the files of processes know of one another.
-   Private to this room. */
+   Belongs to one system; private to this module. */
 #pragma once
 #include "system/child.h"
 

@@ -1,5 +1,5 @@
 /* clock.h - monotonic time, and the calendar.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* fd.h - open files by their numbers. Every one is closed in programs that are started from here.
    Where a function fails, errno says why.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

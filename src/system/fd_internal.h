@@ -1,5 +1,5 @@
 /* fd_internal.h - what the files of descriptors know of one another.
-   Private to this room. */
+   Belongs to one system; private to this module. */
 #pragma once
 #include "system/fd.h"
 

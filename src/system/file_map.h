@@ -1,5 +1,5 @@
 /* file_map.h - files seen as memory.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

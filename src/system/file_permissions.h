@@ -1,5 +1,5 @@
 /* file_permissions.h - who may do what with a file that replaces another.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 

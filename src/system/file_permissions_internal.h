@@ -1,5 +1,5 @@
 /* file_permissions_internal.h - the part of rights that only Linux has.
-   Private to this room. */
+   Belongs to one system; private to this module. */
 #pragma once
 #include <stdbool.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 /* file_watch.h - being told that a file was changed, while nothing is asked meanwhile where the system tells.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 /* large_pages.h - how the system hands out large blocks of memory.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stddef.h>
 #include <stdint.h>

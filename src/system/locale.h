@@ -1,5 +1,5 @@
 /* locale.h - numbers as C writes them, whatever language a library has set for the program.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stddef.h>
 

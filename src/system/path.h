@@ -1,5 +1,5 @@
 /* path.h - files by their names. Where a function fails, errno says why.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include "system/fd.h"
 

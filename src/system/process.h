@@ -1,5 +1,5 @@
 /* process.h - this process: what it has, what ends it.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

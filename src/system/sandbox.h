@@ -1,6 +1,6 @@
 /* sandbox.h - what a child of the reader process gives up before it looks at a stranger's file.
    Part of the reader process alone: a library of its own, wr_sandbox.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>

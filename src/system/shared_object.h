@@ -1,5 +1,5 @@
 /* shared_object.h - shared objects that are loaded while the program runs.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 
 /* Load it with all that it needs; its names are nobody else's. NULL, and wr_object_why says why. */

@@ -1,7 +1,7 @@
 /* thread.h - threads, and what they wait for. The types are the system's own, so that they can stand in a struct; only
    these functions are asked for anything.
    Why not those of C: sanitizers do not see them, and macOS has none.
-   Belongs to one system (src/README.md). Layer 0. */
+   Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <pthread.h>
 #include <stdbool.h>
