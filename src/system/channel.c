@@ -1,5 +1,5 @@
-/* Sockets of the machine itself. What is newer than most systems is asked for where the headers have it; else a
-   descriptor is marked after it was made. */
+/* Local sockets. Features missing on older systems are used where the headers have them; otherwise a
+   descriptor is marked close-on-exec after its creation. */
 #include "system/channel.h"
 
 #include <errno.h>
@@ -118,7 +118,7 @@ void wr_channel_end(int channel)
     shutdown(channel, SHUT_WR);
 }
 
-/* Keep the first descriptors of a message, close all others. */
+/* Keeps the first descriptors of a message and closes all others. */
 static void take_files(struct msghdr *message, int *files, int count)
 {
     int have = 0;

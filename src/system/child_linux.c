@@ -1,4 +1,4 @@
-/* Processes: what Linux and its C library have of their own. */
+/* Processes: the functions that Linux and its C library add to POSIX. */
 #include "system/child_internal.h"
 
 #include "system/fd.h"
@@ -30,14 +30,14 @@ static void place(int fd, int as)
     else if (fd >= 0) dup2(fd, as);
 }
 
-/* In the child, which has this process's memory until it becomes the program. */
+/* Runs in the child, which shares this process's memory until it executes the program. */
 static void become(const WrChildStart *start, pid_t parent)
 {
     char *const *arguments = (char *const *)start->arguments;
     sigset_t none;
     for (int number = 1; number < NSIG; number++) signal(number, SIG_DFL);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(127); /* it died before the line above */
+    if (getppid() != parent) _exit(127); /* the parent died before the line above */
     setsid();
     place(start->in, STDIN_FILENO);
     place(start->out, STDOUT_FILENO);
@@ -49,7 +49,7 @@ static void become(const WrChildStart *start, pid_t parent)
     else execv(start->program, arguments);
 }
 
-/* No handler of ours may run in the child, whose memory is ours. */
+/* Signals are blocked: no handler may run in the child, which shares this process's memory. */
 int wr_child_start_bound(const WrChildStart *start, WrPid *child)
 {
     const pid_t parent = getpid();
@@ -76,7 +76,7 @@ static void only_ended(sigset_t *set)
     sigaddset(set, SIGCHLD);
 }
 
-/* Before libraries start threads of their own, which would swallow it. */
+/* Blocked before libraries start threads, which would otherwise receive the signal. */
 void wr_children_hold(void)
 {
     sigset_t ended;

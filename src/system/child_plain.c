@@ -1,6 +1,7 @@
-/* Processes: what any POSIX system gets. Missing here: closing all that a started program should not get (what is opened
-   here has the mark for that; what a library opens may lack it, and the reader closes everything by itself), a session of
-   its own from the start (the reader makes one), an end with the thread that started it. */
+/* Processes: fallback for any POSIX system. Missing here: closing all descriptors that a started
+   program should not inherit (descriptors opened by the program are marked; those of libraries may not
+   be, and the reader closes everything by itself), a session of its own from the start (the reader
+   creates one), termination together with the starting thread. */
 #include "system/child_internal.h"
 
 #include "system/fd.h"
@@ -11,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The text may be overwritten by the next call: it is copied at once by who asks. */
+/* The text may be overwritten by the next call, so callers copy it at once. */
 const char *wr_child_crash(int number)
 {
     return strsignal(number);
@@ -31,14 +32,14 @@ int wr_child_start_bound(const WrChildStart *start, WrPid *child)
     return -1;
 }
 
-/* A pipe to itself: a signal's handler may write to it. */
+/* A pipe to this process itself: a signal handler may write to it. */
 static int ends[2] = { -1, -1 };
 
 static void note(int number)
 {
     int saved = errno;
     (void)number;
-    if (write(ends[1], "", 1) < 0) errno = saved; /* full: that is news enough */
+    if (write(ends[1], "", 1) < 0) errno = saved; /* a full pipe already signals the news */
     errno = saved;
 }
 

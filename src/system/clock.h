@@ -1,16 +1,16 @@
-/* clock.h - monotonic time, and the calendar.
+/* clock.h - monotonic time, processor time and calendar dates.
    Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>
 #include <time.h>
 
-/* Seconds since an arbitrary start, monotonic, about 1e-8 s fine. */
+/* Seconds since an arbitrary start, monotonic, resolution about 1e-8 s. */
 double wr_clock_seconds(void);
-/* Seconds that the calling thread has worked: what others do on the machine does not count. */
+/* Processor seconds of the calling thread; other load on the machine does not count. */
 double wr_clock_thread_seconds(void);
-double wr_clock_process_seconds(void); /* the same of all threads of the program together */
+double wr_clock_process_seconds(void); /* processor seconds of all threads of the program */
 
-/* The date of a second since 1970, here and in Greenwich; any thread. */
+/* Converts seconds since 1970 to a date in local time and in UTC; any thread. */
 bool wr_clock_local(int64_t seconds, struct tm *date);
 bool wr_clock_universal(int64_t seconds, struct tm *date);

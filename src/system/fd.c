@@ -17,7 +17,7 @@ static WrKind kind_of(mode_t mode)
     return S_ISCHR(mode) || S_ISBLK(mode) ? WR_KIND_DEVICE : WR_KIND_OTHER;
 }
 
-/* Apple's name for the times was there before the standard's. */
+/* Apple's names of the time members are older than the standard's. */
 #ifdef __APPLE__
 #define st_mtim st_mtimespec
 #define st_ctim st_ctimespec
@@ -197,7 +197,7 @@ bool wr_fd_sync(int fd)
 
 bool wr_fd_sync_bytes(int fd)
 {
-#ifdef __APPLE__ /* has the other, and declares this one nowhere */
+#ifdef __APPLE__ /* macOS has the other call, and does not declare this one */
     return fsync(fd) == 0;
 #else
     return fdatasync(fd) == 0;

@@ -1,5 +1,6 @@
-/* fd.h - open files by their numbers. Every one is closed in programs that are started from here.
-   Where a function fails, errno says why.
+/* fd.h - open files (descriptors). All of them are closed in started programs.
+
+   Functions that fail set errno.
    Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
@@ -11,7 +12,7 @@
 extern "C" {
 #endif
 
-/* ---- what a file is ---- */
+/* ---- file information ---- */
 
 typedef enum WrKind {
     WR_KIND_FILE,
@@ -25,11 +26,11 @@ typedef enum WrKind {
 
 typedef struct WrFileInfo {
     WrKind kind;
-    uint64_t device, inode; /* together: which file it is */
-    uint64_t links;         /* names that it has */
+    uint64_t device, inode; /* both together identify the file */
+    uint64_t links;         /* number of hard links */
     int64_t bytes;
-    int64_t seconds, nanoseconds;                 /* of the last change to its bytes, since 1970 */
-    int64_t changed_seconds, changed_nanoseconds; /* of the last change to anything of it */
+    int64_t seconds, nanoseconds;                 /* of the last content change, since 1970 */
+    int64_t changed_seconds, changed_nanoseconds; /* of the last change of content or metadata */
 } WrFileInfo;
 
 bool wr_fd_info(int fd, WrFileInfo *info);
@@ -39,84 +40,84 @@ bool wr_fd_info(int fd, WrFileInfo *info);
 enum {
     WR_OPEN_READ = 1,
     WR_OPEN_WRITE = 2,
-    WR_OPEN_CREATE = 4,    /* if it is not there */
-    WR_OPEN_NEW = 8,       /* it must not be there */
-    WR_OPEN_EMPTY = 16,    /* what is in it goes */
-    WR_OPEN_APPEND = 32,   /* every write goes to its end */
-    WR_OPEN_NO_LINK = 64,  /* a link at the end of the path is an error */
-    WR_OPEN_NO_WAIT = 128, /* for nobody at the other end of a pipe; no terminal becomes ours */
-    WR_OPEN_PRIVATE = 256  /* a new one is nobody else's to read */
+    WR_OPEN_CREATE = 4,    /* create it if missing */
+    WR_OPEN_NEW = 8,       /* fail if it exists */
+    WR_OPEN_EMPTY = 16,    /* truncate */
+    WR_OPEN_APPEND = 32,   /* every write appends */
+    WR_OPEN_NO_LINK = 64,  /* fail if the path is a symbolic link */
+    WR_OPEN_NO_WAIT = 128, /* do not wait for the other end of a pipe; do not adopt a controlling
+                              terminal */
+    WR_OPEN_PRIVATE = 256  /* a new file is accessible by its owner only */
 };
 
 int wr_fd_open(const char *path, unsigned how); /* -1 */
 bool wr_fd_close(int fd);
-int wr_fd_copy(int fd); /* another number of the same opening; -1 */
-/* The C library's stream of it, which closes it; NULL, and fd is as it was. */
+int wr_fd_copy(int fd); /* duplicate that shares the position; -1 */
+/* A C stream for it, which closes it; on failure NULL, and fd is unchanged. */
 FILE *wr_fd_stream(int fd, const char *mode);
 bool wr_stream_seek(FILE *stream, int64_t at);
 int64_t wr_stream_tell(FILE *stream);
-int wr_stream_byte(FILE *stream); /* as getc, for who has the stream to himself */
+int wr_stream_byte(FILE *stream); /* getc for streams used by one thread only */
 bool wr_stream_info(FILE *stream, WrFileInfo *info);
 
-/* A name under which a library that takes nothing but names can open what is open here. Opening it again need not
-   give a position of its own: seek first. */
+/* A name by which a library that accepts only names can open this descriptor. The second opening may
+   share the position: seek first. */
 #define WR_FD_NAME 32
 void wr_fd_name(int fd, char name[WR_FD_NAME]);
-/* Open for reading once more. On Linux with a position of its own. */
+/* Opens the file again for reading. On Linux with a position of its own. */
 int wr_fd_again(int fd);
 
-/* Close all from `from` to `to`, both counted in; to < 0: all from `from`. */
+/* Closes all from `from` to `to` inclusive; to < 0: no upper end. */
 void wr_fd_close_range(int from, int to);
-/* `to` becomes another number of `fd`, which stays in programs that are started. */
+/* Makes `to` a duplicate of `fd` that started programs inherit. */
 bool wr_fd_place(int fd, int to);
-/* Another number of `fd` that is at least `least`; likewise. */
+/* A duplicate of `fd`, at least `least`, that started programs inherit. */
 int wr_fd_copy_above(int fd, int least);
-/* Standard input, output and error, by their numbers, lead nowhere. */
+/* Redirects standard input, output or error, by number, to nowhere. */
 #define WR_FD_IN 0
 #define WR_FD_OUT 1
 #define WR_FD_ERR 2
 bool wr_fd_nowhere(int fd);
-int wr_fd_open_nowhere(void); /* what reads as empty and forgets what is written; -1 */
+int wr_fd_open_nowhere(void); /* reads as empty and discards all writes; -1 */
 
 /* ---- bytes ---- */
 
-/* Up to `length` bytes, whatever interrupts it; 0 at the end, -1. */
+/* Reads up to `length` bytes, also after interrupts; 0 at the end, -1 on failure. */
 int64_t wr_fd_read(int fd, void *bytes, size_t length);
 int64_t wr_fd_read_at(int fd, void *bytes, size_t length, int64_t at);
-/* All of them, whatever interrupts it. */
+/* Writes all bytes, also after interrupts. */
 bool wr_fd_write(int fd, const void *bytes, size_t length);
 bool wr_fd_write_at(int fd, const void *bytes, size_t length, int64_t at);
-/* Where the next byte is read or written; -1. */
+/* Position of the next byte read or written; -1. */
 int64_t wr_fd_seek(int fd, int64_t at);
 int64_t wr_fd_tell(int fd);
 bool wr_fd_cut(int fd, int64_t length);
-/* From where both are to the end of `from`, by the file system itself, which may share blocks. 1: done; 0: it
-   cannot, nothing was copied; -1: it failed on the way. */
+/* Copies from both present positions to the end of `from` in the file system, which may share blocks.
+   1: done; 0: unsupported, nothing was copied; -1: failed midway. */
 int wr_fd_copy_blocks(int from, int to);
 
-/* Give back the room of bytes that nobody will read again, which become 0; where that cannot be, nothing happens. */
+/* Frees the space of bytes that are no longer needed; they become 0. Does nothing where unsupported. */
 void wr_fd_forget(int fd, int64_t at, int64_t length);
 
-bool wr_fd_sync(int fd);       /* bytes and facts are on the disk */
-bool wr_fd_sync_bytes(int fd); /* the bytes, and what finding them needs */
+bool wr_fd_sync(int fd);       /* content and metadata are on the disk */
+bool wr_fd_sync_bytes(int fd); /* content and the metadata needed to find it */
 
-/* A lock that goes with the opening, for those who ask for one; nobody waits. */
+/* Advisory lock of the open file; never waits. */
 typedef enum WrLock { WR_LOCK_NONE, WR_LOCK_SHARED, WR_LOCK_ALONE } WrLock;
 bool wr_fd_lock(int fd, WrLock lock);
 
 /* ---- files without a name ---- */
 
-/* An empty file in memory, or where that cannot be in the folder for temporary files; -1. name: for those who list
+/* An empty file in memory, or in the temporary folder where unsupported; -1. name: shown in lists of
    open files. */
 int wr_fd_memory(const char *name);
-/* One of `bytes` zeros that nobody who gets it can make shorter or longer; -1, also where the system knows no such
-   thing. */
+/* A memory file of `bytes` zeros whose size no recipient can change; -1, also where unsupported. */
 int wr_fd_memory_fixed(const char *name, size_t bytes);
 
-/* Both ends of a pipe: [0] is read, [1] written. wait false: neither end ever waits. */
+/* Both ends of a pipe: [0] is read, [1] written. wait false: neither end blocks. */
 bool wr_fd_pipe(int ends[2], bool wait);
 
-/* Bytes that nobody can know beforehand. */
+/* Unpredictable bytes. */
 bool wr_random_bytes(void *bytes, size_t length);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* fd_internal.h - what the files of descriptors know of one another.
+/* fd_internal.h - functions shared by the fd*.c files.
    Belongs to one system; private to this module. */
 #pragma once
 #include "system/fd.h"

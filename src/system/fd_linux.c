@@ -1,4 +1,4 @@
-/* Descriptors: what Linux has of its own. */
+/* Descriptors: the functions that Linux adds to POSIX. */
 #include "system/fd.h"
 
 #include <errno.h>

@@ -1,8 +1,9 @@
-/* Descriptors: what any POSIX system gets.
-   Missing here: files in memory (they lie in the folder for temporary files, without a name, and a full disk shows; room
-   in the middle of them is not given back), a size that nobody can change (so no rows of a picture are shared with a
-   process that reads strangers' files), copies that share blocks. Between the making of a descriptor and its mark, a
-   program that another thread starts gets it. */
+/* Descriptors: fallback for any POSIX system.
+
+   Missing here: files in memory (they are unnamed files of the temporary folder, can fill the disk, and
+   do not release space in their middle); files of fixed size (so rows of an image are not shared with
+   the reader process); copies that share blocks. A program that another thread starts between the
+   creation of a descriptor and its marking inherits it. */
 #include "system/fd.h"
 
 #include <errno.h>
@@ -11,7 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Such a name gives another number of the same opening, or on some systems only the first three have one. */
+/* On some systems such a name is a duplicate with a shared position, or exists only for the first three
+ * descriptors. */
 void wr_fd_name(int fd, char name[WR_FD_NAME])
 {
     snprintf(name, WR_FD_NAME, "/dev/fd/%d", fd);

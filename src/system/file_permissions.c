@@ -20,7 +20,8 @@ bool wr_rights_give_old(int fd, const char *path)
         mode &= (mode_t)~070;
     if (fstat(fd, &now) != 0) return false;
     if (now.st_uid != old.st_uid || now.st_gid != old.st_gid) mode &= (mode_t)~06000;
-    /* With such a list the mode's middle bits are no group's rights but the most that anyone has. */
+    /* With such a list, the group bits of the mode are the mask of the maximum rights, not those of the
+       group. */
     if (!wr_rights_copy_list(fd, path, now.st_gid == old.st_gid)) mode &= (mode_t)~070;
     return fchmod(fd, mode) == 0;
 }

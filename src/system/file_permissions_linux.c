@@ -1,4 +1,4 @@
-/* Lists of rights, which Linux keeps as attributes, and the user's mask, which it tells. */
+/* Access control lists, which Linux stores as extended attributes, and the user's mask. */
 #include "system/file_permissions_internal.h"
 
 #include "system/fd.h"
@@ -11,7 +11,7 @@
 
 #define ACL "system.posix_acl_access"
 #define ACL_PASSED_ON "system.posix_acl_default"
-#define ACL_MAX 65536 /* bytes of a list of rights */
+#define ACL_MAX 65536 /* bytes of an access control list */
 
 static mode_t read_umask(void)
 {
@@ -22,13 +22,13 @@ static mode_t read_umask(void)
     text[n > 0 ? n : 0] = '\0';
     const char *line = strstr(text, "\nUmask:");
     if (line) return (mode_t)strtoul(line + 7, NULL, 8);
-    mode_t mask = umask(0077); /* without /proc there is no other way to ask */
+    mode_t mask = umask(0077); /* without /proc the mask can be read only by setting it */
     umask(mask);
     return mask;
 }
 
-/* What a folder's list gives its new files, as a mode: owner, mask or else group, others. A list is a version of
-   32 bits and entries of 64: kind, rights, whose; linux/posix_acl_xattr.h. */
+/* Rights that a folder's default list gives to new files, as a mode: owner, mask or else group, others.
+   A list consists of a 32-bit version and 64-bit entries: kind, rights, id; linux/posix_acl_xattr.h. */
 static mode_t passed_on(const char *list, size_t length)
 {
     mode_t owner = 0, group = 0, mask = 0, others = 0;
@@ -60,6 +60,6 @@ bool wr_rights_copy_list(int fd, const char *path, bool same_group)
     char list[ACL_MAX];
     ssize_t length = getxattr(path, ACL, list, sizeof list);
     if (length > 0) return same_group && fsetxattr(fd, ACL, list, (size_t)length, 0) == 0;
-    fremovexattr(fd, ACL); /* which the folder may have passed on */
+    fremovexattr(fd, ACL); /* may have been inherited from the folder */
     return true;
 }

@@ -1,6 +1,7 @@
-/* Rights as every POSIX system has them: owner, group and mode. Missing here: lists of rights, which each system keeps
-   in a way of its own; a file that is replaced loses the one it had, and so gives nobody a right that its mode does not
-   give. The mask is asked for by setting it: a file that another thread makes in that moment is nobody else's. */
+/* Permissions on any POSIX system: owner, group and mode. Missing here: access control lists, which
+   differ between systems. A replaced file loses its list, so nobody gets a right that the mode does not
+   grant. The mask is read by setting it to the strictest value: a file that another thread creates in
+   that moment is accessible by its owner only. */
 #include "system/file_permissions_internal.h"
 
 mode_t wr_rights_of_new(const char *folder)

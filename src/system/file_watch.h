@@ -1,21 +1,22 @@
-/* file_watch.h - being told that a file was changed, while nothing is asked meanwhile where the system tells.
+/* file_watch.h - notification of file changes, without polling where the system supports it.
    Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stdbool.h>
 
 typedef struct WrWatch WrWatch;
 
-/* Watch what stands under that name, and behind it where it is a link: it may be written, or replaced by another file,
-   or be gone for a while. Its folder must be there. NULL: errno says why not. */
+/* Watches a path, and its target if it is a link. The file may be written, replaced, or missing for a
+   while. Its folder must exist. NULL: errno has the reason. */
 WrWatch *wr_watch_new(const char *path);
-void wr_watch_free(WrWatch *watch); /* NULL is fine */
-/* Another name as well, of which there may be many. False: errno says why not, and the others are still watched. */
+void wr_watch_free(WrWatch *watch); /* NULL is allowed */
+/* Adds another path; any number. False: errno has the reason, and the others are still watched. */
 bool wr_watch_add(WrWatch *watch, const char *path);
 
 typedef enum WrWatchEnd {
-    WR_WATCH_NOTHING, /* so long; or an interrupt came */
-    WR_WATCH_CHANGED, /* somebody who wrote to one of them is done, or another file came: perhaps with the same in it */
-    WR_WATCH_LOST /* a folder is gone */
+    WR_WATCH_NOTHING, /* timeout or interrupt */
+    WR_WATCH_CHANGED, /* a writer has closed one of the files, or it was replaced; the content may
+                         be equal */
+    WR_WATCH_LOST     /* a folder was removed */
 } WrWatchEnd;
-/* Sleep until then, `seconds` at most. */
+/* Sleeps until a change, `seconds` at most. */
 WrWatchEnd wr_watch_wait(WrWatch *watch, double seconds);

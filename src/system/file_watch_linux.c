@@ -1,4 +1,5 @@
-/* Watching files: inotify, on their folders, since a file that is replaced takes its watch with it. */
+/* File watching with inotify on the folders, because the watch of a file is lost when the file is
+   replaced. */
 #include "system/file_watch.h"
 
 #include "system/path.h"
@@ -14,14 +15,14 @@
 #define WANTED (IN_CLOSE_WRITE | IN_MOVED_TO | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR)
 
 typedef struct Mark {
-    int folder; /* inotify's number of it */
+    int folder; /* inotify's watch number */
     char name[NAME_MAX + 1];
 } Mark;
 
 struct WrWatch {
     int fd;
     int count, room;
-    Mark *marks; /* each name, and what is behind it */
+    Mark *marks; /* each path and its link target */
 };
 
 static bool add(WrWatch *watch, const char *path)
@@ -86,7 +87,7 @@ void wr_watch_free(WrWatch *watch)
 
 static WrWatchEnd judge(const WrWatch *watch, const struct inotify_event *event)
 {
-    if (event->mask & IN_Q_OVERFLOW) return WR_WATCH_CHANGED; /* perhaps */
+    if (event->mask & IN_Q_OVERFLOW) return WR_WATCH_CHANGED; /* possibly */
     for (int i = 0; i < watch->count; i++) {
         if (event->wd != watch->marks[i].folder) continue;
         if (event->mask & (IN_DELETE_SELF | IN_MOVE_SELF)) return WR_WATCH_LOST;
@@ -96,7 +97,7 @@ static WrWatchEnd judge(const WrWatch *watch, const struct inotify_event *event)
     return WR_WATCH_NOTHING;
 }
 
-/* All that was told so far. */
+/* Processes all pending events. */
 static WrWatchEnd take(WrWatch *watch)
 {
     _Alignas(struct inotify_event) char block[16 * (sizeof(struct inotify_event) + NAME_MAX + 1)];

@@ -1,5 +1,5 @@
-/* Watching files where the system does not tell: looked at twice a second, so that a change is seen that much later, and
-   one that leaves size and times as they were is not. */
+/* File watching by polling twice a second: changes are reported late, and a change that keeps size and
+   times is missed. */
 #include "system/file_watch.h"
 
 #include "system/path.h"
@@ -14,7 +14,7 @@
 struct WrWatch {
     WrFileInfo last;
     bool there;
-    WrWatch *more; /* the next name; NULL: none */
+    WrWatch *more; /* the next path; NULL: none */
     char path[];
 };
 
@@ -47,7 +47,7 @@ bool wr_watch_add(WrWatch *watch, const char *path)
 static bool has_changed(WrWatch *watch)
 {
     WrFileInfo now;
-    if (!wr_path_info(watch->path, &now)) return false; /* between two files, or gone */
+    if (!wr_path_info(watch->path, &now)) return false; /* being replaced, or removed */
     const WrFileInfo *last = &watch->last;
     const bool same = watch->there && now.device == last->device && now.inode == last->inode &&
                       now.bytes == last->bytes && now.seconds == last->seconds &&

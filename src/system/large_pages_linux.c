@@ -1,11 +1,11 @@
-/* Large pages on Linux, where the administrator lets programs ask for them. */
+/* Large pages on Linux, where the administrator allows programs to request them. */
 #include "system/large_pages.h"
 
 #include <stdint.h>
 #include <stdio.h>
 #include <sys/mman.h>
 
-#define LARGE ((uintptr_t)2 << 20) /* of most processors; others round by themselves */
+#define LARGE ((uintptr_t)2 << 20) /* size on most processors; others round by themselves */
 
 void wr_pages_large(void *block, size_t bytes)
 {

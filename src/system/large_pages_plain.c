@@ -1,4 +1,4 @@
-/* Where a system hands out pages as it likes. */
+/* Fallback for systems without control over page sizes. */
 #include "system/large_pages.h"
 
 void wr_pages_large(void *block, size_t bytes)

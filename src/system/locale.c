@@ -4,11 +4,11 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#ifdef __APPLE__ /* which has them in a header of its own */
+#ifdef __APPLE__ /* macOS declares them in a header of its own */
 #include <xlocale.h>
 #endif
 
-/* The C locale, whatever a library has set for the process. Made once and kept. */
+/* The C locale, whatever a library has set for the process. Created once. */
 static locale_t c_locale(void)
 {
     static locale_t made;

@@ -1,12 +1,12 @@
-/* locale.h - numbers as C writes them, whatever language a library has set for the program.
+/* locale.h - number formatting and parsing in the C locale, whatever locale a library has set.
    Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <stddef.h>
 
-/* All that the calling thread prints and reads is so from now on, whatever language is set meanwhile. */
+/* Switches the calling thread to the C locale permanently. */
 void wr_locale_keep_plain(void);
-/* With `digits` significant digits, as printf's %.*g. */
+/* Prints with `digits` significant digits, as printf's %.*g. */
 void wr_locale_print_plain(char *text, size_t size, double value, int digits);
-/* As strtod and strtof; *end is what follows. */
+/* As strtod and strtof; *end is the first unread character. */
 double wr_locale_read_double(const char *text, char **end);
 float wr_locale_read_float(const char *text, char **end);

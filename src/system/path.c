@@ -86,7 +86,7 @@ char *wr_path_real(const char *path)
     return realpath(path, NULL);
 }
 
-/* That it makes its own room is not the standard's. */
+/* A buffer allocated by getcwd itself would not be standard. */
 char *wr_path_here(void)
 {
     for (size_t size = 256;; size *= 2) {

@@ -19,7 +19,7 @@ bool wr_process_lives(WrPid process)
 bool wr_process_machine(char *name, size_t size)
 {
     if (gethostname(name, size) != 0) return false;
-    name[size - 1] = '\0'; /* of one that was cut */
+    name[size - 1] = '\0'; /* a truncated name may lack it */
     return true;
 }
 
@@ -59,7 +59,7 @@ void wr_process_limit(WrLimit what, uint64_t most)
     setrlimit(kinds[what], &now);
 }
 
-/* At the soft limit a signal says why; at the hard one, which may not be caught, the process ends. */
+/* At the soft limit a signal reports the reason; the hard limit ends the process and cannot be caught. */
 void wr_process_limit_time(unsigned seconds)
 {
     struct rlimit now;
@@ -78,7 +78,7 @@ void wr_process_leave(int status)
 
 void wr_process_stand_alone(void)
 {
-    setsid(); /* fails for who does so already */
+    setsid(); /* fails if it already leads a session */
 }
 
 bool wr_process_leave_folder(void)
@@ -105,7 +105,7 @@ static void hear(int number)
     alarm(patience);
 }
 
-/* Whatever hangs does not hear. */
+/* Runs when the program has not ended within `patience` seconds. */
 static void give_up(int number)
 {
     (void)number;

@@ -1,4 +1,4 @@
-/* This process: what Linux and its C library tell. */
+/* This process: the functions that Linux and its C library add to POSIX. */
 #include "system/process.h"
 
 #include "system/path.h"
@@ -10,7 +10,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-/* Pages of addresses, and of them in memory. */
+/* Pages of address space, and resident pages. */
 static bool read_pages(unsigned long long pages[2])
 {
     FILE *file = fopen("/proc/self/statm", "re");
@@ -71,7 +71,7 @@ bool wr_process_at_end(void (*work)(int status))
 bool wr_process_die_with(WrPid parent)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    return (WrPid)getppid() == parent; /* else it died before the line above */
+    return (WrPid)getppid() == parent; /* else the parent died before the line above */
 }
 
 void wr_process_keep_rights(void)
@@ -79,7 +79,7 @@ void wr_process_keep_rights(void)
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
 }
 
-/* Whether every other thread of this process sleeps. */
+/* True if every other thread of this process sleeps. */
 static bool others_sleep(void)
 {
     WrFolder *folder = wr_folder_open("/proc/self/task");

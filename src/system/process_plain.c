@@ -1,7 +1,7 @@
-/* This process: what any POSIX system gets. Missing here: how large it is (so trials of journals have no limit on
-   memory, and the status bar tells none), the status at its end (so the end waits for libraries that are still being
-   loaded), an end together with the parent's (a child that a killed program leaves behind ends at its limit of time, or
-   when it next looks at its channel), whether threads sleep. */
+/* This process: fallback for any POSIX system. Missing here: memory size (so journal replays in a copy
+   have no memory limit, and the status bar shows none), the status at exit (so the exit waits for
+   libraries that are being loaded), termination together with the parent (a child left by a killed
+   program ends at its time limit, or when it next reads its channel), thread states. */
 #include "system/process.h"
 
 #include "system/path.h"
@@ -22,9 +22,9 @@ uint64_t wr_process_resident(void)
     return 0;
 }
 
-static char program[4096]; /* written before there are threads */
+static char program[4096]; /* written before threads exist */
 
-/* A path as it is, a name by the folders that programs are looked for in. */
+/* Resolves argument 0: a path directly, a name by searching PATH. */
 static void find_called(const char *argument)
 {
     const char *path = getenv("PATH");
@@ -59,7 +59,7 @@ bool wr_process_has_cage(void)
 
 bool wr_process_has_gpu(void)
 {
-    return true; /* the window library says otherwise by itself */
+    return true; /* assumed; the window library reports a missing GPU itself */
 }
 
 bool wr_process_at_end(void (*work)(int status))

@@ -33,7 +33,7 @@ void wr_sandbox_memory(uint64_t space, uint64_t memory)
     if (memory > 0 && !SANITIZED) wr_process_limit(WR_LIMIT_SPACE, space + memory);
 }
 
-/* Root's rights go first: with them a limit could be raised again. */
+/* Root privileges are dropped first: with them a limit could be raised again. */
 static void drop_rights(void)
 {
     struct __user_cap_header_struct whose = { _LINUX_CAPABILITY_VERSION_3, 0 };
@@ -52,19 +52,20 @@ void wr_sandbox_limit(uint64_t memory, unsigned seconds)
     wr_sandbox_memory(space, memory);
 }
 
-/* Nothing can be opened by a path. Older kernels lack this; the filter holds in any case. */
+/* Landlock: no path can be opened. Older kernels lack it; the system call filter applies in any case. */
 void wr_sandbox_close_files(void)
 {
     struct landlock_ruleset_attr rules = { .handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) -
-                                                                1 }; /* all of the first version */
+                                                                1 }; /* all rights of Landlock's
+                                                                        first version */
     int ruleset = (int)syscall(SYS_landlock_create_ruleset, &rules, sizeof rules, 0);
     if (ruleset < 0) return;
     syscall(SYS_landlock_restrict_self, ruleset, 0);
     close(ruleset);
 }
 
-/* What allocation, threads of the decoders, reading open files and talking on an open socket need. Nothing
- * that takes a path, and nothing that takes the number of a process. */
+/* System calls needed by allocation, decoder threads, reading open files and an open socket. None of
+ * them takes a path or a process number. */
 static const int allowed[] = {
     SCMP_SYS(brk),
     SCMP_SYS(clock_gettime),
@@ -108,18 +109,18 @@ static const int allowed[] = {
     SCMP_SYS(write),
 };
 
-/* Calls that are allowed where one argument, seen through a mask, has a certain value. A call may stand
- * several times; one line that fits is enough. */
+/* Calls allowed only if one masked argument has a certain value. A call may have several rows; one
+ * match is enough. */
 typedef struct Bound {
     int call;
     unsigned argument;
     uint64_t mask, value;
 } Bound;
 
-#define INT 0xffffffffU /* an argument that the system takes as an int */
+#define INT 0xffffffffU /* an argument of type int */
 
 static const Bound bounds[] = {
-    /* Of the file that is open: its flags and copies of it, but no signals when something happens on it. */
+    /* On an open file: flags and duplicates, but no signals on file events. */
     { SCMP_SYS(fcntl), 1, INT, F_GETFD },
     { SCMP_SYS(fcntl), 1, INT, F_SETFD },
     { SCMP_SYS(fcntl), 1, INT, F_GETFL },
@@ -128,7 +129,7 @@ static const Bound bounds[] = {
     { SCMP_SYS(mmap), 2, PROT_EXEC, 0 },
     { SCMP_SYS(mprotect), 2, PROT_EXEC, 0 },
     { SCMP_SYS(clone), 0, CLONE_THREAD | CLONE_VM, CLONE_THREAD | CLONE_VM }, /* no processes */
-    { SCMP_SYS(prlimit64), 0, INT, 0 },                                       /* its own */
+    { SCMP_SYS(prlimit64), 0, INT, 0 },                                       /* own process only */
     { SCMP_SYS(sched_getaffinity), 0, INT, 0 },
 };
 
@@ -143,13 +144,13 @@ static bool allow_calls(scmp_filter_ctx filter)
         struct scmp_arg_cmp fits = SCMP_CMP(b->argument, SCMP_CMP_MASKED_EQ, b->mask, b->value);
         good = good && seccomp_rule_add_array(filter, yes, b->call, 1, &fits) == 0;
     }
-    /* abort() tells its own process, and so the program learns how it ended. */
+    /* abort() signals its own process, so that the parent learns the exit status. */
     good = good && seccomp_rule_add(filter, yes, SCMP_SYS(tgkill), 1,
                                     SCMP_A0(SCMP_CMP_MASKED_EQ, INT, (uint32_t)getpid())) == 0;
     good = good && seccomp_rule_add(filter, yes, SCMP_SYS(fcntl), 2,
                                     SCMP_A1(SCMP_CMP_MASKED_EQ, INT, F_SETFL),
                                     SCMP_A2(SCMP_CMP_MASKED_EQ, O_ASYNC, 0)) == 0;
-    /* The C library turns to clone, whose flags can be looked at. */
+    /* The C library falls back to clone, whose flags the filter can check. */
     return good && seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0) == 0;
 }
 

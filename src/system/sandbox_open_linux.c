@@ -1,10 +1,9 @@
-/* The reader process answers for the one file that it was given, so that decoders which insist on a path
-   need no right to open anything: what the C library's open, fopen, stat and access say of that path is
-   said here, from the descriptor that is open already. They stand before the C library's own for every
-   library of this process; all other paths go on to the system, which refuses them in the cage.
-
-   Weak, because they are not named as ours are. Under other names in C, because the headers' own
-   declarations of them may be inline. */
+/* The reader process replaces open, fopen, stat and access for the one file it was given: they return
+   the descriptor that is already open. So decoders that insist on a path work without the right to open
+   files. The replacements precede the C library's functions for every library of this process; all
+   other paths go to the system, which rejects them in the sandbox. The symbols are weak because their
+   names lack the project prefix. C code uses other names, because the headers may declare these
+   functions inline. */
 #include "system/sandbox_open.h"
 
 #include "system/fd.h"
@@ -19,7 +18,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) /* those have their own */
+/* sanitizers have replacements of their own */
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 #define STANDS_FOR(name) __asm__(name) __attribute__((weak))
 
@@ -40,7 +40,7 @@ static bool is_the_file(const char *path)
     return strcmp(path, name) == 0;
 }
 
-/* From its beginning. The offset is shared with other copies: decoders open one at a time. */
+/* Positioned at the beginning. The offset is shared by all duplicates: decoders open one at a time. */
 static int copy(void)
 {
     int fd = fcntl(WR_SANDBOX_OPEN_FILE, F_DUPFD_CLOEXEC, 0);
@@ -99,7 +99,7 @@ int wr_sandbox_open_access(const char *path, int mode)
     return (int)syscall(SYS_faccessat, AT_FDCWD, path, mode);
 }
 
-/* The C library's own asks by path, with an empty one. */
+/* The C library's fstat passes an empty path, which the filter rejects. */
 int wr_sandbox_open_fstat(int fd, struct stat *info)
 {
     return (int)syscall(SYS_fstat, fd, info);

@@ -1,8 +1,8 @@
-/* No cage: what a POSIX system has for limits does not keep a process from files, nor from other processes. So a
-   stranger's file is refused, with a sentence that says why, unless the user has it read inside the program
-   (WRINKLE_READER=inside) and takes the risk. Files that the program has just written itself are read back inside it.
-   Systems have better: sandbox_init on macOS, pledge on OpenBSD, cap_enter on FreeBSD; a cage of theirs is a file like
-   this one. */
+/* No sandbox: POSIX limits do not keep a process from files or other processes. So untrusted files are
+   rejected with a message that gives the reason, unless the user accepts the risk of reading them
+   inside the program (WRINKLE_READER=inside). Files just written by the program are read back inside
+   it. Other systems have better mechanisms: sandbox_init on macOS, pledge on OpenBSD, cap_enter on
+   FreeBSD; their sandbox would be a file like this one. */
 #include "system/sandbox.h"
 
 #include "system/process.h"

@@ -1,6 +1,7 @@
-/* thread.h - threads, and what they wait for. The types are the system's own, so that they can stand in a struct; only
-   these functions are asked for anything.
-   Why not those of C: sanitizers do not see them, and macOS has none.
+/* thread.h - threads, mutexes and condition variables.
+
+   The types contain the system's own, so that they can be struct members; use them only by these
+   functions. C threads are not used because sanitizers do not support them and macOS lacks them.
    Belongs to one system: platform code, see src/README.md. */
 #pragma once
 #include <pthread.h>
@@ -18,7 +19,7 @@ typedef struct WrThread {
     pthread_t it;
 } WrThread;
 
-/* Of what is not made by the functions below but is there from the start. */
+/* Static initialisers. */
 #define WR_MUTEX_READY                                                                             \
     {                                                                                              \
         PTHREAD_MUTEX_INITIALIZER                                                                  \
@@ -35,30 +36,31 @@ void wr_mutex_unlock(WrMutex *mutex);
 
 void wr_cond_init(WrCond *cond);
 void wr_cond_fini(WrCond *cond);
-void wr_cond_wait(WrCond *cond, WrMutex *mutex); /* may return without cause */
-/* At most about that long, whatever is done to the clock where the system has a better one. */
+void wr_cond_wait(WrCond *cond, WrMutex *mutex); /* may return spuriously */
+/* Waits at most about that long; on a monotonic clock where the system has one. */
 void wr_cond_wait_ms(WrCond *cond, WrMutex *mutex, int ms);
-void wr_cond_wake(WrCond *cond);     /* one that waits */
-void wr_cond_wake_all(WrCond *cond); /* all that wait */
+void wr_cond_wake(WrCond *cond);     /* one waiter */
+void wr_cond_wake_all(WrCond *cond); /* all waiters */
 
 typedef void *(*WrThreadMain)(void *arg);
 bool wr_thread_begin(WrThread *thread, WrThreadMain run,
-                     void *arg); /* false: the system gives none */
+                     void *arg); /* false: no thread available */
 void wr_thread_join(WrThread thread);
-/* One that nobody joins and no signal reaches; threads that it starts inherit that. */
+/* Starts a detached thread without signals; threads that it starts inherit that. */
 bool wr_thread_begin_aside(WrThreadMain run, void *arg);
 
-/* The calling thread, and those that it starts, work only when nobody else wants to; where a thread cannot be told
-   alone, nothing happens. */
+/* Lowers the priority of the calling thread and of threads it starts. Does nothing where priorities
+   apply only to processes. */
 void wr_thread_step_back(void);
 
-/* The calling thread stays on the processor that it is on, so that caches and clock rate stay with it. */
+/* Pins the calling thread to its present processor, so that cache and clock rate stay stable for
+ * measurements. */
 typedef struct WrPin {
     bool held;
-    unsigned char before[1024]; /* private: where it might be until then */
+    unsigned char before[1024]; /* private: previous affinity */
 } WrPin;
-bool wr_thread_pin(WrPin *pin); /* false if it cannot be done */
+bool wr_thread_pin(WrPin *pin); /* false if unsupported */
 void wr_thread_unpin(const WrPin *pin);
 
-int wr_thread_processors(void); /* that work now; at least 1 */
+int wr_thread_processors(void); /* processors online; at least 1 */
 void wr_thread_sleep_ms(int ms);

@@ -1,4 +1,4 @@
-/* Threads: what Linux and its C library have of their own. */
+/* Threads: the functions that Linux and its C library add to POSIX. */
 #include "system/thread.h"
 
 #include <sched.h>
@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#define NICENESS 5 /* so that the thread that somebody watches goes first */
+#define NICENESS 5 /* below the priority of interactive threads */
 
 void wr_cond_wait_ms(WrCond *cond, WrMutex *mutex, int ms)
 {
@@ -21,7 +21,8 @@ void wr_cond_wait_ms(WrCond *cond, WrMutex *mutex, int ms)
 
 void wr_thread_step_back(void)
 {
-    setpriority(PRIO_PROCESS, 0, NICENESS); /* here a thread and those it starts */
+    /* on Linux this applies to the thread and its children */
+    setpriority(PRIO_PROCESS, 0, NICENESS);
 }
 
 bool wr_thread_pin(WrPin *pin)

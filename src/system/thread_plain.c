@@ -1,5 +1,5 @@
-/* Threads: what any POSIX system gets. Missing here: waits that do not go by the clock on the wall (one that is set
-   back makes such a wait longer), threads of less weight, threads that stay on a processor. */
+/* Threads: fallback for any POSIX system. Missing here: waits on a monotonic clock (setting the wall
+   clock back makes a wait longer), thread priorities, pinned threads. */
 #include "system/thread.h"
 
 #include <time.h>

@@ -1,4 +1,4 @@
-/* Trying something in a copy of the process, so that its crash is only the copy's. */
+/* Runs work in a forked copy of the process, so that a crash affects only the copy. */
 #include "system/child_internal.h"
 
 #include "system/clock.h"
@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define SLICE_SECONDS 0.02 /* a child that ends without a word is noticed within this */
+#define SLICE_SECONDS 0.02 /* a child that ends silently is noticed within this time */
 
 static void confine(const WrTry *it)
 {
@@ -27,15 +27,15 @@ static void confine(const WrTry *it)
 
 static _Noreturn void run_child(const WrTry *it, int to, WrPid parent)
 {
-    setpgid(0, 0); /* so that what it starts can be ended with it */
+    setpgid(0, 0); /* so that processes it starts can be killed with it */
     if (!wr_process_die_with(parent)) _exit(1);
     confine(it);
     it->work(it->ctx, it->answer);
     ssize_t n = write(to, it->answer, it->length);
-    _exit(n == (ssize_t)it->length ? 0 : 1); /* not exit: the parent's buffers are not ours */
+    _exit(n == (ssize_t)it->length ? 0 : 1); /* not exit: the buffers belong to the parent */
 }
 
-/* Read from the pipe what is there; false once nothing more can come. */
+/* Reads available bytes from the pipe; false at the end of the data. */
 static bool hear(const WrTry *it, int from, size_t *have)
 {
     if (*have == it->length) return false;
@@ -44,8 +44,8 @@ static bool hear(const WrTry *it, int from, size_t *have)
     return n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
 }
 
-/* Wait until the child has ended, which is not taken note of yet so that its number stays its own,
-   or the time is over. True if it ended. */
+/* Waits until the child has ended or the time is over. The child is not reaped yet, so that its number
+   stays reserved. True if it ended. */
 static bool listen_to(const WrTry *it, pid_t child, int from, size_t *have)
 {
     double stop = wr_clock_seconds() + it->seconds;
@@ -56,7 +56,7 @@ static bool listen_to(const WrTry *it, pid_t child, int from, size_t *have)
         poll(open ? &one : NULL, open ? 1 : 0, (int)(SLICE_SECONDS * 1000));
         int asked = waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT);
         bool ended = (asked == 0 && info.si_pid == child) || (asked != 0 && errno == ECHILD);
-        if (open) open = hear(it, from, have); /* it came whole, or not at all */
+        if (open) open = hear(it, from, have); /* the result arrived completely, or not at all */
         if (ended) return true;
         if (wr_clock_seconds() >= stop || it->stopped()) return false;
     }
@@ -78,10 +78,10 @@ WrTryResult wr_child_try(const WrTry *it, WrChildEnd *end)
         errno = saved;
         return WR_TRY_NO_CHILD;
     }
-    setpgid(child, child); /* whichever of the two comes first */
+    setpgid(child, child); /* in parent and child: whichever runs first */
     bool ended = listen_to(it, child, ends[0], &have);
     close(ends[0]);
-    kill(-child, SIGKILL); /* and whatever it started */
+    kill(-child, SIGKILL); /* including processes it started */
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
     *end = wr_child_end_of(status);
     if (have == it->length) return WR_TRY_ANSWERED;
