@@ -1,5 +1,5 @@
-/* analytic.h - F(u,v) as a formula, usable wherever a table is, with exact derivatives.
-   Source: Blinn 1978 section 3, "a bivariate polynomial or bivariate Fourier series". */
+/* analytic.h - F(u,v) as a formula with exact derivatives, usable wherever a table is. Source: Blinn
+   1978 section 3, "a bivariate polynomial or bivariate Fourier series". */
 #pragma once
 
 typedef enum WrAnalyticKind {
@@ -17,12 +17,12 @@ typedef struct WrAnalyticTerm {
 typedef struct WrAnalytic {
     WrAnalyticKind kind;
     int count;
-    WrAnalyticTerm *terms; /* [count], owned by whoever owns the struct */
+    WrAnalyticTerm *terms; /* [count], owned by the owner of the struct */
 } WrAnalytic;
 
 /* F, dF/du, dF/dv at (u, v); both coordinates are first reduced to [0,1) like a table's. In double with
  * deterministic functions: the same bits everywhere. Any output may be NULL. */
 void wr_analytic_sample(const WrAnalytic *analytic, double u, double v, double *f, double *fu,
                         double *fv);
-/* No |F| is larger: the terms' |amplitudes|, whatever their signs. */
+/* Upper bound of |F|: the sum of the terms' |amplitudes|. */
 double wr_analytic_amplitude(const WrAnalytic *analytic);

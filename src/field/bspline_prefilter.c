@@ -1,11 +1,12 @@
 /* The interpolating prefilter of the uniform cubic B-spline.
  *
  * The spline has the value (c[i-1] + 4 c[i] + c[i+1]) / 6 at sample i. The inverse of that filter on an
- * endless (or circular) row is c[i] = sqrt(3) sum over k of z^|k| T[i+k] with z = sqrt(3) - 2 = -0.268,
- * which is cut where z^|k| falls below double's rounding (z^29 = 2.6e-17): so an edit reaches
- * WR_PREFILTER_REACH texels and no farther, and a coefficient does not depend on what was read with it.
+ * infinite (or circular) row is c[i] = sqrt(3) sum over k of z^|k| T[i+k] with z = sqrt(3) - 2 =
+ * -0.268. It is truncated where z^|k| falls below double's rounding (z^29 = 2.6e-17). So an edit
+ * affects only WR_PREFILTER_REACH texels on each side, and a coefficient does not depend on the
+ * rectangle that was read.
  *
- * A chunk of columns is walked from top to bottom: each table row is filtered along u into a ring of
+ * A chunk of columns is processed from top to bottom: each table row is filtered along u into a ring of
  * rows, and each output row is the same filter across the ring. */
 #include "field/scheme.h"
 
@@ -22,14 +23,14 @@
 
 typedef struct Fit {
     double weight[REACH + 1];
-    int width;     /* columns of a chunk: CHUNK, or all there are */
+    int width;     /* columns of a chunk: at most CHUNK */
     float *texels; /* [width + 2 REACH] one row as read, */
-    double *wide;  /* the same in double */
+    double *wide;  /* and converted to double */
     double *ring;  /* [TAPS][width] row j is in slot (j - first row) % TAPS */
     double *sum;   /* [width] */
 } Fit;
 
-/* One block for all of it: a fit of 4 x 4 texels should cost its sums, not its memory. */
+/* One allocation for all buffers: fitting 4 x 4 texels should not be dominated by allocation. */
 static Fit *fit_new(int width)
 {
     size_t across = (size_t)width + 2 * REACH;
@@ -50,9 +51,9 @@ static double *ring_row(Fit *fit, int j)
     return fit->ring + (size_t)(j % TAPS) * (size_t)fit->width;
 }
 
-/* Two sums side by side, on every processor with the bits of one after the other. */
+/* Two sums side by side, with the bits of scalar sums on every processor. */
 typedef double Two __attribute__((vector_size(2 * sizeof(double))));
-#define SIDE 8 /* sums at a time, which stay in registers */
+#define SIDE 8 /* sums at a time, kept in registers */
 
 static inline Two load(const double *from)
 {
@@ -61,9 +62,9 @@ static inline Two load(const double *from)
     return two;
 }
 
-/* sum[i] = centre[i] + sum over k, from 1 outwards, of weight[k] (below[k][i] + above[k][i] - 2 centre[i]), centre =
-   below[0]: the weights sum to 1, so that of a flat row each coefficient is its level to the bit (HC47), and a high
-   level takes no digits from what stands on it. */
+/* sum[i] = centre[i] + sum over k, from 1 outwards, of weight[k] (below[k][i] + above[k][i] - 2
+   centre[i]), centre = below[0]. The weights sum to 1, so each coefficient of a flat row equals its
+   level to the bit (HC47), and a high level costs no precision of the details on it. */
 static void fold(const Fit *fit, const double *const below[REACH + 1],
                  const double *const above[REACH + 1], int count, double *restrict sum)
 {
@@ -117,7 +118,7 @@ static void fit_columns(Fit *fit, int middle, int count)
     fold(fit, below, above, count, fit->sum);
 }
 
-/* Where coefficients go: one of the two. */
+/* Destination of the coefficients: one of the two. */
 typedef struct Out {
     float *single;
     double *wide;
@@ -144,7 +145,7 @@ static void read_fitted(const WrField *field, int i, int j, int count_i, int cou
         int cols = count_i - col < CHUNK ? count_i - col : CHUNK;
         for (int row = 0; row < count_j + 2 * REACH; row++) {
             fit_row(fit, field, i + col, j - REACH + row, cols, ring_row(fit, row));
-            int ready = row - 2 * REACH; /* this output row has all its rows in the ring */
+            int ready = row - 2 * REACH; /* this output row has all its input rows in the ring */
             if (ready < 0) continue;
             fit_columns(fit, ready + REACH, cols);
             put(out, (size_t)ready * pitch + (size_t)col, fit->sum, cols);

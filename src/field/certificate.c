@@ -10,8 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-#define CATMULL_BETWEEN 1.25 /* of what stands at texels' centres; see certificate.h */
-#define FORMULA_LOOKS 1024   /* along an edge */
+/* ratio of Catmull-Rom's largest jump between texel centres to that at the centres; see certificate.h */
+#define CATMULL_BETWEEN 1.25
+#define FORMULA_LOOKS 1024 /* samples along an edge */
 
 /* ---- a table ---- */
 
@@ -19,12 +20,13 @@
 typedef struct Strip {
     const WrField *field;
     WrScheme scheme;
-    bool along_v; /* the edge runs along v */
+    bool along_v; /* the edge is parallel to v */
     int size;     /* across the edge */
     int length;   /* along it */
 } Strip;
 
-/* Texels first .. first + 3 across the edge and all along it from -1 to length + 1; as across[along + 1][4]. */
+/* Reads texels first .. first + 3 across the edge and all along it from -1 to length + 1; as
+ * across[along + 1][4]. */
 static double *read_piece(const Strip *strip, int first)
 {
     const int lines = strip->length + 3;
@@ -47,15 +49,15 @@ static double *read_piece(const Strip *strip, int first)
     return out;
 }
 
-/* Places within a piece: its start, middle and end. */
+/* Positions within a piece: its start, middle and end. */
 enum { START, MIDDLE, END, PLACES };
 
-/* What a piece has on one line: F and F' across the edge at its places, per texel. */
+/* F and F' across the edge, per texel, on one line of a piece. */
 typedef struct Look {
     double value[PLACES], slope[PLACES];
 } Look;
 
-/* Of the piece that begins at texel `first`, as [length] lines; the caller frees it. */
+/* Samples the piece that begins at texel `first`: [length] lines; the caller frees it. */
 static Look *look_at(const Strip *strip, int first)
 {
     const WrSchemeEval eval = wr_schemes[strip->scheme].eval;
@@ -72,7 +74,7 @@ static Look *look_at(const Strip *strip, int first)
     return looks;
 }
 
-/* F''. F' of the scheme itself is a polynomial of degree 2 at most, so that three of it tell it. */
+/* F''. F' of every scheme is a polynomial of degree 2 at most, so three values determine it. */
 static double bend(const Look *look, int place)
 {
     const double *slope = look->slope;
@@ -81,7 +83,7 @@ static double bend(const Look *look, int place)
     return at_start + 0.5 * place * (at_end - at_start);
 }
 
-/* The largest jumps so far, and the largest height of either side. */
+/* The largest jumps so far, and the largest height on either side. */
 typedef struct Jumps {
     double jump[WR_CERTIFICATE_ORDERS], most;
 } Jumps;
@@ -91,7 +93,7 @@ static void enlarge(double *most, double x)
     *most = x > *most ? x : *most;
 }
 
-/* Where pieces before and after meet, at their places x and y. */
+/* Compares the piece before with the piece after, at their positions x and y. */
 static void compare(const Strip *strip, const Look *before, int x, const Look *after, int y,
                     Jumps *jumps)
 {
@@ -105,7 +107,7 @@ static void compare(const Strip *strip, const Look *before, int x, const Look *a
     }
 }
 
-/* Jumps per texel become those per unit; smaller ones than rounding leaves are none. */
+/* Converts jumps per texel to jumps per unit; jumps within rounding error become 0. */
 static void settle(WrCertificateEdge *edge, const double jump[3], double most, int size)
 {
     edge->order = -1;
@@ -120,7 +122,8 @@ static void settle(WrCertificateEdge *edge, const double jump[3], double most, i
     }
 }
 
-/* Of the pieces p .. p + 3 texels about the edge, which is between p + 1 and p + 2, of nearest at p + 1. */
+/* For `nearest` and the schemes centred on texels: the pieces p .. p + 3 texels about the edge, which
+ * is between p + 1 and p + 2. */
 static void certify_centred(const Strip *strip, int last, Jumps *jumps)
 {
     Look *before = look_at(strip, last - 1), *after = look_at(strip, -1);
@@ -129,7 +132,8 @@ static void certify_centred(const Strip *strip, int last, Jumps *jumps)
     wr_free(after);
 }
 
-/* The edge's own piece and the joints at both of its ends; of an axis that ends, that piece of either end. */
+/* Compares the edge's own piece with its neighbours at both joints; on an axis that ends, the pieces at
+ * both ends. */
 static void certify_pieces(const Strip *strip, int last, bool ends, Jumps *jumps)
 {
     Look *outer = look_at(strip, last - 2), *left = look_at(strip, last - 1);
@@ -167,7 +171,7 @@ WrCertificate wr_certificate_table(const WrField *field, WrScheme scheme, const 
 
 /* ---- a formula ---- */
 
-/* x^n differentiated k times: its value at 1 less its value at 0. */
+/* The k-th derivative of x^n: its value at 1 minus its value at 0. */
 static double rise(int n, int k)
 {
     double falling = 1.0;
@@ -182,7 +186,7 @@ static double power(double x, int n)
     return out;
 }
 
-/* Of a polynomial: what it and its derivatives differ by between the edges, along them. */
+/* Jumps of a polynomial and its derivatives between the edges. */
 static WrCertificateEdge certify_polynomial(const WrAnalytic *analytic, bool in_u)
 {
     WrCertificateEdge edge = { .ends = false };
@@ -204,7 +208,8 @@ static WrCertificateEdge certify_polynomial(const WrAnalytic *analytic, bool in_
 
 WrCertificate wr_certificate_formula(const WrAnalytic *analytic)
 {
-    const bool polynomial = analytic->kind == WR_ANALYTIC_POLY; /* else whole periods in the cell */
+    /* otherwise the cell contains whole periods */
+    const bool polynomial = analytic->kind == WR_ANALYTIC_POLY;
     const WrCertificateEdge whole = { .order = 2 };
     WrCertificate out = { polynomial ? certify_polynomial(analytic, true) : whole,
                           polynomial ? certify_polynomial(analytic, false) : whole,
@@ -214,7 +219,7 @@ WrCertificate wr_certificate_formula(const WrAnalytic *analytic)
     return out;
 }
 
-/* ---- words ---- */
+/* ---- text ---- */
 
 static int lower(int a, int b)
 {
@@ -232,7 +237,7 @@ const char *wr_certificate_word(int order)
     return words[order + 1];
 }
 
-/* What breaks first: the pattern, or the scheme. */
+/* Appends the first break: that of the pattern, or of the scheme. */
 static void add_edge(const WrCertificateEdge *edge, const WrSeamEdge *pattern, WrText *text)
 {
     static const char *const names[] = { "F", "F'", "F''" };

@@ -9,12 +9,12 @@
 #include <string.h>
 
 #define APRON 2
-#define STRIP 512 /* texels of a row that are worked on at once */
+#define STRIP 512 /* texels of a row processed at once */
 #define TAPS (2 * APRON + 1)
 
-/* A scheme along one axis, in texels, of the taps -2 .. 2 about a centre: value and slope there, and how much each grows
-   from half a texel before to half a texel after. `nearest`, whose slopes are those of `central` at the centres, has its
-   bends too. */
+/* A scheme along one axis, in texels, for the taps -2 .. 2 about a centre: value and slope there, and
+   the increase of each from half a texel before to half a texel after. `nearest` uses the slopes of
+   `central` at the centres, and so its second derivatives too. */
 typedef struct Stencil {
     double value[TAPS], slope[TAPS], value_grows[TAPS], slope_grows[TAPS];
 } Stencil;
@@ -53,7 +53,7 @@ struct WrDerivativesBand {
     int x, y, w, rows;
     size_t pitch;
     double
-        *taps; /* [rows + 2 APRON][pitch], the first texel at [APRON][APRON]; NULL of a formula */
+        *taps; /* [rows + 2 APRON][pitch], the first texel at [APRON][APRON]; NULL for a formula */
 };
 
 WrDerivativesRow wr_derivatives_row_new(int count, bool bends)
@@ -151,7 +151,7 @@ static void scale(double by, int count, double *x)
     for (int i = 0; i < count; i++) x[i] *= by;
 }
 
-/* s is the mean of how q grows along x and of how p grows along y; rows go down, y up. */
+/* s is the mean of the increase of q along x and of p along y; rows run down, y up. */
 static void bends(const Stencil *st, const double *at, ptrdiff_t down, int w,
                   const WrDerivativesRow *out)
 {
@@ -168,7 +168,7 @@ static void bends(const Stencil *st, const double *at, ptrdiff_t down, int w,
     for (int i = 0; i < w; i++) out->s[i] += more[i];
 }
 
-/* at: the first one's tap; the rows beside it are `down` away. */
+/* at: the tap of the first texel; adjacent rows are `down` apart. */
 static void strip_of_table(const WrDerivatives *g, const double *at, ptrdiff_t down, int w,
                            const WrDerivativesRow *out)
 {
@@ -189,7 +189,7 @@ static void strip_of_table(const WrDerivatives *g, const double *at, ptrdiff_t d
     scale(g->height / (y * y), w, out->t);
 }
 
-/* By strips that stay in the nearest cache. */
+/* Processes strips that fit the first-level cache. */
 static void row_of_table(const WrDerivativesBand *band, int j, const WrDerivativesRow *out)
 {
     const ptrdiff_t down = (ptrdiff_t)band->pitch;
@@ -202,7 +202,7 @@ static void row_of_table(const WrDerivativesBand *band, int j, const WrDerivativ
     }
 }
 
-/* Slopes of the formula there, over u and v. */
+/* Slopes of the formula, along u and v. */
 static void formula_slopes(const WrDerivatives *g, double u, double v, double *p, double *q)
 {
     double fu, fv;

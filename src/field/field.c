@@ -1,7 +1,7 @@
 /* The map of tiles is a tree whose nodes have 8 x 8 children; a table of up to 8 x 8 tiles has one
-   level of nodes, the largest has three. Nodes and tiles are counted and copied on write, so a share
-   is one more reference to the root. NULL, at any level, stands for texels that all have the table's
-   level; a tree belongs to one level for good, since a fill drops it. */
+   level of nodes, the largest has three. Nodes and tiles are reference-counted and copied on write, so
+   a share is one more reference to the root. NULL, at any level, represents texels that all have the
+   table's level. The level of a tree never changes, since a fill drops the tree. */
 #include "field/field.h"
 
 #include "base/error.h"
@@ -47,7 +47,7 @@ struct WrField {
     uint64_t key;
 };
 
-/* Process-wide, so that two tables with one key hold the same texels. */
+/* Process-wide, so that equal keys always mean equal texels. */
 static uint64_t next_key(void)
 {
     static _Atomic uint64_t last;
@@ -82,13 +82,13 @@ static void release(Counted *thing, int depth)
     wr_free(thing);
 }
 
-/* Acquire: what a former sharer read from the thing happened before we write to it. */
+/* Acquire: reads by a former sharer happen before our writes. */
 static bool is_ours(Counted *thing)
 {
     return thing && atomic_load_explicit(&thing->refs, memory_order_acquire) == 1;
 }
 
-/* Make *slot a node that nobody else refers to. */
+/* Makes *slot a node with no other reference. */
 static Node *own_node(Counted **slot, int depth)
 {
     if (is_ours(*slot)) return (Node *)*slot;
@@ -135,7 +135,7 @@ static Tile *own_tile(Counted **slot, float level)
     return tile;
 }
 
-/* Where tile (tx, ty) hangs in a node that has `below` levels of nodes under it. */
+/* Index of tile (tx, ty) in a node that has `below` levels of nodes under it. */
 static int child_of(int tx, int ty, int below)
 {
     int shift = FAN_BITS * below, mask = FAN - 1;
@@ -225,7 +225,7 @@ const float *wr_field_tile(const WrField *field, int tx, int ty)
     return thing ? ((const Tile *)thing)->texels : NULL;
 }
 
-/* Where the tile hangs, in nodes that are this table's own; for a write. */
+/* Slot of the tile, in nodes owned by this table alone; for a write. */
 static Counted **own_slot(WrField *field, int tx, int ty)
 {
     WR_ASSERT(tx >= 0 && tx < wr_field_tiles_u(field) && ty >= 0 && ty < wr_field_tiles_v(field));
@@ -292,8 +292,8 @@ void wr_field_fill(WrField *field, float height)
     field->key = next_key();
 }
 
-/* Visit the tiles of a subtree whose pointers differ between a and b, or all of them where even two
-   NULLs mean different heights. tx, ty: the subtree's first tile. */
+/* Visits the tiles of a subtree whose pointers differ between a and b, or all of them if the levels
+   differ, so that even two NULLs are different heights. tx, ty: the subtree's first tile. */
 typedef struct Comparison {
     int tiles_u, tiles_v;
     bool same_level;
@@ -333,7 +333,7 @@ void wr_field_changes(const WrField *a, const WrField *b, WrTileVisitor changed,
     compare(&c, a->root, b->root, a->depth, 0, 0);
 }
 
-/* How much of tile index t along an axis of n texels is in use. */
+/* Number of used texels of tile index t along an axis of n texels. */
 static int used(int t, int n)
 {
     int rest = n - t * WR_TILE;
@@ -366,7 +366,7 @@ void wr_field_tile_share(WrField *to, const WrField *from, int tx, int ty)
     *slot = shared;
 }
 
-/* A tile is named by its used texels alone: by the one height that they all have, or by their bytes. */
+/* The hash covers only the used texels: their common height, or their bytes. */
 static WrHash hash_tile(const float *texels, int count_i, int count_j)
 {
     bool flat = true;
@@ -400,12 +400,12 @@ WrHash wr_field_hash(const WrField *field)
     return hash;
 }
 
-/* What a walk over the tiles that exist gathers. */
+/* Results of a walk over the existing tiles. */
 typedef struct Survey {
     const WrField *field;
     int64_t tiles;
     float low, high;
-    bool heights; /* look at the texels, not only at the tree */
+    bool heights; /* read the texels, not only the tree */
 } Survey;
 
 static void survey_tile(Survey *s, const float *texels, int tx, int ty)

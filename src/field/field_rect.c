@@ -1,5 +1,5 @@
-/* Rectangles of a table out to plain memory and back. What lies inside the table is copied tile by
-   tile; a rectangle that sticks out is first cut into parts that do not. */
+/* Copying rectangles between a table and plain memory. The part inside the table is copied tile by
+   tile; a rectangle that extends beyond it is first cut into parts that do not. */
 #include "field/field.h"
 
 #include "base/error.h"
@@ -20,8 +20,8 @@ static int wrap_index(int64_t i, int n)
     return (int)(rest < 0 ? rest + n : rest);
 }
 
-/* By pieces of sizes that the compiler knows: for a row of a tile it would make one instruction of memcpy that takes
- * longer to begin than to copy. */
+/* Copies by pieces of constant sizes: for one row of a tile the compiler would use a string instruction
+ * whose start-up takes longer than the copy. */
 static inline void copy_texels(const float *restrict in, int count, float *restrict out)
 {
     int k = 0;
@@ -72,8 +72,8 @@ void wr_field_expect(const WrField *field, int i, int j, int count_i)
     }
 }
 
-/* The quadratic through t0, t1, t2 at 0, 1, 2, continued to `x` < 0, in Newton's form of differences,
- * so that equal heights stay exactly equal; at -1 it is 3 t0 - 3 t1 + t2. */
+/* The quadratic through t0, t1, t2 at 0, 1, 2, extrapolated to `x` < 0, in Newton's form of
+ * differences, so that equal heights stay exactly equal; at -1 it is 3 t0 - 3 t1 + t2. */
 static float beyond(float t0, float t1, float t2, double x)
 {
     double first = (double)t1 - t0, second = ((double)t2 - t1) - first;
@@ -82,8 +82,8 @@ static float beyond(float t0, float t1, float t2, double x)
     return value < -FLT_MAX ? -FLT_MAX : (float)value;
 }
 
-/* How far index i of a clamped axis of n texels lies outside, as a coordinate that runs inwards from
- * the nearer end: -1 is the first missing texel. *end is that end's index, *step leads inwards. */
+/* Position of index i outside a clamped axis of n texels, as a coordinate that runs inwards from the
+ * nearer end: -1 is the first missing texel. *end is that end's index, *step points inwards. */
 static double outside(int64_t i, int n, int *end, int *step)
 {
     *end = i < 0 ? 0 : n - 1;
@@ -206,7 +206,7 @@ int64_t wr_field_write(WrField *field, int i, int j, int count_i, int count_j, c
             int x = (i + col) % WR_TILE, cols = (int)min64(WR_TILE - x, count_i - col);
             int tx = (i + col) / WR_TILE, ty = (j + row) / WR_TILE;
             const float *from = in + (size_t)row * pitch + col;
-            /* heights that are there already make no tile */
+            /* unchanged heights allocate no tile */
             if (wr_field_tile(field, tx, ty) || !all_equal(from, pitch, cols, rows, level))
                 mended +=
                     write_block(wr_field_tile_write(field, tx, ty), x, y, cols, rows, from, pitch);
@@ -217,9 +217,9 @@ int64_t wr_field_write(WrField *field, int i, int j, int count_i, int count_j, c
     return mended;
 }
 
-/* ---- what differs -------------------------------------------------------------------------------- */
+/* ---- differences --------------------------------------------------------------------------------- */
 
-/* Of two rows of a tile the columns that differ, from *first to before *end; false: none does. */
+/* Columns that differ between two rows of a tile, from *first to before *end; false: none. */
 static bool rows_differ(const float *a, const float *b, int count, int *first, int *end)
 {
     if (memcmp(a, b, (size_t)count * sizeof *a) == 0) return false;

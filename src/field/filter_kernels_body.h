@@ -1,5 +1,6 @@
-/* filter_kernels_body.h - the text of filter_kernels.h's loop, included once by each taps_v*.c, which defines WR_TAPS_TABLE and
-   WR_TAPS_NAME. A header without a guard, by intention. */
+/* filter_kernels_body.h - implementation of the loops of filter_kernels.h, included once by each
+   filter_kernels_v*.c, which defines WR_TAPS_TABLE and WR_TAPS_NAME. Intentionally without an include
+   guard. */
 #include "field/filter_kernels.h"
 
 #include <float.h>
@@ -10,8 +11,8 @@
 #include <immintrin.h>
 #endif
 
-/* Vectors by name, since the sums of several must stay in registers while all taps are added, which no
- * compiler does with an array: that is what makes this loop fast. */
+/* Named vector variables: several sums must stay in registers while all taps are added, which no
+ * compiler does with an array. This makes the loop fast. */
 #ifdef __AVX512F__
 typedef float Vec __attribute__((vector_size(64)));
 #elif defined __AVX__
@@ -34,8 +35,8 @@ ALWAYS void store(float *to, Vec v)
     memcpy(to, &v, sizeof v);
 }
 
-/* a - b, bit for bit: 1 a is a. Of a tap's three sums one goes where products go, since many processors have no more units
- * for sums than for products. */
+/* a - b, bit for bit: 1 a is a. One of a tap's three additions is written as a multiply-add, because
+ * many processors have no more units for sums than for products. */
 ALWAYS Vec minus(Vec a, Vec unit, Vec b)
 {
 #ifdef __AVX512F__
@@ -48,7 +49,7 @@ ALWAYS Vec minus(Vec a, Vec unit, Vec b)
 #endif
 }
 
-/* A vector of 1 that the compiler does not know. */
+/* A vector of 1 that the compiler cannot fold. */
 ALWAYS Vec one_of(const float *weight)
 {
     Vec one = (weight[0] - weight[0]) - (Vec){ 0.0f };
@@ -60,7 +61,7 @@ ALWAYS void put(Vec sum, const float *from, bool adds, float *out)
     store(out, adds ? load(from) + sum : sum);
 }
 
-/* Of one element, a vector of it. */
+/* One vector of one element. */
 ALWAYS void one(const float *weight, int reach, const float *c, ptrdiff_t step, bool adds,
                 float *out)
 {
@@ -70,8 +71,8 @@ ALWAYS void one(const float *weight, int reach, const float *c, ptrdiff_t step, 
     put(sum, c, adds, out);
 }
 
-/* Of four elements that follow one another. With each tap their neighbours on either side, b and a, move on by one, so that
- * only one is new. */
+/* Four consecutive elements. With each tap their neighbours on either side, b and a, shift by one, so
+ * that only one load is new. */
 ALWAYS void four(const float *weight, int reach, const float *c, ptrdiff_t step, bool adds,
                  float *out, ptrdiff_t to)
 {
@@ -123,7 +124,7 @@ static void smooth(const float *weight, int reach, const float *c, ptrdiff_t ste
 }
 
 #ifdef __AVX512F__
-/* By pairs of rows that lie 1, 2, 4 and 8 apart. */
+/* Transposes by exchanging pairs of rows that are 1, 2, 4 and 8 apart. */
 static void turn(const float *in, ptrdiff_t pitch, float *out, ptrdiff_t out_pitch)
 {
     __m512 a[WR_TAPS_LANES], b[WR_TAPS_LANES];
@@ -159,7 +160,7 @@ static void turn(const float *in, ptrdiff_t pitch, float *out, ptrdiff_t out_pit
 }
 #endif
 
-/* Adding and subtracting this rounds |x| < 2^51 to a whole number. */
+/* Adding and subtracting this rounds |x| < 2^51 to an integer. */
 #define ROUNDER 0x1.8p52
 #define SIDE_BY_SIDE WR_BOX_LANES
 
@@ -186,7 +187,7 @@ static inline double steps_of(double scale, float height)
     return ((double)height * scale + ROUNDER) - ROUNDER;
 }
 
-/* The height plus what the blur adds to it, so that where that is nothing the bits stay. */
+/* The height plus the change by the blur, so that the bits stay where the change is 0. */
 static inline float blurred(double scale, double step, float height, double both)
 {
     double x = (double)height + (0.5 * both - steps_of(scale, height)) * step;
@@ -221,7 +222,7 @@ static void add_steps_across(double scale, double step, const double *restrict b
         heights[lane] = blurred(scale, step, heights[lane], both[lane]);
 }
 
-/* A row's bits that differ. */
+/* The OR of all bits that differ in a row. */
 ALWAYS uint32_t settle_row(const float *restrict before, float *restrict now, int columns)
 {
     uint32_t differs = 0;
@@ -229,7 +230,7 @@ ALWAYS uint32_t settle_row(const float *restrict before, float *restrict now, in
     for (int i = 0; i < columns; i++) {
         float was = before[i], x = now[i] > FLT_MAX ? FLT_MAX : now[i];
         x = x < -FLT_MAX ? -FLT_MAX : x;
-        const bool changes = (x < was) | (x > was); /* not where x is not a number */
+        const bool changes = (x < was) | (x > was); /* false where x is NaN */
         x = changes ? x : was;
         uint32_t old, new;
         memcpy(&old, &was, sizeof old);

@@ -12,9 +12,9 @@
 #include <string.h>
 
 #define PI 3.14159265358979323846
-#define FINEST 256 /* steps of a line once round the table, at least */
+#define FINEST 256 /* minimum number of steps of a line around the table */
 #define AHEAD                                                                                      \
-    131072 /* samples that a line looks ahead, at most: no longer ones are swept at once */
+    131072 /* maximum look-ahead of a line in samples, also the longest piece swept at once */
 
 /* ---- one line ------------------------------------------------------------------------------------ */
 
@@ -46,16 +46,16 @@ void wr_horizon_line(const double *heights, int n, double *slope, int *hull)
 
 /* ---- a table ------------------------------------------------------------------------------------- */
 
-/* Boxes of texels, of a table that was edited. */
+/* Bounding boxes of the edited texels. */
 typedef WR_ARRAY(WrFieldRect) Rects;
 
-/* One direction of a table: lines that advance by a texel along one axis, their own, while they drift along the other,
-   and so close in themselves after whole turns about the table. */
+/* One direction of a table: lines that advance by one texel along their main axis while they drift
+   along the other axis, and so close after a whole number of turns about the table. */
 typedef struct Course {
-    bool upright, back; /* their own axis is j; they run against it */
+    bool upright, back; /* the main axis is j; lines run against it */
     int along, across;  /* texels of both axes */
-    int turns;          /* about the own axis, after which they have drifted by whole texels ... */
-    int drift;          /* ... as many as these */
+    int turns;          /* turns about the main axis, after which they have drifted by ... */
+    int drift;          /* ... this whole number of texels */
     double step;        /* texels from sample to sample */
 } Course;
 
@@ -63,8 +63,8 @@ typedef struct Making {
     WrHorizon *horizon;
     const float *heights;
     double sign;
-    const Rects *edits;     /* NULL: the horizons are made anew */
-    unsigned char *changed; /* of an update: [height][width] */
+    const Rects *edits;     /* NULL: compute all horizons */
+    unsigned char *changed; /* for an update: [height][width] */
     float steepest[WR_HORIZON_MOST];
     bool failed[WR_HORIZON_MOST];
 } Making;
@@ -87,7 +87,8 @@ static Course course_of(const WrHorizon *h, int direction)
 
 static int whole_mod(int64_t a, int n)
 {
-    const int left = (int)(a == (int)a ? (int)a % n : a % n); /* the short one is far faster */
+    /* the 32-bit division is far faster */
+    const int left = (int)(a == (int)a ? (int)a % n : a % n);
     return left < 0 ? left + n : left;
 }
 
@@ -98,7 +99,7 @@ static double texel(const Making *m, const Course *c, int along, int across)
     return m->sign * (double)m->heights[(size_t)j * (size_t)m->horizon->width + (size_t)i];
 }
 
-/* Sample k of the line that starts in row `first` of the other axis. */
+/* Sample k of the line that starts at index `first` of the other axis. */
 static double sample(const Making *m, const Course *c, int first, int64_t k)
 {
     const int64_t round = (int64_t)c->turns * c->along;
@@ -112,14 +113,14 @@ static double sample(const Making *m, const Course *c, int first, int64_t k)
 }
 
 typedef struct Line {
-    unsigned char *edited; /* [lines]: it passes a texel that changed; NULL: all are run */
+    unsigned char *edited; /* [lines]: the line crosses a changed texel; NULL: sweep all */
     double *heights, *slope;
     int *hull;
-    float *sheared; /* [across][along], where the lines meet the first turn */
-    bool *beside;   /* [across]: slopes between that row and the next are wanted */
+    float *sheared; /* [across][along], at the lines' positions in the first turn */
+    bool *beside;   /* [across]: the slopes between that row and the next are needed */
 } Line;
 
-/* One turn's slopes of the lines' first texels into the sheared table. */
+/* Stores the slopes of one turn of a line in the sheared table. */
 static void note(const Course *c, int first, int64_t k, int count, Line *line)
 {
     const int64_t round = (int64_t)c->turns * c->along;
@@ -137,7 +138,7 @@ static int common(int a, int b)
     return b == 0 ? a : common(b, a % b);
 }
 
-/* A closed line, a piece at a time, each with one period, or as much as is looked ahead, after it. */
+/* Sweeps a closed line piece by piece, each extended by one period, or by the maximum look-ahead. */
 static void run_line(const Making *m, const Course *c, int first, int64_t period, Line *line)
 {
     const int ahead = period < AHEAD ? (int)period : AHEAD;
@@ -150,7 +151,7 @@ static void run_line(const Making *m, const Course *c, int first, int64_t period
     }
 }
 
-/* The first column and row once more. */
+/* Repeats the first column and row at the end. */
 static void close_plane(float *of, int width, int height)
 {
     const size_t pitch = (size_t)width + 1;
@@ -158,7 +159,8 @@ static void close_plane(float *of, int width, int height)
     memcpy(of + (size_t)height * pitch, of, pitch * sizeof *of);
 }
 
-/* A texel's slope in an updated direction: noted where it is another. Several directions may note one texel at once. */
+/* Stores a texel's slope in an updated direction and marks the texel if it changed. Several directions
+ * may mark one texel at once. */
 static void put_slope(const Making *m, size_t i, size_t j, float slope, float *to)
 {
     if (m->changed && memcmp(to, &slope, sizeof slope) != 0)
@@ -166,13 +168,14 @@ static void put_slope(const Making *m, size_t i, size_t j, float slope, float *t
     *to = slope;
 }
 
-/* Is an edited line beside the row, or the next one's? */
+/* True if the line of this row or of the next was edited. */
 static bool is_beside(const Line *line, int lines, int row)
 {
     return !line->edited || line->edited[row % lines] || line->edited[(row + 1) % lines];
 }
 
-/* The slopes at the texels, between the two lines beside each; of an update those alone that an edited line is beside. */
+/* Interpolates the slopes at the texels from the two lines beside each; for an update only texels
+ * beside an edited line. */
 static void unshear(Making *m, const Course *c, int direction, const Line *line)
 {
     const WrHorizon *h = m->horizon;
@@ -198,7 +201,7 @@ static void unshear(Making *m, const Course *c, int direction, const Line *line)
     close_plane(plane, h->width, h->height);
 }
 
-/* Lines that pass texels [across from .. to) of column `along` of their own axis. */
+/* Marks the lines that cross texels [across from .. to) of column `along` of the main axis. */
 static void mark_column(const Course *c, int lines, int along, int from, int to,
                         unsigned char *edited)
 {
@@ -210,7 +213,7 @@ static void mark_column(const Course *c, int lines, int along, int from, int to,
     }
 }
 
-/* Which lines pass edited texels? NULL: no memory. */
+/* Flags of the lines that cross edited texels. NULL: out of memory. */
 static unsigned char *edited_lines(const Making *m, const Course *c, int lines)
 {
     unsigned char *edited = wr_try_alloc((size_t)lines, 1, "horizons of the table", NULL);
@@ -224,7 +227,7 @@ static unsigned char *edited_lines(const Making *m, const Course *c, int lines)
     return edited;
 }
 
-/* Does the line, or one beside it, pass such texels? Slopes at texels lie between two. */
+/* True if the line or an adjacent one was edited: slopes at texels are interpolated between two lines. */
 static bool is_wanted(const Line *line, int lines, int first)
 {
     return !line->edited || line->edited[first] || line->edited[(first + 1) % lines] ||
@@ -278,7 +281,7 @@ static bool make_all(Making *m, WrPool *pool, WrError *err)
     return true;
 }
 
-/* All directions of that table, in what `making` has of them. */
+/* Computes all directions of the table into `making`'s horizon. */
 static bool make_of(Making *making, const WrField *field, WrPool *pool, WrError *err)
 {
     WrHorizon *horizon = making->horizon;
@@ -312,7 +315,7 @@ typedef struct Finding {
     Rects rects;
 } Finding;
 
-/* A box of texels and those about it, round the table's ends. */
+/* Marks a box of texels and their neighbours, across the table's ends. */
 static void mark_about(const WrHorizon *h, const WrFieldRect *r, unsigned char *changed)
 {
     for (int j = r->j0 - 1; j <= r->j1; j++)
@@ -384,7 +387,7 @@ void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double acros
 double wr_occlusion_map_sky(const WrOcclusionMap *opening, const float *slope, double along_i,
                             double along_j)
 {
-    /* On the surface, by the two directions along the axes. */
+    /* Slope on the surface, from the two axis directions. */
     const int quarter = opening->directions / 4;
     const double gx = along_i * opening->steep[0], gy = along_j * opening->steep[quarter];
     const double inv = 1 / sqrt(1 + gx * gx + gy * gy);
@@ -403,7 +406,7 @@ typedef struct OpeningJob {
     const WrHorizon *horizon;
     const float *heights;
     double sign;
-    const unsigned char *changed; /* NULL: all */
+    const unsigned char *changed; /* NULL: all texels */
     float *out;
 } OpeningJob;
 

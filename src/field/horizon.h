@@ -1,5 +1,6 @@
-/* horizon.h - how high the relief stands about each of its points: what shadows and occludes it.
-   Slopes are heights over distances, both of the table: of table units over texels here. */
+/* horizon.h - horizon slopes of a height table in many directions, for shadows and ambient occlusion.
+
+   Slopes are heights over distances, in table units per texel. */
 #pragma once
 #include "base/exactmath.h"
 
@@ -11,18 +12,22 @@ typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 
-/* The horizon of a polyline through n >= 1 heights one step apart that repeats without end, seen along rising indices:
+/* The horizon of a periodic polyline through n >= 1 heights one step apart, in the direction of rising
+ * indices:
+ *
  *   slope[i] = sup over t > 0 of (F(i + t) - F(i)) / t,
- * 0 where nothing is higher. Exact at the samples: corners of the upper hull, swept from right to left over two periods,
- * with as much work as samples. hull: scratch, [2 n] */
+ *
+ * 0 if no height is greater. Exact at the samples: corners of the upper hull, swept from right to left
+ * over two periods, in linear time. hull: scratch, [2 n] */
 void wr_horizon_line(const double *heights, int n, double *slope, int *hull);
 
-/* Of a table's directions, a multiple of 4. */
+/* Number of directions of a table, a multiple of 4. */
 #define WR_HORIZON_LEAST 4
 #define WR_HORIZON_MOST 64
 
-/* Direction k of a table's: x along rising i, y along rising j, the larger of them 1. They go round a square in equal
- * steps, from x to y, so that lines meet texels evenly and no angle is asked for where one is looked up. */
+/* Direction k of a table: x along rising i, y along rising j, the larger of them 1. The directions
+ * divide the perimeter of a square into equal steps, from x to y, so that lines meet texels evenly and
+ * a look-up needs no angle. */
 static inline void wr_horizon_direction(int k, int directions, double *x, double *y)
 {
     const int side = (8 * k + directions) / (2 * directions) % 4;
@@ -31,43 +36,45 @@ static inline void wr_horizon_direction(int k, int directions, double *x, double
     *y = side == 0 ? t : side == 1 ? 1 : side == 2 ? -t : -1;
 }
 
-/* The horizon of a table that repeats on both axes, at the centres of its texels: a picture a direction, so that who looks
- * one way reads little memory, each with its first column and row again after the last. Zero-initialise; drop frees. */
+/* The horizon of a periodic table, at the centres of its texels: one plane per direction, so that a
+ * look-up in one direction reads little memory. Each plane repeats its first column and row at the end.
+ * Zero-initialise; wr_horizon_drop frees it. */
 typedef struct WrHorizon {
     int width, height, directions;
     float *slope; /* [directions][height + 1][width + 1], owned */
     float steepest;
 } WrHorizon;
 
-/* From one direction's picture to the next. */
+/* Distance from one direction's plane to the next. */
 static inline size_t wr_horizon_plane(const WrHorizon *h)
 {
     return ((size_t)h->width + 1) * ((size_t)h->height + 1);
 }
 
-/* Of texel (i, j), also one past the last, in direction k. */
+/* Slope at texel (i, j), also one past the last, in direction k. */
 static inline float wr_horizon_at(const WrHorizon *h, int i, int j, int k)
 {
     return h
         ->slope[(size_t)k * wr_horizon_plane(h) + (size_t)j * ((size_t)h->width + 1) + (size_t)i];
 }
 
-/* Heights are times `sign`, 1 or -1, first: what looks up where the relief stands inside out.
- * Lines close in themselves: their directions are off by up to 1/512 radian, and of sides of whole
- * sixteenths by nothing. What lies between rows is interpolated: slopes are right to the square of a texel.
- * Errors: no memory. */
+/* Heights are first multiplied by `sign`, 1 or -1, for a relief displayed inside out. Lines are closed:
+ * their directions deviate by up to 1/512 radian, and by 0 if both sides are multiples of 16. Values
+ * between lines are interpolated: slopes have an error of second order in the texel size. Errors: out
+ * of memory. */
 bool wr_horizon_make(WrHorizon *horizon, const WrField *field, int directions, double sign,
                      WrPool *pool, WrError *err);
-/* Bring horizons of table `before` up to date with `now`, of equal size and wrap, to the bits that making them anew would
- * give: only lines that pass a texel which changed are swept again. changed: [height][width], 1 afterwards where a texel's own
- * horizon is another in any direction, or F at it or beside it, else 0.
- * Errors: no memory; cancelled: the horizons are dropped. */
+/* Updates horizons of table `before` to `now`, of equal size and wrap, with the bits of a full
+ * computation: only lines that cross a changed texel are swept again. changed: [height][width], set to
+ * 1 for texels whose horizon changed in any direction, or where F changed at the texel or beside it,
+ * else 0. Errors: out of memory; cancelled: the horizons are dropped. */
 bool wr_horizon_update(WrHorizon *horizon, const WrField *before, const WrField *now, double sign,
                        unsigned char *changed, WrPool *pool, WrError *err);
 void wr_horizon_drop(WrHorizon *horizon);
 
-/* The share that is seen of a round lamp of angular radius a, whose middle stands at an elevation over a straight horizon:
- * 1/2 + (x sqrt(1 - x^2) + asin x) / pi with x = (elevation - horizon) / a. Of radius 0: 1 above it or on it, else 0. */
+/* The visible fraction of a round lamp of angular radius a, whose centre is at an elevation above a
+ * straight horizon: 1/2 + (x sqrt(1 - x^2) + asin x) / pi with x = (elevation - horizon) / a. For
+ * radius 0: 1 on or above the horizon, else 0. */
 static inline double wr_horizon_lamp(double elevation, double horizon, double a)
 {
     const double over = elevation - horizon;
@@ -77,27 +84,30 @@ static inline double wr_horizon_lamp(double elevation, double horizon, double a)
     return 0.5 + (x * y + wr_atan2(x, y)) / 3.14159265358979323846;
 }
 
-/* The share of the light of a whole sky that reaches a point whose unit normal is n, z up:
+/* The fraction of a uniform sky's light that reaches a point whose unit normal is n, z up:
+ *
  *   1/pi sum of dphi (n_z cos^2 h / 2 + n_phi ((pi/2 - h)/2 - sin 2h / 4)),   n_phi = n . (cos phi, sin phi),
- * h the higher of horizon and surface, of `directions` slopes at equal steps of phi from x to y. 1 where nothing stands
- * above the surface's own plane, and that is level. */
+ *
+ * h is the higher of horizon and surface, for `directions` slopes at equal steps of phi from x to y. 1
+ * if nothing rises above the surface's own plane and that is level. */
 double wr_horizon_sky(const double *slope, int directions, const double n[3]);
 
-/* What a table's relief leaves open of the sky at each texel: WrHorizon's directions on a surface where a texel is `across`
-   and `down` long, in units of height. */
+/* Coefficients of ambient occlusion: WrHorizon's directions on a surface where a texel measures
+   `across` x `down` in units of height. */
 typedef struct WrOcclusionMap {
     int directions;
     double cosine[WR_HORIZON_MOST], sine[WR_HORIZON_MOST]; /* of the direction on the surface */
-    double share[WR_HORIZON_MOST]; /* of the whole circle, that it stands for */
-    double steep[WR_HORIZON_MOST]; /* times the table's slope: the horizon's tangent */
+    double share[WR_HORIZON_MOST]; /* fraction of the full circle covered by the direction */
+    double steep[WR_HORIZON_MOST]; /* tangent of the horizon = this times the table's slope */
 } WrOcclusionMap;
 
 void wr_occlusion_map_make(WrOcclusionMap *opening, int directions, double across, double down);
-/* As wr_horizon_sky, of one texel's slopes: n by the slopes of F along i and j, heights over texels. */
+/* wr_horizon_sky for one texel; its normal comes from the slopes of F along i and j, heights per texel. */
 double wr_occlusion_map_sky(const WrOcclusionMap *opening, const float *slope, double along_i,
                             double along_j);
-/* The same of each texel of the table that the horizon is of, its first column and row again after the last:
-   out[height + 1][width + 1]. changed: as wr_horizon_update has it, of texels whose numbers are not there yet; NULL: all. */
+/* Ambient occlusion of every texel of the horizon's table, first column and row repeated at the end:
+   out[height + 1][width + 1]. changed: as set by wr_horizon_update; only these texels are computed.
+   NULL: all. */
 void wr_occlusion_map_table(const WrOcclusionMap *opening, const WrHorizon *horizon,
                             const WrField *field, double sign, const unsigned char *changed,
                             WrPool *pool, float *out);

@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-#define ROWS 16     /* of a map that one piece makes */
-#define COLUMNS 256 /* of a box's sums, so that they stay near */
+#define ROWS 16     /* rows of a map in one piece of work */
+#define COLUMNS 256 /* columns of the box sums, so that they stay in the cache */
 
 WrMapJob wr_map_default(const WrDerivatives *ground)
 {
@@ -22,17 +22,17 @@ WrMapJob wr_map_default(const WrDerivatives *ground)
 
 /* ---- texel by texel ------------------------------------------------------------------------------ */
 
-/* What is made of a row; count of numbers in out. */
+/* Converts derivatives of a row to `count` numbers of the map. */
 typedef void Derive(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out);
 
 typedef struct Making {
     const WrMapJob *job;
     const WrMapPart *part;
     float *out;
-    float *second; /* of slopes */
+    float *second; /* slopes along v */
     Derive *derive;
     bool bends;
-    int64_t replaced; /* added to atomically */
+    int64_t replaced; /* updated atomically */
 } Making;
 
 static int put(const double *row, int count, float *out)
@@ -96,7 +96,7 @@ static void slope(const WrMapJob *job, const WrDerivativesRow *row, int count, d
     }
 }
 
-/* The circle's end is its beginning, also where only rounding to float would make it 360. */
+/* 360 degrees wraps to 0, also if only rounding to float produced it. */
 static void direction(const WrMapJob *job, const WrDerivativesRow *row, int count, double *out)
 {
     (void)job;
@@ -185,7 +185,7 @@ static bool make_occlusion(const WrMapJob *job, const WrMapPart *part, WrPool *p
 
 /* ---- cavity -------------------------------------------------------------------------------------- */
 
-/* A table of its own for a part and what is blurred into it. */
+/* A separate table for a part and the margin that the blur reads. */
 static WrField *cut_out(const WrField *field, const WrMapPart *part, int more, WrError *err)
 {
     const int w = part->w + 2 * more, h = part->h + 2 * more;
@@ -204,7 +204,7 @@ static int blurred(const WrMapJob *job)
     return (int)ceil(4 * job->sigma) + 2;
 }
 
-/* out holds blurred heights. */
+/* out contains blurred heights and receives the cavity. */
 static void sink(const WrMapJob *job, const WrMapPart *part, float *out)
 {
     float *row = wr_alloc_unset((size_t)part->w, sizeof *row);
@@ -322,9 +322,9 @@ static bool make_roughness(const WrMapJob *job, const WrMapPart *part, WrPool *p
     return true;
 }
 
-/* ---- all of them --------------------------------------------------------------------------------- */
+/* ---- the table of maps --------------------------------------------------------------------------- */
 
-/* Of slopes, and of the coefficients that they are made of. */
+/* Support of the slopes, including their spline coefficients. */
 static int of_slopes(const WrMapJob *job)
 {
     return 1 + (wr_schemes[job->ground.scheme].taps == WR_TAPS_FITTED ? WR_PREFILTER_REACH : 0);

@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-#define ROWS 64 /* of the table that a thread takes at once */
+#define ROWS 64 /* rows of the table that a thread processes at once */
 
 static const WrCpuBuilds builds = { &wr_sky_kernels_v1, &wr_sky_kernels_v3, &wr_sky_kernels_v4 };
 
@@ -34,9 +34,8 @@ static void vector_of(const WrOcclusion *o, int k, double *x, double *y)
     double i, j;
     wr_horizon_direction((k + o->directions) % o->directions, o->directions, &i, &j);
     *x = i * o->texel_w;
-    *y =
-        j *
-        o->texel_h; /* anticlockwise: rows count downwards, as directions of a table do, so they meet -j */
+    *y = j * o->texel_h; /* anticlockwise: rows count downwards like the table's directions, so the
+                            direction is -j */
 }
 
 static double turns_of(const WrOcclusion *o, int k)
@@ -64,7 +63,7 @@ WrSkyCourse wr_sky_course(const WrOcclusion *occlusion, int pair)
     double i, j, x, y;
     wr_horizon_direction(pair, o->directions, &i, &j);
     j = -j;
-    WrSkyCourse c = { .upright = fabs(j) >= fabs(i) }; /* rows of texels lie side by side */
+    WrSkyCourse c = { .upright = fabs(j) >= fabs(i) }; /* rows of texels are contiguous */
     const bool back = (c.upright ? j : i) < 0;
     c.k = back ? pair + half : pair;
     if (back) i = -i, j = -j;
@@ -86,7 +85,7 @@ WrSkyCourse wr_sky_course(const WrOcclusion *occlusion, int pair)
 
 typedef struct Rows {
     WrSky *sky;
-    double scale; /* steps of F = 1 */
+    double scale; /* steps for F = 1 */
 } Rows;
 
 static void fill_rows(int index, int worker, void *ctx)
@@ -120,7 +119,8 @@ static bool fill_steps(WrSky *sky, WrPool *pool, WrError *err)
     Rows rows = { sky, ldexp(o->height < 0 ? -1 : 1, WR_SKY_BITS - exponent) };
     sky->unit = fabs(o->height) * ldexp(1, exponent - WR_SKY_BITS);
     sky->range = fabs(o->height) * ((double)high - (double)low);
-    sky->pitch = (size_t)w + 16 + (size_t)(w % 2 == 0); /* not a power of two */
+    /* not a power of two, to avoid cache conflicts */
+    sky->pitch = (size_t)w + 16 + (size_t)(w % 2 == 0);
     sky->steps = wr_try_alloc(sky->pitch * (size_t)h, sizeof(int32_t), "occlusion", err);
     if (sky->steps) wr_pool_run(pool, pieces_of(sky), fill_rows, &rows);
     return sky->steps != NULL;

@@ -1,12 +1,15 @@
-/* occlusion.h - maps of what stands about each texel of a table: how much of the sky its plane sees, and horizons.
+/* occlusion.h - maps of ambient occlusion and of horizons for the texels of a table.
 
-   Directions go round a square in equal steps (horizon.h): they meet texels, so that every number on a line is a texel or
-   lies between two at halves or quarters. Each direction counts with the part of the circle that it is nearest to.
-   With H the horizon's slope, never below the plane's own slope s that way, and weights w that sum to 1,
+   The directions divide the perimeter of a square into equal steps (horizon.h): they meet texels, so
+   that every sample on a line is a texel or lies between two at halves or quarters. Each direction is
+   weighted by the part of the circle nearest to it. With H the horizon's slope, never below the plane's
+   own slope s in that direction, and weights w that sum to 1,
+
      occlusion = n_z sum of w (1/(1 + H^2) - s (acot H - H / (1 + H^2))),   n_z = 1 / sqrt(1 + p^2 + q^2),
-   which is 1 where nothing stands above the plane of a level texel, cos^2 of the horizon in a round pit.
 
-   A table that is moved by whole texels over its periodic axes gives the moved map, to the bit, on any number of threads. */
+   which is 1 if nothing rises above the plane of a level texel, and cos^2 of the horizon in a round
+   pit. A table shifted by whole texels along its periodic axes gives the shifted map, to the bit, on
+   any number of threads. */
 #pragma once
 #include "field/derivatives.h"
 
@@ -17,29 +20,31 @@ typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 
-#define WR_OCCLUSION_FARTHEST 256 /* texels, where a reach is given */
+#define WR_OCCLUSION_FARTHEST 256 /* texels; largest finite reach */
 
 typedef struct WrOcclusion {
     const WrField *field;
-    double height;           /* of F = 1, scene units; finite */
+    double height;           /* for F = 1, scene units; finite */
     double texel_w, texel_h; /* scene units, > 0 */
     int directions;          /* 4, 8, 16 or 32 */
-    /* Texels that are looked at, along the axis that a line is nearer to: 1..FARTHEST. 0: all. Then horizons are exact but for
-     * their rounding to single precision, of heights to 2^-28 of the largest, where a line closes in itself within WR_OCCLUSION_ROUND of the table; else slopes
-     * up to `range / that way` are 0, and from twice it on exact. On a clamped axis the edge goes on. */
+    /* Search distance in texels along a line's main axis: 1..FARTHEST. 0: unlimited. Then horizons are
+     * exact except for rounding to single precision, of heights to 2^-28 of the largest, where a line
+     * closes within WR_OCCLUSION_ROUND of the table; elsewhere slopes up to `range / search distance`
+     * are 0, and exact from twice that on. A clamped axis repeats its edge. */
     int reach;
 } WrOcclusion;
 
-/* A line that does not close within 2 of the table's longer sides, or 1024 texels, is given up. */
+/* The search stops on a line that does not close within 2 of the table's longer sides, or 1024 texels. */
 #define WR_OCCLUSION_ROUND 2
 #define WR_OCCLUSION_LEAST 1024
 
-/* out: 0..1. p, q: slopes of the texels' planes in scene units, y up. Of less than the whole table only with a reach; then
- * pool must be NULL. Errors: no memory; cancelled. */
+/* out: 0..1. p, q: slopes of the texels' planes in scene units, y up. A part of the table needs a
+ * reach; then pool must be NULL. Errors: out of memory; cancelled. */
 bool wr_occlusion_make(const WrOcclusion *occlusion, const WrMapPart *part, const float *p,
                        const float *q, WrPool *pool, float *out, WrError *err);
 
-/* out: the slope of the horizon in direction k, 0..directions-1, anticlockwise from u; 0 where nothing is higher. */
+/* out: the slope of the horizon in direction k, 0..directions-1, anticlockwise from u; 0 if no height
+ * is greater. */
 bool wr_occlusion_horizon(const WrOcclusion *occlusion, const WrMapPart *part, int k, WrPool *pool,
                           float *out, WrError *err);
 

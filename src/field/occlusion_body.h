@@ -1,5 +1,5 @@
-/* occlusion_body.h - the text of occlusion_kern.h's loops, included once by each occlusion_v*.c, which defines
-   WR_SKY_TABLE and WR_SKY_NAME. A header without a guard, by intention. */
+/* occlusion_body.h - implementation of the loops of occlusion_kern.h, included once by each
+   occlusion_v*.c, which defines WR_SKY_TABLE and WR_SKY_NAME. Intentionally without an include guard. */
 #include "field/occlusion_kern.h"
 
 #include <math.h>
@@ -9,11 +9,12 @@
 #endif
 
 #define LANES WR_SKY_LANES
-#define AHEAD 8 /* rows that are looked at together */
+#define AHEAD 8 /* rows compared together */
 #define STEEPEST 0x1p20f
 #define ALWAYS static inline __attribute__((always_inline))
 
-/* Is one of them not 0? A reduction in the loops that make them would not be one of vectors. */
+/* True if any lane is nonzero. A reduction inside the loops that fill the lanes would prevent
+ * vectorisation. */
 ALWAYS bool any(const int32_t *restrict lane)
 {
     uint64_t pair[LANES / 2];
@@ -25,15 +26,16 @@ ALWAYS bool any(const int32_t *restrict lane)
 #ifdef __AVX512DQ__
 #include "field/occlusion_wide_body.h"
 #else
-/* What the lanes of row s look at, so far: the row, how much higher it is, and what may be seen over it: a row and in the
- * lower half its height. */
+/* Horizon candidate of each lane of row s: the row, its height difference, and the row that may be
+ * visible behind it (with its height in the lower half). */
 typedef struct Sight {
     int32_t at[LANES];
     double rise[LANES];
     int64_t next[LANES];
 } Sight;
 
-/* Whether what `seen` holds is steeper than what lane l looks at; if so, it looks there. */
+/* Compares the slope to the point in `seen` with that to lane l's candidate; if it is steeper, it
+ * becomes the candidate. */
 #define STEEPER(l)                                                                                 \
     const int32_t c = sight->at[l], n = (int32_t)(seen >> 32);                                     \
     const double farther = (double)((int32_t)seen - low[l]);                                       \
@@ -41,7 +43,8 @@ typedef struct Sight {
     sight->at[l] = go ? n : c;                                                                     \
     sight->rise[l] = go ? farther : sight->rise[l]
 
-/* One step of the lanes that go on; whether any lane went. In lanes that have stopped `next` is known. */
+/* One step of the active lanes; true if any lane advanced. `next` is undefined in lanes that have
+ * stopped. */
 ALWAYS bool step_on(const int32_t *restrict low, const int64_t *restrict memory, int32_t s,
                     int32_t sign, Sight *restrict sight, int32_t *restrict on)
 {
@@ -55,7 +58,8 @@ ALWAYS bool step_on(const int32_t *restrict low, const int64_t *restrict memory,
     return any(on);
 }
 
-/* The first two, of which the row before knew all: what it saw at last, and what is to be seen over that. */
+/* The first two steps, whose data is known from the previous row: its final candidate, and the row
+ * visible behind that. */
 ALWAYS bool step_known(const int32_t *restrict low, const int64_t *restrict last, int32_t s,
                        int32_t sign, Sight *restrict sight, int32_t *restrict on)
 {
@@ -96,7 +100,7 @@ ALWAYS void put_slopes(const Sight *restrict sight, int32_t s, int32_t sign, flo
     }
 }
 
-/* Row rows[i], when `last` of the row before is known. */
+/* Processes row rows[i]; `last` of the previous row is known. */
 ALWAYS void sweep_row(const WrSkySweep *w, int i, int32_t sign, float scale, Sight *restrict sight,
                       float *restrict slope)
 {
@@ -165,7 +169,7 @@ static int higher(const int32_t *h, int sign, int from, int count, int32_t *rest
     return k;
 }
 
-/* The arc tangent of 0..1 by the first terms of its series in Chebyshev's polynomials, right to 4e-8. */
+/* The arc tangent of 0..1 by the first terms of its Chebyshev series; error 4e-8. */
 ALWAYS float atan_small(float t)
 {
     const float y = t * t;
@@ -180,7 +184,8 @@ ALWAYS float atan_small(float t)
     return sum * t;
 }
 
-/* The slope that counts in a direction in which the plane rises by s. Beyond STEEPEST all are alike: a wall. */
+/* The effective horizon slope in a direction in which the plane rises by s. Beyond STEEPEST all are
+ * equal: a wall. */
 ALWAYS float horizon_of(float level, float horizon, float s)
 {
     float h = horizon > level ? horizon : level;
@@ -189,10 +194,13 @@ ALWAYS float horizon_of(float level, float horizon, float s)
     return h < STEEPEST ? h : STEEPEST;
 }
 
-/* What the formula of wr_horizon_sky makes of a direction, in which the plane rises by s, and of its opposite, over n_z;
- * without what cancels over all directions. With a = 1 + h^2 and b = 1 + k^2 of both horizons it is
+/* Sky fraction lost in one direction, in which the plane rises by s, and in its opposite, by the
+ * formula of wr_horizon_sky, over n_z; without terms that cancel over all directions. With a = 1 + h^2
+ * and b = 1 + k^2 of both horizons it is
+ *
  *   h (h - s) / a + k (k + s) / b + s (acot h - acot k),
- * whose last bracket is the arc tangent of (k - h) / (1 + h k). One division has them all. */
+ *
+ * whose last bracket is the arc tangent of (k - h) / (1 + h k). One division serves all terms. */
 ALWAYS float taken(float level, float ahead, float behind, float s)
 {
     const float h = horizon_of(level, ahead, s), k = horizon_of(level, behind, -s);
@@ -207,7 +215,7 @@ ALWAYS float taken(float level, float ahead, float behind, float s)
     return num * y * inverse + s * (k > h ? angle : -angle);
 }
 
-/* Of `count` texels side by side. */
+/* `count` adjacent texels. */
 ALWAYS void share_run(const WrSkyShare k, const WrSkyRun *run, int count, float *restrict loss)
 {
     const float *restrict ahead = run->ahead, *restrict behind = run->behind;
@@ -228,7 +236,7 @@ ALWAYS void add_run(const WrSkyShare *k, const float *restrict loss, int count, 
         for (int i = 0; i < count; i++) out[i] += loss[i];
 }
 
-/* What is left of the sky in the end. */
+/* The remaining sky fraction after all directions. */
 ALWAYS void finish_run(const WrSkyRun *run, int count, float *restrict out)
 {
     const float *restrict p = run->p, *restrict q = run->q;
@@ -240,8 +248,8 @@ ALWAYS void finish_run(const WrSkyRun *run, int count, float *restrict out)
     }
 }
 
-/* All is read before anything is written: rows of large tables lie a multiple of 4096 bytes apart, where a load waits
- * for every store before it. */
+/* All reads come before all writes: rows of large tables are a multiple of 4096 bytes apart, where a
+ * load would wait for every earlier store. */
 static void share(const WrSkyShare *given, const WrSkyRun *runs, int count)
 {
     float loss[WR_SKY_STRIP];

@@ -1,4 +1,4 @@
-/* Lines of a whole table, LANES of them swept side by side. */
+/* Horizon sweeps along the lines of a whole table, LANES of them side by side. */
 #include "field/occlusion_lines.h"
 
 #include "base/memory.h"
@@ -11,37 +11,37 @@
 #include <string.h>
 
 #define LANES WR_SKY_LANES
-#define BUNDLE 4 /* stripes that a thread takes at once */
-#define AHEAD 8  /* rows; prefetching waits for the memory of a table that no cache holds */
+#define BUNDLE 4 /* stripes that a thread processes at once */
+#define AHEAD 8  /* rows of prefetching, for tables that no cache holds */
 
-/* All lines of one course. */
+/* All lines of one direction. */
 typedef struct Lines {
     const WrSky *sky;
     WrSkyCourse course;
-    int along, across; /* texels of the own axis and of the other */
+    int along, across; /* texels of the main axis and of the other */
     bool turns_along, turns_across;
-    bool closes;          /* beyond the table lines are what they are within */
-    int ahead;            /* rows that are looked at beyond the table */
-    int first, stripes;   /* of lanes, over the other axis */
-    double scale;         /* of steps a row */
-    size_t texels;        /* of the map */
+    bool closes;          /* lines repeat beyond the table */
+    int ahead;            /* rows searched beyond the table */
+    int first, stripes;   /* stripes of lanes, over the other axis */
+    double scale;         /* of heights in steps, per row */
+    size_t texels;        /* stride of the map in texels */
     struct Work **worker; /* [threads] */
 } Lines;
 
-/* Of the lines that stand side by side in a stripe. */
+/* The adjacent lines of a stripe. */
 typedef struct Stripe {
     int32_t *h;      /* [ahead + along + ahead][LANES] */
     float *slope[2]; /* [along][LANES] */
 } Stripe;
 
-/* Stripes beside one another are put down row by row, so that more than a line of the cache is used of each row. */
+/* Adjacent stripes are written row by row, so that more of each cache line of a row is used. */
 typedef struct Work {
     Stripe stripe[BUNDLE];
     int64_t *seen; /* [ahead + along + ahead][LANES] */
     int *rows;     /* [along + ahead] */
 } Work;
 
-/* Lines are a few tables long: most of them need no division. */
+/* Lines are a few tables long: most indices need no division. */
 static int place(int64_t at, int n, bool turns)
 {
     if (!turns) return at < 0 ? 0 : at < n ? (int)at : n - 1;
@@ -52,13 +52,13 @@ static int place(int64_t at, int n, bool turns)
     return left < 0 ? left + n : left;
 }
 
-/* How far a line has moved over the other axis after some rows, in parts of a texel: q is 1, 2 or 4. */
+/* Offset of a line along the other axis after some rows, in texels; q is 1, 2 or 4. */
 static int64_t whole_of(int64_t parts, int q)
 {
     return q == 1 ? parts : q == 2 ? parts >> 1 : parts >> 2;
 }
 
-/* Texels of row `row` of the own axis, lanes from `from` on over the other. */
+/* Reads the texels of row `row` of the main axis, lanes from `from` on along the other. */
 static void texels(const Lines *l, int row, int64_t from, int32_t *restrict out)
 {
     const WrSky *sky = l->sky;
@@ -79,7 +79,8 @@ static void texels(const Lines *l, int row, int64_t from, int32_t *restrict out)
         out[i] = at[(size_t)place(from + i, l->across, l->turns_across) * other];
 }
 
-/* Row s, beyond the table too, of lanes that start at `base` and meet texels in rows of this phase. */
+/* Samples row s, also beyond the table, for lanes that start at `base` and meet texels in rows of this
+ * phase. */
 static void sample(const Lines *l, int64_t s, int64_t base, int phase, int32_t *restrict out)
 {
     const int q = l->course.q;
@@ -102,7 +103,7 @@ static int64_t outside(const Lines *l, int sign, int k)
     return sign > 0 ? l->along + k : -1 - k;
 }
 
-/* Of what lies beyond the table only rows count that are higher than all before them, in some lane. */
+/* Beyond the table only rows matter that are higher, in some lane, than all rows before them. */
 static int beyond(const Lines *l, int sign, int64_t base, int phase, int32_t *h, int *rows)
 {
     const WrSkyKernels *kernels = l->sky->kernels;
@@ -133,7 +134,7 @@ static int opposite_of(const Lines *l)
     return (l->course.k + directions / 2) % directions;
 }
 
-/* Horizons ahead, and behind, of lanes from `base` on. */
+/* Horizons ahead and behind, for lanes from `base` on. */
 static void sweep_both(const Lines *l, int64_t base, int phase, const Work *work,
                        const Stripe *stripe)
 {
@@ -150,15 +151,15 @@ static void sweep_both(const Lines *l, int64_t base, int phase, const Work *work
     }
 }
 
-/* ---- what is made of them ------------------------------------------------------------------------ */
+/* ---- results ------------------------------------------------------------------------------------- */
 
-/* Runs of texels side by side, as many as are worked on at once. */
+/* Runs of adjacent texels, up to the number processed at once. */
 typedef struct Batch {
     WrSkyRun run[LANES];
     int count;
 } Batch;
 
-/* The horizon in the one direction that is asked for. */
+/* Stores the horizon of the one requested direction. */
 static void put_horizon(const Lines *l, const WrSkyRun *run)
 {
     const float level = l->course.share.level;
@@ -177,7 +178,7 @@ static void put_batch(const Lines *l, Batch *batch)
     batch->count = 0;
 }
 
-/* at: of the first texel. What is at the same place some rows farther down is asked for meanwhile. */
+/* at: the first texel. Prefetches the same column some rows further down. */
 static inline void add_run(const Lines *l, Batch *batch, size_t at, const float *ahead,
                            const float *behind, int count)
 {
@@ -196,7 +197,7 @@ static inline void add_run(const Lines *l, Batch *batch, size_t at, const float 
     if (batch->count == LANES) put_batch(l, batch);
 }
 
-/* The lanes of row s, whose other axis is that of the table's rows. */
+/* Stores the lanes of row s for lines whose other axis runs along the table's rows. */
 static void put_row(const Lines *l, int64_t start, int lanes, int s, const Stripe *stripe,
                     Batch *batch)
 {
@@ -212,8 +213,8 @@ static void put_row(const Lines *l, int64_t start, int lanes, int s, const Strip
     }
 }
 
-/* Rows s to s + LANES - 1 of lines that go along the table's rows: lane by lane, since it is there that texels lie side by
- * side. */
+/* Stores rows s to s + LANES - 1 of lines that run along the table's rows: lane by lane, because texels
+ * are contiguous along a lane. */
 static int put_block(const Lines *l, int64_t start, int lanes, int s, const Stripe *stripe,
                      Batch *batch)
 {
@@ -232,7 +233,7 @@ static int put_block(const Lines *l, int64_t start, int lanes, int s, const Stri
     return rows;
 }
 
-/* Texels that lie side by side nowhere: copies of what is known of them. */
+/* Texels that are not contiguous: gathered copies of their data. */
 typedef struct Loose {
     float p[LANES * LANES], q[LANES * LANES], out[LANES * LANES];
     size_t at[LANES * LANES];
@@ -247,7 +248,7 @@ static void put_loose(const Lines *l, Loose *loose, Batch *batch)
     loose->count = 0;
 }
 
-/* The lanes of row s of lines that go along the table's rows and lean. */
+/* Stores the lanes of row s of oblique lines that run along the table's rows. */
 static void take_leaning(const Lines *l, int64_t start, int lanes, int s, const Stripe *stripe,
                          Loose *loose, Batch *batch)
 {
@@ -258,7 +259,8 @@ static void take_leaning(const Lines *l, int64_t start, int lanes, int s, const 
         const size_t row = (size_t)place(start + i, l->across, l->turns_across);
         const size_t at = row * sky->part->pitch + (size_t)s;
         loose->at[from + i] = there ? at : SIZE_MAX;
-        loose->out[from + i] = there ? sky->out[at] : 0; /* beyond the edge it is another line's */
+        /* beyond the edge the texel belongs to another line */
+        loose->out[from + i] = there ? sky->out[at] : 0;
         if (sky->k >= 0) continue;
         loose->p[from + i] = sky->p[at];
         loose->q[from + i] = sky->q[at];
@@ -345,14 +347,14 @@ static void piece(int index, int worker, void *ctx)
     put_lines(l, base, stripes, phase, work);
 }
 
-/* ---- a course ------------------------------------------------------------------------------------ */
+/* ---- one direction ------------------------------------------------------------------------------- */
 
 static int64_t common(int64_t a, int64_t b)
 {
     return b == 0 ? a : common(b, a % b);
 }
 
-/* Rows after which a line has nothing new to show: it is where it began, or goes along clamped edges. */
+/* Number of rows after which a line repeats: it returns to its start, or runs along clamped edges. */
 static int64_t period_of(const Lines *l)
 {
     const int64_t q = l->course.q, p = llabs((long long)l->course.p);

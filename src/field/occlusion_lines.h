@@ -1,5 +1,5 @@
-/* occlusion_lines.h - all lines of one course over a whole table, swept and put down.
-   Private to this module. */
+/* occlusion_lines.h - horizon sweeps along all lines of one direction over a whole table. Private to
+   this module. */
 #pragma once
 #include "field/occlusion_lattice.h"
 
@@ -7,9 +7,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define WR_SKY_BITS 28 /* of the largest height; the sums of a quarter texel hold two more */
+#define WR_SKY_BITS 28 /* bits of the largest height; sums at quarter texels use two more */
 
-/* The whole table, in steps that are a power of two, so that nothing is rounded that floats hold apart. */
+/* The whole table, in integer steps of a power of two, so that different floats stay different. */
 typedef struct WrSky {
     const WrOcclusion *occlusion;
     const WrMapPart *part;
@@ -23,6 +23,6 @@ typedef struct WrSky {
     const WrSkyKernels *kernels;
 } WrSky;
 
-/* Both directions of a pair: what they take of the sky is added to `out`, or the horizon of the one that is asked for is
- * put there. False: stopped. */
+/* Processes both directions of a pair: adds the sky fraction that they hide to `out`, or stores the
+ * horizon of the requested one. False: cancelled. */
 bool wr_sky_run_pair(const WrSky *sky, int pair, WrPool *pool);

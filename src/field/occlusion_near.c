@@ -1,4 +1,4 @@
-/* Horizons within a reach: every line is looked along, a texel at a time. */
+/* Horizons within a reach: every line is searched texel by texel. */
 #include "field/occlusion_lattice.h"
 
 #include "base/error.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#define ROWS 16 /* of the map that one piece makes */
+#define ROWS 16 /* rows of the map in one piece of work */
 
 typedef struct Near {
     const WrOcclusion *occlusion;
@@ -19,7 +19,7 @@ typedef struct Near {
     const WrSkyKernels *kernels;
 } Near;
 
-/* A piece's heights with as many texels on all sides as are looked at. */
+/* A piece's heights with a margin of the search distance on all sides. */
 typedef struct Ground {
     float *heights;
     size_t pitch;
@@ -29,7 +29,8 @@ typedef struct Ground {
 static Ground open_ground(const Near *near, int y, int rows)
 {
     const WrOcclusion *o = near->occlusion;
-    const int reach = o->reach + 1, wide = near->part->w + 2 * reach; /* 1 to stand between two */
+    /* one more texel for samples between two */
+    const int reach = o->reach + 1, wide = near->part->w + 2 * reach;
     Ground g = { NULL, (size_t)wide, reach };
     g.heights = wr_alloc_unset((size_t)wide * (size_t)(rows + 2 * reach), sizeof(float));
     for (int j = 0; j < rows + 2 * reach; j++) {
@@ -46,7 +47,7 @@ static int floor_div(int a, int b)
     return a / b - (a % b < 0);
 }
 
-/* The horizon along a course, or against it, of `count` texels whose first is at c. */
+/* The horizon along a direction (sign 1) or against it, for `count` texels whose first is at c. */
 static void look_along(const Near *near, const Ground *g, const WrSkyCourse *course, int sign,
                        const float *c, int count, float *best)
 {

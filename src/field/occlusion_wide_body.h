@@ -1,16 +1,18 @@
-/* occlusion_wide_body.h - the sweep of occlusion_kern.h for processors that hold eight lanes of 64 bits, part of
-   occlusion_body.h's text: the same comparisons in whole numbers, so the same bits. What a row looks at is gathered as
-   one number, and the two halves of the lanes stop by themselves.
-   Private to this module. A header without a guard, by intention. */
+/* occlusion_wide_body.h - the sweep of occlusion_kern.h for processors with eight lanes of 64 bits,
+   included by occlusion_body.h.
 
-/* Half of the lanes: row * LANES + lane of what is looked at, in the lower halves how much higher it is, and what may be
- * seen over it. */
+   The same integer comparisons give the same bits. The candidate of a row is gathered as one number,
+   and the two halves of the lanes stop independently. Private to this module. Intentionally without an
+   include guard. */
+
+/* Half of the lanes: row * LANES + lane of the candidate, its height difference in the lower half, and
+ * the row that may be visible behind it. */
 typedef struct Half {
     __m512i at, rise, next;
 } Half;
 
-/* As STEEPER of the plain text; which lanes went on. here: row * LANES + lane of the row that looks. Distances are LANES
- * times too long on both sides, and below 2^25. */
+/* STEEPER of the scalar code; returns the lanes that advanced. here: row * LANES + lane of the present
+ * row. Distances are multiplied by LANES on both sides, and below 2^25. */
 ALWAYS __mmask8 half_step(Half *half, __m512i seen, __m512i low, __m512i here, int sign)
 {
     const __m512i next = _mm512_srai_epi64(seen, 32), farther = _mm512_sub_epi32(seen, low);
@@ -22,7 +24,7 @@ ALWAYS __mmask8 half_step(Half *half, __m512i seen, __m512i low, __m512i here, i
     return go;
 }
 
-/* The first two steps, by what is known; the lanes that went both times. */
+/* The first two steps, from known data; returns the lanes that advanced twice. */
 ALWAYS __mmask8 half_known(Half *half, __m512i last, __m512i low, __m512i here, int sign)
 {
     const __mmask8 went = half_step(half, last, low, here, sign);
@@ -31,7 +33,7 @@ ALWAYS __mmask8 half_known(Half *half, __m512i last, __m512i low, __m512i here, 
     return went & half_step(half, half->next, low, here, sign);
 }
 
-/* The next one of those lanes. */
+/* The next step of those lanes. */
 ALWAYS __mmask8 half_on(Half *half, __mmask8 on, const int64_t *seen, __m512i low, __m512i here,
                         int sign)
 {
@@ -102,7 +104,7 @@ static void sweep(const WrSkySweep *given, double scale, float *restrict slope)
 {
     const WrSkySweep w = *given;
     const float times = (float)scale;
-    Half a = { .next = _mm512_setzero_si512() }, b = a; /* the first row knows what is next */
+    Half a = { .next = _mm512_setzero_si512() }, b = a; /* the first row has a known `next` */
     if (w.rows[0] > w.rows[w.count - 1])
         for (int i = 0; i < w.count; i++) sweep_row(&w, i, 1, times, &a, &b, slope);
     else

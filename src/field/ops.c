@@ -1,4 +1,4 @@
-/* The table of operations, and the one door to them, where everything is checked. */
+/* The table of operations, and their common entry point, which checks all arguments. */
 #include "field/ops.h"
 
 #include "base/error.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define HEIGHT_UNIT "table units"
-/* Any height, with what a slider spans and the default. */
+/* Any height, with the slider range and the default. */
 #define HEIGHT(name_, label_, help_, fallback_)                                                    \
     {                                                                                              \
         .name = name_, .label = label_, .help = help_, .unit = HEIGHT_UNIT, .fallback = fallback_, \
@@ -346,7 +346,8 @@ WrField *wr_op_run_unit(const WrOpInfo *op, const WrField *in, const double *par
     const double unit[WR_OP_VALUES] = { 0, 1 };
     WrField *made = wr_op_run(op, in, param, options, err);
     if (!made) return NULL;
-    WrProgressPart quiet = { .progress = { 0 } }; /* a step back to 0 would only confuse */
+    /* a progress that falls back to 0 would confuse the user */
+    WrProgressPart quiet = { .progress = { 0 } };
     wr_progress_part(&quiet, options ? options->progress : NULL, 0.0, 1.0);
     quiet.progress.report = NULL;
     const WrOpOptions rest = { .pool = options ? options->pool : NULL,

@@ -1,12 +1,14 @@
 /* Gaussian blur and the unsharp mask.
  *
  * Along each axis, with w the weights and R = 4 sigma,
- *   out = c + sum over k = 1..R of w_k ((T[-k] + T[+k]) - 2 c),   c = T[0],
- * which is sum w_k T[k] since the weights add to 1; but this way a flat neighbourhood gives exactly c, and
- * float's rounding is that of the differences. What is cut off beyond 4 sigma weighs 6e-5.
  *
- * A block is read with an apron of R texels, filtered along u, then along v: all of it stays in the second-level cache, what
- * is filtered at once in the first. */
+ *   out = c + sum over k = 1..R of w_k ((T[-k] + T[+k]) - 2 c),   c = T[0],
+ *
+ * which is sum w_k T[k] since the weights add to 1. In this form a flat neighbourhood gives exactly c,
+ * and float's rounding applies only to the differences. The tails beyond 4 sigma have a weight of 6e-5.
+ *
+ * A block is read with an apron of R texels, filtered along u, then along v. The block stays in the
+ * second-level cache, the rows filtered at once in the first. */
 #include "field/ops_internal.h"
 
 #include "base/exactmath.h"
@@ -20,7 +22,7 @@
 #define SIDE WR_OP_SIDE
 #define LANES WR_TAPS_LANES
 #define WIDE (SIDE + 2 * REACH) /* a block with its apron */
-#define ROWS (WIDE + LANES)     /* the last ones of LANES may lie beyond it */
+#define ROWS (WIDE + LANES)     /* padded: the last LANES may extend beyond it */
 #define READ_PITCH (WIDE + 16)
 #define MID_PITCH (SIDE + 16)
 #define LOG2_E 1.4426950408889634
@@ -43,17 +45,17 @@ int wr_op_gauss(double sigma, float weight[REACH + 1])
 typedef struct Blur {
     int reach;
     float weight[REACH + 1];
-    float amount; /* how much of the blurred difference is added to the height: 1 a blur */
+    float amount; /* fraction of the blurred difference that is added to the height: 1 for a blur */
 } Blur;
 
-/* What a thread works on. */
+/* Buffers of a thread. */
 typedef struct Desk {
     float in[ROWS * READ_PITCH];                    /* the block with its apron */
-    float mid[ROWS * MID_PITCH];                    /* the same, filtered along u */
-    float turned[WIDE * LANES], done[SIDE * LANES]; /* LANES rows of it as columns; filtered */
+    float mid[ROWS * MID_PITCH];                    /* filtered along u */
+    float turned[WIDE * LANES], done[SIDE * LANES]; /* LANES rows transposed to columns; filtered */
 } Desk;
 
-/* LANES rows along u: turned, so that what is filtered side by side lies side by side. */
+/* Filters LANES rows along u: transposed, so that the texels of one vector are contiguous. */
 static void filter_rows(const Blur *blur, int count, const float *in, float *mid, Desk *desk)
 {
     const WrTaps *taps = wr_taps();
@@ -65,7 +67,7 @@ static void filter_rows(const Blur *blur, int count, const float *in, float *mid
         taps->turn(desk->done + x * LANES, LANES, mid + x, MID_PITCH);
 }
 
-/* The sums along v become heights. */
+/* Converts the sums along v to heights. */
 static void sharpen(const Blur *blur, const WrOpBlock *b, const Desk *desk, float *out,
                     size_t pitch)
 {
@@ -79,7 +81,8 @@ static void sharpen(const Blur *blur, const WrOpBlock *b, const Desk *desk, floa
     }
 }
 
-/* What the block above needed of this one is the top of what this one needs. Returns how many rows. */
+/* The lower rows needed by the block above are the top rows of this one: reuses them and returns their
+ * number. */
 static int keep_rows(const Blur *blur, const WrOpBlock *b, Desk *desk)
 {
     const size_t rows = b->follows ? 2 * (size_t)blur->reach : 0;

@@ -1,18 +1,20 @@
-/* A wide Gaussian at a cost that hardly depends on its width.
+/* A wide Gaussian blur at a cost that hardly depends on its width.
  *
- * Four boxes one after the other make a kernel close to a Gaussian, but flatter: its excess kurtosis is
- * -1.2/4. The mean of two such kernels with variances sigma^2 (1 - 1/3) and sigma^2 (1 + 1/3) has the
- * variance sigma^2 and no excess kurtosis. It differs from the Gaussian by 0.7 % in the sum of |differences|
- * (four plain boxes: 3.9 %), so that along one axis a blurred height is off by at most 0.35 % of the table's
+ * Four successive boxes approximate a Gaussian, but flatter: the excess kurtosis is -1.2/4. The mean of
+ * two such kernels with variances sigma^2 (1 - 1/3) and sigma^2 (1 + 1/3) has the variance sigma^2 and
+ * no excess kurtosis. It differs from the Gaussian by 0.7 % in the sum of |differences| (four plain
+ * boxes: 3.9 %), so that along one axis the error of a blurred height is at most 0.35 % of the table's
  * range; it has three continuous derivatives and no negative weight.
  *
- * A box of real variance v is 2r + 1 whole texels and a part `end` of one more on either side:
+ * A box of real variance v has 2r + 1 whole texels and a fraction `end` of one more on either side:
+ *
  *   v = ((2r + 1) r (r + 1)/3 + 2 end (r + 1)^2) / (2r + 1 + 2 end),  0 <= end < 1.
  *
- * Box sums run along the row: one texel comes in, one goes out. They must not depend on where they began
- * (a rolled table gives rolled heights, a flat place stays flat), so they are sums of whole numbers, which
- * doubles hold exactly: heights are counted in steps of 2^-40 of the largest |F|, rounded up to a power of two,
- * and each box's result is rounded to whole steps again. A box has less than 2^12 texels. */
+ * Box sums run along the row: one texel is added, one subtracted. They must not depend on their
+ * starting point (a rolled table gives rolled heights, a flat place stays flat), so they are sums of
+ * integers, which doubles represent exactly: heights are counted in steps of 2^-40 of the largest |F|,
+ * rounded up to a power of two, and each box's result is rounded to whole steps again. A box has less
+ * than 2^12 texels. */
 #include "field/ops_internal.h"
 
 #include "base/memory.h"
@@ -47,8 +49,8 @@ static WrBox box_of(double variance)
     return (WrBox){ r, end, 1.0 / (whole + 2.0 * end) };
 }
 
-/* Filter `count` elements of LANES steps each; row begins with the apron. Returns where the sum of both
-   chains is, [count][LANES]. */
+/* Filters `count` elements of LANES steps each; row begins with the apron. Returns the sum of both
+   chains, [count][LANES]. */
 static const double *run_chains(const WideBlur *wide, double *row, int count)
 {
     double *a = row + wide->length, *b = a + wide->length, *sum = b + wide->length;
@@ -99,7 +101,7 @@ static void blur_columns(int index, int worker, void *ctx)
 {
     const WideBlur *wide = ctx;
     const WrOpPlane *plane = wide->plane;
-    int i = index * LANES; /* the last ones may reach into the gap between rows */
+    int i = index * LANES; /* the last ones may extend into the gap between rows */
     double *row = wide->work + (size_t)worker * wide->pitch;
     for (int y = 0; y < plane->height + 2 * wide->apron; y++) {
         const float *from = plane->at + (size_t)row_of(wide, y - wide->apron) * plane->pitch + i;
@@ -145,7 +147,7 @@ bool wr_op_blur_wide(const WrOpJob *job, double sigma, WrOpPlane *plane)
     int longest = plane->width > plane->height ? plane->width : plane->height;
     size_t across = (size_t)longest + 2 * (size_t)wide.apron;
     wide.length = across * LANES;
-    wide.pitch = 4 * wide.length + across; /* the last for a row of floats */
+    wide.pitch = 4 * wide.length + across; /* the last is a row of floats */
     wide.work = wr_try_alloc((size_t)wr_pool_threads(job->pool), wide.pitch * sizeof(double),
                              job->name, job->err);
     if (!wide.work) return false;

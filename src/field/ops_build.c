@@ -1,7 +1,7 @@
-/* From blocks of new heights to a table. The blocks of a batch are made in parallel, some that lie below one another by the
-   same thread, since a filter then has what it read for the one above; of what differs tiles are made at once. They are put
-   into the table one after the other, since that may copy nodes of the tree. Which blocks make a batch does not show in any
-   height. */
+/* Builds a table from blocks of new heights. The blocks of a batch are computed in parallel. A thread
+   processes several blocks of one column, since a filter can reuse rows read for the block above.
+   Changed tiles are allocated at once but inserted into the table sequentially, since that may copy
+   nodes of the tree. The choice of batches never affects a height. */
 #include "field/ops_internal.h"
 
 #include "base/error.h"
@@ -16,11 +16,11 @@
 
 #define SIDE WR_OP_SIDE
 #define BATCH 128               /* blocks between two reports */
-#define TALL 8                  /* blocks below one another, at most */
+#define TALL 8                  /* maximum number of blocks in a column */
 #define ACROSS (SIDE / WR_TILE) /* tiles along a block's side */
 #define BLOCK_TILES (ACROSS * ACROSS)
 
-/* Per thread. */
+/* Buffers of a thread. */
 typedef struct Bench {
     float now[SIDE * SIDE], before[SIDE * SIDE], mask[SIDE * SIDE];
 } Bench;
@@ -29,17 +29,16 @@ typedef struct Build {
     const WrOpJob *job;
     const WrOpWork *work;
     WrField *out;
-    const WrField
-        *base;   /* what is where nothing changes; `out` itself, but where little is done again */
-    bool same;   /* base is the input */
-    bool blends; /* base is a share of the input: the mask applies */
-    WrOpBlock *blocks;  /* [count], those that are done again; NULL: all */
-    int count, first;   /* blocks, some of them without texels; of the present batch */
-    int blocks_u, tall; /* across the table; blocks of a piece of work */
-    Bench *bench;       /* [threads] */
-    char *scratch;      /* [threads][scratch_pitch] */
+    const WrField *base; /* content of unchanged parts; `out` itself, except for partial updates */
+    bool same;           /* base is the input */
+    bool blends;         /* base is a share of the input: the mask applies */
+    WrOpBlock *blocks;   /* [count], the blocks to compute again; NULL: all */
+    int count, first;    /* number of blocks, some without texels; first of the present batch */
+    int blocks_u, tall;  /* across the table; blocks of a piece of work */
+    Bench *bench;        /* [threads] */
+    char *scratch;       /* [threads][scratch_pitch] */
     size_t scratch_pitch;
-    float *tile[BATCH][BLOCK_TILES]; /* what the table gets; NULL: unchanged */
+    float *tile[BATCH][BLOCK_TILES]; /* new tiles; NULL: unchanged */
 } Build;
 
 static int min_int(int a, int b)
@@ -47,7 +46,7 @@ static int min_int(int a, int b)
     return a < b ? a : b;
 }
 
-/* One below another, and stack beside stack; below the table there are no texels. */
+/* Blocks are numbered down a column, column after column; those below the table have no texels. */
 static WrOpBlock block_at(const Build *build, int index)
 {
     if (build->blocks) return build->blocks[index];
@@ -58,13 +57,14 @@ static WrOpBlock block_at(const Build *build, int index)
                         min_int(SIDE, wr_field_height(build->out) - j), false };
 }
 
-/* First and last tile of texels from .. to along an axis of n texels, as far as a loop over tiles modulo
-   their number has to go. */
+/* First and last tile of texels from .. to along an axis of n texels, for a loop over tiles modulo
+   their number. */
 static void tile_span(int from, int to, int n, WrWrap wrap, int *first, int *last)
 {
     int tiles = (n + WR_TILE - 1) / WR_TILE;
     bool all = wrap == WR_WRAP_PERIODIC && (from < 0 || to >= n);
-    if (all) { /* to be simple, at the seam: the texels on its other side may be two tiles' */
+    if (all) { /* all tiles at the seam, for simplicity: the texels on its other side may belong to
+                  two tiles */
         *first = (from - WR_TILE) / WR_TILE - 1;
         *last = (to + WR_TILE) / WR_TILE + 1;
         if (*last - *first >= tiles) *first = 0, *last = tiles - 1;
@@ -80,7 +80,7 @@ static int modulo(int i, int n)
     return rest < 0 ? rest + n : rest;
 }
 
-/* Is every tile of `field` around the block NULL? */
+/* True if every tile of `field` around the block is NULL. */
 static bool is_flat(const WrField *field, WrOpBlock b, int reach)
 {
     int u0, u1, v0, v1;
@@ -104,7 +104,7 @@ static bool nothing_to_do(const Build *build, WrOpBlock block)
     return build->work->reach >= 0 && is_flat(build->job->in, block, build->work->reach);
 }
 
-/* Beyond float's range: its ends. Not a number can only come of heights near those: no change. */
+/* Clamps to float's range. NaN can result only from heights near its ends: no change. */
 static void keep_finite(const float *restrict before, float *restrict row, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -124,7 +124,7 @@ static void blend(const float *restrict mask, const float *restrict before, floa
     }
 }
 
-/* Equal heights keep their bits: a filter turns -0 into 0. */
+/* Equal heights keep their bits: a filter would turn -0 into 0. */
 static void keep_equal(const float *restrict before, float *restrict row, int count)
 {
     for (int i = 0; i < count; i++) row[i] = row[i] == before[i] ? before[i] : row[i];
@@ -143,7 +143,7 @@ static bool row_differs(const float *restrict before, const float *restrict row,
     return differs != 0;
 }
 
-/* What the block was, and its pitch. */
+/* The previous content of the block, and its pitch. */
 static const float *read_before(const Build *build, const WrOpBlock *b, const char *scratch,
                                 Bench *bench, size_t *pitch)
 {
@@ -157,7 +157,7 @@ static const float *read_before(const Build *build, const WrOpBlock *b, const ch
     return bench->before;
 }
 
-/* A rectangle of heights, and what it was; mask: NULL, or how much of it is taken. */
+/* A rectangle of heights, and its previous content; mask: NULL, or the weight of the change. */
 typedef struct Part {
     const float *before, *mask;
     float *now;
@@ -165,7 +165,7 @@ typedef struct Part {
     int columns, rows;
 } Part;
 
-/* The new heights as the table will have them. True if any of them changed. */
+/* Applies mask and range to the new heights. True if any of them changed. */
 static bool finish_part(const Build *build, const Part *part)
 {
     bool changed = false;
@@ -183,7 +183,7 @@ static bool finish_part(const Build *build, const Part *part)
     return changed;
 }
 
-/* Texels that are unused have the level. */
+/* Unused texels have the level. */
 static float *new_tile(const Build *build, const Part *part)
 {
     const float level = wr_field_level(build->out);
@@ -242,7 +242,7 @@ static void make_stack(int index, int worker, void *ctx)
     }
 }
 
-/* What is done again may now be what the base has. */
+/* The recomputed tile may now be equal to the base's. */
 static void put_base(Build *build, WrOpBlock b, int t)
 {
     int x = t % ACROSS, y = t / ACROSS, tx = b.i / WR_TILE + x, ty = b.j / WR_TILE + y;
@@ -296,7 +296,7 @@ static bool same_shape(const WrField *a, const WrField *b)
     return wr_field_alike(a, b) && memcmp(&x, &y, sizeof x) == 0;
 }
 
-/* Several stacks for each thread, so that none waits for long. */
+/* Several columns for each thread, so that none waits for long. */
 static int stack_height(int blocks, int threads)
 {
     int tall = TALL;
@@ -304,7 +304,7 @@ static int stack_height(int blocks, int threads)
     return tall;
 }
 
-/* Which blocks there are, and what they are written over. */
+/* Lists the blocks, and selects the table that they are written to. */
 static void plan_blocks(Build *build, WrField *base)
 {
     const WrOpJob *job = build->job;

@@ -1,4 +1,4 @@
-/* What of an operation has to be done again where its input changed here and there. */
+/* The blocks of an operation to recompute after a partial change of its input. */
 #include "field/ops_internal.h"
 
 #include "base/array.h"
@@ -27,7 +27,8 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/* The tiles of texels that may lie outside, as one or two runs: those beyond an edge come in at the other. */
+/* The tiles of a span that may extend outside, as one or two runs: beyond an edge they wrap to the
+ * other. */
 static int tile_runs(Span s, int n, WrWrap wrap, Span run[2])
 {
     const int last = (n - 1) / WR_TILE;
@@ -67,7 +68,7 @@ static bool differs(const float *a, float level_a, const float *b, float level_b
     return memcmp(&x, &y, sizeof x) != 0;
 }
 
-/* Around the texels of the tile that differ. */
+/* Marks the tiles around the changed texels of a tile. */
 static void mark_around(int tx, int ty, void *ctx)
 {
     const Changed *c = ctx;
@@ -90,7 +91,7 @@ static void mark_around(int tx, int ty, void *ctx)
          (Span){ ty * WR_TILE + j.from, ty * WR_TILE + j.to });
 }
 
-/* The smallest block around the marked tiles of a square of them; no texels if there are none. */
+/* The smallest block around the marked tiles of a square of tiles; no texels if there are none. */
 static WrOpBlock block_of(const Changed *c, int left, int top)
 {
     Span i = { c->tiles_u, -1 }, j = { c->tiles_v, -1 };

@@ -1,11 +1,10 @@
-/* ops_internal.h - what the files of the table operations share: the job, the builder that turns blocks of
-   new heights into a table that shares its unchanged tiles, and the operations' functions.
-   Private to ops*.c.
+/* ops_internal.h - internals shared by the table operations: the job, the builder of result tables, and
+   the operations. Private to ops*.c.
 
-   An operation gives a function that makes any block of the result from the input. The builder calls
-   it on the pool's threads for one batch of blocks at a time, blends with the mask, compares with what
-   was there and writes only the tiles that differ. So an operation needs scratch space for a block, not
-   for a table. */
+   An operation provides a function that computes any block of the result from the input. The builder
+   calls it on the pool's threads for one batch of blocks at a time, blends with the mask, compares with
+   the previous content and writes only the tiles that differ. So an operation needs scratch space for a
+   block, not for a table. */
 #pragma once
 #include <float.h>
 #include <stdbool.h>
@@ -15,7 +14,7 @@
 #include "field/ops.h"
 #include "field/wrap.h"
 
-/* The words of what operations may be told. */
+/* Words of the operations' enumerated parameters. */
 #define WR_INVERT_ABOUTS(X) X(WR_INVERT_RANGE, "range") X(WR_INVERT_ZERO, "zero")
 enum { WR_INVERT_ABOUTS(WR_WORD_ID) };
 #define WR_WINDOWS(X) X(WR_WINDOW_ROUND, "round") X(WR_WINDOW_SQUARE, "square")
@@ -41,59 +40,62 @@ extern const char *const wr_op_noise_kinds[]; /* their words; ends with NULL */
 struct WrOpJob {
     const char *name; /* for messages */
     const WrField *in;
-    const WrField *mask;       /* NULL: everything */
-    const WrField *was, *made; /* as in WrOpOptions; NULL: everything is to be made */
+    const WrField *mask;       /* NULL: no mask */
+    const WrField *was, *made; /* as in WrOpOptions; NULL: compute everything */
     WrPool *pool;
     const WrProgress *progress;
-    double from, to; /* the part of the whole that the present step is, 0..1 */
+    double from, to; /* range of the present step within the whole, 0..1 */
     WrError *err;
 };
 
 /* A rectangle of texels of the result. */
 typedef struct WrOpBlock {
     int i, j, count_i, count_j; /* counts 1..WR_OP_SIDE */
-    /* The scratch is as it was left by the block above, of WR_OP_SIDE rows and the same columns. */
+    /* The scratch still contains the data of the block above, of WR_OP_SIDE rows and the same columns. */
     bool follows;
 } WrOpBlock;
 
-/* What the builder has to know about an operation. */
+/* The builder's description of an operation. */
 typedef struct WrOpWork {
-    /* The new heights of a block, row by row, `pitch` floats a row. They may pass float's range.
-       scratch: `scratch` bytes that no other thread uses, 64-byte aligned, of any content (but see `follows`). */
+    /* Computes the new heights of a block, row by row, `pitch` floats a row. They may exceed float's
+       range. scratch: `scratch` bytes that no other thread uses, 64-byte aligned, undefined content
+       (but see `follows`). */
     void (*make)(const WrOpJob *job, const void *ctx, WrOpBlock block, float *out, size_t pitch,
                  void *scratch);
     const void *ctx;
     size_t scratch;
-    /* Where in the scratch `make` leaves the block as it was, in floats; pitch 0: nowhere. */
+    /* Position in the scratch where `make` leaves the block's input, in floats; pitch 0: nowhere. */
     struct {
         size_t at, pitch;
     } input;
-    int reach; /* input texels farther away than this do not matter; -1: not known */
-    int window; /* texels along a side of the square of input that alone a texel depends on, 2 reach + 1; 0: on
+    int reach;  /* input texels farther away have no effect; -1: unknown */
+    int window; /* side in texels of the square of input that a texel depends on, 2 reach + 1; 0: on
                    the whole table, by its range or its sums */
-    bool moves; /* copies texels: -0 stays -0. Else a texel that comes out equal keeps its bits */
+    bool
+        moves; /* copies texels: -0 stays -0. Otherwise a texel with an equal result keeps its bits */
 } WrOpWork;
 
-/* The table that a result of this size starts as: a share of the input if size and edges are the same,
-   else a flat one at the input's level. NULL and an error for a size out of range. */
+/* The initial table of a result of this size: a share of the input if size and edges are equal, else a
+   flat one at the input's level. NULL and an error for a size out of range. */
 WrField *wr_op_base(const WrOpJob *job, int width, int height, WrWrap wrap_u, WrWrap wrap_v);
 
-/* Make all blocks of the result and write them over `base`, which becomes the result (or is freed, and
-   NULL comes back with an error). Where `reach` is known, blocks around which the input is NULL are not
-   made: base must be flat there already, as a share is for every filter that keeps flat tables. */
+/* Computes all blocks of the result and writes them over `base`, which becomes the result (on failure
+   it is freed, and the function returns NULL with an error). If `reach` is known, blocks around which
+   the input is NULL are skipped: base must be flat there already, as a share is for every filter that
+   keeps flat tables. */
 WrField *wr_op_build(const WrOpJob *job, WrField *base, const WrOpWork *work);
 
-/* The same for an operation that gives a table of the input's size and edges. */
+/* wr_op_build for an operation whose result has the input's size and edges. */
 WrField *wr_op_build_same(const WrOpJob *job, const WrOpWork *work);
 
-/* The blocks, along tiles, that may come out otherwise than in what was made: those within `reach` of a texel
-   that differs. The caller frees them. */
+/* The blocks, aligned to tiles, that may differ from the previous result: those within `reach` of a
+   changed texel. The caller frees them. */
 WrOpBlock *wr_op_changed_blocks(const WrOpJob *job, int reach, int *count);
 
-/* Check all values, as they stand in a WrFilter. */
+/* Checks all values, in the order of WrFilter. */
 bool wr_op_check_params(const WrOpInfo *op, const double *value, WrError *err);
 
-/* Report how much of the present step is done, 0..1; false and an error when the job is cancelled. */
+/* Reports the fraction done of the present step, 0..1; false and an error when the job is cancelled. */
 bool wr_op_step(const WrOpJob *job, double fraction);
 
 /* wr_pool_run in batches, with reports between them. False and an error when cancelled. */
@@ -103,16 +105,16 @@ bool wr_op_pieces(const WrOpJob *job, int count, WrPiece piece, void *ctx);
 void wr_op_read(const WrField *field, int i, int j, int count_i, int count_j, float *out,
                 size_t pitch);
 
-/* A whole table in one piece of memory, for operations that cannot go block by block. A row starts at
-   at + j * pitch; the pitch is off the powers of two, and two floats on either side of a row are the
-   operation's to use. */
+/* A whole table in contiguous memory, for operations that cannot work on blocks. A row starts at at + j
+ * * pitch; the pitch avoids powers of two, and the operation may use two floats on either side of a
+ * row. */
 typedef struct WrOpPlane {
     float *block, *at; /* block: owned; at: texel (0, 0) */
     size_t pitch;
     int width, height;
 } WrOpPlane;
 
-/* Make room for a plane as large as the job's input. False and an error without memory. */
+/* Allocates a plane of the job's input size. False and an error when out of memory. */
 bool wr_op_plane_init(WrOpPlane *plane, const WrOpJob *job);
 void wr_op_plane_fini(WrOpPlane *plane);
 
@@ -122,7 +124,7 @@ static inline float wr_op_float(double x)
 }
 
 /* Sampled Gaussian exp(-k^2 / (2 sigma^2)), k = 0..reach, divided by the sum over all -reach..reach;
-   reach = ceil(4 sigma) is returned. sigma 0..WR_OP_NARROW_SIGMA. */
+   returns reach = ceil(4 sigma). sigma 0..WR_OP_NARROW_SIGMA. */
 #define WR_OP_NARROW_SIGMA 16
 #define WR_OP_NARROW_REACH 64
 int wr_op_gauss(double sigma, float weight[WR_OP_NARROW_REACH + 1]);

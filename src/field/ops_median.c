@@ -1,10 +1,10 @@
-/* Median over a window, exact.
+/* Exact median over a window.
  *
- * One tile at a time: the heights of the tile and its apron (at most 128 x 128) are sorted once and known
- * by their rank from then on, so that a window's contents are a set of bits. The window goes over the
- * tile like a plough, right, down, left, down; each step takes in the texels of one edge and drops those
- * of the other. How many members lie in words before a current one is kept up to date, and the
- * median's word is never far. */
+ * Works on one tile at a time: the heights of the tile and its apron (at most 128 x 128) are sorted
+ * once and then represented by their ranks, so that a window's contents are a bit set. The window moves
+ * over the tile in a serpentine: right, down, left, down; each step adds the texels of one edge and
+ * removes those of the other. The number of members in words before a current one is kept up to date,
+ * and the median's word is never far away. */
 #include "field/ops_internal.h"
 
 #include "base/progress.h"
@@ -23,19 +23,19 @@ typedef struct Median {
     int size;                     /* texels in the window; odd */
 } Median;
 
-/* Scratch of one thread. */
+/* Scratch memory of one thread. */
 typedef struct Desk {
     float height[TEXELS]; /* the tile and its apron, `pitch` a row */
     float sorted[TEXELS]; /* by rank */
     uint16_t rank[TEXELS];
-    uint64_t item[2][TEXELS]; /* key << 32 | place */
+    uint64_t item[2][TEXELS]; /* key << 32 | position */
     uint64_t word[WORDS];     /* members, by rank */
     uint8_t members[WORDS];
     int pitch;
     int at, below; /* a word, and the members in those before it */
 } Desk;
 
-/* Order of heights as order of whole numbers; -0 and 0 are the same. */
+/* Maps the order of heights to the order of integers; -0 and 0 are equal. */
 static uint32_t key_of(float height)
 {
     union {
@@ -45,7 +45,7 @@ static uint32_t key_of(float height)
     return bits.u & 0x80000000u ? ~bits.u : bits.u | 0x80000000u;
 }
 
-/* Sort by key, 11 bits at a time from the lowest; stable. */
+/* Sorts by key with a radix sort, 11 bits at a time from the lowest; stable. */
 static void set_ranks(Desk *desk, int count)
 {
     enum { DIGIT = 11, VALUES = 1 << DIGIT };

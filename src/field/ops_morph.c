@@ -1,9 +1,10 @@
 /* Dilate and erode: largest and smallest height in a round window.
  *
- * The window's row d has the half width h = floor(sqrt(radius^2 - d^2)). The largest of 2h + 1 texels is the
- * larger of two overlapping runs whose length is a power of two; the largest of all such runs in a row
- * are made once for each input row (each from the one before), and then compared into the output rows
- * that see this row. Nothing but comparisons, so the result is exact; eroding is dilating -F. */
+ * The window's row d has the half width h = floor(sqrt(radius^2 - d^2)). The largest of 2h + 1 texels
+ * is the larger of two overlapping runs whose length is a power of two. The maxima of all such runs are
+ * computed once for each input row (each length from the previous one), and then merged into the output
+ * rows whose window contains this row. Only comparisons are used, so the result is exact; eroding is
+ * dilating -F. */
 #include "field/ops_internal.h"
 
 #include <math.h>
@@ -16,7 +17,7 @@
 typedef struct Morph {
     int reach;
     int half[2 * RADIUS_MAX + 1],
-        level[2 * RADIUS_MAX + 1]; /* of the window's row -reach .. reach */
+        level[2 * RADIUS_MAX + 1]; /* for the window's row -reach .. reach */
     int levels;
     bool erode;
 } Morph;
@@ -41,7 +42,7 @@ static void larger_of_three(const float *a, const float *b, int count, float *re
     }
 }
 
-/* runs[level][i] = largest of 2^level texels from i on; runs[0] is there. */
+/* runs[level][i] = largest of 2^level texels from i on; runs[0] is given. */
 static void make_runs(const Morph *morph, float (*runs)[WIDE], int count)
 {
     for (int level = 1; level < morph->levels; level++) {

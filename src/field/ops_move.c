@@ -1,4 +1,4 @@
-/* Operations that only carry texels to other places: offset, flips, quarter turns, crop. */
+/* Operations that only move texels: offset, flips, quarter turns, crop. */
 #include "field/ops_internal.h"
 
 #include "base/error.h"
@@ -19,13 +19,14 @@ static void make_shifted(const WrOpJob *job, const void *ctx, WrOpBlock b, float
     wr_op_read(job->in, b.i + shift->du, b.j + shift->dv, b.count_i, b.count_j, out, pitch);
 }
 
-/* Texels: a number between -1 and 1 is a share of the side, rounded to whole texels. */
+/* A shift in texels: a number between -1 and 1 is a fraction of the side, rounded to whole texels. */
 static int texels_of(double shift, int side)
 {
     return (int)(fabs(shift) < 1.0 ? round(shift * side) : shift);
 }
 
-/* param: du, dv. A shift to the right or upwards looks to the left or downwards, and rows run down. */
+/* param: du, dv. The source of a shift to the right or upwards is to the left or below, and rows run
+ * down. */
 WrField *wr_op_offset(WrOpJob *job, const double *param)
 {
     Shift shift = { -texels_of(param[0], wr_field_width(job->in)),
@@ -92,8 +93,8 @@ WrField *wr_op_flip_v(WrOpJob *job, const double *param)
     return wr_op_build_same(job, &work);
 }
 
-/* Counter-clockwise: what was at the top right comes to the top left,
- *   90: out(i, j) = in(W - 1 - j, i)    270: out(i, j) = in(j, H - 1 - i) */
+/* Counter-clockwise: the top right corner becomes the top left,
+ *    90: out(i, j) = in(W - 1 - j, i)    270: out(i, j) = in(j, H - 1 - i) */
 static void make_quarter_turn(const WrOpJob *job, const void *ctx, WrOpBlock b, float *out,
                               size_t pitch, void *scratch)
 {
@@ -120,7 +121,7 @@ static void make_half_turn(const WrOpJob *job, const void *ctx, WrOpBlock b, flo
     reverse_rows(out, pitch, b.count_i, b.count_j);
 }
 
-/* param: which of 90, 180, 270 degrees. The axes' edges turn with the texels. */
+/* param: index of 90, 180, 270 degrees. The axes' wraps turn with the texels. */
 WrField *wr_op_rotate(WrOpJob *job, const double *param)
 {
     const WrField *in = job->in;

@@ -1,9 +1,10 @@
-/* Operations by noise that tiles: heights with noise added, and heights moved to the side by noise. What they do to a
-   texel goes by its place in the table, so a rolled table does not give the rolled result.
+/* Operations with tiling noise: heights with noise added, and heights displaced sideways by noise. The
+   effect on a texel depends on its position in the table, so a rolled table does not give the rolled
+   result.
 
-   Warp: out(p) = in(p + amount w(p)), w the two noises over the bound of their sums, so that no height comes from
-   farther away than `amount` texels along an axis; between texels by Catmull-Rom's cubic (or a bilinear), written as
-   differences from the texel at p's left top, so that a level place stays as it is. */
+   Warp: out(p) = in(p + amount w(p)), w the two noises divided by their bound, so that no height moves
+   by more than `amount` texels along an axis. Between texels, Catmull-Rom (or bilinear) interpolation
+   is written as differences from the texel at p's top left, so that a level place stays unchanged. */
 #include "field/ops_internal.h"
 
 #include "base/error.h"
@@ -14,12 +15,12 @@
 #include <math.h>
 
 #define SIDE WR_OP_SIDE
-#define MARGIN 2 /* texels that a cubic looks at beyond the place */
+#define MARGIN 2 /* texels that a cubic reads beyond the position */
 #define CELLS_MAX 8192.0
 
 const char *const wr_op_noise_kinds[] = { WR_OP_NOISES(WR_WORD) NULL };
 
-/* Cells that are about square in texels. */
+/* Chooses cells that are about square in texels. */
 static WrOctaves octaves_of(const WrField *in, double cells, double octaves, double seed)
 {
     const double rows = floor(cells * wr_field_height(in) / wr_field_width(in) + 0.5);
@@ -90,13 +91,14 @@ WrField *wr_op_noise(WrOpJob *job, const double *param)
 /* ---- warp ---- */
 
 typedef struct Warp {
-    WrOctavesPlan plan[2]; /* of the move along u, and along v */
+    WrOctavesPlan plan[2]; /* of the displacement along u and along v */
     double amount;         /* texels */
     int reach;
     bool cubic;
 } Warp;
 
-/* What the four texels from the one before the place on count, without the second, whose is the rest to 1. */
+/* Weights of the four texels from the one before the position on, without the second, whose weight is 1
+ * minus the others. */
 typedef struct Weights {
     double before, next, last;
 } Weights;
@@ -109,7 +111,7 @@ static Weights weights_at(double t, bool cubic)
                       .last = 0.5 * t * t * (t - 1.0) };
 }
 
-/* The row at f[0] .. f[1], less `base`. */
+/* The row interpolated between f[0] and f[1], minus `base`. */
 static double across(const float *f, Weights w, double base)
 {
     const double own = (double)f[0] - base;
@@ -125,7 +127,7 @@ static double height_at(const float *f, ptrdiff_t pitch, Weights u, Weights v)
            v.last * (across(f + 2 * pitch, u, base) - own);
 }
 
-/* Texels to go: where there is no noise, none. */
+/* Displacement in texels; 0 where the noise is 0. */
 static double move_of(const Warp *warp, int axis, float noise)
 {
     const double bound = warp->plan[axis].bound;

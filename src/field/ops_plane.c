@@ -1,4 +1,4 @@
-/* What operations need besides the builder: reports, batches, reading with repeated edges, planes. */
+/* Helpers of operations besides the builder: reports, batches, reading with repeated edges, planes. */
 #include "field/ops_internal.h"
 
 #include "base/error.h"
@@ -42,8 +42,8 @@ bool wr_op_pieces(const WrOpJob *job, int count, WrPiece piece, void *ctx)
     return true;
 }
 
-/* Indices from .. from + count - 1 of an axis of n texels: which of them to read, and where in the
-   output the first of these goes; the rest repeats the ends. */
+/* Indices from .. from + count - 1 of an axis of n texels: the range to read, and the output position
+   of its first texel; the rest repeats the ends. */
 typedef struct Span {
     int from, count, at;
 } Span;
@@ -88,7 +88,7 @@ bool wr_op_plane_init(WrOpPlane *plane, const WrOpJob *job)
     float *block = wr_try_alloc_unset(pitch * (size_t)height, sizeof *block, job->name, job->err);
     if (!block) return false;
     *plane = (WrOpPlane){ block, block + 2, pitch, width, height };
-    for (int y = 0; y < height; y++) { /* vectors reckon with what lies between rows */
+    for (int y = 0; y < height; y++) { /* vector code also computes on the padding between rows */
         float *row = block + pitch * (size_t)y;
         memset(row, 0, 2 * sizeof *row);
         memset(row + 2 + width, 0, (pitch - 2 - (size_t)width) * sizeof *row);

@@ -1,14 +1,14 @@
 /* Resize with a separable filter.
  *
- * Output texel i of n looks at the place x = (i + 1/2) N/n - 1/2 of the N input texels. A filter f, which is
- * stretched by s = N/n when shrinking, weighs input texel k by f((k - x)/s); the weights of one output texel
- * are divided by their sum, so that flat tables stay flat. For whole ratios, each input texel also has the
- * same weight in all output texels together, so that the mean stays, if f's values one apart add to 1
- * wherever they begin. Triangle and Catmull-Rom do; Lanczos does after division by that sum. `box` is the
- * mean of what an output texel covers, exact for any ratio.
+ * Output texel i of n samples the position x = (i + 1/2) N/n - 1/2 of the N input texels. A filter f,
+ * which is stretched by s = N/n when shrinking, weights input texel k by f((k - x)/s); the weights of
+ * one output texel are divided by their sum, so that flat tables stay flat. For integer ratios, each
+ * input texel also has the same total weight over all output texels, so that the mean is preserved, if
+ * f's values one apart add to 1 at every offset. Triangle and Catmull-Rom do; Lanczos does after
+ * division by that sum. `box` is the mean over the area of an output texel, exact for any ratio.
  *
- * A block of the result goes through its input rows once: each is filtered along u and added to the
- * output rows that see it, so that not even a shrink of 16384 rows to one needs much memory. */
+ * A block of the result reads its input rows once: each is filtered along u and added to the output
+ * rows that use it, so that even a shrink of 16384 rows to one needs little memory. */
 #include "field/ops_internal.h"
 
 #include "base/exactmath.h"
@@ -21,14 +21,14 @@
 
 #define SIDE WR_OP_SIDE
 
-/* One axis: output texel i sees taps[i].count input texels from taps[i].from on, which may lie outside;
+/* One axis: output texel i uses taps[i].count input texels from taps[i].from on, which may lie outside;
    weights from weight + i * most. */
 typedef struct Taps {
     int from, count;
 } Taps;
 typedef struct Axis {
-    int most;   /* taps of an output texel */
-    bool folds; /* they may be more than the input has texels: all outputs see all of these */
+    int most;   /* maximum number of taps */
+    bool folds; /* the taps may exceed the input: every output uses all input texels */
     Taps *taps;
     double *weight; /* [outputs][most] */
 } Axis;
@@ -63,7 +63,7 @@ static double filter_value(int filter, double x)
     return lanczos3(x) / sum;
 }
 
-/* How many input texels to either side an output texel sees, at most. */
+/* Maximum number of input texels on either side of an output texel's position. */
 static double filter_reach(int filter, double ratio)
 {
     double stretch = ratio > 1.0 ? ratio : 1.0;
@@ -71,15 +71,15 @@ static double filter_reach(int filter, double ratio)
     return stretch * (filter == WR_RESIZE_LINEAR ? 1.0 : filter == WR_RESIZE_CATMULL ? 2.0 : 3.0);
 }
 
-/* What of input texel k, which covers k - 1/2 .. k + 1/2, lies in low .. high. */
+/* The part of input texel k, which covers k - 1/2 .. k + 1/2, inside low .. high. */
 static double covered(double k, double low, double high)
 {
     double from = k - 0.5 > low ? k - 0.5 : low, to = k + 0.5 < high ? k + 0.5 : high;
     return to > from ? to - from : 0.0;
 }
 
-/* A sum of double weights is 1 but for some 1e-14, which float's rounding of a flat table's height takes
-   away. */
+/* A sum of double weights is 1 to about 1e-14; float's rounding of a flat table's height removes that
+   error. */
 static void divide_by_sum(double *weight, int count)
 {
     double sum = 0.0;
@@ -87,7 +87,7 @@ static void divide_by_sum(double *weight, int count)
     for (int k = 0; k < count; k++) weight[k] /= sum;
 }
 
-/* Bring taps that lie outside back to the texels that stand for them: from = 0, count = n. */
+/* Maps taps outside the table to the texels that they represent: from = 0, count = n. */
 static void fold(Taps *taps, double *weight, const double *wide, int n, WrWrap wrap)
 {
     memset(weight, 0, sizeof *weight * (size_t)n);
@@ -142,7 +142,7 @@ static void axis_fini(Axis *axis)
     wr_free(axis->weight);
 }
 
-/* mid[x] = input row, from texel `first` on, seen through the taps of output columns i .. */
+/* mid[x] = input row, from texel `first` on, filtered for output columns i .. */
 static void filter_row(const Axis *u, const float *row, int first, int i, int count, double *mid)
 {
     for (int x = 0; x < count; x++) {
@@ -155,7 +155,7 @@ static void filter_row(const Axis *u, const float *row, int first, int i, int co
     }
 }
 
-/* Texels that the outputs i .. i + count - 1 of an axis see. */
+/* Range of texels used by the outputs i .. i + count - 1 of an axis. */
 static Taps seen(const Axis *axis, int i, int count)
 {
     const Taps *first = &axis->taps[i], *last = &axis->taps[i + count - 1];
@@ -165,7 +165,7 @@ static Taps seen(const Axis *axis, int i, int count)
 static void add_row(const Axis *v, WrOpBlock b, int row, int *open, const double *mid, double *sums)
 {
     while (*open < b.count_j && v->taps[b.j + *open].from + v->taps[b.j + *open].count <= row)
-        ++*open; /* outputs that are done; the ends of the taps rise with the outputs */
+        ++*open; /* finished outputs; the ends of the taps rise with the outputs */
     for (int y = *open; y < b.count_j && v->taps[b.j + y].from <= row; y++) {
         double weight =
             v->weight[(size_t)(b.j + y) * (size_t)v->most + (size_t)(row - v->taps[b.j + y].from)];

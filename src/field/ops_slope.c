@@ -1,17 +1,20 @@
-/* Slope limit: the largest function G below F whose heights differ by at most `limit` from one texel to the
- * next along an axis, and by sqrt(2) limit along a diagonal:
- *   G(p) = min over q of F(q) + limit |p - q|,   |p - q| the length of the shortest way by such steps.
+/* Slope limit: the largest function G below F whose heights differ by at most `limit` from one texel to
+ * the next along an axis, and by sqrt(2) limit along a diagonal:
+ *
+ *   G(p) = min over q of F(q) + limit |p - q|,   |p - q| the length of the shortest path by such steps.
+ *
  * It is the largest solution of G = min(F, G of the eight neighbours + a step). Float addition is
  * monotonic, so rounded sums have one largest solution too, and lowering texels in any order until none
- * changes ends there: the order of the sweeps, and the number of threads, cannot show.
+ * changes converges to it: the result does not depend on the order of the sweeps or the number of
+ * threads.
  *
- * A way may be put in the order: vertical and diagonal steps, then horizontal ones. So a sweep down, one
- * up and one along each row do nearly all; a second round carries it over the seams, and the rest is
- * rounding. Sweeps down and up go row by row, all texels of a row at once; rows are independent in the
- * third. The smallest function above F is the same for -F.
+ * A path may be reordered: vertical and diagonal steps, then horizontal ones. So one sweep down, one up
+ * and one along each row do nearly everything; a second round propagates across the seams, and the rest
+ * is rounding. Sweeps down and up process row by row, all texels of a row at once; rows are independent
+ * in the third. The smallest function above F is computed the same way for -F.
  *
- * The heights are floats: a limit under half a unit in the last place of the heights is as good as 0, and
- * along a long slope the roundings of its steps add up. */
+ * The heights are floats: a limit under half a unit in the last place of the heights acts as 0, and
+ * along a long slope the rounding errors of its steps accumulate. */
 #include "field/ops_internal.h"
 
 #include "field/field.h"
@@ -27,7 +30,7 @@ typedef struct Sweep {
     int changed; /* atomic while rows are swept by several threads */
 } Sweep;
 
-#define ROWS 16 /* a piece of work */
+#define ROWS 16 /* rows of a piece of work */
 
 static float *row_at(const WrOpPlane *plane, int j)
 {
@@ -54,7 +57,7 @@ static void load_rows(int index, int worker, void *ctx)
     }
 }
 
-/* The two texels beside a row's ends; without neighbours there, as high as can be. */
+/* Sets the two texels beside a row's ends; without neighbours, to the maximum. */
 static void set_margins(const Sweep *sweep, float *row)
 {
     int width = sweep->plane->width;
@@ -62,7 +65,7 @@ static void set_margins(const Sweep *sweep, float *row)
     row[width] = sweep->wraps_u ? row[0] : FLT_MAX;
 }
 
-/* Lower `row` to what its neighbour row allows. */
+/* Lowers `row` to the limit given by its neighbour row. */
 static bool lower_row(const Sweep *sweep, float *from, float *restrict row)
 {
     int changed = 0, width = sweep->plane->width;
@@ -79,8 +82,8 @@ static bool lower_row(const Sweep *sweep, float *from, float *restrict row)
     return changed != 0;
 }
 
-/* A table of one periodic row is its own neighbour: it is lowered to a copy of itself, diagonals from the
-   ends of the row being the steps along it. These are longer than the steps, so there is nothing to do. */
+/* A table of one periodic row is its own neighbour: the diagonals from the ends of the row would lower
+   it like the steps along it, but are longer, so there is nothing to do. */
 static bool sweep_down(const Sweep *sweep)
 {
     const WrOpPlane *plane = sweep->plane;
@@ -115,7 +118,7 @@ static bool too_steep(const Sweep *sweep, float *row)
     return false;
 }
 
-/* To the right and to the left, twice each where the row is periodic. */
+/* Sweeps right and left, twice each if the row is periodic. */
 static void sweep_row(const Sweep *sweep, float *row)
 {
     int width = sweep->plane->width;
@@ -148,8 +151,8 @@ static void sweep_rows(int index, int worker, void *ctx)
     }
 }
 
-/* Fill the plane with the largest limited function below F (or -F). Rounds come one after the other with
-   ever smaller parts of the progress, since their number is not known. */
+/* Fills the plane with the largest limited function below F (or -F). The number of rounds is unknown,
+   so each round gets a smaller part of the progress. */
 static bool limit_plane(const WrOpJob *job, WrOpPlane *plane, double limit, bool negated)
 {
     Sweep sweep = { .job = job,
@@ -176,7 +179,7 @@ static bool limit_plane(const WrOpJob *job, WrOpPlane *plane, double limit, bool
 }
 
 typedef struct Sides {
-    const WrOpPlane *below, *above; /* above holds -F's; either may be NULL */
+    const WrOpPlane *below, *above; /* `above` contains -F's; either may be NULL */
 } Sides;
 
 static void make_limited(const WrOpJob *job, const void *ctx, WrOpBlock b, float *out, size_t pitch,

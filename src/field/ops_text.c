@@ -1,4 +1,4 @@
-/* Values of operations: their defaults, their ranges, and how they are written. */
+/* Values of operations: defaults, ranges, printing and parsing. */
 #include "field/ops_internal.h"
 
 #include "base/error.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* How many numbers parameter k has among the values, which begin with number k. */
+/* Number of values of parameter k, which start at value[k]. */
 static int numbers_of(const WrOpInfo *op, int k, const double *value)
 {
     return op->params[k].points ? 1 + 2 * (int)value[k] : 1;

@@ -1,4 +1,4 @@
-/* Operations on each height by itself: levels, invert, normalise, add, multiply, clamp. */
+/* Operations on each height independently: levels, invert, normalise, add, multiply, clamp. */
 #include "field/ops_internal.h"
 
 #include "base/error.h"
@@ -8,8 +8,8 @@
 typedef struct Tone Tone;
 struct Tone {
     void (*map)(const Tone *tone, float *row, int count); /* in place */
-    int window;  /* 1; 0: the numbers below are made of the table's range */
-    double a[5]; /* what `map` needs */
+    int window;  /* 1; 0: the numbers below depend on the table's range */
+    double a[5]; /* coefficients of `map` */
 };
 
 static void make_mapped(const WrOpJob *job, const void *ctx, WrOpBlock b, float *out, size_t pitch,
@@ -29,7 +29,7 @@ static bool has_null_tile(const WrField *field)
     return false;
 }
 
-/* A table with NULL tiles whose level changes starts anew at the new level, so that the largest table
+/* A table with NULL tiles whose level changes is rebuilt at the new level, so that the largest table
    with a few painted tiles stays small. */
 static WrField *run_tone(WrOpJob *job, const Tone *tone)
 {
@@ -79,7 +79,7 @@ WrField *wr_op_levels(WrOpJob *job, const double *param)
 }
 
 typedef struct CurveTone {
-    Tone tone; /* the first: what `map` is given */
+    Tone tone; /* first member: `map` receives its address */
     WrCurve curve;
 } CurveTone;
 
@@ -89,7 +89,7 @@ static void map_curve(const Tone *tone, float *row, int count)
     for (int i = 0; i < count; i++) row[i] = wr_op_float(wr_curve_at(curve, (double)row[i]));
 }
 
-/* param: how many points, and they */
+/* param: number of points, then their coordinates */
 WrField *wr_op_curves(WrOpJob *job, const double *param)
 {
     CurveTone curves = { .tone = { .map = map_curve, .window = 1 } };
@@ -99,7 +99,7 @@ WrField *wr_op_curves(WrOpJob *job, const double *param)
     return NULL;
 }
 
-/* a: the sum that a height and its inverse make */
+/* a: the sum of a height and its inverse */
 static void map_invert(const Tone *tone, float *row, int count)
 {
     double sum = tone->a[0];
@@ -115,7 +115,7 @@ WrField *wr_op_invert(WrOpJob *job, const double *param)
     return run_tone(job, &tone);
 }
 
-/* a: table's low, table's high, new low, new high. Written so that both ends are met exactly. */
+/* a: table's low, table's high, new low, new high. Written so that both ends are mapped exactly. */
 static void map_normalise(const Tone *tone, float *row, int count)
 {
     const double *a = tone->a, scale = 1.0 / (a[1] - a[0]);
@@ -130,8 +130,8 @@ static void map_constant(const Tone *tone, float *row, int count)
     for (int i = 0; i < count; i++) row[i] = wr_op_float(tone->a[2]);
 }
 
-/* param: low, high. A level tree's NULL tiles may all be hidden, so the level may lie outside the range:
-   then it is mapped to the nearer end, which shows nowhere. */
+/* param: low, high. The NULL tiles of a tree may all be hidden, so the level may lie outside the range:
+   then it is mapped to the nearer end, which is never visible. */
 WrField *wr_op_normalise(WrOpJob *job, const double *param)
 {
     float low, high;

@@ -29,7 +29,7 @@ typedef struct Ramping {
     double length2; /* |d|^2 */
 } Ramping;
 
-/* The image of e nearest to `middle`: middle - size/2 <= result < middle + size/2. */
+/* The periodic image of e nearest to `middle`: middle - size/2 <= result < middle + size/2. */
 static double nearest(const Axis *axis, double e, double middle)
 {
     if (!axis->periodic) return e;
@@ -42,7 +42,7 @@ static double unit(double t)
     return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
 }
 
-/* From 0 at `from` to 1 at `to` the way that was given, and back to 0 the rest of the way round. */
+/* Rises from 0 at `from` to 1 at `to` along the given path, and falls to 0 over the rest of the period. */
 static double round_trip(const Axis *axis, double e)
 {
     double way = fabs(axis->way);
@@ -53,7 +53,7 @@ static double round_trip(const Axis *axis, double e)
     return unit(e <= way ? e / way : (axis->size - e) / (axis->size - way));
 }
 
-/* e near 0; beyond a quarter of the table it leads back to 0. */
+/* e near 0; mirrored beyond a quarter of the table, so that it returns to 0. */
 static double mirrored(const Axis *axis, double e)
 {
     if (!axis->periodic) return e;

@@ -1,7 +1,7 @@
-/* Every scheme sees the 4 x 4 taps around a point, taps[4 j + i] with rows running down, and the point's
- * place between the middle ones: a to the right of column 1, b below row 1. It gives F and its slopes in
- * heights per texel, all from differences of taps, so that equal taps give their height and slopes of
- * exactly 0. Differences are taken in double, where no two floats overflow (HC50). */
+/* Every scheme reads the 4 x 4 taps around a point, taps[4 j + i] with rows running down, and the
+ * point's position between the middle ones: a to the right of column 1, b below row 1. It returns F and
+ * its slopes in heights per texel, all from differences of taps, so that equal taps give their height
+ * and slopes of exactly 0. Differences are computed in double, where no two floats overflow (HC50). */
 #include "field/scheme.h"
 
 #include "base/memory.h"
@@ -58,9 +58,11 @@ static void eval_central(const double *taps, double a, double b, double out[3])
 }
 
 /* One axis of the uniform cubic B-spline: value and slope at t between c1 and c2.
+ *
  *   S  = (1-t)^3/6 c0 + (4 - 6 t^2 + 3 t^3)/6 c1 + (1 + 3 t + 3 t^2 - 3 t^3)/6 c2 + t^3/6 c3
  *   S' = (1-t)^2/2 (c1 - c0) + (1/2 + t - t^2) (c2 - c1) + t^2/2 (c3 - c2)
- * the weights sum to 1, so S is c1 plus weighted differences from it. */
+ *
+ * The weights sum to 1, so S is c1 plus weighted differences from it. */
 static double bspline_value(double c0, double c1, double c2, double c3, double t)
 {
     double s = 1.0 - t;
@@ -88,8 +90,8 @@ static double catmull_slope(double p0, double p1, double p2, double p3, double t
     return m1 + t * (2.0 * (3.0 * d - 2.0 * m1 - m2) + 3.0 * t * (m1 + m2 - 2.0 * d));
 }
 
-/* A product of one-axis cubics: columns are brought to one row each at height b, then joined at a. A
- * tap is taken off all first, so that slopes do not see the table's level (HC48). */
+/* A tensor product of one-axis cubics: columns are interpolated at b, the results at a. A tap is
+ * subtracted first, so that slopes do not depend on the table's level (HC48). */
 typedef double (*Cubic)(double p0, double p1, double p2, double p3, double t);
 
 static inline void eval_cubic(Cubic value, Cubic slope, const double *taps, double a, double b,
@@ -150,7 +152,7 @@ int wr_scheme_find(const char *name)
     return -1;
 }
 
-/* A coordinate on one axis: its cell, the place in it, and whether F varies there at all. */
+/* A coordinate on one axis: its cell, the fraction in it, and whether F varies there. */
 typedef struct Place {
     int cell;
     double fraction; /* 0..1 */
@@ -215,8 +217,8 @@ void wr_field_band_free(WrFieldBand *band)
     wr_free(band);
 }
 
-/* Whole tables of fitted coefficients with two texels around; NULL where taking single ones is cheaper
- * (about 200 texels' worth each) or memory is gone. */
+/* Fits the whole table with a margin of two texels; NULL if fitting the taps of single points is
+ * cheaper (about 200 texels' worth each) or memory is exhausted. */
 static WrFieldBand *fit_whole(const WrField *field, WrScheme scheme, size_t count)
 {
     const int width = wr_field_width(field) + 4, height = wr_field_height(field) + 4;
@@ -225,7 +227,7 @@ static WrFieldBand *fit_whole(const WrField *field, WrScheme scheme, size_t coun
     return read_band(field, scheme, -2, height);
 }
 
-/* Whether the band holds the 16 taps whose first is (i, j). */
+/* True if the band contains the 16 taps whose first is (i, j); copies them. */
 static bool copy_taps(const WrFieldBand *band, int i, int j, double taps[16])
 {
     int row = j - band->first;

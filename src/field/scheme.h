@@ -1,4 +1,5 @@
-/* scheme.h - how F and its derivatives are made from table entries: the ladder's first axis.
+/* scheme.h - interpolation schemes: F and its derivatives from table entries, the first axis of the
+   accuracy ladder.
 
    | scheme      | value                | derivative                             | order F, Fu | continuity |
    | nearest     | the texel            | central difference at that texel       | 1, 1        | none       |
@@ -6,12 +7,12 @@
    | central     | bilinear             | the paper's central difference, E = one texel, of the bilinear
    |             |                      | interpolant                            | 2, 2        | C0 slope   |
    | bspline     | uniform cubic B-spline, table entries as coefficients, analytic | 2, 2 | C2        |
-   | bspline-fit | the same through the samples (circular prefilter, 28 taps a side, double) | 4, 3 | C2 |
+   | bspline-fit | bspline through the samples (circular prefilter, 28 taps a side, double) | 4, 3 | C2 |
    | catmull     | Catmull-Rom, interpolating, analytic          | 3, 2            | C1         |
 
-   With x = W u - 1/2 and y = H (1 - v) - 1/2 the taps are floor(x), floor(x) + 1 and so on, so dF/dv
-   carries the minus sign of rows that run down. Derivatives are formed from differences of taps, so
-   that a flat table gives exactly 0 whatever its level (HC42-HC48). */
+   With x = W u - 1/2 and y = H (1 - v) - 1/2 the taps are floor(x), floor(x) + 1 and so on. Rows run
+   down, so dF/dv has a minus sign. Derivatives are formed from differences of taps, so that a flat
+   table gives exactly 0 at any level (HC42-HC48). */
 #pragma once
 #include <stddef.h>
 
@@ -21,16 +22,17 @@ typedef struct WrField WrField;
    list by few. */
 typedef int WrScheme;
 
-/* What a scheme works on. */
+/* Input of a scheme. */
 typedef enum WrSchemeTaps {
     WR_TAPS_TABLE,   /* table entries, from floor(x) - 1 to floor(x) + 2 */
     WR_TAPS_CENTRED, /* table entries, from one before to two after the texel that holds the point */
     WR_TAPS_FITTED   /* wr_field_read_fitted's coefficients, from floor(x) - 1 to floor(x) + 2 */
 } WrSchemeTaps;
 
-/* The scheme itself: taps[16], 4 rows of 4 from the top; a, b in 0..1 the place to the right of column 1
- * and below row 1; out: F and its slopes to the right and downwards, per texel. In double, as spline
- * coefficients are: rounded to single precision they would lose the slopes of a table at a high level. */
+/* Evaluates the scheme: taps[16], 4 rows of 4 from the top; a, b in 0..1 the position to the right of
+ * column 1 and below row 1; out: F and its slopes to the right and downwards, per texel. In double,
+ * because spline coefficients rounded to single precision would lose the slopes of a table at a high
+ * level. */
 typedef void (*WrSchemeEval)(const double *taps, double a, double b, double out[3]);
 
 typedef struct WrSchemeInfo {
@@ -39,8 +41,8 @@ typedef struct WrSchemeInfo {
     const char *title;     /* in lists of the window: "B-spline, fitted" */
     const char *help;      /* one sentence */
     int order_f, order_fu; /* of convergence in the texel's size, for smooth F */
-    int reach; /* a texel's edit changes F or its slopes at most this many texels away, the
-                          extrapolated ends of a clamped axis included */
+    int reach; /* distance in texels up to which an edited texel changes F or its slopes, including
+                  the extrapolated ends of a clamped axis */
     WrSchemeTaps taps;
     WrSchemeEval eval;
 } WrSchemeInfo;
@@ -54,42 +56,41 @@ int wr_scheme_find(const char *name);
  *
  *   f[i] = F(u[i], v[i])   fu[i] = dF/du   fv[i] = dF/dv
  *
- * u, v     [count] any value; brought to [0,1) on a periodic axis; on a clamped one F is constant
+ * u, v     [count] any value; reduced to [0,1) on a periodic axis; on a clamped one F is constant
  *          outside [0,1] and its slope 0 there
  * f        [count] heights in table units; may be NULL
  * fu, fv   [count] table units per unit of u (v); may be NULL
  * Errors   none      Threads  any number of readers
  * Source   Blinn 1978 section 3 (FVAL, FU, FV; the printed F01 and the IFIX of negative arguments are
- *          mended: floor, and a modulus on both corner indices) */
+ *          corrected: floor, and a modulus on both corner indices) */
 void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
                      const double *v, double *f, double *fu, double *fv);
 
-/* The same, many times near the same rows: the taps that they need are read, and fitted, once.
+/* A sampler for many calls near the same rows: their taps are read, and fitted, once.
  *
- * row, rows  of the table, from the top; points may lie up to a texel outside of them. Further ones are right
- *            too, and slow.
- * Errors     NULL where memory is gone    Owner  the caller; the field stays as it is meanwhile
- * The bits are those of wr_field_sample. */
+ * row, rows  of the table, from the top; points may lie up to a texel outside. Points farther away are
+ *            correct but slow.
+ * Errors     NULL when out of memory
+ * Owner      the caller; the field must not change meanwhile The bits are those of wr_field_sample. */
 typedef struct WrFieldBand WrFieldBand;
 WrFieldBand *wr_field_band_new(const WrField *field, WrScheme scheme, int row, int rows);
-void wr_field_band_free(WrFieldBand *band); /* NULL is fine */
+void wr_field_band_free(WrFieldBand *band); /* NULL is allowed */
 void wr_field_band_sample(const WrFieldBand *band, size_t count, const double *u, const double *v,
                           double *f, double *fu, double *fv);
 
-/* The paper's formula to the letter, as the historical rung and for tests: four bilinear look-ups,
- * FU = (FVAL(U + E, V) - FVAL(U - E, V)) / (2 E) with E = 1/W, FV with 1/H. Equals `central` to
- * rounding, but within 1.5 texels of the ends of a clamped axis: there FVAL is the constant outside.
+/* The paper's formula to the letter, for the historical rung of the ladder and for tests: four bilinear
+ * look-ups, FU = (FVAL(U + E, V) - FVAL(U - E, V)) / (2 E) with E = 1/W, FV with 1/H. Equals `central`
+ * to rounding, except within 1.5 texels of the ends of a clamped axis, where FVAL is constant outside.
  * Either output may be NULL. */
 void wr_field_sample_blinn(const WrField *field, double u, double v, double *fu, double *fv);
 
-/* Cubic B-spline coefficients whose spline passes through the table's samples: one axis at a time,
- * c_i = sum over |k| <= 28 of sqrt(3) (sqrt(3) - 2)^|k| T_(i+k), summed in double in a fixed order.
- * Rectangle and pitch as in wr_field_read (indices outside wrap or are extrapolated).
- * The same coefficient has the same bits whatever rectangle it is asked for in. About 30 ns a texel for
- * large rectangles. */
+/* Cubic B-spline coefficients whose spline passes through the table's samples: one axis at a time, c_i
+ * = sum over |k| <= 28 of sqrt(3) (sqrt(3) - 2)^|k| T_(i+k), summed in double in a fixed order.
+ * Rectangle and pitch as in wr_field_read (indices outside wrap or are extrapolated). A coefficient has
+ * the same bits in every rectangle. About 30 ns per texel for large rectangles. */
 #define WR_PREFILTER_REACH 28
 void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int count_j, float *out,
                           size_t pitch);
-/* The same coefficients, not rounded to single precision. */
+/* wr_field_read_fitted without rounding to single precision. */
 void wr_field_read_fitted_double(const WrField *field, int i, int j, int count_i, int count_j,
                                  double *out, size_t pitch);

@@ -14,16 +14,16 @@ typedef struct Line {
     double of[WR_SEAM_DIFFERENCES][MEANS];
 } Line;
 
-/* One axis of a cell. Line n lies before texel n. */
+/* One axis of a cell. Line n is the boundary before texel n. */
 typedef struct Axis {
     const WrField *field;
     bool along_v;     /* lines are columns */
     int table;        /* texels of the whole table across the lines */
     int size, length; /* texels of the cell across the lines, and along them */
-    int shift;        /* of the neighbour, along the edge */
+    int shift;        /* offset of the neighbour along the edge */
 } Axis;
 
-/* The n-th of `looks` places, spread over `length`. */
+/* The n-th of `looks` positions, spread evenly over `length`. */
 static int place(int n, int looks, int length)
 {
     return (int)((int64_t)n * length / looks);
@@ -34,8 +34,8 @@ static int fewer(int n)
     return n < WR_SEAM_LOOKS ? n : WR_SEAM_LOOKS;
 }
 
-/* The texels about the edge at place k along it. The table goes round here whatever its wrap is: an axis that ends is
- * judged as a cell that another program repeats. */
+/* Reads the texels about the edge at position k along it. The table always wraps here: an axis that
+ * ends is judged like a cell repeated by another program. */
 static void read_edge(const Axis *a, int k, float t[4])
 {
     for (int n = 0; n < 4; n++) {
@@ -59,7 +59,7 @@ static void add_place(float t0, float t1, float t2, float t3, Line *line)
     }
 }
 
-/* Sums over so many places become means. */
+/* Converts sums over `places` positions to means. */
 static void finish(Line *line, int places)
 {
     for (int k = 0; k < WR_SEAM_DIFFERENCES; k++) {
@@ -81,7 +81,8 @@ static Line measure_edge(const Axis *a)
     return edge;
 }
 
-/* Adds the places of `count` lines, spread over the cell, to their sums: of columns row by row, of rows four rows each. */
+/* Adds the positions of `count` lines, spread over the cell, to their sums: columns row by row, rows
+ * four rows each. */
 static void add_columns(const Axis *a, int count, Line *lines)
 {
     const int places = fewer(a->length), inside = a->size - 3;
@@ -111,14 +112,14 @@ static void add_rows(const Axis *a, int count, Line *lines)
     wr_free(rows);
 }
 
-/* Takes the larger one of each mean. */
+/* Keeps the larger one of each mean. */
 static void enlarge(Line *most, const Line *line)
 {
     for (int k = 0; k < WR_SEAM_DIFFERENCES; k++)
         for (int m = 0; m < MEANS; m++) most->of[k][m] = fmax(most->of[k][m], line->of[k][m]);
 }
 
-/* The largest means of the lines of the cell that do not read across its edges. */
+/* The largest means of the lines inside the cell that do not read across its edges. */
 static Line measure_inside(const Axis *a, const Line *edge, double *rank)
 {
     const int count = fewer(a->size - 3);
@@ -136,18 +137,18 @@ static Line measure_inside(const Axis *a, const Line *edge, double *rank)
     return inside;
 }
 
-/* Half a code's rounding of each texel adds up to so many codes: weights 1 1; 1 1 1 1; 1 3 3 1. */
+/* Largest effect of rounding each texel by half a code, in codes: weights 1 1; 1 1 1 1; 1 3 3 1. */
 static const double codes[WR_SEAM_DIFFERENCES] = { 1, 2, 4 };
 
-/* The quotient of one mean of difference k at the edge and of difference l inside. What rounding alone makes is no
- * difference. */
+/* The quotient of one mean of difference k at the edge and of difference l inside. Differences within
+ * rounding count as 0. */
 static double quotient(const Line *seam, int k, const Line *inside, int l, int mean, double noise)
 {
     const double rounding = codes[k] * noise;
     return seam->of[k][mean] > rounding ? seam->of[k][mean] / (inside->of[l][mean] + rounding) : 0;
 }
 
-/* The mean whose quotient is the largest. */
+/* Selects the mean with the largest quotient. */
 static void take_ratio(WrSeamEdge *edge, int k, const Line *seam, const Line *inside, double noise)
 {
     int worst = SQUARES;
@@ -159,8 +160,8 @@ static void take_ratio(WrSeamEdge *edge, int k, const Line *seam, const Line *in
     edge->ratio[k] = quotient(seam, k, inside, k, worst, noise);
 }
 
-/* A step in steep ground differs by less than the ground itself does. Its second difference shows it: that is larger
- * than any change of slope inside, and three times the step. */
+/* A step on a steep slope may be smaller than the slope itself. Its second difference reveals it: that
+ * is larger than any change of slope inside, and three times the step. */
 static bool hidden_step(const WrSeamEdge *edge, const Line *seam, const Line *inside, double noise)
 {
     for (int m = 0; m < MEANS; m++)
@@ -171,7 +172,8 @@ static bool hidden_step(const WrSeamEdge *edge, const Line *seam, const Line *in
     return false;
 }
 
-/* A grid of n + 1 points has its first line twice. Mirrored cells have two equal lines, too, but no bend between them. */
+/* A grid of n + 1 points repeats its first line. Mirrored cells also have two equal lines, but no bend
+ * between them. */
 static bool repeats(const Axis *a, const WrSeamEdge *edge)
 {
     bool level = true;
@@ -195,7 +197,7 @@ static int order_of(const WrSeamEdge *edge, const Line *seam, const Line *inside
     return edge->ratio[WR_SEAM_BEND] > edge->limit ? 1 : 2;
 }
 
-/* What rounding to float leaves of numbers so large. */
+/* Rounding error of float for the largest height. */
 static double float_noise(const Axis *a)
 {
     double most = 0;

@@ -1,18 +1,23 @@
-/* seam.h - seam test of a table: height, slope and second difference across its edges, compared with the same across the
-   lines inside.
-   Reads texels alone; the smoothness of an interpolation scheme is in field/certificate.h.
+/* seam.h - seam test of a table: height, slope and second difference across its edges, compared with
+   the lines inside.
 
-   A line lies between two neighbouring columns (rows). With texels t0 t1 | t2 t3 across it, three differences are taken
-   at each place along it:
+   It reads only texels; the smoothness of an interpolation scheme is tested in field/certificate.h.
+
+   A line lies between two neighbouring columns (rows). With texels t0 t1 | t2 t3 across it, three
+   differences are computed at each position along it:
+
      WR_SEAM_STEP    t2 - t1                       the height
      WR_SEAM_SLOPE   (t3 - t2) - (t1 - t0)         the slope
      WR_SEAM_BEND    t3 - 3 t2 + 3 t1 - t0         the second difference
-   Three means of their sizes describe a line: the squared mean of roots, which is large only where most of the line
-   differs, so that a few sharp veins inside do not hide a seam; the root mean square; the largest. Each mean of the edge is
-   divided by the largest of the same mean of all lines inside. The largest quotient is the ratio of that difference.
-   Above `limit` the pattern breaks there: WR_SEAM_CLEARLY, and more where few lines are inside, whose worst says little.
 
-   Source: measured with 62 cells of the generators, plain and torn. Of whole ones no ratio is above 1.2. */
+   Three means of their sizes describe a line: the squared mean of roots, which is large only if most of
+   the line differs, so that a few sharp veins inside do not hide a seam; the root mean square; the
+   largest. Each mean of the edge is divided by the largest of the same mean of all lines inside. The
+   largest quotient is the ratio of that difference. Above `limit` the pattern breaks there:
+   WR_SEAM_CLEARLY, and more if there are few lines inside, whose maximum is less reliable.
+
+   Source: measured with 62 cells of the generators, plain and torn. No ratio of a seamless cell is
+   above 1.2. */
 #pragma once
 #include <stdbool.h>
 
@@ -21,52 +26,54 @@ typedef struct WrText WrText;
 
 enum { WR_SEAM_STEP, WR_SEAM_SLOPE, WR_SEAM_BEND, WR_SEAM_DIFFERENCES };
 
-#define WR_SEAM_CLEARLY 1.5 /* times the largest inside */
-/* Over the number of lines inside: added to it. Without it 15 of 320 seamless tables of noise, 8 to 16 texels wide, showed a
- * seam, of wider ones none; with it none. */
+#define WR_SEAM_CLEARLY 1.5 /* times the largest value inside */
+/* Divided by the number of lines inside and added to the limit. Without it 15 of 320 seamless noise
+ * tables, 8 to 16 texels wide, showed a seam, of wider ones none; with it none. */
 #define WR_SEAM_FEW 5.0
-#define WR_SEAM_LEAST 8 /* texels of an axis: shorter ones are not measured */
+#define WR_SEAM_LEAST 8 /* minimum texels of an axis: shorter ones are not measured */
 
 /* One pair of edges. In table units; slopes and bends per texel and per its square. */
 typedef struct WrSeamEdge {
-    bool ends;     /* the axis does not repeat: its two ends are laid side by side all the same */
-    bool measured; /* false: too few texels; all else is 0 and the order 2 */
+    bool ends;     /* the axis does not repeat; its two ends are compared anyway */
+    bool measured; /* false: too few texels; the other members are 0 and the order is 2 */
     double across[WR_SEAM_DIFFERENCES]; /* the mean with the largest quotient, at the edge */
-    double inside[WR_SEAM_DIFFERENCES]; /* the same at the line inside where it is largest */
+    double inside[WR_SEAM_DIFFERENCES]; /* the same mean at the line inside where it is largest */
     double ratio[WR_SEAM_DIFFERENCES];
     double limit; /* ratios above it are breaks */
-    double
-        rank; /* share of the lines inside with a smaller second difference, root mean square; 0..1 */
-    bool repeats; /* the last line is the first one again, in ground that is not level there */
-    int order; /* -1: the height steps; 0: only the slope breaks, or a line is there twice; 1: only the second difference jumps, by
-                    less than slopes change inside; 2: the edge is like the lines inside */
+    double rank; /* fraction of the lines inside with a smaller second difference, root mean square;
+                    0..1 */
+    bool repeats; /* the last line repeats the first one, on ground that is not level there */
+    int order; /* -1: the height steps; 0: only the slope breaks, or a line is duplicated; 1: only
+                  the second difference jumps, by less than slopes change inside; 2: the edge is
+                  like the lines inside */
 } WrSeamEdge;
 
 typedef struct WrSeam {
-    WrSeamEdge u; /* where the right edge meets the left one */
-    WrSeamEdge v; /* where the bottom meets the top */
+    WrSeamEdge u; /* right edge against left edge */
+    WrSeamEdge v; /* bottom against top */
 } WrSeam;
 
-/* How a table is measured. All 0: one cell of floats. */
+/* Measurement of a table. All 0: one cell of floats. */
 typedef struct WrSeamOptions {
     int copies
-        [2]; /* of the cell in the table, side by side in u and in v; 0: 1. The edges of the first copy are
-                      measured, against what lies beside them, and against the lines inside that copy: so a
-                      half-drop (2 in u) is judged as it is laid */
+        [2]; /* copies of the cell in the table, side by side in u and in v; 0: 1. The edges of the
+                first copy are measured, against their neighbours, and against the lines inside that
+                copy: so a half-drop (2 in u) is judged as it is laid */
     int shift
-        [2]; /* texels along the edge by which the neighbour is moved, where it is no part of the table: v of the
-                      u edge (a half-drop of a single cell: half its height), u of the v edge */
-    double noise; /* distance of two neighbouring codes, in table units; 0: floats */
+        [2]; /* offset of the neighbour along the edge in texels, if it is not part of the table: v
+                of the u edge (a half-drop of a single cell: half its height), u of the v edge */
+    double noise; /* distance of two neighbouring quantization levels, in table units; 0: floats */
 } WrSeamOptions;
 
 #define WR_SEAM_LOOKS                                                                              \
-    512 /* lines inside, and places along each, at most; of an edge all places are measured */
+    512 /* maximum number of lines inside, and of positions along each; edges are measured
+           completely */
 
 /* options: NULL for all 0. */
 WrSeam wr_seam_measure(const WrField *field, const WrSeamOptions *options);
-/* The difference that decides an edge's order; of an order of 2 the larger of step and slope. */
+/* The difference that determines an edge's order; for order 2 the larger of step and slope. */
 int wr_seam_worst(const WrSeamEdge *edge);
-/* Does the pattern show a seam: is its order below 1? */
+/* True if the pattern shows a seam: its order is below 1. */
 bool wr_seam_shows(const WrSeamEdge *edge);
 /* "height differs by 0.31 across the edge, by 0.05 across the worst line inside: 6.1 times" */
 void wr_seam_text(const WrSeamEdge *edge, WrText *text);

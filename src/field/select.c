@@ -1,5 +1,4 @@
-/* Selections by height and slope, their combination, and the builder for all that are made row by
-   row. */
+/* Selections by height and slope, their combination, and the builder of selections made row by row. */
 #include "field/select.h"
 
 #include "base/error.h"
@@ -27,7 +26,7 @@ static bool fail(WrError *err, const char *what, const char *name, double value,
     return wr_fail(err, "selection by %s: %s %.9g: must be %s", what, name, value, right);
 }
 
-/* A group of tile rows at a time. */
+/* Processes a group of tile rows at a time. */
 typedef struct Build {
     WrSelectRows make;
     void *ctx;
@@ -91,7 +90,7 @@ WrField *wr_select_build(const WrField *like, float level, WrSelectRows make, vo
     return NULL;
 }
 
-/* 1 in low..high, in a straight line to 0 at `soft` outside. */
+/* 1 in low..high, falling linearly to 0 at `soft` outside. */
 typedef struct Band {
     const WrField *field;
     double low, high, soft;
@@ -117,7 +116,7 @@ static bool height_rows(void *ctx, int worker, int j, int rows, float *out)
     return true;
 }
 
-/* What both kinds of band check. */
+/* Checks common to both kinds of band. */
 static bool check_band(const Band *band, const char *what, WrError *err)
 {
     if (!isfinite(band->low)) return fail(err, what, "low", band->low, "finite");
@@ -201,7 +200,7 @@ static float join(WrSelectMode mode, float a, float b)
     return mode == WR_SELECT_ADD ? (a > b ? a : b) : (a < other ? a : other);
 }
 
-/* Does b's level leave every a as it is? */
+/* True if b at `level` leaves every a unchanged. */
 static bool keeps(WrSelectMode mode, float level)
 {
     return mode == WR_SELECT_INTERSECT ? level >= 1.0f : mode != WR_SELECT_REPLACE && level <= 0.0f;

@@ -1,4 +1,4 @@
-/* The smallest box round the texels that are not 0. */
+/* The bounding box of nonzero texels. */
 #include "field/select.h"
 
 #include "base/memory.h"
@@ -20,7 +20,8 @@ static void mark(const WrField *selection, bool *columns, bool *rows)
         }
 }
 
-/* The run of texels that holds all that are marked; on a periodic axis the one after the widest gap. */
+/* The shortest run of texels that contains all marked ones; on a periodic axis the complement of the
+ * widest gap. */
 static bool run_of(const bool *marked, int n, bool periodic, int *from, int *count)
 {
     int first = -1, last = -1, before = -1, widest = 0, begin = 0;

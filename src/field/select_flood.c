@@ -1,4 +1,4 @@
-/* The connected part of a table whose heights are near to that of one texel. */
+/* Flood fill: the connected region of heights near that of one texel. */
 #include "field/select.h"
 
 #include "base/error.h"
@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A run of texels of one row, from column x on, `count` of them; on a periodic axis it may go on from the
-   first column. */
+/* A run of `count` texels of one row from column x on; on a periodic axis it may continue at the first
+   column. */
 typedef struct Run {
     int x, y, count;
 } Run;
@@ -26,8 +26,8 @@ typedef struct Flood {
     bool wrap_u, wrap_v, diagonal;
     const float **tiles; /* [tiles_v][tiles_u], owned */
     float level;
-    double low, high; /* heights that belong to it */
-    uint64_t *marks;  /* [height][words], a bit for each texel that was reached; owned */
+    double low, high; /* range of heights of the region */
+    uint64_t *marks;  /* [height][words], a bit for each visited texel; owned */
     size_t words;
     RunList now, next;
 } Flood;
@@ -57,7 +57,7 @@ static void mark(Flood *f, int x, int y)
     f->marks[(size_t)y * f->words + (size_t)(x >> 6)] |= (uint64_t)1 << (x & 63);
 }
 
-/* In range, and not reached yet. */
+/* In range, and not yet visited. */
 static bool is_open(const Flood *f, int x, int y)
 {
     if (is_marked(f, x, y)) return false;
@@ -76,7 +76,7 @@ static int right_of(const Flood *f, int x)
     return x + 1 < f->width ? x + 1 : f->wrap_u ? 0 : -1;
 }
 
-/* Mark the whole run that holds the open texel (x, y), and put it on the next list. */
+/* Marks the whole run that contains the open texel (x, y), and adds it to the next list. */
 static bool take_run(Flood *f, int x, int y, WrError *err)
 {
     Run run = { x, y, 1 };
@@ -93,7 +93,7 @@ static bool take_run(Flood *f, int x, int y, WrError *err)
     return push(&f->next, run, err);
 }
 
-/* All runs of row y that touch the run: below or above it, corners too where they count. */
+/* Visits all runs of row y that touch the run, also at corners if these count. */
 static bool take_row(Flood *f, Run run, int y, WrError *err)
 {
     if (y < 0 || y >= f->height) {
@@ -107,14 +107,15 @@ static bool take_row(Flood *f, Run run, int y, WrError *err)
             x = before;
             count++;
         }
-        count++; /* the one behind the end; at a clamped edge the loop stops by itself */
+        count++; /* texels are counted from the one behind the end; at a clamped edge the loop stops
+                    by itself */
     }
     for (int k = 0; k < count && x >= 0; k++, x = right_of(f, x))
         if (is_open(f, x, y) && !take_run(f, x, y, err)) return false;
     return true;
 }
 
-/* In waves, so that no more is remembered than the runs at the edge of what was reached. */
+/* Proceeds in waves, so that only the runs at the border of the region are stored. */
 static bool spread(Flood *f, const WrProgress *progress, WrError *err)
 {
     while (f->next.count > 0) {
@@ -144,7 +145,7 @@ static bool mark_rows(void *ctx, int worker, int j, int rows, float *out)
     return true;
 }
 
-/* What most texels come out as, so that few tiles are needed. */
+/* The value of most texels, so that few tiles are needed. */
 static float most(const Flood *f)
 {
     int64_t reached = 0;
@@ -153,7 +154,7 @@ static float most(const Flood *f)
     return 2 * reached > (int64_t)f->width * f->height ? 1.0f : 0.0f;
 }
 
-/* The index of the texel that holds `part` of the axis. */
+/* Index of the texel that contains `part` of the axis. */
 static int index_of(double part, int count, bool wrap)
 {
     if (wrap) part = wr_field_reduce(part, 1.0);
@@ -161,7 +162,7 @@ static int index_of(double part, int count, bool wrap)
     return i < 0.0 ? 0 : i < count ? (int)i : count - 1;
 }
 
-/* The tile pointers of the whole table, so that a texel costs no walk through the tree. */
+/* Caches the tile pointers of the whole table, so that a texel access does not walk the tree. */
 static bool fetch(Flood *f, const WrField *field, WrError *err)
 {
     int tiles_v = wr_field_tiles_v(field);

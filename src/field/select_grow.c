@@ -1,8 +1,8 @@
 /* Growing and shrinking by exact Euclidean distance: the distance along columns first, by a sweep down
    and a sweep up, then across rows as the lower envelope of parabolas (Felzenszwalb and Huttenlocher,
-   Distance Transforms of Sampled Functions, 2012). Squared distances are whole numbers, so no rounding
-   enters before the root. On a periodic axis the nearest image lies within half a period: columns are
-   swept twice round, and rows carry half a period more at either end. */
+   Distance Transforms of Sampled Functions, 2012). Squared distances are integers, so there is no
+   rounding before the root. On a periodic axis the nearest image lies within half a period: columns are
+   swept twice round, and rows are extended by half a period at either end. */
 #include "field/select.h"
 
 #include "base/error.h"
@@ -16,9 +16,9 @@
 
 #define FAR UINT16_MAX /* no target in this column; real distances are under WR_FIELD_MAX */
 
-/* One thread's scratch space for rows; [span]. */
+/* Scratch memory of one thread for rows; [span]. */
 typedef struct Envelope {
-    double *start;  /* where each parabola of the envelope begins to be the lowest */
+    double *start;  /* position from which each parabola of the envelope is the lowest */
     int *apex;      /* its column, which may lie outside the table */
     double *square; /* [width] squared distance, or infinite */
 } Envelope;
@@ -26,8 +26,8 @@ typedef struct Envelope {
 typedef struct Distance {
     const WrField *a;
     bool inside; /* distances to a >= 1/2, else to a < 1/2 */
-    bool any;    /* there is anything to be near to; set by any thread, only to true */
-    bool *some;  /* [tiles_u] the same for one tile column */
+    bool any;    /* a target exists; set by any thread, only to true */
+    bool *some;  /* [tiles_u] a target exists in this tile column */
     double r;
     int width, height;
     uint16_t *down; /* [height][width] distance to the nearest target in the column */
@@ -45,7 +45,7 @@ static uint16_t one_more(uint16_t steps)
     return steps == FAR ? FAR : (uint16_t)(steps + 1);
 }
 
-/* Note for each texel of a row the way up (or down) to the last target that was passed. */
+/* Stores for each texel of a row the distance up (or down) to the last target. */
 static void sweep_row(Distance *d, int tx, int j, bool first, uint16_t *steps)
 {
     const float *tile = wr_field_tile(d->a, tx, j / WR_TILE);
@@ -79,9 +79,9 @@ static int wrap_index(int i, int n)
     return rest < 0 ? rest + n : rest;
 }
 
-/* square[i] = min over columns q of (i - q)^2 + down[q]^2. A parabola at q beats the one at p < q from
- * x = ((dq + q^2) - (dp + p^2)) / (2 (q - p)) on; for columns, whole numbers, the rounded quotient
- * decides as the exact one. */
+/* square[i] = min over columns q of (i - q)^2 + down[q]^2. A parabola at q is lower than the one at p <
+ * q from x = ((dq + q^2) - (dp + p^2)) / (2 (q - p)) on; for integer columns the rounded quotient gives
+ * the same decision as the exact one. */
 static void envelope_row(const Distance *d, const uint16_t *down, Envelope *e)
 {
     int around = wr_field_wrap_u(d->a) == WR_WRAP_PERIODIC ? d->width / 2 + 1 : 0;

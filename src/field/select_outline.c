@@ -1,6 +1,6 @@
-/* Outlines by marching squares: cells lie between the centres of four texels; where two neighbours lie on
-   either side of 1/2, the outline passes between them. Each such passage belongs to one loop, which is
-   followed from cell to cell with the inside on its left. */
+/* Outlines by marching squares: cells lie between the centres of four texels; where two neighbours are
+   on different sides of 1/2, the outline passes between them. Each such crossing belongs to one loop,
+   which is followed from cell to cell with the inside on its left. */
 #include "field/select.h"
 
 #include "base/array.h"
@@ -17,7 +17,7 @@ static const int corner_i[SIDES] = { 0, 1, 1, 0 };
 static const int corner_j[SIDES] = { 0, 0, 1, 1 };
 
 /* The cell whose top left corner is the centre of texel (i, j), anywhere in the unrolled plane, and the
- * side that the loop came in by. */
+ * side through which the loop entered. */
 typedef struct Walker {
     int64_t i, j;
     int side;
@@ -28,11 +28,12 @@ typedef struct Trace {
     int width, height;
     bool periodic_u, periodic_v;
     int across, down; /* lattice: centres, with a ring of empty ones round clamped axes */
-    uint8_t *seen;    /* bits [2][down][across]: passages to the right and down from each centre */
+    uint8_t *seen;    /* bits [2][down][across]: visited crossings to the right and down from each
+                         centre */
     WR_ARRAY(WrSelectPoint)
-    points; /* x, y in texels from the first centre, until they are finished */
+    points; /* x, y in texels from the first centre, until finish_points */
     WR_ARRAY(WrOutlineLoop) loops;
-    int passed; /* passages so far, joined or not */
+    int passed; /* crossings so far, joined or not */
 } Trace;
 
 static int64_t wrap64(int64_t i, int64_t n)
@@ -41,7 +42,7 @@ static int64_t wrap64(int64_t i, int64_t n)
     return rest < 0 ? rest + n : rest;
 }
 
-/* Selections end at clamped edges. */
+/* Value of a texel; selections end at clamped edges. */
 static float value_at(const Trace *t, int64_t i, int64_t j)
 {
     if (t->periodic_u) i = wrap64(i, t->width);
@@ -60,7 +61,7 @@ static bool is_inside(float a)
     return a >= 0.5f;
 }
 
-/* The side by which a loop that came in by w->side leaves the cell. */
+/* The side through which a loop that entered by w->side leaves the cell. */
 static int way_out(const Trace *t, const Walker *w)
 {
     bool in[SIDES + 1];
@@ -74,13 +75,13 @@ static int way_out(const Trace *t, const Walker *w)
             if (k != w->side) other = k;
         }
     if (passages == 2) return other;
-    /* A saddle: the loop turns round a corner of the kind that the middle is not. Side k joins corners k
-     * and k + 1; round corner k it turns to side k - 1, round k + 1 to side k + 1. */
+    /* A saddle: the loop turns round a corner whose value differs from the middle. Side k joins corners
+     * k and k + 1; around corner k it turns to side k - 1, around k + 1 to side k + 1. */
     bool middle = is_inside((c[0] + c[1] + c[2] + c[3]) * 0.25f);
     return in[w->side] != middle ? (w->side + 3) % SIDES : (w->side + 1) % SIDES;
 }
 
-/* Which lattice passage a side is: from the centre (i, j) to the right, or down. */
+/* Lattice index of a side's crossing: from the centre (i, j) to the right, or down. */
 static size_t passage_of(const Trace *t, const Walker *w)
 {
     int64_t i = w->i + (w->side == RIGHT), j = w->j + (w->side == BOTTOM);
@@ -98,7 +99,7 @@ static bool see(Trace *t, size_t passage)
     return seen;
 }
 
-/* Where the outline passes through a side, in texels from the first centre. */
+/* Position of the outline on a side, in texels from the first centre. */
 static WrSelectPoint point_on(const Trace *t, const Walker *w)
 {
     bool level = w->side == TOP || w->side == BOTTOM;
@@ -108,7 +109,7 @@ static WrSelectPoint point_on(const Trace *t, const Walker *w)
     return (WrSelectPoint){ (double)i + (level ? part : 0.0), (double)j + (level ? 0.0 : part) };
 }
 
-/* Add a point to the open loop; one in the middle of a straight run gives way. */
+/* Adds a point to the open loop; removes the previous one if it is in the middle of a straight run. */
 static void add_point(Trace *t, int first, WrSelectPoint p)
 {
     if (t->points.count - first >= 2) {
@@ -123,7 +124,7 @@ static void add_point(Trace *t, int first, WrSelectPoint p)
     wr_array_push(&t->points, p);
 }
 
-/* Through the side by which it leaves, into the next cell. */
+/* Moves through `side` into the next cell. */
 static void cross_side(Walker *w, int side)
 {
     w->i += side == RIGHT ? 1 : side == LEFT ? -1 : 0;
@@ -131,7 +132,7 @@ static void cross_side(Walker *w, int side)
     w->side = (side + 2) % SIDES;
 }
 
-/* Follow one loop from a walker that just came into a cell. */
+/* Follows one loop from a walker that just entered a cell. */
 static bool follow(Trace *t, Walker w, WrError *err)
 {
     Walker start = w;
@@ -146,7 +147,7 @@ static bool follow(Trace *t, Walker w, WrError *err)
     WrSelectPoint again = t->points.data[loop.first];
     again.u += (double)(w.i - start.i);
     again.v += (double)(w.j - start.j);
-    add_point(t, loop.first, again); /* only to see whether the last one is on a straight run */
+    add_point(t, loop.first, again); /* only to test whether the last point is on a straight run */
     loop.count = --t->points.count - loop.first;
     loop.wind_u = (int)((w.i - start.i) / t->width);
     loop.wind_v = (int)((start.j - w.j) / t->height); /* v runs up */
@@ -154,9 +155,9 @@ static bool follow(Trace *t, Walker w, WrError *err)
     return true;
 }
 
-/* Start loops at the passages from the centre (i, j) to the right and down. With the inside on the left, a
- * loop goes down between two neighbours of a row if the right one is inside, and to the right between
- * two of a column if the upper one is. (On the left as seen with v up, and on the page.) */
+/* Starts loops at the crossings from the centre (i, j) to the right and down. With the inside on the
+ * left, a loop runs down between two neighbours of a row if the right one is inside, and to the right
+ * between two of a column if the upper one is. (On the left as seen with v up, and on the page.) */
 static bool start_at(Trace *t, int i, int j, WrError *err)
 {
     bool here = is_inside(value_at(t, i, j));
@@ -170,8 +171,8 @@ static bool start_at(Trace *t, int i, int j, WrError *err)
     return here == below || t->seen[seen / 8] >> seen % 8 & 1 || follow(t, along, err);
 }
 
-/* May an outline start in the tile? Not where it and those to its right and below are NULL, except that
- * a table selected everywhere ends at its clamped edges. */
+/* True if an outline may start in the tile. Not if it and those to its right and below are NULL, except
+ * that a table selected everywhere ends at its clamped edges. */
 static bool may_start(const Trace *t, int tx, int ty)
 {
     int tiles_u = wr_field_tiles_u(t->field), tiles_v = wr_field_tiles_v(t->field);
@@ -184,8 +185,8 @@ static bool may_start(const Trace *t, int tx, int ty)
     return is_inside(wr_field_level(t->field)) && (edge_u || edge_v);
 }
 
-/* in[y][x]: is texel (i + x, j + y) inside? Rows and columns 0..WR_TILE + 1; most of them are the
- * tile's, which are read without looking each up. */
+/* in[y][x]: texel (i + x, j + y) is inside. Rows and columns 0..WR_TILE + 1; most of them belong to the
+ * tile and are read directly. */
 typedef struct Patch {
     int i, j, count_i, count_j;
     bool in[WR_TILE + 2][WR_TILE + 2];
@@ -208,7 +209,7 @@ static void read_patch(const Trace *t, int tx, int ty, Patch *p)
 static bool trace_tile(Trace *t, int tx, int ty, WrError *err)
 {
     Patch p;
-    /* the ring of empty centres round a clamped table goes with the tiles at its left and top */
+    /* the ring of empty centres round a clamped table belongs to the tiles at its left and top */
     p.i = tx == 0 && !t->periodic_u ? -1 : tx * WR_TILE;
     p.j = ty == 0 && !t->periodic_v ? -1 : ty * WR_TILE;
     int i1 = (tx + 1) * WR_TILE < t->width ? (tx + 1) * WR_TILE : t->width;
@@ -225,7 +226,7 @@ static bool trace_tile(Trace *t, int tx, int ty, WrError *err)
     return true;
 }
 
-/* From texels to u, v, with each loop's first point in the cell [0,1). */
+/* Converts texels to u, v, with each loop's first point in the cell [0,1). */
 static void finish_points(Trace *t)
 {
     for (int k = 0; k < t->loops.count; k++) {

@@ -1,4 +1,4 @@
-/* Rectangles, ellipses and lassos, brought to whole numbers of 1/65536 texel. */
+/* Rectangles, ellipses and lassos, converted to integers in 1/65536 texel. */
 #include "field/select.h"
 
 #include "base/error.h"
@@ -36,7 +36,7 @@ bool wr_select_vertex(const WrField *like, WrSelectPoint point, WrSelectVertex *
     return true;
 }
 
-/* The box with corners a and b; low holds its left and top. */
+/* The box with corners a and b; low is its top left. */
 static bool read_box(const WrField *like, WrSelectPoint a, WrSelectPoint b, WrSelectVertex *low,
                      WrSelectVertex *high, WrError *err)
 {
@@ -47,7 +47,7 @@ static bool read_box(const WrField *like, WrSelectPoint a, WrSelectPoint b, WrSe
     return true;
 }
 
-/* How much of each texel along an axis lies between a and b or their images, 0..WR_SUB. */
+/* Coverage of each texel along an axis by the interval a .. b and its images, 0..WR_SUB. */
 static void cover_axis(int count, WrWrap wrap, int64_t a, int64_t b, int32_t *cover)
 {
     int64_t period = (int64_t)count * WR_SUB;
@@ -107,8 +107,8 @@ static int64_t from_middle(int64_t low, int64_t high, double offset)
     return half + (int64_t)floor(offset + rest + 0.5);
 }
 
-/* An inscribed polygon. A side's arc stands r (1 - cos(pi/n)) ~ r pi^2 / (2 n^2) above its chord; n is
- * chosen to make that 1/2048 texel for the larger radius. */
+/* An inscribed polygon. The arc of a side rises r (1 - cos(pi/n)) ~ r pi^2 / (2 n^2) above its chord; n
+ * is chosen to make that 1/2048 texel for the larger radius. */
 WrField *wr_select_ellipse(const WrField *like, WrSelectPoint a, WrSelectPoint b, WrPool *pool,
                            WrError *err)
 {

@@ -1,13 +1,13 @@
 /* The area that a polygon and its periodic images cover of each texel.
  *
- * A strip of texel rows is swept from the top. Wherever a side begins or ends, and at each row's border,
- * a new band begins; within a band the same sides go all the way through, so between two neighbours
- * that do not cross lies a trapezoid, whose area in each texel is known in closed form. Where neighbours
- * do cross, the band is halved until it is about FINEST high; there they are taken in the order that they
- * have half way down.
+ * A strip of texel rows is swept from the top. A new band begins wherever a side begins or ends, and at
+ * each row's border. Within a band all sides run from top to bottom, so between two neighbours that do
+ * not cross there is a trapezoid, whose area in each texel has a closed form. Where neighbours cross,
+ * the band is halved until it is about FINEST high; then they are ordered by their positions at
+ * mid-height.
  *
- * Everything is whole numbers: places in 1/65536 texel, areas in 2^-32 of a texel, summed exactly, so
- * neither the order of sums nor where the table begins can change a bit. */
+ * All numbers are integers: positions in 1/65536 texel, areas in 2^-32 of a texel, summed exactly, so
+ * neither the order of sums nor the table's origin can change a bit. */
 #include "field/select.h"
 
 #include "base/array.h"
@@ -19,8 +19,8 @@
 #include <math.h>
 #include <string.h>
 
-/* No band that is not higher is halved; with many sides in it the limit grows by FINEST for each MANY of
- * them, so that the wildest lasso ends in time. */
+/* Bands of at most this height are not halved; with many sides the limit grows by FINEST for each MANY
+ * of them, so that the worst lasso still finishes. */
 #define FINEST (WR_SUB / 512)
 #define MANY 64
 
@@ -29,15 +29,15 @@ typedef struct Side {
     int64_t x0, y0, x1, y1;
 } Side;
 
-/* The part of a side's image that lies in a strip. */
+/* The part of a side's image inside a strip. */
 typedef struct Active {
     int64_t x0, y0; /* upper end, y from the strip's top */
     int64_t dx, dy;
     int32_t from, to; /* y, from the strip's top */
-    int image;        /* which image of the polygon, counted downwards */
+    int image;        /* index of the polygon's image, counted downwards */
 } Active;
 
-/* Where a band's upper and lower border meet one side. */
+/* The intersections of a side with a band's upper and lower border. */
 typedef struct Cross {
     int64_t top, bottom;
     int image;
@@ -47,12 +47,12 @@ typedef struct Span {
     Cross left, right;
 } Span;
 
-/* One thread's scratch space. */
+/* Scratch memory of one thread. */
 typedef struct Work {
     int64_t *area; /* [width] of texels that a side passes through */
     int64_t
         *whole; /* [width + 1] change of the area that each texel has in full, from left to right */
-    WR_ARRAY(Active) actives; /* by `from` */
+    WR_ARRAY(Active) actives; /* sorted by `from` */
     WR_ARRAY(int32_t) events;
     WR_ARRAY(int) current; /* actives in this band */
     WR_ARRAY(Cross) crosses;
@@ -62,7 +62,7 @@ typedef struct Work {
 typedef struct Sweep {
     int width, height;
     bool periodic_u, periodic_v;
-    bool overlaps; /* images may lie on each other */
+    bool overlaps; /* images may overlap each other */
     Side *sides;   /* [count] */
     int count;
     Work *work; /* [threads] */
@@ -127,7 +127,7 @@ static bool cross_over(Cross a, Cross b)
     return (a.top < b.top && a.bottom > b.bottom) || (a.top > b.top && a.bottom < b.bottom);
 }
 
-/* Sides of one image belong together two by two: between the first and the second is inside. */
+/* Sides of one image form pairs: the inside is between the first and the second. */
 static bool make_spans(Work *work)
 {
     bool clean = true;
@@ -149,14 +149,14 @@ static Cross moved(Cross c, int64_t by)
     return (Cross){ c.top + by, c.bottom + by, c.image };
 }
 
-/* Brought to where its middle is in the table. */
+/* Shifted so that its middle is in the table. */
 static Cross wrapped(Cross c, int64_t period)
 {
     return period ? moved(c, -floor_div(mid2(c), 2 * period) * period) : c;
 }
 
-/* Do any two ends of spans, or images of them, cross in the band? If all neighbours in the order half way
- * down have the same order at its borders, all have. */
+/* True if any two ends of spans, or their images, cross in the band. They do not if all neighbours in
+ * the order at mid-height have the same order at its borders. */
 static bool ends_cross(Work *work, int64_t period)
 {
     work->crosses.count = 0;
@@ -173,7 +173,7 @@ static bool ends_cross(Work *work, int64_t period)
     return period && cross_over(ends[count - 1], moved(ends[0], period));
 }
 
-/* Join s to *span, which does not begin later, if they meet half way down. */
+/* Merges s into *span, which does not begin later, if they touch at mid-height. */
 static bool merge(Span *span, Span s)
 {
     if (mid2(s.left) > mid2(span->right)) return false;
@@ -181,7 +181,7 @@ static bool merge(Span *span, Span s)
     return true;
 }
 
-/* Replace the spans by their union, on a line (period 0) or round the table. */
+/* Replaces the spans by their union, on a line (period 0) or around the table. */
 static void unite(Work *work, int64_t period)
 {
     Span *spans = work->spans.data;
@@ -196,7 +196,8 @@ static void unite(Work *work, int64_t period)
         if (count == 0 || !merge(&spans[count - 1], spans[i])) spans[count++] = spans[i];
     work->spans.count = count;
     if (!period) return;
-    Span *last = &spans[count - 1]; /* what it reaches round the table belongs to it */
+    /* it includes the spans that it reaches across the table's edge */
+    Span *last = &spans[count - 1];
     for (; first < count - 1; first++)
         if (!merge(last,
                    (Span){ moved(spans[first].left, period), moved(spans[first].right, period) }))
@@ -207,14 +208,14 @@ static void unite(Work *work, int64_t period)
     work->spans.count = count - first;
 }
 
-/* Add to one texel, wherever its column is. */
+/* Adds to one texel; its column is reduced to the table. */
 static void add_area(const Sweep *sweep, Work *work, int64_t column, int64_t area)
 {
     if (sweep->periodic_u) column -= floor_div(column, sweep->width) * sweep->width;
     if (column >= 0 && column < sweep->width) work->area[column] += area;
 }
 
-/* Add to the texels of columns from .. to - 1. */
+/* Adds to the texels of columns from .. to - 1. */
 static void add_whole(const Sweep *sweep, Work *work, int64_t from, int64_t to, int64_t area)
 {
     if (to < from) {
@@ -261,7 +262,7 @@ static int64_t add_side(const Sweep *sweep, Work *work, Cross side, int64_t high
     return end;
 }
 
-/* Where sides through the band cross, halve it. */
+/* Adds the area of a band; halves the band if its sides cross. */
 static void add_band(const Sweep *sweep, Work *work, int32_t top, int32_t bottom)
 {
     work->crosses.count = 0;
@@ -289,7 +290,7 @@ static void add_band(const Sweep *sweep, Work *work, int32_t top, int32_t bottom
     }
 }
 
-/* The images of a side that reach into rows j .. j + rows - 1. */
+/* Collects the images of a side that reach into rows j .. j + rows - 1. */
 static void gather_side(const Sweep *sweep, Work *work, const Side *s, int j, int rows)
 {
     int64_t strip = (int64_t)j * WR_SUB, high = (int64_t)rows * WR_SUB;
@@ -314,7 +315,7 @@ static void gather_side(const Sweep *sweep, Work *work, const Side *s, int j, in
     }
 }
 
-/* The sides that go through the band below `top`; *next is the first that did not begin yet. */
+/* Selects the sides in the band below `top`; *next is the first that has not begun yet. */
 static void step(Work *work, int32_t top, int *next)
 {
     int kept = 0;
@@ -327,7 +328,7 @@ static void step(Work *work, int32_t top, int *next)
         wr_array_push(&work->current, *next);
 }
 
-/* One finished row. */
+/* Outputs one finished row. */
 static void put_row(Work *work, int width, float *out)
 {
     int64_t whole = 0;
@@ -362,7 +363,7 @@ static bool polygon_rows(void *ctx, int worker, int j, int rows, float *out)
     return true;
 }
 
-/* The sides, without level ones, and whether the polygon is larger than the table. */
+/* Stores the sides that are not level, and whether the polygon is larger than the table. */
 static void take_sides(Sweep *sweep, const WrSelectVertex *vertices, int count)
 {
     WrSelectVertex low = vertices[0], high = vertices[0];

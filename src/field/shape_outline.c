@@ -15,7 +15,7 @@ typedef struct Place {
     double x, y;
 } Place;
 
-/* A turn about a middle, and the way back to parameters. */
+/* A rotation about a centre, and the conversion back to parameters. */
 typedef struct Turn {
     double width, height;
     Place middle;
@@ -61,7 +61,7 @@ static Turn turn_about(const WrField *like, double x, double y, double turn_deg)
     return turn;
 }
 
-/* Add the point that lies (x, y) from the middle before the turn. */
+/* Adds the point (x, y) relative to the centre, rotated. */
 static void add(Points *points, const Turn *turn, double x, double y)
 {
     double tx = turn->middle.x + (x * turn->cosine - y * turn->sine);
@@ -69,14 +69,15 @@ static void add(Points *points, const Turn *turn, double x, double y)
     wr_array_push(points, ((WrSelectPoint){ tx / turn->width, ty / turn->height }));
 }
 
-/* Steps of a whole circle: its arcs stand r (1 - cos(pi/n)) <= r pi^2 / (2 n^2) above their chords. */
+/* Number of steps of a full circle: its arcs rise r (1 - cos(pi/n)) <= r pi^2 / (2 n^2) above their
+ * chords. */
 static int circle_steps(double radius, double tolerance)
 {
     double n = ceil(WR_PI * sqrt(radius / (2.0 * tolerance)));
     return n < 12.0 ? 12 : n < WR_SHAPE_OUTLINE_POINTS / 2 ? (int)n : WR_SHAPE_OUTLINE_POINTS / 2;
 }
 
-/* A quarter about (x, y), both ends included, from so many quarters on. */
+/* Adds a quarter circle about (x, y), both ends included, starting at `quarter`. */
 static void add_quarter(Points *points, const Turn *turn, double x, double y, double radius,
                         int quarter, int steps)
 {
@@ -162,7 +163,7 @@ static double between(double a, double b, double t)
     return a + t * (b - a);
 }
 
-/* De Casteljau's construction. */
+/* De Casteljau's algorithm. */
 static WrSelectPoint on_curve(const WrSelectPoint p[4], double t)
 {
     WrSelectPoint q[4];

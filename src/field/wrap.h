@@ -1,4 +1,4 @@
-/* wrap.h - what headers need of a table without its functions: its tile, its size, its edges. */
+/* wrap.h - constants of height tables (tile size, maximum size) and the wrap modes of their edges. */
 #pragma once
 
 #define WR_TILE 64         /* texels along a tile's side */
