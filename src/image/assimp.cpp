@@ -1,8 +1,10 @@
-/* assimp.cpp - the only file that knows Assimp: it becomes the module wrinkle_assimp.so. What it does is in
-   assimp.h. Ways of the library that it guards against:
-   - it opens what a file names (materials, buffers, textures): here it sees one file alone, in memory;
+/* assimp.cpp - the module wrinkle_assimp.so; the only file that uses Assimp. Its interface is assimp.h.
+
+   Workarounds for the library:
+   - it opens files named in a file (materials, buffers, textures): here it can read only one file, in
+     memory;
    - nodes of a scene may repeat a mesh any number of times: they are counted before anything is copied;
-   - indices are not always checked: they are checked here. */
+   - it does not always check indices: they are checked here. */
 extern "C" {
 #include "image/assimp.h"
 }
@@ -29,12 +31,12 @@ struct WrAssimpMesh {
     bool whole;
     std::vector<double> points;
     std::vector<int32_t> corners;
-    std::vector<float> looks; /* 5 a point */
+    std::vector<float> looks; /* 5 per point */
     std::vector<int32_t> firsts;
     std::vector<std::string> names;
 };
 
-/* The message as one line. */
+/* Fails with the message reduced to one line. */
 static bool fail(char *reason, const std::string &text)
 {
     one_line(reason, WR_ASSIMP_REASON, text);
@@ -112,7 +114,7 @@ class MemoryFiles : public Assimp::IOSystem
     {
         delete stream;
     }
-    std::string missed; /* the first other file that was asked for */
+    std::string missed; /* the first other file that was requested */
 
   private:
     std::string name;
@@ -124,7 +126,7 @@ class MemoryFiles : public Assimp::IOSystem
 
 struct Visit {
     const aiNode *node;
-    double to[12]; /* of its points: rows of a matrix with the move last */
+    double to[12]; /* transform of its points: rows of a matrix with the translation last */
 };
 
 struct Limits {
@@ -144,7 +146,7 @@ static void follow(const double parent[12], const aiMatrix4x4 &m, double out[12]
         }
 }
 
-/* Its cofactors turn normals, and its sign says whether it mirrors. */
+/* The cofactors transform normals; the sign of the determinant is negative for mirroring. */
 static double cofactors(const double m[12], double c[9])
 {
     for (int row = 0; row < 3; row++)
@@ -156,7 +158,7 @@ static double cofactors(const double m[12], double c[9])
     return m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
 }
 
-/* Normals and (u,v) of its points. */
+/* Adds the normals and (u,v) of its points. */
 static void add_looks(WrAssimpMesh &out, const aiMesh &mesh, const double m[12], bool moved)
 {
     const float nothing = std::numeric_limits<float>::quiet_NaN();
@@ -178,7 +180,7 @@ static void add_looks(WrAssimpMesh &out, const aiMesh &mesh, const double m[12],
     }
 }
 
-/* The name of its material, where the file has given it one. */
+/* The name of its material, if the file names one. */
 static std::string part_name(const aiScene &scene, const aiMesh &mesh)
 {
     if (mesh.mMaterialIndex >= scene.mNumMaterials) return mesh.mName.C_Str();
@@ -202,7 +204,7 @@ static bool add_mesh(WrAssimpMesh &out, const aiMesh &mesh, const double m[12],
     if (out.whole) add_looks(out, mesh, m, moved);
     for (unsigned i = 0; i < mesh.mNumVertices; i++) {
         const aiVector3D &p = mesh.mVertices[i];
-        if (!moved) { /* as it is, bit for bit */
+        if (!moved) { /* unchanged, bit for bit */
             out.points.insert(out.points.end(), { p.x, p.y, p.z });
             continue;
         }
@@ -262,7 +264,7 @@ static bool read_file(WrAssimpMesh &out, const void *bytes, size_t length, const
         return fail(reason,
                     std::string("is not a mesh file of a kind that can be read (.") + ending + ")");
     auto *files = new MemoryFiles(name, static_cast<const char *>(bytes), length);
-    importer.SetIOHandler(files); /* which owns it */
+    importer.SetIOHandler(files); /* the importer owns it */
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     const aiScene *scene = importer.ReadFile(name, aiProcess_Triangulate);
     if (!scene && std::strstr(importer.GetErrorString(), "bad_alloc"))

@@ -49,7 +49,7 @@ void wr_label_free(WrLabel *label)
     wr_free(label);
 }
 
-/* The next character; what is not UTF-8 gives '?' and is passed over byte by byte. */
+/* The next character; invalid UTF-8 yields '?' for each byte. */
 static uint32_t next_character(const char **text)
 {
     const uint8_t *p = (const uint8_t *)*text;

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* "diffuse.R": its layer "diffuse" has 7 letters, its own name is "R". */
+/* Length of the layer name: 7 for "diffuse.R", whose own name is "R". */
 static int layer_length(const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -19,7 +19,7 @@ static const char *own_name(const char *name)
     return length > 0 ? name + length + 1 : name;
 }
 
-/* The channel of that layer (`length` letters of `layer`) with that own name, or -1. */
+/* The channel with that layer (`length` letters of `layer`) and own name, or -1. */
 static int find_in_layer(const WrImagePart *part, const char *layer, int length, const char *own)
 {
     for (int c = 0; c < part->channels; c++) {
@@ -31,7 +31,7 @@ static int find_in_layer(const WrImagePart *part, const char *layer, int length,
     return -1;
 }
 
-/* R, G, B, A of a layer; X, Y, Z, which is one vector (Blender's normals and positions); or its Y, A. */
+/* R, G, B, A of a layer; X, Y, Z, which is one vector (Blender's normals and positions); or Y, A. */
 static bool take_layer(const WrImagePart *part, const char *layer, int length, WrChannelChoice *out)
 {
     static const char *const sets[3][4] = { { "R", "G", "B", NULL },
@@ -54,7 +54,7 @@ static bool take_layer(const WrImagePart *part, const char *layer, int length, W
     return false;
 }
 
-/* As formats without names of their own have them: the first are the picture. */
+/* True for the channel names of formats without names: then the first channels are the image. */
 static bool nameless(const WrImagePart *part)
 {
     for (int c = 0; c < part->channels; c++) {
@@ -89,7 +89,7 @@ static void list(const WrImagePart *part, WrText *text)
     if (part->channels > MOST) wr_text_addf(text, " and %d more", part->channels - MOST);
 }
 
-/* "a,b", each by its whole name. */
+/* "a,b", each by its full name. */
 static bool take_several(const WrImagePart *part, const char *names, WrChannelChoice *out)
 {
     WrChannelChoice choice = { 0 };

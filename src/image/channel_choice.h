@@ -1,5 +1,4 @@
-/* channel_choice.h - which channels of a part a picture is made of.
-   Private to this module. */
+/* channel_choice.h - selection of the channels of an image part. Private to this module. */
 #pragma once
 #include <stdbool.h>
 
@@ -12,9 +11,10 @@ typedef struct WrChannelChoice {
     int index[4]; /* of the part's channels */
 } WrChannelChoice;
 
-/* channel: a channel's name ("Depth.Z") or a layer's ("diffuse": its R, G, B, A or its Y); NULL or "": the first
- * layer of colours or of grey, else the first channel. Errors: no such; they list what there is. */
+/* channel: a channel's name ("Depth.Z") or a layer's ("diffuse": its R, G, B, A or its Y); NULL or "":
+ * the first layer with colours or grey, else the first channel. Errors: not found; the message lists
+ * the existing ones. */
 bool wr_channels_choose(const WrImagePart *part, const char *channel, WrChannelChoice *choice,
                         WrError *err);
-/* "diffuse.R, diffuse.G, diffuse.B of Z, diffuse.R, ..."; nothing where all were taken. */
+/* Appends "diffuse.R, diffuse.G, diffuse.B of Z, diffuse.R, ..."; nothing if all channels are used. */
 void wr_channels_tell(const WrImagePart *part, const WrChannelChoice *choice, WrText *text);

@@ -1,10 +1,10 @@
-/* codec.h - what reads and writes picture files of one or more formats: OpenImageIO, which is a module (oiio.h), and
-   libpng, which is there at once (png_codec.h). No exception crosses this border.
-   Private to this module. C and C++.
+/* codec.h - interface of image file libraries: OpenImageIO, which is a module (oiio.h), and libpng
+   (png_codec.h).
 
-   Every function that can fail writes one line into reason[WR_CODEC_REASON] and returns false or NULL.
-   The callers have checked the file's existence and kind; these functions check what the file says of
-   itself before anything is allocated for it. */
+   No exception crosses this interface. Private to this module. C and C++. Every function that can fail
+   writes one line into reason[WR_CODEC_REASON] and returns false or NULL. Callers have checked the
+   file's existence and kind; these functions check the file's header before they allocate memory for
+   it. */
 #pragma once
 #include "base/sink.h"
 #include "image/image.h"
@@ -12,14 +12,14 @@
 #include <stdbool.h>
 
 #define WR_CODEC_REASON 320
-#define WR_CODEC_NO_MEMORY "not enough memory" /* a reason that callers look for */
+#define WR_CODEC_NO_MEMORY "not enough memory" /* a reason that callers test for */
 
 #define WR_CODEC_LEVELS (-1)
 
 typedef struct WrCodecReader WrCodecReader;
 typedef struct WrCodecWriter WrCodecWriter;
 
-/* What a part of an open file holds. Strings are valid until the reader is closed. */
+/* A part of an open file. Strings are valid until the reader is closed. */
 typedef struct WrCodecPart {
     WrImagePart part;
     double divisor; /* integer codes / divisor = value; 0 for floats */
@@ -28,9 +28,10 @@ typedef struct WrCodecPart {
 typedef struct WrCodec {
     int version; /* of a module (WR_OIIO_VERSION) */
 
-    /* fd: open for reading; borrowed until close. format: OpenImageIO's name or an ending. most: count parts
-       up to this many; more is an error; WR_CODEC_LEVELS: the first part's levels stand in their place. numbers: integers
-       that are measurements (WrImageWish.elevation) are read as their numbers, not as codes. */
+    /* fd: open for reading; borrowed until close. format: OpenImageIO's name or an extension. most:
+       maximum number of parts; more is an error. WR_CODEC_LEVELS: the mip levels of the first part are
+       the parts. numbers: integers that are measurements (WrImageWish.elevation) are read as numbers,
+       not as codes. */
     WrCodecReader *(*open)(int fd, const char *format, int most, bool numbers, char *reason);
     void (*close)(WrCodecReader *reader);
     int (*parts)(const WrCodecReader *reader);
@@ -41,20 +42,22 @@ typedef struct WrCodec {
     bool (*read)(WrCodecReader *reader, int part, int y, int rows, int channels, float *out,
                  char *reason);
 
-    /* to: empty; outlives the writer. spool: an empty memory file, the caller's, which is written in the sink's place where
-       wr_oiio_by_name: the library opens it by its name and does not report all failures; else -1. */
+    /* to: empty; must outlive the writer. spool: an empty memory file of the caller, written instead of
+       the sink if wr_oiio_by_name: the library opens it by its name and does not report all failures;
+       else -1. */
     WrCodecWriter *(*create)(const WrByteSink *to, int spool, const char *format,
                              const WrImageOut *parts, int count, char *reason);
-    /* Rows of the present part, downwards. */
+    /* Writes rows of the present part, downwards. */
     bool (*write)(WrCodecWriter *writer, int y, int rows, const void *pixels, char *reason);
-    /* Go on with the next part. */
+    /* Starts the next part. */
     bool (*next)(WrCodecWriter *writer, char *reason);
-    /* Closes and releases the writer whatever happens; false if the file is not whole. keep is false when
-       the file is given up. */
+    /* Closes and releases the writer in any case; false if the file is incomplete. keep is false when
+       the file is abandoned. */
     bool (*finish)(WrCodecWriter *writer, bool keep, char *reason);
 } WrCodec;
 
-/* Whether files of a format are read and written by the module that holds OpenImageIO. */
+/* True if the module with OpenImageIO reads and writes this format. */
 bool wr_codec_takes_module(const char *format);
-/* By OpenImageIO's name of the format, or an ending. NULL and an error that says where its module was looked for. */
+/* The codec for OpenImageIO's name of a format, or an extension. NULL and an error with the paths where
+ * the module was searched. */
 const WrCodec *wr_codec(const char *format, WrError *err);

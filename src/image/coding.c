@@ -7,12 +7,12 @@
 #include <math.h>
 #include <stddef.h>
 
-#define ROUNDING 0.02 /* below 0: not meant as a direction */
-#define STRETCH 16384 /* texels between two looks at whether the work shall stop */
+#define ROUNDING 0.02 /* values below minus this are not rounding errors of a unit coding */
+#define STRETCH 16384 /* texels between cancellation checks */
 
 const char *const wr_codings[] = { WR_CODINGS(WR_WORD) NULL };
 
-/* How far a vector whose length has this square is from a unit one. */
+/* Distance from 1 of a vector's length, given its square. */
 static double misfit(double square, int channels)
 {
     const double off = channels == 2 ? square - 1 : fabs(square - 1);

@@ -1,9 +1,10 @@
-/* coding.h - coding of unit vectors in a picture: as they are (signed), or with -1..1 stored as 0..1 (unit).
+/* coding.h - coding of unit vectors in an image: signed, or unit (-1..1 stored as 0..1).
 
-   Codes of 8 and 16 bits are always unit. Files of floats hold either. Without a choice the distribution decides: for each
-   texel the distance of its length from 1 is taken both ways, at most 1 (of two channels, how much it is over 1); numbers
-   below 0 by more than rounding count as a distance of 1 from unit. The smaller sum is taken, unit if both are equal. So a
-   blue of 1.00001, as bakes in floats have, or a few numbers below 0 by a filter's overshoot, decide nothing. */
+   Codes of 8 and 16 bits are always unit. Float files contain either. Without a choice the texels
+   decide: for each texel the distance of its length from 1 is computed for both codings, at most 1 (for
+   two channels, the excess over 1); numbers below 0 by more than rounding count as a distance of 1 from
+   unit. The smaller sum wins, unit if both are equal. So a blue of 1.00001, as in float bakes, or a few
+   negative numbers from a filter's overshoot, do not affect the result. */
 #pragma once
 #include "base/enum_rows.h"
 
@@ -17,7 +18,7 @@ typedef struct WrImage WrImage;
 typedef enum WrCoding { WR_CODINGS(WR_WORD_ID) WR_CODING_COUNT } WrCoding;
 extern const char *const wr_codings[]; /* as in commands; ends with NULL */
 
-/* WR_CODING_UNIT or WR_CODING_SIGNED for the first `channels` (2 or 3) numbers of a texel in *found. False and an error for
- * signed where the file holds codes, or when the work was cancelled. */
+/* Stores WR_CODING_UNIT or WR_CODING_SIGNED for the first `channels` (2 or 3) numbers of a texel in
+ * *found. False and an error if signed is requested for integer codes, or when cancelled. */
 bool wr_coding_find(const WrImage *image, int channels, WrCoding wanted, WrCoding *found,
                     WrError *err);

@@ -11,14 +11,14 @@
 #include <errno.h>
 #include <string.h>
 
-/* Of the library, or plain. */
+/* One of two decoders: a library's, or simple_formats.h's. */
 struct WrDecoder {
     const WrCodec *library;
     WrCodecReader *reader;
     WrPlain *plain;
 };
 
-/* The format by the file's first bytes, else by its ending; "plain" for what simple_formats.h reads. */
+/* The format by the file's first bytes, else by its extension; "plain" for formats of simple_formats.h. */
 static const char *format_of(const unsigned char *bytes, size_t count, const char *ending)
 {
     const char *format = wr_image_sniff(bytes, count);

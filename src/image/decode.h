@@ -1,6 +1,7 @@
-/* decode.h - a picture file read within this process: finds out the format and drives the module. What
-   the reader process does for strangers' files, and what reading "inside" does without it.
-   Private to this module. */
+/* decode.h - image decoding in the present process: format detection and calls of the codec.
+
+   Called in the reader process for untrusted files, and directly if the reader runs "inside". Private
+   to this module. */
 #pragma once
 #include "base/hash.h"
 #include "image/image.h"
@@ -12,21 +13,21 @@ typedef struct WrError WrError;
 
 typedef struct WrDecoder WrDecoder;
 
-/* Whether reading the file takes the module that holds OpenImageIO (oiio.h): its first bytes, and the ending of its
- * name where they tell nothing, say so. */
+/* True if reading the file needs the module with OpenImageIO (oiio.h), judged by its first bytes or
+ * else the extension of its name. */
 bool wr_decoder_takes_module(int fd, const char *ending);
 
-/* Open a picture.
+/* Opens an image.
  *
- * fd       a regular file or a memory file, open for reading; borrowed, and kept until close
- * ending   of the file's name: what it is believed to be where its first bytes tell nothing
- * most     parts up to this many; more is an error
+ * fd       a regular file or a memory file, open for reading; borrowed until close
+ * ending   extension of the file's name: its assumed format if the first bytes are not characteristic
+ * most     maximum number of parts; more is an error
  * numbers  integers that are measurements are read as numbers (codec.h)
- * memory   set to whether the failure was one of memory; may be NULL
+ * memory   set to true if the failure was lack of memory; may be NULL
  * Errors   one sentence that does not name the file */
 WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool numbers, bool *memory,
                            WrError *err);
-void wr_decoder_close(WrDecoder *decoder); /* NULL is fine */
+void wr_decoder_close(WrDecoder *decoder); /* NULL is allowed */
 
 int wr_decoder_parts(const WrDecoder *decoder);
 WrImagePart wr_decoder_part(const WrDecoder *decoder, int part); /* valid until close */
@@ -36,11 +37,12 @@ const char *wr_decoder_attribute(const WrDecoder *decoder, int part, const char 
 bool wr_decoder_read(WrDecoder *decoder, int part, int y, int rows, int channels, float *out,
                      bool *memory, WrError *err);
 
-/* The digest of a part: its values, WR_IMAGE_STRIP rows at a time, each strip's chained into the one above. */
+/* Digest of a part: hash of its values in strips of WR_IMAGE_STRIP rows, each chained to the strip
+ * above. */
 static inline void wr_digest_strip(WrHash *digest, const float *values, size_t count)
 {
     *digest = wr_hash_bytes(values, count * sizeof *values, *digest);
 }
-/* Chain rows [y, y + rows) into *digest, y a multiple of WR_IMAGE_STRIP. Holds one strip. */
+/* Chains rows [y, y + rows) into *digest, y a multiple of WR_IMAGE_STRIP. Uses memory for one strip. */
 bool wr_decoder_digest(WrDecoder *decoder, int part, int y, int rows, int channels, WrHash *digest,
                        bool *memory, WrError *err);

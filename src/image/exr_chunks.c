@@ -9,7 +9,7 @@
 
 #define MULTIPART 0x10 /* in the file's sixth byte */
 #define TILED 0x02     /* of one part */
-#define TILE_NUMBERS 4 /* that stand before a tile's length: its place and its level */
+#define TILE_NUMBERS 4 /* before a tile's length: its position and its level */
 #define NAME_MAX_BYTES 255
 
 typedef struct Walk {
@@ -34,7 +34,7 @@ static bool take_number(Walk *walk, int bytes, uint64_t *value)
     return true;
 }
 
-/* A text that ends in NUL, into walk->text. */
+/* Reads a NUL-terminated text into walk->text. */
 static bool take_name(Walk *walk)
 {
     int64_t n = wr_fd_read_at(walk->fd, walk->text, sizeof walk->text, walk->at);
@@ -44,7 +44,7 @@ static bool take_name(Walk *walk)
     return true;
 }
 
-/* The attributes of one part; 0 chunks: there is no further part. */
+/* Reads the attributes of one part; 0 chunks: there is no further part. */
 static bool take_header(Walk *walk, uint64_t *chunks)
 {
     *chunks = 0;
@@ -61,7 +61,8 @@ static bool take_header(Walk *walk, uint64_t *chunks)
     }
 }
 
-/* One entry of the table at *table; *end is where its chunk must begin, and then where that ends. */
+/* Checks one entry of the table at *table; *end is the required start of its chunk, and is advanced to
+ * the chunk's end. */
 static bool follow_chunk(Walk *walk, int64_t *table, uint64_t part, int64_t *end)
 {
     uint64_t place, number, y, length;
@@ -95,7 +96,7 @@ static bool check(Walk *walk)
     return end == walk->size;
 }
 
-/* The attributes of the only part. */
+/* Skips the attributes of the only part. */
 static bool skip_header(Walk *walk)
 {
     for (;;) {

@@ -14,7 +14,7 @@ typedef struct Level {
     double *z;
 } Level;
 
-/* Whether to go on with value k: whether the work was cancelled is read only now and then. */
+/* True if the loop should continue at value k: cancellation is checked only at intervals. */
 static bool goes_on(size_t k)
 {
     return k % 16384 != 0 || !wr_progress_stopped();
@@ -25,7 +25,7 @@ static bool is_hole(double z)
     return !(z == z);
 }
 
-/* Means of those of four texels that are there. */
+/* Means of the valid ones among four texels. */
 static void shrink(const Level *fine, Level *coarse)
 {
     for (int j = 0; j < coarse->height && !wr_progress_stopped(); j++)
@@ -55,7 +55,8 @@ static double mean_around(const Level *l, int i, int j)
     return count ? sum / count : l->z[at];
 }
 
-/* Holes take the height of the coarser texel over them, then the mean of their neighbours, some times. */
+/* Holes start with the height of the coarser texel, then become the mean of their neighbours in several
+ * passes. */
 static bool grow(Level *fine, const Level *coarse, int64_t *filled, WrError *err)
 {
     size_t count = (size_t)fine->width * (size_t)fine->height, holes = 0, k = 0;

@@ -1,4 +1,4 @@
-/* Asking the reader process for a shaped text, and fonts by name. */
+/* Requests of shaped texts to the reader process, and fonts by name. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/enum_rows.h"
@@ -74,10 +74,10 @@ char *wr_font_find(int index, double size, WrError *err)
 
 /* ---- shaping ---- */
 
-/* The fonts' files, the first one's descriptor borrowed. */
+/* The font files; the first descriptor is borrowed. */
 typedef struct Files {
-    const char *name; /* the first one's */
-    int fd;           /* all of them, one after the other */
+    const char *name; /* name of the first file */
+    int fd;           /* all files, concatenated */
     int count;
     uint64_t lengths[WR_FONT_FILES], total;
 } Files;
@@ -119,7 +119,7 @@ static bool shape_outside(const Files *files, const WrFontAsk *ask, WrText *bloc
     return good;
 }
 
-/* Count a file in. */
+/* Adds a file's length to the list. */
 static bool take_file(Files *files, const char *name, int fd, WrError *err)
 {
     WrFileInfo info;
@@ -158,7 +158,7 @@ static bool append_file(Files *files, const char *name, int fd, WrError *err)
     return good || wr_fail(err, "%s: no memory to read it from", name);
 }
 
-/* The first file and the others as one memory file. */
+/* Concatenates all files into one memory file. */
 static bool gather(Files *files, int fd, const WrFontAsk *ask, WrError *err)
 {
     files->fd = wr_fd_memory("wrinkle fonts");

@@ -25,7 +25,7 @@ static bool crashed(WrChildEnd end, WrError *err)
                                             : "it ended");
 }
 
-/* What the copy has looked into is kept in files, which is all that is read here then. */
+/* The copy has cached its results in files, so only those are read here. */
 static bool load(void *ctx, WrError *err)
 {
     bool good = false;
@@ -42,7 +42,7 @@ static bool load(void *ctx, WrError *err)
     if (result == WR_TRY_LATE) return wr_fail(err, "fontconfig: no list of fonts in %g s", SECONDS);
     if (result == WR_TRY_ANSWERED && !good) return wr_fail(err, "fontconfig does not work");
     return FcInit() ||
-           wr_fail(err, "fontconfig does not work"); /* where there can be no copy too */
+           wr_fail(err, "fontconfig does not work"); /* also if no copy can be started */
 }
 
 bool wr_font_config(WrError *err)

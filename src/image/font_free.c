@@ -1,5 +1,5 @@
-/* Fonts that FreeType reads; outlines in the font's own units, never scaled or hinted, so that no rounding
-   of that library shows. OpenType fonts are shaped by HarfBuzz, at a scale of one unit. */
+/* Fonts read by FreeType; outlines in the font's own units, never scaled or hinted, so that the library
+   does not round them. OpenType fonts are shaped by HarfBuzz, at a scale of one unit. */
 #include "image/font_internal.h"
 
 #include "base/error.h"
@@ -22,10 +22,10 @@ typedef struct Free {
     WrFontFace *own;
     FT_Library library;
     FT_Face face;
-    hb_font_t *shaper; /* NULL: a character, a glyph */
+    hb_font_t *shaper; /* NULL: one glyph per character */
     hb_buffer_t *buffer;
     WrFontMaking *making;
-    bool too_many; /* points */
+    bool too_many; /* the limit of points was exceeded */
 } Free;
 
 /* ---- glyphs ---- */
@@ -64,7 +64,7 @@ static int cubic_to(const FT_Vector *a, const FT_Vector *b, const FT_Vector *to,
     return add_point(f, WR_FONT_CUBIC, 3, (const FT_Vector *const[]){ a, b, to });
 }
 
-/* Two rectangles, one in the other, turned against each other. */
+/* A box: an outer and an inner rectangle of opposite orientation. */
 static void add_box(Free *f)
 {
     int32_t em = f->own->head.units, w = em / 2, h = em * 7 / 10, t = em / 20 + 1, l = em / 20;
@@ -78,10 +78,10 @@ static void add_box(Free *f)
     }
 }
 
-/* The outline of glyph id, which may be empty. A glyph that cannot be read is left empty. */
+/* Adds the outline of glyph id, which may be empty. An unreadable glyph becomes empty. */
 static void add_outline(Free *f, uint32_t id, WrFontGlyph *g)
 {
-    /* Doubled, since TrueType's curves meet half way between points that are given. */
+    /* Doubled, since TrueType curves join half way between control points. */
     static const FT_Outline_Funcs funcs = { move_to, line_to, conic_to, cubic_to, 1, 0 };
     WrFontMaking *m = f->making;
     g->first_verb = m->verbs.count;
@@ -98,7 +98,7 @@ static void add_outline(Free *f, uint32_t id, WrFontGlyph *g)
     g->point_count = m->points.count - g->first_point;
 }
 
-/* The dots of glyph id. Grey ones count from half on. */
+/* Adds the dots of glyph id. Grey ones are set from half intensity on. */
 static bool add_dots(Free *f, uint32_t id, WrFontGlyph *g)
 {
     WrFontMaking *m = f->making;
@@ -128,7 +128,7 @@ static bool add_dots(Free *f, uint32_t id, WrFontGlyph *g)
     return m->bytes.count <= WR_FONT_FILE_MAX / 2;
 }
 
-/* Its place among the text's glyphs; -1 for one that is damaged. */
+/* Index of the glyph among the text's glyphs; -1 if it is damaged. */
 static int32_t take(Free *f, uint32_t id)
 {
     WrFontMaking *m = f->making;
@@ -150,7 +150,7 @@ static int32_t bounded(long x, int32_t most)
     return (int32_t)(x < -most ? -most : x > most ? most : x);
 }
 
-/* ---- a character, a glyph ---- */
+/* ---- one glyph per character ---- */
 
 static int32_t map(WrFontFace *face, uint32_t character, int32_t *advance)
 {
@@ -166,7 +166,7 @@ static int32_t map(WrFontFace *face, uint32_t character, int32_t *advance)
     return glyph;
 }
 
-/* Also what HarfBuzz puts together from two characters. */
+/* True also for characters that HarfBuzz composes from two. */
 static bool has(const WrFontFace *face, uint32_t character)
 {
     const Free *f = face->ctx;
@@ -178,7 +178,7 @@ static bool has(const WrFontFace *face, uint32_t character)
 
 /* ---- shaping ---- */
 
-/* What the glyph of a missing character stands for: it and the marks on it. */
+/* Reports the characters of a missing glyph: the base and its marks. */
 static void add_missing(Free *f, const WrFontChars *chars, int first)
 {
     hb_unicode_funcs_t *unicode = hb_unicode_funcs_get_default();
@@ -287,7 +287,7 @@ static bool measure(Free *f, WrError *err)
 
 #define AXES_MAX 64
 
-/* Set one axis in design units of 1/65536. False: the font has none of that tag. */
+/* Sets one axis in design units of 1/65536. False: the font has no axis of that tag. */
 static bool set_axis(const FT_MM_Var *axes, const hb_variation_t *wish, FT_Fixed *at)
 {
     for (FT_UInt i = 0; i < axes->num_axis && i < AXES_MAX; i++) {
@@ -302,7 +302,7 @@ static bool set_axis(const FT_MM_Var *axes, const hb_variation_t *wish, FT_Fixed
     return false;
 }
 
-/* Words tag=value between commas. */
+/* Parses tag=value items separated by commas. */
 static bool take_axes(const Free *f, const FT_MM_Var *axes, FT_Fixed *at, WrError *err)
 {
     for (const char *p = f->own->ask->axes; *p;) {
@@ -345,7 +345,7 @@ static bool vary(Free *f, WrError *err)
     return good;
 }
 
-/* ---- open and close ---- */
+/* ---- opening and closing ---- */
 
 static void start_shaper(Free *f)
 {

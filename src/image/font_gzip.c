@@ -14,7 +14,7 @@ bool wr_font_gunzip(const uint8_t *bytes, size_t length, size_t limit, uint8_t *
     z_stream z = { .next_in = (Bytef *)(uintptr_t)bytes, .avail_in = (uInt)length };
     WrText text = { 0 };
     char *step = wr_alloc(STEP, 1);
-    int state = inflateInit2(&z, 15 + 16); /* gzip alone */
+    int state = inflateInit2(&z, 15 + 16); /* gzip only */
     bool started = state == Z_OK;
     while (state == Z_OK && text.length <= limit) {
         z.next_out = (Bytef *)step;

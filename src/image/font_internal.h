@@ -1,7 +1,5 @@
-/* font_internal.h - what the files of fonts share.
-   Private to font*.c and the reader process.
-
-   A shaped text travels as one block: a WrFontHead, then the arrays in the order of its counts. */
+/* font_internal.h - internals shared by the font files. Private to font*.c and the reader process. A
+   shaped text is transferred as one block: a WrFontHead, then the arrays in the order of its counts. */
 #pragma once
 #include "image/font.h"
 
@@ -19,21 +17,21 @@ typedef struct WrFontHead {
     int32_t lines, placed, glyphs, points, missing, verbs, bytes; /* counts */
 } WrFontHead;
 
-/* What the program asks; the text, the language and the axes follow it, each with its NUL. The fonts' files
-   come as one, one after the other. */
+/* A request of the program; the text, the language and the axes follow it, each NUL-terminated. The
+   font files are sent as one concatenated file. */
 #define WR_FONT_FILES (1 + WR_FONT_OTHERS)
 typedef struct WrFontOrder {
     int32_t face, direction, text_length, language_length, axes_length, file_count;
     uint64_t lengths[WR_FONT_FILES];
 } WrFontOrder;
 
-/* A font file in memory, packed or not; borrowed. */
+/* A font file in memory, compressed or not; borrowed. */
 typedef struct WrFontFile {
     const uint8_t *bytes;
     size_t length;
 } WrFontFile;
 
-/* A shaped text being made, in the process that reads the font. */
+/* A shaped text under construction, in the process that reads the font. */
 typedef struct WrFontMaking {
     WrFontHead head; /* counts are set at the end */
     WR_ARRAY(WrFontLine) lines;
@@ -46,27 +44,27 @@ typedef struct WrFontMaking {
 } WrFontMaking;
 
 void wr_font_making_fini(WrFontMaking *making);
-/* All of it as one block. */
+/* Serialises it as one block. */
 void wr_font_pack(const WrFontMaking *making, WrText *out);
 
-/* Check a block from a stranger and make a text of it; takes the block over if it is good. */
+/* Checks an untrusted block and converts it to a text; owns the block on success. */
 bool wr_font_unpack(char *block, size_t length, size_t text_length, WrFontText *out);
 
-/* Read the fonts, 1..WR_FONT_FILES, the first of which leads, and shape the text by them, in this process.
+/* Reads the fonts, 1..WR_FONT_FILES, the first of which is the main one, and shapes the text, in this
+ * process.
  * Errors   one sentence that does not name the file */
 bool wr_font_make(const WrFontFile *files, int count, const WrFontAsk *ask, WrText *block,
                   WrError *err);
 
-/* Unpack a gzip file, up to `limit` bytes. *out is the caller's (wr_free). */
+/* Unpacks a gzip file, up to `limit` bytes. *out is owned by the caller (wr_free). */
 bool wr_font_gunzip(const uint8_t *bytes, size_t length, size_t limit, uint8_t **out, size_t *count,
                     WrError *err);
 
-/* The next character of UTF-8 text[0..length), moving *at past it; what is not UTF-8 gives U+FFFD, byte by
- * byte. */
+/* The next character of UTF-8 text[0..length), advances *at; invalid bytes yield U+FFFD each. */
 uint32_t wr_font_character(const char *text, size_t length, size_t *at);
 void wr_font_add_missing(WrFontMaking *making, uint32_t character);
 
-/* Characters of a line, NUL-free, with the byte that each begins at. */
+/* Characters of a line, without NUL, with the byte offset of each. */
 typedef struct WrFontChars {
     uint32_t *code;
     int32_t *byte;
@@ -75,35 +73,35 @@ typedef struct WrFontChars {
 
 /* ---- open fonts ---- */
 
-/* A font in the process that reads it. */
+/* An open font in the process that reads it. */
 typedef struct WrFontFace {
     void *ctx;
-    WrFontMaking *making; /* what it shapes goes there */
+    WrFontMaking *making; /* receives the shaped glyphs */
     const WrFontAsk *ask;
     int32_t font;            /* as in WrFontGlyph */
     WrFontHead head;         /* its measures */
-    WR_ARRAY(int32_t) known; /* glyph id -> its place in glyphs + 1; 0: not there yet */
+    WR_ARRAY(int32_t) known; /* glyph id -> its index in glyphs + 1; 0: not there yet */
     bool (*has)(const struct WrFontFace *face, uint32_t character);
-    /* Append the characters from .. from + count - 1, all of one script (an ISO 15924 tag as HarfBuzz has
-       it) and direction, from left to right. */
+    /* Appends the characters from .. from + count - 1, all of one script (an ISO 15924 tag of HarfBuzz)
+       and direction, from left to right. */
     bool (*shape)(struct WrFontFace *face, const WrFontChars *chars, int from, int count,
                   bool leftwards, uint32_t script, WrError *err);
     void (*close)(struct WrFontFace *face);
 } WrFontFace;
 
-/* Room for `count` glyphs, none of them known. */
+/* Allocates the table of `count` glyphs, all unknown. */
 void wr_font_face_expect(WrFontFace *face, int count);
 
-/* Does it begin as a PSF file does? */
+/* True if the bytes begin like a PSF file. */
 bool wr_psf_is(const uint8_t *bytes, size_t length);
-/* Open a font over bytes that stay where they are; face->making, ask and font are set. On failure there is
+/* Opens a font over bytes that stay valid; face->making, ask and font must be set. On failure there is
  * nothing to close. */
 bool wr_font_open_psf(WrFontFace *face, const uint8_t *bytes, size_t length, WrError *err);
-/* What FreeType reads. */
+/* Opens a font with FreeType. */
 bool wr_font_open_free(WrFontFace *face, const uint8_t *bytes, size_t length, WrError *err);
 
-/* Shape for fonts that know no shaping: a character, a glyph. map: gives the place in making->glyphs and
- * the advance. */
+/* Shaping for fonts without shaping tables: one glyph per character. map: returns the index in
+ * making->glyphs and the advance. */
 typedef int32_t (*WrFontMap)(WrFontFace *face, uint32_t character, int32_t *advance);
 void wr_font_shape_plain(WrFontFace *face, const WrFontChars *chars, int from, int count,
                          bool leftwards, WrFontMap map);
@@ -115,11 +113,12 @@ typedef struct WrFontRun {
     int first, count; /* characters of the line, in logical order */
     bool leftwards;
 } WrFontRun;
-/* Call with each line's characters; cuts at \n (\r before it is dropped). runs: its parts by direction. */
+/* Called with each line's characters; lines are split at \n (a preceding \r is dropped). runs: its
+ * parts by direction. */
 typedef bool (*WrFontLineMake)(void *ctx, const WrFontChars *chars, const WrFontRun *runs,
                                int run_count, WrError *err);
 bool wr_font_lines(WrFontMaking *making, const WrFontAsk *ask, WrFontLineMake make, void *ctx,
                    WrError *err);
 
-/* Shape the text by open fonts, each part by the first that has it. */
+/* Shapes the text with open fonts, each part with the first one that contains it. */
 bool wr_font_parts(WrFontFace *faces, int count, WrError *err);

@@ -1,4 +1,4 @@
-/* Which installed fonts have characters: asked of fontconfig. */
+/* Search of installed fonts by their characters, with fontconfig. */
 #include "base/memory.h"
 #include "image/font.h"
 #include "image/font_config.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* The nearest to these letters first, outlines alone. NULL: fontconfig does not work. */
+/* Outline fonts, those nearest to these letters first. NULL: fontconfig does not work. */
 static FcFontSet *sorted(FcConfig *config, const FcCharSet *wanted, const char *kind,
                          const char *language)
 {
@@ -34,7 +34,7 @@ static FcFontSet *sorted(FcConfig *config, const FcCharSet *wanted, const char *
     return set;
 }
 
-/* The file of a font that can lend: outlines, uncoloured, the first face of its file; else NULL. */
+/* The file of a usable fallback font: outlines, uncoloured, the first face of its file; else NULL. */
 static const char *usable(FcPattern *font)
 {
     FcChar8 *file = NULL;
@@ -51,7 +51,7 @@ static const char *usable(FcPattern *font)
     return (const char *)file;
 }
 
-/* The font that has most of what is wanted, the first of several; what it has is taken out of it. */
+/* The first font with the most wanted characters; removes these from the wanted set. */
 static const char *take_best(const FcFontSet *set, FcCharSet **wanted)
 {
     FcCharSet *has = NULL, *best_has = NULL;

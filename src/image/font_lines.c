@@ -1,4 +1,4 @@
-/* A text cut into lines, and lines into parts by direction (Unicode's bidirectional algorithm). */
+/* Splits a text into lines, and lines into parts by direction (Unicode's bidirectional algorithm). */
 #include "image/font_internal.h"
 
 #include "base/error.h"
@@ -62,7 +62,7 @@ typedef struct Lines {
     WrFontDirection direction;
 } Lines;
 
-/* Rule L2: from the highest level down to the lowest odd one, turn round all that is at that level or
+/* Rule L2: from the highest level down to the lowest odd one, reverses every sequence at that level or
  * higher. */
 static void put_in_visual_order(Level *parts, int count, int highest)
 {
@@ -79,7 +79,7 @@ static void put_in_visual_order(Level *parts, int count, int highest)
         }
 }
 
-/* The line's parts from left to right. False without memory. */
+/* The line's parts from left to right. False when out of memory. */
 static bool find_runs(Lines *lines, bool *leftwards)
 {
     int count = lines->chars.count, highest = 0;

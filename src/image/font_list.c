@@ -1,4 +1,4 @@
-/* The fonts that are installed, as fontconfig lists them. */
+/* The installed fonts, as listed by fontconfig. */
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -16,7 +16,7 @@
 
 #define NAME_MOST 80 /* bytes */
 #define PATH_MOST 4000
-#define LETTERS 8 /* of a sample that is not the name */
+#define LETTERS 8 /* letters of a sample that is not the font's name */
 
 typedef struct Listed {
     WrFontEntry face;
@@ -25,9 +25,9 @@ typedef struct Listed {
 } Listed;
 typedef WR_ARRAY(Listed) List;
 
-/* ---- what a font says of itself ---- */
+/* ---- properties of a font ---- */
 
-/* A name of one line, cut between letters; NULL if it says none that can be read. Caller frees. */
+/* A name of one line, cut at a character boundary; NULL if it has no readable name. Caller frees. */
 static char *name_of(FcPattern *font, const char *what)
 {
     FcChar8 *said = NULL;
@@ -61,7 +61,7 @@ static bool has_all(const FcCharSet *has, const char *name)
     return true;
 }
 
-/* Neither a mark, which stands on others, nor of those that almost every font has. */
+/* True for a characteristic letter: no combining mark, and not one that almost every font has. */
 static bool tells(FcChar32 c)
 {
     return c >= 0x250 && !(c >= 0x300 && c < 0x370) && !(c >= 0x483 && c < 0x48a) &&
@@ -121,7 +121,7 @@ static double measure(FcPattern *font, const char *what, double fallback)
     return fallback;
 }
 
-/* In a command line. */
+/* True if the path can be written in a command line. */
 static bool can_be_named(const char *path)
 {
     for (const char *c = path; *c; c++)
@@ -138,7 +138,7 @@ static void take(List *list, FcPattern *font)
     FcPatternGetInteger(font, FC_INDEX, 0, &index);
     FcPatternGetInteger(font, FC_SLANT, 0, &slant);
     if (!flag(font, FC_OUTLINE) || flag(font, FC_COLOR)) return;
-    if (index >> 16) return; /* a named place on a variable font's axes */
+    if (index >> 16) return; /* a named instance of a variable font */
     if (!wr_path_info((const char *)file, &info) || info.bytes > WR_FONT_FILE_MAX) return;
     if (!can_be_named((const char *)file)) return;
     char *family = name_of(font, FC_FAMILY), *style = name_of(font, FC_STYLE);
@@ -163,14 +163,14 @@ static int letter(char c)
     return c >= 'A' && c <= 'Z' ? c + 32 : (unsigned char)c;
 }
 
-/* Upper and lower case alike. */
+/* Compares without case. */
 static int by_name(const char *a, const char *b)
 {
     while (*a && letter(*a) == letter(*b)) a++, b++;
     return letter(*a) - letter(*b);
 }
 
-/* Its outlines are often installed beside the same ones as OpenType, which has more letters. */
+/* Type 1 outlines are often installed beside the same font as OpenType, which has more letters. */
 static bool is_type1(const char *path)
 {
     char ending[16];
@@ -212,7 +212,7 @@ void wr_font_entry_fini(WrFontEntry *entry)
     wr_free(entry->sample);
 }
 
-/* A variable font is listed several times, and a Type 1 font may repeat one that stands before it. */
+/* A variable font is listed several times, and a Type 1 font may duplicate an earlier one. */
 static bool listed_before(const WrFontList *list, const WrFontEntry *entry)
 {
     for (int i = list->count - 1; i >= 0; i--) {

@@ -1,4 +1,4 @@
-/* font_list.h - the fonts that are installed. */
+/* font_list.h - the list of installed fonts. */
 #pragma once
 #include "base/array.h"
 
@@ -9,17 +9,17 @@ typedef struct WrError WrError;
 typedef struct WrFontEntry {
     char *family, *style; /* owned; UTF-8 of one line */
     char *path;           /* owned; UTF-8 of one line */
-    char *sample; /* owned: its family's name if it has those letters, else some of its own */
-    int face;     /* of a collection, from 0; else 0 */
+    char *sample; /* owned: its family's name if the font has those letters, else some of its own */
+    int face;     /* index in a collection, from 0; else 0 */
 } WrFontEntry;
 typedef WR_ARRAY(WrFontEntry) WrFontList;
 
-/* All that fontconfig knows and that have outlines, but those of pictures; by family, from light to bold, upright ones
- * first. What a font says of itself is a stranger's: names are made short and of one line.
+/* All outline fonts of fontconfig, except pictogram fonts; by family, from light to bold, upright ones
+ * first. Names come from untrusted files: they are shortened to one line.
  *
- * list     zeroed; the caller's (wr_font_list_fini)
- * Errors   fontconfig does not work, or falls over one of the fonts; cancelled
- * Threads  any; takes seconds where fontconfig has kept no list */
+ * list     zeroed; owned by the caller (wr_font_list_fini)
+ * Errors   fontconfig does not work, or crashes on a font; cancelled
+ * Threads  any; takes seconds if fontconfig has no cache */
 bool wr_font_list(WrFontList *list, WrError *err);
 void wr_font_list_fini(WrFontList *list);
-void wr_font_entry_fini(WrFontEntry *entry); /* what it owns */
+void wr_font_entry_fini(WrFontEntry *entry); /* frees its members */

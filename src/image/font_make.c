@@ -1,4 +1,4 @@
-/* Reading fonts, in whichever process: unpacked, then by their kind. */
+/* Reading fonts, in any process: unpacking, then opening by format. */
 #include "image/font_internal.h"
 
 #include "base/error.h"
@@ -19,7 +19,7 @@ void wr_font_face_expect(WrFontFace *face, int count)
     memset(face->known.data, 0, (size_t)count * sizeof *face->known.data);
 }
 
-/* Open the next one. */
+/* Opens the next file. */
 static bool open_file(Opened *all, const WrFontFile *file, WrFontMaking *making,
                       const WrFontAsk *ask, WrError *err)
 {
@@ -39,7 +39,7 @@ static bool open_file(Opened *all, const WrFontFile *file, WrFontMaking *making,
     return good;
 }
 
-/* A damaged glyph, of which nothing is known. */
+/* Rejects damaged glyphs, which have no outline data. */
 static bool check_placed(const WrFontMaking *making, WrError *err)
 {
     for (int i = 0; i < making->placed.count; i++)

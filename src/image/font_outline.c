@@ -1,5 +1,5 @@
-/* From glyphs to polygons: curves made straight, dots traced round, letters put in their places. All by
-   + - * / sqrt, in a fixed order. */
+/* Conversion of glyphs to polygons: curves are flattened, bitmap dots traced, letters placed. Only + -
+   * / sqrt, in a fixed order. */
 #include "image/font_internal.h"
 
 #include "base/error.h"
@@ -12,7 +12,7 @@
 typedef struct Pen {
     WrFontOutline *out;
     double scale, x, y, tolerance;
-    double at_x, at_y; /* where the last line ended */
+    double at_x, at_y; /* end of the last line */
 } Pen;
 
 void wr_font_outline_fini(WrFontOutline *outline)
@@ -40,8 +40,8 @@ static void line(Pen *pen, double x, double y)
     pen->at_y = y;
 }
 
-/* How many chords keep within the tolerance: a curve whose second derivative is nowhere longer than `bend`
- * strays from a chord of 1/n of it by up to bend/(8 n^2). */
+/* Number of chords within the tolerance: a curve whose second derivative is at most `bend` deviates
+ * from a chord over 1/n of it by up to bend/(8 n^2). */
 static int chords(const Pen *pen, double bend)
 {
     double n = ceil(sqrt(bend / (8.0 * pen->tolerance)));
@@ -108,17 +108,17 @@ bool wr_font_dot(const WrFontText *text, const WrFontGlyph *glyph, int column, i
     return text->bytes[glyph->first_byte + row * pitch + column / 8] & (0x80 >> (column & 7));
 }
 
-/* Directions along the grid, y up, each the one before turned left. */
+/* Directions along the grid, y up, each turned left from the one before. */
 typedef enum Way { EAST, NORTH, WEST, SOUTH } Way;
 
 typedef struct Trace {
     const WrFontText *text;
     const WrFontGlyph *glyph;
-    uint8_t *done; /* [(height + 1) * width] upper sides of set dots already walked (going west) */
+    uint8_t *done; /* [(height + 1) * width] upper sides of set dots already traced (going west) */
 } Trace;
 
-/* The dot to the left or right of a step that starts at the corner (x, row) and goes `way`; row r lies
- * below the line r. */
+/* The dot to the left or right of a step that starts at the corner (x, row) in direction `way`; row r
+ * lies below the line r. */
 static bool side_dot(const Trace *t, int x, int row, Way way, bool left)
 {
     static const int left_x[] = { 0, -1, -1, 0 }, left_row[] = { -1, -1, 0, 0 };
@@ -127,8 +127,8 @@ static bool side_dot(const Trace *t, int x, int row, Way way, bool left)
     return wr_font_dot(t->text, t->glyph, x + dx, row + dr);
 }
 
-/* Walk round dots with the set ones on the left. At corners where two set dots touch it turns left, so
- * that they are kept apart. */
+/* Traces round dots with the set ones on the left. At corners where two set dots touch it turns left,
+ * so that they are kept apart. */
 static void trace_loop(const Trace *t, Pen *pen, int x, int row)
 {
     static const int step_x[] = { 1, 0, -1, 0 }, step_row[] = { 0, -1, 0, 1 };

@@ -1,4 +1,4 @@
-/* A shaped text as one block, and checking a block that may come from anywhere. */
+/* Serialisation of a shaped text as one block, and checks of an untrusted block. */
 #include "image/font_internal.h"
 
 #include "base/text.h"
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define COORDINATE_MAX (1 << 23) /* half units */
-#define DOTS_MAX 4096            /* of a bitmap glyph's sides */
+#define DOTS_MAX 4096            /* side of a bitmap glyph in dots */
 #define PLACED_MAX (1 << 22)
 
 void wr_font_making_fini(WrFontMaking *making)
@@ -60,7 +60,7 @@ static bool within(int32_t x, int32_t most)
     return x >= -most && x <= most;
 }
 
-/* Do `count` from `first` lie among `all`? */
+/* True if `count` items from `first` lie within `all`. */
 static bool part_of(int32_t first, int32_t count, int32_t all)
 {
     return first >= 0 && count >= 0 && first <= all && count <= all - first;
@@ -85,7 +85,7 @@ static size_t block_size(const WrFontHead *h)
            (size_t)h->verbs + (size_t)h->bytes;
 }
 
-/* The verbs begin with a move and take exactly the glyph's points. */
+/* The verbs must begin with a move and use exactly the glyph's points. */
 static bool check_verbs(const WrFontText *text, const WrFontGlyph *g)
 {
     static const int32_t takes[] = { 1, 1, 2, 3 };

@@ -1,4 +1,4 @@
-/* Lines cut into parts of one direction, one script and one font. */
+/* Splits lines into parts of one direction, one script and one font. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/font_internal.h"
@@ -8,10 +8,10 @@
 typedef struct Parts {
     WrFontFace *faces;
     int count;
-    WR_ARRAY(uint8_t) owner; /* of each of a line's characters its font */
+    WR_ARRAY(uint8_t) owner; /* font of each character of a line */
 } Parts;
 
-/* ---- which font ---- */
+/* ---- choice of fonts ---- */
 
 /* The first font that has all of code[first..end), or -1. */
 static int font_of(const Parts *parts, const uint32_t *code, int first, int end)
@@ -31,12 +31,12 @@ static bool is_mark(hb_unicode_general_category_t is)
            is == HB_UNICODE_GENERAL_CATEGORY_ENCLOSING_MARK;
 }
 
-/* Joiners and the like draw nothing and go with what is before them; marks go with what they stand on, if
- * need be to a font that has all of it. */
+/* Joiners and other invisible characters use the font of the preceding character; marks use that of
+ * their base, if necessary in another font that has all of them. */
 static void choose_fonts(Parts *parts, const WrFontChars *chars)
 {
     hb_unicode_funcs_t *unicode = hb_unicode_funcs_get_default();
-    int base = 0; /* what marks stand on */
+    int base = 0; /* base character of the marks */
     parts->owner.count = 0;
     for (int i = 0; i < chars->count; i++) {
         hb_unicode_general_category_t is = hb_unicode_general_category(unicode, chars->code[i]);
@@ -58,7 +58,7 @@ static void choose_fonts(Parts *parts, const WrFontChars *chars)
     }
 }
 
-/* ---- which script ---- */
+/* ---- choice of scripts ---- */
 
 static bool is_plain_script(hb_script_t script)
 {
@@ -77,7 +77,7 @@ static hb_script_t script_from(const WrFontChars *chars, int i, int end)
     return HB_SCRIPT_COMMON;
 }
 
-/* Where the part that begins at `i` ends: before the first character of another script. */
+/* End of the part that begins at `i`: before the first character of another script. */
 static int script_end(const WrFontChars *chars, int i, int end, hb_script_t script)
 {
     hb_unicode_funcs_t *unicode = hb_unicode_funcs_get_default();
@@ -95,7 +95,7 @@ typedef struct Part {
     hb_script_t script;
 } Part;
 
-/* A run's parts stand from right to left where it is leftwards. */
+/* The parts of a leftward run are ordered from right to left. */
 static bool shape_run(Parts *parts, const WrFontChars *chars, const WrFontRun *run, WrError *err)
 {
     WR_ARRAY(Part) list = { 0 };

@@ -1,5 +1,5 @@
-/* PSF, the console's fonts, of both versions: a header, dots of equally large glyphs, and perhaps a table
-   that tells for each glyph the characters that it stands for. */
+/* PSF, the console's font format, versions 1 and 2: a header, dots of glyphs of equal size, and
+   optionally a table of the characters of each glyph. */
 #include "image/font_internal.h"
 
 #include "base/error.h"
@@ -73,7 +73,8 @@ static bool read_header(Psf *psf, const uint8_t *bytes, size_t length, WrError *
 
 /* ---- the table ---- */
 
-/* Sequences of characters, which begin after a mark, are not for single characters and passed over. */
+/* Sequences of characters, which begin after a mark, are skipped: they do not apply to single
+ * characters. */
 static void read_table(Psf *psf)
 {
     int glyph = 0;
@@ -97,7 +98,8 @@ static void read_table(Psf *psf)
         }
         if (stop) glyph++, sequence = false;
         else if (mark) sequence = true;
-        else if (!sequence && psf->of[code] == 0) psf->of[code] = glyph + 1; /* the first has it */
+        /* the first glyph of a character wins */
+        else if (!sequence && psf->of[code] == 0) psf->of[code] = glyph + 1;
     }
 }
 
@@ -109,7 +111,7 @@ static int find(const Psf *psf, uint32_t character)
     return psf->of[character] - 1;
 }
 
-/* Its place among those of the text; size bytes of dots follow. */
+/* Adds a glyph to those of the text; size bytes of dots follow. Returns its index. */
 static int32_t add_glyph(Psf *psf, int id)
 {
     WrFontMaking *m = psf->face->making;
@@ -135,8 +137,8 @@ static int32_t take(Psf *psf, int glyph)
     return place;
 }
 
-/* What no character of the font shows: a frame one dot wide, one dot smaller than a glyph on each side, or
- * nothing at all. */
+/* A glyph for characters that the font lacks: a frame one dot wide, one dot smaller than a glyph on
+ * each side, or empty. */
 static int32_t take_own(Psf *psf, bool frame)
 {
     int own = psf->count + frame;

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* Buffer i's uri, or NULL where it has none, or its bytes with it. */
+/* Buffer i's uri, or NULL if it has none or contains its own bytes. */
 static const char *part_of(json_object *buffers, size_t i, json_object **buffer)
 {
     json_object *uri;
@@ -72,7 +72,7 @@ static void add_base64(WrText *out, const char *bytes, size_t length)
     }
 }
 
-/* Put the file that `uri` names in its place. *left: bytes that may still be taken. */
+/* Replaces a buffer's uri by the file's bytes. *left: remaining limit of bytes. */
 static bool take_in(const char *path, const char *uri, json_object *buffer, size_t *left,
                     WrError *err)
 {
@@ -105,7 +105,7 @@ static bool take_in(const char *path, const char *uri, json_object *buffer, size
 
 static bool take_all(const char *path, json_object *buffers, int *parts, WrError *err)
 {
-    /* As base64, together, they must stay a file that is read. */
+    /* All buffers together, as base64, must fit the limit of a readable file. */
     size_t left = (WR_MESH_FILE_MAX - WR_GLTF_JSON_MAX) / 4 * 3;
     for (size_t i = 0; i < json_object_array_length(buffers); i++) {
         json_object *buffer;

@@ -78,7 +78,7 @@ static size_t number_at(const char *at)
     return (size_t)b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
 }
 
-/* GLB: a head of 12 bytes, then chunks of length, kind and bytes: the JSON first, the buffer second. */
+/* GLB: a header of 12 bytes, then chunks of length, kind and bytes: the JSON first, the buffer second. */
 const char *wr_gltf_chunks(const char *bytes, size_t length, WrGltfChunks *out)
 {
     *out = (WrGltfChunks){ .json = bytes, .json_length = length };
@@ -111,7 +111,7 @@ static double number_in(json_object *of, const char *name, int index, double mis
                : missing;
 }
 
-/* Translation by rotation by scale, as the extension's page gives them. */
+/* Translation by rotation by scale, in the order of the extension's specification. */
 void wr_gltf_transform(json_object *reference, double m[6])
 {
     json_object *all = wr_gltf_member(reference, "extensions", json_type_object);

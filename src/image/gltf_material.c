@@ -72,7 +72,7 @@ static bool is_number(json_object *x)
     return json_object_is_type(x, json_type_double) || json_object_is_type(x, json_type_int);
 }
 
-/* 0..1; `out` stays as it is where the file does not say. */
+/* Reads 0..1; `out` is unchanged if absent. */
 static bool share_of(const Gltf *file, const char *name, json_object *x, double *out, WrError *err)
 {
     if (!x) return true;
@@ -100,7 +100,7 @@ static void leave(WrGltfLook *look, const char *what)
     snprintf(look->left + length, sizeof look->left - length, "%s%s", length ? ", " : "", what);
 }
 
-/* The image behind a reference to a texture; -1 where there is none that is laid as it is. */
+/* The image index of a texture reference; -1 if none, or if its mapping is not supported. */
 static int image_of(const Gltf *file, json_object *material, json_object *reference,
                     const char *what, WrGltfLook *look)
 {
@@ -235,7 +235,7 @@ bool wr_gltf_look(const char *path, const char *which, WrGltfLook *out, WrError 
     return good;
 }
 
-/* ---- a picture ---- */
+/* ---- an image ---- */
 
 bool wr_gltf_names_picture(const char *name, size_t *length, int *image)
 {
@@ -253,7 +253,7 @@ bool wr_gltf_names_picture(const char *name, size_t *length, int *image)
     return strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0;
 }
 
-/* What a URI names: data of its own, or a file beside or below. */
+/* Reads the target of a URI: inline data, or a file beside or below. */
 static bool fetch(const Gltf *file, const char *uri, WrText *out, WrError *err)
 {
     const char *comma = strncmp(uri, "data:", 5) == 0 ? strchr(uri, ',') : NULL;
@@ -279,7 +279,7 @@ static bool fetch(const Gltf *file, const char *uri, WrText *out, WrError *err)
     return good;
 }
 
-/* The bytes of a view of a buffer. */
+/* The bytes of a buffer view. */
 static bool view_bytes(const Gltf *file, int view, WrText *out, WrError *err)
 {
     json_object *of = item_of(file, "bufferViews", view);

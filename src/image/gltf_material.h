@@ -1,6 +1,7 @@
-/* gltf_material.h - what a glTF file says of its materials: numbers, and pictures that it holds or that lie beside it.
-   glTF 2.0: 3.9 (materials), 3.8 (textures), 4.4 (GLB). Pictures are only fetched here, as bytes; the reader
-   process decodes them (image.h), as any stranger's. */
+/* gltf_material.h - materials of a glTF file: numbers, and embedded or adjacent images.
+
+   glTF 2.0: 3.9 (materials), 3.8 (textures), 4.4 (GLB). Images are only fetched here, as bytes; the
+   reader process decodes them (image.h), like all untrusted images. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
@@ -8,39 +9,40 @@
 typedef struct WrError WrError;
 
 #define WR_GLTF_NAME 64
-/* Bytes of one picture, or of the file of its buffer. */
+/* Limit in bytes of one image, or of the file of its buffer. */
 #define WR_GLTF_PICTURE_MAX ((size_t)256 << 20)
 
-/* One material, as the file gives it; what it leaves out has glTF's default. Pictures by their index among the file's
+/* One material of the file; missing values have glTF's defaults. Images are indices into the file's
    images, from 0; -1: none. */
 typedef struct WrGltfLook {
-    char name[WR_GLTF_NAME];     /* any bytes, cut; may be empty */
-    int index, count;            /* which, from 0, of how many */
+    char name[WR_GLTF_NAME];     /* any bytes, truncated; may be empty */
+    int index, count;            /* index from 0, and the number of materials */
     double colour[3], alpha;     /* baseColorFactor, linear, 0..1 */
-    double metalness, roughness; /* 0..1; times the picture's, where there is one */
-    double normal_scale;         /* -100..100: of the x and y of the picture's normals */
-    int base, normal;            /* colours; normals of tangent space, green up */
+    double metalness, roughness; /* 0..1; multiplied by the image's values, if any */
+    double normal_scale;         /* -100..100: factor of the x and y of the image's normals */
+    int base, normal;            /* colours; tangent-space normals, green up */
     int facets;                  /* roughness in G, metalness in B */
-    /* What it has that a material here has not: "emissive light, transparency"; or empty. */
+    /* Unsupported properties: "emissive light, transparency"; or empty. */
     char left[400];
 } WrGltfLook;
 
-/* Read it.
+/* Reads a material.
  *
- * which    a name, or else a number from 1; NULL: the one that the first triangles have, else the first
- * Errors   name the file: it cannot be read, is no .gltf or .glb, is damaged, has no materials or not that one; a number
- *          is outside its range
+ * which    a name, or a number from 1; NULL: that of the first triangles, else the first
+ * Errors   name the file: unreadable, no .gltf or .glb, damaged, without materials or that one; a
+ *          number is out of range
  * Threads  any number at once */
 bool wr_gltf_look(const char *path, const char *which, WrGltfLook *out, WrError *err);
 
-/* "FILE.glb#2": is it the name of image 2 (from 0) of a glTF file? *length: of the file's part; then *image. */
+/* True for the name of an embedded image: "FILE.glb#2" is image 2 (from 0) of a glTF file. *length:
+ * length of the file's name; *image: the index. */
 bool wr_gltf_names_picture(const char *name, size_t *length, int *image);
 
-/* The bytes of an image of the file: out of a buffer, a data: URI, or a file beside or below it.
+/* The bytes of an image of the file: from a buffer, a data: URI, or a file beside or below it.
  *
  * image    from 0
- * bytes    [*length] the caller's, for wr_free; at least one
- * Errors   name the file: it cannot be read or is damaged, has not that image, the part lies elsewhere or is larger
+ * bytes    [*length] owned by the caller (wr_free); at least one
+ * Errors   name the file: unreadable or damaged, no such image, its path is elsewhere, or it is larger
  *          than WR_GLTF_PICTURE_MAX
  * Threads  any number at once */
 bool wr_gltf_picture(const char *path, int image, char **bytes, size_t *length, WrError *err);

@@ -19,11 +19,12 @@ typedef struct Gltf {
     WrText *buffers; /* [BUFFERS] decoded data: URIs */
     WrMeshBuild *build;
     int bodies;
-    double (*world)[12]; /* of each node, by its parents; owned; NULL: the file has no skins */
+    double (
+        *world)[12]; /* of each node, including its parents; owned; NULL: the file has no skins */
     int64_t nodes;
 } Gltf;
 
-/* Numbers of an accessor: [count][parts]. */
+/* Values of an accessor: [count][parts]. */
 typedef struct Numbers {
     double *at; /* owned */
     int64_t count;
@@ -97,7 +98,7 @@ static bool find_view(Gltf *file, int64_t index, Bytes *out, int64_t *stride, Wr
 
 static const struct {
     int type, bytes;
-    double most; /* that is normalised to 1; 0: floats */
+    double most; /* code that is normalised to 1; 0: floats */
 } components[] = { { 5120, 1, 127 },   { 5121, 1, 255 },        { 5122, 2, 32767 },
                    { 5123, 2, 65535 }, { 5125, 4, 4294967295 }, { 5126, 4, 0 } };
 
@@ -114,7 +115,7 @@ static double component_at(const char *at, int type)
     return type == 5126 ? (double)out : (double)four;
 }
 
-/* Where the numbers of an accessor, or of a part of a sparse one, lie. */
+/* Location of the values of an accessor, or of a part of a sparse one. */
 typedef struct Source {
     int64_t view, offset, count;
     int type, parts;
@@ -154,7 +155,7 @@ static bool is_component(int64_t type)
     return false;
 }
 
-/* The values that a sparse accessor has in place of others. */
+/* Applies the replaced values of a sparse accessor. */
 static bool read_sparse(Gltf *file, json_object *sparse, Source source, Numbers *numbers,
                         WrError *err)
 {
@@ -186,7 +187,7 @@ static bool read_sparse(Gltf *file, json_object *sparse, Source source, Numbers 
     return good;
 }
 
-/* parts: how many numbers a value must have. */
+/* parts: required number of components. */
 static bool read_accessor(Gltf *file, int64_t index, int parts, Numbers *out, WrError *err)
 {
     static const char *const kinds[16] = { "SCALAR", "VEC2", "VEC3", "VEC4", [15] = "MAT4" };
@@ -213,7 +214,7 @@ static bool read_accessor(Gltf *file, int64_t index, int parts, Numbers *out, Wr
            (!sparse || read_sparse(file, sparse, source, out, err));
 }
 
-/* ---- matrices: rows of 3 x 4, the move last ---- */
+/* ---- matrices: rows of 3 x 4, translation last ---- */
 
 static void multiply(const double a[12], const double b[12], double out[12])
 {
@@ -225,7 +226,7 @@ static void multiply(const double a[12], const double b[12], double out[12])
         }
 }
 
-/* Its cofactors turn normals, and its sign says whether it mirrors. */
+/* The cofactors transform normals; the sign of the determinant is negative for mirroring. */
 static double cofactors(const double m[12], double c[9])
 {
     for (int row = 0; row < 3; row++)
@@ -237,7 +238,7 @@ static double cofactors(const double m[12], double c[9])
     return m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
 }
 
-/* `count` numbers of an array; those that are not there stay. */
+/* Reads `count` numbers of an array; absent ones are unchanged. */
 static void take_array(json_object *node, const char *name, int count, double *out)
 {
     json_object *list = wr_gltf_member(node, name, json_type_array);
@@ -247,7 +248,7 @@ static void take_array(json_object *node, const char *name, int count, double *o
     }
 }
 
-/* A matrix by columns, or a move by a turn, a quaternion, by a scale. */
+/* A matrix by columns, or a translation, a rotation quaternion and a scale. */
 static void own_matrix(json_object *node, double out[12])
 {
     double m[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
@@ -276,12 +277,12 @@ static void own_matrix(json_object *node, double out[12])
 
 /* ---- a primitive ---- */
 
-#define SETS 8       /* of four weights a point, at most */
-#define JOINTS 65536 /* of a skin, at most */
+#define SETS 8       /* maximum, for four weights per point */
+#define JOINTS 65536 /* maximum for a skin */
 
 typedef struct Body {
     Numbers points, normals, uv, corners;
-    Numbers joints[SETS], weights[SETS]; /* of a skinned body; four a point */
+    Numbers joints[SETS], weights[SETS]; /* of a skinned body; four per point */
     double (*pose)[12]; /* of each joint, its inverse bind matrix included; owned; NULL: no skin */
     int64_t joint_count;
 } Body;
@@ -299,7 +300,7 @@ static void free_body(Body *body)
     }
 }
 
-/* An attribute that may be missing; as many values as there are points. */
+/* An optional attribute; its count must equal that of the points. */
 static bool read_attribute(Gltf *file, json_object *attributes, const char *name, int parts,
                            int64_t count, Numbers *out, WrError *err)
 {
@@ -318,7 +319,8 @@ static bool is_packed(Gltf *file, json_object *primitive, json_object *attribute
            wr_gltf_index(points, "bufferView", -1) < 0;
 }
 
-/* ---- skins: a point is moved by the weighted mean of its joints' matrices (glTF 2.0, 3.7.3.3) ---- */
+/* ---- skins: a point is transformed by the weighted mean of its joints' matrices (glTF 2.0, 3.7.3.3)
+ * ---- */
 
 static bool read_weights(Gltf *file, json_object *attributes, Body *body, WrError *err)
 {
@@ -366,7 +368,7 @@ static bool read_pose(Gltf *file, json_object *skin, Body *body, WrError *err)
     return good;
 }
 
-/* The matrix of point i; one without weights stays where it is stored. */
+/* The matrix of point i; a point without weights is not moved. */
 static bool skin_point(const Body *body, int64_t i, double out[12], WrError *err)
 {
     double sum = 0, m[12] = { 0 };
@@ -394,7 +396,7 @@ static bool read_body(Gltf *file, json_object *primitive, json_object *skin, Bod
         return wr_fail(err,
                        "needs the extension KHR_draco_mesh_compression, which is not read; save it "
                        "without compression");
-    if (points < 0) return true; /* nothing is shown of it */
+    if (points < 0) return true; /* nothing of it is visible */
     if (!read_accessor(file, points, 3, &body->points, err)) return false;
     const int64_t count = body->points.count;
     if (skin && (!read_pose(file, skin, body, err) || !read_weights(file, attributes, body, err)))
@@ -412,7 +414,7 @@ static void move_uv(const double m[6], const double *uv, float out[2])
     out[1] = (float)(1 - (m[3] * uv[0] + m[4] * uv[1] + m[5]));
 }
 
-/* own: the matrix of the node. Sets *mirrored to whether the last point's matrix mirrors. */
+/* own: the matrix of the node. Sets *mirrored to true if the last point's matrix mirrors. */
 static bool add_points(WrMeshBuild *build, const Body *body, const double own[12],
                        const double uv_m[6], bool *mirrored, WrError *err)
 {
@@ -474,7 +476,7 @@ static bool add_triangles(Gltf *file, const Body *body, int64_t mode, int32_t fi
     return true;
 }
 
-/* A part has its material's name, else its mesh's. */
+/* A part is named after its material, else its mesh. */
 static void name_part(Gltf *file, json_object *mesh, json_object *material)
 {
     json_object *name = wr_gltf_member(material, "name", json_type_string);
@@ -484,7 +486,7 @@ static void name_part(Gltf *file, json_object *mesh, json_object *material)
     wr_mesh_build_part(file->build, text, strlen(text));
 }
 
-/* skin: NULL, or in place of m. */
+/* skin: NULL, or replaces m. */
 static bool add_body(Gltf *file, json_object *mesh, json_object *primitive, json_object *skin,
                      const double m[12], WrError *err)
 {
@@ -514,7 +516,7 @@ typedef struct Visit {
 } Visit;
 
 typedef struct Walk {
-    Visit *open; /* [count of nodes], owned: each is entered once */
+    Visit *open; /* [count of nodes], owned: each node is visited once */
     bool *met;
     int64_t nodes, count;
 } Walk;
@@ -522,7 +524,7 @@ typedef struct Walk {
 static bool enter(Walk *walk, json_object *list, const double to[12], WrError *err)
 {
     const size_t count = list ? json_object_array_length(list) : 0;
-    for (size_t i = count; i-- > 0;) { /* the first is taken first */
+    for (size_t i = count; i-- > 0;) { /* pushed in reverse, so that the first is visited first */
         json_object *item = wr_gltf_element(list, (int)i);
         const int64_t node =
             json_object_is_type(item, json_type_int) ? json_object_get_int64(item) : -1;
@@ -549,7 +551,8 @@ static bool keep_world(Gltf *file, int64_t index, json_object *node, const doubl
     return true;
 }
 
-/* A skinned mesh is placed by its joints alone; its own node's transform is ignored (glTF 2.0, 3.7.3.3). */
+/* A skinned mesh is positioned only by its joints; its own node's transform is ignored (glTF 2.0,
+ * 3.7.3.3). */
 static bool add_mesh(Gltf *file, int64_t node_index, json_object *node, const double to[12],
                      WrError *err)
 {
@@ -578,7 +581,7 @@ static bool visit_node(Gltf *file, Walk *walk, At *at, WrError *err)
            enter(walk, wr_gltf_member(node, "children", json_type_array), to, err);
 }
 
-/* All nodes that are no one's children. */
+/* All nodes without parents. */
 static json_object *all_roots(Gltf *file, int64_t nodes)
 {
     json_object *out = json_object_new_array();
@@ -605,7 +608,7 @@ static json_object *shown_roots(Gltf *file, int64_t nodes)
     return all_roots(file, nodes);
 }
 
-/* roots: taken over. */
+/* roots: owned. */
 static bool walk_nodes(Gltf *file, json_object *roots, At *at, WrError *err)
 {
     static const double nothing[12] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
@@ -637,7 +640,7 @@ static bool add_nodes(Gltf *file, WrError *err)
 
 /* ---- the file ---- */
 
-/* Extensions that change nothing of the triangles, by how their names begin; or that are read here. */
+/* Extensions that do not affect the triangles, by the prefix of their names; or that are supported. */
 static bool is_harmless(const char *name)
 {
     static const char *const begins[] = {
@@ -645,7 +648,7 @@ static bool is_harmless(const char *name)
         "MSFT_texture_",          "KHR_lights_",           "KHR_xmp",
         "KHR_animation_",         "KHR_mesh_quantization", "KHR_draco_mesh_compression",
         "EXT_meshopt_compression"
-    }; /* the last two are refused where a mesh needs them */
+    }; /* the last two are rejected where a mesh needs them */
     for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
         if (strncmp(name, begins[i], strlen(begins[i])) == 0) return true;
     return false;

@@ -72,7 +72,7 @@ static void put_header(Writer *w)
     w->at = HEADER;
 }
 
-/* What the tags of these names hold; tags that hold the same share it. */
+/* Writes the content of a tag; tags with equal content share it. */
 static void put_tag(Writer *w, int index)
 {
     static const double primaries[3][3] = { { 0.43607, 0.22249, 0.01392 },
@@ -107,7 +107,7 @@ void wr_srgb_profile(uint8_t out[WR_SRGB_PROFILE_SIZE])
     put32(&table, TAGS);
     size_t from = 0, size = 0;
     for (int i = 0; i < TAGS; i++) {
-        if (i <= 7) { /* the curves are one */
+        if (i <= 7) { /* the three curves are shared */
             from = data.at;
             put_tag(&data, i);
             size = data.at - from;

@@ -32,7 +32,7 @@ WrImage *wr_image_new(int width, int height, int channels, WrError *err)
 
 WrImage *wr_image_share(const WrImage *image)
 {
-    WrImage *shared = (WrImage *)image; /* only the count changes, atomically */
+    WrImage *shared = (WrImage *)image; /* only the reference count changes, atomically */
     if (shared) __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
     return shared;
 }
@@ -44,7 +44,7 @@ void wr_image_free(WrImage *image)
     wr_free(image);
 }
 
-/* IEC 61966-2-1. wr_pow, not libm's: pictures too are the same on every processor. */
+/* IEC 61966-2-1. Uses wr_pow, not libm's, so that images are the same on every processor. */
 float wr_srgb_encode(float linear)
 {
     double x = linear;

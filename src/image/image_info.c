@@ -1,5 +1,5 @@
-/* The label that this program writes into its exports (export/export.h), read back. A stranger may have written it:
-   what makes no sense is told and left alone. */
+/* Reads the label of this program's exports (export/export.h). The file is untrusted: invalid values
+   are reported and ignored. */
 #include "image/image_info.h"
 
 #include "base/text.h"
@@ -53,7 +53,7 @@ static void read_range(const Source *from, double last, WrImageLabel *label)
     label->low = low;
     label->step = (high - low) / last;
     label->zero = 0;
-    /* Where 0 is a code of its own, heights count from there: so it comes back as 0 exactly. */
+    /* If 0 has an exact code, heights are relative to it, so that 0 is restored exactly. */
     const char *text = text_of(from, "wrinkle:amplitude");
     if (!text) return;
     const char *code = text_of(from, "wrinkle:zero");
@@ -68,8 +68,8 @@ static void read_range(const Source *from, double last, WrImageLabel *label)
     label->step = amplitude / (zero - 1);
 }
 
-/* The cell and what F = 1 is high; false where it was told wrong. Of scene units the height is no more than the bumps'
- * of the scene it came from: only slopes need one that makes sense. */
+/* The cell and the height of F = 1; false if invalid. In scene units the height is only the bump height
+ * of the exporting scene; only slopes need a valid one. */
 static bool read_cell(const Source *from, bool slopes, WrImageLabel *label)
 {
     const char *cell = text_of(from, "wrinkle:cell");

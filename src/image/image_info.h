@@ -1,5 +1,4 @@
-/* image_info.h - reading the label of a file (WrImageLabel, image.h).
-   Private to this module. */
+/* image_info.h - parser of an image file's label (WrImageLabel, image.h). Private to this module. */
 #pragma once
 #include "image/image.h"
 

@@ -12,9 +12,9 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- what came back ---- */
+/* ---- results of the reader ---- */
 
-/* Normals and (u,v) may be any numbers; parts follow on each other and end with the triangles. */
+/* Normals and (u,v) may have any value; parts must be contiguous and cover all triangles. */
 static bool check_whole(const char *rest, WrMeshHead head, WrMesh *mesh)
 {
     const char *uv = rest + 12 * (size_t)head.points, *parts = uv + 8 * (size_t)head.points;
@@ -33,7 +33,7 @@ static bool check_whole(const char *rest, WrMeshHead head, WrMesh *mesh)
     return sum == head.triangles;
 }
 
-/* A stranger may have sent it. */
+/* The block is untrusted. */
 static bool check_block(const char *block, size_t length, WrMesh *mesh)
 {
     WrMeshHead head;
@@ -65,7 +65,7 @@ static bool check_block(const char *block, size_t length, WrMesh *mesh)
     return !head.whole || check_whole(corners + 12 * (size_t)head.triangles, head, mesh);
 }
 
-/* Takes the block over. */
+/* Owns the block on success. */
 static bool take(const char *name, char *block, size_t length, WrMesh *out, WrError *err)
 {
     WrMesh mesh = { .block = block };
@@ -86,13 +86,13 @@ void wr_mesh_fini(WrMesh *mesh)
 
 /* ---- files ---- */
 
-/* What is read, from where, and how much of it. */
+/* The input of a read: source and extent. */
 typedef struct Order {
     const char *name;
     bool whole;
 } Order;
 
-/* Within this process, for debugging. */
+/* Reads within this process, for debugging. */
 static bool read_inside(Order order, const void *bytes, size_t length, WrMesh *out, WrError *err)
 {
     WrText block = { 0 };

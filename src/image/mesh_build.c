@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-#define ALIKE 32 /* wedges of one place that are compared; equal ones past them stay apart */
+#define ALIKE 32 /* wedges of one place that are compared; further ones are not merged */
 #define WORK_MOST 2000000000 /* steps: a few seconds */
-/* A mesh whose lowest corner is this many times its size away loses 2 bits of 24 and more beside one at the origin; one
-   that is nearer stays where it is. */
+/* A mesh whose distance from the origin is this many times its size loses at least 2 of 24 bits; a
+   nearer one is not moved. */
 #define FAR 64.0
 
 void wr_mesh_build_fini(WrMeshBuild *build)
@@ -25,9 +25,9 @@ void wr_mesh_build_fini(WrMeshBuild *build)
     *build = (WrMeshBuild){ 0 };
 }
 
-/* ---- room ---- */
+/* ---- memory ---- */
 
-/* *block gets room for `room` items, of which `count` are kept. */
+/* Reallocates *block for `room` items; keeps the first `count`. */
 static bool grow(WrMeshBuild *build, void **block, size_t count, size_t room, size_t size,
                  WrError *err)
 {
@@ -100,7 +100,7 @@ bool wr_mesh_build_point(WrMeshBuild *build, const double p[3], const float norm
     return true;
 }
 
-/* Equal bits, so that a missing (u,v), which is not a number, is equal to another missing one. */
+/* Compares bits, so that two missing (u,v), which are NaN, are equal. */
 static bool has_looks(const WrMeshBuild *build, int32_t i, const float normal[3], const float uv[2])
 {
     static const float none[3] = { 0, 0, 0 };
@@ -133,7 +133,8 @@ void wr_mesh_build_part(WrMeshBuild *build, const char *name, size_t length)
     memcpy(build->part, name, n);
 }
 
-/* Neighbours of one name are one part; past the most that are told apart, all that follow. */
+/* Adjacent triangles of one name form one part; beyond the maximum number of parts, all that follow
+ * form the last one. */
 static bool count_in_part(WrMeshBuild *build, WrError *err)
 {
     const int32_t count = build->part_count;
@@ -169,7 +170,7 @@ bool wr_mesh_build_strip(WrMeshBuild *build, const int32_t *corners, int32_t cou
 
 /* ---- polygons ---- */
 
-/* Of the angle there; 0 where an edge has no length. */
+/* Cosine of the angle at `at`; 0 if an edge has no length. */
 static double cosine(const double *at, const double *a, const double *b)
 {
     double ab = 0, aa = 0, bb = 0;
@@ -180,8 +181,8 @@ static double cosine(const double *at, const double *a, const double *b)
     return aa * bb > 0 ? ab / sqrt(aa * bb) : 0;
 }
 
-/* The corner whose diagonal cuts a quadrilateral: the one where it is more than a straight angle, if any, where the two
-   angles beside the diagonal have a + b > pi, thus cos a + cos b < 0. */
+/* The corner whose diagonal splits a quadrilateral: the reflex one, if any, where the two angles beside
+   the diagonal have a + b > pi, thus cos a + cos b < 0. */
 static int32_t dent_of(const WrMeshBuild *build, const int32_t *c)
 {
     for (int32_t i = 0; i < 4; i++) {
@@ -203,7 +204,7 @@ static bool add_fan(WrMeshBuild *build, const int32_t *c, int32_t count, int32_t
     return true;
 }
 
-/* A polygon seen along its mean normal, against the clock. */
+/* A polygon projected along its mean normal, counter-clockwise. */
 typedef struct Flat {
     double x, y;
 } Flat;
@@ -213,8 +214,8 @@ static double turn(Flat a, Flat b, Flat c)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* Newell's normal: the sum of the cross products of neighbouring corners, from the first corner; then the plane of the
-   two axes across its largest component. */
+/* Newell's normal: the sum of the cross products of adjacent corners, relative to the first corner;
+   then projection to the two axes perpendicular to its largest component. */
 static void flatten(const WrMeshBuild *build, const int32_t *c, int32_t count, Flat *out)
 {
     double n[3] = { 0, 0, 0 };
@@ -248,7 +249,7 @@ static bool same(Flat a, Flat b)
     return !(a.x < b.x) && !(a.x > b.x) && !(a.y < b.y) && !(a.y > b.y);
 }
 
-/* Corner i of those left is an ear: it turns left, and no other corner lies in its triangle. */
+/* Corner i of those left is an ear if it turns left and no other corner lies in its triangle. */
 static bool is_ear(WrMeshBuild *build, const Flat *p, const int32_t *left, int32_t count, int32_t i)
 {
     const int32_t before = (i + count - 1) % count, after = (i + 1) % count;
@@ -263,7 +264,7 @@ static bool is_ear(WrMeshBuild *build, const Flat *p, const int32_t *left, int32
     return true;
 }
 
-/* Cut off ear after ear. Where there is none, as where sides cross, any corner goes. */
+/* Cuts off ears one by one. If there is none, as in self-intersecting polygons, any corner is cut. */
 static bool clip_ears(WrMeshBuild *build, const int32_t *c, const Flat *p, int32_t *left,
                       int32_t count, WrError *err)
 {
@@ -327,7 +328,8 @@ static bool check_points(const WrMeshBuild *build, WrError *err)
     return true;
 }
 
-/* 0 for a mesh that is near; else the lowest corner of the triangles' box, in whole units where the size allows. */
+/* 0 for a mesh near the origin; else the lowest corner of its bounding box, rounded to integers where
+ * the size allows. */
 static void find_origin(const WrMeshBuild *build, double origin[3])
 {
     double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };

@@ -1,8 +1,9 @@
-/* mesh_build.h - a mesh under construction, in double precision: what every reader of mesh files fills in.
+/* mesh_build.h - a mesh under construction in double precision, filled in by the readers of mesh files.
    Private to src/image. Part of the reader process, and of reading "inside".
 
-   Coordinates stay double until the end. A mesh that lies far from the origin, as in the coordinates of a map, would lose
-   its relief to 32-bit floats; then the lowest corner of its box is subtracted first (WrMesh, origin). */
+   Coordinates stay double until the end. A mesh far from the origin, as in map coordinates, would lose
+   its relief in 32-bit floats; so the lowest corner of its bounding box is subtracted first (WrMesh,
+   origin). */
 #pragma once
 #include "image/mesh.h"
 
@@ -15,41 +16,46 @@ typedef struct WrText WrText;
 
 /* Zero-initialise, set `whole`; fini frees. */
 typedef struct WrMeshBuild {
-    bool whole;              /* with normals, (u,v) and parts; else those are dropped */
+    bool whole;              /* with normals, (u,v) and parts; otherwise these are dropped */
     bool single;             /* the coordinates were 32-bit floats already */
-    bool memory;             /* a failure was one of memory */
-    char part[WR_MESH_NAME]; /* of the triangles that follow; set by wr_mesh_build_part */
+    bool memory;             /* the failure was lack of memory */
+    char part[WR_MESH_NAME]; /* name of the following triangles; set by wr_mesh_build_part */
     double (*points)[3];
-    float (*normals)[3]; /* only of a whole one; 0: none */
-    float (*uv)[2];      /* only of a whole one; not a number: none */
-    int32_t *next;       /* of wedges: 1 + an earlier one of the same place; 0: none */
+    float (*normals)[3]; /* only if whole; 0: none */
+    float (*uv)[2];      /* only if whole; NaN: none */
+    int32_t *next;       /* for wedges: 1 + previous point at the same place; 0: none */
     int32_t (*corners)[3];
     WrMeshPart *parts;
     int32_t point_count, triangle_count, part_count;
     size_t point_room, triangle_room;
-    int64_t work; /* steps that cutting of polygons has taken */
+    int64_t work; /* steps used by triangulation so far */
 } WrMeshBuild;
 
 void wr_mesh_build_fini(WrMeshBuild *build);
-/* Make room for so many points (triangles) more. Only for speed. Errors: too many, no memory. */
+/* Reserves memory for this many more points (triangles). Only for speed. Errors: too many, out of
+ * memory. */
 bool wr_mesh_build_reserve(WrMeshBuild *build, int64_t points, int64_t triangles, WrError *err);
-/* Add a point. normal, uv: NULL: none. Its number is point_count before. Errors: too many, no memory. */
+/* Adds a point. normal, uv: NULL: none. Its index is the previous point_count. Errors: too many, out of
+ * memory. */
 bool wr_mesh_build_point(WrMeshBuild *build, const double p[3], const float normal[3],
                          const float uv[2], WrError *err);
-/* A point that is made only if the place has none with this normal and (u,v).
+/* Adds a point, unless the place already has one with this normal and (u,v).
  * first    of the place: 1 + its latest point, 0 at the beginning; updated
- * Returns its number, or -1 with an error: too many, no memory */
+ * Returns  its index, or -1 with an error: too many, out of memory */
 int32_t wr_mesh_build_wedge(WrMeshBuild *build, int32_t *first, const double p[3],
                             const float normal[3], const float uv[2], WrError *err);
-/* The name of the triangles that follow; cut where it is longer. */
+/* Sets the name of the following triangles; long names are truncated. */
 void wr_mesh_build_part(WrMeshBuild *build, const char *name, size_t length);
 bool wr_mesh_build_triangle(WrMeshBuild *build, int32_t a, int32_t b, int32_t c, WrError *err);
-/* Cut a polygon into count - 2 triangles: a dented quadrilateral at its dent, another dented polygon ear by ear, else as a fan.
- * corners  [count] numbers of points; fewer than 3 are nothing
- * Errors   too many triangles; dented polygons of so many corners that cutting would take minutes; no memory */
+/* Triangulates a polygon into count - 2 triangles: a concave quadrilateral at its reflex corner, other
+ * concave polygons by ear clipping, convex ones as a fan.
+ * corners  [count] point indices; fewer than 3 are ignored
+ * Errors   too many triangles; concave polygons of so many corners that triangulation would take
+ *          minutes; out of memory */
 bool wr_mesh_build_polygon(WrMeshBuild *build, const int32_t *corners, int32_t count, WrError *err);
-/* A strip of triangles: corners i, i+1, i+2, every other one turned. Those with two equal corners are left out. */
+/* Adds a strip of triangles: corners i, i+1, i+2, every other one reversed. Degenerate ones are
+ * skipped. */
 bool wr_mesh_build_strip(WrMeshBuild *build, const int32_t *corners, int32_t count, WrError *err);
-/* The mesh as bytes (mesh_decode.h), appended. Errors: no triangle; a point that is not finite or beyond 1e30 (the first
- * is named). */
+/* Serialises the mesh (mesh_decode.h) and appends it. Errors: no triangle; a point that is not finite
+ * or beyond 1e30 (the first is named). */
 bool wr_mesh_build_finish(const WrMeshBuild *build, WrText *block, WrError *err);

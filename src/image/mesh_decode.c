@@ -27,7 +27,7 @@ bool wr_mesh_load(WrError *err)
     return library(err) != NULL;
 }
 
-/* ---- by the library ---- */
+/* ---- reading by the library ---- */
 
 static bool take_points(const WrAssimpTable *table, const WrAssimpMesh *mesh, WrMeshBuild *build,
                         WrError *err)
@@ -35,7 +35,7 @@ static bool take_points(const WrAssimpTable *table, const WrAssimpMesh *mesh, Wr
     const int32_t count = table->points(mesh);
     build->single = true;
     const double *points = table->point_data(mesh);
-    const float *looks = table->look_data(mesh); /* a normal and (u,v) of each */
+    const float *looks = table->look_data(mesh); /* a normal and (u,v) of each point */
     if (!wr_mesh_build_reserve(build, count, table->triangles(mesh), err)) return false;
     for (int32_t i = 0; i < count; i++) {
         const float *look = build->whole ? looks + 5 * (size_t)i : NULL;
@@ -77,9 +77,10 @@ static bool read_by_library(const void *bytes, size_t length, const char *ending
     return good;
 }
 
-/* ---- all kinds ---- */
+/* ---- all formats ---- */
 
-/* By the bytes where they say it, else by the ending; what has no reader of its own is the library's. */
+/* The format by the bytes if they are characteristic, else by the extension; formats without an own
+ * reader use the library. */
 static bool read_kind(const void *bytes, size_t length, const char *ending, WrMeshBuild *build,
                       WrError *err)
 {

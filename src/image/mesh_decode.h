@@ -1,4 +1,4 @@
-/* mesh_decode.h - a mesh file read within this process, and what travels from the reader process.
+/* mesh_decode.h - mesh decoding in the present process, and the serialised mesh of the reader process.
    Private to this module. */
 #pragma once
 #include "image/mesh.h"
@@ -10,24 +10,25 @@
 typedef struct WrError WrError;
 typedef struct WrText WrText;
 
-/* A mesh as bytes: this, then the points, then the corners; of a whole one then the normals, the (u,v) and the parts. */
+/* Header of a serialised mesh; the points follow, then the corners; for a whole mesh the normals, the
+ * (u,v) and the parts. */
 typedef struct WrMeshHead {
     double origin[3];
     int32_t points, triangles, whole, parts, single, unused;
 } WrMeshHead;
 
 #define WR_MESH_PARTS_MAX 4096
-#define WR_MESH_WHOLE "w" /* what is asked of the reader process for a whole one; else nothing */
+#define WR_MESH_WHOLE "w" /* request to the reader process for a whole mesh; else nothing */
 
-/* Load the module that holds the library; it stays loaded. */
+/* Loads the module that contains the library; it stays loaded. */
 bool wr_mesh_load(WrError *err);
 
-/* Read a file that is in memory.
+/* Reads a file in memory.
  *
- * ending   of the file's name: what it is believed to be
+ * ending   extension of the file's name: its assumed format
  * whole    with normals, texture coordinates and parts
- * block    the mesh as bytes, appended
- * memory   set to whether the failure was one of memory; may be NULL
+ * block    the serialised mesh, appended
+ * memory   set to true if the failure was lack of memory; may be NULL
  * Errors   one sentence that does not name the file */
 bool wr_mesh_make(const void *bytes, size_t length, const char *ending, bool whole, WrText *block,
                   bool *memory, WrError *err);

@@ -10,9 +10,9 @@
 
 #define NOTHING (-1)
 #define CORNERS_MOST 65536            /* of one polygon */
-#define NO_MATERIAL "DefaultMaterial" /* as good as none */
+#define NO_MATERIAL "DefaultMaterial" /* treated as no material */
 
-/* Indices of a place, of (u,v) and of a normal, or NOTHING. */
+/* Indices of a position, of (u,v) and of a normal, or NOTHING. */
 typedef struct Corner {
     int32_t v, vt, vn;
 } Corner;
@@ -22,7 +22,7 @@ typedef struct Obj {
     double (*v)[3];
     float (*vt)[2], (*vn)[3];
     int32_t v_count, vt_count, vn_count, face_count;
-    int32_t *first;   /* of each place: 1 + its latest point */
+    int32_t *first;   /* for each position: 1 + its latest point */
     int32_t *polygon; /* [CORNERS_MOST] */
     char object[WR_MESH_NAME], material[WR_MESH_NAME];
 } Obj;
@@ -34,7 +34,7 @@ static void trim(WrScan *line)
     while (line->end > line->at && (unsigned char)line->end[-1] <= ' ') line->end--;
 }
 
-/* The next line, without blanks at its ends; false at the end of the file. */
+/* The next line without surrounding blanks; false at the end of the file. */
 static bool next_line(const char **at, const char *end, WrScan *line)
 {
     if (*at == end) return false;
@@ -46,7 +46,7 @@ static bool next_line(const char **at, const char *end, WrScan *line)
     return true;
 }
 
-/* A line of numbers without the remark behind them. Names may have a # of their own. */
+/* Removes a trailing comment from a line of numbers. Names may contain a #. */
 static void cut_remark(WrScan *line)
 {
     const char *remark = memchr(line->at, '#', (size_t)(line->end - line->at));
@@ -54,7 +54,7 @@ static void cut_remark(WrScan *line)
     trim(line);
 }
 
-/* Whether the line's first word is this one, which is then passed over. */
+/* Skips the line's first word if it is this one. */
 static bool take_word(WrScan *line, const char *word)
 {
     const size_t n = strlen(word), left = (size_t)(line->end - line->at);
@@ -66,7 +66,8 @@ static bool take_word(WrScan *line, const char *word)
     return true;
 }
 
-/* From `least` to `most` numbers to the end of the line; those that the line has not stay. Returns how many, or -1. */
+/* Reads `least` to `most` numbers up to the end of the line; absent ones are unchanged. Returns their
+ * number, or -1. */
 static int take_numbers(WrScan *line, int least, int most, double *out)
 {
     int count = 0;
@@ -75,15 +76,15 @@ static int take_numbers(WrScan *line, int least, int most, double *out)
     return line->at == line->end && count >= least ? count : -1;
 }
 
-/* ---- places, (u,v), normals ---- */
+/* ---- positions, (u,v), normals ---- */
 
 static bool is_float(double x)
 {
     return isfinite((float)x);
 }
 
-/* x y z, then a weight, or colours, or a weight and colours, or colours with their alpha. A weight that is not 1 means a
-   rational curve. */
+/* x y z, then a weight, or colours, or a weight and colours, or colours with alpha. A weight other than
+   1 is a rational curve. */
 static bool read_place(Obj *obj, WrScan *line)
 {
     double p[7];
@@ -118,7 +119,7 @@ static bool read_normal(Obj *obj, WrScan *line)
 
 /* ---- faces ---- */
 
-/* An index from 1, or from the end downwards, among so many. */
+/* An index from 1, or a negative one from the end. */
 static bool take_index(WrScan *line, int32_t count, int32_t *out)
 {
     const bool minus = line->at < line->end && *line->at == '-';
@@ -143,7 +144,7 @@ static bool is_bare(const WrScan *line)
     return line->at == line->end || *line->at == '/' || (unsigned char)*line->at <= ' ';
 }
 
-/* v, v/vt, v//vn or v/vt/vn; also with nothing behind a slash. */
+/* v, v/vt, v//vn or v/vt/vn; also with nothing after a slash. */
 static bool take_corner(const Obj *obj, WrScan *line, Corner *out)
 {
     Corner corner = { NOTHING, NOTHING, NOTHING };
@@ -186,7 +187,7 @@ static void take_name(const WrScan *line, char name[WR_MESH_NAME])
     memcpy(name, line->at, n);
 }
 
-/* Lines of words. Another end of line within one, or a line that goes on in the next, is for the library. */
+/* Lines of words. Other line ends within a line, or a continued line, are left to the library. */
 static bool read_words(Obj *obj, WrScan *line)
 {
     static const char *const unused[] = { "s", "mtllib", "p", "l" };
@@ -221,7 +222,7 @@ static bool read_line(Obj *obj, WrScan line)
     return read_words(obj, &line);
 }
 
-/* How many of each there are, so that each array is made once. */
+/* Counts the elements, so that each array is allocated once. */
 static void count_lines(Obj *obj, const char *at, const char *end)
 {
     WrScan line;

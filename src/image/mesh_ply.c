@@ -15,7 +15,7 @@
 #define PROPERTIES 256 /* of all elements together */
 #define NAME 64
 
-/* ---- what a header says ---- */
+/* ---- types and roles ---- */
 
 typedef enum Type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } Type;
 
@@ -26,11 +26,11 @@ static const struct {
                    { "ushort", "uint16", 2 }, { "int", "int32", 4 },     { "uint", "uint32", 4 },
                    { "float", "float32", 4 }, { "double", "float64", 8 } };
 
-/* What a property is used as; a number of `Role` is its place in the values of an entry. */
+/* Use of a property; values before VALUES are indices into the values of an entry. */
 typedef enum Role { X, Y, Z, NX, NY, NZ, U, V, VALUES, CORNERS = VALUES, TEXCOORD, UNUSED } Role;
 
 typedef struct Property {
-    Type type, count; /* count: of a list's length */
+    Type type, count; /* count: type of a list's length */
     bool list;
     Role role;
 } Property;
@@ -38,10 +38,10 @@ typedef struct Property {
 typedef struct Element {
     char name[NAME];
     int64_t count;
-    int first, properties; /* among all */
+    int first, properties; /* indices among all properties */
 } Element;
 
-/* Numbers of one list. */
+/* Values of one list. */
 typedef struct List {
     double *at; /* owned */
     size_t count, room;
@@ -49,20 +49,20 @@ typedef struct List {
 
 typedef struct Ply {
     WrScan scan;
-    bool text, big; /* written out; binary with the highest byte first */
+    bool text, big; /* ASCII; big-endian binary */
     Element elements[ELEMENTS];
     Property properties[PROPERTIES];
     int element_count, property_count;
-    const Element *element; /* that is being read, and its entry, from 1 */
+    const Element *element; /* element being read, and its entry, from 1 */
     int64_t entry;
-    bool used[UNUSED]; /* roles that the element at hand has */
+    bool used[UNUSED]; /* roles that the present element has */
     double values[VALUES];
     List corners, texcoord;
     int32_t vertices;
-    int32_t *first; /* [vertices] of each: 1 + its latest wedge */
+    int32_t *first; /* [vertices] for each: 1 + its latest wedge */
     int32_t *polygon;
     size_t polygon_room;
-    WrMeshBuild *build, *places; /* places: the file's vertices, which faces make into points */
+    WrMeshBuild *build, *places; /* places: the file's vertices, which faces convert to points */
 } Ply;
 
 static const struct {
@@ -99,7 +99,7 @@ bool wr_ply_is(const char *bytes, size_t length)
     return length >= 4 && memcmp(bytes, "ply", 3) == 0 && (unsigned char)bytes[3] <= ' ';
 }
 
-/* The next line, whichever of "\n", "\r\n" and "\r" the first line ends in; false: cut off. */
+/* The next line, with the line end of the first line ("\n", "\r\n" or "\r"); false: truncated. */
 static bool header_line(WrScan *scan, WrScan *line)
 {
     const char *at = scan->at;
@@ -258,7 +258,7 @@ static bool take_value(Ply *ply, Type type, double *out, WrError *err)
     return true;
 }
 
-/* Its length, which the bytes that are left must hold. */
+/* Reads a list's length; the remaining bytes must be able to contain the list. */
 static bool take_length(Ply *ply, const Property *property, size_t *out, WrError *err)
 {
     double count = 0;
@@ -351,7 +351,7 @@ static bool polygon_room(Ply *ply, size_t count, WrError *err)
     return true;
 }
 
-/* The point of the mesh for corner i of the face at hand: the vertex, with the face's own (u,v) where it has some. */
+/* The mesh point of corner i of the present face: the vertex, with the face's own (u,v) if it has some. */
 static bool find_corner(Ply *ply, size_t i, int32_t *out, WrError *err)
 {
     if (!check_corner(ply, ply->corners.at[i], err)) return false;
@@ -434,7 +434,7 @@ static bool begin_element(Ply *ply, Add *add, WrError *err)
     return true;
 }
 
-/* Wedges of faces are points of `build`; here is one chain for each vertex. */
+/* Wedges of faces become points of `build`; allocates one chain for each vertex. */
 static bool end_vertices(Ply *ply, WrError *err)
 {
     ply->vertices = ply->places->point_count;
@@ -454,7 +454,7 @@ static bool read_entries(Ply *ply, const Element *element, WrError *err)
     return add != add_vertex || end_vertices(ply, err);
 }
 
-/* Every entry has a byte at least. */
+/* Every entry has at least one byte. */
 static bool check_counts(const Ply *ply, WrError *err)
 {
     for (int i = 0; i < ply->element_count; i++)

@@ -9,11 +9,12 @@
 #include "system/path.h"
 #include "system/thread.h"
 
-/* Where the installed module lies, seen from the program's folder; the build sets it. */
+/* Folder of the installed modules relative to the program's folder; set by the build. */
 #ifndef WR_MODULE_FOLDER
 #define WR_MODULE_FOLDER "../lib/wrinkle"
 #endif
-#define WR_MODULE_THREADS 8 /* at once; log4cplus, which OpenCV brings, starts 4 */
+/* threads needed at once; log4cplus, a dependency of OpenCV, starts 4 */
+#define WR_MODULE_THREADS 8
 
 bool wr_module_path(int place, const char *file, WrText *path)
 {
@@ -27,8 +28,8 @@ bool wr_module_path(int place, const char *file, WrText *path)
     return path->length > 0;
 }
 
-/* The table of a module, NULL where there is none of that version. It stays loaded: OpenImageIO does not like
-   to be unloaded. */
+/* The table of a module, NULL if there is none of that version. The module stays loaded: OpenImageIO
+   cannot be unloaded safely. */
 static const void *load(const WrModule *module, WrError *err)
 {
     const int *table = NULL;
@@ -64,7 +65,8 @@ static void *wait_for_all(void *lock)
     return NULL;
 }
 
-/* Libraries behind the modules start a few as they are loaded, and end the program where they get none. */
+/* Libraries used by the modules start threads when they are loaded, and abort the program if that
+ * fails. */
 static bool threads_are_left(void)
 {
     WrMutex lock = WR_MUTEX_READY;

@@ -1,5 +1,4 @@
-/* module_path.h - where the parts of the program that are not linked into it lie.
-   Private to this module. */
+/* module_path.h - search and loading of the program's run-time modules. Private to this module. */
 #pragma once
 #include "base/once_async.h"
 
@@ -10,22 +9,22 @@ typedef struct WrText WrText;
 
 #define WR_MODULE_PLACES 3
 
-/* Where the file would lie in the place-th place: beside the program, where it is installed as seen from
- * there, in the folder that $WRINKLE_MODULES names. False if there is no such place. */
+/* Path of the file at the place-th place: beside the program, in the installed folder relative to it,
+ * in the folder $WRINKLE_MODULES. False if there is no such place. */
 bool wr_module_path(int place, const char *file, WrText *path);
 
-/* A module and what it is asked for; one static variable each, since which module is loaded is a fact of the
- * process: the one thing here that outlives a call. */
+/* A module and its interface; one static variable each, since a module is loaded once per process. It
+ * is the only state here that outlives a call. */
 typedef struct WrModule {
     const char *file, *serves; /* "wrinkle_oiio.so", "picture files" */
-    const char *symbol;        /* of its table, which begins with an int: its version */
+    const char *symbol;        /* name of its table, which begins with an int: its version */
     int version;
-    const void *table;   /* NULL until it was loaded */
+    const void *table;   /* NULL until loaded */
     WrOnceAsync loading; /* { wr_module_load, the module } */
 } WrModule;
 bool wr_module_load(void *module, WrError *err);
 
-/* The module's table, loaded by the first call, which can be cancelled meanwhile (base/once_async.h). A failure is not
- * kept, so that a later call may succeed. NULL with one error that says where it was looked for, or that it was
- * cancelled. */
+/* The module's table, loaded by the first call, which can be cancelled meanwhile (base/once_async.h). A
+ * failure is not cached, so that a later call may succeed. NULL with one error that lists the searched
+ * paths, or "cancelled". */
 const void *wr_module_table(WrModule *module, WrError *err);

@@ -1,13 +1,16 @@
-/* oiio.cpp - the only file that knows OpenImageIO: it becomes the module wrinkle_oiio.so. What it does
-   is in oiio.h. Ways of the library that it guards against:
-   - a damaged TIFF succeeds everywhere and only leaves an error message: after every call a message counts
-     as failure;
-   - limits on sizes are enforced by few readers: the checks here are the ones that hold;
-   - integer codes pass through float factors, and more of what a header says is ignored: oiio_values.hpp;
-   - alpha is multiplied into colours unless told otherwise;
-   - libjpeg ends the whole program when it cannot write: it never gets to see that a disk is full;
-   - EXR of several parts and TIFF are written to a file that the library opens, and it misses failures at
-     the end: the caller gives it a memory file, and reads back what was written; libtiff is listened to. */
+/* oiio.cpp - the module wrinkle_oiio.so; the only file that uses OpenImageIO. Its interface is oiio.h.
+
+   Workarounds for the library:
+   - reading a damaged TIFF always succeeds and only sets an error message: after every call a message
+     counts as failure;
+   - few readers enforce size limits: the checks here are the effective ones;
+   - integer codes are multiplied by float factors, and other header properties are ignored:
+     oiio_values.hpp;
+   - alpha is multiplied into colours by default;
+   - libjpeg exits the whole program when it cannot write: it never receives a write error;
+   - multi-part EXR and TIFF are written to a file that the library opens, and failures at the end are
+     not reported: the caller passes a memory file and reads it back; libtiff's error messages are
+     intercepted. */
 extern "C" {
 #include "image/oiio.h"
 }
@@ -30,7 +33,7 @@ extern "C" {
 #include <string>
 #include <vector>
 
-/* Of OpenImageIO/tiffutils.h, which wants libtiff's headers. */
+/* Declared in OpenImageIO/tiffutils.h, which needs libtiff's headers. */
 OIIO_NAMESPACE_BEGIN
 OIIO_API bool decode_exif(string_view exif, ImageSpec &spec);
 OIIO_NAMESPACE_END
@@ -41,28 +44,29 @@ static void settle_library()
 {
     listen_to_tiff();
 
-    OIIO::attribute("threads", 1); /* ours is the work that is worth threads */
+    OIIO::attribute("threads", 1); /* the program parallelises its own work instead */
     OIIO::attribute("try_all_readers", 0);
-    OIIO::attribute("debug", 0); /* else it talks on standard error */
+    OIIO::attribute("debug", 0); /* otherwise it prints to standard error */
 }
 
 /* ---- reading ---- */
 
 struct WrCodecReader {
     int fd;
-    std::string path; /* of fd, for formats that insist on one (reopen.c) and for messages */
+    std::string path; /* of fd, for formats that need a path (system/sandbox_open.h) and for
+                         messages */
     std::unique_ptr<FILE, int (*)(FILE *)> file{ nullptr, std::fclose }; /* a copy of fd */
-    std::unique_ptr<Filesystem::IOFile> proxy;                           /* outlives `in` */
+    std::unique_ptr<Filesystem::IOFile> proxy;                           /* must outlive `in` */
     std::unique_ptr<ImageInput> in;
     std::vector<ImageSpec> specs;
     std::vector<std::vector<const char *>> names;
     std::vector<WrCodecPart> parts;
-    std::vector<Values> values; /* of each part */
+    std::vector<Values> values; /* for each part */
     std::vector<char> codes;    /* scratch */
-    std::vector<float> window;  /* rows of a data window, where it is not the picture */
+    std::vector<float> window;  /* rows of the data window, if it differs from the image */
     std::vector<float> band; /* of a tiled file: rows [band_y, band_y + band_rows) of band_part */
     int band_part = -1, band_y = 0, band_rows = 0, band_channels = 0;
-    bool levels = false;  /* parts are levels of the first */
+    bool levels = false;  /* parts are mip levels of the first part */
     bool numbers = false; /* integers that are measurements are numbers */
 };
 
@@ -84,7 +88,7 @@ static bool check_spec(const ImageSpec &spec, char *reason)
     return true;
 }
 
-/* Formats without attributes of their own keep ours as lines of the description. */
+/* Formats without attributes store the program's attributes as lines of the description. */
 static void unpack_description(ImageSpec &spec)
 {
     std::string text = spec.get_string_attribute("ImageDescription");
@@ -100,7 +104,7 @@ static void unpack_description(ImageSpec &spec)
     }
 }
 
-/* The orientation that EXIF tells in a WebP file: a chunk that the library skips. 0: none. */
+/* The EXIF orientation of a WebP file: a chunk that the library skips. 0: none. */
 static int webp_orientation(int fd)
 {
     unsigned char head[12];
@@ -123,7 +127,7 @@ static int webp_orientation(int fd)
     return 0;
 }
 
-/* How the values of a part are read, and what the reader of the picture should know of it, in `note`. */
+/* Chooses the conversion of a part's values; `note` receives remarks for the user. */
 static bool choose_values(const WrCodecReader &reader, const ImageSpec &spec, Values &values,
                           WrImagePart &part, std::string &note, char *reason)
 {
@@ -158,7 +162,7 @@ static bool add_part(WrCodecReader &reader, ImageSpec spec, char *reason)
     spec.attribute("wrinkle:orientation", std::to_string(orientation));
     if (!note.empty()) spec.attribute("wrinkle:note", note);
     if (values.has_no_data) spec.attribute("wrinkle:no-data", "1");
-    /* A number in files of bump slopes; texts are all that is asked for. */
+    /* A number in bump slopes files; the interface returns only texts. */
     char text[32];
     std::snprintf(text, sizeof text, "%.9g", double(spec.get_float_attribute("uvslopes_scale")));
     spec.attribute("wrinkle:uvslopes", text);
@@ -173,7 +177,7 @@ static bool add_part(WrCodecReader &reader, ImageSpec spec, char *reason)
     return true;
 }
 
-/* Pointers into the specs, once those no longer move. */
+/* Sets pointers into the specs, after those no longer move. */
 static void name_parts(WrCodecReader &reader)
 {
     for (size_t i = 0; i < reader.parts.size(); i++) {
@@ -183,7 +187,7 @@ static void name_parts(WrCodecReader &reader)
         for (const std::string &name : spec.channelnames) names.push_back(name.c_str());
         reader.names.push_back(names);
         reader.parts[i].part.channel_names = nullptr;
-        /* Lives as long as the process; of an empty one there is no text at all. */
+        /* Lives as long as the process; NULL for an empty name. */
         const char *name = ustring(spec.get_string_attribute("oiio:subimagename")).c_str();
         reader.parts[i].part.name = name ? name : "";
     }
@@ -191,7 +195,7 @@ static void name_parts(WrCodecReader &reader)
         reader.parts[i].part.channel_names = reader.names[i].data();
 }
 
-/* Where the reader may open nothing, most formats read from what is open. */
+/* Most formats read from the open file, since the reader may not be allowed to open any. */
 static bool give_file(WrCodecReader &reader, char *reason)
 {
     int copy = wr_fd_copy(reader.fd);
@@ -223,7 +227,8 @@ static bool open_file(WrCodecReader &reader, const char *format, int most, char 
                     reader.path);
     }
     if (!add_part(reader, reader.in->spec(), reason)) return false;
-    /* Readers find out about more parts by trying; some do not recover from it, so not without need. */
+    /* Readers detect further parts by trial; some do not recover from a failed trial, so it is avoided
+     * if possible. */
     reader.levels = most == WR_CODEC_LEVELS;
     for (int i = 1; reader.levels && i < WR_IMAGE_PARTS_MAX && reader.in->seek_subimage(0, i); i++)
         if (!add_part(reader, reader.in->spec(), reason)) return false;
@@ -231,13 +236,13 @@ static bool open_file(WrCodecReader &reader, const char *format, int most, char 
         if (i >= most) return fail(reason, "more than " + std::to_string(most) + " parts");
         if (!add_part(reader, reader.in->spec(), reason)) return false;
     }
-    /* What the search for the end says is of no interest; damage shows when rows are read. */
+    /* The error of the search for the end is irrelevant; damage is detected when rows are read. */
     ignored = reader.in->geterror();
     name_parts(reader);
     return true;
 }
 
-/* For libraries that take nothing but names. */
+/* A name for libraries that accept only names. */
 static std::string name_of(int fd)
 {
     char name[WR_FD_NAME];
@@ -300,7 +305,8 @@ static bool check_read(WrCodecReader &reader, bool ok, char *reason)
     return fail(reason, message, reader.path);
 }
 
-/* The library's reader of FITS counts rows from 1: row 0 lies beyond the file's last, and its first was never read. */
+/* The library's FITS reader counts rows from 1: row 0 is beyond the file's last, and its first was
+ * never read. */
 static bool read_fits_rows(WrCodecReader &reader, int part, int top, int rows, int channels,
                            TypeDesc type, void *out)
 {
@@ -314,7 +320,7 @@ static bool read_fits_rows(WrCodecReader &reader, int part, int top, int rows, i
     return ok;
 }
 
-/* Rows [y, y + rows) of the data window. */
+/* Reads rows [y, y + rows) of the data window. */
 static bool read_band(WrCodecReader &reader, int part, int y, int rows, int channels, float *out,
                       char *reason)
 {
@@ -341,7 +347,7 @@ static bool read_band(WrCodecReader &reader, int part, int y, int rows, int chan
     return true;
 }
 
-/* A tiled file gives whole rows of tiles only: keep the one read last. */
+/* A tiled file returns only whole rows of tiles: the last one is cached. */
 static bool read_tiled(WrCodecReader &reader, int part, int y, int rows, int channels, float *out,
                        char *reason)
 {
@@ -378,7 +384,7 @@ static bool read_data(WrCodecReader &reader, int part, int y, int rows, int chan
     return read_band(reader, part, y, rows, channels, out, reason);
 }
 
-/* Rows [y, y + rows) of a picture whose data window is another: 0 where there is no data. */
+/* Reads rows [y, y + rows) of an image with a different data window: 0 where there is no data. */
 static bool read_windowed(WrCodecReader &reader, int part, int y, int rows, int channels,
                           float *out, char *reason)
 {
@@ -421,10 +427,10 @@ static bool reader_read(WrCodecReader *reader, int part, int y, int rows, int ch
 
 struct WrCodecWriter {
     std::string path;
-    std::unique_ptr<Disk> disk; /* outlives `out`; NULL where the library opens the file itself */
+    std::unique_ptr<Disk> disk; /* must outlive `out`; NULL if the library opens the file itself */
     std::unique_ptr<ImageOutput> out;
     std::vector<ImageSpec> specs;
-    std::vector<TypeDesc> types; /* of the rows that are given */
+    std::vector<TypeDesc> types; /* of the rows passed in */
     bool levels = false;
     size_t part = 0;
 };
@@ -444,8 +450,8 @@ static void name_channels(ImageSpec &spec, const WrImageOut &part)
     }
 }
 
-/* The same picture must give the same bytes tomorrow. Writers add the present time unless there is a
-   DateTime; one of a type that they cannot write keeps them from it and stays out of the file. */
+/* The same image must give the same bytes at any time. Writers add the present time unless there is a
+   DateTime; one of a type that they cannot write prevents that and is not written. */
 static void forbid_date(ImageSpec &spec)
 {
     long long nothing = 0;
@@ -479,8 +485,8 @@ static void set_attributes(ImageSpec &spec, const WrImageOut &part, const char *
     if (!description.empty()) spec.attribute("ImageDescription", description);
 }
 
-/* What texture systems look for in a tiled file of levels. Mantissas of slopes hardly repeat: zip takes ten times as long as
- * runs of equal bytes for 3 to 5 % of such a file. */
+/* Attributes that texture systems expect in a tiled mip-mapped file. Mantissas of slopes rarely repeat:
+ * zip takes ten times as long as run-length compression and saves 3 to 5 % of such a file. */
 static void set_levels(ImageSpec &spec, const WrImageOut &part)
 {
     spec.tile_width = spec.tile_height = WR_IMAGE_TILE;
@@ -581,7 +587,7 @@ static bool writer_finish(WrCodecWriter *writer, bool, char *reason)
     bool ok = guarded(reason, [&] {
         errno = 0;
         bool closed = check_write(*writer, writer->out->close(), reason);
-        writer->out.reset(); /* of levels it is only now that the library says where they lie */
+        writer->out.reset(); /* for mip levels the library reports their positions only now */
         if (writer->disk) writer->disk->empty();
         if (!closed || !writer->disk || !writer->disk->error) return closed;
         return fail(reason, std::strerror(writer->disk->error));

@@ -30,7 +30,7 @@ static uint32_t big_endian(const unsigned char *bytes)
     return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
 }
 
-/* One chunk: length, four letters, data, CRC of letters and data. */
+/* Checks one chunk: length, four letters, data, CRC of letters and data. */
 static bool check_chunk(FILE *file, Crc *crc, char name[5], WrError *err)
 {
     unsigned char head[8], tail[4], block[16384];

@@ -1,4 +1,4 @@
-/* Reading PNG (png_codec.h). Runs in the reader process, caged: the file may be hostile. */
+/* Reading PNG (png_codec.h). Runs sandboxed in the reader process: the file may be hostile. */
 #include "image/png_codec.h"
 
 #include "base/array.h"
@@ -17,16 +17,16 @@ typedef struct Text {
 
 struct WrCodecReader {
     int fd;
-    int64_t at; /* bytes of the file that the block has */
+    int64_t at; /* bytes of the file read into the block so far */
     uint8_t *block;
-    size_t held, taken; /* bytes in the block, and of these given to libpng */
+    size_t held, taken; /* bytes in the block, and those already passed to libpng */
     WrPngTrouble trouble;
     png_structp png;
     png_infop info;
     WrCodecPart part;
     WR_ARRAY(Text) texts;
-    int next;       /* the row that comes */
-    uint8_t *codes; /* of a row; of an interlaced picture of all */
+    int next;       /* next row */
+    uint8_t *codes; /* codes of one row; of an interlaced image all rows */
     bool interlaced;
 };
 
@@ -51,7 +51,7 @@ static void take(png_structp png, png_bytep bytes, size_t count)
     }
 }
 
-/* ---- what it says of itself ---- */
+/* ---- text attributes ---- */
 
 static void keep_text(WrCodecReader *reader, const char *name, size_t name_length, const char *text,
                       size_t length)
@@ -59,12 +59,12 @@ static void keep_text(WrCodecReader *reader, const char *name, size_t name_lengt
     for (int i = 0; i < reader->texts.count; i++)
         if (strlen(reader->texts.data[i].name) == name_length &&
             memcmp(reader->texts.data[i].name, name, name_length) == 0)
-            return; /* the first counts */
+            return; /* the first one wins */
     const Text kept = { wr_strndup(name, name_length), wr_strndup(text, length) };
     wr_array_push(&reader->texts, kept);
 }
 
-/* Ours are lines name=text of the description. */
+/* The program's attributes are lines name=text of the description. */
 static void keep_lines(WrCodecReader *reader, const char *text)
 {
     while (*text) {
@@ -82,7 +82,7 @@ static unsigned number(const uint8_t *bytes, int count, bool big)
     return value;
 }
 
-/* The orientation that an Exif block tells: a TIFF header and its first directory. 0: none. */
+/* The orientation of an Exif block: a TIFF header and its first directory. 0: none. */
 static unsigned orientation_of(const uint8_t *exif, size_t length)
 {
     if (length < 8 || exif[0] != exif[1] || (exif[0] != 'M' && exif[0] != 'I')) return 0;
@@ -148,7 +148,7 @@ static void end(WrCodecReader *reader)
     reader->codes = NULL;
 }
 
-/* As far as the first row; libpng leaves by a jump where anything is wrong. */
+/* Reads up to the first row; libpng reports errors by longjmp. */
 static bool begin_or_jump(WrCodecReader *reader, char *reason)
 {
     if (setjmp(png_jmpbuf(reader->png)))
@@ -236,7 +236,7 @@ static size_t row_bytes(const WrCodecReader *reader)
     return png_get_rowbytes(reader->png, reader->info);
 }
 
-/* Room for a row, or for all of an interlaced picture, whose rows come in seven passes. */
+/* Allocates a row, or all of an interlaced image, whose rows come in seven passes. */
 static bool make_codes(WrCodecReader *reader, char *reason)
 {
     const size_t rows = reader->interlaced ? (size_t)reader->part.part.height : 1;
@@ -254,7 +254,7 @@ static void read_passes(WrCodecReader *reader)
             png_read_row(reader->png, reader->codes + (size_t)y * row_bytes(reader), NULL);
 }
 
-/* The codes of row y, which is not above the one that comes. */
+/* The codes of row y, which is not above the next one. */
 static const uint8_t *codes_of(WrCodecReader *reader, int y)
 {
     if (reader->interlaced) {

@@ -10,12 +10,12 @@
 #include <zlib.h>
 
 #define BLOCK (1 << 16)
-/* With libpng's choice of filters: half the time of its own setting, 6 and Z_FILTERED, for files 2 % larger. */
+/* With libpng's default filters: half the time of its default, 6 and Z_FILTERED, for files 2 % larger. */
 #define LEVEL 4
 
 struct WrCodecWriter {
     WrByteSink sink;
-    int64_t at; /* bytes that were given to it */
+    int64_t at; /* bytes written so far */
     int error;  /* errno of the write that failed */
     uint8_t *block;
     size_t held;
@@ -53,7 +53,7 @@ static void put(png_structp png, png_bytep bytes, size_t count)
 
 static void flush(png_structp png)
 {
-    (void)png; /* at the end */
+    (void)png; /* everything is flushed at the end */
 }
 
 static bool tell(const WrCodecWriter *writer, char *reason)
@@ -63,10 +63,10 @@ static bool tell(const WrCodecWriter *writer, char *reason)
     return false;
 }
 
-/* ---- what it says of itself ---- */
+/* ---- metadata ---- */
 
-/* Colours are sRGB, or as their profile has it. Of numbers nothing is said: a gAMA of 1, which would be true, has
-   ImageMagick, browsers and others change them when they are converted or shown. */
+/* Colours are declared as sRGB, or by their profile. Numbers are not declared: a gAMA of 1, which would
+   be true, would make ImageMagick, browsers and others change them on conversion or display. */
 static void tag_colours(const WrCodecWriter *writer, const WrImageOut *part)
 {
     if (part->profile)

@@ -14,12 +14,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Strangers' files are read by the reader process; inside this one only where the environment says so. */
+/* Untrusted files are read by the reader process; inside this one only if the environment requests it. */
 struct WrImageFile {
-    WrReader *reader; /* or NULL, and then */
+    WrReader *reader; /* NULL: `decoder` is used */
     WrDecoder *decoder;
     char *path; /* for messages */
-    int fd;     /* of the decoder; -1: the reader has its own */
+    int fd;     /* the decoder's file; -1: the reader has its own */
 };
 
 void wr_image_warm(void)
@@ -27,7 +27,7 @@ void wr_image_warm(void)
     if (!wr_reader_inside()) wr_process_start(NULL);
 }
 
-/* Takes the descriptor over; -1 passes a failure on. */
+/* Owns the descriptor; -1 means an earlier failure. */
 static WrImageFile *open_file(const char *name, int fd, int most, bool numbers, bool outside,
                               WrError *err)
 {
@@ -61,7 +61,7 @@ WrImageFile *wr_image_file_open_levels(const char *path, WrError *err)
                      !wr_reader_inside(), err);
 }
 
-/* Our own file: where there is no reader process to be had, or no cage for it, it is not lost for that. */
+/* The program's own file: if no reader process or no sandbox is available, it is read in this process. */
 WrImageFile *wr_image_file_take(const char *name, int fd, bool levels, WrError *err)
 {
     bool outside = !wr_reader_inside() && wr_process_has_cage() && wr_process_start(NULL);
@@ -134,7 +134,7 @@ const char *wr_image_file_path(const WrImageFile *file)
     return file->path;
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 bool wr_image_file_read_first(WrImageFile *file, int part, int y, int rows, int channels,
                               float *out, WrError *err)
@@ -142,7 +142,7 @@ bool wr_image_file_read_first(WrImageFile *file, int part, int y, int rows, int 
     return read_rows(file, part, y, rows, channels, out, err);
 }
 
-/* More parts than the first are looked for where they are wanted, and where readers find them without harm. */
+/* Only the first part is opened, unless more are requested, or the format's parts can be listed safely. */
 static int most_parts(const char *name, const WrImageWish *wish)
 {
     char buffer[16];

@@ -15,7 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Another opening of the same file, so that neither moves the other's position. */
+/* Opens the same file again, with a position of its own. */
 static int open_again(int fd, WrError *err)
 {
     int again = wr_fd_again(fd);
@@ -35,10 +35,10 @@ static bool verify_texts(WrImageFile *file, int index, const WrImageOut *part, W
     return true;
 }
 
-#define MOST_CHANNELS 64 /* whose order can be another in the file */
+#define MOST_CHANNELS 64 /* maximum number of channels that may be reordered in the file */
 
-/* EXR gives channels back in the order of their names: where channel c of the part stands, from[c]. *moved: not all
- * where they were. False if they are not the same ones. */
+/* EXR sorts channels by their names: channel c of the part is channel from[c] of the file. *moved: the
+ * order differs. False if the channels differ. */
 static bool find_channels(const WrImageOut *part, const WrImagePart *is, int from[MOST_CHANNELS],
                           bool *moved)
 {
@@ -55,7 +55,7 @@ static bool find_channels(const WrImageOut *part, const WrImagePart *is, int fro
     return true;
 }
 
-/* Values as they stand in the file, as the part has them. */
+/* Reorders values from the file's order to the part's. */
 static void put_in_order(const int *from, int channels, size_t texels, const float *values,
                          float *out)
 {
@@ -64,16 +64,16 @@ static void put_in_order(const int *from, int channels, size_t texels, const flo
             out[i * (size_t)channels + (size_t)c] = values[i * (size_t)channels + (size_t)from[c]];
 }
 
-/* Rows travel through a memory file, two strips at a time at most, on which a limit on file sizes holds as well; digests
- * travel without. */
+/* Rows are transferred in a memory file, two strips at a time at most, to which the file size limit
+ * applies too; digests need no file. */
 static bool rows_fit(const WrImageOut *part)
 {
     const size_t row = (size_t)part->width * (size_t)part->channels * sizeof(float);
     return 2 * (uint64_t)row * WR_IMAGE_STRIP < wr_process_file_limit();
 }
 
-/* Strip by strip into the digest, and to whoever asked to see what stands there. from: where the channels stand; NULL:
- * in the part's order. */
+/* Passes strips to the digest and to the `seen` callback. from: channel order in the file; NULL: the
+ * part's order. */
 static bool show_rows(WrImageFile *file, int index, const WrImageOut *part, bool exact,
                       const int *from, WrHash *have, WrError *err)
 {
@@ -125,7 +125,7 @@ static bool verify_part(WrImageFile *file, int index, const WrImageFormat *forma
         return false;
     if (exact && !wr_hash_equal(have, want))
         return wr_fail(err, "texels of part %d are not what was written", index + 1);
-    /* Other formats keep our texts as lines of one, if at all. */
+    /* Other formats store all texts as lines of one, if at all. */
     return strcmp(format->library, "openexr") != 0 || verify_texts(file, index, part, err);
 }
 

@@ -17,7 +17,7 @@
 
 #define CHANNEL 3
 #define PICTURE WR_SANDBOX_OPEN_FILE
-/* What reading a small picture may take: tables and buffers of the libraries. */
+/* Memory for reading a small image: tables and buffers of the libraries. */
 #define MEMORY_BASE ((uint64_t)512 << 20)
 
 typedef struct Serving {
@@ -26,11 +26,11 @@ typedef struct Serving {
     uint64_t length; /* bytes of it */
 } Serving;
 
-/* Nothing stays open but the channel and the picture, under their numbers. */
+/* Closes all descriptors except the channel and the image, and moves these to their numbers. */
 static void keep_two(int file, int channel)
 {
     int far_file = wr_fd_copy_above(file, 100), far_channel = wr_fd_copy_above(channel, 100);
-    wr_fd_nowhere(WR_FD_IN); /* the control socket was there */
+    wr_fd_nowhere(WR_FD_IN); /* formerly the control socket */
     wr_fd_close_range(CHANNEL, 99);
     wr_fd_place(far_channel, CHANNEL);
     wr_fd_place(far_file, PICTURE);
@@ -47,8 +47,8 @@ static void answer_failure(bool memory, const WrError *err)
     answer(memory ? WR_WIRE_MEMORY : WR_WIRE_FAILED, err->text, strlen(err->text));
 }
 
-/* Parts as: four int32 (width, height, channels, type), then names of the part and of its channels, each
- * with its NUL. Returns the largest number of bytes that a part's pixels take. */
+/* Sends the parts: four int32 (width, height, channels, type), then names of the part and of its
+ * channels, each NUL-terminated. Returns the largest number of bytes of a part's pixels. */
 static uint64_t answer_parts(const Serving *serving)
 {
     WrText text = { 0 };
@@ -109,7 +109,7 @@ static void find_text(const Serving *serving, const WrWireText *want)
     answer(WR_WIRE_TEXT, text, text ? strlen(text) + 1 : 0);
 }
 
-/* The program is trusted: its requests are as they should be. */
+/* The program is trusted: its requests are not validated. */
 static void serve_requests(Serving *serving)
 {
     for (;;) {
@@ -130,9 +130,9 @@ static void serve_requests(Serving *serving)
     }
 }
 
-/* ---- files that are read in one go ---- */
+/* ---- files read at once ---- */
 
-/* The whole file. NULL and an error if there is no memory. */
+/* Reads the whole file. NULL and an error when out of memory. */
 static char *read_file(size_t *length, WrError *err)
 {
     WrFileInfo info;
@@ -148,7 +148,7 @@ static char *read_file(size_t *length, WrError *err)
     return bytes;
 }
 
-/* The program is trusted, but a file may have become shorter since it asked. */
+/* The program is trusted, but a file may have been shortened since the request. */
 static bool make_font(const char *bytes, size_t length, const char *want, size_t want_length,
                       WrText *block, WrError *err)
 {
@@ -226,7 +226,7 @@ void wr_serve(const WrWireOrder *order, int file, int channel)
         answer_failure(memory, &err);
         return;
     }
-    /* Some decoders hold a whole picture, in the file's type and once more in another order. */
+    /* Some decoders store a whole image, in the file's type and again in another order. */
     uint64_t bytes = answer_parts(&serving), enough = MEMORY_BASE + 3 * bytes;
     if (order->memory && enough < order->memory) wr_sandbox_memory(space, enough);
     serve_requests(&serving);

@@ -14,28 +14,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SECONDS 60               /* without a sign of life */
-#define BLOCK_SECONDS 20         /* the same for files that are read in one go */
-#define MEGABYTES 4096           /* of memory */
-#define CHUNK ((size_t)16 << 20) /* bytes of rows that travel at once, where a row is not larger */
+#define SECONDS 60       /* time limit without a reply */
+#define BLOCK_SECONDS 20 /* time limit without a reply for files read at once */
+#define MEGABYTES 4096   /* memory limit */
+/* maximum bytes of rows transferred at once, unless a row is larger */
+#define CHUNK ((size_t)16 << 20)
 
 typedef struct Attribute {
     int part;
-    char *name, *text; /* owned; text NULL: there is none */
+    char *name, *text; /* owned; text NULL: absent */
 } Attribute;
 
 struct WrReader {
     char *name; /* of the file, for messages */
     int channel;
     unsigned seconds, megabytes;
-    char *answer; /* what OPENED brought; the parts point into it */
+    char *answer; /* reply of OPENED; the parts point into it */
     WrImagePart *parts;
     int count;
     const char **names; /* of all channels of all parts */
     WR_ARRAY(Attribute) attributes;
-    const char *shared; /* memory that the child writes to */
+    const char *shared; /* memory written by the child */
     size_t shared_bytes;
-    bool dead; /* the child is gone, for the reason in `end` */
+    bool dead; /* the child has ended; the reason is in `end` */
     WrError end;
 };
 
@@ -70,7 +71,7 @@ static unsigned setting(const char *name, unsigned otherwise)
     return value >= 1 && value <= 1e6 ? (unsigned)value : otherwise;
 }
 
-/* The end of this reading, whatever comes. Closing the channel ends the child if it still lives. */
+/* Ends this reading with an error. Closing the channel ends the child if it still runs. */
 static bool die(WrReader *reader, const char *why)
 {
     if (reader->channel >= 0) wr_fd_close(reader->channel);
@@ -109,7 +110,7 @@ static bool die_of_status(WrReader *reader, const Answer *answer)
     return die(reader, why);
 }
 
-/* What the reader says is wrong, on one line. */
+/* Fails with the reader's error message, reduced to one line. */
 static bool fail_sentence(const WrReader *reader, Answer *answer, WrError *err)
 {
     for (uint32_t i = 0; i < answer->head.length; i++)
@@ -124,7 +125,7 @@ static bool fail_memory(const WrReader *reader, WrError *err)
                    reader->megabytes);
 }
 
-/* When an answer that is waited for from now on must be there. */
+/* Deadline of a reply awaited from now on. */
 static double deadline_of(const WrReader *reader)
 {
     return wr_clock_seconds() + reader->seconds;
@@ -148,7 +149,7 @@ static bool receive_whole(WrReader *reader, double deadline, Answer *answer)
     return true;
 }
 
-/* Wait for an answer of this kind. On success the caller frees answer->bytes. */
+/* Waits for a reply of this kind. On success the caller frees answer->bytes. */
 static bool receive_by(WrReader *reader, double deadline, WrWireKind kind, Answer *answer,
                        WrError *err)
 {
@@ -172,7 +173,7 @@ static bool receive(WrReader *reader, WrWireKind kind, Answer *answer, WrError *
 
 /* ---- opening ---- */
 
-/* The next text of a list of texts that each end in NUL, or NULL. */
+/* The next of several NUL-terminated texts, or NULL. */
 static const char *take_text(const char **at, const char *end)
 {
     const char *text = *at, *stop = memchr(text, '\0', (size_t)(end - text));
@@ -210,7 +211,7 @@ static bool take_part(WrReader *reader, const char **at, const char *end, int *n
     return true;
 }
 
-/* The parts as reader_child.c lists them. The answer becomes the reader's. */
+/* Parses the parts sent by reader_child.c. The reader owns the reply. */
 static bool take_parts(WrReader *reader, const Answer *answer, int most)
 {
     reader->answer = answer->bytes;
@@ -226,7 +227,7 @@ static bool take_parts(WrReader *reader, const Answer *answer, int most)
     return reader->count >= 1 && (most < 0 || reader->count <= most);
 }
 
-/* Have the process read the file; the reader gets its channel. */
+/* Sends the order to the process; the reader gets its channel. */
 static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrError *err)
 {
     int ends[2];
@@ -240,8 +241,8 @@ static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrErr
     return sent;
 }
 
-/* One try of those that have time until the deadline together. *gone: nothing came back, not even how the
- * reader died: perhaps the process itself is gone. */
+/* One of several attempts that share a deadline. *gone: no reply at all, not even the child's exit
+ * status: the process itself may have ended. */
 static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, double deadline,
                       bool *gone, WrError *err)
 {
@@ -337,8 +338,8 @@ const char *wr_reader_attribute(WrReader *reader, int part, const char *name)
 
 /* ---- pixels ---- */
 
-/* Memory of at least `bytes` that the child may write to and nobody can shrink. Returns its descriptor
- * to be sent, -1 where the child has it already, or -2 and an error. */
+/* Memory of at least `bytes` that the child may write and nobody can shrink. Returns its descriptor to
+ * be sent, -1 if the child already has it, or -2 and an error. */
 static int share(WrReader *reader, size_t bytes, WrError *err)
 {
     if (reader->shared && reader->shared_bytes >= bytes) return -1;
@@ -356,7 +357,7 @@ static int share(WrReader *reader, size_t bytes, WrError *err)
     return fd;
 }
 
-/* Rows travel in chunks, two under way at a time: one is decoded while the other is copied. */
+/* Rows are transferred in chunks, two at a time: one is decoded while the other is copied. */
 typedef struct Rows {
     int part, y, rows, channels;
     size_t row;  /* bytes */
@@ -381,7 +382,7 @@ static bool ask(WrReader *reader, const Rows *rows, int chunk, WrError *err)
                         .channels = rows->channels,
                         .at = (uint64_t)(chunk & 1) * rows->slot,
                         .bytes = fd >= 0 ? reader->shared_bytes : 0 };
-    /* If the child is gone, its last words are still to be read. */
+    /* If the child has ended, its last messages are read later. */
     wr_wire_send(reader->channel, WR_WIRE_READ, &want, sizeof want, fd);
     if (fd >= 0) wr_fd_close(fd);
     return true;
@@ -412,7 +413,7 @@ bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, f
                all.row * (size_t)chunk_rows(&all, done));
         done++;
     }
-    /* The answer that is still under way belongs to nobody. */
+    /* Discards the outstanding reply. */
     if (!good && asked - done > 1 && !reader->dead) {
         Answer ignored;
         receive_whole(reader, deadline_of(reader), &ignored);
@@ -450,7 +451,7 @@ bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask,
         reader->channel = -1;
         gone = false;
         if (!send_order(reader, &order, fd, err)) break;
-        /* If the child is gone, its last words are still to be read. */
+        /* If the child has ended, its last messages are read below. */
         wr_wire_send(reader->channel, WR_WIRE_ASK, ask, ask_length, -1);
         gone = wr_wire_wait(reader->channel, deadline) == WR_WIRE_GONE;
         good = receive_by(reader, deadline, WR_WIRE_BLOCK, &answer, err);

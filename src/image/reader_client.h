@@ -1,11 +1,9 @@
-/* reader_client.h - a picture or font file read by the reader process (reader_protocol.h), so that a hostile file can harm that
-   process alone. The same functions as decode.h has.
-   Private to this module.
+/* reader_client.h - reading of image, mesh and font files by the reader process (reader_protocol.h).
 
-   Every number and text that comes back is checked here as if a stranger had sent it. A reading that
-   gives no sign of life for a minute (and a second more for each MB of the file) is ended; so is one that
-   takes over 4 GB of memory, less where the picture is small. The environment can set both:
-   WRINKLE_READER_SECONDS, WRINKLE_READER_MB. */
+   A hostile file can harm only that process. The functions are those of decode.h. Private to this
+   module. Every reply is checked as untrusted data. A reading without a reply for a minute (and a
+   second more for each MB of the file) is aborted; so is one that uses over 4 GB of memory, less for
+   small images. The environment can set both limits: WRINKLE_READER_SECONDS, WRINKLE_READER_MB. */
 #pragma once
 #include "image/image.h"
 #include "image/reader_protocol.h"
@@ -16,20 +14,20 @@
 
 typedef struct WrReader WrReader;
 
-/* Is reading done in this process (WRINKLE_READER=inside)? */
+/* True if files are read in this process (WRINKLE_READER=inside). */
 bool wr_reader_inside(void);
-/* A file of at most `limit` bytes that may be worth reading, open: -1 and an error if it cannot be opened or is empty. */
+/* Opens a file of at most `limit` bytes: -1 and an error if it cannot be opened or is empty. */
 int wr_reader_file(const char *path, uint64_t limit, WrError *err);
 
-/* Open a picture.
+/* Opens an image.
  *
- * name     for messages, and for what the file is believed to be where its first bytes tell nothing
+ * name     for messages, and for the assumed format if the first bytes are not characteristic
  * fd       a regular file or a memory file, open for reading; borrowed for the call
- * most, numbers   as wr_decoder_open has them
+ * most, numbers   as for wr_decoder_open
  * Errors   one sentence that names the file
  * Threads  any number at once; each reader belongs to one at a time */
 WrReader *wr_reader_open(const char *name, int fd, int most, bool numbers, WrError *err);
-void wr_reader_close(WrReader *reader); /* NULL is fine */
+void wr_reader_close(WrReader *reader); /* NULL is allowed */
 
 int wr_reader_parts(const WrReader *reader);
 WrImagePart wr_reader_part(const WrReader *reader, int part); /* valid until close */
@@ -38,14 +36,14 @@ const char *wr_reader_attribute(WrReader *reader, int part, const char *name);
 bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, float *out,
                     WrError *err);
 
-/* Chain rows of a part into *digest, as wr_image_digest does; no pixels travel. */
+/* Chains rows of a part into *digest, like wr_decoder_digest; no pixels are transferred. */
 bool wr_reader_digest(WrReader *reader, int part, int y, int rows, int channels, WrHash *digest,
                       WrError *err);
 
-/* Have a file of another kind read in one go.
+/* Reads a file of another kind at once.
  *
- * task     what kind; ask: [ask_length] bytes that its reader in the process understands
- * block    what it answers, [*length] and a NUL; the caller's (wr_free). A stranger may have sent it
+ * task     kind of the file; ask: [ask_length] bytes for its reader in the process
+ * block    the reply, [*length] and a NUL; owned by the caller (wr_free). Untrusted
  * Errors   one sentence that names the file
  * Threads  any number at once */
 bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask, size_t ask_length,

@@ -1,7 +1,7 @@
-/* The reader process: reads strangers' picture files, so that a hostile one harms nobody else. See reader_protocol.h
-   for what it is told and what it answers. It forks for each file, so that no file meets what another one left
-   behind; of a file itself it looks at the first bytes alone, which tell whether the picture library is needed. That is
-   loaded once: when a file needs it, or as soon as there is nothing else to do. */
+/* The reader process: reads untrusted image, mesh and font files, so that a hostile one harms nothing
+   else. Its protocol is reader_protocol.h. It forks for each file, so that no file is affected by
+   another one. The process itself reads only the first bytes of a file, to determine whether the image
+   library is needed. The library is loaded once: when a file needs it, or when the process is idle. */
 #include "base/array.h"
 #include "image/decode.h"
 #include "image/mesh_decode.h"
@@ -25,16 +25,16 @@
 
 typedef struct Child {
     WrPid pid;
-    int channel; /* our copy of its end, for DIED; -1: nobody listens any more */
+    int channel; /* our copy of its end, for DIED; -1: closed */
 } Child;
 
 typedef struct Process {
-    int signals; /* tells of children that ended */
+    int signals; /* reports ended children */
     WR_ARRAY(Child) children;
-    bool warm; /* the picture library is there, as far as it can be */
+    bool warm; /* the image library is loaded, as far as possible */
 } Process;
 
-/* Silent, alone in its session, out of everybody's folders. */
+/* Silences output, starts a new session, leaves the current folder. */
 static void settle(void)
 {
     const char *loud = getenv("WRINKLE_READER");
@@ -46,9 +46,10 @@ static void settle(void)
     wr_process_keep_rights();
 }
 
-/* What every reading by the library does first, done once for all children. Trouble shows again when a file is read.
-   Libraries of the picture library start threads when they are loaded. A child has none of them, but it would inherit
-   for ever what they hold at that moment; once they wait for work they hold nothing. */
+/* One-time initialisation of the library, shared by all children. Errors recur when a file is read.
+   Dependencies of the library start threads when they are loaded. A child has none of these threads,
+   but would inherit the locks they hold at that moment; waiting until they sleep ensures that they hold
+   none. */
 static void warm(Process *process)
 {
     char reason[WR_CODEC_REASON];
@@ -75,7 +76,8 @@ static void start_child(Process *process, const WrWireOrder *order, int file, in
     if (!process->warm && order->task == WR_WIRE_PICTURE &&
         wr_decoder_takes_module(file, order->ending))
         warm(process);
-    if (order->task == WR_WIRE_MESH) wr_mesh_load(NULL); /* here, so that it is loaded but once */
+    /* loaded in the parent, so that it is loaded only once */
+    if (order->task == WR_WIRE_MESH) wr_mesh_load(NULL);
     WrPid pid = wr_child_fork();
     if (pid == 0) {
         if (!wr_process_die_with(self)) wr_process_leave(1);
@@ -117,7 +119,7 @@ static void reap(Process *process)
 
 /* ---- orders ---- */
 
-/* One packet: an order and two descriptors. False when the program is gone. */
+/* Receives one packet: an order and two descriptors. False when the program has ended. */
 static bool take_order(Process *process)
 {
     WrWireOrder order = { 0 };
@@ -137,7 +139,7 @@ static bool take_order(Process *process)
     return true;
 }
 
-/* Until the program closes the control socket. */
+/* Runs until the program closes the control socket. */
 static void work(Process *process)
 {
     WR_ARRAY(WrWaited) waited = { 0 };
@@ -163,7 +165,7 @@ static void work(Process *process)
 }
 
 #if defined(__SANITIZE_THREAD__)
-/* Decoders start threads in a child, which this sanitizer forbids where the parent had threads as well. */
+/* Decoders start threads in a child, which this sanitizer forbids if the parent had threads too. */
 const char *__tsan_default_options(void);
 const char *__tsan_default_options(void)
 {
@@ -179,7 +181,7 @@ int main(void)
     }
     Process process = { .signals = -1 };
     settle();
-    wr_children_hold(); /* before the libraries start threads of their own */
+    wr_children_hold(); /* before the libraries start threads */
     process.signals = wr_children_watch();
     if (process.signals >= 0) work(&process);
     for (int i = 0; i < process.children.count; i++) wr_child_kill(process.children.data[i].pid);

@@ -16,15 +16,17 @@
 #include <string.h>
 
 #define READER_FILE "wrinkle-reader"
-#define GRACE_MS 20 /* to end in order; it has nothing to lose, and who cancelled waits */
+/* time for a regular exit; it has no unsaved data, and a cancelled user waits */
+#define GRACE_MS 20
 
-/* The program's end of the control socket, or -1. That there is a reader process is a fact of this
-   process, as the module is (module_path.c). A forked copy of the program goes on using the same one. */
+/* The program's end of the control socket, or -1. The reader process is state of the program's process,
+   like modules (module_path.c). A forked copy of the program continues to use the same one. */
 typedef struct Process {
     WrMutex lock;
     int control;
-    WrPid pid;   /* of the reader process */
-    WrPid owner; /* this process when it started that one; a forked copy is another */
+    WrPid pid; /* of the reader process */
+    WrPid
+        owner; /* the program's process when it started the reader; a forked copy has another id */
 } Process;
 
 static Process *the_process(void)
@@ -49,7 +51,7 @@ static bool find_reader(WrText *path, WrError *err)
     return found;
 }
 
-/* The process gets the socket as its standard input. */
+/* Starts the process with the socket as its standard input. */
 static int spawn(const char *path, int socket, WrPid *pid)
 {
     const char *const arguments[] = { READER_FILE, NULL };
@@ -59,8 +61,8 @@ static int spawn(const char *path, int socket, WrPid *pid)
     return wr_child_start(&it, pid);
 }
 
-/* At the end of the program: the process ends with its control socket; wait for that, so that no zombie
- * stays where nobody reaps orphans. A forked copy leaves it alone. */
+/* At the program's exit: the process ends when its control socket is closed; waits for that, so that no
+ * zombie remains on systems that do not reap orphans. A forked copy does nothing. */
 static void leave(void)
 {
     WrChildEnd end;
@@ -72,7 +74,7 @@ static void leave(void)
         if (wr_child_is_gone(process->pid)) return;
         wr_thread_sleep_ms(1);
     }
-    wr_child_kill(process->pid); /* it may still be loading */
+    wr_child_kill(process->pid); /* it may still be loading libraries */
     wr_child_wait(process->pid, &end);
 }
 
@@ -93,7 +95,8 @@ static bool start(Process *process, WrError *err)
         if (trouble != 0) {
             wr_fd_close(ends[0]);
         } else {
-            wr_once_async_watch_end(); /* before our own, which thus comes first */
+            /* registered before our handler, which therefore runs first */
+            wr_once_async_watch_end();
             if (process->owner != wr_process_id()) atexit(leave);
             process->owner = wr_process_id();
             process->control = ends[0];
@@ -104,7 +107,8 @@ static bool start(Process *process, WrError *err)
     return trouble == 0;
 }
 
-/* It died: forget it, and leave no zombie. (In a forked copy of the program it is no child.) */
+/* Resets the state after the process has ended, and reaps it. (In a forked copy of the program it is no
+ * child.) */
 static void forget(Process *process)
 {
     WrChildEnd end;

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#define LOOK_MS 20 /* between two looks at whether somebody wants it to stop */
+#define LOOK_MS 20 /* interval between cancellation checks */
 
 bool wr_wire_send(int channel, WrWireKind kind, const void *bytes, size_t length, int fd)
 {

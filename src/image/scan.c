@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#define DIGITS 18 /* that fit into 64 bits */
+#define DIGITS 18 /* digits that fit into 64 bits */
 
 static bool is_blank(char c)
 {
@@ -35,7 +35,7 @@ size_t wr_scan_word(WrScan *scan, const char **word)
     return (size_t)(scan->at - *word);
 }
 
-/* Digits, added to *value; how many. */
+/* Reads digits into *value; returns their number. */
 static int take_digits(WrScan *scan, uint64_t *value)
 {
     const char *from = scan->at;

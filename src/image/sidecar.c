@@ -42,7 +42,7 @@ bool wr_sidecar_is_there(const char *path)
     return is;
 }
 
-/* ---- what it says ---- */
+/* ---- header of a sidecar ---- */
 
 typedef enum Type { U8, U16, F16, F32, TYPES } Type;
 
@@ -89,7 +89,7 @@ static bool take_count(const Told *told, const char *name, int most, int fallbac
     return true;
 }
 
-/* NULL where it has none. */
+/* NULL if absent. */
 static const char *text_of(json_object *root, const char *name)
 {
     json_object *found;
@@ -184,7 +184,7 @@ static WrImage *read_numbers(const Told *told, const char *path, WrError *err)
     return image;
 }
 
-/* ---- the picture ---- */
+/* ---- the image ---- */
 
 static const char *label_text(const void *from, const char *name)
 {

@@ -10,23 +10,18 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- what there is of a file ---- */
+/* ---- an open file ---- */
 
-typedef enum Coding {
-    CODES_8,
-    CODES_16,
-    METRES,
-    DECODED
-} Coding; /* 16 bits: the high byte first */
+typedef enum Coding { CODES_8, CODES_16, METRES, DECODED } Coding; /* 16 bits: big-endian */
 
 struct WrPlain {
     FILE *file; /* owned */
     int width, height, channels;
     Coding coding;
     double most;     /* the largest code */
-    int64_t data;    /* where the pixels begin */
-    uint16_t *codes; /* DECODED: all of them, owned; else NULL */
-    uint8_t *row;    /* else: one row as it stands in the file, owned */
+    int64_t data;    /* offset of the pixels */
+    uint16_t *codes; /* DECODED: all codes, owned; else NULL */
+    uint8_t *row;    /* otherwise: one raw row, owned */
 };
 
 static const char *const names[4][4] = {
@@ -54,7 +49,7 @@ static uint32_t little32(const uint8_t *p)
     return (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
 }
 
-/* A bitmap of Windows whose compression is 1 (RLE8) or 2 (RLE4). */
+/* True for a Windows bitmap with compression 1 (RLE8) or 2 (RLE4). */
 static bool is_rle_bmp(const unsigned char *bytes, size_t count)
 {
     return count >= 34 && bytes[0] == 'B' && bytes[1] == 'M' && little32(bytes + 14) >= 40 &&
@@ -90,7 +85,7 @@ static int next_letter(FILE *file)
     return c;
 }
 
-/* The next number, up to 65535 or so; the letter after it is read. */
+/* The next number, up to about 65535; consumes the letter after it. */
 static bool read_number(FILE *file, uint32_t *number)
 {
     int c = next_letter(file);
@@ -109,7 +104,7 @@ static bool read_text(WrPlain *p, int64_t length, WrError *err)
 {
     const size_t count = (size_t)p->width * (size_t)p->height * (size_t)p->channels;
     if ((uint64_t)length < 2 * (uint64_t)count - 1)
-        return truncated(err); /* before memory is taken */
+        return truncated(err); /* before memory is allocated */
     p->codes = wr_try_alloc(count, sizeof *p->codes, "a picture", err);
     for (size_t k = 0; p->codes && k < count; k++) {
         uint32_t code;
@@ -157,7 +152,7 @@ static bool open_pat(WrPlain *p, const unsigned char *bytes, WrError *err)
     return true;
 }
 
-/* ---- .hgt: nothing but metres, 16 bits with a sign, from the north-west eastwards ---- */
+/* ---- .hgt: only metres, signed 16 bits, from the north-west eastwards ---- */
 
 static bool open_hgt(WrPlain *p, int64_t length, WrError *err)
 {
@@ -188,7 +183,7 @@ typedef struct Rle {
 
 static void put_index(Rle *rle, unsigned index)
 {
-    if (rle->x >= rle->width || rle->y >= rle->height) return; /* other readers clip, too */
+    if (rle->x >= rle->width || rle->y >= rle->height) return; /* clipped, as in other readers */
     uint16_t *to = rle->codes +
                    3 * ((size_t)(rle->height - 1 - rle->y) * (size_t)rle->width + (size_t)rle->x++);
     for (int c = 0; c < 3; c++) to[c] = rle->palette[index][c];
@@ -213,7 +208,7 @@ static bool put_literal(Rle *rle, int count)
     return bytes % 2 == 0 || getc(rle->file) != EOF;
 }
 
-/* Pixels that no run reaches have index 0. A file may end without saying so. */
+/* Pixels without a run have index 0. A file may lack an end mark. */
 static bool decode_rle(Rle *rle)
 {
     for (int count = getc(rle->file); count != EOF; count = getc(rle->file)) {
@@ -348,7 +343,7 @@ const char *wr_plain_attribute(const WrPlain *p, const char *name)
     return p->coding == METRES && strcmp(name, "wrinkle:no-data") == 0 ? "1" : NULL;
 }
 
-/* SRTM's word for "not known". */
+/* SRTM's value for missing elevations. */
 #define VOID_METRES (-32768)
 
 static float value_of(const WrPlain *p, size_t at, int y)

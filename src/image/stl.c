@@ -8,9 +8,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#define HEAD 84    /* bytes: a title of 80, the count of triangles */
-#define RECORD 50  /* bytes: a normal, three points, two bytes of no meaning */
-#define CORNERS 64 /* of a facet that is written out; the format has 3 */
+#define HEAD 84    /* bytes: a title of 80, the number of triangles */
+#define RECORD 50  /* bytes: a normal, three points, two unused bytes */
+#define CORNERS 64 /* corners of an ASCII facet; the format has 3 */
 
 /* ---- binary ---- */
 
@@ -57,7 +57,7 @@ static bool read_binary(const char *bytes, size_t length, WrMeshBuild *build, Wr
     return true;
 }
 
-/* ---- written out ---- */
+/* ---- ASCII ---- */
 
 typedef struct Stl {
     WrScan scan;
@@ -65,7 +65,7 @@ typedef struct Stl {
     int64_t facet; /* from 1 */
     float normal[3];
     int32_t corners[CORNERS];
-    int32_t count; /* of the facet at hand */
+    int32_t count; /* of the present facet */
 } Stl;
 
 static bool is_word(const char *word, size_t length, const char *name)
@@ -103,7 +103,7 @@ static bool begin_facet(Stl *stl, WrError *err)
     const WrScan before = stl->scan;
     const size_t length = wr_scan_word(&stl->scan, &word);
     if (!is_word(word, length, "normal")) {
-        stl->scan = before; /* a facet without one */
+        stl->scan = before; /* a facet without a normal */
         return true;
     }
     if (!take_three(stl, "normal", n, err)) return false;
@@ -133,7 +133,7 @@ static bool end_facet(Stl *stl, WrError *err)
     return good;
 }
 
-/* The rest of the line names the solid. */
+/* The rest of the line is the name of the solid. */
 static void begin_solid(Stl *stl)
 {
     const char *from, *to;
@@ -168,7 +168,7 @@ static bool read_text(const char *bytes, size_t length, WrMeshBuild *build, WrEr
     return stl.count == 0 || wr_fail(err, "is cut off in facet %lld", (long long)stl.facet);
 }
 
-/* Titles of binary files may begin with "solid", too; their length tells them. */
+/* Titles of binary files may also begin with "solid"; their length distinguishes them. */
 static bool is_text(const char *bytes, size_t length)
 {
     WrScan scan = { bytes, bytes + length };

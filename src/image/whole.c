@@ -1,4 +1,4 @@
-/* Pictures, row by row or whole: one part, some of its channels, the way up that the file tells. */
+/* Reading images, row by row or whole: one part, selected channels, in the file's orientation. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -12,27 +12,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BAND_BYTES ((size_t)16 << 20)  /* of a band, where it is not one strip */
-#define BAND_VALUES ((size_t)16 << 20) /* of a strip of many channels, at most */
+#define BAND_BYTES ((size_t)16 << 20)  /* of a band, unless it is one strip */
+#define BAND_VALUES ((size_t)16 << 20) /* maximum for a strip of many channels */
 
 struct WrImageRows {
     WrImageFile *file;
     WrImagePart is;
     int part;
     WrChannelChoice choice;
-    int first;  /* files give their first channels: as many as reach the last that is wanted */
-    int turned; /* as TIFF and EXIF count; 1: as it is. Others are read whole and turned */
+    int first;  /* channels to read: up to the last selected one */
+    int turned; /* TIFF and EXIF orientation; 1: unchanged. Others are read whole and rotated */
     bool keep, ranged;
-    bool fills; /* NaN marks missing values, filled when all rows are there */
+    bool fills; /* NaN marks missing values, filled when all rows are read */
     bool elevation;
     WrImage head;
-    float *all;    /* rows of the first channels, where those that are wanted are not just these */
+    float *all;    /* rows of the first channels, if not all of them are selected */
     WrImage *band; /* rows [y, y + its height) */
     int y;
-    int zeros; /* rows in which all is 0 */
+    int zeros; /* rows in which all values are 0 */
 };
 
-/* Values that are not finite become 0 unless they are to be kept; returns how many pixels had one. */
+/* Non-finite values become 0 unless they are kept; returns the number of pixels with one. */
 static int64_t replace_bad_pixels(float *values, size_t pixels, int channels, bool keep)
 {
     int64_t replaced = 0;
@@ -51,7 +51,7 @@ static int64_t replace_bad_pixels(float *values, size_t pixels, int channels, bo
 
 /* ---- the part ---- */
 
-/* By its number from 1, or by its name. */
+/* Finds a part by its number from 1, or by its name. */
 static bool find_part(const WrImageFile *file, const char *wish, int *part, WrError *err)
 {
     const int count = wr_image_file_parts(file);
@@ -71,7 +71,7 @@ static bool find_part(const WrImageFile *file, const char *wish, int *part, WrEr
     return wr_fail(err, "part '%.60s': there is no such; it has %d, from 1", wish, count);
 }
 
-/* Numbers that elevation models write where nothing is known, besides what a header declares. */
+/* Values that elevation models write for missing data, besides those declared in the header. */
 static void mark_missing(float *values, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -79,8 +79,8 @@ static void mark_missing(float *values, size_t count)
             values[i] = NAN;
 }
 
-/* Missing values of each channel from their neighbours. A channel of nothing else becomes 0; an error where no channel but
-   alpha has a value. */
+/* Fills missing values of each channel from their neighbours. A channel without valid values becomes 0;
+   an error if only alpha has valid values. */
 static bool fill_image(WrImage *image, WrError *err)
 {
     const size_t pixels = (size_t)image->width * (size_t)image->height,
@@ -116,7 +116,7 @@ static void tell(const WrImageFile *file, int index, const WrChannelChoice *choi
     wr_text_fini(&text);
 }
 
-/* Who took a part of a file is told, too, if there is nothing in it. */
+/* Reports an all-zero result if only a part of a file was selected. */
 static void tell_zero(WrImageRows *rows, int count, const float *values)
 {
     WrImage *head = &rows->head;
@@ -131,7 +131,7 @@ static void tell_zero(WrImageRows *rows, int count, const float *values)
 
 /* ---- the pixels ---- */
 
-/* Some channels of rows that hold `from` of them. */
+/* Copies the selected channels of rows that have `from` channels. */
 static void gather(const float *in, size_t pixels, int from, const WrChannelChoice *choice,
                    float *out)
 {
@@ -148,7 +148,7 @@ static bool need_gathering(const WrImageRows *rows)
     return need;
 }
 
-/* Rows that are read at a time. */
+/* Number of rows read at once. */
 static int band_rows(const WrImageRows *rows)
 {
     const size_t row = (size_t)rows->is.width * (size_t)rows->first;
@@ -160,7 +160,7 @@ static int band_rows(const WrImageRows *rows)
     return most < (size_t)rows->is.height ? (int)most : rows->is.height;
 }
 
-/* Rows [y, y + count) of the part, at most a band: what is wanted of them. */
+/* Reads rows [y, y + count) of the part, at most a band: the selected channels. */
 static bool read_band(WrImageRows *rows, int y, int count, float *out, WrError *err)
 {
     const size_t width = (size_t)rows->is.width, pixels = width * (size_t)count;
@@ -195,9 +195,10 @@ static bool read_bands(WrImageRows *rows, WrImage *image, WrError *err)
     return good;
 }
 
-/* ---- the way up ---- */
+/* ---- orientation ---- */
 
-/* Where the pixel (x, y) of a picture turned as TIFF and EXIF count (2..8) stands in the file's, w x h. */
+/* Index in the file's image, w x h, of pixel (x, y) of the image rotated by TIFF and EXIF orientation
+ * 2..8. */
 static size_t place(int turned, int x, int y, int w, int h)
 {
     const bool across = turned == 2 || turned == 3 || turned == 7 || turned == 8;
@@ -228,7 +229,7 @@ static WrImage *turn(WrImage *image, int turned, WrError *err)
     return out;
 }
 
-/* 1: as it is. */
+/* Orientation of the part; 1: unchanged. */
 static int turned_of(WrImageFile *file, int part)
 {
     const char *text = wr_image_file_attribute(file, part, "wrinkle:orientation");
@@ -317,11 +318,11 @@ const WrImage *wr_image_rows_head(const WrImageRows *rows)
 bool wr_image_rows_apply_range(WrImageRows *rows)
 {
     rows->ranged = rows->head.label.ranged && rows->head.type != WR_PIXEL_F32;
-    if (rows->ranged && !rows->file) wr_image_apply_range(rows->band); /* all is there */
+    if (rows->ranged && !rows->file) wr_image_apply_range(rows->band); /* all rows are read */
     return rows->ranged;
 }
 
-/* Rows of the part as it lies in the file, with what is known of the picture. */
+/* An image for rows in the file's orientation, with its properties. */
 static WrImage *new_image(const WrImageRows *rows, int height, WrError *err)
 {
     WrImage *image = wr_image_new(rows->is.width, height, rows->choice.count, err);
@@ -355,7 +356,7 @@ WrImage *wr_image_rows_whole(WrImageRows *rows, WrError *err)
     return image;
 }
 
-/* None yet; or all, turned or filled. */
+/* The first band: empty; or the whole image, if it is rotated or filled. */
 static WrImage *begin_band(WrImageRows *rows, WrError *err)
 {
     if (rows->turned > 1 || rows->fills) return wr_image_rows_whole(rows, err);

@@ -45,14 +45,14 @@ static bool check_parts(const char *path, const WrImageOut *parts, int count, Wr
     return true;
 }
 
-/* A limit on file sizes holds for memory files as well, where libraries do not always report it. */
+/* The file size limit also applies to memory files, where libraries do not always report it. */
 static bool is_cut(int fd)
 {
     WrFileInfo info;
     return fd >= 0 && wr_fd_info(fd, &info) && (uint64_t)info.bytes >= wr_process_file_limit();
 }
 
-/* file: that was written, or -1. reason: of the library, which may have the system's in it. */
+/* file: the written file, or -1. reason: the library's message, which may contain the system's. */
 static bool fail_write(WrError *err, const char *path, int file, const char *reason)
 {
     char text[WR_FILE_WHY];
@@ -63,16 +63,16 @@ static bool fail_write(WrError *err, const char *path, int file, const char *rea
 
 typedef struct Writing {
     const char *path;
-    int file;        /* where the bytes end up, if that is a file; -1 */
+    int file;        /* final file, or -1 */
     WrByteSink sink; /* of that */
-    WrSpool spool;   /* before it, where the library writes by name; fd -1: none */
+    WrSpool spool;   /* written first if the library writes by name; fd -1: none */
     const WrCodec *library;
     WrCodecWriter *writer;
-    float *values; /* scratch: a strip as a reader gives it */
-    int packed;    /* rows that the format packs together */
+    float *values; /* scratch: a strip as returned by a reader */
+    int packed;    /* rows that the format compresses together */
 } Writing;
 
-/* What reading the strip back will give. */
+/* Expected digest of the strip when read back. */
 static void digest_strip(const Writing *to, WrPixelType type, const void *pixels, size_t count,
                          WrHash *digest)
 {
@@ -87,7 +87,7 @@ static void digest_strip(const Writing *to, WrPixelType type, const void *pixels
     wr_digest_strip(digest, values, count);
 }
 
-/* How many rows a format packs together, at most. */
+/* Maximum number of rows that a format compresses together. */
 static int packed_rows(const char *format)
 {
     return strcmp(format, "png") == 0 ? 1 : strcmp(format, "tiff") == 0 ? 32 : 16;
@@ -106,7 +106,7 @@ static bool spooled(const Writing *to, bool good, WrError *err)
     return fail_write(err, to->path, to->file, wr_file_why(errno, why));
 }
 
-/* A strip, in pieces so small that it soon looks whether it should stop. row: bytes. */
+/* Writes a strip in pieces small enough for frequent cancellation checks. row: bytes. */
 static bool write_strip(Writing *to, int y, int rows, const void *pixels, size_t row, WrError *err)
 {
     char reason[WR_CODEC_REASON] = "";
@@ -165,7 +165,7 @@ static bool write_parts(Writing *to, const char *format, const WrImageOut *parts
     return ok;
 }
 
-/* sink: empty. file: that it writes to, or -1. digests: [count], of what was written. */
+/* sink: empty. file: its file, or -1. digests: [count], of the data written. */
 static bool write_file(const char *path, WrByteSink sink, int file, const char *format,
                        const WrImageOut *parts, int count, WrHash *digests, WrError *err)
 {
@@ -190,7 +190,7 @@ static bool write_target(WrFileTarget *target, const char *path, const WrImageFo
 {
     WrError inner = { "" };
     WrProgressPart part;
-    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.7); /* reading it back is the rest */
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.7); /* reading back is the rest */
     bool good = write_file(path, wr_file_sink(target), target->fd, format->library, parts, count,
                            digests, err);
     wr_progress_set(whole);
@@ -218,7 +218,7 @@ typedef struct Bytes {
     size_t length, room;
 } Bytes;
 
-#define BYTES_MOST ((size_t)1 << 40) /* no encoder goes as far */
+#define BYTES_MOST ((size_t)1 << 40) /* no encoder seeks farther */
 
 static bool bytes_write(void *to, const void *bytes, size_t length, int64_t at)
 {
