@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-/* Where one row of a piece goes, and what ridges keep from octave to octave. */
+/* Output of one row of a piece, and the ridge state that is carried from octave to octave. */
 typedef struct Row {
     int count;
-    float *n, *nu, *nv; /* the caller's; nu, nv NULL if not wanted */
+    float *n, *nu, *nv; /* owned by the caller; nu, nv NULL if not wanted */
     float *w, *wu, *wv; /* ridged: the weight of the next octave, and its slopes */
 } Row;
 
@@ -22,7 +22,7 @@ static inline float sign(float f)
     return (f > 0.0f ? 1.0f : 0.0f) - (f < 0.0f ? 1.0f : 0.0f);
 }
 
-/* How an octave counts in the modes other than ridged. */
+/* The contribution of an octave in the modes other than ridged. */
 static WrNoiseShare share_of(WrOctavesMode mode, float amplitude)
 {
     bool billow = mode == WR_OCTAVES_BILLOW;
@@ -31,7 +31,7 @@ static WrNoiseShare share_of(WrOctavesMode mode, float amplitude)
                            .magnitude = mode != WR_OCTAVES_FBM };
 }
 
-/* With the factor's sign that of f where |f| is what is added. */
+/* The factor has the sign of f if |f| is added. */
 static void add_heights(WrOctavesMode mode, float amplitude, const float *f, const Row *row)
 {
     const WrNoiseKernels *kern = wr_noise_kernels();
@@ -54,7 +54,7 @@ static void add_slopes(WrOctavesMode mode, float amplitude, float frequency,
     for (int i = 0; i < count; i++) na[i] += factor * sign(f[i]) * fa[i];
 }
 
-/* dS = dw h^2 - 2 w h sign(f) df,  h = offset - |f|; before the weight moves on. */
+/* dS = dw h^2 - 2 w h sign(f) df,  h = offset - |f|; computed before the weight is updated. */
 static void add_ridge_slopes(const WrOctavesPlan *plan, float amplitude, float frequency,
                              const float *restrict f, const float *restrict fa, const Row *row,
                              float *restrict na, float *restrict wa)
@@ -112,7 +112,7 @@ static void start_row(const Row *row, bool ridged)
         row->nu[i] = row->nv[i] = row->wu[i] = row->wv[i] = 0.0f;
 }
 
-/* One piece, all octaves, in order. */
+/* Fills one piece with all octaves, in order. */
 static void fill_piece(const WrOctavesPlan *plan, const WrNoiseGrid *grid, float *f, float *fu,
                        float *fv, size_t pitch)
 {
@@ -125,7 +125,7 @@ static void fill_piece(const WrOctavesPlan *plan, const WrNoiseGrid *grid, float
                          weights.w[j],  weights.wu[j], weights.wv[j] };
         start_row(&rows[j], plan->mode == WR_OCTAVES_RIDGED);
     }
-    bool plain = !fu && plan->mode != WR_OCTAVES_RIDGED; /* heights alone, one added to another */
+    bool plain = !fu && plan->mode != WR_OCTAVES_RIDGED; /* heights only, octaves simply added */
     for (int k = 0; k < plan->used; k++) {
         WrNoiseShare share = share_of(plan->mode, (float)plan->octave[k].amplitude);
         if (plain && wr_noise_sum(&plan->octave[k], grid, share, f, pitch)) continue;

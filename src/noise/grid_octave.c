@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* One octave over a piece of a grid (grid.h), with the loops of octave_kernels.h. */
+/* One octave over a piece of a grid (grid.h), using the loops of octave_kernels.h. */
 
 static uint32_t reduced_index(double whole, int period)
 {
@@ -54,8 +54,7 @@ static void fill_row(const WrNoiseKernels *kern, const WrNoise *noise,
     }
 }
 
-/* What one octave on square cells goes through: rows of texels in order, and the two rows of the lattice that
- * they lie between. */
+/* State of one octave on square cells: rows of texels in order, and the two lattice rows around them. */
 typedef struct Cells {
     const WrNoiseKernels *kern;
     const WrOctave *octave;
@@ -68,7 +67,7 @@ static void begin_cells(Cells *cells, const WrOctave *octave, const WrNoiseGrid 
 {
     cells->kern = wr_noise_kernels();
     cells->octave = octave;
-    memset(cells->lattice, 0, sizeof cells->lattice); /* whole vectors are read */
+    memset(cells->lattice, 0, sizeof cells->lattice); /* kernels read whole vectors */
     cells->lattice[0].index = cells->lattice[1].index = NAN;
     fill_columns(cells->kern, octave, grid, &cells->columns);
     cells->rows.count = grid->count_j;
@@ -76,7 +75,7 @@ static void begin_cells(Cells *cells, const WrOctave *octave, const WrNoiseGrid 
                        grid->j, grid->height, &cells->rows);
 }
 
-/* The rows of the lattice on either side of texel row j. */
+/* The lattice rows on either side of texel row j. */
 static void enclose(Cells *cells, int j, const WrNoiseLattice **near, const WrNoiseLattice **far)
 {
     double whole = cells->rows.whole[j];
@@ -125,7 +124,7 @@ bool wr_noise_sum(const WrOctave *octave, const WrNoiseGrid *grid, WrNoiseShare 
     return true;
 }
 
-/* Any kind: point by point. */
+/* Evaluates any kind of noise point by point. */
 static void band_of_points(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
                            WrNoiseBand *band)
 {

@@ -5,23 +5,23 @@
 #include <math.h>
 
 /* One octave of sheared noise over a piece of a grid: wr_noise_sheared's three corners, in float, with
-   the lattice's rows hashed once for all texel rows between two of them.
+   the lattice's rows hashed once for all texel rows between two of them. In row v of the lattice points
+   are at integer x, shifted right by half a cell for odd v: point m of a LatticeRow is at x = first + m
+   (+ 1/2), which is u0 = x + v/2 in the sheared coordinate. So corner (u0, v) is point u0 - ceil(v/2) -
+   first of its row. */
 
-   In row v of the lattice points stand at x = whole numbers, half a cell further right for odd v: point m
-   of a LatticeRow at x = first + m (+ 1/2), which is u0 = x + v/2 in the sheared coordinate. So corner
-   (u0, v) is point u0 - ceil(v/2) - first of its row. */
-
-/* At most one cell a texel: a cell for each, and on either side what the shear and the corners reach. */
+/* At most one cell per texel: a cell for each, and on either side the reach of the shear and the
+ * corners. */
 #define POINTS (WR_NOISE_STRIP + 16)
 #define MARGIN 2 /* cells to the left of the first texel's */
 
 typedef struct Columns {
     int count;                   /* texels */
     int points;                  /* lattice points of a row */
-    double cell[WR_NOISE_STRIP]; /* floor of the place along x, from `first` */
+    double cell[WR_NOISE_STRIP]; /* floor of the position along x, from `first` */
     double x[WR_NOISE_STRIP];    /* its fraction */
-    uint32_t chain[2][POINTS];   /* the hash as far as 2x goes, for even and odd rows */
-    float set[16][2];            /* the slopes to choose from */
+    uint32_t chain[2][POINTS];   /* partial hash including 2x, for even and odd rows */
+    float set[16][2];            /* the set of slopes */
 } Columns;
 
 typedef struct LatticeRow {
@@ -29,8 +29,8 @@ typedef struct LatticeRow {
     float gx[POINTS], gy[POINTS];
 } LatticeRow;
 
-/* What a row of texels has from each column: where its unit square's lower left corner is, and how far
- * away. */
+/* Data of a row of texels for each column: the lower left corner of its unit square, and the distance
+ * from it. */
 typedef struct Places {
     int32_t near[WR_NOISE_STRIP]; /* point of the near row */
     float u[WR_NOISE_STRIP];      /* fraction of the sheared coordinate */
@@ -74,9 +74,9 @@ static void fill_row(const WrNoise *noise, const Columns *columns, double v, Lat
     }
 }
 
-/* The sheared coordinate from the near row's first point on: place + y/2 with y from v, less half a cell
- * where v is odd and its points stand further right. The far row's point above the same corner is one
- * further left if v is even, and has the same number if it is odd. */
+/* The sheared coordinate from the near row's first point on: position + y/2 with y from v, minus half a
+ * cell if v is odd and its points are shifted right. The far row's point above the same corner is one
+ * further left if v is even, and has the same index if it is odd. */
 static void place_row(const Columns *columns, double y, int odd, Places *places)
 {
     double shift = 0.5 * y - 0.5 * odd;
@@ -88,7 +88,7 @@ static void place_row(const Columns *columns, double y, int odd, Places *places)
     }
 }
 
-/* m of a corner's part m^4 (g . x): max(0, 4/5 - x^2 - y^2). */
+/* m of a corner's term m^4 (g . x): max(0, 4/5 - x^2 - y^2). */
 static inline float part_m(float x, float y)
 {
     float m = 0.8f - (x * x + y * y);

@@ -76,7 +76,7 @@ double wr_noise_reduce(double t, double period)
     if (!isfinite(t)) return 0.0;
     if (period <= 0.0) return t;
     /* Below 2^52 the quotient is off by at most one and the product and the difference are exact.
-       Above, fmod is: it is exact by definition, only slower. */
+       Above, fmod is exact by definition, but slower. */
     double r = fabs(t) < 0x1p52 ? t - period * floor(t / period) : fmod(t, period);
     if (r < 0.0) r += period;
     return r < period ? r : 0.0; /* a tiny negative t rounds up to the period itself */

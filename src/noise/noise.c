@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A period of any whole number of cells, on one to three axes. */
+/* A period of any integer number of cells, on one to three axes. */
 #define ANY                                                                                        \
     {                                                                                              \
         [0] = { .works = true, .step = { 1 } }, [1] = { .works = true, .step = { 1, 1 } }, [2] = { \
@@ -96,7 +96,7 @@ static bool check_period(const WrNoise *noise, int axis, WrError *err)
     return true;
 }
 
-/* The number of lattice points of data; 0 when it passes what memory could hold. */
+/* Number of lattice points of data; 0 if it exceeds possible memory. */
 static size_t data_points(const WrNoise *noise)
 {
     size_t count = 1;
@@ -157,9 +157,9 @@ bool wr_noise_check(const WrNoise *noise, WrError *err)
     return source != WR_LATTICE_DATA || check_data(noise, err);
 }
 
-/* The factor that brings perlin noise into -1..1. With unit slopes sum w_k |t - p_k| is at most
- * sqrt(sum w_k |t - p_k|^2) (the weights add up to 1), and each axis's share of that sum,
- * (1 - alpha) x^2 + alpha (1 - x)^2, is at most 1/4, for each fade: so |f| <= sqrt(d)/2. */
+/* The factor that scales perlin noise to -1..1. With unit slopes sum w_k |t - p_k| is at most sqrt(sum
+ * w_k |t - p_k|^2) (the weights add up to 1), and each axis's part of that sum, (1 - alpha) x^2 + alpha
+ * (1 - x)^2, is at most 1/4, for each fade: so |f| <= sqrt(d)/2. */
 double wr_noise_perlin_scale(int dim)
 {
     static const double scale[] = { 2.0, 1.41421356237309505, 0.81649658092772603 };
@@ -258,7 +258,7 @@ double wr_noise_blend(const WrFadeInfo *fade, int dim, const double *x, WrNoiseB
     return corner[0].f;
 }
 
-/* Value, gradient and perlin noise: one blend along each axis in turn of the 2^d corners' planes
+/* Value, gradient and perlin noise: successive blends along each axis of the 2^d corners' planes
  * lambda_k = f_k + g_k . (t - p_k). */
 static double cells(const WrNoise *noise, const double *t, double *slope)
 {

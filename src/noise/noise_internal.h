@@ -1,33 +1,31 @@
-/* noise_internal.h - what the files of this room share.
-   Private to this module. */
+/* noise_internal.h - internals shared by the files of noise. Private to this module. */
 #pragma once
 #include "noise/grid.h"
 
 #include <stdbool.h>
 
-/* The kinds on simplices; t brought into one period, or within 2^40. slope as in wr_noise_at, never
- * NULL. */
+/* The simplex kinds; t reduced to one period, or within 2^40. slope as in wr_noise_at, never NULL. */
 double wr_noise_simplex(const WrNoise *noise, const double *t, double *slope);
 double wr_noise_sheared(const WrNoise *noise, const double *t, double *slope);
 double wr_noise_torus(const WrNoise *noise, const double *t, double *slope);
 double wr_noise_cubes(const WrNoise *noise, const double *t, double *slope); /* on cubes in 4D */
 
-#define WR_NOISE_DIMENSIONS 4 /* most of any kind: a torus lies in four */
+#define WR_NOISE_DIMENSIONS 4 /* maximum of any kind: a torus lies in four dimensions */
 
 /* The linear function at a corner of a cube, at a point: its value and gradient. */
 typedef struct WrNoiseBlend {
     double f, d[WR_NOISE_DIMENSIONS];
 } WrNoiseBlend;
-/* The blend of 2^dim corners, one along each axis in turn; corner k stands at 1 along axis a where bit a of k is set.
- * x: the place in the cube, 0..1. corner is overwritten. Returns f, its gradient in slope[dim]. */
+/* Blends 2^dim corners along each axis in turn; corner k is at 1 along axis a if bit a of k is set. x:
+ * the position in the cube, 0..1. corner is overwritten. Returns f, its gradient in slope[dim]. */
 double wr_noise_blend(const WrFadeInfo *fade, int dim, const double *x, WrNoiseBlend *corner,
                       double *slope);
 
-/* The factor of perlin noise's slopes from the fixed set. */
+/* The scale of perlin noise's slopes from the fixed set. */
 double wr_noise_perlin_scale(int dim);
 
-/* A grid is filled in pieces of this size, whose intermediate values stay in a core's caches. */
-#define WR_NOISE_STRIP 64 /* texels of a row, a tile's */
+/* A grid is filled in pieces of this size, whose intermediate values fit a core's caches. */
+#define WR_NOISE_STRIP 64 /* texels of a row, like a tile */
 #define WR_NOISE_BAND 64  /* rows */
 
 /* One octave over a piece: f and df/dt (per cell), [row][column]. */
@@ -36,10 +34,10 @@ typedef struct WrNoiseBand {
     float fx[WR_NOISE_BAND][WR_NOISE_STRIP], fy[WR_NOISE_BAND][WR_NOISE_STRIP];
 } WrNoiseBand;
 
-/* grid: at most a piece. Without slopes, fx and fy are left alone. */
+/* grid: at most a piece. Without slopes, fx and fy are unchanged. */
 void wr_noise_band(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes, WrNoiseBand *band);
 
-/* The same for sheared noise of at most one cell a texel along x. */
+/* wr_noise_band for sheared noise of at most one cell per texel along x. */
 void wr_noise_band_sheared(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
                            WrNoiseBand *band);
 

@@ -1,10 +1,12 @@
-/* octave_kernels.h - the inner loops of octaves on square cells (grid_octave.c), compiled once per instruction set.
+/* octave_kernels.h - inner loops of octaves on square cells (grid_octave.c), compiled once per
+   instruction set.
+
    All sets give the same bits: only + - * / floor, comparisons and conversions, without contraction.
    Private to this module.
 
-   Columns holds what a piece's columns are to the lattice, once for all rows; LatticeRow what a row of the
-   lattice prescribes at the lattice columns that the piece touches, once for all texel rows between it and
-   the next; Blended the row's A, B and their derivatives by y, C and D. Then
+   WrNoiseColumns contains the columns' data for all rows of a piece; WrNoiseLattice the prescribed
+   values of one lattice row at the piece's lattice columns, used for all texel rows between it and the
+   next; WrNoiseBlended the row's A, B and their derivatives by y, C and D. Then
 
      p = A_k + B_k x     q = A_(k+1) + B_(k+1) (x - 1)     f = p + alpha (q - p)
      fx = B_k + alpha (B_(k+1) - B_k) + alpha' (q - p)
@@ -12,24 +14,24 @@
 #pragma once
 #include "noise/noise_internal.h"
 
-#define WR_NOISE_BLOCK 16 /* texels; columns and rows of texels are filled up to whole blocks */
+#define WR_NOISE_BLOCK 16 /* texels; columns and rows of texels are padded to whole blocks */
 
-/* At most one cell a texel: a cell for each, the rounding of the first and the last, and the far corner;
- * and what a block that begins at the last of them reads beside it. */
+/* At most one cell per texel: a cell for each, the rounding of the first and the last, and the far
+ * corner; plus the points read by a block that begins at the last of them. */
 #define WR_NOISE_POINTS (WR_NOISE_STRIP + 8 + WR_NOISE_BLOCK)
 
 typedef struct WrNoiseColumns {
     int count;    /* texels */
     int points;   /* lattice columns */
-    bool narrow;  /* at most half a cell a texel: 9 points in a block, 5 in half of one */
+    bool narrow;  /* at most half a cell per texel: 9 points in a block, 5 in half of one */
     double first; /* lattice column of the first texel, not reduced */
     int32_t cell[WR_NOISE_STRIP];    /* near lattice column, from the piece's first */
-    float x[WR_NOISE_STRIP];         /* place within the cell */
+    float x[WR_NOISE_STRIP];         /* position within the cell */
     float alpha[WR_NOISE_STRIP];     /* the fade there */
     float rate[WR_NOISE_STRIP];      /* its derivative */
     uint32_t index[WR_NOISE_POINTS]; /* lattice index, within the period */
-    uint32_t chain[WR_NOISE_POINTS]; /* the hash as far as x goes */
-    float set[2][16];                /* perlin: the slopes to choose from, along x and along y */
+    uint32_t chain[WR_NOISE_POINTS]; /* partial hash including x */
+    float set[2][16];                /* perlin: the set of slopes, along x and along y */
 } WrNoiseColumns;
 
 typedef struct WrNoiseLattice {
@@ -41,15 +43,15 @@ typedef struct WrNoiseBlended {
     float a[WR_NOISE_POINTS], b[WR_NOISE_POINTS], c[WR_NOISE_POINTS], d[WR_NOISE_POINTS];
 } WrNoiseBlended;
 
-/* A piece's rows of texels, from the top: v falls, and so do the lattice's rows. */
+/* Texel rows of a piece, from the top: v falls, and so does the lattice row. */
 typedef struct WrNoiseRows {
     int count;
     double whole[WR_NOISE_BAND]; /* the lattice row below, not reduced */
-    float y[WR_NOISE_BAND];      /* place above it */
+    float y[WR_NOISE_BAND];      /* position above it */
     float alpha[WR_NOISE_BAND], rate[WR_NOISE_BAND];
 } WrNoiseRows;
 
-/* How an octave counts: n += factor f, or n += factor |f| - below. */
+/* Contribution of an octave: n += factor f, or n += factor |f| - below. */
 typedef struct WrNoiseShare {
     float factor, below;
     bool magnitude;
@@ -58,14 +60,14 @@ typedef struct WrNoiseShare {
 typedef struct WrNoiseKernels {
     const char *name; /* "v1", "v3", "v4": levels of x86-64; v1 is plain C everywhere */
 
-    /* first, cell, x, alpha, rate of columns->count texels from `i` on of `width`, t = frequency u +
-     * offset; blocks are filled up with texels beyond. */
+    /* Computes first, cell, x, alpha, rate of columns->count texels from `i` on of `width`, t =
+     * frequency u + offset; blocks are padded with texels beyond. */
     void (*place)(const WrFadeInfo *fade, double frequency, double offset, int i, int width,
                   WrNoiseColumns *columns);
-    /* The same along v for rows->count rows from `j` on of `height`. */
+    /* Computes the rows along v: rows->count rows from `j` on of `height`. */
     void (*stand)(const WrFadeInfo *fade, double frequency, double offset, int j, int height,
                   WrNoiseRows *rows);
-    /* f, gx, gy of a hashed lattice's row; `part` is the row's part of the hash. */
+    /* Computes f, gx, gy of a hashed lattice's row; `part` is the row's part of the hash. */
     void (*prescribe)(WrNoiseKind kind, const WrNoiseColumns *columns, uint32_t part,
                       WrNoiseLattice *row);
     /* y from the near row, the fade there and its derivative. */
@@ -73,8 +75,9 @@ typedef struct WrNoiseKernels {
                   float alpha, float rate, WrNoiseBlended *out);
     void (*heights)(const WrNoiseColumns *columns, const WrNoiseBlended *in, float *f);
     void (*slopes)(const WrNoiseColumns *columns, const WrNoiseBlended *in, float *fx, float *fy);
-    /* Rows first .. first + count - 1, all between `near` and `far`, into n: what blend, heights and add do. Columns
-     * must be narrow. n: the first of these rows, columns->count texels of each are written. */
+    /* Adds rows first .. first + count - 1, all between `near` and `far`, to n: blend, heights and add
+     * in one. Columns must be narrow. n: the first of these rows, columns->count texels of each are
+     * written. */
     void (*sum)(const WrNoiseColumns *columns, const WrNoiseLattice *near,
                 const WrNoiseLattice *far, const WrNoiseRows *rows, int first, int count,
                 WrNoiseShare share, float *n, size_t pitch);
@@ -85,14 +88,15 @@ typedef struct WrNoiseKernels {
     void (*add_magnitude)(float factor, float below, const float *f, int count, float *n);
 } WrNoiseKernels;
 
-/* One octave over a piece, counted into n at once. False, and nothing done, where this has no fast way. */
+/* Adds one octave over a piece to n. False, without any change, if there is no fast path. */
 bool wr_noise_sum(const WrOctave *octave, const WrNoiseGrid *grid, WrNoiseShare share, float *n,
                   size_t pitch);
 
 extern const WrNoiseKernels wr_noise_kernels_v1, wr_noise_kernels_v3, wr_noise_kernels_v4;
 
-/* Those that this processor runs best. */
+/* The fastest table for this processor. */
 const WrNoiseKernels *wr_noise_kernels(void);
 
-/* One after another for index = 0, 1, ...; NULL where this processor cannot run it, or there is none. */
+/* Enumerates the tables, index = 0, 1, ...; NULL where this processor cannot run that one, or past the
+ * last. */
 const WrNoiseKernels *wr_noise_kernels_at(int index);

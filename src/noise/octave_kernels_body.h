@@ -1,5 +1,6 @@
-/* octave_kernels_body.h - the text of octave_kernels.h's loops, included once by each kern_v*.c, which defines
-   WR_NOISE_TABLE and WR_NOISE_NAME. A header without a guard, by intention. */
+/* octave_kernels_body.h - implementation of the loops of octave_kernels.h, included once by each
+   octave_kernels_v*.c, which defines WR_NOISE_TABLE and WR_NOISE_NAME. Intentionally without an include
+   guard. */
 #include "noise/octave_kernels.h"
 
 #include <math.h>
@@ -83,7 +84,7 @@ static void blend(int points, const WrNoiseLattice *near, const WrNoiseLattice *
     }
 }
 
-/* How heights and slopes come from the blended rows; the vectors below do the same. */
+/* Heights and slopes from the blended rows, in plain C; the vector versions below compute the same. */
 static void plain_heights(const WrNoiseColumns *columns, const WrNoiseBlended *in,
                           float *restrict f)
 {
@@ -96,8 +97,8 @@ static void plain_heights(const WrNoiseColumns *columns, const WrNoiseBlended *i
     }
 }
 
-/* The texels of a vector lie in few cells, whose points stand side by side: they are loaded once and
- * dealt out to the texels within registers, at a third of the price of gathering them. */
+/* The texels of a vector lie in few cells, whose points are contiguous: they are loaded once and
+ * permuted in registers, at a third of the cost of a gather. */
 #if defined __AVX512F__
 #define LANES 16
 typedef __m512 Vec;
@@ -159,7 +160,7 @@ static void heights(const WrNoiseColumns *columns, const WrNoiseBlended *in, flo
     plain_heights(columns, in, f);
 }
 
-/* a and b of a row of the lattice; blend does the same. */
+/* a and b of a lattice row, as in `blend`. */
 static inline void blend_heights(int points, const WrNoiseLattice *near, const WrNoiseLattice *far,
                                  float y, float alpha, WrNoiseBlended *out)
 {

@@ -87,19 +87,19 @@ static bool check_octaves(const WrOctaves *octaves, WrError *err)
     return true;
 }
 
-/* The number of cells nearest to n that the kind can repeat after, at least one step. */
+/* The number of cells nearest to n that is a valid period of the kind, at least one step. */
 static int repeat_cells(const WrOctaves *octaves, int axis, double n)
 {
     int step = 1;
     if ((int)octaves->kind >= 0 && octaves->kind < WR_NOISE_KIND_COUNT)
         step = wr_noises[octaves->kind].repeat[octaves->dim - 1].step[axis];
-    if (step == 0) step = 1; /* the check that follows says that it cannot */
+    if (step == 0) step = 1; /* the check below reports that it cannot repeat */
     double steps = floor(n / step + 0.5), most = WR_LATTICE_MOST / step;
     return step * (int)(steps < 1.0 ? 1.0 : steps > most ? most : steps);
 }
 
 /* Octave i along one axis, n = n0 s^i. Scattered offsets are odd multiples of 1/64 below 64 cells,
- * never whole: no texel of a power-of-two table is lost in rounding them. */
+ * never integers: no texel of a power-of-two table is lost in rounding them. */
 static void place_octave(const WrOctaves *octaves, int i, int axis, double n, WrOctave *octave)
 {
     double offset = 0.0;
@@ -123,7 +123,7 @@ static void place_octave(const WrOctaves *octaves, int i, int axis, double n, Wr
     }
 }
 
-/* The most that one octave's term can be, for |f| <= most. */
+/* The largest value of one octave's term, for |f| <= most. */
 static double term_bound(const WrOctaves *octaves, double most)
 {
     double o = octaves->ridge_offset, far = fabs(o - most);
@@ -153,7 +153,7 @@ bool wr_octaves_plan(const WrOctaves *octaves, const int *texels, WrOctavesPlan 
         made.used = usable < made.used ? usable : made.used;
         n[a] = octaves->cells[a];
     }
-    /* The first octave is checked even if it is not used, so that a mistake never goes unnoticed. */
+    /* The first octave is checked even if it is unused, so that an error is always reported. */
     for (int i = 0; i < made.used || i == 0; i++) {
         WrOctave *octave = &made.octave[i];
         octave->noise = (WrNoise){ .kind = octaves->kind, .fade = octaves->fade, .dim = made.dim };

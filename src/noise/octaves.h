@@ -1,12 +1,12 @@
-/* octaves.h - sums of noise at growing frequencies and falling amplitudes, and grids filled with them.
+/* octaves.h - sums of noise octaves with growing frequencies and falling amplitudes.
 
      N(p) = sum over i of r^-i f_i(s^i n0 p + offset_i)          the lecture; fractional Brownian motion
 
-   Each octave has a lattice and a seed of its own, unless `one_lattice` asks for the lecture's literal sum, in which every
-   octave is the same f at another scale. A sum that tiles repeats exactly with period 1 in
-   each coordinate: octave i has n_i = round(n0 s^i) cells per period (rounded to what its kind can
-   repeat), used both as frequency and as modulus, so that any s tiles and whole s keeps its octaves
-   exact multiples (HC68). One that does not tile has n0 s^i cells per unit of length, unrounded.
+   Each octave has a lattice and a seed of its own, unless `one_lattice` selects the lecture's literal
+   sum, in which every octave is the same f at another scale. A tiling sum repeats exactly with period 1
+   in each coordinate: octave i has n_i = round(n0 s^i) cells per period (rounded to a valid period of
+   its kind), used both as frequency and as modulus, so that any s tiles and integer s keeps its octaves
+   exact multiples (HC68). A sum that does not tile has n0 s^i cells per unit of length, unrounded.
 
    | mode       | sum of                                                                            |
    | fbm        | r^-i f                                                                            |
@@ -36,7 +36,7 @@ typedef struct WrError WrError;
 typedef enum WrOctavesMode { WR_OCTAVES_MODES(WR_WORD_ID) WR_OCTAVES_MODE_COUNT } WrOctavesMode;
 extern const char *const wr_octaves_words[]; /* as in commands; ends with NULL */
 
-/* What is asked for. Plain data; the caller's. */
+/* Parameters of a sum. Plain data; owned by the caller. */
 typedef struct WrOctaves {
     WrNoiseKind kind;
     WrFade fade;
@@ -49,15 +49,15 @@ typedef struct WrOctaves {
     double step;  /* s, above 1 */
     double
         cells[WR_NOISE_AXES]; /* n0 per axis, cells per unit; tile: 1..WR_LATTICE_MOST, rounded to
-                                    whole; else above 0 */
+                                 integers; else above 0 */
     uint32_t seed;            /* any */
     const double *offsets;    /* [count][dim] cells, |offset| <= 1e9, borrowed for the call; NULL:
-                                    by `scatter` */
-    bool scatter; /* no offsets given: each octave gets its own from the seed, so that the
-                            octaves' lattice points do not meet at the origin; false: none */
+                                 by `scatter` */
+    bool scatter; /* without offsets: each octave gets its own from the seed, so that the octaves'
+                     lattice points do not coincide at the origin; false: none */
     bool
-        one_lattice; /* every octave has the seed and the period of the first: N(p) = sum r^-i f(s^i n0 p).
-                            Where n_i is no multiple of n_0 (s not whole), the period is n_i all the same */
+        one_lattice; /* every octave has the seed and the period of the first: N(p) = sum r^-i f(s^i
+                        n0 p). If n_i is no multiple of n_0 (s not an integer), the period is n_i */
     double ridge_offset; /* ridged: 0..10; 1 for ridges of height 1 where f is 0 */
     double ridge_gain;   /* ridged: 0..100 */
 } WrOctaves;
@@ -66,12 +66,13 @@ typedef struct WrOctaves {
  * offset 1 and gain 2. */
 WrOctaves wr_octaves_default(int dim);
 
-/* One octave, ready to be evaluated: t = frequency p + offset. */
+/* One octave ready for evaluation: t = frequency p + offset. */
 typedef struct WrOctave {
     WrNoise noise;
     double frequency
-        [WR_NOISE_AXES]; /* cells per unit of p; tile: whole, a multiple of the lattice's period */
-    double offset[WR_NOISE_AXES]; /* cells; tile: brought into one period */
+        [WR_NOISE_AXES]; /* cells per unit of p; tile: an integer, a multiple of the lattice's
+                            period */
+    double offset[WR_NOISE_AXES]; /* cells; tile: reduced to one period */
     double amplitude;             /* r^-i */
 } WrOctave;
 
@@ -80,36 +81,35 @@ typedef struct WrOctavesPlan {
     int dim;
     bool tile;
     double ridge_offset, ridge_gain;
-    int asked;    /* octaves asked for */
+    int asked;    /* requested octaves */
     int used;     /* octaves kept, the first ones; 0..asked. With none the sum is 0 everywhere */
-    double bound; /* |N| is at most this */
+    double bound; /* upper bound of |N| */
     WrOctave octave[WR_OCTAVES_MOST];
 } WrOctavesPlan;
 
-/* Check what is asked for and work it out.
+/* Checks the parameters and computes the plan.
  *
- * texels   [dim] samples per unit of p of the grid to be filled, or 0 per axis: not cut there. NULL:
- *          none. From the first octave on that has more than half a cell per texel along an axis
- *          (beyond the Nyquist frequency, where it would alias: HC62), octaves are dropped; so are those
- *          with more than WR_LATTICE_MOST cells per unit. plan->used says how many are left.
- * Errors   count, r, s, cells, offsets, ridge numbers out of range (HC64); a kind that does not fit the
- *          dimension, or cannot tile */
+ * texels   [dim] samples per unit of p of the grid to be filled, or 0 per axis: no limit there. NULL:
+ *          no limit. From the first octave on that has more than half a cell per texel along an axis
+ *          (beyond the Nyquist frequency, where it would alias: HC62), octaves are dropped; so are
+ *          those with more than WR_LATTICE_MOST cells per unit. plan->used is the number that is left.
+ * Errors   count, r, s, cells, offsets, ridge numbers out of range (HC64); a kind that does not support
+ *          the dimension, or cannot tile */
 bool wr_octaves_plan(const WrOctaves *octaves, const int *texels, WrOctavesPlan *plan,
                      WrError *err);
 
-/* How many octaves i = 0, 1, ... have n0 s^i <= texels/2: 1 + floor(log_s(texels/(2 n0))), at most
+/* Number of octaves i = 0, 1, ... with n0 s^i <= texels/2: 1 + floor(log_s(texels/(2 n0))), at most
  * WR_OCTAVES_MOST, and 0 when the first is already too fine. n0 > 0, s > 1; texels 0: no limit but
- * WR_LATTICE_MOST cells.
- * At n0 s^i = texels k (texel centres: k even) every sample falls on the lattice, where perlin and simplex
- * are 0 and value noise is white (HC63); all of these lie beyond the limit. */
+ * WR_LATTICE_MOST cells. At n0 s^i = texels k (texel centres: k even) every sample falls on the
+ * lattice, where perlin and simplex are 0 and value noise is white (HC63); all of these lie beyond the
+ * limit. */
 int wr_octaves_usable(double n0, double s, int texels);
 
 /* N and its gradient at p.
  *
- * p        [dim] any value; tile: brought into [0,1) first; what is not finite counts as 0
+ * p        [dim] any value; tile: first reduced to [0,1); non-finite values count as 0
  * slope    [dim] dN/dp, per unit of p; NULL = not wanted
- * Errors   none      Threads  any number
- * The octaves are added in order, so the bits depend on nothing else. */
+ * Errors   none      Threads  any number The octaves are added in order, so the bits are reproducible. */
 double wr_octaves_at(const WrOctavesPlan *plan, const double *p, double *slope);
 
 /* Domain warping: M(p) = N(p + amount w(p)), w_a(p) = the sum warp[a]. With the Jacobian of the inner
@@ -121,7 +121,7 @@ double wr_octaves_at(const WrOctavesPlan *plan, const double *p, double *slope);
 double wr_octaves_warped_at(const WrOctavesPlan *plan, const WrOctavesPlan *const *warp,
                             double amount, const double *p, double *slope);
 
-/* wr_octaves_at along a span: p[a][i], f[i], slope[a][i]; slope or any of slope[a] may be NULL. The same
- * bits as one by one. */
+/* wr_octaves_at for a span: p[a][i], f[i], slope[a][i]; slope or any of slope[a] may be NULL. The bits
+ * are those of single calls. */
 void wr_octaves_span(const WrOctavesPlan *plan, size_t count, const double *const *p, double *f,
                      double *const *slope);

@@ -2,13 +2,13 @@
 
 #include <math.h>
 
-/* A sum under way: N, its gradient, and for ridges the weight of the next octave. */
+/* A sum in progress: N, its gradient, and for ridges the weight of the next octave. */
 typedef struct Sum {
     double n, d[WR_NOISE_AXES];
     double w, dw[WR_NOISE_AXES];
 } Sum;
 
-/* d|f|/df, with sign(0) = 0: the middle of what it is on either side of a crease. */
+/* d|f|/df, with sign(0) = 0: the mean of its values on both sides of a crease. */
 static double sign(double f)
 {
     return (f > 0.0) - (f < 0.0);

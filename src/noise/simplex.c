@@ -4,32 +4,30 @@
 
 #include <math.h>
 
-/* Simplex noise. The skew T(p) = p + F (p_1 + ... + p_d), F = (sqrt(d+1) - 1)/d, takes the lattice of
-   simplices to whole points; T^-1(q) = q - G (q_1 + ... + q_d), G = (1 - 1/sqrt(d+1))/d. In a unit
-   cube the corners of the simplex that holds a point are reached from its lowest corner by stepping
-   along the axes in order of decreasing fraction.
-
-   A corner reaches as far as the opposite face of its simplices, at distance sqrt(1/2) in any
-   dimension: on a face, where rounding may choose either simplex, the corners that differ count
-   exactly or all but nothing (HC67). */
+/* Simplex noise. The skew T(p) = p + F (p_1 + ... + p_d), F = (sqrt(d+1) - 1)/d, maps the lattice of
+   simplices to integer points; T^-1(q) = q - G (q_1 + ... + q_d), G = (1 - 1/sqrt(d+1))/d. In a unit
+   cube the corners of the simplex that contains a point are reached from its lowest corner by stepping
+   along the axes in order of decreasing fraction. A corner's support ends at the opposite face of its
+   simplices, at distance sqrt(1/2) in any dimension: on a face, where rounding may select either
+   simplex, the terms of the corners that differ are 0 or nearly 0 (HC67). */
 
 #define MOST WR_NOISE_DIMENSIONS
 
 typedef struct Skew {
     double f, g;
-    double scale; /* brings |noise| to at most 1: c over the length of the set's gradients */
+    double scale; /* scales |noise| to at most 1: c over the length of the set's gradients */
 } Skew;
 
-/* c is 1 / max of the sum of (1/2 - r_k^2)^4 r_k over a simplex, by search, rounded down: 99.204 (the
- * middle of an edge, where it is 81/2 sqrt(6)), 107.653, 108.567 for d = 2, 3, 4. */
+/* c is 1 / max of the sum of (1/2 - r_k^2)^4 r_k over a simplex, found by search, rounded down: 99.204
+ * (the midpoint of an edge, where it is 81/2 sqrt(6)), 107.653, 108.567 for d = 2, 3, 4. */
 static const Skew skews[MOST + 1] = {
     [2] = { 0.36602540378443865, 0.21132486540518712, 99.2 },
     [3] = { 1.0 / 3.0, 1.0 / 6.0, 107.6 / 1.41421356237309505 },
     [4] = { 0.30901699437494742, 0.13819660112501052, 108.5 / 1.73205080756887729 },
 };
 
-/* A corner's part of the sum: (m^4)(g . x), m = reach - |x|^2 where that is positive; its gradient
- * m^4 g - 8 m^3 (g . x) x is added to slope. */
+/* A corner's term of the sum: (m^4)(g . x), m = reach - |x|^2 where that is positive; adds its gradient
+ * m^4 g - 8 m^3 (g . x) x to slope. */
 static double corner_part(int dim, double reach, const double *gradient, const double *x,
                           double *slope)
 {
@@ -50,8 +48,8 @@ static int64_t floor_mod(int64_t a, int64_t n)
     return r < 0 ? r + n : r;
 }
 
-/* The hash of a lattice point. In 3D of 6 q_a - sum of q, which a period leaves alone (noise.h); 6 P
- * is 18 m. */
+/* The hash of a lattice point. In 3D of 6 q_a - sum of q, which is invariant under a period (noise.h);
+ * 6 P is 18 m. */
 static uint32_t corner_hash(int dim, const WrLattice *lattice, const int64_t *q)
 {
     uint32_t c[MOST] = { 0 };
@@ -101,9 +99,9 @@ double wr_noise_simplex(const WrNoise *noise, const double *t, double *slope)
 }
 
 /* Triangles of base 1 and height 1: in (x + y/2, y) they are the halves of unit squares, and every
- * second row stands straight above the first, so that an even number of rows repeats. The shortest
- * height is 1/sqrt(5/4), hence the reach 4/5. 10.92 is 1 over the largest sum, 1/(0.55^4), rounded
- * down. A lattice point is hashed by 2x and y. */
+ * second row is directly above the first, so that an even number of rows repeats. The shortest height
+ * is 1/sqrt(5/4), hence the reach 4/5. 10.92 is 1 over the largest sum, 1/(0.55^4), rounded down. A
+ * lattice point is hashed by 2x and y. */
 double wr_noise_sheared(const WrNoise *noise, const double *t, double *slope)
 {
     static const double scale = 10.92;
@@ -125,8 +123,8 @@ double wr_noise_sheared(const WrNoise *noise, const double *t, double *slope)
     return f * scale;
 }
 
-/* Perlin noise on the cubes of 4D. With unit gradients it is at most sqrt(4)/2 = 1 (wr_noise_perlin_scale); the set's have
- * length sqrt(3). */
+/* Perlin noise on the cubes of 4D. With unit gradients it is at most sqrt(4)/2 = 1
+ * (wr_noise_perlin_scale); the gradients of the set have length sqrt(3). */
 static double cubes(const WrLattice *lattice, const double *t, double *slope)
 {
     static const double scale = 0.57735026918962576;
