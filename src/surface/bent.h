@@ -1,7 +1,9 @@
 /* bent.h - a rectangle with its corner (1,1) moved by c, a bilinear patch.
+
      P = (a u, b v, 0) + u v c
      N = (-b v c_z, -a u c_z, ab + a u c_y + b v c_x)
-   N = 0 only where the patch folds over: such a c is refused. */
+
+   N = 0 only where the patch folds over: such a c is rejected. */
 
 R_INLINE void FN(bent_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 {
@@ -22,10 +24,10 @@ R_INLINE void FN(bent_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 }
 
 #ifndef WR_FORMULA_FLOAT
-/* N is linear in (u, v). Its z vanishes somewhere on the patch unless it has one sign at all four
- * corners (at (0,0) it is ab > 0); its x and y vanish together where c_z = 0, else only at u = v =
- * 0, where z is ab. So a lifted corner (c_z != 0) never folds, and a flat one needs z > 0 at the
- * corners. A corner nearer to a fold than rounding can tell is refused too. */
+/* N is linear in (u, v). Its z is 0 somewhere on the patch unless it has one sign at all four corners
+ * (at (0,0) it is ab > 0); its x and y are both 0 where c_z = 0, else only at u = v = 0, where z is ab.
+ * So a lifted corner (c_z != 0) never folds, and a flat one needs z > 0 at the corners. A corner whose
+ * distance from a fold is below rounding error is rejected too. */
 static bool bent_check(const WrShape *s, WrError *err)
 {
     double a = s->value[0], b = s->value[1];

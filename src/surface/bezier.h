@@ -1,19 +1,20 @@
-/* bezier.h - the bicubic Bezier patch P = sum B_i(u) B_j(v) C_ij, point k = C_ij with i = k % 4
-   along u and j = k / 4 along v.
+/* bezier.h - the bicubic Bezier patch P = sum B_i(u) B_j(v) C_ij, point k = C_ij with i = k % 4 along u
+   and j = k / 4 along v.
 
-   Evaluated row by row: along u in each of the four rows of points (value and two derivatives),
-   then along v. Differences of points are taken first, so that a row whose points coincide gives
-   derivatives of exactly 0 and the basis at u, v = 0, 1 is exactly 0 and 1.
+   Evaluated row by row: along u in each of the four rows of points (value and two derivatives), then
+   along v. Differences of points are computed first, so that a row whose points coincide gives
+   derivatives of exactly 0 and the basis at u, v = 0, 1 is exactly 0 and 1. Where N = Pu x Pv = 0 the
+   normal is the first nonzero Taylor coefficient of N in the direction of the patch's middle, du, dv =
+   +1 in the lower half, -1 in the upper:
 
-   Where N = Pu x Pv = 0 the normal is the first coefficient that is not 0 of N along the way to the
-   patch's middle, du, dv = +1 in the lower half, -1 in the upper:
      order 1   (du Puu + dv Puv) x Pv + Pu x (du Puv + dv Pvv)
-               an edge v = 0 (v = 1) drawn together, Pu = 0: +(Puv x Pv), -(Puv x Pv); an edge u = 0
+               an edge v = 0 (v = 1) collapsed to a point, Pu = 0: +(Puv x Pv), -(Puv x Pv); an edge u = 0
                (u = 1), Pv = 0: +-(Pu x Puv); a corner whose handles coincide: along the diagonal
-     order 2   Pv = 0 as well: Puv x Pvv; two rows drawn together: Puvv x Pv / 2
+     order 2   Pv = 0 as well: Puv x Pvv; two collapsed rows: Puvv x Pv / 2
      order 3   both tangents 0 along a whole edge: +-(Puvv x Pvv) / 2 or +-(Puu x Puuv) / 2
-   Where all orders are 0 (all points equal, or on a line) n = (0, 0, 1). At all these points
-   n_u = n_v = 0. */
+
+   If all orders are 0 (all points equal, or on a line) n = (0, 0, 1). At all these points n_u = n_v =
+   0. */
 
 /* One row: value and derivatives along u, from its four points. */
 R_INLINE void FN(bezier_row)(const REAL *c, REAL u, VEC *p, VEC *d, VEC *dd)
@@ -31,7 +32,7 @@ R_INLINE void FN(bezier_row)(const REAL *c, REAL u, VEC *p, VEC *d, VEC *dd)
     *dd = v_scale(v_add(v_scale(b0, w), v_scale(b1, u)), K_(6));
 }
 
-/* The same along v across four rows of vectors: value, first, second derivative. */
+/* Value, first and second derivative along v across four rows of vectors. */
 R_INLINE VEC FN(bezier_mix)(VEC c0, VEC c1, VEC c2, VEC c3, REAL v, VEC *d, VEC *dd)
 {
     REAL w = K_(1) - v;
@@ -89,7 +90,7 @@ R_INLINE void FN(bezier_frame)(REAL u, REAL v, VEC puuv, VEC puvv, REAL noise, P
     o->n_len = solid ? o->n_len : K_(0);
 }
 
-/* P, Pu, Pv alone, of points made ready once for many samples: an eighth of the work. */
+/* P, Pu, Pv only, for points prepared once for many samples: an eighth of the work. */
 typedef struct FN(BezierPlane) {
     REAL c[48], a[36]; /* the points, and 3 (c[i+1] - c[i]) along each row */
 } FN(BezierPlane);
@@ -152,9 +153,9 @@ R_INLINE void FN(bezier_plane)(const FN(BezierPlane) * s, REAL u, REAL v, POINT 
                           FN(bezier_slope)(s->a + 18, &bu), FN(bezier_slope)(s->a + 27, &bu), &bv);
 }
 
-/* No less than what bezier_frame takes for rounding anywhere on the patch. With d the largest difference of a coordinate
-   between neighbours, of vectors up to 3 d: |Pu| terms up to 3 * 3 d, second derivatives 6 * 6 d and 9 * 6 d; spans
-   3 * 3 d and 3 * 3 * 6 d. */
+/* Upper bound of bezier_frame's rounding threshold on the patch. With d the largest difference of a
+   coordinate between neighbours, of vectors up to 3 d: |Pu| terms up to 3 * 3 d, second derivatives 6 *
+   6 d and 9 * 6 d; spans 3 * 3 d and 3 * 3 * 6 d. */
 R_INLINE REAL FN(bezier_noise)(const SHAPE *s)
 {
     REAL d = K_(0);
@@ -181,7 +182,7 @@ R_INLINE void FN(bezier_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
     o->p = FN(bezier_mix)(p0, p1, p2, p3, v, &o->pv, &o->pvv);
     o->pu = FN(bezier_mix)(d0, d1, d2, d3, v, &o->puv, &puvv);
     o->puu = FN(bezier_mix)(dd0, dd1, dd2, dd3, v, &puuv, &t);
-    /* The sizes of Pu and Pv near here, also where they vanish in the point itself. */
+    /* The sizes of Pu and Pv in the neighbourhood, nonzero even if they vanish at the point itself. */
     REAL su = K_(0.25) * (FN(bezier_size)(d0) + FN(bezier_size)(d1) + FN(bezier_size)(d2) +
                           FN(bezier_size)(d3)) +
               FN(bezier_size)(o->puu) + FN(bezier_size)(o->puv);

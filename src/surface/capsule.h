@@ -1,9 +1,14 @@
-/* capsule.h - a cylinder with a half ball on either end. v goes by arc length from pole to pole, L = pi R + H:
-     P = (R c S, R s S, +-(H/2 + R C)) on the balls, (R c, R s, L (v - 1/2)) between them
-   with S, C the sine and cosine of (arc from the nearer pole) / R, a quarter turn between the balls. So
+/* capsule.h - a cylinder with a hemisphere at each end. v is proportional to arc length from pole to
+   pole, L = pi R + H:
+
+     P = (R c S, R s S, +-(H/2 + R C)) on the hemispheres, (R c, R s, L (v - 1/2)) between them
+
+   with S, C the sine and cosine of (arc from the nearer pole) / R, a quarter turn on the cylinder. So
+
      n = (c S, s S, +-C)      N = 2 pi R L S n
-   in one formula. n is continuous; the curvature along v jumps from L/R to 0 where ball and tube meet, where the second
-   derivatives are those of the tube. The poles are exact, as the sphere's. */
+
+   in one formula. n is continuous; the curvature along v jumps from L/R to 0 where hemisphere and tube
+   meet; there the second derivatives are those of the tube. The poles are exact, like the sphere's. */
 
 R_INLINE void FN(capsule_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {

@@ -1,9 +1,11 @@
 /* cone.h - a cone without its base: P = (R (1-v) c, R (1-v) s, H (v - 1/2)), apex at v = 1.
-     N = 2 pi R (1-v) (H c, H s, R)
-   At the apex Pu = N = 0 and there is one normal for each generator: n = (H c, H s, R)/l of that u,
-   l = sqrt(R^2 + H^2). */
 
-/* P, Pu, Pv, n, |N| of longitude (c, s) at height z, which is w H under the apex. */
+     N = 2 pi R (1-v) (H c, H s, R)
+
+   At the apex Pu = N = 0 and there is one normal for each generator: n = (H c, H s, R)/l of that u, l =
+   sqrt(R^2 + H^2). */
+
+/* P, Pu, Pv, n, |N| at longitude (c, s) and height z, which is w H below the apex. */
 R_INLINE void FN(cone_frame)(const SHAPE *shape, REAL c, REAL s, REAL w, REAL z, POINT *o)
 {
     const REAL a = K_(2 * WR_PI);
@@ -36,7 +38,7 @@ R_INLINE void FN(cone_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o
     o->n_v = zero;
 }
 
-/* The same frame from a point, given from the apex, without (u,v); at the apex that of u = 0. */
+/* The frame at a point, relative to the apex, without (u,v); at the apex that of u = 0. */
 R_INLINE void FN(cone_from)(const SHAPE *shape, VEC p, POINT *o)
 {
     REAL H = shape->value[1], w = -p.z / H;

@@ -1,8 +1,10 @@
 /* cube.h - six squares of half side s: P = s (c + (2x-1) e + (2y-1) f), e x f = c, N = 4 s^2 x_u y_v c.
-   x = u, y = v: each face has the whole table; or a cell of its own of it, three beside two from the lower left, within a
-   margin (WR_CELL_MARGIN): then u and v run over the cell alone (wr_surface_cell). Faces 0..5 are +Z, +X, -Z, -X, +Y, -Y; standing on its -Y side, v
-   runs up on the four upright faces and u to the right seen from outside; the lid's lower edge
-   meets the front face, and so does the upper edge of the bottom. */
+
+   x = u, y = v: each face has the whole table. Optionally each has a cell of it, three beside two from
+   the lower left, within a margin (WR_CELL_MARGIN): then u and v cover only the cell (wr_surface_cell).
+   Faces 0..5 are +Z, +X, -Z, -X, +Y, -Y. With the cube on its -Y side, v runs up on the four upright
+   faces and u to the right seen from outside; the top's lower edge meets the front face, and so does
+   the upper edge of the bottom. */
 
 R_INLINE void FN(cube_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
@@ -61,7 +63,7 @@ static const WrSurfaceInfo cube_row = {
                   false,
                   "tables: 1 for every face, 6 cells of it",
                   { "All of it on each face", "A cell for each face" } } },
-    /* Turned 35 degrees to the left about the upright axis, then tipped 25 degrees forward. */
+    /* Rotated 35 degrees to the left about the upright axis, then tilted 25 degrees forward. */
     .pose_deg = { 29.65, -31.32, -16.48 },
     .faces = 6,
     .flat = true,

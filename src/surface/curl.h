@@ -19,7 +19,7 @@ R_INLINE void FN(curl_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
     REAL S, C;
     r_sincos_turns(alpha * per_turn, &S, &C);
     REAL rolled = past > K_(0) ? line + radius * S : sigma;
-    /* (sigma' -+ tau)/sqrt 2 = u and v, less what rolling took from sigma: exact on the flat
+    /* (sigma' -+ tau)/sqrt 2 = u and v, minus the shortening of sigma by rolling: exact on the flat
        side. */
     REAL taken = past > K_(0) ? (sigma - rolled) * h : K_(0);
     o->p = (VEC){ u - taken, v - taken, radius * (K_(1) - C) };

@@ -1,6 +1,6 @@
-/* cylinder.h - a tube without lids: P = (R c, R s, H (v - 1/2)), c, s of 2 pi u. */
+/* cylinder.h - a tube without caps: P = (R c, R s, H (v - 1/2)), c, s of 2 pi u. */
 
-/* P, Pu, Pv, n, |N| of longitude (c, s) at height z. */
+/* P, Pu, Pv, n, |N| at longitude (c, s) and height z. */
 R_INLINE void FN(cylinder_frame)(const SHAPE *shape, REAL c, REAL s, REAL z, POINT *o)
 {
     const REAL a = K_(2 * WR_PI);
@@ -30,7 +30,7 @@ R_INLINE void FN(cylinder_at)(const SHAPE *shape, int face, REAL u, REAL v, POIN
     o->n_v = zero;
 }
 
-/* The same frame from a point of any distance from the axis, without (u,v). */
+/* The frame at the point's longitude and height, without (u,v); any distance from the axis. */
 R_INLINE void FN(cylinder_from)(const SHAPE *shape, VEC p, POINT *o)
 {
     REAL inv = K_(1) / r_sqrt(p.x * p.x + p.y * p.y);

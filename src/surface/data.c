@@ -48,7 +48,7 @@ WrSurfaceData *wr_surface_data_make(WrSurfaceKind kind, const char *const text[W
 
 WrSurfaceData *wr_surface_data_share(const WrSurfaceData *data)
 {
-    WrSurfaceData *shared = (WrSurfaceData *)data; /* only the count changes */
+    WrSurfaceData *shared = (WrSurfaceData *)data; /* only the reference count changes */
     if (shared && __atomic_load_n(&shared->refs, __ATOMIC_RELAXED) > 0)
         __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
     return shared;

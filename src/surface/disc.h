@@ -1,7 +1,9 @@
-/* disc.h - a flat round plate: P = (rho c, rho s, 0), rho = R (1 - v); c, s of 2 pi u. The rim is v = 0, the centre
-   v = 1.
+/* disc.h - a flat round plate: P = (rho c, rho s, 0), rho = R (1 - v); c, s of 2 pi u. The rim is v =
+   0, the centre v = 1.
+
      N = 2 pi R rho (0, 0, 1)
-   At the centre Pu = N = 0; the unit normal is (0, 0, 1) all over. */
+
+   At the centre Pu = N = 0; the unit normal is (0, 0, 1) everywhere. */
 
 R_INLINE void FN(disc_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {

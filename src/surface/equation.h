@@ -1,8 +1,10 @@
-/* equation.h - P = (x, y, z)(u, v) by three expressions of the user's own (expression.h), with exact derivatives.
+/* equation.h - P = (x, y, z)(u, v) by three user expressions (expression.h), with exact derivatives.
+
      N = Pu x Pv
-   Where N vanishes n is its first coefficient along the way to the middle of the square, as in bezier.h, as far as
-   second derivatives tell it. Numbers that are none, or grow without bound, between the places where they were looked for
-   are taken as 0. */
+
+   Where N = 0, n is its first nonzero Taylor coefficient towards the middle of the square, as in
+   bezier.h, up to second derivatives. NaN or unbounded values between the points that were checked are
+   replaced by 0. */
 #include "surface/expression_body.h"
 
 R_INLINE VEC FN(tame)(REAL x, REAL y, REAL z, REAL size)
@@ -14,7 +16,7 @@ R_INLINE VEC FN(tame)(REAL x, REAL y, REAL z, REAL size)
                   r_is_finite(z) && r_abs(z) < most ? z : K_(0) };
 }
 
-/* Sample i of the three results. */
+/* Point i from the three results. */
 R_INLINE void FN(formula_point)(const FN(Dual) * d, int i, REAL size, REAL u, REAL v, POINT *o)
 {
     const VEC zero = { 0, 0, 0 };
@@ -45,7 +47,7 @@ R_INLINE void FN(formula_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT
 }
 
 #ifndef WR_FORMULA_FLOAT
-/* What is wrong with an operation's operands; NULL: nothing. */
+/* Description of an error in an operation's operands; NULL: none. */
 static const char *formula_domain(const WrOp *op, const Dual_d *a)
 {
     const double x = a->f[0], y = a[1].f[0], k = op->value;
@@ -75,7 +77,8 @@ static bool formula_finite(const Dual_d *a)
            isfinite(a->uv[0]) && isfinite(a->vv[0]);
 }
 
-/* Run it at one place; ends[k]: where expression k ends. Refused: what has no value or derivative there. */
+/* Evaluates the program at one point; ends[k]: end of expression k. Fails if a value or derivative is
+ * undefined there. */
 static bool formula_try(const WrProgram *program, const int ends[3], double u, double v,
                         Dual_d *stack, WrError *err)
 {
@@ -130,7 +133,7 @@ static bool formula_make(WrSurfaceData *data, WrError *err)
         const WrVec3 p = { stack[0].f[0], stack[1].f[0], stack[2].f[0] };
         most = fmax(most, v3_len(v3_sub(p, data->centre)));
     }
-    data->radius = 1.01 * most; /* for what lies between them */
+    data->radius = 1.01 * most; /* margin for points between the samples */
     return true;
 }
 

@@ -38,7 +38,7 @@ int wr_op_takes(WrOpCode code)
 typedef struct Reader {
     const char *name, *text, *at;
     WrProgram *program;
-    int depth, stack; /* of nesting; of values that wait */
+    int depth, stack; /* of nesting; of values on the stack */
     WrError *err;
 } Reader;
 
@@ -65,7 +65,7 @@ static bool take(Reader *r, char letter)
     return true;
 }
 
-/* What comes of constants is one. A quotient by 0 is left to be told by who runs it. */
+/* Folds operations on constants. A division by 0 is left to be reported by the evaluation. */
 static bool fold(WrProgram *p, WrOpCode code, double value)
 {
     const int count = takes[code];
@@ -179,7 +179,7 @@ static bool read_value(Reader *r)
     return read_sum(r) && (take(r, ')') || wrong(r, r->at, "must be ) or an operation"));
 }
 
-/* The power of the two values on top; a constant exponent is no value but part of the operation. */
+/* The power of the top two values; a constant exponent becomes part of the operation. */
 static bool read_power(Reader *r, const char *at)
 {
     WrProgram *p = r->program;

@@ -1,17 +1,20 @@
-/* expression.h - formulas of the user's own: an expression in u and v as a program for a machine with a stack, run with
-   exact first and second derivatives (second-order dual numbers), over one sample or many (expression_body.h).
+/* expression.h - parser of user expressions in u and v.
 
-     numbers, u, v, pi;  + - * / ^, parentheses;  sqrt sin cos exp log abs (x),  pow atan2 min max (x, y); angles in radians
-     ^ binds before the sign and from the right: -2^2 = -4, 2^3^2 = 512 */
+   The result is a program for a stack machine, run with exact first and second derivatives
+   (second-order dual numbers), for one sample or many (expression_body.h).
+
+     numbers, u, v, pi;  + - * / ^, parentheses;  sqrt sin cos exp log abs (x),  pow atan2 min max (x, y);
+     angles in radians
+     ^ binds tighter than the sign and is right-associative: -2^2 = -4, 2^3^2 = 512 */
 #pragma once
 #include <stdbool.h>
 
 typedef struct WrError WrError;
 
 #define WR_PROGRAM_OPS 600     /* of the three expressions together */
-#define WR_PROGRAM_STACK 24    /* values that wait, besides the results */
-#define WR_EXPRESSION_DEPTH 50 /* parentheses, signs and powers within each other */
-#define WR_POWER_WHOLE 32      /* whole powers up to this are multiplied out */
+#define WR_PROGRAM_STACK 24    /* maximum stack depth, besides the results */
+#define WR_EXPRESSION_DEPTH 50 /* maximum nesting of parentheses, signs and powers */
+#define WR_POWER_WHOLE 32      /* integer powers up to this are multiplied out */
 
 typedef enum WrOpCode {
     WR_OP_CONST,
@@ -28,7 +31,7 @@ typedef enum WrOpCode {
     WR_OP_EXP,
     WR_OP_LOG,
     WR_OP_ABS,
-    WR_OP_WHOLE, /* x to the power `value`, whole */
+    WR_OP_WHOLE, /* x to the integer power `value` */
     WR_OP_POWER, /* x to the power `value` */
     WR_OP_POW,
     WR_OP_ATAN2,
@@ -39,18 +42,18 @@ typedef enum WrOpCode {
 
 typedef struct WrOp {
     WrOpCode code;
-    int column;   /* in its text, from 1 */
+    int column;   /* in its source text, from 1 */
     double value; /* CONST, WHOLE, POWER */
 } WrOp;
 
-/* Expressions one after the other: each leaves one value more on the stack. */
+/* Consecutive expressions: each leaves one more value on the stack. */
 typedef struct WrProgram {
     int count;
     WrOp op[WR_PROGRAM_OPS];
 } WrProgram;
 
-/* Append an expression. Errors: "NAME: column 7: ..."; the program is then of no use. */
+/* Appends an expression. Errors: "NAME: column 7: ..."; the program is then invalid. */
 bool wr_expression_read(const char *name, const char *text, WrProgram *program, WrError *err);
 
-/* How many values an operation takes from the stack. */
+/* Number of operands that an operation pops. */
 int wr_op_takes(WrOpCode code);

@@ -1,19 +1,22 @@
-/* expression_body.h - runs a program over n samples, with derivatives, in either precision. No include guard (formula.h).
+/* expression_body.h - evaluation of a program over n samples, with derivatives, in either precision.
 
-   Second-order dual numbers: f with its derivatives f_u, f_v, f_uu, f_uv, f_vv.
+   No include guard (formula.h). Second-order dual numbers: f with its derivatives f_u, f_v, f_uu, f_uv,
+   f_vv.
+
      g(f)      g' f_u,  g'' f_u^2 + g' f_uu,  g'' f_u f_v + g' f_uv, ...
      h(x, y)   h_x x_u + h_y y_u,
                h_xx x_u x_v + h_xy (x_u y_v + x_v y_u) + h_yy y_u y_v + h_x x_uv + h_y y_uv, ...
-   Where a factor is 0 the product is, whatever grows without bound beside it. */
+
+   A product with a factor of 0 is 0, even if the other factor is unbounded. */
 
 #undef R_LANES
-#define R_LANES 16 /* samples at once, at most */
+#define R_LANES 16 /* maximum samples at once */
 
 typedef struct FN(Dual) {
     REAL f[R_LANES], u[R_LANES], v[R_LANES], uu[R_LANES], uv[R_LANES], vv[R_LANES];
 } FN(Dual);
 
-/* Values of a function of one or two variables and of its derivatives: h, h_x, h_y, h_xx, h_xy, h_yy. */
+/* Values of a function of one or two variables and its derivatives: h, h_x, h_y, h_xx, h_xy, h_yy. */
 typedef struct FN(Outer) {
     REAL h[R_LANES], x[R_LANES], y[R_LANES], xx[R_LANES], xy[R_LANES], yy[R_LANES];
 } FN(Outer);
@@ -108,13 +111,13 @@ R_INLINE void FN(dual_mul)(int n, FN(Dual) * a, const FN(Dual) * b)
     }
 }
 
-/* The logarithm of what is above 0; of the rest that of the least number. */
+/* The logarithm of x > 0; for other x that of the smallest number. */
 R_INLINE REAL FN(safe_log2)(REAL x)
 {
     return r_log2(x > R_LEAST ? x : R_LEAST);
 }
 
-/* x to a whole power, by squaring. */
+/* x to an integer power, by repeated squaring. */
 R_INLINE REAL FN(whole_power)(REAL x, int power)
 {
     const unsigned size = (unsigned)(power < 0 ? -power : power);
@@ -220,7 +223,7 @@ R_INLINE void FN(outer_two)(WrOpCode code, int n, const REAL *f, const REAL *s, 
             g->xx[i] = K_(-2) * a * b, g->yy[i] = K_(2) * a * b, g->xy[i] = b * b - a * a;
         }
         break;
-    default: /* MIN, MAX: of ties the first */
+    default: /* MIN, MAX: the first one if equal */
         R_EACH for (int i = 0; i < n; i++)
         {
             int first = code == WR_OP_MIN ? f[i] <= s[i] : f[i] >= s[i];
@@ -231,7 +234,7 @@ R_INLINE void FN(outer_two)(WrOpCode code, int n, const REAL *f, const REAL *s, 
     }
 }
 
-/* One operation: the top of the stack is a, below it its other operand. */
+/* One operation; `a` is the top of the stack, with the other operand below it. */
 R_INLINE void FN(program_step)(const WrOp *op, int n, const REAL *u, const REAL *v, FN(Dual) * a)
 {
     FN(Outer) g;
@@ -260,9 +263,9 @@ R_INLINE void FN(program_step)(const WrOp *op, int n, const REAL *u, const REAL 
 }
 
 #undef R_STACK
-#define R_STACK (WR_PROGRAM_STACK + 3) /* the results wait too */
+#define R_STACK (WR_PROGRAM_STACK + 3) /* includes the results */
 
-/* Each operation writes into the stack from where its operands begin; the results are the lowest. */
+/* Each operation overwrites its operands on the stack; the results are the lowest entries. */
 static __attribute__((noinline)) void
 FN(program_run)(const WrProgram *program, int n, const REAL *u, const REAL *v, FN(Dual) * stack)
 {

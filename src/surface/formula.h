@@ -1,15 +1,19 @@
-/* formula.h - lets each surface's formulas be written once and compiled in double (surface.c) and
-   in single precision (the render kernels, where they must stay free of branches and library calls
-   so that loops over them vectorise: choose with ?:).
-   Include with WR_FORMULA_FLOAT defined or not, then surface_list.h with WR_SURFACE_FORMULAS. A
-   surface file has no include guard and defines
+/* formula.h - macros to compile each surface's formulas in double (surface.c) and in single precision
+   (kernels).
+
+   In the render kernels formulas must have no branches and library calls so that loops over them
+   vectorise: choose with ?:. Include with WR_FORMULA_FLOAT defined or not, then surface_list.h with
+   WR_SURFACE_FORMULAS. A surface file has no include guard and defines
+
        R_INLINE void FN(torus_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
+
    which fills every member of *o, and, in double only (#ifndef WR_FORMULA_FLOAT), its row
+
        static const WrSurfaceInfo torus_row = { ... .at = torus_at_d ... };
 
-   In a span loop keep the POINT inside a static inline function of one index that the loop calls,
-   and the SHAPE in a local copy: gcc and clang then vectorise every surface (a POINT declared in
-   the body of an `omp simd` loop becomes an array in memory and stops gcc). */
+   In a span loop keep the POINT inside a static inline function of one index that the loop calls, and
+   the SHAPE in a local copy: gcc and clang then vectorise every surface (a POINT declared in the body
+   of an `omp simd` loop becomes an array in memory and prevents vectorisation in gcc). */
 #include "base/exactmath.h"
 #include "base/kernmath.h"
 #include "base/vec.h"
@@ -44,7 +48,7 @@
 #define FN(name) name##_f
 #define K_(x) ((float)(x)) /* a constant */
 #define R_LEAST 0x1p-125f  /* above it a reciprocal is finite */
-#define R_NOISE 0x1p-23f   /* a cross product under this share of its factors is rounding */
+#define R_NOISE 0x1p-23f   /* a cross product below this fraction of its factors is rounding */
 #define r_sincos_turns wr_sincos_turns_f
 #define r_exp2 wr_exp2_f
 #define r_log2 wr_log2_f
@@ -74,9 +78,9 @@
 #define r_sqrt sqrt
 #define r_abs fabs
 #endif
-/* Before a loop over samples that shall become vectors; the kernels say how. */
+/* Placed before loops over samples that must vectorise; defined by the kernels. */
 #ifndef R_EACH
 #define R_EACH
 #endif
-/* For the larger helpers, which compilers would else leave as calls inside a span loop. */
+/* For larger helpers, which compilers would otherwise not inline into a span loop. */
 #define R_INLINE static inline __attribute__((always_inline))

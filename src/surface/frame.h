@@ -1,7 +1,9 @@
-/* frame.h - from N and its derivatives to the unit frame, for surfaces whose unit normal has no
-   closed form of its own. No include guard: compiled once a precision (formula.h).
+/* frame.h - the unit frame from N and its derivatives, for surfaces whose unit normal has no closed
+   form.
 
-     n = N / |N|     n_u = (N_u - n (n . N_u)) / |N|     n_v likewise
+   No include guard: compiled once per precision (formula.h).
+
+     n = N / |N|     n_u = (N_u - n (n . N_u)) / |N|     n_v the same with N_v
 
    N is divided by its largest component first, so that |N|^2 neither overflows nor underflows. */
 
@@ -13,8 +15,8 @@ R_INLINE REAL FN(max_norm)(VEC a)
     return m > z ? m : z;
 }
 
-/* Fill n, n_unit, n_len, n_u, n_v from N and its derivatives. Where N = 0: n_unit = (0,0,1) and
- * n_u = n_v = 0. */
+/* Fills n, n_unit, n_len, n_u, n_v from N and its derivatives. Where N = 0: n_unit = (0,0,1) and n_u =
+ * n_v = 0. */
 R_INLINE void FN(frame_from_n)(VEC n, VEC n_du, VEC n_dv, POINT *o)
 {
     REAL m = FN(max_norm)(n);

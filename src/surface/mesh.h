@@ -1,7 +1,10 @@
-/* mesh.h - triangles out of a file (triangles.h), which a scene holds beside the shape. Its numbers here are none that
-   a user gives: the ball about the mesh, and what tells one mesh from another, so that two shapes are equal only if
-   their meshes are. Without a file it is the unit square, of two triangles; of that the formula is P = (u, v, 0). What
-   asks a mesh for P(u,v) gets this square: places of a mesh are no function of u and v. */
+/* mesh.h - the surface kind of triangle meshes (triangles.h), which are stored in the scene beside the
+   shape.
+
+   The shape's numbers are not user parameters: they are the mesh's bounding sphere and its key, so that
+   two shapes are equal only if their meshes are. Without a file the mesh is the unit square of two
+   triangles, P = (u, v, 0). Code that evaluates P(u,v) of a mesh gets this square: the points of a mesh
+   are no function of u and v. */
 
 R_INLINE void FN(mesh_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 {

@@ -40,7 +40,7 @@ static double size_of(const float *points, const int at[4], const double by[4])
     return sqrt(sum);
 }
 
-/* The largest |Puu|, |Puv|, |Pvv|, by the differences of points. */
+/* Bounds of |Puu|, |Puv|, |Pvv|, from differences of points. */
 typedef struct Bend {
     double uu, uv, vv;
 } Bend;
@@ -64,13 +64,13 @@ static Bend bend_of(const float *points)
     return bend;
 }
 
-/* ---- how finely each is cut ---- */
+/* ---- subdivision counts ---- */
 
 typedef struct Build {
     const float (*points)[48];
     WrPatchEdge *edges; /* [4 count] */
-    int32_t *up; /* [2 count] u and v of each patch: those that are cut alike hang together */
-    int *cuts;   /* [2 count], of the root */
+    int32_t *up;        /* [2 count] u and v of each patch: union-find of those with equal counts */
+    int *cuts;          /* [2 count], for the root */
     float (*place)[3];
     float (*normal)[3];
     float (*uv)[2];
@@ -97,7 +97,8 @@ static double extent(const Build *b)
     return 0.5 * hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
 }
 
-/* By |P - its triangle| <= (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8, half of it for each direction. */
+/* Chooses counts by |P - its triangle| <= (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8, half of the
+ * error for each direction. */
 static void ask_cuts(Build *b, double off)
 {
     for (int32_t i = 0; i < 2 * b->count; i++) b->cuts[i] = 1;
@@ -148,7 +149,7 @@ static double mix4(const double p[4], double t)
     return w * w * w * p[0] + 3 * w * w * t * p[1] + 3 * w * t * t * p[2] + t * t * t * p[3];
 }
 
-/* Of an edge, step i of n: from whichever end both neighbours begin at. */
+/* The point of step i of n on an edge, computed from the same end for both neighbours. */
 static void edge_place(const Build *b, int32_t patch, int edge, int i, int n, float out[3])
 {
     const WrPatchEdge *own = &b->edges[4 * patch + edge];
@@ -174,7 +175,7 @@ static void put_place(Build *b, int32_t patch, const WrShape *shape, int i, int 
     b->place[at][2] = (float)p.z + 0.0f;
     b->normal[at][0] = (float)n.x, b->normal[at][1] = (float)n.y, b->normal[at][2] = (float)n.z;
     b->uv[at][0] = (float)i / (float)nu, b->uv[at][1] = (float)j / (float)nv;
-    /* ends of edges are the patch's corners, bit for bit, by either */
+    /* ends of edges are the patch's corners, bit for bit, for both edges */
     if (j == 0 || j == nv) edge_place(b, patch, j == 0 ? 0 : 1, i, nu, b->place[at]);
     if (i == 0 || i == nu) edge_place(b, patch, i == 0 ? 2 : 3, j, nv, b->place[at]);
 }
@@ -234,8 +235,8 @@ static WrVec3 normal_on_edge(const float *points, int edge, double t)
     return at.n_unit;
 }
 
-#define CREASE 0.1      /* degrees from which on an edge is one */
-#define CREASE_MEANT 45 /* beyond it none is a slip */
+#define CREASE 0.1      /* smallest angle of a crease, in degrees */
+#define CREASE_MEANT 45 /* larger angles are always intended */
 
 static void find_creases(Build *b, WrPatchesTold *told)
 {
@@ -258,7 +259,7 @@ static void find_creases(Build *b, WrPatchesTold *told)
     }
 }
 
-/* ---- the whole ---- */
+/* ---- construction ---- */
 
 static bool number_triangles(WrTriangles *made, WrPatches *set, WrError *err)
 {
@@ -271,7 +272,7 @@ static bool number_triangles(WrTriangles *made, WrPatches *set, WrError *err)
     return of != NULL;
 }
 
-/* Shapes are told apart by the key. */
+/* The key distinguishes shapes. */
 static uint64_t key_of(const WrTriangles *made, const WrPatches *set)
 {
     const WrHash start = { made->key, 1 + (uint64_t)set->table };
@@ -291,7 +292,7 @@ static WrTriangles *finish(Build *b, WrError *err)
     find_creases(b, &set->told);
     made->patches = set;
     if (!number_triangles(made, set, err)) {
-        b->set = NULL; /* goes with the triangles */
+        b->set = NULL; /* freed with the triangles */
         wr_triangles_free(made);
         return NULL;
     }
@@ -326,7 +327,7 @@ static WrTriangles *build(const float (*points)[48], int32_t count, WrPatchTable
     return made;
 }
 
-/* By whichever side of the body is outside. */
+/* Orients a closed body outwards. */
 static WrTriangles *face_and_build(float (*points)[48], int32_t count, WrPatchTable table,
                                    WrError *err)
 {

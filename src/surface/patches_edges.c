@@ -1,4 +1,4 @@
-/* How patches lie beside each other: shared edges, loops of open ones, and the chart of the table that follows. */
+/* Topology of patches: shared edges, loops of open ones, and the charts of the table. */
 #include "surface/patches_internal.h"
 
 #include "base/error.h"
@@ -21,7 +21,7 @@ static bool comes_before(const float a[3], const float b[3])
     return false;
 }
 
-/* Its points in the order that does not ask which way it runs. */
+/* Its points in an order independent of the edge's direction. */
 static EdgeRow edge_row(const float *points, int edge, WrPatchEdge *out)
 {
     float p[4][3];
@@ -40,11 +40,12 @@ static EdgeRow edge_row(const float *points, int edge, WrPatchEdge *out)
     return row;
 }
 
-/* The first two that are the same become neighbours; more are crowded. kind: edges of the same points have the same. */
+/* The first two equal edges become neighbours; further ones are crowded. kind: equal for edges with the
+ * same points. */
 static void pair_edges(const int32_t *kind, int32_t kinds, int32_t count, WrPatchEdge *edges,
                        WrPatchesTold *told)
 {
-    int32_t *first = wr_alloc((size_t)kinds, sizeof *first); /* 1 + the edge; -1: is shared */
+    int32_t *first = wr_alloc((size_t)kinds, sizeof *first); /* 1 + the edge; -1: already shared */
     for (int32_t i = 0; i < count; i++) {
         int32_t *at = &first[kind[i]];
         if (edges[i].collapsed) {
@@ -65,19 +66,20 @@ static void pair_edges(const int32_t *kind, int32_t kinds, int32_t count, WrPatc
     wr_free(first);
 }
 
-/* Does the patch, walked round with its normal towards the viewer, pass the edge as it runs? */
+/* True if the counter-clockwise boundary, seen from the normal's side, runs in the direction of the
+ * edge. */
 static bool runs_round(int edge)
 {
     return edge == 0 || edge == 3;
 }
 
-/* Neighbours walk their common edge in opposite directions if they face to the same side. */
+/* Neighbours that face the same side traverse their common edge in opposite directions. */
 static bool is_against(const WrPatchEdge *edges, int32_t i)
 {
     return (runs_round(i % 4) == runs_round(edges[i].other % 4)) != edges[i].turned;
 }
 
-/* Open edges that hang together by their ends. */
+/* Counts connected groups of open edges. */
 static bool count_loops(const float (*points)[48], int32_t count, const WrPatchEdge *edges,
                         WrPatchesTold *told, WrError *err)
 {
@@ -126,7 +128,7 @@ bool wr_patches_find_edges(const float (*points)[48], int32_t count, WrPatchEdge
     return good && count_loops(points, all, edges, told, err);
 }
 
-/* ---- sides ---- */
+/* ---- orientation ---- */
 
 static void turn_patch(float points[48])
 {
@@ -139,7 +141,8 @@ static void turn_patch(float points[48])
             }
 }
 
-/* side: 1 as the first of the island, -1 the other; 0 not yet known. Returns how many patches the queue then holds. */
+/* side: 1 like the first of the island, -1 opposite; 0 unknown. Returns the number of patches in the
+ * queue. */
 static int32_t face_island(const WrPatchEdge *edges, int32_t first, signed char *side,
                            int32_t *queue)
 {
@@ -201,7 +204,7 @@ static Spot chart_at(const Chart *chart, Spot at)
     return (Spot){ c[0] + c[1] * at.u + c[2] * at.v, c[3] + c[4] * at.u + c[5] * at.v };
 }
 
-/* The edge's beginning and end, and its middle one step beyond it. */
+/* The edge's start and end, and the outward step from it. */
 static void edge_spots(int edge, Spot *from, Spot *to, Spot *out)
 {
     static const Spot froms[4] = { { 0, 0 }, { 0, 1 }, { 0, 0 }, { 1, 0 } };
@@ -210,7 +213,7 @@ static void edge_spots(int edge, Spot *from, Spot *to, Spot *out)
     *from = froms[edge], *to = tos[edge], *out = outs[edge];
 }
 
-/* What the patch beyond the edge has, if the table is to run on. */
+/* The chart of the patch beyond the edge that continues the table. */
 static Chart beyond(const Chart *chart, int edge, const WrPatchEdge *meets)
 {
     Spot a, b, out, own_a, own_b, own_out;
@@ -221,7 +224,7 @@ static Chart beyond(const Chart *chart, int edge, const WrPatchEdge *meets)
     const int32_t *c = chart->of;
     const Spot on = { c[1] * out.u + c[2] * out.v, c[4] * out.u + c[5] * out.v };
     const Spot along = { stop.u - start.u, stop.v - start.v };
-    /* own_out looks out of the other patch: the table goes the other way */
+    /* own_out points out of the other patch: the table runs in the opposite direction */
     const int sign = own_out.u + own_out.v;
     const Spot across = { -sign * on.u, -sign * on.v };
     const bool by_u = own_out.v != 0; /* the edge runs along u */
@@ -247,10 +250,10 @@ typedef struct Layout {
     const WrPatchEdge *edges;
     Chart *chart;   /* [count] */
     int32_t *queue; /* [count] */
-    int32_t *taken; /* cells of the island, a table of 1 + patch; [room] */
+    int32_t *taken; /* occupied cells of the island, a hash table of 1 + patch; [room] */
     size_t room;
     int32_t count;
-    bool apart; /* no two patches of an island on one cell */
+    bool apart; /* patches of an island have distinct cells */
     int32_t columns, rows;
 } Layout;
 
@@ -274,7 +277,8 @@ static bool place(Layout *l, int32_t patch, const Chart *chart)
     return true;
 }
 
-/* All that can be reached from a patch across edges; the island is then moved beside those before. */
+/* Lays out all patches reachable from one across edges; the island is then placed beside the previous
+ * ones. */
 static void lay_island(Layout *l, int32_t first)
 {
     const Chart start = { { 0, 1, 0, 0, 0, 1 }, true };
@@ -300,7 +304,7 @@ static void lay_island(Layout *l, int32_t first)
     l->rows = high.v - low.v + 1 > l->rows ? high.v - low.v + 1 : l->rows;
 }
 
-/* Whole tables: cells do not matter. */
+/* For whole tables: cells are irrelevant. */
 static void gather_cells(Layout *l)
 {
     for (int32_t i = 0; i < l->count; i++) {
@@ -310,7 +314,8 @@ static void gather_cells(Layout *l)
     l->columns = l->rows = 1;
 }
 
-/* Does the table run on across the edge? Of whole tables it may be another one's beginning. */
+/* True if the table continues across the edge. For whole tables, edges may also meet at the table's
+ * border. */
 static bool runs_on(const Layout *l, int32_t i)
 {
     const Chart want = beyond(&l->chart[i / 4], i % 4, &l->edges[i]);
@@ -320,7 +325,7 @@ static bool runs_on(const Layout *l, int32_t i)
     return true;
 }
 
-/* A cell for each, row by row from the lower left; patches fill them but for a margin. Nothing is joined. */
+/* One cell for each patch, row by row from the lower left, with a margin. Nothing is joined. */
 static void take_cells(WrPatches *set, WrPatch *patch)
 {
     const float margin = (float)WR_PATCH_MARGIN, side = 1 - 2 * margin;

@@ -1,5 +1,7 @@
-/* patches_row.h - sets of bicubic patches out of a file (patches.h), which a scene holds as it does a mesh (mesh.h). What
-   asks them for P(u,v) gets the square, as there. */
+/* patches_row.h - the surface kind of patch sets from a file (patches.h), stored in the scene like a
+   mesh (mesh.h).
+
+   Code that evaluates P(u,v) gets the unit square, as for a mesh. */
 
 R_INLINE void FN(patches_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 {

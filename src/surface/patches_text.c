@@ -1,4 +1,4 @@
-/* Sets of patches as text. */
+/* Parser of patch sets. */
 #include "surface/patches.h"
 
 #include "base/error.h"
@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define POINTS_MAX (16 * WR_PATCHES_MAX)
-#define SHOWN 24 /* letters of a word that is told */
+#define SHOWN 24 /* maximum letters of a quoted word */
 
 typedef struct Reader {
     const char *at, *end;
@@ -96,7 +96,7 @@ static bool read_blocks(Reader *r, float (*points)[48], int32_t count, WrError *
     return true;
 }
 
-/* Rows of sixteen numbers, which are kept as floats in the points' place until those are known. */
+/* Rows of sixteen indices, stored as floats in the points' memory until the points are known. */
 static bool read_list(Reader *r, float (*points)[48], int32_t count, WrError *err)
 {
     int32_t known, most = 0, number;
@@ -120,7 +120,7 @@ static bool read_list(Reader *r, float (*points)[48], int32_t count, WrError *er
     return good;
 }
 
-/* Are there two numbers on the line that comes next? So a block begins, a list with sixteen. */
+/* True if the next line has two numbers: then blocks follow, else a list with sixteen. */
 static bool blocks_follow(Reader r)
 {
     size_t length;

@@ -1,5 +1,6 @@
 /* plane.h - the flat patch: P = (a u, b v, 0), N = (0, 0, ab).
-   Blinn's N' is exact on it, whatever F. Endless, u and v are any numbers: it reaches to the horizon. */
+
+   Blinn's N' is exact on it for any F. If endless, u and v are unbounded: it extends to the horizon. */
 
 R_INLINE void FN(plane_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 {

@@ -7,15 +7,15 @@
 #include <math.h>
 #include <string.h>
 
-#define NEAR 1e-5 /* of the length: distinct points are farther apart */
+#define NEAR 1e-5 /* relative to the length: distinct points are farther apart */
 
 typedef struct Points {
     double r[WR_PROFILE_POINTS], z[WR_PROFILE_POINTS];
-    double s[WR_PROFILE_POINTS]; /* length of the chords so far, of the whole */
+    double s[WR_PROFILE_POINTS]; /* length of the chords up to each point, as a fraction */
     int count;
 } Points;
 
-/* ---- the text ---- */
+/* ---- parsing ---- */
 
 static bool read_number(const char **at, char stop, double low, double *out)
 {
@@ -98,7 +98,7 @@ typedef struct Run {
 
 enum { SIDE = WR_PROFILE_POINTS };
 
-/* Solve a x = b; a is diagonally dominant. */
+/* Solves a x = b; a is diagonally dominant. */
 static void solve(double a[SIDE][SIDE], double *b, int n)
 {
     for (int k = 0; k < n; k++)
@@ -114,8 +114,8 @@ static void solve(double a[SIDE][SIDE], double *b, int n)
     }
 }
 
-/* The curve's slopes at the points of a run, of one coordinate x. level: at a pole the slope is 0, else the second
-   derivative is. */
+/* Slopes of one coordinate x at the points of a run. level: at a pole the slope is 0, otherwise the
+   second derivative is. */
 static void find_slopes(const Points *p, const double *x, const Run *run, bool level, double *slope)
 {
     static const int end_of[2] = { 0, 1 };
@@ -128,7 +128,7 @@ static void find_slopes(const Points *p, const double *x, const Run *run, bool l
         slope[i] = (i ? slope[i] : 0) + 3 * d / h;
         slope[i + 1] = 3 * d / h;
     }
-    if (run->ring) { /* the last point is the first: one unknown for both */
+    if (run->ring) { /* the last point equals the first: one unknown for both */
         for (int j = 0; j < n - 1; j++) a[0][j] += a[n - 1][j];
         slope[0] += slope[n - 1];
         for (int i = 0; i < n - 1; i++) a[i][0] += a[i][n - 1];
@@ -183,7 +183,7 @@ static void make_pieces(const Points *p, WrProfiled *out)
     }
 }
 
-/* ---- does it keep off the axis? ---- */
+/* ---- distance from the axis ---- */
 
 static double cubic(const double *c, double t)
 {
@@ -191,7 +191,7 @@ static double cubic(const double *c, double t)
     return w * w * w * c[0] + 3 * w * w * t * c[1] + 3 * w * t * t * c[2] + t * t * t * c[3];
 }
 
-/* Where r of a piece is least, in t: its ends and where its derivative vanishes. */
+/* The t of the smallest r of a piece: its ends and the zeros of its derivative. */
 static double least_place(const double *c)
 {
     const double a = c[1] - c[0], b = c[2] - c[1], d = c[3] - c[2];
@@ -277,5 +277,5 @@ void wr_profile_extent(const WrProfiled *profile, double *middle, double *radius
         const double t = k % (STEPS + 1) / (double)STEPS;
         most = fmax(most, hypot(cubic(profile->r + at, t), cubic(profile->z + at, t) - *middle));
     }
-    *radius = 1.001 * most; /* for what lies between them */
+    *radius = 1.001 * most; /* margin for points between the samples */
 }

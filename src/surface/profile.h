@@ -1,18 +1,20 @@
-/* profile.h - the profile of a surface of revolution: a smooth curve through points (r, z), as cubics along v.
+/* profile.h - the profile of a surface of revolution: a smooth curve through points (r, z), as cubics
+   along v.
 
-   v goes by the length of the chords between the points, 0..1, so that the table is stretched alike all along. Between
-   corners the curve is the cubic spline with continuous curvature, straight at its ends. A point given twice in a row is
-   a corner. An end on the axis is a smooth pole, as if the curve went on beyond it in the mirror: z' = 0 and r'' = 0
-   there; given twice it is a tip. A profile without corners whose last point is its first is a ring, smooth all round. */
+   v is proportional to the chord length between the points, 0..1, so that the table is stretched
+   evenly. Between corners the curve is the cubic spline with continuous curvature, with natural ends. A
+   point given twice in a row is a corner. An end on the axis is a smooth pole, as if the curve
+   continued mirrored beyond it: z' = 0 and r'' = 0 there; given twice it is a tip. A profile without
+   corners whose last point equals its first is a ring, smooth everywhere. */
 #pragma once
 #include <stdbool.h>
 
 typedef struct WrError WrError;
 
-#define WR_PROFILE_POINTS 65 /* of which corners take two */
+#define WR_PROFILE_POINTS 65 /* a corner uses two */
 #define WR_PROFILE_PIECES 64 /* a power of two */
 
-/* Pieces are Bezier cubics, four r and four z each. from: 2 where there is no piece. */
+/* Pieces are Bezier cubics, four r and four z each. from: 2 for unused pieces. */
 typedef struct WrProfiled {
     double from[WR_PROFILE_PIECES], to[WR_PROFILE_PIECES],
         inv[WR_PROFILE_PIECES]; /* 1 / (to - from) */
@@ -24,13 +26,15 @@ typedef struct WrProfilef {
     float r[4 * WR_PROFILE_PIECES], z[4 * WR_PROFILE_PIECES];
 } WrProfilef;
 
-/* Of "r,z;r,z;...". Refused: what is no such list, a curve that touches or crosses the axis but at its ends (the message
-   says at which v), points that are nearer to each other than 1e-5 of the length and not the same, more points than fit. */
+/* Parses "r,z;r,z;...". Errors: not such a list; the curve touches or crosses the axis other than at
+   its ends (the message gives the v); distinct points nearer to each other than 1e-5 of the length; too
+   many points. */
 bool wr_profile_make(const char *text, WrProfiled *out, WrError *err);
-/* The points alone, r and z, without asking what curve goes through them: how many, 0 where the text is no such list. */
+/* Parses only the points, r and z, without checking the curve: their number, 0 if the text is not such
+ * a list. */
 int wr_profile_points(const char *text, double points[WR_PROFILE_POINTS][2]);
 void wr_profile_narrow(const WrProfiled *from, WrProfilef *to);
-/* Where the direction may jump, 0 < v < 1: how many, at most `most`. */
+/* Positions where the direction may jump, 0 < v < 1: their number, at most `most`. */
 int wr_profile_corners(const WrProfiled *profile, double *v, int most);
-/* The middle of its z, and the radius of the ball about (0, 0, middle) that holds the surface. */
+/* The middle of its z, and the radius of the bounding sphere about (0, 0, middle). */
 void wr_profile_extent(const WrProfiled *profile, double *middle, double *radius);

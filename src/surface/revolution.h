@@ -1,8 +1,11 @@
-/* revolution.h - a profile (r, z)(v) turned about the axis: P = (r c, r s, z); c, s of 2 pi u.
+/* revolution.h - a profile (r, z)(v) rotated about the axis: P = (r c, r s, z); c, s of 2 pi u.
+
      N = 2 pi r (z' c, z' s, -r')      n = (z' c, z' s, -r') / |(r', z')|
-   n has no r in it: at a pole (r = 0, z' = 0) it is (0, 0, -+1), at a tip there is one for each generator. Where
-   (r', z') = 0 its second derivatives stand in, with + towards larger v in the lower half and - in the upper. Where pieces
-   meet in a corner the upper counts. The outside is to the right of the way along the profile. */
+
+   n does not depend on r: at a pole (r = 0, z' = 0) it is (0, 0, -+1), at a tip there is one for each
+   generator. Where (r', z') = 0, second derivatives replace them, with + towards larger v in the lower
+   half and - in the upper. At a corner the upper piece is used. The outside is to the right of the
+   direction of the profile. */
 
 R_INLINE void FN(revolution_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
@@ -52,7 +55,7 @@ R_INLINE void FN(revolution_at)(const SHAPE *shape, int face, REAL u, REAL v, PO
     o->n_len = r_abs(q * r) * len;
     o->n = (VEC){ q * r * zp * co, q * r * zp * s, -q * r * rp };
     o->n_u = v_scale(along, q * x);
-    /* (x, y) turns as (z'', -r'') less its part along (x, y), over |(r', z')| = big / unit. */
+    /* (x, y) changes as (z'', -r'') minus its part along (x, y), over |(r', z')| = big / unit. */
     REAL gx = zpp * by * unit, gy = -rpp * by * unit, part = gx * x + gy * y;
     gx = gx - part * x;
     gy = gy - part * y;

@@ -27,7 +27,7 @@ R_INLINE void FN(ribbon_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT 
 }
 
 #ifndef WR_FORMULA_FLOAT
-/* No point is farther from the axis than |A| + W/2. */
+/* No point is farther from the x axis than |A| + W/2. */
 static double ribbon_radius(const WrShape *s)
 {
     return v3_len((WrVec3){ s->value[0] / 2, fabs(s->value[1]) + s->value[3] / 2, 0 });

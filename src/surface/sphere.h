@@ -1,8 +1,10 @@
-/* sphere.h - P = R (c cos l, s cos l, sin l), c, s of 2 pi u, l = pi (v - 1/2): poles at v = 0 and
-   1. The unit normal is P/R without a division, so that the poles give (0, 0, -1) and (0, 0, 1)
-   exactly in both precisions. */
+/* sphere.h - the sphere P = R (c cos l, s cos l, sin l), c, s of 2 pi u, l = pi (v - 1/2): poles at v =
+   0 and 1.
 
-/* P, Pu, Pv, n, |N| of n, which is that of longitude (c, s) and latitude (cl, sl). */
+   The unit normal is P/R without a division, so that the poles give (0, 0, -1) and (0, 0, 1) exactly in
+   both precisions. */
+
+/* P, Pu, Pv, n, |N| for the normal n, which is that of longitude (c, s) and latitude (cl, sl). */
 R_INLINE void FN(sphere_frame)(REAL R, VEC n, REAL c, REAL s, REAL cl, REAL sl, POINT *o)
 {
     const REAL pi = K_(WR_PI), a = K_(2) * pi;
@@ -34,7 +36,7 @@ R_INLINE void FN(sphere_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT 
     o->n_v = v_scale(north, pi);
 }
 
-/* The same frame from a point of any distance in that direction, without (u,v). */
+/* The frame in the direction of a point, without (u,v); any distance. */
 R_INLINE void FN(sphere_from)(const SHAPE *shape, VEC p, POINT *o)
 {
     REAL inv = K_(1) / r_sqrt(p.x * p.x + p.y * p.y + p.z * p.z);

@@ -1,19 +1,29 @@
-/* superellipsoid.h - |(|x/a|^(2/e2) + |y/b|^(2/e2))|^(e2/e1) + |z/c|^(2/e1) = 1 (Barr 1981), the spherical product of two
-   superellipses, (w, z) along v and (x, y) along u:
+/* superellipsoid.h - |(|x/a|^(2/e2) + |y/b|^(2/e2))|^(e2/e1) + |z/c|^(2/e1) = 1 (Barr 1981), the
+   spherical product of two superellipses, (w, z) along v and (x, y) along u:
+
      P = (a w x, b w y, c z)
 
-   Barr's own parameters, x = cos^e, y = sin^e, stand still or rush where e is far from 1: at e = 0.1 nearly the whole
-   table lies along the edges. Here a superellipse goes round so that its tangent neither vanishes nor grows without
-   bound. With C = |cos|, S = |sin| of the angle (signs apart), k = max(1, e/2), alpha = 2k/e, A = C^alpha + S^alpha:
+   Barr's own parameters, x = cos^e, y = sin^e, have vanishing or unbounded speed if e is far from 1: at
+   e = 0.1 nearly the whole table lies along the edges. The parametrisation here has a tangent that
+   neither vanishes nor grows without bound. With C = |cos|, S = |sin| of the angle (signs separate), k
+   = max(1, e/2), alpha = 2k/e, A = C^alpha + S^alpha:
+
      x = C^k A^(-e/2)                          y = S^k A^(-e/2)
      x' = -k C^(k-1) S^(alpha-1) A^(-1-e/2)    y' = k S^(k-1) C^(alpha-1) A^(-1-e/2)
-   which for e <= 2 is the direction (C, S) itself brought onto the curve. One of k - 1 and alpha - 1 is 0. Along
+
+   which for e <= 2 is the direction (C, S) projected onto the curve. One of k - 1 and alpha - 1 is 0.
+   The normal of the curve is along
+
      m = (S^(k-1) C^(alpha-1), C^(k-1) S^(alpha-1))
-   the curve's normal points, and N along (m_w m_x / a, m_w m_y / b, m_z (x m_x + y m_y) / c) of the two curves. Where C or S is 0:
-     e < 2    smooth, the axis; for 1 < e < 2 the curvature is unbounded near there, and told as 0 in the point itself
-     e = 2    facets: the normal jumps, that of the positive side counts
-     e > 2    a cusp: the normal is square to the arm, one for each side; likewise
-   At the poles so is the limit of that u: (0, 0, +-1) for e1 < 2. */
+
+   and N along (m_w m_x / a, m_w m_y / b, m_z (x m_x + y m_y) / c) of the two curves. Where C or S is 0:
+
+     e < 2    smooth, the axis; for 1 < e < 2 the curvature is unbounded near there,
+              and reported as 0 at the point itself
+     e = 2    facets: the normal jumps; that of the positive side is used
+     e > 2    a cusp: the normal is perpendicular to the arm, one for each side; that of the positive side is used
+
+   At the poles the limit for that u is perpendicular in the same way: (0, 0, +-1) for e1 < 2. */
 
 /* A superellipse: its point, two derivatives by the angle in radians, the normal's direction and its derivative. */
 typedef struct FN(SuperCurve) {
@@ -34,13 +44,13 @@ R_INLINE FN(SuperCurve) FN(super_curve)(REAL e, REAL s, REAL c)
     REAL Ca = sharp ? one : Ch, Sa = sharp ? one : Sh; /* to the power alpha - 1 */
     REAL A = Ca * C + Sa * S, F = r_pow_near(A, K_(-0.5) * e), by = F / A;
     const REAL flat =
-        h == one ? one
-                 : zero; /* what the power h - 1 comes to at 0; unbounded ones are told as 0 */
+        h == one ? one : zero; /* the power h - 1 at 0; unbounded values are replaced by 0 */
     REAL Chi = C > least ? Ch / (C > least ? C : one) : flat;
     REAL Shi = S > least ? Sh / (S > least ? S : one) : flat;
     REAL U = sharp ? -ka * Chi * S : al * Shi * C; /* derivatives of C^(k-1) S^(alpha-1) ... */
     REAL V = sharp ? ka * Shi * C : -al * Chi * S; /* ... and of S^(k-1) C^(alpha-1) */
-    REAL turn = (Ca * S - Sa * C) / A * (k + K_(2) * k / e); /* of A^(-1-e/2), by its value */
+    /* of A^(-1-e/2), relative to its value */
+    REAL turn = (Ca * S - Sa * C) / A * (k + K_(2) * k / e);
     REAL dx = -k * Ck * Sa * by, dy = k * Sk * Ca * by;
     FN(SuperCurve) o;
     o.x = sx * (Ck * C * F);
@@ -80,7 +90,7 @@ R_INLINE void FN(superellipsoid_at)(const SHAPE *shape, int face, REAL u, REAL v
     least = least < c ? least : c;
     REAL ia = least / a, ib = least / b, ic = least / c;
     REAL t = f.x * f.mx + f.y * f.my,
-         dt = f.x * f.dmx + f.y * f.dmy; /* the tangent is square to m */
+         dt = f.x * f.dmx + f.y * f.dmy; /* the tangent is perpendicular to m */
     VEC m = { g.mx * f.mx * ia, g.mx * f.my * ib, g.my * t * ic };
     VEC mu = { q * g.mx * f.dmx * ia, q * g.mx * f.dmy * ib, q * g.my * dt * ic };
     VEC mv = { p * g.dmx * f.mx * ia, p * g.dmx * f.my * ib, p * g.dmy * t * ic };
@@ -107,7 +117,8 @@ static const WrSurfaceInfo superellipsoid_row = {
                   false,
                   "form from pole to pole: 0.1 box, 1 round, 2 straight" },
                 { "e2", 1, { 0.4 }, 0.1, 4, false, "form round the axis, likewise" } },
-    /* Upright with u = 1/2 in front, turned 35 degrees to the left and tipped 25 forward, as the cube. */
+    /* Upright with u = 1/2 in front, rotated 35 degrees to the left and tilted 25 forward, like the
+     * cube. */
     .pose_deg = { -50.89, 47.94, 31.11 },
     .closed_u = true,
     .faces = 1,

@@ -31,7 +31,7 @@ static bool kind_exists(WrSurfaceKind kind)
     return (int)kind >= 0 && (int)kind < WR_SURFACE_COUNT;
 }
 
-/* The next param of a row, or the first after NULL; NULL at the end. */
+/* The next param of a row, or the first for NULL; NULL at the end. */
 static const WrSurfaceParam *next_param(const WrSurfaceInfo *info, const WrSurfaceParam *param)
 {
     param = param ? param + 1 : info->params;
@@ -119,7 +119,7 @@ WrVec3 wr_shape_centre(const WrShape *shape)
     return centre;
 }
 
-/* The farthest of 33 x 33 points, and a hundredth for what lies between them. */
+/* The largest distance of 33 x 33 points, plus a hundredth for points between them. */
 static double sampled_radius(const WrShape *shape)
 {
     enum { STEPS = 32 };

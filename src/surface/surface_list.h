@@ -1,5 +1,6 @@
-/* surface_list.h - the one list of surfaces: a new one is its file and its two lines here.
-   Included with WR_X(name) defined it names each; with WR_SURFACE_FORMULAS defined it brings in the
+/* surface_list.h - the list of all surfaces: a new one needs its file and its two lines here.
+
+   With WR_X(name) defined it expands to the names; with WR_SURFACE_FORMULAS defined it includes the
    formulas (see formula.h). */
 #ifdef WR_X
 WR_X(plane)

@@ -19,7 +19,7 @@ static bool is_zero(WrVec3 a)
     return a.x == 0 && a.y == 0 && a.z == 0;
 }
 
-/* ---- the lecture's solve ---- */
+/* ---- the lecture's equation ---- */
 
 bool wr_tangent_lecture(const WrVec3 p[3], const double uv[3][2], WrVec3 *t, WrVec3 *b, double *det)
 {
@@ -35,12 +35,12 @@ bool wr_tangent_lecture(const WrVec3 p[3], const double uv[3][2], WrVec3 *t, WrV
     return true;
 }
 
-/* ---- triangles by their corners ---- */
+/* ---- triangles with their corners ---- */
 
 typedef struct Tri {
     WrVec3 p[3], n[3];
     double uv[3][2];
-    int32_t weld[3]; /* corners of equal place, normal and (u,v) */
+    int32_t weld[3]; /* index of corners with equal position, normal and (u,v) */
 } Tri;
 
 typedef struct Frames {
@@ -94,7 +94,7 @@ static double angle_at(const Tri *t, int k)
     return wr_angle(v3_sub(t->p[(k + 1) % 3], t->p[k]), v3_sub(t->p[(k + 2) % 3], t->p[k]));
 }
 
-/* ---- averages of the solve ---- */
+/* ---- averages of frames ---- */
 
 typedef struct Sums {
     WrVec3 t[2], b[2]; /* of det > 0, of det < 0 */
@@ -143,16 +143,16 @@ bool wr_tangents_average(const WrTriangleCorner *corners, const WrTriangle *tria
 enum { UNSET = -1 };
 
 typedef struct Face {
-    WrVec3 s, t;          /* unit, times the sign; 0 where they have none */
+    WrVec3 s, t;          /* unit, times the sign; 0 if undefined */
     int sign;             /* of the area of (u,v) */
-    bool any;             /* indefinite: it joins whichever group meets it */
-    bool no_area;         /* two equal places: set aside */
+    bool any;             /* indefinite: it joins the first group that reaches it */
+    bool no_area;         /* two equal positions: excluded */
     int32_t neighbour[3]; /* over the edge from corner k to the next; UNSET: none */
     int32_t group[3];
 } Face;
 
 typedef struct Group {
-    int32_t weld, first, last; /* its members: a list in `next` */
+    int32_t weld, first, last; /* its members: a linked list in `next` */
     int sign;
 } Group;
 
@@ -169,7 +169,7 @@ static bool same_place(WrVec3 a, WrVec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* S = sign unit(t31.v d1 - t21.v d2), T alike. */
+/* S = sign unit(t31.v d1 - t21.v d2), T the same along v. */
 static void fill_face(const Tri *tri, Face *face)
 {
     const WrVec3 d1 = v3_sub(tri->p[1], tri->p[0]), d2 = v3_sub(tri->p[2], tri->p[0]);
@@ -207,7 +207,8 @@ static int32_t weld_of(const Mikk *m, int32_t corner)
     return m->frames.tri[corner / 3].weld[corner % 3];
 }
 
-/* Of the edges from `i` on that join the same corners: each finds the first that runs the other way and is free. */
+/* Among the edges from `i` on that join the same corners, pairs each with the first free one of
+ * opposite direction. */
 static void pair_edges(Mikk *m, const Edge *edges, int32_t i, int32_t count)
 {
     const Edge *a = &edges[i];
@@ -241,7 +242,7 @@ static bool find_neighbours(Mikk *m, WrError *err)
     return true;
 }
 
-/* Its corner at the group's place; UNSET: none. */
+/* The face's corner at the group's position; UNSET: none. */
 static int corner_at(const Mikk *m, int32_t i, int32_t weld)
 {
     for (int k = 0; k < 3; k++)
@@ -249,7 +250,7 @@ static int corner_at(const Mikk *m, int32_t i, int32_t weld)
     return UNSET;
 }
 
-/* May the face join? Then it has. */
+/* Adds the face if the rules allow it; true if added. */
 static bool join(Mikk *m, int32_t index, int32_t i, int k)
 {
     Face *face = &m->face[i];
@@ -266,7 +267,7 @@ static bool join(Mikk *m, int32_t index, int32_t i, int k)
     return true;
 }
 
-/* All that can be reached about the corner over edges that leave it. */
+/* Adds all faces around the corner that are reachable across edges. */
 static void spread_group(Mikk *m, int32_t index, int32_t i, int k)
 {
     int32_t height = 0;
@@ -293,13 +294,13 @@ static void make_groups(Mikk *m)
     }
 }
 
-/* a in the plane across n, unit. */
+/* a projected to the plane perpendicular to n, unit. */
 static WrVec3 laid(WrVec3 a, WrVec3 n)
 {
     return v3_unit(v3_mad(a, n, -v3_dot(n, a)), none);
 }
 
-/* Exactly opposite ones would add up to nothing. */
+/* False for exactly opposite frames, whose sum is 0. */
 static bool goes_along(const Mikk *m, int32_t i, int32_t j, WrVec3 n)
 {
     const Face *a = &m->face[i], *b = &m->face[j];
@@ -325,7 +326,7 @@ static WrVec3 tangent_of(const Mikk *m, int32_t i, int k)
         sum = v3_mad(sum, laid(m->face[j].s, n), wr_angle(to, from));
     }
     if (v3_len(sum) > 1e-12) return v3_unit(sum, none);
-    return laid(m->face[i].s, n); /* its own, where they cancel */
+    return laid(m->face[i].s, n); /* its own frame if the sum is 0 */
 }
 
 static void fill_corner(const Mikk *m, int32_t corner, WrTangent *out)
@@ -341,7 +342,7 @@ static void fill_corner(const Mikk *m, int32_t corner, WrTangent *out)
     out->b = v3_scale(v3_cross(n, out->t), out->sign);
 }
 
-/* Triangles without area have the frame of a corner that is welded to theirs. */
+/* Triangles without area copy the frame of a corner equal to theirs. */
 static bool copy_frames(const Mikk *m, WrTangent *out, WrError *err)
 {
     int32_t *first = wr_try_alloc((size_t)m->frames.welds, sizeof *first, "tangents", err);

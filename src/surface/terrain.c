@@ -6,10 +6,10 @@
 
 #include <math.h>
 
-#define MOST 1e29 /* of a height: patches go to 1e30 */
-#define KNOTS 67  /* of 64 cells and one beyond each end */
+#define MOST 1e29 /* largest height: patches are limited to 1e30 */
+#define KNOTS 67  /* for 64 cells and one beyond each end */
 
-/* The mean over [low, high) of the axis, in whole texels, at least the nearest. */
+/* The range of texels within [low, high) of the axis, in whole texels, at least the nearest. */
 static void span_of(double at, double half, int count, int *from, int *to)
 {
     const int nearest = (int)fmin(fmax(floor(at), 0), count - 1);
@@ -17,7 +17,7 @@ static void span_of(double at, double half, int count, int *from, int *to)
     *to = (int)fmin(fmax(floor(at + half - 0.5), nearest), count - 1);
 }
 
-/* The means about all knots, [rows + 1][columns + 1], v = 0 first; each row of heights is asked for once. */
+/* Mean heights about all knots, [rows + 1][columns + 1], v = 0 first; each row of heights is read once. */
 static void means_of(const WrTerrain *t, int columns, int rows, float *room, double *means)
 {
     for (int r = 0; r < t->h; r++) {
@@ -28,7 +28,7 @@ static void means_of(const WrTerrain *t, int columns, int rows, float *room, dou
             span_of((1 - (double)(k / (columns + 1)) / rows) * t->h, 0.5 * t->h / rows, t->h, &j0,
                     &j1);
             if (r < j0 || r > j1) {
-                k += columns - k % (columns + 1); /* none of this row of knots */
+                k += columns - k % (columns + 1); /* none in this row of knots */
                 continue;
             }
             span_of((double)(k % (columns + 1)) / columns * t->w, 0.5 * t->w / columns, t->w, &i0,
@@ -40,7 +40,8 @@ static void means_of(const WrTerrain *t, int columns, int rows, float *room, dou
     }
 }
 
-/* The Bezier points of the spline with these coefficients, `step` apart; beyond the ends it runs on straight. */
+/* Bezier points of the spline with these coefficients, `step` apart; extrapolated linearly beyond the
+ * ends. */
 static void spline_points(const double *knots, int cells, double *out, int step)
 {
     double k[KNOTS];
@@ -56,7 +57,7 @@ static void spline_points(const double *knots, int cells, double *out, int step)
     }
 }
 
-/* All points' heights, [3 rows + 1][3 columns + 1]. */
+/* Heights of all points, [3 rows + 1][3 columns + 1]. */
 static void spline_grid(const WrTerrain *t, const double *means, int columns, int rows,
                         double *grid)
 {
@@ -107,7 +108,7 @@ bool wr_terrain_points(const WrTerrain *t, float (**points)[48], int *columns, i
     return out != NULL;
 }
 
-/* Which cell of `count` a place is in, and where in it. */
+/* Cell of `count` at a position, and the fraction in it. */
 static int cell_of(double at, int count, double *within)
 {
     const int cell = (int)fmin(fmax(floor(at * count), 0), count - 1);

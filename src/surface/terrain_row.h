@@ -1,4 +1,5 @@
-/* terrain_row.h - a height field out of a picture, as a set of patches (terrain.h) that a scene holds as it does a mesh. */
+/* terrain_row.h - the surface kind of height images, as a set of patches (terrain.h) stored in the
+   scene like a mesh. */
 
 R_INLINE void FN(terrain_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 {

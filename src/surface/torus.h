@@ -1,9 +1,11 @@
-/* torus.h - P = (w c, w s, r sin psi), w = R + r cos psi, psi = 2 pi v; c, s of 2 pi u.
+/* torus.h - the torus P = (w c, w s, r sin psi), w = R + r cos psi, psi = 2 pi v; c, s of 2 pi u.
+
      N = 4 pi^2 r w (c cos psi, s cos psi, sin psi)
-   The unit normal is the bracket, without w: it points away from the tube's own centre line
-   everywhere, also on horn (R = r), spindle (R < r) and thin (r = 0) tori. There N = Pu x Pv is 0
-   or, on the inner part of a spindle where w < 0, points the other way: it
-   keeps the sign of w, the unit normal does not. */
+
+   The unit normal is the bracket, without w: it points away from the tube's centre line everywhere,
+   also on horn (R = r), spindle (R < r) and thin (r = 0) tori. There N = Pu x Pv is 0 or, on the inner
+   part of a spindle where w < 0, has the opposite direction: N has the sign of w, the unit normal does
+   not. */
 
 R_INLINE void FN(torus_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* ---- which places are one ---- */
+/* ---- merging of equal positions ---- */
 
 static uint32_t mix(const void *key, size_t size)
 {
@@ -56,11 +56,11 @@ static WrVec3 place(const WrTrianglesBuild *b, int32_t point)
     return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
 }
 
-/* The cross product of the two shortest edges of the triangle, which points where the winding says; *from: the corner
+/* The cross product of the triangle's two shortest edges, oriented by the winding; *from: the corner
    between them. */
 static WrVec3 face_of(const WrVec3 p[3], int *from)
 {
-    double side[3]; /* of the edge opposite corner i, in parts of the longest */
+    double side[3]; /* of the edge opposite corner i, relative to the longest */
     for (int i = 0; i < 3; i++) side[i] = v3_len(v3_sub(p[(i + 2) % 3], p[(i + 1) % 3]));
     int longest = 0;
     for (int i = 1; i < 3; i++)
@@ -76,7 +76,8 @@ static bool usable(WrVec3 n)
     return l > 0 && isfinite(l);
 }
 
-/* Triangles that have an area, each from the corner between its two shortest edges; their normals. */
+/* Keeps the triangles with an area, each from the corner between its two shortest edges; computes their
+ * normals. */
 static void keep_faces(WrTrianglesBuild *b)
 {
     const WrVec3 none = { 0, 0, 0 };
@@ -98,9 +99,9 @@ static void keep_faces(WrTrianglesBuild *b)
     b->count = kept;
 }
 
-/* ---- a body ---- */
+/* ---- closed bodies ---- */
 
-/* Of each place, the other ends of the directed edges that leave it, or that come to it. */
+/* For each position, the other ends of its outgoing (or incoming) directed edges. */
 typedef struct Ends {
     int32_t *first; /* [places + 1] into place */
     int32_t *place; /* [3 count] */
@@ -145,14 +146,15 @@ static int32_t times(const Ends *ends, int32_t place, int32_t other)
     return found;
 }
 
-/* How often the edge is there; looked for at its end of fewer edges, so that the hub of a fan costs no more than others. */
+/* Multiplicity of the edge; searched at its end with fewer edges, so that the hub of a fan costs no
+ * more than others. */
 static int32_t how_often(const Ends *leave, const Ends *come, int32_t from, int32_t to)
 {
     return end_count(leave, from) <= end_count(come, to) ? times(leave, from, to)
                                                          : times(come, to, from);
 }
 
-/* Is each directed edge there once, and its reverse too? */
+/* True if each directed edge exists once, and its reverse too. */
 static bool is_closed(const WrTrianglesBuild *b)
 {
     Ends leave = { NULL, NULL }, come = { NULL, NULL };
@@ -167,7 +169,7 @@ static bool is_closed(const WrTrianglesBuild *b)
     return closed;
 }
 
-/* The ball about the box's middle; its size decides what scale volumes are added up in. */
+/* The bounding sphere about the box's centre; its size defines the scale in which volumes are summed. */
 static void find_ball(WrTrianglesBuild *b)
 {
     double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
@@ -220,7 +222,7 @@ static double corner_angle(const WrTrianglesBuild *b, int32_t i, int k)
     return wr_angle(v3_sub(place(b, c[(k + 1) % 3]), p), v3_sub(place(b, c[(k + 2) % 3]), p));
 }
 
-/* The normals that the file gives, unit; 0 where it gives none that can be used. */
+/* Copies the file's normals as unit vectors; 0 where they are unusable. */
 static void take_normals(WrTrianglesBuild *b)
 {
     const WrVec3 none = { 0, 0, 0 };
@@ -239,7 +241,7 @@ static bool is_none(WrVec3 n)
     return n.x == 0 && n.y == 0 && n.z == 0;
 }
 
-/* Do the file's normals mostly look into the body that was turned? */
+/* Flips the file's normals if most of them point into the reversed body. */
 static void turn_normals(WrTrianglesBuild *b)
 {
     double sum = 0;
@@ -248,7 +250,7 @@ static void turn_normals(WrTrianglesBuild *b)
     for (int32_t i = 0; i < b->source->point_count && sum < 0; i++) b->own[i] = v3_neg(b->own[i]);
 }
 
-/* The others: by the faces about the place. */
+/* Computes missing normals from the faces about the position. */
 static bool fill_normals(WrTrianglesBuild *b, WrError *err)
 {
     const WrVec3 none = { 0, 0, 0 };
@@ -275,7 +277,7 @@ static bool good_uv(const float *uv)
     return fabsf(uv[0]) <= 1e6f && fabsf(uv[1]) <= 1e6f;
 }
 
-/* Corner k of face i, and whether it has (u,v). */
+/* Corner k of face i; returns true if it has (u,v). */
 static bool make_corner(WrTrianglesBuild *b, int32_t i, int k, WrTriangleCorner *out)
 {
     const int32_t point = b->face[i].corner[k];
@@ -310,7 +312,7 @@ static void count_bad_uv(WrTrianglesBuild *b)
         b->told.bad_uv += !good_uv(b->source->uv[i]);
 }
 
-/* How the (u,v) of each mapped face run. */
+/* Counts the orientations of the (u,v) of mapped faces. */
 static void count_maps(WrTrianglesBuild *b)
 {
     for (int32_t i = 0; i < b->count; i++) {
@@ -324,7 +326,7 @@ static void count_maps(WrTrianglesBuild *b)
     }
 }
 
-/* ---- the whole ---- */
+/* ---- construction ---- */
 
 static bool check_source(const WrTrianglesSource *source, WrError *err)
 {
@@ -418,7 +420,7 @@ WrTriangles *wr_triangles_new(const WrTrianglesSource *source, WrError *err)
 
 WrTriangles *wr_triangles_share(const WrTriangles *triangles)
 {
-    WrTriangles *shared = (WrTriangles *)triangles; /* only the count changes */
+    WrTriangles *shared = (WrTriangles *)triangles; /* only the reference count changes */
     __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
     return shared;
 }
@@ -463,7 +465,7 @@ bool wr_triangle_gradients(const WrVec3 p[3], const double uv[3][2], WrVec3 *nor
     const WrVec3 cross = face_of(p, &from), n = v3_unit(cross, none);
     const double twice = v3_len(cross);
     const int a = from, b = (from + 1) % 3, c = (from + 2) % 3;
-    /* of the sum over edges only differences to the first corner are left */
+    /* the sum over edges needs only differences to the first corner */
     const WrVec3 eb = v3_sub(p[a], p[c]), ec = v3_sub(p[b], p[a]); /* opposite b and c */
     WrVec3 g[2];
     for (int k = 0; k < 2; k++) {

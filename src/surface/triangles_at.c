@@ -6,11 +6,12 @@
 #include <string.h>
 
 #define EDGE                                                                                       \
-    1e-9 /* so far outside a triangle, in parts of it, a place still counts as on its edge */
-#define SHIFTS 64 /* repeats of the table that one triangle may reach over, either way */
-#define SAME 1e-6 /* places closer than this part of the radius are one */
+    1e-9 /* tolerance outside a triangle, as a fraction of it, within which a point still counts as
+            on its edge */
+#define SHIFTS 64 /* maximum repeats of the table covered by one triangle, in each direction */
+#define SAME 1e-6 /* points closer than this fraction of the radius are equal */
 
-/* ---- finding ---- */
+/* ---- search ---- */
 
 typedef struct Search {
     const WrTriangles *mesh;
@@ -34,7 +35,8 @@ static void add_place(Search *search, int32_t index, double a, double b)
     search->count++;
 }
 
-/* The shares (a, b) for which the corner at (o) plus a du, b dv is (u,v) or a repeat of it; in a triangle or a square. */
+/* The weights (a, b) for which the corner at (o) plus a du, b dv is (u,v) or a repeat of it; in a
+ * triangle or a square. */
 typedef struct Frame {
     double o[2], a[2], b[2];
     bool square;
@@ -46,7 +48,7 @@ static void try_frame(Search *search, int32_t index, const Frame *f)
     const double want[2] = { search->u, search->v };
     double first[2], last[2];
     if (!(fabs(det) > 0)) return;
-    for (int k = 0; k < 2; k++) { /* whole numbers that bring the wanted one into its range */
+    for (int k = 0; k < 2; k++) { /* integer shifts that bring the target into its range */
         const double x = f->o[k], y = x + f->a[k], z = x + f->b[k], w = f->square ? y + f->b[k] : x;
         const double slack = EDGE * (fabs(f->a[k]) + fabs(f->b[k])) + 1e-12;
         first[k] = ceil(fmin(fmin(x, y), fmin(z, w)) - want[k] - slack);
@@ -142,7 +144,7 @@ static void mesh_at(const WrTriangles *mesh, const WrTrianglesPlace *place, WrSu
     lay(v3_unit(n, face), gu, gv, out);
 }
 
-/* The patch's own gradients, turned by the chart: table's u = (c0 + c1 u + c2 v) scale_u. */
+/* The patch's own gradients, transformed by the chart: table's u = (c0 + c1 u + c2 v) scale_u. */
 static void patch_at(const WrPatches *set, const WrTrianglesPlace *place, WrSurfacePoint *out)
 {
     const WrPatch *patch = &set->patch[place->index];

@@ -1,5 +1,4 @@
-/* triangles_internal.h - a mesh while it is made.
-   Private to this module. */
+/* triangles_internal.h - internals of the construction of meshes. Private to this module. */
 #pragma once
 #include "surface/triangles.h"
 
@@ -7,18 +6,19 @@
 
 #include <math.h>
 
-/* det of the (u,v) differences, in parts of its terms, that is nothing but the rounding of (u,v), which are floats. */
+/* Threshold of the determinant of (u,v) differences, relative to its terms, below which it is rounding
+ * of (u,v), which are floats. */
 #define WR_COLLINEAR (8 * 0x1p-24)
 
 typedef struct WrTrianglesBuild {
     const WrTrianglesSource *source;
-    float (*points)[3]; /* the source's, without -0 */
-    int32_t *at;        /* point -> place */
+    float (*points)[3]; /* those of the source, without -0 */
+    int32_t *at;        /* point -> position index */
     int32_t places;
     WrVec3 *own;              /* each point's normal, unit; 0: none */
-    WrTriangle *face;         /* [count] those with an area, by points */
-    int32_t *of;              /* their numbers in the source */
-    WrVec3 *normal;           /* theirs */
+    WrTriangle *face;         /* [count] those with an area, by point indices */
+    int32_t *of;              /* their indices in the source */
+    WrVec3 *normal;           /* their normals */
     bool *mapped;             /* they have texture coordinates */
     WrTriangleCorner *corner; /* [3 count] */
     int32_t count;
@@ -27,14 +27,14 @@ typedef struct WrTrianglesBuild {
     WrTrianglesTold told;
 } WrTrianglesBuild;
 
-/* Rows of `size` bytes, a multiple of 4, that have the same bits get the same number, 0 .. kinds - 1 in the order of
- * their first. */
+/* Rows of `size` bytes, a multiple of 4, with equal bits get the same index, 0 .. kinds - 1 in the
+ * order of their first occurrence. */
 bool wr_weld(const void *rows, size_t size, int32_t count, int32_t *to, int32_t *kinds,
              WrError *err);
 
-/* Sort, number the corners in that order, and pack the whole. NULL: no memory. */
+/* Sorts, numbers the corners in that order, and packs the mesh. NULL: out of memory. */
 WrTriangles *wr_triangles_finish(WrTrianglesBuild *build, WrError *err);
-/* Fill in all that follows from the arrays alone. */
+/* Fills in all members derived from the arrays. */
 void wr_triangles_measure(WrTriangles *made);
 
 /* The angle between two vectors, radians, 0 .. pi; 0 where one is 0. */

@@ -1,11 +1,11 @@
-/* Where two places of a mesh have the same texture coordinates. */
+/* Areas of a mesh with overlapping texture coordinates. */
 #include "surface/triangles.h"
 
 #include "base/memory.h"
 
 #include <math.h>
 
-/* How often the middles of cells are covered, 0, 1, 2 for more. */
+/* Coverage count of cell centres: 0, 1, 2 for more. */
 typedef struct Count {
     unsigned char *cell;
     int cells;
@@ -21,7 +21,7 @@ static double side(const Flat *t, int k, double x, double y)
     return (t->u[b] - t->u[a]) * (y - t->v[a]) - (t->v[b] - t->v[a]) * (x - t->u[a]);
 }
 
-/* Does an edge own the points on it? The reverse edge does not. */
+/* True if the edge includes the points on it; its reverse does not (fill rule). */
 static bool owns(const Flat *t, int k)
 {
     const int a = (k + 1) % 3, b = (k + 2) % 3;
@@ -43,7 +43,7 @@ static void cover(const Count *count, const Flat *t)
     const double area = side(t, 0, t->u[0], t->v[0]);
     if (area == 0) return;
     const double sign = area > 0 ? 1 : -1;
-    /* A triangle over very many repeats covers all that it will in the first ones. */
+    /* A triangle over very many repeats covers everything it can within the first ones. */
     const int most = 4 * count->cells;
     const double x0 = floor(fmin(fmin(t->u[0], t->u[1]), t->u[2]) - 0.5);
     const double y0 = floor(fmin(fmin(t->v[0], t->v[1]), t->v[2]) - 0.5);

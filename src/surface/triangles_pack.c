@@ -1,4 +1,4 @@
-/* A mesh as numbers in a row, for documents. */
+/* Serialisation of a mesh as numbers, for documents. */
 #include "surface/triangles_internal.h"
 
 #include "base/error.h"
@@ -10,7 +10,8 @@
 
 #define PACK_VERSION 1
 
-/* version, corners, triangles, parts, closed, then what was told; the ball as twice three floats and so on */
+/* version, corners, triangles, parts, closed, then the statistics; the bounding sphere as twice three
+ * floats and so on */
 enum { HEAD = 5, TOLD_COUNT = 9, BALL = 12, PART = 3 + WR_TRIANGLE_NAME };
 
 static void told_to_floats(const WrTrianglesTold *told, float *out)
@@ -28,7 +29,7 @@ static void told_from_floats(const float *in, WrTrianglesTold *told)
     *told = (WrTrianglesTold){ n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] != 0, 0 };
 }
 
-/* A double as three floats that add up to it. */
+/* A double as three floats whose sum it is. */
 static void split(double x, float out[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -71,7 +72,7 @@ float *wr_triangles_pack(const WrTriangles *t, size_t *count)
     return block;
 }
 
-/* A whole number of low .. high. */
+/* True for an integer of low .. high. */
 static bool whole(float x, double low, double high)
 {
     return (double)x >= low && (double)x <= high && (double)x == floor((double)x);

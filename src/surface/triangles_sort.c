@@ -1,4 +1,4 @@
-/* The order of a mesh's triangles, and the arrays that stay. */
+/* Sorting of a mesh's triangles, and its final arrays. */
 #include "surface/triangles_internal.h"
 
 #include "base/error.h"
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* Every third bit of 21. */
+/* Spreads 21 bits to every third bit. */
 static uint64_t spread_bits(uint64_t x)
 {
     x &= 0x1fffff;
@@ -18,7 +18,7 @@ static uint64_t spread_bits(uint64_t x)
     return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-/* Where the middle of a face lies on the curve. */
+/* Position of a face's centre on the space-filling curve. */
 static uint64_t curve_place(const WrTrianglesBuild *b, int32_t i)
 {
     const WrTriangleCorner *c = b->corner + 3 * (size_t)i;
@@ -37,7 +37,7 @@ typedef struct Item {
     int32_t face;
 } Item;
 
-/* By key, equal ones as they stand: eight passes of a byte each. */
+/* Stable radix sort by key: eight passes of a byte each. */
 static void sort_items(Item *items, Item *spare, int32_t count)
 {
     for (int shift = 0; shift < 64; shift += 8) {
@@ -50,7 +50,7 @@ static void sort_items(Item *items, Item *spare, int32_t count)
     }
 }
 
-/* Faces in the order of parts and of the curve. */
+/* Sorts faces by parts and the curve. */
 static bool sort_faces(const WrTrianglesBuild *b, Item *items, WrError *err)
 {
     const WrTrianglesSource *source = b->source;
@@ -92,7 +92,7 @@ static WrTrianglePart *make_parts(const WrTrianglesBuild *b, int *count)
     return parts;
 }
 
-/* Corners by the order in which they are first met. */
+/* Numbers corners in the order of their first use. */
 static bool number_corners(WrTriangles *made, WrTriangleCorner *rows, WrError *err)
 {
     const int32_t count = 3 * made->triangle_count;
@@ -112,9 +112,9 @@ static bool number_corners(WrTriangles *made, WrTriangleCorner *rows, WrError *e
     return true;
 }
 
-/* ---- corners that all but meet ---- */
+/* ---- nearly equal corners ---- */
 
-/* Within four units of the last place of the larger. */
+/* True within four units of the last place of the larger. */
 static bool all_but(float a, float b)
 {
     return fabsf(a - b) <= 0x1p-21f * fmaxf(fabsf(a), fabsf(b));
@@ -125,7 +125,8 @@ static bool all_but_one(const WrTriangleCorner *a, const WrTriangleCorner *b)
     return memcmp(a->n, b->n, sizeof a->n) == 0 && all_but(a->u, b->u) && all_but(a->v, b->v);
 }
 
-/* Corners whose place and normal another has, and all but its (u,v): seams by rounding, which part tangent frames (HC129). */
+/* Counts corners whose position and normal equal another's, and nearly its (u,v): seams by rounding,
+ * which split tangent frames (HC129). */
 static int32_t count_near(const WrTriangles *made)
 {
     const int32_t count = made->corner_count;
@@ -138,7 +139,7 @@ static int32_t count_near(const WrTriangles *made)
     for (int32_t i = 0; i < count && good; i++) memcpy(p[i], made->corners[i].p, sizeof p[i]);
     good = good && wr_weld(p, sizeof *p, count, at, &places, NULL);
     for (int32_t i = 0; i < count && good && places < count; i++) {
-        int32_t other = last[at[i]] - 1; /* of the same place, met before */
+        int32_t other = last[at[i]] - 1; /* an earlier one of the same position */
         before[i] = last[at[i]];
         last[at[i]] = i + 1;
         for (int looks = 0; other >= 0 && looks < 16; looks++, other = before[other] - 1)
