@@ -23,7 +23,7 @@ bool wr_erode_begin(WrSheet *sheet, const WrGenerateJob *job, WrError *err)
     return false;
 }
 
-/* after - before, at the table's size, added to the table */
+/* Adds after - before, resized to the table, to the table. */
 static bool add_change(WrSheet *sheet, const WrGenerateJob *job, WrError *err)
 {
     WrSheet before = { .z = NULL }, whole = { .z = NULL };

@@ -24,11 +24,11 @@ typedef struct Round {
     const WrThermal *how;
     const WrSheet *from;
     WrSheet *to;
-    double *part; /* rate/2 max(d) / sum(d); 0: nothing flows */
+    double *part; /* rate/2 max(d) / sum(d); 0: no flow */
     double hold[8];
 } Round;
 
-/* The place of neighbour k, or -1 beyond an edge (or where it is the texel itself). */
+/* Index of neighbour k, or -1 beyond an edge (or if it is the texel itself). */
 static int64_t neighbour(const WrSheet *s, int i, int j, int k)
 {
     int x = i + step_i[k], y = j + step_j[k];
@@ -57,7 +57,7 @@ static void weigh_rows(const void *ctx, int first, int end)
         }
 }
 
-/* Both ends of a flow work it out from the same numbers. */
+/* Both ends of a flow compute it from the same numbers. */
 static void flow_rows(const void *ctx, int first, int end)
 {
     const Round *r = ctx;
@@ -114,7 +114,7 @@ bool wr_terrain_thermal(const WrParamValue *values, const WrGenerateJob *job, Wr
     double scale = (double)sheet.width / wr_field_width(job->like);
     WrThermal how = { .talus = sine / cosine * texel,
                       .rate = wr_param_number(&p, "rate"),
-                      /* stones come as far as the root of the rounds, in texels */
+                      /* material spreads with the root of the number of rounds, in texels */
                       .rounds = (int)ceil(wr_param_number(&p, "rounds") * scale * scale) };
     bool good = wr_erode_thermal(&sheet, &how, job, err);
     return wr_erode_end(&sheet, job, good, out, err);

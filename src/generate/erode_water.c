@@ -11,13 +11,13 @@
 
 #define RADIUS_MOST 16
 #define GRAVITY 4.0
-#define LEAST_SLOPE 0.01 /* by which a drop on flat ground carries something */
-#define RUN 64           /* texels of a grid that a drop runs at most */
-#define LEAST_SIDE 48    /* texels; smaller grids are not made */
+#define LEAST_SLOPE 0.01 /* slope used for the capacity on flat ground */
+#define RUN 64           /* maximum run of a drop, in texels of a grid */
+#define LEAST_SIDE 48    /* texels; smaller grids are not used */
 #define LEVELS_MAX 10
 #define COARSE                                                                                     \
-    0.15         /* rain on the first coarser grid, as a part; half of it on each grid after that */
-#define ROUNDS 8 /* in which all of the table gets its share of the rain */
+    0.15         /* fraction of rain on the first coarser grid; half of it on each further grid */
+#define ROUNDS 8 /* passes over the whole table, each with a part of the rain */
 
 const WrParam wr_params_hydraulic[] = {
     WR_P_NUMBER("rain", "Rain", 1, 0, 100, 4, "", "drops for each texel"),
@@ -42,15 +42,16 @@ typedef struct Weather {
     WrSheet *sheet;
     const WrRain *rain;
     Brush brush;
-    double scale;     /* slopes: table units a texel -> parts of the relief in 1/256 of the width */
-    double fade[RUN]; /* what is left of its water by how far it has run, besides evaporation */
-    double capacity;  /* table units */
+    double scale;     /* slopes: table units per texel -> fractions of the relief per 1/256 of the
+                         width */
+    double fade[RUN]; /* remaining water by distance run, besides evaporation */
+    double capacity;  /* per texel of the grid */
     double drops;     /* for each of its texels */
     int life, level;
 } Weather;
 
 typedef struct Drop {
-    double x, y, dx, dy;       /* texels, texel centres at whole numbers */
+    double x, y, dx, dy;       /* texels, with texel centres at integers */
     double speed, water, load; /* load: table units of one texel */
 } Drop;
 
@@ -76,7 +77,7 @@ static double *texel(const WrSheet *s, int i, int j)
     return &s->z[(size_t)j * (size_t)s->width + (size_t)i];
 }
 
-/* Whether texels i..i + size - 1, j..j + size - 1 need no wrapping: most drops are there. */
+/* True if texels i..i + size - 1, j..j + size - 1 need no wrapping: the usual case. */
 static bool within(const WrSheet *s, int i, int j, int size)
 {
     return i >= 0 && j >= 0 && i <= s->width - size && j <= s->height - size;
@@ -88,7 +89,8 @@ static int floor_of(double x)
     return i - ((double)i > x);
 }
 
-/* The four texels about a place: left, right; the same below; and how far it is from the first. */
+/* The four texels about a position: upper left, upper right, lower left, lower right; and the
+ * fractions. */
 typedef struct Corners {
     double *at[4];
     double a, b;
@@ -110,14 +112,14 @@ static inline Corners corners(const WrSheet *s, double x, double y)
     return c;
 }
 
-/* The height at a place, bilinear. */
+/* Bilinear height at the position. */
 static inline double ground(const Corners *c)
 {
     double above = *c->at[0] * (1.0 - c->a) + *c->at[1] * c->a;
     return above * (1.0 - c->b) + (*c->at[2] * (1.0 - c->a) + *c->at[3] * c->a) * c->b;
 }
 
-/* One after the other, since on small tables they may be the same texel. */
+/* Sequentially, since on small tables they may be the same texel. */
 static void lay_down(const Corners *c, double amount)
 {
     *c->at[0] += amount * (1.0 - c->a) * (1.0 - c->b);
@@ -136,7 +138,7 @@ static void take_up_direct(const Brush *brush, double *corner, size_t width, dou
     }
 }
 
-/* Below 0: lay it down, softly. */
+/* Erodes within the radius; negative amounts are deposited smoothly. */
 static void take_up(const Weather *w, double x, double y, double amount)
 {
     const Brush *brush = &w->brush;
@@ -152,7 +154,7 @@ static void take_up(const Weather *w, double x, double y, double amount)
             *texel(s, i + a, j + b) -= amount * brush->weight[b * brush->side + a];
 }
 
-/* Back onto the table round a ring; false beyond a clamped edge. */
+/* Wraps around a periodic axis; false beyond a clamped edge. */
 static bool bring_back(double *x, int n, WrWrap wrap)
 {
     if (*x >= 0.0 && *x < n) return true;
@@ -162,7 +164,7 @@ static bool bring_back(double *x, int n, WrWrap wrap)
     return true;
 }
 
-/* Which way the ground falls, and the drop runs: of length 1. False where it has nowhere to go. */
+/* Updates the direction of the drop, of length 1. False if it has none. */
 static inline bool turn(const Weather *w, const Corners *c, Drop *d)
 {
     double p = *c->at[0], q = *c->at[1], r = *c->at[2], t = *c->at[3];
@@ -179,7 +181,7 @@ static inline bool turn(const Weather *w, const Corners *c, Drop *d)
     return true;
 }
 
-/* Take up or lay down at its place, before it goes to where the ground is higher by `rise`. */
+/* Erodes or deposits at the drop's position, before it moves to ground that is higher by `rise`. */
 static inline void carry(const Weather *w, const Corners *c, double rise, double fade, Drop *d)
 {
     const WrRain *rain = w->rain;
@@ -188,12 +190,12 @@ static inline void carry(const Weather *w, const Corners *c, double rise, double
         (fall > LEAST_SLOPE ? fall : LEAST_SLOPE) * d->speed * d->water * fade * w->capacity;
     if (rise > 0.0 || d->load > can) {
         double amount = (d->load - can) * rain->deposition;
-        if (rise > 0.0) amount = rise < d->load ? rise : d->load; /* fill the hollow */
+        if (rise > 0.0) amount = rise < d->load ? rise : d->load; /* fills the hollow */
         lay_down(c, amount);
         d->load -= amount;
     } else {
         double amount = (can - d->load) * rain->erosion;
-        if (amount > -rise) amount = -rise; /* no deeper than where it goes */
+        if (amount > -rise) amount = -rise; /* not below the next position */
         take_up(w, d->x, d->y, amount);
         d->load += amount;
     }
@@ -202,7 +204,7 @@ static inline void carry(const Weather *w, const Corners *c, double rise, double
     d->water *= 1.0 - rain->evaporation;
 }
 
-/* One texel on. False when the drop has come to its end. */
+/* Moves one texel. False at the end of the drop. */
 static inline bool step(const Weather *w, Drop *d, double fade)
 {
     const WrSheet *s = w->sheet;
@@ -233,14 +235,15 @@ static void run_drop(const Weather *w, double x, double y)
 
 /* ---- tiles ----
  *
- * A drop touches nothing farther than `reach` from where it falls. So in tiles of more than twice that,
- * every other one along each axis, drops do not meet: four sorts of tiles one after another, those of a sort
- * at once, and drops in a tile in their order make the same ground on any number of threads. */
+ * A drop affects nothing farther than `reach` from its start. So in tiles larger than twice that, with
+ * every other one selected along each axis, drops do not meet: four classes of tiles are processed one
+ * after another, those of a class in parallel, drops of a tile in order. The result is the same on any
+ * number of threads. */
 
 typedef struct Storm {
     const Weather *w;
     int tiles[2]; /* along each axis; even, or 1 */
-    int sort[2];  /* which are rained on */
+    int sort[2];  /* parity of the active tiles */
     int round;
     const WrProgress *progress;
 } Storm;
@@ -282,7 +285,7 @@ static void rain_on_tile(int index, int worker, void *ctx)
     }
 }
 
-/* done, share: of all the work. */
+/* done, share: fractions of all the work. */
 static bool rain_on_sheet(const Weather *w, double done, double share, const WrGenerateJob *job)
 {
     int reach = w->life + w->brush.radius + 2;
@@ -318,7 +321,7 @@ static void set_weather(Weather *w, WrSheet *sheet, const WrRain *rain, int leve
     make_brush(&w->brush, rain->radius);
 }
 
-/* What `small` has become more than `before`, added to sheet; the sum of heights stays. */
+/* Adds the difference of `small` and `before` to sheet; the sum of heights is preserved. */
 static bool add_change(WrSheet *sheet, WrSheet *small, const WrSheet *before,
                        const WrGenerateJob *job, WrError *err)
 {
@@ -343,7 +346,7 @@ typedef struct Rainfall {
 /* Rain on coarser grids first, then on this one. */
 static bool rain_on_level(WrSheet *sheet, const Rainfall *all, int level, WrError *err)
 {
-    double share = 0.75; /* of the work, each grid has a quarter of the finer one's */
+    double share = 0.75; /* of the work; each grid has a quarter of the finer one's */
     for (int k = 0; k < level; k++) share *= 0.25;
     if (level + 1 < all->levels) {
         WrSheet small = { .z = NULL }, before = { .z = NULL };
@@ -368,7 +371,7 @@ bool wr_erode_rain(WrSheet *sheet, const WrRain *rain, const WrGenerateJob *job,
 {
     double low, high;
     wr_sheet_range(sheet, &low, &high);
-    if (!(high - low > 1e-30)) return true; /* nothing runs */
+    if (!(high - low > 1e-30)) return true; /* flat: no flow */
     Rainfall all = { rain, job, high - low, 1 };
     int side = sheet->width < sheet->height ? sheet->width : sheet->height;
     while (all.levels < LEVELS_MAX && rain->life >> (all.levels - 1) > RUN &&

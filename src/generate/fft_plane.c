@@ -1,5 +1,5 @@
-/* Planes of real numbers, line by line. Columns are gathered a few at a time, so that caches see whole
-   lines of them. */
+/* Transforms of real planes, line by line. Columns are gathered a few at a time, so that whole cache
+   lines are used. */
 #include "generate/fft_plane.h"
 
 #include "base/error.h"
@@ -89,8 +89,8 @@ static void back(const void *ctx, const WrFft *fft, double *a, double *b, double
 
 /* ---- slopes ---- */
 
-/* Of k of a ring of n: radians a texel of the smoothest function; the highest of an even n has no slope at
- * the texels. */
+/* Frequency of k on a ring of n: radians per texel of the smoothest function; the highest of an even n
+ * has no slope at the texels. */
 static double frequency(int k, int n)
 {
     int m = 2 * k < n ? k : 2 * k == n ? 0 : k - n;
@@ -103,7 +103,7 @@ typedef struct Turned {
     int n;
 } Turned;
 
-/* Hartley's transform of the slope: -w[k] H[n-k]; turned round: + w[k] H[n-k]. */
+/* Hartley transform of the slope: -w[k] H[n-k]; of the transposed slope: + w[k] H[n-k]. */
 static void turn_smooth(const Turned *t, const WrFft *fft, double *line[2], double *scratch)
 {
     int n = t->n;
@@ -148,7 +148,7 @@ bool wr_plane_turned_slope(const WrPlane *plane, int axis, WrSlopes slopes, WrEr
     return wr_plane_lines(plane, axis, turn_slope, &turned, err);
 }
 
-/* D^T D of the function of frequency k. Exactly 0 where there is no slope to see. */
+/* D^T D for the function of frequency k. Exactly 0 where the slope is 0. */
 static double stiffness(WrSlopes slopes, WrEnds ends, int k, int n)
 {
     double sine, cosine, turns = ends == WR_ENDS_RING ? (double)k / n : 0.5 * k / n;
@@ -168,13 +168,15 @@ static double *stiffnesses(const WrPlane *plane, int axis, WrSlopes slopes, WrEr
     return all;
 }
 
-/* Whether a map does not determine the function of frequency k of this axis, for which `other` is the stiffness
-   along the other axis. It goes up and down from texel to texel of a ring of even length, so that its slopes are 0
-   at every texel; the other axis' slopes alone tell of it, and are divided by what is small for long waves:
-     smooth   never: no surface is so rough that such slopes were meant, and what a map has there is noise that
-              would stand a hundred times over its neighbours, a comb
-     central  where it is told of as well as its neighbours are: there a table may well have it, and the map has
-              its slopes as they are */
+/* True if a map does not determine the function of frequency k of this axis; `other` is the stiffness
+   along the other axis. This is the alternating function on a ring of even length, whose slopes are 0
+   at every texel. Only the other axis' slopes contain it, and are divided by a small number for long
+   waves:
+
+     smooth   always excluded: no surface is rough enough to have such slopes, and noise of the map at that frequency
+              would be amplified a hundred times over its neighbours, to a comb
+     central  included if it is determined as well as its neighbours: then a table may contain it, and the map has
+              its exact slopes */
 static bool unseen(WrSlopes slopes, const double *stiffness, int k, double other)
 {
     if (k == 0 || stiffness[k] > 1e-20) return false;

@@ -1,4 +1,4 @@
-/* The analytic functions as heights: evaluated exactly at the texels' centres, then rounded to float. */
+/* Analytic functions as heights: evaluated exactly at the texels' centres, then rounded to float. */
 #include "field/analytic.h"
 
 #include "base/error.h"

@@ -202,7 +202,7 @@ static bool check(const WrGenerator *g, const WrParam *p, const WrParamValue *va
     case WR_PARAM_TEXT:
     case WR_PARAM_FILE: break;
     }
-    /* a text or file whose fallback is "" may be left out */
+    /* a text or file whose fallback is "" is optional */
     return value->text || p->fallback_text ? true : fail_missing(g, p, err);
 }
 

@@ -1,14 +1,15 @@
-/* generator.h - things rasterized into a table: patterns, noise, text, solids, terrain, pictures. One const
-   table of rows, by which commands, the Generate panel, live preview and tests are made: a new generator is
-   one function and one row in its family's table.
-   Knows tables, never documents or layers.
+/* generator.h - generators of height tables: patterns, noise, text, solids, terrain, pictures. One
+   const table of rows.
 
-   What all of them keep to:
+   Commands, the Generate panel, live preview and tests are generated from the rows: a new generator is
+   one function and one row in its family's table. Independent of documents and layers. Common rules:
+
    - They wrap: on a periodic axis the pattern crosses the edge exactly, and the table rolled by whole
-     texels is what the same generator gives with its origin moved by as much, bit for bit, wherever the
-     mathematics allows; rows that cannot say so in their help.
+     texels equals the same generator with its origin moved by as much, bit for bit, wherever the
+     mathematics allows; the help of other rows says that they do not.
    - The same bits on every processor and for any number of threads.
-   - Heights are finite. Lengths are texels, heights table units, angles degrees anticlockwise as seen. */
+   - Heights are finite. Lengths are in texels, heights in table units, angles in degrees anticlockwise
+     as seen. */
 #pragma once
 #include <stdbool.h>
 
@@ -17,7 +18,7 @@ typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
 
-#define WR_GENERATOR_PARAMS 28 /* of one generator, at most */
+#define WR_GENERATOR_PARAMS 28 /* maximum for one generator */
 #define WR_GENERATOR_POINTS 4096
 
 typedef enum WrParamKind {
@@ -25,11 +26,11 @@ typedef enum WrParamKind {
     WR_PARAM_WHOLE,
     WR_PARAM_CHOICE, /* the value is the word's index */
     WR_PARAM_SWITCH, /* off, on: 0, 1 */
-    WR_PARAM_TUPLE,  /* `components` numbers: a place u,v, a vector x,y,z */
-    WR_PARAM_POINTS, /* places u,v;u,v;...; none by default */
-    WR_PARAM_TERMS, /* tuples of `components` numbers, each within its part's range; one at least */
-    WR_PARAM_TEXT,  /* UTF-8; in commands \n stands for a new line (in quotes "\\n") */
-    WR_PARAM_FILE   /* of a picture, a font, a mesh; the caller resolves it and knows its hash */
+    WR_PARAM_TUPLE,  /* `components` numbers: a position u,v, a vector x,y,z */
+    WR_PARAM_POINTS, /* positions u,v;u,v;...; default: none */
+    WR_PARAM_TERMS, /* tuples of `components` numbers, each within its part's range; at least one */
+    WR_PARAM_TEXT,  /* UTF-8; in commands \n represents a new line (in quotes "\\n") */
+    WR_PARAM_FILE /* a picture, a font, a mesh; the caller resolves the path and stores its hash */
 } WrParamKind;
 
 /* One number of a term. */
@@ -41,21 +42,21 @@ typedef struct WrParamPart {
 
 typedef struct WrParam {
     const char *name;  /* as in commands; NULL ends the list */
-    const char *also;  /* another name that commands accept; NULL: none */
+    const char *also;  /* alternative name in commands; NULL: none */
     const char *label; /* for people */
     const char *help;  /* a few words */
     const char *unit;  /* "texels", "degrees", "table units", "" */
     WrParamKind kind;
     double fallback[3];
-    const char *fallback_text;  /* texts and files; NULL: it must be given */
+    const char *fallback_text;  /* texts and files; NULL: required */
     double low, high;           /* closed range of each number */
-    double soft_low, soft_high; /* what a slider spans */
+    double soft_low, soft_high; /* slider range */
     bool above;                 /* `low` itself is excluded */
-    bool positional;            /* in commands by place, not by name */
+    bool positional;            /* in commands by position, not by name */
     int components;             /* tuples, terms */
-    int fewest;                 /* terms: numbers that may not be left out; the others are then 0 */
+    int fewest;                 /* terms: number of required components; the others default to 0 */
     const WrParamPart *parts;   /* terms: [components] */
-    const char *shape;          /* tuples, terms: how they are written: "i,j,a;..."; may be NULL */
+    const char *shape;          /* tuples, terms: syntax for help: "i,j,a;..."; may be NULL */
     const char *const *words;   /* choices; ends with NULL */
 } WrParam;
 
@@ -63,10 +64,10 @@ typedef struct WrParamValue {
     double number[3];     /* numbers, choices, switches, tuples */
     const double *points; /* [count][2]; terms: [count][components] */
     int count;
-    const char *text; /* texts, files (a path that can be opened); NULL: none */
+    const char *text; /* texts, files (a readable path); NULL: none */
 } WrParamValue;
 
-/* What comes out: heights, and where it says something. */
+/* Output of a generator: heights and coverage. */
 typedef struct WrNormalMips {
     WrField *heights; /* owned */
     WrField *cover;   /* 0..1, owned; NULL: 1 everywhere */
@@ -75,31 +76,30 @@ void wr_normal_mips_fini(WrNormalMips *relief);
 
 typedef struct WrGenerateJob {
     const WrField
-        *like; /* lends size and wrap; its heights are what lies there (erosion reads it) */
-    const WrField *selection,
-        *mask;                  /* of that size: what is selected, the layer's mask; NULL: none */
-    WrPool *pool;               /* NULL: the calling thread */
-    const WrProgress *progress; /* NULL: no reports, no cancelling */
-    bool coarse;                /* a preview that may be rough where that is much faster */
+        *like; /* defines size and wrap; its heights are the present content (read by erosion) */
+    const WrField *selection, *mask; /* of that size: the selection, the layer's mask; NULL: none */
+    WrPool *pool;                    /* NULL: the calling thread */
+    const WrProgress *progress;      /* NULL: no reports, no cancellation */
+    bool coarse; /* a preview that may be less accurate if that is much faster */
     void (*note)(void *ctx,
-                 const char *text); /* what there is to say besides: dropped octaves, missing
-                                                  glyphs, the sign of a normal map; NULL: nobody listens */
+                 /* receives remarks: dropped octaves, missing glyphs, the sign of a normal map;
+                  * NULL: ignored */
+                 const char *text);
     void *note_ctx;
-    /* Told of what was chosen where a parameter leaves it open, before it is used, so that the same can be
-       asked for again whatever is installed then: the path of a FILE; of a CHOICE another word of it, or
-       the path of the file that its word stands for. False, with an error: it must not be used. NULL:
-       nobody listens */
+    /* Called when an automatic choice was made for a parameter, before it is used, so that a replay
+       does not depend on the installed files: the path of a FILE; for a CHOICE another word, or the
+       path of its word's file. False, with an error: the choice must not be used. NULL: no callback */
     bool (*chose)(void *ctx, const char *param, const char *value, WrError *err);
     void *chose_ctx;
 } WrGenerateJob;
 
 typedef struct WrGenerator {
     const char *family; /* the command's verb: "pattern" */
-    const char *name;   /* its form: "bricks"; NULL: the family has this one alone */
+    const char *name;   /* its form: "bricks"; NULL: the only row of the family */
     const char *label, *help;
-    const char *blend;     /* how it joins the layer unless told: "replace", "add", "max" */
+    const char *blend;     /* default blend mode on the layer: "replace", "add", "max" */
     const WrParam *params; /* ends with name NULL */
-    /* values: [params], checked against their rows. out: untouched on failure; caller owns it. */
+    /* values: [params], already checked. out: unchanged on failure; caller owns it. */
     bool (*make)(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
                  WrError *err);
 } WrGenerator;
@@ -110,10 +110,10 @@ typedef struct WrFamily {
     const char *help;  /* one sentence, for the command's help */
     const char *example;
     const WrGenerator *rows; /* ends with family NULL */
-    bool beyond;             /* made of the selection, and not kept to it */
+    bool beyond;             /* derived from the selection, but not limited to it */
 } WrFamily;
 
-/* In the order of the panel; ends with name NULL. A family is one file's table. */
+/* In panel order; ends with name NULL. A family is one file's table. */
 extern const WrFamily wr_families[];
 extern const WrGenerator wr_patterns[], wr_noise_rows[], wr_text_rows[], wr_solids[], wr_terrains[],
     wr_picture_rows[], wr_formula_rows[], wr_rim_rows[];
@@ -125,6 +125,6 @@ int wr_generator_param_count(const WrGenerator *generator);
 int wr_generator_param_find(const WrGenerator *generator, const char *name); /* -1 */
 /* All defaults. values: [wr_generator_param_count] */
 void wr_generator_defaults(const WrGenerator *generator, WrParamValue *values);
-/* Checks the values against the row (names what, the value, what would be right), then makes it. */
+/* Checks the values against the row (errors: parameter, value, valid range), then runs the generator. */
 bool wr_generator_make(const WrGenerator *generator, const WrParamValue *values,
                        const WrGenerateJob *job, WrNormalMips *out, WrError *err);

@@ -18,7 +18,7 @@
     X(DOMAIN_V, "along-v")
 typedef enum Domain { DOMAINS(WR_WORD_ID) } Domain;
 static const char *const domains[] = { DOMAINS(WR_WORD) NULL };
-/* The kinds of noise that are ways to tile. */
+/* The kinds of noise that differ in their tiling method. */
 #define WAYS(X)                                                                                    \
     X(WR_NOISE_SHEARED, "sheared")                                                                 \
     X(WR_NOISE_TORUS, "torus")                                                                     \
@@ -80,7 +80,7 @@ static const WrParam simplex_params[] = {
 };
 static const WrParam plane_params[] = { NOISE_PARAMS(4), WR_P_END };
 
-/* What a row's parameters describe besides the octaves. */
+/* Parameters of a row besides the octaves. */
 typedef struct Described {
     WrParams params;
     WrNoiseKind kind;
@@ -105,7 +105,7 @@ static Described describe(const WrGenerator *row, const WrParamValue *values)
     return d;
 }
 
-/* Cells across and up, and in depth as across. */
+/* Number of cells across and up; in depth as across. */
 static void count_cells(const Described *d, const char *name, int width, int height,
                         double cells[WR_NOISE_AXES])
 {
@@ -213,12 +213,12 @@ void wr_noise_maker_at(const WrNoiseMaker *maker, double u, double v, WrNoiseRea
 /* ---- tables ---- */
 
 typedef struct Filling {
-    WrNoiseMaker maker; /* at the origin's rest of a texel; whole texels are rolled */
+    WrNoiseMaker maker; /* at the origin's fractional texel; whole texels are rolled */
     WrOrigin across, up;
-    const float *line; /* of one dimension: N at the texels along it; NULL otherwise */
+    const float *line; /* for one dimension: N at the texels along it; NULL otherwise */
 } Filling;
 
-/* The row of the table whose texels stand where row j's do before the origin is moved. */
+/* Row of the unmoved table that corresponds to row j. */
 static int source_row(const Filling *filling, int height, int j)
 {
     int from_below = height - 1 - j - filling->up.shift;
@@ -231,7 +231,7 @@ static int source_column(const Filling *filling, int width, int i)
     return k < 0 ? k + width : k;
 }
 
-/* A rectangle of the table as it is before the origin is moved. */
+/* A rectangle of the table before the origin is moved. */
 static void fill_rectangle(const Filling *filling, const WrNoiseGrid *grid, float *out)
 {
     const WrNoiseMaker *m = &filling->maker;
@@ -248,7 +248,7 @@ static void fill_rectangle(const Filling *filling, const WrNoiseGrid *grid, floa
         }
 }
 
-/* N over a block, rectangle by rectangle where the roll tears it apart. */
+/* N over a block, in several rectangles if the roll splits it. */
 static void fill_noise(const Filling *filling, const WrGenerateBlock *b, float *out)
 {
     WrNoiseGrid grid = { .width = b->width, .height = b->height };
@@ -285,7 +285,7 @@ static void fill(const void *ctx, const WrGenerateBlock *b, int worker, float *h
         wr_octaves_scale(level, amplitude, b->count_i, heights + y * WR_TILE);
 }
 
-/* Move every octave by part of a texel. */
+/* Moves every octave by a fraction of a texel. */
 static void move_plan(WrOctavesPlan *plan, const double move[WR_NOISE_AXES])
 {
     for (int i = 0; i < plan->used; i++)
@@ -360,7 +360,7 @@ static bool make(const WrGenerator *row, const WrParamValue *values, const WrGen
     return good;
 }
 
-/* A row's function knows its own row. */
+/* Each row's function needs its own row. */
 #define MAKE(index, name)                                                                          \
     static bool make_##name(const WrParamValue *values, const WrGenerateJob *job,                  \
                             WrNormalMips *out, WrError *err)                                       \

@@ -1,11 +1,12 @@
-/* noise_rows.h - the family "noise": what its parameters describe, for filling tables and for asking at one
-   point.
+/* noise_rows.h - the generator family "noise": its parameters converted to a sum, for tables and single
+   points.
 
      F(u,v) = level + amplitude N(p),   p = (u, v) - origin
 
-   N is the sum of octaves of noise/octaves.h, tiling with period 1; in the domains along-u and along-v of
-   one coordinate alone (the lecture's 1D noise, drawn out across the table), in the domain slice of three,
-   (u, v, slice). With warp, N(p + warp/cells w(p)), w two octaves of the same noise for each coordinate. */
+   N is the sum of octaves of noise/octaves.h, tiling with period 1. In the domains along-u and along-v
+   it depends on one coordinate only (the lecture's 1D noise, extended across the table), in the domain
+   slice on three, (u, v, slice). With warp, N(p + warp/cells w(p)), w two octaves of the same noise for
+   each coordinate. */
 #pragma once
 #include "generate/generator.h"
 #include "noise/octaves.h"
@@ -14,10 +15,10 @@
 
 typedef struct WrNoiseMaker {
     WrOctavesPlan plan;
-    WrOctavesPlan warp[WR_NOISE_AXES]; /* [plan.dim], in use if warp_amount is not 0 */
+    WrOctavesPlan warp[WR_NOISE_AXES]; /* [plan.dim], used if warp_amount is not 0 */
     double warp_amount;                /* periods */
-    int axis;                          /* of one dimension: 0 along u, 1 along v */
-    double slice;                      /* of three: the third coordinate, periods */
+    int axis;                          /* for one dimension: 0 along u, 1 along v */
+    double slice;                      /* for three: the third coordinate, periods */
     double amplitude, level;           /* table units */
     double origin[2];                  /* u, v */
 } WrNoiseMaker;
@@ -28,11 +29,10 @@ typedef struct WrNoiseReading {
     double f, fu, fv; /* F = level + amplitude N */
 } WrNoiseReading;
 
-/* Work out what a row of wr_noise_rows with these values, checked against it, makes of a table of width x
- * height texels: octaves finer than its Nyquist frequency are left out. *maker is plain data. Errors name
- * what does not fit together. */
+/* Converts the checked values of a row of wr_noise_rows for a table of width x height texels: octaves
+ * finer than its Nyquist frequency are dropped. *maker is plain data. Errors name incompatible values. */
 bool wr_noise_maker(const WrGenerator *row, const WrParamValue *values, int width, int height,
                     WrNoiseMaker *maker, WrError *err);
 
-/* At one point, in double. */
+/* Evaluates one point in double. */
 void wr_noise_maker_at(const WrNoiseMaker *maker, double u, double v, WrNoiseReading *reading);

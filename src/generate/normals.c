@@ -50,7 +50,7 @@ static void decode_texel(const WrImage *image, const float *pixel, bool as_is, s
     out->steep += steep;
 }
 
-/* Slopes of 0. */
+/* Initialises with slopes of 0. */
 static bool begin(const WrImage *image, WrNormals *out, WrError *err)
 {
     const size_t count = (size_t)image->width * (size_t)image->height;
@@ -137,8 +137,8 @@ void wr_normals_flip(WrNormals *n)
 
 /* ---- integration ---- */
 
-/* Slopes at texels to steps between them: the integral of the cubic through four texels, or of the parabola
- * through the last three. */
+/* Converts slopes at texels to steps between them: the integral of the cubic through four texels, or of
+ * the parabola through the last three. */
 static void steps_of_line(const void *ctx, const WrFft *fft, double *a, double *b, double *scratch)
 {
     (void)fft;
@@ -162,12 +162,12 @@ static void steps_of_line(const void *ctx, const WrFft *fft, double *a, double *
 typedef struct Work {
     WrPlane plane;
     WrSlopes slopes[2];
-    double *want[2];    /* slopes of the map, table units a texel */
-    double *have[2];    /* for what is worked out from them */
-    const double *from; /* of an axis: slopes of the map, or heights */
-    const double *unit; /* table units a texel */
+    double *want[2];    /* slopes of the map, table units per texel */
+    double *have[2];    /* slopes of the result */
+    const double *from; /* for one axis: slopes of the map, or heights */
+    const double *unit; /* table units per texel */
     int axis;
-    double *sums; /* [height] of something of a row */
+    double *sums; /* [height] a sum for each row */
 } Work;
 
 typedef void Row(Work *w, int j, size_t k, size_t end); /* row j: texels [k, end) */
@@ -191,7 +191,7 @@ static bool each_row(Work *w, Row *row, WrError *err)
     return wr_pool_run(w->plane.pool, w->plane.height, one_row, &rows) || wr_fail(err, "cancelled");
 }
 
-/* Of the rows' sums; the same however many threads there are. */
+/* Mean from the rows' sums; independent of the number of threads. */
 static double mean_of(const Work *w)
 {
     double sum = 0.0;
@@ -205,7 +205,7 @@ static void scale_row(Work *w, int j, size_t k, size_t end)
     for (; k < end; k++) w->plane.z[k] = w->from[k] * w->unit[w->axis];
 }
 
-/* An axis' slopes in table units a texel, as the way of taking slopes there wants them. */
+/* An axis' slopes in table units per texel, in its slope definition. */
 static bool prepare(Work *w, int axis, const double *slopes, WrError *err)
 {
     const int n = axis == 0 ? w->plane.width : w->plane.height;
@@ -238,14 +238,14 @@ static void step_row(Work *w, int j, size_t k, size_t end)
     }
 }
 
-/* The slopes that these heights have, in the same way. */
+/* Slopes of these heights, in the same definition. */
 static bool own_slopes(Work *w, int axis, const double *heights, WrError *err)
 {
     w->plane.z = w->have[axis];
     w->from = heights;
     w->axis = axis;
     if (w->slopes[axis] == WR_SLOPES_STEP) return each_row(w, step_row, err);
-    /* Turned round they only change sign. */
+    /* Transposed slopes differ only in sign. */
     return each_row(w, copy_row, err) &&
            wr_plane_turned_slope(&w->plane, axis, w->slopes[axis], err) &&
            each_row(w, turn_row_round, err);
@@ -257,14 +257,14 @@ static void sum_slopes_of_row(Work *w, int j, size_t k, size_t end)
     for (; k < end; k++) w->sums[j] += w->want[w->axis][k];
 }
 
-/* Squares of the angles between the normals of the map and the heights' own. */
+/* Squared angles between the normals of the map and those of the heights. */
 static void sum_angles_of_row(Work *w, int j, size_t k, size_t end)
 {
     double sum = 0.0;
     for (; k < end; k++) {
         double a = w->want[0][k] / w->unit[0], b = w->want[1][k] / w->unit[1];
         double c = w->have[0][k] / w->unit[0], d = w->have[1][k] / w->unit[1];
-        double x = b - d, y = c - a, z = a * d - b * c; /* of the vector product */
+        double x = b - d, y = c - a, z = a * d - b * c; /* cross product */
         double angle = wr_atan2(sqrt(x * x + y * y + z * z), 1.0 + a * c + b * d);
         sum += angle * angle;
     }

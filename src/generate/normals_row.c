@@ -1,4 +1,4 @@
-/* Heights from a normal map, as a row of the pictures. */
+/* The generator row of heights from a normal map. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#define SURE 0.2 /* correlation of the curl under which a sign counts as guessed */
+#define SURE 0.2 /* correlation of the curl below which a sign is reported as a guess */
 
 #define YS(X) X(Y_AUTO, "auto") X(Y_UP, "up") X(Y_DOWN, "down")
 #define EDGES(X) X(EDGES_AUTO, "auto") X(EDGES_PERIODIC, "periodic") X(EDGES_FREE, "free")
@@ -56,7 +56,7 @@ const WrParam wr_params_normals[] = {
     WR_P_END
 };
 
-/* Find the sign of green, and say which it is and how sure. */
+/* Determines the sign of green, and reports it with its certainty. */
 static void settle_green(const WrParams *p, WrNormals *normals, const WrGenerateJob *job)
 {
     int y = wr_param_whole(p, "y");
@@ -94,9 +94,11 @@ static void say(const WrNormals *n, const WrIntegral *how, const WrGenerateJob *
                      how->residual_deg);
 }
 
-#define BETTER 0.7 /* of the smooth surface's angle: then the map was made by central differences */
+/* ratio to the smooth surface's angle below which the map is assumed to come from central
+ * differences */
+#define BETTER 0.7
 
-/* With the slopes asked for, or those that leave less of the map unexplained. */
+/* Integrates with the requested slope definition, or the one with the smaller residual. */
 static bool integrate(int slopes, const WrNormals *n, WrIntegral *how, const WrGenerateJob *job,
                       WrSheet *sheet, WrError *err)
 {
@@ -152,7 +154,7 @@ static bool make(const WrParams *p, WrNormals *normals, const WrGenerateJob *job
     return good;
 }
 
-/* What a label tells counts where the line does not. */
+/* The file's label applies if the command does not specify it. */
 static WrNormalCodes codes_of(const WrParams *p, const WrImage *image)
 {
     const int code = wr_param_whole(p, "codes");
@@ -162,7 +164,7 @@ static WrNormalCodes codes_of(const WrParams *p, const WrImage *image)
                                                        : WR_NORMALS_AUTO;
 }
 
-/* Per texel and downwards, or over the cell and divided by a number that the file tells. */
+/* Per texel and downwards, or relative to the cell and divided by a number from the file. */
 static bool decode_bump_slopes(const WrParams *p, const WrImage *first, WrNormals *out,
                                WrError *err)
 {

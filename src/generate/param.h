@@ -1,5 +1,4 @@
-/* param.h - rows of parameters, and reading their values by name.
-   Private to this module. */
+/* param.h - macros for parameter rows, and access to values by name. Private to this module. */
 #pragma once
 #include "generate/generator.h"
 
@@ -7,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The parameters that many generators have, as macros for their tables. */
+/* Common parameters of generators, as macros for their tables. */
 #define WR_P_NUMBER(n, l, value, lowest, highest, soft, u, h)                                      \
     {                                                                                              \
         .name = (n), .label = (l), .help = (h), .unit = (u), .kind = WR_PARAM_NUMBER,              \
@@ -42,7 +41,7 @@
 #define WR_P_HEIGHT                                                                                \
     WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",        \
                 "from the lowest to the highest; below 0 turns it inside out")
-/* Of pieces that lean and are rough, which rise over a plain one. */
+/* For tilted and rough pieces, which rise above a plain one. */
 #define WR_P_PIECE_HEIGHT                                                                          \
     WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",        \
                 "of a plain piece over the ground; leaning and rough ones rise over it, by tilt "  \
@@ -60,34 +59,33 @@
         .name = NULL                                                                               \
     }
 
-#define WR_PARAM_HEIGHT 1e30 /* heights at most, table units */
+#define WR_PARAM_HEIGHT 1e30 /* maximum height, table units */
 
 /* A row's values. */
 typedef struct WrParams {
     const WrParam *params;      /* ends with name NULL */
-    const WrParamValue *values; /* as many */
+    const WrParamValue *values; /* one for each parameter */
 } WrParams;
 
-/* The value of that name, which must be there: a number, a choice's index, a switch. */
+/* The value of an existing parameter: a number, a choice's index, a switch. */
 double wr_param_number(const WrParams *params, const char *name);
 int wr_param_whole(const WrParams *params, const char *name);
-/* All of it. */
+/* The whole value. */
 const WrParamValue *wr_param_value(const WrParams *params, const char *name);
-/* Whole, 0..2^32 - 1. */
+/* An integer, 0..2^32 - 1. */
 uint32_t wr_param_seed(const WrParams *params);
 
-/* Where a table's texels are for something whose origin is moved: texel i stands at
-   ((i - shift) mod size + 1/2 - rest) / size of it, so that a move by whole texels is a roll, bit for
-   bit. */
+/* Texel positions in a pattern whose origin is moved: texel i is at ((i - shift) mod size + 1/2 - rest)
+   / size of it, so that a move by whole texels is a roll, bit for bit. */
 typedef struct WrOrigin {
     int size, shift; /* 0 <= shift < size */
     double rest;     /* of a texel, -0.5..0.5 */
 } WrOrigin;
 
-/* origin: in cells, from the left for u; for v from below, so the axis of rows takes -origin. */
+/* origin: in cells, from the left for u; for v from below, so pass -origin for rows. */
 WrOrigin wr_origin(int size, double origin);
 
-/* The texel's place in texels from the origin, in [0, size). */
+/* The texel's distance from the origin in texels, in [0, size). */
 static inline double wr_origin_at(const WrOrigin *origin, int i)
 {
     int k = i - origin->shift;

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* ---- a table of places ---- */
+/* ---- sampling ---- */
 
 typedef struct Drawing {
     WrPatternAt at;
@@ -21,7 +21,7 @@ static double wrapped(double x, double size)
     return x < 0.0 ? x + size : x >= size ? x - size : x;
 }
 
-/* The mean over one texel, summed in one order. */
+/* The mean over one texel, summed in a fixed order. */
 static double texel(const Drawing *d, double x, double y)
 {
     int n = d->samples;
@@ -137,7 +137,7 @@ WrPieces wr_pieces_of(const WrParams *params, const WrCells *c)
                         .width = c->width,
                         .height = c->height };
     double side = c->cell_width < c->cell_height ? c->cell_width : c->cell_height;
-    for (int k = 0; k < 2; k++) { /* a fifth and a sixteenth of a piece, but four texels or more */
+    for (int k = 0; k < 2; k++) { /* a fifth and a sixteenth of a piece, but at least four texels */
         double grain = side / (k == 0 ? 5.0 : 16.0);
         if (grain < 4.0) grain = 4.0;
         pieces.grain[k] =

@@ -1,11 +1,10 @@
-/* pattern.h - what the patterns share: the grid that they are drawn on, edges, and pieces that differ from
-   one another.
+/* pattern.h - common parts of patterns: the sampling grid, edge profiles, and randomly varied pieces.
    Private to this module.
 
-   A pattern is a function of a place: x texels to the right of the origin, y upwards, within one table.
-   It gives 0..1 or thereabouts, and a row's `height` multiplies it. All things stand whole numbers of
-   times across the table, so that the pattern closes; and since a place is all that it knows, a moved
-   origin rolls it bit for bit. */
+   A pattern is a function of a position: x texels to the right of the origin, y upwards, within one
+   table. It returns about 0..1, multiplied by the row's `height`. Everything repeats an integer number
+   of times across the table, so that the pattern tiles; and since it depends only on the position, a
+   moved origin rolls it bit for bit. */
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/tile_builder.h"
@@ -15,31 +14,31 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Height at a place; ctx is the pattern's own. Any thread. */
+/* Height at a position; ctx belongs to the pattern. Any thread. */
 typedef double (*WrPatternAt)(const void *ctx, double x, double y);
 
-/* Fill a relief: height times the mean of samples x samples places in each texel (1: at its centre, for
- * patterns that are antialiased by themselves; in a coarse preview always). Reads height and origin. */
+/* Fills the output: height times the mean of samples x samples positions in each texel (1: its centre,
+ * for antialiased patterns; always in a coarse preview). Reads height and origin. */
 bool wr_pattern_make(const WrParams *params, const WrGenerateJob *job, WrPatternAt at,
                      const void *ctx, int samples, WrNormalMips *out, WrError *err);
 #define WR_PATTERN_SAMPLES 4
 
 /* ---- cells ---- */
 
-/* So many cells across and up, of so many texels. */
+/* A grid of cells on the table. */
 typedef struct WrCells {
     double width, height;           /* of the table, texels */
     int across, rows;               /* cells, from 1 */
-    double cell_width, cell_height; /* texels; need not be whole */
-    bool turned;                    /* for things that run upwards: the table on its side */
+    double cell_width, cell_height; /* texels; may be fractional */
+    bool turned;                    /* for patterns along v: x and y are exchanged */
 } WrCells;
 
 WrCells wr_cells(const WrField *like, int across, int rows);
-/* By the parameters across and rows. */
+/* From the parameters across and rows. */
 WrCells wr_cells_of(const WrParams *params, const WrField *like);
-/* The same for things that run the way that the parameter along tells. */
+/* wr_cells_of for patterns with a direction, the parameter along. */
 WrCells wr_cells_along(const WrParams *params, const WrField *like);
-/* A place of the table as such things have it. */
+/* Exchanges x and y if the pattern is turned. */
 static inline void wr_cells_turn(const WrCells *cells, double *x, double *y)
 {
     const double keep = *x;
@@ -48,7 +47,7 @@ static inline void wr_cells_turn(const WrCells *cells, double *x, double *y)
     *y = keep;
 }
 
-#define WR_CELLS_MOST 1024 /* along an axis */
+#define WR_CELLS_MOST 1024 /* maximum along an axis */
 #define WR_P_ACROSS(value) WR_P_WHOLE("across", "Across", value, 1, WR_CELLS_MOST, 32, "how many")
 #define WR_P_ROWS(value) WR_P_WHOLE("rows", "Rows", value, 1, WR_CELLS_MOST, 32, "how many")
 
@@ -58,13 +57,14 @@ static inline int wr_modulo(int i, int n)
     return rest < 0 ? rest + n : rest;
 }
 
-/* 0..1 by a seed and two whole numbers and a use; a multiple of 2^-24, so that sums stay exact. */
+/* A random number 0..1 from a seed, two integers and a purpose; a multiple of 2^-24, so that sums are
+ * exact. */
 double wr_chance(uint32_t seed, int i, int j, int use);
 
-/* Tell that rows are no multiple of `multiple`, if so: "the bond closes where ..." */
+/* Adds a remark if rows is no multiple of `multiple`: "the bond closes where ..." */
 void wr_note_rows(const WrGenerateJob *job, int rows, int multiple, const char *what);
 
-/* ---- which way pieces run ---- */
+/* ---- direction of pieces ---- */
 
 #define WR_ALONGS(X)                                                                               \
     X(WR_ALONG_U, "u")                                                                             \
@@ -75,7 +75,7 @@ extern const char *const wr_along_words[];
 
 /* ---- edges ---- */
 
-/* A quarter of a circle; 3 t^2 - 2 t^3; a straight slope; a quarter of a circle, hollow. */
+/* A convex quarter circle; 3 t^2 - 2 t^3; a linear slope; a concave quarter circle. */
 #define WR_PROFILES(X)                                                                             \
     X(WR_PROFILE_ROUND, "round")                                                                   \
     X(WR_PROFILE_SMOOTH, "smooth")                                                                 \
@@ -83,7 +83,7 @@ extern const char *const wr_along_words[];
     X(WR_PROFILE_COVE, "cove")
 typedef enum WrProfile { WR_PROFILES(WR_WORD_ID) } WrProfile;
 
-/* How a height rises from 0 at an edge to 1 at `bevel` texels inside of it. */
+/* The rise of a height from 0 at an edge to 1 at `bevel` texels inside. */
 typedef struct WrEdge {
     double bevel; /* texels, 0: a step */
     WrProfile profile;
@@ -95,19 +95,19 @@ extern const char *const wr_profile_words[];
     WR_P_CHOICE("profile", "Profile", WR_PROFILE_ROUND, wr_profile_words, "of the edge")
 WrEdge wr_edge_of(const WrParams *params);
 
-/* The height at d texels inside of an edge (below 0: outside), averaged over one texel across the edge, in
- * closed form: for a straight edge along the table's axes what an exact box filter gives. */
+/* The height at d texels inside an edge (below 0: outside), averaged over one texel across the edge, in
+ * closed form: for a straight edge along the table's axes an exact box filter. */
 double wr_edge(const WrEdge *edge, double d);
 
-/* How far (dx, dy) is inside of a rectangle of those half sides with rounded corners, texels. */
+/* Distance of (dx, dy) inside a rectangle of those half sides with rounded corners, texels. */
 double wr_inside_box(double dx, double dy, double half_x, double half_y, double corner);
 
 /* ---- pieces: bricks, tiles, planks, stones ---- */
 
-/* What makes pieces differ and their surface uneven. */
+/* Random variation and surface of pieces. */
 typedef struct WrPieces {
     WrEdge edge;
-    double uneven, tilt, pillow, rough; /* parts of the height */
+    double uneven, tilt, pillow, rough; /* fractions of the height */
     uint32_t seed;
     double width, height; /* of the table, texels */
     WrNoise grain[2];     /* coarse and fine */
@@ -120,17 +120,17 @@ typedef struct WrPieces {
         WR_P_PART("rough", "Roughness", rough, "of their surface, as a part of the height"),       \
         WR_P_SEED
 
-/* cells: whose size goes with that of the grain. */
+/* cells: their size determines that of the grain. */
 WrPieces wr_pieces_of(const WrParams *params, const WrCells *cells);
-/* The height of a piece at a place that is d texels inside of its edge, (px, py) from its middle with -1
- * and 1 at its sides; (i, j) says which piece it is. */
+/* The height of a piece at a position d texels inside its edge, (px, py) from its middle with -1 and 1
+ * at its sides; (i, j) identifies the piece. */
 double wr_piece(const WrPieces *pieces, double d, double px, double py, int i, int j, double x,
                 double y);
-/* sin(2 pi turns) to 1e-7, for detail that is drawn many times a texel; |turns| < 1e9. */
+/* sin(2 pi turns) to 1e-7, for detail evaluated many times per texel; |turns| < 1e9. */
 double wr_ripple(double turns);
-/* Noise of -1..1, two octaves, at a place. */
+/* Noise of -1..1, two octaves, at a position. */
 double wr_solid_texture(const WrNoise grain[2], const WrPieces *pieces, double x, double y);
-/* A noise that repeats after so many cells. */
+/* A noise that repeats after this many cells. */
 WrNoise wr_pattern_noise(uint32_t seed, double cells_u, double cells_v);
 
 /* ---- the rows: parameters and functions, by file ---- */

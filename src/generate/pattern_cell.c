@@ -1,18 +1,18 @@
-/* Cells about points: dots, Voronoi cells, cracks. */
+/* Patterns of cells about points: dots, Voronoi cells, cracks. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "generate/pattern.h"
 
 #include <math.h>
 
-/* ---- points, one a cell ---- */
+/* ---- points, one per cell ---- */
 
 typedef struct Points {
     WrCells cells;
-    double *place; /* [rows][across][2], owned: within its cell, 0..1 */
+    double *place; /* [rows][across][2], owned: position within its cell, 0..1 */
 } Points;
 
-/* scatter 0: the middles of the cells, 1: anywhere in them. */
+/* scatter 0: the centres of the cells, 1: anywhere in them. */
 static bool place_points(Points *p, uint32_t seed, double scatter, WrError *err)
 {
     int across = p->cells.across, rows = p->cells.rows;
@@ -27,7 +27,7 @@ static bool place_points(Points *p, uint32_t seed, double scatter, WrError *err)
     return true;
 }
 
-/* The way from (u, v) to the point of cell (i, j), which may lie beyond the table; all in cells. */
+/* The vector from (u, v) to the point of cell (i, j), which may lie beyond the table; all in cells. */
 static void way_to(const Points *p, double u, double v, int i, int j, double way[2])
 {
     int own_i = wr_modulo(i, p->cells.across), own_j = wr_modulo(j, p->cells.rows);
@@ -131,7 +131,7 @@ typedef struct Nearest {
     int i, j, second_i, second_j; /* their cells, not reduced */
 } Nearest;
 
-/* A point two cells away can be the nearest one, none farther off can. */
+/* A point two cells away can be the nearest one, but none farther. */
 static Nearest find_nearest(const Points *p, Metric metric, double u, double v)
 {
     Nearest n = { .first = INFINITY, .second = INFINITY };
@@ -163,8 +163,8 @@ static Nearest find_nearest(const Points *p, Metric metric, double u, double v)
     return n;
 }
 
-/* Texels to the line from whose points both a and b (ways, in cells) are as far: with n = b - a that is
- * where n.p = (|b|^2 - |a|^2)/2, and a step of one texel along x changes n.p by n.x/cell_width. */
+/* Distance in texels to the line equidistant from the points a and b (vectors, in cells): with n = b -
+ * a it is n.p = (|b|^2 - |a|^2)/2, and a step of one texel along x changes n.p by n.x/cell_width. */
 static double to_border(const WrCells *c, const double a[2], const double b[2])
 {
     double nx = b[0] - a[0], ny = b[1] - a[1];
@@ -173,7 +173,7 @@ static double to_border(const WrCells *c, const double a[2], const double b[2])
     return steep > 0.0 ? past / steep : 0.0;
 }
 
-/* Texels to the nearest border of the cell of n's first point. */
+/* Distance in texels to the nearest border of the cell of n's first point. */
 static double to_borders(const Points *p, const Nearest *n, double u, double v)
 {
     double best = INFINITY;

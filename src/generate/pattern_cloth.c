@@ -1,4 +1,4 @@
-/* Threads: weave and rope. */
+/* Patterns of threads: weave and rope. */
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "generate/pattern.h"
@@ -11,7 +11,7 @@
 typedef enum Draft { DRAFTS(WR_WORD_ID) } Draft;
 static const char *const drafts[] = { DRAFTS(WR_WORD) NULL };
 
-/* Threads after which a draft begins again, along both axes. */
+/* Period of a draft in threads, along both axes. */
 WR_ROWS(repeats);
 static const int repeats[] = {
     [WR_ROW(PLAIN)] = 2, [WR_ROW(TWILL)] = 4, [WR_ROW(BASKET)] = 4, [WR_ROW(SATIN)] = 5
@@ -38,7 +38,7 @@ typedef struct Weave {
     int turns;
 } Weave;
 
-/* Does the upright thread i lie on top of the level thread j? */
+/* True if the vertical thread i is above the horizontal thread j. */
 static bool warp_on_top(Draft draft, int i, int j)
 {
     switch (draft) {
@@ -50,7 +50,7 @@ static bool warp_on_top(Draft draft, int i, int j)
     return false;
 }
 
-/* 0..1: how high the middle of a thread is at `along` threads along it; the crossings are at 1/2, 3/2. */
+/* 0..1: height of a thread's middle at `along` threads along it; the crossings are at 1/2, 3/2. */
 static double course(const Weave *w, int own, double along, bool warp)
 {
     double place = along - 0.5;
@@ -62,7 +62,7 @@ static double course(const Weave *w, int own, double along, bool warp)
     return from + ((double)to - from) * rise;
 }
 
-/* A thread's height `across` from its middle (-1/2..1/2 of the distance of threads); 0 beside it. */
+/* A thread's height at `across` from its middle (-1/2..1/2 of the distance of threads); 0 beside it. */
 static double thread(const Weave *w, int own, double across, double along, bool warp)
 {
     double s = 2.0 * across / (w->width > 0.0 ? w->width : 1e-9);
@@ -121,7 +121,8 @@ typedef struct Rope {
     double width, lay, groove, fibre;
 } Rope;
 
-/* A place on the rope's skin goes by the angle about its axis, so strands run steeper towards the sides. */
+/* The position on the rope's surface uses the angle about its axis, so strands are steeper towards the
+ * sides. */
 static double rope_at(const void *ctx, double x, double y)
 {
     const Rope *r = ctx;

@@ -1,5 +1,5 @@
-/* Things that lie over each other like a roof's: shingles and scales. Rows higher up lie on top; each piece
-   is highest at its lower end and falls towards where the next row covers it. */
+/* Overlapping pieces: shingles and scales. Higher rows lie on top; each piece is highest at its lower
+   end and falls towards the next row. */
 #include "generate/pattern.h"
 
 #include "base/error.h"
@@ -10,7 +10,7 @@ typedef struct Coat {
     WrCells cells;
     WrPieces pieces;
     double gap;    /* texels between neighbours */
-    double ragged; /* how far lower ends differ, of a row's height */
+    double ragged; /* variation of the lower ends, as a fraction of a row's height */
     double corner; /* texels; scales: 0 */
     double ridge;  /* of scales: height of the bulge along the middle */
     double wood;   /* of shingles: depth of the grain */
@@ -18,9 +18,9 @@ typedef struct Coat {
     WrNoise fibre;
 } Coat;
 
-/* The piece of a row that is nearest to x: its column, and the distance of x to the right of its middle. A row beyond the
- * edge is the row at the other end, shift included. So the table also closes with an odd number of rows: the first and
- * the last row, which meet at the edge, then have the same shift. */
+/* The piece of a row nearest to x: its column, and the distance of x to the right of its middle. A row
+ * beyond the edge is the row at the other end, shift included. So the table also closes with an odd
+ * number of rows: the first and the last row, which meet at the edge, then have the same shift. */
 static int nearest_column(const Coat *c, int row, double x, double *dx)
 {
     double shift = wr_modulo(row, c->cells.rows) % 2 * 0.5 + 0.5;
@@ -30,7 +30,7 @@ static int nearest_column(const Coat *c, int row, double x, double *dx)
     return wr_modulo(column, c->cells.across);
 }
 
-/* Lay a piece over what is there. */
+/* Blends a piece over the previous height. */
 static double laid(double under, double top, double cover)
 {
     return under + (top - under) * cover;
@@ -78,13 +78,13 @@ static double shingle_at(const void *ctx, double x, double y)
     const WrCells *cells = &c->cells;
     double up = y / cells->cell_height, h = 0.0;
     int own = (int)floor(up);
-    /* the row below shows through gaps; the one above reaches down as far as its ends are ragged */
+    /* the row below is visible in gaps; the one above reaches down with its ragged ends */
     for (int row = own - 1; row <= own + 1; row++) {
         double dx, half = 0.5 * (cells->cell_width - c->gap);
         int i = nearest_column(c, row, x, &dx), j = wr_modulo(row, cells->rows);
         if (half <= 0.0) continue;
         double low = row - c->ragged * wr_chance(c->pieces.seed, i, j, 4);
-        double length = 2.5 * cells->cell_height; /* far under the rows above */
+        double length = 2.5 * cells->cell_height; /* far below the rows above */
         double middle = (up - low) * cells->cell_height - 0.5 * length;
         double d = wr_inside_box(dx, middle, half, 0.5 * length, c->corner);
         double cover = wr_edge(&c->pieces.edge, d);
@@ -109,7 +109,7 @@ bool wr_pattern_shingles(const WrParamValue *values, const WrGenerateJob *job, W
     c.ragged = wr_param_number(&params, "ragged");
     c.corner = wr_param_number(&params, "corner");
     c.wood = wr_param_number(&params, "wood");
-    double fine = c.cells.across * 24.0; /* fibres of three texels or more */
+    double fine = c.cells.across * 24.0; /* fibres of at least three texels */
     if (fine > c.cells.width / 3.0) fine = c.cells.width / 3.0;
     c.fibre = wr_pattern_noise(c.pieces.seed + 9U, fine, c.cells.rows * 2.0);
     wr_note_rows(job, c.cells.rows, 2, "the bond");
@@ -131,7 +131,7 @@ const WrParam wr_params_scales[] = {
     WR_P_END
 };
 
-/* How far inside of a scale: a disc below its middle, straight sides above. */
+/* Distance inside a scale: a disc below its middle, straight sides above. */
 static double inside_scale(const Coat *c, double dx, double dy)
 {
     if (dy > c->radius) return c->radius - fabs(dx);
@@ -159,7 +159,7 @@ static double scale_at(const void *ctx, double x, double y)
     for (int row = own - 3; row <= own + 1; row++) {
         double dy = y - row * cells->cell_height, dx;
         int near = nearest_column(c, row, x, &dx), j = wr_modulo(row, cells->rows);
-        for (int side = -1; side <= 1; side++) { /* those to its left and right may overlap it */
+        for (int side = -1; side <= 1; side++) { /* its left and right neighbours may overlap it */
             double ex = dx - side * cells->cell_width;
             double cover = wr_edge(&c->pieces.edge, inside_scale(c, ex, dy));
             int i = wr_modulo(near + side, cells->across);

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* How far x is from the nearest whole number, 0..1/2. */
+/* Distance of x from the nearest integer, 0..1/2. */
 static double to_whole(double x)
 {
     return fabs(x - floor(x + 0.5));
@@ -28,8 +28,8 @@ typedef struct Lines {
     double steep; /* periods a texel, across the stripes */
 } Lines;
 
-/* The union of both families is what is left where 1 - a times 1 - b is: exact for steps, since the two are
- * filtered along axes of their own, and round where bevels meet. */
+/* The union of both families is 1 minus the product of 1 - a and 1 - b: exact for steps, since the two
+ * are filtered along separate axes, and rounded where bevels meet. */
 static double grid_at(const void *ctx, double x, double y)
 {
     const Lines *l = ctx;
@@ -61,7 +61,7 @@ const WrParam wr_params_checks[] = {
     WR_P_END
 };
 
-/* -1..1 along one axis, turning over at each side of a field. */
+/* -1..1 along one axis, with a sign change at each side of a field. */
 static double field_sign(const WrEdge *edge, double place, double size)
 {
     double cell = floor(place), d = (0.5 - fabs(place - cell - 0.5)) * size;
@@ -69,7 +69,7 @@ static double field_sign(const WrEdge *edge, double place, double size)
     return cell - 2.0 * floor(0.5 * cell) == 0.0 ? rise : -rise;
 }
 
-/* 1/2 + s t / 2 with a sign along each axis: what a box filter gives, since it works on either by itself. */
+/* 1/2 + s t / 2 with a sign along each axis: exact for a box filter, which is separable. */
 static double check_at(const void *ctx, double x, double y)
 {
     const Lines *l = ctx;
@@ -90,7 +90,7 @@ bool wr_pattern_checks(const WrParamValue *values, const WrGenerateJob *job, WrN
     return wr_pattern_make(&params, job, check_at, &l, 1, out, err);
 }
 
-/* ---- directions that close ---- */
+/* ---- periodic directions ---- */
 
 #define DIRECTION(a, b, what)                                                                      \
     WR_P_WHOLE("across", "Across", a, -WR_CELLS_MOST, WR_CELLS_MOST, 32,                           \
@@ -163,7 +163,7 @@ typedef struct Waves {
     WaveShape shape;
     int swings;
     double sway;
-    double along_u, along_v; /* whole counts of the direction along the crests */
+    double along_u, along_v; /* integer counts of the direction along the crests */
 } Waves;
 
 static double wave_at(const void *ctx, double x, double y)
@@ -179,7 +179,7 @@ static double wave_at(const void *ctx, double x, double y)
     switch (w->shape) {
     case TRIANGLE: return 2.0 * to_whole(phase);
     case RIPPLE: return 1.0 - wr_ripple(0.5 * part);
-    case DUNE: { /* up 70 % of a wave, down 30 %, smooth at both ends */
+    case DUNE: { /* rises for 70 % of a wave, falls for 30 %, smooth at both ends */
         double t = part < 0.7 ? part / 0.7 : (1.0 - part) / 0.3;
         return t * t * (3.0 - 2.0 * t);
     }

@@ -1,4 +1,4 @@
-/* Chains: links of round wire, flat and upright in turn, each through the next. */
+/* Chains: links of round wire, alternately flat and upright, each through the next. */
 #include "generate/pattern.h"
 
 #include "base/error.h"
@@ -22,10 +22,10 @@ typedef struct Chain {
     double wire;     /* radius of the wire, texels */
     double bend;     /* radius of a link's round ends, to the middle of the wire */
     double straight; /* half of a link's straight part */
-    double most;     /* height of the highest place, texels */
+    double most;     /* maximum height, texels */
 } Chain;
 
-/* Height of a link that lies flat, its axis along x, its middle at the origin; below 0: none. */
+/* Height of a flat link, its axis along x, its middle at the origin; below 0: none. */
 static double flat_link(const Chain *c, double x, double y)
 {
     double past = fabs(x) - c->straight;
@@ -34,7 +34,7 @@ static double flat_link(const Chain *c, double x, double y)
     return rest > 0.0 ? sqrt(rest) : -1.0;
 }
 
-/* One that stands on its edge: its wire runs up to `bend` above the ground and down again at both ends.
+/* Height of an upright link: its wire runs up to `bend` above the ground and down again at both ends.
  * There it is part of a torus, (sqrt(past^2 + z^2) - bend)^2 + y^2 = wire^2. */
 static double upright_link(const Chain *c, double x, double y)
 {
@@ -52,10 +52,11 @@ static double chain_at(const void *ctx, double x, double y)
     wr_cells_turn(&c->cells, &x, &y);
     double length = c->cells.cell_width, v = y / c->cells.cell_height;
     double dy = (v - floor(v) - 0.5) * c->cells.cell_height;
-    double dx = x - length * floor(x / length); /* flat ones at 0 and length, upright at the half */
+    /* flat links at 0 and length, upright ones in the middle */
+    double dx = x - length * floor(x / length);
     double h = flat_link(c, dx, dy), far = flat_link(c, dx - length, dy);
     h = far > h ? far : h;
-    for (int k = -1; k <= 1; k++) { /* long links reach into the neighbouring pairs */
+    for (int k = -1; k <= 1; k++) { /* long links extend into the neighbouring pairs */
         double up = upright_link(c, dx - (k + 0.5) * length, dy);
         h = up > h ? up : h;
     }
@@ -68,13 +69,13 @@ bool wr_pattern_chain(const WrParamValue *values, const WrGenerateJob *job, WrNo
     const WrParams params = { wr_params_chain, values };
     Chain c = { .cells = wr_cells_along(&params, job->like) };
     double width = wr_param_number(&params, "width") * c.cells.cell_height;
-    double pitch = 0.5 * c.cells.cell_width; /* from link to link */
+    double pitch = 0.5 * c.cells.cell_width; /* distance between links */
     c.wire = 0.5 * width * wr_param_number(&params, "wire");
     c.bend = 0.5 * width - c.wire;
-    /* Pulled tight: the end of one link, bend + straight from its middle, holds the next one's wire by two
-       radii: pitch = 2 (straight + bend) - 2 wire. */
+    /* A tight chain: the end of one link, bend + straight from its middle, touches the next one's wire
+       at a distance of two radii: pitch = 2 (straight + bend) - 2 wire. */
     c.straight = 0.5 * pitch + c.wire - c.bend;
-    if (c.straight < 0.0) { /* too short to be so wide */
+    if (c.straight < 0.0) { /* too short for this width */
         c.straight = 0.0;
         double scale = (0.5 * pitch) / (c.bend - c.wire > 0.0 ? c.bend - c.wire : 1.0);
         if (scale < 1.0) {

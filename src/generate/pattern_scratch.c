@@ -1,8 +1,6 @@
-/* Scratches: chains of short straight pieces, drawn in a table of their own before the origin moves them.
-
-   Each is there with all its periodic images. A place asks only the pieces near it: the table is cut into
-   buckets, and each knows the pieces that reach it. The deepest scratch counts, so the order in which
-   they come does not. */
+/* Scratches: chains of short straight pieces, in coordinates before the origin is moved. Each exists
+   with all its periodic images. The table is divided into buckets that list the pieces near them, so a
+   position evaluates only those. The deepest scratch wins, so their order is irrelevant. */
 #include "base/array.h"
 #include "base/error.h"
 #include "base/exactmath.h"
@@ -34,8 +32,8 @@ const WrParam wr_params_scratches[] = {
 };
 
 typedef struct Piece {
-    double x, y;         /* where it begins, texels from the origin, within the table */
-    double dx, dy;       /* to its end */
+    double x, y;         /* start in texels from the origin, within the table */
+    double dx, dy;       /* vector to its end */
     double from, to;     /* along the scratch, 0..1 */
     double depth, width; /* at its middle: 0..1, texels */
 } Piece;
@@ -55,8 +53,8 @@ static double signed_chance(uint32_t seed, int i, int use)
     return 2.0 * wr_chance(seed, i, 0, use) - 1.0;
 }
 
-/* Lengths and directions are the scratch's own; only its place depends on the table, by a multiple of 2^-24
- * of it, so that differences of places are exact. */
+/* Lengths and directions do not depend on the table; positions are multiples of 2^-24 of it, so that
+ * differences of positions are exact. */
 static void draw_scratch(Scratches *s, const WrParams *p, int i)
 {
     uint32_t seed = wr_param_seed(p);
@@ -93,13 +91,13 @@ static void draw_scratch(Scratches *s, const WrParams *p, int i)
     }
 }
 
-/* As far as a scratch of this width changes anything. */
+/* Maximum distance of the effect of a scratch of this width. */
 static double reach_of(double width)
 {
     return width + 2.5;
 }
 
-/* Buckets from the one at a to the one at b, which may lie outside, no more than there are. */
+/* Buckets from the one at a to the one at b, which may lie outside; at most all of them. */
 static void bucket_span(double a, double b, double size, int buckets, int *first, int *count)
 {
     *first = (int)floor(a / size * buckets);
@@ -123,14 +121,14 @@ static void put_into_buckets(Scratches *s, int index)
         }
 }
 
-/* The nearest image: what is left of d when whole tables are taken off, -size/2..size/2 about `about`. */
+/* The nearest periodic image: d minus whole tables, -size/2..size/2 about `about`. */
 static double nearest_image(double d, double about, double size)
 {
     return d - size * floor((d - about) / size + 0.5);
 }
 
-/* A groove with rims: 1 - t^2 inside, a rim from 1 to 2 half widths, thin and shallow towards both ends. What a
- * texel blurs makes it wider, and as much shallower. */
+/* A groove with rims: 1 - t^2 inside, a rim from 1 to 2 half widths, thin and shallow towards both
+ * ends. The blur of a texel makes it wider, and shallower by the same factor. */
 static double groove(const Scratches *s, const Piece *p, double x, double y)
 {
     double ex = nearest_image(x - p->x, 0.5 * p->dx, s->width);

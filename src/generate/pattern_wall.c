@@ -1,4 +1,4 @@
-/* Pieces side by side: bricks, tiles, hexagons, planks. */
+/* Adjacent pieces: bricks, tiles, hexagons, planks. */
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "field/field.h"
@@ -18,7 +18,7 @@
 typedef enum Bond { BONDS(WR_WORD_ID) } Bond;
 static const char *const bonds[] = { BONDS(WR_WORD) NULL };
 
-/* Rows after which a bond begins again. */
+/* Period of a bond in rows. */
 WR_ROWS(closes);
 static const int closes[] = { [WR_ROW(RUNNING)] = 2, [WR_ROW(THIRD)] = 3,   [WR_ROW(QUARTER)] = 2,
                               [WR_ROW(STACK)] = 1,   [WR_ROW(ENGLISH)] = 2, [WR_ROW(FLEMISH)] = 2 };
@@ -47,7 +47,7 @@ typedef struct Bricks {
     WrNoise stray_x[2], stray_y[2];
 } Bricks;
 
-/* One brick of a row: where it begins and its length, in whole bricks, with room for the joint. */
+/* One brick of a row: its start and length, in whole bricks, including the joint. */
 static void find_brick(const Bricks *b, int row, double place, double *begin, double *length)
 {
     double cell = floor(place), part = place - cell;
@@ -128,7 +128,7 @@ bool wr_pattern_bricks(const WrParamValue *values, const WrGenerateJob *job, WrN
 
 /* ---- tiles ---- */
 
-/* With what is cut off at a corner, of the half width. */
+/* The corner cut, in half widths. */
 #define TILES(X) X(1.0, "square") X(0.70710678118654752, "octagon") X(0.5, "diamond")
 static const double tile_cuts[] = { TILES(WR_WORD_ID) };
 static const char *const tile_shapes[] = { TILES(WR_WORD) NULL };
@@ -212,10 +212,10 @@ typedef struct Hexagons {
     WrCells cells;
     WrPieces pieces;
     double joint;
-    double side[4][2], reach[4]; /* half of the way to its neighbours: unit vectors, lengths */
+    double side[4][2], reach[4]; /* half the distance to its neighbours: unit vectors, lengths */
 } Hexagons;
 
-/* The nearest of the middles, which stand (i + 1/2 (j odd), j) cells from the origin; dx, dy from it. */
+/* The nearest hexagon centre; centres are (i + 1/2 (j odd), j) cells from the origin; dx, dy from it. */
 static void nearest_hexagon(const WrCells *c, double x, double y, double *dx, double *dy, int *i,
                             int *j)
 {
@@ -248,7 +248,7 @@ static double hexagon_at(const void *ctx, double x, double y)
     return wr_piece(&h->pieces, d - 0.5 * h->joint, px, py, i, j, x, y);
 }
 
-/* The even number of rows at which a hexagon's height comes nearest to sqrt(3)/2 of its width. */
+/* The even number of rows for which a hexagon's height is nearest to sqrt(3)/2 of its width. */
 static int regular_rows(const WrField *like, int across)
 {
     double rows = across * 2.0 / sqrt(3.0) * wr_field_height(like) / wr_field_width(like);
@@ -308,7 +308,7 @@ typedef struct Planks {
     WrNoise bend, fibre;
 } Planks;
 
-/* Rings that wander along the plank, and fibres; 0..1. Each plank is cut from another part of the tree. */
+/* Wavy rings along the plank, and fibres; 0..1. Each plank uses another part of the noise. */
 static double wood(const Planks *p, double u, double v, double py, int i, int j)
 {
     const int *n = p->bend.lattice.period, *m = p->fibre.lattice.period;
@@ -352,7 +352,7 @@ bool wr_pattern_planks(const WrParamValue *values, const WrGenerateJob *job, WrN
                  .rings = wr_param_whole(&params, "rings") };
     p.pieces = wr_pieces_of(&params, &p.cells);
     p.bend = wr_pattern_noise(p.pieces.seed + 7U, p.cells.across * 3.0, p.cells.rows * 2.0);
-    double fine = p.cells.rows * 24.0; /* fibres of three texels or more */
+    double fine = p.cells.rows * 24.0; /* fibres of at least three texels */
     if (fine > p.cells.height / 3.0) fine = p.cells.height / 3.0;
     p.fibre = wr_pattern_noise(p.pieces.seed + 8U, p.cells.across * 6.0, fine);
     return wr_pattern_make(&params, job, plank_at, &p, 1, out, err);

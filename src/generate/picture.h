@@ -1,5 +1,4 @@
-/* picture.h - heights out of pictures.
-   Private to this module. */
+/* picture.h - heights from pictures. Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/terrain.h"
@@ -16,10 +15,10 @@ typedef struct WrParamValue WrParamValue;
 typedef struct WrParams WrParams;
 typedef struct WrNormalMips WrNormalMips;
 
-/* How a picture is made to meet itself on the axes where the sheet is periodic.
-   blend: take away the smoothest function that has all of the jump at the edges: the periodic component of Moisan
-   (J. Math. Imaging Vis. 39, 2011). Texels stay in their places; a slope across the whole picture goes.
-   cut: overlap its ends, cut along the way of least difference, and even out what is left by the slopes on both sides
+/* Methods to make a picture seamless on the periodic axes of the sheet. blend: subtracts the smoothest
+   function with the jump at the edges: the periodic component of Moisan (J. Math. Imaging Vis. 39,
+   2011). Texels keep their positions; a slope across the whole picture is removed. cut: overlaps its
+   ends, cuts along the path of least difference, and evens out the rest using the slopes on both sides
    (Poisson). Detail stays sharp. */
 #define WR_SEAMLESS_WAYS(X)                                                                        \
     X(WR_SEAMLESS_OFF, "off")                                                                      \
@@ -28,19 +27,18 @@ typedef struct WrNormalMips WrNormalMips;
 typedef enum WrSeamless { WR_SEAMLESS_WAYS(WR_WORD_ID) } WrSeamless;
 extern const char *const wr_seamless_words[];
 
-/* The sheet's size stays for OFF and BLEND. CUT wants a picture that is larger by the overlap
- * (wr_seamless_overlap) on each periodic axis and gives one of width x height. The mean stays for BLEND.
- * Errors: no memory, "cancelled". */
+/* The sheet keeps its size for OFF and BLEND. CUT needs a picture that is larger by the overlap
+ * (wr_seamless_overlap) on each periodic axis and returns one of width x height. BLEND preserves the
+ * mean. Errors: out of memory, "cancelled". */
 bool wr_picture_blend(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
 bool wr_picture_cut(WrSheet *sheet, int width, int height, const WrGenerateJob *job, WrError *err);
-/* Texels that overlap on an axis of n: an eighth, 1 at least; 0 where it is too short to cut. */
+/* Overlap in texels on an axis of n: an eighth, at least 1; 0 if it is too short to cut. */
 int wr_seamless_overlap(int n);
 
-/* Bring a picture (whose wraps are those of the table) to the job's size, seamless in that way. */
+/* Resizes a picture (with the table's wraps) to the job's size, seamless by that method. */
 bool wr_picture_fit(WrSheet *sheet, WrSeamless seamless, const WrGenerateJob *job, WrError *err);
 
-/* Linear light of a code of an sRGB picture (IEC 61966-2-1), 0..1 and beyond; the same on every
- * processor. */
+/* Linear light of an sRGB code (IEC 61966-2-1), 0..1 and beyond; the same on every processor. */
 double wr_picture_light(double code);
 
 #define WR_P_FILE(h)                                                                               \
@@ -48,7 +46,7 @@ double wr_picture_light(double code);
         .name = "file", .label = "File", .help = (h), .unit = "", .kind = WR_PARAM_FILE,           \
         .positional = true                                                                         \
     }
-/* What of a file is taken. */
+/* Parameters that select a part of a file. */
 #define WR_P_CHANNELS(name_, also_)                                                                \
     { .name = name_,                                                                               \
       .also = also_,                                                                               \
@@ -62,7 +60,7 @@ double wr_picture_light(double code);
         .help = "of a file with several: its number, from 1, or its name; a frame", .unit = "",    \
         .kind = WR_PARAM_TEXT, .fallback_text = ""                                                 \
     }
-/* Whether what the program wrote into a file of its own about its values counts. */
+/* Option to use the values' range stored by the program in its own files. */
 #define WR_PICTURE_LABELS(X) X(WR_LABELS_READ, "read") X(WR_LABELS_IGNORE, "ignore")
 enum { WR_PICTURE_LABELS(WR_WORD_ID) };
 #define WR_P_LABELS                                                                                \
@@ -70,14 +68,14 @@ enum { WR_PICTURE_LABELS(WR_WORD_ID) };
                 "read: what export wrote into the file about its values counts; ignore: it does "  \
                 "not")
 extern const char *const wr_picture_labels[];
-/* The label that counts, having said so where it makes no sense; NULL: there is none. */
+/* The effective label, after a remark if it is invalid; NULL: none. */
 const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *image,
                                      const WrGenerateJob *job);
-/* The picture of a row that has `file`, `part` and channels by that name; says what was taken of it. wish: the rest of
-   what is wanted; its channel and part are replaced. */
+/* Reads the picture of a row with `file`, `part` and channels of that name; adds a remark on the
+   selection. wish: further options; its channel and part are replaced. */
 WrImage *wr_picture_read(const WrParams *params, const char *channels, WrImageWish wish,
                          const WrGenerateJob *job, WrError *err);
-/* Notes of how reading departed from the file's pixels. */
+/* Adds remarks on differences from the file's pixels. */
 void wr_picture_note(const char *path, const WrImage *image, const WrGenerateJob *job);
 #define WR_P_SEAMLESS(value)                                                                       \
     WR_P_CHOICE("seamless", "Seamless", value, wr_seamless_words,                                  \

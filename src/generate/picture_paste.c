@@ -1,4 +1,4 @@
-/* A picture as it is, put at a place: what was copied, and what comes from other programs. */
+/* An unchanged picture at a position: pasted copies, and pictures from other programs. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"

@@ -1,5 +1,5 @@
-/* Heights by how bright a picture is: in linear light, since the codes of pictures are not in proportion to
-   it. */
+/* Heights from the brightness of a picture, in linear light, because the codes of pictures are not
+   proportional to it. */
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
@@ -88,7 +88,7 @@ const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *imag
     return label->kind == WR_LABEL_NONE && !label->ranged ? NULL : label;
 }
 
-/* A label of heights or normals tells that codes are numbers, no light. */
+/* False if a label of heights or normals declares the codes as numbers. */
 static bool is_light(const WrParams *p, const WrImage *image, const WrGenerateJob *job)
 {
     bool linear = wr_param_whole(p, "light") == LINEAR;
@@ -102,7 +102,7 @@ static bool is_light(const WrParams *p, const WrImage *image, const WrGenerateJo
     return false;
 }
 
-/* What each code of a picture of 8 or 16 bits stands for; NULL for floats. Caller frees. */
+/* Value of each code of a picture of 8 or 16 bits; NULL for floats. Caller frees. */
 static double *light_of_codes(const WrImage *image, bool linear, double *most)
 {
     *most = image->type == WR_PIXEL_U8 ? 255.0 : image->type == WR_PIXEL_U16 ? 65535.0 : 0.0;
@@ -142,7 +142,7 @@ static void read_light(const WrImage *image, int channel, bool linear, WrSheet *
     wr_free(light);
 }
 
-/* Less a Gaussian blur of that width, about the same mean. */
+/* Subtracts a Gaussian blur of that width; preserves the mean. */
 static bool high_pass(WrSheet *sheet, double sigma, const WrGenerateJob *job, WrError *err)
 {
     const WrOpOptions options = { .pool = job->pool };

@@ -23,10 +23,8 @@ static WrPlane plane_of(const WrSheet *sheet, double *z, const WrGenerateJob *jo
                       .progress = job->progress };
 }
 
-/* ---- blend ----
-
-   With L = Du^T Du + Dv^T Dv on the ring, L p is to be what it is of the picture without the steps over its
-   edges; so for s = z - p, L s has just these steps, on both sides of the edges. */
+/* ---- blend ---- With L = Du^T Du + Dv^T Dv on the torus, L p should equal that of the picture without
+   the steps at its edges; so for s = z - p, L s consists of these steps, on both sides of the edges. */
 
 static bool solve_steps(WrPlane *plane, WrError *err)
 {
@@ -102,13 +100,13 @@ static bool steps_of(Steps *steps, const WrSheet *sheet, WrError *err)
     return true;
 }
 
-/* One axis being closed: `along` it n texels stay of n + overlap; lines stand side by side `across`. */
+/* Closing of one axis: along it n of n + overlap texels remain; lines are adjacent across it. */
 typedef struct Cutting {
     const Steps *from;
     int axis, n, overlap, lines;
-    bool ring; /* the other axis is closed already */
-    int *
-        cut; /* [lines] 1..overlap - 1: before it the far end's texels, from it on the near end's */
+    bool ring; /* the other axis is already closed */
+    int *cut;  /* [lines] 1..overlap - 1: texels before it come from the far end, texels from it on
+                from the near end */
     double *sum; /* [lines][overlap] least sum of squares up to here */
 } Cutting;
 
@@ -125,7 +123,7 @@ static double mismatch(const Cutting *c, int along, int line)
     return d * d;
 }
 
-/* The way of least sum, from `start` (0: any) at line 0; where it comes back, beside it. */
+/* The path of least sum, from `start` (0: any) at line 0; on a ring it must return beside it. */
 static void find_way(Cutting *c, int start)
 {
     int o = c->overlap, last = c->lines - 1, best = 0;
@@ -163,7 +161,7 @@ static bool far_end(const Cutting *c, int along, int line)
     return along < c->cut[line];
 }
 
-/* A number of the closed picture that belongs to two texels: of their common source, or the mean. */
+/* A step of the closed picture between two texels: from their common source, or the mean. */
 static double choose(const Cutting *c, const double *g, int along, int line, bool a, bool b)
 {
     double near = g[place(c->from, c->axis, along, line)];
@@ -186,7 +184,7 @@ static void join_line(const Cutting *c, int line, Steps *to)
     }
 }
 
-/* Close one axis to n texels; *steps is replaced. */
+/* Closes one axis to n texels; *steps is replaced. */
 static bool close_axis(Steps *steps, int axis, int n, bool ring, WrError *err)
 {
     Steps made = { .z = NULL };
@@ -217,7 +215,7 @@ static bool close_axis(Steps *steps, int axis, int n, bool ring, WrError *err)
     return good;
 }
 
-/* The heights whose steps are nearest to those of the two sides, and whose mean is the picture's. */
+/* The heights whose steps are nearest to those of the two sides, with the picture's mean. */
 static bool even_out(Steps *steps, WrSheet *sheet, const WrGenerateJob *job, WrError *err)
 {
     size_t count = (size_t)sheet->width * (size_t)sheet->height;
@@ -255,7 +253,7 @@ bool wr_picture_cut(WrSheet *sheet, int width, int height, const WrGenerateJob *
 
 /* ---- */
 
-/* A table of another shape draws the picture out. */
+/* Adds a remark if the table's aspect ratio distorts the picture. */
 static void tell_shape(const WrSheet *sheet, const int size[2], const WrGenerateJob *job)
 {
     double shape = (double)sheet->width * size[1] / ((double)sheet->height * size[0]);
@@ -271,7 +269,7 @@ bool wr_picture_fit(WrSheet *sheet, WrSeamless seamless, const WrGenerateJob *jo
     for (int a = 0; a < 2; a++) {
         bool overlaps = seamless == WR_SEAMLESS_CUT && wrap[a] == WR_WRAP_PERIODIC;
         larger[a] = size[a] + (overlaps ? wr_seamless_overlap(size[a]) : 0);
-        sheet->wrap[a] = WR_WRAP_CLAMP; /* as yet its ends do not belong together */
+        sheet->wrap[a] = WR_WRAP_CLAMP; /* its ends do not match yet */
     }
     tell_shape(sheet, size, job);
     if (!wr_sheet_resize(sheet, larger[0], larger[1], job, err)) return false;

@@ -1,5 +1,5 @@
-/* Reliefs along the edge of what is selected, of a mask, of what lies higher than a level: by the distance from the edge,
-   as text has them. */
+/* Profiles along the edge of the selection, of a mask, or of the area above a level, by the distance
+   from the edge, as for text. */
 #include "base/array.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -39,9 +39,9 @@ static const WrParam params[] = {
 };
 
 typedef struct Rim {
-    const WrField *shape; /* the edge is where it crosses 1/2 */
+    const WrField *shape; /* the edge is its contour at 1/2 */
     WrTextShape pieces;
-    WrTextInside inside; /* its rims only */
+    WrTextInside inside; /* only its rims */
     WrTextNear *near;    /* [threads] */
     int kind;
     double width, height, reach;
@@ -49,7 +49,7 @@ typedef struct Rim {
 
 /* ---- the edge ---- */
 
-/* Sides along a clamped axis' end are where the table ends, not an edge. */
+/* Sides along the end of a clamped axis are the table's border, not an edge. */
 static bool is_end(const WrTextShape *s, const double a[2], const double b[2])
 {
     return (!s->wraps_u && a[0] == b[0] && (a[0] <= 0.0 || a[0] >= s->width)) ||
@@ -77,7 +77,7 @@ static int compare(int64_t a, int64_t b)
     return (a > b) - (a < b);
 }
 
-/* By row, then by column, then by what they are. */
+/* Orders by row, then column, then content. */
 static int compare_pieces(const void *a, const void *b)
 {
     const WrTextPiece *p = a, *q = b;
@@ -126,7 +126,7 @@ static double unit(double x)
     return x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
 }
 
-/* At d texels inside of the edge (below 0: outside): the height there, and how much is covered. */
+/* Height and coverage at d texels inside the edge (below 0: outside). */
 static float height_at(const Rim *rim, double d, float *cover)
 {
     WR_ROWS(profiles);

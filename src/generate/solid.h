@@ -1,5 +1,4 @@
-/* solid.h - what the solids share: where they stand, how often, and how high.
-   Private to this module. */
+/* solid.h - common parts of solids: position, repetition and height. Private to this module. */
 #pragma once
 #include "generate/param.h"
 #include "generate/zbuffer.h"
@@ -22,7 +21,7 @@
     }
 #define WR_S_RADIUS(n, l, v, h) WR_P_ABOVE(n, l, v, 0, 16384, 256, "texels", h)
 
-/* Parameters of them all, after their own. */
+/* Common parameters, after those of the solid. */
 #define WR_S_POSE                                                                                  \
     WR_S_TUPLE("at", "At", 0.5, -16, 16, 0, 1, "", "u,v", "where its middle stands"),              \
         WR_S_TUPLE("rotate", "Rotate", 0, -36000, 36000, -180, 180, "degrees", "x,y,z",            \
@@ -48,27 +47,27 @@
         WR_P_SEED
 #define WR_SOLID_MOST 1024
 
-/* One copy: stands at x, y (wr_z_place) and z; turned and scaled about its origin. */
+/* One copy: at x, y (wr_z_place) and z; rotated and scaled about its origin. */
 typedef struct WrSolidPlace {
     double at[3], turn[9], scale;
 } WrSolidPlace;
 
-/* Where all copies stand. *places is the caller's (wr_free), [*count]. */
+/* Positions of all copies. *places is owned by the caller (wr_free), [*count]. */
 bool wr_solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPlace **places,
                      int64_t *count, WrError *err);
 
-/* Draw the scene at the parameters' height (which `rise` texels of z stand for), cut at the ground. */
+/* Draws the scene with the parameters' height (for `rise` texels of z), cut at the ground. */
 bool wr_solid_draw(const WrParams *params, WrZScene *scene, double rise, const WrGenerateJob *job,
                    WrNormalMips *out, WrError *err);
 
-/* A net of triangles to be placed. */
+/* A triangle mesh to be placed. */
 typedef struct WrSolidNet {
     const double (*points)[3];   /* [point_count], texels */
-    const int32_t (*corners)[3]; /* [count] indices of points */
+    const int32_t (*corners)[3]; /* [count] point indices */
     int64_t point_count, count;
 } WrSolidNet;
 
-/* Copies of a net that stand on the ground with their lowest point. The points are turned about the
+/* Draws copies of a mesh with their lowest point on the ground. The points are rotated about the
  * origin. */
 bool wr_solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
                        WrNormalMips *out, WrError *err);

@@ -1,4 +1,4 @@
-/* Letters in three dimensions: outlines of a font cut out of a plate, with an edge, in any pose (Blinn
+/* Three-dimensional letters: outlines of a font extruded as a plate, with a bevel, in any pose (Blinn
  * 1978, figure 7: the date). */
 #include "base/error.h"
 #include "base/memory.h"
@@ -7,7 +7,7 @@
 #include "generate/text_layout.h"
 #include "image/font.h"
 
-#define CHORD 0.02 /* texels that straight pieces may differ from the outlines' curves */
+#define CHORD 0.02 /* maximum distance in texels of straight pieces from the outlines' curves */
 
 static const char *const bevels[] = { WR_Z_BEVELS(WR_WORD) NULL };
 
@@ -18,7 +18,7 @@ const WrParam wr_params_solid_letters[] = {
       .unit = "",
       .kind = WR_PARAM_TEXT,
       .positional = true },
-    WR_P_FONT(WR_FONT_SANS_BOLD), /* outlines, not blocks */
+    WR_P_FONT(WR_FONT_SANS_BOLD), /* outlines, not bitmaps */
     WR_P_FONT_FILE,
     WR_S_RADIUS("size", "Size", 96, "of the letters, as fonts count it"),
     WR_S_RADIUS("depth", "Depth", 16, "thickness of the plate"),
@@ -32,7 +32,7 @@ const WrParam wr_params_solid_letters[] = {
     WR_P_END,
 };
 
-/* The outlines about the middle of their box. NULL and an error if there are none. */
+/* The outlines relative to the middle of their bounding box. NULL and an error if there are none. */
 static WrZLetters *cut(const WrParams *params, WrFontOutline *outline, WrError *err)
 {
     int contours = outline->first.count, points = outline->xy.count / 2;
@@ -90,7 +90,7 @@ static bool outline_of(const WrParams *params, const WrGenerateJob *job, WrFontO
     return good;
 }
 
-/* Lowest and highest corner of the posed box, from its origin. */
+/* Lowest and highest corner of the posed box, relative to its origin. */
 static void box_range(const WrZSolid *solid, double range[2])
 {
     double low[3], high[3];

@@ -1,4 +1,4 @@
-/* Meshes of files, seen from above. */
+/* Meshes from files, seen from above. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "generate/tile_builder.h"
@@ -19,7 +19,8 @@ const WrParam wr_params_solid_mesh[] = {
     WR_P_END,
 };
 
-/* The points about the middle of their box, its longest side `size`. False if all are one point. */
+/* Centres the points at the middle of their bounding box and scales its longest side to `size`. False
+ * if all are equal. */
 static bool fit(const WrMesh *mesh, double size, double (*points)[3])
 {
     double low[3], high[3], most = 0.0;

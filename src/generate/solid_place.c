@@ -1,4 +1,4 @@
-/* Where solids stand: lattices with their accidents, and the drawing of what stands there. */
+/* Positions of solids: lattices with random variation, and drawing. */
 #include "generate/solid.h"
 
 #include "base/error.h"
@@ -6,7 +6,7 @@
 #include "field/field.h"
 #include "generate/pattern.h"
 
-#define TRIANGLES_MAX 12000000 /* of all copies */
+#define TRIANGLES_MAX 12000000 /* for all copies */
 
 static void multiply(const double a[9], const double b[9], double out[9])
 {
@@ -18,7 +18,7 @@ static void multiply(const double a[9], const double b[9], double out[9])
         }
 }
 
-/* Into [0, n) where the axis is periodic; by whole periods, so without rounding. */
+/* Reduces to [0, n) if the axis is periodic; by whole periods, so without rounding. */
 static double wrapped(double x, int n, WrWrap wrap)
 {
     if (wrap == WR_WRAP_CLAMP) return x;
@@ -31,7 +31,7 @@ typedef struct Lattice {
     double x, y; /* of `at` */
     double step[2];
     int across, rows;
-    double base[9], other[9]; /* turn, and that of every other one */
+    double base[9], other[9]; /* rotation, and that of every other copy */
     uint32_t seed;
     WrWrap wrap_u, wrap_v;
     int width, height;
@@ -58,7 +58,7 @@ static void turn_place(const Lattice *l, int i, int j, double out[9])
     }
 }
 
-/* (0, 0) is the lowest row's first; the lattice's middle stands at `at`. */
+/* (0, 0) is the first of the lowest row; the lattice's middle is at `at`. */
 static WrSolidPlace place(const Lattice *l, int i, int j)
 {
     double jitter = wr_param_number(l->params, "jitter"), dx = i - 0.5 * (l->across - 1);
@@ -119,10 +119,10 @@ bool wr_solid_draw(const WrParams *params, WrZScene *scene, double rise, const W
 typedef struct Copies {
     const WrSolidNet *net;
     const WrSolidPlace *places;
-    double (*turned)[3]; /* [point_count] of the copy at hand */
+    double (*turned)[3]; /* [point_count] of the present copy */
 } Copies;
 
-/* Turn the points about the origin, y down; returns the lowest and the highest z. */
+/* Rotates the points about the origin, y down; returns the lowest and the highest z. */
 static void turn_points(const Copies *c, const WrSolidPlace *p, double range[2])
 {
     for (int64_t i = 0; i < c->net->point_count; i++) {

@@ -1,4 +1,4 @@
-/* The surfaces that can be shown, as nets of triangles seen from above. */
+/* The parametric surfaces as triangle meshes, seen from above. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -9,10 +9,10 @@
 
 #include <string.h>
 
-#define FINE 0.02  /* texels that the net may differ from the surface */
-#define ROUGH 0.25 /* the same of a coarse preview */
+#define FINE 0.02  /* maximum distance in texels of the mesh from the surface */
+#define ROUGH 0.25 /* that of a coarse preview */
 #define CELLS_MAX 1500000
-#define PROBES 48 /* places along each axis where the surface's bend is measured */
+#define PROBES 48 /* positions along each axis where the second derivatives are sampled */
 
 const WrParam wr_params_solid_surface[] = {
     { .name = "shape",
@@ -29,7 +29,7 @@ const WrParam wr_params_solid_surface[] = {
     WR_P_END,
 };
 
-/* ---- the text ---- */
+/* ---- parsing ---- */
 
 static bool set_value(WrShape *shape, const char *word, size_t length, WrError *err)
 {
@@ -58,7 +58,7 @@ static bool set_value(WrShape *shape, const char *word, size_t length, WrError *
     return true;
 }
 
-/* A text of the surface, "profile=0,0;1,1": which one; -1: it is none. */
+/* Index of a text parameter in "profile=0,0;1,1"; -1: not a text parameter. */
 static int text_of(const WrSurfaceInfo *info, const char *word, size_t length)
 {
     for (int i = 0; i < WR_SURFACE_TEXTS && info->texts[i].name; i++) {
@@ -69,7 +69,7 @@ static int text_of(const WrSurfaceInfo *info, const char *word, size_t length)
     return -1;
 }
 
-/* The words after the surface's name. text: what they give of its texts, owned by the caller. */
+/* Parses the words after the surface's name. text: values of its text parameters, owned by the caller. */
 static bool read_words(const char *at, WrShape *shape, char *text[WR_SURFACE_TEXTS], WrError *err)
 {
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -88,7 +88,7 @@ static bool read_words(const char *at, WrShape *shape, char *text[WR_SURFACE_TEX
     return true;
 }
 
-/* "torus R=1 r=0.35", "revolution profile=0,0;1,1". What it borrows is the caller's to free. */
+/* Parses "torus R=1 r=0.35", "revolution profile=0,0;1,1". The caller frees borrowed data. */
 static bool read_shape(const char *text, WrShape *shape, WrError *err)
 {
     char name[32] = "", *texts[WR_SURFACE_TEXTS] = { NULL };
@@ -113,7 +113,7 @@ static bool read_shape(const char *text, WrShape *shape, WrError *err)
 
 /* ---- the net ---- */
 
-/* What its bounding box and its second derivatives are at most, at a grid of places. */
+/* Bounding box and maximum second derivatives on a grid of positions. */
 typedef struct Measure {
     double low[3], high[3];
     double uu, uv, vv;
@@ -124,7 +124,7 @@ static double length_of(WrVec3 a)
     return sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
 }
 
-/* A face's point, by parts of what it has of u and v. */
+/* A face's point at fractions of its range of u and v. */
 static void part_at(const WrShape *shape, int face, double x, double y, WrSurfacePoint *out)
 {
     const WrSurfaceCell c = wr_surface_cell(shape, face);
@@ -153,14 +153,14 @@ static void measure(const WrShape *shape, Measure *m)
     }
 }
 
-/* Cells along u and v. Chords of a cell of (a, b) are off by (a^2 |Puu| + 2 a b |Puv| + b^2 |Pvv|) / 8 at
- * most; each term gets a third of the error, measured in surface units. */
+/* Number of cells along u and v. The error of a cell of (a, b) is (a^2 |Puu| + 2 a b |Puv| + b^2 |Pvv|)
+ * / 8 at most; each term gets a third of the error, measured in surface units. */
 static void choose_cells(const Measure *m, double error, int faces, int cells[2])
 {
     double u = sqrt(m->uu / (8.0 / 3.0 * error)), v = sqrt(m->vv / (8.0 / 3.0 * error));
     u = u > 1.0 ? u : 1.0;
     v = v > 1.0 ? v : 1.0;
-    double mixed = m->uv / (4.0 / 3.0 * error); /* u v must not be less */
+    double mixed = m->uv / (4.0 / 3.0 * error); /* lower bound of the product u v */
     if (u * v < mixed) {
         double more = sqrt(mixed / (u * v));
         u *= more;

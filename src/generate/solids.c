@@ -1,4 +1,4 @@
-/* The family of solids: its rows, and those with closed forms. */
+/* The family of solids: its rows, and the solids with closed forms. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "generate/solid.h"

@@ -10,8 +10,8 @@
 #include <float.h>
 #include <string.h>
 
-#define ROWS 16            /* of a piece of work, at most ... */
-#define PIECE_TEXELS 16384 /* ... and texels, where they are more than a row */
+#define ROWS 16            /* maximum rows of a piece of work ... */
+#define PIECE_TEXELS 16384 /* ... and texels, if these are more than a row */
 #define BATCH 64           /* pieces between two reports */
 
 bool wr_sheet_new(WrSheet *sheet, int width, int height, const WrWrap wrap[2], WrError *err)
@@ -22,7 +22,7 @@ bool wr_sheet_new(WrSheet *sheet, int width, int height, const WrWrap wrap[2], W
     return true;
 }
 
-/* Large tables take seconds to be copied, where the machine has other work: row j is one to look up at. */
+/* Copying large tables may take seconds on a busy machine: checks for cancellation at some rows. */
 static bool gives_up(int j, WrError *err)
 {
     return j % ROWS == 0 && wr_progress_stopped() && !wr_fail(err, "cancelled");
@@ -101,7 +101,7 @@ WrField *wr_sheet_field(const WrSheet *sheet, WrError *err)
     return NULL;
 }
 
-/* One axis after the other, since the filter goes by the axis. */
+/* One axis after the other, since the filter depends on the axis. */
 static WrField *resized(const WrField *field, int width, int height, const WrGenerateJob *job,
                         WrError *err)
 {
@@ -163,7 +163,7 @@ static void run_rows(int index, int worker, void *ctx)
 bool wr_sheet_run(const WrSheet *sheet, const WrGenerateJob *job, bool report, WrSheetRows rows,
                   const void *ctx, WrError *err)
 {
-    /* Wide tables have pieces of fewer rows, so that work of any size stops as soon. */
+    /* Wide tables have pieces of fewer rows, so that cancellation is equally fast for any size. */
     const int fit = PIECE_TEXELS / sheet->width;
     const int each = fit < 1 ? 1 : fit < ROWS ? fit : ROWS;
     int pieces = (sheet->height + each - 1) / each;

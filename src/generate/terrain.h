@@ -1,6 +1,5 @@
-/* terrain.h - whole tables in double, for what cannot be made tile by tile; and what terrain and pictures
-   share.
-   Private to this module. */
+/* terrain.h - whole tables in double, for algorithms that cannot work tile by tile; shared by terrain
+   and pictures. Private to this module. */
 #pragma once
 #include "base/progress.h"
 #include "field/wrap.h"
@@ -15,14 +14,14 @@ typedef struct WrSheet {
     double *z;      /* [height][width] rows from the top; owned */
 } WrSheet;
 
-/* Of zeros. Errors: no memory. */
+/* A sheet of zeros. Errors: out of memory. */
 bool wr_sheet_new(WrSheet *sheet, int width, int height, const WrWrap wrap[2], WrError *err);
-/* What a table holds. */
+/* Reads a table. */
 bool wr_sheet_read(WrSheet *sheet, const WrField *field, WrError *err);
 bool wr_sheet_copy(WrSheet *sheet, const WrSheet *from, WrError *err);
-void wr_sheet_fini(WrSheet *sheet); /* fine on a zeroed one */
-/* In loops over whole tables: should texel k be done? Looks only now and then; where somebody wants it to stop, who
- * made the table throws it away. */
+void wr_sheet_fini(WrSheet *sheet); /* a zeroed one is allowed */
+/* For loops over whole tables: false if the loop should stop at texel k because of cancellation, which
+ * is checked at intervals; the caller then discards the table. */
 static inline bool wr_sheet_goes_on(size_t k)
 {
     return k % 16384 != 0 || !wr_progress_stopped();
@@ -30,17 +29,17 @@ static inline bool wr_sheet_goes_on(size_t k)
 /* Lowest and highest. */
 void wr_sheet_range(const WrSheet *sheet, double *low, double *high);
 
-/* Bring it to another number of texels: each the mean of what it covers where there are fewer than before
- * along an axis, by Catmull and Rom's cubic where there are more. Through float. */
+/* Resizes a sheet: on an axis with fewer texels each is the mean of its area, with more by Catmull-Rom
+ * interpolation. Rounds to float. */
 bool wr_sheet_resize(WrSheet *sheet, int width, int height, const WrGenerateJob *job, WrError *err);
 
-/* As a new table, rounded to float: beyond its range clamped, not a number 0. */
+/* Converts to a new table, rounded to float: values beyond its range are clamped, NaN becomes 0. */
 WrField *wr_sheet_field(const WrSheet *sheet, WrError *err);
-/* The sheet, of the job's size, as what comes out. */
+/* Converts the sheet, of the job's size, to the output. */
 bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrNormalMips *out,
                      WrError *err);
 
-/* The neighbour of texel i of n, `step` beyond -n..n away: round the ring, or the last texel. */
+/* Index of a neighbour i of an axis of n, i any number: wrapped on a ring, else the last texel. */
 static inline int wr_sheet_index(int i, int n, WrWrap wrap)
 {
     if (i >= 0 && i < n) return i;
@@ -49,8 +48,8 @@ static inline int wr_sheet_index(int i, int n, WrWrap wrap)
     return i < 0 ? i + n : i;
 }
 
-/* Call rows(ctx, first, end) for bands of the sheet's rows until all are done, on the pool. report:
- * tell the progress from 0 to 1. Errors: "cancelled". */
+/* Calls rows(ctx, first, end) for bands of the sheet's rows on the pool until all are done. report:
+ * reports the progress from 0 to 1. Errors: "cancelled". */
 typedef void (*WrSheetRows)(const void *ctx, int first, int end);
 bool wr_sheet_run(const WrSheet *sheet, const WrGenerateJob *job, bool report, WrSheetRows rows,
                   const void *ctx, WrError *err);

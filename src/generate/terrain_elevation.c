@@ -1,4 +1,4 @@
-/* Real elevations: pictures of 16 bits or of floats, and files of bare numbers. */
+/* Real elevations: images of 16 bits or floats, and raw number files. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -54,13 +54,13 @@ const WrParam wr_params_elevation[] = {
     WR_P_END
 };
 
-/* Values as the file has them. */
+/* Values of the file. */
 typedef struct Elevation {
     WrSheet sheet;
-    double most; /* of all codes; 0: floats */
+    double most; /* the largest code; 0: floats */
     double least;
-    bool can_lack; /* values may stand for "nothing known" */
-    bool labelled; /* they are heights, as the file's label tells */
+    bool can_lack; /* values may represent missing data */
+    bool labelled; /* they are heights, according to the file's label */
 } Elevation;
 
 static bool read_raw(const WrParams *p, const char *path, const char *ending, const WrWrap wrap[2],
@@ -86,7 +86,7 @@ static bool read_raw(const WrParams *p, const char *path, const char *ending, co
     return good;
 }
 
-/* Its codes become the heights that its label tells; other values= are asked for by name. */
+/* Converts codes to heights with the file's label; other values= must be requested explicitly. */
 static bool apply_label(const WrParams *p, WrImage *image, const WrGenerateJob *job)
 {
     const char *path = wr_param_value(p, "file")->text;
@@ -103,7 +103,7 @@ static bool apply_label(const WrParams *p, WrImage *image, const WrGenerateJob *
     return true;
 }
 
-/* What is not known comes as NaN and stays so. */
+/* Missing values are read as NaN and stay NaN. */
 static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[2],
                          const WrGenerateJob *job, Elevation *out, WrError *err)
 {
@@ -148,7 +148,7 @@ static bool fill_holes(const WrParams *p, Elevation *e, const char *path, const 
     return filled >= 0;
 }
 
-/* Values to heights: out = from low, by high - low over the values' range, or by scale. */
+/* Converts values to heights: from low, by high - low over the values' range, or by scale. */
 static void bring_to_heights(const WrParams *p, Elevation *e, const WrGenerateJob *job)
 {
     int values = wr_param_whole(p, "values");
@@ -182,7 +182,7 @@ bool wr_terrain_elevation(const WrParamValue *values, const WrGenerateJob *job, 
         strcmp(ending, "raw") == 0 || strcmp(ending, "r16") == 0 || strcmp(ending, "r32") == 0;
     Elevation e = { .most = 0.0 };
     const char *size = wr_param_value(&p, "size")->text;
-    /* Numbers that a sidecar tells of are a picture like others, unless the line tells of them itself. */
+    /* A raw file with a sidecar is read like other images, unless the command describes it. */
     if (raw && !(size && *size) && wr_param_whole(&p, "sample") == 0 && wr_sidecar_is_there(path))
         raw = false;
     if (!raw && size && *size)

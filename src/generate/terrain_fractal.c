@@ -1,15 +1,18 @@
-/* Mountains: sums of noise in which fine octaves are strong only in places - on heights, on ridges, where
-   the ground is not steep yet.
+/* Mountains: sums of noise whose fine octaves are weighted by location: strong at heights, on ridges,
+   and on gentle slopes. With n_k the octaves (about -1..1), a_k = ratio^-k and weights w_k,
 
-   With n_k the octaves (about -1..1), a_k = ratio^-k and weights w_k,
      fbm      v = sum of a_k w_k n_k
      billow   v = sum of a_k w_k (2 |n_k| - 1)
      ridged   v = sum of a_k w_k s_k, s_k = (1 - |n_k|)^2,   m_(k+1) = min(1, gain m_k s_k)
      hybrid   v = sum of a_k w_k s_k, s_k = n_k + offset,    m_(k+1) = min(1, gain m_k s_k)
+
    (Musgrave's multifractals; in the first two m_k = 1), and
+
      w_k = m_k (1 - altitude + altitude h) / (1 + erosion |d|^2)
-   where h = 0..1 tells how high the sum of the octaves before stands between their lowest and highest, and d
-   is the sum of the slopes of the octaves so far, per cell of their own: what is steep stays smooth. */
+
+   where h = 0..1 is the relative height of the sum of the previous octaves between their lowest and
+   highest, and d is the sum of the slopes of the octaves so far, each per own cell: steep places stay
+   smooth. */
 #include "generate/terrain.h"
 
 #include "base/error.h"
@@ -129,7 +132,7 @@ static bool plan(Fractal *f, const WrParams *p, const WrGenerateJob *job, WrErro
     return true;
 }
 
-/* Move by part of a texel; whole ones are rolled. */
+/* Moves by a fraction of a texel; whole ones are rolled. */
 static void move(WrOctavesPlan *one, const Fractal *f)
 {
     const double by[] = { f->across.rest / f->across.size, f->up.rest / f->up.size };
@@ -141,8 +144,8 @@ static void move(WrOctavesPlan *one, const Fractal *f)
         }
 }
 
-/* What the sum of the first k octaves spans at most, for `altitude`: two thirds of the noise's bound is
- * seldom passed. */
+/* Range of the sum of the first k octaves, for `altitude`: two thirds of the noise's bound, which is
+ * seldom exceeded. */
 static void span(Fractal *f)
 {
     double low = 0.0, high = 0.0, amplitude = 1.0;
@@ -180,7 +183,7 @@ static void octave_row(const Fractal *f, int k, const WrNoiseGrid *grid, const d
     }
 }
 
-/* Where the row's texels take their noise from. n: [2 width] scratch */
+/* Noise positions of the row's texels. n: [2 width] scratch */
 static void bend_row(const Fractal *f, const WrNoiseGrid *grid, double *place, float *n)
 {
     for (int a = 0; a < 2; a++) {
@@ -220,7 +223,7 @@ static void fill_rows(const void *ctx, int first, int end)
     wr_free(sums);
 }
 
-/* Bring 0..1 of the whole to level..level + height. */
+/* Maps 0..1 of the whole to level..level + height. */
 static void shape(const WrParams *p, WrSheet *sheet)
 {
     double low, high, height = wr_param_number(p, "height"), level = wr_param_number(p, "level");

@@ -8,14 +8,14 @@
 #include <stdint.h>
 #include <string.h>
 
-#define LOOK 16384 /* numbers between two looks at whether it should stop */
+#define LOOK 16384 /* numbers between cancellation checks */
 
 size_t wr_raw_bytes(WrRawKind kind)
 {
     return kind == WR_RAW_F32 ? 4 : 2;
 }
 
-/* A whole number of 1 to 5 digits at *text, which moves behind it; 0 if there is none. */
+/* An integer of 1 to 5 digits at *text, which is advanced; 0 if there is none. */
 static int read_side(const char **text)
 {
     int value = 0, digits = 0;

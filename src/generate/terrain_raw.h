@@ -1,6 +1,5 @@
-/* terrain_raw.h - elevations in files without a header: nothing but numbers, row by row from the north
-   (.r16, .raw, .r32).
-   Private to this module. */
+/* terrain_raw.h - elevation files without a header: only numbers, row by row from the north (.r16,
+   .raw, .r32). Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 
@@ -14,14 +13,15 @@ typedef enum WrRawKind { WR_RAW_KINDS(WR_WORD_ID) WR_RAW_COUNT } WrRawKind;
 
 typedef struct WrRaw {
     WrRawKind kind;
-    bool big;          /* the high byte first */
+    bool big;          /* big-endian */
     int width, height; /* 1..WR_FIELD_MAX */
 } WrRaw;
 
 size_t wr_raw_bytes(WrRawKind kind); /* of one number */
 
-/* Find the size: "WxH", or "" for a square of as many numbers as there are bytes for. Errors: not a size,
- * out of range, another number of bytes; they tell what would fit. */
+/* Determines the size: "WxH", or "" for a square with as many numbers as the file. Errors: not a size,
+ * out of range, another number of bytes; they suggest matching sizes. */
 bool wr_raw_size(const char *size, size_t length, WrRaw *raw, WrError *err);
-/* z: [height][width] the numbers as they are, NaN and infinity too. length: exactly what the size says. */
+/* z: [height][width] the unchanged numbers, including NaN and infinity. length: exactly that of the
+ * size. */
 void wr_raw_decode(const WrRaw *raw, const void *bytes, double *z);

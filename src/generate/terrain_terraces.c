@@ -1,4 +1,4 @@
-/* Terraces: what lies there, cut into steps. */
+/* Terraces: the present heights quantized to steps. */
 #include "generate/terrain.h"
 
 #include "base/error.h"
@@ -29,7 +29,7 @@ typedef struct Terraces {
     WrOrigin across, up;
 } Terraces;
 
-/* Where step k ends, in steps. */
+/* End of step k, in steps. */
 static double bound(const Terraces *t, double k)
 {
     if (k <= 0.0 || k >= t->steps) return k;
@@ -37,7 +37,7 @@ static double bound(const Terraces *t, double k)
     return k + t->uneven * 0.8 * (mixed / 4294967296.0 - 0.5);
 }
 
-/* x: in steps from the lowest; moved by `bend` before it is cut and back after. */
+/* x: in steps from the lowest; shifted by `bend` before the quantization and back after it. */
 static double cut(const Terraces *t, double x, double bend)
 {
     double at = x + bend, k = floor(at);

@@ -1,4 +1,4 @@
-/* Outlines cut into pieces along the borders of texels. */
+/* Cutting of outlines into pieces along the borders of texels. */
 #include "generate/text.h"
 
 #include "base/error.h"
@@ -94,13 +94,13 @@ static bool cut_columns(WrTextShape *shape, Point a, Point b, int64_t row, WrErr
     return add_piece(shape, from, b, column, row, err);
 }
 
-/* A side passes through the upper border of `row` at x. */
+/* Records a side that crosses the upper border of `row` at x. */
 static void cross(WrTextShape *shape, int64_t row, int64_t x, int sign)
 {
     if (shape->wraps_v) row -= floor_div(row, shape->height) * shape->height;
     if (row < 0 || row >= shape->height) return;
-    /* Of all images of the table's left border, those to the right of x count; the same number of
-     * them too many for each crossing cancels, since an outline is closed. */
+    /* Counts all images of the table's left border to the right of x; the same excess for each crossing
+     * cancels, since an outline is closed. */
     if (shape->wraps_u) shape->base[row] -= sign * floor_div(x, shape->width * UNIT);
     else if (x < 0) shape->base[row] += sign;
 }
@@ -127,7 +127,7 @@ static bool cut_rows(WrTextShape *shape, Point a, Point b, WrError *err)
 
 /* ---- polygons ---- */
 
-/* A clipped outline that lies wholly above, below or beside the table leaves nothing. */
+/* A clipped outline completely above, below or beside the table is skipped. */
 static bool is_off(const WrTextShape *shape, const double *xy, int count, const double move[2])
 {
     double low[2] = { xy[0], xy[1] }, high[2] = { xy[0], xy[1] };

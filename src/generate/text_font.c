@@ -1,4 +1,4 @@
-/* Which fonts write a text: the one that is asked for, and others for what it lacks. */
+/* Choice of the fonts of a text: the requested one, and fallbacks for its missing characters. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -8,17 +8,17 @@
 
 #include <string.h>
 
-#define NAMED 12 /* characters that a note names */
+#define NAMED 12 /* maximum characters listed in a remark */
 
 static const char *const others[WR_FONT_OTHERS] = { "fallback", "fallback2", "fallback3" };
 
 typedef struct Fonts {
     const WrParams *params;
     const WrGenerateJob *job;
-    const char *file; /* the first one's */
-    char *found;      /* owned; NULL: named by a file */
+    const char *file; /* of the first font */
+    char *found;      /* owned; NULL: given as a file */
     WrFontAsk ask;
-    char *lent[WR_FONT_OTHERS]; /* owned; chosen here */
+    char *lent[WR_FONT_OTHERS]; /* owned; chosen automatically */
     int lent_count;
 } Fonts;
 
@@ -68,9 +68,9 @@ static void note_missing(const Fonts *fonts, const WrFontText *text, const char 
     wr_text_fini(&line);
 }
 
-/* ---- fonts that lend ---- */
+/* ---- fallback fonts ---- */
 
-/* Shape with one font more. It stays if that went well and helped. */
+/* Shapes with one more font, which is kept if it contains missing characters. */
 static bool try_lender(Fonts *fonts, char *path, WrFontText *text)
 {
     WrFontText more = { 0 };
@@ -95,7 +95,7 @@ static bool try_lender(Fonts *fonts, char *path, WrFontText *text)
     return true;
 }
 
-/* One font after the other, until nothing is missing or none helps. */
+/* Adds fonts until nothing is missing or none helps. */
 static bool borrow(Fonts *fonts, const char *kind, WrFontText *text, WrError *err)
 {
     while (text->missing_count > 0 && fonts->lent_count < WR_FONT_OTHERS) {

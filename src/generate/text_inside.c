@@ -1,4 +1,4 @@
-/* From pieces to the covered part of each texel, row by row, and to the rim. */
+/* From pieces to the coverage of each texel, row by row, and to the rim. */
 #include "generate/text.h"
 
 #include "base/error.h"
@@ -13,11 +13,11 @@
 
 typedef struct Work {
     const WrTextShape *shape;
-    WrTextPiece *sorted;  /* by row; each row is sorted by column when its turn comes */
-    const int64_t *first; /* [height + 1] of each row */
+    WrTextPiece *sorted;  /* by row; each row is sorted by column when it is processed */
+    const int64_t *first; /* [height + 1] start of each row */
     const WrProgress *progress;
     WrTextInside *out;
-    int strip;    /* the batch's first */
+    int strip;    /* first of the batch */
     float *cover; /* [BATCH][ROWS][width] */
 } Work;
 
@@ -28,7 +28,7 @@ static int compare(int64_t a, int64_t b)
     return (a > b) - (a < b);
 }
 
-/* By column, then by what they are: any order that does not depend on where the table begins. */
+/* Orders by column, then by content: an order independent of the table's origin. */
 static int compare_pieces(const void *a, const void *b)
 {
     const WrTextPiece *p = a, *q = b;
@@ -39,7 +39,7 @@ static int compare_pieces(const void *a, const void *b)
     return compare(p->x1, q->x1);
 }
 
-/* The shape's pieces by row; *first is set to where each row begins. */
+/* Sorts the shape's pieces by row; *first receives the start of each row. */
 static bool sort_rows(WrTextShape *shape, int64_t **first, WrError *err)
 {
     size_t height = (size_t)shape->height, count = (size_t)shape->count;
@@ -105,7 +105,7 @@ static void make_strip(int index, int worker, void *ctx)
     rim->first[ROWS] = rim->pieces.count;
 }
 
-/* Tiles that hold nothing stay without memory. */
+/* Empty tiles allocate no memory. */
 static void keep_strip(const Work *work, int index)
 {
     int width = work->shape->width, strip = work->strip + index;

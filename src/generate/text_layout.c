@@ -8,14 +8,14 @@
 #include <string.h>
 
 #define TOLERANCE (1.0 / 64.0) /* texels */
-#define SMOOTH 32              /* straight pieces of a path between two of its points */
+#define SMOOTH 32              /* straight pieces between two points of a path */
 
-/* A place and the direction of writing there; y down. */
+/* A position and the direction of writing there; y down. */
 typedef struct Stand {
     double x, y, cosine, sine; /* sine > 0: uphill as seen */
 } Stand;
 
-/* A path as a chain of straight pieces. */
+/* A path as a polyline. */
 typedef struct Path {
     WR_ARRAY(double) xy;     /* texels, y down */
     WR_ARRAY(double) length; /* from the start to each point */
@@ -26,10 +26,10 @@ typedef struct Lay {
     const WrFontText *text;
     const WrGenerateJob *job;
     WrTextShape *shape;
-    WrFontOutline *outlines; /* [glyph_count], made when first needed */
+    WrFontOutline *outlines; /* [glyph_count], created on first use */
     bool *made;              /* [glyph_count] */
     double (*place)[2];      /* [placed_count] */
-    double scale;            /* texels a unit of the first font */
+    double scale;            /* texels per unit of the first font */
     double width, height;    /* of the table */
     bool on_texels;
     WR_ARRAY(double) turned;
@@ -65,7 +65,7 @@ static double smooth(double a, double b, double c, double d, double t)
            0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
 }
 
-/* The curve through the points; beyond its ends it is thought to go on straight. */
+/* The curve through the points; it continues straight beyond its ends. */
 static bool path_make(Path *path, const Lay *lay, WrError *err)
 {
     const double *p = lay->wish->points;
@@ -125,7 +125,7 @@ static bool make_outline(Lay *lay, int glyph, WrError *err)
                    WR_FONT_FLAT_MAX);
 }
 
-/* One letter with its pen at (x, y) from the stand, y up along its normal. */
+/* Adds one letter with its pen at (x, y) from the stand, y up along its normal. */
 static bool draw(Lay *lay, int32_t placed, const Stand *stand, double x, double y, WrError *err)
 {
     int glyph = lay->text->placed[placed].glyph;
@@ -154,7 +154,7 @@ static bool draw(Lay *lay, int32_t placed, const Stand *stand, double x, double 
 
 /* ---- lines ---- */
 
-/* How far the first baseline stands above the anchor. */
+/* Height of the first baseline above the anchor. */
 static double rise(const Lay *lay)
 {
     const WrFontText *text = lay->text;
@@ -190,7 +190,7 @@ static bool lay_lines(Lay *lay, WrError *err)
     return true;
 }
 
-/* Each letter stands upright on the path where its middle is. */
+/* Each letter is perpendicular to the path at its middle. */
 static bool lay_path(Lay *lay, WrError *err)
 {
     Path path = { 0 };
@@ -211,7 +211,7 @@ static bool lay_path(Lay *lay, WrError *err)
 
 /* ---- around the table ---- */
 
-/* One line, written so many times that the spacing has to change least, and spaced so that it closes. */
+/* One line, repeated so often that the spacing changes least, and spaced so that it closes. */
 static bool lay_round(Lay *lay, int32_t index, const Stand *stand, double length, double up,
                       WrError *err)
 {
@@ -265,7 +265,7 @@ static bool lay_around(Lay *lay, WrError *err)
 
 /* ---- all ---- */
 
-/* Dots of whole texels each, not turned: all of them fall on texels if the letters' places do. */
+/* True if all dots cover whole texels, without rotation: then letters must be at whole texels. */
 static bool is_on_texels(const Lay *lay)
 {
     double turns = lay->wish->rotate_deg / 90.0;

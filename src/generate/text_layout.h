@@ -1,5 +1,5 @@
-/* text_layout.h - where a text's letters stand on the table: in lines, turned, on a path, around the table.
-   Private to this module. */
+/* text_layout.h - layout of a text's letters on the table: in lines, rotated, on a path, around the
+   table. Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/param.h"
@@ -8,7 +8,8 @@
 
 #include <stdbool.h>
 
-/* Half way between the first line's ascent and the last one's descent; of the first line. */
+/* Middle: half way between the first line's ascent and the last one's descent; the others refer to the
+ * first line. */
 #define WR_TEXT_ANCHORS(X)                                                                         \
     X(WR_TEXT_MIDDLE, "middle")                                                                    \
     X(WR_TEXT_BASELINE, "baseline")                                                                \
@@ -16,7 +17,7 @@
     X(WR_TEXT_BOTTOM, "bottom")
 typedef enum WrTextAnchor { WR_TEXT_ANCHORS(WR_WORD_ID) } WrTextAnchor;
 
-/* Letters that the font lacks. */
+/* Treatment of letters missing in the font. */
 #define WR_TEXT_MISSING(X) X(WR_TEXT_BORROW, "borrow") X(WR_TEXT_SIGN, "sign")
 enum { WR_TEXT_MISSING(WR_WORD_ID) };
 
@@ -29,18 +30,18 @@ typedef struct WrTextWish {
     const double *points; /* [point_count][2] u, v: a path; point_count 0: none */
     int point_count;
     bool around;       /* along lattice[0] tables to the right and lattice[1] up */
-    double lattice[2]; /* whole numbers */
-    int repeats;       /* 0: as many as fit best */
+    double lattice[2]; /* integers */
+    int repeats;       /* 0: the best number */
     bool clip;
 } WrTextWish;
 
-/* Shape a text by the fonts that the parameters name: `font`, `file`, `missing`, `fallback`, `fallback2`,
- * `fallback3`. Where the first one lacks letters, none is named to lend them and missing=borrow, those are
- * lent by installed fonts, and the job is told which. Notes say what came from where, and what no font has.
- * ask: all but its fonts. */
+/* Shapes a text with the fonts of the parameters `font`, `file`, `missing`, `fallback`, `fallback2`,
+ * `fallback3`. If the first one lacks letters, no fallback is given and missing=borrow, installed fonts
+ * are used, and the job's `chose` callback receives them. Remarks list the fallback fonts and the
+ * characters missing in all fonts. ask: everything except its fonts. */
 bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
                    const WrGenerateJob *job, WrFontText *out, WrError *err);
-/* Rows of those parameters, and of the others that say which font. */
+/* Rows of those parameters, and of the others that select fonts. */
 #define WR_P_FONT(value)                                                                           \
     {                                                                                              \
         .name = "font", .label = "Font", .help = "an installed font, where no file is named",      \
@@ -63,9 +64,9 @@ bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
         .fallback_text = ""                                                                        \
     }
 
-/* Add all letters' outlines to a shape. Curves are kept within 1/64 texel. Dots of bitmap fonts at a whole
- * number of texels each, unturned, stand exactly on texels.
- * Errors   points at one place; around= on a table that is not periodic, or in no direction; those of
- *          wr_text_shape_add; cancelled */
+/* Adds all letters' outlines to a shape. Curves are approximated within 1/64 texel. Dots of bitmap
+ * fonts with an integer number of texels each, unrotated, are exactly at texels.
+ * Errors   all points are equal; around= on a table that is not periodic, or without direction; those
+ *          of wr_text_shape_add; cancelled */
 bool wr_text_lay(const WrTextWish *wish, const WrFontText *text, const WrGenerateJob *job,
                  WrTextShape *shape, WrError *err);

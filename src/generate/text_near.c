@@ -1,7 +1,8 @@
-/* How far texels are from the rim. A tile is quartered again and again; each quarter keeps those pieces
- * that can be the nearest of any of its texels: by their middles, which lie within HALF of every point of a
- * piece, as a piece does not leave its texel. Middles are compared in float with SLACK to spare; the
- * distances themselves are taken in double from the pieces' whole numbers, so that only the pieces decide. */
+/* Distances of texels from the rim. A tile is recursively quartered; each quarter keeps the pieces that
+ * can be the nearest of any of its texels, judged by the pieces' centres, which lie within HALF of
+ * every point of a piece, since a piece does not leave its texel. Centres are compared in float with a
+ * tolerance SLACK; the distances themselves are computed in double from the pieces' integers, so that
+ * only the pieces determine them. */
 #include "generate/text.h"
 
 #include <math.h>
@@ -16,7 +17,7 @@ typedef struct Search {
     const bool *want;
     float *distance;
     double reach;
-    int columns, rows; /* of the tile that are in the table */
+    int columns, rows; /* of the tile's part inside the table */
 } Search;
 
 void wr_text_near_fini(WrTextNear *near)
@@ -27,7 +28,7 @@ void wr_text_near_fini(WrTextNear *near)
     wr_array_free(&near->list);
 }
 
-/* ---- gathering ---- */
+/* ---- collection ---- */
 
 static int modulo(int i, int n)
 {
@@ -44,8 +45,8 @@ static void take_piece(WrTextNear *near, const WrTextPiece *p, int x, int y)
     for (int k = 0; k < 4; k++) wr_array_push(&near->ends, ends[k]);
 }
 
-/* The row's pieces in columns from .. to - 1 of the table, which stand `shift` columns to the right of where
- * the tile would have them. */
+/* Adds the row's pieces in columns from .. to - 1 of the table, shifted `shift` columns to the right of
+ * the tile's coordinates. */
 static void take_columns(WrTextNear *near, const struct WrTextRim *rim, int row, int from, int to,
                          int shift, int y)
 {
@@ -59,7 +60,7 @@ static void take_columns(WrTextNear *near, const struct WrTextRim *rim, int row,
         take_piece(near, &rim->pieces.data[low], rim->pieces.data[low].i + shift, y);
 }
 
-/* All pieces in rows y0 .. y1 - 1 and columns x0 .. x1 - 1 as the tile sees them. */
+/* Adds all pieces in rows y0 .. y1 - 1 and columns x0 .. x1 - 1 in the tile's coordinates. */
 static void gather(WrTextNear *near, const WrTextShape *shape, const WrTextInside *inside,
                    const WrGenerateBlock *b, int x0, int x1, int y0, int y1)
 {
@@ -80,7 +81,7 @@ static void gather(WrTextNear *near, const WrTextShape *shape, const WrTextInsid
     }
 }
 
-/* ---- searching ---- */
+/* ---- search ---- */
 
 static double distance2(const double *e, double x, double y)
 {
@@ -116,7 +117,7 @@ static bool is_wanted(const Search *s, int x0, int y0, int size)
     return false;
 }
 
-/* Of the list, those that may be nearest to any texel of the square; they go behind the list. */
+/* Appends the pieces of the list that may be nearest to any texel of the square. */
 static int cull(const Search *s, int x0, int y0, int size, int first, int count)
 {
     WrTextNear *near = s->near;
@@ -154,7 +155,7 @@ static void search(const Search *s, int x0, int y0, int size, int first, int cou
         search(s, x0 + (q & 1) * half, y0 + (q >> 1) * half, half, next, kept);
 }
 
-/* The distance of the nearest middle from the tile's centre, or -1. */
+/* The distance of the nearest centre from the tile's centre, or -1. */
 static double nearest(const WrTextNear *near)
 {
     float least = -1.0f;
@@ -172,7 +173,7 @@ void wr_text_distances(const WrTextShape *shape, const WrTextInside *inside,
 {
     Search s = { near, want, distance, reach, block->count_i, block->count_j };
     if (!is_wanted(&s, 0, 0, WR_TILE)) return;
-    /* Wider and wider, until nothing that lies outside can be nearest. */
+    /* Widens the search until nothing outside can be nearest. */
     const double corner = 0.7072 * WR_TILE;
     int around = 8, most = (int)ceil(reach) + 1;
     for (;; around *= 2) {

@@ -16,13 +16,14 @@ typedef struct Relief {
     WrTextNear *near; /* [threads] */
 } Relief;
 
-/* The integral of a roof from the rim to d, in units of height times texels. */
+/* The integral of a linear slope from the rim to d, in units of height times texels. */
 static double roof_area(double bevel, double d)
 {
     return d > 0.0 ? 0.5 * d * d / bevel : 0.0;
 }
 
-/* The profile at d texels inside of the rim, averaged over one texel across it, as a part of the height. */
+/* The profile at d texels inside the rim, averaged over one texel across it, as a fraction of the
+ * height. */
 static double profile(const WrTextFinish *f, double d)
 {
     WrEdge edge = { f->bevel, f->profile == WR_TEXT_ROUND ? WR_PROFILE_ROUND : WR_PROFILE_CHAMFER };
@@ -31,7 +32,7 @@ static double profile(const WrTextFinish *f, double d)
     return wr_edge(&edge, d);
 }
 
-/* On a texel that is covered in part, the profile's mean belongs to that part alone. */
+/* On a partly covered texel, the profile's mean applies only to the covered part. */
 float wr_text_height(const WrTextFinish *f, double cover, bool centre, double distance)
 {
     double height = f->profile == WR_TEXT_ENGRAVED ? -f->height : f->height;

@@ -1,30 +1,30 @@
-/* What outlines do in one texel. Bands are laid through it wherever a piece begins or ends or two cross;
- * within a band no two cross, so that between neighbours lie trapezoids. What comes to the texel from the
- * left shows in its left border: where a side enters, going to the right, the winding number left of the
- * texel is one less from there down, and one more where a side leaves. */
+/* Coverage of one texel by outlines. The texel is divided into bands wherever a piece begins or ends or
+ * two cross; within a band no two cross, so that between neighbours there are trapezoids. The winding
+ * number left of the texel changes at its left border: where a side enters to the right it is one less
+ * from there down, and one more where a side leaves. */
 #include "generate/text.h"
 
 #include <math.h>
 #include <string.h>
 
 #define UNIT ((double)WR_TEXT_UNIT)
-#define RIM_MAX (1 << 22)        /* pieces of a strip's rim; no font that is one comes near */
-#define MANY 48                  /* pieces; of more only the winding numbers' areas are added up */
-#define EVENTS (2 * MANY + 2048) /* crossings beyond these are passed over */
-#define LEAST 1.0                /* units: a level rim that is shorter is none */
+#define RIM_MAX (1 << 22)        /* pieces of a strip's rim; far more than in real fonts */
+#define MANY 48                  /* pieces; for more, only the winding numbers' areas are summed */
+#define EVENTS (2 * MANY + 2048) /* crossings beyond these are ignored */
+#define LEAST 1.0                /* units: shorter horizontal rims are ignored */
 
 typedef struct Strand {
     double x0, y0, x1, y1; /* y0 < y1 */
     int sign;              /* +1 where it runs downwards */
-    bool border;           /* stands for what is left of the texel */
-    double from, to;       /* y: the part found to be rim but not put down yet; from > to: none */
+    bool border;           /* represents the part left of the texel */
+    double from, to;       /* y: the part found to be rim but not output yet; from > to: none */
 } Strand;
 
 typedef struct Mark {
     double top, bottom; /* x at the band's upper and lower end */
     int sign;
     bool border;
-    int strand; /* which; -1: the texel's border */
+    int strand; /* index; -1: the texel's border */
 } Mark;
 
 typedef struct Span {
@@ -88,7 +88,7 @@ static double x_at(const Strand *s, double y)
     return s->x0 + (s->x1 - s->x0) * ((y - s->y0) / (s->y1 - s->y0));
 }
 
-/* Where two strands cross, in the middle of what they have in common. */
+/* The crossing of two strands, within their common range. */
 static void add_crossing(Texel *t, const Strand *a, const Strand *b)
 {
     double top = a->y0 > b->y0 ? a->y0 : b->y0, bottom = a->y1 < b->y1 ? a->y1 : b->y1;
@@ -143,7 +143,7 @@ static void add_level(Texel *t, double left, double right, double y)
     if (right - left > LEAST) add_rim(t, left, y, right, y);
 }
 
-/* Where one of two bands that meet at y is inside and the other is not, the rim runs level. */
+/* Where one of two bands that meet at y is inside and the other is not, the rim is horizontal. */
 static void compare_bands(Texel *t, const Span *next, int count, double y)
 {
     int a = 0, b = 0;
@@ -169,7 +169,7 @@ static void put_rim(Texel *t, Strand *s)
     s->to = 0.0;
 }
 
-/* A strand goes on being rim from band to band, mostly. */
+/* Usually a strand stays rim from band to band, and its part is extended. */
 static void extend_rim(Texel *t, Strand *s, double top, double bottom)
 {
     if (!(s->from < s->to && s->to == top)) {
@@ -212,7 +212,7 @@ static void band(Texel *t, double top, double bottom)
 
 /* ---- the texel ---- */
 
-/* Too many to be taken apart: the winding number's mean, which is right wherever it is 0 or 1. */
+/* For too many pieces: the winding number's mean, which is exact wherever it is 0 or 1. */
 static double mean_winding(const WrTextPiece *pieces, int n, int64_t w)
 {
     double sum = (double)w;

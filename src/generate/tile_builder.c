@@ -14,7 +14,7 @@
 #define BATCH 64 /* tiles between two reports */
 #define TEXELS (WR_TILE * WR_TILE)
 
-/* Of a batch, one field's tiles: where they are made, and which came out +0 throughout. */
+/* One field's tiles of a batch: their buffers, and the tiles that are +0 throughout. */
 typedef struct Made {
     WrField *field;
     float *tile[BATCH];
@@ -26,7 +26,7 @@ typedef struct Build {
     const void *ctx;
     const WrProgress *progress;
     int tiles_u, first;
-    Made made[2]; /* heights, cover; no field: there is none */
+    Made made[2]; /* heights, cover; no field: absent */
 } Build;
 
 static WrGenerateBlock block_at(const Build *build, int tile)
@@ -80,7 +80,7 @@ static void make_tile(int index, int worker, void *ctx)
         build->made[k].empty[index] = keep_finite(build->made[k].tile[index]);
 }
 
-/* Tiles are made where they stay; those that are +0 throughout go without memory again. */
+/* Tiles are computed in their final memory; those that are +0 throughout are freed. */
 static bool run_batch(Build *build, WrPool *pool, int count)
 {
     int u = build->tiles_u;

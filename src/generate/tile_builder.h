@@ -1,5 +1,5 @@
-/* tile_builder.h - a relief made tile by tile on the pool's threads.
-   Private to this module. */
+/* tile_builder.h - parallel construction of a relief, tile by tile on the pool's threads. Private to
+   this module. */
 #pragma once
 #include "generate/generator.h"
 
@@ -11,23 +11,21 @@ typedef struct WrGenerateBlock {
     int i, j, count_i, count_j; /* counts 1..WR_TILE */
 } WrGenerateBlock;
 
-/* Make the heights of a block, [count_j][WR_TILE] rows from the top. cover: the same for what it says
- * something about, NULL where the relief has none. Heights may pass float's range: they are brought back
- * into it, and not a number becomes 0. worker as in WrPiece. Any thread; what comes out may depend on
- * nothing but ctx and the texel's place. */
+/* Computes the heights of a block, [count_j][WR_TILE] rows from the top. cover: the coverage in the
+ * same layout, NULL if the relief has none. Heights beyond float's range are clamped, and NaN becomes
+ * 0. worker as in WrPiece. Any thread; the output must depend only on ctx and the texel's position. */
 typedef void (*WrGenerateFill)(const void *ctx, const WrGenerateBlock *block, int worker,
                                float *heights, float *cover);
 
-/* Make a whole relief.
+/* Builds a whole relief.
  *
- * job      its `like` lends size and edges
+ * job      its `like` defines size and edges
  * covered  with coverage
- * from     what part of the whole work came before, 0..1, for reports
- * Errors   no memory; "cancelled"
- * Tiles of equal heights throughout are kept as the level where it is 0. */
+ * from     fraction 0..1 of the whole work done before, for reports
+ * Errors   out of memory; "cancelled" Tiles that are 0 throughout are represented by the level. */
 bool wr_generate_build(const WrGenerateJob *job, WrGenerateFill fill, const void *ctx, bool covered,
                        double from, WrNormalMips *out, WrError *err);
 
-/* What a generator has to say besides; fine without a listener. */
+/* Adds a remark of a generator; ignored without a listener. */
 void wr_generate_note(const WrGenerateJob *job, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

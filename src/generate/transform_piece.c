@@ -11,13 +11,13 @@ const char *const wr_place_filters[] = { WR_PLACE_FILTERS(WR_WORD) NULL };
 
 typedef struct Placed {
     const WrPlacing *placing;
-    bool whole;        /* texels go to texels: only bits are carried */
+    bool whole;        /* texels map to texels: only bits are copied */
     double to[2][2];   /* A */
     double back[2][2]; /* its inverse */
-    double at[2];      /* where `from` goes, such that whole pieces lie on whole texels */
+    double at[2];      /* target of `from`, such that whole pieces are on whole texels */
     double soft
-        [2]; /* texels of the table in one of the source, along its axes: for the window's rim */
-    double wide[2]; /* by how much the filter is stretched along the source's axes */
+        [2]; /* texels of the table per texel of the source, along its axes: for the window's rim */
+    double wide[2]; /* stretch of the filter along the source's axes */
     double box[4];  /* of the piece in the table: left, top, right, bottom */
     int period[2];  /* of the table; 0: none */
 } Placed;
@@ -34,7 +34,7 @@ static void set_maps(Placed *p, const WrPlacing *placing)
     double c, s;
     turn(placing->turn_deg, &c, &s);
     const double *scale = placing->scale;
-    /* rows run down: anticlockwise leads from right to up, which is a row less */
+    /* rows run down: anticlockwise turns right to up, which is a row less */
     p->to[0][0] = c * scale[0];
     p->to[0][1] = s * scale[1];
     p->to[1][0] = -s * scale[0];
@@ -50,7 +50,7 @@ static void set_maps(Placed *p, const WrPlacing *placing)
     }
     p->whole = fabs(scale[0]) == 1.0 && fabs(scale[1]) == 1.0 && (c == 0.0 || s == 0.0);
     if (!p->whole) return;
-    /* centres are at halves, so what A leads them to is at halves plus this */
+    /* centres are at halves, so A maps them to halves plus this offset */
     for (int k = 0; k < 2; k++) {
         double lead = p->to[k][0] * placing->from[0] + p->to[k][1] * placing->from[1];
         p->at[k] = rint(placing->at[k] - lead) + lead;
@@ -99,7 +99,7 @@ static double filter_value(WrPlaceFilter filter, double x)
 
 #define TAPS_MAX (4 * (int)WR_PLACE_SCALE + 4)
 
-/* The texels that count at x along one axis, and their weights, whose sum is 1. */
+/* The texels and weights at x along one axis; the weights sum to 1. */
 static int taps_at(const Placed *p, int axis, double x, int *first, double weight[TAPS_MAX])
 {
     const WrPlaceFilter filter = p->placing->filter;
@@ -139,8 +139,8 @@ static double unit(double x)
     return x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
 }
 
-/* What of a texel of the table at that place of the source lies in the window. Whole pieces take texels or leave
- * them, by their centres. */
+/* Fraction of a texel at that position of the source inside the window. Whole pieces include or exclude
+ * texels by their centres. */
 static double inside(const Placed *p, const double q[2])
 {
     double part = 1.0;
@@ -154,7 +154,7 @@ static double inside(const Placed *p, const double q[2])
 
 /* ---- texels ---- */
 
-/* The texel at (x, y), as its centre is seen from one image of the piece: true where that says more than *most. */
+/* The texel at (x, y) for one image of the piece: true if its weight exceeds *most. */
 static bool take(const Placed *p, double x, double y, double *most, float *height)
 {
     double dx = x - p->at[0], dy = y - p->at[1], q[2];
@@ -164,7 +164,7 @@ static bool take(const Placed *p, double x, double y, double *most, float *heigh
     if (!(part > *most)) return false;
     const WrField *weight = p->placing->weight;
     if (p->whole) {
-        int i = (int)floor(q[0]), j = (int)floor(q[1]); /* q is at halves but for rounding */
+        int i = (int)floor(q[0]), j = (int)floor(q[1]); /* q is at halves except for rounding */
         if (weight) part *= unit(source_at(weight, i, j));
         if (!(part > *most)) return false;
         *height = (float)source_at(p->placing->heights, i, j);
@@ -180,7 +180,7 @@ static bool take(const Placed *p, double x, double y, double *most, float *heigh
     return true;
 }
 
-/* Which images, in whole periods, reach from..to: first and last. */
+/* First and last image, in whole periods, that reaches from..to. */
 static void images(const Placed *p, int axis, double from, double to, int *first, int *last)
 {
     *first = *last = 0;

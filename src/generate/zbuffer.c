@@ -1,4 +1,4 @@
-/* The depth buffer: lists what is to be drawn in each tile, then draws the tiles on all threads. */
+/* The depth buffer: lists the primitives of each tile, then draws the tiles on all threads. */
 #include "generate/zbuffer.h"
 
 #include "base/error.h"
@@ -12,8 +12,8 @@
 #define TEXELS (WR_TILE * WR_TILE)
 #define BATCH 64 /* tiles between two reports */
 #define MANY_SLOW 4
-#define MANY 64    /* images in a tile from which on it pays to look for what is hidden */
-#define LEVELS 512 /* of heights, by which they are sorted */
+#define MANY 64    /* images in a tile from which on hidden-surface culling pays off */
+#define LEVELS 512 /* height classes for sorting */
 
 typedef struct Bin { /* of a tile */
     int64_t first, count;
@@ -28,11 +28,11 @@ typedef struct Drawing {
     const WrField *like;
     int width, height, tiles_u, tiles_v;
     Bin *bins;         /* [tiles_v][tiles_u] */
-    WrZEntry *entries; /* in the order of primitives within each bin; NULL while they are counted */
+    WrZEntry *entries; /* sorted by primitive within each bin; NULL during counting */
     int64_t total;     /* counted so far */
     int *busy;         /* tiles with entries */
     int busy_count;
-    int first;                 /* of the busy tiles that are drawn now */
+    int first;                 /* first of the busy tiles being drawn */
     float **heights, **covers; /* [busy_count] */
     const WrProgress *progress;
 } Drawing;
@@ -86,7 +86,7 @@ static bool check_reach(const WrZScene *scene, int64_t index, WrError *err)
                    box.x1, box.y1, WR_Z_REACH);
 }
 
-/* The images along one axis that meet the table: moved by first, first + 1, ... whole periods. */
+/* The images along one axis that meet the table: shifted by first, first + 1, ... whole periods. */
 static int images(double low, double high, int n, WrWrap wrap, int *first)
 {
     *first = 0;
@@ -101,7 +101,7 @@ static int tile_of(double x, int tiles)
     return t < 0.0 ? 0 : t > tiles - 1 ? tiles - 1 : (int)t;
 }
 
-/* Count an image's tiles, or list it in them. */
+/* Counts an image's tiles, or adds it to their lists. */
 static void put_image(Drawing *d, int64_t index, const Box *box, double dx, double dy)
 {
     int x0 = tile_of(box->x0 + dx - 1.0, d->tiles_u), x1 = tile_of(box->x1 + dx + 1.0, d->tiles_u);
@@ -115,7 +115,7 @@ static void put_image(Drawing *d, int64_t index, const Box *box, double dx, doub
         }
 }
 
-/* Images that a thing larger than the table has: all of the same size, so one stands for their number. */
+/* Images of a primitive larger than the table: all of the same size, so one represents their number. */
 static bool put_all(Drawing *d, WrError *err)
 {
     int64_t count = d->scene->solid_count + d->scene->triangle_count;
@@ -165,13 +165,13 @@ static bool fill_bins(Drawing *d, WrError *err)
 
 /* ---- tiles ---- */
 
-/* A texel that several solids share and that the rim of one crosses: the mean of what is seen. */
+/* A texel shared by several solids and crossed by the rim of one: the mean over its samples. */
 static double mean_depth(const WrZSheet *sheet, int at)
 {
     const WrZBlock *block = &sheet->blocks.data[sheet->block[at] - 1];
     double sum = 0.0, whole = sheet->whole[at];
     int count = 0;
-    bool hidden = whole > -INFINITY; /* all rims: then the mean must not round */
+    bool hidden = whole > -INFINITY; /* only rims: then the mean must not be rounded */
     for (int s = 0; s < WR_Z_SAMPLES; s++) {
         double z = block->z[s] > whole ? block->z[s] : whole;
         hidden = hidden && !(block->z[s] > whole);
@@ -214,7 +214,7 @@ static double top_of(const WrZTriangle *t)
     return z[0] > z[1] ? (z[0] > z[2] ? z[0] : z[2]) : z[1] > z[2] ? z[1] : z[2];
 }
 
-/* Only the thread that asked may tell how far it is. */
+/* Only the thread that started the work may report progress. */
 static bool go_on(const Drawing *d, int busy, double part)
 {
     if (d->progress && d->progress == wr_progress_here())
@@ -248,7 +248,7 @@ static void draw_few(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet
     }
 }
 
-/* Which level of heights, the highest first. */
+/* Height class, the highest first. */
 static int level_of(double bound, const double range[2])
 {
     double part = (range[1] - bound) / (range[1] - range[0]);
@@ -256,7 +256,7 @@ static int level_of(double bound, const double range[2])
     return level < LEVELS ? level : LEVELS - 1;
 }
 
-/* Triangles in the order of their highest corners, roughly, the highest first. False: told to stop. */
+/* Sorts triangles roughly by their highest corners, the highest first. False: cancelled. */
 static bool sort_triangles(const Drawing *d, int busy, const Bin *bin, double *tops, int32_t *order)
 {
     double range[2] = { INFINITY, -INFINITY };
@@ -274,8 +274,8 @@ static bool sort_triangles(const Drawing *d, int busy, const Bin *bin, double *t
     return true;
 }
 
-/* The highest first, so that what they hide need not be drawn. The order changes no bit: each texel keeps only
-   the greatest heights. */
+/* Draws the highest first, so that hidden ones can be skipped. The order changes no bit: each texel
+   keeps only the greatest heights. */
 static void draw_many_triangles(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet)
 {
     double *tops = wr_alloc((size_t)bin->count, sizeof *tops), filled = -INFINITY;
@@ -292,7 +292,7 @@ static void draw_many_triangles(const Drawing *d, int busy, const Bin *bin, WrZS
     wr_free(tops);
 }
 
-/* Of letters and rings each texel takes long. */
+/* Letters and rings are expensive per texel. */
 static int many_of(const Drawing *d, const Bin *solids)
 {
     if (solids->count == 0) return MANY;

@@ -1,9 +1,10 @@
-/* Solids in a tile of the depth buffer. */
+/* Drawing of solids in a tile of the depth buffer. */
 #include "generate/zbuffer_tile.h"
 
 #define SQUARE WR_Z_SQUARE
 #define STEP                                                                                       \
-    1.0 /* texels that a texel's middle may differ from its corners before it counts as an edge */
+    1.0 /* height difference in texels between a texel's centre and its corners above which it
+           counts as an edge */
 
 typedef struct Body {
     const WrZSolid *solid;
@@ -11,7 +12,7 @@ typedef struct Body {
     int x0, x1, y0, y1;
 } Body;
 
-/* Heights over places of the tile; -inf: bare, or below the floor. At most WR_Z_SAMPLES + 1. */
+/* Heights at positions of the tile; -inf: uncovered, or below the floor. At most WR_Z_SAMPLES + 1. */
 static void body_tops(const WrZSheet *sheet, const Body *body, int count, double *x, double *y,
                       double *z)
 {
@@ -23,7 +24,7 @@ static void body_tops(const WrZSheet *sheet, const Body *body, int count, double
     for (int i = 0; i < count; i++) z[i] = z[i] >= sheet->floor ? z[i] : -INFINITY;
 }
 
-/* The same along a row: from x on, a texel apart. */
+/* body_tops along a row: from x on, one texel apart. */
 static void row_tops(const WrZSheet *sheet, const Body *body, int count, double x, double y,
                      double *z)
 {
@@ -74,7 +75,7 @@ static void draw_part(WrZSheet *sheet, const Body *body, int x, int y)
     meet(sheet, at, seen);
 }
 
-/* z: over its centre, not bare. */
+/* z: at its centre, covered. */
 static void draw_whole(WrZSheet *sheet, int at, double z)
 {
     wr_z_raise(&sheet->depth[at], z);
@@ -82,14 +83,14 @@ static void draw_whole(WrZSheet *sheet, int at, double z)
     meet(sheet, at, WR_Z_FULL);
 }
 
-/* Whether an edge of a solid crosses the texel that hides a lower part of itself. */
+/* True if an edge of a solid crosses the texel and hides a lower part of the same solid. */
 static bool hides_itself(const Body *body, double z, double corners)
 {
     return !wr_zsolid_convex(body->solid) && z > -INFINITY && fabs(0.25 * corners - z) > STEP;
 }
 
-/* Texels one by one: one whose four corners are covered counts as covered. Of a convex solid that is so;
- * of others a gap narrower than a texel may close. */
+/* Draws texels one by one: a texel with four covered corners counts as covered. This is exact for
+ * convex solids; in others a gap narrower than a texel may close. */
 static void draw_texels(WrZSheet *sheet, const Body *body, int x0, int x1, int y0, int y1)
 {
     double corners[2][SQUARE + 1], middles[SQUARE];
@@ -112,8 +113,8 @@ static void draw_texels(WrZSheet *sheet, const Body *body, int x0, int x1, int y
     }
 }
 
-/* Whether its corners are covered, and so all of it where the solid is convex: what is above the floor is
- * convex where it was, and so are shadows. */
+/* True if all corners are covered, and so the whole square for a convex solid: the part above the floor
+ * and its projection are convex too. */
 static bool is_all_covered(const WrZSheet *sheet, const Body *body, int x0, int x1, int y0, int y1)
 {
     double x[4] = { x0 - 0.5, x1 + 0.5, x0 - 0.5, x1 + 0.5 };
@@ -155,7 +156,7 @@ static Body body_of(const WrZSheet *sheet, const WrZSolid *solid, double dx, dou
     return body;
 }
 
-/* Squares lie by the tile, so that they do not depend on the bounding box's rounding. */
+/* Squares are aligned to the tile, so that they do not depend on the bounding box's rounding. */
 void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy)
 {
     Body body = body_of(sheet, solid, dx, dy);

@@ -1,14 +1,14 @@
-/* How high solids can be over a part of a tile, and how high one must be to be seen there at all: what is hidden
-   is not drawn. Nothing of that changes a bit of what is seen. */
+/* Bounds of the heights of solids over a part of a tile, and the minimum height to be visible there:
+   hidden solids are not drawn. This never changes a visible bit. */
 #include "generate/zbuffer_tile.h"
 
-#define MARGIN 1e-9 /* more than rounding can add, as a part of the heights */
-#define SLACK 1e-6  /* of a unit solid, by which the box about it is larger */
+#define MARGIN 1e-9 /* more than the rounding error, relative to the heights */
+#define SLACK 1e-6  /* enlargement of a unit solid's bounding box */
 #define HALF 0.7072 /* of a texel's diagonal */
 
-/* ---- how high a solid can be ---- */
+/* ---- bounds of a solid ---- */
 
-/* Its axis stands upright, and its top is level. */
+/* True if its axis is vertical and its top is horizontal. */
 static bool is_level(const WrZSolid *s)
 {
     const double *m = s->inverse;
@@ -21,7 +21,7 @@ static double with_margin(double z)
     return z + MARGIN * (1.0 + fabs(z));
 }
 
-/* Of letters: the highest corner of the box about them; of those that lie flat exactly their top. */
+/* For letters: the highest corner of their bounding box; for flat ones exactly their top. */
 static double letters_top(const WrZSolid *s)
 {
     double low[3], high[3], sum = 0.0;
@@ -50,7 +50,7 @@ static bool is_round(const WrZSolid *s)
     return s->shape == WR_Z_SPHERE && d[0] == 0.0 && d[1] == 0.0 && d[3] == d[4] && d[5] == 0.0;
 }
 
-/* A ring that lies flat, or a capsule: both are as wide as they are long before they are turned. */
+/* True for a flat ring, or an upright capsule: both are circular before they are rotated. */
 static bool is_upright(const WrZSolid *s)
 {
     bool turned = s->shape == WR_Z_TORUS || s->shape == WR_Z_CAPSULE;
@@ -73,8 +73,8 @@ static double beyond(double x, double low, double high)
     return x < low ? low - x : x > high ? x - high : 0.0;
 }
 
-/* Over places that are `near` to `far` texels from its upright axis, for what is round about that. A little more
-   than it is: at the rim rounding is a large part of what is left under the root. */
+/* Upper bound at distances `near` to `far` texels from the vertical axis, for rotationally symmetric
+   solids. Slightly enlarged: at the rim rounding is a large part of the value under the root. */
 static double top_between(const WrZSolid *s, double near, double far)
 {
     if (s->shape != WR_Z_TORUS) {
@@ -91,7 +91,7 @@ static double farthest(double x, double low, double high)
     return a > b ? a : b;
 }
 
-/* The lowest over such places if it covers them all. */
+/* The lowest height at such distances if it covers them all. */
 static double least_between(const WrZSolid *s, double near, double far)
 {
     double rest;
@@ -104,7 +104,7 @@ static double least_between(const WrZSolid *s, double near, double far)
     return rest > MARGIN * s->tube * s->tube ? s->middle + sqrt(rest) : -INFINITY;
 }
 
-/* It is not there at all. near, far: squares. */
+/* True if it is entirely outside. near, far: squares. */
 static bool is_clear(const WrZSolid *s, double near, double far)
 {
     const double more = 1.0 + 1e-6;
@@ -126,8 +126,9 @@ static double round_range(const WrZSolid *s, const WrZRect *r, double most, doub
     return high < most ? high : most;
 }
 
-/* A convex body's top is a concave function: over a rectangle within its shadow it is nowhere lower than at a
-   corner, and nowhere higher than by as much over the middle as the lowest corner is under it. */
+/* A convex body's top is a concave function: over a rectangle within its projection it is nowhere lower
+   than at a corner, and nowhere higher above the height at the middle than the lowest corner is below
+   it. */
 static double convex_range(const WrZSolid *s, const WrZRect *r, double most, double *least)
 {
     double x[5] = { r->x0, r->x1, r->x0, r->x1, 0.5 * (r->x0 + r->x1) };
@@ -145,7 +146,7 @@ static double convex_range(const WrZSolid *s, const WrZRect *r, double most, dou
     return bound < most ? bound : most;
 }
 
-/* The box about it, in the space of its unit solid. A little larger, for rounding. */
+/* Its bounding box in the space of its unit solid, slightly enlarged for rounding. */
 static void unit_box(const WrZSolid *s, double low[3], double high[3])
 {
     if (s->shape == WR_Z_LETTERS) wr_zletters_box(s->letters, low, high);
@@ -161,8 +162,8 @@ static void unit_box(const WrZSolid *s, double low[3], double high[3])
     }
 }
 
-/* How high that box is at most over the rectangle; -INFINITY: it is not there. What leans is much lower on one side
-   than on the other. A line up is a + b z there, and a goes by x and y alone. */
+/* Upper bound of that box over the rectangle; -INFINITY: not there. A tilted solid is much lower on one
+   side than on the other. A vertical line is a + b z there, and a depends only on x and y. */
 static double box_top(const WrZSolid *s, const WrZRect *r)
 {
     double low[3], high[3], top = INFINITY, bottom = -INFINITY;
@@ -173,7 +174,7 @@ static double box_top(const WrZSolid *s, const WrZRect *r)
         const double u = s->inverse[3 * k], v = s->inverse[3 * k + 1], b = s->inverse[3 * k + 2];
         const double least = (u < 0.0 ? u * x1 : u * x0) + (v < 0.0 ? v * y1 : v * y0);
         const double most = (u < 0.0 ? u * x0 : u * x1) + (v < 0.0 ? v * y0 : v * y1);
-        if (fabs(b) <= SLACK * (fabs(u) + fabs(v))) { /* its sides are upright, nearly */
+        if (fabs(b) <= SLACK * (fabs(u) + fabs(v))) { /* its sides are nearly vertical */
             if (b == 0.0 && (least > high[k] || most < low[k])) return -INFINITY;
             continue;
         }
@@ -217,8 +218,8 @@ bool wr_zsolid_is_ring(const WrZSolid *s)
     return s->shape == WR_Z_TORUS && s->round && s->tube >= 4.0;
 }
 
-/* Where its middle line is no farther from a texel's centre, it covers the texel above the floor, and is nowhere in
-   it so steep that it would count as an edge: then of its heights only the one over the centre counts. */
+/* Distance of its middle line from a texel's centre up to which it covers the texel above the floor and
+   is nowhere in it steep enough to count as an edge: then only its height at the centre matters. */
 static double well_within(const WrZSolid *s, double floor)
 {
     double low = floor > s->at[2] ? floor - s->at[2] : 0.0, steep = 0.866 * s->tube;
@@ -226,8 +227,8 @@ static double well_within(const WrZSolid *s, double floor)
     return (wide < steep ? wide : steep) - HALF;
 }
 
-/* How near its middle line must be to the centre of a texel to change it. Other parts of it are nearer by HALF at
-   most. */
+/* Distance of its middle line from the centre of a texel up to which it can change it. Other parts of
+   it are nearer by HALF at most. */
 static double reach_of(const WrZSolid *s, double within, double settled)
 {
     double rise = settled - MARGIN * (1.0 + fabs(settled)) - s->at[2];
@@ -288,10 +289,10 @@ bool wr_zband_is_within(const WrZBand *band, double x, double y, uint64_t texels
     return true;
 }
 
-/* ---- how high it must be ---- */
+/* ---- minimum visible height ---- */
 
-/* Whatever is not higher changes nothing of a texel. Where one solid covers it whole, that is its height; where
-   rims cross it, the lowest of what is seen at its samples, once there are two of which the mean is taken. */
+/* A primitive that is not higher changes nothing in a texel. If one solid covers it completely, that is
+   its height; if rims cross it, the lowest of its samples, once there are two whose mean is used. */
 double wr_zsheet_settled_texel(const WrZSheet *sheet, int at)
 {
     if (sheet->mask[at] != WR_Z_FULL) return -INFINITY;

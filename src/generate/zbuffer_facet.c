@@ -1,8 +1,8 @@
-/* Triangles in a tile of the depth buffer. */
+/* Drawing of triangles in a tile of the depth buffer. */
 #include "generate/zbuffer_tile.h"
 
-#define FIX 1024 /* corners are rounded to one part of that many of a texel */
-#define WIDE 8   /* texels: rows longer than that are cut to what the triangle covers first */
+#define FIX 1024 /* corners are rounded to this fraction of a texel */
+#define WIDE 8   /* texels: longer rows are first clipped to the triangle */
 
 const int8_t wr_z_samples[WR_Z_SAMPLES][2] = {
     { 1, 1 },  { -1, -3 }, { -3, 2 },  { 4, -1 }, { -5, -2 }, { 2, 5 },  { 5, 3 }, { 3, -5 },
@@ -10,8 +10,9 @@ const int8_t wr_z_samples[WR_Z_SAMPLES][2] = {
 };
 
 typedef struct Edge {
-    int64_t a, b, c; /* a x + b y + c >= 0 inside, in parts of a texel; edges as the rule says */
-    int64_t margin;  /* how much it can differ within a texel */
+    int64_t a, b, c; /* a x + b y + c >= 0 inside, in fractions of a texel; edges by the top-left
+                        rule */
+    int64_t margin;  /* its maximum variation within a texel */
 } Edge;
 
 typedef struct Facet {
@@ -21,7 +22,7 @@ typedef struct Facet {
     int x0, x1, y0, y1;     /* texels of the tile */
 } Facet;
 
-/* The nearest whole number of parts, |x| < 2^40; rint without its call. */
+/* The nearest integer, |x| < 2^40; rint without a call. */
 static int64_t fix(double x)
 {
     const double magic = 0x1.8p52;
@@ -34,7 +35,7 @@ static int floor_of(double x)
     return i - ((double)i > x);
 }
 
-/* From p to q, inside on the side where the third corner is; x right, y down. */
+/* The edge from p to q, inside on the side of the third corner; x right, y down. */
 static Edge edge_of(const int64_t p[2], const int64_t q[2])
 {
     Edge e = { .a = p[1] - q[1], .b = q[0] - p[0] };
@@ -58,14 +59,14 @@ static void set_box(Facet *f, const WrZTriangle *t, const WrZSheet *sheet, doubl
         box[3] = t->y[k] > box[3] ? t->y[k] : box[3];
     }
     double left = dx - sheet->x, top = dy - sheet->y;
-    /* a texel reaches half a texel beyond its centre, and corners are rounded by half a part */
+    /* a texel extends half a texel beyond its centre, and corners are rounded by half a unit */
     f->x0 = wr_z_clip(floor_of(box[0] + left + 0.49), 0, sheet->wide);
     f->x1 = wr_z_clip(floor_of(box[1] + left + 0.51), -1, sheet->wide - 1);
     f->y0 = wr_z_clip(floor_of(box[2] + top + 0.49), 0, sheet->high);
     f->y1 = wr_z_clip(floor_of(box[3] + top + 0.51), -1, sheet->high - 1);
 }
 
-/* The plane through its corners; slivers have wild slopes, see facet_z. */
+/* The plane through its corners; slivers have extreme slopes, see facet_z. */
 static void set_plane(Facet *f, const WrZTriangle *t, double left, double top)
 {
     double x1 = t->x[1] - t->x[0], y1 = t->y[1] - t->y[0], z1 = t->z[1] - t->z[0];
@@ -78,7 +79,7 @@ static void set_plane(Facet *f, const WrZTriangle *t, double left, double top)
     f->zy = det != 0.0 ? (x1 * z2 - x2 * z1) / det : 0.0;
 }
 
-/* False for a triangle without area, or beside the tile. */
+/* False for a triangle without area, or outside the tile. */
 static bool facet_of(const WrZTriangle *t, const WrZSheet *sheet, double dx, double dy, Facet *f)
 {
     set_box(f, t, sheet, dx, dy);
@@ -99,14 +100,14 @@ static bool facet_of(const WrZTriangle *t, const WrZSheet *sheet, double dx, dou
     return true;
 }
 
-/* Heights stay between those of the corners; not a number becomes the lowest. */
+/* Heights are clamped between those of the corners; NaN becomes the lowest. */
 static double facet_z(const Facet *f, double x, double y)
 {
     double z = f->z + (f->zx * (x - f->x) + f->zy * (y - f->y));
     return !(z > f->low) ? f->low : z > f->high ? f->high : z;
 }
 
-/* The samples of a texel whose centre has the values e[3]. */
+/* Covered samples of a texel whose centre has the edge values e[3]. */
 static unsigned wide_samples(const Facet *f, const int64_t e[3])
 {
     unsigned seen = 0;
@@ -121,8 +122,8 @@ static unsigned wide_samples(const Facet *f, const int64_t e[3])
     return seen;
 }
 
-/* The same in 32 bits: an edge that is farther than its margin is on one side of all samples, so its value
- * may be cut to the margin. */
+/* wide_samples in 32 bits: an edge farther than its margin is on one side of all samples, so its value
+ * may be clamped to the margin. */
 static unsigned facet_samples(const Facet *f, const int64_t e[3])
 {
     static const int32_t across[WR_Z_SAMPLES] = { 1,  -1, -3, 4,  -5, 2, 5, 3,
@@ -185,7 +186,7 @@ static int64_t floor_divide(int64_t a, int64_t b) /* b > 0 */
     return q - (a % b < 0);
 }
 
-/* The texels of a row that can be covered. */
+/* The texels of a row that may be covered. */
 static void row_span(const Facet *f, int y, int *x0, int *x1)
 {
     int64_t first = f->x0, last = f->x1;

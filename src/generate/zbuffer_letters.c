@@ -1,4 +1,5 @@
-/* Bodies along outlines: distances by a grid of lists of edges, lines by steps that the distance allows. */
+/* Extruded outlines: distances by a grid of edge lists, ray intersections by steps limited by the
+   distance. */
 #include "generate/zbuffer_letters.h"
 
 #include "base/array.h"
@@ -8,9 +9,10 @@
 #include <stdint.h>
 
 #define EDGES_MAX 4194304
-#define CELLS 256 /* of the grid along its longer side, at most */
+#define CELLS 256 /* maximum cells of the grid along its longer side */
 #define BANDS                                                                                      \
-    16 /* in the height of a cell: outlines are many short edges, of which a line across meets few */
+    16 /* strips in the height of a cell: outlines consist of many short edges, of which a
+          horizontal line meets few */
 
 typedef struct Edge {
     double p, q, dp, dq; /* from (p, q) by (dp, dq) */
@@ -26,7 +28,7 @@ struct WrZLetters {
     WrZBevel kind;
     Edge *edges;
     int count;
-    double low[2], high[2]; /* about the outlines */
+    double low[2], high[2]; /* bounding box of the outlines */
     double origin[2], cell; /* of the grid */
     int across, up;         /* its cells */
     double near;            /* distances below that are exact */
@@ -98,7 +100,7 @@ static void put(const WrZLetters *l, List *list, int edge)
     list->count++;
 }
 
-/* Count what the lists hold, or fill them. */
+/* Counts the items of the lists, or fills them. */
 static void put_edge(WrZLetters *l, int edge)
 {
     const Edge *e = &l->edges[edge];
@@ -125,7 +127,7 @@ static int place_lists(List *lists, int count, int first)
     return first;
 }
 
-/* The nonzero rule, by what crosses a line to the right. */
+/* The nonzero rule, by the crossings of a line to the right. */
 static bool is_inside(const WrZLetters *l, double p, double q)
 {
     const List *band = &l->bands[band_of(l, q)];
@@ -238,7 +240,7 @@ double wr_zletters_distance(const WrZLetters *l, double p, double q)
     return is_inside(l, p, q) ? sqrt(least) : -sqrt(least);
 }
 
-/* A bound on the distance to the body, below 0 inside. */
+/* A bound of the distance to the body, negative inside. */
 static double gap(const WrZLetters *l, double p, double q, double w)
 {
     double top = w - l->depth, under = -w;
@@ -258,7 +260,7 @@ static double gap_at(const WrZLetters *l, const double a[3], const double b[3], 
 
 /* ---- lines ---- */
 
-/* Where the line is within `reach` of the box; empty where it is not. */
+/* The part of the line within `reach` of the box; empty if none. */
 static WrZSpan box_span(const WrZLetters *l, const double a[3], const double b[3], double reach)
 {
     WrZSpan span = { -INFINITY, INFINITY };
@@ -270,7 +272,7 @@ static WrZSpan box_span(const WrZLetters *l, const double a[3], const double b[3
     return span;
 }
 
-/* Straight down on a body that lies flat. */
+/* A vertical line on a flat body. */
 static bool flat_meet(const WrZLetters *l, const double a[3], double down, double *t)
 {
     double d = wr_zletters_distance(l, a[0], a[1]), top = l->depth;
@@ -283,8 +285,7 @@ static bool flat_meet(const WrZLetters *l, const double a[3], double down, doubl
     return true;
 }
 
-/* The crossing between `out` and `in`, whose gaps differ in sign: false position, halving the side that
- * stays. */
+/* The crossing between `out` and `in`, whose gaps differ in sign: false position (Illinois variant). */
 static double cross(const WrZLetters *l, const double a[3], const double b[3], double out,
                     double gap_out, double in, double gap_in)
 {
@@ -319,7 +320,7 @@ bool wr_zletters_meet(const WrZLetters *l, const double a[3], const double b[3],
             *t = at;
             return true;
         }
-        if (g < 0.05 && i > 0 && g_before > g) { /* close by: guess a place inside */
+        if (g < 0.05 && i > 0 && g_before > g) { /* close by: try a point inside */
             double guess = at - 1.5 * g * (before - at) / (g_before - g);
             double g_guess = guess > span.low ? gap_at(l, a, b, guess) : 1.0;
             if (g_guess <= 0.0 && at - guess < 8.0 * g / speed) {

@@ -1,22 +1,23 @@
-/* Many solids in a tile of the depth buffer. The tile is quartered down to its squares, and in each part those
-   are left out that another hides there whole; what is left in a square is drawn, the highest first. */
+/* Many solids in a tile of the depth buffer. The tile is quartered down to its squares, and in each
+   part the solids hidden by another over the whole part are removed; the rest of a square is drawn, the
+   highest first. */
 #include "generate/zbuffer_tile.h"
 
 #include "base/memory.h"
 
 #include <string.h>
 
-#define DEPTH 8    /* more than the times that a tile is quartered, and once more */
-#define LEVELS 64  /* of heights, by which a square's are sorted */
-#define OFTEN 4    /* draws after which what is settled is found out anew */
-#define LOOKS 2048 /* bounds found between two looks at the cancel */
+#define DEPTH 8    /* greater than the number of subdivisions of a tile, plus one */
+#define LEVELS 64  /* height classes for sorting a square's items */
+#define OFTEN 4    /* draws after which the settled heights are recomputed */
+#define LOOKS 2048 /* bounds computed between cancellation checks */
 
-/* All that is asked of copies is asked of the first of their kind: the others need not be fetched from memory again
-   and again. */
+/* Copies are evaluated with the data of the first of their kind, so that the others are not fetched
+   from memory repeatedly. */
 typedef struct Item {
-    double bound, least;  /* nowhere in the part is it higher, or lower: see wr_zsolid_range */
-    double dx, dy;        /* texels: the kind is moved by this to stand where it stands, exactly */
-    const WrZSolid *kind; /* the same solid, elsewhere */
+    double bound, least;  /* upper and lower bound in the part: see wr_zsolid_range */
+    double dx, dy;        /* texels: exact offset from the kind's position */
+    const WrZSolid *kind; /* the same solid at another position */
     int32_t entry;        /* below WR_Z_ENTRIES */
 } Item;
 
@@ -25,10 +26,10 @@ typedef struct Many {
     const WrZScene *scene;
     const WrZEntry *entries;
     const WrZGoOn *go_on;
-    int squares; /* done with */
+    int squares; /* finished ones */
     int looks;
     bool stopped;
-    Item *items[DEPTH]; /* of the part at hand, of the one it is in, and so on */
+    Item *items[DEPTH]; /* of the present part, of its parent, and so on */
     int32_t *order;     /* of a square's items */
     int64_t room[DEPTH], order_room;
 } Many;
@@ -61,13 +62,14 @@ static bool keeps_on(Many *m)
     return !m->stopped;
 }
 
-/* The items of the part (x, y), `side` texels wide: of `from` those that can be seen there. Returns how many. */
+/* Items of the part (x, y), `side` texels wide: those of `from` that are visible there. Returns their
+ * number. */
 static int64_t sift(Many *m, int x, int y, int side, const Item *from, int64_t count, Item *to)
 {
     const WrZSheet *sheet = m->sheet;
     int wide = sheet->wide - x < side ? sheet->wide - x : side;
     int high = sheet->high - y < side ? sheet->high - y : side;
-    double least = -INFINITY; /* that high one of them is everywhere */
+    double least = -INFINITY; /* one of them is at least this high everywhere */
     int64_t kept = 0, seen = 0, owner = -1;
     for (int64_t i = 0; i < count && keeps_on(m); i++) {
         double left = sheet->x + x - from[i].dx - 0.5, top = sheet->y + y - from[i].dy - 0.5, floor;
@@ -95,7 +97,7 @@ static int level_of(double bound, const double range[2])
     return level < LEVELS ? level : LEVELS - 1;
 }
 
-/* In the order of their bounds, roughly, the highest first. */
+/* Sorts roughly by their bounds, the highest first. */
 static void sort(const Item *items, int64_t count, int32_t *order)
 {
     double range[2] = { INFINITY, -INFINITY };
@@ -111,12 +113,12 @@ static void sort(const Item *items, int64_t count, int32_t *order)
         order[starts[level_of(items[i].bound, range)]++] = (int32_t)i;
 }
 
-/* A square while it is drawn. */
+/* State of a square while it is drawn. */
 typedef struct Square {
     int x, y; /* its first texel in the tile */
     int drawn;
     double least, settled[WR_Z_SQUARE * WR_Z_SQUARE]; /* see wr_zsheet_settled */
-    uint64_t changed; /* texels of which the band does not know yet */
+    uint64_t changed;                                 /* texels not yet updated in the band */
     WrZBand band;
 } Square;
 
@@ -141,7 +143,7 @@ static void settle(Many *m, Square *q, uint64_t texels)
         q->least = q->settled[k] < q->least ? q->settled[k] : q->least;
 }
 
-/* Of a ring only the texels that it changes. */
+/* For a ring, draws only the texels that it changes. */
 static void draw_ring(Many *m, Square *q, const Item *item)
 {
     const WrZSolid *ring = item->kind;
@@ -193,7 +195,7 @@ static bool is_kind(const WrZSolid *a, const WrZSolid *b)
            memcmp(a->inverse, b->inverse, sizeof a->inverse) == 0;
 }
 
-/* Two kinds take turns at most: see wr_solid_places. */
+/* At most two kinds alternate: see wr_solid_places. */
 static void list_all(const Many *m, int64_t count, Item *all)
 {
     const WrZSolid *kinds[2] = { NULL, NULL };

@@ -1,5 +1,4 @@
-/* zbuffer_tile.h - one tile of the depth buffer while it is drawn.
-   Private to the depth buffer. */
+/* zbuffer_tile.h - state of one tile of the depth buffer during drawing. Private to the depth buffer. */
 #pragma once
 #include "base/array.h"
 #include "field/field.h"
@@ -10,101 +9,100 @@
 
 #define WR_Z_FULL 0xffffU /* all samples */
 
-/* Where a texel is sampled, sixteenths of it from its centre; nearest first, no two in a row or column. */
+/* Sample positions in a texel, in sixteenths from its centre; nearest first, no two in a row or column. */
 extern const int8_t wr_z_samples[WR_Z_SAMPLES][2];
 
-/* What is seen at a texel's samples; -inf: nothing yet. */
+/* Depths of a texel's samples; -inf: none yet. */
 typedef struct WrZBlock {
     double z[WR_Z_SAMPLES];
 } WrZBlock;
 
-#define WR_Z_SQUARE 8 /* texels of the squares that are looked at together */
+#define WR_Z_SQUARE 8 /* side in texels of the squares culled together */
 #define WR_Z_SQUARES (WR_TILE / WR_Z_SQUARE)
 
 typedef struct WrZSheet {
     int x, y;       /* of its first texel */
-    int wide, high; /* texels that the table has in it */
+    int wide, high; /* texels of the tile inside the table */
     double floor;
-    double depth[WR_TILE * WR_TILE]; /* the highest at the centre; -inf: none there */
+    double depth[WR_TILE * WR_TILE]; /* the highest at the centre; -inf: none */
     double edge[WR_TILE * WR_TILE];  /* the highest at other samples */
     double
         whole[WR_TILE * WR_TILE]; /* at the centre, the highest of solids that cover all samples */
     uint16_t mask[WR_TILE * WR_TILE];
-    uint8_t
-        bodies[WR_TILE * WR_TILE]; /* solids that cover it, in part or all; 2: more, or one twice */
-    int block[WR_TILE * WR_TILE];  /* 1 + its block's index; 0: none */
-    WR_ARRAY(WrZBlock) blocks;     /* of texels that a solid covers in part */
-    int64_t squares;               /* drawn */
+    uint8_t bodies[WR_TILE * WR_TILE]; /* number of solids that cover it, in part or completely; 2:
+                                      more, or one twice */
+    int block[WR_TILE * WR_TILE];      /* 1 + its block's index; 0: none */
+    WR_ARRAY(WrZBlock) blocks;         /* for texels partly covered by a solid */
+    int64_t squares;                   /* drawn */
 } WrZSheet;
 
 /* One image of a primitive. */
 typedef struct WrZEntry {
     int64_t index; /* of the solid, or solid_count + of the triangle */
-    double dx, dy; /* texels: the image is moved by this */
+    double dx, dy; /* texels: offset of the image */
 } WrZEntry;
 
-/* Draw one image of a primitive, moved by (dx, dy) whole texels. */
+/* Draws one image of a primitive, moved by (dx, dy) whole texels. */
 void wr_zsheet_triangle(WrZSheet *sheet, const WrZTriangle *triangle, double dx, double dy);
 void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy);
-/* Only what of it lies in the square whose first texel is (x, y) of the tile. dx, dy: of parts of texels too, if
- * they are places as from wr_z_place. */
+/* Draws only its part in the square whose first texel is (x, y) of the tile. dx, dy may be fractional
+ * positions from wr_z_place. */
 void wr_zsheet_solid_at(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy, int x, int y);
 
-/* May the work go on? part: of the tile, 0..1. */
+/* Returns false if the work was cancelled. part: fraction of the tile, 0..1. */
 typedef struct WrZGoOn {
     bool (*call)(const void *ctx, double part);
     const void *ctx;
 } WrZGoOn;
-/* Draw the images of solids [count], but what is hidden. Drawing that too would change no bit. False: told to
-   stop. */
+/* Draws the visible images of solids [count]. Drawing hidden ones too would change no bit. False:
+   cancelled. */
 bool wr_zsheet_many(WrZSheet *sheet, const WrZScene *scene, const WrZEntry *entries, int64_t count,
                     const WrZGoOn *go_on);
 
-/* ---- what is hidden: zbuffer_bound.c ---- */
+/* ---- culling: zbuffer_bound.c ---- */
 
-/* Fill in what the solid's bounds are found from; part of wr_zsolid_set. */
+/* Fills in the data for the solid's bounds; part of wr_zsolid_set. */
 void wr_zsolid_set_bounds(WrZSolid *solid);
 
 typedef struct WrZRect {
     double x0, y0, x1, y1; /* texels, closed */
 } WrZRect;
-/* No place of the solid over the rectangle is higher; -inf: it is not there. *least: where it covers all of the
-   rectangle, none is lower; else -inf. */
+/* Upper bound of the solid over the rectangle; -inf: it is not there. *least: lower bound if it covers
+   all of the rectangle; else -inf. */
 double wr_zsolid_range(const WrZSolid *solid, const WrZRect *rect, double *least);
-/* Each texel of the square of WR_Z_SQUARE from (x, y) on: a solid that is nowhere higher than that changes nothing
-   there; inf beyond the table. Returns the least. */
+/* For each texel of the square of WR_Z_SQUARE from (x, y) on: the height below which a solid changes
+   nothing there; inf beyond the table. Returns the least. */
 double wr_zsheet_settled(const WrZSheet *sheet, int x, int y,
                          double settled[WR_Z_SQUARE * WR_Z_SQUARE]);
-/* The same of one texel. */
+/* wr_zsheet_settled for one texel. */
 double wr_zsheet_settled_texel(const WrZSheet *sheet, int at);
 
-/* A torus that lies flat and is not thin, of which single texels can be told apart. */
+/* True for a flat torus that is not thin, for which single texels can be selected. */
 bool wr_zsolid_is_ring(const WrZSolid *solid);
-/* How far from its axis such a torus may change each texel of a square: squares of distances. Holds for all of that
-   height and those radii. */
+/* Squared distances from its axis at which such a torus may change each texel of a square. Valid for
+   all of the same height and radii. */
 typedef struct WrZBand {
     double at, ring, tube; /* of the torus; tube 0: none yet */
-    double
-        within; /* a texel whose centre is that near to the middle line is covered, and its height is all
-                              that counts */
+    double within; /* a texel whose centre is that near to the middle line is covered, and only its
+                   height matters */
     double low[WR_Z_SQUARE * WR_Z_SQUARE], high[WR_Z_SQUARE * WR_Z_SQUARE];
 } WrZBand;
-/* For the ring, anew where it is another kind, else only for the texels (a bit each, row by row) that have changed.
- * settled: from wr_zsheet_settled. */
+/* Sets the band for the ring: completely if the kind differs, else only for the changed texels (a bit
+ * each, row by row). settled: from wr_zsheet_settled. */
 void wr_zband_set(WrZBand *band, const WrZSolid *ring, double floor, const double *settled,
                   uint64_t texels);
 /* The texels that such a ring may change. (x, y): from its axis to the square's first texel. */
 uint64_t wr_zband_meets(const WrZBand *band, double x, double y);
-/* Whether it lies well within those texels. */
+/* True if it lies well within those texels. */
 bool wr_zband_is_within(const WrZBand *band, double x, double y, uint64_t texels);
-/* Draw it there, where its height over the centre is all that counts. (x, y): the square's first
- * texel; texels: not 0. */
+/* Draws it there, where only its height at the centre matters. (x, y): the square's first texel;
+ * texels: not 0. */
 void wr_zsheet_ring_at(WrZSheet *sheet, const WrZSolid *ring, double dx, double dy, int x, int y,
                        uint64_t texels);
-/* The same for triangles, anywhere in the tile. */
+/* wr_zsheet_settled for triangles, anywhere in the tile. */
 double wr_zsheet_filled(const WrZSheet *sheet);
 
-/* texels of [low, high] as whole numbers; x may be any number */
+/* clamps to [low, high] as integers; x may be any number */
 static inline int wr_z_clip(double x, int low, int high)
 {
     return x < low ? low : x > high ? high : (int)x;

@@ -1,4 +1,4 @@
-/* Rays and tori: a quartic, piece by piece between the places where its curvature turns. */
+/* Intersection of rays and tori: a quartic, solved between its inflection points. */
 #include "generate/zbuffer_shapes.h"
 
 static double horner(const double *c, int degree, double t)
@@ -8,8 +8,8 @@ static double horner(const double *c, int degree, double t)
     return value;
 }
 
-/* The root between low and high, where the signs differ: Newton's steps, halving where one leaves the
- * interval or gains too little. */
+/* The root between low and high, where the signs differ: Newton's method with bisection if a step
+ * leaves the interval or gains too little. */
 static double root_between(const double *c, const double *slope, int degree, double low,
                            double high)
 {
@@ -31,9 +31,9 @@ static double root_between(const double *c, const double *slope, int degree, dou
     return t;
 }
 
-/* The largest root in [low, high], where the curve bends upwards all over and is above 0 at its high end.
- * Tangents lie below the curve, so Newton's steps come down to the root and never pass it; where there is
- * none, they pass the lowest place. */
+/* The largest root in [low, high], where the curve is convex and positive at its high end. Tangents lie
+ * below the curve, so Newton's steps approach the root from above and never pass it; if there is no
+ * root, they pass the minimum. */
 static bool bowl_top(const double *c, const double *slope, double low, double high, double *t)
 {
     double at = high;
@@ -50,7 +50,7 @@ static bool bowl_top(const double *c, const double *slope, double low, double hi
     return true;
 }
 
-/* The largest t in [-1, 1] where a quartic that goes up at both its ends is not above 0. */
+/* The largest t in [-1, 1] where a quartic that rises at both ends is not positive. */
 static bool quartic_top(const double c[5], double *t)
 {
     const double slope[4] = { c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4] };
@@ -60,7 +60,7 @@ static bool quartic_top(const double c[5], double *t)
     if (!(rest > 0.0)) return bowl_top(c, slope, -1.0, 1.0, t);
     double left = (-3.0 * c[3] - sqrt(rest)) / (12.0 * c[4]);
     double right = (-3.0 * c[3] + sqrt(rest)) / (12.0 * c[4]);
-    /* between left and right it bends downwards: it is above 0 there if it is so at both ends */
+    /* between left and right it is concave: it is positive there if it is so at both ends */
     left = left < -1.0 ? -1.0 : left > 1.0 ? 1.0 : left;
     right = right < -1.0 ? -1.0 : right > 1.0 ? 1.0 : right;
     if (right < 1.0 && bowl_top(c, slope, right, 1.0, t)) return true;
@@ -71,7 +71,7 @@ static bool quartic_top(const double c[5], double *t)
     return left > -1.0 && bowl_top(c, slope, -1.0, left, t);
 }
 
-/* Straight down on a torus that lies flat. */
+/* A vertical line on a flat torus. */
 static bool flat_top(const double a[3], double down, double tube, double *t)
 {
     double d = sqrt(a[0] * a[0] + a[1] * a[1]) - 1.0, rest = tube * tube - d * d;
@@ -83,10 +83,11 @@ static bool flat_top(const double a[3], double down, double tube, double *t)
 
 bool wr_ztorus_top(const double a[3], const double b[3], double tube, double *t)
 {
-    /* lines in the planes that it lies between touch it along a circle, or not, by chance of rounding */
+    /* lines in the two planes that touch the torus meet it along a circle, or not, depending on
+     * rounding */
     if (b[2] == 0.0 && fabs(a[2]) >= tube * (1.0 - 1e-9)) return false;
     if (b[0] == 0.0 && b[1] == 0.0) return flat_top(a, b[2], tube, t);
-    /* a little more than it needs, so that no root falls on an end */
+    /* slightly larger than needed, so that no root falls on an end */
     WrZSpan s = wr_zspan_meet(wr_zspan_slab(a[2], b[2], 1.001 * tube),
                               wr_zspan_round(a, b, 3, 0.0, 1.001 * (1.0 + tube)));
     if (!(s.low <= s.high)) return false;

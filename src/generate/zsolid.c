@@ -1,4 +1,4 @@
-/* Solids met by lines straight down: q(z) = a + b z in the unit solid's own space. */
+/* Intersection of solids with vertical lines: q(z) = a + b z in the unit solid's own space. */
 #include "generate/zbuffer.h"
 
 #include "base/error.h"
@@ -15,7 +15,7 @@ WrZSpan wr_zspan_slab(double a, double b, double r)
     return p < q ? (WrZSpan){ p, q } : (WrZSpan){ q, p };
 }
 
-/* Where A z^2 + 2 B z + C <= 0 with A > 0. */
+/* The interval with A z^2 + 2 B z + C <= 0 with A > 0. */
 static WrZSpan inside(double a, double b, double c)
 {
     double root = b * b - a * c;
@@ -55,7 +55,7 @@ static WrZSpan cone_span(const double a[3], const double b[3])
         return wr_zspan_meet(s,
                              qb > 0.0 ? (WrZSpan){ -INFINITY, root } : (WrZSpan){ root, INFINITY });
     }
-    WrZSpan out = inside(-qa, -qb, -qc); /* outside of the cone is between the roots */
+    WrZSpan out = inside(-qa, -qb, -qc); /* the outside of the cone is between the roots */
     if (!(out.low <= out.high)) return s;
     WrZSpan upper = wr_zspan_meet(s, (WrZSpan){ out.high, INFINITY });
     return upper.low <= upper.high ? upper : wr_zspan_meet(s, (WrZSpan){ -INFINITY, out.low });
@@ -73,7 +73,7 @@ static WrZSpan capsule_span(const double a[3], const double b[3], double half)
     return middle;
 }
 
-/* ---- any of them ---- */
+/* ---- all shapes ---- */
 
 static void ray(const WrZSolid *solid, double x, double y, double a[3], double b[3])
 {
@@ -93,7 +93,7 @@ static inline double dome_top(const WrZSolid *solid, double x, double y)
     return rest >= 0.0 ? z : -INFINITY;
 }
 
-/* As wr_ztorus_top of a torus that lies flat, in every bit. */
+/* Bit-identical to wr_ztorus_top for a flat torus. */
 static void ring_tops(const WrZSolid *solid, int count, const double *x, const double *y, double *z)
 {
     const double *m = solid->inverse, down = m[8], tube = solid->param;
@@ -108,8 +108,8 @@ static void ring_tops(const WrZSolid *solid, int count, const double *x, const d
     }
 }
 
-/* As capsule_span of a capsule that stands upright, in every bit: its upper end, but where rounding at its rim
-   decides what is met. */
+/* Bit-identical to capsule_span for an upright capsule: its upper end, except where rounding at its rim
+   determines the hit. */
 static void rod_tops(const WrZSolid *solid, int count, const double *x, const double *y, double *z)
 {
     const double *m = solid->inverse, up = m[8], bb = up * up, rim = 1e-6 * bb;
@@ -186,7 +186,7 @@ bool wr_zsolid_top(const WrZSolid *solid, double x, double y, double *z)
     return true;
 }
 
-/* Radius of a ball about the unit solid's origin that holds it. */
+/* Radius of the bounding sphere about the unit solid's origin. */
 static double ball(const WrZSolid *solid)
 {
     switch (solid->shape) {
@@ -203,7 +203,7 @@ bool wr_zsolid_far(const WrZSolid *solid, double x, double y, double reach)
     double a[3], b[3];
     const double *m = solid->inverse;
     ray(solid, x, y, a, b);
-    /* a step of the place moves the line by so much at most in the unit solid's space */
+    /* maximum shift of the line in the unit solid's space per step of the position */
     double stretch = 0.0;
     for (int k = 0; k < 3; k++) stretch += m[3 * k] * m[3 * k] + m[3 * k + 1] * m[3 * k + 1];
     if (solid->shape == WR_Z_LETTERS)
@@ -288,8 +288,8 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* An ellipsoid's shadow is where (x, y) S^-1 (x, y) <= 1, S = P P^T with P the pose's first two rows p, q;
- * det S = |p x q|^2 and the like keep the thin ones exact. r is the third row. */
+/* An ellipsoid's projection is (x, y) S^-1 (x, y) <= 1, S = P P^T with P the pose's first two rows p,
+ * q; det S = |p x q|^2 and similar forms keep thin ones exact. r is the third row. */
 static void set_dome(WrZSolid *solid)
 {
     const double *p = solid->pose, *q = p + 3, *r = p + 6;
