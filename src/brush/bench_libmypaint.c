@@ -29,7 +29,7 @@ struct WrBrushRace {
     WrSample *events, *places; /* of the motion; of the round dabs; owned */
 };
 
-/* Event k: round and round a figure that keeps 1.5 radii within the table, or stays at its middle. */
+/* Event k: the path circles so that 1.5 radii stay within the table, or remains at its middle. */
 static WrSample event(const WrBrushPace *pace, int k)
 {
     double half = 0.5 * pace->table, room = half - 1.5 * pace->radius - 2.0;
@@ -55,7 +55,7 @@ static WrBrush engine_brush(const WrPreset *preset, double radius)
 /* ---- counting ---- */
 
 typedef struct Counter {
-    MyPaintSurface surface; /* first: the callback gets its address */
+    MyPaintSurface surface; /* first member: the callback receives its address */
     int dabs;
 } Counter;
 
@@ -75,7 +75,7 @@ static void count_ours(void *ctx, const WrDab *dab)
     ++*(int *)ctx;
 }
 
-/* The library's stroke; `surface` may be one that only counts. */
+/* Draws the library's stroke; `surface` may be one that only counts. */
 static void peer_stroke(const WrBrushPace *pace, const WrSample *events, MyPaintSurface *surface,
                         bool atomic)
 {
@@ -143,7 +143,7 @@ bool wr_brush_pace(int table, double radius, int dabs, WrBrushPace *pace, WrErro
     return true;
 }
 
-/* ---- racing ---- */
+/* ---- measurement ---- */
 
 WrBrushRace *wr_brush_race_new(const WrBrushPace *pace, WrError *err)
 {

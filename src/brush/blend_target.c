@@ -9,7 +9,8 @@
 
 #define TEXELS (WR_TILE * WR_TILE)
 
-/* A clone's source in texels, on a fine grid, so that whole texels are found as whole; not far. */
+/* A clone's source offset in texels, rounded to a fine grid so that whole texels are detected; limited
+   in size. */
 static double shift(double source, int n, WrWrap wrap)
 {
     double texels = source * n;
@@ -36,7 +37,7 @@ static int limit(int i, int n)
     return i < 0 ? 0 : i < n ? i : n - 1;
 }
 
-/* One row, j in the table. */
+/* Reads one row, j inside the table. */
 static void read_row(const WrField *field, int i, int j, int count, float *out)
 {
     int width = wr_field_width(field);
@@ -77,7 +78,7 @@ static void below_tile(const WrTargets *t, int tx, int ty, float *out)
         for (int k = 0; k < TEXELS; k++) out[k] = level;
 }
 
-/* Bilinear between whole texels; a whole shift copies. */
+/* Bilinear between whole texels; an integer shift copies. */
 static void shifted_tile(const WrTargets *t, int tx, int ty, float *out)
 {
     enum { SIDE = WR_TILE + 1 };
@@ -102,7 +103,7 @@ static int half_width(int reach, int off)
     return half2 > 0.0 ? (int)sqrt(half2) : 0;
 }
 
-/* Rows of sums from the left give the sum of any part of a row by one difference. */
+/* Prefix sums of rows give the sum of any part of a row by one difference. */
 static void sharp_tile(const WrTargets *t, int tx, int ty, float *out)
 {
     int reach = t->reach, side = WR_TILE + 2 * reach, texels = 0;
@@ -133,7 +134,7 @@ static void sharp_tile(const WrTargets *t, int tx, int ty, float *out)
 
 #define LEVELS 10 /* 2^9 <= 2 WR_REACH_MAX + 1 < 2^10 */
 
-/* Largest heights (of heights times sign) of runs of 1, 2, 4, ... texels from each on. */
+/* Maxima (of heights times sign) of runs of 1, 2, 4, ... texels starting at each texel. */
 static void doublings(const float *row, int side, float sign, int levels, float *runs)
 {
     for (int i = 0; i < side; i++) runs[i] = sign * row[i];

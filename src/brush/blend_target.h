@@ -1,5 +1,5 @@
-/* blend_target.h - what covering modes move heights to, tile by tile, from the table as it was.
-   Private to this module. */
+/* blend_target.h - target heights of coverage-based modes, tile by tile, from the table before the
+   stroke. Private to this module. */
 #pragma once
 #include "brush/mode.h"
 
@@ -15,10 +15,10 @@ typedef struct WrTargets {
 
 /* brush from wr_brush_sane. */
 WrTargets wr_targets(const WrBrushGround *ground, const WrField *start, const WrBrush *brush);
-/* The targets of tile (tx, ty), row by row; out: [WR_TILE * WR_TILE]. Any number of threads. */
+/* Computes the targets of tile (tx, ty), row by row; out: [WR_TILE * WR_TILE]. Any number of threads. */
 void wr_blend_target_tile(const WrTargets *targets, int tx, int ty, float *out);
 
-/* Copy count_i x count_j texels at (i, j), row by row without gaps; indices wrap on periodic axes and stop
- * at the ends of clamped ones. */
+/* Copies count_i x count_j texels at (i, j), contiguous rows; indices wrap on periodic axes and are
+ * clamped to the ends of others. */
 void wr_read_box(const WrField *field, int i, int j, int count_i, int count_j, int pitch,
                  float *out);

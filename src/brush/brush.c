@@ -50,7 +50,7 @@ void wr_brush_dab(WrField *field, const WrBrush *brush, double u, double v)
     wr_brush_dab_on(&(WrBrushGround){ .field = field }, brush, u, v);
 }
 
-/* Tiles of a shape in a row of tiles, for several threads. */
+/* Tiles of a shape in one row of tiles, for several threads. */
 typedef struct Filling {
     const WrMaker *maker;
     WrStrokeResolve makes[WR_FIELD_MAX / WR_TILE];
@@ -63,7 +63,7 @@ static void fill_one(int index, int worker, void *ctx)
     const Filling *filling = ctx;
     WrStrokeResolve make = filling->makes[index];
     const WrMaker *maker = filling->maker;
-    /* whole blocks, of which texels beyond the table's edge get nothing */
+    /* whole blocks; texels beyond the table's edge get no coverage */
     float *inside = NULL, *target = NULL;
     if (make.count % WR_BRUSH_BLOCK) {
         inside = wr_alloc(WR_TILE * WR_TILE, sizeof *inside);
@@ -117,7 +117,7 @@ bool wr_brush_fill(const WrBrushGround *ground, const WrBrush *brush, const WrFi
                        wr_field_width(coverage), wr_field_height(coverage),
                        wr_field_width(ground->field), wr_field_height(ground->field));
     if (sane.strength == 0.0 && wr_mode_work(sane.mode)->as_strong) return true;
-    sane.buildup = false; /* once */
+    sane.buildup = false; /* applied once */
     WrMaker maker;
     wr_maker_init(&maker, ground, &sane);
     double x, y;

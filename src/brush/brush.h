@@ -1,34 +1,33 @@
 /* brush.h - brushes: dabs and strokes that change a height table.
-   Plain double arithmetic in a fixed order, so a replay gives the same bits on every processor
-   and any number of threads, however the motion was cut into events. One exception: where the dabs of a
-   preset fall, and how large they are, is libmypaint's arithmetic (preset.h).
 
-   Coverage c of the round brush at distance d from the path's nearest point, radius R, hardness k, in
-   texels:
+   Double arithmetic in a fixed order, so a replay gives the same bits on every processor and any number
+   of threads, however the motion was divided into events. One exception: positions and sizes of a
+   preset's dabs are computed by libmypaint (preset.h). Coverage c of the round brush at distance d from
+   the path's nearest point, radius R, hardness k, in texels:
+
      inner = max(min(k R, R - 1), 0.70711 > sqrt(1/2)),  c = 1 for d <= inner,  0 for d >= R,
-     a smoothstep between: so the texel that holds the centre is always fully covered.
-   Where R <= 0.70711 a dab is the one texel that holds its centre, a stroke a line one texel wide.
+
+   a smoothstep between: so the texel that contains the centre is always fully covered. If R <= 0.70711
+   a dab is the single texel that contains its centre, a stroke a line one texel wide.
 
    Two kinds of modes (mode.h):
 
-   covering   a texel's height is made anew from the height that it had when the stroke began, and from
-              its coverage by the whole stroke, A: so crossing one's own stroke does not double it, and
-              events do not matter (HC75).
+   covering   a texel's height is computed from its height before the stroke and from its coverage by
+              the whole stroke, A: so crossing one's own stroke does not double it, and the division
+              into events has no effect (HC75).
                 A = max over the stroke of c p         flow 1 (the round brush and tips)
                 A = 1 - product of (1 - flow c p)      flow < 1, and presets: builds up to 1
-                A = sum of flow c p                    buildup: without end, also by crossing and resting
-              with p the pen's pressure; then A counts as min(A, 1) opacity, with buildup as A opacity.
-   moving     each dab changes the heights that it finds, by the part c p flow opacity (smooth, smear,
-              ...); so do presets that smudge, in any mode. Dabs lie a fixed way apart along the path.
+                A = sum of flow c p                    buildup: unlimited, also by crossing and resting
+              with p the pen's pressure; then min(A, 1) opacity is used, with buildup A opacity.
+   moving     each dab changes the present heights, by the fraction c p flow opacity (smooth, smear,
+              ...); so do presets that smudge, in any mode. Dabs have a fixed distance along the path.
 
-   Modes that lead towards something never lead beyond it: there no A counts for more than 1. The brush of
-   our own makes no dab while it rests; presets may. Moving dabs copy their box of the table; without
-   memory for that (about 16 bytes a texel) they do nothing.
-
-   Heights stay finite: they stop at +-FLT_MAX. Not finite brush values count as 0 (NaN) or as the end of
-   their range. Distances are torus distances on periodic axes: each texel is touched once whatever R
-   (HC69, HC70, HC73). Off the ends of a clamped axis there is nothing to paint; a dab may be centred
-   there. */
+   Modes with a target never overshoot it: there A is limited to 1. Our own brush makes no dab while it
+   rests; presets may. Moving dabs copy their box of the table; without memory for that (about 16 bytes
+   per texel) they do nothing. Heights stay finite: they are limited to +-FLT_MAX. Non-finite brush
+   values are replaced by 0 (NaN) or the end of their range. Distances are torus distances on periodic
+   axes: each texel is changed once for any R (HC69, HC70, HC73). Nothing is painted beyond the ends of
+   a clamped axis, but a dab may be centred there. */
 #pragma once
 #include "brush/symmetry.h"
 
@@ -47,34 +46,35 @@ typedef enum WrBrushMode {
     WR_BRUSH_LOWER, /* F - strength A */
     WR_BRUSH_TO, /* towards `to` by A min(strength, |to - F|); with buildup min(A strength, ...) */
     WR_BRUSH_FLATTEN, /* towards the height of the texel under the stroke's first sample */
-    WR_BRUSH_LIFT,    /* lift floors: towards max(F, to) */
+    WR_BRUSH_LIFT,    /* raise valleys: towards max(F, to) */
     WR_BRUSH_CUT,     /* cut peaks: towards min(F, to) */
-    WR_BRUSH_ERASE,   /* back to what lies below the layer (WrBrushGround) */
-    WR_BRUSH_CLONE,   /* towards the heights at an offset, as they were when the stroke began */
+    WR_BRUSH_ERASE,   /* restores the heights below the layer (WrBrushGround) */
+    WR_BRUSH_CLONE,   /* towards the heights at an offset, as before the stroke */
     WR_BRUSH_SHARPEN, /* away from the local mean within `reach` */
     WR_BRUSH_DILATE,  /* towards the largest height within `reach` texels */
     WR_BRUSH_ERODE,   /* towards the smallest */
     /* moving */
-    WR_BRUSH_SMOOTH, /* heights flow between neighbours up to `reach` apart: the mean stays (HC77) */
-    WR_BRUSH_LEVEL,  /* towards the plane that fits best under the dab */
-    WR_BRUSH_PINCH,  /* heights are drawn towards the path */
+    WR_BRUSH_SMOOTH, /* heights diffuse between neighbours up to `reach` apart: preserves the mean
+                        (HC77) */
+    WR_BRUSH_LEVEL,  /* towards the best-fitting plane under the dab */
+    WR_BRUSH_PINCH,  /* heights are moved towards the path */
     WR_BRUSH_SMEAR,  /* heights are dragged along the path */
     WR_BRUSH_MODE_COUNT
 } WrBrushMode;
 
-/* What of WrBrush a mode goes by, besides what all do. */
+/* Members of WrBrush that a mode uses, besides the common ones. */
 enum { WR_USES_STRENGTH = 1, WR_USES_TO = 2, WR_USES_REACH = 4, WR_USES_SOURCE = 8 };
 
 typedef struct WrBrushModeInfo {
     const char *name, *label, *help;
     bool moves;
     unsigned uses;                 /* WR_USES_ bits */
-    double spacing;                /* where brush.spacing is 0, of the radius */
-    const struct WrModeWork *work; /* what it does: inside this room, mode.h */
+    double spacing;                /* default of brush.spacing, relative to the radius */
+    const struct WrModeWork *work; /* implementation: private to this module, mode.h */
 } WrBrushModeInfo;
 extern const WrBrushModeInfo wr_brush_modes[WR_BRUSH_MODE_COUNT];
 
-typedef enum WrBrushPressure { /* what the pen's pressure of the round brush and of tips turns */
+typedef enum WrBrushPressure { /* effect of pen pressure for the round brush and tips */
                                WR_PRESSURE_STRENGTH, /* coverage */
                                WR_PRESSURE_SIZE,     /* radius */
                                WR_PRESSURE_BOTH,
@@ -89,29 +89,28 @@ typedef struct WrTip WrTip;       /* tip.h */
 typedef struct WrBrush {
     double radius;   /* texels, 0..1e9; 0 paints nothing; below sqrt(1/2) one texel */
     double hardness; /* 0..1 */
-    double strength; /* table units, any sign */
+    double strength; /* table units, may be negative */
     WrBrushMode mode;
     double to;      /* table units; modes that use it */
     double opacity; /* 0..1, of the whole stroke */
     double flow;    /* 0..1, of each dab */
     bool buildup;
-    double
-        spacing;  /* of the radius, between dabs, 0.01..10, at least 1/4 texel; 0: the tip's or the
-                       mode's own, over the aspect */
-    double reach; /* texels, 1..256, whole, modes that use it; 0: an eighth of the radius. Within
-                       reach are texels at most reach + 1/2 away; smooth lets heights flow between
-                       those reach, reach/2, ..., 1 apart along rows and columns */
+    double spacing; /* between dabs, relative to the radius, 0.01..10, at least 1/4 texel; 0: the
+                     default of the tip or the mode, divided by the aspect */
+    double reach;   /* texels, 1..256, integer, for modes that use it; 0: an eighth of the radius.
+                     Within reach are texels at most reach + 1/2 away; smooth exchanges heights
+                     between texels reach, reach/2, ..., 1 apart along rows and columns */
     WrBrushPressure pressure;  /* presets have their own curves */
-    double source_u, source_v; /* clone: heights come from (u + source_u, v + source_v) */
+    double source_u, source_v; /* clone: the source is (u + source_u, v + source_v) */
     const WrPreset *preset;    /* borrowed, shared by strokes; NULL: the round brush or a tip */
-    uint64_t seed;             /* of all that is random in a stroke */
-    const WrTip *tip;          /* in place of the round falloff; borrowed, shared by strokes */
-    double angle_deg;          /* turns a tip or an ellipse anticlockwise, as seen */
-    double aspect;             /* >= 1, length over breadth; 1: round. Of tips: stretch across */
-    bool follow;               /* the angle counts from the path's direction */
-    double jitter_place;       /* of the radius, 0.. */
-    double jitter_angle_deg;   /* 0..180, either way */
-    double jitter_size;        /* 0..1, down from the radius */
+    uint64_t seed;             /* of all randomness in a stroke */
+    const WrTip *tip;          /* replaces the round falloff; borrowed, shared by strokes */
+    double angle_deg;          /* rotates a tip or an ellipse anticlockwise, as seen */
+    double aspect;             /* >= 1, length over breadth; 1: round. For tips: stretch across */
+    bool follow;               /* the angle is relative to the path's direction */
+    double jitter_place;       /* relative to the radius, 0.. */
+    double jitter_angle_deg;   /* 0..180, in both directions */
+    double jitter_size;        /* 0..1, reduces the radius */
     WrSymmetry symmetry;
 } WrBrush;
 
@@ -120,69 +119,70 @@ WrBrush wr_brush_default(void);
 
 typedef struct WrSample {
     double u, v;     /* any finite value; wraps on periodic axes */
-    double pressure; /* 0..1; others are clamped, NaN counts as 0 (HC74) */
+    double pressure; /* 0..1; others are clamped, NaN becomes 0 (HC74) */
     double tilt_x,
         tilt_y;     /* -1..1, to the right and towards the user; the round brush ignores them */
-    double seconds; /* since the stroke's start; a motion without time counts as 400 texels/s */
+    double seconds; /* since the stroke's start; a motion without times is assumed to have 400
+                       texels/s */
 } WrSample;
 
 /* The distance in texels up to which coverage is 1, and coverage 0..1 at distance d >= 0 from the path
- * (for outlines and previews; not for a radius of 0.70711 or less, whose shape is the texel). */
+ * (for outlines and previews; not for a radius of 0.70711 or less, which paints single texels). */
 double wr_brush_inner(const WrBrush *brush);
 double wr_brush_coverage(const WrBrush *brush, double d);
 
-/* One dab at (u, v), the same bits as a stroke of one sample at pressure 1. Nothing if u or v is not
- * finite. */
+/* One dab at (u, v), with the bits of a stroke of one sample at pressure 1. Does nothing if u or v is
+ * not finite. */
 void wr_brush_dab(WrField *field, const WrBrush *brush, double u, double v);
 
-/* A table with what belongs to it, all of one size. */
+/* A table with its associated tables, all of one size. */
 typedef struct WrBrushGround {
-    WrField *field; /* what is painted on */
+    WrField *field; /* the painted table */
     WrField
         *mark; /* raised to the coverage, max(mark, s c), where anything is painted; erasing lowers
-                       it to mark (1 - s A); NULL: not kept */
+                  it to mark (1 - s A); NULL: none */
     const WrField
-        *selection; /* s, 0..1: coverage counts as s c, and where it is 0 texels keep their
-                                 bits; NULL: 1 everywhere */
-    /* What erasing leads to: `below`, or `neutral` everywhere where that is NULL. */
+        *selection; /* s, 0..1: multiplies coverage; where it is 0, texels keep their bits; NULL: 1
+                       everywhere */
+    /* Target of erasing: `below`, or `neutral` everywhere if that is NULL. */
     const WrField *below;
     float neutral;
     WrPool *pool; /* for large dabs; the bits do not depend on it; NULL: this thread */
-    const WrProgress *progress; /* of wr_brush_fill alone; NULL: it is not stopped */
+    const WrProgress *progress; /* only for wr_brush_fill; NULL: not cancellable */
 } WrBrushGround;
 
-/* The same as wr_brush_dab with neither mark nor selection. */
+/* wr_brush_dab on a table with mark and selection. */
 void wr_brush_dab_on(const WrBrushGround *ground, const WrBrush *brush, double u, double v);
 
 typedef struct WrStroke WrStroke;
 
-/* Begin a stroke on field, which must outlive it and must not be written to by others meanwhile.
-   The caller owns the stroke. */
+/* Begins a stroke on field, which must outlive it and must not be written by others meanwhile. The
+   caller owns the stroke. */
 WrStroke *wr_stroke_new(WrField *field, const WrBrush *brush);
-/* The same on a table with mark and selection: the same bits where the selection is 1. */
+/* Begins a stroke on a table with mark and selection: the same bits where the selection is 1. */
 WrStroke *wr_stroke_new_on(const WrBrushGround *ground, const WrBrush *brush);
 
-/* Apply one more sample at once: the first makes a dab, later ones join to the one before along the
-   shortest way round (HC73), with the pressure between theirs. Cost goes by the area that it covers,
-   never by the table's size. Of the round brush in covering modes, a sample within max(1/4, R/32) texel of
-   the last one drawn, and within 1/128 of its pressure, waits: the next one that is not draws it too,
-   unless it lies on the way (within 1/4 texel), or unless another took its place meanwhile. What comes
-   out depends on the samples alone. A sample whose u or v is not finite is left out. */
+/* Applies one more sample at once: the first makes a dab, later ones are connected to the previous one
+   along the shortest way round (HC73), with interpolated pressure. The cost depends on the covered
+   area, not on the table's size. For the round brush in covering modes, a sample within max(1/4, R/32)
+   texel of the last one drawn, and within 1/128 of its pressure, is deferred: the next sample that is
+   not draws it too, unless it is on the straight line (within 1/4 texel), or was replaced by another
+   meanwhile. The result depends only on the samples. A sample whose u or v is not finite is skipped. */
 void wr_stroke_add(WrStroke *stroke, WrSample sample);
-/* The same in two steps, so that a large brush never keeps the pointer waiting: take the sample, and draw
-   what was taken for about that long (at least one piece of work). True while more is left to draw. The
-   bits do not depend on how the work was cut. */
+/* wr_stroke_add in two steps, so that a large brush never delays the pointer: queues the sample; draws
+   queued samples for about this time (at least one piece of work). True while more is left to draw. The
+   bits do not depend on the division of work. */
 void wr_stroke_push(WrStroke *stroke, WrSample sample);
 bool wr_stroke_work(WrStroke *stroke, double seconds);
-/* Draws what is left, and a sample that still waits, so that the stroke ends where the pen did; the
-   heights stay. NULL is fine. */
+/* Draws the rest, and a deferred sample, so that the stroke ends at the pen's position; the heights
+   remain. NULL is allowed. */
 void wr_stroke_free(WrStroke *stroke);
-/* The same without drawing what is left: for a stroke that is given up. */
+/* Frees the stroke without drawing the rest: for a stroke that is cancelled. */
 void wr_stroke_abandon(WrStroke *stroke);
 
-/* Texels of a shape covered by `coverage` (0..1, the table's size): what a covering mode does with A =
-   coverage opacity, at once and everywhere. False and an error for a moving mode, and, with a part filled,
-   where the ground's progress says stop. first_u, first_v: where flatten takes its height. Symmetry does
-   not apply. */
+/* Fills a shape given by `coverage` (0..1, the table's size): applies a covering mode with A = coverage
+   opacity everywhere at once. False and an error for a moving mode, and, with a part filled, when the
+   ground's progress is cancelled. first_u, first_v: position of flatten's height. Symmetry does not
+   apply. */
 bool wr_brush_fill(const WrBrushGround *ground, const WrBrush *brush, const WrField *coverage,
                    double first_u, double first_v, WrError *err);

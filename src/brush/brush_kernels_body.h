@@ -1,5 +1,6 @@
-/* brush_kernels_body.h - the text of brush_kernels.h's loops, included once by each kern_v*.c, which defines
-   WR_BRUSH_TABLE and WR_BRUSH_NAME. A header without a guard, by intention. */
+/* brush_kernels_body.h - implementation of the loops of brush_kernels.h, included once by each
+   brush_kernels_v*.c, which defines WR_BRUSH_TABLE and WR_BRUSH_NAME. Intentionally without an include
+   guard. */
 #include "brush/brush_kernels.h"
 
 #include <math.h>
@@ -7,10 +8,10 @@
 #include <immintrin.h>
 #endif
 
-/* Smoothstep of how far the distance, here squared, has come from the radius to the inner radius. It is
- * cut to those two before the root is taken, where sqrt(r r) is r again, so that no constant of 0 or 1
- * tempts compilers to branch; at the inner radius s is within a rounding of 1, and the result, which is
- * flat there, is 1 to the last bit of a float. */
+/* Smoothstep of the squared distance between the radius and the inner radius. It is clamped to those
+ * two before the root is computed, where sqrt(r r) is r again, so that no constant of 0 or 1 makes
+ * compilers branch; at the inner radius s is within a rounding of 1, and the result, which is flat
+ * there, is 1 to the last bit of a float. */
 static inline double profile(const WrCapsule *c, double d2)
 {
     d2 = d2 < c->radius2 ? d2 : c->radius2;
@@ -19,15 +20,15 @@ static inline double profile(const WrCapsule *c, double d2)
     return s * s * (3.0 - 2.0 * s);
 }
 
-/* Whole numbers as doubles, since few processors turn integers into doubles in whole vectors. */
+/* Integers as doubles, since few processors convert integers to doubles in whole vectors. */
 static const double steps[WR_TILE] = {
     0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
     22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43,
     44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63,
 };
 
-/* Texel x + steps[i] of a dab's row; that sum is exact, so a texel gets the same bits wherever the run
- * that it is in begins. ey2: the row's distance, squared. */
+/* Texel x + steps[i] of a dab's row; that sum is exact, so a texel has the same bits wherever its run
+ * begins. ey2: the row's squared distance. */
 static inline float dab_cover(const WrCapsule *c, double ey2, double x, int i)
 {
     double ex = (x + steps[i]) - c->x;
@@ -42,8 +43,8 @@ static inline float raised(double strength, float start, float cover)
     return cover > 0.0f ? made : start;
 }
 
-/* Whether the block of texels from x on lies nearer than the inner radius: there the squared distance is
- * cut to one and the same number, so coverage is the same, bit for bit. */
+/* True if the block of texels from x on is nearer than the inner radius: there the squared distance is
+ * clamped to one number, so coverage is constant, bit for bit. */
 static inline bool is_flat(const WrCapsule *c, double ey2, double x)
 {
     double left = fabs(x - c->x), right = fabs(x + (WR_BRUSH_BLOCK - 1) - c->x);
@@ -75,7 +76,7 @@ static inline double cut(double x)
 static void dab_rows(const WrCapsule *capsule, double y, int count, WrDabRows *rows)
 {
     const WrCapsule c = *capsule;
-    const double slack = 1e-3; /* texels: above all rounding, below all cost */
+    const double slack = 1e-3; /* texels: more than rounding errors, with negligible cost */
     double low[WR_TILE], high[WR_TILE], flat_low[WR_TILE], flat_high[WR_TILE];
     count = (count + WR_DAB_BLOCK - 1) & -WR_DAB_BLOCK; /* whole vectors */
 #pragma omp simd
@@ -99,7 +100,7 @@ static void dab_rows(const WrCapsule *capsule, double y, int count, WrDabRows *r
     }
 }
 
-/* The square of a column's distance; that sum is exact, so a texel gets the same bits in whatever tile. */
+/* The square of a column's distance; that sum is exact, so a texel has the same bits in any tile. */
 static inline void squares(const WrCapsule *c, double x, double *restrict ex2)
 {
 #pragma omp simd
@@ -109,11 +110,11 @@ static inline void squares(const WrCapsule *c, double x, double *restrict ex2)
     }
 }
 
-/* Blocks of texels some of which lie between the radii. */
+/* Blocks of texels partly between the radii. */
 #if defined __AVX512F__ && defined __AVX512VL__
-/* The same as below in whole vectors of doubles, of which compilers take two halves. full: the pressure is 1. Beyond the
- * radius s is below 0 rather than cut to it: nothing of such a texel is stored. 2 s is exact, so the sum with 3 may take it as
- * a product. */
+/* The generic loop below in whole vectors of doubles, where compilers use two halves. full: the
+ * pressure is 1. Beyond the radius s is negative instead of clamped: such texels are not stored. 2 s is
+ * exact, so the sum with 3 may be a fused product. */
 static inline __attribute__((always_inline)) void
 raise_edge_by(bool full, const WrCapsule *c, const double *restrict ex2, double ey2,
               double strength, float *restrict heights, int from, int to)
@@ -155,7 +156,7 @@ static inline void raise_edge(const WrCapsule *c, const double *restrict ex2, do
 }
 #endif
 
-/* The same one by one, where blocks must not be widened. */
+/* Texel by texel, where blocks must not be widened. */
 static inline void raise_some(const WrCapsule *c, const double *ex2, double ey2, double strength,
                               float *heights, int from, int to)
 {
@@ -163,8 +164,8 @@ static inline void raise_some(const WrCapsule *c, const double *ex2, double ey2,
         heights[i] = raised(strength, heights[i], (float)(c->pressure * profile(c, ex2[i] + ey2)));
 }
 
-/* Where the summand is a float, the sum of floats is the sum in double rounded to one: a double's 53 bits are twice a
- * float's 24 and more. */
+/* If the summand is a float, the sum of floats equals the sum in double rounded to float: a double's 53
+ * bits are more than twice a float's 24. */
 static inline void raise_by_float(float by, float *restrict heights, int from, int to)
 {
     for (int b = from; b < to; b += WR_DAB_BLOCK)
@@ -172,9 +173,9 @@ static inline void raise_by_float(float by, float *restrict heights, int from, i
         for (int i = b; i < b + WR_DAB_BLOCK; i++) heights[i] += by;
 }
 
-/* Whole blocks of equal coverage. */
+/* Whole blocks of constant coverage. */
 #if defined __AVX512F__ && defined __AVX512VL__
-/* Of two halves compilers make one store, which costs more than it spares. */
+/* Compilers would combine two halves to one store, which costs more than it saves. */
 static inline void raise_by(double by, float *restrict heights, int from, int to)
 {
     const __m512d more = _mm512_set1_pd(by);
@@ -238,8 +239,8 @@ static void motion(const WrCapsule *capsule, double y, double x, int count, floa
         }
 }
 
-/* The square of the distance to an ellipse's centre, its short axis stretched to the long one. The sums
- * are such that mirror images and quarter turns give the same bits. */
+/* The squared distance to an ellipse's centre, with its short axis stretched to the long one. The sums
+ * are arranged so that mirror images and quarter turns give the same bits. */
 static inline double ellipse_d2(const WrEllipse *e, double ex, double ey)
 {
     double along = ex * e->ux + ey * e->uy, across = (ey * e->ux - ex * e->uy) * e->aspect;
@@ -259,7 +260,7 @@ static void ellipse(const WrEllipse *ellipse, double y, double x, int count, flo
             cover[i] = (float)(alpha * profile(&c, ellipse_d2(&e, (x + steps[i]) - e.x, ey)));
 }
 
-/* Whether it is a circle that nothing turns: then ellipse_d2 is ex ex + ey ey, bit for bit. */
+/* True for an unrotated circle: then ellipse_d2 is ex ex + ey ey, bit for bit. */
 static inline bool is_round(const WrEllipse *e)
 {
     return e->ux == 1.0 && e->uy == 0.0 && e->aspect == 1.0;
@@ -311,7 +312,7 @@ static void over(float *restrict cover, const float *restrict fresh, int count)
         for (int i = b; i < b + WR_BRUSH_BLOCK; i++) cover[i] += (1.0f - cover[i]) * fresh[i];
 }
 
-/* What the sum's rounding loses goes to the rest. */
+/* The rounding error of the sum is added to the rest. */
 static void sum(float *restrict cover, float *restrict rest, const float *restrict fresh, int count)
 {
     for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
@@ -324,8 +325,8 @@ static void sum(float *restrict cover, float *restrict rest, const float *restri
         }
 }
 
-/* What flows from b to a: an eighth is exact, and keeps differences within float's range. The two sides
- * of a pair see the same number with the other sign. */
+/* Flow from b to a: an eighth is exact, and keeps differences within float's range. Both sides of a
+ * pair compute the same number with opposite sign. */
 static inline float flux(float fa, float wa, float fb, float wb)
 {
     float w = wa < wb ? wa : wb;
@@ -341,7 +342,7 @@ static void flow(const float *f, const float *w, const float *f_up, const float 
         float across = flux(f[i], w[i], f[i - stride], w[i - stride]) +
                        flux(f[i], w[i], f[i + stride], w[i + stride]);
         float down = flux(f[i], w[i], f_up[i], w_up[i]) + flux(f[i], w[i], f_down[i], w_down[i]);
-        out[i] = (f[i] + across) + down; /* in this order nothing overflows */
+        out[i] = (f[i] + across) + down; /* this order never overflows */
     }
 }
 

@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-#define SLACK 1e-3 /* texels by which spans are too wide: above all rounding, below all cost */
+/* texels by which spans are enlarged: more than rounding errors, with negligible cost */
+#define SLACK 1e-3
 
 WrCapsule wr_capsule(const WrBrush *brush, double x, double y, double dx, double dy,
                      double pressure_start, double pressure_end)
@@ -19,18 +20,18 @@ WrCapsule wr_capsule(const WrBrush *brush, double x, double y, double dx, double
     double length2 = dx * dx + dy * dy;
     if (length2 > 1e-12) {
         c.inverse_length2 = 1.0 / length2;
-    } else { /* no direction: a dab, as strong as the stronger end */
+    } else { /* no direction: a dab, with the larger pressure of both ends */
         c.dx = c.dy = c.growth = 0.0;
         c.pressure = pressure_end > pressure_start ? pressure_end : pressure_start;
-        double s = (c.radius - sqrt(c.inner2)) * c.inverse_edge; /* as the kernels do it */
+        double s = (c.radius - sqrt(c.inner2)) * c.inverse_edge; /* as in the kernels */
         c.most = (float)(c.pressure * (s * s * (3.0 - 2.0 * s)));
     }
     return c;
 }
 
-/* The disc at t of the way reaches to x(t) -+ sqrt(R^2 - (y - y(t))^2) on row y. Of t that is a convex
- * (for the left end; concave for the right) function, whose extreme is where the disc's radius stands
- * upright on the motion, or else the nearer end of the t that reach the row at all. */
+/* The disc at fraction t of the motion covers x(t) -+ sqrt(R^2 - (y - y(t))^2) on row y. As a function
+ * of t this is convex (for the left end; concave for the right), and its extreme is where the disc's
+ * radius is perpendicular to the motion, or else the nearer end of the range of t that reaches the row. */
 static double extreme(const WrCapsule *c, double y, double from, double to, double side)
 {
     double t;

@@ -36,7 +36,7 @@ bool wr_symmetry_check(const WrSymmetry *s, WrError *err)
     return true;
 }
 
-/* The mirror's or turn's linear part about the centre (cx, cy), then a shift. */
+/* The linear part of a mirror or rotation about the centre (cx, cy), then a shift. */
 static WrCopy about(double a, double b, double c, double d, double cx, double cy)
 {
     WrCopy copy = { .a = a, .b = b, .c = c, .d = d, .flips = a * d - b * c < 0.0 };
@@ -52,8 +52,8 @@ static bool same(const WrCopy *p, const WrCopy *q)
            fabs(p->d - q->d) < eps && fabs(p->dx - q->dx) < eps && fabs(p->dy - q->dy) < eps;
 }
 
-/* Turns and mirrors about the centre; both mirrors together are half a turn, which an even radial has
- * already: each isometry once. */
+/* Rotations and mirrors about the centre; both mirrors together are half a turn, which an even radial
+ * includes already: each isometry once. */
 static int about_centre(const WrSymmetry *s, double cx, double cy, WrCopy *out)
 {
     int count = 0, turns = at_least_1(s->radial);

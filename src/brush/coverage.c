@@ -8,8 +8,8 @@
 #include <math.h>
 #include <stdalign.h>
 
-#define MANY_PAGES 64 /* worth several threads */
-#define FEW_PAGES 8   /* between two looks at the clock */
+#define MANY_PAGES 64 /* number worth several threads */
+#define FEW_PAGES 8   /* between checks of the clock */
 
 void wr_coverage_init(WrCoverage *cover, const WrBrushGround *ground, const WrBrush *brush,
                       WrCoverageRule rule)
@@ -73,7 +73,7 @@ static void note(WrPage *page, const WrRun *run)
     page->high_x = x + run->count > page->high_x ? x + run->count : page->high_x;
 }
 
-/* Whether the run's texels may gain; if so they do. */
+/* True if the run's texels may gain coverage; then adds it. */
 static bool gain(const WrCoverage *cover, WrPage *page, const WrDabShape *shape, const WrRun *run)
 {
     const WrBrushKernels *kernels = shape->kernels;
@@ -137,7 +137,7 @@ static void make_one(int index, int worker, void *ctx)
     wr_stroke_resolve(&cover->maker, make);
 }
 
-/* The last `count` of the pages that changed. */
+/* Resolves the last `count` of the changed pages. */
 static void make_some(WrCoverage *cover, int count)
 {
     cover->makes.count = 0;

@@ -1,6 +1,5 @@
-/* dab.h - one touch of a brush, and who makes them.
-   Private to this module. Texel coordinates as in capsule.h: texel (i, j) has its centre at x = i,
-   y = j, y down; not wrapped. */
+/* dab.h - one dab of a brush, and the interface of dab generators. Private to this module. Texel
+   coordinates as in capsule.h: texel (i, j) has its centre at x = i, y = j, y down; not wrapped. */
 #pragma once
 #include <stdbool.h>
 
@@ -13,21 +12,22 @@ typedef struct WrDab {
     double x, y;
     double radius;    /* texels, > 0: of the long axis; of a tip: half its longer side */
     double hardness;  /* 0..1 */
-    double alpha;     /* 0..1: flow and pressure are in it */
+    double alpha;     /* 0..1: includes flow and pressure */
     double aspect;    /* >= 1 */
     double angle_rad; /* of the long axis, anticlockwise as seen (y up) */
-    double dx, dy;    /* the way from the dab before; 0, 0 for the first */
-    double drag;      /* 0..1: this part of it pulls towards `dragged`, the rest does the mode */
+    double dx, dy;    /* vector from the previous dab; 0, 0 for the first */
+    double drag;      /* 0..1: fraction that moves heights towards `dragged`; the mode applies to
+                         the rest */
     double dragged;   /* height */
     WrFalloff falloff;
     int tip_cell; /* of brush.tip; wr_tip_pick */
-    bool flips;   /* a tip is drawn as its mirror image */
+    bool flips;   /* a tip is mirrored */
 } WrDab;
 
-/* What dabs are put onto. */
+/* Receiver of dabs. */
 typedef struct WrDabSink {
     void *ctx;
     void (*dab)(void *ctx, const WrDab *dab);
-    /* The mean height under a round dab, as it is now. */
+    /* The present mean height under a round dab. */
     double (*height)(void *ctx, double x, double y, double radius);
 } WrDabSink;

@@ -7,7 +7,7 @@
 #include <math.h>
 
 #define LEAST_STEP 0.25 /* texels */
-#define NEARLY 1e-6     /* texels: a dab that far beyond the path's end is on it */
+#define NEARLY 1e-6     /* texels: tolerance for a dab at the path's end */
 
 /* Random number `which` of a dab, 0 <= x < 1. */
 static double chance(const WrSpaced *s, uint64_t number, unsigned which)
@@ -29,7 +29,7 @@ static bool strengthens(const WrBrush *brush)
     return brush->pressure == WR_PRESSURE_STRENGTH || brush->pressure == WR_PRESSURE_BOTH;
 }
 
-/* With hardly any pressure steps are those of a 64th of the brush, so that no path takes forever. */
+/* At very low pressure the step is that of 1/64 of the brush, so that no path takes forever. */
 static double step_after(const WrBrush *brush, double pressure)
 {
     double part = sizes(brush) ? (pressure > 1.0 / 64.0 ? pressure : 1.0 / 64.0) : 1.0;
@@ -37,7 +37,7 @@ static double step_after(const WrBrush *brush, double pressure)
     return step > LEAST_STEP ? step : LEAST_STEP;
 }
 
-/* (dx, dy): the path's direction there. */
+/* (dx, dy): the path's direction at the dab. */
 static void turn(const WrSpaced *s, uint64_t number, double pressure, double dx, double dy,
                  WrDab *dab)
 {
@@ -67,7 +67,7 @@ static WrDab dab_at(const WrSpaced *s, double x, double y, double pressure, doub
                   .dx = dx,
                   .dy = dy };
     if (brush->jitter_size > 0.0) dab.radius *= 1.0 - brush->jitter_size * chance(s, number, 3);
-    if (brush->jitter_place > 0.0) { /* evenly over a disc */
+    if (brush->jitter_place > 0.0) { /* uniformly over a disc */
         double sine, cosine, far = brush->jitter_place * brush->radius;
         far *= sqrt(chance(s, number, 0));
         wr_sincos_turns(chance(s, number, 1), &sine, &cosine);
@@ -93,8 +93,8 @@ void wr_spaced_push(WrSpaced *s, double x, double y, double pressure)
     }
 }
 
-/* From where on along the piece a dab may touch a clamped table: *low of its length; beyond it if never.
- */
+/* First position along the piece where a dab may touch a clamped table: *low as a fraction of its
+ * length; above 1 if never. */
 static void meets(double from, double way, double margin, int n, double *low, double *high)
 {
     if (way == 0.0) {
@@ -111,7 +111,7 @@ static void meets(double from, double way, double margin, int n, double *low, do
     *high = b < *high ? b : *high;
 }
 
-/* Steps that lead only through places far off a clamped table are taken at once. */
+/* Steps over positions far outside a clamped table are skipped at once. */
 static void skip(WrSpaced *s)
 {
     double margin = s->brush->radius * (2.0 + s->brush->jitter_place) + 2.0;
@@ -130,7 +130,7 @@ static void skip(WrSpaced *s)
     s->last_y = s->from.y + t * (s->to.y - s->from.y);
 }
 
-/* The dab that is due, if the piece reaches it. */
+/* The next dab, if the piece reaches it. */
 static bool due(WrSpaced *s, WrDab *dab)
 {
     bool first = s->number == 0;

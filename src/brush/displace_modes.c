@@ -25,13 +25,13 @@ static bool axis(double p, double reach, double margin, int n, WrWrap wrap, int 
         *low = *low > 0 ? *low : 0;
         *count = end - *low;
     } else if (*count > n) {
-        if (w.high - w.low + 1 == n) *low = w.low; /* the window's images are the nearest */
+        if (w.high - w.low + 1 == n) *low = w.low; /* the nearest image of the window */
         *count = n;
     }
     return true;
 }
 
-/* A way longer than the table, brought down to it. */
+/* Limits a vector longer than the table. */
 static double short_way(double d, int n, WrWrap wrap)
 {
     if (!isfinite(d)) return 0.0;
@@ -65,7 +65,7 @@ static void weigh_row(const WrMaker *maker, const WrDabShape *shape, const WrMov
     for (int x = box->width; x < box->pitch; x++) weights[x] = 0.0f;
 }
 
-/* Rows in whole runs of 64, since kernels take no more at once. */
+/* Processes rows in runs of 64, the maximum count of kernels. */
 static void weigh(const WrMaker *maker, const WrDabShape *shape, const WrMoveBox *box, int i, int j,
                   float *weights)
 {
@@ -137,7 +137,7 @@ static void target_row(WrCoverage *cover, const WrMoveBox *box, int i, int j, fl
     }
 }
 
-/* A covering mode in a dab that moves: what it does with a part of 1, by the dab's weight. */
+/* A covering mode used in a moving dab: blends to its result for coverage 1, by the dab's weight. */
 static void cover_box(WrCoverage *cover, WrMoveBox *box, int i, int j)
 {
     const WrMaker *maker = &cover->maker;
@@ -162,18 +162,18 @@ static void cover_box(WrCoverage *cover, WrMoveBox *box, int i, int j)
     }
 }
 
-/* Part of the dab pulls towards `dragged`, the rest does the mode: the weights of that are less. */
+/* A fraction of the dab moves towards `dragged`; the weights of the mode are reduced. */
 static void drag_box(WrMoveBox *box, const float *before, double drag, double dragged)
 {
     size_t texels = (size_t)box->pitch * (size_t)box->height;
     for (size_t k = 0; k < texels; k++) {
         double f = before[k], w = box->weights[k];
-        double done = box->heights[k] - f; /* what the mode did */
+        double done = box->heights[k] - f; /* change by the mode */
         box->heights[k] = wr_finite_float(f + (w * drag * (dragged - f) + (1.0 - drag) * done));
     }
 }
 
-/* Memory: weights, heights, fresh, a copy for dragging, spare rows. */
+/* Memory layout: weights, heights, fresh, a copy for dragging, spare rows. */
 static bool lay_out(WrMover *mover, WrMoveBox *box, float **weights, float **before)
 {
     size_t texels = (size_t)box->pitch * (size_t)box->height;
@@ -226,7 +226,7 @@ void wr_move_dab(WrMover *mover, WrCoverage *cover, const WrDabShape *shape, dou
     write_back(maker, &box, i, j);
 }
 
-/* Of large discs a grid of texels, at most about 32 x 32. */
+/* For large discs a grid of texels, at most about 32 x 32. */
 double wr_move_height(const WrField *field, double x, double y, double radius)
 {
     int width = wr_field_width(field), height = wr_field_height(field);

@@ -1,7 +1,6 @@
-/* displace_modes.h - dabs that change the heights that they find.
-   Private to this module.
-   A dab's box is copied out, changed and written back. It takes about 16 bytes a texel; where there is no
-   memory for that the dab does nothing. */
+/* displace_modes.h - dabs of moving modes, which modify the present heights. Private to this module. A
+   dab's box is copied out, modified and written back. It needs about 16 bytes per texel; without memory
+   the dab does nothing. */
 #pragma once
 #include "brush/coverage.h"
 
@@ -10,13 +9,14 @@
 
 typedef struct WrMoveBox {
     int width, height, pitch; /* texels; pitch: floats a row, whole blocks */
-    bool wraps_x, wraps_y;    /* the box is the table's whole period: its sides meet */
-    double x, y, dx, dy;      /* centre and way from the dab before, in the box's texels, y down */
+    bool wraps_x, wraps_y;    /* the box is the table's whole period: opposite sides meet */
+    double x, y, dx, dy;      /* centre, and vector from the previous dab, in the box's texels, y
+                                 down */
     double radius;
     int reach;
-    const float *weights; /* [height][pitch] how much of the dab counts: 0..1; 0 in the margin */
-    float *heights;       /* [height][pitch] before; after, if fresh is not written */
-    float *fresh;         /* [height][pitch] for what comes out; a mode swaps the two */
+    const float *weights; /* [height][pitch] weight of the dab: 0..1; 0 in the margin */
+    float *heights;       /* [height][pitch] input; also the output, if fresh is not written */
+    float *fresh;         /* [height][pitch] output; a mode swaps the two */
     float *spare;         /* rows: 6 (pitch + 2 WR_REACH_MAX) floats */
     const WrBrushKernels *kernels;
 } WrMoveBox;
@@ -25,7 +25,7 @@ void wr_move_smooth(WrMoveBox *box);
 void wr_move_level(WrMoveBox *box);
 void wr_move_pinch(WrMoveBox *box);
 void wr_move_smear(WrMoveBox *box);
-/* Texels beside the dab that pinch and smear read. */
+/* Margin in texels beside the dab that pinch and smear read. */
 double wr_move_pinch_margin(double radius, double way_x, double way_y);
 double wr_move_smear_margin(double radius, double way_x, double way_y);
 
@@ -37,8 +37,8 @@ typedef struct WrMover {
 
 void wr_mover_fini(WrMover *mover);
 
-/* Put one dab's shape down; the maker in `cover` tells ground, mode and arguments. way_x, way_y: from the
- * dab before. drag, dragged: as in WrDab. */
+/* Applies one dab's shape; the maker in `cover` contains ground, mode and arguments. way_x, way_y: from
+ * the previous dab. drag, dragged: as in WrDab. */
 void wr_move_dab(WrMover *mover, WrCoverage *cover, const WrDabShape *shape, double radius,
                  double way_x, double way_y, double drag, double dragged);
 /* The mean height under a disc. */

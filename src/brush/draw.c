@@ -52,7 +52,7 @@ static void add_texel(WrDraw *draw, double x, double y, double pressure)
         wr_coverage_add(&draw->cover, &shape);
 }
 
-/* A line one texel wide: one texel for each column that it passes, or row if it is steep. */
+/* A line one texel wide: one texel per column, or per row if it is steep. */
 static void draw_line(WrDraw *draw, double x, double y, double dx, double dy, double pressure,
                       double growth)
 {
@@ -74,7 +74,7 @@ static void draw_line(WrDraw *draw, double x, double y, double dx, double dy, do
     }
 }
 
-/* On a grid of 2^-20 texels copies by whole texels, mirrors and quarter turns are exact. */
+/* On a grid of 2^-20 texels, copies by whole texels, mirrors and quarter turns are exact. */
 static double on_grid(double x)
 {
     return rint(x * 1048576.0) / 1048576.0;

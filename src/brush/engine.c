@@ -1,15 +1,16 @@
-/* How libmypaint 1.6 is driven, and what of it must be guarded against:
+/* Driving libmypaint 1.6, with workarounds:
 
-   - It computes in float; so positions are counted from an origin that moves along by whole multiples of
-     REBASE, radii above LARGE are halved together with all lengths (`unit`), and what comes out is checked.
-   - Its current values are not set before its first step (and its v2 interface reads them): prime() makes
-     steps over nothing.
-   - Its random numbers always begin alike, and nothing can set them: a number of resets, each of which
-     takes one, leads to another place in their sequence.
-   - It says on standard output that time runs backwards where a call ends exactly with a dab and float
-     rounds to the wrong side: a call that would is ended a little earlier (nudge()).
-   - How many dabs a step makes goes by values that curves can drive to anything: after DABS_PER_STEP the
-     callback makes its count small (a radius of 1000 pixels, one dab a radius), which ends the step. */
+   - It computes in float; so positions are relative to an origin that moves by multiples of REBASE,
+     radii above LARGE are halved together with all lengths (`unit`), and its output is checked.
+   - Its current values are not set before its first step (and its v2 interface reads them): settle()
+     makes steps without drawing.
+   - Its random numbers always start equally, and cannot be seeded: a number of resets, each of which
+     consumes one, selects another position in their sequence.
+   - It prints on standard output that time runs backwards if a call ends exactly with a dab and float
+     rounds to the wrong side: such a call is ended slightly earlier (nudge()).
+   - The number of dabs per step depends on values that curves can make arbitrarily large: after
+     DABS_PER_STEP the callback reduces its count (a radius of 1000 pixels, one dab per radius), which
+     ends the step. */
 #include <float.h>
 #include <math.h>
 
@@ -19,14 +20,15 @@
 #include "brush/preset_internal.h"
 
 #define LN2 0.69314718055994530942
-#define LARGE 512.0         /* texels: radii above are scaled down; the library stops at 1000 */
+/* texels: larger radii are scaled down; the library is limited to 1000 */
+#define LARGE 512.0
 #define SMALLEST 0.2        /* the library's smallest radius */
 #define REBASE 65536.0      /* texels in units; a multiple of the library's grids of 256 */
-#define OFF 100000.0        /* how far from the origin before it moves */
+#define OFF 100000.0        /* distance from the origin that triggers a move */
 #define DABS_PER_STEP 65536 /* about */
-#define SEEDS 16384         /* places where the random numbers may begin */
+#define SEEDS 16384         /* start positions in the sequence of random numbers */
 
-/* ---- the surface that the library sees ---- */
+/* ---- the surface passed to the library ---- */
 
 static bool all_finite(const float *values, int count)
 {
@@ -35,7 +37,7 @@ static bool all_finite(const float *values, int count)
     return true;
 }
 
-/* Ends a step that would go on for too long. */
+/* Ends a step that would take too long. */
 static void rein_in(WrEngine *engine)
 {
     mypaint_brush_set_state(engine->brush, MYPAINT_BRUSH_STATE_ACTUAL_RADIUS, 1000.0f);
@@ -45,7 +47,7 @@ static void rein_in(WrEngine *engine)
     mypaint_brush_set_state(engine->brush, MYPAINT_BRUSH_STATE_DABS_PER_SECOND, 0.0f);
 }
 
-/* 0 <= x < 1, for one use of one dab. */
+/* 0 <= x < 1, for one purpose of one dab. */
 static double chance(const WrEngine *engine, uint32_t use)
 {
     uint32_t x = (uint32_t)engine->look.seed ^ wr_mix32((uint32_t)(engine->look.seed >> 32) + use);
@@ -53,7 +55,8 @@ static double chance(const WrEngine *engine, uint32_t use)
     return (x >> 8) * 0x1p-24;
 }
 
-/* What the brush says on top of its preset: angle, aspect, following the path, jitter, and the tip. */
+/* Applies the brush's own settings to the preset's dab: angle, aspect, following the path, jitter, and
+ * the tip. */
 static void dress(const WrEngine *engine, WrDab *dab, double pressure)
 {
     const WrBrush *look = &engine->look;
@@ -68,7 +71,7 @@ static void dress(const WrEngine *engine, WrDab *dab, double pressure)
         dab->angle_rad += (2.0 * chance(engine, 2) - 1.0) * look->jitter_angle_deg * WR_RAD_PER_DEG;
     if (look->aspect > 1.0) dab->aspect *= look->aspect;
     if (look->jitter_size > 0.0) dab->radius *= 1.0 - look->jitter_size * chance(engine, 3);
-    if (look->jitter_place > 0.0) { /* evenly over a disc */
+    if (look->jitter_place > 0.0) { /* uniformly over a disc */
         double sine, cosine, far = look->jitter_place * engine->radius * sqrt(chance(engine, 0));
         wr_sincos_turns(chance(engine, 1), &sine, &cosine);
         dab->x += far * cosine;
@@ -122,7 +125,7 @@ static int draw_dab(MyPaintSurface2 *self, float x, float y, float radius, float
     return 1;
 }
 
-/* A height as the library can carry and mix it. */
+/* Limits a height to the range that the library can mix. */
 static float carried(double height)
 {
     return isnan(height) ? 0.0f : (float)clamp(height, -FLT_MAX / 4.0, FLT_MAX / 4.0);
@@ -142,7 +145,7 @@ static void get_colour(MyPaintSurface2 *self, float x, float y, float radius, fl
     *g = *b = *a = 1.0f;
 }
 
-/* The same by the library's older interface, which it does not use on a surface like this one. */
+/* The callback of the library's older interface, which it does not use on such a surface. */
 static int draw_dab_1(MyPaintSurface *self, float x, float y, float radius, float r, float g,
                       float b, float opaque, float hardness, float alpha_eraser, float aspect,
                       float angle, float lock_alpha, float colorize)
@@ -157,7 +160,7 @@ static void get_colour_1(MyPaintSurface *self, float x, float y, float radius, f
     get_colour((MyPaintSurface2 *)self, x, y, radius, r, g, b, a, 0.0f);
 }
 
-/* ---- making one ---- */
+/* ---- creation ---- */
 
 static void set_value(WrEngine *engine, int setting, double value)
 {
@@ -185,7 +188,7 @@ static void set_settings(WrEngine *engine, const WrBrush *brush)
               wr_log2(engine->radius / engine->unit) * LN2);
 }
 
-/* Black, and nothing of colours: what the library would do with them costs time. */
+/* Black, without colour settings: the library's colour computations cost time. */
 static void set_plain(WrEngine *engine)
 {
     mypaint_brush_from_defaults(engine->brush);
@@ -202,14 +205,15 @@ static void call(WrEngine *engine, double x, double y, double pressure, double t
                               (float)tilt_x, (float)tilt_y, seconds, 1.0f, 0.0f, 0.0f);
 }
 
-/* Put down anew at a place; longer than 5 s is the library's word for it. */
+/* Resets the brush at a position; a pause above 5 s starts a new stroke in the library. */
 static void place(WrEngine *engine, double x, double y)
 {
     mypaint_brush_reset(engine->brush);
     call(engine, x, y, 0.0, 0.0, 0.0, 10.0);
 }
 
-/* A step by the older interface, which does not read the library's current values but sets them. */
+/* A step with the older interface, which initialises the library's current values instead of reading
+ * them. */
 static void settle(WrEngine *engine)
 {
     place(engine, 0.0, 0.0);
@@ -263,14 +267,14 @@ void wr_engine_free(WrEngine *engine)
     if (!engine) return;
     mypaint_brush_unref(engine->brush);
     wr_preset_free(engine->preset);
-    wr_tip_free((WrTip *)(uintptr_t)engine->look.tip); /* our own share of it */
+    wr_tip_free((WrTip *)(uintptr_t)engine->look.tip); /* our own reference */
     wr_array_free(&engine->knots);
     wr_free(engine);
 }
 
-/* ---- driving it ---- */
+/* ---- steps ---- */
 
-/* Moves the origin, in the library's states too, so that floats stay exact enough. */
+/* Moves the origin, in the library's states too, so that floats stay accurate. */
 static void move_origin(WrEngine *engine, double dx, double dy)
 {
     static const MyPaintBrushState across[] = { MYPAINT_BRUSH_STATE_X,
@@ -286,7 +290,7 @@ static void move_origin(WrEngine *engine, double dx, double dy)
     }
 }
 
-/* Texels to the library's pixels, whose centres are at one half. */
+/* Converts texels to the library's pixels, whose centres are at one half. */
 static double across(const WrEngine *engine, double x)
 {
     return (x + 0.5 - engine->origin_x) / engine->unit;
@@ -320,7 +324,8 @@ double wr_engine_count(const WrEngine *engine, const WrEnginePoint *to, double s
 {
     double follow = base_value(engine, MYPAINT_BRUSH_SETTING_SLOW_TRACKING);
     double part = follow > 0.001 ? 1.0 - wr_exp2(-100.0 * seconds / follow / LN2) : 1.0;
-    float x = (float)across(engine, to->x), y = (float)down(engine, to->y); /* as it is told */
+    /* as passed to the library */
+    float x = (float)across(engine, to->x), y = (float)down(engine, to->y);
     double dx = part * (x - state(engine, MYPAINT_BRUSH_STATE_X));
     double dy = part * (y - state(engine, MYPAINT_BRUSH_STATE_Y));
     double aspect = state(engine, MYPAINT_BRUSH_STATE_ACTUAL_ELLIPTICAL_DAB_RATIO);
@@ -349,7 +354,7 @@ double wr_engine_due(const WrEngine *engine)
     return state(engine, MYPAINT_BRUSH_STATE_PARTIAL_DABS);
 }
 
-/* What is dragged along is the height under the first sample, also where the preset never looks. */
+/* The dragged height is that under the first sample, even if the preset never reads it. */
 static void pick_up(WrEngine *engine, const WrEnginePoint *first)
 {
     static const MyPaintBrushState ones[] = { MYPAINT_BRUSH_STATE_SMUDGE_GA,
@@ -368,12 +373,12 @@ void wr_engine_begin(WrEngine *engine, const WrEnginePoint *first)
     mypaint_brush_new_stroke(engine->brush);
     place(engine, across(engine, first->x), down(engine, first->y));
     if (engine->smudges) pick_up(engine, first);
-    wr_engine_go(engine, first, WR_ENGINE_STEP); /* pressure and tilt are there at once */
+    wr_engine_go(engine, first, WR_ENGINE_STEP); /* pressure and tilt are effective at once */
     engine->pen = *first;
     engine->begun = true;
 }
 
-/* A pen that was put down and lifted leaves one dab, though the library asks for motion first. */
+/* A tap of the pen makes one dab, although the library requires motion. */
 void wr_engine_tap(WrEngine *engine)
 {
     WrEnginePoint to = engine->pen;

@@ -1,23 +1,23 @@
-/* engine.h - libmypaint makes the dabs of a preset's stroke.
-   Private to this module. The engine is fed at fixed steps of WR_ENGINE_STEP seconds, interpolated
-   from the samples, so that how the motion was cut into events does not matter: samples that lie on one
-   straight, even motion give the dabs of its two ends. Samples without time of their own move at
-   WR_ENGINE_SPEED. A rest longer than WR_ENGINE_REST counts as that long, and a motion slower than 4 texels
-   a second is cut in the same way. A step goes by way of corners that it would cut by more than 1/4
-   texel. Of a way between two points that is longer than 65536 texels the middle is left out. A stroke
-   that makes no dab by itself, such as a tap, makes one when it ends.
+/* engine.h - generation of a preset's dabs by libmypaint. Private to this module.
 
-   Smudging: the library's colour carries heights. get_color answers (h, 1, 1, 1) for the mean height h;
-   the brush's own colour is black; so green of a dab's colour is how much it smudges (drag), and the
-   library's state SMUDGE_RA is the height dragged along, unbounded.
+   The engine is driven in fixed steps of WR_ENGINE_STEP seconds, interpolated from the samples, so that
+   the division of the motion into events has no effect: samples on one straight, uniform motion give
+   the dabs of its two ends. Samples without times move at WR_ENGINE_SPEED. A rest longer than
+   WR_ENGINE_REST is shortened to that, and a motion slower than 4 texels per second is shortened in the
+   same way. A step stops at corners that it would cut by more than 1/4 texel. The middle of a segment
+   longer than 65536 texels is skipped. A stroke without dabs, such as a tap, makes one when it ends.
 
-   Tilt is MyPaint's: x to the right, y towards the user, 1 is 60 degrees; ascension is the side that the
-   pen leans to, in degrees, 0 towards the user, 90 to the left. Angles of dabs, which the library counts
-   clockwise as seen, come out anticlockwise. An eraser's dabs come with the part that it erases in alpha;
-   other presets' with the part that they do not.
+   Smudging: the library's colour represents heights. get_color returns (h, 1, 1, 1) for the mean height
+   h; the brush's own colour is black; so the green of a dab's colour is the smudge amount (drag), and
+   the library's state SMUDGE_RA is the dragged height, unbounded.
 
-   Chance: the library's random numbers always begin alike; the seed chooses one of 16384 places in their
-   sequence to begin at. At most about 65536 dabs come from one step. */
+   Tilt is MyPaint's: x to the right, y towards the user, 1 is 60 degrees; ascension is the direction of
+   the pen's tilt, in degrees, 0 towards the user, 90 to the left. Angles of dabs, clockwise in the
+   library, are converted to anticlockwise. The alpha of an eraser's dabs is the erased fraction; for
+   other presets the fraction not erased.
+
+   Randomness: the library's random numbers always start equally; the seed selects one of 16384 start
+   positions in their sequence. At most about 65536 dabs are made per step. */
 #pragma once
 #include "brush/dab.h"
 #include "brush/preset.h"
@@ -30,14 +30,13 @@
 
 typedef struct WrEngine WrEngine;
 
-/* brush: sane, with its preset; radius and hardness take the place of the preset's own base values, flow,
- * the seed, angle, aspect, follow and jitter enter, and the tip's cell is chosen; mode, strength and the like
- * are the caller's. The preset's own angle counts where its dabs are longer than broad, or where a curve
- * turns them. Shares preset and tip. Dabs come with alpha > 0 only, and
- * finite. A radius below 0.2 counts as 0.2; 0 makes none. The
- * caller owns it. */
+/* brush: sane, with its preset. Its radius and hardness replace the preset's base values; flow, seed,
+ * angle, aspect, follow and jitter are applied, and the tip's cell is selected; mode, strength and
+ * similar settings are left to the caller. The preset's own angle is used if its dabs are elongated, or
+ * if a curve changes the angle. Shares preset and tip. Dabs are finite, with alpha > 0. A radius below
+ * 0.2 becomes 0.2; 0 makes none. The caller owns the engine. */
 WrEngine *wr_engine_new(const WrBrush *brush, const WrDabSink *sink);
-void wr_engine_free(WrEngine *engine); /* NULL is fine */
+void wr_engine_free(WrEngine *engine); /* NULL is allowed */
 
 typedef struct WrEnginePoint {
     double x, y; /* texels, not wrapped: continuous along the stroke, any size */
@@ -45,9 +44,9 @@ typedef struct WrEnginePoint {
     double seconds; /* since the stroke's start */
 } WrEnginePoint;
 
-/* Take one more point; nothing is drawn yet. */
+/* Adds one more point without drawing. */
 void wr_engine_push(WrEngine *engine, const WrEnginePoint *point);
-/* Do one step, which may make dabs. False if there was none to do. */
+/* Makes one step, which may make dabs. False if there was none to do. */
 bool wr_engine_step(WrEngine *engine);
-/* The pen is lifted: the rest of the way, whatever is not a whole step. Then steps are there again. */
+/* Called when the pen is lifted: the rest of the path becomes available as further steps. */
 void wr_engine_finish(WrEngine *engine);

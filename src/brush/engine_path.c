@@ -3,19 +3,20 @@
 
 #include "brush/engine_internal.h"
 
-#define STRIDE 8.0      /* radii and dabs: a call moves no farther, */
-#define NEAR_DAB 4e-6   /* dabs: closer than float can tell them apart */
-#define STRIDES 65536   /* unless this many were not enough for a step */
-#define CORNER 0.25     /* texels that a step may cut off a corner */
+#define STRIDE 8.0      /* radii and dabs: maximum motion of one call, ... */
+#define NEAR_DAB 4e-6   /* dabs: distances too small for float */
+#define STRIDES 65536   /* ... unless this many calls are not enough for a step */
+#define CORNER 0.25     /* texels; largest deviation of a step from a corner */
 #define FARTHEST 1e15   /* texels from the table's corner; halves are exact there */
-#define LONGEST 65536.0 /* texels: of a longer way between two points the middle is left out */
-#define SLOWEST 4.0     /* texels a second: a slower motion counts as that fast, after the rest */
+#define LONGEST 65536.0 /* texels: the middle of a longer segment between two points is skipped */
+/* texels per second: a slower motion is treated as this fast, after the rest */
+#define SLOWEST 4.0
 
 /* ---- the path ---- */
 
 static void add_knot(WrEngine *engine, WrEnginePoint point, bool jump)
 {
-    if (engine->at > 1024) { /* what lies behind is not needed any more */
+    if (engine->at > 1024) { /* earlier knots are no longer needed */
         engine->knots.count -= engine->at;
         memmove(engine->knots.data, engine->knots.data + engine->at,
                 (size_t)engine->knots.count * sizeof *engine->knots.data);
@@ -24,7 +25,7 @@ static void add_knot(WrEngine *engine, WrEnginePoint point, bool jump)
     wr_array_push(&engine->knots, ((WrKnot){ point, jump }));
 }
 
-/* Where the pen is between two points at a time. */
+/* Interpolates the pen between two points. */
 static WrEnginePoint between(const WrEnginePoint *a, const WrEnginePoint *b, double seconds)
 {
     double length = b->seconds - a->seconds;
@@ -37,7 +38,7 @@ static WrEnginePoint between(const WrEnginePoint *a, const WrEnginePoint *b, dou
                             .seconds = seconds };
 }
 
-/* The two ends of a way that is too long to be gone: as far as half of LONGEST, and from there on. */
+/* The two ends of a segment that is too long: up to half of LONGEST from each end. */
 static void add_jump(WrEngine *engine, const WrEnginePoint *to, double length)
 {
     WrEnginePoint from = engine->knots.data[engine->knots.count - 1].point;
@@ -88,7 +89,7 @@ void wr_engine_finish(WrEngine *engine)
 
 /* ---- steps ---- */
 
-/* The pen at a time that the knots hold. */
+/* The pen at a time within the knots. */
 static WrEnginePoint pen(const WrEngine *engine, double seconds)
 {
     const WrKnot *knots = engine->knots.data;
@@ -98,7 +99,7 @@ static WrEnginePoint pen(const WrEngine *engine, double seconds)
     return between(&knots[i].point, &knots[i + 1].point, seconds);
 }
 
-/* How far p is from the straight way a..b, squared. */
+/* Squared distance of p from the segment a..b. */
 static double off_way(const WrEnginePoint *a, const WrEnginePoint *b, const WrEnginePoint *p)
 {
     double dx = b->x - a->x, dy = b->y - a->y, px = p->x - a->x, py = p->y - a->y;
@@ -109,8 +110,8 @@ static double off_way(const WrEnginePoint *a, const WrEnginePoint *b, const WrEn
     return px * px + py * py;
 }
 
-/* The step's end: at most `latest`, but a corner on the way there is gone to by itself, and so is a jump.
-   *knot: that corner or jump; 0 without. */
+/* The step's end: at most `latest`, but a step ends at a corner or a jump on the way. *knot: that
+ * corner or jump; 0 if none. */
 static double step_end(const WrEngine *engine, double latest, int *knot)
 {
     WrEnginePoint from = pen(engine, engine->now), to = pen(engine, latest);
@@ -129,8 +130,8 @@ static double step_end(const WrEngine *engine, double latest, int *knot)
     return latest;
 }
 
-/* How much of a call to make, so that it does not end exactly with a dab: all but some thousandths of a
-   dab's way, by a power of two. */
+/* The fraction of a call to make, so that it does not end exactly with a dab: all except some
+   thousandths of a dab's distance, a power of two. */
 static double nudge(const WrEngine *engine, const WrEnginePoint *to, double seconds)
 {
     double more = wr_engine_count(engine, to, seconds), all = wr_engine_due(engine) + more;
@@ -142,7 +143,7 @@ static double nudge(const WrEngine *engine, const WrEnginePoint *to, double seco
     return 1.0 - part;
 }
 
-/* To a point in `seconds`, in parts. The parts of a second are exact in binary where the step's are. */
+/* Moves to a point in `seconds`, in parts. The parts of a second are exact in binary if the step is. */
 static void stride(WrEngine *engine, const WrEnginePoint *to, double seconds)
 {
     WrEnginePoint a = engine->pen, b = *to;

@@ -1,5 +1,5 @@
-/* The inputs of libmypaint 1.6, in its own order: what of pen and motion can turn a setting. low and high are what a
-   curve is drawn over; most inputs go beyond these now and then. */
+/* The inputs of libmypaint 1.6, in its own order: properties of pen and motion that can control a
+   setting. low and high are the plot range of a curve; most inputs exceed it occasionally. */
 #include "brush/preset_internal.h"
 
 #include "base/error.h"

@@ -12,13 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DEEP 3        /* folders inside one another */
+#define DEEP 3        /* maximum depth of folders */
 #define MANY 20000    /* presets in all */
 #define ORDER 4194304 /* bytes of an order.conf */
 
 typedef struct Found {
     WrPresetEntry entry;
-    int collection, group, place; /* by these they are sorted; then by name */
+    int collection, group, place; /* sort keys, before the name */
 } Found;
 
 struct WrLibrary {
@@ -38,7 +38,7 @@ static char *user_folder(void)
     return home && *home ? wr_path_join(home, ".local/share/wrinkle/brushes") : NULL;
 }
 
-/* NULL where there is none. The caller frees it. */
+/* NULL if it does not exist. The caller frees it. */
 static char *collection_folder(Collection collection)
 {
     WrText path = { 0 };
@@ -79,8 +79,8 @@ char *wr_library_user_folder(WrError *err)
 
 /* ---- order.conf ---- */
 
-/* A line a preset, without ending, after its group's "Group: NAME". Sets group, and places, of those of
-   one collection that are named; the first group that names one counts. */
+/* Parses one preset per line, without extension, after its group's "Group: NAME". Sets group and place
+   of the named presets of one collection; the first group that names one wins. */
 static void read_order(WrLibrary *library, int first, char *text)
 {
     int group = 0, place = 0;
@@ -107,7 +107,7 @@ static void read_order(WrLibrary *library, int first, char *text)
     }
 }
 
-/* ---- looking through a folder ---- */
+/* ---- scanning a folder ---- */
 
 static bool is_folder(const char *path)
 {
@@ -141,7 +141,7 @@ static void add_preset(WrLibrary *library, int collection, const char *root, con
     wr_array_push(&library->found, found);
 }
 
-/* below: what of the path comes after root, "" or "classic". */
+/* below: path relative to root, "" or "classic". */
 static void look_through(WrLibrary *library, int collection, const char *root, const char *below,
                          int deep)
 {
@@ -239,7 +239,7 @@ static const char *tail(const char *name)
     return slash ? slash + 1 : name;
 }
 
-/* The entry that a name means: its id, its name without collection, or its last part alone; -1. */
+/* The entry for a name: its id, its name without collection, or only its last part; -1. */
 static int find(const WrLibrary *library, const char *name)
 {
     for (int way = 0; way < 3; way++)
@@ -251,7 +251,7 @@ static int find(const WrLibrary *library, const char *name)
     return -1;
 }
 
-/* The names that presets are called by: three for each. */
+/* The names of presets: three for each. */
 static const char *called(const void *ctx, int i)
 {
     const WrLibrary *library = ctx;

@@ -3,7 +3,8 @@
 
 #include "brush/displace_modes.h"
 
-#define PULL 0.2 /* of the distance to the path, that one dab of pinch draws heights inwards */
+/* fraction of the distance to the path by which one dab of pinch moves heights inwards */
+#define PULL 0.2
 
 static void swap(WrMoveBox *box)
 {
@@ -12,8 +13,8 @@ static void swap(WrMoveBox *box)
     box->heights = made;
 }
 
-/* Row y of `from` with `more` texels before and after: those of the other side where sides meet, else 0.
- */
+/* Row y of `from` with `more` texels before and after: those of the opposite side if the sides meet,
+ * else 0. */
 static void wide_row(const WrMoveBox *box, const float *from, int y, int more, float *out)
 {
     if (box->wraps_y) y = y % box->height < 0 ? y % box->height + box->height : y % box->height;
@@ -30,7 +31,7 @@ static void wide_row(const WrMoveBox *box, const float *from, int y, int more, f
     }
 }
 
-/* One pass between neighbours `stride` apart. Weights beyond the box are 0: nothing flows there. */
+/* One pass between neighbours `stride` apart. Weights beyond the box are 0: no flow there. */
 static void smooth_pass(WrMoveBox *box, int stride)
 {
     int wide = box->width + 2 * stride;
@@ -52,13 +53,13 @@ static void smooth_pass(WrMoveBox *box, int stride)
     swap(box);
 }
 
-/* From far neighbours to near ones, so that the near passes smooth away what the far ones leave. */
+/* From far neighbours to near ones, so that the near passes smooth the artefacts of the far ones. */
 void wr_move_smooth(WrMoveBox *box)
 {
     for (int stride = box->reach; stride > 0; stride /= 2) smooth_pass(box, stride);
 }
 
-/* Sums over the dab, each weighted. */
+/* Weighted sums over the dab. */
 typedef struct Fit {
     double w, x, y, f, xx, xy, yy, xf, yf;
 } Fit;
@@ -86,9 +87,9 @@ static Fit sums(const WrMoveBox *box)
     return s;
 }
 
-/* The plane f = mean + gx (ex - x) + gy (ey - y) of least squares: of the covariances,
+/* The least-squares plane f = mean + gx (ex - x) + gy (ey - y), from the covariances:
  *   (xx xy; xy yy) (gx, gy) = (xf, yf).
- * Where all texels lie on one line it slopes along an axis only, and of one texel it is level. */
+ * If all texels lie on one line it slopes along one axis only, and for one texel it is level. */
 void wr_move_level(WrMoveBox *box)
 {
     Fit s = sums(box);
@@ -117,7 +118,7 @@ void wr_move_level(WrMoveBox *box)
     }
 }
 
-/* index brought into the box: round where sides meet, else to its end */
+/* index reduced to the box: wrapped if the sides meet, else clamped */
 static int inside(int i, int n, bool wraps)
 {
     if (wraps) return i % n < 0 ? i % n + n : i % n;
@@ -139,7 +140,8 @@ static float height_at(const WrMoveBox *box, double x, double y)
     return (float)(above * (1.0 - fy) + below * fy);
 }
 
-/* Heights are taken from farther out: across the path where it has a direction, else from its centre. */
+/* Heights are moved from farther out: perpendicular to the path if it has a direction, else away from
+ * its centre. */
 double wr_move_pinch_margin(double radius, double way_x, double way_y)
 {
     (void)way_x, (void)way_y;

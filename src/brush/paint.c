@@ -21,7 +21,7 @@ static double clamp_signed(double value, double most)
     return isnan(value) ? 0.0 : clamp(value, -most, most);
 }
 
-/* What a brush is like besides its round shape. */
+/* Sanitises a brush's properties besides its round shape. */
 static void sane_shape(WrBrush *sane)
 {
     sane->aspect = clamp(sane->aspect, 1.0, ASPECT_MAX);
@@ -29,7 +29,7 @@ static void sane_shape(WrBrush *sane)
     sane->jitter_place = clamp(sane->jitter_place, 0.0, 100.0);
     sane->jitter_angle_deg = clamp(sane->jitter_angle_deg, 0.0, 180.0);
     sane->jitter_size = clamp(sane->jitter_size, 0.0, 1.0);
-    /* breadth counts: dabs of a thin ellipse that lie a tenth of its length apart would show */
+    /* the breadth matters: dabs of a thin ellipse at a tenth of its length would be visible */
     double spacing = wr_brush_modes[sane->mode].spacing / (sane->tip ? 1.0 : sane->aspect);
     if (sane->tip && wr_tip_spacing(sane->tip) > 0.0) spacing = wr_tip_spacing(sane->tip);
     sane->spacing = clamp(sane->spacing > 0.0 ? sane->spacing : spacing, 0.01, 10.0);
@@ -42,7 +42,7 @@ WrBrush wr_brush_sane(const WrBrush *brush)
     WrBrush sane = *brush;
     sane.radius = clamp(brush->radius, 0.0, 1e9);
     sane.hardness = clamp(brush->hardness, 0.0, 1.0);
-    /* twice float's range leads from its one end to the other */
+    /* twice float's range spans it from end to end */
     sane.strength = clamp_signed(brush->strength, 2.0 * FLT_MAX);
     sane.to = clamp_signed(brush->to, FLT_MAX);
     sane.source_u = clamp_signed(brush->source_u, 1e9);
@@ -86,7 +86,7 @@ bool wr_paint_is_plain(const WrBrush *brush)
            s->repeat_u <= 1 && s->repeat_v <= 1;
 }
 
-/* A single dab makes heights in place. */
+/* A single dab, resolved in place. */
 typedef struct Spot {
     WrField *field;
     const WrModeWork *work;
@@ -116,15 +116,15 @@ static void visit(void *ctx, const WrDabShape *shape, const WrScanPatch *patch)
     }
 }
 
-/* ---- what is plainly added, tile by tile ---- */
+/* ---- dabs that are simply added, tile by tile ---- */
 
-/* The nearest to p of low .. high. */
+/* The value of low .. high nearest to p. */
 static double nearest(double p, int low, int high)
 {
     return p < low ? low : p > high ? high : rint(p);
 }
 
-/* Whether the dab covers any texel of a rectangle; as the kernels do it. */
+/* True if the dab covers any texel of a rectangle; computed as in the kernels. */
 static bool covers(const WrCapsule *c, int i, int j, int count_i, int count_j)
 {
     double ex = nearest(c->x, i, i + count_i - 1) - c->x;
@@ -132,8 +132,8 @@ static bool covers(const WrCapsule *c, int i, int j, int count_i, int count_j)
     return d2 < c->radius2 && c->radius - sqrt(d2) > 0.0;
 }
 
-/* Whether columns may be widened to whole blocks. That would meet another image's texels where the dab spans the
- * table, and unused ones where that ends within a block. */
+/* True if columns may be widened to whole blocks. That would touch another image's texels if the dab
+ * spans the table, and unused ones if the table ends within a block. */
 static bool may_widen(const WrField *field, const WrDabShape *shape)
 {
     int width = wr_field_width(field);

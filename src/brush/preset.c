@@ -35,7 +35,7 @@ void wr_preset_drop_curves(WrPreset *preset, int setting)
 
 WrPreset *wr_preset_share(const WrPreset *preset)
 {
-    WrPreset *shared = (WrPreset *)(uintptr_t)preset; /* immutable but for this count */
+    WrPreset *shared = (WrPreset *)(uintptr_t)preset; /* immutable except for this count */
     if (shared) __atomic_fetch_add(&shared->references, 1, __ATOMIC_RELAXED);
     return shared;
 }
@@ -54,7 +54,7 @@ void wr_preset_free(WrPreset *preset)
     wr_free(preset);
 }
 
-/* ---- what it says ---- */
+/* ---- properties ---- */
 
 const char *wr_preset_name(const WrPreset *preset)
 {
@@ -148,7 +148,7 @@ bool wr_preset_is_random(const WrPreset *preset)
     return false;
 }
 
-/* ---- what it does ---- */
+/* ---- behaviour ---- */
 
 bool wr_preset_smudges(const WrPreset *preset)
 {
@@ -162,8 +162,8 @@ bool wr_preset_sprays(const WrPreset *preset)
 
 bool wr_preset_is_colour_only(const WrPreset *preset)
 {
-    /* Paint that only tints, or only changes what is painted already, all of it and always; or paint that
-       never covers anything. */
+    /* Presets that only tint, or only change existing paint, completely and always; or that never cover
+       anything. */
     static const int tints[] = { MYPAINT_BRUSH_SETTING_LOCK_ALPHA, MYPAINT_BRUSH_SETTING_COLORIZE,
                                  MYPAINT_BRUSH_SETTING_POSTERIZE };
     for (size_t i = 0; i < sizeof tints / sizeof *tints; i++)
@@ -179,7 +179,7 @@ WrBrush wr_preset_brush(const WrPreset *preset)
     brush.tip = preset->tip;
     brush.hardness = preset->base[MYPAINT_BRUSH_SETTING_HARDNESS];
     if (!(brush.radius > 0.0)) {
-        /* To a millionth of a texel, so that 16 comes back as 16 by way of its logarithm. */
+        /* Rounded to a millionth of a texel, so that 16 is restored exactly from its logarithm. */
         double radius = wr_exp2(preset->base[MYPAINT_BRUSH_SETTING_RADIUS_LOGARITHMIC] / LN2);
         brush.radius = rint(radius * 1e6) / 1e6;
     }

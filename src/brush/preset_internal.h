@@ -1,5 +1,5 @@
-/* preset_internal.h - what a preset is made of, for the files that read, print and run it.
-   Private to this module. Settings and inputs go by libmypaint's own numbers. */
+/* preset_internal.h - the data of a preset, for parser, printer and engine. Private to this module.
+   Settings and inputs use libmypaint's indices. */
 #pragma once
 #include <libmypaint/mypaint-brush-settings.h>
 #include <stdbool.h>
@@ -8,10 +8,10 @@
 #include "brush/preset.h"
 #include "brush/tip.h"
 
-#define WR_CURVE_FAR 1e9     /* x of a curve's points, at most */
-#define WR_PRESET_TEXT 20000 /* bytes of a description, at most; so of the other texts */
+#define WR_CURVE_FAR 1e9     /* maximum x of a curve's points */
+#define WR_PRESET_TEXT 20000 /* maximum bytes of a description and of the other texts */
 
-/* How one input turns one setting: straight lines between the points, added to the base value. */
+/* The curve of one input for one setting: linear between the points, added to the base value. */
 typedef struct WrCurve {
     int setting, input, count;
     float points[WR_PRESET_POINTS][2]; /* x never falls; |y| is within the setting's range */
@@ -20,25 +20,25 @@ typedef struct WrCurve {
 struct WrPreset {
     int references; /* atomic */
     char *name;
-    char *comment, *description, *group, *notes; /* NULL without */
+    char *comment, *description, *group, *notes; /* NULL if absent */
     double base[MYPAINT_BRUSH_SETTINGS_COUNT];   /* within their range */
-    WR_ARRAY(WrCurve) curves;                    /* at most one of a setting and an input */
-    WrBrush own; /* "wrinkle" over wr_brush_default(); its radius is 0 where the file gives none */
+    WR_ARRAY(WrCurve) curves;                    /* at most one per setting and input */
+    WrBrush own; /* "wrinkle" applied to wr_brush_default(); its radius is 0 if the file has none */
     bool gives_mode; /* the file names a mode */
     WrTip *tip;
-    char *tip_file; /* plain name; NULL without */
+    char *tip_file; /* plain name; NULL if absent */
     char tip_sha256[65];
-    int skipped; /* settings and inputs that this program does not know, and values brought into range */
+    int skipped; /* unknown settings and inputs, and values limited to their range */
 };
 
-/* One with every setting at its fallback, and the library's own default curve: opacity by pressure. */
+/* A preset with every setting at its fallback, and the library's default curve: opacity by pressure. */
 WrPreset *wr_preset_new(const char *name);
 void wr_preset_drop_curves(WrPreset *preset, int setting);
-/* The curve of a setting and an input, NULL without. */
+/* The curve of a setting and an input, NULL if none. */
 const WrCurve *wr_preset_find_curve(const WrPreset *preset, int setting, int input);
-/* The largest value that a setting can have by its points. */
+/* The largest value of a setting with its curves. */
 double wr_preset_peak(const WrPreset *preset, int setting);
-/* Do its base value and its curves' points, at one place at least, lift it over 0? */
+/* True if its base value and its curves' points can exceed 0. */
 bool wr_preset_uses(const WrPreset *preset, int setting);
-/* Is an input that is random used, or chance in itself? */
+/* True if it uses a random input, or settings that are random themselves. */
 bool wr_preset_is_random(const WrPreset *preset);

@@ -1,5 +1,5 @@
-/* A preset's file, read by json-c and checked member by member. What other programs may have written that
-   this one does not know (settings, inputs) is passed over and counted; what is known must be right. */
+/* Parser of a preset's file: read by json-c and checked member by member. Unknown settings and inputs
+   of other programs are skipped and counted; known ones must be valid. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -14,7 +14,7 @@
 #define DEPTH 16  /* of nested objects and lists; a preset needs 7 */
 #define LOTS 1e30 /* table units */
 
-/* Where in the file something is, for messages: "groove: radius_logarithmic: pressure". */
+/* Position in the file for messages: "groove: radius_logarithmic: pressure". */
 typedef struct Place {
     const char *file, *part, *member;
 } Place;
@@ -25,7 +25,7 @@ static bool fail_at(WrError *err, Place at, const char *text)
                    at.part ? ": " : "", at.member, text);
 }
 
-/* A few words on what a value is, for messages. */
+/* A short excerpt of a value, for messages. */
 static const char *excerpt(json_object *value, char buffer[48])
 {
     const char *text =
@@ -57,7 +57,7 @@ static bool read_number(json_object *value, Place at, double low, double high, d
     return true;
 }
 
-/* A text without NUL inside, which would end it early. The caller owns it. */
+/* A text without embedded NUL, which would truncate it. The caller owns it. */
 static bool read_text(json_object *value, Place at, char **text, WrError *err)
 {
     if (!json_object_is_type(value, json_type_string)) return fail_type(err, at, value, "a text");
@@ -74,8 +74,8 @@ static bool read_text(json_object *value, Place at, char **text, WrError *err)
 
 /* ---- settings ---- */
 
-/* The range that a value is brought into without an error: presets of other programs, and of other
-   versions of MyPaint, go over the edge now and then. */
+/* Limits a value to its range without an error: presets of other programs, and of other versions of
+   MyPaint, exceed it occasionally. */
 static double bring(double x, double low, double high, int *skipped)
 {
     double inside = x < low ? low : x > high ? high : x;

@@ -49,7 +49,7 @@ static void add_number(WrText *text, const char *name, double value)
     wr_text_add_number(text, value);
 }
 
-/* What the brush says beyond the settings; what is as ever is left out. */
+/* Writes the brush's properties beyond the settings; defaults are omitted. */
 static void add_relief(WrText *text, const WrPreset *preset, const WrBrush *brush, bool odd_radius)
 {
     WrBrush usual = wr_brush_default();

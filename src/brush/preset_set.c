@@ -1,4 +1,5 @@
-/* Presets made from others by a text: base values, "slow_tracking=2", and curves, "opaque:pressure=0,0|0.4,0.1|1,1". */
+/* Modified presets from a text: base values, "slow_tracking=2", and curves,
+   "opaque:pressure=0,0|0.4,0.1|1,1". */
 #include "base/error.h"
 #include "base/text.h"
 #include "brush/preset_internal.h"
@@ -37,7 +38,7 @@ static int shown(Piece piece)
     return piece.length < 60 ? (int)piece.length : 60;
 }
 
-/* What stands before the first `mark`, which is taken off with it; all of it where there is none. */
+/* Removes and returns the part before the first `mark`; everything if there is none. */
 static Piece cut(Piece *rest, char mark)
 {
     const char *found = memchr(rest->at, mark, rest->length);
@@ -70,7 +71,7 @@ static bool set_value(WrPreset *preset, int setting, Piece value, WrError *err)
                        value.length < 40 ? (int)value.length : 40, value.at,
                        wr_number_print(info->low, low), wr_number_print(info->high, high));
     preset->base[setting] = number;
-    /* A radius of the file's own would hide this one. */
+    /* The file's own radius would override this one. */
     if (setting == MYPAINT_BRUSH_SETTING_RADIUS_LOGARITHMIC) preset->own.radius = 0.0;
     return true;
 }

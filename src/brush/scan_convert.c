@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-#define SMALL 12.0    /* texels: below this reach all rows get one span, which costs less */
-#define MANY_TILES 12 /* in a row of tiles, worth several threads */
+#define SMALL 12.0    /* texels: for a smaller reach all rows use one span, which costs less */
+#define MANY_TILES 12 /* in a row of tiles; number worth several threads */
 
 static double clamp(double value, double low, double high)
 {
@@ -20,7 +20,7 @@ WrWindow wr_window(double p, double d, double r, int n, WrWrap wrap)
     if (wrap == WR_WRAP_CLAMP)
         return (WrWindow){ (int)clamp(ceil(low - r), 0.0, n),
                            (int)clamp(floor(high + r), -1.0, n - 1.0) };
-    /* texels farther than half a period have a nearer image; a shape of no length meets none twice */
+    /* texels farther than half a period have a nearer image; a shape of length 0 meets none twice */
     r = r < 0.5 * n ? r : 0.5 * n;
     WrWindow w = { (int)ceil(low - r), (int)floor(high + r) };
     if (d == 0.0 && w.high - w.low >= n) w.high = w.low + n - 1;
@@ -38,8 +38,8 @@ int wr_tile_run(int i, int last, int n, int *texel)
 /* Rows j .. j + count - 1, all in one row of tiles. */
 typedef struct Band {
     int j, texel, count;
-    WrWindow span[WR_TILE]; /* columns that each row reaches */
-    WrWindow all;           /* columns that any reaches */
+    WrWindow span[WR_TILE]; /* column range of each row */
+    WrWindow all;           /* union of the column ranges */
     bool whole;             /* the shape spans the table's period */
     int width;              /* of the table */
 } Band;
@@ -72,8 +72,8 @@ static void find_spans(Band *band, const WrDabShape *shape, WrWindow columns)
     }
 }
 
-/* What a widened run takes in besides lies outside the shape and gets no coverage; but where the brush is
- * as large as the table it would meet another image's texels, and at the table's edge unused ones. */
+/* The additional texels of a widened run are outside the shape and get no coverage; but if the brush is
+ * as large as the table they would be another image's texels, and at the table's edge unused ones. */
 static WrRun run_of(const Band *band, int row, int first, int last, int texel)
 {
     int at = texel % WR_TILE, head = at % WR_BRUSH_BLOCK, end = head + last - first + 1;
@@ -86,7 +86,7 @@ static WrRun run_of(const Band *band, int row, int first, int last, int texel)
     return run;
 }
 
-/* The part of a band that lies in one tile: columns i .. i + count - 1, texel column `texel`. */
+/* The part of a band in one tile: columns i .. i + count - 1, texel column `texel`. */
 static void patch_of(const Band *band, int i, int count, int texel, WrScanPatch *patch)
 {
     patch->tx = texel / WR_TILE;
@@ -123,7 +123,7 @@ static void work(int index, int worker, void *ctx)
     if (patch.count) crew->visit(crew->ctx, crew->shape, &patch);
 }
 
-/* A motion meets a tile twice where it passes more than a period: then one after the other. */
+/* A motion longer than a period meets a tile twice: then tiles are processed sequentially. */
 static bool many(const Band *band, const WrPool *pool, const WrDabShape *shape)
 {
     int reach = band->all.high - band->all.low + 1;

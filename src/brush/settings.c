@@ -1,4 +1,4 @@
-/* The settings of libmypaint 1.6, in its own order, and what each means for heights. low and high are the
+/* The settings of libmypaint 1.6, in its own order, and their meaning for heights. low and high are the
    library's, but tighter where a stroke could become endless (dabs_per_..._radius) or paint nothing
    (hardness: at 0 the whole dab is edge). */
 #include "brush/preset_internal.h"

@@ -7,8 +7,8 @@
 
 #define SLACK 1e-3 /* texels, as in capsule.c */
 
-/* On a periodic axis near the first period, so that indices fit an int: exact for coordinates on a grid
- * of 2^-16. */
+/* On a periodic axis shifted near the first period, so that indices fit an int: exact for coordinates
+ * on a grid of 2^-16. */
 static double near_table(double x, int n, WrWrap wrap)
 {
     if (wrap == WR_WRAP_CLAMP || fabs(x) < 2.0 * n) return x;
@@ -37,7 +37,7 @@ bool wr_shape_of_motion(const WrField *field, const WrBrush *brush, double x, do
     return true;
 }
 
-/* The texel that holds coordinate x. The far end of a clamped axis, u = 1, is in the last. */
+/* The texel that contains coordinate x. The far end of a clamped axis, u = 1, belongs to the last. */
 static double holder(double x, int n, WrWrap wrap)
 {
     double cell = floor(x + 0.5);
@@ -57,8 +57,8 @@ bool wr_shape_of_texel(const WrField *field, double x, double y, double alpha, W
     return true;
 }
 
-/* d^2 = A ex^2 + 2 B ex ey + C ey^2 = R^2 of an ellipse with unit long axis (ux, uy) and aspect s:
- * A C - B^2 = s^2, so it reaches R sqrt(C) / s across and R sqrt(A) / s down. */
+/* d^2 = A ex^2 + 2 B ex ey + C ey^2 = R^2 for an ellipse with unit long axis (ux, uy) and aspect s: A C
+ * - B^2 = s^2, so its half extents are R sqrt(C) / s across and R sqrt(A) / s down. */
 static void set_ellipse(const WrDab *dab, double aspect, double ux, double uy, WrDabShape *shape)
 {
     WrEllipse *e = &shape->ellipse;
@@ -104,7 +104,7 @@ static void set_tip(const WrTip *tip, const WrDab *dab, double ux, double uy, Wr
     shape->reach_y = fabs(uy) * length + fabs(ux) * breadth + SLACK;
 }
 
-/* The dab's radius, where the short axis may not be thinner than a texel. */
+/* The aspect limited so that the short axis is not thinner than a texel. */
 static double thick_enough(const WrDab *dab)
 {
     double most = dab->radius > 1.0 ? dab->radius : 1.0;

@@ -9,10 +9,10 @@
 #include <math.h>
 
 #define ON_THE_WAY 0.25             /* texels */
-#define SAME_PRESSURE (1.0 / 128.0) /* pressures closer than this are not told apart */
+#define SAME_PRESSURE (1.0 / 128.0) /* smaller pressure differences are ignored */
 
 typedef struct Spot {
-    double x, y; /* texels, as wr_paint_place gives them */
+    double x, y; /* texels, from wr_paint_place */
     double pressure, tilt_x, tilt_y, seconds;
 } Spot;
 
@@ -21,12 +21,12 @@ struct WrStroke {
     WrPreset *preset; /* shared, or NULL */
     WrTip *tip;
     WR_ARRAY(Spot) queue;
-    int taken;  /* of the queue */
-    bool begun; /* `last` is there */
+    int taken;  /* from the queue */
+    bool begun; /* `last` is valid */
 
     /* by motions */
     bool motions;
-    bool waiting; /* `held` is there and not drawn yet */
+    bool waiting; /* `held` is valid and not drawn yet */
     Spot last, held;
 
     /* by dabs */
@@ -71,7 +71,7 @@ static const WrBrush *brush_of(const WrStroke *stroke)
     return &stroke->draw.cover.maker.brush;
 }
 
-/* The way from a to b, the shorter way round on periodic axes. */
+/* The vector from a to b, the shorter way round on periodic axes. */
 static void way(const WrStroke *stroke, const Spot *a, const Spot *b, double *dx, double *dy)
 {
     const WrField *field = stroke->draw.cover.maker.ground.field;
@@ -94,7 +94,7 @@ static void draw(WrStroke *stroke, const Spot *to)
     stroke->waiting = false;
 }
 
-/* Too little has happened since the last spot drawn to be worth a footprint. */
+/* True if the change since the last spot drawn is too small for a footprint. */
 static bool is_near(const WrStroke *stroke, const Spot *spot)
 {
     double dx, dy, near = brush_of(stroke)->radius / 32.0;
@@ -104,7 +104,7 @@ static bool is_near(const WrStroke *stroke, const Spot *spot)
            fabs(spot->pressure - stroke->last.pressure) <= SAME_PRESSURE;
 }
 
-/* Whether the straight motion from the last spot to `to` passes the held one, place and pressure. */
+/* True if the straight motion from the last spot to `to` passes the held one, in position and pressure. */
 static bool passes_held(const WrStroke *stroke, const Spot *to)
 {
     double dx, dy, hx, hy;
@@ -180,7 +180,7 @@ void wr_stroke_push(WrStroke *stroke, WrSample sample)
     wr_array_push(&stroke->queue, spot);
 }
 
-/* Take the next sample; false if there is none. */
+/* Processes the next sample; false if there is none. */
 static bool take(WrStroke *stroke)
 {
     if (stroke->taken == stroke->queue.count) {
@@ -193,7 +193,7 @@ static bool take(WrStroke *stroke)
     return true;
 }
 
-/* One piece of work; false if none was left. */
+/* Does one piece of work; false if none was left. */
 static bool work(WrStroke *stroke)
 {
     WrDab dab;
@@ -206,7 +206,7 @@ static bool work(WrStroke *stroke)
     return take(stroke);
 }
 
-/* Half the time goes to dabs and half to the heights made of them, what is left from before first. */
+/* Half the time is for dabs and half for resolving heights, starting with the remaining ones. */
 bool wr_stroke_work(WrStroke *stroke, double seconds)
 {
     bool all = !(seconds < HUGE_VAL);

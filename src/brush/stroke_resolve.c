@@ -44,7 +44,7 @@ bool wr_maker_closed(const WrMaker *maker, int tx, int ty)
     return selection && !wr_field_tile(selection, tx, ty) && !(wr_field_level(selection) > 0.0f);
 }
 
-/* How much of the coverage counts. */
+/* The effective weight of the coverage. */
 static void parts(const WrMaker *maker, const WrStrokeResolve *make, const float *selection, int at,
                   float *part)
 {
@@ -92,7 +92,7 @@ void wr_stroke_resolve_open(const WrMaker *maker, WrStrokeResolve *make)
         maker->ground.mark ? wr_field_tile_write(maker->ground.mark, make->tx, make->ty) : NULL;
 }
 
-/* Painting raises the mark to the part; erasing takes the part of what was marked away. */
+/* Painting raises the mark to the weight; erasing removes that fraction of the previous mark. */
 static void make_mark(const WrMaker *maker, const float *before, const float *part, int count,
                       float *mark)
 {

@@ -1,5 +1,5 @@
-/* stroke_resolve.h - heights made anew from those before the stroke and from its coverage.
-   Private to this module. */
+/* stroke_resolve.h - computation of heights from those before the stroke and its coverage. Private to
+   this module. */
 #pragma once
 #include "brush/blend_target.h"
 
@@ -8,8 +8,8 @@
 typedef struct WrMaker {
     WrBrushGround ground; /* borrowed */
     WrBrush brush;        /* sane */
-    WrField *start;       /* the table as it was; owned */
-    WrField *mark_start;  /* the same of the mark, where erasing lowers it; owned, or NULL */
+    WrField *start;       /* the table before the stroke; owned */
+    WrField *mark_start;  /* the mark before the stroke, if erasing lowers it; owned, or NULL */
     const WrModeWork *work;
     WrModeArgs args;
     WrTargets targets;
@@ -17,7 +17,7 @@ typedef struct WrMaker {
 
 void wr_maker_init(WrMaker *maker, const WrBrushGround *ground, const WrBrush *brush);
 void wr_maker_fini(WrMaker *maker);
-/* Flatten goes by the texel that holds (x, y), of the table as it was. */
+/* Sets flatten's height: that of the texel at (x, y), before the stroke. */
 void wr_maker_first(WrMaker *maker, double x, double y);
 
 /* A rectangle of one tile's texels. */
@@ -30,11 +30,11 @@ typedef struct WrStrokeResolve {
     float *out, *mark;                  /* of the tile; for wr_stroke_resolve */
 } WrStrokeResolve;
 
-/* Is nothing selected in that tile at all? */
+/* True if nothing is selected in that tile. */
 bool wr_maker_closed(const WrMaker *maker, int tx, int ty);
-/* Does any texel of it change, as far as coverage and selection say? */
+/* True if any texel of it may change, judging by coverage and selection. */
 bool wr_stroke_resolve_needed(const WrMaker *maker, const WrStrokeResolve *make);
-/* Open the tile for writing: sets out and mark. Not for several threads at once. */
+/* Opens the tile for writing: sets out and mark. Not for several threads at once. */
 void wr_stroke_resolve_open(const WrMaker *maker, WrStrokeResolve *make);
-/* Any number of threads, on tiles that differ. */
+/* Any number of threads, on different tiles. */
 void wr_stroke_resolve(const WrMaker *maker, const WrStrokeResolve *make);

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- making ---- */
+/* ---- creation ---- */
 
 WrTip *wr_tip_blank(int cells)
 {
@@ -23,7 +23,7 @@ WrTip *wr_tip_blank(int cells)
 
 WrTip *wr_tip_share(const WrTip *tip)
 {
-    WrTip *shared = (WrTip *)tip; /* only the count changes, atomically */
+    WrTip *shared = (WrTip *)tip; /* only the reference count changes, atomically */
     if (shared) __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
     return shared;
 }
@@ -113,7 +113,7 @@ WrTip *wr_tip_parse(const void *bytes, size_t size, const char *name, WrError *e
     return tip;
 }
 
-/* ---- asking ---- */
+/* ---- queries ---- */
 
 const char *wr_tip_name(const WrTip *tip)
 {
@@ -136,9 +136,9 @@ void wr_tip_size(const WrTip *tip, int cell, int *width, int *height)
     *height = tip->cell[cell].height[0];
 }
 
-/* ---- which cell ---- */
+/* ---- selection of a cell ---- */
 
-/* 0..rank - 1. The first cell of an angular rank points up, the next ones go round clockwise. */
+/* 0..rank - 1. The first cell of an angular rank points up, the following ones clockwise. */
 static int angular(double direction_rad, int rank)
 {
     double turns = isfinite(direction_rad) ? 0.25 - direction_rad / (2.0 * WR_PI) : 0.0;
@@ -160,7 +160,7 @@ int wr_tip_pick(const WrTip *tip, uint64_t number, double direction_rad, double 
         case WR_TIP_RANDOM:
             random *= rank;
             index = (int)random;
-            random -= index; /* what is left of it serves the next rank */
+            random -= index; /* the remainder is used for the next rank */
             break;
         case WR_TIP_ANGULAR: index = angular(direction_rad, rank); break;
         case WR_TIP_PRESSURE: index = (int)rint(pressure * (rank - 1)); break;
@@ -171,7 +171,7 @@ int wr_tip_pick(const WrTip *tip, uint64_t number, double direction_rad, double 
     return cell < tip->cells ? cell : 0;
 }
 
-/* ---- drawing ---- */
+/* ---- sampling ---- */
 
 void wr_tip_view(const WrTip *tip, int cell, double scale, WrTipView *view)
 {

@@ -1,6 +1,7 @@
-/* GIMP's .gbr: one picture. Big-endian numbers of 32 bits: length of the header, version, width, height,
-   bytes a pixel (1: grey, 255 is full paint; 4: RGBA), in version 2 also "GIMP" and the spacing in per
-   cent of the width; then the name and a NUL to the header's end, then the pixels, the top row first. */
+/* GIMP's .gbr: one picture. Big-endian numbers of 32 bits: length of the header, version, width,
+   height, bytes per pixel (1: grey, 255 is full paint; 4: RGBA), in version 2 also "GIMP" and the
+   spacing in per cent of the width; then the name and a NUL to the header's end, then the pixels, the
+   top row first. */
 #include "brush/tip_internal.h"
 
 #include "base/error.h"
@@ -9,8 +10,8 @@
 #include <string.h>
 
 #define WR_GBR_V1 20u      /* bytes before the name */
-#define WR_GBR_V2 28u      /* the same of version 2 */
-#define WR_GBR_NAME 65536u /* bytes of a name, at most */
+#define WR_GBR_V2 28u      /* bytes before the name in version 2 */
+#define WR_GBR_NAME 65536u /* maximum bytes of a name */
 
 static uint32_t big32(const uint8_t *p)
 {
@@ -25,7 +26,7 @@ bool wr_tip_is_gbr(const uint8_t *bytes, size_t size)
     return version == 1 && big32(bytes) >= WR_GBR_V1 && big32(bytes) < WR_GBR_V1 + WR_GBR_NAME;
 }
 
-/* The length of a well-formed UTF-8 sequence at p, 0 if it is none. */
+/* The length of a valid UTF-8 sequence at p, 0 if none. */
 static size_t utf8_length(const uint8_t *p, size_t size)
 {
     static const uint32_t smallest[5] = { 0, 0, 0x80, 0x800, 0x10000 };
@@ -98,7 +99,7 @@ static bool read_header(const uint8_t *bytes, size_t size, Header *header, const
     return true;
 }
 
-/* In codes 0..255: grey as it stands, or Rec. 709 luma times alpha. */
+/* In codes 0..255: grey unchanged, or Rec. 709 luma times alpha. */
 static void read_pixels(const uint8_t *in, size_t count, uint32_t bytes, float *out)
 {
     for (size_t i = 0; i < count; i++) {

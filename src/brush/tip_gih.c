@@ -1,7 +1,6 @@
-/* GIMP's .gih: a line with the name, a line with the number of pictures and "name:value" words, then the
-   pictures as .gbr files one after the other. The words that count: dim (ranks), rank0.. (how many along
-   each), sel0.. or selection (how the next one is chosen). The cells lie in ranks as the digits of a
-   number do, rank 0 first. */
+/* GIMP's .gih: a line with the name, a line with the number of pictures and "name:value" words, then
+   the pictures as consecutive .gbr files. Relevant words: dim (ranks), rank0.. (size of each), sel0..
+   or selection (selection rule). The cells are ordered like the digits of a number, rank 0 first. */
 #include "brush/tip_internal.h"
 
 #include "base/error.h"
@@ -10,14 +9,14 @@
 
 #include <string.h>
 
-#define WR_GIH_LINE 65536u /* bytes of one line, at most */
+#define WR_GIH_LINE 65536u /* maximum bytes of one line */
 
 typedef struct Line {
     const uint8_t *text;
     size_t length;
 } Line;
 
-/* The next line, without its end; false if there is none. */
+/* The next line without its end; false if there is none. */
 static bool next_line(const uint8_t *bytes, size_t size, size_t *offset, Line *line)
 {
     size_t left = size - *offset, limit = left < WR_GIH_LINE ? left : WR_GIH_LINE;
@@ -59,7 +58,7 @@ static bool is(Line word, const char *text)
     return word.length == strlen(text) && memcmp(word.text, text, word.length) == 0;
 }
 
-/* A word that begins with `name` and a digit: the digit, else -1. */
+/* The digit of a word that consists of `name` and a digit, else -1. */
 static int numbered(Line word, const char *name)
 {
     size_t n = strlen(name);
@@ -67,7 +66,7 @@ static int numbered(Line word, const char *name)
     return word.text[n] >= '0' && word.text[n] <= '9' ? word.text[n] - '0' : -1;
 }
 
-/* What a stroke has no measure for (velocity, xtilt, ytilt) stays at the first, as constant does. */
+/* Inputs that strokes lack (velocity, xtilt, ytilt) are treated as constant. */
 static WrTipRule rule_of(Line word)
 {
     static const struct {
@@ -109,7 +108,8 @@ static Ranks read_ranks(Line line)
     return r;
 }
 
-/* Ranks that do not fit the cells count as one rank of all, by the first's rule. */
+/* Ranks that do not match the number of cells are replaced by one rank of all cells, with the first's
+ * rule. */
 static void set_ranks(WrTip *tip, const Ranks *r)
 {
     int64_t product = 1;

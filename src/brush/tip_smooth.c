@@ -1,14 +1,13 @@
-/* 8-bit tips without their stairs, and the smaller sizes of a tip.
+/* Removal of quantization steps from 8-bit tips, and the smaller mip levels of a tip.
 
-   A code stands for any value within half a step of it. Of all pictures that would give these codes the
-   smoothest is wanted: the one that diffusion tends to when each value is kept within its half step. The
-   flats of a gentle slope are wide, and diffusion slow, so it is begun on small pictures: the codes are
-   halved by box means down to WR_SMOOTH_LEVELS times, and from the smallest up each picture is enlarged
-   (bilinear), kept within its bounds, and diffused a little ([1 2 1]/4 both ways).
-
-   Where codes differ by over 1.5 from one pixel to the next there is an edge or a grain, no stair: such
-   pixels keep their code, and the smaller pictures have a hole (NaN) there, so that nothing spreads over
-   an edge: what is black beside one stays exactly black. */
+   A code represents any value within half a step of it. Of all pictures with these codes the smoothest
+   is wanted: the limit of diffusion with each value kept within its half step. The flat parts of a
+   gentle slope are wide, and diffusion is slow, so it starts on small pictures: the codes are halved by
+   box means up to WR_SMOOTH_LEVELS times, and from the smallest up each picture is enlarged (bilinear),
+   clamped to its bounds, and diffused a little ([1 2 1]/4 in both directions). If codes differ by over
+   1.5 from one pixel to the next there is an edge or texture, not a quantization step: such pixels keep
+   their code, and the smaller pictures have a hole (NaN) there, so that nothing spreads over an edge:
+   black pixels beside one stay exactly black. */
 #include "brush/tip_internal.h"
 
 #include "base/error.h"
@@ -18,22 +17,22 @@
 #include <string.h>
 
 #define WR_SMOOTH_LEVELS 8
-#define WR_SMOOTH_MOST 24 /* steps of diffusion, each level */
+#define WR_SMOOTH_MOST 24 /* maximum steps of diffusion for each level */
 #define WR_SMOOTH_LEAST 6
-#define WR_SMOOTH_WORK (1 << 27) /* pixels times steps, above which there are fewer */
-#define WR_SMOOTH_STAIR 1.5f     /* codes */
+#define WR_SMOOTH_WORK (1 << 27) /* pixels times steps, above which fewer steps are used */
+#define WR_SMOOTH_STAIR 1.5f     /* codes; larger differences are edges */
 
 /* ---- sizes ---- */
 
-/* The inputs that output i of out_n covers, of in_n in all, and the first's and last's share. */
+/* The inputs covered by output i of out_n, of in_n in total, and the weights of the first and last one. */
 typedef struct Span {
     int first, last;
-    double head, tail, inverse; /* parts of the first and last covered; 1/length */
+    double head, tail, inverse; /* covered fractions of the first and last; 1/length */
 } Span;
 
 static Span span_of(int i, int in_n, int out_n)
 {
-    /* In units of 1/out_n input, so that all ends are whole. */
+    /* In units of 1/out_n input, so that all ends are integers. */
     int64_t low = (int64_t)i * in_n, high = low + in_n;
     Span s = { .first = (int)(low / out_n), .last = (int)((high - 1) / out_n) };
     s.head = (double)((int64_t)(s.first + 1) * out_n - low) / out_n;
@@ -76,7 +75,7 @@ static size_t at(const Picture *p, int i, int j)
     return (size_t)j * (size_t)p->width + (size_t)i;
 }
 
-/* The codes with holes where a neighbour lies over a stair away. */
+/* The codes with holes at neighbours that differ by over a step. */
 static void punch(const Picture *codes, Picture *out)
 {
     for (int j = 0; j < codes->height; j++)
@@ -92,7 +91,7 @@ static void punch(const Picture *codes, Picture *out)
         }
 }
 
-/* Half the size; holes where any pixel under it is one, or where they differ by over a stair. */
+/* Half the size; a hole if any covered pixel is one, or if they differ by over a step. */
 static void shrink(const Picture *in, Picture *out)
 {
     wr_tip_halve(in->values, in->width, in->height, out->values, out->width, out->height);
@@ -111,7 +110,7 @@ static void shrink(const Picture *in, Picture *out)
         }
 }
 
-/* Where an enlarged picture's pixel lies among the smaller one's: taps first and next, share of next. */
+/* Position of an enlarged picture's pixel in the smaller one: taps first and next, weight of next. */
 static void place(int i, int n, int small_n, int *first, int *next, float *part)
 {
     double x = (i + 0.5) * small_n / n - 0.5, low = floor(x);
@@ -127,7 +126,7 @@ static float within(float x, float code)
     return x < low ? low : x > high ? high : x;
 }
 
-/* Start values: the smaller picture, enlarged, where it has no hole; else the codes. */
+/* Initial values: the smaller picture, enlarged, if it has no hole; else the codes. */
 static void enlarge(const Picture *small, const Picture *codes, Picture *out)
 {
     for (int j = 0; j < out->height; j++) {
@@ -149,7 +148,7 @@ static void enlarge(const Picture *small, const Picture *codes, Picture *out)
     }
 }
 
-/* One row of [1 2 1]/4 across; a hole counts as its neighbour does. */
+/* One row of [1 2 1]/4 across; a hole is replaced by its neighbour. */
 static void blur_row(const float *in, int width, float *out)
 {
     for (int i = 0; i < width; i++) {
