@@ -8,11 +8,11 @@
 
 #define EDGE 64      /* points along a border */
 #define STEP 15.0    /* degrees of the turntable */
-#define CLEARLY 0.15 /* of the square of the object's radius */
-#define HOLES 2      /* of a surface, at most */
-#define SAME 1e-6    /* of the radius: two points are one */
+#define CLEARLY 0.15 /* relative to the square of the object's radius */
+#define HOLES 2      /* maximum for a surface */
+#define SAME 1e-6    /* relative to the radius: the points are equal */
 
-/* Vector areas of their rims, object space: seen against them, a hole shows the back. */
+/* Vector areas of holes, object space: a hole seen from its opposite side shows the back. */
 typedef struct Holes {
     WrVec3 area[HOLES];
     int count;
@@ -22,7 +22,7 @@ typedef struct Edge {
     WrVec3 p[EDGE + 1];
 } Edge;
 
-/* side: 0 v = 0, 1 u = 1, 2 v = 1, 3 u = 0; each in the way round in which N is up. */
+/* side: 0 v = 0, 1 u = 1, 2 v = 1, 3 u = 0; each oriented counter-clockwise about N. */
 static Edge edge_of(const WrShape *shape, int face, int side)
 {
     Edge edge;
@@ -36,7 +36,7 @@ static Edge edge_of(const WrShape *shape, int face, int side)
     return edge;
 }
 
-/* Is one the other's way back? Then they are joined. */
+/* True if one edge is the reverse of the other: then they are joined. */
 static bool joined(const Edge *a, const Edge *b, double near)
 {
     for (int i = 0; i <= EDGE; i++)
@@ -52,7 +52,8 @@ static WrVec3 swept(const Edge *edge, WrVec3 from)
     return v3_scale(sum, 0.5);
 }
 
-/* The holes of one face, by its four sides: two where it goes round one way, one about all of it where it does not. */
+/* The holes of one face, from its four sides: two if it is closed in one direction, one around all of
+ * it if open. */
 static void face_holes(const WrShape *shape, int face, double near, Holes *out)
 {
     Edge edge[4];
@@ -101,7 +102,7 @@ static Holes holes_of(const WrScene *object, double radius)
     return holes;
 }
 
-/* How much of the holes looks at the viewer. */
+/* The area of the holes that faces the viewer. */
 static double seen(const Holes *holes, const WrPlacement *place)
 {
     const WrVec3 look = v3_times(wr_place_turn_back(place, place->forward), place->cofactor);

@@ -14,7 +14,8 @@ const char *const wr_background_names[WR_BACKGROUND_KINDS] = {
 };
 WR_ROWS_END(wr_background_names, WR_BACKGROUND_KINDS);
 
-/* Between two numbers, evenly to the eye. Above 1 codes say nothing more: there it is even in light. */
+/* Interpolates two values evenly for the eye. Above 1, where codes are saturated, it is linear in
+   light. */
 static float between(double top, double bottom, double share)
 {
     if (top == bottom) return (float)top;

@@ -10,8 +10,8 @@
 #include <math.h>
 
 #define MARGIN 1.02  /* of wr_camera_control_fill */
-#define GRID 96      /* cells along u and v that a face is looked at by */
-#define GRID_MANY 24 /* the same of surfaces of many faces */
+#define GRID 96      /* cells along u and v of a face's sample grid */
+#define GRID_MANY 24 /* the same for surfaces of many faces */
 #define TURNS 72     /* steps of a whole turn of the turntable */
 #define STEEPEST 89.98
 
@@ -23,7 +23,7 @@ const char *const wr_side_names[WR_SIDE_COUNT] = {
 };
 WR_ROWS_END(wr_side_names, WR_SIDE_COUNT);
 
-/* ---- round the target ---- */
+/* ---- orbiting ---- */
 
 static double right_angle(double deg)
 {
@@ -60,7 +60,7 @@ void wr_camera_control_orbit(WrScene *scene, double right_deg, double up_deg)
     WrCamera *camera = &scene->camera;
     const WrVec3 back = v3_sub(camera->eye, camera->target);
     const double away = v3_len(back), flat_away = sqrt(back.x * back.x + back.z * back.z);
-    /* Seen from above or below, what is up in the picture says which way the camera faces. */
+    /* Seen from above or below, the picture's up direction determines the camera's heading. */
     const bool pole = flat_away < 1e-6 * away;
     const WrVec3 level = pole ? v3_scale(camera->up, back.y > 0 ? -1 : 1) : back;
     const double round = wr_atan2(level.x, level.z) / WR_RAD_PER_DEG + right_deg;
@@ -73,13 +73,13 @@ void wr_camera_control_orbit(WrScene *scene, double right_deg, double up_deg)
     camera->up = (WrVec3){ 0, 1, 0 };
 }
 
-/* ---- with the target, and nearer ---- */
+/* ---- panning and dollying ---- */
 
-/* The camera as it stands, fitting no more. */
+/* The camera at its present position, no longer fitting. */
 static bool hold(WrScene *scene, double aspect, WrPlacement *place, WrError *err)
 {
     if (!wr_scene_place(scene, 0, aspect, place, err)) return false;
-    if (scene->camera.fit) scene->camera.frame = 0; /* of another view */
+    if (scene->camera.fit) scene->camera.frame = 0; /* of the previous view */
     scene->camera.fit = false;
     scene->camera.eye = place->eye;
     if (place->orthographic) scene->camera.size = 2 * place->half_height / place->widen;
@@ -109,18 +109,19 @@ bool wr_camera_control_dolly(WrScene *scene, double factor, double aspect, WrErr
     return true;
 }
 
-/* ---- to fill the picture ---- */
+/* ---- filling the picture ---- */
 
 #define SLOPES 32
 
-/* What points reach, seen along the camera's axes. A pyramid whose sides have slope k holds a point where, with its tip at
-   e, x - ex <= k (z - ez) and so on for -x, y, -y. Each is a bound on e by the greatest x - k z of all points; the
-   tip that lies deepest follows from the four. That is kept for several slopes, since in the direction in which the
-   picture has room left, the object is in the middle of the least pyramid that holds it. Orthographic: slopes of 0. */
+/* Extents of points along the camera's axes. A pyramid whose sides have slope k and whose tip is at e
+   contains a point if x - ex <= k (z - ez), and so on for -x, y, -y. Each is a bound of e by the
+   maximum of x - k z over all points; the deepest tip follows from the four. Several slopes are stored,
+   since in the direction in which the picture has room left, the object is centred in the smallest
+   pyramid that contains it. Orthographic: slopes of 0. */
 typedef struct Reach {
     WrVec3 right, up, forward;
     double slope[2][SLOPES];                  /* along x and y; the last is the picture's */
-    double least[2][SLOPES], most[2][SLOPES]; /* greatest of -x - k z and of x - k z */
+    double least[2][SLOPES], most[2][SLOPES]; /* maximum of -x - k z and of x - k z */
     double near, far;                         /* of z */
 } Reach;
 
@@ -147,13 +148,13 @@ static void reach_point(Reach *r, WrVec3 p)
     r->near = fmin(r->near, z), r->far = fmax(r->far, z);
 }
 
-/* How deep a tip of that slope lies at most. */
+/* Maximum depth of a tip of that slope. */
 static double tip(const Reach *r, int axis, int k)
 {
     return -(r->least[axis][k] + r->most[axis][k]) / (2 * r->slope[axis][k]);
 }
 
-/* Where a tip at depth `eye` stands across: between two slopes in proportion. */
+/* Lateral position of a tip at depth `eye`: interpolated between two slopes. */
 static double across(const Reach *r, int axis, double eye)
 {
     int k = SLOPES - 1;
@@ -165,7 +166,7 @@ static double across(const Reach *r, int axis, double eye)
     return other + (own - other) * share;
 }
 
-/* All placements of one object that are asked for. */
+/* All placements of one object during the turn. */
 typedef struct Turns {
     WrPlacement place[TURNS + 1];
     int count;

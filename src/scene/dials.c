@@ -40,7 +40,7 @@ void wr_dials_smooth(WrDials *dials)
     dials->samples = 2;
 }
 
-/* ---- names of rungs ---- */
+/* ---- names of choices ---- */
 
 #define NAMES(function, count, ...)                                                                \
     static const char *function(int rung)                                                          \
@@ -74,7 +74,7 @@ static const char *normal_name(int rung)
     return rung >= 0 && rung < WR_BUMP_COUNT ? wr_bumps[rung].name : NULL;
 }
 
-/* ---- where they live ---- */
+/* ---- access ---- */
 
 #define MEMBER(name, type, member)                                                                 \
     static double get_##name(const WrScene *scene)                                                 \
@@ -110,7 +110,7 @@ MEMBER(heights, WrHeights, dials.heights)
 MEMBER(shading, WrShading, dials.shading)
 MEMBER(arithmetic, WrArithmetic, dials.arithmetic)
 
-/* ---- when they matter ---- */
+/* ---- relevance ---- */
 
 static bool with_table(const WrScene *scene)
 {

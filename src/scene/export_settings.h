@@ -1,5 +1,5 @@
-/* export_settings.h - what the export sheet was told last: which maps leave, for whom, where to. It goes with the document;
-   nothing is written by it. */
+/* export_settings.h - last settings of the export dialog: maps, target program, destination. Stored
+   with the document; this module writes no files. */
 #pragma once
 #include <stdbool.h>
 
@@ -30,7 +30,7 @@ typedef enum WrSheetRange {
 #define WR_SHEET_NAME 128
 
 typedef struct WrSheetAsk {
-    char as[WR_SHEET_WORD]; /* a set, or a kind of map; "": nothing was told yet */
+    char as[WR_SHEET_WORD]; /* a set, or a kind of map; "": not set yet */
     char folder[WR_SHEET_FOLDER], name[WR_SHEET_NAME]; /* "": the document's */
     int depth, size, range;                            /* WrSheetDepth, WrSheetSize, WrSheetRange */
 } WrSheetAsk;

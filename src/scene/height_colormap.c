@@ -36,7 +36,7 @@ static void mix(const double a[3], const double b[3], double t, double out[3])
     for (int c = 0; c < 3; c++) out[c] = a[c] + t * (b[c] - a[c]);
 }
 
-/* From where[0] on the colour shows, from where[1] on alone. */
+/* The colour appears from where[0] on, and is full from where[1] on. */
 static void ease(const double own[3], const double where[2], double at, double rgb[3])
 {
     const double room = where[1] - where[0];
@@ -63,7 +63,7 @@ void wr_height_colormap_hollow(const WrHeightColormap *colouring, double below, 
     if (colouring->hollow) ease(colouring->hollow_rgb, colouring->depth, below, rgb);
 }
 
-/* A place: its height, its slope, and the mean about it, NULL where no hollow has a colour. */
+/* Colours one texel from its height, slope and local mean (NULL if hollows have no colour). */
 static void put(const WrHeightColormap *colouring, double height, double slope, const float *mean,
                 float *out)
 {
@@ -80,7 +80,7 @@ static WrImage *picture_of(int w, int h, WrError *err)
     return image;
 }
 
-/* Where somebody wants it to stop, before another row: the picture goes. */
+/* Checks for cancellation before another row; frees the image if cancelled. */
 static bool stopped(WrImage **image, double done, WrError *err)
 {
     if (wr_progress_tell(done)) return false;
@@ -90,16 +90,16 @@ static bool stopped(WrImage **image, double done, WrError *err)
     return true;
 }
 
-/* What hollows are measured by. */
+/* Local means, for hollows. */
 static WrField *means_of(const WrHeightColormap *colouring, const WrField *field, WrError *err)
 {
     const double sigma = colouring->within;
     return wr_op_run(wr_op_find("blur"), field, &sigma, NULL, err);
 }
 
-/* ---- of a form ---- */
+/* ---- for a terrain ---- */
 
-/* Its heights, and its colours as if there were no hollows, in the places of a table of w x h. */
+/* Computes its heights, and its colours without hollows, on a table of w x h. */
 static bool form_rows(const WrHeightColormap *colouring, const WrPatches *set, double height,
                       WrField *heights, WrImage **image, WrError *err)
 {
@@ -149,9 +149,9 @@ WrImage *wr_height_colormap_form(const WrHeightColormap *colouring, const WrPatc
     return image;
 }
 
-/* ---- of a table ---- */
+/* ---- for a table ---- */
 
-/* Row j; rows: those above, at and below it, each with a texel more at either end. */
+/* Row j; rows: those above, at and below it, each with one more texel at both ends. */
 static void table_row(const WrHeightColormap *colouring, double height, int j, const float *rows,
                       const float *means, WrImage *image)
 {

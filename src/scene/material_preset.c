@@ -1,5 +1,6 @@
-/* Colours are linear. Of metals they are the reflectance at normal incidence, by their measured n and k (rounded as
-   tables for renderers give them); of all else a likely albedo. Roughness is a likely one. */
+/* Colours are linear. For metals they are the reflectance at normal incidence, from measured n and k
+   (rounded as in common tables for renderers); for all others a plausible albedo. Roughness is a
+   plausible value. */
 #include "scene/material_preset.h"
 
 #include "shade/reflection_models.h"

@@ -1,4 +1,5 @@
-/* material_preset.h - materials by name, to begin with: each is a model of reflection (shade/reflection.h) and its numbers. */
+/* material_preset.h - material presets: each is a reflection model (shade/reflection.h) with its
+   numbers. */
 #pragma once
 #include "scene/scene.h"
 

@@ -1,4 +1,4 @@
-/* The triangles of a scene, and how documents keep them. */
+/* The triangles of a scene, and their storage in documents. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/image.h"
@@ -35,17 +35,18 @@ size_t wr_scene_mesh_bytes(const WrTriangles *triangles)
            (size_t)triangles->triangle_count * sizeof *triangles->triangles;
 }
 
-#define NARROW 4096 /* pixels: of meshes of up to so many rows of them */
+#define NARROW 4096 /* width in pixels for meshes of up to this many rows */
 
-/* ---- as a document keeps them -------------------------------------------------------------------- */
+/* ---- storage in documents ------------------------------------------------------------------------- */
 
-/* Several different ones in one picture: SEVERAL, the number of objects, of each which mesh it has (from 1; 0: none), the number
-   of meshes, the length of each as high * UNIT + low; then the meshes. One alone is there as it is, and begins with no SEVERAL. */
+/* Format of several different meshes in one picture: SEVERAL, the number of objects, for each the index
+   of its mesh (from 1; 0: none), the number of meshes, the length of each as high * UNIT + low; then
+   the meshes. A single mesh is stored alone, and never begins with SEVERAL. */
 #define SEVERAL (-1.0F)
 #define UNIT 65536
 
 typedef struct Kept {
-    const WrTriangles *mesh[WR_OBJECTS_MAX]; /* those that differ; borrowed */
+    const WrTriangles *mesh[WR_OBJECTS_MAX]; /* the different ones; borrowed */
     int meshes, objects;
     int of[WR_OBJECTS_MAX]; /* from 1; 0: none */
 } Kept;
@@ -125,13 +126,13 @@ bool wr_scene_meshes_to_image(const WrScene *scene, WrImage **out, WrError *err)
     return *out != NULL;
 }
 
-/* A whole number of low .. high, or -1. */
+/* An integer of low .. high, or -1. */
 static int whole(float x, int low, int high)
 {
     return (double)x >= low && (double)x <= high && x == floorf(x) ? (int)x : -1;
 }
 
-/* Where in the picture of several the mesh of that object is; false: nowhere, or the picture is damaged. */
+/* Position of an object's mesh in a picture of several; false: none, or the picture is damaged. */
 static bool find_block(const float *block, size_t count, int object, size_t *from, size_t *length)
 {
     const int objects = count > 2 ? whole(block[1], 1, WR_OBJECTS_MAX) : -1;

@@ -9,8 +9,8 @@
 #include <string.h>
 
 #define LEVEL_CODES                                                                                \
-    2.1            /* of 2/M: how far codes of z that stand for 0 are from it, centred or not */
-#define LOOK 16384 /* texels between two looks at whether it should stop */
+    2.1            /* in units of 2/M: maximum distance from 0 of codes of z = 0, centred or not */
+#define LOOK 16384 /* texels between cancellation checks */
 
 /* ---- numbers ------------------------------------------------------------------------------------- */
 
@@ -20,7 +20,7 @@ typedef struct Reading {
     int last;   /* code; 0: float */
     bool remap; /* 2 c - 1 */
     bool centred;
-    bool object; /* all directions are */
+    bool object; /* all directions are allowed */
 } Reading;
 
 static size_t texels_of(const WrImage *image)
@@ -33,7 +33,7 @@ static const float *texel_of(const Reading *r, size_t i)
     return r->from->data + i * (size_t)r->from->channels;
 }
 
-/* Has more than half of it the code above the middle in x and y? */
+/* True if more than half of the texels have the code above the middle in x and y. */
 static bool is_centred(const Reading *r)
 {
     const double middle = (r->last + 1) / 2;
@@ -55,7 +55,7 @@ static double number(const Reading *r, double x)
     return fmax(-1, (code - middle) / (r->last - middle));
 }
 
-/* Linear numbers about the middle that were taken for light: encoded 0.735, decoded 0.214. */
+/* True if linear numbers about the middle were treated as light: encoded 0.735, decoded 0.214. */
 static bool is_converted(const Reading *r)
 {
     double mean[2] = { 0 };
@@ -70,7 +70,7 @@ static bool is_converted(const Reading *r)
 
 /* ---- vectors ------------------------------------------------------------------------------------- */
 
-/* A unit vector; true if it looked away from a tangent plane. */
+/* Stores a unit vector; true if it faced away from a tangent plane. */
 static bool put_vector(double x, double y, double z, bool object, float out[3])
 {
     const bool away = !object && z < WR_NORMAL_LEAST;
@@ -80,7 +80,7 @@ static bool put_vector(double x, double y, double z, bool object, float out[3])
     return away;
 }
 
-/* One texel's. */
+/* Reads one texel. */
 static void read_vector(const Reading *r, size_t i, float out[3], WrNormalTold *told)
 {
     const float *t = texel_of(r, i);
@@ -90,7 +90,7 @@ static void read_vector(const Reading *r, size_t i, float out[3], WrNormalTold *
     const double length = sqrt(xy + z * z), off = r->channels == 3 ? fabs(length - 1) : 0;
     told->off = fmax(told->off, off);
     told->off_mean += off / (double)texels_of(r->from);
-    if (!(length > 0)) { /* no direction */
+    if (!(length > 0)) { /* undefined direction */
         out[0] = out[1] = 0, out[2] = 1;
         told->away++;
         return;
@@ -116,7 +116,7 @@ static const float *vector_at(const WrImage *image, int i, int j)
     return image->data + ((size_t)y * (size_t)image->width + (size_t)x) * 3;
 }
 
-/* sum of D_v p D_u q, rows upwards; noise: what rounding of codes by `step` may bring, as a deviation. */
+/* sum of D_v p D_u q, rows upwards; noise: standard deviation from rounding of codes by `step`. */
 static double twist(const WrImage *image, double step, double *noise)
 {
     double sum = 0, squares = 0;
@@ -130,7 +130,7 @@ static double twist(const WrImage *image, double step, double *noise)
                 wr_normal_map_slopes(ends[2 + k], &other, &q[k]);
             }
             for (int k = 0; k < 4; k++) steep = fmin(steep, (double)ends[k][2]);
-            /* a slope is -x/z: an error e of a unit vector's numbers moves it by e/z^2 at most */
+            /* a slope is -x/z: an error e of a unit vector's components changes it by at most e/z^2 */
             const double dp = p[0] - p[1], dq = q[0] - q[1], error = step / (steep * steep);
             sum += dp * dq;
             squares += error * error * (2 * dp * dp + 2 * dq * dq + 4 * error * error);
@@ -139,7 +139,7 @@ static double twist(const WrImage *image, double step, double *noise)
     return sum;
 }
 
-#define SURE 6 /* deviations */
+#define SURE 6 /* standard deviations */
 
 static bool find_down(const WrImage *image, double step, WrNormalTold *told)
 {
@@ -149,7 +149,7 @@ static bool find_down(const WrImage *image, double step, WrNormalTold *told)
     return !told->undecided && sum < 0;
 }
 
-/* All texels of what the reading has been told. */
+/* Reads all texels with the reading's settings. */
 static WrImage *read_vectors(Reading *r, WrCoding coding, WrNormalTold *told, WrError *err)
 {
     WrCoding found;
@@ -238,7 +238,7 @@ WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrCodin
     return to;
 }
 
-/* Is it a vector as reading makes them? */
+/* True for a valid vector as produced by reading. */
 static bool is_made(const float n[3], bool object)
 {
     const double square =

@@ -61,7 +61,7 @@ static WrScene *alone(const WrScene *scene, int i)
     return object;
 }
 
-/* The scene's lights, camera, dials and what else is one for all, beside an object's own. */
+/* The scene's lights, camera, dials and other shared settings, with an object's own properties. */
 static WrScene *under(const WrScene *scene, const WrScene *object)
 {
     WrScene *made = wr_scene_clone(object);
@@ -70,7 +70,7 @@ static WrScene *under(const WrScene *scene, const WrScene *object)
     return made;
 }
 
-/* `object` at hand in place `chosen`, the rest from list [count], which is taken. */
+/* `object` as the active one at index `chosen`, the rest from list [count], which is consumed. */
 static WrScene *join(const WrScene *scene, const WrScene *object, WrScene **list, int count,
                      int chosen)
 {
@@ -81,7 +81,7 @@ static WrScene *join(const WrScene *scene, const WrScene *object, WrScene **list
     return made;
 }
 
-/* All objects but `without` (-1: all), each a share. */
+/* All objects except `without` (-1: all), each a share. */
 static WrScene **list_of(const WrScene *scene, int without, int *count)
 {
     const int all = wr_scene_object_count(scene);
@@ -199,14 +199,14 @@ WrScene *wr_scene_remove_object(const WrScene *scene, int i)
     return join(scene, wr_scene_object(scene, at_hand), list, count, at_hand - (at_hand > i));
 }
 
-/* Of one that hangs in a scene and is written to no more: found once. */
+/* Cached radius of an object in a scene, which is immutable. */
 static double kept_radius(WrScene *object)
 {
     double radius;
     __atomic_load(&object->radius, &radius, __ATOMIC_RELAXED);
     if (radius > 0) return radius;
     radius = wr_shape_radius(&object->shape);
-    __atomic_store(&object->radius, &radius, __ATOMIC_RELAXED); /* each finds the same */
+    __atomic_store(&object->radius, &radius, __ATOMIC_RELAXED); /* every thread computes the same */
     return radius;
 }
 

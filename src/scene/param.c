@@ -12,7 +12,7 @@
     .components = 3, .high = 1e6, .fallback = { 0.032, 0.032, 0.032 }, .shape = "r,g,b"
 #define PLACE_RANGE .components = 3, .low = -1e9, .high = 1e9
 
-/* A vector is three doubles, one after the other. */
+/* A vector is three consecutive doubles. */
 _Static_assert(sizeof(WrVec3) == 3 * sizeof(double), "vectors are read as numbers");
 _Static_assert(offsetof(WrScene, replicate_v) == offsetof(WrScene, replicate_u) + sizeof(double),
                "the two are read as one pair");

@@ -1,6 +1,8 @@
-/* param.h - what of a scene is a number, a vector, a colour or a switch, each in one row: the command that sets it, its
-   range, unit, default and words. Commands, the lines that a document keeps, a new scene and the window's panels go by
-   it. What is a choice is a row of wr_dials (scene/dials.h). */
+/* param.h - scene parameters that are numbers, vectors, colours or switches, each in one row: command,
+   range, unit, default and texts.
+
+   Commands, document files, new scenes and the window's panels use it. Choices are rows of wr_dials
+   (scene/dials.h). */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
@@ -67,35 +69,35 @@ typedef enum WrSceneParamId {
 } WrSceneParamId;
 
 typedef struct WrSceneParam {
-    const char *command; /* that sets it: "material" */
-    const char *form;    /* the form of that command which has it; NULL: all of them */
-    const char *name;    /* of the argument; of a positional, how help shows it */
+    const char *command; /* command that sets it: "material" */
+    const char *form;    /* form of that command; NULL: all forms */
+    const char *name;    /* of the argument; for a positional one, its placeholder in help */
     bool positional, required;
-    bool of_light; /* `place` is in a WrLight, else in a WrScene */
-    bool sparse;   /* printed only where it is not the default */
-    bool filled;  /* the command takes the default where it is not given; else it stays as it was */
-    size_t place; /* bytes from there to `components` doubles, or to a bool */
-    int components;             /* 1..3; 0: a switch, off or on */
-    double low, high;           /* of each number, inclusive */
-    double fallback[3];         /* in a new scene */
-    bool planned;               /* may another value lead to another plan of a picture? */
-    const char *unit;           /* "degrees"; NULL: none */
-    const char *shape;          /* "r,g,b"; NULL: by its components */
-    const char *label;          /* in panels; NULL: it has no row there */
-    const char *help;           /* a few words */
-    double soft_low, soft_high; /* what a slider reaches */
-    int decimals;               /* that it shows; -1: up to four significant digits */
-    bool logarithmic;           /* it moves by equal ratios; soft_low > 0 */
+    bool of_light;      /* `place` is in a WrLight, else in a WrScene */
+    bool sparse;        /* printed only if it is not the default */
+    bool filled;        /* the command uses the default if it is absent; else it is unchanged */
+    size_t place;       /* offset in bytes of `components` doubles, or of a bool */
+    int components;     /* 1..3; 0: a switch, off or on */
+    double low, high;   /* of each number, inclusive */
+    double fallback[3]; /* in a new scene */
+    bool planned;       /* another value may change the plan of a picture */
+    const char *unit;   /* "degrees"; NULL: none */
+    const char *shape;  /* "r,g,b"; NULL: by its components */
+    const char *label;  /* in panels; NULL: not shown there */
+    const char *help;   /* a few words */
+    double soft_low, soft_high; /* slider range */
+    int decimals;               /* displayed decimals; -1: up to four significant digits */
+    bool logarithmic;           /* logarithmic slider; soft_low > 0 */
 } WrSceneParam;
 
 extern const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT];
 
-/* Row `i` of those that a command's form has (form NULL: the rows of all forms); NULL past the last. */
+/* Row `i` of a command's form (form NULL: the rows of all forms); NULL past the last. */
 const WrSceneParam *wr_scene_param(const char *command, const char *form, int i);
 
-/* Its value within `owner`, the scene or the light: numbers, 1 or 0 of a switch. values: [3] */
+/* Its value in `owner`, the scene or the light: numbers, 1 or 0 for a switch. values: [3] */
 void wr_scene_param_get(const WrSceneParam *param, const void *owner, double *values);
 void wr_scene_param_set(const WrSceneParam *param, void *owner, const double *values);
 
-/* Give every parameter of a scene, or of a light, its default. */
+/* Sets every parameter of a scene, or of a light, to its default. */
 void wr_scene_params_reset(void *owner, bool of_light);

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* How much larger than the object's ball the view is, so that the object does not touch its
+/* Ratio of the view to the object's bounding sphere, so that the object does not touch the picture's
    border. */
 #define MARGIN 1.04
 
@@ -24,9 +24,8 @@ static void multiply(const double a[9], const double b[9], double out[9])
     }
 }
 
-/* out = (rotation by `deg` about the axis 0, 1, 2 = x, y, z) in. The whole turns are taken off
- * exactly before anything is rounded, so that an angle of days of turning is as good as a small
- * one (HC87). */
+/* out = (rotation by `deg` about the axis 0, 1, 2 = x, y, z) in. Whole turns are subtracted exactly
+ * before rounding, so that the angle of a turntable after days is as accurate as a small one (HC87). */
 static void turn(int axis, double deg, const double in[9], double out[9])
 {
     double s, c;
@@ -46,14 +45,14 @@ static WrVec3 turned(const double m[9], WrVec3 p)
                      m[6] * p.x + m[7] * p.y + m[8] * p.z };
 }
 
-/* A part of the largest, at least the thinnest; 0 counts as above 0. */
+/* A size relative to the largest, at least the thinnest; 0 becomes positive. */
 static double part_of(double size, double largest)
 {
     const double part = size / largest;
     return part < 0 ? fmin(part, -WR_THINNEST) : fmax(part, WR_THINNEST);
 }
 
-/* cof of the stretch times the sign of its determinant: |s1 s2 s3| / s. */
+/* Cofactors of the stretch times the sign of its determinant: |s1 s2 s3| / s. */
 static void place_stretch(WrVec3 sizes, WrPlacement *out)
 {
     const double largest = fmax(fabs(sizes.x), fmax(fabs(sizes.y), fabs(sizes.z)));
@@ -83,7 +82,7 @@ bool wr_scene_is_thin(const WrScene *scene)
     return place.stretched && fmin(fabs(s.x), fmin(fabs(s.y), fabs(s.z))) < 1.0 / 32;
 }
 
-/* Turntable Ry(turn) after the pose Rz Ry Rx; it carries the object's place with it. */
+/* Turntable Ry(turn) after the pose Rz Ry Rx; it also rotates the object's position. */
 static void place_object(const WrScene *scene, double turn_deg, WrPlacement *out)
 {
     const double *pose = wr_surfaces[scene->shape.kind]->pose_deg;
@@ -101,8 +100,8 @@ static void place_object(const WrScene *scene, double turn_deg, WrPlacement *out
     place_stretch(scene->sizes, out);
 }
 
-/* Where `up` says nothing, because it is 0 or lies along the view: the far side is up when looking
- * straight down, the near side when looking straight up, else the world's y. */
+/* Replacement if `up` is 0 or parallel to the view: the far side is up when looking straight down, the
+ * near side when looking straight up, else the world's y. */
 static WrVec3 other_up(WrVec3 forward)
 {
     if (fabs(forward.y) > 0.9) return (WrVec3){ 0, 0, forward.y > 0 ? 1 : -1 };
@@ -116,7 +115,7 @@ static void place_axes(const WrCamera *camera, WrVec3 forward, WrPlacement *out)
     if (v3_len(across) < 1e-9) across = v3_cross(forward, other_up(forward));
     out->forward = forward;
     out->right = v3_unit(across, none);
-    if (v3_len(across) < 1e-3) { /* of a short product a part is rounding, not across the view */
+    if (v3_len(across) < 1e-3) { /* a short product consists of rounding errors */
         across = v3_mad(out->right, forward, -v3_dot(out->right, forward));
         out->right = v3_unit(across, none);
     }
@@ -143,14 +142,15 @@ static bool check_camera(const WrCamera *camera, double aspect, WrError *err)
                    camera->eye.x, camera->eye.y, camera->eye.z);
 }
 
-/* How far the eye stands from the target, for a ball of radius `ball` about the target to fit: its
- * outline, at ball / sqrt(distance^2 - ball^2), falls on the nearer border divided by `margin`. Parallel
- * rays: twice the radius; of a larger ball that fills the picture (margin 1) twice that of one which would keep MARGIN. */
+/* Distance of the eye from the target so that a sphere of radius `ball` about the target fits: its
+ * outline, at ball / sqrt(distance^2 - ball^2), is at the nearer border divided by `margin`. Parallel
+ * rays: twice the radius; for a larger sphere that fills the picture (margin 1) twice that of the
+ * sphere that would keep MARGIN. */
 static double fit_distance(double ball, double margin, double half_height, double aspect,
                            bool orthographic)
 {
     if (orthographic) return margin < MARGIN ? 2 * ball / MARGIN : 2 * ball;
-    double half = half_height * (aspect < 1 ? aspect : 1); /* of the nearer pair of borders */
+    double half = half_height * (aspect < 1 ? aspect : 1); /* for the nearer pair of borders */
     return ball * sqrt(1 + margin / half * (margin / half));
 }
 
@@ -158,7 +158,7 @@ static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out
 {
     WrVec3 back = v3_unit(v3_sub(camera->eye, camera->target), (WrVec3){ 0, 0, 1 });
     place_axes(camera, v3_neg(back), out);
-    /* The objects' ball is about the world's origin; this one is about the target and holds it. */
+    /* The objects' sphere is about the world's origin; this one is about the target and contains it. */
     const double off = v3_len(camera->target);
     double ball = out->ball + off, reach = out->reach + off;
     out->orthographic = camera->orthographic;
@@ -173,7 +173,7 @@ static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out
     const bool fits = camera->fit || (camera->orthographic && camera->size <= 0);
     out->widen = !fits && camera->frame > aspect ? camera->frame / aspect : 1;
     out->half_height *= out->widen;
-    /* The bases keep the margin; only what stands beyond it moves the eye. */
+    /* The bases keep the margin; only displacements beyond it move the eye. */
     const double away =
         fmax(fit_distance(ball, MARGIN, out->half_height, aspect, camera->orthographic),
              fit_distance(reach, 1, out->half_height, aspect, camera->orthographic));

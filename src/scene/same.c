@@ -1,9 +1,9 @@
-/* Which scenes differ in light alone. */
+/* Comparison of scenes that differ only in light. */
 #include "scene/scene.h"
 
 #include <string.h>
 
-/* What it is laid by; the picture itself is the caller's to compare. */
+/* Compares the repetition; the caller compares the picture itself. */
 static bool same_laid(const WrTextureSample *a, const WrTextureSample *b)
 {
     return a->own == b->own && a->ru == b->ru && a->rv == b->rv;

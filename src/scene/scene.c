@@ -51,7 +51,7 @@ WrScene *wr_scene_new(void)
     return scene;
 }
 
-/* `count` elements copied to a block of their own; NULL for none. */
+/* Copies `count` elements to a new block; NULL for none. */
 static void *copied(const void *block, int count, size_t size)
 {
     if (!block || count <= 0) return NULL;
@@ -170,7 +170,7 @@ void wr_scene_repeat(const WrScene *scene, const WrTextureSample *laid, double *
 
 WrScene *wr_scene_share(const WrScene *scene)
 {
-    WrScene *shared = (WrScene *)scene; /* only the count changes */
+    WrScene *shared = (WrScene *)scene; /* only the reference count changes */
     __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
     return shared;
 }
@@ -240,8 +240,8 @@ bool wr_scene_view_equal(const WrSceneView *a, const WrSceneView *b)
            p->size == q->size && p->frame == q->frame;
 }
 
-/* Where to look in the table: periodic axes are brought to 0..1; beyond the ends of a clamped one
- * F is constant, so that replicas there do not repeat. */
+/* Table coordinate: periodic axes are reduced to 0..1; beyond the ends of a clamped one F is constant,
+ * so that replicas there do not repeat. */
 static double table_parameter(double u, double replicate, bool clamped)
 {
     return clamped ? replicate * u : wr_field_reduce(u, replicate);

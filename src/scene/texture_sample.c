@@ -19,7 +19,7 @@ static double place(double u, double replicate, bool periodic, bool *in)
     return x > 0 ? x < 1 ? x : 1 : 0;
 }
 
-/* Where texel i of n is on an axis that goes round or ends. */
+/* Index of texel i of n on a periodic or clamped axis. */
 static size_t texel_at(int i, int n, bool periodic)
 {
     if (periodic) return (size_t)((i % n + n) % n);
@@ -68,7 +68,8 @@ bool wr_texture_sample_axes(WrNormalFrame frame, const WrSurfacePoint *at, WrMap
     return v3_dot(axes->t, axes->t) > 0 && v3_dot(axes->b, axes->b) > 0;
 }
 
-/* The gradient whose normal is m, of any length. Of what looks away from n it is as steep as reading leaves any. */
+/* The gradient whose normal is m, of any length. For vectors that face away from n its steepness is
+ * limited as in reading. */
 static WrVec3 gradient_of(WrVec3 m, WrVec3 n)
 {
     const double z = v3_dot(n, m), least = WR_NORMAL_LEAST * v3_len(m);
@@ -77,7 +78,8 @@ static WrVec3 gradient_of(WrVec3 m, WrVec3 n)
     return v3_scale(v3_mad(m, n, -z), -1 / (z > least ? z : least));
 }
 
-/* Fu and Fv of such a gradient; under `invariant` the tilt is theirs alone, whatever the tangents' lengths. */
+/* Fu and Fv of such a gradient; under `invariant` they alone determine the tilt, for any length of the
+ * tangents. */
 static void add_gradient(WrBumpMode mode, const WrSurfacePoint *at, WrVec3 g, double *fu,
                          double *fv)
 {
@@ -102,7 +104,7 @@ static void mean_slopes(const WrTexels *at, double *p, double *q)
     if (!at->in_v) *q = 0;
 }
 
-/* Which way a map runs that is laid so often: the other way round, or nowhere. */
+/* Sign of a map's direction for this repetition: mirrored, or 0. */
 static double sign_of(double repeat)
 {
     return repeat > 0 ? 1 : repeat < 0 ? -1 : 0;

@@ -11,7 +11,7 @@ const char *const wr_tone_names[WR_TONE_KINDS] = {
 };
 WR_ROWS_END(wr_tone_names, WR_TONE_KINDS);
 
-#define NO_KNEE 3.0e38f /* light beyond it is none */
+#define NO_KNEE 3.0e38f /* never reached by light */
 
 WrToneCurve wr_tone_curve(const WrTone *tone)
 {

@@ -1,11 +1,14 @@
-/* tone_mapping.h - how light becomes the 8-bit codes of a picture: exposure, and what is done with light that no code can show.
-   Float pictures keep the light as it is. */
+/* tone_mapping.h - conversion of light to the 8-bit codes of a picture: exposure, and treatment of
+   light above 1.
+
+   Float pictures keep the light unchanged. */
 #pragma once
 #include <stdbool.h>
 
 typedef enum WrToneKind {
-    WR_TONE_CLIP, /* beyond 1 all is white */
-    WR_TONE_SOFT, /* from 1/2 on light x is shown as 1 - 1 / 4x: nothing reaches white; each channel by itself */
+    WR_TONE_CLIP, /* light above 1 is white */
+    WR_TONE_SOFT, /* from 1/2 on light x becomes 1 - 1 / 4x: never reaches white; for each channel
+                     separately */
     WR_TONE_KINDS
 } WrToneKind;
 /* As in commands: "clip", "soft". */
@@ -16,7 +19,8 @@ typedef struct WrTone {
     double exposure; /* -20..20 stops: light is multiplied by 2^exposure first */
 } WrTone;
 
-/* A curve for loops: y = gain x; where y > knee, 1 - (1 - knee)^2 / (y + 1 - 2 knee), which goes on with the same slope. */
+/* A curve for loops: y = gain x; if y > knee, 1 - (1 - knee)^2 / (y + 1 - 2 knee), which continues with
+ * the same slope. */
 typedef struct WrToneCurve {
     float gain, knee;
     bool plain; /* gain 1 and no knee: codes are those of the light itself */
