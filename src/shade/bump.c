@@ -24,15 +24,15 @@ int wr_bump_find(const char *name)
     return -1;
 }
 
-/* Vectors and numbers with an exponent of their own, value = v 2^e, so that products of any finite
-   inputs neither overflow nor vanish. Scaling by powers of two is exact: where the plain formula
-   stays within double's range these give its bits. */
+/* Vectors and numbers with a separate exponent, value = v 2^e, so that products of any finite inputs
+   neither overflow nor underflow. Scaling by powers of two is exact: where the plain formula stays
+   within double's range the result has its bits. */
 typedef struct Wide {
     WrVec3 v; /* largest component 1 <= |x| < 2, or all 0 */
     int e;
 } Wide;
 
-/* Under any exponent that can come up, as the exponent of 0. */
+/* Below any possible exponent; used as the exponent of 0. */
 enum { FAR = 20000 };
 
 static WrVec3 scaled(WrVec3 a, int e)
@@ -84,7 +84,7 @@ static Wide wide_cross(Wide a, Wide b)
     return wide(v3_cross(a.v, b.v), a.e + b.e);
 }
 
-/* Back to doubles; beyond their range divided by a power of two: the direction counts. */
+/* Converts back to doubles; beyond their range divided by a power of two: only the direction matters. */
 static WrVec3 wide_value(Wide a)
 {
     return scaled(a.v, a.e < DBL_MAX_EXP - 2 ? a.e : DBL_MAX_EXP - 2);
@@ -95,7 +95,7 @@ static WrVec3 wide_unit(Wide a, WrVec3 fallback)
     return v3_unit(a.v, fallback);
 }
 
-/* What the formulas share at one point. */
+/* Inputs shared by the formulas at one point. */
 typedef struct Point {
     WrVec3 n_unit;
     Wide n, pu, pv;
@@ -109,9 +109,9 @@ static Wide d_vector(const Point *p)
     return wide_cross(wide(p->n_unit, 0), across);
 }
 
-/* The direction of D, also where it has lost its length: where Pu = 0, n x Pu has tended to 0
- * along Pv (and where Pv = 0, n x Pv along -Pu) if the two tangents meet it at right angles, so
- * that D tends to 0 along -Fv Pv (-Fu Pu). Zero where nothing tells. */
+/* The direction of D, also if its length has vanished: where Pu = 0, n x Pu tends to 0 along Pv (and
+ * where Pv = 0, n x Pv along -Pu) if the two tangents meet at right angles there, so that D tends to 0
+ * along -Fv Pv (-Fu Pu). Zero if it is undetermined. */
 static WrVec3 d_direction(const Point *p)
 {
     const WrVec3 zero = { 0, 0, 0 };
@@ -145,7 +145,7 @@ static Wide invariant(const Point *p)
     return wide_add(p->n, turned);
 }
 
-/* Q = P_u + F n_u, the tangent's part in the tangent plane, and the power of two over its terms. */
+/* Q = P_u + F n_u, the tangent's part in the tangent plane, and the exponent that bounds its terms. */
 static Wide offset_tangent(Wide tangent, double f, WrVec3 n_du, int *size)
 {
     Wide turn = wide_scale(wide(n_du, 0), f);
@@ -155,7 +155,7 @@ static Wide offset_tangent(Wide tangent, double f, WrVec3 n_du, int *size)
     return wide_add(tangent, turn);
 }
 
-/* `a`, or 0 where it is nothing but what rounding left of terms of size 2^size that cancel. */
+/* `a`, or 0 if it is only the rounding error of cancelling terms of size 2^size. */
 static Wide above_rounding(Wide a, int size)
 {
     const int bits = 46;
@@ -167,11 +167,11 @@ static int exponent(double s)
     return s != 0 && fabs(s) <= DBL_MAX ? ilogb(s) : -FAR;
 }
 
-/* N' = (Qu + Fu n) x (Qv + Fv n), multiplied out, because n x n = 0 would else leave nothing but
- * rounding on steep slopes:
+/* N' = (Qu + Fu n) x (Qv + Fv n), expanded, because on steep slopes the rounding error of n x n = 0
+ * would otherwise dominate:
  *   N' = Qu x Qv + n x (Fu Qv - Fv Qu),   Qu = Pu + F n_u,  Qv = Pv + F n_v
- * Blinn's formula with Q in place of the tangents. Exactly 0 at a focal distance, where
- * det(I - F S) = 0 (HC12). */
+ * This is Blinn's formula with Q instead of the tangents. Exactly 0 at a focal distance, where det(I -
+ * F S) = 0 (HC12). */
 static Wide exact(const Point *p, WrVec3 n_u, WrVec3 n_v, double f)
 {
     int size_u, size_v;
@@ -197,7 +197,7 @@ static Wide perturbed(WrBumpMode mode, const Point *p, WrVec3 n_u, WrVec3 n_v, d
     return p->n;
 }
 
-/* Nothing to do: no slope, and in exact mode no offset of a curved surface either. */
+/* True if N is unchanged: no slope, and in exact mode no offset of a curved surface either. */
 static bool untouched(WrBumpMode mode, WrVec3 n_u, WrVec3 n_v, double f, double fu, double fv)
 {
     if (mode == WR_BUMP_NONE) return true;
@@ -213,7 +213,7 @@ WrVec3 wr_bump_normal(WrBumpMode mode, WrVec3 n, WrVec3 n_unit, WrVec3 pu, WrVec
     return wide_value(perturbed(mode, &p, n_u, n_v, f));
 }
 
-/* n + a D/|D|: the limit of N'' made unit, whatever became of |N| and |D| (HC19). */
+/* n + a D/|D|: the limit of the unit N'', independent of |N| and |D| (HC19). */
 static WrVec3 invariant_unit(const Point *p)
 {
     int e;

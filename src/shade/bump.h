@@ -1,16 +1,16 @@
-/* bump.h - the paper in one page: how F(u,v) turns the normal of P(u,v). The meaning; every faster
-   form must agree with it.
-   Double precision; N = Pu x Pv is not unit; n = N/|N| or its limit where N = 0.
+/* bump.h - the bump formulas of the paper: the perturbed normal of P(u,v) from F(u,v).
+
+   This is the definition; every faster form must agree with it. Double precision; N = Pu x Pv is not
+   unit; n = N/|N| or its limit where N = 0.
 
    blinn      N' = N + D,  D = Fu (n x Pv) - Fv (n x Pu)                       Blinn 1978 section 2
-              drops the terms in F: right while F is small against the radii of curvature.
-              The angle of rotation has tan(theta) = |D| / |N|, about A = Fv Pu - Fu Pv.
-   invariant  N'' = N + D',  D' = a D |N| / |D|,  a = sqrt(Fu^2 + Fv^2)         section 4
-              tan(theta') = a whatever the object's scale.
-   exact      N' = Pu' x Pv',  Pu' = Pu + Fu n + F n_u,  Pv' = Pv + Fv n + F n_v   the true normal
-              of the displaced surface P' = P + F n, with the terms that the paper drops. Computed
-              as Qu x Qv + n x (Fu Qv - Fv Qu), Qu = Pu + F n_u, Qv = Pv + F n_v: n x n = 0 drops
-              out. */
+              drops the terms in F: accurate while F is small compared with the radii of curvature. The
+              angle of rotation has tan(theta) = |D| / |N|, about A = Fv Pu - Fu Pv.
+   invariant  N'' = N + D',  D' = a D |N| / |D|,  a = sqrt(Fu^2 + Fv^2)         section 4 tan(theta') =
+              a at any scale of the object.
+   exact      N' = Pu' x Pv',  Pu' = Pu + Fu n + F n_u,  Pv' = Pv + Fv n + F n_v   the true normal of
+              the displaced surface P' = P + F n, with the terms that the paper drops. Computed as Qu x
+              Qv + n x (Fu Qv - Fv Qu), Qu = Pu + F n_u, Qv = Pv + F n_v: n x n = 0 drops out. */
 #pragma once
 #include "base/vec.h"
 #include "shade/bump_mode.h"
@@ -31,26 +31,25 @@ static inline WrVec3 wr_bump_axis(WrVec3 pu, WrVec3 pv, double fu, double fv)
  *
  * n, n_unit     N and its unit (or limiting) direction
  * pu, pv        tangents          n_u, n_v   derivatives of n_unit (exact only)
- * f, fu, fv     scene units, and scene units per unit of u, v: height and replication included;
- *               finite
- * Result        not unit; exactly n where Fu = Fv = 0 (exact: where F or n_u and n_v are 0
- *               as well), bit for bit (HC17). invariant gives N where N or D is 0; exact gives
- *               exactly 0 where N' is nothing but rounding, as at a focal distance (HC12). Where
- *               N' lies beyond double's range it comes divided by a power of two.
- * Never NaN or infinite for finite input, whatever the slope or scale (HC09, HC12-HC19). */
+ * f, fu, fv     scene units, and scene units per unit of u, v: height and replication included; finite
+ * Result        not unit; exactly n where Fu = Fv = 0 (exact: where F or n_u and n_v are 0 as well),
+ *               bit for bit (HC17). invariant returns N where N or D is 0; exact returns exactly 0
+ *               where N' is only rounding error, as at a focal distance (HC12). If N' is beyond
+ *               double's range it is divided by a power of two. Never NaN or infinite for finite input,
+ *               for any slope or scale (HC09, HC12-HC19). */
 WrVec3 wr_bump_normal(WrBumpMode mode, WrVec3 n, WrVec3 n_unit, WrVec3 pu, WrVec3 pv, WrVec3 n_u,
                       WrVec3 n_v, double f, double fu, double fv);
 
-/* N' made unit; n_unit where N' is 0 or not finite. */
+/* N' normalised; n_unit where N' is 0 or not finite. */
 WrVec3 wr_bump_unit(WrVec3 n_perturbed, WrVec3 n_unit);
 
-/* The perturbed normal made unit, right at the limits as well; arguments as wr_bump_normal.
+/* The normalised perturbed normal, also correct in limiting cases; arguments as wr_bump_normal.
  *
- * Result        unit; n_unit bit for bit where Fu = Fv = 0, as above, and where N' = 0. invariant:
- *               n + a D/|D| made unit, so that tan(theta') = a also where N = 0; where D = 0 too,
- *               its direction is the limit for tangents at right angles, -Fv Pv where Pu = 0 and
- *               -Fu Pu where Pv = 0. Else wr_bump_normal made unit, but without loss where N'
- *               itself would leave double's range on either side. */
+ * Result        unit; n_unit bit for bit where Fu = Fv = 0, as above, and where N' = 0. invariant: n +
+ *               a D/|D| normalised, so that tan(theta') = a also where N = 0; where D = 0 too, its
+ *               direction is the limit for tangents at right angles, -Fv Pv where Pu = 0 and -Fu Pu
+ *               where Pv = 0. Otherwise wr_bump_normal normalised, but without loss if N' itself would
+ *               leave double's range in either direction. */
 WrVec3 wr_bump_unit_normal(WrBumpMode mode, WrVec3 n, WrVec3 n_unit, WrVec3 pu, WrVec3 pv,
                            WrVec3 n_u, WrVec3 n_v, double f, double fu, double fv);
 

@@ -1,4 +1,4 @@
-/* bump_mode.h - the ways in which a table turns the normal, by name; what each means is in bump.h. */
+/* bump_mode.h - names of the bump modes, whose formulas are in bump.h. */
 #pragma once
 
 typedef enum WrBumpMode {

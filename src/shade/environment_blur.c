@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-#define NODES 4096   /* of a lobe's integral */
-#define NOTHING 1e-7 /* orders from where all are less are left out */
+#define NODES 4096   /* for a lobe's integral */
+#define NOTHING 1e-7 /* higher orders are dropped if all are below this */
 
 int wr_blur_width(const WrEnvironmentBrdf *gloss, double fine)
 {
@@ -66,11 +66,11 @@ typedef struct Complex {
 typedef struct Blur {
     const WrEnvironmentMap *from;
     int width, height, orders; /* waves 0 .. orders - 1 */
-    int places;                /* that a texel is the mean of, a side */
-    Complex *wave;             /* [3][orders][height]: of rows, then blurred */
+    int places;                /* samples averaged for a texel, per side */
+    Complex *wave;             /* [3][orders][height]: transforms of rows, then blurred */
     WrFft *fft;                /* of a row */
     double *sine, *cosine,
-        *weight;   /* [height] of a row's angle from the upper pole; of its integral */
+        *weight;   /* [height] a row's angle from the upper pole; weight of its integral */
     double *order; /* [orders] */
     float *out;
 } Blur;
@@ -132,7 +132,8 @@ static void waves_to_row(int j, int worker, void *ctx)
         memset(row, 0, (size_t)w * sizeof *row);
         for (int m = 0; m < b->orders; m++) {
             const Complex x = wave_of(b, c, m)[j];
-            row[m] = (Complex){ x.re, -x.im }; /* the way back is that of the conjugate */
+            /* the inverse transform is computed with the conjugate */
+            row[m] = (Complex){ x.re, -x.im };
             if (m > 0) row[w - m] = x;
         }
         wr_fft_run(b->fft, &row->re, scratch);
@@ -143,7 +144,7 @@ static void waves_to_row(int j, int worker, void *ctx)
     wr_free(row);
 }
 
-/* The harmonics of one wave, order by order: taken from the rows, multiplied, put back. */
+/* The harmonics of one wave, order by order: projected from the rows, multiplied, added back. */
 typedef struct Legendre {
     double *now, *before; /* [height] */
     Complex *sum;         /* [3][height] */
@@ -151,7 +152,7 @@ typedef struct Legendre {
 
 static void start_legendre(const Blur *b, int m, Legendre *p)
 {
-    double norm = -0.5 * wr_log2(4 * WR_PI); /* its logarithm: a high power is next to nothing */
+    double norm = -0.5 * wr_log2(4 * WR_PI); /* its logarithm: a high power underflows */
     for (int k = 1; k <= m; k++) norm += 0.5 * wr_log2((2 * k + 1) / (2.0 * k));
     for (int j = 0; j < b->height; j++) {
         p->before[j] = 0;
@@ -206,7 +207,8 @@ static void blur_wave(int m, int worker, void *ctx)
     wr_free(p.sum);
 }
 
-/* Fejer's weights: with them sums over the rows are the integrals of all orders below their number. */
+/* Fejer's weights: with them sums over the rows are the exact integrals of all orders below their
+ * number. */
 static void fill_rows(Blur *b)
 {
     for (int j = 0; j < b->height; j++) {

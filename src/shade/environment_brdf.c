@@ -7,7 +7,8 @@
 
 enum { RINGS = 32, SPOKES = 24 };
 
-/* What one lamp adds, as in shade/reflection_body.h: of the highlight, without ks. n = (0, 0, 1), v = (sin, 0, nv). */
+/* Contribution of one lamp, as in shade/reflection_body.h: the highlight without ks. n = (0, 0, 1), v =
+   (sin, 0, nv). */
 typedef struct Place {
     double nl, nv, nh, vh, rv;
 } Place;
@@ -48,7 +49,8 @@ static double cavities(const WrReflectance *of, const WrMatter *m, Place at)
     return m->scale * a2 / (w * w) * g * fresnel(at.vh, m->ior) / at.nv;
 }
 
-/* Of a lamp's formula (1/pi) of the integral over directions, by facets h that stand as GGX ones of width alpha would. */
+/* (1/pi) of the integral of a lamp's formula over directions, sampled by facet normals h of a GGX
+ * distribution of width alpha. */
 static double integral(Lamp *lamp, const WrReflectance *of, const WrMatter *m, double alpha,
                        double nv, bool gated)
 {
@@ -67,7 +69,7 @@ static double integral(Lamp *lamp, const WrReflectance *of, const WrMatter *m, d
     return sum / (RINGS * SPOKES);
 }
 
-/* (1/pi) of the integral of (n.l) w(l) over directions, by l. */
+/* (1/pi) of the integral of (n.l) w(l) over directions, sampled by l. */
 static double matt_integral(double nv, bool fresnels)
 {
     const double sv = sqrt(1 - nv * nv);
@@ -90,7 +92,7 @@ static double published_ggx(const WrMatter *m, double mu)
     return (1 - m->metal) * (1 - m->f0) * (1 - matt_integral(mu, true));
 }
 
-/* Fujii's Oren-Nayar, as shade/reflection_body.h has it. */
+/* Fujii's Oren-Nayar, as in shade/reflection_body.h. */
 static double matt_albedo(const WrMatter *m, double mu)
 {
     const double s = sqrt(fmax(0, 1 - mu * mu));
@@ -219,7 +221,7 @@ static bool same(const Kept *kept, const WrReflectance *of, double ks, double ti
            kept->tint == tint && kept->gated == gated;
 }
 
-/* The last few are kept, since every picture asks. */
+/* The last few results are cached, since every picture needs them. */
 void wr_environment_brdf_init(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMatter *m,
                               double ks, double tint, bool gated)
 {

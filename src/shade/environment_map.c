@@ -20,7 +20,7 @@ WR_ROWS_END(wr_environment_map_names, WR_ENVIRONMENT_MAP_KINDS);
 
 WrEnvironmentMap *wr_environment_map_share(const WrEnvironmentMap *surround)
 {
-    WrEnvironmentMap *shared = (WrEnvironmentMap *)surround; /* only the count changes */
+    WrEnvironmentMap *shared = (WrEnvironmentMap *)surround; /* only the reference count changes */
     if (shared) __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
     return shared;
 }
@@ -49,7 +49,7 @@ void wr_environment_map_place(WrVec3 d, double *u, double *v)
     *v = 0.5 + (across > 0 || d.y != 0 ? wr_atan2(d.y, across) / WR_PI : 0);
 }
 
-/* Texel i, j of a channel, where rows -1 and H make the poles the mean of the row beside them. */
+/* Texel i, j of a channel; rows -1 and H, the poles, are the mean of the adjacent row. */
 static double texel(const WrEnvironmentMap *s, int i, int j, int c)
 {
     const WrImage *image = s->image;
@@ -86,7 +86,8 @@ void wr_environment_map_turn(double turn_deg, double out[9])
 
 /* ---- harmonics ---- */
 
-/* Sums of a row over its columns, by longitude p: of 1, sin p, cos p, sin 2p, cos 2p. */
+/* Sums of a row over its columns, weighted by functions of longitude p: 1, sin p, cos p, sin 2p, cos
+ * 2p. */
 typedef struct RowSums {
     double of[5][3];
 } RowSums;
@@ -134,7 +135,7 @@ static void add_harmonics(const RowSums *sums, double cl, double sl, double angl
     }
 }
 
-/* The integral over the texels, each its own solid angle (4 pi / W) sin(pi / 2H) cos t. */
+/* The integral over the texels, each with its own solid angle (4 pi / W) sin(pi / 2H) cos t. */
 static void find_harmonics(const WrImage *image, double out[WR_HARMONICS][3])
 {
     const int w = image->width, h = image->height;
@@ -153,18 +154,18 @@ static void find_harmonics(const WrImage *image, double out[WR_HARMONICS][3])
     }
     wr_free(wave);
     for (int l = 1; l < WR_HARMONICS;
-         l++) /* what texels' middles make of the mean, which has none */
+         l++) /* contribution of the mean by discretisation; exactly it is 0 */
         for (int c = 0; c < 3; c++) out[l][c] -= out[0][c] / one[0][c] * one[l][c];
 }
 
-/* Of one colour all but the first are 0. */
+/* For a constant colour all but the first are 0. */
 static void find_even(const WrImage *image, double out[WR_HARMONICS][3])
 {
     memset(out, 0, WR_HARMONICS * sizeof *out);
     for (int c = 0; c < 3; c++) out[0][c] = 2 * sqrt(WR_PI) * (double)image->data[c];
 }
 
-/* The same surroundings in so many texels that each stands for its middle. */
+/* The same surroundings at a resolution where each texel is represented by its centre. */
 static WrImage *finer(const WrEnvironmentMap *s, WrError *err)
 {
     WrImage *to = wr_image_new(256, 128, 3, err);
@@ -238,7 +239,7 @@ void wr_environment_map_form(const WrEnvironmentMap *surround, const double a[9]
     }
 }
 
-/* ---- out of pictures ---- */
+/* ---- from pictures ---- */
 
 static float taken(float x, WrEnvironmentMapTold *told)
 {
@@ -292,7 +293,7 @@ static void find_poles(WrEnvironmentMap *s)
     }
 }
 
-/* Takes the picture. */
+/* Owns the picture. */
 static WrEnvironmentMap *surround_of(WrImage *image, WrError *err)
 {
     WrEnvironmentMap *s = wr_alloc(1, sizeof *s);
@@ -339,7 +340,7 @@ static void add_light(double rgb[3], double share, double r, double g, double b)
     rgb[0] += share * r, rgb[1] += share * g, rgb[2] += share * b;
 }
 
-/* A panel with soft edges about a direction, so many radii wide and high. */
+/* A panel with soft edges about a direction, with this half width and height. */
 static double panel(WrVec3 d, WrVec3 middle, double wide, double high)
 {
     const WrVec3 m = v3_unit(middle, (WrVec3){ 0, 1, 0 }), up = { 0, 1, 0 }, back = { 0, 0, 1 };
@@ -375,7 +376,7 @@ static void sky(WrVec3 d, double rgb[3])
     add_light(rgb, (1 - ground) * step(0.9982, 0.9990, c), 330, 300, 250); /* 3 degrees */
 }
 
-/* Almost dark, with a long low window at the left: what lights a relief from the side. */
+/* Almost dark, with a long low window at the left: grazing light for reliefs. */
 static void raking(WrVec3 d, double rgb[3])
 {
     const double up = step(-1, 1, d.y);

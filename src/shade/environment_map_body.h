@@ -1,8 +1,10 @@
-/* environment_map_body.h - light of surroundings at one sample: the formulas, written once for both precisions and for every
-   kernel, after reflection_body.h.
-   No branch but ?:. No include guard: compiled once a precision. The reference renderer has its own. */
+/* environment_map_body.h - formulas of environment light at one sample, for both precisions and every
+   kernel.
 
-/* E / pi of a direction n by wr_environment_map_form's terms; nowhere below 0. */
+   Included after reflection_body.h. Only ?:, no branches. No include guard: compiled once per
+   precision. The reference renderer has its own formulas. */
+
+/* E / pi for a direction n from wr_environment_map_form's terms; nowhere negative. */
 R_INLINE REAL surround_light(const REAL *f, VEC n)
 {
     const REAL x = n.x * (f[1] + f[4] * n.x + f[7] * n.y);
@@ -11,7 +13,7 @@ R_INLINE REAL surround_light(const REAL *f, VEC n)
     return reflect_positive(f[0] + (x + (y + z)));
 }
 
-/* A share of light, by x = sqrt(n.v). */
+/* A fraction of light, by x = sqrt(n.v). */
 R_INLINE REAL surround_share(const REAL *a, REAL x)
 {
     return reflect_positive(reflect_terms(a, x));
@@ -22,7 +24,7 @@ R_INLINE REAL surround_root(VEC n, VEC v)
     return r_sqrt(reflect_least(reflect_positive(v_dot(n, v)), K_(1)));
 }
 
-/* The mirrored direction r = 2 (n.v) n - v, of n' as it is seen; unit, as n and v are. */
+/* The mirrored direction r = 2 (n.v) n - v, for n' bent into view; unit, as n and v are. */
 R_INLINE VEC surround_mirrored(VEC n, VEC v)
 {
     const VEC seen = reflect_seen(n, v);

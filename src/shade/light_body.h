@@ -1,11 +1,13 @@
-/* light_body.h - light and reflection at one sample: the formulas, written once for both precisions and for every kernel.
-   After surface/formula.h's names for one precision, or the kernels' (render/kernels/kern_body.h): REAL, VEC, K_,
-   R_INLINE, v_dot, r_sqrt, r_pow_below. No branch but ?:, so that loops over samples vectorise. No include guard:
-   compiled once a precision. The reference renderer has its own, on purpose.
+/* light_body.h - formulas of light and reflection at one sample, for both precisions and every kernel.
+
+   Uses the names of surface/formula.h for one precision, or those of the kernels
+   (render/kernels/kern_body.h): REAL, VEC, K_, R_INLINE, v_dot, r_sqrt, r_pow_below. Only ?:, no
+   branches, so that loops over samples vectorise. No include guard: compiled once per precision. The
+   reference renderer intentionally has its own formulas.
 
      I = C (ambient + sum of kd L max(0, n'.l)) + sum of ks L lobe(n'.h)        h = (l + v) / |l + v| */
 
-/* The direction from one point to another; of nearly equal points their difference. */
+/* The direction from one point to another; for nearly equal points their difference. */
 R_INLINE VEC light_toward(VEC from, VEC to)
 {
     VEC w = v_sub(to, from);
@@ -19,8 +21,8 @@ R_INLINE REAL light_lit(REAL n_dot_l)
     return n_dot_l > K_(0) ? n_dot_l : K_(0);
 }
 
-/* The half vector h. What a high power is taken of is 1 - n'.h: near 1 that is |n' - h|^2 / 2, to which
-   rounding of the lengths of n' and h does nothing (HC89). */
+/* The half vector h. High powers are computed from 1 - n'.h: near 1 that is |n' - h|^2 / 2, which is
+   insensitive to rounding of the lengths of n' and h (HC89). */
 typedef struct Half {
     VEC h;         /* unit; 0 where l and v are opposite */
     REAL c, below; /* n'.h; 1 - n'.h */
@@ -44,7 +46,8 @@ R_INLINE REAL light_lobe(REAL c, REAL below, REAL s)
     return r_pow_below(c > K_(0) ? c : K_(0), below, s);
 }
 
-/* `lobe`, or 0 where nothing shines: where l and v are opposite (HC91), or, gated, behind the light. */
+/* `lobe`, or 0 if there is no highlight: if l and v are opposite (HC91), or, gated, facing away from
+ * the light. */
 R_INLINE REAL light_shown(REAL lobe, bool gate, REAL n_dot_l, bool there)
 {
     return (!gate || n_dot_l > K_(0)) && there ? lobe : K_(0);

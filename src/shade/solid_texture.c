@@ -17,7 +17,8 @@ const char *const wr_solid_texture_drives[WR_SOLID_TEXTURE_DRIVES] = {
     [WR_SOLID_TEXTURE_COLOURS | WR_SOLID_TEXTURE_ROUGHENS | WR_SOLID_TEXTURE_BUMPS] = "all",
 };
 
-/* Quintic noise in space: value noise has the variance (181/231)^3 / 3; that of |Perlin's| is measured at 2e7 places. */
+/* Quintic noise in space: value noise has the variance (181/231)^3 / 3; that of |Perlin noise| was
+   measured at 2e7 points. */
 const double wr_solid_texture_means[WR_SOLID_TEXTURE_NOISES] = { 0, 0.1797 };
 const double wr_solid_texture_variances[WR_SOLID_TEXTURE_NOISES] = { 0.16035, 0.01629 };
 const double wr_solid_texture_fadings[WR_SOLID_TEXTURE_NOISES] = { 0.154, 0.76 };

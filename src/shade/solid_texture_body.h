@@ -1,15 +1,16 @@
-/* solid_texture_body.h - solid textures over boxes: what patterns come to where a pixel holds w of them, in closed form. Written once
-   for both precisions and for every kernel, after light_body.h.
-   No branch but ?:. No include guard: compiled once a precision. The reference renderer has its own.
+/* solid_texture_body.h - solid texture patterns averaged over a pixel, in closed form, for both
+   precisions and every kernel.
 
-   t is where a pixel's middle lies in the pattern, w how much of it the pixel holds: the side of a box.
+   Included after light_body.h. Only ?:, no branches. No include guard: compiled once per precision. The
+   reference renderer has its own formulas. t is the pattern coordinate of a pixel's centre, w the
+   extent of the pixel: the side of a box.
 
      pulse     1 in the last part d of each turn: at t, or as a mean over t - w/2 .. t + w/2
-     wave      1/2 + 1/2 sin 2 pi t;  the mean has sin(pi w) / (pi w) before the sine
+     wave      1/2 + 1/2 sin 2 pi t;  the mean has the factor sin(pi w) / (pi w) of the sine
      square    1 in even cells, -1 in odd ones; a checker's mean is 1/2 - 1/2 of their product along three axes
-     ramp      t, within 0 and 1                                                                       */
+     ramp      t, within 0 and 1 */
 
-#define GRAIN_LEAST K_(1e-7) /* a box this small is a point */
+#define GRAIN_LEAST K_(1e-7) /* a smaller box is treated as a point */
 
 R_INLINE REAL grain_clamp(REAL x)
 {
@@ -22,13 +23,13 @@ R_INLINE REAL grain_pulse(REAL t, REAL d)
     return t - r_floor(t) >= K_(1) - d ? K_(1) : K_(0);
 }
 
-/* The part of a box of side w about x that is above 0, by what goes into it per length: no difference cancels (HC118). */
+/* The fraction of a box of side w about x that is above 0, with per = 1 / w: no cancellation (HC118). */
 R_INLINE REAL grain_step(REAL x, REAL per)
 {
     return grain_clamp(x * per + K_(0.5));
 }
 
-/* The pulse's integral from 0, as far as whole turns go. */
+/* The pulse's integral from 0, over whole turns. */
 R_INLINE REAL grain_sum(REAL t, REAL d)
 {
     const REAL whole = r_floor(t), rest = t - whole - (K_(1) - d);
@@ -48,7 +49,7 @@ R_INLINE REAL grain_pulse_mean(REAL t, REAL w, REAL d)
     return w > GRAIN_LEAST ? mean : grain_pulse(t, d);
 }
 
-/* What is left of a sine: sin(pi w) / (pi w). */
+/* The remaining amplitude of an averaged sine: sin(pi w) / (pi w). */
 R_INLINE REAL grain_fading(REAL w)
 {
     REAL sine, cosine;
@@ -76,25 +77,25 @@ R_INLINE REAL grain_ramp_mean(REAL t, REAL w)
     return w > K_(1e-3) ? grain_clamp(mean) : grain_clamp(t);
 }
 
-#define GRAIN_GONE K_(10) /* of y: nothing is left from there on */
+#define GRAIN_GONE K_(10) /* of y: zero from there on */
 
-/* What of an octave's value at its middle a pixel shows on the mean: the part with which the square of the error is least, so
-   that no pixel is worse than one sample, nor busier than the truth. y = c x^2 by how many cells x it holds and what the noise's
-   correlation makes of them; 1 / (1 + y) is within 0.03 of that part up to 3 cells of value noise, 2 of |Perlin|'s, measured.
-   0 from GRAIN_GONE on. */
+/* Average weight of an octave's centre value in its pixel mean: the factor with the least squared
+   error, so that no pixel is worse than one sample, nor noisier than the truth. y = c x^2 from the
+   number of cells x in the pixel and the noise's correlation; 1 / (1 + y) is within 0.03 of that factor
+   up to 3 cells of value noise, 2 of |Perlin noise|, measured. 0 from GRAIN_GONE on. */
 R_INLINE REAL grain_left(REAL y)
 {
     const REAL left = K_(1.1) / (K_(1) + y) - K_(0.1);
     return left > K_(0) ? left : K_(0);
 }
 
-/* The same of its slopes, which are as finely grained as if it held the square root of 3 times as much. */
+/* grain_left for slopes, whose detail is as fine as with the square root of 3 times as many cells. */
 R_INLINE REAL grain_left_slope(REAL y)
 {
     return grain_left(K_(3) * y);
 }
 
-/* Which part of an octave's variance lies within the pixel, and is not in its slope there. */
+/* Fraction of an octave's variance within the pixel that its slope does not represent. */
 R_INLINE REAL grain_within(REAL y)
 {
     const REAL slope = grain_left_slope(y);

@@ -1,7 +1,8 @@
-/* textured_reflection.h - what reflection goes by where roughness and metalness are not the same everywhere: the shares of light that are
-   worked out once for a material, at sixteenths of roughness, between which they go straight; and the rungs that
-   surroundings are blurred by.
-   The reference renderer works each place out by itself. */
+/* textured_reflection.h - tables for reflection with varying roughness and metalness.
+
+   The fractions of light that are computed once per material are tabulated at sixteenths of roughness,
+   with linear interpolation; surroundings are blurred at several rungs. The reference renderer computes
+   each point separately. */
 #pragma once
 #include "shade/environment_brdf.h"
 
@@ -9,19 +10,20 @@
 
 typedef struct WrTexturedReflection {
     double mean[WR_TEXTURED_REFLECTION_STEPS], again[WR_TEXTURED_REFLECTION_STEPS]; /* WrMatter's */
-    double albedo[WR_TEXTURED_REFLECTION_STEPS][WR_ALBEDO_TERMS]; /* likewise, of no metal */
+    double albedo[WR_TEXTURED_REFLECTION_STEPS][WR_ALBEDO_TERMS]; /* WrMatter's, without metal */
     double matt[WR_TEXTURED_REFLECTION_STEPS]
-               [WR_ALBEDO_TERMS]; /* WrEnvironmentBrdf's, of no metal */
-    double twice[WR_TEXTURED_REFLECTION_STEPS][WR_ALBEDO_TERMS];  /* its again */
-    double own[2][WR_TEXTURED_REFLECTION_STEPS][WR_ALBEDO_TERMS]; /* of no metal and of metal */
+               [WR_ALBEDO_TERMS]; /* WrEnvironmentBrdf's, without metal */
+    double twice[WR_TEXTURED_REFLECTION_STEPS][WR_ALBEDO_TERMS];  /* its `again` */
+    double own[2][WR_TEXTURED_REFLECTION_STEPS][WR_ALBEDO_TERMS]; /* without metal and for metal */
     double white[2][WR_TEXTURED_REFLECTION_STEPS][WR_ALBEDO_TERMS];
 } WrTexturedReflection;
 
-/* ks, tint, gated: as of wr_environment_brdf_init. Takes some milliseconds. Of models that do not go by roughness all steps are alike. */
+/* ks, tint, gated: as in wr_environment_brdf_init. Takes some milliseconds. For models without
+ * roughness all steps are equal. */
 void wr_textured_reflection_init(WrTexturedReflection *vary, const WrReflectance *of, double ks,
                                  double tint, bool gated);
 
-/* The rungs' lobes: of width 1, 1/2 .. 1/64; then the surroundings as they are. */
+/* The rungs' lobes: of width 1, 1/2 .. 1/64; then the unblurred surroundings. */
 #define WR_TEXTURED_REFLECTION_RUNGS 8
-/* The gloss of that rung, but the last, for a surface of that lobe. */
+/* The gloss of a rung except the last, for a surface of that lobe. */
 void wr_textured_reflection_rung(const WrEnvironmentBrdf *gloss, int rung, WrEnvironmentBrdf *out);
