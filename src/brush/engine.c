@@ -2,7 +2,7 @@
 
    - It computes in float; so positions are relative to an origin that moves by multiples of REBASE,
      radii above LARGE are halved together with all lengths (`unit`), and its output is checked.
-   - Its current values are not set before its first step (and its v2 interface reads them): settle()
+   - Its current values are not set before its first step (and its v2 interface reads them): prime()
      makes steps without drawing.
    - Its random numbers always start equally, and cannot be seeded: a number of resets, each of which
      consumes one, selects another position in their sequence.
