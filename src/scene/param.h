@@ -71,7 +71,7 @@ typedef enum WrSceneParamId {
 typedef struct WrSceneParam {
     const char *command; /* command that sets it: "material" */
     const char *form;    /* form of that command; NULL: all forms */
-    const char *name;    /* of the argument; for a positional one, its placeholder in help */
+    const char *name;    /* of the argument; for a positional one, the word shown in help */
     bool positional, required;
     bool of_light;      /* `place` is in a WrLight, else in a WrScene */
     bool sparse;        /* printed only if it is not the default */

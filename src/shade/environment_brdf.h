@@ -5,9 +5,11 @@
    pi f (n.l) (shade/reflection.h), so surroundings contribute (1/pi) of its integral with L over
    directions:
 
-     diffuse    kd matt(n.v) E(n') / pi         exact for a constant colour; else matt is approximated as independent of l
-     glossy     (own(n.v) C + white(n.v)) G(r)  own and white are the lobe's own integrals, G the mean of L with the lobe
-                                                of n = v = r (Karis 2013): ignores the stretch of lobes at grazing angles
+     diffuse    kd matt(n.v) E(n') / pi         exact for a constant colour; else approximated,
+                                                with matt independent of l
+     glossy     (own(n.v) C + white(n.v)) G(r)  own and white are the lobe's own integrals, G the mean
+                                                of L with the lobe of n = v = r (Karis 2013):
+                                                ignores the stretch of lobes at grazing angles
    */
 #pragma once
 #include "shade/reflection.h"

@@ -19,11 +19,11 @@ WR_ROWS_END(wr_energies, WR_ENERGY_COUNT);
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- GGX: how much of the light comes back at once ---- */
+/* ---- GGX: single-scattering albedo ---- */
 
 enum { RINGS = 24, SPOKES = 24, CHECKS = 48 };
 
-/* A facet that is seen from (sin, 0, mu), by two numbers of 0..1: its normal (Heitz 2018). */
+/* Normal of a visible facet for the view (sin, 0, mu), from two numbers of 0..1 (Heitz 2018). */
 static void seen_facet(double alpha, double mu, double radius, double turn, double h[3])
 {
     const double across = alpha * sqrt(1 - mu * mu), len = sqrt(across * across + mu * mu);
@@ -37,7 +37,7 @@ static void seen_facet(double alpha, double mu, double radius, double turn, doub
     h[0] = a * inv, h[1] = b * inv, h[2] = c * inv;
 }
 
-/* Of the light that this facet sends to the viewer, what other facets let through: G2 / G1. */
+/* Fraction of the light from this facet to the viewer that other facets do not block: G2 / G1. */
 static double unmasked(double alpha, double nv, double nl)
 {
     const double a2 = alpha * alpha;
@@ -47,12 +47,12 @@ static double unmasked(double alpha, double nv, double nl)
 
 void wr_ggx_albedo(double alpha, double mu, double out[2])
 {
-    const double whole = RINGS - 0.5 / RINGS; /* of the rings' weights */
+    const double whole = RINGS - 0.5 / RINGS; /* sum of the rings' weights */
     out[0] = out[1] = 0;
     mu = fmax(mu, 1e-6);
     for (int i = 0; i < RINGS; i++)
-        for (int j = 0; j < SPOKES; j++) { /* the other half is this one's mirror image */
-            /* rings of the disc grow narrow towards its rim, where the steep facets are */
+        for (int j = 0; j < SPOKES; j++) { /* the other half is symmetric */
+            /* rings of the disc are narrower towards its rim, where the steep facets are */
             const double t = (i + 0.5) / RINGS, w = t * t;
             double h[3];
             seen_facet(alpha, mu, sqrt(1 - w * w), pi * ((j + 0.5) / SPOKES - 0.5), h);
@@ -102,7 +102,7 @@ double wr_albedo_at(const double terms[WR_ALBEDO_TERMS], double x)
 typedef struct Albedo {
     double alpha;
     double part[2][WR_ALBEDO_TERMS]; /* as wr_ggx_albedo's */
-    double check[2][CHECKS];         /* the same at places between */
+    double check[2][CHECKS];         /* albedos at points between the nodes */
 } Albedo;
 
 static double between(int i)
@@ -127,7 +127,7 @@ static void find_albedo(double alpha, Albedo *out)
     out->alpha = alpha;
 }
 
-/* The last few widths are kept, since every picture asks. */
+/* The last few widths are cached, since every picture needs them. */
 static const Albedo *albedo_of(double alpha)
 {
     enum { KEPT = 8 };
@@ -140,8 +140,8 @@ static const Albedo *albedo_of(double alpha)
     return &kept[next];
 }
 
-/* Raise the polynomial by so much that it is nowhere below the albedo, mostly towards grazing, where it is furthest off:
-   what is left for diffuse light is then never too much. */
+/* Raises the polynomial so that it is nowhere below the albedo, mostly towards grazing angles, where
+   the error is largest: then the remainder for diffuse light is never too large. */
 static void raise_fit(double *terms, const Albedo *albedo, double f0)
 {
     static const double more[WR_ALBEDO_TERMS] = { 1.02, 0, -5, 0, 10, 0, -10, 0, 5, 0, -1 };
@@ -152,7 +152,7 @@ static void raise_fit(double *terms, const Albedo *albedo, double f0)
         most = fmax(most, low / wr_albedo_at(more, between(i)));
     }
     for (int i = 0; i < WR_ALBEDO_TERMS; i++) terms[i] += most * more[i];
-    terms[0] += 1e-4 + 1e-3 * f0; /* of the quadrature */
+    terms[0] += 1e-4 + 1e-3 * f0; /* error of the quadrature */
 }
 
 static void init_ggx(WrMatter *m)
@@ -166,9 +166,9 @@ static void init_ggx(WrMatter *m)
     m->again = m->mean < 1 - 1e-6 ? 1 / (1 - m->mean) : 0;
 }
 
-/* ---- the others ---- */
+/* ---- other models ---- */
 
-/* Oren and Nayar 1994, the qualitative model; kept: as improved by Fujii, with what is reflected more than once. */
+/* Oren and Nayar 1994, the qualitative model; kept: as improved by Fujii, with interreflection. */
 static void init_oren_nayar(WrMatter *m, bool published)
 {
     const double s = m->sigma, ss = s * s;

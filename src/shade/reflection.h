@@ -1,20 +1,20 @@
-/* reflection.h - reflection models: their traits, the parameters of their formulas, and albedos of microfacets.
+/* reflection.h - reflection models: their traits, the parameters of their formulas, and albedos of
+   microfacets.
+
    The models themselves are the table shade/reflection_models.h; the formulas of one sample are in
-   shade/reflection_body.h. The reference renderer has formulas of its own, on purpose.
-
-   This header is included widely, so a model's number is an int here: 0 <= model < wr_reflect_count, a WrReflect.
-
-   A lamp of strength 1 gives pi f (n.l), f the model's reflectance: so matt white is n.l. The albedo E(n.v) is the
-   integral of f (n.l) over all directions: the colour that it has in a white furnace. */
+   shade/reflection_body.h. The reference renderer intentionally has formulas of its own. This header is
+   included widely, so a model's number is an int here: 0 <= model < wr_reflect_count, a WrReflect. A
+   lamp of strength 1 gives pi f (n.l), f the model's reflectance: so matt white is n.l. The albedo
+   E(n.v) is the integral of f (n.l) over all directions: its colour in a white furnace. */
 #pragma once
 #include <stdbool.h>
 
-/* Of a model's two formulas the one that never reflects more than comes, or the one of its source. */
+/* Choice between a model's two formulas: energy-conserving, or as published. */
 typedef enum WrEnergy { WR_ENERGY_KEPT, WR_ENERGY_PUBLISHED, WR_ENERGY_COUNT } WrEnergy;
 
 /* Loops over samples that a model needs. */
 typedef enum WrReflectLoops {
-    WR_REFLECT_LOOPS_STAGES, /* none of its own: the stages `diffuse` and `specular`; of one model alone */
+    WR_REFLECT_LOOPS_STAGES, /* none of its own: the stages `diffuse` and `specular`; only one model */
     WR_REFLECT_LOOPS_UNIFORM, /* its parameters are the same for all samples */
     WR_REFLECT_LOOPS_ROUGH,   /* roughness may vary from sample to sample */
     WR_REFLECT_LOOPS_METAL    /* roughness and metalness may */
@@ -33,10 +33,11 @@ typedef enum WrReflectHighlight {
 #define WR_HIGHLIGHT_IS_OF_FACETS(highlight)                                                       \
     ((highlight) == WR_HIGHLIGHT_CAVITIES || (highlight) == WR_HIGHLIGHT_SMITH)
 
-/* Diffuse light. As above, every difference is a switch without a default. */
+/* Diffuse light. Every difference is a switch without a default, as for highlights. */
 typedef enum WrReflectDiffuse {
     WR_DIFFUSE_LAMBERT,
-    WR_DIFFUSE_ROUGH, /* matt facets, Lambert's at roughness 0; kept: also light that they reflect to each other */
+    WR_DIFFUSE_ROUGH,    /* matt facets, Lambert's at roughness 0; kept: including interreflection
+                         between them */
     WR_DIFFUSE_REMAINDER /* light that the highlight does not reflect; none of metal */
 } WrReflectDiffuse;
 
@@ -49,7 +50,7 @@ typedef struct WrReflectInfo {
     WrReflectLoops loops;
     WrReflectHighlight highlight;
     WrReflectDiffuse diffuse;
-    /* Of the columns above: */
+    /* Derived from the columns above: */
     bool shines;                               /* it has a highlight */
     bool facets;                               /* of microfacets: n' is bent into view */
     bool shininess, roughness, metalness, ior; /* the parameters that it uses */
@@ -61,13 +62,14 @@ extern const char *const wr_energies[WR_ENERGY_COUNT];
 /* The model of a new scene, which the stages compute: WR_REFLECT_LOOPS_STAGES. */
 #define WR_REFLECT_DEFAULT 0
 
-/* kept: energy is kept. Is diffuse light reduced by the albedo of the highlight? */
+/* kept: the energy-conserving formula. True if diffuse light is reduced by the albedo of the highlight. */
 static inline bool wr_reflect_shares(const WrReflectInfo *model, bool kept)
 {
     return kept && model->diffuse == WR_DIFFUSE_REMAINDER;
 }
 
-/* kept: energy is kept. Is there light that facets reflect to each other, tinted once more? */
+/* kept: the energy-conserving formula. True if there is interreflected light, tinted by the colour
+ * again. */
 static inline bool wr_reflect_again(const WrReflectInfo *model, bool kept)
 {
     return kept && model->diffuse == WR_DIFFUSE_ROUGH;
@@ -75,39 +77,41 @@ static inline bool wr_reflect_again(const WrReflectInfo *model, bool kept)
 
 #define WR_ALBEDO_TERMS 11
 
-/* What the formulas go by. */
+/* Coefficients of the formulas. */
 typedef struct WrMatter {
-    double kd, ks;    /* 0: that part is left out */
+    double kd, ks;    /* 0: that part is skipped */
     double colour[3]; /* C */
     double shininess;
+    double scale; /* of the highlight: phong (s + 2) / 2, torrance-sparrow its normalisation; kept;
+                  else 1 and alpha^2 */
     double
-        scale; /* of the highlight: phong (s + 2) / 2, torrance-sparrow its energy's; kept; else 1 and alpha^2 */
-    double alpha; /* width of the facets' slopes, roughness^2, no less than WR_ALPHA_LEAST */
+        alpha; /* width of the facets' slope distribution, roughness^2, at least WR_ALPHA_LEAST */
     double ior, f0, metal;
     double sigma, a, b; /* oren-nayar */
-    double mean;        /* of 1 the share that is reflected at once, over all directions */
-    double again;       /* 1 / (1 - mean); 0 where nothing is left */
+    double mean;        /* fraction of light reflected at once, averaged over all directions */
+    double again;       /* 1 / (1 - mean); 0 if nothing is left */
     double albedo[WR_ALBEDO_TERMS]; /* ggx, kept: E = sum of albedo[i] x^i, x = sqrt(n.v) */
 } WrMatter;
 
-#define WR_ALPHA_LEAST                                                                             \
-    1e-3 /* a lamp's mirror image would be a point: smoother there is none (HC100) */
+#define WR_ALPHA_LEAST 1e-3 /* minimum, since a lamp's mirror image would be a point (HC100) */
 
-/* A material's own numbers. */
+/* The parameters of a material. */
 typedef struct WrReflectance {
     int model; /* WrReflect */
     WrEnergy energy;
     double shininess, roughness, metalness, ior;
 } WrReflectance;
 
-/* All but kd, ks and colour. Numbers outside their range are taken as its ends, no number as 0 (HC100, HC102, HC110). */
+/* Initialises all members except kd, ks and colour. Numbers outside their range are clamped, NaN
+ * becomes 0 (HC100, HC102, HC110). */
 void wr_matter_init(WrMatter *matter, const WrReflectance *of);
 
-/* The albedo of GGX facets of width alpha at n.v = mu, split by Schlick's Fresnel term: E = f0 out[0] + out[1]. By
-   quadrature. */
+/* The albedo of GGX facets of width alpha at n.v = mu, split by Schlick's Fresnel term: E = f0 out[0] +
+   out[1]. By quadrature. */
 void wr_ggx_albedo(double alpha, double mu, double out[2]);
 
-/* The polynomial in x = sqrt(n.v), terms of x^0 on, through values y at Chebyshev's places; y is used up. And its value. */
+/* The Chebyshev nodes of x = sqrt(n.v); the polynomial, coefficients from x^0 on, through values y at
+ * the nodes (y is overwritten); and its value. */
 void wr_albedo_places(double x[WR_ALBEDO_TERMS]);
 void wr_albedo_fit(double y[WR_ALBEDO_TERMS], double out[WR_ALBEDO_TERMS]);
 double wr_albedo_at(const double terms[WR_ALBEDO_TERMS], double x);

@@ -1,47 +1,54 @@
-/* reflection_body.h - what a surface reflects of one lamp, by the models of shade/reflection.h but Blinn-Phong's, which is
-   light_body.h's: pi f (n.l) at one sample. Written once for both precisions and for every kernel, after light_body.h.
-   No branch but ?:, so that loops over samples vectorise; what is the same for all samples is an argument that
-   is known when it is compiled. No include guard: compiled once a precision. The reference renderer has its own.
+/* reflection_body.h - formulas of the reflection models for one lamp and one sample: pi f (n.l), for
+   both precisions and every kernel.
+
+   Included after light_body.h, which contains Blinn-Phong. Only ?:, no branches, so that loops over
+   samples vectorise; arguments that are equal for all samples are compile-time constants. No include
+   guard: compiled once per precision. The reference renderer has its own formulas.
 
      phong              kd (n.l) + ks (r.v)^s,  r = 2 (n.l) n - l                               Phong 1975
                         kept: ks (n.l) (s + 2)/2 (r.v)^s                                        Lewis 1994
-     torrance-sparrow   kd (n.l) + ks k D G F / (n.v), D = a^4 / ((n.h)^2 a^2 + |n x h|^2)^2    Blinn 1977, Trowbridge and Reitz 1975
+     torrance-sparrow   kd (n.l) + ks k D G F / (n.v), D = a^4 / ((n.h)^2 a^2 + |n x h|^2)^2
+                                                                          Blinn 1977, Trowbridge and Reitz 1975
                         G = min(1, 2 (n.h)(n.v)/(v.h), 2 (n.h)(n.l)/(v.h)), F Fresnel's, exact;
                         k = 1, D(0) = 1; kept: k = 1 / (4 a^2)
      oren-nayar         kd (n.l) (A + B max(0,q) / max(n.l, n.v)),  q = l.v - (n.l)(n.v)         Oren, Nayar 1994
-                        kept: kd (n.l) A (1 + sigma q / t) and what is reflected again           Fujii; Portsmouth, Kutz, Hill 2024
-     ggx                kd (1 - metal)(n.l)(1 - F) + ks D F (n.l) V, F Schlick's                 Walter and others 2007, Heitz 2014, glTF 2.0
-                        kept: (1 - E(n.l))(1 - E(n.v)) / (1 - mean E) for 1 - F                  Kelemen, Szirmay-Kalos 2001
+                        kept: kd (n.l) A (1 + sigma q / t) and interreflection
+                                                                          Fujii; Portsmouth, Kutz, Hill 2024
+     ggx                kd (1 - metal)(n.l)(1 - F) + ks D F (n.l) V, F Schlick's
+                                                                          Walter and others 2007, Heitz 2014, glTF 2.0
+                        kept: (1 - E(n.l))(1 - E(n.v)) / (1 - mean E) for 1 - F
+                                                                          Kelemen, Szirmay-Kalos 2001
 
    All are 0 unless n.l > 0. */
 
-/* What one lamp of strength 1 adds. */
+/* Contribution of one lamp of strength 1. */
 typedef struct Reflected {
     REAL own,  /* in the surface's colour */
         white, /* in the lamp's */
-        again; /* reflected more than once: own, times what each colour keeps (reflect_kept) */
+        again; /* interreflection: own, times each colour's kept fraction (reflect_kept) */
 } Reflected;
 
-/* How facets lie: slopes' covariance M across n', along e, across it, and mixed; alike: as the material has them. */
+/* Distribution of facet slopes: covariance M in the tangent plane of n', along e, across it, and mixed;
+ * alike: the material's own. */
 typedef struct Facets {
     VEC e, f;
     REAL ee, ef, ff, det;
     bool alike;
 } Facets;
 
-/* Which of a model's forms, known when it is compiled. */
+/* Variant of a model, known at compile time. */
 typedef struct Form {
-    bool kept, spread, round, told, /* what highlights leave to diffuse light is told */
-        facing,                     /* n' is seen from its front: it is not bent */
+    bool kept, spread, round, told, /* told: `left` is given */
+        facing,                     /* n' faces the viewer: it is not bent */
         dull;                       /* and no highlight is as bright as `least` */
 } Form;
 
-/* A sample by which a lamp's light is reflected. */
+/* A sample that reflects a lamp's light. */
 typedef struct Incidence {
     VEC n, l, v;
     Facets facets;
     REAL spread; /* of slopes: trace of their covariance; 0 unless form.spread */
-    REAL left;   /* form.told: share of diffuse light that highlights leave */
+    REAL left;   /* form.told: fraction of diffuse light left by highlights */
 } Incidence;
 
 /* reflect_FORMULA(Incidence, Form, const MATTER *) are the formulas of shade/reflection_models.h. */
@@ -56,8 +63,8 @@ R_INLINE REAL reflect_least(REAL a, REAL b)
     return a < b ? a : b;
 }
 
-/* n' as facets have it: where bump turned it away from the viewer, who sees the place nevertheless, it is bent back until
-   n'.v is a little above 0, without a jump (HC105, HC106). */
+/* n' for facets: where bump turned it away from the viewer of a visible point, it is bent back until
+   n'.v is slightly above 0, continuously (HC105, HC106). */
 R_INLINE VEC reflect_seen(VEC n, VEC v)
 {
     const REAL short_of = reflect_positive(K_(1e-3) - v_dot(n, v));
@@ -66,8 +73,8 @@ R_INLINE VEC reflect_seen(VEC n, VEC v)
     return v_scale(w, short_of > K_(0) ? K_(1) / r_sqrt(ww) : K_(1));
 }
 
-/* Facets as smooth as alpha says, and rougher by the covariance of slopes (moments): M = alpha^2 + 2 C; round: by its
-   mean. det M is no less than without (HC109). */
+/* Facet slopes of width alpha, widened by the covariance of slopes (moments): M = alpha^2 + 2 C; round:
+   by its mean. det M is at least that without it (HC109). */
 R_INLINE Facets reflect_facets(VEC n, VEC e, REAL see, REAL sef, REAL sff, bool round, REAL a2)
 {
     const REAL mean = see + sff;
@@ -77,7 +84,7 @@ R_INLINE Facets reflect_facets(VEC n, VEC e, REAL see, REAL sef, REAL sff, bool 
     return (Facets){ e, v_cross(n, e), ee, ef, ff, det > least ? det : least, alike };
 }
 
-/* pi D, by |n x h| from the vectors: of 1 - (n.h)^2 narrow highlights would lose their digits (HC99). */
+/* pi D, with |n x h| from the vectors: 1 - (n.h)^2 would lose the digits of narrow highlights (HC99). */
 R_INLINE REAL reflect_d(VEC n, VEC h, REAL a2)
 {
     const VEC x = v_cross(n, h);
@@ -93,7 +100,7 @@ R_INLINE REAL reflect_d_wide(VEC n, VEC h, Facets m)
     return K_(1) / (r_sqrt(m.det) * w * w);
 }
 
-/* pi D as facets lie; of those that are as the material has them its own bits (E39). */
+/* pi D for the facets; with the material's own distribution bit for bit reflect_d (E39). */
 R_INLINE REAL reflect_lobe(VEC n, VEC h, Facets wide, Form form, REAL a2)
 {
     const REAL own = reflect_d(n, h, a2);
@@ -102,7 +109,7 @@ R_INLINE REAL reflect_lobe(VEC n, VEC h, Facets wide, Form form, REAL a2)
     return wide.alike ? own : d;
 }
 
-/* sqrt(cos^2 + w^T M w) of a direction w: what its shadowing goes by. */
+/* sqrt(cos^2 + w^T M w) for a direction w, used by its shadowing. */
 R_INLINE REAL reflect_long(REAL cosine, REAL a2)
 {
     return r_sqrt(cosine * cosine * (K_(1) - a2) + a2);
@@ -115,7 +122,7 @@ R_INLINE REAL reflect_long_wide(VEC w, REAL cosine, Facets m)
     return r_sqrt(cosine * cosine + reflect_positive(form));
 }
 
-/* Fresnel's reflectance of unpolarised light, c = v.h, without the difference that cancels (HC102). */
+/* Fresnel's reflectance of unpolarised light, c = v.h, without cancellation (HC102). */
 R_INLINE REAL reflect_fresnel(REAL c, REAL ior)
 {
     const REAL i2 = ior * ior, gg = i2 - K_(1) + c * c;
@@ -133,7 +140,7 @@ R_INLINE REAL reflect_fifth(REAL c)
     return two * two * off;
 }
 
-/* Likewise. */
+/* reflect_long for the facets. */
 R_INLINE REAL reflect_span(VEC w, REAL cosine, Facets wide, Form form, REAL a2)
 {
     const REAL own = reflect_long(cosine, a2);
@@ -172,7 +179,8 @@ R_INLINE Reflected reflect_torrance_sparrow(Incidence at, Form form, const MATTE
     return (Reflected){ m->kd * reflect_positive(lit), shows ? shine : K_(0), K_(0) };
 }
 
-/* The albedo of Fujii's Oren-Nayar, exact but for the arc's cosine (Abramowitz, Stegun 1964, 4.4.46: within 2e-8). */
+/* The albedo of Fujii's Oren-Nayar, exact except for the arc cosine (Abramowitz, Stegun 1964, 4.4.46:
+ * within 2e-8). */
 R_INLINE REAL reflect_matt_albedo(REAL mu, const MATTER *m)
 {
     const REAL s = r_sqrt(reflect_positive(K_(1) - mu * mu));
@@ -206,7 +214,8 @@ R_INLINE Reflected reflect_oren_nayar(Incidence at, Form form, const MATTER *m)
                         m->kd * lit * reflect_positive(left) * m->again };
 }
 
-/* Of light that is reflected again, the share that a surface of reflectance rho keeps: rho mean / (1 - rho (1 - mean)). */
+/* The fraction of interreflected light kept by a surface of reflectance rho: rho mean / (1 - rho (1 -
+ * mean)). */
 R_INLINE REAL reflect_kept(REAL rho, REAL mean)
 {
     const REAL r = reflect_least(reflect_positive(rho), K_(1)); /* HC110 */
@@ -223,7 +232,7 @@ R_INLINE REAL reflect_terms(const REAL *a, REAL x)
     return low + (mid + high * x4) * x4;
 }
 
-/* What an albedo's polynomial goes by. */
+/* Argument of an albedo's polynomial. */
 R_INLINE REAL reflect_root(REAL mu)
 {
     return r_sqrt(reflect_least(reflect_positive(mu), K_(1)));
@@ -234,8 +243,8 @@ R_INLINE REAL reflect_albedo(REAL mu, const MATTER *m)
     return reflect_least(reflect_terms(m->albedo, reflect_root(mu)), K_(1));
 }
 
-/* told: what highlights leave to diffuse light is `told_left`; else, kept, it follows from the material's albedo. A
-   highlight that is nowhere as bright as `least` is none. */
+/* told: the fraction of diffuse light left by highlights is at.left; else, kept, it follows from the
+   material's albedo. A highlight that is nowhere as bright as `least` is 0. */
 R_INLINE Reflected reflect_ggx(Incidence at, Form form, const MATTER *m)
 {
     const VEC n = at.n, l = at.l, v = at.v;
@@ -253,7 +262,7 @@ R_INLINE Reflected reflect_ggx(Incidence at, Form form, const MATTER *m)
     const REAL long_l = reflect_span(l, nl, wide, form, a2);
     const REAL lobe = m->ks * d * K_(0.5) * up / (up * long_v + nv * long_l);
     const REAL f = m->f0 + (K_(1) - m->f0) * p, matt = m->kd * (K_(1) - m->metal);
-    const REAL most = f * (K_(1) - m->metal) + m->metal; /* of a colour up to 1 */
+    const REAL most = f * (K_(1) - m->metal) + m->metal; /* for a colour up to 1 */
     const bool shows = there && nl > K_(0) && lit > K_(0) && lobe * most >= m->least && !form.dull;
     const REAL shown = shows ? lobe : K_(0);
     const REAL left =

@@ -1,14 +1,17 @@
-/* reflection_models.h - table of reflection models: one row each. Its columns are all that the program knows of a model
-   besides its formulas; no other file lists models by name.
+/* reflection_models.h - table of reflection models, one row each.
+
+   Apart from its formulas, everything about a model is in its columns; no other file lists models by
+   name.
 
        X(ID, formula, LOOPS, HIGHLIGHT, DIFFUSE, energies, name, title, help)
 
    ID         enumerator WR_REFLECT_ID
-   formula    reflect_FORMULA in shade/reflection_body.h, and FORMULA in render/reference/reference_reflection.c
+   formula    reflect_FORMULA in shade/reflection_body.h, and FORMULA in
+              render/reference/reference_reflection.c
    LOOPS      WrReflectLoops without its prefix
    HIGHLIGHT  WrReflectHighlight without its prefix
    DIFFUSE    WrReflectDiffuse without its prefix
-   energies   whether the published formula differs from the one that keeps energy (WrEnergy)
+   energies   true if the published formula differs from the energy-conserving one (WrEnergy)
    name       in commands; never changed, because documents contain it
    title      in lists of the window
    help       one line: the tip, and the plan's reason
