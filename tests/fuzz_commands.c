@@ -1,6 +1,5 @@
-/* fuzz_commands.c - command lines from strangers: whatever the bytes, a line is refused with a message or
-   parsed to a call whose text is stable; and those of the scene (the only ones that a document file may
-   hold) run without harm. */
+/* fuzz_commands.c - untrusted command lines: for any bytes, a line is refused with a message or parsed to a call with
+   a stable text; scene lines (the only ones allowed in a document file) run without harm. */
 #include "base/error.h"
 #include "base/text.h"
 #include "command/command_line.h"
@@ -17,7 +16,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
         if (!(condition)) abort();                                                                 \
     } while (0)
 
-/* print(parse(print(parse(x)))) is print(parse(x)). */
+/* print(parse(print(parse(x)))) equals print(parse(x)). */
 static bool stable(const char *line, WrCall **out)
 {
     WrError err = { "" };
@@ -60,7 +59,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (scene && !wr_session_run(session, line, &err)) MUST(err.text[0] != '\0');
     }
     WrText scene = { 0 };
-    wr_session_scene_text(session, &scene); /* and what they left can be said again */
+    wr_session_scene_text(session, &scene); /* and their result can be printed again */
     wr_text_fini(&scene);
     wr_session_free(session);
     free(text);

@@ -1,9 +1,9 @@
-/* Brush presets made of any bytes: libFuzzer's target. The first byte chooses:
-     even  the rest is the file as it stands
-     odd   the next two choose one of MyPaint's own presets; the rest are edits of it, four bytes each: place
-           (2), what to do, and with which byte
-   What is read is printed, which must be read again and give the same text; and it draws a short stroke
-   through the engine, whose dabs must be finite. */
+/* Fuzz target: brush presets from arbitrary bytes. The first byte selects:
+     even  the rest is the file
+     odd   the next two select one of MyPaint's presets; the rest are edits of it, four bytes each: position
+           (2), operation, and byte
+   A parsed preset is printed; the text must parse again and print the same. It also draws a short stroke through the
+   engine, whose dabs must be finite. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -23,7 +23,7 @@ static void require(bool condition)
     if (!condition) abort();
 }
 
-/* Read once, when the first input comes. */
+/* Loaded once, at the first input. */
 static struct {
     WrLibrary *library;
     int count;

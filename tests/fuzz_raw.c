@@ -1,6 +1,6 @@
-/* fuzz_raw.c - elevations without a header from strangers: whatever size is told and whatever the bytes,
-   they are refused with a message or decoded within what there is. The first byte chooses the kind and the
-   byte order, the second the length of the text that tells the size. */
+/* fuzz_raw.c - untrusted elevations without a header: for any declared size and any bytes, they are refused with a
+   message or decoded within bounds. The first byte selects the kind and the byte order, the second the length of the
+   text with the size. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "generate/terrain_raw.h"

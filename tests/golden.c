@@ -1,7 +1,7 @@
-/* golden.c - compare a sample's picture with the one that was found good.
+/* golden.c - comparison of a sample's picture with the approved one.
        golden NAME...           render samples/NAME.wrinkle and compare with tests/golden/NAME.exr
-       golden --bless NAME...   make the pictures of today the good ones: look at them first, and say in
-                                the commit why they changed
+       golden --bless NAME...   approve the present pictures: inspect them first, and give the reason for
+                                the change in the commit
    The picture is made by the program itself, `wrinkle render`, 128 x 128, linear float.
 
    Grades, over all channels of all pixels, in linear intensity:
@@ -9,8 +9,8 @@
        GOOD   largest difference < 1e-6      passes: rounding on another compiler
        BAD    root mean square < 0.01        fails: it looks alike, but something has changed
        FAIL   anything else, or no picture   fails
-   What is not SAME leaves NAME.exr and NAME-difference.png (the difference enlarged until
-   it is seen, grey where equal) in golden-results/ of the build. */
+   For every other grade than SAME, NAME.exr and NAME-difference.png (the difference magnified to be visible, grey
+   where equal) are left in golden-results/ of the build. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/image.h"
@@ -51,7 +51,7 @@ static bool read_picture(const char *path, Picture *out, WrError *err)
     return true;
 }
 
-/* Run the program; its messages appear as they are. */
+/* Run the program; its messages are not redirected. */
 static bool render(const char *sample, const char *picture, WrError *err)
 {
     char program[] = WR_BINARY_DIR "/wrinkle";
@@ -96,7 +96,7 @@ static unsigned char code(double value)
     return (unsigned char)(c > 0 ? (c < 255 ? c : 255) : 0);
 }
 
-/* The difference of R, G, B about grey, enlarged so that the largest is seen. */
+/* The difference of R, G, B around grey, magnified so that the largest is visible. */
 static bool write_difference(const char *path, const Picture *a, const Picture *b, double max,
                              WrError *err)
 {
@@ -118,7 +118,7 @@ static bool same_shape(const Picture *a, const Picture *b)
     return a->width == b->width && a->height == b->height && a->channels == b->channels;
 }
 
-/* Compare the new picture with the good one and say how it went; true if it passes. */
+/* Compare the new picture with the approved one and print the grade; true if it passes. */
 static bool judge(const char *name, const char *result, WrError *err)
 {
     char good[1024], difference[1024];

@@ -1,4 +1,4 @@
-/* The round brush against a slow model of what its header promises, and its hard cases. */
+/* The round brush against a slow model of its header's specification, and its hard cases. */
 #include "test.h"
 
 #include "base/hash.h"
@@ -73,7 +73,7 @@ static double model_segment(const WrBrush *brush, double x, double y, const doub
     return pressure * model_profile(brush, hypot(x - a[0] - t * dx, y - a[1] - t * dy));
 }
 
-/* Coverage of texel (i, j); path in texels, each point next to the one before (not wrapped). */
+/* Coverage of texel (i, j); path in texels, each point close to the previous one (not wrapped). */
 static double model_cover(const WrField *field, const WrBrush *brush, const double (*path)[3],
                           int count, int i, int j)
 {
@@ -206,7 +206,7 @@ static void hc70_a_huge_dab_raises_every_texel_once(void **state)
     for (int r = 0; r < 4; r++) {
         WrField *field = torus(300, 64);
         WrBrush brush = brush_of(radii[r], 1, 0.25);
-        /* on a texel's centre, so that the texels half a period away are as near on either side */
+        /* on a texel's centre, so that the texels half a period away are equally near on both sides */
         wr_brush_dab(field, &brush, 10.5 / 300, 1 - 5.5 / 64);
         float low, high;
         wr_field_range(field, &low, &high);
@@ -337,7 +337,7 @@ static void a_place_far_off_a_clamped_table_paints_nothing(void **state)
     wr_field_free(field);
 }
 
-/* Along a row the nearest point of any part of the path is exactly as far, so not a bit may differ. */
+/* Along a row the nearest point of any part of the path is exactly equally far, so no bit may differ. */
 static void hc75_one_event_and_a_thousand_draw_the_same_straight_stroke(void **state)
 {
     (void)state;
@@ -369,8 +369,8 @@ static void hc75_slanted_strokes_with_changing_pressure_agree_closely(void **sta
         WrSample two[] = { many[0], many[1000] };
         run_stroke(a, &brush, many, 1001);
         run_stroke(b, &brush, two, 2);
-        /* with growing pressure the nearest point is not the strongest: a disc's radius further on,
-           12 of 103 texels of 0.8, it may count for more */
+        /* with increasing pressure the nearest point is not the strongest: a disc's radius further, 12 of 103 texels
+           of 0.8, it may count for more */
         double tolerance = pressed ? 0.8 * 12 / 103 : 1e-6;
         for (int j = 0; j < 128; j++)
             for (int i = 0; i < 256; i++)
@@ -402,7 +402,7 @@ static void what_comes_out_depends_on_the_samples_alone(void **state)
     WrStroke *sa = wr_stroke_new(a, &brush), *sb = wr_stroke_new(b, &brush);
     TestRandom random = { 9 };
     double u = 0.5, v = 0.5;
-    for (int k = 0; k < 300; k++) { /* a trembling hand: most samples wait */
+    for (int k = 0; k < 300; k++) { /* a trembling pointer: most samples wait */
         WrSample sample = at(u, v, 0.9 + 0.02 * test_random(&random));
         wr_stroke_add(sa, sample);
         if (k % 7 == 0) wr_field_free(wr_field_share(a)); /* snapshots in between change nothing */
@@ -605,8 +605,8 @@ static void every_set_of_kernels_gives_the_same_bits(void **state)
     }
 }
 
-/* A dab's part in one tile against its coverage row by row, added; also where columns beside the part must stay, far
- * off, and with heights of every size. */
+/* A dab's part in one tile against its coverage row by row, added; also where columns beside the part must stay
+ * unchanged, far away, and with heights of every size. */
 static void a_dab_in_a_tile_is_its_rows_coverage_added(void **state)
 {
     (void)state;
@@ -662,7 +662,7 @@ static void coverage_is_1_inside_and_0_outside(void **state)
     assert_true(wr_brush_coverage(&brush, 0.2) == 1 && wr_brush_coverage(&brush, 0.4) == 0);
 }
 
-/* Near corners of tiles, where a dab's square reaches tiles that the dab itself does not. */
+/* Near tile corners, where a dab's bounding square reaches tiles that the dab itself does not. */
 static void a_dab_makes_no_tile_that_it_does_not_change(void **state)
 {
     (void)state;

@@ -37,7 +37,7 @@ static void write_preset(const char *path, double radius, const char *more)
     write_text(path, text);
 }
 
-/* A tip that is no mirror image of itself. shade: makes another content. */
+/* An asymmetric tip. shade: gives it another content. */
 static void write_tip(const char *path, int shade)
 {
     uint8_t grey[12 * 20];
@@ -167,7 +167,7 @@ static void a_preset_that_changes_on_the_disk_is_read_again(void **state)
     wr_session_free(s);
 }
 
-/* The session holds 48 files at most; older ones are read again. */
+/* The session caches 48 files; further ones are read again. */
 static void more_presets_than_are_kept_still_paint_what_they_say(void **state)
 {
     (void)state;
@@ -223,7 +223,7 @@ static void values_on_the_line_take_the_place_of_the_presets_own(void **state)
     must_run(s, "undo");
     must_run(s, "stroke points=0.3,0.5;0.7,0.5 preset=own.myb mode=raise");
     wr_field_range(wr_document_field(doc(s)), &low, &high);
-    assert_true(high > 1 && high <= 5); /* strength stays the preset's */
+    assert_true(high > 1 && high <= 5); /* the preset keeps its strength */
     wr_session_free(s);
 }
 
@@ -254,7 +254,7 @@ static void hc75_a_stroke_that_is_pushed_and_worked_in_any_pieces_is_the_line_it
             if (!wr_session_stroke_begin(s[k], heads[h], &err)) fail_msg("%s", err.text);
         }
         assert_true(wr_session_stroke_add(s[0], samples, N, &err));
-        assert_false(wr_session_stroke_work(s[0], 0));               /* nothing was left */
+        assert_false(wr_session_stroke_work(s[0], 0));               /* nothing left to draw */
         assert_true(wr_session_stroke_push(s[1], samples, N, &err)); /* all at the end */
         for (int i = 0; i < N;) {
             int n = 1 + (int)(7 * test_random(&random));
@@ -305,7 +305,7 @@ static void a_step_costs_the_tiles_that_it_touched(void **state)
     WrSession *s = session_of((const char *[]){ "table 4096x4096", "layer add blend=max", NULL });
     static const struct {
         const char *line;
-        int tiles; /* of heights and of cover, at most */
+        int tiles; /* limit of tiles of heights and of coverage */
     } steps[] = { { "dab 0.508,0.508 radius=10", 2 * 1 },
                   { "dab 0.5,0.5 radius=10 tip=sub/tip.png", 2 * 4 },
                   { "stroke points=0.2,0.2;0.2,0.2156 radius=20 mode=erase", 2 * 6 },
@@ -326,7 +326,7 @@ static void a_step_costs_the_tiles_that_it_touched(void **state)
 static const char *const ground_lines[] = { "table 96x80",
                                             "grid cells=3x2 width=9 low=0.2 high=0.8",
                                             "dab 0.3,0.4 radius=30 strength=0.5", NULL };
-/* a layer, painted here and there above and below what lies under it */
+/* a layer, painted at places above and below the content under it */
 static const char *const paint_lines[] = { "stroke points=0.1,0.2;0.9,0.7 radius=15 strength=1.2",
                                            "stroke points=0.2,0.8;0.8,0.3 radius=12 strength=0.6" };
 
@@ -340,8 +340,7 @@ static WrSession *painted_layer(const char *blend, bool paint)
     return s;
 }
 
-/* Everything is erased with part p of its force; both: the composite before and after, and that without the
-   layer. */
+/* Erase everything with strength p; both composites, before and after, against the one without the layer. */
 static void check_erased(const char *blend, double part)
 {
     char line[96];
@@ -376,7 +375,7 @@ static void erasing_leads_from_every_blend_straight_back_to_what_lies_below(void
 static void erasing_a_mixed_layer_leads_to_the_composite_below_it(void **state)
 {
     (void)state;
-    for (int k = 0; k < 2; k++) { /* a mixed layer acts everywhere, painted or not */
+    for (int k = 0; k < 2; k++) { /* a layer in mode mix acts everywhere, painted or not */
         WrSession *s = painted_layer("mix", true), *bare = session_of(ground_lines);
         WrField *full = wr_field_share(wr_document_field(doc(s)));
         double part = k ? 1 : 0.3;
@@ -421,7 +420,7 @@ static void erasing_the_lowest_layer_leads_to_the_ground(void **state)
     wr_session_free(s);
 }
 
-/* A copy of the lowest layer is everywhere; so that it can be erased it needs to know where it is. */
+/* A copy of the lowest layer has coverage everywhere, so that it can be erased. */
 static void a_layer_without_cover_can_be_erased_too(void **state)
 {
     (void)state;
@@ -434,7 +433,7 @@ static void a_layer_without_cover_can_be_erased_too(void **state)
     int steps = wr_session_history_count(s);
     WrHash before = wr_session_hash(s);
     assert_true(wr_session_stroke_begin(s, "stroke mode=erase", &err));
-    assert_true(wr_session_stroke_end(s, &err)); /* nothing drawn: nothing happened */
+    assert_true(wr_session_stroke_end(s, &err)); /* nothing drawn, no effect */
     assert_true(wr_hash_equal(before, wr_session_hash(s)));
     assert_int_equal(wr_session_history_count(s), steps);
     must_run(s, "dab 0.5,0.5 radius=20 hardness=1 mode=erase");

@@ -1,5 +1,5 @@
-/* The modes that cover: what each makes of a height, against closed forms and slow models; opacity, flow,
-   selection, mark; and the hard cases of strokes for every mode. */
+/* Coverage-based modes: the result for a height, against closed forms and slow models; opacity, flow, selection,
+   mark; and the hard cases of strokes for every mode. */
 #include "brush_help.h"
 
 #include "base/error.h"
@@ -38,7 +38,7 @@ static double around(const WrField *f, int i, int j, int reach, int sign)
     return sign ? sign * best : sum / count;
 }
 
-/* Where a mode leads height f of texel (i, j), as brush.h says. */
+/* Target height of a mode for height f of texel (i, j), as in brush.h. */
 static double aim(const WrField *start, const WrBrush *b, int i, int j)
 {
     double f = wr_field_get(start, i, j);
@@ -152,7 +152,7 @@ static void opacity_caps_the_stroke_flow_reaches_the_cap_and_buildup_passes_it(v
     wr_field_free(grown);
 }
 
-/* Two dabs of alpha a on one place: 1 - (1 - a)^2, and 2 a. */
+/* Two dabs of alpha a at one position: 1 - (1 - a)^2, and 2 a. */
 static void dabs_gather_as_the_rules_say(void **state)
 {
     (void)state;
@@ -223,7 +223,7 @@ static void hc69_a_dab_on_the_corner_is_the_rolled_one_in_every_mode(void **stat
                 run_stroke(middle, &brush, a, 2);
                 run_stroke(corner, &brush, b, 2);
                 WrField *back = rolled(corner, 64, 64);
-                /* sums over texels come in another order: a mean may differ in its last bit */
+                /* sums over texels have another order: a mean may differ in its last bit */
                 bool sums = mode == WR_BRUSH_SHARPEN || mode == WR_BRUSH_LEVEL;
                 if (sums) assert_true(largest_difference(back, middle) < 1e-6);
                 else assert_true(same_heights(back, middle));
@@ -254,7 +254,7 @@ static void hc70_no_radius_is_too_large_for_any_mode(void **state)
     wr_tip_free(tip);
 }
 
-/* With flow, a texel met twice would show. */
+/* With flow, a texel processed twice would be visible. */
 static void hc70_a_huge_dab_with_flow_meets_each_texel_once(void **state)
 {
     (void)state;
@@ -329,7 +329,7 @@ static void hc73_a_stroke_over_the_seam_is_the_rolled_one_in_every_mode(void **s
             run_stroke(inside, &brush, a, 3);
             run_stroke(seam, &brush, b, 3);
             WrField *back = rolled(seam, 64, 32);
-            /* places along the path are rounded to 2^-20 texel, and sums differ in order */
+            /* positions along the path are rounded to 2^-20 texel, and sums differ in order */
             assert_true(largest_difference(back, inside) < 2e-6);
             wr_field_free(inside);
             wr_field_free(seam);
@@ -360,8 +360,8 @@ static void hc74_wild_samples_leave_finite_heights_in_every_mode(void **state)
     wr_tip_free(tip);
 }
 
-/* Places along a path are sums, which rounding makes differ by far less than 2^-20 texel, to which places
- * are then rounded: a dab may lie one such step, 1e-6 texel, elsewhere. */
+/* Positions along a path are sums with rounding errors far below 2^-20 texel, to which positions are then rounded: a
+ * dab may be displaced by one such step, 1e-6 texel. */
 static void hc75_one_event_or_a_thousand_in_every_mode_and_way(void **state)
 {
     (void)state;
@@ -383,8 +383,8 @@ static void hc75_one_event_or_a_thousand_in_every_mode_and_way(void **state)
     wr_tip_free(tip);
 }
 
-/* A brush that covers all of the table evenly: the height is the number of dabs times flow and strength.
- * In floats alone a sum of 1e6 times 1e-3 would be wrong by percents. */
+/* A brush that covers the whole table evenly: the height is the number of dabs times flow and strength. In float
+ * alone a sum of 1e6 times 1e-3 would be wrong by percents. */
 static void hc76_very_many_dabs_add_up_and_stay_finite(void **state)
 {
     (void)state;

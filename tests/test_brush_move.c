@@ -1,4 +1,4 @@
-/* The modes that move heights, and presets that smudge. */
+/* Modes that move heights, and smudging presets. */
 #include "brush_help.h"
 
 #include "base/error.h"
@@ -14,7 +14,7 @@ static double mean_of(const WrField *field)
     return sum / wr_field_width(field) / wr_field_height(field);
 }
 
-/* On tables of any shape, with and without edges, dabs smaller and larger than they. */
+/* On tables of any shape, with and without edges, dabs smaller and larger than the table. */
 static void hc77_smoothing_keeps_the_mean_and_makes_no_new_extremes(void **state)
 {
     (void)state;
@@ -24,7 +24,7 @@ static void hc77_smoothing_keeps_the_mean_and_makes_no_new_extremes(void **state
             for (int large = 0; large < 2; large++) {
                 WrField *field =
                     rough(sizes[s][0], sizes[s][1], wraps ? WR_WRAP_PERIODIC : WR_WRAP_CLAMP);
-                for (int j = 0; j < sizes[s][1]; j++) /* a mean that drift is relative to */
+                for (int j = 0; j < sizes[s][1]; j++) /* non-zero mean, for relative drift */
                     for (int i = 0; i < sizes[s][0]; i++)
                         wr_field_set(field, i, j, 1 + wr_field_get(field, i, j));
                 WrBrush brush = brush_of(WR_BRUSH_SMOOTH, large ? 500 : 11);
@@ -80,7 +80,7 @@ static void levelling_a_plane_changes_nothing_and_noise_becomes_its_plane(void *
     WrField *clean = plane(80, 60, 0.01, -0.02, 3), *field = wr_field_share(clean);
     WrBrush brush = brush_of(WR_BRUSH_LEVEL, 14);
     brush.hardness = 1;
-    wr_brush_dab(field, &brush, 0.1, 0.9); /* part of it over the edge */
+    wr_brush_dab(field, &brush, 0.1, 0.9); /* partly across the edge */
     assert_true(largest_difference(clean, field) < 1e-6);
     TestRandom random = { 3 };
     for (int j = 0; j < 60; j++)
@@ -89,7 +89,7 @@ static void levelling_a_plane_changes_nothing_and_noise_becomes_its_plane(void *
                          wr_field_get(clean, i, j) + (float)(0.1 * (test_random(&random) - 0.5)));
     WrField *noisy = wr_field_share(field);
     wr_brush_dab(field, &brush, 0.5, 0.5);
-    double sums[3] = { 0 }; /* least squares: what changed has no slope and no mean of its own */
+    double sums[3] = { 0 }; /* least squares: the change has no slope and no mean */
     for (int j = 0; j < 60; j++)
         for (int i = 0; i < 80; i++) {
             double change = (double)wr_field_get(field, i, j) - wr_field_get(noisy, i, j);
@@ -101,8 +101,8 @@ static void levelling_a_plane_changes_nothing_and_noise_becomes_its_plane(void *
     assert_near(sums[1], 0, 1e-3);
     assert_near(sums[2], 0, 1e-3);
     wr_field_free(noisy);
-    /* noise of 0.1/sqrt(12) over 600 texels: the plane is right to 0.1 / sqrt(12 * 600) * 2.1 at its
-       rim, four times that at most */
+    /* noise of 0.1/sqrt(12) over 600 texels: the plane's error is 0.1 / sqrt(12 * 600) * 2.1 at its edge, at most
+       four times that */
     for (int j = 20; j < 40; j++)
         for (int i = 32; i < 48; i++)
             assert_near(wr_field_get(field, i, j), wr_field_get(clean, i, j), 0.0099);
@@ -126,7 +126,7 @@ static void levelling_tables_without_breadth_is_fine(void **state)
     }
 }
 
-/* A ridge along the path, as a bell; its second moment tells its breadth. */
+/* A ridge along the path with a bell profile; its second moment measures its width. */
 static double breadth(const WrField *field)
 {
     double sum = 0, moment = 0;
@@ -191,7 +191,7 @@ static WrPreset *smudger(void)
     return preset;
 }
 
-/* Wholly smudged dabs only pull towards heights that are there. */
+/* Fully smudged dabs only pull towards existing heights. */
 static void a_smudging_preset_drags_heights_and_makes_no_new_extremes(void **state)
 {
     (void)state;

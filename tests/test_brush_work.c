@@ -1,5 +1,4 @@
-/* How strokes are worked off: in pieces, by several threads, by any set of instructions; and the copies
-   that symmetry makes. */
+/* Processing of strokes: in parts, by several threads, by any instruction set; and symmetry copies. */
 #include "brush_help.h"
 
 #include "base/error.h"
@@ -41,7 +40,7 @@ static void the_bits_do_not_depend_on_how_the_work_is_cut(void **state)
                 wr_stroke_push(stroke, path[k]);
                 for (int n = (int)(9 * test_random(&random)); n > 0; n--) {
                     wr_stroke_work(stroke, n % 3 ? 0 : -1);
-                    wr_field_free(wr_field_share(cut)); /* as a preview does */
+                    wr_field_free(wr_field_share(cut)); /* as in a preview */
                 }
             }
             while (wr_stroke_work(stroke, 0)) {
@@ -160,7 +159,7 @@ static void every_set_of_kernels_gives_the_same_bits(void **state)
     }
 }
 
-/* A circle has a shorter way, which `soft` has not; near and far, small and as large as there are. */
+/* Circles have a fast path, which `soft` has not; near and far, small and as large as possible. */
 static void the_short_way_of_circles_gives_the_bits_of_the_long_one(void **state)
 {
     (void)state;
@@ -192,7 +191,7 @@ static void the_short_way_of_circles_gives_the_bits_of_the_long_one(void **state
     }
 }
 
-/* `over` and then `soft` is `soft_over`. */
+/* `over` followed by `soft` equals `soft_over`. */
 static void the_joined_kernel_does_what_its_two_parts_do(void **state)
 {
     (void)state;
@@ -222,8 +221,8 @@ static WrField *mirror_image(const WrField *field, bool in_u)
     return out;
 }
 
-/* Coverage by the largest takes no notice of order, so the picture is its own mirror image bit for bit;
- * sums and moved heights come in another order at the mirror's line. */
+/* The maximum of coverages is independent of order, so the picture equals its mirror image bit for bit; sums and
+ * moved heights are processed in another order at the mirror axis. */
 static void what_is_painted_with_a_mirror_is_its_own_mirror_image(void **state)
 {
     (void)state;
@@ -239,7 +238,7 @@ static void what_is_painted_with_a_mirror_is_its_own_mirror_image(void **state)
             brush.symmetry.mirror_u = true;
             brush.symmetry.centre_u = brush.symmetry.centre_v = 0.5;
             WrSample left[] = { at(0.1, 0.2, 1), at(0.3, 0.6, 0.8), at(0.35, 0.3, 1) };
-            run_stroke(field, &brush, left, 3); /* never nearer to the line than 12 texels */
+            run_stroke(field, &brush, left, 3); /* never closer to the axis than 12 texels */
             WrField *image = mirror_image(field, true);
             bool exact = mode != WR_BRUSH_SHARPEN && mode != WR_BRUSH_LEVEL;
             if (exact) assert_true(same_heights(image, field));
@@ -250,7 +249,7 @@ static void what_is_painted_with_a_mirror_is_its_own_mirror_image(void **state)
             WrField *other = mirror_image(start, true);
             if (way == WAY_PLAIN && exact && !wr_brush_modes[mode].moves)
                 assert_true(same_heights(start, other));
-            /* a moving copy finds what the other one left where both lie: a part of it */
+            /* where both overlap, a moving copy processes the other's result: a part of it */
             double tolerance = wr_brush_modes[mode].moves ? 1.5 : 1e-5;
             assert_true(largest_difference(start, other) < tolerance);
             wr_field_free(field);
@@ -261,7 +260,7 @@ static void what_is_painted_with_a_mirror_is_its_own_mirror_image(void **state)
     wr_tip_free(tip);
 }
 
-/* Four quarter turns about the middle: turned by 90 degrees the table is the same. */
+/* Four quarter turns about the centre: the table equals itself rotated by 90 degrees. */
 static void quarter_turns_are_exact(void **state)
 {
     (void)state;
@@ -284,7 +283,7 @@ static void repeats_by_whole_texels_are_rolled_bit_for_bit(void **state)
             if (mode == WR_BRUSH_SHARPEN || mode == WR_BRUSH_LEVEL) continue; /* sums */
             WrField *field = torus(W, H);
             for (int j = 0; j < H; j++)
-                for (int i = 0; i < W; i++) /* the lattice's own period: 32 x 64, half dropped */
+                for (int i = 0; i < W; i++) /* the lattice's own period: 32 x 64, half-drop */
                     wr_field_set(field, i, j,
                                  (float)(((i % 32) * 7 + ((j + i / 32 * 32) % 64) * 3) % 11) / 11);
             WrBrush brush = brush_by(way, brush_of((WrBrushMode)mode, 5), tip);
@@ -371,7 +370,7 @@ static void lattices_that_do_not_close_are_refused(void **state)
     }
 }
 
-/* A tip in a mirrored copy is the mirror image, in a turned one it is turned. */
+/* The tip is mirrored in a mirrored copy and rotated in a rotated one. */
 static void tips_are_mirrored_and_turned_with_their_copies(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* test_bump_slopes.c - six-channel EXR of levels: slopes against forms differentiated by hand and against stencils spelt
-   out, levels against areas counted anew, periodic to the bit, and beside maketx --bumpslopes where that is. */
+/* test_bump_slopes.c - six-channel EXR with mip levels: slopes against forms differentiated by hand and against
+   explicit stencils, levels against recomputed area means, bit-identical periodicity, and comparison with maketx
+   --bumpslopes if installed. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -100,7 +101,7 @@ static void formulas_have_their_own_slopes(void **state)
         WrDocument *document =
             document_of(wr_field_new(W, H, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL));
         WrScene *scene = wr_scene_clone(document->scene);
-        scene->height = 17; /* has no say: heights are the table's */
+        scene->height = 17; /* ignored: heights are the table's */
         scene->analytic.kind = WR_ANALYTIC_FOURIER;
         scene->analytic.count = 1;
         scene->analytic.terms = wr_alloc(1, sizeof *scene->analytic.terms);
@@ -188,7 +189,8 @@ static void tables_have_the_stencils_of_their_schemes(void **state)
     }
 }
 
-/* The spline through samples of a wave comes near the wave's own slopes: to third order, so 8 times as near. */
+/* The spline through samples of a wave approximates its slopes to third order: an error of 1/8 for half the
+   spacing. */
 static void fitted_splines_come_near_the_wave(void **state)
 {
     (void)state;
@@ -221,7 +223,7 @@ static double overlap(double a, double b, double c, double d)
     return fmax(0.0, fmin(b, d) - fmax(a, c));
 }
 
-/* The mean of what texel (i, j) of level k covers of the level below it. */
+/* The mean over the area of texel (i, j) of level k in the level below. */
 static double covered_mean(const Read *read, int k, int i, int j, int c)
 {
     const int n = read->width[k - 1], rows = read->height[k - 1];
@@ -314,7 +316,7 @@ static uint64_t number_at(const unsigned char *bytes, int count)
     return value;
 }
 
-/* Behind the attributes: name, kind, length and bytes each, and a 0. */
+/* After the attributes (name, type, length and bytes each), and a 0. */
 static const unsigned char *behind_header(const unsigned char *at)
 {
     at += 8;
@@ -326,7 +328,7 @@ static const unsigned char *behind_header(const unsigned char *at)
     return at + 1;
 }
 
-/* Readers that do not search a file need the table of its tiles, which the library writes last. */
+/* Readers that do not search a file need the tile table, which the library writes last. */
 static void every_tile_lies_where_the_table_says(void **state)
 {
     (void)state;
@@ -355,7 +357,7 @@ static void every_tile_lies_where_the_table_says(void **state)
     wr_document_free(document);
 }
 
-/* ---- hard ones (HC142) ---- */
+/* ---- hard cases (HC142) ---- */
 
 static void cliffs_stay_finite(void **state)
 {
@@ -426,8 +428,8 @@ static void a_full_disk_leaves_nothing_half_written(void **state)
 
 /* ---- another program ---- */
 
-/* maketx takes Sobel's mean across, so of f(u) + g(v) the central difference; at the border it repeats the edge texel,
- * where ours goes round: there its slope is half of a one-sided difference. */
+/* maketx uses Sobel's mean across, which for f(u) + g(v) is the central difference; at the border it repeats the edge
+ * texel, where ours wraps: there its slope is half of a one-sided difference. */
 static void maketx_agrees_inside_and_not_at_the_border(void **state)
 {
     (void)state;

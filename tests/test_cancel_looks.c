@@ -1,6 +1,6 @@
-/* Work that is stopped at any of its looks at the cancel, not at its reports alone: it ends with "cancelled", and what
-   it left half made is never taken for whole afterwards. Pictures, films and generators of every kind of table the
-   renderer keeps. The test stands in for the looks (tests/CMakeLists.txt). */
+/* Cancellation at any check, not only at reports: work ends with "cancelled", and partial results are never used as
+   complete ones afterwards. Pictures, films and generators with every kind of cached table. The test replaces the
+   check function (tests/CMakeLists.txt). */
 #include "test.h"
 #include "looks.h"
 #include "test_folder.h"
@@ -18,7 +18,7 @@
 #define TABLE "table 130x97", "noise perlin", "surface sphere", "bump height=0.05"
 #define SCENE 10
 
-/* The look to stop at, from 1; 0: none. Any thread looks. */
+/* The check to cancel at, from 1; 0: none. Any thread checks. */
 static struct {
     int64_t at, seen;
     volatile int cancel;
@@ -42,7 +42,7 @@ static bool run_until(WrSession *session, const char *line, int64_t at, WrError 
     return good;
 }
 
-/* 0, 0: it is not there. */
+/* 0, 0 if the file is missing. */
 static WrHash hash_of(const char *path)
 {
     char *bytes;
@@ -63,14 +63,14 @@ static WrSession *session_with(WrPool *pool, const char *const *scene)
     return session;
 }
 
-/* Which look of so many is the nth that is tried: the first few, then spread over all, none special. */
+/* Number of the nth tested check: the first few, then spread over all. */
 static int64_t nth_look(int n, int64_t all)
 {
     if (n < 4) return n + 1;
     return 1 + (int64_t)(fmod(n * 0.6180339887498949, 1.0) * (double)all);
 }
 
-/* The scene is made anew for each stop, so that all of the renderer's tables are. */
+/* The scene is created anew for each stop, and so are all of the renderer's tables. */
 static void try_scene(WrPool *pool, const char *const *scene, const char *line, const char *path)
 {
     WrError err = { "" };
@@ -125,8 +125,7 @@ static void a_picture_stops_at_any_look(void **state)
     wr_pool_free(pool);
 }
 
-/* Each line of the table's, at a few looks: nothing is changed, nothing is left behind, and afterwards it can be
-   done. */
+/* Each line of the table, at a few checks: nothing is changed, no file is left, and afterwards it can run. */
 static void a_line_stops_at_any_look(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Maps on the canvas: what follows an edit is what a map made anew holds, and no more tiles are made than it can reach. */
+/* Maps on the canvas: after an edit the updated map equals a new one, and only affected tiles are computed. */
 #include "test.h"
 #include "field/scheme_list.h"
 
@@ -42,7 +42,7 @@ static const WrField *rested(WrCanvasMap *map, const WrField *field, WrFieldMapK
     return made;
 }
 
-/* To the bit; curvature is per texel. */
+/* Bit-identical; curvature is per texel. */
 static void is_that_of(const WrField *made, const WrField *field, WrFieldMapKind kind,
                        const WrMapJob *job)
 {
@@ -83,7 +83,7 @@ static void edits_are_followed_in_as_few_tiles_as_they_reach(void **state)
     }
 }
 
-/* Another kind, another setting, another size: made anew; the same again: nothing is. */
+/* Another kind, setting or size: a new map; the same request again: no work. */
 static void what_is_asked_for_otherwise_is_made_anew(void **state)
 {
     (void)state;

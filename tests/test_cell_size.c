@@ -1,5 +1,5 @@
-/* test_cell_size.c - the unit cell's real size: kept by documents, scripts and undo; told by exported files and taken from
-   them again; what normals and solids go by. */
+/* test_cell_size.c - physical size of the unit cell: stored in documents, scripts and undo; written to exported files
+   and read from them; used by normals and solids. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -56,7 +56,7 @@ static void documents_scripts_and_undo_keep_it(void **state)
     wr_session_free(s);
 }
 
-/* Every kind of file that can tell, into a document of another size, wrap and cell. */
+/* Every file format that stores it, loaded into a document of another size, wrap and cell. */
 static void files_tell_it_and_it_is_taken_from_them(void **state)
 {
     (void)state;
@@ -77,7 +77,8 @@ static void files_tell_it_and_it_is_taken_from_them(void **state)
         assert_int_equal(wr_field_wrap_v(wr_document_field(doc(back))), WR_WRAP_CLAMP);
         assert_non_null(strstr(other.text, "123.25 x 80.5 mm"));
         wr_session_free(back);
-        back = listening(&other); /* resampled into the table, or not believed: nothing is taken */
+        /* resampled into the table, or an invalid label: the size is not used */
+        back = listening(&other);
         char line[80];
         snprintf(line, sizeof line, "%s fit=table", lines[k][1]);
         must_run(back, line);
@@ -99,7 +100,7 @@ static void normals_are_as_steep_as_the_millimetres_say(void **state)
     WrSession *s = listening(&said);
     must_run(s, "table 37x26");
     must_run(s, "analytic fourier terms=1,0,0.731;0,1,0.4375,0,90");
-    must_run(s, "bump height=0.01"); /* has no say */
+    must_run(s, "bump height=0.01"); /* ignored */
     must_run(s, "cell 12.25,8.5 mm=on height=2.375");
     must_run(s, "export normal+y n.exr");
     WrError err;
@@ -112,7 +113,7 @@ static void normals_are_as_steep_as_the_millimetres_say(void **state)
         wr_scene_height(doc(s)->scene, NULL, u, v, NULL, &fu, &fv);
         const double own_u = -a * turn * sin(turn * u),
                      own_v = -b * turn * sin(turn * v + turn / 4);
-        assert_near(fu, 0.01 * own_u, 1e-12); /* that the phase is read as it is meant */
+        assert_near(fu, 0.01 * own_u, 1e-12); /* check of the phase's meaning */
         assert_near(fv, 0.01 * own_v, 1e-12);
         const double p = high * own_u / w, q = high * own_v / h, n = sqrt(1 + p * p + q * q);
         const float *c = image->data + 3 * k;

@@ -1,5 +1,5 @@
-/* How edges meet, by each scheme: against differences of texels that are written down here, and against the scheme
-   itself a hair before and after the edge. */
+/* Continuity at the edges for each scheme: against explicit differences of texels, and against the scheme itself
+   slightly before and after the edge. */
 #include "test.h"
 #include "field/scheme_list.h"
 
@@ -27,7 +27,7 @@ static double texel(const WrField *field, int i, int j)
     return wr_field_get(field, (i % W + W) % W, (j % H + H) % H);
 }
 
-/* At the knot of the texel n steps right of (below) the edge: what the scheme's first kink is, per texel. */
+/* At the knot of the texel n steps right of (below) the edge: size of the scheme's first discontinuity, per texel. */
 static double kink(const WrField *field, WrScheme scheme, bool in_u, int n, int line)
 {
     double t[5];
@@ -69,7 +69,7 @@ static void joints_of_cells_that_repeat_are_those_of_their_scheme(void **state)
     wr_field_free(field);
 }
 
-/* F and its slope a hair before the edge and after, along it. */
+/* F and its slope slightly before and after the edge, along it. */
 static void measure(const WrField *field, WrScheme scheme, bool in_u, double jump[2])
 {
     jump[0] = jump[1] = 0;
@@ -130,7 +130,7 @@ static void formulas_are_judged_from_edge_to_edge(void **state)
     /* 0.73 (u - u^2) v^2: equal at u = 0 and 1, with slopes of 0.73 and -0.73 times v^2 */
     assert_int_equal(c.u.order, 0);
     assert_true(fabs(c.u.jump[1] - 1.46) < 1e-12 && c.u.jump[2] == 0);
-    /* along v it rises by 0.73 / 4 at most, its slope by twice that, its bend not */
+    /* along v it steps by at most 0.73 / 4, its slope by twice that, its curvature not at all */
     assert_int_equal(c.v.order, -1);
     assert_true(fabs(c.v.jump[0] - 0.1825) < 1e-12 && fabs(c.v.jump[1] - 0.365) < 1e-12);
     assert_true(c.v.jump[2] == 0);

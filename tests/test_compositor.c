@@ -1,5 +1,5 @@
-/* The composite of a stack of layers: what it is, and that bringing it up to date gives the same bits as
-   making it anew, at no more cost than the edit's. */
+/* The composite of a stack of layers: its value, and partial updates with identical bits at a cost proportional to
+   the edit. */
 #include "test.h"
 
 #include "base/error.h"
@@ -150,7 +150,7 @@ static void insert_random_layer(Stack *s, TestRandom *random)
         swap_layers(s, at, at - 1);
 }
 
-/* Anything that a user can do to layers; most often painting. */
+/* Any layer edit; painting with the highest probability. */
 static void random_edit(Stack *s, TestRandom *random)
 {
     int i = (int)(test_random_u64(random) % (uint64_t)s->count);
@@ -277,7 +277,7 @@ static void count_tile(int tx, int ty, void *ctx)
     ++*(int *)ctx;
 }
 
-/* How many tiles of the composite are others than before. */
+/* Number of composite tiles that have changed. */
 static int tiles_redone(WrCompositor *c, const Stack *s, WrField **before)
 {
     int changed = 0;
@@ -313,7 +313,7 @@ static void an_edit_or_setting_redoes_only_the_tiles_that_it_concerns(void **sta
     assert_int_equal(tiles_redone(c, &s, &before), 0);
     wr_field_set(s.own[2].heights, 64 * 40, 5, 9.0f);
     assert_int_equal(tiles_redone(c, &s, &before), 1);
-    wr_field_set(s.own[0].heights, 16383, 16383, 9.0f); /* no other layer is there */
+    wr_field_set(s.own[0].heights, 16383, 16383, 9.0f); /* no other layer covers it */
     assert_int_equal(tiles_redone(c, &s, &before), 1);
     s.layers[1].opacity = 0.5f;
     assert_int_equal(tiles_redone(c, &s, &before), 3);
@@ -348,7 +348,7 @@ static void painting_the_base_under_a_small_layer_does_not_copy_the_base(void **
     for (int n = 0; n < 2000; n++) {
         wr_field_set(s.own[0].heights, n * 37 % 256 * 64 + 1, 640 + n / 50 * 64, (float)n);
         const WrField *f = wr_compositor_update(c, s.layers, s.count, NULL);
-        /* the blended ones, as many strays, 64 more, and the last edit's */
+        /* the blended ones, as many leftovers, 64 more, and the last edit's */
         assert_true(tiles_not_shared(f, s.own[0].heights) <= 30 + 30 + 64 + 1);
     }
     assert_true(wr_hash_equal(wr_field_hash(wr_compositor_update(c, s.layers, s.count, NULL)),
@@ -370,8 +370,8 @@ static void a_base_that_changes_in_many_tiles_is_shared_again(void **state)
             wr_field_set(s.own[0].heights, k * 37 % 256 * 64 + n, k / 10 * 64, (float)(n + k));
         const WrField *f = wr_compositor_update(c, s.layers, s.count, NULL);
         assert_int_equal(tiles_not_shared(f, s.own[0].heights), 30);
-        wr_field_set(s.own[0].heights, 3, 3,
-                     -1.0f - (float)n); /* not to be seen before the next update */
+        /* not visible before the next update */
+        wr_field_set(s.own[0].heights, 3, 3, -1.0f - (float)n);
         assert_true(wr_field_get(f, 3, 3) != -1.0f - (float)n);
     }
     assert_true(wr_hash_equal(wr_field_hash(wr_compositor_update(c, s.layers, s.count, NULL)),
@@ -427,7 +427,7 @@ static void tables_of_another_size_start_anew(void **state)
     wr_compositor_free(c);
 }
 
-/* A document that is saved and read again loses tiles of nothing but the level. */
+/* A document that is saved and read again drops tiles that hold only the level. */
 static void tiles_full_of_the_level_count_as_none(void **state)
 {
     (void)state;

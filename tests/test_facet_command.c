@@ -1,5 +1,5 @@
-/* The commands roughness and metalness: what they take of files, change and refuse; what documents keep of them, and of
-   which version those are. */
+/* The commands roughness and metalness: file contents, changes and refusals; storage in documents, and their
+   versions. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -17,7 +17,7 @@ static const WrFacetMap *map_of(const WrSession *session, WrFacetKind kind)
     return &doc(session)->scene->facets[kind];
 }
 
-/* Codes that differ by channel, none of which sRGB leaves alone. */
+/* Codes that differ by channel; sRGB conversion would change each. */
 static void write_codes(const char *path, int channels)
 {
     enum { SIDE = 6 };
@@ -73,7 +73,7 @@ static void expect_version(const char *path, const char *version)
     wr_image_file_close(file);
 }
 
-/* Documents hold the pictures themselves, one of several objects too; their files may go. */
+/* Documents store the pictures themselves, also with several objects; their files may be deleted. */
 static void documents_keep_them(void **state)
 {
     static const char *const names[] = { "kept.exr", "kept.ora" };
@@ -100,7 +100,7 @@ static void documents_keep_them(void **state)
     expect_version("kept.exr", "8");
 }
 
-/* Programs that do not know a word say so by the version: of each word that of the first that does. */
+/* A document's version tells older programs about unknown words: each word requires the first version that has it. */
 static void what_is_newer_has_a_newer_version(void **state)
 {
     static const struct {

@@ -1,4 +1,4 @@
-/* The places that the dialog for files offers, and the files that it shows. */
+/* Shortcut folders of the file dialog, and its file filter. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -21,7 +21,7 @@ static void places_are_there_once(void **state)
     char *recent[] = { path[0], path[1], path[2], NULL };
     WrFilePlace places[WR_FILE_PLACES];
     int count = wr_file_places(here, recent, places);
-    assert_int_equal(count, 3); /* neither what is not there, nor a folder twice */
+    assert_int_equal(count, 3); /* neither missing folders nor duplicates */
     assert_string_equal(places[0].label, "Home");
     assert_string_equal(places[0].path, here);
     assert_string_equal(places[1].label, "Pictures");
@@ -53,7 +53,8 @@ static void files_are_shown_for_what_they_can_be_read_as(void **state)
     assert_false(wr_file_fits(WR_FILE_COLOUR, "leaf.gih"));
     assert_true(wr_file_fits(WR_FILE_GLTF, "helmet.GLB"));
     assert_false(wr_file_fits(WR_FILE_GLTF, "helmet.png"));
-    assert_true(wr_file_fits(WR_FILE_SAVE, "notes.txt")); /* what is written over is seen */
+    /* files that would be overwritten are shown */
+    assert_true(wr_file_fits(WR_FILE_SAVE, "notes.txt"));
     assert_true(wr_file_fits(WR_FILE_GENERATE, "font.ttf"));
 }
 

@@ -1,5 +1,4 @@
-/* Fonts: against FreeType itself, against fonts written here dot by dot, and against what Unicode says of
-   scripts. */
+/* Fonts: against FreeType itself, against fonts defined here dot by dot, and against Unicode's rules for scripts. */
 #include "test.h"
 
 #include "base/error.h"
@@ -145,7 +144,7 @@ static void a_bdf_font_is_read_plain_and_packed(void **state)
     }
 }
 
-/* Version 1 with its table in UCS-2: glyph 5 is a Cyrillic letter, and a sequence that must be passed over. */
+/* Version 1 with a table in UCS-2: glyph 5 is a Cyrillic letter, and a sequence that must be skipped. */
 static void a_psf1_font_finds_letters_by_its_table(void **state)
 {
     (void)state;
@@ -169,7 +168,7 @@ static void a_psf1_font_finds_letters_by_its_table(void **state)
     assert_true(wr_font_dot(&text, &text.glyphs[0], 7, 0));
     assert_false(wr_font_dot(&text, &text.glyphs[0], 3, 0));
     assert_true(wr_font_dot(&text, &text.glyphs[0], 3, 2));
-    assert_int_equal(text.missing_count, 1); /* x is there in a sequence only */
+    assert_int_equal(text.missing_count, 1); /* x occurs only in a sequence */
     assert_int_equal(text.missing[0], 'x');
     wr_font_text_fini(&text);
 }
@@ -183,8 +182,8 @@ static size_t make_psf2(uint8_t *file, int width, int height, TestRandom *random
     return 32 + 4 * size;
 }
 
-/* Without a table characters are numbers of glyphs. Every dot of noise, touching corners and all, is inside
- * of the outline and every other outside, and the area is that of the dots. */
+/* Without a table, characters are glyph numbers. Every set dot of a noise pattern, touching corners included, is
+ * inside the outline and every other outside, and the areas are equal. */
 static void the_outline_of_dots_has_their_area_and_their_inside(void **state)
 {
     (void)state;
@@ -194,7 +193,7 @@ static void the_outline_of_dots_has_their_area_and_their_inside(void **state)
         WrError err = { "" };
         size_t length = make_psf2(file, width, 11, &random);
         WrFontText text = shaped_bytes(file, length, "\x02");
-        assert_int_equal(text.placed_count, 0); /* control characters draw nothing */
+        assert_int_equal(text.placed_count, 0); /* control characters are invisible */
         wr_font_text_fini(&text);
         file[16] = 1;
         length = 32 + (size_t)((width + 7) / 8 * 11);
@@ -269,7 +268,7 @@ static void straightened_curves_keep_their_area_to_second_order(void **state)
         wrong[k] = fabs(area2(&o) - exact);
         wr_font_outline_fini(&o);
     }
-    assert_true(wrong[0] < 4.0 * 2.0 * 2048 * 12); /* tolerance times the length, twice */
+    assert_true(wrong[0] < 4.0 * 2.0 * 2048 * 12); /* tolerance times length, twice */
     assert_true(wrong[1] < wrong[0] / 8.0);        /* a 16th of the tolerance */
     assert_true(wrong[1] > 0.0);
     wr_font_text_fini(&text);
@@ -318,8 +317,8 @@ static void arabic_letters_join_and_run_from_right_to_left(void **state)
     wr_font_text_fini(&three);
 }
 
-/* "ab" Hebrew "cd": in a line to the right the Hebrew part alone is turned round; in a line to the left the
- * Latin parts change places. */
+/* "ab" Hebrew "cd": in a left-to-right line only the Hebrew part is reversed; in a right-to-left line the Latin parts
+ * are exchanged. */
 static void mixed_directions_follow_unicodes_order(void **state)
 {
     (void)state;
@@ -338,7 +337,7 @@ static void mixed_directions_follow_unicodes_order(void **state)
     }
 }
 
-/* The vowel sign i is written before its consonant though spoken after it, and ksha is one sign. */
+/* The vowel sign i is written before its consonant though spoken after it, and ksha is one glyph. */
 static void devanagari_is_reordered_and_ligated(void **state)
 {
     (void)state;
@@ -382,7 +381,7 @@ static void what_is_not_utf8_becomes_replacement_characters(void **state)
         assert_int_equal(text.placed_count, counts[i]);
         wr_font_text_fini(&text);
     }
-    /* a stray byte costs itself alone, however much follows */
+    /* a stray byte is lost alone, whatever follows */
     WrFontText text = shaped(SANS, "\x80"
                                    "continued for long");
     assert_int_equal(text.placed_count, 19);
@@ -476,7 +475,7 @@ static void a_text_that_is_too_long_is_refused(void **state)
     wr_free(million);
 }
 
-/* Cut off anywhere and with bytes changed: refused or read, and the process lives on. */
+/* Truncated anywhere and with changed bytes: refused or read, and the process survives. */
 static void damaged_fonts_do_no_harm(void **state)
 {
     (void)state;
@@ -501,7 +500,7 @@ static void damaged_fonts_do_no_harm(void **state)
     wr_font_text_fini(&good);
 }
 
-/* A block with any bytes changed is refused, or all of it can be walked through. */
+/* A block with any changed bytes is refused, or can be traversed completely. */
 static void answers_are_checked_number_by_number(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Scripts and several fonts: every glyph and place against HarfBuzz called directly, letters that a font
-   lacks against the font that lends them, variable fonts against FreeType. */
+/* Scripts and several fonts: every glyph and position against direct calls of HarfBuzz, missing letters against the
+   fallback font, variable fonts against FreeType. */
 #include "test.h"
 
 #include "base/error.h"
@@ -67,7 +67,7 @@ static Direct directly(const char *path, const char *text, const char *language,
     return d;
 }
 
-/* The glyphs from `first` on are those of HarfBuzz, the text beginning at `byte`. */
+/* The glyphs from `first` on equal those of HarfBuzz; the text starts at `byte`. */
 static void compare(const WrFontText *text, int first, const Direct *d, int byte)
 {
     for (unsigned i = 0; i < d->count; i++) {
@@ -95,7 +95,7 @@ static void words_of_one_script_are_harfbuzzs_own_glyphs_at_its_places(void **st
         const char *font, *text, *language;
         int fewer; /* glyphs than characters: joined or dropped */
     } words[] = {
-        { SANS, SALAM, NULL, 1 }, /* lam and alef are one sign */
+        { SANS, SALAM, NULL, 1 }, /* lam and alef are one glyph */
         { SANS, MARHABA, NULL, 0 },
         { SANS, "\xd9\x84\xd9\x8e\xd8\xa7", "ar", 0 }, /* a mark on the lam */
         { SANS, SHALOM, NULL, 0 },
@@ -119,7 +119,7 @@ static void words_of_one_script_are_harfbuzzs_own_glyphs_at_its_places(void **st
     }
 }
 
-/* Does the glyph reach its left and its right end? */
+/* True if the glyph reaches its left and its right end. */
 static void reaches(const WrFontText *text, int placed, bool *left, bool *right)
 {
     const WrFontGlyph *g = &text->glyphs[text->placed[placed].glyph];
@@ -131,8 +131,8 @@ static void reaches(const WrFontText *text, int placed, bool *left, bool *right)
     }
 }
 
-/* What joining means: the last, the middle and the first letter of a word, from left to right, touch their
- * neighbours and nothing else; a letter alone touches nothing. */
+/* Joining: the last, the middle and the first letter of a word, from left to right, touch only their neighbours; a
+ * single letter touches nothing. */
 static void arabic_letters_touch_their_neighbours(void **state)
 {
     (void)state;
@@ -187,7 +187,7 @@ static void what_a_font_lacks_comes_from_the_next_that_has_it(void **state)
     wr_font_text_fini(&t);
 }
 
-/* A line of three fonts to the left and to the right: clusters in Unicode's order, whoever draws them. */
+/* A line of three fonts in both directions: clusters are in Unicode's order, whichever font draws them. */
 static void lent_letters_stand_in_unicodes_order(void **state)
 {
     (void)state;
@@ -209,7 +209,7 @@ static void lent_letters_stand_in_unicodes_order(void **state)
     wr_font_text_fini(&t);
 }
 
-/* A letter and its mark are of one font, even where the first has the letter. */
+/* A letter and its mark come from one font, even if the first font has the letter. */
 static void marks_stay_with_what_they_stand_on(void **state)
 {
     (void)state;
@@ -228,7 +228,7 @@ static void marks_stay_with_what_they_stand_on(void **state)
     wr_font_text_fini(&t);
 }
 
-/* Dots and curves in one text: each at its own scale. */
+/* Dots and curves in one text: each with its own scale. */
 static void bitmaps_and_outlines_are_as_large_as_asked(void **state)
 {
     (void)state;
@@ -248,7 +248,7 @@ static void bitmaps_and_outlines_are_as_large_as_asked(void **state)
     assert_true(wr_font_outline(&k, &setting, 0.1, &own, &err));
     int last = both.xy.count - own.xy.count;
     assert_true(last > 0);
-    for (int i = 0; i < own.xy.count; i++) /* 32 texels to the right of where it stands alone */
+    for (int i = 0; i < own.xy.count; i++) /* 32 texels to the right of its position alone */
         assert_near(both.xy.data[last + i], own.xy.data[i] + (i % 2 ? 0.0 : 32.0), 1e-9);
     wr_font_outline_fini(&both);
     wr_font_outline_fini(&own);
@@ -274,7 +274,7 @@ static void fonts_that_cannot_lend_are_named(void **state)
     assert_int_equal(t.units, 77);
 }
 
-/* What fontconfig names has the letters indeed. */
+/* Fonts named by fontconfig do contain the letters. */
 static void installed_fonts_that_have_letters_are_found(void **state)
 {
     (void)state;
@@ -302,7 +302,7 @@ static void a_packed_console_font_is_read(void **state)
     WrFontText t = shaped(CONSOLE, &ask), same;
     assert_int_equal(t.missing_count, 0);
     assert_int_equal(t.units, 16);
-    /* Terminus of the same size, as X has it: the same dots. */
+    /* Terminus of the same size in X's format: the same dots. */
     same = shaped(TERMINUS, &ask);
     for (int k = 0; k < 3; k++) {
         const WrFontGlyph *a = &t.glyphs[t.placed[k].glyph];
@@ -380,7 +380,7 @@ static void wrong_axes_are_told(void **state)
         assert_false(wr_font_shape(wrong[i][0], &ask, &t, &err));
         if (!strstr(err.text, wrong[i][2])) fail_msg("%s: %s", wrong[i][1], err.text);
     }
-    /* beyond its range an axis stands at its end */
+    /* beyond its range an axis is clamped */
     WrFontAsk far = { .text = "a", .axes = "wght=5000" }, end = { .text = "a", .axes = "wght=900" };
     WrFontText a = shaped(VARIABLE, &far), b = shaped(VARIABLE, &end);
     assert_int_equal(a.placed[0].advance, b.placed[0].advance);

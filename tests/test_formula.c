@@ -1,4 +1,4 @@
-/* Surfaces of the user's own formulas: what expressions come to, their derivatives, and what is refused. */
+/* Surfaces from user formulas: values of expressions, their derivatives, and refusals. */
 #include "test.h"
 #include "test_surface_points.h"
 
@@ -239,7 +239,7 @@ static void hc149_hc150_what_is_no_surface_is_refused_with_its_column(void **sta
     }
 }
 
-/* Any bytes, and any words of the language: refused or finite all over. */
+/* Any bytes, and any words of the language: refused, or finite everywhere. */
 static void noise_is_refused_or_finite(void **state)
 {
     (void)state;
@@ -271,7 +271,7 @@ static void noise_is_refused_or_finite(void **state)
     assert_true(taken > 100);
 }
 
-/* Poles between the places where they were looked for are no numbers; a picture has them nowhere. */
+/* Poles between the sampled points are NaN; pictures contain none. */
 static void what_has_no_value_between_the_places_looked_at_stays_finite(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Generators that read files, as commands: the line learns what the file held, and holds to it. */
+/* Generators that read files, as commands: the line stores the checksum of the file, and checks it later. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -28,7 +28,7 @@ static void write_file(const char *name, const void *bytes, size_t length)
     if (!wr_file_write(name, bytes, length, &err)) fail_msg("%s", err.text);
 }
 
-/* Each file in one of two contents. */
+/* Each file with one of two contents. */
 static void write_files(int which)
 {
     WrError err;
@@ -73,11 +73,11 @@ static void a_file_of_another_content_is_refused_and_nothing_changes(void **stat
         snprintf(line, sizeof line, "%s", wr_session_last_command(s));
         WrHash made = wr_session_hash(s);
         must_run(s, "undo");
-        must_run(s, line); /* the same file still */
+        must_run(s, line); /* the file is unchanged */
         assert_true(wr_hash_equal(made, wr_session_hash(s)));
         write_files(1);
         must_fail(s, line, "another content");
-        must_run(s, cases[k].line); /* without its hash it is taken as it is now */
+        must_run(s, cases[k].line); /* without its checksum the present content is used */
         assert_false(wr_hash_equal(made, wr_session_hash(s)));
         wr_session_free(s);
     }

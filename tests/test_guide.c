@@ -1,4 +1,4 @@
-/* The guide as the window reads it: its Markdown, its search, and every page of it. */
+/* The guide in the window: its Markdown, its search, and every page. */
 #include "test.h"
 
 #include "base/error.h"
@@ -130,7 +130,7 @@ static void read_page(const char *name, WrGuidePage *page)
     wr_free(text);
 }
 
-/* Links lead to files that are there, and to headings that are on them. */
+/* Links refer to existing files and to headings in them. */
 static bool has_heading(const char *name, const char *anchor)
 {
     WrGuidePage page;
@@ -164,7 +164,7 @@ static void check_link(const char *page, const char *link, int length)
     if (anchor && !has_heading(name, anchor)) fail_msg("%s: %s has no #%s", page, name, anchor);
 }
 
-/* What the window's fonts have: gui_imgui_fonts.cpp. Code may hold any script. */
+/* Letters available in the window's fonts: gui_imgui_fonts.cpp. Code may contain any script. */
 static void check_letters(const char *page, const char *text)
 {
     for (const unsigned char *p = (const unsigned char *)text; *p;) {

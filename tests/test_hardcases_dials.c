@@ -1,6 +1,5 @@
-/* The hard cases of bent normals, filtered tables and means over samples, as pictures under every setting of
-   every dial: nothing that is not finite, coverage that stays, normals of length 1, and a plan that changes
-   no bit. */
+/* Hard cases of bent normals, filtered tables and sample means, as pictures under every setting of every dial: all
+   values finite, coverage unchanged, unit normals, and a plan that changes no bit. */
 #include "test.h"
 
 #include "base/error.h"
@@ -15,13 +14,13 @@
 
 enum { SIZE = 48, PIXELS = SIZE * SIZE };
 
-/* What a setting is tried on. */
+/* A tested setting. */
 typedef struct Trial {
     const char *id;
     const WrField *field;
-    WrScene *scene; /* the case's own */
+    WrScene *scene; /* owned by the case */
     WrRenderer *renderer;
-    double coverage; /* sum of A of the scene as it stands */
+    double coverage; /* sum of A with the scene's own dials */
     char setting[128];
 } Trial;
 
@@ -44,7 +43,7 @@ static double sum_of_coverage(const float *rgba)
     return sum;
 }
 
-/* Colours are premultiplied: with coverage 0 there is none. */
+/* Colours are premultiplied: with coverage 0 they are 0. */
 static void check_pixels(const Trial *trial, const float *rgba)
 {
     for (int i = 0; i < PIXELS; i++) {
@@ -59,7 +58,7 @@ static void check_pixels(const Trial *trial, const float *rgba)
     }
 }
 
-/* Returns how many pixels have one. Members that are halves are off by 2^-11 of themselves, so is |n'|. */
+/* Returns the number of pixels with a normal. Half-float members have an error of 2^-11, and so has |n'|. */
 static int check_normals(const Trial *trial, const WrScene *scene, const float *normals)
 {
     const double off = scene->dials.shading == WR_SHADING_HALF ? ldexp(1.01, -11) : 1e-5;
@@ -76,7 +75,7 @@ static int check_normals(const Trial *trial, const WrScene *scene, const float *
     return count;
 }
 
-/* The scene, as it is now, with the plan and without. */
+/* The present scene, with the plan and without. */
 static void check_scene(const Trial *trial, const WrScene *scene)
 {
     static float planned[4 * PIXELS], normals[3 * PIXELS];
@@ -90,17 +89,18 @@ static void check_scene(const Trial *trial, const WrScene *scene)
         fail_msg("%s %s: %s", trial->id, trial->setting, err.text);
     memcpy(planned, frame.rgba, sizeof planned);
     check_pixels(trial, planned);
-    /* a coarse mesh, or samples in other places, move the outline by no more than a pixel */
+    /* a coarse mesh, or other sample positions, move the silhouette by at most a pixel */
     assert_near(sum_of_coverage(planned), trial->coverage, 4.0 * SIZE);
     const int count = check_normals(trial, scene, normals);
     if (trial->coverage > 4.0 * SIZE) assert_true(count > 0);
-    /* On the unit plane the scale-invariant formula is the paper's, to rounding (E11), and pixels whose
-       bound is under `contrast` may be refined or not (E16); in all else every bit is the same. */
+    /* On the unit plane the scale-invariant formula equals the paper's up to rounding (E11), and pixels whose bound
+       is under `contrast` may be refined or not (E16); everything else is bit-identical. */
     double allowed =
         scene->bump == WR_BUMP_INVARIANT && frame.plan->bump == WR_BUMP_BLINN ? 1e-5 : 0.0;
     if (scene->dials.aa == WR_AA_ADAPTIVE && scene->dials.refine == WR_REFINE_BOUND)
         allowed += scene->dials.contrast;
-    /* Fast arithmetic rounds otherwise in one pass over a light than stage by stage; the bits are those of the plan. */
+    /* Fast arithmetic rounds differently in one pass over a light than stage by stage; the bits are those of the
+       plan. */
     if (scene->dials.arithmetic == WR_ARITHMETIC_FAST) allowed += 2e-4;
     request.full = true;
     request.normals = NULL;
@@ -116,7 +116,7 @@ static void check_rung(Trial *trial, const WrDial *dial, double value)
 {
     WrScene *scene = wr_scene_clone(trial->scene);
     dial->set(scene, value);
-    /* a dial that says nothing by itself is tried with the first antialiasing that listens to it */
+    /* a dial without effect by itself is tested with the first anti-aliasing method that uses it */
     for (int aa = 0; aa < WR_AA_COUNT && dial->matters && !dial->matters(scene); aa++)
         if (strcmp(dial->name, "aa") != 0) scene->dials.aa = (WrAntialias)aa;
     WrText text = { 0 };
@@ -181,7 +181,7 @@ static void hc12_to_hc19_under_every_setting(void **state)
     check_cases(ids);
 }
 
-/* HC20 and HC21 are about single vectors: every frame's normals go through them. */
+/* HC20 and HC21 concern single vectors: every frame's normals cover them. */
 static void hc22_to_hc27_under_every_setting(void **state)
 {
     (void)state;

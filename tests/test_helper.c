@@ -1,5 +1,5 @@
-/* The process that reads strangers' files: that it can be killed, starved, stopped and lied about, and that
-   the program notices in one sentence and goes on. */
+/* The reader process: it can be killed, starved, stopped and fed wrong data; the program reports each case in one
+   message and continues. */
 #include "helper_help.h"
 
 /* ---- deaths ---- */
@@ -45,7 +45,7 @@ static void the_process_is_started_again_when_it_was_killed(void **state)
     WrImageFile *file = open_good("a.png");
     pid_t child = the_child();
     kill(before, SIGKILL);
-    expect_gone(child); /* it goes with its parent */
+    expect_gone(child); /* it ends with its parent */
     expect_unreadable(file, "a.png: ", "was killed");
     wr_image_file_close(file);
     expect_good("a.png");
@@ -98,7 +98,7 @@ static void killed_at_random_moments_gives_a_picture_or_a_sentence(void **state)
     }
     __atomic_store_n(&killer.stop, 1, __ATOMIC_RELEASE);
     pthread_join(killer.thread, NULL);
-    assert_true(bad > 0); /* else nothing was tried */
+    assert_true(bad > 0); /* otherwise nothing was tested */
     expect_good("a.png");
     expect_no_children();
 }
@@ -199,12 +199,12 @@ static void a_reader_holds_its_file_its_channel_and_no_rights(void **state)
     }
     closedir(folder);
     assert_int_equal(status_of(child, "NoNewPrivs:"), 1);
-    if (!SANITIZED) assert_int_equal(status_of(child, "Seccomp:"), 2); /* a filter */
+    if (!SANITIZED) assert_int_equal(status_of(child, "Seccomp:"), 2); /* a filter is set */
     wr_image_file_close(file);
     fclose(mine);
 }
 
-/* SGI pictures: the library's reader of them takes nothing but a path, and no path can be opened there. */
+/* SGI pictures: the library's reader accepts only a path, and no path can be opened there. */
 static void a_format_that_insists_on_a_path_reads_too(void **state)
 {
     (void)state;

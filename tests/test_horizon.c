@@ -1,5 +1,5 @@
-/* A plane that goes on to the horizon: near by it is the finite one to the bit, far away it fades, its picture is that of the
-   reference, and eyes below it, on it and far off see numbers. */
+/* A plane that extends to the horizon: nearby it is bit-identical to the finite one, far away it fades; its picture
+   equals the reference's, and eyes below it, on it and far away get finite values. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -10,7 +10,7 @@
 #define WIDE 75
 #define HIGH 58
 
-/* The table lies `repeats` times as often as on a plane of 1.3 x 0.9; the eye stands `above` it. */
+/* The table repeats `repeats` times as often as on a plane of 1.3 x 0.9; the eye is at height `above`. */
 static WrScene *plane_of(bool endless, double above)
 {
     WrScene *scene = scene_of("plane");
@@ -33,7 +33,7 @@ static Shot picture(const WrScene *scene, const WrField *field, const char *isa)
     return shoot(scene, field, WIDE, HIGH, 2, isa, false);
 }
 
-/* Where the finite plane is, and a pixel holds less than an eighth of half a period. */
+/* Within the finite plane, where a pixel covers less than an eighth of half a period. */
 static void near_by_it_is_the_finite_plane_to_the_bit(void **state)
 {
     (void)state;
@@ -62,7 +62,8 @@ static void near_by_it_is_the_finite_plane_to_the_bit(void **state)
     wr_field_free(field);
 }
 
-/* Down a column coverage only grows, from none above the horizon to all; over a few rows it is between. */
+/* Down a column coverage increases monotonically, from none above the horizon to full; in a few rows it is in
+   between. */
 static void it_fades_at_the_horizon(void **state)
 {
     (void)state;
@@ -95,7 +96,7 @@ static int count_unlike(const Shot *shot, const WrReference *ours, double off)
     return unlike;
 }
 
-/* Alone, or under a ball, from above and from below; stretched; in both precisions. */
+/* Alone, or with a sphere above, seen from above and below; stretched; in both precisions. */
 static void pictures_are_those_of_the_reference(void **state)
 {
     (void)state;
@@ -103,7 +104,7 @@ static void pictures_are_those_of_the_reference(void **state)
     for (int k = 0; k < 6; k++) {
         WrScene *scene = plane_of(true, k % 3 == 1 ? -0.6 : 0.45);
         scene->bump = k == 5 ? WR_BUMP_EXACT : WR_BUMP_BLINN;
-        scene->scheme = WR_SCHEME_BSPLINE_FIT; /* which the reference takes */
+        scene->scheme = WR_SCHEME_BSPLINE_FIT; /* used by the reference */
         scene->replicate_u = 1.5;
         if (k == 3) scene->sizes = (WrVec3){ 1, 0.8, 1 };
         if (k == 4) scene->dials.shading = WR_SHADING_DOUBLE;
@@ -135,7 +136,7 @@ static void pictures_are_those_of_the_reference(void **state)
     wr_field_free(field);
 }
 
-/* All samples of a pixel fade by the pixel's footprint: more of them change coverage by next to nothing. */
+/* All samples of a pixel fade by the pixel's footprint: more samples hardly change coverage. */
 static void fading_goes_by_pixels_whatever_the_samples(void **state)
 {
     (void)state;
@@ -156,8 +157,8 @@ static void fading_goes_by_pixels_whatever_the_samples(void **state)
     wr_field_free(field);
 }
 
-/* Squares of 0 and 1 whose mean is known, one texel each; each pixel one sample, and the dials ask for no filter. What a pixel
-   holds many of is their mean: as single texels, half of the pixels would be off by half of it. */
+/* Squares of 0 and 1 with known mean, one texel each; one sample per pixel, without filter dials. A pixel that covers
+   many texels shows their mean: single texels would make an error of a half in half of the pixels. */
 static void far_colours_are_the_mean_of_their_picture(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The illusion meter against closed forms, and against pictures that are compared here. */
+/* The illusion measurement against closed forms, and against pictures compared here. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -29,7 +29,8 @@ static WrIllusion measured(const WrScene *scene, const WrField *field, int w, in
     return out;
 }
 
-/* A ball of radius R and one of R + c from d: rims at f r / sqrt(d^2 - r^2). The same place has the same light. */
+/* A sphere of radius R and one of R + c seen from d: silhouettes at f r / sqrt(d^2 - r^2). The same point has the
+   same light. */
 static void a_raised_ball(void **state)
 {
     (void)state;
@@ -54,7 +55,8 @@ static void a_raised_ball(void **state)
     wr_field_free(field);
 }
 
-/* A plane at d that comes nearer by c: its corner goes from f/d to f/(d - c) times (1/2, 1/2); bump shows nothing of it. */
+/* A plane at d raised by c: its corner moves from f/d to f/(d - c) times (1/2, 1/2); bump mapping does not show
+   this. */
 static void a_raised_plane(void **state)
 {
     (void)state;
@@ -73,7 +75,7 @@ static void a_raised_plane(void **state)
     wr_field_free(field);
 }
 
-/* rms of a - b where c and d cover the whole pixel. */
+/* RMS of a - b where c and d cover the whole pixel. */
 static double apart(const float *a, const float *b, const float *c, const float *d, int count)
 {
     double sum = 0;
@@ -86,7 +88,7 @@ static double apart(const float *a, const float *b, const float *c, const float 
     return sqrt(sum / common);
 }
 
-/* Outline, shading and shadow are those of pictures that are rendered here, one by one; D - B is their sum. */
+/* Outline, shading and shadow equal those of pictures rendered here one by one; D - B is their sum. */
 static void the_parts_are_those_of_the_pictures(void **state)
 {
     (void)state;
@@ -94,7 +96,7 @@ static void the_parts_are_those_of_the_pictures(void **state)
     WrField *field = random_field(17, 13, 8);
     WrScene *scene = scene_of("torus");
     scene->height = 0.09;
-    scene->material.shadow = true; /* taken off and put on by the meter itself */
+    scene->material.shadow = true; /* switched by the measurement itself */
     WrIllusion it = { 0 };
     const WrIllusionRequest request = {
         .field = field, .scene = scene, .width = W, .height = H, .turn_deg = 15, .threads = 1
@@ -102,7 +104,7 @@ static void the_parts_are_those_of_the_pictures(void **state)
     assert_true(wr_illusion_measure(&request, &it, NULL));
     Shot shot[3];
     double outline = 0;
-    scene->displaced = true; /* all are seen from where that fits */
+    scene->displaced = true; /* all are seen from a camera that fits this one */
     wr_scene_hold_camera(scene, scene, (double)W / H);
     for (int k = 0; k < 3; k++) {
         scene->displaced = k > 0, scene->material.shadow = k > 1;
@@ -125,14 +127,14 @@ static void the_parts_are_those_of_the_pictures(void **state)
     wr_field_free(field);
 }
 
-/* What a height moves is in proportion to it: at the height that the advice names half a pixel is not passed. */
+/* The displacement of pixels is proportional to the height: at the suggested height it stays within half a pixel. */
 static void the_advice_holds(void **state)
 {
     (void)state;
     WrField *field = random_field(17, 13, 8);
     WrScene *scene = scene_of("sphere");
     scene->height = 0.06;
-    /* Lower ones are seen from the same place. */
+    /* Lower ones are seen with the same camera. */
     wr_scene_hold_camera(scene, scene, 1);
     WrIllusion it = measured(scene, field, 120, 120);
     WrText text = { 0 };

@@ -1,5 +1,5 @@
-/* test_image_files.c - picture files made by hand, byte by byte as their formats are written down: PNM of any depth,
-   GIMP patterns, SRTM elevations, pictures that tell which way is up, EXR files with channels in layers. */
+/* test_image_files.c - picture files written byte by byte from their format descriptions: PNM of any depth, GIMP
+   patterns, SRTM elevations, pictures with an orientation, EXR files with channels in layers. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -42,7 +42,7 @@ static void put_big32(Bytes *b, unsigned n)
     put_big16(b, n >> 16), put_big16(b, n & 65535);
 }
 
-/* Written, and put away. */
+/* Write the bytes and free them. */
 static void write_bytes(const char *path, Bytes *b)
 {
     WrError err;
@@ -132,7 +132,7 @@ static void pnm_that_is_too_short_or_makes_no_sense_is_refused(void **state)
     }
 }
 
-/* ---- GIMP patterns: header length, version, width, height, bytes a pixel, "GPAT", name ---- */
+/* ---- GIMP patterns: header length, version, width, height, bytes per pixel, "GPAT", name ---- */
 
 static void write_pattern(int w, int h, int channels, unsigned version, size_t cut)
 {
@@ -190,7 +190,8 @@ static void srtm_elevations_are_metres_and_voids_are_filled(void **state)
     assert_int_equal(image->width, N);
     assert_int_equal(image->type, WR_PIXEL_F32);
     assert_int_equal(image->filled, 19 * 9);
-    /* Voids lie between the plane's heights at the corners about them: 3 * 600 + 5 * 300 - 400 and 3 * 620 + 5 * 310 - 400. */
+    /* Voids are between the plane's heights at the surrounding corners: 3 * 600 + 5 * 300 - 400 and 3 * 620 + 5 * 310
+       - 400. */
     for (int k = 0; k < N * N; k++) {
         const int metres = metres_at(k % N, k / N);
         if (metres != -32768) assert_true(image->data[k] == (float)metres);
@@ -236,7 +237,7 @@ static void write_turned_tiff(const char *path, unsigned orientation)
     write_bytes(path, &b);
 }
 
-/* TIFF 6, page 36: where row 0 and column 0 of the file are seen. */
+/* TIFF 6, page 36: display position of row 0 and column 0 of the file. */
 static void seen_at(int orientation, int row, int column, int w, int h, int *x, int *y)
 {
     static const struct {
@@ -261,7 +262,7 @@ static void expect_turned(const WrImage *image, int orientation, double toleranc
     }
 }
 
-/* Read row by row it is the same picture. */
+/* Read row by row, it is the same picture. */
 static void expect_rows(const char *path, const WrImage *image)
 {
     WrError err = { "" };
@@ -291,7 +292,7 @@ static void pictures_stand_the_way_up_that_they_tell(void **state)
     }
 }
 
-/* What a camera writes: an Exif block with one entry, put behind the first marker of a JPEG of ours. */
+/* Camera format: an Exif block with one entry, inserted after the first marker of a JPEG of the program. */
 static void photographs_are_turned_by_their_exif(void **state)
 {
     (void)state;
@@ -358,7 +359,7 @@ static void write_layers(const char *path, const char *const *names, int channel
     if (!wr_image_write(path, out, parts, &err)) fail_msg("%s", err.text);
 }
 
-/* A wish, and the numbers of the channels in their order that answer it; none: an error. */
+/* A request, and the expected channel numbers in order; none: an error. */
 static void expect_channels(const char *path, const char *channel, const char *part, int part_index,
                             const char *answer)
 {
@@ -376,7 +377,7 @@ static void expect_channels(const char *path, const char *channel, const char *p
     wr_image_free(image);
 }
 
-/* EXR keeps channels in the order of their names, as these lists do. */
+/* EXR sorts channels by name, as in these lists. */
 static void channels_in_layers_are_not_mixed(void **state)
 {
     (void)state;
@@ -436,7 +437,7 @@ static void commands_choose_and_tell_what_they_took(void **state)
     wr_session_free(s);
 }
 
-/* Its lines take the same channels again: from a script beside the file, and in a document without it. */
+/* Its lines select the same channels again: from a script beside the file, and in a document without it. */
 static void a_scene_names_the_channels_that_its_pictures_took(void **state)
 {
     (void)state;
@@ -469,7 +470,7 @@ static void a_scene_names_the_channels_that_its_pictures_took(void **state)
     wr_session_free(s), wr_session_free(opened), wr_session_free(script);
 }
 
-/* ---- what stands there is shown in the part's order, whatever the format's ---- */
+/* ---- messages list names in the part's order, whatever the format's ---- */
 
 typedef struct Shown {
     int rows, wrong;

@@ -1,4 +1,4 @@
-/* Work in the background where the system gives no threads: it is done all the same, and said once. */
+/* Background jobs without threads of the system: they run all the same, with one message. */
 #include "test.h"
 
 #include "base/memory.h"
@@ -14,7 +14,7 @@
 
 static bool none_left; /* the system has no more threads */
 
-/* Before the C library's. */
+/* Overrides the C library's function. */
 int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
                    void *arg)
 {
@@ -32,7 +32,7 @@ typedef struct Piece {
 } Piece;
 
 static int dropped;
-static WrPool *first; /* of work that was done in place: what a piece keeps may hold on to it */
+static WrPool *first; /* pool of in-place work: a piece may keep pointers to it */
 
 static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
@@ -41,7 +41,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     assert_ptr_equal(wr_progress_here(), progress);
     if (!first) first = pool;
     if (none_left) assert_ptr_equal(pool, first);
-    /* it is still there, also for threads that come later */
+    /* it still exists, also for later threads */
     assert_int_equal(wr_pool_threads(first), 1);
     piece->result = piece->value + 1;
 }
@@ -85,11 +85,11 @@ static void without_threads_the_work_is_done_in_place(void **state)
     }
     assert_true(wr_thread_refused());
     assert_false(wr_thread_refused()); /* once is enough */
-    wr_job_start(job, piece_of(7));    /* nobody takes it */
+    wr_job_start(job, piece_of(7));    /* not fetched */
     wr_job_start(job, piece_of(8));
     assert_int_equal(dropped, 1);
     assert_false(wr_thread_refused());
-    none_left = false; /* there are some again */
+    none_left = false; /* threads are available again */
     wr_job_start(job, piece_of(9));
     Piece *done = wait_for(job);
     assert_int_equal(done->result, 10);

@@ -1,5 +1,5 @@
-/* The journal when the disk is full, the folder is gone, or nothing may be written: it says so
-   once, harms nothing, and comes back. */
+/* The journal when the disk is full, the folder is gone, or writing is forbidden: reported once, harmless, and
+   recoverable. */
 #include "test.h"
 #include "journal_help.h"
 
@@ -32,7 +32,7 @@ static WrJournal *begin_reporting(const char *folder, Reports *reports)
     return wr_journal_begin(&options, &start);
 }
 
-/* Numbered commands of about 1 KB until one cannot be written; how many were. -1: never. */
+/* Append numbered commands of about 1 KB until one fails; returns the number of written ones. -1: none failed. */
 static int write_until_full(WrJournal *journal, WrError *err)
 {
     char text[1024];
@@ -47,7 +47,7 @@ static int write_until_full(WrJournal *journal, WrError *err)
     return -1;
 }
 
-/* Try again until the journal asks for a fresh start; false if it never does. */
+/* Retry until the journal requests a fresh start; false if it never does. */
 static bool asks_for_all(WrJournal *journal)
 {
     for (int i = 0; i < 25; i++) {
@@ -71,7 +71,7 @@ static bool restart_from_snapshot(WrJournal *journal)
     return ok;
 }
 
-/* The journal holds exactly the commands 0 .. count-1 and tells of the gap. */
+/* The journal holds exactly the commands 0 .. count-1 and reports the gap. */
 static int check_prefix(const WrJournal *journal, int count)
 {
     WrJournalRead read;
@@ -82,7 +82,7 @@ static int check_prefix(const WrJournal *journal, int count)
     return 0;
 }
 
-/* After the failure, and after there is room again, in any of the ways in which a disk is full. */
+/* Checks after the failure, and after space is available again, for every kind of full disk. */
 static int check_failed(WrJournal *journal, const Reports *reports, int written)
 {
     WrError err = { "" };
@@ -100,7 +100,7 @@ static int check_recovered(WrJournal *journal, const Reports *reports, int writt
 {
     WrJournalRead read;
     CHECK(asks_for_all(journal));
-    CHECK(check_prefix(journal, written) == 0); /* what was lost is not there by half */
+    CHECK(check_prefix(journal, written) == 0); /* no half-written record */
     CHECK(wr_journal_read(wr_journal_path(journal), &read, NULL));
     CHECK(*read.gap);
     wr_journal_read_fini(&read);
@@ -149,7 +149,7 @@ static int reach_a_size_limit(const char *place)
     struct sigaction action = { .sa_handler = SIG_DFL };
     struct rlimit limit;
     char *folder = in(place, "journals");
-    CHECK(sigaction(SIGXFSZ, &action, NULL) == 0); /* would kill */
+    CHECK(sigaction(SIGXFSZ, &action, NULL) == 0); /* the default action would kill */
     WrJournal *journal = begin_reporting(folder, &reports);
     CHECK(getrlimit(RLIMIT_FSIZE, &limit) == 0);
     rlim_t before = limit.rlim_cur;
@@ -207,7 +207,7 @@ static void a_folder_that_can_be_written_later_is_used_then(void **state)
 {
     Reports reports = { 0 };
     char *folder = in(*state, "state/journals"), *above = in(*state, "state");
-    write_bytes(above, "a file", 6); /* in the folder's place */
+    write_bytes(above, "a file", 6); /* in place of the folder */
     WrJournal *journal = begin_reporting(folder, &reports);
     assert_int_equal(reports.count, 1);
     assert_false(asks_for_all(journal));
@@ -250,11 +250,12 @@ static void a_journal_that_is_moved_away_is_noticed_at_the_next_sync(void **stat
     assert_non_null(strstr(err.text, "moved"));
     assert_true(asks_for_all(journal) && restart_from_snapshot(journal));
     wr_journal_finish(journal);
-    assert_int_equal(count_entries(*state), 1); /* the one that was moved is not ours any more */
+    /* the moved file no longer belongs to the journal */
+    assert_int_equal(count_entries(*state), 1);
     wr_free(away);
 }
 
-/* Whatever has its name now is another's: not synced in its place, and not removed. */
+/* A new file under its name belongs to another program: neither synced nor removed. */
 static void another_file_of_its_name_is_not_taken_for_it(void **state)
 {
     Reports reports = { 0 };
@@ -273,7 +274,7 @@ static void another_file_of_its_name_is_not_taken_for_it(void **state)
     wr_free(path), wr_free(away);
 }
 
-/* A sync is seen by its finding out that the file was moved, which writing alone does not. */
+/* A sync is detected by its discovery that the file was moved; writing alone does not discover it. */
 static void lines_are_synced_by_themselves_as_often_as_was_asked(void **state)
 {
     char *away = in(*state, "away.wj");
@@ -298,7 +299,7 @@ static void a_restart_that_fails_changes_nothing(void **state)
     WrJournal *journal = begin_reporting(*state, &reports);
     wr_journal_command(journal, "a", NULL);
     WrJournalStart start = { .kind = WR_JOURNAL_EMPTY };
-    assert_false(wr_journal_restart(journal, &start, &err)); /* "a" is under way */
+    assert_false(wr_journal_restart(journal, &start, &err)); /* "a" is running */
     assert_non_null(strstr(err.text, "under way"));
     wr_journal_done(journal, WR_JOURNAL_OK, NULL, NULL);
     assert_true(wr_journal_snapshot_path(journal, &path, &err));
@@ -343,7 +344,7 @@ static void a_long_journal_asks_to_be_shortened(void **state)
     assert_int_equal(wr_journal_state(journal).want, WR_JOURNAL_WANT_SHORTER);
     wr_journal_put_off(journal);
     assert_int_equal(wr_journal_state(journal).want, WR_JOURNAL_WANT_NOTHING);
-    assert_true(wr_journal_command(journal, "a", NULL)); /* goes on all the same */
+    assert_true(wr_journal_command(journal, "a", NULL)); /* continues all the same */
     wr_journal_done(journal, WR_JOURNAL_OK, NULL, NULL);
     assert_true(restart_from_snapshot(journal));
     assert_int_equal(wr_journal_state(journal).lines, 1);

@@ -1,5 +1,5 @@
-/* test_labels.c - what export writes into its files is read back: heights of any range, signed ones, normal maps;
-   and labels that a stranger made up are not believed. */
+/* test_labels.c - labels of exported files are read back: heights of any range, signed ones, normal maps; forged
+   labels are ignored. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -11,7 +11,7 @@
 
 static const char table[] = "noise perlin cells=3 octaves=4 amplitude=2.3 level=-1.1 seed=5";
 
-/* A table of random slopes of odd and unequal sides, about -3..1. */
+/* A table of random slopes with odd and unequal sides, about -3..1. */
 static WrSession *rough_table(Said *said)
 {
     WrSession *s = listening(said);
@@ -60,7 +60,7 @@ static void heights_come_back_from_every_range(void **state)
     }
 }
 
-/* Of floats the range in the label is only told: the numbers are the heights. */
+/* For floats the label's range is only informative: the numbers are the heights. */
 static void floats_are_heights_whatever_their_range(void **state)
 {
     (void)state;
@@ -84,7 +84,7 @@ static void floats_are_heights_whatever_their_range(void **state)
     }
 }
 
-/* The same by the other doors for strangers' pictures. */
+/* The same by other commands that read pictures. */
 static void elevations_and_photographs_go_by_labels_too(void **state)
 {
     (void)state;
@@ -99,7 +99,7 @@ static void elevations_and_photographs_go_by_labels_too(void **state)
     assert_true(farthest(s, back) > 0.5);
     must_run(back, "terrain elevation h.png values=code");
     assert_true(farthest(s, back) > 0.5);
-    /* codes in proportion to heights, for a photograph too */
+    /* codes proportional to heights, as for a photograph */
     WrSession *codes = listening(&other);
     must_run(codes, "image h.png labels=ignore");
     must_run(back, "picture photo h.png highpass=0 seamless=off height=1");
@@ -134,7 +134,7 @@ static void signed_zero_comes_back_as_zero(void **state)
     }
 }
 
-/* A normal map comes back as heights, whatever the sign of green, the cell and the height of the bump. */
+/* A normal map is converted back to heights, for either sign of green, any cell and height scale. */
 static void normal_maps_come_back_as_their_heights(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Large pictures go into their files by bands of rows: the same bytes, in little memory, and nothing is left of one
-   that is given up. */
+/* Large pictures are written in bands of rows: the same bytes, in little memory, and nothing is left after a
+   cancellation. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -58,14 +58,14 @@ static void render(WrSession *s, const char *name, const char *ending, int width
     if (!wr_session_render(s, path, width, height, 30, &err)) fail_msg("%s", err.text);
 }
 
-/* One row of strips a band, and some: in every format, with an odd end, of a picture that one band holds. */
+/* One row of strips per band, and several: in every format, with an odd end, for a picture that fits one band. */
 static void files_by_bands_are_those_of_the_whole(void **state)
 {
     (void)state;
     static const char *const scenes[][3] = {
         { "dials aa=supersample samples=2", NULL },
         { "dials aa=adaptive samples=4", "surface bezier", NULL },
-        { "tolerance rms=0.01", NULL }, /* is held whole, whatever was asked for */
+        { "tolerance rms=0.01", NULL }, /* held in memory as a whole */
     };
     static const int sizes[][2] = { { 90, 331 }, { 133, 64 }, { 57, 65 } };
     WrPool *pool = wr_pool_new(2);
@@ -93,7 +93,7 @@ static void files_by_bands_are_those_of_the_whole(void **state)
 
 /* ---- memory ---- */
 
-/* The most that this process held since it was last asked, in bytes. */
+/* Peak memory of this process since the last call, in bytes. */
 static double most_held(void)
 {
     FILE *file = fopen("/proc/self/status", "r");
@@ -113,7 +113,7 @@ static bool forget_most(void)
     return good;
 }
 
-/* 64 million bytes as floats, 16 of them as codes; a band is 4. */
+/* 64 million bytes as floats, 16 million as codes; a band is 4 million. */
 static void a_large_picture_takes_the_memory_of_a_band(void **state)
 {
     (void)state;
@@ -121,7 +121,7 @@ static void a_large_picture_takes_the_memory_of_a_band(void **state)
     static const char *const plain[] = { "surface plane", "dials aa=point", NULL };
     WrPool *pool = wr_pool_new(2);
     WrSession *s = session_with(pool, 4000000, plain);
-    for (int i = 0; i < 3; i++) { /* what each library takes for itself is there before */
+    for (int i = 0; i < 3; i++) { /* memory of each library is allocated before */
         render(s, "small", endings[i], 1000, 300);
         if (!forget_most()) skip();
         const double before = most_held();
@@ -133,11 +133,11 @@ static void a_large_picture_takes_the_memory_of_a_band(void **state)
     wr_pool_free(pool);
 }
 
-/* All of it would be 4.3 GB. */
+/* The whole would be 4.3 GB. */
 static void a_tolerance_that_lacks_memory_tells_the_way_out(void **state)
 {
     (void)state;
-    if (SANITIZED) skip(); /* they have terabytes of addresses */
+    if (SANITIZED) skip(); /* sanitizers reserve terabytes of addresses */
     static const char *const lines[] = { "tolerance rms=0.01", NULL };
     WrError err = { "" };
     struct rlimit was;
@@ -157,7 +157,7 @@ static void a_tolerance_that_lacks_memory_tells_the_way_out(void **state)
 
 typedef struct Stop {
     volatile int cancel;
-    int reports, at; /* so far; the one to stop at, 0: never */
+    int reports, at; /* reports so far; the one to cancel at, 0: never */
     double last;
 } Stop;
 
@@ -180,7 +180,7 @@ static int files_here(void)
     return count;
 }
 
-/* Told to stop at that report. How many reports there were. */
+/* Cancel at that report. Returns the number of reports. */
 static int render_until(WrSession *s, const char *path, int at)
 {
     WrError err = { "" };

@@ -1,4 +1,4 @@
-/* Layers as commands: what they make together, their order, joining them. */
+/* Layers as commands: their composite, order, and merging. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -16,7 +16,7 @@ static double value(const WrField *field, int i, int j)
     return field ? wr_field_get(field, i, j) : 1.0;
 }
 
-/* One layer onto b, as blend.h says, in double. */
+/* One layer onto b, as in blend.h, in double precision. */
 static double blend(const WrLayer *layer, double b, int i, int j)
 {
     double h = wr_field_get(layer->heights, i, j), k = layer->radius;
@@ -45,7 +45,7 @@ static double composite(const WrDocument *document, int i, int j)
     return b;
 }
 
-/* 20 layers round a few float roundings each, of heights up to some 10. */
+/* 20 layers with a few float roundings each, of heights up to about 10. */
 static void check_composite(const WrSession *session)
 {
     const WrField *f = wr_document_field(doc(session));
@@ -104,7 +104,7 @@ static void a_max_layer_touches_only_what_was_painted_on_it(void **state)
                                                 "dab 0.5,0.5 radius=8 strength=1", NULL });
     assert_true(f_at(s, 0, 0) == -5);  /* though the layer's 0 is higher */
     assert_true(f_at(s, 32, 32) == 1); /* fully covered */
-    must_run(s, "fill 2");             /* now it says something everywhere */
+    must_run(s, "fill 2");             /* now it covers everything */
     assert_true(f_at(s, 0, 0) == 2);
     must_run(s, "layer clear");
     assert_true(f_at(s, 0, 0) == -5 && f_at(s, 32, 32) == -5);

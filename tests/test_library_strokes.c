@@ -1,4 +1,4 @@
-/* Every preset of the library paints: those of MyPaint's package, all of them, and our own. */
+/* Every preset of the library paints: all of MyPaint's package, and our own. */
 #include "test.h"
 
 #include "base/error.h"
@@ -105,8 +105,7 @@ static void our_own_presets_paint_and_repeat(void **state)
     assert_true(check_collection("wrinkle") >= 26);
 }
 
-/* Of one's own presets nothing may have been passed over or brought into range, each says what it is for,
-   and no two are the same. */
+/* Our own presets parse without skipped or clamped values, each has a description, and no two are equal. */
 static void our_own_presets_are_clean_and_tell_what_they_are_for(void **state)
 {
     (void)state;
@@ -123,7 +122,7 @@ static void our_own_presets_are_clean_and_tell_what_they_are_for(void **state)
         const char *text = wr_preset_description(preset);
         if (strlen(text) < 20 || text[strlen(text) - 1] != '.')
             fail_msg("%s: '%s' does not describe it", entry->id, text);
-        assert_string_equal(wr_preset_group(preset), entry->group); /* as order.conf says */
+        assert_string_equal(wr_preset_group(preset), entry->group); /* as in order.conf */
         int group = 0;
         while (group < 4 && strcmp(groups[group], entry->group) != 0) group++;
         if (group == 4) fail_msg("%s: group %s", entry->id, entry->group);

@@ -1,5 +1,5 @@
-/* Modules and lists that are loaded when they are needed (base/once_async.h): who waits for one that takes long can be told to
-   stop, and the one that was loaded meanwhile serves the next. */
+/* Modules and lists loaded on first use (base/once_async.h): a caller waiting for a slow one can be cancelled, and
+   the result serves the next caller. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-#define PATIENCE 120 /* seconds, until a test that hangs is ended */
+#define PATIENCE 120 /* seconds before a hanging test is ended */
 
 static long loadings(void)
 {
@@ -27,7 +27,7 @@ static void make_file(const char *path)
     fclose(file);
 }
 
-/* A module of its own, since one that was loaded stays. */
+/* A separate module, since a loaded one stays. */
 static void put_module(const char *file)
 {
     char command[512];
@@ -55,7 +55,7 @@ static void *cancel_then(void *cancel)
     return NULL;
 }
 
-/* Ask for it and be told to stop meanwhile. */
+/* Request it and be cancelled meanwhile. */
 static void ask_and_cancel(WrModule *module)
 {
     WrError err = { "" };
@@ -83,7 +83,7 @@ static void who_is_cancelled_does_not_wait_and_the_next_takes_it(void **state)
 {
     (void)state;
     put_module("slow1.so");
-    static WrModule module; /* it may be loading when the test has failed */
+    static WrModule module; /* it may be loading after a failed test */
     name_module(&module, "slow1.so");
     for (int i = 0; i < 3; i++) ask_and_cancel(&module); /* without waiting for "go" */
     enum { COUNT = 4 };
@@ -109,11 +109,12 @@ static void warming_returns_at_once_and_loads_once(void **state)
     (void)state;
     WrError err = { "" };
     put_module("slow2.so");
-    static WrModule module; /* it may be loading when the test has failed */
+    static WrModule module; /* it may be loading after a failed test */
     name_module(&module, "slow2.so");
     for (int i = 0; i < 3; i++) wr_once_async_begin(&module.loading);
     make_file("go");
-    assert_non_null(wr_module_table(&module, &err)); /* nobody could stop this one: it waits too */
+    /* this caller cannot be cancelled: it waits too */
+    assert_non_null(wr_module_table(&module, &err));
     wr_once_async_begin(&module.loading);
     assert_int_equal(loadings(), 1);
 }
@@ -123,7 +124,7 @@ static void a_failure_is_told_and_not_kept(void **state)
     (void)state;
     volatile int cancel = 0;
     const WrProgress some = { .cancel = &cancel }, *const who[] = { NULL, &some };
-    static WrModule module; /* it may be loading when the test has failed */
+    static WrModule module; /* it may be loading after a failed test */
     name_module(&module, "slow3.so");
     make_file("go");
     for (int i = 0; i < 2; i++) {
@@ -137,7 +138,7 @@ static void a_failure_is_told_and_not_kept(void **state)
     wr_progress_set(NULL);
 }
 
-/* The end of the program does not wait for what nobody wants any more, and keeps its status and its words. */
+/* The program's end does not wait for an unneeded load, and keeps its exit status and output. */
 static void the_program_ends_while_one_loads(void **state)
 {
     (void)state;
@@ -163,9 +164,9 @@ static void the_program_ends_while_one_loads(void **state)
     assert_int_not_equal(access("go", F_OK), 0);
 }
 
-/* ---- the list of fonts ---- */
+/* it may be loading after a failed test */
 
-/* It is being read once somebody reads this fifo, and goes on when something comes of it. */
+/* Loading starts when this fifo is read, and continues when data arrives. */
 static void *cancel_at_fifo(void *cancel)
 {
     int file = open("fonts.conf", O_WRONLY | O_CLOEXEC);
@@ -192,7 +193,7 @@ static void a_list_of_fonts_that_takes_long_can_be_cancelled(void **state)
     assert_int_equal(cancel, 1);
     wr_progress_set(NULL);
     pthread_join(thread, &file);
-    /* The copy that looks first has the fifo open; whoever looks after it finds a file. */
+    /* The copy that reads first has the fifo open; later ones find a file. */
     assert_int_equal(unlink(path), 0);
     FILE *plain = fopen(path, "w");
     assert_non_null(plain);

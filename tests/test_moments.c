@@ -1,5 +1,5 @@
-/* What moments are for, as the page of measured scenes says of its scene: highlights on relief that is far finer than
-   a pixel are nearer with one look than with 4 x 4 samples. */
+/* Benefit of slope moments, as stated on the page of measured scenes: highlights on relief far finer than a pixel are
+   more accurate with one fetch than with 4 x 4 samples. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -40,7 +40,7 @@ static void highlights_under_minification_are_nearest_by_moments(void **state)
     const double filtered = rms_of(session, "dials aa=filter", &reference);
     const double moments = rms_of(session, "dials aa=moments moments=lean", &reference);
     const double many = rms_of(session, "dials aa=supersample samples=4", &reference);
-    /* With the nearest slopes 4 x 4 samples are nearer, 2 x 2 are not. */
+    /* With the nearest slopes 4 x 4 samples are more accurate, 2 x 2 are not. */
     must_run(session, "bump scheme=bspline-fit mode=exact");
     const double few = rms_of(session, "dials aa=supersample samples=2", &reference);
     if (!(moments < few)) fail_msg("moments %g, 2 x 2 samples at their best %g", moments, few);

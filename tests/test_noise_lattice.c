@@ -1,11 +1,11 @@
-/* What noise is made from: the integer hash and its statistics, the lecture's hash, range reduction. */
+/* Building blocks of noise: the integer hash and its statistics, the lecture's hash, range reduction. */
 #include "test.h"
 
 #include "noise/lattice.h"
 
 #include <float.h>
 
-/* Worked out by hand, in whole numbers of any size, from the formula in lattice.h. */
+/* Computed by hand with unlimited integers from the formula in lattice.h. */
 static void hc66_the_hash_is_the_integer_formula(void **state)
 {
     (void)state;
@@ -33,7 +33,7 @@ static void hc66_numbers_are_exact_in_float_and_symmetric(void **state)
 #define SIDE 300
 #define COUNT (SIDE * SIDE)
 
-/* Lattice numbers of a plane of a lattice: axes say which coordinates run. */
+/* Lattice numbers of a plane: axes selects the varying coordinates. */
 static void lattice_plane(uint32_t seed, int dim, int across, int down, double *x)
 {
     for (uint32_t k = 0; k < COUNT; k++) {
@@ -137,8 +137,7 @@ static void fixed_slopes_add_up_to_zero_and_are_drawn_equally_often(void **state
     }
 }
 
-/* Against the text's formula with this machine's sine; the two may fall on either side of a whole
- * number. */
+/* Against the text's formula with this machine's sine; the two may be on either side of an integer. */
 static void the_lectures_hash_is_its_formula_in_double(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Normal maps with other axes, strengths, and along the object's axes: beside the formulas; what labels say of them. */
+/* Normal maps with other axes, strengths, and along the object's axes: compared with the formulas; and their
+   labels. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_folder.h"
@@ -117,8 +118,8 @@ static void strength_multiplies_slopes(void **state)
         const float *a = once->data + 3 * t, *b = more->data + 3 * t;
         const double az = 2.0 * a[2] - 1, bz = 2.0 * b[2] - 1;
         const double p = (2.0 * a[0] - 1) / az, q = (2.0 * a[1] - 1) / az; /* green up */
-        const double size =
-            1 + 4 * (fabs(p) + fabs(q)) * (fabs(p) + fabs(q)); /* z is rounded, too */
+        /* z is rounded too */
+        const double size = 1 + 4 * (fabs(p) + fabs(q)) * (fabs(p) + fabs(q));
         assert_near((2.0 * b[0] - 1) / bz, -2.75 * p, 1e-5 * size);
         assert_near((2.0 * b[1] - 1) / bz, 2.75 * q, 1e-5 * size);
     }
@@ -130,14 +131,14 @@ static void strength_multiplies_slopes(void **state)
 
 /* ---- along the object's axes ---- */
 
-/* Blinn's N + D on a sphere of radius R whose poles lie on z, from its longitude and latitude alone. */
+/* Blinn's N + D on a sphere of radius R with poles on z, from its longitude and latitude alone. */
 static void bumped(double u, double v, double fu, double fv, double radius, double n[3])
 {
     const double a = TAU * u, b = TAU / 2 * (v - 0.5);
     const double east[3] = { -sin(a), cos(a), 0 };
     const double north[3] = { -sin(b) * cos(a), -sin(b) * sin(a), cos(b) };
     const double out[3] = { cos(b) * cos(a), cos(b) * sin(a), sin(b) };
-    /* slopes along unit vectors: a turn is 2 pi R cos(b) long, from pole to pole it is pi R */
+    /* slopes along unit vectors: a full turn is 2 pi R cos(b) long, from pole to pole it is pi R */
     const double p = fu / (TAU * radius * cos(b)), q = fv / (TAU / 2 * radius);
     const double length = sqrt(1 + p * p + q * q);
     for (int c = 0; c < 3; c++) n[c] = (out[c] - p * east[c] - q * north[c]) / length;
@@ -204,7 +205,8 @@ static void set_mesh(WrScene *scene, const float (*points)[3], const float (*uv)
     scene->scheme = WR_SCHEME_CENTRAL;
 }
 
-/* Two triangles with the same (u,v), one mirrored: by MikkTSpace T is -x and x, and the map is the cell's own in both. */
+/* Two triangles with the same (u,v), one mirrored: by MikkTSpace T is -x and x, and the map equals the cell's own in
+   both. */
 static void mirrored_parts_have_the_cells_own_map(void **state)
 {
     (void)state;
@@ -236,7 +238,7 @@ static void mirrored_parts_have_the_cells_own_map(void **state)
     }
 }
 
-/* u = 1/2 + x/2 - y/2, v = x/2 + y: T is along grad v x n of the solve, B is n x T, and the map says so. */
+/* u = 1/2 + x/2 - y/2, v = x/2 + y: T is along grad v x n of the solution, B is n x T, and the map contains them. */
 static void a_sheared_mesh_has_the_frame_of_mikktspace(void **state)
 {
     (void)state;
@@ -276,7 +278,7 @@ static void a_sheared_mesh_has_the_frame_of_mikktspace(void **state)
             inside++;
         }
     assert_true(inside > WIDTH * HEIGHT / 4);
-    assert_int_equal(baked->label.kind, WR_LABEL_NONE); /* it is of no cell */
+    assert_int_equal(baked->label.kind, WR_LABEL_NONE); /* it belongs to no cell */
     assert_int_equal(baked->label.green, -1);
     assert_string_equal(baked->label.refused, "");
     wr_image_free(baked);
@@ -290,7 +292,7 @@ static void a_sheared_mesh_has_the_frame_of_mikktspace(void **state)
     wr_document_free(document);
 }
 
-/* Three texels for each of the table's: every third centre is one of the table's, and has its normal. */
+/* Three texels for each of the table's: every third centre is one of the table's and has its normal. */
 static void maps_have_any_size(void **state)
 {
     (void)state;
@@ -333,7 +335,7 @@ static void maps_have_any_size(void **state)
     wr_document_free(document);
 }
 
-/* An island gets rings about it, across the map's edge too, and nothing beyond them. */
+/* An island gets rings around it, across the map's edge too, and nothing beyond. */
 static void padding_goes_as_far_as_it_is_told(void **state)
 {
     (void)state;
@@ -350,7 +352,8 @@ static void padding_goes_as_far_as_it_is_told(void **state)
     int places = 0, rings = 0;
     for (int j = 0; j < HEIGHT; j++)
         for (int i = 0; i < WIDTH; i++) {
-            int nearest = 99; /* rings to a texel with a place; none of random heights is level */
+            /* distance in rings to a covered texel; none of the random heights is level */
+            int nearest = 99;
             for (int y = 0; y < HEIGHT; y++)
                 for (int x = 0; x < WIDTH; x++) {
                     const float *n = bare->data + 3 * (y * WIDTH + x);
@@ -401,7 +404,7 @@ static void surfaces_without_one_chart_are_refused(void **state)
 
 /* ---- a table of several runs and tiles in memory ---- */
 
-/* The height at an index beyond the ends by one at most. */
+/* The height at an index at most one beyond the ends. */
 static double tap(const WrField *field, int i, int j)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -420,7 +423,7 @@ static double tap(const WrField *field, int i, int j)
     return (double)wr_field_get(field, (i + w) % w, (j + h) % h);
 }
 
-/* Level but for a slanted half, in which tiles are there. */
+/* Level except for a slanted half, which has tiles. */
 static WrField *half_rough(int w, int h, WrWrap wrap_u, WrWrap wrap_v)
 {
     TestRandom random = { (uint64_t)w };
@@ -478,7 +481,7 @@ static void bytes_in_memory_are_the_formulas_for_any_ends_and_threads(void **sta
     }
 }
 
-/* Grey of the map's codes, on any number of threads: as the file has them. */
+/* Grey values of the map's codes, with any number of threads: as in the file. */
 static void a_picture_of_one_channel_is_grey_as_its_file(void **state)
 {
     (void)state;

@@ -55,7 +55,7 @@ static double angle_off(const float *got, double p, double q)
 
 static void maps_of_all_formats_are_read_within_their_bound(void **state)
 {
-    /* asin(sqrt(3)/M); two channels: what z = 0.78 and up makes of it; float: rounding */
+    /* asin(sqrt(3)/M); two channels: error for z from 0.78 up; float: rounding */
     const struct {
         int bits;
         double three, two;
@@ -107,7 +107,7 @@ static void of_a_sum_of_profiles_the_sign_is_undecided(void **state)
     }
 }
 
-/* HC137: codes whose 0 is 128, and 32768. */
+/* HC137: codes with 0 at 128, and at 32768. */
 static void codes_that_are_flat_at_the_middle_are_centred(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void codes_that_are_flat_at_the_middle_are_centred(void **state)
         assert_true(map->data[3] == 0 && map->data[4] == 0 && map->data[5] == 1);
         assert_true(map->data[0] > 0.99f && map->data[1] == 0);
         wr_image_free(map);
-        for (int i = 0; i < 24; i++) /* half of them 127: now 0 lies between */
+        for (int i = 0; i < 24; i++) /* half of them 127: now 0 is in between */
             if (i % 3 < 2) file->data[i] = (float)((middle - 1) / last);
         map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         assert_false(told.centred);
@@ -146,7 +146,7 @@ static WrImage *ring_of_floats(bool coded, double lean)
     return file;
 }
 
-/* How far the vectors that are read are from the ring's, in degrees. */
+/* Largest angle between the read vectors and the ring's, in degrees. */
 static double worst_angle(const WrImage *map, double lean)
 {
     double worst = 0;
@@ -160,7 +160,8 @@ static double worst_angle(const WrImage *map, double lean)
     return worst;
 }
 
-/* Bakes in floats have a blue of 1.00001, filters leave numbers a little below 0: neither makes vectors of codes. */
+/* Float bakes have a blue of 1.00001, and filters leave numbers slightly below 0: neither makes them coded
+   vectors. */
 static void floats_are_read_by_their_distribution(void **state)
 {
     (void)state;
@@ -177,7 +178,7 @@ static void floats_are_read_by_their_distribution(void **state)
         }
         WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_AUTO, &told, NULL);
         assert_int_equal(told.own, !coded);
-        /* the stray blue of texel 0 alone leaves its own angle */
+        /* only texel 0, with the stray blue, has another angle */
         if (!stray && worst_angle(map, lean) > 1e-3)
             fail_msg("case %d: off by %.3g degrees", k, worst_angle(map, lean));
         wr_image_free(map);
@@ -189,7 +190,7 @@ static void floats_are_read_by_their_distribution(void **state)
     }
 }
 
-/* A choice counts whatever the numbers are; codes have none. */
+/* An explicit choice applies to any numbers; integer formats ignore it. */
 static void a_coding_that_is_told_is_taken(void **state)
 {
     (void)state;
@@ -197,7 +198,7 @@ static void a_coding_that_is_told_is_taken(void **state)
     WrError err = { "" };
     WrImage *file = ring_of_floats(true, 0.2);
     WrImage *map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_SIGNED, &told, NULL);
-    assert_true(told.own && map->data[0] > 0.3f); /* 0.6, 0.5, 0.99 as it is */
+    assert_true(told.own && map->data[0] > 0.3f); /* 0.6, 0.5, 0.99 unchanged */
     wr_image_free(map);
     file->type = WR_PIXEL_U8;
     assert_null(wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_SIGNED, &told, &err));
@@ -205,7 +206,7 @@ static void a_coding_that_is_told_is_taken(void **state)
     map = wr_normal_map_read(file, WR_GREEN_UP, 0, WR_CODING_UNIT, &told, NULL);
     assert_false(told.own);
     wr_image_free(map);
-    /* two channels: slopes of both signs are vectors' own numbers, those about one half are codes */
+    /* two channels: slopes of both signs are plain vectors, those around one half are codes */
     file->type = WR_PIXEL_F32;
     map = wr_normal_map_read(file, WR_GREEN_UP, 2, WR_CODING_AUTO, &told, NULL);
     assert_false(told.own);
@@ -218,7 +219,7 @@ static void a_coding_that_is_told_is_taken(void **state)
     wr_image_free(file);
 }
 
-/* HC138, HC139: beyond the rim, behind, without a direction. */
+/* HC138, HC139: beyond the horizon, backwards, without a direction. */
 static void what_looks_away_is_clamped_and_counted(void **state)
 {
     const float texels[5][3] = {
@@ -238,8 +239,7 @@ static void what_looks_away_is_clamped_and_counted(void **state)
             wr_normal_map_slopes(n, &p, &q);
             assert_true(isfinite(p) && isfinite(q) && n[2] > 0);
             assert_near((double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), 1, 1e-6);
-            if (t == 0)
-                assert_true(p > 500 && q > 500); /* of the sign of x and y, not turned over */
+            if (t == 0) assert_true(p > 500 && q > 500); /* signs of x and y kept, not inverted */
             if (t == 1) assert_true(p < -500 && q < -500);
         }
         wr_image_free(map);

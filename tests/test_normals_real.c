@@ -1,5 +1,5 @@
-/* test_normals_real.c - heights out of maps as they are met: our own exports of painted tables, and maps made by
-   central differences here. What a map does not determine comes out as nothing, and flat ground stays flat. */
+/* test_normals_real.c - heights from realistic maps: the program's own exports of painted tables, and maps from
+   central differences made here. Components that a map does not determine become 0, and flat ground stays flat. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -11,9 +11,9 @@
 #include "field/field.h"
 #include "image/image.h"
 
-#define FLAT 0.45 /* of the table, from its left border: ground that nothing stands on */
+#define FLAT 0.45 /* fraction of the table, from its left border: empty ground */
 
-/* Hills with a grain, and another from texel to texel if it is to be rough, to the right of flat ground. */
+/* Hills with grain, optionally with texel noise, to the right of flat ground. */
 static WrField *ground(int w, int h, double rough)
 {
     TestRandom random = { (uint64_t)(w * h) };
@@ -41,7 +41,7 @@ static void write_table(const WrField *field, const char *path)
     wr_free(texels);
 }
 
-/* Our own export of the table, by that scheme and depth. */
+/* The program's export of the table with that scheme and depth. */
 static void export_map(const WrField *field, const char *scheme, int depth)
 {
     char line[200];
@@ -53,7 +53,7 @@ static void export_map(const WrField *field, const char *scheme, int depth)
     wr_session_free(s);
 }
 
-/* The same by hand: central differences of the heights as they stand in memory, codes of 8 bits. */
+/* The same by hand: central differences of the heights in memory, 8-bit codes. */
 static void write_map(const WrField *field)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -85,7 +85,7 @@ static WrSession *heights_of_map(int w, int h, const char *slopes)
     return s;
 }
 
-/* Root mean square of the part that goes as cos(2 pi k i / W) and sin along rows. */
+/* RMS of the components cos(2 pi k i / W) and sin along rows. */
 static double power(const WrField *f, int k, bool down)
 {
     const int w = wr_field_width(f), h = wr_field_height(f), n = down ? h : w;
@@ -102,7 +102,7 @@ static double power(const WrField *f, int k, bool down)
     return sqrt(sum / (down ? w : h));
 }
 
-/* The steepest cell of the flat ground, degrees, but for its last 3 texels. */
+/* The steepest cell of the flat ground in degrees, without its last 3 texels. */
 static double steepest(const WrField *f)
 {
     const int w = wr_field_width(f), h = wr_field_height(f);
@@ -117,7 +117,7 @@ static double steepest(const WrField *f)
     return worst;
 }
 
-/* Along that axis the highest bin stands no higher than those before it: no comb. */
+/* Along that axis the highest bin is no higher than those before it: no comb. */
 static void expect_no_comb(const WrField *f, bool down, const char *what)
 {
     const int n = down ? wr_field_height(f) : wr_field_width(f), k = n / 2;
@@ -128,7 +128,7 @@ static void expect_no_comb(const WrField *f, bool down, const char *what)
 
 static const int sizes[][2] = { { 64, 48 }, { 63, 49 }, { 96, 31 }, { 33, 70 } };
 
-/* Heights of map.png of a table of that size; none of them with a comb, and the ground as flat as told. */
+/* Heights of map.png of a table of that size; none of them with a comb, and the ground as flat as stated. */
 static void expect_heights(int w, int h, const char *slopes, double flat, const char *made)
 {
     char what[120];
@@ -142,7 +142,7 @@ static void expect_heights(int w, int h, const char *slopes, double flat, const 
     wr_session_free(s);
 }
 
-/* A code of 8 bits is half a degree of slope, one of 16 bits nearly nothing. */
+/* An 8-bit code is half a degree of slope, a 16-bit one almost nothing. */
 static void exported_tables_come_back_without_a_comb(void **state)
 {
     (void)state;
@@ -160,8 +160,8 @@ static void exported_tables_come_back_without_a_comb(void **state)
     }
 }
 
-/* Made without this program's export. Grain from texel to texel has a part at the highest bin, which central
-   differences tell of: it comes back with the rest, and the ground beside it stays flat. */
+/* Made without this program's export. Texel noise has a component at the highest bin, which central differences
+   contain: it is restored, and the ground beside it stays flat. */
 static void maps_by_central_differences_keep_the_grain_that_they_tell_of(void **state)
 {
     (void)state;

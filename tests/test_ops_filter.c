@@ -1,4 +1,4 @@
-/* The filters of the table operations, against sums and sorts written down plainly. */
+/* Filters of the table operations, against explicit sums and sorts. */
 #include "test.h"
 #include "test_ops_tables.h"
 
@@ -32,7 +32,7 @@ static double gauss_at(const WrField *in, int i, int j, double sigma, int reach)
     return sum / weights;
 }
 
-/* Out to 7 sigma: what the blur cuts off beyond 4 weighs 6e-5 an axis, of heights up to 0.5. */
+/* Out to 7 sigma: the weights that the blur cuts off beyond 4 sum to 6e-5 per axis, for heights up to 0.5. */
 static void a_blur_is_the_sum_of_gaussian_weights(void **state)
 {
     (void)state;
@@ -48,7 +48,7 @@ static void a_blur_is_the_sum_of_gaussian_weights(void **state)
         }
 }
 
-/* Within the reach, nothing but float's rounding. */
+/* Within the support only float rounding remains. */
 static void a_blur_is_exact_but_for_what_lies_beyond_four_sigma(void **state)
 {
     (void)state;
@@ -60,8 +60,8 @@ static void a_blur_is_exact_but_for_what_lies_beyond_four_sigma(void **state)
     wr_field_free(out);
 }
 
-/* So tall that blocks lie below one another in a piece of work, of fewer or more threads or none: the same heights, and the
- * Gaussian's, at the ends and where blocks and tiles meet. */
+/* A table so tall that a work item has several blocks in a column, with more, fewer or no threads: the same heights,
+ * equal to the Gaussian's, at the ends and where blocks and tiles meet. */
 static void a_tall_table_is_blurred_alike_in_any_pieces(void **state)
 {
     (void)state;
@@ -76,12 +76,12 @@ static void a_tall_table_is_blurred_alike_in_any_pieces(void **state)
         for (int j = 0; j<tall[k].height; j += j % 256> 250 || j % 256 < 20 ? 1 : 37)
             assert_near(wr_field_get(out, j % 17, j), gauss_at(in, j % 17, j, sigma, 19), 3e-7);
         WrField *sharp = run("sharpen", in, 1.0, sigma);
-        for (int j = 5; j < tall[k].height; j += 97) /* 2 F less the blur */
+        for (int j = 5; j < tall[k].height; j += 97) /* 2 F minus the blur */
             assert_near(wr_field_get(sharp, 9, j),
                         2 * (double)wr_field_get(in, 9, j) - (double)wr_field_get(out, 9, j), 3e-7);
         wr_field_free(in), wr_field_free(out), wr_field_free(shared), wr_field_free(sharp);
     }
-    WrField *in = flat_table(21, 4421, C, C, 0.3f); /* most of its blocks are left out */
+    WrField *in = flat_table(21, 4421, C, C, 0.3f); /* most of its blocks are skipped */
     for (int j = 700; j < 2900; j += 1050) wr_field_set(in, 11, j, -5.3f);
     WrField *out = run("blur", in, 4.7);
     for (int j = 0; j<4421; j += j % 1050> 715 || j % 1050 < 685 ? 23 : 1)
@@ -126,7 +126,7 @@ static void hc77_a_blur_never_passes_the_range(void **state)
     wr_field_free(table);
 }
 
-/* A single texel shows the kernel itself: no negative weight, the variance, and 0.7 % from a Gaussian. */
+/* A single texel reveals the kernel: no negative weight, the variance, and 0.7 % from a Gaussian. */
 static void the_kernel_of_a_wide_blur_has_its_variance_and_shape(void **state)
 {
     (void)state;
@@ -170,7 +170,7 @@ static void a_wide_blur_is_near_the_gaussian_on_any_table(void **state)
     }
 }
 
-/* sin of a whole number of periods is only made smaller, by exp(-(2 pi sigma / period)^2 / 2). */
+/* A sine with a whole number of periods is only scaled, by exp(-(2 pi sigma / period)^2 / 2). */
 static void a_blur_makes_a_sine_smaller_by_its_closed_form(void **state)
 {
     (void)state;
@@ -212,7 +212,7 @@ static int by_height(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Heights of a window in order; returns how many. */
+/* Heights of a window in order; returns their number. */
 static int sorted_window(const WrField *in, int i, int j, double radius, bool square,
                          float *heights)
 {
@@ -319,7 +319,7 @@ static void closing_twice_is_closing_once(void **state)
     wr_field_free(twice);
 }
 
-/* Beyond the table's edges, whatever lay in the memory of a tile that is written. */
+/* Texels beyond the table's edges hold the level, whatever the memory of a written tile contained. */
 static void unused_texels_of_a_filtered_table_hold_the_level(void **state)
 {
     (void)state;
@@ -328,7 +328,7 @@ static void unused_texels_of_a_filtered_table_hold_the_level(void **state)
         int width = sizes[k][0], height = sizes[k][1];
         WrField *full = noisy_table(2048, 2048, P, P, 4);
         WrField *in = noisy_table(width, height, P, P, 3);
-        wr_field_free(full); /* what the next tiles are made of */
+        wr_field_free(full); /* its memory is reused for the next tiles */
         WrField *out = run("blur", in, 2.0);
         for (int t = 0; t < wr_field_tiles_u(out) * wr_field_tiles_v(out); t++) {
             int tx = t % wr_field_tiles_u(out), ty = t / wr_field_tiles_u(out);

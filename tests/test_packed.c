@@ -1,5 +1,5 @@
-/* Packed maps: each channel is the map of that name, exported alone, from 0 to 1; the material's numbers; sets that have
-   such files. */
+/* Packed maps: each channel equals the separately exported map of that name, in 0..1; the material's numbers; sets
+   with such files. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -53,7 +53,7 @@ static WrImage *exported(const WrDocument *document, const char *kind, const cha
     return image;
 }
 
-/* The map alone, as floats, brought to 0..1 by what it is. */
+/* The map alone as floats, scaled to 0..1 by its kind. */
 static void assert_channel(const WrDocument *document, const WrImage *packed, int c,
                            const char *kind, double low, double high, double bound)
 {
@@ -97,7 +97,7 @@ static void each_channel_is_the_map_of_its_name(void **state)
     wr_document_free(document);
 }
 
-/* Codes of 8 bits, alpha too: no channel is multiplied by it. Half a code each. */
+/* 8-bit codes, alpha too: no channel is multiplied by it. Half a code of error each. */
 static void codes_are_rounded_and_alpha_is_a_channel_like_others(void **state)
 {
     (void)state;
@@ -123,8 +123,8 @@ static void codes_are_rounded_and_alpha_is_a_channel_like_others(void **state)
     wr_document_free(document);
 }
 
-/* Where the table is level roughness is the material's: of facets their own, of shininess s the alpha of
- * s = 2 / alpha^2 - 2, which 40 makes 0.2182. */
+/* Where the table is level, roughness is the material's: the facets' own; for shininess s the alpha with s = 2 /
+ * alpha^2 - 2, which is 0.2182 for 40. */
 static void a_level_table_is_as_rough_as_its_material(void **state)
 {
     (void)state;

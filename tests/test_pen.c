@@ -1,4 +1,4 @@
-/* Pens without a tablet and without an X server: the curve, the numbers, the queue, files. */
+/* Pens without a tablet and without an X server: curve, values, queue, files. */
 #include "test.h"
 
 #include "base/error.h"
@@ -191,7 +191,7 @@ static void a_slow_mouse_presses_hard_and_a_fast_one_lightly(void **state)
     WrFakePressure fake = { .by_speed = true, .slow = 100, .fast = 1100, .least = 0.2, .now = 1 };
     assert_near(after(&fake, 50, 2), 1.0, 1e-6);
     assert_near(after(&fake, 5000, 2), 0.2, 1e-6);
-    assert_near(after(&fake, 600, 2), 0.6, 1e-6); /* half way between */
+    assert_near(after(&fake, 600, 2), 0.6, 1e-6); /* half-way */
     double before = fake.now;
     assert_near(wr_fake_pressure(&fake, 1e6, 0.0), before, 0.0);
     assert_true(wr_fake_pressure(&fake, 0.0, 0.001) < before + 0.05); /* no jumps */
@@ -224,7 +224,7 @@ static void hostile_motions_give_a_pressure(void **state)
     }
 }
 
-/* ---- a device's numbers ---- */
+/* ---- values of a device ---- */
 
 static int add_pen(WrPen *pen, const char *name, bool eraser, double low, double high)
 {
@@ -321,8 +321,8 @@ static void a_device_that_promises_pressure_and_never_moves_it_presses_fully(voi
     assert_near(feed(pen, dead, WR_PEN_UP, 0, 51).pressure, 1.0, 0.0);
     assert_near(feed(pen, dead, WR_PEN_MOTION, 0, 52).pressure, 0.0, 0.0); /* hovers */
     assert_near(feed(pen, dead, WR_PEN_DOWN, 0, 53).pressure, 1.0, 0.0);
-    assert_near(feed(pen, dead, WR_PEN_MOTION, 0.5, 54).pressure, 0.5,
-                0.0); /* it works after all */
+    /* its pressure works after all */
+    assert_near(feed(pen, dead, WR_PEN_MOTION, 0.5, 54).pressure, 0.5, 0.0);
     assert_near(feed(pen, dead, WR_PEN_MOTION, 0, 55).pressure, 0.0, 0.0);
     wr_pen_free(pen);
 }
@@ -477,7 +477,7 @@ static void what_pens_did_before_a_key_is_taken_before_it(void **state)
     for (int i = 0; i < 5; i++) feed(pen, stylus, i ? WR_PEN_MOTION : WR_PEN_DOWN, 0.5, i);
     wr_pen_mark(pen, &second);
     feed(pen, stylus, WR_PEN_UP, 0, 5);
-    wr_pen_mark(pen, &lost); /* which another loop swallowed */
+    wr_pen_mark(pen, &lost); /* read by another loop */
     feed(pen, stylus, WR_PEN_DOWN, 0.5, 6);
     wr_pen_mark(pen, &third);
     feed(pen, stylus, WR_PEN_UP, 0, 7);
@@ -485,7 +485,7 @@ static void what_pens_did_before_a_key_is_taken_before_it(void **state)
     assert_int_equal(taken_before(pen, &second), 5);
     assert_int_equal(taken_before(pen, &never), 0);
     assert_int_equal(taken_before(pen, &third), 2);
-    assert_int_equal(taken_before(pen, &third), 0); /* asked about already */
+    assert_int_equal(taken_before(pen, &third), 0); /* already requested */
     assert_int_equal(wr_pen_waiting(pen), 1);
     assert_true(wr_pen_next(pen, &e) && e.kind == WR_PEN_UP);
     for (Uint32 i = 0; i < 100000; i++) { /* keys alone do not pile up */
@@ -505,7 +505,7 @@ static void names_stay_on_one_line_and_whole_characters(void **state)
     int index = wr_pen_unit(pen, name, false, false);
     const char *kept = wr_pen_device(pen, index)->name;
     assert_memory_equal(kept, "a b \xc3\xa9", 6);
-    assert_int_equal(strlen(kept), 94); /* 4 and 45 pairs: the next would not be whole */
+    assert_int_equal(strlen(kept), 94); /* 4 and 45 pairs: the next would be truncated */
     assert_int_equal(wr_pen_unit(pen, name, false, false), index);
     assert_string_equal(wr_pen_device(pen, wr_pen_unit(pen, "", false, false))->name, "?");
     wr_pen_free(pen);
@@ -595,7 +595,7 @@ static void a_recorded_file_replayed_gives_the_same_events(void **state)
         assert_true(wr_pen_next(again, &f));
         check_same(&e, &f);
     }
-    assert_true(wr_pen_next(again, &f)); /* what the file left held is let go */
+    assert_true(wr_pen_next(again, &f)); /* buttons still held at the file's end are released */
     assert_int_equal(f.kind, WR_PEN_LOST);
     assert_int_equal(f.held, 0);
     while (wr_pen_next(again, &f)) assert_int_equal(f.kind, WR_PEN_LOST);
@@ -621,7 +621,7 @@ static void a_replay_takes_the_place_of_devices(void **state)
     feed(pen, stylus, WR_PEN_DOWN, 0.5, 3);
     while (wr_pen_next(pen, &e)) continue;
     assert_true(wr_pen_replay(pen, path_of("pen"), 0.0, &err));
-    feed(pen, stylus, WR_PEN_MOTION, 0.7, 4); /* nobody hears it */
+    feed(pen, stylus, WR_PEN_MOTION, 0.7, 4); /* not delivered */
     const WrPenKind kinds[] = { WR_PEN_LOST, WR_PEN_DOWN, WR_PEN_UP };
     for (int i = 0; i < 3; i++) {
         assert_true(wr_pen_next(pen, &e));
@@ -715,7 +715,7 @@ static void hostile_recordings_are_refused_with_their_line(void **state)
     }
 }
 
-/* Whatever is cut off or changed in a good file, it is refused or gives events in range. */
+/* A valid file truncated or changed anywhere is refused, or gives events in range. */
 static void a_damaged_recording_never_gives_events_out_of_range(void **state)
 {
     (void)state;
@@ -762,7 +762,7 @@ static void files_that_cannot_be_opened_are_errors(void **state)
     err.text[0] = '\0';
     assert_false(wr_pen_replay(pen, path_of("none"), NAN, &err));
     assert_true(err.text[0] != '\0');
-    assert_true(wr_pen_record(pen, "/dev/full", &err)); /* a full disk shows at the end */
+    assert_true(wr_pen_record(pen, "/dev/full", &err)); /* a full disk fails at the end */
     feed(pen, add_pen(pen, "a", false, 0, 1), WR_PEN_MOTION, 0, 0);
     assert_false(wr_pen_record(pen, "", &err));
     assert_int_equal(wr_pen_total(pen), 1);

@@ -10,7 +10,7 @@ static const WrWrap ring[] = { WR_WRAP_PERIODIC, WR_WRAP_PERIODIC };
 
 /* ---- seams ---- */
 
-/* Cloudy ground on a slope: its ends do not meet at all. Twice as fine for x beyond 1. */
+/* Cloudy ground on a slope: its ends do not match at all. Twice as fine for x beyond 1. */
 static double ground(double x, double y)
 {
     return 0.8 * x - 0.5 * y + 0.1 * sin(23.0 * x + 3.0 * y) + 0.07 * cos(31.0 * y - 8.0 * x * x) +
@@ -65,7 +65,7 @@ static void steps_over_the_seam_become_as_small_as_others(void **state)
     wr_sheet_fini(&s);
 }
 
-/* What is taken away is as smooth as can be: harmonic but at the edges. */
+/* The subtracted part is as smooth as possible: harmonic except at the edges. */
 static void blending_keeps_the_mean_and_all_curvature_inside(void **state)
 {
     (void)state;
@@ -89,7 +89,7 @@ static void blending_keeps_the_mean_and_all_curvature_inside(void **state)
     wr_sheet_fini(&s);
 }
 
-/* A clamped axis is left alone. */
+/* A clamped axis is unchanged. */
 static void only_periodic_axes_are_made_to_meet(void **state)
 {
     (void)state;
@@ -103,7 +103,7 @@ static void only_periodic_axes_are_made_to_meet(void **state)
     wr_sheet_fini(&s);
 }
 
-/* Where there is no difference the cut cannot be seen. */
+/* Without a difference the cut is invisible. */
 static void a_picture_that_repeats_already_is_cut_without_a_trace(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void a_picture_that_repeats_already_is_cut_without_a_trace(void **state)
     wr_sheet_fini(&s);
 }
 
-/* Pictures and tables of all small sizes, where there is hardly anything to overlap. */
+/* Pictures and tables of all small sizes, with hardly any overlap. */
 static void small_tables_are_made_seamless_too(void **state)
 {
     (void)state;
@@ -253,7 +253,7 @@ static void channels_and_levels_are_what_they_say(void **state)
     }
 }
 
-/* Light that falls off from left to right goes, the grain stays. */
+/* The gradient of light from left to right is removed, the grain stays. */
 static void a_high_pass_takes_away_what_is_wide(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The portal's questions and answers, with a portal of our own on a bus of our own. */
+/* Requests and answers of the portal, with a test portal on a private bus. */
 #include "test.h"
 
 #include "test_folder.h"
@@ -58,15 +58,15 @@ static bool start_bus(void)
 /* ---- a portal ---- */
 
 typedef struct Act {
-    bool replies, dies, fails; /* it takes the question, then ends; it answers with an error */
-    bool old;                  /* and calls it by a name of its own */
-    bool waits;                /* until it is told to close */
-    bool stranger;             /* somebody else answers first, with /tmp/stranger */
+    bool replies, dies, fails; /* it accepts the request, then ends; it answers with an error */
+    bool old;                  /* and gives it another name */
+    bool waits;                /* until it is asked to close */
+    bool stranger;             /* another sender answers first, with /tmp/stranger */
     dbus_uint32_t code;
-    const char *uris[3]; /* NULL ends them */
+    const char *uris[3]; /* NULL-terminated */
 } Act;
 
-/* What stands at `at` and after it, as text. */
+/* The value at `at` and the following ones as text. */
 static void flatten(DBusMessageIter *at, FILE *out)
 {
     for (int type; (type = dbus_message_iter_get_arg_type(at)) != DBUS_TYPE_INVALID;
@@ -331,8 +331,8 @@ static void who_does_not_answer_is_given_up_and_told(void **state)
     ask.patience = 0.25;
     const Act silent = { .replies = false };
     assert_int_equal(answer(&silent, &ask, path), WR_PORTAL_NONE);
-    assert_int_equal(wr_portal_ask(&ask, &never, path, sizeof path),
-                     WR_PORTAL_NONE); /* nobody there */
+    /* no portal */
+    assert_int_equal(wr_portal_ask(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
     char *bus = strdup(getenv("DBUS_SESSION_BUS_ADDRESS"));
     setenv("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere/bus", 1);
     assert_int_equal(wr_portal_ask(&ask, &never, path, sizeof path), WR_PORTAL_NONE);
@@ -404,7 +404,7 @@ static void only_paths_of_this_machine_come_out_of_uris(void **state)
     char pattern[12];
     wr_portal_pattern("j2", pattern, sizeof pattern);
     assert_string_equal(pattern, "*.[jJ]2");
-    wr_portal_pattern("abcdefgh", pattern, sizeof pattern); /* cut, never over */
+    wr_portal_pattern("abcdefgh", pattern, sizeof pattern); /* truncated, never overrun */
     assert_true(strlen(pattern) < sizeof pattern);
 }
 
@@ -418,7 +418,7 @@ static int enter(void **state)
 
 static int leave(void **state)
 {
-    if (daemon_process > 0) { /* or it would be a group of processes */
+    if (daemon_process > 0) { /* otherwise it would mean a process group */
         kill(daemon_process, SIGTERM);
         waitpid(daemon_process, NULL, 0);
     }

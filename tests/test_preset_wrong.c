@@ -1,4 +1,4 @@
-/* Brush presets that are wrong: what is refused, and with which words. Tips beside presets. */
+/* Invalid brush presets: refusals and their messages. Tips beside presets. */
 #include "test.h"
 
 #include "base/error.h"
@@ -225,7 +225,7 @@ static void a_tip_is_read_beside_its_preset_and_must_have_its_hash(void **state)
     wr_free(folder);
 }
 
-/* Any one byte of a good preset changed, or the text cut anywhere: an error or a preset, nothing else. */
+/* Any one byte of a valid preset changed, or the text truncated anywhere: an error or a preset, nothing else. */
 static void damaged_text_is_an_error_or_a_preset(void **state)
 {
     (void)state;

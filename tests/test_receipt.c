@@ -1,4 +1,4 @@
-/* What an export says of its file after reading it back. */
+/* The report of an export after its read-back. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -46,7 +46,7 @@ static WrImage *read_file(const char *path)
     return image;
 }
 
-/* The largest error of the file's heights, from its own range, by another way than the program's. */
+/* The largest error of the file's heights, from its own range, computed independently of the program. */
 static void heights_of(const WrDocument *document, WrExportOptions options, const char *path)
 {
     WrExportReport report = export_good(document, wr_export_find("height"), &options, path);
@@ -126,7 +126,7 @@ static void the_largest_error_of_normals_is_an_angle(void **state)
     wr_document_free(document);
 }
 
-/* A kind that writes one value wrong by `wrong` of its codes. */
+/* A kind of export with one value wrong by `wrong` codes. */
 static int wrong;
 static void wrong_rows(WrExportJob *job, int y, int rows, void *out)
 {
@@ -208,8 +208,8 @@ static void the_sentence_tells_what_was_seen(void **state)
     wr_text_fini(&text);
 }
 
-/* 64 rows at a time travel from the reader, twice, which a limit on file sizes holds for as well: 2 x 64 x 515 x 4 bytes
-   here. The file, being flat, is smaller. */
+/* The reader process transfers 64 rows at a time, twice, and the limit on file sizes applies to these too: 2 x 64 x
+   515 x 4 bytes here. The flat file is smaller. */
 static void what_was_not_compared_is_said(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* A recovery tells how far it is, and can be given up: then the session is as it was, and the journal is kept
-   whole. */
+/* Progress and cancellation of a recovery: after a cancellation the session is unchanged and the journal complete. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -16,7 +15,7 @@
 
 typedef struct Stop {
     volatile int cancel;
-    int reports, at; /* so far; the one to stop at, 0: never */
+    int reports, at; /* reports so far; the one to cancel at, 0: never */
     double fraction;
 } Stop;
 
@@ -28,7 +27,7 @@ static void hear(void *ctx, double fraction)
     if (++stop->reports == stop->at) __atomic_store_n(&stop->cancel, 1, __ATOMIC_RELAXED);
 }
 
-/* A program that ended without a word; the hash of what it had. saved: by then it had a file. */
+/* A program that ended silently; returns its document's hash. saved: it had a file by then. */
 static WrHash leave_journal(bool saved)
 {
     int ends[2];
@@ -56,7 +55,7 @@ static WrHash leave_journal(bool saved)
     return hash;
 }
 
-/* Give it up at that report, or not. Returns whether it was given up. */
+/* Cancel at that report, or not. Returns true if cancelled. */
 static bool recover_until(WrSession *session, int at, const char *journal)
 {
     WrRecovered recovered = { 0 };

@@ -1,4 +1,5 @@
-/* Displaced surfaces in the reference: closed forms, outlines included; where sheets meet; beside a search of another kind. */
+/* Displaced surfaces in the reference: closed forms, silhouettes included; meeting layers; comparison with an
+   independent search. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -39,8 +40,8 @@ static bool sample(const WrReferenceStage *stage, double x, double y, WrReferenc
     return wr_reference_sample(stage, x, y, (WrReferenceShare){ 0, 1 }, out);
 }
 
-/* The ball of radius R + c from d: its outline's radius is f (R + c) / sqrt(d^2 - (R + c)^2) pixels, to a millionth; inside
-   it n' and the light are those of the larger ball's point. */
+/* The sphere of radius R + c from d: its silhouette's radius is f (R + c) / sqrt(d^2 - (R + c)^2) pixels, to a
+   millionth; inside it n' and the light are those of the larger sphere's point. */
 static void a_raised_ball_is_a_larger_ball(void **state)
 {
     (void)state;
@@ -73,7 +74,7 @@ static void a_raised_ball_is_a_larger_ball(void **state)
     }
 }
 
-/* A plane that faces the eye at d, moved by c: its corners stand f (1/2) / (d - c) pixels from the middle. */
+/* A plane at d that faces the eye, raised by c: its corners are f (1/2) / (d - c) pixels from the centre. */
 static void a_raised_plane_comes_nearer(void **state)
 {
     (void)state;
@@ -100,7 +101,7 @@ static void a_raised_plane_comes_nearer(void **state)
 
 /* ---- a search of another kind ---- */
 
-/* How far the point is above the relief of a ball of radius r. */
+/* Height of the point above the relief of a sphere of radius r. */
 static double above(const WrReferenceStage *stage, double r, WrVec3 p)
 {
     double f, fu, fv;
@@ -109,7 +110,7 @@ static double above(const WrReferenceStage *stage, double r, WrVec3 p)
     return v3_len(p) - r - f;
 }
 
-/* Along the ray by small steps until it is below, then halved: the parameter there, or NAN. */
+/* March along the ray by small steps until it is below, then bisect: the parameter there, or NAN. */
 static double marched(const WrReferenceStage *stage, double r, const WrReferenceRay *ray,
                       double from, double to)
 {
@@ -131,7 +132,7 @@ static double marched(const WrReferenceStage *stage, double r, const WrReference
     return NAN;
 }
 
-/* Of rays over a rough ball; where they all but graze it, the steps may pass what the reference finds. */
+/* Rays over a rough sphere; where they are nearly tangential, the steps may miss a hit of the reference. */
 static void it_meets_what_a_march_meets(void **state)
 {
     (void)state;
@@ -161,9 +162,9 @@ static void it_meets_what_a_march_meets(void **state)
     wr_field_free(field);
 }
 
-/* ---- where sheets meet (HC124) ---- */
+/* ---- meeting layers (HC124) ---- */
 
-/* A cube that F moves by c is a larger cube, its edges and corners whole; a cell for each face, other heights on each: the
+/* A cube displaced by c is a larger cube with intact edges and corners; with a cell and a height for each face: the
    box between six planes. */
 static void a_raised_cube_is_a_larger_box(void **state)
 {
@@ -199,7 +200,8 @@ static void a_raised_cube_is_a_larger_box(void **state)
     wr_field_free(field);
 }
 
-/* The fast path's facets come to the reference as they are cut finer: all kinds of surfaces, sheets that part at seams. */
+/* The fast path's triangles converge to the reference with finer subdivision: all kinds of surfaces, layers that
+   separate at seams. */
 static void facets_come_to_it(void **state)
 {
     (void)state;
@@ -231,7 +233,7 @@ static void facets_come_to_it(void **state)
             rms[i] = sqrt(sum / (37 * 29 * 4));
             put_away(&shot);
         }
-        /* Of a cube the last facets before its edges slope, which the reference's do not. */
+        /* On a cube the last triangles before its edges are slanted; the reference's are not. */
         if (!(rms[1] < (k == 1 ? 0.02 : 0.006) && rms[1] < 0.6 * rms[0]))
             fail_msg("%s: %g, %g", kinds[k], rms[0], rms[1]);
         wr_reference_fini(&truth);
@@ -241,7 +243,7 @@ static void facets_come_to_it(void **state)
     wr_field_free(field);
 }
 
-/* A ball shrunk to its middle, heights of a million: answers, and numbers. */
+/* A sphere shrunk to its centre, heights of a million: all values are finite. */
 static void no_heights_make_nonsense(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* test_render_adaptive.c - jittered and adaptive sampling, and the bound that one of its rules keeps. */
+/* test_render_adaptive.c - jittered and adaptive sampling, and the guaranteed bound of one of its rules. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -28,7 +28,7 @@ static WrField *gentle_field(int w, int h)
     return field;
 }
 
-/* Scenes in which a bound is known. */
+/* Scenes with a known bound. */
 static WrScene *bounded_scene(int which)
 {
     static const char *const surfaces[] = { "plane", "sphere", "cube" };
@@ -47,7 +47,7 @@ static WrScene *bounded_scene(int which)
     return scene;
 }
 
-/* The promise of refine=bound: no pixel is off from K x K by more than `contrast`. */
+/* Guarantee of refine=bound: no pixel differs from K x K by more than `contrast`. */
 static void bounded_refinement_keeps_within_its_contrast(void **state)
 {
     (void)state;
@@ -82,8 +82,8 @@ static void bounded_refinement_keeps_within_its_contrast(void **state)
 
 /* ---- where it does not pay ---- */
 
-/* Relief finer than pixels everywhere: fewer samples would not be enough anywhere, and all are taken at once. The plan
-   says so. Where the relief is gentle it says otherwise. */
+/* Relief finer than pixels everywhere: fewer samples would never suffice, so all are taken at once, and the plan
+   reports it. Gentle relief gives the opposite report. */
 static void what_would_spare_nothing_takes_all_at_once(void **state)
 {
     (void)state;
@@ -110,7 +110,7 @@ static void what_would_spare_nothing_takes_all_at_once(void **state)
     wr_field_free(gentle);
 }
 
-/* With contrast 0 no bound is small enough, nor any estimate: every pixel holds what supersampling makes of it. */
+/* With contrast 0 no bound and no estimate is small enough: every pixel equals supersampling. */
 static void refined_pixels_have_the_bits_of_supersampling(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void refined_pixels_have_the_bits_of_supersampling(void **state)
             Shot all = with_dials(scene, field, WR_AA_SUPERSAMPLE, WR_REFINE_BOUND, k, 0);
             for (int how = 0; how < WR_REFINE_COUNT; how++) {
                 Shot some = with_dials(scene, field, WR_AA_ADAPTIVE, (WrRefine)how, k, 0);
-                /* An estimate may find that all are equal: their mean is each of them, but for rounding. */
+                /* An estimate may find all samples equal: then their mean is each of them, except for rounding. */
                 const float allowed = how == WR_REFINE_CONTRAST ? 1e-6f : 0;
                 if (!(worst_difference(&all, &some) <= allowed))
                     fail_msg("%s, K = %d, rule %d: %g off", surfaces[s], k, how,
@@ -164,7 +164,7 @@ static void hc92_equal_samples_keep_their_value_jittered_and_adaptive(void **sta
     wr_field_free(flat);
 }
 
-/* A pixel that differs from no neighbour keeps its one sample; at an edge K x K are taken. */
+/* A pixel equal to its neighbours keeps its one sample; at an edge K x K are taken. */
 static void contrast_refines_edges_and_leaves_the_rest(void **state)
 {
     (void)state;
@@ -189,9 +189,9 @@ static void contrast_refines_edges_and_leaves_the_rest(void **state)
     wr_field_free(flat);
 }
 
-/* ---- how near `contrast` comes to all samples ---- */
+/* ---- accuracy of `contrast` ---- */
 
-/* Pixels of which a channel is off by more than that, of all. */
+/* Fraction of pixels with a channel that differs by more than that. */
 static double share_off(const Shot *a, const Shot *b, double than, double *most)
 {
     int off = 0;
@@ -207,8 +207,8 @@ static double share_off(const Shot *a, const Shot *b, double than, double *most)
     return off / (double)(SIDE * SIDE);
 }
 
-/* Relief that pixels resolve, as it is looked up in every way, on every kind of surface, under two lights of
-   different colours, one of them near: within 1/512 of K x K, for less than half of the samples. */
+/* Relief that pixels resolve, for every kind of fetch and surface, under two lights of different colours, one of them
+   near: within 1/512 of K x K, with less than half of the samples. */
 static void contrast_keeps_near_all_samples(void **state)
 {
     static const char *const surfaces[] = { "sphere", "plane",  "cube",    "torus",
@@ -231,7 +231,7 @@ static void contrast_keeps_near_all_samples(void **state)
         Shot some = with_dials(scene, field, WR_AA_ADAPTIVE, WR_REFINE_CONTRAST, k, within);
         double most;
         const double off = share_off(&all, &some, within, &most);
-        /* An estimate: where slopes jump as texels do single pixels may be farther. */
+        /* An estimate: with a scheme whose slopes jump at texels, single pixels may differ more. */
         const bool jumps = scene->scheme <= WR_SCHEME_BILINEAR;
         if (off > (jumps ? 1e-3 : 0) || (!jumps && 2 * some.frame.shaded > all.frame.shaded))
             fail_msg("%s %s, K = %d: %g of the pixels off, %g at most, %g of %g samples",
@@ -244,8 +244,8 @@ static void contrast_keeps_near_all_samples(void **state)
     wr_field_free(field);
 }
 
-/* Scratches narrower than a pixel, far from each other: most of them lie between the first samples, which are all
-   alike. They are found all the same: pixels are known to hold several texels. */
+/* Scratches narrower than a pixel and far apart: most are between the first samples, which are all equal. They are
+   found all the same, since pixels are known to cover several texels. */
 static void detail_between_the_first_samples_is_found(void **state)
 {
     (void)state;
@@ -272,7 +272,7 @@ static void detail_between_the_first_samples_is_found(void **state)
     wr_field_free(field);
 }
 
-/* A view that rests, while edits make it lively and gentle again: its pictures are those of a new renderer. */
+/* A static view, while edits make it rough and gentle again: its pictures equal those of a new renderer. */
 static void a_resting_view_follows_from_few_samples_to_all(void **state)
 {
     (void)state;
@@ -317,8 +317,8 @@ static double rms_between(const Shot *a, const Shot *b)
     return sqrt(sum / (4.0 * SIDE * SIDE));
 }
 
-/* Light that falls off evenly over a ball has its mean in each pixel's middle, however steep: only the outline is
-   refined, and the picture is as near as with K x K everywhere. */
+/* Light that falls off linearly over a sphere has its mean at each pixel's centre, however steep: only the silhouette
+   is refined, and the picture is as accurate as with K x K everywhere. */
 static void an_even_slope_of_light_is_not_refined(void **state)
 {
     (void)state;
@@ -338,9 +338,9 @@ static void an_even_slope_of_light_is_not_refined(void **state)
     wr_field_free(flat);
 }
 
-/* Places are even over each cell: the mean over many pixels of a ramp's jittered samples is its middle, and
-   one sample a cell makes the mean of K x K better than that of K x K anywhere (its error is that of K^2
-   strata, each 1/K wide: variance K^-4 / 12 in the ramp's units). */
+/* Positions are uniform over each cell: the mean of a ramp's jittered samples over many pixels is its middle, and one
+   sample per cell makes the mean of K x K better than that of K x K random ones (its error is that of K^2 strata,
+   each 1/K wide: variance K^-4 / 12 in the ramp's units). */
 static void jittered_samples_are_even_and_stratified(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Pictures of a cube whose faces each have a cell of the table: what is painted in other cells shows on none of its pixels,
-   however they are looked up, and the picture is that of the reference. */
+/* Pictures of a cube whose faces have separate cells of the table: the content of other cells is not visible on any
+   pixel, for any fetch, and the picture equals the reference's. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -16,7 +16,8 @@ static WrScene *cube_of_cells(void)
     return scene;
 }
 
-/* Random heights; other ones but in the cells of the two faces. Cells lie three beside two from the lower left. */
+/* Random heights that differ only outside the cells of the two faces. Cells are three columns by two rows from the
+   lower left. */
 static WrField *field_with(int w, int h, const int keep[2], uint64_t others)
 {
     TestRandom same = { 77 }, other = { others };
@@ -29,7 +30,7 @@ static WrField *field_with(int w, int h, const int keep[2], uint64_t others)
     return field;
 }
 
-/* One way to look the table up: schemes, filters over footprints larger than the margin, all samples. */
+/* One kind of fetch: schemes, filters over footprints larger than the margin, all samples. */
 static void set_way(WrScene *scene, int way)
 {
     static const WrAntialias aa[] = { WR_AA_POINT, WR_AA_FILTER, WR_AA_MOMENTS, WR_AA_SUPERSAMPLE,
@@ -47,8 +48,8 @@ static Shot picture(const WrScene *scene, const WrField *field, int size, int wa
     return shoot(scene, field, size, size, 2, way % 3 ? "auto" : "ref", false);
 }
 
-/* The front face alone, from right before it, and two at grazing angles, whose cells lie one above the other; in pictures
-   so small that a pixel is many texels. */
+/* The front face alone, seen frontally, and two faces at grazing angles with cells above each other; in pictures so
+   small that a pixel covers many texels. */
 static void other_cells_show_on_no_face(void **state)
 {
     static const int sizes[][2] = { { 192, 128 }, { 399, 256 }, { 768, 512 } };
@@ -81,7 +82,7 @@ static void other_cells_show_on_no_face(void **state)
     }
 }
 
-/* Colours in single precision beside those of the reference, and the same places seen. */
+/* Colours in single precision compared with the reference's, at the same points. */
 static void assert_agrees(const WrScene *scene, const WrField *field, int min)
 {
     Shot shot = shoot(scene, field, SIZE, SIZE, 2, "auto", false);
@@ -106,7 +107,7 @@ static void assert_agrees(const WrScene *scene, const WrField *field, int min)
         unlike += far;
     }
     assert_true(both > min);
-    assert_in_range(unlike, 0, 12); /* along edges, where single precision finds the other face */
+    assert_in_range(unlike, 0, 12); /* along edges, where single precision hits the other face */
     wr_reference_fini(&ours);
     put_away(&shot);
 }
@@ -117,7 +118,7 @@ static void cells_look_as_the_reference_says(void **state)
     WrField *field = random_field(153, 98, 3);
     for (int k = 0; k < 4; k++) {
         WrScene *scene = cube_of_cells();
-        scene->scheme = WR_SCHEME_BSPLINE_FIT; /* which the reference takes */
+        scene->scheme = WR_SCHEME_BSPLINE_FIT; /* used by the reference */
         scene->bump = k / 2 ? WR_BUMP_EXACT : WR_BUMP_INVARIANT;
         scene->height = 0.01;
         scene->posed = true;
@@ -134,7 +135,7 @@ static void cells_look_as_the_reference_says(void **state)
     wr_field_free(field);
 }
 
-/* The place that a pixel tells is in the cell of the face that it tells. */
+/* The position reported for a pixel is in the cell of the reported face. */
 static void places_are_in_their_faces_cells(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Pictures as 8-bit codes: the same as those made of the float picture, whatever way they are drawn; and the pass that
-   does all of one light. */
+/* 8-bit pictures: equal to those converted from the float picture, for any way of rendering; and the fused pass for a
+   single light. */
 #include "test.h"
 #include "test_render_cases.h"
 
@@ -8,7 +8,7 @@
 
 /* ---- the codes themselves ---- */
 
-/* By the definition: how many borders a value has reached. */
+/* By definition: the number of borders that a value has reached. */
 static uint32_t counted(float x)
 {
     uint32_t code = 0;
@@ -65,7 +65,7 @@ static const WrFrameCodes ways[] = {
 };
 #define WAYS ((int)(sizeof ways / sizeof *ways))
 
-/* Surroundings for the ways that show them. */
+/* An environment for the modes that show it. */
 static void bring_sky(WrScene *scene)
 {
     WrError err = { "" };
@@ -94,7 +94,7 @@ static void expect_codes(const WrFrame *frame, const uint8_t *bytes, const char 
     }
 }
 
-/* The float picture made into codes. */
+/* The float picture converted to codes. */
 static uint8_t *bytes_of(const WrFrame *frame, const WrFrameCodes *how, int64_t *not_finite)
 {
     uint8_t *bytes = wr_alloc((size_t)frame->width * (size_t)frame->height, 4);
@@ -163,7 +163,7 @@ static void codes_are_those_of_the_float_picture(void **state)
     wr_field_free(edited);
 }
 
-/* A renderer that is asked for both by turns, and for another background. */
+/* A renderer used for both alternately, and with another background. */
 static void codes_and_floats_leave_each_other_alone(void **state)
 {
     (void)state;
@@ -194,8 +194,8 @@ static void codes_and_floats_leave_each_other_alone(void **state)
     wr_field_free(field);
 }
 
-/* A background of surroundings, and the curve, by their own formulas: the ray of each pixel, turned by hand about y, and
-   light in double. */
+/* An environment background and the tone curve, by independent formulas: the ray of each pixel, rotated about y, and
+   light in double precision. */
 static void what_lies_behind_is_what_each_ray_meets(void **state)
 {
     (void)state;
@@ -231,7 +231,7 @@ static void what_lies_behind_is_what_each_ray_meets(void **state)
         const double x = (2.0 * (i % W + 0.5) / W - 1) * half * W / H;
         const double y = (1 - 2.0 * (i / W + 0.5) / H) * half;
         const WrVec3 d = v3_mad(v3_mad(ahead, right, x), up, y);
-        /* the surroundings are turned by `angle` about y, so what is seen lies at the direction turned back */
+        /* the environment is rotated by `angle` about y, so the visible direction is rotated back */
         const WrVec3 back = { d.x * cos(angle) - d.z * sin(angle), d.y,
                               d.x * sin(angle) + d.z * cos(angle) };
         double rgb[3];
@@ -263,7 +263,7 @@ static void some_light(WrLight *light, TestRandom *random)
     light->strength = 0.5 + test_random(random);
 }
 
-/* A second light of next to nothing leaves the picture to the stages of several lights. */
+/* A second light of almost zero intensity forces the stages for several lights. */
 static void one_light_in_one_pass_has_the_bits_of_the_stages(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Samples where the table has no slope are spared the bump: the picture is that of all of it, to the bit. */
+/* Samples where the table has no slope skip bump mapping: the picture is bit-identical to the full computation. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -6,14 +6,14 @@
 #include "render/textures/slope_bounds.h"
 #include "render/textures/height_copies.h"
 
-/* Level but for a few texels, often beside a tile's border or the table's end. */
+/* Level except for a few texels, often beside a tile's border or the table's end. */
 static WrField *spotted_field(int w, int h, TestRandom *random)
 {
     const WrWrap u = test_random(random) < 0.5 ? WR_WRAP_PERIODIC : WR_WRAP_CLAMP;
     const WrWrap v = test_random(random) < 0.5 ? WR_WRAP_PERIODIC : WR_WRAP_CLAMP;
     const float ground = (float)(test_random(random) - 0.5);
     WrField *field = wr_field_new(w, h, u, v, ground, NULL);
-    const int step = test_random(random) < 0.4 ? WR_TILE : 0; /* all of one tile higher */
+    const int step = test_random(random) < 0.4 ? WR_TILE : 0; /* one whole tile is higher */
     for (int j = 0; j < step; j++)
         for (int i = 0; i < step; i++) wr_field_set(field, i, j, ground + 0.3f);
     for (int k = 0; k < 3; k++) {
@@ -71,7 +71,7 @@ static void what_is_spared_shows_nowhere(void **state)
         wr_scene_free(scene);
         wr_field_free(field);
     }
-    assert_in_range(spared, 15, 1500); /* or nothing was tried */
+    assert_in_range(spared, 15, 1500); /* otherwise nothing was tested */
     assert_in_range(partly, 10, 1500);
 }
 
@@ -82,7 +82,7 @@ static bool box_is_level(const WrLevel *level, double u0, double u1, double v0, 
     return found[0] == 0 && found[1] == 0;
 }
 
-/* The box against every texel that it could read. */
+/* The bound of a box against every texel it could read. */
 static void no_tile_that_a_box_reads_is_steeper_than_it_says(void **state)
 {
     (void)state;
@@ -141,7 +141,7 @@ static void no_tile_that_a_box_reads_is_steeper_than_it_says(void **state)
     assert_false(box_is_level(&none, 0, 1, 0, NAN));
 }
 
-/* Edits anywhere, where all was level too, corners and ends among them: every pixel is that of a new picture. */
+/* Edits anywhere, also in level areas, at corners and ends: every pixel equals a new picture. */
 static void edits_show_wherever_they_are(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void edits_show_wherever_they_are(void **state)
     }
 }
 
-/* A tile is as steep as what look-ups in it read, at a clamped end also what is extrapolated past it. */
+/* The slope bound of a tile covers all fetches in it, including extrapolation past a clamped end. */
 static void check_steep(const WrTable *table, const WrField *field, int k)
 {
     const WrTableCopy *copy = &table->copies[WR_COPY_GRADIENT];

@@ -1,5 +1,5 @@
-/* test_render_relief.c - a normal map's slopes are added to the table's: a map of a table gives the picture of that
-   table, alone and beside another; filtered as the table is. */
+/* test_render_relief.c - slopes of a normal map are added to the table's: the map of a table gives the picture of
+   that table, alone and beside another; filtered like the table. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_mesh_grids.h"
@@ -11,7 +11,7 @@
 
 #define SIDE 96
 
-/* The map of a table's central differences, in codes of so many bits; 32: as they are. */
+/* The map of a table's central differences, in codes of that many bits; 32: unrounded. */
 static WrImage *map_of(const WrField *field, double height, int bits, bool down)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -54,7 +54,8 @@ static WrField *flat_field(void)
     return wr_field_new(24, 17, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
 }
 
-/* On all bits, both signs, plane and sphere, modes and antialiasing: within what the format's angle may change. */
+/* All bit depths, both signs, plane and sphere, modes and anti-aliasing: within the angular precision of the
+   format. */
 static void the_map_of_a_table_gives_its_picture(void **state)
 {
     static const char *const surfaces[] = { "plane", "sphere", "torus", "cone" };
@@ -74,7 +75,7 @@ static void the_map_of_a_table_gives_its_picture(void **state)
         if (k % 11 == 3) scene->dials.shading = WR_SHADING_DOUBLE;
         Shot bumped = shoot(scene, field, SIDE, SIDE, 2, "auto", false);
         take_map(scene, map_of(field, scene->height, formats[k % 3].bits, down), down, k & 1);
-        scene->height = 0.9; /* of the flat table: not the map's */
+        scene->height = 0.9; /* affects the flat table, not the map */
         Shot mapped = shoot(scene, flat, SIDE, SIDE, 2, "auto", false);
         const float off = worst_difference(&bumped, &mapped);
         if (getenv("WR_SHOW"))
@@ -167,7 +168,7 @@ static void planned_full_threads_and_instruction_sets_agree_to_the_bit(void **st
     }
 }
 
-/* A flat map, a strength of 0: the bits of none. */
+/* A flat map, or a strength of 0: bit-identical to none. */
 static void maps_without_slopes_are_left_out(void **state)
 {
     (void)state;

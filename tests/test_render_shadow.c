@@ -1,4 +1,4 @@
-/* Shadows that the relief throws on itself: pictures against the reference, which marches rays through the table. */
+/* Self-shadowing of the relief: pictures against the reference, which marches rays through the table. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -10,7 +10,7 @@
 
 #define SIDE 96
 
-/* A few humps, nowhere alike; 61 x 47 texels. */
+/* A few different humps; 61 x 47 texels. */
 static WrField *humps(void)
 {
     WrError err;
@@ -41,8 +41,7 @@ static WrScene *shadowy(const char *surface, double height)
     return scene;
 }
 
-/* Pixels of the picture, in shares of those that are covered: that the relief darkens, and that the reference has otherwise
-   by over a twentieth. */
+/* Fractions of covered pixels: darkened by the relief, and different from the reference by over a twentieth. */
 static void shares(const char *surface, double height, bool displaced, double *dark, double *off)
 {
     WrError err = { "" };
@@ -100,8 +99,8 @@ static void pictures_have_the_shadows_of_marched_rays(void **state)
         }
 }
 
-/* Displaced, rays meet the surface itself again: horizons over the tangent plane are near that, but where the ground ends or
-   bends. */
+/* With displacement, rays intersect the surface itself: horizons over the tangent plane approximate that, except
+   where the ground ends or bends. */
 static void displaced_surfaces_have_them_too(void **state)
 {
     (void)state;
@@ -116,7 +115,7 @@ static void displaced_surfaces_have_them_too(void **state)
 
 /* ---- round lamps, and the sky ---- */
 
-/* rms, over covered pixels, of the picture less the reference, and less the picture with that taken off. */
+/* RMS over covered pixels: picture minus reference, and picture minus picture without the effect. */
 static void compared(WrScene *scene, WrScene *without, double *off, double *effect)
 {
     WrError err = { "" };
@@ -150,7 +149,7 @@ static void compared(WrScene *scene, WrScene *without, double *off, double *effe
     wr_field_free(field);
 }
 
-/* Of a lamp of 7 degrees, whose disc the reference looks at place by place; hard shadows are another picture. */
+/* A light of 7 degrees, whose disc the reference samples; hard shadows give another picture. */
 static void round_lamps_have_penumbras(void **state)
 {
     (void)state;
@@ -170,8 +169,9 @@ static void round_lamps_have_penumbras(void **state)
     }
 }
 
-/* A straight ridge across the lamp's way: over the floor behind it the horizon is straight, its slope the ridge's height by the
-   way to its last texel, and what is seen of the lamp a segment of its disc: 1/2 + (x sqrt(1 - x^2) + asin x) / pi. */
+/* A straight ridge across the light's direction: over the floor behind it the horizon is straight, its slope is the
+   ridge's height divided by the distance to its last texel, and the visible part of the light is a segment of its
+   disc: 1/2 + (x sqrt(1 - x^2) + asin x) / pi. */
 static void a_ridge_has_the_penumbra_of_a_disc(void **state)
 {
     (void)state;
@@ -216,7 +216,7 @@ static void a_ridge_has_the_penumbra_of_a_disc(void **state)
     wr_field_free(field);
 }
 
-/* Ambient light alone, as much as each place sees of the sky: the reference marches in 48 directions. */
+/* Ambient light alone, proportional to the visible sky: the reference marches in 48 directions. */
 static void hollows_see_less_of_the_sky(void **state)
 {
     (void)state;
@@ -239,7 +239,7 @@ static void hollows_see_less_of_the_sky(void **state)
     }
 }
 
-/* More directions come nearer to the reference. */
+/* More directions are closer to the reference. */
 static void directions_are_a_dial(void **state)
 {
     (void)state;

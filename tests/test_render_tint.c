@@ -1,5 +1,5 @@
-/* test_render_tint.c - the colour picture over the footprints of pixels: its means, against pictures of many samples a
-   pixel; how often it is laid. */
+/* test_render_tint.c - colour texture over the footprints of pixels: its means against pictures with many samples per
+   pixel; tiling. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -104,8 +104,8 @@ static void threads_make_the_bits_of_one(void **state)
 
 #define SIDE 64
 
-/* Of the pixels that the object fills: root mean square of what is apart from the means of 16 x 16 samples, and these
-   pixels' own deviation about their mean. */
+/* For fully covered pixels: RMS difference from the means of 16 x 16 samples, and these pixels' own deviation from
+   their mean. */
 typedef struct Apart {
     double rms, worst, deviation;
     int pixels;
@@ -178,8 +178,8 @@ static void a_fine_checker_is_grey(void **state)
     wr_field_free(flat);
 }
 
-/* Pictures of odd sizes on all kinds of surface, with light or without, smooth or not: nearer to 16 x 16 samples than
-   one look-up is, by far. */
+/* Pictures of odd sizes on all kinds of surface, lit or unlit, smooth or not: much closer to 16 x 16 samples than one
+   fetch is. */
 static void filtered_pictures_are_near_many_samples(void **state)
 {
     static const char *const surfaces[] = {
@@ -195,9 +195,9 @@ static void filtered_pictures_are_near_many_samples(void **state)
         scene->replicate_u = 1 + k % 2, scene->replicate_v = k % 5 ? 1 : -1;
         if (k % 3 == 1) scene->material.diffuse = 0.5;
         if (k % 4 == 1) scene->bump = WR_BUMP_BLINN, scene->height = 0.004;
-        if (k == 7 || k == 10 || k == 11) { /* of a formula: nothing is filtered but C */
+        if (k == 7 || k == 10 || k == 11) { /* of a formula: only C is filtered */
             scene->bump = WR_BUMP_BLINN, scene->height = 0.01;
-            scene->dials.arithmetic = WR_ARITHMETIC_FAST; /* which bends at once */
+            scene->dials.arithmetic = WR_ARITHMETIC_FAST; /* which bends in one step */
             scene->analytic =
                 (WrAnalytic){ WR_ANALYTIC_POLY, 1, wr_alloc(1, sizeof(WrAnalyticTerm)) };
             scene->analytic.terms[0] = (WrAnalyticTerm){ .i = 2, .j = 1, .a = 1 };
@@ -263,7 +263,7 @@ static void planned_full_threads_and_instruction_sets_agree_to_the_bit(void **st
     }
 }
 
-/* E64: a picture without a texel smaller than a pixel is looked up as it is. */
+/* E64: a picture without texels smaller than a pixel is fetched unfiltered. */
 static void coarse_pictures_have_the_bits_of_point(void **state)
 {
     (void)state;
@@ -284,7 +284,7 @@ static void coarse_pictures_have_the_bits_of_point(void **state)
     wr_field_free(field);
 }
 
-/* E29: colours stay where an edit of the table is shown. */
+/* E29: colours are unchanged when an edit of the table is shown. */
 static void a_resting_view_is_refreshed_to_the_bits_of_a_new_picture(void **state)
 {
     (void)state;
@@ -296,7 +296,7 @@ static void a_resting_view_is_refreshed_to_the_bits_of_a_new_picture(void **stat
     }
 }
 
-/* ---- how often it is laid -------------------------------------------------------------------------- */
+/* ---- tiling ---------------------------------------------------------------------------------------- */
 
 static void a_picture_is_laid_as_often_as_told(void **state)
 {

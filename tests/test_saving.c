@@ -1,5 +1,5 @@
-/* test_saving.c - what effects cost and save is measured on frames in which they truly ran and truly did not. No time
-   is judged. */
+/* test_saving.c - costs and savings of effects are measured on frames in which they did and did not run. Times are
+   not checked. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -41,7 +41,7 @@ static void measure(Stage *stage, const WrChoice *choice)
     if (!wr_savings_measure(&ask, stage->savings, &err)) fail_msg("%s", err.text);
 }
 
-/* The plan with one effect forced, and what ran: rendered apart. */
+/* The plan with one effect forced, and the effects that ran: from a separate rendering. */
 static WrPlan plan_of(const Stage *stage, WrEffect effect, WrForce how)
 {
     WrForce force[WR_EFFECT_COUNT] = { WR_FORCE_NONE };
@@ -112,7 +112,7 @@ static void an_effect_goes_with_what_it_needs(void **state)
     strike(&stage);
 }
 
-/* Nothing of the object is in the picture: stages that never run have no cost. */
+/* The picture is empty: stages that never run have no cost. */
 static void an_empty_picture_measures_nothing(void **state)
 {
     Stage stage;

@@ -1,4 +1,4 @@
-/* Schemes of interpolation and differentiation: orders of convergence, identities, hard look-ups. */
+/* Schemes of interpolation and differentiation: orders of convergence, identities, hard fetches. */
 #include "test.h"
 #include "field/scheme_list.h"
 
@@ -122,7 +122,7 @@ static void a2_central_equals_the_papers_four_look_ups(void **state)
             double u = 4 * test_random(&random) - 2, v = 4 * test_random(&random) - 2, fu, fv;
             Point p = sample(field, WR_SCHEME_CENTRAL, u, v);
             wr_field_sample_blinn(field, u, v, &fu, &fv);
-            /* the four look-ups' places are rounded: a few ulps of u times slopes of n^2 */
+            /* the four fetch positions are rounded: a few ulps of u times slopes of n^2 */
             assert_near(p.fu, fu, 1e-15 * sizes[s][0] * sizes[s][0] * 8 + 1e-13);
             assert_near(p.fv, fv, 1e-15 * sizes[s][1] * sizes[s][1] * 8 + 1e-13);
         }
@@ -380,7 +380,7 @@ static void hc47_flat_tables_have_their_level_and_no_slope_to_the_bit(void **sta
         }
 }
 
-/* Differences of stored heights are exact, so slopes do not see the level. Fitted coefficients are rounded to
+/* Differences of stored heights are exact, so slopes do not depend on the level. Fitted coefficients are rounded to
  * half of 1e6's last place in double, 6e-11. */
 static void hc48_a_level_of_a_million_leaves_slopes_as_they_were_stored(void **state)
 {
@@ -508,8 +508,8 @@ static void hc57_both_sides_of_the_seam_are_the_same_bits(void **state)
     wr_field_free(field);
 }
 
-/* In double to the end: nothing of a float's rounding is left, whatever level the samples stand on.
-   What is extrapolated beyond a clamped axis is up to 28^2 times as high as they are. */
+/* In double throughout: no float rounding remains at any level. Extrapolation beyond a clamped axis may be up to 28^2
+   times as high. */
 static void hc58_the_fitted_spline_passes_through_the_samples_of_any_size(void **state)
 {
     (void)state;

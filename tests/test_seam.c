@@ -1,4 +1,4 @@
-/* The seam test of a table, against patterns whose edges are known by how they are made. */
+/* The seam test of a table, against patterns with known edges. */
 #include "test.h"
 #include "field/scheme_list.h"
 
@@ -13,7 +13,7 @@
 
 typedef double Height(double u, double v);
 
-/* Texels at their centres, from `from` on: a cell of `size` units of a function with period 1. */
+/* Samples at texel centres, from `from` on: a cell of `size` units of a function with period 1. */
 static WrField *table_of(int w, int h, Height *f, double from, double size)
 {
     WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
@@ -24,7 +24,7 @@ static WrField *table_of(int w, int h, Height *f, double from, double size)
     return field;
 }
 
-/* Waves with a phase that other waves move: veins that are sharp where `veins` takes the root of a sine. */
+/* Waves with a phase modulated by other waves: veins that are sharp where `veins` is the root of a sine. */
 static double warped(double u, double v)
 {
     return 3 * u + v + 0.31 * sin(TURN * (2 * u + v)) + 0.23 * cos(TURN * (u - 3 * v)) +
@@ -71,7 +71,7 @@ static void hc57_a_repeated_or_a_missing_column_is_no_step_of_smooth_ground(void
     (void)state;
     WrField *cut = table_of(128, 64, steep, 0, 127.0 / 128);
     const WrSeamEdge u = wr_seam_measure(cut, NULL).u;
-    /* one texel of slope 40 TURN/128 is missing: the step is as two texels of slope, no other is */
+    /* one texel of slope 40 TURN/128 is missing: that step is as large as two texels of slope, no other is */
     assert_near(u.across[WR_SEAM_STEP] / u.inside[WR_SEAM_STEP], 2, 0.05);
     assert_int_equal(u.order, -1);
     wr_field_free(cut);
@@ -88,7 +88,7 @@ static void a_crease_is_an_order_of_0(void **state)
     (void)state;
     WrField *field = table_of(128, 64, peak, 0, 1);
     const WrSeam seam = wr_seam_measure(field, NULL);
-    /* between the last centre and the first one the slope turns from -4 to 4, less what half a texel bends */
+    /* between the last centre and the first the slope changes from -4 to 4, minus the change over half a texel */
     assert_int_equal(seam.u.order, 0);
     assert_near(seam.u.across[WR_SEAM_SLOPE], (8 - 2 * 8.0 / 128) / 128, 1e-6);
     assert_near(seam.u.inside[WR_SEAM_SLOPE], 2 * 8.0 / (128 * 128), 1e-6);
@@ -120,7 +120,7 @@ static double drops(double u, double v)
 
 static double drop_only(double u, double v)
 {
-    /* f(u + 1, v) = f(u, v + 1/2): whole turns of (u/2 + v), so plain copies are torn */
+    /* f(u + 1, v) = f(u, v + 1/2): integer periods of (u/2 + v), so plain copies do not match */
     return sin(TURN * (u / 2 + v)) + 0.3 * cos(TURN * (u + 4 * v));
 }
 
@@ -139,7 +139,7 @@ static void a_lay_is_judged_as_it_is_laid(void **state)
         const WrSeam whole = wr_seam_measure(sheet, &two);
         if (wr_seam_shows(&plain.u) == cases[k].plain) fail_msg("case %d, plain", k);
         if (wr_seam_shows(&moved.u) == cases[k].dropped) fail_msg("case %d, shifted", k);
-        /* a sheet has the same texels as a cell with a moved neighbour */
+        /* an arranged sheet has the same texels as a cell with a shifted neighbour */
         assert_int_equal(whole.u.order, moved.u.order);
         for (int d = 0; d < WR_SEAM_DIFFERENCES; d++)
             assert_near(whole.u.ratio[d], moved.u.ratio[d], 1e-9 * (1 + moved.u.ratio[d]));
@@ -164,7 +164,7 @@ static void rounding_to_codes_is_no_seam(void **state)
         WrField *field = table_of(128, 128, smooth, 0, 1);
         for (int j = 0; j < 128; j++)
             for (int i = 0; i < 128; i++) {
-                /* ground that rises by less than two codes in all */
+                /* a surface that rises by less than two codes */
                 const double f = 0.5 + 0.8 * (double)wr_field_get(field, i, j) / last;
                 wr_field_set(field, i, j, (float)(floor(f * last + 0.5) / last));
             }
@@ -197,7 +197,8 @@ static void small_tables_are_not_measured(void **state)
     wr_field_free(field);
 }
 
-/* Noise on a ring: random waves that close. Few lines are inside, so that one at the edge may well be the worst by chance. */
+/* Noise on a ring: random periodic waves. There are few inner lines, so the one at the edge may be the worst by
+   chance. */
 static void small_seamless_tables_have_no_seam(void **state)
 {
     (void)state;

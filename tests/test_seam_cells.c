@@ -1,5 +1,5 @@
-/* Seam verdicts of the generators' own cells: none of a whole one, in every lay that it fits; one of a cut; and a check of an
-   exported file never says other than the export did. */
+/* Seam verdicts for cells of the generators: none for a whole cell, in every suitable tiling; a seam for a cut one;
+   and the check of an exported file agrees with the export's report. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -7,7 +7,7 @@
 #include "export/check.h"
 #include "field/seam.h"
 
-/* Cells with several features each way, so that no single one lies on the edge alone. */
+/* Cells with several features in each direction, so that no single one is only at the edge. */
 static const char *const cells[] = {
     "pattern bricks",
     "pattern bricks seed=7; adjust blur sigma=1.5",
@@ -87,7 +87,7 @@ static const char *const cells[] = {
 };
 #define CELLS ((int)(sizeof cells / sizeof *cells))
 
-/* Lines are parted by "; ". */
+/* Lines are separated by "; ". */
 static void run_lines(WrSession *session, const char *lines)
 {
     char copy[200], *rest = copy;
@@ -136,8 +136,8 @@ static void whole_cells_have_no_seam(void **state)
     }
 }
 
-/* Two thirds of a cell, cut where nothing repeats. Of 70 there are some whose edges are no sharper than what they have
- * inside: flat ground, tiles and checks between straight steps. */
+/* Two thirds of a cell, cut where nothing repeats. Some of 70 cuts have edges no sharper than their interior: flat
+ * ground, tiles and checks with straight steps. */
 static void most_cuts_have_one_in_every_lay(void **state)
 {
     (void)state;
@@ -161,7 +161,7 @@ static void most_cuts_have_one_in_every_lay(void **state)
 
 /* ---- files ---- */
 
-/* How an export's report says that its pattern breaks; the scheme of these tables is C1. */
+/* The text in an export's report for a broken pattern; the scheme of these tables is C1. */
 static bool is_torn(const char *report)
 {
     static const char *const words[] = { "none, height differs", "none, second difference",
@@ -183,7 +183,7 @@ static void agree(const char *path, const Said *said, const char *what)
     if (check.problems & ~seams) fail_msg("%s, %s: problems %x", what, path, check.problems);
 }
 
-/* Every second cell is a cut, so that both verdicts come. */
+/* Every second cell is a cut, so that both verdicts occur. */
 static void a_check_says_what_the_export_said(void **state)
 {
     (void)state;

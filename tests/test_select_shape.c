@@ -1,4 +1,4 @@
-/* Rectangles, ellipses and lassos: how much of each texel they cover, round all the edges. */
+/* Rectangles, ellipses and lassos: coverage of each texel, across all edges. */
 #include "select_help.h"
 
 #include "base/pool.h"
@@ -39,7 +39,7 @@ static void a_rectangle_on_texel_borders_is_exact(void **state)
             for (int i = 0; i < sizes[n][0]; i++)
                 assert_true(wr_field_get(a, i, j) ==
                             (i >= i0 && i < i1 && j >= 1 && j < j1 ? 1.0f : 0.0f));
-        assert_same_texels(a, b); /* any two corners that face each other */
+        assert_same_texels(a, b); /* any two opposite corners */
         wr_field_free(a);
         wr_field_free(b);
         wr_field_free(like);
@@ -91,7 +91,7 @@ static void shapes_larger_than_the_table_select_all_of_it(void **state)
     }
 }
 
-/* Two ways of finding the same areas. */
+/* Two ways to compute the same areas. */
 static void a_lasso_round_a_rectangle_is_that_rectangle_bit_for_bit(void **state)
 {
     (void)state;
@@ -114,7 +114,7 @@ static void a_lasso_round_a_rectangle_is_that_rectangle_bit_for_bit(void **state
 
 enum { LINES = 2048, SIDE = 16 };
 
-/* Where a shape meets a level line: pairs of x, unrolled; returns how many numbers. */
+/* Intersection of a shape with a horizontal line: pairs of x, unrolled; returns the number of values. */
 typedef int (*Meet)(const void *shape, double y, double *x);
 
 static int compare_doubles(const void *a, const void *b)
@@ -123,8 +123,8 @@ static int compare_doubles(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* How much of [i, i + 1] the spans and their images cover. They overlap, so: cut at all ends, and ask for
- * each piece whether any image has its middle. */
+/* Fraction of [i, i + 1] covered by the spans and their images. They overlap, so cut at all ends, and test for each
+ * piece whether any image contains its centre. */
 static double covered(const double *spans, int count, int i, int width, bool wraps)
 {
     double cuts[512], sum = 0.0;
@@ -149,7 +149,7 @@ static double covered(const double *spans, int count, int i, int width, bool wra
     return sum;
 }
 
-/* Tolerance: the lines miss what ends between two of them, the selection's own bound is 1/256. */
+/* Tolerance: the lines miss features between two of them; the selection's own bound is 1/256. */
 static void assert_covers(const WrField *a, Meet meet, const void *shape)
 {
     int width = wr_field_width(a), height = wr_field_height(a);
@@ -197,7 +197,7 @@ static void a_lasso_covers_what_dense_lines_find_even_where_it_crosses_itself(vo
     for (int n = 0; n < 12; n++) {
         WrField *like = table(5 + n % 7, 4 + n % 3, n % 3 == 1 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC,
                               n % 4 == 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
-        double reach = n < 6 ? 1.0 : 2.2; /* in cells: the later ones lie on themselves */
+        double reach = n < 6 ? 1.0 : 2.2; /* in cells: the later ones overlap themselves */
         Polygon p = { .count = 3 + n % 6 };
         for (int i = 0; i < p.count; i++) {
             p.xy[i][0] = (test_random(&random) * reach - 0.3) * wr_field_width(like);
@@ -244,7 +244,7 @@ static void a_large_ellipse_has_the_area_of_one(void **state)
 {
     (void)state;
     WrField *like = periodic(700, 500), *a = ellipse(like, 350, -200, 950, 200);
-    /* inscribed: at most 1/2048 texel short all along the circumference, under 1600 texels */
+    /* inscribed: at most 1/2048 texel short along the whole circumference, under 1600 texels */
     assert_near(sum_of(a), 3.14159265358979 * 300 * 200, 0.8);
     wr_field_free(a);
     wr_field_free(like);
@@ -317,7 +317,7 @@ static void inside_is_where_a_ray_meets_the_lasso_an_odd_number_of_times(void **
     assert_all(a, 0.0f);
     wr_field_free(a);
     double bow[][2] = { { 4, 4 }, { 20, 20 }, { 20, 4 }, { 4, 20 } };
-    a = lasso(like, bow, 4, NULL); /* two triangles of 64 texels that meet at a point */
+    a = lasso(like, bow, 4, NULL); /* two triangles of 64 texels that touch at a point */
     assert_near(sum_of(a), 128.0, 0.01);
     assert_true(wr_field_get(a, 5, 12) == 1.0f && wr_field_get(a, 12, 5) == 0.0f);
     wr_field_free(a);
@@ -379,7 +379,7 @@ static void shapes_that_are_not_finite_or_too_far_are_refused(void **state)
     wr_field_free(like);
 }
 
-/* A star of many long sides that all cross each other, larger than the table. */
+/* A star of many long, mutually crossing sides, larger than the table. */
 static void a_wild_lasso_ends_in_time_and_stays_in_range(void **state)
 {
     (void)state;

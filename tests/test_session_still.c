@@ -1,4 +1,4 @@
-/* A still of a session: what it shows stays as it was, whatever becomes of the session, and nothing runs in it. */
+/* Snapshot of a session: its content is unaffected by later changes of the session, and commands are rejected. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -20,7 +20,7 @@ static WrSession *some_session(void)
         "surface torus R=1.1 r=0.43", "camera from left", "camera from top", NULL });
 }
 
-/* All that can be read, as text. */
+/* All readable data as text. */
 static void describe(const WrSession *session, WrText *text)
 {
     const char *reason;
@@ -62,20 +62,20 @@ static void a_still_stays_as_it_was(void **state)
     assert_int_equal(wr_session_history_count(session), STEPS);
     WrSession *still = wr_session_snapshot(session);
     must_show(still, &before);
-    must_run(session, "camera from right"); /* the present state is looked at in another way */
+    must_run(session, "camera from right"); /* a new view of the present state */
     must_show(still, &before);
     must_run(session, "undo 2");
     must_run(session, "redo 3");
     must_show(still, &before);
-    must_run(session, "fill 0.37"); /* the steps after it are gone */
+    must_run(session, "fill 0.37"); /* the steps after it are dropped */
     must_run(session, "layer add");
     must_show(still, &before);
-    wr_session_set_history_budget(session, 1); /* the oldest states are given up */
+    wr_session_set_history_budget(session, 1); /* the oldest states are dropped */
     assert_true(wr_session_history_oldest(session) > 0);
     must_show(still, &before);
     wr_session_reset(session);
     must_show(still, &before);
-    wr_session_free(session); /* it does not need the session */
+    wr_session_free(session); /* the snapshot does not depend on the session */
     must_show(still, &before);
     wr_session_free(still);
     wr_text_fini(&before);
@@ -92,7 +92,7 @@ static void nothing_runs_in_a_still(void **state)
     assert_false(wr_session_stroke_begin(still, "stroke radius=7", &err));
     assert_false(wr_session_save(still, "still.exr", &err));
     wr_session_free(still);
-    must_run(session, "undo 2"); /* and what was shared is whole */
+    must_run(session, "undo 2"); /* and shared data is intact */
     must_run(session, "redo");
     wr_session_free(session);
 }

@@ -1,5 +1,4 @@
-/* What the export sheet goes by: a map's picture is the file's codes, heights are counted, and the document keeps what the
-   sheet was told. */
+/* Export sheet: a map's picture shows the file's codes, heights are counted, and the document stores the settings. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -44,7 +43,7 @@ static void pictures_are_the_codes_of_their_files(void **state)
     wr_session_free(session);
 }
 
-/* Of floats the largest, by its size, is white or black, and 0 the middle. */
+/* For floats, the value of largest magnitude is white or black, and 0 is the middle. */
 static void pictures_of_floats_go_to_the_ends(void **state)
 {
     (void)state;
@@ -123,7 +122,7 @@ static void a_document_keeps_what_the_sheet_was_told(void **state)
     assert_int_equal(sheet->depth, WR_SHEET_16);
     assert_int_equal(sheet->size, WR_SHEET_POWER);
     assert_int_equal(sheet->range, WR_SHEET_RANGE_SIGNED);
-    must_run(again, "object add b"); /* another object has them, too */
+    must_run(again, "object add b"); /* another object has them too */
     assert_string_equal(doc(again)->scene->sheet.as, "unreal");
     wr_session_free(session);
     wr_session_free(again);

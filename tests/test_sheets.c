@@ -1,5 +1,6 @@
-/* test_sheets.c - cells laid out for other programs: every texel of repeats, half-drops, bricks and atlases spelt out from
-   the table's, hexagonal lattices and n + 1 samples against a formula, levels as files against means counted anew. */
+/* test_sheets.c - cells arranged for other programs: every texel of repeats, half-drops, bricks and atlases computed
+   from the table's, hexagonal lattices and n + 1 samples against a formula, mip levels as files against recomputed
+   means. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -62,7 +63,7 @@ static float at(const WrImage *image, int i, int j, int c)
 
 typedef struct Lay {
     const char *options;
-    int m, n;           /* how many tables wide and high */
+    int m, n;           /* number of tables horizontally and vertically */
     int roll_u, roll_v; /* of every second column or row, texels */
 } Lay;
 
@@ -101,8 +102,8 @@ static void every_texel_is_where_it_belongs(void **state)
             assert_true(at(image, i, j, 0) == laid(s, lay, W, H, i, j));
             const double p = (double)(laid(s, lay, W, H, i + 1, j) - laid(s, lay, W, H, i - 1, j));
             const double q = (double)(laid(s, lay, W, H, i, j - 1) - laid(s, lay, W, H, i, j + 1));
-            assert_near(at(slopes, i, j, 0), 0.25 * p * W / 2 / 3,
-                        2e-6); /* of a cell as large as before */
+            /* of a cell of the former size */
+            assert_near(at(slopes, i, j, 0), 0.25 * p * W / 2 / 3, 2e-6);
             assert_near(at(slopes, i, j, 1), 0.25 * q * H / 2 / 5, 2e-6);
         }
         wr_image_free(image);
@@ -158,7 +159,7 @@ static void a_hexagonal_lattice_is_a_rectangle(void **state)
 {
     (void)state;
     WrSession *s = table_of(112, 112, "");
-    must_run(s, "cell 2,7"); /* its height does not count: the lattice says it */
+    must_run(s, "cell 2,7"); /* its height is ignored: the lattice determines it */
     WrImage *image = exported(s, "export height %s lay=hex scheme=bspline-fit", "h.exr");
     assert_true(image->width == 112 && image->height == 194); /* 56 : 97 */
     for (int n = 0; n < 112 * 194; n++) {
@@ -168,7 +169,7 @@ static void a_hexagonal_lattice_is_a_rectangle(void **state)
             0.7 * sin(turn * (u + 0.1)) * cos(2 * turn * v) + 0.2 * sin(3 * turn * u + 1);
         assert_near(image->data[n], f, 2e-5);
     }
-    /* the lattice's other point stands in the middle */
+    /* the lattice's other point is in the middle */
     for (int n = 0; n < 112 * 97; n++)
         assert_near(at(image, n % 112, n / 112, 0),
                     at(image, (n % 112 + 56) % 112, n / 112 + 97, 0), 1e-6);
@@ -291,12 +292,12 @@ static void levels_are_files_of_means(void **state)
     }
     wr_image_free(above);
     assert_int_equal(access("m_5.exr", F_OK), -1);
-    /* each sidecar tells of its own file */
+    /* each sidecar describes its own file */
     assert_int_equal(
         system("for k in m m_1 m_2 m_3 m_4; do "
                "grep -q \"$(sha256sum <$k.exr | cut -d' ' -f1)\" $k.exr.json || exit 1; done"),
         0);
-    /* codes stand for the same heights on all of them */
+    /* codes mean the same heights in all of them */
     static const char *const ranges[] = { "auto", "signed" };
     for (int r = 0; r < 2; r++) {
         char line[80];

@@ -1,4 +1,4 @@
-/* Pieces cut from large blocks: nobody else's, kept while they are out, and gone afterwards. */
+/* Pieces of large blocks: exclusive, valid while in use, and released afterwards. */
 #include "test.h"
 
 #include "base/memory.h"
@@ -14,7 +14,7 @@
 
 static WrSlabs slabs = { WR_SLABS_OF(BYTES) };
 
-/* Its first and last bytes say whose it is. */
+/* Its first and last bytes identify the owner. */
 static void mark(unsigned char *piece, unsigned owner)
 {
     memcpy(piece, &owner, sizeof owner);
@@ -27,7 +27,7 @@ static bool is_marked(const unsigned char *piece, unsigned owner)
            memcmp(piece + BYTES - sizeof owner, &owner, sizeof owner) == 0;
 }
 
-/* The first test: later ones find the C library less willing to give back. */
+/* The first test, since the C library returns memory less readily later. */
 static void blocks_of_which_nothing_is_out_go_back_but_for_ten(void **state)
 {
     (void)state;
@@ -38,9 +38,9 @@ static void blocks_of_which_nothing_is_out_go_back_but_for_ten(void **state)
     const uint64_t most = wr_process_space();
     for (int i = 0; i < MANY; i += 2) wr_slab_give(&slabs, piece[i]);
     for (int i = 0; i < MANY; i += 2) piece[i] = wr_slab_take(&slabs);
-    assert_true(wr_process_space() <= most + BLOCK); /* what was given back is taken first */
+    assert_true(wr_process_space() <= most + BLOCK); /* returned pieces are reused first */
     for (int i = 0; i < MANY; i++) wr_slab_give(&slabs, piece[i * 7 % MANY]);
-    if (before == 0) skip(); /* the system does not say */
+    if (before == 0) skip(); /* unknown on this system */
     assert_true(most >= before + (uint64_t)MANY * BYTES);
     assert_true(wr_process_space() <= before + 11 * BLOCK); /* of 18 */
     wr_slab_trim(&slabs);
@@ -94,7 +94,7 @@ static void several_threads_get_pieces_of_their_own(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* Large blocks of any content: two that were given back, of about the size that is asked for, until they are trimmed. */
+/* Large blocks of any content: two returned ones of about the requested size are kept until the next trim. */
 static void two_large_blocks_are_kept_for_the_next(void **state)
 {
     (void)state;
@@ -110,7 +110,7 @@ static void two_large_blocks_are_kept_for_the_next(void **state)
     for (int i = 0; i < 3; i++) wr_free(block[i]);
     char *zeroed = wr_try_alloc(bytes, 1, "a block", NULL), *wide, *narrow, *last;
     for (size_t i = 0; i < bytes; i += 4093) assert_int_equal(zeroed[i], 0);
-    wide = wr_try_alloc_unset(bytes + 3, 1, "a block", NULL);       /* too large for either */
+    wide = wr_try_alloc_unset(bytes + 3, 1, "a block", NULL);       /* too large for both */
     narrow = wr_try_alloc_unset(bytes / 2 - 1, 1, "a block", NULL); /* not worth one */
     last = wr_try_alloc_unset(bytes + 2, 1, "a block", NULL);
     assert_true(wide != block[1] && wide != block[2] && narrow != block[1] && narrow != block[2]);

@@ -1,7 +1,6 @@
-/* Memory while somebody works for hours: what undo may take is bounded, and nothing else grows. Rounds of the
-   same work through a session, with the previews, trials and outlines that the window makes of it; bytes are
-   counted, so that neither time nor the machine matters. WR_FULL=1 takes more rounds; WR_SOAK=BYTES tells the
-   bytes of each, with that much for undo. */
+/* Memory during hours of work: undo memory is bounded, and nothing else grows. Rounds of the same work through a
+   session, with the window's previews and outlines; bytes are counted, so neither time nor the machine matters.
+   WR_FULL=1 runs more rounds; WR_SOAK=BYTES prints the bytes of each, with that undo budget. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -19,7 +18,7 @@
 #include <malloc.h>
 
 #define BUDGET 3000000
-#define SLACK 1e5 /* bytes: less than a tile in each of the rounds that count */
+#define SLACK 1e5 /* bytes: less than a tile in each of the counted rounds */
 
 typedef struct Soak {
     WrSession *session;
@@ -31,13 +30,13 @@ typedef struct Soak {
 } Soak;
 
 typedef struct Bytes {
-    double undo, lines, document; /* bytes of the session's own counts */
-    double used;                  /* of all blocks that are allocated */
-    double held;                  /* that malloc has from the system, free or not */
+    double undo, lines, document; /* bytes from the session's own counts */
+    double used;                  /* all allocated blocks */
+    double held;                  /* memory of malloc from the system, free or not */
     double resident;
 } Bytes;
 
-/* As long as it takes: an end comes or the machine is broken. */
+/* Without a timeout: it ends unless the machine is faulty. */
 static void wait_for_preview(Soak *soak)
 {
     while (!wr_preview_settled(soak->preview)) SDL_Delay(1);
@@ -68,12 +67,12 @@ static void stroke(Soak *soak)
     for (int i = 0; i < 40; i++) {
         WrSample sample = { .u = u + 0.01 * i, .v = v, .pressure = 0.5, .seconds = 0.01 * i };
         if (!wr_session_stroke_add(soak->session, &sample, 1, &err)) fail_msg("%s", err.text);
-        (void)wr_document_field(doc(soak->session)); /* the window shows it as it grows */
+        (void)wr_document_field(doc(soak->session)); /* the window shows it during the stroke */
     }
     if (!wr_session_stroke_end(soak->session, &err)) fail_msg("%s", err.text);
 }
 
-/* Tips from pictures, and presets by all that they are made of: our own strokes, and libmypaint's. */
+/* Tips from pictures, and presets of both engines: our own strokes, and libmypaint's. */
 static void special_strokes(Soak *soak)
 {
     static const char *const brushes[] = { "tip=" WR_SOURCE_DIR "/brushes/brick.png",
@@ -92,7 +91,7 @@ static void special_strokes(Soak *soak)
     look(soak, false);
 }
 
-/* A dialog that tries an operation before it is run. */
+/* A dialog that previews an operation before it runs. */
 static void try_blur(Soak *soak)
 {
     WrEditPreviewAsk ask = { .op = wr_op_find("blur"), .param = { 2.0 } };
@@ -103,7 +102,7 @@ static void try_blur(Soak *soak)
     must_run(soak->session, "adjust blur sigma=2");
 }
 
-/* Work that ends where it began. */
+/* Work that ends in its initial state. */
 static void work(Soak *soak)
 {
     static const char *const lines[] = { "noise perlin cells=6 octaves=4 amplitude=0.3",
@@ -183,7 +182,7 @@ static void nothing_but_the_text_of_the_steps_grows(void **state)
     must_run(soak.session, line);
     Bytes half = { 0 }, end = { 0 };
     for (int round = 0; round < rounds; round++) {
-        soak.random = (TestRandom){ 7 }; /* the same each time */
+        soak.random = (TestRandom){ 7 }; /* the same in each round */
         work(&soak);
         end = count(&soak);
         tell(round, &end);
@@ -191,7 +190,7 @@ static void nothing_but_the_text_of_the_steps_grows(void **state)
         if (round == settled) half = end;
     }
     double grown = end.used - half.used - (end.lines - half.lines);
-    if (half.used > 0 && budget <= BUDGET) /* a sanitizer's malloc does not say */
+    if (half.used > 0 && budget <= BUDGET) /* not available with a sanitizer's malloc */
         assert_true(grown < SLACK);
     wr_edit_preview_free(soak.trial);
     wr_preview_free(soak.preview);

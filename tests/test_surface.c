@@ -10,7 +10,7 @@ static double between(TestRandom *random, double low, double high)
     return low + (high - low) * test_random(random);
 }
 
-/* A shape near the default one whose numbers are all different and mean nothing special. */
+/* A shape near the default one with different, ordinary parameters. */
 static WrShape random_shape(WrSurfaceKind kind, TestRandom *random)
 {
     WrShape shape;
@@ -31,8 +31,8 @@ static WrShape random_shape(WrSurfaceKind kind, TestRandom *random)
     return shape;
 }
 
-/* Not within `far` of the line where the curl's curvature jumps, nor of those where the capsule's does, nor of a
-   profile's points, where its third derivative does. */
+/* Not within `far` of the lines where the curl's or the capsule's curvature jumps, nor of a profile's points, where
+   its third derivative does. */
 static bool smooth_here(const WrShape *shape, double u, double v, double far)
 {
     const double *value = shape->value;
@@ -53,8 +53,8 @@ static WrVec3 difference(const WrShape *shape, int face, double u, double v, dou
     return v3_scale(v3_sub(member(&a, which), member(&b, which)), 0.5 / (du + dv));
 }
 
-/* d member / du (along 0) or dv (along 1) is `derived`: central differences come nearer by 4 each
- * time that the step is halved, down to rounding, and meet it. */
+/* d member / du (along 0) or dv (along 1) is `derived`: the error of central differences falls by 4 for each halving
+ * of the step, down to rounding. */
 static void check_derivative(const WrShape *shape, int face, double u, double v, int along,
                              int which, int derived)
 {
@@ -134,7 +134,7 @@ static void normals_point_outward_or_up(void **state)
             case WR_SURFACE_cube: out = o.p; break;
             case WR_SURFACE_cylinder:
             case WR_SURFACE_cone: out = (WrVec3){ o.p.x, o.p.y, 0 }; break;
-            case WR_SURFACE_revolution: /* of a vase, but for its foot: away from its axis */
+            case WR_SURFACE_revolution: /* of a vase without its foot: away from its axis */
                 if (v > 0.3) out = (WrVec3){ o.p.x, o.p.y, 0 };
                 else out = o.p;
                 break;
@@ -154,8 +154,8 @@ static void normals_point_outward_or_up(void **state)
     }
 }
 
-/* Errors in units of float's rounding of the largest value that the member takes. Sines come with
- * an absolute error of 1.2e-7, and second derivatives carry the square of what the first carry. */
+/* Errors in units of float's rounding of the largest value of the member. Sines have an absolute error of 1.2e-7, and
+ * second derivatives the square of the first ones'. */
 static void single_precision_agrees_with_double(void **state)
 {
     (void)state;
@@ -191,7 +191,8 @@ static void points_are_finite_at_every_edge_and_size(void **state)
         wr_shape_default((WrSurfaceKind)kind, &shape);
         assert_finite_everywhere(&shape, true);
         static const double sizes[] = { 1e-29, 1e-12, 1e12, 1e29 };
-        for (int i = 0; i < 4; i++) { /* at these the renderer rescales before it goes to float */
+        for (int i = 0; i < 4; i++) { /* for these the renderer rescales before the conversion to
+                                         float */
             WrShape sized = shape;
             double *value = sized.value;
             for (const WrSurfaceParam *p = wr_surfaces[kind]->params; p->name; p++) {
@@ -258,7 +259,7 @@ static void the_curl_is_smooth_across_its_line(void **state)
     assert_true(v3_len(a.puu) == 0 && v3_len(b.puu) > 3); /* 1/(2R), only past the line */
 }
 
-/* Side by side with v up, each upright face ends where the next begins. */
+/* Side by side with v up, each vertical face ends where the next begins. */
 static void cube_faces_join_and_read_right_from_outside(void **state)
 {
     (void)state;
@@ -272,14 +273,14 @@ static void cube_faces_join_and_read_right_from_outside(void **state)
         assert_true(a.pv.y > 0 && a.pv.x == 0 && a.pv.z == 0);
     }
     for (int lid = 4; lid < 6;
-         lid++) { /* the lid stands on the front face, the front on the bottom */
+         lid++) { /* the lid is above the front face, the front above the bottom */
         wr_surface_at(&shape, lid, 0.25, lid == 4 ? 0 : 1, &a);
         wr_surface_at(&shape, 0, 0.25, lid == 4 ? 1 : 0, &b);
         assert_near(v3_len(v3_sub(a.p, b.p)), 0, 1e-15);
     }
 }
 
-/* A cell for each face: the same cube, whose (u,v) tell the face. */
+/* A cell for each face: the same cube, whose (u,v) identify the face. */
 static void faces_with_cells_are_the_same_faces(void **state)
 {
     (void)state;
@@ -332,7 +333,7 @@ static void folded_corners_are_refused_and_others_are_not(void **state)
             assert_non_null(strstr(err.text, "bent c"));
             continue;
         }
-        for (int k = 0; k < 121; k++) { /* accepted: N vanishes nowhere */
+        for (int k = 0; k < 121; k++) { /* accepted: N is nowhere 0 */
             WrSurfacePoint o;
             wr_surface_at(&shape, 0, k % 11 / 10.0, k / 11 / 10.0, &o);
             assert_true(o.n_len > 1e-3);
@@ -416,8 +417,9 @@ static void scaling_to_single_precision_touches_lengths_alone(void **state)
     assert_true(isfinite(out.value[0]));
 }
 
-/* The sum of N over a surface as it first shows itself, seen from all around: of a body the front's share and the
-   back's cancel, of a sheet they do not. Turns go about the upright axis, along which cups may be open. */
+/* The sum of N over a surface in its default pose, seen from all sides: for a closed surface the front's and the
+   back's contributions cancel, for an open one they do not. Rotations are about the vertical axis, along which cups
+   may be open. */
 static double sidedness(WrSurfaceKind kind)
 {
     const WrSurfaceInfo *info = wr_surfaces[kind];

@@ -85,7 +85,7 @@ static void hc08_horn_spindle_and_thin_tori_point_away_from_their_tube(void **st
             WrVec3 tube = { shape.value[0] * c, shape.value[0] * s, 0 };
             WrVec3 out = v3_scale(o.n_unit, shape.value[1]);
             assert_near(v3_len(v3_sub(v3_sub(o.p, tube), out)), 0, 1e-15);
-            /* N agrees but for the sign of w, the distance from the axis as it comes out */
+            /* N agrees except for the sign of w, the computed distance from the axis */
             double w = o.p.x * c + o.p.y * s;
             if (fabs(w) > 1e-12 && shape.value[1] > 0)
                 assert_true((v3_dot(o.n, o.n_unit) > 0) == (w > 0));
@@ -98,7 +98,7 @@ static void hc08_horn_spindle_and_thin_tori_point_away_from_their_tube(void **st
     assert_false(wr_shape_check(&none, &err));
 }
 
-/* A patch whose points are f(i, j), with seeds of its own. */
+/* A patch with points f(i, j), from separate random seeds. */
 static WrShape patch(WrVec3 (*point)(int i, int j))
 {
     WrShape shape;
@@ -111,7 +111,7 @@ static WrShape patch(WrVec3 (*point)(int i, int j))
     return shape;
 }
 
-/* A dish over a quarter of a disc: i runs round, j away from the middle. */
+/* A dish over a quarter of a disc: i runs around, j away from the centre. */
 static WrVec3 dish_point(int i, int j)
 {
     static const double round[4][2] = { { 1, 0 }, { 1, 0.55 }, { 0.55, 1 }, { 0, 1 } };
@@ -134,8 +134,7 @@ static WrVec3 dish_u1(int i, int j)
 {
     return dish_point(j, 3 - i);
 }
-/* The two inner rows drawn together, into one point (Pv = 0 on the edge as well) or into two (Puv
-   = 0). */
+/* The two inner rows collapsed into one point (Pv = 0 on the edge as well) or into two (Puv = 0). */
 static WrVec3 blunt_v0(int i, int j)
 {
     return dish_point(i, j == 1 ? 0 : j);
@@ -154,9 +153,8 @@ static WrVec3 needle_v1(int i, int j)
     return needle_v0(i, 3 - j);
 }
 
-/* The normal on a collapsed edge is what nearby normals tend to, with an error in proportion to the
- * distance, from any point of the edge. (eu, ev) is where the edge is: 0, 1, or -1 for "along
- * it". */
+/* The normal on a collapsed edge is the limit of nearby normals, with an error proportional to the distance, from any
+ * point of the edge. (eu, ev) is the edge: 0, 1, or -1 for "along it". */
 static void check_edge(const WrShape *shape, double eu, double ev)
 {
     for (int i = 1; i < 8; i++) {
@@ -172,7 +170,7 @@ static void check_edge(const WrShape *shape, double eu, double ev)
         double a = v3_len(v3_sub(far.n_unit, edge.n_unit));
         double b = v3_len(v3_sub(near.n_unit, edge.n_unit));
         assert_true(a < 0.01 && b < 0.3 * a + 1e-9);
-        /* down to the last place that is not the edge itself */
+        /* down to the last value that differs from the edge */
         double last = eu == 1 || ev == 1 ? 0x1p-53 : 1e-300;
         wr_surface_at(shape, 0, u + du * last, v + dv * last, &near);
         assert_near(v3_len(v3_sub(near.n_unit, edge.n_unit)), 0, 1e-12);
@@ -317,7 +315,7 @@ static void hc11_nearly_parallel_tangents_keep_what_precision_allows(void **stat
         assert_near(angle_to_reference(o.n_unit), 0, 0x1p-52 / sine);
         assert_near(angle_to_reference(member_f(&of, UNIT)), 0, 0x1p-23 / sine);
     }
-    wr_surface_at(&shape, 0, 0.3, 0.6, &o); /* a few roundings more on the way to Pu and Pv */
+    wr_surface_at(&shape, 0, 0.3, 0.6, &o); /* a few more roundings in Pu and Pv */
     assert_near(angle_to_reference(o.n_unit), 0, 8 * 0x1p-52 / sine);
 }
 
@@ -347,7 +345,7 @@ static void the_disc_faces_up_at_its_centre_and_the_capsule_out_at_its_poles(voi
     }
 }
 
-/* Steps of equal size in v are equal lengths, on the balls and between them. */
+/* Equal steps in v are equal lengths, on the spherical ends and between them. */
 static void the_capsule_goes_by_arc_length_and_is_smooth_at_its_joints(void **state)
 {
     (void)state;
@@ -385,7 +383,7 @@ static double signed_power(double x, double y)
     return x < 0 ? -pow(-x, y) : pow(x, y);
 }
 
-/* Barr's normal of a point of the surface: the implicit function's gradient. */
+/* Barr's normal of a surface point: the gradient of the implicit function. */
 static WrVec3 gradient(const WrShape *shape, WrVec3 p)
 {
     const double *a = shape->value, e1 = a[3], e2 = a[4];
@@ -415,7 +413,7 @@ static void superellipsoids_are_barrs_and_face_along_his_normal(void **state)
     }
 }
 
-/* Derivatives in random points, the step short against the way to the next axis plane. */
+/* Derivatives at random points, with a step much smaller than the distance to the next axis plane. */
 static void superellipsoids_of_every_form_have_their_derivatives(void **state)
 {
     (void)state;
@@ -430,7 +428,7 @@ static void superellipsoids_of_every_form_have_their_derivatives(void **state)
     }
 }
 
-/* In the planes of the axes the normal is what it tends to from the side that counts. */
+/* In the axis planes the normal is the limit from the defining side. */
 static void hc143_superellipsoids_keep_their_limits_at_the_axes(void **state)
 {
     (void)state;
@@ -447,8 +445,8 @@ static void hc143_superellipsoids_keep_their_limits_at_the_axes(void **state)
             const double du = i % 3 == 1 ? -near : near, dv = v == 1 ? -near : near;
             wr_surface_at(&shape, 0, u + du, v + dv, &from);
             const double e1 = shape.value[3], e2 = shape.value[4];
-            /* Normals tend to it as near^|2/e - 1|; on an edge between cusps there is none for
-               all ways at a pole, nor where another edge crosses. */
+            /* Normals converge as near^|2/e - 1|; on an edge between cusps there is no common limit at a pole, nor
+               where another edge crosses. */
             const bool quick = fabs(2 / e1 - 1) > 0.4 && fabs(2 / e2 - 1) > 0.4;
             const bool many = e2 > 2 && i % 3 < 2 && (i / 3 % 3 == 0 || (e1 > 2 && v == 0.5));
             if ((quick || (e1 == 2 && e2 == 2)) && !many)
@@ -463,7 +461,7 @@ static void hc143_superellipsoids_keep_their_limits_at_the_axes(void **state)
     }
 }
 
-/* Of the divergence theorem: the integral of P . N / 3. V = 2 a b c e1 e2 B(e1/2 + 1, e1) B(e2/2, e2/2). */
+/* By the divergence theorem: the integral of P . N / 3. V = 2 a b c e1 e2 B(e1/2 + 1, e1) B(e2/2, e2/2). */
 static void superellipsoids_have_their_volume(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* `surface mesh file=`: what a session tells of it, that documents of both kinds carry it, and that another content than a
-   line was written for is an error. */
+/* `surface mesh file=`: notes of a session, storage in both kinds of documents, and an error for a file whose content
+   has changed. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -101,7 +101,7 @@ static void documents_carry_it(void **state)
     wr_text_fini(&notes);
 }
 
-/* Of several objects the one that has the mesh need not be at hand; different meshes are all kept, each once. */
+/* Of several objects the one with the mesh need not be active; all different meshes are stored, each once. */
 static void objects_share_one(void **state)
 {
     (void)state;
@@ -142,7 +142,7 @@ static void objects_share_one(void **state)
     wr_text_fini(&notes);
 }
 
-/* A picture of several meshes that a stranger made: an error, whatever its head says. */
+/* A hostile picture of several meshes: an error, whatever its header contains. */
 static void damaged_meshes_are_refused(void **state)
 {
     (void)state;
@@ -191,7 +191,7 @@ static void another_content_is_an_error(void **state)
     write_file("roof.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     assert_false(wr_session_run(s, line, &err));
     assert_non_null(strstr(err.text, "another content"));
-    assert_int_equal(scene_in(s)->triangles->triangle_count, 4); /* as it was */
+    assert_int_equal(scene_in(s)->triangles->triangle_count, 4); /* unchanged */
     must_run(s, "surface mesh file=roof.obj");
     assert_non_null(strstr(wr_text_get(&notes), "no texture coordinates"));
     assert_false(wr_session_run(s, "surface mesh file=nowhere.obj", &err));
@@ -207,7 +207,7 @@ static const char slab[] = "2\n3 3\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n0 1 0\n1 1 1\n2 
                            "3 3\n3 0 0\n4 0 0\n5 0 0\n6 0 0\n3 1 0\n4 1 1\n5 1 1\n6 1 0\n"
                            "3 2 0\n4 2 1\n5 2 1\n6 2 0\n3 3 0\n4 3 0\n5 3 0\n6 3 0\n";
 
-/* The file is gone by now; the set has another table, and is another document's. */
+/* The file is gone by now; the set has another table, and is in another document. */
 static void another_table_without_the_file(WrSession *s)
 {
     const uint64_t key = scene_in(s)->triangles->key;
@@ -223,7 +223,7 @@ static void another_table_without_the_file(WrSession *s)
     must_fail(s, "surface patches table=own", "belongs to a file=");
 }
 
-/* Patches, and a terrain that is one: read, told of, kept by both kinds of documents with their table. */
+/* Patches, and a terrain: read, reported, stored in both kinds of documents with their table. */
 static void patches_and_terrains_are_kept(void **state)
 {
     (void)state;

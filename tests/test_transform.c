@@ -1,4 +1,4 @@
-/* Moving, turning, scaling and copying what is selected. */
+/* The command transform: moving, rotating, scaling and copying the selection. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -53,9 +53,9 @@ static void whole_layers_go_as_table_operations_carry_them_to_the_bit(void **sta
     }
 }
 
-/* A point of the piece and where A + R S (p - A) leads it, worked out here; A, the point that only moves, lies far from the
-   piece's middle, so that a turn the other way leads elsewhere; the table is of several blocks, of which only those are made
-   that the piece is thought to meet. */
+/* A point of the piece and its image A + R S (p - A), computed here. A, the fixed point, is far from the piece's
+   centre, so that a rotation in the other direction leads elsewhere; the table has several blocks, of which only
+   those under the piece are computed. */
 static void a_turn_about_a_far_point_leads_where_it_shall(void **state)
 {
     (void)state;
@@ -64,7 +64,7 @@ static void a_turn_about_a_far_point_leads_where_it_shall(void **state)
                           "transform turn=37 scale=1.3,1.9 about=0.45,0.35", NULL });
     const double c = cos(37 / 57.29577951308232), n = sin(37 / 57.29577951308232);
     for (int k = 0; k < 49; k++) {
-        /* parts of the piece's sides, inside for 0.2..0.8 and well outside for -0.4 and 1.4 */
+        /* fractions of the piece's sides, inside for 0.2..0.8 and well outside for -0.4 and 1.4 */
         static const double parts[] = { -0.4, 0.2, 0.35, 0.5, 0.65, 0.8, 1.4 };
         const double a = parts[k % 7], b = parts[k / 7];
         const double x = (0.5 + 0.2 * a - 0.45) * 1031 * 1.3,
@@ -135,7 +135,7 @@ static void turned_and_scaled_heights_are_the_functions_own(void **state)
                 double px = (c * x + n * y) / cases[k].su, py = (-n * x + c * y) / cases[k].sv;
                 if (hypot(px / (0.2 * 256), py / (0.25 * 200)) > 0.9) continue;
                 double want = 0, sx = cx + px, sy = cy - py;
-                /* Lagrange through four samples each way: another interpolant */
+                /* Lagrange through four samples each way: another interpolation */
                 int a = (int)floor(sx - 0.5), b = (int)floor(sy - 0.5);
                 double fx = sx - 0.5 - a, fy = sy - 0.5 - b;
                 for (int q = -1; q < 3; q++)
@@ -171,7 +171,7 @@ static void what_shrinks_is_averaged(void **state)
             most = fmax(most, fabs(h - 0.5));
         }
     assert_near(sum / 144, 0.5, 0.02);
-    assert_true(most < 0.1); /* nearest reading would give 0 or 1 */
+    assert_true(most < 0.1); /* nearest sampling would give 0 or 1 */
     assert_true(f_at(s, 5, 5) == 0);
     wr_session_free(s);
 }
@@ -246,8 +246,8 @@ static void what_is_cut_over_both_edges_is_pasted_over_them(void **state)
     wr_session_free(s);
 }
 
-/* At its own place a copy covers the old heights in the proportion in which they were selected, over both edges, whatever
-   is selected now. */
+/* At its own position a copy covers the old heights in proportion to the selection at that time, across both edges,
+   whatever is selected now. */
 static void a_copy_becomes_a_layer_at_its_place(void **state)
 {
     (void)state;
@@ -286,7 +286,7 @@ static void a_copy_becomes_a_layer_at_its_place(void **state)
     assert_non_null(doc(s)->selection);
     must_fail(s, "layer paste missing.exr", "missing.exr");
     must_fail(s, "layer paste place.exr size=100000", "must be");
-    must_run(s, "layer set 1 lock=on"); /* it is not the locked layer that changes */
+    must_run(s, "layer set 1 lock=on"); /* the locked layer is not changed */
     must_run(s, "layer paste place.exr");
     wr_field_free(old);
     wr_field_free(chosen);
@@ -333,7 +333,7 @@ static void what_cannot_be_moved_is_refused(void **state)
     wr_session_free(s);
 }
 
-/* A feathered piece that is partly covered keeps its heights and its coverage where nothing lies below. */
+/* A feathered, partly covered piece keeps its heights and its coverage where nothing is below. */
 static void partly_covered_heights_stay_as_high(void **state)
 {
     (void)state;
@@ -356,8 +356,8 @@ static void partly_covered_heights_stay_as_high(void **state)
     wr_session_free(s);
 }
 
-/* Enlarged about its middle, a dab stays there: the table is periodic, so the images of the whole table lie over each other,
-   and the one that was enlarged about that point counts. */
+/* Enlarged about its centre, a dab stays there: the images of a periodic table overlap, and the one enlarged about
+   that point counts. */
 static void what_is_enlarged_stays_about_its_point(void **state)
 {
     (void)state;
@@ -370,7 +370,7 @@ static void what_is_enlarged_stays_about_its_point(void **state)
         const WrField *f = wr_document_field(doc(s));
         for (int j = 0; j < 64; j++)
             for (int i = 0; i < 64;
-                 i++) { /* three times the radius, about (16, 16), and what the filter reaches */
+                 i++) { /* three times the radius, about (16, 16), plus the filter's support */
                 const double far = hypot(i + 0.5 - 16, j + 0.5 - 16);
                 if (far < 9) assert_near(wr_field_get(f, i, j), 0.1, 0.02);
                 if (far > 21) assert_true(wr_field_get(f, i, j) == 0.0f);

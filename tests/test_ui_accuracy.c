@@ -1,4 +1,4 @@
-/* What the Accuracy panel stands on: the plot's axes and points, and when things are measured. */
+/* Building blocks of the Accuracy panel: the plot's axes and points, and the schedule of measurements. */
 #include "test.h"
 
 #include "ui/accuracy/accuracy_plan.h"
@@ -126,7 +126,7 @@ static void nothing_is_measured_while_the_hand_works_or_nobody_looks(void **stat
     assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_ERROR);
     m.rests = false;
     assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_NOTHING);
-    assert_true(due == 0); /* an idle program waits for events alone */
+    assert_true(due == 0); /* an idle program waits only for events */
     m = quiet;
     m.busy = true;
     assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_NOTHING);
@@ -158,7 +158,7 @@ static void the_error_waits_a_moment_and_the_ladder_for_the_error(void **state)
     assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_LADDER);
     m.plot_known = true;
     assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_NOTHING);
-    m.plot_asked = true; /* once more, and at once */
+    m.plot_asked = true; /* again, and at once */
     m.now = m.changed_at;
     assert_int_equal(wr_accuracy_next(&m, &due), WR_ACCURACY_LADDER);
 }

@@ -1,6 +1,5 @@
-/* How soon Cancel ends what the window does, in milliseconds from the key to the end: a table for people. What is
-   checked is only that each ends as cancelled, and leaves the document as it was. WR_FULL=1: a
-   table of 4096, three times each. */
+/* Latency of Cancel, in milliseconds from the key to the end of the command: a table for people. Checked is only that
+   each command ends as cancelled and leaves the document unchanged. WR_FULL=1: a table of 4096, three times each. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_window.h"
@@ -57,7 +56,7 @@ static void *press(void *arg)
     return NULL;
 }
 
-/* Milliseconds; below 0: it was done before. */
+/* Milliseconds; below 0: it ended before. */
 static double cancelled_after(WrApp *app, const char *line, double seconds)
 {
     Press p = { .app = app, .after = seconds };
@@ -99,7 +98,7 @@ static void a_cancel_ends_what_is_done(void **state)
     WrHash before = wr_session_hash(session);
     int base = wr_session_history_position(session);
     printf("%-44s milliseconds from Escape to the end\n", "command");
-    const char *only = getenv("WR_ONLY"); /* those that have this in them */
+    const char *only = getenv("WR_ONLY"); /* lines that contain this text */
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         if (only && !strstr(lines[i], only)) continue;
         snprintf(line, sizeof line, lines[i], size * 2, size * 2);

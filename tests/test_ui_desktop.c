@@ -1,5 +1,5 @@
-/* What desktops say of their scale, as their own programs write it: XSETTINGS of both byte orders put together by hand
-   from the specification, resources as xrdb keeps them; damaged ones. */
+/* Desktop scale in the formats of other programs: XSETTINGS in both byte orders, built from the specification;
+   resources in xrdb's form; damaged ones. */
 #include "test.h"
 
 #include "ui/toolkit/desktop.h"
@@ -47,16 +47,16 @@ static void settings_of_both_byte_orders(void **state)
 {
     (void)state;
     for (int high = 0; high < 2; high++) {
-        Block b = block(high, 147456); /* 144 dots an inch, in 1024ths */
+        Block b = block(high, 147456); /* 144 dots per inch, in 1024ths */
         assert_true(wr_desktop_dpi_of_settings(b.bytes, b.count) == 144);
         for (size_t count = 0; count < b.count; count++)
             assert_true(wr_desktop_dpi_of_settings(b.bytes, count) == 0);
-        b = block(high, 0xffffffffu); /* -1: the usual */
+        b = block(high, 0xffffffffu); /* -1: the default */
         assert_true(wr_desktop_dpi_of_settings(b.bytes, b.count) == 0);
     }
 }
 
-/* Any bytes: nothing is read beyond them, and what comes out is a scale or none. */
+/* Any bytes: no read beyond them, and the result is a scale or none. */
 static void damaged_settings(void **state)
 {
     (void)state;
@@ -66,7 +66,7 @@ static void damaged_settings(void **state)
         for (int k = 0; k < 3; k++)
             b.bytes[(size_t)(test_random(&random) * (double)b.count)] =
                 (unsigned char)(256 * test_random(&random));
-        unsigned char *own = malloc(b.count); /* so that sanitizers see its end */
+        unsigned char *own = malloc(b.count); /* exact size, for sanitizers */
         memcpy(own, b.bytes, b.count);
         const double dpi = wr_desktop_dpi_of_settings(own, b.count);
         assert_true(dpi == 0 || (dpi >= 48 && dpi <= 768));

@@ -1,4 +1,4 @@
-/* By which system of windows the window opens, for each kind of session. */
+/* Choice of the window system, for each kind of session. */
 #include "test.h"
 
 #include "ui/toolkit/display.h"
@@ -21,7 +21,8 @@ static void xwayland_is_chosen_where_there_is_one(void **state)
         { { "", ":1", "wayland-1", NULL }, "x11,wayland" },
         { { NULL, NULL, "wayland-0", "wayland" }, "wayland,x11" },
         { { NULL, "", "wayland-0", NULL }, "wayland,x11" },
-        { { "wayland", ":1", "wayland-0", "wayland" }, NULL }, /* the user's choice holds */
+        /* the user's choice takes precedence */
+        { { "wayland", ":1", "wayland-0", "wayland" }, NULL },
         { { "x11", ":1", "wayland-0", "wayland" }, NULL },
         { { "dummy", NULL, "wayland-0", "wayland" }, NULL },
     };
@@ -32,13 +33,13 @@ static void xwayland_is_chosen_where_there_is_one(void **state)
     }
 }
 
-/* Of the same sessions, by what SDL opened in the end. */
+/* The same sessions, by the driver that SDL finally opened. */
 static void the_word_says_what_becomes_of_pens(void **state)
 {
     (void)state;
     static const struct {
         WrDisplayEnv env;
-        const char *opened, *has; /* NULL: silence */
+        const char *opened, *has; /* NULL: no message */
     } rows[] = {
         { { NULL, ":0", NULL, "x11" }, "x11", NULL },
         { { NULL, ":1", "wayland-0", "wayland" }, "x11", "goes through XWayland" },

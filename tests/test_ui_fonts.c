@@ -1,4 +1,4 @@
-/* Samples of fonts: as much ink as the letters' dots have, wherever the font is from; none of a damaged one. */
+/* Font samples: as much coverage as the letters' dots, wherever the font comes from; none for a damaged one. */
 #include "test.h"
 
 #include "test_folder.h"
@@ -10,7 +10,7 @@
 #include "image/font.h"
 #include "ui/generate/font_choice.h"
 
-#define SIZE 62 /* what the text generator is asked for: 0.62 of the height */
+#define SIZE 62 /* size for the text generator: 0.62 of the height */
 #define HIGH 100
 
 /* Dots of A, 13 of them, and of B, 9, in cells of five. */
@@ -55,7 +55,7 @@ static void a_sample_has_the_ink_of_its_letters(void **state)
     const double dot = SIZE / 5.0;
     assert_in_range((long)ink(argb, HIGH * 237), (long)(DOTS * dot * dot * 0.99),
                     (long)(DOTS * dot * dot * 1.01));
-    /* Where it is too long it is cut off, and comes in again nowhere. */
+    /* Longer text is clipped and does not wrap around. */
     assert_true(sampled("dots odd.bdf", 31, HIGH, argb));
     for (int y = 0; y < HIGH; y++) assert_int_equal(argb[y * 31] >> 24, 0);
 }

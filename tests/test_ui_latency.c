@@ -1,5 +1,4 @@
-/* The whole window without a display: a pointer scribbles, the table is painted, and how soon that is seen
-   is measured. */
+/* The whole window without a display: a pointer scribbles, the table is painted, and the latency is measured. */
 #include "test.h"
 
 #include "base/error.h"
@@ -26,7 +25,7 @@ static void assert_ordered(const WrAppDelays *ms)
     assert_true(isfinite(ms->all));
 }
 
-/* Scribble in a new session, anew where the machine was so busy with other work that few pictures came; the caller's. */
+/* Scribble in a new session; repeated if the machine was too busy for enough frames; the caller frees it. */
 static WrSession *scribble(WrPool *pool, bool turning, WrAppLatency *latency)
 {
     enum { TRIES = 5 };
@@ -58,22 +57,23 @@ static void a_scribble_in_the_window_is_painted_and_timed(void **state)
         assert_ordered(&latency.pointer);
         assert_ordered(&latency.canvas);
         assert_ordered(&latency.preview);
-        /* the paint cannot be seen before the pointer's own event is */
+        /* the paint is not visible before the pointer */
         assert_true(latency.canvas.half >= latency.pointer.half * 0.5);
-        /* one stroke, as one step, that begins where the scribble does */
+        /* one stroke, as one step, that starts with the scribble */
         assert_false(wr_session_in_stroke(session));
         assert_int_equal(wr_session_history_count(session), before + 1);
         assert_non_null(strstr(wr_session_last_command(session), "stroke "));
         assert_non_null(strstr(wr_session_last_command(session), "radius=8 "));
         float low, high;
         wr_field_range(wr_document_field(wr_session_document(session)), &low, &high);
-        assert_true(low == 0 && high > 0.0199f && high <= 0.02f); /* its strength, nowhere twice */
+        /* its strength, without overlaps */
+        assert_true(low == 0 && high > 0.0199f && high <= 0.02f);
         wr_session_free(session);
     }
     wr_pool_free(pool);
 }
 
-/* What the window draws a few milliseconds at a time is what the command means as a whole. */
+/* A stroke drawn a few milliseconds at a time equals the command as a whole. */
 static void a_stroke_drawn_by_and_by_replays_to_the_same_bits(void **state)
 {
     (void)state;

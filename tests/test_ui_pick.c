@@ -48,7 +48,7 @@ static WrPatchPick *pick_of(const WrScene *scene)
     return pick;
 }
 
-/* Cosine between the normal and the way to the eye. */
+/* Cosine between the normal and the direction to the eye. */
 static double facing(const WrScene *scene, int face, double u, double v)
 {
     WrPlacement at;
@@ -67,8 +67,8 @@ static double facing(const WrScene *scene, int face, double u, double v)
     return fabs(v3_dot(eye, across));
 }
 
-/* Seen points of each surface, found again under the pixel where they are seen. Compared in space: at a
- * pole every u is the same point. */
+/* Visible points of each surface are found again from their pixel. Compared in space: at a pole every u is the same
+ * point. */
 static void check_round_trip(WrSurfaceKind kind, bool orthographic, bool cells)
 {
     WrScene *scene = scene_of(kind, orthographic);
@@ -83,7 +83,7 @@ static void check_round_trip(WrSurfaceKind kind, bool orthographic, bool cells)
         WrPatchSpot there, back;
         bool hidden;
         if (!wr_patch_pick_project(pick, face, u, v, &there, &hidden) || hidden) continue;
-        if (facing(scene, face, u, v) < 0.15) continue; /* an outline runs through that pixel */
+        if (facing(scene, face, u, v) < 0.15) continue; /* a silhouette passes through that pixel */
         seen++;
         if (!wr_patch_pick_at(pick, there.x, there.y, &back)) {
             lost++;
@@ -93,12 +93,12 @@ static void check_round_trip(WrSurfaceKind kind, bool orthographic, bool cells)
         assert_near(back.y, there.y, 1e-4);
         double off =
             v3_len(v3_sub(point_of(scene, face, u, v), point_of(scene, back.face, back.u, back.v)));
-        /* or another sheet, nearer by less than what counts as hidden */
+        /* or another layer, nearer by less than the tolerance for hidden points */
         double nearer = there.depth - back.depth;
         if (off > 1e-5 * radius && (nearer > 0.02 * radius || nearer < -1e-5 * radius)) lost++;
     }
     assert_true(seen > 100);
-    /* where a nearer sheet ends within a fraction of a pixel */
+    /* where a nearer layer ends within a fraction of a pixel */
     if (lost * 50 > seen) fail_msg("%s: %d of %d lost", wr_surfaces[kind]->name, lost, seen);
     wr_patch_pick_free(pick);
     wr_scene_free(scene);
@@ -143,7 +143,7 @@ static void it_finds_what_the_renderer_shows_there(void **state)
             if (off > 2e-3 * radius) differ++;
         }
         assert_true(hits > 1000);
-        /* only along outlines */
+        /* only along silhouettes */
         if (differ * 50 > hits)
             fail_msg("%s: %d of %d differ", wr_surfaces[kind]->name, differ, hits);
         wr_patch_pick_free(pick);
@@ -179,7 +179,7 @@ static void the_back_of_a_sphere_is_hidden_and_its_front_is_not(void **state)
     assert_true(wr_patch_pick_at(pick, W / 2.0 + 30, H / 2.0 - 12, &front));
     assert_true(wr_patch_pick_project(pick, 0, front.u, front.v, &spot, &hidden));
     assert_false(hidden);
-    /* the point across: half a turn on, the other latitude */
+    /* the opposite point: half a turn further, the other latitude */
     assert_true(
         wr_patch_pick_project(pick, 0, fmod(front.u + 0.5, 1), 1 - front.v, &spot, &hidden));
     assert_true(hidden);
@@ -187,7 +187,7 @@ static void the_back_of_a_sphere_is_hidden_and_its_front_is_not(void **state)
     wr_scene_free(scene);
 }
 
-/* du/dx and so on against central differences of picks, whose error falls with the square of the step. */
+/* du/dx and so on against central differences of picks, whose error is of second order in the step. */
 static void slopes_say_how_uv_move_with_the_pixel(void **state)
 {
     (void)state;
@@ -228,7 +228,7 @@ static void a_camera_that_cannot_look_is_an_error(void **state)
     wr_scene_free(scene);
 }
 
-/* From inside, or so near that most of the net lies behind the eye. */
+/* From inside, or so near that most of the grid is behind the eye. */
 static void hc82_an_eye_within_the_object_does_no_harm(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The roster of the window: every tool, action, dialog, tab, part and purpose of files has what makes it work. */
+/* The roster of the window: every tool, action, dialog, tab, component and file purpose has its functions. */
 #include "test.h"
 
 #include "ui/app/roster_list.h"
@@ -30,7 +30,7 @@ static void every_action_has_a_word_of_its_own_and_runs(void **state)
     }
 }
 
-/* Their words are made of those of other tables. */
+/* Their texts are composed from other tables. */
 static void actions_of_families_are_there(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* What is typed faster than the window draws: all of it comes in between two pictures, and it becomes the text that it would
-   have become key by key. The field is that of the search for actions. */
+/* Typing faster than the frame rate: all keys arrive between two frames and must give the same text as key by key.
+   The field is the search for actions. */
 #include "test.h"
 #include "test_app.h"
 
@@ -24,7 +24,7 @@ static void tap(SDL_Scancode code, Uint16 mod)
     push_key(SDL_KEYUP, code, mod);
 }
 
-/* Letters, as keys and as what comes of them. */
+/* Send letters as key events and text events. */
 static void type(const char *letters)
 {
     for (const char *at = letters; *at; at++) {
@@ -64,7 +64,7 @@ static void open_search(Bench *bench)
 
 static void expect(WrApp *app, const char *text)
 {
-    steps(app, 24); /* more pictures than there were keys that wait for one of their own */
+    steps(app, 24); /* more frames than there were keys that need a frame of their own */
     assert_string_equal(app->finder->text, text);
 }
 
@@ -102,7 +102,7 @@ static void letters_before_a_chord_are_not_lost(void **state)
     finish(&bench);
 }
 
-/* A long name, with letters that come twice and capitals, while one picture is made. */
+/* A long name with repeated letters and capitals, typed within one frame. */
 static void no_letter_of_many_is_lost(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The cube in the patch's corner: what is under the pointer, and the turns that bring a side to the front. */
+/* The orientation cube: the part under the pointer, and the rotations that bring a side to the front. */
 #include "test.h"
 
 #include "base/vec.h"
@@ -12,7 +12,7 @@ static WrRotation random_rotation(TestRandom *r)
         (WrVec3){ 360 * test_random(r), 180 * test_random(r) - 90, 360 * test_random(r) });
 }
 
-/* Degrees between two rotations, by the trace of one after the other undone. */
+/* Angle between two rotations in degrees, from the trace of a b^-1. */
 static double between_deg(const WrRotation *a, const WrRotation *b)
 {
     double trace = 0;
@@ -20,7 +20,7 @@ static double between_deg(const WrRotation *a, const WrRotation *b)
     return acos(fmax(-1, fmin(1, (trace - 1) / 2))) * 57.29577951308232;
 }
 
-/* Of points on all faces: the one whose face looks at the viewer is what is found where it is seen. */
+/* Points on all faces: a point whose face is towards the viewer is found at its position. */
 static void what_is_seen_is_what_is_found(void **state)
 {
     (void)state;
@@ -51,7 +51,7 @@ static void what_is_seen_is_what_is_found(void **state)
     assert_true(side[0] == 1 && side[1] == 0 && side[2] == 1);
 }
 
-/* All 26: the side is in front, no mirror, and upright wherever there is an up. */
+/* All 26: the side is in front, without mirroring, and upright wherever that is defined. */
 static void every_side_can_be_brought_to_the_front(void **state)
 {
     (void)state;

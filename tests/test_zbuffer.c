@@ -34,7 +34,7 @@ static WrNormalMips drawn_solid(const WrZSolid *solid, const WrField *like)
 
 /* ---- spheres ---- */
 
-/* On a table without images, whole or in part or not at all on it. */
+/* On a clamped table, completely, partly or not at all on it. */
 static void check_sphere(double radius, double x, double y, int n)
 {
     WrField *like = wr_field_new(n, n, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0.0f, NULL);
@@ -48,7 +48,7 @@ static void check_sphere(double radius, double x, double y, int n)
             double z = (double)wr_field_get(relief.heights, i, j);
             double cover = (double)wr_field_get(relief.cover, i, j);
             if (rest >= 0.0) {
-                /* one rounding to float, and what doubles lose next to the rim */
+                /* one rounding to float, and the error of doubles near the silhouette */
                 assert_near(z, sqrt(rest), sqrt(rest) * 0x1p-24 + radius * 1e-8);
                 assert_true(cover > 0.0);
             }
@@ -99,7 +99,7 @@ static void hc79_a_sphere_larger_than_a_periodic_table_is_the_highest_of_its_ima
 
 /* ---- every solid by brute force ---- */
 
-/* Below 0 inside, in the unit solid's space; written from the solids' definitions. */
+/* Negative inside, in the unit solid's space; from the solids' definitions. */
 static double implicit(const WrZSolid *s, const double q[3])
 {
     double xy = sqrt(q[0] * q[0] + q[1] * q[1]), z = q[2];
@@ -125,7 +125,7 @@ static double implicit_at(const WrZSolid *s, double x, double y, double z)
     return implicit(s, q);
 }
 
-/* March down a ray; whatever is found inside is not above the top, and the top is where it ends. */
+/* March down a ray: no inner point is above the top, and the top is the first inner point. */
 static void check_ray(const WrZSolid *s, double x, double y, double reach)
 {
     double top;
@@ -162,7 +162,7 @@ static void check_shape(WrZShape shape, double param, TestRandom *r)
             double x = 7.0 + reach * (2.0 * test_random(r) - 1.0);
             double y = -3.0 + reach * (2.0 * test_random(r) - 1.0), z;
             check_ray(&s, x, y, reach);
-            if (wr_zsolid_top(&s, x, y, &z)) /* its box holds it */
+            if (wr_zsolid_top(&s, x, y, &z)) /* its box contains it */
                 assert_true(x - 7.0 >= s.left && x - 7.0 <= s.right && y + 3.0 >= s.top &&
                             y + 3.0 <= s.bottom);
         }
@@ -221,7 +221,7 @@ static int jittered_square(WrZTriangle *out, double x0, double y0, double cell, 
                 const double *c[3] = { p[j][i], half ? p[j + 1][i + 1] : p[j][i + 1],
                                        half ? p[j + 1][i] : p[j + 1][i + 1] };
                 for (int k = 0; k < 3; k++) {
-                    int to = (i + j) % 2 ? k : 2 - k; /* either way round */
+                    int to = (i + j) % 2 ? k : 2 - k; /* with either winding */
                     out[count].x[to] = c[k][0];
                     out[count].y[to] = c[k][1];
                     out[count].z[to] = c[k][2];
@@ -293,8 +293,8 @@ static int sphere_mesh(WrZTriangle *out, double radius, double x, double y, int 
     return count;
 }
 
-/* A chord of an arc of angle a is at most r (1 - cos(a/2)) inside of it; a triangle of two such arcs, twice
- * that. Seen from above, an error e along the normal is e / cos(slope), and depth hangs the other way. */
+/* A chord of an arc of angle a is at most r (1 - cos(a/2)) inside; a triangle of two such arcs, twice that. Seen from
+ * above, an error e along the normal is e / cos(slope), and vice versa for depth. */
 static void a_fine_mesh_of_a_sphere_is_the_sphere_within_its_chords(void **state)
 {
     (void)state;
@@ -356,7 +356,7 @@ static void hc80_equal_and_coplanar_depths_do_not_depend_on_the_order(void **sta
     WrZSolid solids[42], turned[42];
     WrZTriangle mesh[2 * MESH * MESH + 2], other[2 * MESH * MESH + 2];
     int count = soup(solids, 40, 150.0, &r), triangles = jittered_square(mesh, 9.1, 7.2, 8.0, &r);
-    solids[40] = solids[3]; /* the same twice, and coplanar tops */
+    solids[40] = solids[3]; /* duplicates, and coplanar tops */
     solids[41] = solids[1];
     count += 2;
     mesh[triangles] = (WrZTriangle){ { 20, 60, 20 }, { 20, 20, 60 }, { 5.5, 15.5, 0.5 } };
@@ -496,7 +496,7 @@ static void the_rim_of_a_solid_over_another_is_smoothed(void **state)
     assert_near((double)wr_field_get(relief.heights, 15, 20), 6.0, 1.0);
     assert_near((double)wr_field_get(relief.heights, 25, 20), 6.0, 1.0);
     assert_near((double)wr_field_get(relief.heights, 14, 20), 2.0, 0.0);
-    assert_near((double)wr_field_get(relief.heights, 5, 20), 2.0, 0.0); /* the rim of all */
+    assert_near((double)wr_field_get(relief.heights, 5, 20), 2.0, 0.0); /* the outer edge */
     wr_normal_mips_fini(&relief);
     wr_field_free(like);
 }

@@ -1,11 +1,10 @@
-/* An input driver of Xorg for tests: pens and a touch screen that do what a script says, through a Unix
-   socket (options SocketPath, ToolType: STYLUS, ERASER or TOUCH). X and Y of 0..65535 lie over the whole
-   screen. Lines:
+/* Xorg input driver for tests: pens and a touch screen controlled by a script through a Unix socket (options
+   SocketPath, ToolType: STYLUS, ERASER or TOUCH). X and Y of 0..65535 cover the whole screen. Lines:
 
      m X Y P TX TY           move; pressure P of 0..65535, tilt -64..63
      b BUTTON 0|1 X Y P TX TY    a button
      t begin|update|end X Y      a finger
-     s                       answer "ok": all before is done */
+     s                       answer "ok": all earlier lines are done */
 #include <xorg-server.h>
 
 #include <exevents.h>
