@@ -1,6 +1,6 @@
-/* fuzz_gbr.c - .gbr brushes from strangers: whatever the bytes, they are refused with a message or give a
-   tip whose values lie in 0..1 wherever it is asked. The first byte's low bit makes the header begin as a
-   true one does, so that the bytes behind it are reached. */
+/* fuzz_gbr.c - untrusted .gbr brushes: any bytes are refused with a message or give a tip with values in 0..1
+   everywhere. The first byte's low bit makes the header start like a valid one, so that the following bytes are
+   reached. */
 #include "fuzz_tip.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

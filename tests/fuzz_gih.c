@@ -1,5 +1,5 @@
-/* fuzz_gih.c - .gih brushes from strangers, as fuzz_gbr.c: with the first byte's low bit the two lines are
-   the fuzzer's and the pictures, one pixel each, are sound. */
+/* fuzz_gih.c - untrusted .gih brushes, as in fuzz_gbr.c: with the first byte's low bit the two lines are the fuzzer's
+   and the pictures, one pixel each, are valid. */
 #include "fuzz_tip.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

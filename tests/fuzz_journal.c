@@ -1,8 +1,8 @@
-/* Journals made of any bytes: libFuzzer's target. The first byte chooses:
-     even  the rest is the file as it stands
-     odd   the rest is lines of a kind and a payload, written as a journal whose checksums fit; it
-           is read as it is, then with one byte changed, which must give the same commands but for
-           the last. */
+/* Fuzz target: journals from arbitrary bytes. The first byte selects:
+   even  the rest is the file
+   odd   the rest is lines of a kind and a payload, written as a journal with valid checksums. It
+         is read unchanged, then with one byte changed, which must give the same commands except
+         the last. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -31,7 +31,7 @@ static bool read_bytes(const void *bytes, size_t length, WrJournalRead *read)
     return ok;
 }
 
-/* What holds for everything that is given back. */
+/* Invariants of every result. */
 static void check(const WrJournalRead *read, size_t length)
 {
     require(read->count >= 0 && read->count <= read->total && (size_t)read->total <= length);

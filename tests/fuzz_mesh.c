@@ -1,8 +1,7 @@
-/* fuzz_mesh.c - mesh files from strangers, read as the program reads them, by the reader process: whatever
-   the bytes, they are refused with one sentence or give a mesh whose points are finite and whose corners
-   are points. The library may crash on them or read for ever; the program must not. The input is a list of
-   edits of a good file: its first byte chooses the file, and whether it is cut at the last edit; three
-   bytes each are a place and a value. */
+/* fuzz_mesh.c - untrusted mesh files, read by the reader process as in the program: any bytes are refused with one
+   message or give a mesh with finite points and valid indices. The library may crash on them or read for ever; the
+   program must not. The input is a list of edits of a valid file: its first byte selects the file, and whether it is
+   truncated at the last edit; three bytes each are a position and a value. */
 #include "base/error.h"
 #include "image/mesh.h"
 

@@ -1,4 +1,4 @@
-/* hang.c - preloaded into the program: the first reading of a file never ends, whatever signal comes. */
+/* hang.c - preloaded into the program: the first read of a file never ends, whatever signal arrives. */
 #include <sys/types.h>
 #include <unistd.h>
 

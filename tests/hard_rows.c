@@ -1,6 +1,6 @@
-/* Measures the hard cases that are named and tells those that fail, in which precisions, or that cannot be
-   measured: hard_rows ID... Without one it names all that are measured, and in which. hard_rows --scene ID prints the lines
-   of that case's scene and measures nothing. A helper of mutate.sh and window_accuracy.sh. */
+/* Measures the named hard cases and prints the failing ones with their precisions, or those that cannot be measured:
+   hard_rows ID... Without arguments it lists the measured ones and their precisions. hard_rows --scene ID prints the
+   lines of that case's scene without measuring. Used by mutate.sh and window_accuracy.sh. */
 #include "base/error.h"
 #include "hardcases/hardcases.h"
 
@@ -20,7 +20,7 @@ static void list(void)
     }
 }
 
-/* Of a case that failed: the precisions that are beyond their bounds. */
+/* Print the precisions of a failed case that exceed their bounds. */
 static void tell(const WrHardResult *result)
 {
     printf("%s", result->row->id);

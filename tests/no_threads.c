@@ -1,6 +1,5 @@
-/* A shared library that comes before the C library: the system gives the program so many threads as WR_THREADS says
-   and no more. Taken by LD_PRELOAD; the process that reads pictures for it is left alone, whose libraries are not
-   ours. */
+/* A shared library loaded before the C library: the program gets at most WR_THREADS threads. Used with LD_PRELOAD;
+   the reader process for pictures is excluded, since its libraries are not ours. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>

@@ -1,6 +1,6 @@
-/* runner.c - the tests of a room in one program: `run_ROOM NAME` runs tests/test_NAME.c, in this process alone;
-   without one it lists them. WR_TEST_ROWS is a file of WR_TEST(NAME) lines, made by wr_test in
-   tests/CMakeLists.txt, which also gives the main of each test file its name. */
+/* runner.c - the tests of a module in one program: `run_MODULE NAME` runs tests/test_NAME.c in this process; without
+   an argument it lists them. WR_TEST_ROWS is a file of WR_TEST(NAME) lines, made by wr_test in tests/CMakeLists.txt,
+   which also renames the main of each test file. */
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>

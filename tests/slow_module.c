@@ -1,5 +1,5 @@
-/* A module that takes long to load: until there is a file named "go" in the folder. Each loading adds a byte to the
-   file "began" there. */
+/* A module that loads slowly: until a file named "go" exists in the folder. Each loading adds a byte to the file
+   "began" there. */
 #include <fcntl.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
-/* tangents_dump FILE: the corners of a mesh with the frames that MikkTSpace's rules give them, one a line, three lines a
-   triangle: place, normal, u and v, t, sign. For tangents_blender.sh. */
+/* tangents_dump FILE: prints the corners of a mesh with their MikkTSpace frames, one per line, three lines per
+   triangle: position, normal, u and v, t, sign. For tangents_blender.sh. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "command/session.h"

@@ -1,4 +1,4 @@
-/* How layers' heights join: the blend modes, texel by texel. */
+/* Blending of layers' heights: the blend modes, texel by texel. */
 #include "test.h"
 
 #include "document/blend.h"
@@ -22,7 +22,7 @@ static float random_float(TestRandom *random, double low, double high)
     return (float)(low + (high - low) * test_random(random));
 }
 
-/* The formulas as they are written, in double. */
+/* The formulas as written, in double. */
 static double formula(WrBlend mode, double o, double m, double c, double k, double b, double h)
 {
     double w = o * m * c, s = k > 0.0 ? fmax(k - fabs(b - h), 0.0) / k : 0.0;
@@ -85,7 +85,7 @@ static void weight_zero_by_mask_or_cover_leaves_every_bit_below(void **state)
         }
 }
 
-/* b + 1 (h - b) would round: 1e8 + (0.1 - 1e8) is 0. */
+/* b + 1 (h - b) would be rounded: 1e8 + (0.1 - 1e8) is 0. */
 static void replace_and_mix_in_full_give_exactly_the_height(void **state)
 {
     (void)state;
@@ -188,7 +188,7 @@ static void neutral_heights_leave_every_bit_below(void **state)
     assert_int_equal(neutrals, 5);
 }
 
-/* Every length up to beyond a span, each result as that of the texel alone, and nothing written beside. */
+/* Every length up to beyond a span: each result equals that of the texel alone, and no other value is written. */
 static void runs_of_any_length_give_what_each_texel_gives_alone(void **state)
 {
     (void)state;

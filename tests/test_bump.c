@@ -122,8 +122,7 @@ static void b16_blinns_tangent_falls_as_the_object_grows(void **state)
     }
 }
 
-/* Bumps that grow with the object leave blinn as it is; invariant stays whatever the object's
-   size. */
+/* Bumps scaled with the object leave blinn unchanged; invariant is unchanged for any size of the object. */
 static void a9_hc09_scaling_by_ten_to_the_twenty_either_way(void **state)
 {
     (void)state;
@@ -141,7 +140,7 @@ static void a9_hc09_scaling_by_ten_to_the_twenty_either_way(void **state)
                     1e-14);
         WrVec3 long_form = normal(WR_BUMP_INVARIANT, &big, 0, s.fu, s.fv);
         assert_near(distance(wr_bump_unit(long_form, s.o.n_unit), invariant), 0, 1e-14);
-        /* blinn without: n itself on a huge object, straight downhill on a tiny one */
+        /* blinn without scaled bumps: n itself on a huge object, straight downhill on a tiny one */
         WrVec3 d = v3_unit(wr_bump_d(s.o.n_unit, s.o.pu, s.o.pv, s.fu, s.fv), none);
         if (i % 4 == 0 || i % 4 == 3)
             assert_near(
@@ -150,7 +149,7 @@ static void a9_hc09_scaling_by_ten_to_the_twenty_either_way(void **state)
     }
 }
 
-/* The same place by another parameter, u = 2 t: Pt = 2 Pu, Ft = 2 Fu, n_t = 2 n_u. */
+/* The same point with another parameter, u = 2 t: Pt = 2 Pu, Ft = 2 Fu, n_t = 2 n_u. */
 static void a10_the_result_does_not_depend_on_the_parameters(void **state)
 {
     (void)state;
@@ -199,7 +198,7 @@ static void hc23_exact_is_the_normal_of_the_displaced_surface_from_both_sides(vo
         assert_near(distance(exact, reference), 0, 2e-6);
         WrVec3 view = v3_neg(reference); /* the eye behind: there the visible side has -N' */
         assert_true(v3_dot(v3_neg(exact), view) > 0.999);
-        /* and the long form is Pu' x Pv' itself */
+        /* and the long form equals Pu' x Pv' itself */
         WrVec3 pu = v3_add(v3_mad(s.o.pu, s.o.n_unit, amplitude * fu), v3_scale(s.o.n_u, f));
         WrVec3 pv = v3_add(v3_mad(s.o.pv, s.o.n_unit, amplitude * fv), v3_scale(s.o.n_v, f));
         WrVec3 n1 = normal(WR_BUMP_EXACT, &s.o, f, amplitude * fu, amplitude * fv);
@@ -207,7 +206,7 @@ static void hc23_exact_is_the_normal_of_the_displaced_surface_from_both_sides(vo
     }
 }
 
-/* At a fixed slope the dropped terms are in proportion to F. */
+/* At a fixed slope the dropped terms are proportional to F. */
 static void blinns_error_is_proportional_to_the_height_it_drops(void **state)
 {
     (void)state;

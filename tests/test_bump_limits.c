@@ -3,8 +3,8 @@
 
 #include "test_bump_points.h"
 
-/* F = 0.1 x / R is single-valued at the pole, its gradient (0.1, 0, 0) there whatever u: every
- * approach ends at n' = (-0.1, 0, 1) made unit, in the end by 1e-7 or better. */
+/* F = 0.1 x / R is single-valued at the pole, with gradient (0.1, 0, 0) for any u: every approach converges to n' =
+ * (-0.1, 0, 1), normalised, to 1e-7 or better. */
 static void hc02_the_bumped_normal_converges_at_a_pole(void **state)
 {
     (void)state;
@@ -141,7 +141,7 @@ static void hc17_without_slope_n_comes_back_bit_for_bit(void **state)
     }
 }
 
-/* tan(theta') = a also where a^2, |D|^2 and |N|^2 are no numbers any more. */
+/* tan(theta') = a also where a^2, |D|^2 and |N|^2 overflow. */
 static void hc18_invariant_keeps_the_angle_of_tiny_slopes(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* `colouring`: colours by height, slope and cavity, against their formula; that they follow is tested with terrains of layers
-   (test_terrain_layer.c), and that the renderer shows a picture as its reference does with colour pictures. */
+/* `colouring`: colours by height, slope and cavity, against their formula. Updates are tested with layer terrains
+   (test_terrain_layer.c), and rendering with colour textures. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -60,7 +60,7 @@ static void expect_colour(const WrImage *image, int k, double height, double slo
             fail_msg("texel %d, %d: %g, not %g", k, c, (double)image->data[3 * k + c], want[c]);
 }
 
-/* Of heights that rise evenly the spline is a plane, but at the ends. */
+/* For linearly increasing heights the spline is a plane, except at the ends. */
 static void a_plane_has_the_colours_of_its_heights(void **state)
 {
     (void)state;
@@ -112,7 +112,7 @@ static void a_table_has_the_colours_of_its_heights_and_slopes(void **state)
     wr_field_free(field);
 }
 
-/* The mean about texel (i, j) of a table that goes round, summed texel by texel. */
+/* The mean about texel (i, j) of a periodic table, summed texel by texel. */
 static double mean_about(const WrField *field, int i, int j, double sigma)
 {
     const int w = wr_field_width(field), h = wr_field_height(field), reach = (int)ceil(5 * sigma);
@@ -149,7 +149,7 @@ static void hollows_have_their_colour(void **state)
         untouched += t <= 0, alone += t >= 1;
         for (int c = 0; c < 3; c++) {
             const double from = (double)plain->data[3 * k + c];
-            /* the blur leaves 6e-5 of its weight out */
+            /* the blur omits 6e-5 of its weight */
             assert_near(image->data[3 * k + c], from + share * (own.hollow_rgb[c] - from), 2e-3);
         }
     }
@@ -172,7 +172,7 @@ static void it_takes_the_place_of_a_colour_picture(void **state)
     assert_int_equal(scene_in(s)->colouring.of, WR_HEIGHT_COLORMAP_TABLE);
     assert_int_equal(scene_in(s)->colour->width, 30);
     const WrImage *first = scene_in(s)->colour;
-    must_run(s, "camera orbit 5,5"); /* nothing that it goes by */
+    must_run(s, "camera orbit 5,5"); /* none of its inputs */
     assert_ptr_equal(scene_in(s)->colour, first);
     must_run(s, "bump height=0.07"); /* slopes */
     assert_ptr_not_equal(scene_in(s)->colour, first);
@@ -194,7 +194,7 @@ static void it_takes_the_place_of_a_colour_picture(void **state)
     must_run(s, "surface terrain layer=1");
     must_run(s, "colouring ramp of=form");
     assert_true(scene_in(s)->colour_laid.own);
-    must_run(s, "surface sphere"); /* has no form: by the table again */
+    must_run(s, "surface sphere"); /* no terrain: from the table again */
     assert_false(scene_in(s)->colour_laid.own);
     must_run(s, "colour off");
     assert_null(scene_in(s)->colour);

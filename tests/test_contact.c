@@ -1,5 +1,5 @@
-/* Contact sheets: each tile is the map of its name, texel by texel or by their means, in its place; of a set they come with
-   its maps or not at all. */
+/* Contact sheets: each tile is the map of its name, texel by texel or by means, at its position; for a set they are
+   written with its maps or not at all. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -99,7 +99,7 @@ static void each_tile_is_the_map_of_its_name(void **state)
     }
 }
 
-/* Unless told: all of the cell, and none that needs a mesh. */
+/* By default: all maps of the cell, and none that needs a mesh. */
 static void all_maps_of_the_cell_are_shown(void **state)
 {
     (void)state;

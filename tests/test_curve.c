@@ -1,4 +1,4 @@
-/* The monotone cubic: numbers worked out apart, and that it neither turns back nor misses a point. */
+/* The monotone cubic: independently computed numbers; monotonicity and interpolation. */
 #include "test.h"
 #include "test_ops_tables.h"
 

@@ -34,7 +34,7 @@ static Wave wave_at(double u, double v)
                    -a * x * x * cu * cv, a * x * y * su * sv, -a * y * y * cu * cv };
 }
 
-/* Minus div of (p, q) / sqrt(1 + p p + q q), halved: another way to write the mean curvature. */
+/* Minus div of (p, q) / sqrt(1 + p p + q q), halved: another form of the mean curvature. */
 static double convexity(const Wave *w)
 {
     const double n = sqrt(1 + w->p * w->p + w->q * w->q), n3 = n * n * n;
@@ -81,7 +81,7 @@ static WrImage *exported(const WrDocument *document, const char *kind, const cha
     return image;
 }
 
-/* part: of the largest there is, that a number may be off. */
+/* part: allowed error of a number, relative to the largest. */
 static void floats_agree(bool formula, double part)
 {
     WrDocument *document = document_of_wave(formula);
@@ -98,7 +98,7 @@ static void floats_agree(bool formula, double part)
         assert_near(slopes->data[2 * i], w.p, part * 1.5);
         assert_near(slopes->data[2 * i + 1], w.q, part * 1.5);
         assert_near(angle->data[i], atan(hypot(w.p, w.q)) * 180 / WR_PI, part * 90);
-        /* differences over a texel: their second order, of waves 80 and 100 texels long */
+        /* differences over a texel have errors of second order, for waves 80 and 100 texels long */
         assert_near(bend->data[i], convexity(&w), most * (part + 2e-3));
     }
     wr_image_free(slopes), wr_image_free(angle), wr_image_free(bend);

@@ -1,4 +1,4 @@
-/* Documents: layers and their sum, snapshots, hashes, the file, heights from pictures. */
+/* Documents: layers and their composite, snapshots, hashes, the file, heights from pictures. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -91,8 +91,8 @@ static void the_hash_tells_heights_names_layers_and_scenes_apart(void **state)
     float old = wr_field_get(document->layers[1].heights, 3, 4);
     wr_field_set(document->layers[1].heights, 3, 4, old + 1);
     hashes[2] = wr_document_hash(document, "surface torus");
-    wr_field_set(document->layers[1].heights, 3, 4,
-                 old); /* and the same contents hash the same again */
+    /* and the same contents have the same hash */
+    wr_field_set(document->layers[1].heights, 3, 4, old);
     assert_true(wr_hash_equal(hashes[0], wr_document_hash(document, "surface torus")));
     wr_document_free(document);
     document = make_document(2, other, 30, 20, WR_WRAP_PERIODIC, WR_WRAP_CLAMP);
@@ -278,7 +278,7 @@ static void an_almost_empty_large_table_stays_small_in_memory(void **state)
     assert_true(wr_document_save(document, "", "large.exr", &err));
     assert_true(wr_document_load("large.exr", &loaded, &replaced, &err));
     getrusage(RUSAGE_SELF, &after);
-#ifndef __SANITIZE_ADDRESS__ /* which keeps freed memory */
+#ifndef __SANITIZE_ADDRESS__ /* which delays the reuse of freed memory */
     /* 64 MB a copy of the table; strips and the library's buffers take a few */
     assert_true(after.ru_maxrss - before.ru_maxrss < 32 * 1024);
 #endif
@@ -412,8 +412,8 @@ static void truncated_and_foreign_files_are_not_documents(void **state)
     assert_false(wr_document_recognise("."));
 }
 
-/* A document of one layer, and of several parts, each with less room than it needs: by a third of it down to
-   a single byte, where nothing but the table at the end is missing. */
+/* A document of one layer, and of several parts, each with less space than needed: from a third less down to a single
+   byte, where only the table at the end is missing. */
 static void a_full_disk_keeps_the_old_document(void **state)
 {
     const char *names[] = { "base", "more" };
@@ -533,7 +533,7 @@ static void growing_threefold_keeps_the_samples_and_wraps_at_the_seam(void **sta
     for (int j = 0; j < 7; j++)
         for (int i = 0; i < 10; i++)
             assert_true(wr_field_get(a, 3 * i + 1, 3 * j + 1) == image->data[10 * j + i]);
-    for (int j = 0; j < 21; j++) /* the same picture, started elsewhere: no seam */
+    for (int j = 0; j < 21; j++) /* the same picture with another origin: no seam */
         for (int i = 0; i < 30; i++)
             assert_true(wr_field_get(b, i, j) == wr_field_get(a, (i + 3) % 30, j));
     wr_field_free(a);

@@ -1,4 +1,4 @@
-/* Edits: what they refuse, how they keep to selections, table operations on layers. */
+/* Edits: refusals, limits by selections, table operations on layers. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -59,7 +59,7 @@ static void edits_of_locked_and_hidden_layers_are_refused(void **state)
     must_fail(s, "layer flatten", "is locked");
     must_fail(s, "layer mask top from=white", "is locked");
     must_fail(s, "adjust add amount=1 layers=all", "is locked");
-    must_run(s, "adjust crop width=64 height=32"); /* tables have one size, locked or not */
+    must_run(s, "adjust crop width=64 height=32"); /* all tables have one size, locked or not */
     wr_session_free(s);
 }
 
@@ -250,7 +250,8 @@ static void offsetting_all_layers_rolls_the_composite(void **state)
     wr_session_free(s);
 }
 
-/* Between -1 and 1 a shift is a share of the side, rounded to whole texels: a third of 90, a sixth of 60; else texels. */
+/* Between -1 and 1 a shift is a fraction of the side, rounded to whole texels: a third of 90, a sixth of 60; else
+   texels. */
 static void offsets_take_shares_of_the_side(void **state)
 {
     (void)state;
@@ -309,7 +310,7 @@ static void table_starts_over_with_one_layer(void **state)
     wr_session_free(s);
 }
 
-/* A picture that edits can read. */
+/* A picture for the edits to read. */
 static int enter(void **state)
 {
     uint8_t codes[12];

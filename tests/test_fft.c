@@ -1,4 +1,4 @@
-/* Fourier transforms, and equations solved by them. */
+/* Fourier transforms, and equations solved with them. */
 #include "test.h"
 
 #include "base/memory.h"
@@ -84,7 +84,7 @@ static void real_lines_are_sums_of_their_functions_and_come_back(void **state)
         }
 }
 
-/* Steps between texels of heights, and from them the heights again, but for their mean. */
+/* Steps between texels of heights, and the heights restored from them, up to their mean. */
 static void check_steps(int width, int height, WrEnds u, WrEnds v)
 {
     size_t w = (size_t)width, count = w * (size_t)height;

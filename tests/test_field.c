@@ -300,7 +300,7 @@ static void the_range_counts_the_level_only_where_it_shows(void **state)
     float low, high;
     for (int j = 0; j < 64; j++)
         for (int i = 0; i < 65; i++) wr_field_set(field, i, j, (float)(i - j));
-    wr_field_range(field, &low, &high); /* the second tile's unused texels hold 9 still */
+    wr_field_range(field, &low, &high); /* the second tile's unused texels still hold 9 */
     assert_true(low == -63.0f && high == 64.0f);
     assert_true(wr_field_tile(field, 1, 0)[5] == 9.0f);
     wr_field_free(field);
@@ -359,7 +359,7 @@ static void many_threads_may_share_one_table_and_write_to_their_own(void **state
     wr_field_free(source);
 }
 
-/* Edges of tiles that are not full, equal and different levels. */
+/* Borders of tiles that are not full, equal and different levels. */
 static void a_shared_tile_is_the_others_until_one_is_written(void **state)
 {
     (void)state;

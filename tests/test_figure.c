@@ -43,7 +43,7 @@ static void rectangles_with_round_corners_have_their_area(void **state)
             u += f.points[k].u / f.count;
             v += f.points[k].v / f.count;
         }
-        assert_near(u, 0.35, 1e-9); /* turned about its middle */
+        assert_near(u, 0.35, 1e-9); /* rotated about its centre */
         assert_near(v, 0.3, 1e-9);
         wr_shape_outline_fini(&f);
     }
@@ -65,7 +65,7 @@ static void ellipses_keep_their_area_and_form_when_turned_in_a_cell_that_is_not_
         double a = (x * cosine + y * sine) / 60, b = (y * cosine - x * sine) / 90;
         assert_near(a * a + b * b, 1, 1e-12);
     }
-    assert_near(300 * (f.points[0].u - 0.5), 60 * cosine, 1e-9); /* begins at its right end */
+    assert_near(300 * (f.points[0].u - 0.5), 60 * cosine, 1e-9); /* starts at its right end */
     assert_near(900 * (f.points[0].v - 0.25), 60 * sine, 1e-9);  /* anticlockwise, v up */
     wr_shape_outline_fini(&f);
     wr_field_free(like);
@@ -78,7 +78,7 @@ static WrSelectPoint bezier(const WrSelectPoint p[4], double t)
                             a * p[0].v + b * p[1].v + c * p[2].v + d * p[3].v };
 }
 
-/* The distance of a point from the figure's pieces, in texels of a 512 x 256 table. */
+/* The distance of a point from the outline's pieces, in texels of a 512 x 256 table. */
 static double distance(const WrShapeOutline *f, WrSelectPoint p)
 {
     double best = 1e30;
@@ -109,7 +109,7 @@ static void bezier_curves_are_met_within_the_tolerance(void **state)
             for (int i = 0; i <= 300; i++)
                 worst = fmax(worst, distance(&f, bezier(p + 3 * k, i / 300.0)));
         if (worst > tolerance) fail_msg("round %d: %g texels away", round, worst);
-        assert_true(f.count < 1 + 2 * sqrt(4000 / tolerance)); /* and not by brute force */
+        assert_true(f.count < 1 + 2 * sqrt(4000 / tolerance)); /* and not by excessive points */
         assert_memory_equal(&f.points[0], &p[0], sizeof *p);
         assert_memory_equal(&f.points[f.count - 1], &p[6], sizeof *p);
         wr_shape_outline_fini(&f);

@@ -1,11 +1,11 @@
-/* Flood: the connected part of about one height, against a search that only knows neighbours. */
+/* Flood fill: the connected region of similar height, against a search that uses only neighbours. */
 #include "test.h"
 
 #include "base/error.h"
 #include "field/field.h"
 #include "field/select.h"
 
-/* Reached texels by going through the whole table again and again until nothing is added. */
+/* Reached texels by repeated passes through the whole table until none is added. */
 static void grow_reached(const WrField *f, int x, int y, double tolerance, bool diagonal, bool *in)
 {
     int w = wr_field_width(f), h = wr_field_height(f);
@@ -31,7 +31,7 @@ static void grow_reached(const WrField *f, int x, int y, double tolerance, bool 
     }
 }
 
-/* Heights of few values, so that parts of all sizes and forms arise. */
+/* Heights of few values, so that regions of all sizes and shapes occur. */
 static WrField *random_field(TestRandom *random, int w, int h, WrWrap u, WrWrap v, double dense)
 {
     WrField *f = wr_field_new(w, h, u, v, 0, NULL);
@@ -54,7 +54,7 @@ static void a_flood_reaches_what_a_search_by_neighbours_reaches(void **state)
                                   0.35 + 0.4 * test_random(&random));
         int x = (int)(test_random(&random) * w), y = (int)(test_random(&random) * h);
         bool diagonal = round >> 2 & 1;
-        double tolerance = round % 11 ? 0.5 : 0.75; /* the larger takes all */
+        double tolerance = round % 11 ? 0.5 : 0.75; /* the larger fills everything */
         WrError err;
         WrField *s = wr_select_flood(f, (x + 0.5) / w, 1 - (y + 0.5) / h, tolerance, diagonal, NULL,
                                      NULL, &err);
@@ -69,7 +69,7 @@ static void a_flood_reaches_what_a_search_by_neighbours_reaches(void **state)
         wr_field_free(s);
         wr_field_free(f);
     }
-    assert_true(crossed > 3); /* some went over the edge */
+    assert_true(crossed > 3); /* some crossed the edge */
 }
 
 static void a_flood_over_edges_is_the_rolled_table_s_flood_rolled(void **state)
@@ -86,8 +86,9 @@ static void a_flood_over_edges_is_the_rolled_table_s_flood_rolled(void **state)
     int x = 0, y = 0;
     while (wr_field_get(a, x, y) != 0.25f) x++;
     WrField *fa = wr_select_flood(a, (x + 0.5) / W, 1 - (y + 0.5) / H, 0, false, NULL, NULL, &err);
-    WrField *fb = wr_select_flood(b, (x + DX + 0.5) / W, 1 - (y + DY + 0.5) / H, 0, false, NULL,
-                                  NULL, &err); /* a place beyond the table is its image in it */
+    /* a position beyond the table is wrapped */
+    WrField *fb =
+        wr_select_flood(b, (x + DX + 0.5) / W, 1 - (y + DY + 0.5) / H, 0, false, NULL, NULL, &err);
     int reached = 0;
     for (int j = 0; j < H; j++)
         for (int i = 0; i < W; i++) {
@@ -101,7 +102,7 @@ static void a_flood_over_edges_is_the_rolled_table_s_flood_rolled(void **state)
     wr_field_free(fb);
 }
 
-/* A ramp of whole steps: the tolerance counts from the start, not from neighbour to neighbour. */
+/* A ramp of unit steps: the tolerance is relative to the start, not to each neighbour. */
 static void the_tolerance_counts_from_where_it_begins_both_ends_included(void **state)
 {
     (void)state;
@@ -112,8 +113,8 @@ static void the_tolerance_counts_from_where_it_begins_both_ends_included(void **
     for (int i = 0; i < 64; i++)
         assert_true(wr_field_get(s, i, 0) == (i >= 13 && i <= 27 ? 1.0f : 0.0f));
     wr_field_free(s);
-    s = wr_select_flood(f, -3, 7, 2, false, NULL, NULL,
-                        &err); /* off the ends the nearest texel counts */
+    /* beyond the ends the nearest texel is used */
+    s = wr_select_flood(f, -3, 7, 2, false, NULL, NULL, &err);
     for (int i = 0; i < 64; i++) assert_true(wr_field_get(s, i, 0) == (i <= 2 ? 1.0f : 0.0f));
     wr_field_free(s);
     assert_null(wr_select_flood(f, NAN, 0, 1, false, NULL, NULL, &err));
@@ -123,7 +124,7 @@ static void the_tolerance_counts_from_where_it_begins_both_ends_included(void **
     wr_field_free(f);
 }
 
-/* One part that winds through the whole table, a texel wide. */
+/* One region that winds through the whole table, a texel wide. */
 static void a_maze_is_followed_to_its_end(void **state)
 {
     (void)state;

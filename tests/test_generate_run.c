@@ -1,4 +1,4 @@
-/* The generators as commands: what they make joins the active layer. */
+/* The generators as commands: blending of their output into the active layer. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -73,7 +73,7 @@ static void a_selection_weighs_what_is_made_and_raises_the_layers_cover(void **s
     wr_session_free(s);
 }
 
-/* Of 2 x 2 tiles, only the selected one is touched. */
+/* Of 2 x 2 tiles, only the selected one is changed. */
 static void tiles_that_come_out_as_they_were_stay_the_very_tiles(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static void they_are_undone_and_redone_bit_for_bit(void **state)
     wr_session_free(s);
 }
 
-/* Every form of every family, by the table: its defaults run, and the line that was kept makes the same. */
+/* Every form of every family, from the table: its defaults run, and the stored line gives the same. */
 static void every_form_runs_and_replays_to_the_same_bits(void **state)
 {
     (void)state;
@@ -177,7 +177,7 @@ static void every_form_runs_and_replays_to_the_same_bits(void **state)
         }
 }
 
-/* The verb stands in the table of commands with a form for each row. */
+/* The verb is in the table of commands with a form for each row. */
 static void each_family_with_rows_is_a_verb(void **state)
 {
     (void)state;
@@ -230,7 +230,8 @@ static void what_a_generator_has_to_say_reaches_the_sessions_notes(void **state)
     wr_session_free(s);
 }
 
-/* A made tile may take the old one's place as it is, but where the layer has another level at the table's edge. */
+/* A generated tile may replace the old one unchanged, except where the layer has another level at the table's
+   edge. */
 static void what_replaces_a_layer_is_the_same_whatever_lay_there(void **state)
 {
     (void)state;

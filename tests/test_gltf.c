@@ -1,4 +1,4 @@
-/* glTF files that keep their buffers beside them: read, refused, and back after a crash when all of them are gone. */
+/* glTF files with separate buffers: read, refused, and recovered after a crash when all of them are gone. */
 #include "test.h"
 #include "journal_help.h"
 #include "recovery_help.h"
@@ -102,7 +102,7 @@ static void buffers_beside_and_below_are_taken_in(void **state)
     unsetenv("WRINKLE_READER");
 }
 
-/* Lengths that are no threes of bytes: base64 by hand (RFC 4648, 10). */
+/* Lengths that are not multiples of three bytes: base64 by hand (RFC 4648, 10). */
 static void what_is_packed_is_base64(void **state)
 {
     static const char *const words[][2] = {
@@ -142,7 +142,7 @@ static void what_lies_elsewhere_is_refused(void **state)
     refuse("not.gltf", "not.gltf");
 }
 
-/* Two models whose buffers have one name, in two folders: names alone would mix them up. */
+/* Two models with buffers of the same name in two folders: names alone would confuse them. */
 static void a_crash_loses_neither_of_two_models(void **state)
 {
     (void)state;

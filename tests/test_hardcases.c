@@ -1,4 +1,4 @@
-/* The table of hard cases: whole, true, able to fail, and printed so that programs can read it. */
+/* The table of hard cases: complete, passing, able to fail, and printed in a parsable form. */
 #include "test.h"
 
 #include "base/error.h"
@@ -53,7 +53,7 @@ static void every_row_says_what_must_hold_and_is_measured_or_waits(void **state)
     for (int i = 0; i < WR_HARDCASES; i++) {
         const WrHardCase *row = wr_hardcase(i);
         assert_true(strlen(row->what) > 5 && strlen(row->holds) > 2 && strlen(row->unit) > 1);
-        if (i == 96) subject = 0; /* those past the first go through the subjects in no order */
+        if (i == 96) subject = 0; /* further ones have subjects in any order */
         assert_true(row->subject < WR_HARD_SUBJECTS);
         assert_true(i >= 96 || (int)row->subject >= subject);
         subject = (int)row->subject;
@@ -85,8 +85,8 @@ static void none_fails_and_what_is_to_come_never_passes(void **state)
     for (int i = 0; i < WR_HARDCASES; i++) {
         const WrHardResult *r = &report->results[i];
         assert_ptr_equal(r->row, wr_hardcase(i));
-        const bool whole =
-            r->row->measure && !r->row->waits; /* and a part that waits does not pass */
+        /* and a partly waiting one does not pass */
+        const bool whole = r->row->measure && !r->row->waits;
         if (r->verdict != (whole ? WR_HARD_PASS : WR_HARD_WAITS))
             fail_msg("%s: %s, float %g of %g, double %g of %g %s", ids[i],
                      wr_hard_verdicts[r->verdict], r->worst[0], r->row->bound[0], r->worst[1],
@@ -100,7 +100,8 @@ static void none_fails_and_what_is_to_come_never_passes(void **state)
     assert_true(report->count[WR_HARD_PASS] >= 124 && report->count[WR_HARD_FAIL] == 0);
 }
 
-/* Beyond the bound by half of it, or by one where it is 0: in one precision at a time. In an ordinary run every third. */
+/* The bound exceeded by half of it, or by one if it is 0: in one precision at a time. In an ordinary run every
+   third. */
 static void every_measured_row_can_fail_in_every_precision(void **state)
 {
     (void)state;
@@ -179,7 +180,7 @@ static void it_stops_when_asked_and_knows_its_instruction_sets(void **state)
     WrError err = { "" };
     assert_false(wr_hardcases_run(&request, &report, &err));
     assert_string_equal(err.text, "cancelled");
-    assert_null(report.results[0].row); /* untouched */
+    assert_null(report.results[0].row); /* unchanged */
     request = (WrHardRequest){ .isa = "v9" };
     assert_false(wr_hardcases_run(&request, &report, &err));
     assert_non_null(strstr(err.text, "v9"));

@@ -1,4 +1,4 @@
-/* The process that reads strangers' files gets its time and its memory once, and no more. */
+/* The reader process gets its time and its memory once, and no more. */
 #include "helper_help.h"
 
 #include "base/text.h"
@@ -32,7 +32,7 @@ static void a_reader_that_says_nothing_is_ended(void **state)
     expect_no_children();
 }
 
-/* Seconds of processor time that children of the reader process took which it has seen ending. */
+/* Processor time in seconds of the reader process's ended children. */
 static double seconds_of_children(void)
 {
     char path[64];
@@ -47,7 +47,7 @@ static double seconds_of_children(void)
     return (double)(user + system) / (double)sysconf(_SC_CLK_TCK);
 }
 
-/* One face of so many corners that cutting it up takes minutes. */
+/* One face with so many corners that triangulation takes minutes. */
 static void write_busy_mesh(WrText *text)
 {
     wr_text_add(text, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf");
@@ -63,7 +63,7 @@ static void a_mesh_gets_its_time_once(void **state)
     WrError err = { "" };
     write_busy_mesh(&text);
     write_picture("a.png");
-    expect_good("a.png"); /* the process is there, with its libraries */
+    expect_good("a.png"); /* the process has started, with its libraries */
     expect_no_children();
     double before = seconds_of_children();
     setenv("WRINKLE_READER_SECONDS", "2", 1);
@@ -154,7 +154,7 @@ static size_t put_chunk(unsigned char *at, const char *name, const void *data, u
     return 12 + (size_t)length;
 }
 
-/* A sound PNG header that claims side x side pixels of four 16-bit channels, and next to no data. */
+/* A valid PNG header that claims side x side pixels of four 16-bit channels, with almost no data. */
 static void write_claim(const char *path, uint32_t side, bool interlaced)
 {
     static const unsigned char data[] = { 0x78, 0x9c, 0x63, 0x60, 0x60, 0x00, 0x00 };
@@ -179,7 +179,7 @@ static void a_claim_of_gigabytes_is_one_sentence(void **state)
     write_claim("claim.png", 16384, false);
     assert_null(wr_image_read("claim.png", &err));
     expect_message(&err, "claim.png: ", "truncated or damaged");
-    if (SANITIZED) return; /* they have no limit on memory */
+    if (SANITIZED) return; /* sanitizers have no memory limit */
     /* An interlaced picture is decoded as a whole: 2 GB. */
     write_claim("claim.png", 16384, true);
     setenv("WRINKLE_READER_MB", "700", 1);

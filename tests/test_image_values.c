@@ -1,5 +1,5 @@
-/* The values of pictures that other programs write: greys whose smallest is white, numbers in integers, missing values,
-   display windows, turned and run-length pictures. Files of tests/cases are of other programs. */
+/* Pixel values in files of other programs: inverted greys, integers with scaling, missing values, display windows,
+   rotated and run-length pictures. Files of tests/cases are from other programs. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -21,7 +21,7 @@ static unsigned long last_of(int bits)
     return bits == 32 ? 0xffffffffUL : (1UL << bits) - 1;
 }
 
-/* The code of a pixel as its values mean it: 0 is black; channel 1 is alpha. */
+/* The code of a pixel by its meaning: 0 is black; channel 1 is alpha. */
 static unsigned long code_of(const Tiff *tiff, int x, int y, int channel)
 {
     const double share = channel ? (x + y) % 5 / 4.0 : (x * 37 + y * 53 + 11) % 101 / 100.0;
@@ -34,7 +34,7 @@ static void put(FILE *file, bool big, unsigned long value, int bytes)
         putc((int)(value >> 8 * (big ? bytes - 1 - k : k) & 0xff), file);
 }
 
-/* Codes of whole bytes in the file's order, others packed from the highest bit on, each row padded. */
+/* Whole-byte codes in the file's byte order, others packed from the highest bit, each row padded. */
 static void put_pixels(FILE *file, const Tiff *tiff)
 {
     for (int y = 0; y < HEIGHT; y++) {
@@ -95,7 +95,7 @@ static void write_tiff(const char *path, const Tiff *tiff)
     put_tag(file, big, 278, 3, 1, HEIGHT);
     put_tag(file, big, 279, 4, 1, (unsigned long)size);
     put_tag(file, big, 284, 3, 1, 1);
-    if (n > 1) put_tag(file, big, 338, 3, 1, 2); /* alpha that is not multiplied in */
+    if (n > 1) put_tag(file, big, 338, 3, 1, 2); /* unassociated alpha */
     put(file, big, 0, 4);
     fclose(file);
 }
@@ -158,7 +158,7 @@ static void check_range(const WrImage *image, double low, double high)
     assert_true(least == low && most == high);
 }
 
-/* The bytes of the files tell: signed metres 101 to 899 with 16 voids; 16 values of -12345, which GDAL's tag names. */
+/* By the files' bytes: signed metres 101 to 899 with 16 voids; 16 values of -12345, as in GDAL's tag. */
 static void missing_elevations_are_filled(void **state)
 {
     (void)state;
@@ -180,8 +180,8 @@ static void missing_elevations_are_filled(void **state)
     wr_image_free(image);
 }
 
-/* Three voids in ground of 100 to 381: -32768 in 32 bits without a tag; the tag "nan"; the least float, which the tag gives
-   with six digits. */
+/* Three voids in ground of 100 to 381: -32768 in 32 bits without a tag; the tag "nan"; the smallest float, with six
+   digits in the tag. */
 static void no_data_is_found_however_it_is_written(void **state)
 {
     (void)state;
@@ -205,7 +205,7 @@ static void integers_are_the_numbers_of_their_header(void **state)
     wr_image_free(image);
     image = read_case("k16im.fits", &plain);
     check_range(image, 4458, 25594);
-    const float *bottom = image->data + 23 * 32; /* FITS begins at the bottom */
+    const float *bottom = image->data + 23 * 32; /* FITS starts at the bottom */
     assert_true(bottom[0] == 7360 && bottom[1] == 5492);
     wr_image_free(image);
 }
@@ -229,7 +229,7 @@ static void an_exr_is_its_display_window(void **state)
     wr_image_free(image);
 }
 
-/* A gradient of 20 x 10, to be turned by EXIF's orientation 6; and a first pixel by ImageMagick: 202, 159, 90. */
+/* A gradient of 20 x 10 with EXIF orientation 6; and a first pixel by ImageMagick: 202, 159, 90. */
 static void webp_is_turned_and_run_length_bmp_read(void **state)
 {
     (void)state;

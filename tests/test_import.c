@@ -1,5 +1,4 @@
-/* Heights from picture files that are read row by row: the same bits as from the whole picture, without ever
-   holding it. */
+/* Heights from picture files read row by row: the same bits as from the whole picture, without storing it. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -94,8 +93,8 @@ static void rows_give_the_same_heights_as_the_whole_picture(void **state)
 
 enum { WIDE = 70, TALL = 1300, LAYERS = 6 };
 
-/* Channel c is c + row / 8, with the least of a column in it; Z is 0 but at the bottom, nil is all 0; and not every
-   value is finite. */
+/* Channel c is c + row / 8, with the lowest value of a column in it; Z is 0 except at the bottom, nil is all 0; and
+   some values are not finite. */
 static bool layer_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
     float *to = out;
@@ -143,7 +142,7 @@ static void rows_are_of_the_channels_and_the_part_that_are_wished_for(void **sta
     }
 }
 
-/* Row by row, since both ways above go through the same loop. */
+/* Compared with the definition, since both ways above share one loop. */
 static void rows_have_the_values_of_the_file(void **state)
 {
     (void)state;
@@ -195,7 +194,7 @@ static void it_is_told_where_all_that_was_taken_is_0(void **state)
     assert_non_null(strstr(err.text, "layers.exr: "));
 }
 
-/* Codes that a label makes heights of. */
+/* Codes that a label converts to heights. */
 static void rows_get_the_range_of_their_label(void **state)
 {
     (void)state;
@@ -239,7 +238,7 @@ static void a_picture_that_breaks_off_is_an_error(void **state)
     assert_null(wr_image_rows_open("missing.png", &all, &err));
 }
 
-/* Kilobytes that this process had at most since the last look. */
+/* Peak memory of this process in kilobytes since the last call. */
 static long peak(void)
 {
     long value = -1;
@@ -253,7 +252,7 @@ static long peak(void)
     return value;
 }
 
-/* All of one value but a corner. */
+/* Constant except for a corner. */
 static void write_flat(const char *path, int side)
 {
     WrError err;

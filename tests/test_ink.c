@@ -1,4 +1,4 @@
-/* Line drawings as PDF: the table of objects, the page, its lines beside those of the same drawing as SVG, words. */
+/* Line drawings as PDF: object table, page, lines compared with those of the same drawing as SVG, text. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "export/vector_drawing.h"
 
-/* The same drawing into a file of either kind: lines of two pens, a bend, places below 0, a word. */
+/* The same drawing into a file of either kind: lines of two pens, a bend, negative positions, a word. */
 static void draw(const char *path, int width, int height)
 {
     WrError err;
@@ -34,7 +34,7 @@ static void read_all(const char *path, char **text, size_t *length)
     if (!wr_file_read(path, 1 << 22, text, length, &err)) fail_msg("%s", err.text);
 }
 
-/* What stands where the table says. */
+/* The object at the position in the table. */
 static void every_object_is_where_the_table_says(void **state)
 {
     (void)state;

@@ -1,11 +1,10 @@
-/* test_kern_wide_look.c - how the kernels of several stages look tables and pictures up, against the stages in the plain C of
-   "ref". */
+/* test_kern_wide_look.c - table and texture fetches of fused kernels, against the stages in the plain C of "ref". */
 #include "kern_wide_help.h"
 #include "field/scheme_list.h"
 
 #include "render/textures/slope_pyramid.h"
 
-/* A colour picture, seen once and several times, in single numbers. */
+/* A colour texture, shown once and tiled, with single values. */
 static void colours_are_those_of_the_stages(void **state)
 {
     (void)state;
@@ -36,7 +35,7 @@ static void colours_are_those_of_the_stages(void **state)
     wr_free(want);
 }
 
-/* Slopes of a table, likewise; heights that are wanted too, axes that end, and places in double are not for these. */
+/* Slopes of a table, in the same ways; not for requests with heights, clamped axes, and positions in double. */
 static void slopes_are_those_of_the_stages(void **state)
 {
     (void)state;
@@ -83,7 +82,7 @@ static void slopes_are_those_of_the_stages(void **state)
 
 /* ---- filtered slopes ---- */
 
-/* Levels of numbers that nobody makes means of, their aprons as strange. */
+/* Mip levels of unrelated numbers, with unrelated aprons. */
 static WrPyramid some_pyramid(TestRandom *random, int width, int height)
 {
     WrPyramid pyramid = { 0 };
@@ -102,7 +101,7 @@ static void same_level(const WrStrip *got, int i, const WrStrip *want, int k, co
         fail_msg("%s: level %.9g, not %.9g", set, (double)got->level[i], (double)want->level[k]);
 }
 
-/* Pixels of many sizes, texels of any shape; how many are above level 0 is told. */
+/* Pixels of many sizes, texels of any shape; the number above level 0 is returned. */
 static void footprints_are_those_of_the_stages(void **state)
 {
     (void)state;
@@ -143,7 +142,7 @@ static void footprints_are_those_of_the_stages(void **state)
     wr_free(want);
 }
 
-/* What the stages make of it: the table's own, the pyramid's, or both. */
+/* Result of the stages: from the table, the pyramid, or both. */
 static void filtered_by_stages(const Sets *sets, const WrLook *look, WrStrip *far, WrStrip *strip)
 {
     *far = *strip;

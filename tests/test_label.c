@@ -1,4 +1,4 @@
-/* Labels: where ink falls, widths, cuts, letters that are none. */
+/* Text labels: position of pixels, widths, truncation, invalid characters. */
 #include "test.h"
 
 #include "base/error.h"

@@ -1,4 +1,4 @@
-/* Where presets are found: collections, groups, names, and the words when there is none. */
+/* Search for presets: collections, groups, names, and the message if there is none. */
 #include "test.h"
 
 #include "base/error.h"
@@ -12,7 +12,7 @@
 
 static const char small[] = "{\"version\": 3, \"settings\": {}}";
 
-/* A folder of one's own data with two presets, one of which hides one of MyPaint's. */
+/* A user data folder with two presets, one of which overrides one of MyPaint's. */
 static char *own_data(void)
 {
     WrError err;
@@ -91,7 +91,7 @@ static void groups_and_their_order_are_those_of_order_conf(void **state)
 {
     (void)state;
     WrLibrary *library = wr_library_new();
-    /* As the package's file says: "Group: Classic", and these two in this order. */
+    /* As in the package's file: "Group: Classic", and these two in this order. */
     const WrPresetEntry *pencil = entry_of(library, "mypaint2/classic/pencil");
     const WrPresetEntry *charcoal = entry_of(library, "mypaint2/classic/charcoal");
     assert_string_equal(pencil->group, "Classic");

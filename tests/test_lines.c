@@ -33,7 +33,7 @@ static void a_flat_table_from_above_is_a_plain_grid(void **state)
         const WrVectorDrawingPoint *last = p + drawing.stretches[s].count - 1;
         for (int i = 0; i < drawing.stretches[s].count; i++)
             assert_true(fabs((double)(s < 5 ? p[i].y - p->y : p[i].x - p->x)) < 1e-4);
-        /* 15/16 of a cell long in 300 x 200 less 4 % at either end: the height rules */
+        /* 15/16 of a cell long in 300 x 200 minus 4 % at either end: the height is the limit */
         double length = hypot((double)(last->x - p->x), (double)(last->y - p->y));
         assert_true(fabs(length - 200.0 * 0.92) < 1e-3);
     }
@@ -69,7 +69,7 @@ static void a_wall_hides_just_the_floor_in_its_shadow(void **state)
     enum {
         N = 64,
         WALL = 40
-    }; /* the wall's row; rows run down, so rows below WALL lie behind it */
+    }; /* the wall's row; rows run down, so rows below WALL are behind it */
     static float heights[N * N];
     memset(heights, 0, sizeof heights);
     for (int i = 0; i < N; i++) heights[WALL * N + i] = 0.1f;
@@ -114,7 +114,7 @@ static void a_single_texel_and_a_flat_edge_on_view_are_no_trouble(void **state)
     wr_drawing_fini(&drawing);
 }
 
-/* No more work than a row or a line lies between two looks at the cancel. */
+/* At most the work of a row or a line is done between two cancellation checks. */
 static void the_cancel_is_looked_at_row_by_row(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Masks: where they come from, and that edits reach them as they reach heights. */
+/* Masks: their sources, and edits of them as of heights. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"

@@ -1,6 +1,6 @@
-/* Mesh files of forms that other programs write and readers often get wrong; their right values by hand. Each file of
-   tests/cases/mesh is, where nothing else is said, the rectangle of (0,0,0), (2,0,0), (2,1,0), (0,1,0) with
-   u = x / 2, v = y. */
+/* Mesh files in forms that other programs write and readers often misread; correct values by hand. Unless stated
+   otherwise, each file of tests/cases/mesh is the rectangle of (0,0,0), (2,0,0), (2,1,0), (0,1,0) with u = x / 2, v =
+   y. */
 #include "test.h"
 
 #include "base/error.h"
@@ -67,9 +67,10 @@ static void expect_rectangle(const char *name, bool mapped)
     wr_mesh_fini(&mesh);
 }
 
-/* m_pose.gltf stores (y, -x, 0) for (x, y, 0). Its joints stand at (3, 0, 0) below a node that turns by a quarter, (a, b)
-   to (-b, a), and moves by (5, 0, 0); inverse bind matrices move by (-3, 5, z): (y, 5 - x) turns to (x - 5, y) and moves
-   to (x, y). z is 0 at the left end; at the right one the mean of 2 and -2. The mesh's own node is ignored. */
+/* m_pose.gltf stores (y, -x, 0) for (x, y, 0). Its joints are at (3, 0, 0) below a node that rotates by a quarter,
+   (a, b) to (-b, a), and moves by (5, 0, 0); inverse bind matrices move by (-3, 5, z): (y, 5 - x) is rotated to (x -
+   5, y) and moved to (x, y). z is 0 at the left end; at the right one the mean of 2 and -2. The mesh's own node is
+   ignored. */
 static void files_of_other_programs_are_the_rectangle(void **state)
 {
     static const char *const names[] = { "m_uv16.gltf",      "m_quant.gltf",  "m_skin.gltf",
@@ -164,7 +165,7 @@ static void odd_lines_of_obj_files_are_read(void **state)
     wr_mesh_fini(&mesh);
 }
 
-/* An L of six corners, area 3, cannot be a fan from each of its corners; nor may its dent be covered. */
+/* An L of six corners, area 3, is not a fan from each of its corners; its dent must not be covered. */
 static void dented_polygons_keep_their_area(void **state)
 {
     static const int x[6] = { 0, 2, 2, 1, 1, 0 }, y[6] = { 0, 0, 1, 1, 2, 2 };
@@ -177,7 +178,7 @@ static void dented_polygons_keep_their_area(void **state)
         WrMesh mesh = read_text("l.obj", wr_text_get(&text));
         assert_int_equal(mesh.triangle_count, 4);
         assert_near(area_of(&mesh), 3, 1e-9);
-        for (int i = 0; i < 4; i++) { /* none of them is turned over */
+        for (int i = 0; i < 4; i++) { /* none is reversed */
             WrMesh one = mesh;
             one.corners += i, one.triangle_count = 1;
             assert_true(area_of(&one) >= 0);
@@ -265,8 +266,8 @@ static uint32_t any(uint32_t *seed)
     return *seed >> 8;
 }
 
-/* A few bytes of each are others, or it is cut off: each is a mesh or one sentence, none a crash of the reader, and all
-   of them together take less time than one of them once did. */
+/* A few bytes of each are changed, or it is truncated: each is a mesh or one message, none crashes the reader, and
+   all of them together take less time than one of them once did. */
 static void no_damaged_ply_file_crashes_the_reader(void **state)
 {
     static const char *const names[] = { "p_comment.ply", "p_strips2.ply", "p_wedge2.ply" };

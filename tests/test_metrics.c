@@ -1,4 +1,4 @@
-/* How far a picture is from the reference: known differences. */
+/* Error measures between a picture and the reference: known differences. */
 #include "test.h"
 
 #include "accuracy/metrics.h"
@@ -8,7 +8,7 @@
 #define W 40
 #define H 30
 
-/* A picture and a reference that is the same, all of it covered. */
+/* A picture and an equal reference, fully covered. */
 typedef struct Pair {
     float rgba[W * H * 4], normal[W * H * 3];
     WrReference reference;
@@ -62,7 +62,7 @@ static void known_differences_have_their_mean_square_largest_and_percentile(void
 {
     (void)state;
     Pair *pair = equal_pair();
-    /* Pixel i is off by i / 1024 in one channel: exact in float. */
+    /* Pixel i has an error of i / 1024 in one channel: exact in float. */
     for (int i = 0; i < W * H; i++) pair->reference.rgba[4 * i + i % 3] += i / 1024.0;
     WrErrors e = measure(pair, NULL);
     const double n = W * H;
@@ -90,7 +90,7 @@ static void hc20_angles_are_kept_from_none_to_opposite(void **state)
     assert_near(e.angle_max, 180, 1e-12);
     assert_near(e.angle_p999, 180, 1e-12);
     assert_near(e.angle_rms, sqrt(squares), 1e-9);
-    for (int i = 0; i < W * H; i++) /* the least alone: acos would say 0 */
+    for (int i = 0; i < W * H; i++) /* only the lowest bit: acos would return 0 */
         if (i % 6 != 1) pair->normal[3 * i + 2] = 0;
     e = measure(pair, NULL);
     assert_near(e.angle_max, 1e-5, 1e-15);
@@ -105,7 +105,7 @@ static void outlines_are_told_apart_from_what_lies_within(void **state)
     (void)state;
     Pair *pair = equal_pair();
     double *theirs = pair->reference.rgba;
-    theirs[3] = 0.5, theirs[0] = 4; /* an edge that is far off */
+    theirs[3] = 0.5, theirs[0] = 4; /* an edge pixel with a large error */
     pair->rgba[4 + 3] = 0;          /* covered in the reference alone */
     for (int c = 0; c < 4; c++) pair->rgba[8 + c] = 0, theirs[8 + c] = 0; /* nothing in either */
     theirs[12] += 0.25;                                                   /* inside */
@@ -185,7 +185,7 @@ static void a_difference_picture_goes_from_black_to_white(void **state)
     wr_errors_picture(pair->rgba, &pair->reference, 512 / 1024.0, picture);
     wr_heat_colour(0.5, rgb);
     assert_memory_equal(picture + 3 * 256, rgb, 3);
-    for (int k = 0; k <= 100; k++) { /* lightness never falls */
+    for (int k = 0; k <= 100; k++) { /* lightness never decreases */
         wr_heat_colour(k / 100.0, rgb);
         assert_true(2 * rgb[0] + 7 * rgb[1] + rgb[2] >= 2 * last[0] + 7 * last[1] + last[2]);
         memcpy(last, rgb, 3);

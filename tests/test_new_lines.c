@@ -1,4 +1,4 @@
-/* New documents as the dialog makes them: every starter on every surface. */
+/* Lines for new documents from the dialog: every starter on every surface. */
 #include "test.h"
 
 #include "base/error.h"
@@ -57,7 +57,7 @@ static void every_starter_is_made_on_every_surface(void **state)
     }
 }
 
-/* A cell keeps its shape: on a plane to the bit, round a sphere and a tube as nearly as whole repeats can. */
+/* A cell keeps its shape: exactly on a plane; around a sphere and a tube as closely as whole repeats allow. */
 static void cells_keep_their_shape(void **state)
 {
     (void)state;
@@ -82,7 +82,7 @@ static void cells_keep_their_shape(void **state)
         const double stretched = wide * rv / ru / cell; /* 1: as it is */
         if (kind == 0) assert_near(stretched, 1, 1e-12);
         else if (ru > 1) assert_true(stretched > 0.66 && stretched < 1.51);
-        else assert_true(stretched < 1.51); /* a cell wider than the surface is pressed */
+        else assert_true(stretched < 1.51); /* a cell wider than the surface is compressed */
         wr_text_fini(&lines);
         wr_session_free(session);
     }

@@ -61,8 +61,8 @@ static void hc59_hashed_prescriptions_are_met_and_perlin_noise_is_zero(void **st
     assert_true(seen > 3000);
 }
 
-/* At a lattice point only its own bump counts, and that is 0 there with a slope of the fixed set's
- * length: c reach^4 |g|, the same at all. */
+/* At a lattice point only its own kernel contributes, with value 0 and a slope of the fixed set's length: c reach^4
+ * |g|, the same at all. */
 static void hc59_simplex_noise_is_zero_at_lattice_points_with_slopes_of_one_length(void **state)
 {
     (void)state;
@@ -272,8 +272,8 @@ static void what_is_not_finite_counts_as_zero(void **state)
         }
 }
 
-/* Ties in the order of fractions, and places where one of the skewed coordinates is whole: rounding
- * chooses the simplex on either side. */
+/* Ties in the order of fractions, and points where a skewed coordinate is an integer: rounding chooses the simplex on
+ * either side. */
 static void hc67_simplex_noise_is_continuous_across_faces(void **state)
 {
     (void)state;
@@ -298,8 +298,8 @@ static void hc67_simplex_noise_is_continuous_across_faces(void **state)
     }
 }
 
-/* The last place before a period's end against the first place of the next: values and slopes of all
- * noises that repeat, so also that the hash is blind to a shift of indices by (4m, m, m). */
+/* The last value before a period's end against the first of the next: values and slopes of all periodic noises; this
+ * also requires that the hash ignores index shifts by (4m, m, m). */
 static void a11_the_seam_of_a_period_is_smooth(void **state)
 {
     (void)state;
@@ -324,8 +324,8 @@ static void a11_the_seam_of_a_period_is_smooth(void **state)
     assert_true(seen > 5000);
 }
 
-/* Inside its first period the 3D noise is the one that does not repeat; so the test above is not about
- * a noise that was flattened at its edges. */
+/* Inside its first period the 3D noise equals the aperiodic one, so the test above does not use a noise flattened at
+ * its edges. */
 static void a_period_changes_simplex_noise_only_where_it_repeats(void **state)
 {
     (void)state;
@@ -336,7 +336,7 @@ static void a_period_changes_simplex_noise_only_where_it_repeats(void **state)
     WrNoise plain = { .kind = WR_NOISE_SIMPLEX, .dim = 3 };
     int differ = 0;
     for (int k = 0; k < 500; k++) {
-        /* Here 6 q_a - sum of q lies between 0 and the period's 6 P. */
+        /* Here 6 q_a - sum of q is between 0 and the period's 6 P. */
         double t[3] = { 2 + 5 * test_random(&r), 2 + 8 * test_random(&r),
                         2 + 11 * test_random(&r) };
         assert_true(same_bits(wr_noise_at(&repeats, t, NULL), wr_noise_at(&plain, t, NULL)));

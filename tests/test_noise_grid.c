@@ -16,7 +16,7 @@ static WrOctavesPlan plan_of(const WrOctaves *octaves)
     return plan;
 }
 
-/* The bounds that grid.h states. */
+/* The bounds stated in grid.h. */
 static void tolerances(const WrOctavesPlan *plan, double *height, double slope[2])
 {
     double amplitudes = 0.0, sloped[2] = { 0 };
@@ -67,7 +67,7 @@ static void a_grid_of_any_kind_is_the_point_function_at_texel_centres(void **sta
                 }
 }
 
-/* On creases a float and a double may fall on either side of 0: one texel in 2000 may have another slope. */
+/* On creases a float and a double may be on either side of 0: one texel in 2000 may have another slope. */
 static void grids_of_every_mode_are_the_point_function(void **state)
 {
     (void)state;
@@ -179,8 +179,8 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
     }
 }
 
-/* Half the texels of 4 cells a texel along x lie on the lattice; and lattices finer than texels go
- * another way than coarse ones. */
+/* Half of the texels of 4 cells per texel along x are on the lattice; and lattices finer than texels use another code
+ * path than coarse ones. */
 static void hc63_fine_lattices_are_filled_too(void **state)
 {
     (void)state;

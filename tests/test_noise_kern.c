@@ -1,4 +1,4 @@
-/* The noise's inner loops: every instruction set that this processor has gives the bits of the plain one. */
+/* The noise's inner loops: every instruction set of this processor is bit-identical to the plain one. */
 #include "test.h"
 
 #include "noise/octave_kernels.h"
@@ -15,7 +15,7 @@ static WrOctave octave_of(WrNoiseKind kind, WrFade fade, double cells)
     return octave;
 }
 
-/* All that a row of texels goes through, with one set. */
+/* All processing of a row of texels, with one set. */
 typedef struct Made {
     WrNoiseColumns columns;
     WrNoiseLattice near, far;
@@ -60,7 +60,7 @@ static void assert_same_row(const Made *a, const Made *b)
     assert_memory_equal(a->magnitudes, b->magnitudes, sizeof a->magnitudes);
 }
 
-/* From cells that span the strip to one cell a texel, where vectors must not be dealt out of few. */
+/* From cells that span the strip to one cell per texel, where gather from few vectors is not possible. */
 static void all_instruction_sets_give_the_same_bits(void **state)
 {
     (void)state;
@@ -89,7 +89,7 @@ static void the_plain_set_is_always_there_and_the_best_one_is_among_them(void **
     assert_true(found);
 }
 
-/* Rows of texels counted in at once, against the steps one by one with the plain set. */
+/* Fused addition of rows of texels, against the separate steps with the plain set. */
 static void counting_rows_in_at_once_gives_the_bits_of_the_steps(void **state)
 {
     (void)state;
@@ -126,7 +126,7 @@ static void counting_rows_in_at_once_gives_the_bits_of_the_steps(void **state)
             }
 }
 
-/* Places of rows, and heights brought to their range. */
+/* Positions of rows, and heights scaled to their range. */
 static void rows_and_scales_are_their_formulas(void **state)
 {
     (void)state;

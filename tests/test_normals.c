@@ -12,7 +12,7 @@ static const WrGenerateJob alone = { .pool = NULL };
 /* A height with its slopes at x, y (down), 0..1. */
 typedef double (*Surface)(double x, double y, double *fx, double *fy);
 
-/* Waves that meet themselves; no symmetry of either axis. */
+/* Periodic waves without symmetry about either axis. */
 static double waves(double x, double y, double *fx, double *fy)
 {
     double a = tau * (2 * x + y), b = tau * (x - 3 * y) + 1.0, c = tau * 4 * x + 0.5;
@@ -21,7 +21,7 @@ static double waves(double x, double y, double *fx, double *fy)
     return 0.1 * sin(a) + 0.05 * cos(b) + 0.02 * sin(c);
 }
 
-/* A hill on a slope, which does not. */
+/* A hill on a slope, not periodic. */
 static double hill(double x, double y, double *fx, double *fy)
 {
     double a = x - 0.3, b = y - 0.6, e = 0.5 * exp(-4.0 * (a * a + b * b));
@@ -48,7 +48,7 @@ static WrIntegral usual(const WrNormals *n, WrEnds ends)
     return (WrIntegral){ .ends = { ends, ends }, .unit = { 1.0 / n->width, 1.0 / n->height } };
 }
 
-/* Largest error of the heights, but for a constant. */
+/* Largest error of the heights, up to a constant. */
 static double error_of(Surface surface, int width, int height, WrEnds ends)
 {
     WrNormals n = slopes_of(surface, width, height);
@@ -87,7 +87,7 @@ static void free_heights_come_back_to_third_order_or_better(void **state)
 static void slopes_by_central_differences_give_their_heights_exactly(void **state)
 {
     (void)state;
-    enum { W = 27, H = 35 }; /* odd, so that no height is without a slope */
+    enum { W = 27, H = 35 }; /* odd, so that every height has a slope */
     TestRandom r = { 3 };
     double f[H][W], mean = 0.0;
     WrNormals n = slopes_of(waves, W, H);
@@ -108,7 +108,7 @@ static void slopes_by_central_differences_give_their_heights_exactly(void **stat
     wr_normals_fini(&n);
 }
 
-/* p = -psi_y, q = psi_x runs round in circles: no height has any of it. */
+/* p = -psi_y, q = psi_x is a pure rotation: no height explains any of it. */
 static void what_no_height_can_explain_is_told_as_an_angle(void **state)
 {
     (void)state;
@@ -130,7 +130,7 @@ static void what_no_height_can_explain_is_told_as_an_angle(void **state)
     wr_normals_fini(&n);
 }
 
-/* A lean of atan(0.1): taken off a ring and told, kept on a sheet. */
+/* A tilt of atan(0.1): removed from a ring with a note, kept on an open axis. */
 static void a_lean_is_kept_with_free_edges_and_told_on_a_ring(void **state)
 {
     (void)state;
@@ -168,7 +168,7 @@ static void maps_of_all_small_sizes_are_integrated(void **state)
 
 /* ---- maps ---- */
 
-/* A map as tools write it: codes of 8 bits, green up or down. */
+/* A map as written by tools: 8-bit codes, green up or down. */
 static WrImage *map_of(Surface surface, int size, bool up)
 {
     WrImage *image = wr_image_new(size, size, 3, NULL);
@@ -296,7 +296,7 @@ static WrField *heights_of(const WrImage *map, double height, const char *y, Sai
     return relief.heights;
 }
 
-/* Codes of 8 bits are off by 1/510 at most; heights by far less than that times the map's width. */
+/* 8-bit codes have an error of at most 1/510; heights far less than that times the map's width. */
 static void a_file_gives_heights_in_table_units_and_tells_what_it_found(void **state)
 {
     (void)state;
@@ -322,7 +322,7 @@ static void a_file_gives_heights_in_table_units_and_tells_what_it_found(void **s
     }
 }
 
-/* Rough ground by central differences, where the two ways of taking slopes part. */
+/* Rough ground by central differences, where the two kinds of slopes differ. */
 static double jagged(double x, double y, double *fx, double *fy)
 {
     double f[3][3];

@@ -1,4 +1,4 @@
-/* The table operations: their table, and what all of them keep to. */
+/* The table operations: their table, and common properties. */
 #include "test.h"
 #include "test_ops_tables.h"
 
@@ -112,7 +112,7 @@ static void heights_come_out_the_same_for_any_number_of_threads(void **state)
     wr_field_free(in);
 }
 
-/* The rolled table is made anew, with another level: where heights are kept must not show either. */
+/* The rolled table is built anew, with another level: the storage of heights must not matter either. */
 static void a_rolled_table_gives_the_rolled_result(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void assert_same_tiles(const WrField *a, const WrField *b, const char *na
     assert_true(same_bits(wr_field_level(a), wr_field_level(b)));
 }
 
-/* Heights that binary fractions do not hold, -0, and the largest for which filters are exact. */
+/* Heights without exact binary fractions, -0, and the largest for which filters are exact. */
 static void filters_leave_flat_tables_tile_by_tile_as_they_are(void **state)
 {
     (void)state;
@@ -210,7 +210,7 @@ static void a_local_filter_changes_only_the_tiles_in_its_reach(void **state)
     wr_field_set(in, 500, 500, 2.0f); /* tile 7, 7, texel 52, 52 */
     wr_field_set(in, 999, 2, 2.0f);   /* tile 15, 0, at both seams */
     wr_field_tile_write(in, 3, 12);
-    WrField *out = run("blur", in, 2.0); /* reaches 8 texels */
+    WrField *out = run("blur", in, 2.0); /* a support of 8 texels */
     for (int ty = 0; ty < 16; ty++)
         for (int tx = 0; tx < 16; tx++) {
             bool near_seam = (tx == 0 || tx == 15) && (ty == 0 || ty == 15);
@@ -289,7 +289,7 @@ static void a_mask_without_tiles_counts_with_its_level(void **state)
     wr_field_free(in);
 }
 
-/* Sets *stop at report number `at`; notes that fractions rise from 0 to 1. */
+/* Sets *stop at report number `at`; checks that fractions increase from 0 to 1. */
 typedef struct Watch {
     int reports, at, stop;
     double last;

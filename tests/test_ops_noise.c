@@ -1,4 +1,4 @@
-/* Noise and warp: against sums of noise at single points in double, and a cubic of this file's own. */
+/* Noise and warp: against sums of noise at single points in double, and an independent cubic. */
 #include "test.h"
 #include "test_ops_tables.h"
 
@@ -86,7 +86,7 @@ static void warp_takes_heights_from_where_the_noises_point(void **state)
             for (int i = 0; i < 91; i++) {
                 const double du = amount * noise_at(&plan[0], in, i, j) / plan[0].bound;
                 const double dv = amount * noise_at(&plan[1], in, i, j) / plan[1].bound;
-                /* to the right and up; rows run down. Linear ones have a crease of slope 1 or so */
+                /* to the right and up; rows run down. Linear ones have a crease of slope about 1 */
                 assert_near(wr_field_get(out, i, j), between(in, i + du, j - dv, linear), 1e-4);
                 most = fmax(most, fmax(fabs(du), fabs(dv)));
             }
@@ -96,7 +96,7 @@ static void warp_takes_heights_from_where_the_noises_point(void **state)
     wr_field_free(in);
 }
 
-/* The farthest that a height can come from, and no farther; seeds enough for the ends to be seen. */
+/* The largest distance that a height can move, and no more; enough seeds to reach the ends. */
 static void warp_moves_no_height_farther_than_it_says(void **state)
 {
     (void)state;
@@ -114,7 +114,7 @@ static void warp_moves_no_height_farther_than_it_says(void **state)
     wr_field_free(in);
 }
 
-/* A coverage that is 0 here and 1 there, moved by a cubic that overshoots. */
+/* A coverage of 0s and 1s, warped by a cubic that overshoots. */
 static void a_coverage_stays_within_0_and_1_though_its_warp_overshoots(void **state)
 {
     (void)state;

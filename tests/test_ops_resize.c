@@ -40,7 +40,7 @@ static void flat_tables_stay_flat_and_without_tiles(void **state)
     wr_field_free(in);
 }
 
-/* Weights add to exactly 1 in every order of summation: no flat table changes in any bit. */
+/* Weights add up to exactly 1 in every order of summation: no bit of a flat table changes. */
 static void flat_tables_of_all_heights_stay_flat(void **state)
 {
     (void)state;
@@ -56,7 +56,7 @@ static void flat_tables_of_all_heights_stay_flat(void **state)
     }
 }
 
-/* Fewer texels than the filter has taps: periodic they come round again, clamped they are repeated. */
+/* Fewer texels than filter taps: a periodic axis wraps around, a clamped one repeats its ends. */
 static void tables_smaller_than_the_filter_wrap_or_repeat_their_ends(void **state)
 {
     (void)state;
@@ -97,7 +97,7 @@ static void a_box_shrinks_to_the_mean_of_what_it_covers(void **state)
     wr_field_free(out);
 }
 
-/* Interpolation through the samples; a clamped axis repeats its ends, so only the inside counts. */
+/* Interpolation through the samples; a clamped axis repeats its ends, so only the inside is checked. */
 static void growing_keeps_a_ramp_a_ramp(void **state)
 {
     (void)state;
@@ -142,8 +142,8 @@ static WrField *sine_table(int width, int height)
     return field;
 }
 
-/* The same function sampled at any size, texel centres and all: a shift of half a texel would show as
-   0.02. The error of bilinear interpolation is at most (h^2/8)(|Fxx| + |Fyy|). */
+/* The same function sampled at any size with the same texel centres: a shift by half a texel would show as 0.02. The
+   error of bilinear interpolation is at most (h^2/8)(|Fxx| + |Fyy|). */
 static void a_sine_keeps_its_place_and_shape_at_any_size(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void up_and_down_again_is_the_table(void **state)
     wr_field_free(in);
 }
 
-/* Of a checkerboard too fine for the new size only the mean may stay: no moire. */
+/* For a checkerboard too fine for the new size only the mean may remain: no moire. */
 static void shrinking_does_not_alias(void **state)
 {
     (void)state;

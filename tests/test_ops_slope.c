@@ -1,4 +1,4 @@
-/* The slope limit: its bound, that nothing higher (lower) keeps it, and the formula it solves. */
+/* The slope limit: its bound, maximality (minimality), and the formula it solves. */
 #include "test.h"
 #include "test_ops_tables.h"
 
@@ -9,7 +9,7 @@ enum { BELOW, ABOVE, MEAN };
 static const int steps[8][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 },  { 0, -1 },
                                  { 1, 1 }, { -1, 1 }, { 1, -1 }, { -1, -1 } };
 
-/* The neighbour in direction k, if there is one: beyond a clamped edge is nothing new. */
+/* The neighbour in direction k, if there is one: none beyond a clamped edge. */
 static bool neighbour(const WrField *field, int i, int j, int k, float *height)
 {
     int x = i + steps[k][0], y = j + steps[k][1];
@@ -58,7 +58,7 @@ static void no_step_is_steeper_than_the_limit(void **state)
                 }
 }
 
-/* Each texel is F's, or stands at the bound above a neighbour: raised, it would break one or the other. */
+/* Each texel has F's height, or is at the bound above a neighbour: raising it would violate one or the other. */
 static void no_texel_below_could_be_higher(void **state)
 {
     (void)state;
@@ -85,7 +85,7 @@ static void no_texel_below_could_be_higher(void **state)
         }
 }
 
-/* Length of the shortest way by steps of 1 and sqrt(2), on an axis that may wrap. */
+/* Length of the shortest path by steps of 1 and sqrt(2), on an axis that may wrap. */
 static double way(int dx, int dy, int width, int height, bool wrap_u, bool wrap_v)
 {
     dx = abs(dx), dy = abs(dy);
@@ -101,7 +101,7 @@ static void it_is_the_least_of_all_cones(void **state)
     enum { W = 41, H = 33 };
     for (int wraps = 0; wraps < 4; wraps++) {
         WrField *in = noisy_table(W, H, wraps & 1 ? P : C, wraps & 2 ? P : C, 3);
-        wr_field_set(in, 3, 30, -4.0f); /* a deep hole, felt all over the table */
+        wr_field_set(in, 3, 30, -4.0f); /* a deep hole, with effect on the whole table */
         WrField *out = run("slope-limit", in, 0.05, BELOW);
         for (int p = 0; p < W * H; p += 5) {
             double least = 1e9;

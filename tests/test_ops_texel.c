@@ -1,4 +1,4 @@
-/* The table operations that move texels or change each by itself. */
+/* Table operations that move texels or change each one separately. */
 #include "test.h"
 
 #include "test_ops_tables.h"

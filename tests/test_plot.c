@@ -1,4 +1,5 @@
-/* The plot of error against time: every name in the picture, none over another, each number tied to its own point. */
+/* The plot of error against time: all labels inside the picture, without overlaps, each number connected to its own
+   point. */
 #include "test.h"
 
 #include "accuracy/plot_labels.h"
@@ -6,7 +7,7 @@
 #include "base/memory.h"
 
 #define MOST 60
-/* A character of the plot's typeface, of its size in points: wider than any setting has them on the average. */
+/* Width of a character relative to the font size: more than the average of any setting's text. */
 #define CHARACTER 0.83
 #define LINE 1.5
 
@@ -14,7 +15,7 @@
 
 static const WrPlotBox frame = { 100, 0, 985, 590 };
 
-/* Points as ladders have them: many at one height, the front falling from left to right. */
+/* Points as in ladders: many at one height, the front falling from left to right. */
 static int draw_points(TestRandom *random, WrPlotSpot *out, int numbers, double crowd)
 {
     const int count = numbers + (int)(test_random(random) * (MOST - numbers));
@@ -39,7 +40,7 @@ static double far_from(WrPlotSpot a, WrPlotSpot b)
     return hypot(a.x - b.x, a.y - b.y);
 }
 
-/* How many of the numbers stand nearer to another point than to their own. */
+/* Number of labels nearer to another point than to their own. */
 static int check_places(const WrPlotSpot *points, int count, int numbers, const WrPlotBox *taken,
                         const WrPlotSpot *places)
 {
@@ -78,7 +79,7 @@ static void numbers_stand_free_and_near_their_points(void **state)
         const int count = draw_points(&random, points, numbers, crowd);
         wr_plot_number_places(&frame, points, count, numbers, &taken, 1, places);
         const int here = check_places(points, count, numbers, &taken, places);
-        strayed += crowd == 1 ? here : 0; /* in a crowd they must; the line leads to them */
+        strayed += crowd == 1 ? here : 0; /* in a crowd they must; a line connects them */
         all += crowd == 1 ? numbers : 0;
     }
     assert_true(strayed * 100 < all);
@@ -95,7 +96,7 @@ static void a_number_alone_stands_beside_its_point(void **state)
 
 /* ---- the whole script ---- */
 
-/* A ladder with so many on its front, their settings as long as they can be. */
+/* A ladder with many settings on its front, with names of maximal length. */
 static void make_ladder(WrLadder *ladder, int fronts, const char *setting, bool present_on_front)
 {
     *ladder = (WrLadder){ .width = 256, .height = 256, .threads = 1 };
@@ -123,7 +124,7 @@ static double number_after(const char *at, const char *word)
     return strtod(found + strlen(word), NULL);
 }
 
-/* "set label 5 'text' ... at screen X, screen Y [left|center|right] font ',SIZE'" */
+/* Parse "set label 5 'text' ... at screen X, screen Y [left|center|right] font ',SIZE'". */
 static void read_label(const char *line, double width, double height, Label *out)
 {
     const char *from = strchr(line, '\'') + 1, *at = strstr(from, "' "), *end = strchr(line, '\n');
@@ -162,7 +163,7 @@ static int read_labels(const char *script, Label *out, int room)
     return count;
 }
 
-/* All of a setting is told, however many lines that takes. */
+/* A setting is printed completely, in as many lines as necessary. */
 static void check_told(const Label *labels, int count, const char *setting)
 {
     char told[1000] = "";

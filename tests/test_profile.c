@@ -1,4 +1,4 @@
-/* Profiles of surfaces of revolution: what they go through, where they are smooth, limits on the axis, refusals. */
+/* Profiles of surfaces of revolution: interpolation, smoothness, limits on the axis, refusals. */
 #include "test.h"
 #include "test_surface_points.h"
 
@@ -60,7 +60,7 @@ static void the_curve_goes_through_its_points_with_continuous_curvature(void **s
     drop(&shape);
 }
 
-/* Against differences of the points themselves, also across corners' pieces. */
+/* Against differences of the points, also across corners' pieces. */
 static void derivatives_meet_differences(void **state)
 {
     (void)state;
@@ -211,7 +211,7 @@ static void what_makes_no_profile_is_refused_with_its_place(void **state)
     wr_text_fini(&many);
 }
 
-/* Any bytes: an error or a surface that is finite all over. */
+/* Any bytes: an error, or a surface that is finite everywhere. */
 static void noise_is_refused_or_finite(void **state)
 {
     (void)state;

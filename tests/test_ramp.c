@@ -1,4 +1,4 @@
-/* Ramps against their closed forms; where they jump across the edges and where they do not. */
+/* Ramps against their closed forms; their jumps across the edges. */
 #include "test.h"
 
 #include "base/error.h"
@@ -90,7 +90,7 @@ static void a_fold_leads_up_the_way_and_down_the_rest_of_the_way_round(void **st
         assert_near(wr_field_get(f, i, 7), 1 + 2 * t, 1e-6);
     }
     wr_field_free(f);
-    f = made(WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, /* the other way, across the edge */
+    f = made(WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, /* in the other direction, across the edge */
              (WrRamp){ WR_RAMP_LINEAR, 0.5, 0.25, 0.5, -0.25, 0, 1, true });
     for (int j = 0; j < H; j++) {
         double v = v_of(j), t = v > 0.75 ? (1.25 - v) / 0.5 : v > 0.25 ? (v - 0.25) / 0.5 : 0;
@@ -124,7 +124,7 @@ static void folds_never_jump_and_lead_from_low_to_high(void **state)
         assert_true(largest_step(f) <= 1 / sqrt(l2) + 1e-6); /* the plain one neither */
         wr_field_free(f);
     }
-    /* low at from, high at to, exactly, where both are centres of texels */
+    /* low at from, high at to, exactly, where both are texel centres */
     WrField *f =
         made(WR_WRAP_PERIODIC, WR_WRAP_PERIODIC,
              (WrRamp){ WR_RAMP_LINEAR, u_of(10), v_of(50), u_of(70), v_of(20), -1, 4, true });
@@ -179,7 +179,7 @@ static void a_folded_cone_jumps_nowhere_but_at_its_four_tips(void **state)
     for (int j = 0; j < H; j++)
         for (int i = 0; i < W; i++) {
             double r = 1e9;
-            for (int k = 0; k < 36; k++) /* tips every half table */
+            for (int k = 0; k < 36; k++) /* tips at every half table */
                 r = fmin(r, hypot(W * (u_of(i) - 0.25) + W / 2 * (k % 6 - 3),
                                   H * (v_of(j) - 0.5) + H / 2 * (k / 6 - 3)));
             double here = wr_field_get(f, i, j);

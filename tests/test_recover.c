@@ -1,4 +1,4 @@
-/* Journals that were left behind: listing, claims, kept files, leftovers, trials. */
+/* Journals left by ended programs: list, locks, kept files, leftovers, test runs. */
 #include "test.h"
 #include "journal_help.h"
 
@@ -10,7 +10,7 @@
 
 /* ---- who holds a journal ---- */
 
-/* A child that begins a journal, says where, and waits to be killed. */
+/* A child that begins a journal, reports its path, and waits to be killed. */
 static pid_t hold_elsewhere(const char *folder, char *path, volatile long *ready)
 {
     pid_t child = fork_bound();
@@ -44,14 +44,14 @@ static void a_journal_in_use_is_neither_listed_nor_claimed_until_its_program_die
     wr_journal_list_fini(&list);
     WrJournalClaim *claim = wr_journal_claim(path, &err);
     assert_non_null(claim);
-    assert_true(wr_journal_list(*state, &list, &err)); /* now we hold it */
+    assert_true(wr_journal_list(*state, &list, &err)); /* now locked by this process */
     assert_int_equal(list.count, 0);
     wr_journal_list_fini(&list);
     char *files = files_of(path), *copy = in(files, "copy");
     assert_int_equal(mkdir(files, 0700), 0);
     write_bytes(copy, "x", 1);
     assert_true(wr_journal_claim_remove(claim, &err));
-    assert_int_equal(count_entries(*state), 0); /* its files are gone with it */
+    assert_int_equal(count_entries(*state), 0); /* its files are removed with it */
     wr_free(files), wr_free(copy);
     munmap(memory, 1024);
 }
@@ -88,7 +88,7 @@ static void a_journal_is_claimed_by_one_of_several_programs(void **state)
     munmap(race, sizeof *race);
 }
 
-/* Between opening and locking it another may have got its name. */
+/* Between opening and locking, its name may have passed to another file. */
 static void a_lock_on_a_file_that_lost_its_name_is_none(void **state)
 {
     char *path = in(*state, "a.wj"), *other = in(*state, "b.wj");
@@ -170,8 +170,7 @@ static void old_journals_of_what_was_saved_are_removed_others_never(void **state
     WrJournalStart empty = { .kind = WR_JOURNAL_EMPTY };
     WrJournalList list;
     int64_t now = (int64_t)time(NULL);
-    /* Saved and old; saved just now; old and not saved; saved, and then more was done, or lines are lost, or could
-       not be written. */
+    /* Saved and old; saved just now; old and not saved; saved, with later work, lost lines, or failed writes. */
     for (int i = 0; i < 6; i++) {
         WrJournalOptions options = { .folder = *state, .sync_seconds = -1 };
         WrJournal *journal = wr_journal_begin(&options, &empty);
@@ -206,7 +205,7 @@ static void a_listing_shows_damage_and_passes_over_what_is_no_journal(void **sta
 {
     WrJournalList list;
     WrJournalStart empty = { .kind = WR_JOURNAL_EMPTY };
-    leave_at(*state, &empty, 2, false, 4000); /* old, but there is something in it */
+    leave_at(*state, &empty, 2, false, 4000); /* old, but not empty */
     assert_true(wr_journal_list(*state, &list, NULL));
     FILE *file = fopen(list.entries[0].path, "a");
     assert_true(file && fputs("torn", file) >= 0 && fclose(file) == 0);
@@ -268,7 +267,7 @@ static void leftovers_of_killed_programs_are_removed_after_a_day(void **state)
         }
         if (old[i]) make_old(paths[i]);
     }
-    int held = open(paths[7], O_RDONLY); /* a program that takes a day to begin */
+    int held = open(paths[7], O_RDONLY); /* a program that takes a day to start */
     assert_int_equal(flock(held, LOCK_EX), 0);
     wr_journal_finish(begin_at(*state));
     close(held);
@@ -280,7 +279,7 @@ static void leftovers_of_killed_programs_are_removed_after_a_day(void **state)
 
 /* ---- kept files ---- */
 
-/* A file with that content; its SHA-256 in hex. Caller frees the path. */
+/* A file with that content; its SHA-256 in hex. The caller frees the path. */
 static char *make_file(const char *folder, const char *name, const char *content, char hex[65])
 {
     char *path = in(folder, name);
@@ -310,7 +309,7 @@ static void kept_files_are_shared_and_go_with_their_last_journal(void **state)
     struct stat one, two;
     WrJournal *first = begin_at(folder), *second = begin_at(folder);
     assert_true(wr_journal_keep_file(first, file, hex, NULL));
-    assert_true(wr_journal_keep_file(first, file, hex, NULL));  /* again: nothing to do */
+    assert_true(wr_journal_keep_file(first, file, hex, NULL));  /* again: no work */
     write_bytes(file, "other pixels", 12);                      /* painted over since */
     assert_true(wr_journal_keep_file(second, file, hex, NULL)); /* from the first one's copy */
     assert_kept(wr_journal_path(first), hex, "x/y.png", "pixels", &one);
@@ -494,7 +493,7 @@ static void a_trial_that_takes_too_long_is_ended(void **state)
     WrError err;
     assert_int_equal(wr_journal_trial(loops, &zero, 0.1, 0, &err), WR_EDIT_PREVIEW_TIMEOUT);
     assert_non_null(strstr(err.text, "0.1 s"));
-    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* nothing of it is left */
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* no child is left */
 }
 
 static void what_a_trial_starts_ends_with_it(void **state)
@@ -506,8 +505,7 @@ static void what_a_trial_starts_ends_with_it(void **state)
                      WR_EDIT_PREVIEW_TRUE);
     char path[64], line[512] = "";
     snprintf(path, sizeof path, "/proc/%ld/stat", (long)*started);
-    for (int i = 0; i < 2000;
-         i++) { /* gone, or ended and not yet taken note of by its new parent */
+    for (int i = 0; i < 2000; i++) { /* gone, or ended and not yet reaped by its new parent */
         FILE *file = fopen(path, "r");
         if (!file) return;
         if (!fgets(line, sizeof line, file)) line[0] = '\0';
@@ -519,7 +517,7 @@ static void what_a_trial_starts_ends_with_it(void **state)
 }
 
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-#define BOUNDED false /* sanitizers take terabytes of addresses */
+#define BOUNDED false /* sanitizers reserve terabytes of addresses */
 #else
 #define BOUNDED true
 #endif

@@ -1,6 +1,6 @@
-/* Killing the program loses at most the command under way. A child runs commands through a session with a
-   journal and is killed; the parent recovers and compares hashes with those that the commands gave when
-   nobody was killed. WR_FULL=1 takes the full counts, else a tenth. */
+/* A killed program loses at most the running command. A child runs commands through a session with a journal and is
+   killed; the parent recovers and compares hashes with those of an undisturbed run. WR_FULL=1 runs the full counts,
+   else a tenth. */
 #include "test.h"
 #include "recovery_help.h"
 
@@ -51,7 +51,7 @@ static int teardown(void **state)
 
 /* ---- commands ---- */
 
-/* A command that changes the document each time, or goes back and forth. */
+/* A command that changes the document each time, or an undo or redo. */
 static void make_line(TestRandom *random, int index, char *line, size_t size)
 {
     double a = test_random(random), b = test_random(random), c = test_random(random);
@@ -84,7 +84,7 @@ static void make_line(TestRandom *random, int index, char *line, size_t size)
 
 typedef struct Plan {
     char lines[COMMANDS][160];
-    WrHash hashes[COMMANDS + 1]; /* after so many commands */
+    WrHash hashes[COMMANDS + 1]; /* after each number of commands */
 } Plan;
 
 static WrSession *new_session(bool journal)
@@ -124,7 +124,7 @@ static Shared *share(void)
     return shared;
 }
 
-/* Run all commands in a child; it waits at the end to be killed. */
+/* Run all commands in a child; at the end it waits to be killed. */
 static pid_t start(const Plan *plan, Shared *shared)
 {
     shared->done = 0;
@@ -147,7 +147,7 @@ static void end(pid_t child)
     assert_true(WIFSIGNALED(status));
 }
 
-/* The one journal that is left, recovered: the document's hash. False if there is nothing to recover. */
+/* Recover the only journal: the document's hash. False if there is none. */
 static bool recovered(WrHash *hash, WrText *report)
 {
     WrRecoverable *found;
@@ -172,7 +172,7 @@ static bool recovered(WrHash *hash, WrText *report)
     return count == 1;
 }
 
-/* Is it the state after `least` commands, or one more? Different counts may give equal documents (undo). */
+/* The state must be that after `least` commands, or one more. Different counts may give equal documents (undo). */
 static void expect(const Plan *plan, int least, WrHash hash, const WrText *report)
 {
     for (int k = least; k <= least + 1 && k <= COMMANDS; k++)
@@ -208,7 +208,7 @@ static void kill_at_random_moments_loses_at_most_the_command_under_way(void **st
 
 /* ---- damage ---- */
 
-/* A journal of the whole plan, left as by a crash: its path. Caller frees. */
+/* A journal of the whole plan, left as by a crash: its path. The caller frees it. */
 static char *left_behind(const Plan *plan)
 {
     WrSession *session = new_session(true);
@@ -226,8 +226,8 @@ static void write_file(const char *path, const char *bytes, size_t length)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Recover from these bytes: must be some state of the plan, or nothing, or an error; never a crash. Returns
-   whether something came back. */
+/* Recover from these bytes: the result must be a state of the plan, or nothing, or an error; never a crash. Returns
+   true if a document was recovered. */
 static bool any_state(const Plan *plan, const char *path, const char *bytes, size_t length)
 {
     write_file(path, bytes, length);
@@ -240,7 +240,7 @@ static bool any_state(const Plan *plan, const char *path, const char *bytes, siz
     if (!known)
         fail_msg("%zu bytes: a state that never was (%s)", length, wr_text_get(&how.report));
     if (!good) assert_true(err.text[0] != '\0');
-    assert_int_equal(access(path, F_OK), 0); /* nobody has saved it yet */
+    assert_int_equal(access(path, F_OK), 0); /* not saved yet */
     wr_session_free(session);
     wr_recovered_fini(&how);
     return good;

@@ -1,4 +1,4 @@
-/* The reference against closed forms, against the meaning of its parts, and against the fast path. */
+/* The reference against closed forms, against the definitions of its parts, and against the fast path. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -30,7 +30,7 @@ static WrField *flat_field(void)
     return wr_field_new(4, 4, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
 }
 
-/* The object unturned, seen along -z, `size` scene units high. */
+/* The unrotated object, seen along -z, `size` scene units high. */
 static void look_straight(WrScene *scene, double size)
 {
     scene->posed = true;
@@ -140,7 +140,7 @@ static void the_middle_of_a_sphere_is_lit_as_by_hand(void **state)
     wr_scene_free(scene);
 }
 
-/* The nearest root of |eye + t d| = R by the schoolbook formula. */
+/* The nearest root of |eye + t d| = R by the quadratic formula. */
 static void a_sphere_in_perspective_is_hit_where_the_quadratic_says(void **state)
 {
     (void)state;
@@ -165,7 +165,7 @@ static void a_sphere_in_perspective_is_hit_where_the_quadratic_says(void **state
             assert_true(r.rgba[4 * (y * size + x) + 3] == (disc >= 0 ? 1 : 0));
             if (disc < 0) continue;
             WrVec3 p = v3_mad(e, d, (-b - sqrt(disc)) / a);
-            double bound = 1e-13 / sqrt(disc) + 1e-13; /* the root's own conditioning */
+            double bound = 1e-13 / sqrt(disc) + 1e-13; /* the conditioning of the root */
             assert_near(got[0], p.x, bound);
             assert_near(got[1], p.y, bound);
             assert_near(got[2], p.z, bound);
@@ -227,14 +227,16 @@ static void a_torus_is_hit_where_its_polynomial_is_zero(void **state)
             if (!hit || got.rgba[4 * (y * size + x) + 3] == 0) continue;
             double rho = sqrt(p.x * p.x + p.y * p.y), c = (rho - R) / r;
             WrVec3 want = { c * p.x / rho, c * p.y / rho, p.z / r };
-            if (fabs(v3_dot(want, ray.d)) < 0.05) continue; /* along the outline roots are soft */
+            if (fabs(v3_dot(want, ray.d)) < 0.05)
+                continue; /* near the silhouette roots are
+                                                               ill-conditioned */
             assert_near(n[0], want.x, 1e-9);
             assert_near(n[1], want.y, 1e-9);
             assert_near(n[2], want.z, 1e-9);
             hits++;
         }
     assert_true(hits > 2000);
-    assert_in_range(unlike, 0, 2); /* marching may step over a graze */
+    assert_in_range(unlike, 0, 2); /* marching may step over a tangential hit */
     assert_int_equal(got.lost, 0);
     wr_reference_view_fini(&view);
     wr_reference_fini(&got);
@@ -277,7 +279,7 @@ static void doubling_stops_when_the_picture_stands_still(void **state)
     assert_int_equal(r.samples, 2 * stopped);
     assert_false(r.converged);
     assert_true(r.last_rms < 0.004);
-    assert_true(isnan(fine.last_rms) && !fine.converged); /* one picture has no change to tell */
+    assert_true(isnan(fine.last_rms) && !fine.converged); /* a single picture has no change */
     wr_reference_fini(&r);
     wr_reference_fini(&coarse);
     wr_reference_fini(&fine);

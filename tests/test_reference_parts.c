@@ -45,7 +45,7 @@ static void hc58_the_spline_goes_through_every_sample(void **state)
     wr_scene_free(scene);
 }
 
-/* The quadratic goes on beyond the ends, and cubic splines hold it wholly. */
+/* The quadratic is extrapolated beyond the ends, and cubic splines reproduce it exactly. */
 static void a_quadratic_between_ends_is_exact_up_to_them(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static double spread_out(TestRandom *random, int range)
     return scalbn(m, (int)(test_random(random) * 2 * range) - range);
 }
 
-/* Of any size of height and slope, on points of every surface. */
+/* For any height and slope, at points of every surface. */
 static void normals_are_those_of_the_meaning(void **state)
 {
     (void)state;
@@ -182,7 +182,7 @@ static void a_probe_holds_the_formulas(void **state)
     wr_field_free(field);
 }
 
-/* The footprint is the derivative of the texel under the pixel by the pixel. */
+/* The footprint is the derivative of texel position by pixel position. */
 static void a_footprint_is_how_texels_move_with_the_pixel(void **state)
 {
     (void)state;
@@ -214,7 +214,8 @@ static void hc27_hc56_along_an_outline_a_footprint_stays_finite(void **state)
     scene->posed = true;
     scene->rotate_deg = (WrVec3){ 0, 0, 0 };
     scene->camera.size = 2;
-    for (int k = 0; k < 60; k++) { /* the rim at x = 105: ever nearer to it, and at the poles */
+    for (int k = 0; k < 60; k++) { /* the silhouette at x = 105: increasingly near to it, and at the
+                                      poles */
         const WrProbe p = probe(scene, field, 105 - scalbn(1, -k), 45);
         const WrProbe pole = probe(scene, field, 60, scalbn(1, -k));
         for (int i = 0; i < 4; i++)
@@ -227,7 +228,7 @@ static void hc27_hc56_along_an_outline_a_footprint_stays_finite(void **state)
     wr_field_free(field);
 }
 
-/* With F as a formula and the exact normal the scene's own intensity is the reference's. */
+/* With F as a formula and the exact normal, the scene's own intensity equals the reference's. */
 static void a_probes_light_is_the_pictures(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Bands of a picture: cut anywhere, on any threads, they hold the bits of the whole. */
+/* Bands of a picture: divided anywhere, on any threads, they are bit-identical to the whole. */
 #include "test.h"
 #include "test_render_cases.h"
 #include "test_render_scenes.h"
@@ -9,7 +9,7 @@ typedef struct Picture {
     int64_t covered;
 } Picture;
 
-/* Of rows of some height, in some order. */
+/* Bands of some height, in some order. */
 static void bands(const WrFrameRequest *whole, const Picture *expected, int threads, int step,
                   bool upwards, const char *what)
 {
@@ -101,7 +101,7 @@ static void bands_hold_the_bits_of_the_whole_picture(void **state)
     wr_field_free(field);
 }
 
-/* One renderer, asked for bands and whole pictures by turns, with and without `keep`. */
+/* One renderer alternately used for bands and whole pictures, with and without `keep`. */
 static void bands_and_whole_pictures_leave_each_other_alone(void **state)
 {
     (void)state;

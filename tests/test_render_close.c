@@ -1,5 +1,5 @@
-/* The renderer close by: the cone's tip, pictures of a millionth of the object, eyes a millionth of it away,
-   ground under one's feet. Objects of 1e-6 to 1e6 units, exact and fast arithmetic, every surface. */
+/* The renderer at close range: the cone's tip, pictures of a millionth of the object, eyes at a millionth of its
+   size, ground below the viewer. Objects of 1e-6 to 1e6 units, exact and fast arithmetic, every surface. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -31,7 +31,7 @@ static WrScene *posed_scene(const char *surface, double scale)
     return scene;
 }
 
-/* Not turned: a camera right above stays there. */
+/* Unrotated: a camera right above stays there. */
 static Shot shoot_straight(const WrScene *scene, const WrField *field, const char *isa)
 {
     WrError err = { "" };
@@ -68,7 +68,7 @@ static void expect_whole(WrScene *scene, const WrField *field, const char *what,
     wr_reference_fini(&reference);
 }
 
-/* From right above every ray meets the cone, however near its axis. */
+/* From right above every ray hits the cone, however near to its axis. */
 static void the_cones_tip_is_whole_from_above(void **state)
 {
     (void)state;
@@ -90,7 +90,7 @@ static void the_cones_tip_is_whole_from_above(void **state)
     wr_field_free(field);
 }
 
-/* A place of a surface that lies free, and the direction that it faces: in the world, not turned. */
+/* A visible point of a surface, and its normal in world space, unrotated. */
 static void place_of(const WrScene *scene, WrVec3 *p, WrVec3 *n, double *radius)
 {
     WrPlacement place;
@@ -108,14 +108,14 @@ static void place_of(const WrScene *scene, WrVec3 *p, WrVec3 *n, double *radius)
     *radius = place.radius;
 }
 
-/* Has it a size, and does it turn about a place that goes with it? */
+/* True if it has a size, and its centre scales with it. */
 static bool grows(const WrSurfaceInfo *info)
 {
     return !info->unit_sized && info->centre[0] == 0 && info->centre[1] == 0;
 }
 
-/* Looking straight at a place: through a window of 10^-k radii, and from 10^-k radii away. Curved surfaces
-   are seen through a grid of cells, whose chords are some 1e-5 radii off: eyes come no nearer to those. */
+/* Views straight at a point: through a window of 10^-k radii, and from a distance of 10^-k radii. Curved surfaces are
+   found through a grid of cells, whose chords have an error of about 1e-5 radii: eyes are no closer to those. */
 static void every_surface_fills_the_picture_from_close_by(void **state)
 {
     (void)state;
@@ -145,8 +145,8 @@ static void every_surface_fills_the_picture_from_close_by(void **state)
     wr_field_free(field);
 }
 
-/* An eye 0.5 above level ground: a pixel shows it if its ray goes down. The same ground as a bent patch goes
-   by cells, clipping and Newton's method. */
+/* An eye 0.5 above level ground: a pixel shows it if its ray goes down. The same ground as a bent patch uses cells,
+   clipping and Newton's method. */
 static void ground_is_seen_down_to_ones_feet(void **state)
 {
     (void)state;

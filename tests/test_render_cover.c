@@ -1,5 +1,5 @@
-/* Triangles into tiles, by every instruction set: the samples that whole numbers say, at the depth and the parameters that
-   double precision says; no sample twice and none left out between neighbours (HC85). */
+/* Triangle rasterisation into tiles, by every instruction set: the samples by exact integer arithmetic, depth and
+   parameters by double precision; no sample twice and none missing between neighbours (HC85). */
 #include "test.h"
 
 #include "base/error.h"
@@ -49,7 +49,8 @@ static int64_t left_of(const WrRasterVertex *a, const WrRasterVertex *b, int64_t
     return ((int64_t)b->x - a->x) * (y - a->y) - ((int64_t)b->y - a->y) * (x - a->x);
 }
 
-/* Is a sample on the edge itself the triangle's? Rows run down, the inside is on the right of an edge that goes up. */
+/* True if a sample on the edge belongs to the triangle. Rows run down; the inside is on the right of an edge that
+   goes up. */
 static bool owns(const WrRasterVertex *a, const WrRasterVertex *b)
 {
     return b->y < a->y || (b->y == a->y && b->x < a->x);
@@ -83,8 +84,8 @@ static void check_sample(const WrRasterVertex t[3], const Sheet *sheet, int x, i
         v += by * (double)t[k].v;
     }
     const double depth = perspective ? near : 1.0;
-    const double owned =
-        2.0 / (double)area; /* an edge that does not own its samples lies one unit further in */
+    /* an edge that does not own its samples is one unit further inside */
+    const double owned = 2.0 / (double)area;
     assert_near((double)sheet->close[at], near, 4e-6 + owned);
     assert_near((double)sheet->u[at], u / depth, 4e-5 + 8 * owned);
     assert_near((double)sheet->v[at], v / depth, 4e-5 + 8 * owned);
@@ -114,7 +115,7 @@ static const struct {
 } sets[] = { { "ref", false }, { "v1", false }, { "v2", false }, { "v3", false },
              { "v4", false },  { "v3", true },  { "v4", true } };
 
-/* Small ones go by vectors, those of some hundred samples one by one: both are met. */
+/* Small triangles use vectors, those of some hundred samples scalar code: both are tested. */
 static void triangles_cover_what_whole_numbers_say(void **state)
 {
     (void)state;
@@ -128,7 +129,7 @@ static void triangles_cover_what_whole_numbers_say(void **state)
     }
 }
 
-/* A fan about a point, whose rim's points lie on samples now and then: each sample is of one triangle at most. */
+/* A fan around a point, whose outer points are sometimes on samples: each sample belongs to at most one triangle. */
 static void neighbours_share_no_sample(void **state)
 {
     (void)state;
@@ -156,8 +157,7 @@ static void neighbours_share_no_sample(void **state)
     }
 }
 
-/* However near the eye is, only blocks that straddle the near plane have no box, though many vertices lie far outside the
-   view. */
+/* For any close eye, only blocks across the near plane have no box, though many vertices are far outside the view. */
 static void blocks_keep_their_boxes_near_the_eye(void **state)
 {
     (void)state;

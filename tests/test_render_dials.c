@@ -1,5 +1,5 @@
-/* test_render_dials.c - every rung of every dial on hard scenes: finite, unit, the same on any threads and
-   instruction set; the mask of blocks and the normals of a request; storage and visibility dials. */
+/* test_render_dials.c - every rung of every dial on hard scenes: finite, unit normals, independent of threads and
+   instruction set; block mask and normals of a request; storage and visibility dials. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -14,7 +14,7 @@
 
 #define SIDE 72
 
-/* A picture of any request; normals NULL: not wanted. */
+/* A picture for any request; normals NULL: not requested. */
 static Shot picture(const WrScene *scene, const WrField *field, const WrDials *dials, int side,
                     int threads, const char *isa, float *normals)
 {
@@ -37,7 +37,7 @@ static Shot picture(const WrScene *scene, const WrField *field, const WrDials *d
 
 typedef void (*Visit)(const WrScene *scene, const WrField *field, const char *what);
 
-/* Call for each rung of each dial, alone and with others that it needs to matter. */
+/* Call for each rung of each dial, alone and with other dials it depends on. */
 static void each_rung(const char *surface, const WrField *field, double height, Visit visit)
 {
     static const WrAntialias bases[] = { WR_AA_POINT, WR_AA_MOMENTS, WR_AA_ADAPTIVE, WR_AA_POINT };
@@ -82,7 +82,7 @@ static void expect_sound(const WrScene *scene, const WrField *field, const char 
         double x = (double)normals[3 * i], y = (double)normals[3 * i + 1];
         double len = sqrt(x * x + y * y + (double)normals[3 * i + 2] * (double)normals[3 * i + 2]);
         there += len > 0;
-        /* Of halves each member is off by 2^-11 of itself at most, so |n'| is off by 2^-11 of 1. */
+        /* Each half-float member has an error of at most 2^-11, so |n'| differs from 1 by at most 2^-11. */
         const double off = scene->dials.shading == WR_SHADING_HALF ? ldexp(1.01, -11) : 1e-5;
         if (len != 0 && !(fabs(len - 1) < off)) fail_msg("%s: |n'| = %g at %d", what, len, i);
     }
@@ -91,7 +91,7 @@ static void expect_sound(const WrScene *scene, const WrField *field, const char 
     wr_free(normals);
 }
 
-/* A table with all that a table may hold: a step, Nyquist, the largest numbers, a tiny one. */
+/* A table with extreme content: a step, Nyquist, the largest numbers, a tiny one. */
 static WrField *wild_field(int w, int h)
 {
     TestRandom random = { 7 };
@@ -183,7 +183,7 @@ static void every_rung_has_the_same_bits_on_any_threads_and_instruction_set(void
 
 static void expect_blocks(const WrScene *scene, const WrField *field, const char *what)
 {
-    if (scene->dials.arithmetic == WR_ARITHMETIC_FAST) return; /* bits are not promised there */
+    if (scene->dials.arithmetic == WR_ARITHMETIC_FAST) return; /* no bit identity there */
     const int blocks = (SIDE + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
     unsigned char only[(SIDE / WR_FRAME_BLOCK + 1) * (SIDE / WR_FRAME_BLOCK + 1)] = { 0 };
     Shot whole = picture(scene, field, NULL, SIDE, 2, "auto", NULL);
@@ -218,7 +218,7 @@ static void blocks_that_are_asked_for_have_the_bits_of_the_whole_picture(void **
     wr_field_free(field);
 }
 
-/* Meshes that are held for other samples, while view, surface and dials change between: the bits of a new renderer. */
+/* Meshes cached for other samples, while view, surface and dials change: bit-identical to a new renderer. */
 static void meshes_that_are_held_are_kept_up_to_date(void **state)
 {
     (void)state;
@@ -261,7 +261,7 @@ static void meshes_that_are_held_are_kept_up_to_date(void **state)
     wr_field_free(field);
 }
 
-/* Copies that are held from settings before, while the table is edited between: the bits of a new renderer. */
+/* Tables cached from earlier settings, while the table is edited: bit-identical to a new renderer. */
 static void copies_that_are_held_are_kept_up_to_date(void **state)
 {
     (void)state;
@@ -297,7 +297,7 @@ static void copies_that_are_held_are_kept_up_to_date(void **state)
     wr_field_free(field);
 }
 
-/* The plane's n' in closed form: (-Fu, -Fv, 1) made unit. */
+/* The plane's n' in closed form: (-Fu, -Fv, 1) normalised. */
 static void normals_are_those_of_the_formula_at_pixel_centres(void **state)
 {
     (void)state;
@@ -308,7 +308,7 @@ static void normals_are_those_of_the_formula_at_pixel_centres(void **state)
         for (int j = 0; j < 8; j++)
             for (int i = 0; i < 8; i++) wr_field_set(field, i, j, (float)i); /* Fu = 8 * 0.02 * 3 */
         scene->dials.aa = (WrAntialias)aa;
-        scene->lights[0].strength = 0; /* no light depends on n': it is worked out all the same */
+        scene->lights[0].strength = 0; /* no light depends on n': it is computed all the same */
         scene->camera.orthographic = true;
         Shot shot = picture(scene, field, NULL, SIDE, 2, "auto", normals);
         int right = 0, there = 0;
@@ -320,7 +320,7 @@ static void normals_are_those_of_the_formula_at_pixel_centres(void **state)
         }
         assert_true(there > 1000);
         if (aa != WR_AA_FILTER && aa != WR_AA_MOMENTS)
-            assert_true(right > there / 2); /* the seam's texels apart */
+            assert_true(right > there / 2); /* except the seam's texels */
         put_away(&shot);
         wr_scene_free(scene);
     }
@@ -330,7 +330,7 @@ static void normals_are_those_of_the_formula_at_pixel_centres(void **state)
 
 /* ---- heights of fewer bits -------------------------------------------------------------------------- */
 
-/* Root mean square difference of two pictures' normals, over covered pixels. */
+/* RMS difference of two pictures' normals over covered pixels. */
 static double normal_error(const WrScene *scene, const WrField *field, const WrDials *dials,
                            const float *want)
 {
@@ -374,8 +374,8 @@ static void hc51_hc52_fewer_bits_err_by_half_a_step_times_the_slopes_gain(void *
         dials.heights = (WrHeights)h;
         error[h] = normal_error(scene, field, &dials, want);
     }
-    /* Two slopes, each of rms step / sqrt(12) * sqrt(2) * n / 2, smoothed by the bilinear look-up (4/9
-       of the variance of independent texels); the normal moves as the slope does. */
+    /* Two slopes, each of rms step / sqrt(12) * sqrt(2) * n / 2, smoothed by bilinear interpolation (4/9 of the
+       variance of independent texels); the normal changes as the slope does. */
     double steps[WR_HEIGHTS_COUNT] = {
         [WR_HEIGHTS_HALF] = 1.0 / 2048, [WR_HEIGHTS_16] = 1.0 / 65535, [WR_HEIGHTS_8] = 1.0 / 255
     };
@@ -412,7 +412,7 @@ static void halves_are_the_nearest_halves(void **state)
     }
 }
 
-/* An edit refreshes the rounded table to the bits of a new one, ranges that move included. */
+/* An edit updates the quantized table bit-identically to a new one, also if the range changes. */
 static void rounded_tables_are_refreshed_to_the_bits_of_new_ones(void **state)
 {
     (void)state;
@@ -444,7 +444,8 @@ static int by_size(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* The error that four covered pixels in five stay under: rims, where the inversion is lost, apart. */
+/* The error not exceeded by four covered pixels in five: excludes silhouettes, where the inversion is
+   ill-conditioned. */
 static double usual_error(const WrScene *scene, const WrField *field, const WrDials *dials,
                           const float *want)
 {
@@ -498,8 +499,8 @@ static void newton_and_mesh_bring_the_picture_nearer(void **state)
     wr_field_free(field);
 }
 
-/* Normals and light of half precision are halves; each of a stage's roundings is one part in 2048 of numbers up to 1,
-   and the highlight's power takes n.h to the 30th. */
+/* Half-precision normals and light are half floats; each rounding of a stage is 1/2048 for numbers up to 1, and the
+   highlight's power raises n.h to the 30th. */
 static void half_shading_is_of_halves_and_near(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_render_double.c - the pictures of double precision against those of single: every scheme, normal mode,
-   surface and filter, on tables of random heights that no sum f(u) + g(v) can stand for. */
+/* test_render_double.c - pictures in double precision against those in single: every scheme, normal mode, surface and
+   filter, on tables of random heights that are not of the form f(u) + g(v). */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -8,12 +8,12 @@
 #include "scene/scene.h"
 #include "surface/surface.h"
 
-/* Even: the middle of an odd picture looks at the middle of an odd table, a texel's centre to the last bit,
-   where bilinear slopes have a crease. */
+/* Even: the centre of an odd picture would hit a texel centre of an odd table exactly, where bilinear slopes have a
+   crease. */
 #define WIDE 40
 #define HIGH 38
 #define BOUND 1e-5 /* of linear intensity */
-/* Of those whose pole is in the picture: the nearer to it, the less a float knows of u there. */
+/* Surfaces whose pole is in the picture: near it, a float determines u poorly. */
 #define BOUND_POLE 1e-4
 
 typedef struct Filter {
@@ -38,8 +38,8 @@ static Shot taken(const WrScene *scene, const WrField *field)
     return shoot(scene, field, WIDE, HIGH, 1, "auto", false);
 }
 
-/* Whether the object covers the pixel and all around it: along an outline a ray may hit in one precision and
-   miss in the other. */
+/* True if the object covers the pixel and its neighbours: along a silhouette a ray may hit in one precision and miss
+   in the other. */
 static bool inner(const WrFrame *frame, int x, int y)
 {
     if (x < 1 || y < 1 || x + 1 >= frame->width || y + 1 >= frame->height) return false;
@@ -50,7 +50,7 @@ static bool inner(const WrFrame *frame, int x, int y)
     return true;
 }
 
-/* The largest difference of a channel; counts the pixels that were compared. */
+/* The largest difference of a channel; counts the compared pixels. */
 static double apart(const WrFrame *a, const WrFrame *b, int *count)
 {
     double most = 0;
@@ -95,7 +95,7 @@ static void expect_alike(WrScene *scene, const WrField *field, const char *what)
     put_away(&single);
 }
 
-/* part: of an ordinary run, every other setting; the other table takes the rest. */
+/* part: in an ordinary run, every other setting; the other table uses the rest. */
 static void expect_surface_alike(int surface, int part, const WrField *field)
 {
     const char *name = wr_surfaces[surface]->name;

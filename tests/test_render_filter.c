@@ -28,7 +28,7 @@ static WrPyramid pyramid_of(const WrField *field, WrPyramidKind kind)
 
 /* ---- pyramids ------------------------------------------------------------------------------------ */
 
-/* Mean of n x n texels from (i, j), round the ends, in double. */
+/* Mean of n x n texels from (i, j), around the ends, in double. */
 static double box(const WrField *field, int i, int j, int n)
 {
     const int w = wr_field_width(field), h = wr_field_height(field);
@@ -287,7 +287,7 @@ static void hc94_a_flat_table_under_moments_has_the_bits_of_point(void **state)
         Shot point = shoot(scene, flat, 60, 60, 2, "auto", true);
         scene->dials.aa = WR_AA_MOMENTS;
         scene->dials.moments = (WrMoments)model;
-        Shot moments = shoot(scene, flat, 60, 60, 2, "auto", true); /* nothing may be left out */
+        Shot moments = shoot(scene, flat, 60, 60, 2, "auto", true); /* no effect may be skipped */
         assert_true(wr_plan_runs(moments.frame.plan, WR_EFFECT_SPREAD));
         assert_true(same_picture(&point, &moments));
         put_away(&point);
@@ -297,7 +297,7 @@ static void hc94_a_flat_table_under_moments_has_the_bits_of_point(void **state)
     wr_field_free(flat);
 }
 
-/* Every pixel sees a whole number of periods: the mean slope is 0, so filtering gives the smooth plane. */
+/* Every pixel covers a whole number of periods: the mean slope is 0, so filtering gives the smooth plane. */
 static void far_away_the_filtered_table_is_smooth(void **state)
 {
     (void)state;
@@ -320,8 +320,8 @@ static void far_away_the_filtered_table_is_smooth(void **state)
     wr_field_free(field);
 }
 
-/* E29 with pyramids: an edit reaches farther on coarse levels. The last case: rows of a sphere that go to loops of several stages
-   (render/simd/simd_kernels.h), whose bits are not promised. */
+/* E29 with pyramids: an edit reaches farther on coarse levels. The last case: rows of a sphere that use fused loops
+   (render/simd/simd_kernels.h), which are not bit-identical. */
 static void a_resting_filtered_view_is_refreshed_to_the_bits_of_a_new_picture(void **state)
 {
     (void)state;
@@ -356,7 +356,7 @@ static void a_resting_filtered_view_is_refreshed_to_the_bits_of_a_new_picture(vo
             least = kept.frame.shaded < least ? kept.frame.shaded : least;
             put_away(&fresh);
         }
-        assert_true(least < whole); /* else nothing was kept */
+        assert_true(least < whole); /* otherwise nothing was cached */
         put_away(&kept);
         wr_scene_free(scene);
         wr_field_free(field);
@@ -365,8 +365,8 @@ static void a_resting_filtered_view_is_refreshed_to_the_bits_of_a_new_picture(vo
 
 /* ---- highlights ------------------------------------------------------------------------------------- */
 
-/* The mean of the program's lobe over normals whose tangents are spread by a Gaussian of covariance
-   (a, b, c) about the z axis, by a rule of 81 x 81 points. */
+/* The mean of the program's lobe over normals whose tangents are spread by a Gaussian of covariance (a, b, c) about
+   the z axis, by a rule of 81 x 81 points. */
 static double mean_lobe(WrVec3 h, double s, double a, double b, double c)
 {
     enum { N = 40 };
@@ -383,7 +383,7 @@ static double mean_lobe(WrVec3 h, double s, double a, double b, double c)
     return sum / weight;
 }
 
-/* Theorem but for the lobe's shape, which is a Gaussian only near its middle: within 8 % of the peak. */
+/* Exact except for the lobe's shape, which is a Gaussian only near its middle: within 8 % of the peak. */
 static void lean_is_the_mean_of_the_lobe_over_gaussian_slopes(void **state)
 {
     (void)state;

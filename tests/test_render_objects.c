@@ -1,4 +1,5 @@
-/* Several objects in one picture: each sample is the nearest one's, with the bits that it has alone. */
+/* Several objects in one picture: each sample belongs to the nearest object, bit-identical to a picture of it
+   alone. */
 #include "test.h"
 #include "test_render_sets.h"
 
@@ -113,7 +114,7 @@ static void nothing_depends_on_threads_kernels_or_the_plan(void **state)
     }
 }
 
-/* K x K samples against a picture of so many pixels, point by point. */
+/* K x K samples against a picture of as many pixels, sample by sample. */
 static void samples_are_those_of_a_larger_picture(void **state)
 {
     (void)state;
@@ -148,7 +149,7 @@ static void samples_are_those_of_a_larger_picture(void **state)
     }
 }
 
-/* Bands, blocks and codes are those of the whole picture. */
+/* Bands, blocks and codes are equal to the whole picture. */
 static void parts_of_the_picture_are_the_wholes(void **state)
 {
     (void)state;
@@ -191,8 +192,8 @@ static void parts_of_the_picture_are_the_wholes(void **state)
     }
 }
 
-/* Edits of any object's table under a resting view: every pixel is that of a new picture, and tiles that no edit reaches
-   are not drawn. */
+/* Edits of any object's table in a static view: every pixel equals a new picture, and unaffected tiles are not
+   rendered. */
 static void edits_of_a_resting_view(void **state)
 {
     (void)state;
@@ -232,7 +233,8 @@ static void edits_of_a_resting_view(void **state)
     assert_in_range(drawn, 1, all * 9 / 10);
 }
 
-/* Against the reference, which traces every sample on its own, within what single precision and the scheme leave. */
+/* Against the reference, which traces every sample separately, within the errors of single precision and the
+   scheme. */
 static void the_reference_sees_the_same(void **state)
 {
     (void)state;
@@ -305,7 +307,8 @@ static void a_pointer_finds_what_is_seen(void **state)
     assert_in_range(found, 100, 720);
 }
 
-/* What is behind what fills a tile is not drawn (E52), and no depth is asked for where one object is alone (E53). */
+/* Objects behind one that fills a tile are not rendered (E52), and no depth is computed where there is one object
+   (E53). */
 static void the_hidden_costs_nothing(void **state)
 {
     (void)state;
@@ -341,7 +344,7 @@ static void the_hidden_costs_nothing(void **state)
     wr_field_free(field);
 }
 
-/* HC154: a long way from the origin everything is as near it. */
+/* HC154: far from the origin the picture is the same as near it. */
 static void far_away_it_is_as_near(void **state)
 {
     (void)state;

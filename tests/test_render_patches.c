@@ -1,5 +1,5 @@
-/* Pictures of sets of bicubic patches: against the one patch that a set was cut from, against the reference, and against
-   themselves on every set of instructions. */
+/* Pictures of sets of bicubic patches: against the one patch that a set was divided from, against the reference, and
+   between instruction sets. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
@@ -58,8 +58,8 @@ static WrTriangles *teapot(WrPatchTable table)
     return made;
 }
 
-/* Root mean square of linear intensity where both are covered wholly; pixels that one covers more than the other, and how
-   many are off by more than a hundredth. */
+/* RMS of linear intensity where both cover fully; pixels with different coverage, and pixels that differ by more than
+   a hundredth. */
 typedef struct Apart {
     double rms;
     int cover, off, count;
@@ -108,8 +108,8 @@ static void the_bits_are_the_same(void **state)
     wr_field_free(field);
 }
 
-/* HC151: one patch, and the four that it was cut into, turned and mirrored, with a quarter of the table each: the same
-   picture, as far as pixels' rays meet within rounding. */
+/* HC151: one patch, and its four parts, rotated and mirrored, with a quarter of the table each: the same picture, up
+   to rounding of hits. */
 static void a_cut_patch_is_the_patch(void **state)
 {
     (void)state;
@@ -124,7 +124,7 @@ static void a_cut_patch_is_the_patch(void **state)
         assert_int_equal(cut->triangles->patches->told.joined, 4);
         WrScene *own = scene_with(NULL, &ways[i]);
         wr_scene_set_shape(own, &whole->shape);
-        /* looked at alike, whatever ball each is in */
+        /* the same camera, for any bounding sphere */
         const WrVec3 centre = wr_shape_centre(&own->shape);
         const double ball[4] = { centre.x, centre.y, centre.z, wr_shape_radius(&own->shape) };
         WrShape shape = cut->shape;
@@ -145,7 +145,7 @@ static void a_cut_patch_is_the_patch(void **state)
     wr_field_free(field);
 }
 
-/* The reference goes by rays, trees of pieces and Newton's method in double, and knows no triangle. */
+/* The reference uses rays, trees of pieces and Newton's method in double, without triangles. */
 static void the_reference_agrees(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void the_reference_agrees(void **state)
         Shot got = shoot(scene, field, w, h, 2, NULL, false);
         float *rgba = true_picture(scene, field, w, h);
         const Apart apart = compare(got.frame.rgba, rgba, w * h);
-        /* cells of their own meet in steps, and samples within rounding of an edge see either side */
+        /* separate cells meet in steps, and samples within rounding of an edge may be on either side */
         const double most = i % WR_PATCH_TABLES == WR_PATCH_OWN ? 2e-3 : 1e-4;
         if (!(apart.rms < most && apart.off < 3 && apart.cover < 6 && apart.count > 2000))
             fail_msg("set %d: rms %g, %d off, %d cover of %d", i, apart.rms, apart.off, apart.cover,

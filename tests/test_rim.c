@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* The heights of each kind at d texels inside of a straight edge, of width 10 and height 2. */
+/* The heights of each kind at d texels inside a straight edge, of width 10 and height 2. */
 static double profile(const char *kind, double d)
 {
     double t = fmin(fmax(d / 10, 0), 1);
@@ -38,7 +38,7 @@ static void a_disc_over_the_edges_has_the_profile_of_its_radius(void **state)
                 x -= 150 * rint(x / 150);
                 y -= 120 * rint(y / 120);
                 double d = 30 - hypot(x, y);
-                /* at a kink a texel is a mean: of the text's profiles over one texel */
+                /* at a kink a texel is a mean: of the profiles over one texel */
                 bool kink = fabs(d) < 1.6 || fabs(fabs(d) - 5) < 1.6 || fabs(d - 10) < 1.6;
                 double most = kink ? 0.5 : 0.06;
                 if (d < 1 && strcmp(kinds[k], "outline") != 0 && strcmp(kinds[k], "emboss") != 0 &&
@@ -50,7 +50,7 @@ static void a_disc_over_the_edges_has_the_profile_of_its_radius(void **state)
     }
 }
 
-/* A band that runs round the table has two edges and no ends. */
+/* A band around the table has two edges and no ends. */
 static void a_band_round_the_table_has_no_ends(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Scenes: ownership, where things stand, and F with its factors. */
+/* Scenes: ownership, placement, and F with its factors. */
 #include "test.h"
 #include "field/scheme_list.h"
 
@@ -37,8 +37,8 @@ static void assert_vec(WrVec3 a, double x, double y, double z, double tolerance)
     assert_near(a.z, z, tolerance);
 }
 
-/* Three vectors at right angles and of length 1, the third the cross product of the others: to a few roundings of
-   half of 2.2e-16, as many as make a component. */
+/* Three orthonormal vectors, the third the cross product of the others: up to a few roundings of half of 2.2e-16, as
+   many as in a component. */
 static void assert_orthonormal(WrVec3 x, WrVec3 y, WrVec3 z)
 {
     const double t = 2e-15;
@@ -103,8 +103,7 @@ static void a_shared_scene_lives_until_its_last_owner_frees_it(void **state)
     assert_ptr_equal(first, second);
     wr_scene_free(scene);
     wr_scene_free((WrScene *)first);
-    assert_true(second->height ==
-                0.1); /* read after two of three are gone: the sanitizer watches */
+    assert_true(second->height == 0.1); /* read after two of three are freed: for the sanitizer */
     WrScene *clone = wr_scene_clone(second);
     wr_scene_free((WrScene *)second);
     assert_true(clone->height == 0.1);
@@ -152,7 +151,7 @@ static void hc88_placements_are_orthonormal_after_any_turn(void **state)
     wr_scene_free(scene);
 }
 
-/* 0.01 radian a frame at 60 Hz for a day, in degrees; the angle asked for is the number given. */
+/* 0.01 radian per frame at 60 Hz for a day, in degrees; the resulting angle is the given number. */
 static void hc87_a_day_of_turning_loses_nothing(void **state)
 {
     (void)state;
@@ -211,7 +210,7 @@ static void fit_shows_the_whole_object_at_every_aspect_and_not_much_more(void **
     wr_scene_free(scene);
 }
 
-/* Where the outline of a ball about the world's origin is seen, as half_height has it. */
+/* Silhouette of a sphere around the world's origin, in units of half_height. */
 static double outline_of(const WrPlacement *p, double r)
 {
     const double d2 = v3_dot(p->eye, p->eye);
@@ -225,8 +224,8 @@ static void set_displaced(WrScene *scene, int object)
     wr_scene_set_object(scene, object, other);
 }
 
-/* A ball that F pushes out: while it stays within the margin the camera is that of the base, to the bit; then it just fits, of
-   one object and of two. */
+/* A sphere displaced by F: within the margin the camera equals that of the base, bit for bit; beyond it is a tight
+   fit, for one object and for two. */
 static void fit_moves_only_for_what_is_displaced_beyond_the_picture(void **state)
 {
     (void)state;
@@ -240,7 +239,7 @@ static void fit_moves_only_for_what_is_displaced_beyond_the_picture(void **state
         scene->camera.orthographic = i / 21 % 2;
         scene->camera.fov_deg = 34.7;
         scene->height = height;
-        if (i >= 42) { /* the copy, within it, is at hand */
+        if (i >= 42) { /* the copy, within the margin, is active */
             WrScene *both = wr_scene_add_object(scene, true);
             wr_scene_free(scene);
             scene = both;
@@ -383,7 +382,7 @@ static WrField *smooth_table(WrWrap wrap)
     return field;
 }
 
-/* d F / du by central differences of F itself, on a scheme whose slope is that of its value. */
+/* d F / du by central differences of F itself, with a scheme whose slope is that of its value. */
 static void assert_slopes(const WrScene *scene, const WrField *field, double u, double v)
 {
     const double h = 1e-5;
@@ -410,7 +409,7 @@ static void slopes_carry_height_and_replication(void **state)
         scene->height = i % 2 ? -0.7 : 0.2;
         scene->replicate_u = replicas[i % 3][0];
         scene->replicate_v = replicas[i % 3][1];
-        /* away from the ends of a replica, where a clamped table and a polynomial break off */
+        /* away from the ends of a replica, where a clamped table and a polynomial end */
         double u = (between(&random, 0.05, 0.9) + i % 2) / scene->replicate_u;
         double v = (between(&random, 0.05, 0.9) + i % 5) / scene->replicate_v;
         assert_slopes(scene, field, u, v);

@@ -58,7 +58,7 @@ static void the_height_of_an_empty_table_is_selected_without_tiles(void **state)
     wr_field_free(f);
 }
 
-/* Rising by 0.3 a column and 0.4 a row: 0.5 a texel. On clamped edges too, since a plane is continued. */
+/* Rising by 0.3 per column and 0.4 per row: 0.5 per texel. On clamped edges too, since a plane is extrapolated. */
 static void the_slope_of_a_plane_is_its_angle_up_to_the_edges(void **state)
 {
     (void)state;
@@ -189,7 +189,7 @@ static void no_selection_means_everything(void **state)
     wr_field_free(b);
 }
 
-/* The nearest target by trying all, with the images on either side. Infinite if there is none. */
+/* The nearest target by testing all, with the images on either side. Infinite if there is none. */
 static double nearest(const WrField *a, bool inside, int i, int j)
 {
     int width = wr_field_width(a), height = wr_field_height(a);

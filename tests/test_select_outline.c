@@ -1,4 +1,4 @@
-/* Outlines of selections: closed, on the right side of the texels, and round the table. */
+/* Outlines of selections: closed, on the correct side of the texels, and around the table. */
 #include "select_help.h"
 
 static WrOutline outline_of(const WrField *a)
@@ -52,7 +52,7 @@ static void one_texel_has_a_diamond_round_its_centre(void **state)
     wr_field_free(a);
 }
 
-/* Corners are cut by an eighth of a texel each. Straight runs are one segment. */
+/* Each corner is cut by an eighth of a texel. Straight runs are one segment. */
 static void a_rectangle_runs_anticlockwise_and_a_hole_clockwise(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void saddles_are_joined_where_their_mean_is_inside(void **state)
     }
 }
 
-/* How many neighbours lie on either side of 1/2. */
+/* Number of neighbours on either side of 1/2. */
 static int passages(const WrField *a)
 {
     int count = 0, width = wr_field_width(a), height = wr_field_height(a);

@@ -1,4 +1,4 @@
-/* Sets of maps for other programs: names, formats, conventions, and that all files come or none. */
+/* Sets of maps for other programs: names, formats, conventions, and atomic writing of all files. */
 #include "test.h"
 #include "test_folder.h"
 
@@ -46,7 +46,7 @@ static void every_set_has_the_names_and_formats_of_its_program(void **state)
     const struct {
         const char *set, *file;
         WrPixelType type;
-        int channels, green; /* of the flank above the bump: 1 bright, -1 dark */
+        int channels, green; /* on the side above the bump: 1 bright, -1 dark */
     } known[] = {
         { "blender", "clay_displacement.exr", WR_PIXEL_F32, 1, 0 },
         { "blender", "clay_normal.png", WR_PIXEL_U16, 3, 1 },
@@ -92,8 +92,8 @@ static void every_set_has_the_names_and_formats_of_its_program(void **state)
     }
 }
 
-/* At the foot of the bump, which is darker there than far off it: occlusion in red, in Unity's in green, whose alpha is
- * smoothness; the material's shininess of 40 is a roughness of 0.467. */
+/* At the foot of the bump, which is darker than the surroundings: occlusion in red, in Unity's in green, whose alpha
+ * is smoothness; the material's shininess of 40 is a roughness of 0.467. */
 static void packed_maps_have_their_channels_where_programs_look(void **state)
 {
     (void)state;
@@ -141,7 +141,7 @@ static void count_left(int *count)
     wr_folder_close(folder);
 }
 
-/* The second file's place is taken by a folder. */
+/* The second file's name is taken by a folder. */
 static void all_files_of_a_set_are_replaced_or_none(void **state)
 {
     (void)state;

@@ -61,7 +61,7 @@ static void an_outline_is_the_stroke_along_it(void **state)
     wr_session_free(b);
 }
 
-/* The side of a rectangle is longer than half the table, where strokes go the shorter way round. */
+/* The side of a rectangle is longer than half the table, where strokes take the shorter way round. */
 static void hc73_a_long_side_goes_the_way_it_is_drawn(void **state)
 {
     (void)state;
@@ -71,13 +71,13 @@ static void hc73_a_long_side_goes_the_way_it_is_drawn(void **state)
     assert_true(f_at(s, 10, 50) == 1);
     assert_true(f_at(s, 0, 89) == 0); /* beyond its ends, across the edge */
     assert_true(f_at(s, 50, 50) == 0);
-    must_run(s, "fill 0"); /* one that goes round the whole table, and half again */
+    must_run(s, "fill 0"); /* one around the whole table, and half again */
     must_run(s, "shape path points=0.1,0.5;0.6,0.5;1.1,0.5;1.6,0.5 radius=3 strength=1");
     for (int i = 0; i < 100; i++) assert_true(f_at(s, i, 50) == 1);
     wr_session_free(s);
 }
 
-/* Heights along the line of a circle: a dab more at the joint would stand out. */
+/* Heights along the line of a circle: an additional dab at the joint would be visible. */
 static void a_closed_outline_has_no_doubled_dab_where_it_meets_itself(void **state)
 {
     (void)state;

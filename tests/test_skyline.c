@@ -1,4 +1,4 @@
-/* Horizons of lines and tables against brute force and closed forms, and the light that they leave. */
+/* Horizons of lines and tables against brute force and closed forms, and the remaining light. */
 #include "test.h"
 
 #include "base/error.h"
@@ -18,7 +18,7 @@ static double random_of(int i, int j)
     return (double)wr_mix32((uint32_t)(i * 7919 + j * 104729 + 5)) * 0x1p-32;
 }
 
-/* The horizon at i of n heights, by looking at each of a period. */
+/* The horizon at i of n heights, by checking each of a period. */
 static double brute(const double *heights, int n, int i)
 {
     double best = 0;
@@ -63,8 +63,8 @@ static double waves(double x, double y)
     return 3 * sin(2 * PI * x) + 2 * cos(2 * PI * (2 * y + x)) + sin(2 * PI * (3 * x - y) + 0.7);
 }
 
-/* The horizon of the waves over w x h texels, by marching a twentieth of a texel at a time, from the next sample of a line
-   on: nearer than that a line knows nothing. */
+/* The horizon of the waves over w x h texels, marched by a twentieth of a texel, from the next sample of a line on: a
+   line has no data nearer than that. */
 static double marched(double i, double j, int w, int h, int direction)
 {
     const double from = waves(i / w, j / h);
@@ -115,7 +115,7 @@ static void a_table_has_the_horizon_of_what_it_samples(void **state)
     wr_pool_free(pool);
 }
 
-/* The share of texels that were told to have changed. Each that is another was told. */
+/* Fraction of texels reported as changed. Every changed texel must be reported. */
 static double compare_updated(const WrHorizon *was, const WrHorizon *updated, const WrHorizon *anew,
                               const unsigned char *changed)
 {
@@ -135,7 +135,7 @@ static double compare_updated(const WrHorizon *was, const WrHorizon *updated, co
     return (double)told / ((anew->width + 1) * (anew->height + 1));
 }
 
-/* After an edit at random, round the ends too, horizons that are brought up to date have the bits of those made anew. */
+/* After a random edit, also at the ends, updated horizons are bit-identical to new ones. */
 static void an_update_is_the_horizon_made_anew(void **state)
 {
     const int sizes[][3] = {
@@ -164,10 +164,10 @@ static void an_update_is_the_horizon_made_anew(void **state)
         wr_field_free(field), wr_field_free(next);
         free(changed);
     }
-    assert_true(least < 0.1); /* not all of a table is told to have changed */
+    assert_true(least < 0.1); /* not the whole table is reported as changed */
 }
 
-/* Along axes there is nothing between the texels: as float has it. */
+/* Along axes there is no interpolation: exact in float. */
 static void along_axes_a_table_is_exact(void **state)
 {
     const int sizes[][2] = { { 1, 1 }, { 2, 1 }, { 1, 2 }, { 37, 23 }, { 2, 65 }, { 300, 3 } };
@@ -238,7 +238,7 @@ static void a_sky_is_as_dark_as_closed_forms_say(void **state)
     assert_near(sky_of(trench, up), 0.5 / sqrt(1 + a * a) + 0.5 / sqrt(1 + b * b), 1e-6);
 }
 
-/* Of a disc the part above a straight line, counted. */
+/* Area of a disc above a straight line, counted. */
 static void a_round_lamp_sets_as_its_disc_does(void **state)
 {
     (void)state;

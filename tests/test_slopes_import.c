@@ -1,4 +1,4 @@
-/* test_slopes_import.c - slopes and bump slopes become heights again, by the scale that their files tell. */
+/* test_slopes_import.c - slopes and bump slopes converted back to heights, with the scale in their files. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <unistd.h>
 
-enum { W = 45, H = 63 }; /* odd: central differences then lose nothing but the level */
+enum { W = 45, H = 63 }; /* odd: central differences then lose only the level */
 
 static WrSession *rough_table(Said *said)
 {
@@ -28,7 +28,7 @@ static double range_of(const WrSession *s)
     return (double)(high - low);
 }
 
-/* The largest difference but for a constant, in parts of the range. */
+/* The largest difference up to a constant, relative to the range. */
 static double farthest(const WrSession *a, const WrSession *b)
 {
     double low = INFINITY, high = -INFINITY;
@@ -89,7 +89,7 @@ static void bump_slopes_become_heights_too(void **state)
     come_back(cases, 5);
 }
 
-/* Their border is wrong; so heights come near, not back. */
+/* Their border is wrong, so heights are close but not exact. */
 static void so_do_those_of_maketx(void **state)
 {
     (void)state;

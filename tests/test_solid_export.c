@@ -1,4 +1,5 @@
-/* Solids as files: closed, outside out, of the volume that closed forms say, and no texel farther off than was asked. */
+/* Solids as files: closed, correctly oriented, with the volume of closed forms, and texels within the requested
+   error. */
 #include "test.h"
 #include "field/scheme_list.h"
 #include "test_folder.h"
@@ -24,7 +25,7 @@ static float random_of(double low, double high)
     return (float)(low + (high - low) * test_random(&random_state));
 }
 
-/* A table of random heights that lie together in blobs, as reliefs do; `rough` 0: all of it one height. */
+/* A table of random heights in clusters, as in reliefs; `rough` 0: constant height. */
 static WrDocument *document_of(int width, int height, double rough, WrWrap wrap)
 {
     WrDocument *document = wr_document_new();
@@ -119,11 +120,11 @@ static Body export_body(const WrDocument *document, const char *kind, const char
     return body;
 }
 
-/* ---- closedness, by places alone, as a slicer joins the triangles of an STL ---- */
+/* ---- closedness, by positions alone, as a slicer joins the triangles of an STL ---- */
 
 typedef struct Corner {
     float at[3];
-    int32_t of; /* three times the triangle, and which of its corners */
+    int32_t of; /* three times the triangle, plus the corner */
 } Corner;
 
 static int by_place(const void *a, const void *b)
@@ -140,7 +141,7 @@ static int by_value(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Each side once in each direction; no triangle without area; Euler's number. */
+/* Each side once in each direction; no degenerate triangle; Euler's number. */
 static int64_t check_closed(const WrMesh *mesh, const char *what)
 {
     const int32_t count = 3 * mesh->triangle_count;
@@ -198,7 +199,7 @@ static void a_flat_plane_is_a_box(void **state)
     wr_document_free(document);
 }
 
-/* HC155: the smallest tables; as thick under the lowest sample as was asked, however low that lies. */
+/* HC155: the smallest tables; the requested thickness under the lowest sample, however low that is. */
 static void hc155_the_smallest_tables_are_closed_too(void **state)
 {
     (void)state;
@@ -223,7 +224,7 @@ static void hc155_the_smallest_tables_are_closed_too(void **state)
     }
 }
 
-/* Corners lie on the surface, so a convex body is smaller, by no more than its error all over. */
+/* Corners are on the surface, so a convex solid is smaller, by at most its error over the whole area. */
 static void smooth_bodies_have_the_volumes_of_their_formulas(void **state)
 {
     (void)state;
@@ -323,7 +324,7 @@ static double distance(const WrMesh *mesh, WrVec3 p)
     return sqrt(least);
 }
 
-/* The texel's place in millimetres, by formulas of our own: a plane a by b, a torus. */
+/* The texel's position in millimetres, by independent formulas: a plane a by b, a torus. */
 static WrVec3 texel(const WrDocument *document, bool torus, int i, int j, double size)
 {
     const WrField *field = document->layers[0].heights;
@@ -361,7 +362,7 @@ static void no_texel_is_farther_off_than_was_asked(void **state)
         assert_true(report.solid_error <= (float)errors[which]);
         if (worst > report.solid_error + 2e-5)
             fail_msg("%d: %g, told %g", which, worst, report.solid_error);
-        assert_true(worst > 0.1 * errors[which]); /* no finer than was asked for */
+        assert_true(worst > 0.1 * errors[which]); /* no finer than requested */
         if (which % 2) assert_true(report.triangles < before);
         before = report.triangles;
         wr_mesh_fini(&body.mesh);
@@ -419,7 +420,7 @@ static void an_stl_says_millimetres(void **state)
     assert_true(wr_file_read("body.stl", 1 << 20, &bytes, &length, &err));
     assert_int_equal(length, 84 + 50 * report.triangles);
     assert_non_null(strstr(bytes, "millimetres"));
-    assert_memory_not_equal(bytes, "solid", 5); /* that would be a text */
+    assert_memory_not_equal(bytes, "solid", 5); /* that would be a text file */
     for (int64_t i = 0; i < report.triangles; i++) {
         float n[12];
         memcpy(n, bytes + 84 + 50 * i, sizeof n);

@@ -1,4 +1,4 @@
-/* Tables that the compiler counts have words and functions in every row; lists that end by themselves do too. */
+/* Tables with a compile-time count have texts and functions in every row, and so have terminated lists. */
 #include "test.h"
 #include "field/scheme_list.h"
 
@@ -17,7 +17,7 @@
 #include "scene/scene.h"
 #include "shade/bump.h"
 
-/* A word that is there, and that no row before it has. */
+/* A non-empty text that no earlier row has. */
 static void is_new(const char *table, int row, const char *word, const char *(*before)(int row))
 {
     if (!word || !*word) fail_msg("%s: row %d has no word", table, row);
@@ -110,7 +110,7 @@ static void every_row_does_something(void **state)
     for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++) {
         const WrExportKind *kind = &wr_export_kinds[i];
         assert_true(kind->write || (kind->rows && kind->describe));
-        assert_true(kind->channels > 0 || kind->ending); /* bodies have none */
+        assert_true(kind->channels > 0 || kind->ending); /* solids have none */
     }
     for (int i = 0; i < wr_op_count; i++) {
         is_new("operations", i, wr_ops[i].name, NULL);

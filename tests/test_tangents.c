@@ -1,4 +1,4 @@
-/* Tangent frames: the lecture's solve and the rules of MikkTSpace, against values worked out by hand; degenerate,
+/* Tangent frames: the lecture's solution and the rules of MikkTSpace, against values computed by hand; degenerate,
    mirrored, folded and branching meshes (HC126 to HC133, HC136). */
 #include "test.h"
 
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A mesh as it is written down. */
+/* A mesh in written form. */
 typedef struct Hand {
     WrTriangleCorner corner[8];
     WrTriangle triangle[4];
@@ -161,7 +161,7 @@ static void signs_stay_apart(void **state)
     }
 }
 
-/* HC126, HC127: det that is rounding makes no frame; the gradient needs none and is exact. */
+/* HC126, HC127: a determinant of rounding size defines no frame; the gradient needs none and is exact. */
 static void thin_maps_have_no_frame(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void thin_maps_have_no_frame(void **state)
     assert_near(v3_len(gv), 0, 0);
 }
 
-/* The gradient is dual to the solve where there is one: T . grad u = B . grad v = 1. */
+/* The gradient is dual to the solution where there is one: T . grad u = B . grad v = 1. */
 static void gradients_are_dual(void **state)
 {
     (void)state;
@@ -205,7 +205,7 @@ static void gradients_are_dual(void **state)
     }
 }
 
-/* HC133: the normal of a needle, which comes from its two shortest edges. */
+/* HC133: the normal of a needle, from its two shortest edges. */
 static void needles_have_normals(void **state)
 {
     (void)state;
@@ -232,7 +232,7 @@ static void expect_units(const WrTangent *out, const WrTriangleCorner *corners,
     }
 }
 
-/* HC130: two that are folded onto each other, with opposite tangents at equal signs: each keeps its own. */
+/* HC130: two triangles folded onto each other, with opposite tangents and equal signs: each keeps its own. */
 static void folded_pairs_keep_their_own(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void folded_pairs_keep_their_own(void **state)
     expect_units(out, fold.corner, fold.triangle, 2);
 }
 
-/* HC131: a triangle whose places coincide copies the frame of its neighbour's corner; alone it has (1,0,0). */
+/* HC131: a triangle with coinciding points copies the frame of its neighbour's corner; alone it has (1,0,0). */
 static void collapsed_triangles_copy(void **state)
 {
     (void)state;
@@ -268,7 +268,8 @@ static void collapsed_triangles_copy(void **state)
     expect_units(out, hand.corner, hand.triangle, 3);
 }
 
-/* HC132: three faces at one edge: groups end, and all is finite. Random meshes of few points branch everywhere. */
+/* HC132: three faces at one edge: groups terminate, and all is finite. Random meshes of few points branch
+   everywhere. */
 static void tangles_end(void **state)
 {
     (void)state;

@@ -147,7 +147,7 @@ static void terraces_without_sharpness_change_nothing(void **state)
     wr_field_free(same);
 }
 
-/* Whatever the jitter: never farther than a step and its unevenness from what lies there. */
+/* For any jitter: within a step and its unevenness of the original. */
 static void terraces_stay_near_what_lies_there(void **state)
 {
     (void)state;
@@ -282,7 +282,7 @@ static void wrong_sizes_are_told_with_what_would_fit(void **state)
     wr_field_free(like);
 }
 
-/* 16 bits come exact; half the texels are means of four. */
+/* 16 bits are exact; half of the texels are means of four. */
 static void pictures_are_exact_and_averaged_by_area(void **state)
 {
     (void)state;
@@ -310,7 +310,7 @@ static void pictures_are_exact_and_averaged_by_area(void **state)
     }
 }
 
-/* NaN becomes 0 when pictures are read; its places are known all the same. */
+/* NaN becomes 0 when pictures are read; its positions are still known. */
 static void pictures_of_floats_are_real_and_their_nan_is_filled(void **state)
 {
     (void)state;

@@ -1,13 +1,12 @@
-/* Theorems that the accuracy of pictures rests on, where no other test has them: A1, A2, A7 and A8 stand in
-   test_scheme.c, A3 to A5, A9 and A10 in test_bump.c, A11 and A12 of noise in test_noise.c. */
+/* Theorems behind the accuracy of pictures that no other test covers: A1, A2, A7 and A8 are in test_scheme.c, A3 to
+   A5, A9 and A10 in test_bump.c, A11 and A12 of noise in test_noise.c. */
 #include "test.h"
 #include "field/scheme_list.h"
 
 #include "render/reference/reference.h"
 #include "test_render_scenes.h"
 
-/* A waving plane that fills the picture, lit without a highlight and everywhere: I is smooth in every
-   pixel. */
+/* A wavy plane that fills the picture, lit everywhere without a highlight: I is smooth in every pixel. */
 static WrScene *smooth_scene(WrAnalyticTerm *terms)
 {
     WrScene *scene = wr_scene_new();
@@ -66,7 +65,7 @@ static void a6_the_error_of_k_by_k_samples_falls_with_the_square_of_k(void **sta
         rms[i] = rms_of(r.rgba, truth.rgba);
         wr_reference_fini(&r);
     }
-    assert_true(rms[0] > 1e-4); /* there is something to average */
+    assert_true(rms[0] > 1e-4); /* there are differences to average */
     assert_near(fitted_slope(rms, 4), -2, 0.1);
     scene->analytic = (WrAnalytic){ 0 };
     wr_reference_fini(&truth);
@@ -160,8 +159,8 @@ static double height_at(const WrField *field, double height, double u, double v)
     return height * f;
 }
 
-/* How many of n x n points have relief over the line to a light at slope `rise` in that direction, for a
- * march over a whole period and more. */
+/* Number of n x n points whose line to a light at slope `rise` in that direction is below the relief, for a march
+ * over a whole period and more. */
 static int shadowed(const WrField *field, double height, const double to[2], double rise, int n)
 {
     int count = 0;
@@ -186,13 +185,13 @@ static void a14_gentle_slopes_on_a_flat_base_cast_no_shadows(void **state)
         const double height = 0.07;
         double uphill[2];
         const double slope = steepest(field, height, uphill);
-        for (int k = 0; k < 12; k++) { /* all round, with the light as low as the theorem lets it */
+        for (int k = 0; k < 12; k++) { /* all around, with the light as low as the theorem allows */
             double s, c;
             wr_sincos_turns(k / 12.0, &s, &c);
             assert_int_equal(shadowed(field, height, (const double[]){ c, s }, slope, 12), 0);
         }
         assert_int_equal(shadowed(field, height, uphill, slope, 40), 0);
-        /* And lower than that, along the steepest slope, something is in shadow: the bound is tight. */
+        /* With a lower light along the steepest slope there is shadow: the bound is tight. */
         assert_true(shadowed(field, height, uphill, 0.8 * slope, 40) > 0);
         wr_field_free(field);
     }

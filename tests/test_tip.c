@@ -320,8 +320,8 @@ static WrTip *smoothed(int w, int h, const float *codes)
     return tip;
 }
 
-/* Codes of an exact slope of `step` pixels a code, along a direction: no second difference is over a
- * seventh of a code, where the codes' own are a whole one; and none moves by over half a code. */
+/* Codes of an exact ramp with `step` pixels per code, along a direction: second differences are within a seventh of a
+ * code (those of the codes are a whole one), and no value changes by over half a code. */
 static void check_ramp(double step, double across)
 {
     enum { W = 300, H = 90 };
@@ -384,7 +384,7 @@ static void a_constant_stays_constant_at_every_scale(void **state)
         for (double scale = 3; scale > 0.1; scale *= 0.7) {
             WrTipView view;
             wr_tip_view(tip, 0, scale, &view);
-            /* Inside by half a pixel of the coarsest level that is looked at. */
+            /* Half a pixel of the coarsest used level inside. */
             double edge = 0.5 / (view.coarse ? view.coarse_h : view.fine_h);
             for (double s = edge; s <= 1 - edge; s += 0.04)
                 assert_near(wr_tip_value(&view, s, 1 - s), c / 255.0, 1e-6);
@@ -458,7 +458,7 @@ static void between_pixels_it_is_bilinear_and_outside_it_fades_to_nothing(void *
     assert_near(wr_tip_value(&view, 0.25, 0.25), 0.2, 1e-7);
     assert_near(wr_tip_value(&view, 0.5, 0.5), 0.55, 1e-7);
     assert_near(wr_tip_value(&view, 0.5, 0.25), 0.4, 1e-7);
-    assert_near(wr_tip_value(&view, 1, 0.75), 0.5, 1e-7); /* halfway from 1 to the 0 outside */
+    assert_near(wr_tip_value(&view, 1, 0.75), 0.5, 1e-7); /* half-way from 1 to the 0 outside */
     assert_near(wr_tip_value(&view, 1.25, 0.75), 0, 0);
     assert_near(wr_tip_value(&view, -0.25, 0.75), 0, 0);
     assert_near(wr_tip_value(&view, 1e300, 0.5), 0, 0);

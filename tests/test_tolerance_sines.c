@@ -1,5 +1,5 @@
-/* Tolerances on random sums of sines: whenever a choice says that it keeps to its tolerance, the picture is measured against
-   the reference and must. WR_SINES=FIRST,COUNT measures other scenes and prints every row. */
+/* Tolerances on random sums of sines: if a choice claims to meet its tolerance, the picture measured against the
+   reference must meet it. WR_SINES=FIRST,COUNT measures other scenes and prints every row. */
 #include "test.h"
 #include "test_session_help.h"
 
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 #define SIDE 64  /* pixels */
-#define FINE 32  /* samples a side of the reference; twice those of the finest choice */
+#define FINE 32  /* samples along a side in the reference; twice those of the finest choice */
 #define COUNT 12 /* scenes */
 
 static const WrTolerance tolerances[] = { { WR_TOLERANCE_MAX, 0.3 },  { WR_TOLERANCE_MAX, 0.1 },
@@ -36,7 +36,7 @@ static double between(uint64_t *state, double low, double high)
     return low + (high - low) * uniform(state);
 }
 
-/* Evenly by its logarithm. */
+/* Uniform in the logarithm. */
 static double scaled(uint64_t *state, double low, double high)
 {
     return low * pow(high / low, uniform(state));
@@ -101,7 +101,7 @@ static WrSession *scene_of(int n)
 
 typedef struct Tally {
     int rows, claimed, broken, unresolved;
-    double samples; /* of all pictures, beside one a covered pixel */
+    double samples; /* of all pictures, relative to one per covered pixel */
 } Tally;
 
 static void measure(WrRenderer *renderer, WrFrameRequest *request, WrScene *scene,

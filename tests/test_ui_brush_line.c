@@ -1,4 +1,4 @@
-/* A brush as a command's arguments: the line means the brush again. */
+/* A brush as a command's arguments: parsing the line restores the brush. */
 #include "test.h"
 
 #include "base/error.h"
@@ -27,7 +27,7 @@ static void a_plain_brush_makes_a_short_line(void **state)
     WrBrush brush = wr_brush_default();
     assert_string_equal(line_of(&brush, &none),
                         "stroke radius=16 hardness=0.5 strength=0.1 mode=raise");
-    brush.reach = 3; /* nothing to a mode that does not go by it */
+    brush.reach = 3; /* irrelevant for a mode that does not use it */
     brush.source_u = 0.25;
     brush.to = 7;
     assert_string_equal(line_of(&brush, &none),

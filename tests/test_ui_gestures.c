@@ -1,4 +1,4 @@
-/* Gestures in a window without a display: what a drag of the pointer and an action do to the document. */
+/* Gestures in a window without a display: effect of drags and actions on the document. */
 #include "test.h"
 
 #include "test_app.h"
@@ -35,7 +35,7 @@ static const WrDocument *document_of(const Bench *bench)
     return wr_session_document(bench->session);
 }
 
-/* Steps of the loop until nothing runs. */
+/* Run the main loop until no command runs. */
 static void settle(Bench *bench)
 {
     for (int i = 0; i < 6; i++) draw_again(bench->app);
@@ -60,7 +60,7 @@ static void drag(Bench *bench, double x, double y, int dx, int dy)
     settle(bench);
 }
 
-/* Where the lamp lies on the patch. */
+/* Position of the light on the patch. */
 static bool find_lamp(const WrApp *app, WrPointer *out)
 {
     const SDL_Rect *r = &app->layout->patch;
@@ -88,7 +88,7 @@ static void a_lamp_is_dragged_while_the_patch_is_painted_on(void **state)
     const WrLight *light = &document_of(&bench)->scene->lights[0];
     assert_true(strncmp(wr_session_last_command(bench.session), "light directional", 17) == 0);
     assert_true(light->where.x != -0.5 && light->size_deg == 3 && !light->shadow);
-    /* beside the lamp the brush paints */
+    /* beside the light the brush paints */
     const SDL_Rect *r = &bench.app->layout->patch;
     drag(&bench, r->x + r->w / 2.0, r->y + r->h / 2.0, 10, 5);
     assert_true(strncmp(wr_session_last_command(bench.session), "stroke", 6) == 0);
@@ -160,7 +160,7 @@ static void what_is_copied_comes_back_in_its_place(void **state)
     finish(&bench);
 }
 
-/* The brush's strength is a height; a mask goes from 0 to 1 whatever the heights. */
+/* The brush's strength is a height; a mask ranges from 0 to 1 for any heights. */
 static void a_stroke_on_a_mask_hides_in_full(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* How fine the moving patch is: finer where the time allows, and steady. */
+/* Quality of the moving patch: finer if the time allows, and stable. */
 #include "test.h"
 
 #include "ui/preview/moving.h"
@@ -6,13 +6,13 @@
 #define VIEW 400000.0 /* pixels */
 #define ALLOWED 0.016
 
-/* A machine that takes so many seconds for a pixel of each way, give or take a share. */
+/* A simulated machine with a time per pixel for each mode, with random variation. */
 typedef struct Machine {
     double seconds[WR_MOVING_WAYS], wobble;
     TestRandom random;
 } Machine;
 
-/* So many pictures; how often the way changed, and how many took longer than is allowed. */
+/* Run that many pictures; returns the changes of the mode, and counts late pictures. */
 static int run(WrMoving *moving, Machine *machine, int pictures, int *late)
 {
     int changes = 0;
@@ -58,7 +58,7 @@ static void the_finest_that_the_time_allows_is_found(void **state)
         if (moving.way != cases[i].way)
             fail_msg("case %d: %s", (int)i, wr_moving_names[moving.way]);
         assert_true((moving.scale == 1) == cases[i].whole);
-        /* Settled: hardly any picture is late, and the way stays. */
+        /* In the steady state hardly any picture is late, and the mode is constant. */
         const int changes = run(&moving, &machine, 600, &late);
         if (changes > 12 || (cases[i].whole && late > 40))
             fail_msg("case %d: %d changes, %d late", (int)i, changes, late);
@@ -80,7 +80,7 @@ static void a_machine_that_becomes_busy_is_followed_down_and_up_again(void **sta
     assert_int_equal(moving.way, WR_MOVING_GRID);
 }
 
-/* Between two ways: it does not go to and fro with every wobble of the clock. */
+/* Between two modes: it does not oscillate with variations of the clock. */
 static void near_the_bound_the_way_stays(void **state)
 {
     (void)state;

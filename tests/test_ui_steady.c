@@ -1,4 +1,4 @@
-/* A steadier hand: what follows the pointer, smoothed or on a string. */
+/* Stroke stabilizer: the follower of the pointer, smooth or on a string. */
 #include "test.h"
 
 #include "ui/input/stroke_smoothing.h"
@@ -32,7 +32,7 @@ static WrRelight begin(WrRelightKind kind, double length, double x, double y)
     return steady;
 }
 
-/* The same way from (0,0) through corners, each leg in `pieces` motions. */
+/* The same path from (0,0) through corners, each leg in `pieces` motions. */
 static WrRelight walk(WrRelightKind kind, int pieces)
 {
     static const double corner[][2] = {
@@ -61,7 +61,7 @@ static void without_steadying_every_place_of_the_pointer_comes_through(void **st
     assert_memory_equal(&out[0], &to, sizeof to);
     assert_int_equal(wr_relight_move(&steady, &to, out), 1); /* resting, pressing harder */
     assert_int_equal(wr_relight_end(&steady, true, out), 0);
-    /* a length of 0 is no steadying either */
+    /* a length of 0 is no smoothing either */
     steady = begin(WR_RELIGHT_STRING, 0, 3, 4);
     assert_int_equal(wr_relight_move(&steady, &to, out), 1);
     assert_true(out[0].x == to.x && out[0].y == to.y);
@@ -105,11 +105,11 @@ static void a_string_pulled_straight_is_as_long_as_it_is(void **state)
 static void a_string_pulled_aside_draws_the_tractrix(void **state)
 {
     (void)state;
-    /* The pointer stands at the origin, the string hangs down along +y, and is pulled along +x: x = s - L
-       tanh(s/L), y = L / cosh(s/L). */
+    /* The pointer is at the origin, the string hangs down along +y and is pulled along +x: x = s - L tanh(s/L), y = L
+       / cosh(s/L). */
     const double length = 50;
     WrRelight steady = begin(WR_RELIGHT_STRING, length, 0, 0);
-    move(&steady, 0, -length, NULL); /* just taut: nothing moved yet */
+    move(&steady, 0, -length, NULL); /* just taut: no motion yet */
     assert_near(steady.follower.y, 0, 1e-9);
     Line line = { .count = 0 };
     move(&steady, 130, -length, &line);
@@ -132,7 +132,7 @@ static void the_line_does_not_depend_on_how_the_way_was_cut_into_events(void **s
             assert_near(cut.follower.x, once.follower.x, 1e-6);
             assert_near(cut.follower.y, once.follower.y, 1e-6);
         }
-        /* and it is not simply the pointer's own way */
+        /* and it differs from the pointer's own path */
         assert_true(hypot(once.follower.x, once.follower.y) > 5);
     }
 }

@@ -1,4 +1,4 @@
-/* Files of words, whole and damaged, and which language an environment asks for. */
+/* Translation catalogues, valid and damaged, and the language chosen from the environment. */
 #include "test.h"
 
 #include "base/memory.h"
@@ -21,7 +21,7 @@ static void put(char *bytes, size_t at, uint32_t word)
     memcpy(bytes + at, &word, sizeof word);
 }
 
-/* A file of the texts above, written as GNU gettext's manual says; returns its size. */
+/* A file of the texts above, as in GNU gettext's manual; returns its size. */
 static size_t written(char bytes[512])
 {
     size_t end = 28 + 2 * 8 * TEXTS;
@@ -48,7 +48,7 @@ static void texts_of_a_file_are_found_and_no_others(void **state)
     char bytes[512];
     WrCatalogue *c = wr_catalogue_new(bytes, written(bytes));
     assert_non_null(c);
-    memset(bytes, 'x', sizeof bytes); /* it has them for itself */
+    memset(bytes, 'x', sizeof bytes); /* it has its own copy */
     assert_string_equal(wr_catalogue_find(c, "Height"), "H\xc3\xb6he");
     assert_string_equal(wr_catalogue_find(c, "Brush"), "Pinsel");
     assert_string_equal(wr_catalogue_find(c, "%d of %s"), "%d von %s");
@@ -60,7 +60,7 @@ static void texts_of_a_file_are_found_and_no_others(void **state)
     wr_catalogue_free(c);
 }
 
-/* Looked up in whatever is taken: sanitizers see a step outside. */
+/* Look-ups in every accepted file: sanitizers detect reads outside. */
 static bool survives(const char *bytes, size_t size)
 {
     char *exact = malloc(size ? size : 1);
@@ -96,7 +96,7 @@ static void a_file_with_any_byte_changed_is_refused_or_read_within_itself(void *
             refused += !survives(bytes, size);
             bytes[at] = (char)(bytes[at] ^ 1 << bit);
         }
-    assert_true(refused > 8 * 4); /* the number that it begins with at least */
+    assert_true(refused > 8 * 4); /* at least the magic number */
 }
 
 static void lengths_that_run_over_the_end_of_numbers_are_refused(void **state)
@@ -127,11 +127,11 @@ static void the_environment_chooses_as_gettext_does(void **state)
         { "fr:de:en", NULL, NULL, "fr_FR.UTF-8", "de" },
         { "en:de", NULL, NULL, "de_DE.UTF-8", "en" },
         { "", NULL, NULL, "de_CH@euro", "de" },
-        { "de", "C", NULL, "de_DE", "en" }, /* the plain locale is English whatever LANGUAGE says */
+        { "de", "C", NULL, "de_DE", "en" }, /* the plain locale is English for any LANGUAGE */
         { "de", "", "POSIX", "de_DE", "en" },
         { "de", "C.UTF-8", NULL, NULL, "de" },
-        { "fr", NULL, NULL, "it_IT", "en" },     /* none that we have */
-        { "deutsch::", NULL, NULL, NULL, "en" }, /* a word that only begins so */
+        { "fr", NULL, NULL, "it_IT", "en" },     /* not available */
+        { "deutsch::", NULL, NULL, NULL, "en" }, /* only a prefix */
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         assert_string_equal(
@@ -167,17 +167,17 @@ static void what_was_put_together_is_said_by_its_form(void **state)
           "Brushes ist gesperrt: `layer set 2 lock=off` entsperrt sie" },
         { "nothing to undo", "nichts r\xc3\xbc"
                              "ckg\xc3\xa4ngig zu machen" },
-        { ": must be ", ": must be " }, /* nothing stands where something must */
+        { ": must be ", ": must be " }, /* an empty text where one is required */
         { "a b c: d", "a b c: d" },
         { "100 %s of %d", "100 %s of %d" },
         { "", "" },
     };
     char said[WR_SENTENCE], small[24];
     wr_words_choose(2);
-    if (strcmp(wr_words_language(), "de") != 0) skip(); /* built without msgfmt */
+    if (strcmp(wr_words_language(), "de") != 0) skip(); /* a build without msgfmt */
     for (int i = 0; i < WR_LENGTH(rows); i++)
         assert_string_equal(wr_sentence(rows[i].english, said, sizeof said), rows[i].german);
-    /* Cut between letters, wherever that is. */
+    /* Truncated between letters, at any size. */
     for (size_t size = 1; size <= sizeof small; size++) {
         memset(small, 'x', sizeof small);
         wr_sentence("nothing to undo", small, size);

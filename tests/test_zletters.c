@@ -1,4 +1,4 @@
-/* Bodies cut out along outlines, against their definition and marching along rays. */
+/* Solids cut along outlines, against their definition and marching along rays. */
 #include "test.h"
 
 #include "base/error.h"

@@ -1,6 +1,6 @@
-/* Hand lines to the test driver at their time:  play SOCKET <lines
-   A line `w MS` waits until so many milliseconds after the last wait (1 is 1000 events a second); at the
-   end it waits until the driver has done all. */
+/* Sends lines to the test driver at their time:  play SOCKET <lines
+   A line `w MS` waits until that many milliseconds after the last wait (1 is 1000 events per second); at the end it
+   waits until the driver is done. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
