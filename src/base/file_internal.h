@@ -1,4 +1,5 @@
-/* file_internal.h - functions shared by the file*.c files. Private to this module. */
+/* file_internal.h - functions shared by the file*.c files.
+   Private to this module. */
 #pragma once
 #include "base/file.h"
 #include "system/path.h"

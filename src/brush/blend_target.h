@@ -1,5 +1,6 @@
 /* blend_target.h - target heights of coverage-based modes, tile by tile, from the table before the
-   stroke. Private to this module. */
+   stroke.
+   Private to this module. */
 #pragma once
 #include "brush/mode.h"
 

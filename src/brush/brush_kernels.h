@@ -1,8 +1,9 @@
 /* brush_kernels.h - inner loops of the brush, compiled once per instruction set.
 
    All sets give the same bits: only + - * sqrt, comparisons and conversions, without contraction.
-   Private to this module. Counts are multiples of WR_BRUSH_BLOCK up to WR_TILE: whole vectors, since
-   remainder loops would cost more than the vectors. */
+   Private to this module.
+   Counts are multiples of WR_BRUSH_BLOCK up to WR_TILE: whole vectors, since remainder loops would
+   cost more than the vectors. */
 #pragma once
 #include "brush/capsule.h"
 #include "field/wrap.h"

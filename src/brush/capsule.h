@@ -1,6 +1,6 @@
 /* capsule.h - the footprint of one straight motion of the round brush: a disc swept along a segment.
-   Private to this module. In texel coordinates: x to the right, y down, texel (i, j)'s centre at x = i,
-   y = j; not wrapped. */
+   Private to this module.
+   In texel coordinates: x to the right, y down, texel (i, j)'s centre at x = i, y = j; not wrapped. */
 #pragma once
 #include <stdbool.h>
 

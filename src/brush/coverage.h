@@ -1,7 +1,8 @@
 /* coverage.h - a stroke's coverage: pages of 64 x 64 texels beside the tiles, and the heights computed
-   from them. Private to this module. Dabs only add to the coverage; the heights of all changed pages
-   are computed later at once. The time has no influence, since they are computed from the heights
-   before the stroke. */
+   from them.
+   Private to this module.
+   Dabs only add to the coverage; the heights of all changed pages are computed later at once. The time
+   has no influence, since they are computed from the heights before the stroke. */
 #pragma once
 #include "base/array.h"
 #include "brush/stroke_resolve.h"

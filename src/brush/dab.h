@@ -1,5 +1,6 @@
-/* dab.h - one dab of a brush, and the interface of dab generators. Private to this module. Texel
-   coordinates as in capsule.h: texel (i, j) has its centre at x = i, y = j, y down; not wrapped. */
+/* dab.h - one dab of a brush, and the interface of dab generators.
+   Private to this module.
+   Texel coordinates as in capsule.h: texel (i, j) has its centre at x = i, y = j, y down; not wrapped. */
 #pragma once
 #include <stdbool.h>
 

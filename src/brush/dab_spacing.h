@@ -1,6 +1,7 @@
-/* dab_spacing.h - dabs at equal distances along the path: the round brush and tips. Private to this
-   module. Dab k + 1 is `spacing` radii of dab k farther along the path's length; so the division of the
-   path into samples changes positions only by rounding. Random values depend on the seed and the dab's
+/* dab_spacing.h - dabs at equal distances along the path: the round brush and tips.
+   Private to this module.
+   Dab k + 1 is `spacing` radii of dab k farther along the path's length; so the division of the path
+   into samples changes positions only by rounding. Random values depend on the seed and the dab's
    number. */
 #pragma once
 #include "brush/brush.h"

@@ -1,6 +1,7 @@
-/* displace_modes.h - dabs of moving modes, which modify the present heights. Private to this module. A
-   dab's box is copied out, modified and written back. It needs about 16 bytes per texel; without memory
-   the dab does nothing. */
+/* displace_modes.h - dabs of moving modes, which modify the present heights.
+   Private to this module.
+   A dab's box is copied out, modified and written back. It needs about 16 bytes per texel; without
+   memory the dab does nothing. */
 #pragma once
 #include "brush/coverage.h"
 

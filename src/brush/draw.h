@@ -1,4 +1,5 @@
-/* draw.h - drawing of motions and dabs on a table, once for each symmetry copy. Private to this module. */
+/* draw.h - drawing of motions and dabs on a table, once for each symmetry copy.
+   Private to this module. */
 #pragma once
 #include "brush/coverage.h"
 #include "brush/displace_modes.h"

@@ -1,4 +1,5 @@
-/* engine.h - generation of a preset's dabs by libmypaint. Private to this module.
+/* engine.h - generation of a preset's dabs by libmypaint.
+   Private to this module.
 
    The engine is driven in fixed steps of WR_ENGINE_STEP seconds, interpolated from the samples, so that
    the division of the motion into events has no effect: samples on one straight, uniform motion give

@@ -1,5 +1,6 @@
 /* engine_internal.h - the two halves of the engine: calls of the library (engine.c), and the path
-   (engine_path.c). Private to this module. */
+   (engine_path.c).
+   Private to this module. */
 #pragma once
 #include <libmypaint/mypaint-brush.h>
 #include <stdbool.h>

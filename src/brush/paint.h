@@ -1,5 +1,6 @@
-/* paint.h - positions in texels, sanitised brushes, and single dabs without a stroke. Private to this
-   module. Texel coordinates as in capsule.h. */
+/* paint.h - positions in texels, sanitised brushes, and single dabs without a stroke.
+   Private to this module.
+   Texel coordinates as in capsule.h. */
 #pragma once
 #include "brush/shape.h"
 

@@ -1,4 +1,5 @@
-/* preset_internal.h - the data of a preset, for parser, printer and engine. Private to this module.
+/* preset_internal.h - the data of a preset, for parser, printer and engine.
+   Private to this module.
    Settings and inputs use libmypaint's indices. */
 #pragma once
 #include <libmypaint/mypaint-brush-settings.h>

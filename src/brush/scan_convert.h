@@ -1,4 +1,5 @@
-/* scan_convert.h - scan conversion of a shape to runs of texels, tile by tile. Private to this module. */
+/* scan_convert.h - scan conversion of a shape to runs of texels, tile by tile.
+   Private to this module. */
 #pragma once
 #include "brush/shape.h"
 #include "field/wrap.h"

@@ -1,5 +1,6 @@
-/* shape.h - the footprint of one dab or motion: affected texels and their coverage. Private to this
-   module. Texel coordinates as in capsule.h. */
+/* shape.h - the footprint of one dab or motion: affected texels and their coverage.
+   Private to this module.
+   Texel coordinates as in capsule.h. */
 #pragma once
 #include "brush/brush.h"
 #include "brush/dab.h"

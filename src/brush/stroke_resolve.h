@@ -1,5 +1,5 @@
-/* stroke_resolve.h - computation of heights from those before the stroke and its coverage. Private to
-   this module. */
+/* stroke_resolve.h - computation of heights from those before the stroke and its coverage.
+   Private to this module. */
 #pragma once
 #include "brush/blend_target.h"
 

@@ -1,4 +1,5 @@
-/* tip_internal.h - the data of a tip, for its constructors. Private to this module. */
+/* tip_internal.h - the data of a tip, for its constructors.
+   Private to this module. */
 #pragma once
 #include "brush/tip.h"
 

@@ -1,7 +1,7 @@
 /* occlusion_kern.h - inner loops of occlusion.c, compiled once per instruction set.
 
-   All sets give the same bits: only + - * /, comparisons and conversions, without contraction. Private
-   to this module. */
+   All sets give the same bits: only + - * /, comparisons and conversions, without contraction.
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* occlusion_lattice.h - search directions of occlusion.c and occlusion_near.c. Private to this module. */
+/* occlusion_lattice.h - search directions of occlusion.c and occlusion_near.c.
+   Private to this module. */
 #pragma once
 #include "field/occlusion.h"
 #include "field/occlusion_kern.h"

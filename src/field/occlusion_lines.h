@@ -1,5 +1,5 @@
-/* occlusion_lines.h - horizon sweeps along all lines of one direction over a whole table. Private to
-   this module. */
+/* occlusion_lines.h - horizon sweeps along all lines of one direction over a whole table.
+   Private to this module. */
 #pragma once
 #include "field/occlusion_lattice.h"
 

@@ -2,8 +2,9 @@
    included by occlusion_body.h.
 
    The same integer comparisons give the same bits. The candidate of a row is gathered as one number,
-   and the two halves of the lanes stop independently. Private to this module. Intentionally without an
-   include guard. */
+   and the two halves of the lanes stop independently.
+   Private to this module.
+   Intentionally without an include guard. */
 
 /* Half of the lanes: row * LANES + lane of the candidate, its height difference in the lower half, and
  * the row that may be visible behind it. */

@@ -1,5 +1,6 @@
-/* ops_internal.h - internals shared by the table operations: the job, the builder of result tables, and
-   the operations. Private to ops*.c.
+/* ops_internal.h - internals shared by the table operations: the job, the builder of result tables,
+   and the operations.
+   Private to ops*.c.
 
    An operation provides a function that computes any block of the result from the input. The builder
    calls it on the pool's threads for one batch of blocks at a time, blends with the mask, compares with

@@ -1,5 +1,5 @@
-/* select_internal.h - internals shared by the selection files. Private to select*.c; also used by
-   ramp.c to build its table. */
+/* select_internal.h - internals shared by the selection files.
+   Private to select*.c; also used by ramp.c to build its table. */
 #pragma once
 #include "field/select.h"
 

@@ -1,6 +1,7 @@
-/* erode.h - thermal and hydraulic erosion of whole tables, in place. Private to this module. Both only
-   move material: the sum of heights is preserved, to rounding. A flat table is unchanged, bit for bit.
-   On clamped axes no material leaves the table. */
+/* erode.h - thermal and hydraulic erosion of whole tables, in place.
+   Private to this module.
+   Both only move material: the sum of heights is preserved, to rounding. A flat table is unchanged,
+   bit for bit. On clamped axes no material leaves the table. */
 #pragma once
 #include "generate/terrain.h"
 

@@ -1,5 +1,6 @@
 /* fft_plane.h - Fourier methods (base/fft.h) on a plane of heights: differential equations on a torus,
-   on a plane with free edges, or with one axis of each. Private to this module. */
+   on a plane with free edges, or with one axis of each.
+   Private to this module. */
 #pragma once
 #include "base/fft.h"
 

@@ -1,5 +1,6 @@
 /* normals.h - heights from normal maps by least squares: Frankot and Chellappa (1988) on a torus, the
-   corresponding method with free edges on a plane. Private to this module. */
+   corresponding method with free edges on a plane.
+   Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/fft_plane.h"

@@ -1,4 +1,5 @@
-/* param.h - macros for parameter rows, and access to values by name. Private to this module. */
+/* param.h - macros for parameter rows, and access to values by name.
+   Private to this module. */
 #pragma once
 #include "generate/generator.h"
 

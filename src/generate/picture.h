@@ -1,4 +1,5 @@
-/* picture.h - heights from pictures. Private to this module. */
+/* picture.h - heights from pictures.
+   Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/terrain.h"

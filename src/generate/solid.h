@@ -1,4 +1,5 @@
-/* solid.h - common parts of solids: position, repetition and height. Private to this module. */
+/* solid.h - common parts of solids: position, repetition and height.
+   Private to this module. */
 #pragma once
 #include "generate/param.h"
 #include "generate/zbuffer.h"

@@ -1,5 +1,6 @@
 /* terrain.h - whole tables in double, for algorithms that cannot work tile by tile; shared by terrain
-   and pictures. Private to this module. */
+   and pictures.
+   Private to this module. */
 #pragma once
 #include "base/progress.h"
 #include "field/wrap.h"

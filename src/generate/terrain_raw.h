@@ -1,5 +1,6 @@
 /* terrain_raw.h - elevation files without a header: only numbers, row by row from the north (.r16,
-   .raw, .r32). Private to this module. */
+   .raw, .r32).
+   Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 

@@ -1,5 +1,6 @@
 /* text.h - conversion of closed outlines to a relief: coverage of each texel, distance inside the
-   outline, and a profile over that distance. Private to this module.
+   outline, and a profile over that distance.
+   Private to this module.
 
    Outlines are polygons in texels, x to the right, y down, from the table's top left corner. A point is
    inside where the total winding number of all polygons, with all their periodic images, is not 0; so

@@ -1,5 +1,6 @@
 /* text_layout.h - layout of a text's letters on the table: in lines, rotated, on a path, around the
-   table. Private to this module. */
+   table.
+   Private to this module. */
 #pragma once
 #include "base/enum_rows.h"
 #include "generate/param.h"

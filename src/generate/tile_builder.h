@@ -1,5 +1,5 @@
-/* tile_builder.h - parallel construction of a relief, tile by tile on the pool's threads. Private to
-   this module. */
+/* tile_builder.h - parallel construction of a relief, tile by tile on the pool's threads.
+   Private to this module. */
 #pragma once
 #include "generate/generator.h"
 

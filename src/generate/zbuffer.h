@@ -1,6 +1,6 @@
-/* zbuffer.h - a depth buffer over the table: triangles and solids seen from straight above, in parallel
-   projection along -Z (Blinn 1978, figure 7: the Z values are the bump function). Private to this
-   module.
+/* zbuffer.h - a depth buffer over the table: triangles and solids seen from straight above, in
+   parallel projection along -Z (Blinn 1978, figure 7: the Z values are the bump function).
+   Private to this module.
 
    Texel coordinates: texel (i, j) has its centre at x = i, y = j, y down; z, also in texels, rises
    towards the viewer. On periodic axes every primitive exists with all its images. Depth is exact at

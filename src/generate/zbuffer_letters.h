@@ -1,5 +1,6 @@
 /* zbuffer_letters.h - extruded outlines with a rounded or chamfered upper edge: three-dimensional
-   letters. Private to this module.
+   letters.
+   Private to this module.
 
    A body rises from the plane w = 0 to w = depth over all positions (p, q) inside its outlines by the
    nonzero rule, also for crossing outlines. Within `bevel` of the outline it is lower: at distance d by

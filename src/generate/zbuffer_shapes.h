@@ -1,4 +1,5 @@
-/* zbuffer_shapes.h - intersections of a line a + b t with simple bodies. Private to the depth buffer. */
+/* zbuffer_shapes.h - intersections of a line a + b t with simple bodies.
+   Private to the depth buffer. */
 #pragma once
 #include <math.h>
 #include <stdbool.h>

@@ -1,4 +1,5 @@
-/* zbuffer_tile.h - state of one tile of the depth buffer during drawing. Private to the depth buffer. */
+/* zbuffer_tile.h - state of one tile of the depth buffer during drawing.
+   Private to the depth buffer. */
 #pragma once
 #include "base/array.h"
 #include "field/field.h"

@@ -1,4 +1,5 @@
-/* channel_choice.h - selection of the channels of an image part. Private to this module. */
+/* channel_choice.h - selection of the channels of an image part.
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 

@@ -1,10 +1,11 @@
 /* codec.h - interface of image file libraries: OpenImageIO, which is a module (oiio.h), and libpng
    (png_codec.h).
 
-   No exception crosses this interface. Private to this module. C and C++. Every function that can fail
-   writes one line into reason[WR_CODEC_REASON] and returns false or NULL. Callers have checked the
-   file's existence and kind; these functions check the file's header before they allocate memory for
-   it. */
+   No exception crosses this interface.
+   Private to this module. C and C++.
+   Every function that can fail writes one line into reason[WR_CODEC_REASON] and returns false or NULL.
+   Callers have checked the file's existence and kind; these functions check the file's header before
+   they allocate memory for it. */
 #pragma once
 #include "base/sink.h"
 #include "image/image.h"

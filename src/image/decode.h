@@ -1,7 +1,7 @@
 /* decode.h - image decoding in the present process: format detection and calls of the codec.
 
-   Called in the reader process for untrusted files, and directly if the reader runs "inside". Private
-   to this module. */
+   Called in the reader process for untrusted files, and directly if the reader runs "inside".
+   Private to this module. */
 #pragma once
 #include "base/hash.h"
 #include "image/image.h"

@@ -1,5 +1,6 @@
 /* exr_chunks.h - completeness check of a multi-part or tiled OpenEXR file just written in sequential
-   order. Private to this module.
+   order.
+   Private to this module.
 
    The library writes the tables of chunk offsets when it closes a file, and does not report failures.
    Readers then find zeros; some search the file, others fail. Here every entry must be the end of the

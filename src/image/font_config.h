@@ -1,4 +1,5 @@
-/* font_config.h - safe initialisation of fontconfig. Private to this module. */
+/* font_config.h - safe initialisation of fontconfig.
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 

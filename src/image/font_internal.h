@@ -1,5 +1,6 @@
-/* font_internal.h - internals shared by the font files. Private to font*.c and the reader process. A
-   shaped text is transferred as one block: a WrFontHead, then the arrays in the order of its counts. */
+/* font_internal.h - internals shared by the font files.
+   Private to font*.c and the reader process.
+   A shaped text is transferred as one block: a WrFontHead, then the arrays in the order of its counts. */
 #pragma once
 #include "image/font.h"
 

@@ -1,5 +1,5 @@
-/* format.h - static properties of image formats: supported types and signatures. Private to this
-   module. */
+/* format.h - static properties of image formats: supported types and signatures.
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,7 @@
-/* gltf_mesh.h - reader of the triangles of a glTF 2.0 file: nodes, meshes, accessors. Private to this
-   module. Part of the reader process, and of reading "inside". glTF 2.0: 3.5 (nodes), 3.6 (accessors),
-   3.7 (meshes, skins); KHR_mesh_quantization, KHR_texture_transform.
+/* gltf_mesh.h - reader of the triangles of a glTF 2.0 file: nodes, meshes, accessors.
+   Private to this module.
+   Part of the reader process, and of reading "inside". glTF 2.0: 3.5 (nodes), 3.6 (accessors), 3.7
+   (meshes, skins); KHR_mesh_quantization, KHR_texture_transform.
 
    The library is not used because it supports no normalised integers, requires texture coordinate sets
    in order, transforms skinned meshes by their nodes, and truncates node positions to 32-bit floats. */

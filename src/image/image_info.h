@@ -1,4 +1,5 @@
-/* image_info.h - parser of an image file's label (WrImageLabel, image.h). Private to this module. */
+/* image_info.h - parser of an image file's label (WrImageLabel, image.h).
+   Private to this module. */
 #pragma once
 #include "image/image.h"
 

@@ -1,5 +1,7 @@
-/* mesh_build.h - a mesh under construction in double precision, filled in by the readers of mesh files.
-   Private to src/image. Part of the reader process, and of reading "inside".
+/* mesh_build.h - a mesh under construction in double precision, filled in by the readers of mesh
+   files.
+   Private to src/image.
+   Part of the reader process, and of reading "inside".
 
    Coordinates stay double until the end. A mesh far from the origin, as in map coordinates, would lose
    its relief in 32-bit floats; so the lowest corner of its bounding box is subtracted first (WrMesh,

@@ -1,5 +1,7 @@
-/* mesh_obj.h - reader of polygonal OBJ files in double precision, several times as fast as the library.
-   Private to this module. Part of the reader process, and of reading "inside". */
+/* mesh_obj.h - reader of polygonal OBJ files in double precision, several times as fast as the
+   library.
+   Private to this module.
+   Part of the reader process, and of reading "inside". */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>

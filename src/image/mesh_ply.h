@@ -1,5 +1,6 @@
-/* mesh_ply.h - reader of PLY files: ASCII or binary, of either byte order. Private to this module. Part
-   of the reader process, and of reading "inside".
+/* mesh_ply.h - reader of PLY files: ASCII or binary, of either byte order.
+   Private to this module.
+   Part of the reader process, and of reading "inside".
 
    The library is not used because it crashes on hundreds of damaged files, overwrites the (u,v) of a
    point where faces have their own, drops strips and truncates coordinates to 32-bit floats. Every

@@ -1,4 +1,5 @@
-/* module_path.h - search and loading of the program's run-time modules. Private to this module. */
+/* module_path.h - search and loading of the program's run-time modules.
+   Private to this module. */
 #pragma once
 #include "base/once_async.h"
 

@@ -1,6 +1,7 @@
 /* oiio.h - interface of the module that contains OpenImageIO (wrinkle_oiio.so).
 
-   The module exports one symbol, wr_oiio_table; all calls use it. Private to this module. C and C++. */
+   The module exports one symbol, wr_oiio_table; all calls use it.
+   Private to this module. C and C++. */
 #pragma once
 #include "image/codec.h"
 

@@ -1,5 +1,6 @@
-/* oiio_disk.hpp - the file that a picture library writes to. C++, part of the module alone.
-   Private to this room. */
+/* oiio_disk.hpp - buffered output proxy between an image library and a byte sink. C++, only in the
+   module.
+   Private to this module. */
 #pragma once
 #include "base/sink.h"
 
@@ -9,7 +10,7 @@
 #include <cstring>
 #include <vector>
 
-/* A sink of the caller's for a library to write that takes everything and remembers the first failure. */
+/* An output of the caller for a library: accepts every write and stores the first failure. */
 class Disk : public OIIO::Filesystem::IOProxy
 {
   public:
@@ -52,7 +53,7 @@ class Disk : public OIIO::Filesystem::IOProxy
     {
         return static_cast<size_t>(end);
     }
-    /* What is held back goes to the file; what comes next goes to where the library is now. */
+    /* Flushes the buffer and continues at the library's present position. */
     void empty()
     {
         if (held > 0 && !error && !sink.write(sink.to, block.data(), held, at)) error = errno;
@@ -63,7 +64,7 @@ class Disk : public OIIO::Filesystem::IOProxy
 
   private:
     WrByteSink sink;
-    std::vector<char> block; /* bytes that belong at `at` and were not written yet */
+    std::vector<char> block; /* bytes to be written at `at` */
     size_t held = 0;
     int64_t at = 0, end = 0;
 };

@@ -1,5 +1,5 @@
-/* oiio_fail.hpp - how what goes wrong in the library is told. C++, part of the module alone.
-   Private to this room. */
+/* oiio_fail.hpp - conversion of library failures to one-line reasons. C++, only in the module.
+   Private to this module. */
 #pragma once
 extern "C" {
 #include "image/oiio.h"
@@ -10,14 +10,15 @@ extern "C" {
 #include <new>
 #include <string>
 
-/* Wherever it stands. */
+/* Replaces every occurrence. */
 inline void say_instead(std::string &text, const std::string &what, const std::string &instead)
 {
     for (size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += instead.size())
         text.replace(at, what.size(), instead);
 }
 
-/* The message as one line. The caller names the file; the path by which the library knows it is ours alone. */
+/* Stores the message as one line. The caller names the file; the path used by the library is internal
+ * and is removed. */
 inline bool fail(char *reason, std::string text, const std::string &path = std::string())
 {
     if (!path.empty()) say_instead(text, " (" + path + ")", "");
@@ -31,7 +32,7 @@ inline bool fail(char *reason, std::string text, const std::string &path = std::
     return false;
 }
 
-/* Run a function that returns bool; an exception becomes a reason. */
+/* Runs a function that returns bool; an exception becomes a reason. */
 template <typename Body> bool guarded(char *reason, Body body)
 {
     try {

@@ -1,6 +1,7 @@
-/* oiio_fits.hpp - numbers of a FITS header that OpenImageIO reads wrongly: it ends a number at the D of an exponent as
-   Fortran writes it (1.25D1), which the FITS standard 4.0, 4.2.4 allows. C++, part of the module alone.
-   Private to this room. */
+/* oiio_fits.hpp - parser of FITS header numbers that OpenImageIO misreads. C++, only in the module.
+   Private to this module.
+
+   OpenImageIO stops at the D of a Fortran exponent (1.25D1), which the FITS standard 4.0, 4.2.4 allows. */
 #pragma once
 extern "C" {
 #include "system/fd.h"
@@ -13,10 +14,10 @@ extern "C" {
 #include <cstring>
 #include <string>
 
-#define FITS_BLOCK 2880 /* bytes; headers and data fill whole blocks */
-#define FITS_CARD 80    /* bytes of a line of a header */
+#define FITS_BLOCK 2880 /* bytes; headers and data are padded to whole blocks */
+#define FITS_CARD 80    /* bytes of a header line */
 
-/* Where the header of a picture begins, counted as OpenImageIO counts them; -1: there is none. */
+/* Offset of a picture's header, with OpenImageIO's numbering; -1: none. */
 inline int64_t fits_header(int fd, int picture)
 {
     char begin[20];
@@ -29,7 +30,7 @@ inline int64_t fits_header(int fd, int picture)
     return -1;
 }
 
-/* The number of a key in the header of a picture, or the fallback where it has none. */
+/* The number of a key in a picture's header, or the fallback if absent. */
 inline double fits_number(int fd, int picture, const char *key, double fallback)
 {
     char card[FITS_CARD + 1] = "", padded[12];

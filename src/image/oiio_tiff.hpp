@@ -1,9 +1,9 @@
-/* oiio_tiff.hpp - libtiff behind OpenImageIO: write errors that it hides, and tags that it does not read. C++, part of
-   the module alone.
-   Private to this room.
+/* oiio_tiff.hpp - direct calls of libtiff: write errors and tags that OpenImageIO does not report.
+   C++, only in the module.
+   Private to this module.
 
-   libtiff tells nobody but a handler what goes wrong when it closes a file. OpenImageIO brings it along; its one
-   function that is needed is declared here. */
+   libtiff reports failures on closing a file only to an error handler. OpenImageIO links libtiff; its
+   few functions used here are declared in this file. */
 #pragma once
 extern "C" {
 #include "system/fd.h"
@@ -19,7 +19,7 @@ extern "C" {
 extern "C" void *TIFFSetErrorHandlerExt(void (*handler)(void *, const char *, const char *,
                                                         va_list)) __attribute__((weak));
 
-/* The first complaint of this thread since it was emptied, and what the system had said before it. */
+/* The first error of this thread since the buffer was cleared, and errno before it. */
 inline thread_local char tiff_error[256];
 inline thread_local int tiff_errno;
 
@@ -29,7 +29,7 @@ inline void forget_tiff_error()
     tiff_errno = errno = 0;
 }
 
-/* A tag that it does not know was left out on purpose (forbid_date), or is no loss. */
+/* An unsupported tag was omitted intentionally (forbid_date), or is irrelevant. */
 inline void on_tiff_error(void *, const char *from, const char *format, va_list list)
 {
     if (from && std::strstr(from, "SetField")) return;
@@ -43,7 +43,7 @@ inline void listen_to_tiff()
     if (TIFFSetErrorHandlerExt) TIFFSetErrorHandlerExt(on_tiff_error);
 }
 
-/* libtiff is in the process with OpenImageIO; its headers need not be installed for three functions. */
+/* libtiff is loaded with OpenImageIO; three functions do not justify requiring its headers. */
 extern "C" {
 struct tiff;
 struct tiff *TIFFFdOpen(int fd, const char *name, const char *mode) __attribute__((weak));
@@ -56,17 +56,17 @@ void TIFFClose(struct tiff *file) __attribute__((weak));
 #define TIFF_MODEL_PIXEL_SCALE 33550U
 #define TIFF_MODEL_TRANSFORMATION 34264U
 
-/* GDAL's no-data value of a directory, "" where it has none. Returns whether the directory is georeferenced or has that
-   value: its numbers are measurements. */
+/* GDAL's no-data value of a directory, "" if absent. Returns true if the directory is georeferenced or
+   has that value: its numbers are measurements. */
 inline bool tiff_no_data(int fd, int directory, std::string &text)
 {
     if (!TIFFFdOpen || !TIFFSetDirectory || !TIFFGetField || !TIFFClose) return false;
-    /* A copy shares its position with the original, from which OpenImageIO reads. */
+    /* A copy shares its position with the original, which OpenImageIO reads. */
     const int64_t position = wr_fd_tell(fd);
     int copy = wr_fd_copy(fd);
     if (copy < 0) return false;
     wr_fd_seek(copy, 0);
-    struct tiff *file = TIFFFdOpen(copy, "picture", "r"); /* takes the copy over */
+    struct tiff *file = TIFFFdOpen(copy, "picture", "r"); /* owns the copy */
     if (!file) {
         wr_fd_close(copy);
         wr_fd_seek(fd, position);
@@ -74,7 +74,7 @@ inline bool tiff_no_data(int fd, int directory, std::string &text)
     }
     bool measured = false;
     if (TIFFSetDirectory(file, static_cast<uint32_t>(directory))) {
-        /* Tags that libtiff has no row for are given with their count. */
+        /* libtiff returns unknown tags with their count. */
         uint32_t count = 0;
         const char *found = nullptr;
         const void *numbers = nullptr;

@@ -1,10 +1,10 @@
-/* oiio_values.hpp - from the values in a file to the values of WrImage: codes, numbers, inverted greys, missing values,
-   the display window. C++, part of the module alone.
-   Private to this room.
+/* oiio_values.hpp - conversion of file values to WrImage: codes, numbers, inverted greys, missing
+   values, the display window. C++, only in the module.
+   Private to this module.
 
-   OpenImageIO scales every integer to 0..1 or -1..1, inverts a TIFF whose photometric interpretation is "min is white" at
-   8 bits only (alpha included), ignores FITS's BZERO and BSCALE, the no-data value of GDAL and the display window of
-   OpenEXR. All that is decided here, once, when a part is opened. */
+   OpenImageIO scales every integer to 0..1 or -1..1, inverts a TIFF whose photometric interpretation is
+   "min is white" at 8 bits only (alpha included), ignores FITS's BZERO and BSCALE, the no-data value of
+   GDAL and the display window of OpenEXR. All conversions are chosen here, once, when a part is opened. */
 #pragma once
 #include "image/oiio_fail.hpp"
 #include "image/oiio_fits.hpp"
@@ -18,22 +18,23 @@
 #include <vector>
 
 struct Values {
-    OIIO::TypeDesc type;  /* as which the library is asked for rows */
-    double divisor = 0.0; /* codes / divisor; 0: numbers as they are */
+    OIIO::TypeDesc type;  /* type in which rows are requested from the library */
+    double divisor = 0.0; /* codes / divisor; 0: numbers unchanged */
     double scale = 1.0;   /* then value = scale x + offset */
     double offset = 0.0;
-    bool invert = false;        /* 1 - x of every channel but `alpha` */
+    bool invert = false;        /* 1 - x for every channel except `alpha` */
     bool restore_alpha = false; /* the library inverted it with the colours */
     int alpha = -1;
     bool has_no_data = false;
     double no_data = 0.0; /* becomes NaN */
-    /* OpenEXR: of mixed types the library scales unsigned integers to 0..1: [channels] 2^32 - 1 where that is undone. */
+    /* OpenEXR: with mixed types the library scales unsigned integers to 0..1: [channels] 2^32 - 1
+     * undoes it. */
     std::vector<float> restore;
-    /* The data window in the picture, which is the display window. */
+    /* The data window relative to the picture, which is the display window. */
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/* The last code of an integer type. */
+/* The largest code of an integer type. */
 inline double last_code(OIIO::TypeDesc type)
 {
     switch (type.basetype) {
@@ -66,8 +67,9 @@ inline void choose_numbers(const OIIO::ImageSpec &spec, const std::string &forma
     else if (!exr || spec.format != OIIO::TypeDesc::UINT32) values.divisor = last_code(spec.format);
 }
 
-/* FITS: the header turns stored numbers into physical ones (FITS standard 4.0, 4.4.2.5): x BSCALE + BZERO; BLANK marks
-   integers without a value. Pictures of 8 bits without them stay codes. */
+/* FITS: the header defines the conversion of stored numbers to physical ones (FITS standard 4.0,
+   4.4.2.5): x BSCALE + BZERO; BLANK marks integers without a value. Pictures of 8 bits without these
+   keys stay codes. */
 inline void choose_fits(const OIIO::ImageSpec &spec, int fd, int picture, Values &values)
 {
     values.scale = fits_number(fd, picture, "BSCALE", 1.0);
@@ -81,8 +83,9 @@ inline void choose_fits(const OIIO::ImageSpec &spec, int fd, int picture, Values
     }
 }
 
-/* Whether unsigned integers of a TIFF are numbers rather than codes. measured: it is georeferenced or has a no-data value;
-   numbers: elevations were asked for. 8 bits whose smallest value is white come inverted from the library: codes. */
+/* True if unsigned integers of a TIFF are numbers instead of codes. measured: it is georeferenced or
+   has a no-data value; numbers: elevations were requested. 8 bits whose smallest value is white are
+   inverted by the library: codes. */
 inline bool tiff_has_numbers(const OIIO::ImageSpec &spec, bool measured, bool numbers)
 {
     if (spec.format == OIIO::TypeDesc::UINT32) return measured || numbers;
@@ -114,7 +117,7 @@ inline bool choose_tiff(const OIIO::ImageSpec &spec, int fd, int directory, bool
     }
     char *end = nullptr;
     const double no_data = text.empty() ? 0.0 : std::strtod(text.c_str(), &end);
-    if (end && end != text.c_str()) { /* "nan": what is NaN is missing */
+    if (end && end != text.c_str()) { /* "nan": NaN marks missing values */
         values.has_no_data = true;
         values.no_data = no_data;
         if (values.divisor > 0.0) { /* compared after the division */
@@ -133,9 +136,10 @@ inline std::string size_text(int width, int height)
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-/* OpenEXR: the picture is the display window; pixels are stored of the data window, which may be smaller or larger. All parts
-   of a file share one display window, so it counts only where a part has the first one's data window: others, such as those
-   of our documents, are pictures of their own size. */
+/* OpenEXR: the picture is the display window; pixels are stored for the data window, which may be
+   smaller or larger. All parts of a file share one display window, so it is used only for parts with
+   the first part's data window: others, such as those of the program's documents, are pictures of their
+   own size. */
 inline void choose_window(const OIIO::ImageSpec &spec, const std::string &format, Values &values,
                           int &width, int &height, std::string &note)
 {
@@ -155,14 +159,14 @@ inline void choose_window(const OIIO::ImageSpec &spec, const std::string &format
            ": cut to it, and 0 where there is no data";
 }
 
-/* GDAL writes the largest floats with few digits: beyond 1e30 the sign decides. */
+/* GDAL writes the largest floats with few digits: beyond 1e30 only the sign is compared. */
 inline bool is_no_data(float x, double no_data)
 {
     if (std::fabs(no_data) > 1e30) return no_data > 0.0 ? x > 1e30f : x < -1e30f;
     return x == static_cast<float>(no_data);
 }
 
-/* Rows as the library gives them become values of WrImage. */
+/* Converts rows from the library to values of WrImage. */
 template <typename Code>
 inline void decode_codes(const Code *codes, size_t count, const Values &values, float *out)
 {
@@ -200,7 +204,7 @@ inline void decode_values(const void *codes, size_t pixels, int channels, const 
     case OIIO::TypeDesc::INT32:
         decode_codes(static_cast<const int32_t *>(codes), count, values, out);
         break;
-    default: break; /* floats lie in `out` */
+    default: break; /* floats are already in `out` */
     }
     const int each = channels;
     for (size_t i = 0; i < count; i++) {
@@ -216,7 +220,7 @@ inline void decode_values(const void *codes, size_t pixels, int channels, const 
     }
 }
 
-/* Whether decode_values has anything to do with floats. */
+/* True if decode_values changes floats. */
 inline bool changes_floats(const Values &values)
 {
     return values.has_no_data || values.invert || values.restore_alpha || !values.restore.empty() ||

@@ -1,5 +1,5 @@
-/* one_line.hpp - what a library says, as one line of a reason. C++, for the modules.
-   Private to this room. */
+/* one_line.hpp - reduction of a library's message to one line of a reason. C++, for the modules.
+   Private to this module. */
 #pragma once
 #include <cstddef>
 #include <cstdio>

@@ -1,7 +1,8 @@
 /* png.h - integrity check of a PNG file before libpng reads it.
 
-   libpng allocates the size that a damaged length gives, and tolerates a missing end. Private to this
-   module. Source: PNG specification (ISO/IEC 15948), 5.3 chunk layout, annex D. */
+   libpng allocates the size that a damaged length gives, and tolerates a missing end.
+   Private to this module.
+   Source: PNG specification (ISO/IEC 15948), 5.3 chunk layout, annex D. */
 #pragma once
 #include <stdbool.h>
 #include <stdio.h>

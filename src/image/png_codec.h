@@ -2,8 +2,9 @@
    quarter of a second.
 
    Results equal those of OpenImageIO: palettes as colours, codes of fewer than 8 bits as 8,
-   transparency as alpha, the program's texts from the description. Private to this module. Source: PNG
-   specification (ISO/IEC 15948). */
+   transparency as alpha, the program's texts from the description.
+   Private to this module.
+   Source: PNG specification (ISO/IEC 15948). */
 #pragma once
 #include "image/codec.h"
 

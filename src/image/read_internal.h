@@ -1,5 +1,5 @@
-/* read_internal.h - reading functions used by whole-image reading and by readback. Private to this
-   module. */
+/* read_internal.h - reading functions used by whole-image reading and by readback.
+   Private to this module. */
 #pragma once
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
-/* readback.h - verification of a newly written image file by the reader process. Private to this
-   module. */
+/* readback.h - verification of a newly written image file by the reader process.
+   Private to this module. */
 #pragma once
 #include "image/format.h"
 

@@ -1,5 +1,6 @@
-/* reader_child.h - a child of the reader process: reads one file for the program. Private to this
-   module. Only in the reader process. */
+/* reader_child.h - a child of the reader process: reads one file for the program.
+   Private to this module.
+   Only in the reader process. */
 #pragma once
 #include "image/reader_protocol.h"
 

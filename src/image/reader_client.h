@@ -1,9 +1,10 @@
 /* reader_client.h - reading of image, mesh and font files by the reader process (reader_protocol.h).
 
-   A hostile file can harm only that process. The functions are those of decode.h. Private to this
-   module. Every reply is checked as untrusted data. A reading without a reply for a minute (and a
-   second more for each MB of the file) is aborted; so is one that uses over 4 GB of memory, less for
-   small images. The environment can set both limits: WRINKLE_READER_SECONDS, WRINKLE_READER_MB. */
+   A hostile file can harm only that process. The functions are those of decode.h.
+   Private to this module.
+   Every reply is checked as untrusted data. A reading without a reply for a minute (and a second more
+   for each MB of the file) is aborted; so is one that uses over 4 GB of memory, less for small images.
+   The environment can set both limits: WRINKLE_READER_SECONDS, WRINKLE_READER_MB. */
 #pragma once
 #include "image/image.h"
 #include "image/reader_protocol.h"

@@ -1,5 +1,6 @@
 /* reader_process.h - management of the reader process: started on first use, restarted after a crash,
-   and kept for the next file. Private to this module. */
+   and kept for the next file.
+   Private to this module. */
 #pragma once
 #include "image/reader_protocol.h"
 

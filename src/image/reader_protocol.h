@@ -1,4 +1,5 @@
-/* reader_protocol.h - protocol between the program and its reader process. Private to this module.
+/* reader_protocol.h - protocol between the program and its reader process.
+   Private to this module.
 
    The program starts the reader process once. It sends orders over the control socket, one packet each:
    a WrWireOrder with two descriptors, the file to read and one end of a channel. The process forks; its

@@ -1,4 +1,5 @@
-/* scan.h - a text cursor for mesh files, with number parsing in double precision. Private to src/image.
+/* scan.h - a text cursor for mesh files, with number parsing in double precision.
+   Private to src/image.
    Part of the reader process, and of reading "inside". */
 #pragma once
 #include <stdbool.h>

@@ -1,5 +1,6 @@
-/* stl.h - reader of STL files: binary, or ASCII in letters of either case. Private to this module. Part
-   of the reader process, and of reading "inside".
+/* stl.h - reader of STL files: binary, or ASCII in letters of either case.
+   Private to this module.
+   Part of the reader process, and of reading "inside".
 
    The library is not used because it rejects capitals and truncates ASCII coordinates to 32-bit floats. */
 #pragma once

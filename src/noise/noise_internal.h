@@ -1,4 +1,5 @@
-/* noise_internal.h - internals shared by the files of noise. Private to this module. */
+/* noise_internal.h - internals shared by the files of noise.
+   Private to this module. */
 #pragma once
 #include "noise/grid.h"
 

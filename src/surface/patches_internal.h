@@ -1,4 +1,5 @@
-/* patches_internal.h - internals of the construction of patch sets. Private to this module. */
+/* patches_internal.h - internals of the construction of patch sets.
+   Private to this module. */
 #pragma once
 #include "surface/patches.h"
 

@@ -1,4 +1,5 @@
-/* triangles_internal.h - internals of the construction of meshes. Private to this module. */
+/* triangles_internal.h - internals of the construction of meshes.
+   Private to this module. */
 #pragma once
 #include "surface/triangles.h"
 
