@@ -17,7 +17,7 @@
         int capacity; /* allocated */                                                              \
     }
 
-/* Make room for at least `want` elements. */
+/* Reserves memory for at least `want` elements. */
 #define wr_array_reserve(array, want)                                                              \
     do {                                                                                           \
         if ((array)->capacity < (want)) {                                                          \

@@ -71,7 +71,7 @@ static void print_digits(double value, int digits, char *buffer)
     wr_locale_print_plain(buffer, WR_NUMBER_SIZE, value, digits);
 }
 
-/* "4e+01" reads worse than "40": whole numbers below 1e15 are written out. */
+/* "4e+01" is less readable than "40": integers below 1e15 are written out. */
 static char *write_out(double value, char *buffer)
 {
     if (strchr(buffer, 'e') && fabs(value) >= 1 && fabs(value) < 1e15)

@@ -94,7 +94,7 @@ static void fold(const Fit *fit, const double *const below[REACH + 1],
     }
 }
 
-/* Filter table row j, columns i .. i + count - 1, along u. */
+/* Filters table row j, columns i .. i + count - 1, along u. */
 static void fit_row(Fit *fit, const WrField *field, int i, int j, int count, double *out)
 {
     const double *below[REACH + 1], *above[REACH + 1];
@@ -107,7 +107,7 @@ static void fit_row(Fit *fit, const WrField *field, int i, int j, int count, dou
     fold(fit, below, above, count, out);
 }
 
-/* Filter across the ring, rows middle - REACH .. middle + REACH, into fit->sum. */
+/* Filters across the ring, rows middle - REACH .. middle + REACH, into fit->sum. */
 static void fit_columns(Fit *fit, int middle, int count)
 {
     const double *below[REACH + 1], *above[REACH + 1];

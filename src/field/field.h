@@ -44,7 +44,7 @@ float wr_field_get(const WrField *field, int i, int j);
  * write tiles. */
 void wr_field_set(WrField *field, int i, int j, float height);
 
-/* Every texel becomes `height`; drops all tiles. */
+/* Sets every texel to `height`; drops all tiles. */
 void wr_field_fill(WrField *field, float height);
 
 /* The 64 x 64 texels of tile (tx, ty), row by row from the top, texel (64 tx + x, 64 ty + y) at

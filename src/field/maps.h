@@ -6,8 +6,9 @@
  * | curvature | minus the mean curvature (derivatives.h), 1 / scene unit: ridges above 0, grooves below |
  * | slope     | angle of its plane, degrees 0..90                                                 |
  * | direction | downhill, degrees 0..360 anticlockwise from u; 0 where it is level                |
- * | roughness | root of alpha, at most 1: alpha^2 = base^2 + the sum of the variances of both slopes over a box about it, |
- * |           | which is the mean of Beckmann's alpha^2 over the principal axes, each twice its variance               |
+ * | roughness | root of alpha, at most 1: alpha^2 = base^2 + the sum of the variances of both slopes   |
+ * |           | over a box about it, the mean of Beckmann's alpha^2 over the principal axes, each of which |
+ * |           | is twice its variance                                                               |
  * | slope_u, slope_v | dz/dx along u, dz/dy along v: scene units over scene units                       |
  *
  * A table shifted by whole texels along its periodic axes gives the shifted map, to the bit, on any

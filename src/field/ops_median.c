@@ -93,7 +93,7 @@ static float member(Desk *desk, int before)
     return desk->sorted[desk->at * 64 + __builtin_ctzll(word)];
 }
 
-/* Move the window's centre from (x, y) to the right (+1) or to the left (-1). */
+/* Moves the window's centre from (x, y) to the right (+1) or to the left (-1). */
 static void step_across(const Median *median, Desk *desk, int x, int y, int way)
 {
     for (int d = -median->reach; d <= median->reach; d++) {

@@ -18,8 +18,8 @@
 
 typedef struct WrField WrField;
 
-/* A WrSchemeId of field/scheme_list.h; 0 <= scheme < wr_scheme_count. An int, because this header is included widely and the
-   list by few. */
+/* A WrSchemeId of field/scheme_list.h; 0 <= scheme < wr_scheme_count. An int, because many files
+   include this header and few need the list. */
 typedef int WrScheme;
 
 /* Input of a scheme. */

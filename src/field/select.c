@@ -255,7 +255,7 @@ WrField *wr_select_invert(const WrField *a)
     return out;
 }
 
-/* Blur and clamp: rounding may take the blurred sum a bit outside of 0..1. */
+/* Blurs and clamps: rounding may move the blurred sum slightly outside 0..1. */
 WrField *wr_select_feather(const WrField *a, double sigma, WrPool *pool, WrError *err)
 {
     const WrOpInfo *blur = wr_op_find("blur"), *clamp = wr_op_find("clamp");

@@ -343,7 +343,7 @@ typedef struct Rainfall {
     int levels;
 } Rainfall;
 
-/* Rain on coarser grids first, then on this one. */
+/* Rain falls on coarser grids first, then on this one. */
 static bool rain_on_level(WrSheet *sheet, const Rainfall *all, int level, WrError *err)
 {
     double share = 0.75; /* of the work; each grid has a quarter of the finer one's */

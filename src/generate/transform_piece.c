@@ -190,14 +190,14 @@ static void images(const Placed *p, int axis, double from, double to, int *first
     *last = (int)floor((p->box[axis + 2] - from) / n);
 }
 
-/* Numbers of images in the order 0, 1, -1, 2, -2, ...: of those that say as much, the one nearest to the piece's own place
-   counts. A piece larger than the table lies over itself. */
+/* Enumerates image numbers in the order 0, 1, -1, 2, -2, ...: among images of equal weight, the one
+   nearest to the piece's own position wins. A piece larger than the table overlaps itself. */
 static int next_image(int image)
 {
     return image > 0 ? -image : 1 - image;
 }
 
-/* Of the images of one texel, the one that says most. */
+/* The height of the image with the largest weight at one texel. */
 static float take_images(const Placed *p, double x, double y, const int first[2], const int last[2],
                          float *height)
 {

@@ -1,4 +1,5 @@
-/* Source: OpenEXR File Layout, "Multi-Part and Deep Data", and for tiles "Regular tile image file". All numbers are little-endian. */
+/* Source: OpenEXR File Layout, "Multi-Part and Deep Data", and for tiles "Regular tile image file". All
+   numbers are little-endian. */
 #include "image/exr_chunks.h"
 
 #include "base/error.h"

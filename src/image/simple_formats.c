@@ -169,9 +169,10 @@ static bool open_hgt(WrPlain *p, int64_t length, WrError *err)
     return true;
 }
 
-/* ---- run-length BMP: file header (14 bytes), info header (40 or more), palette of blue, green, red, 0; then pairs of a
-   count and a palette index, rows upwards. A count of 0 is followed by 0: end of line, 1: end of the bitmap, 2: a step right
-   and up, 3 or more: so many indices, padded to 2 bytes. RLE4 holds two indices a byte, the high half first. ---- */
+/* ---- run-length BMP: file header (14 bytes), info header (40 or more), palette of blue, green, red,
+   0; then pairs of a count and a palette index, rows upwards. After a count of 0 follows 0: end of
+   line, 1: end of the bitmap, 2: a step right and up, 3 or more: this many indices, padded to 2 bytes.
+   RLE4 stores two indices per byte, the high half first. ---- */
 
 typedef struct Rle {
     FILE *file;

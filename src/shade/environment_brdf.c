@@ -131,8 +131,8 @@ static void init_matt(WrEnvironmentBrdf *g, const WrReflectance *of, const WrMat
 
 /* ---- highlights ---- */
 
-/* The formula of a lamp and alpha of the facets that its integral is taken over. NULL: no highlight, or one whose albedo
-   is known otherwise. */
+/* The lamp formula, and the alpha of the facets over which its integral is taken. NULL: no highlight,
+   or one whose albedo has another formula. */
 static Lamp *lamp_of(const WrReflectance *of, const WrMatter *m, double *alpha)
 {
     *alpha = sqrt(2 / (m->shininess + 2));

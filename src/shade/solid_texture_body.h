@@ -29,7 +29,7 @@ R_INLINE REAL grain_step(REAL x, REAL per)
     return grain_clamp(x * per + K_(0.5));
 }
 
-/* The pulse's integral from 0, over whole turns. */
+/* The pulse's integral from 0 to t. */
 R_INLINE REAL grain_sum(REAL t, REAL d)
 {
     const REAL whole = r_floor(t), rest = t - whole - (K_(1) - d);

@@ -65,8 +65,8 @@ R_INLINE VEC FN(either)(int use_a, VEC a, VEC b)
     return (VEC){ use_a ? a.x : b.x, use_a ? a.y : b.y, use_a ? a.z : b.z };
 }
 
-/* n, n_unit, n_len, n_u, n_v from the derivatives in *o, the third derivatives Puuv, Puvv and the
- * size of rounding: a product of tangents under `noise` is 0. */
+/* Computes n, n_unit, n_len, n_u, n_v from the derivatives in *o and the third derivatives Puuv, Puvv.
+ * `noise` is the rounding error: a smaller product of tangents counts as 0. */
 R_INLINE void FN(bezier_frame)(REAL u, REAL v, VEC puuv, VEC puvv, REAL noise, POINT *o)
 {
     VEC n = v_cross(o->pu, o->pv);

@@ -64,7 +64,7 @@ struct WrPatches {
     int32_t count;
     WrPatchTable table;
     double scale_u, scale_v;
-    int32_t columns, rows; /* of the unfolded set's cells; 1, 1 */
+    int32_t columns, rows; /* cells of the unfolded set; otherwise 1, 1 */
     WrPatchesTold told;
 };
 

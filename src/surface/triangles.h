@@ -67,7 +67,7 @@ typedef struct WrTriangles {
     const WrTrianglePart *parts;     /* [part_count], owned; covering all triangles in order */
     int32_t corner_count, triangle_count, part_count;
     bool closed;              /* each directed edge is matched once by its reverse: a body */
-    bool faceted;             /* the three normals of each triangle have the same bits */
+    bool faceted;             /* the three normals of each triangle are bit-identical */
     bool mapped;              /* some triangle has texture coordinates */
     double centre[3], radius; /* bounding sphere; radius > 0 */
     uint64_t key;             /* hash of its content */
