@@ -30,7 +30,7 @@ SHOWN const char *const wr_fault_stages[FAULT_STAGES] = { "before", "writing", "
 
 static FaultState *state;
 
-/* ---- what is written and not synced ---- */
+/* ---- unsynced files ---- */
 
 #define PENDING_MAX 64
 
@@ -149,7 +149,7 @@ SHOWN void wr_fault_arm(FaultKind kind, int64_t n, FaultMode mode, int error)
     state->armed = 1;
 }
 
-/* ---- which call that is ---- */
+/* ---- selection of the call ---- */
 
 static FaultPlace place_of_path(const char *path)
 {

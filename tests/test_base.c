@@ -622,7 +622,7 @@ static void what_a_folder_passes_on_a_new_file_has(void **state)
     assert_int_equal(mode_in_folder_with(&plain, 3, 0), 0640);
 }
 
-/* ---- checksums of what is written ---- */
+/* ---- checksums of written data ---- */
 
 #define MOST 3000000 /* file size limit in bytes */
 

@@ -34,7 +34,7 @@ static int side(void)
     return is_whole() ? 4096 : 256;
 }
 
-/* ---- what is told to stop ---- */
+/* ---- cancelled lines ---- */
 
 typedef struct Stop {
     volatile int cancel;
@@ -248,7 +248,7 @@ static void each_generator_stops_at_a_report_and_leaves_no_trace(void **state)
     wr_pool_free(pool);
 }
 
-/* ---- no command is forgotten ---- */
+/* ---- completeness ---- */
 
 static bool begins(const char *line, const char *name)
 {
@@ -281,7 +281,7 @@ static void each_command_is_tried_or_known_to_be_instant(void **state)
     }
 }
 
-/* ---- what is no command ---- */
+/* ---- operations without a command ---- */
 
 /* False: it ended before. */
 static bool cancelled_at(int at, bool (*work)(WrSession *, WrError *), WrSession *session)

@@ -261,7 +261,7 @@ static void outlines_follow_the_copies(void **state)
     }
 }
 
-/* ---- what pixels are made of ---- */
+/* ---- content of pixels ---- */
 
 static void contours_are_few_and_at_round_heights(void **state)
 {

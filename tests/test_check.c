@@ -314,7 +314,7 @@ static void slopes_and_colours_are_told_apart(void **state)
     assert_int_equal(check_as("s.png", WR_CHECK_NORMAL).kind, WR_CHECK_NORMAL);
 }
 
-/* ---- what is none ---- */
+/* ---- no heights ---- */
 
 static void hostile_files_are_errors(void **state)
 {

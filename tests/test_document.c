@@ -289,7 +289,7 @@ static void an_almost_empty_large_table_stays_small_in_memory(void **state)
     wr_document_free(document);
 }
 
-/* ---- files that are no documents ---- */
+/* ---- invalid documents ---- */
 
 typedef struct Part {
     const char *name;

@@ -90,7 +90,7 @@ static WrEnginePoint at(double x, double y, double seconds)
 
 #define STILL "\"anti_aliasing\": {\"base_value\": 0}"
 
-/* ---- where dabs fall ---- */
+/* ---- positions of dabs ---- */
 
 static void dabs_lie_on_the_way_at_the_spacing_of_the_preset(void **state)
 {
@@ -218,7 +218,7 @@ static void a_rest_sprays_for_as_long_as_it_lasts_but_for_a_second_at_most(void 
     wr_preset_free(preset);
 }
 
-/* ---- what dabs carry ---- */
+/* ---- values of dabs ---- */
 
 static void angles_come_out_anticlockwise_as_seen(void **state)
 {

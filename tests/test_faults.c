@@ -191,7 +191,7 @@ static void check_end(const Job *job, const Good *good, int status, FaultTally *
     if (!is_old(job->file)) make_old(job);
 }
 
-/* ---- calls that fail, and kills ---- */
+/* ---- failing calls and kills ---- */
 
 static void run_fault(const Job *job, const Good *good, FaultKind kind, int64_t n, FaultMode mode,
                       FaultTally *tally)
@@ -274,7 +274,7 @@ static void every_call_may_fail(void **state)
     }
 }
 
-/* ---- the journal of what could not be saved ---- */
+/* ---- the journal of unsaved work ---- */
 
 /* Number of journals with the work. */
 static int journals(void)
@@ -369,7 +369,7 @@ static void what_is_saved_or_drawn_is_on_the_disk(void **state)
     assert_int_equal(system("rm -rf state"), 0);
 }
 
-/* ---- too little room ---- */
+/* ---- too little space ---- */
 
 static void no_room_by_a_limit(void **state)
 {

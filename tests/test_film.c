@@ -260,7 +260,7 @@ static void cancel_ends_it_wherever_it_is(void **state)
     cancelled(CODEC "if [ $READS = 1 ]; then : >runs; exec sleep 100; else cat >\"$FILE\"; fi");
 }
 
-/* ---- its end is bound to ours ---- */
+/* ---- end of the child process ---- */
 
 static bool runs(long pid)
 {
@@ -307,7 +307,7 @@ static void it_is_killed_with_this_program(void **state)
     assert_int_equal(left_over(), 0); /* its partial file was removed */
 }
 
-/* ---- what is refused ---- */
+/* ---- refusals ---- */
 
 static void expect_refusal(const char *path, WrFilmOptions options, const char *words)
 {

@@ -260,7 +260,7 @@ static void a_filter_is_its_operation_by_opacity_and_mask(void **state)
     wr_document_free(document);
 }
 
-/* ---- what it costs ---- */
+/* ---- costs ---- */
 
 static void count_tile(int tx, int ty, void *ctx)
 {

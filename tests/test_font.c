@@ -410,7 +410,7 @@ static void lines_are_aligned_and_spaced_as_asked(void **state)
     wr_font_text_fini(&text);
 }
 
-/* ---- strangers ---- */
+/* ---- untrusted fonts ---- */
 
 static void refused(const char *name, const void *bytes, size_t length, const char *word)
 {

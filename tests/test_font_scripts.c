@@ -151,7 +151,7 @@ static void arabic_letters_touch_their_neighbours(void **state)
     wr_font_text_fini(&alone);
 }
 
-/* ---- letters that are lent ---- */
+/* ---- fallback fonts ---- */
 
 static int units_of(const char *path)
 {

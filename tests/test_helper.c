@@ -174,7 +174,7 @@ static void a_picture_in_memory_reads_like_its_file(void **state)
     wr_free(bytes);
 }
 
-/* ---- what it must not do ---- */
+/* ---- forbidden actions ---- */
 
 static void a_reader_holds_its_file_its_channel_and_no_rights(void **state)
 {

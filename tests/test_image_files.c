@@ -213,7 +213,7 @@ static void srtm_elevations_are_metres_and_voids_are_filled(void **state)
     refuse("N00E000.hgt", "1201x1201");
 }
 
-/* ---- which way is up ---- */
+/* ---- orientation ---- */
 
 /* A TIFF of 8-bit greys, 3 x 2, codes 10 row + column, with that orientation. */
 static void write_turned_tiff(const char *path, unsigned orientation)

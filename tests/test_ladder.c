@@ -13,7 +13,7 @@
 
 #include <unistd.h>
 
-/* ---- which settings are tried ---- */
+/* ---- tested settings ---- */
 
 static WrRung *settings_of(const WrScene *scene, WrAxis axis, int *count)
 {

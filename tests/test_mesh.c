@@ -257,7 +257,7 @@ static void a_mesh_is_the_same_from_memory_from_a_file_and_inside(void **state)
     unlink(path);
 }
 
-/* ---- what is wrong ---- */
+/* ---- invalid files ---- */
 
 static void a_point_that_is_not_finite_is_named(void **state)
 {

@@ -61,7 +61,7 @@ static void expect_told(Said *said, const char *words)
     said->text[0] = '\0';
 }
 
-/* ---- what is read, and told ---- */
+/* ---- reading, notes ---- */
 
 static void what_was_taken_is_told(void **state)
 {
@@ -176,7 +176,7 @@ static void what_makes_no_sense_is_refused(void **state)
     wr_session_free(s);
 }
 
-/* ---- what files keep ---- */
+/* ---- storage in files ---- */
 
 static void draw(WrSession *session, float *out)
 {

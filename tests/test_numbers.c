@@ -35,7 +35,7 @@ static size_t read_bytes(const char *path, unsigned char *bytes, size_t most)
     return count;
 }
 
-/* ---- what is written ---- */
+/* ---- writing ---- */
 
 static void bytes_are_the_codes_in_either_order(void **state)
 {
@@ -150,7 +150,7 @@ static void another_program_reads_them(void **state)
     wr_session_free(s);
 }
 
-/* ---- what is read ---- */
+/* ---- reading ---- */
 
 static double farthest(const WrSession *a, const WrSession *b)
 {

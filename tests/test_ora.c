@@ -171,7 +171,7 @@ static void the_same_document_gives_the_same_bytes_a_while_later(void **state)
     wr_document_free(document);
 }
 
-/* ---- what others see ---- */
+/* ---- other programs ---- */
 
 static WrImage *picture_in(zip_t *archive, const char *name)
 {

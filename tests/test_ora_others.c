@@ -20,7 +20,7 @@
 #define HEIGHT 70
 #define COUNT (WIDTH * HEIGHT)
 
-/* ---- the stranger ---- */
+/* ---- the other program ---- */
 
 static char *entry(zip_t *archive, const char *name, size_t *length)
 {

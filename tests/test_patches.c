@@ -45,7 +45,7 @@ static WrTriangles *teapot(bool slip, WrPatchTable table)
     return made;
 }
 
-/* ---- what is found ---- */
+/* ---- connectivity ---- */
 
 /* HC152: note on the open edges and degenerate patches of Newell's teapot. */
 static void the_teapot_is_told_of(void **state)

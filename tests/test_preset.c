@@ -100,7 +100,7 @@ static void settings_of_colour_alone_are_ignored(void **state)
     assert_int_equal(wr_preset_setting(setting("snap_to_pixel"))->use, WR_SETTING_USED);
 }
 
-/* ---- what is read ---- */
+/* ---- parsing ---- */
 
 static void the_smallest_preset_is_the_librarys_default_brush(void **state)
 {

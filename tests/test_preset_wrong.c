@@ -34,7 +34,7 @@ static void refuse_relief(const char *relief, const char *words)
     if (!strstr(err.text, words)) fail_msg("%s: '%s' does not say '%s'", relief, err.text, words);
 }
 
-/* ---- what is refused ---- */
+/* ---- refusals ---- */
 
 static void text_that_is_no_preset_is_refused_with_its_place(void **state)
 {

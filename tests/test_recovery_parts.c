@@ -92,7 +92,7 @@ static void damage(const char *journal, const char *text)
     wr_text_fini(&bytes);
 }
 
-/* ---- damage, and commands that fail ---- */
+/* ---- damage, failing commands ---- */
 
 static const char *const five[] = { "table 64x64",
                                     "dab 0.2,0.2 strength=0.5",

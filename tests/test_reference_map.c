@@ -169,7 +169,7 @@ static void objects_that_hide_each_other_have_them_too(void **state)
     }
 }
 
-/* ---- frames that are known by hand ---- */
+/* ---- frames computed by hand ---- */
 
 typedef struct Corner {
     float p[3], uv[2];

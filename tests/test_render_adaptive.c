@@ -80,7 +80,7 @@ static void bounded_refinement_keeps_within_its_contrast(void **state)
     wr_field_free(rough);
 }
 
-/* ---- where it does not pay ---- */
+/* ---- cases without savings ---- */
 
 /* Relief finer than pixels everywhere: fewer samples would never suffice, so all are taken at once, and the plan
    reports it. Gentle relief gives the opposite report. */

@@ -163,7 +163,7 @@ static void all_samples_are_taken_between_objects(void **state)
     assert_in_range(between, 50, 10000);
 }
 
-/* ---- what a resting view looks at is known ---- */
+/* ---- cached hits of a static view ---- */
 
 /* A change that does not affect which object a sample shows. */
 static void change_look(TestRandom *random, Set *set)

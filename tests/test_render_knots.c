@@ -134,7 +134,7 @@ static void count_layers(Seen *seen)
         }
 }
 
-/* ---- what is told ---- */
+/* ---- interpolated samples ---- */
 
 /* Distance in samples of a point from the ray of (x, y). */
 static double off_ray(const Seen *seen, WrVec3 p, double x, double y)

@@ -28,7 +28,7 @@ static WrScene *scene_with(WrTriangles *mesh)
     return scene;
 }
 
-/* ---- what must not depend on anything ---- */
+/* ---- invariance ---- */
 
 typedef struct Way {
     WrAntialias aa;
@@ -144,7 +144,7 @@ static void resting_views_and_picks(void **state)
     wr_field_free(field);
 }
 
-/* ---- what it must be ---- */
+/* ---- expected pictures ---- */
 
 /* RMS and largest difference of linear intensity where both cover the pixel fully; *apart: pixels covered by only
    one. */

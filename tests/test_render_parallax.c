@@ -330,7 +330,7 @@ static void what_nobody_sees_is_bump(void **state)
     assert_true(off > 0 && off < 0.02);
 }
 
-/* ---- what is not special ---- */
+/* ---- special cases ---- */
 
 static void the_bits_are_the_same(void **state)
 {

@@ -288,7 +288,7 @@ static const struct {
 };
 #define ATTEMPTS ((int)(sizeof attempts / sizeof *attempts))
 
-/* ---- the cage ---- */
+/* ---- the sandbox ---- */
 
 static bool enter(int parts)
 {

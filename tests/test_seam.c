@@ -96,7 +96,7 @@ static void a_crease_is_an_order_of_0(void **state)
     wr_field_free(field);
 }
 
-/* ---- lays ---- */
+/* ---- tilings ---- */
 
 static WrField *laid(const WrField *cell, bool half_drop)
 {

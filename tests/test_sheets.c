@@ -59,7 +59,7 @@ static float at(const WrImage *image, int i, int j, int c)
                        (size_t)c];
 }
 
-/* ---- what is laid ---- */
+/* ---- arrangements ---- */
 
 typedef struct Lay {
     const char *options;

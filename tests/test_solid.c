@@ -326,7 +326,7 @@ static void letters_turned_by_half_a_turn_are_upside_down(void **state)
     wr_field_free(like);
 }
 
-/* ---- what is wrong ---- */
+/* ---- errors ---- */
 
 static void impossible_solids_are_refused_in_words(void **state)
 {

@@ -201,7 +201,7 @@ static void the_keys_come_to_all_that_the_pointer_finds(void **state)
     walk_close(&walk);
 }
 
-/* ---- what the keys do ---- */
+/* ---- effect of keys ---- */
 
 static void enter_bench(Walk *walk)
 {

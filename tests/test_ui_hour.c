@@ -48,7 +48,7 @@ static double resident(void)
     return (double)held * (double)sysconf(_SC_PAGESIZE);
 }
 
-/* ---- the hand ---- */
+/* ---- pointer ---- */
 
 static void motion(Hour *hour, int x, int y)
 {
@@ -81,7 +81,7 @@ static void drag(Hour *hour, const SDL_Rect *room, int which)
     step(hour);
 }
 
-/* ---- what else is done ---- */
+/* ---- other actions ---- */
 
 static void line(Hour *hour, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static void line(Hour *hour, const char *format, ...)

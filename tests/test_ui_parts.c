@@ -164,7 +164,7 @@ static void every_driver_has_a_way_to_the_screen_that_it_knows(void **state)
     }
 }
 
-/* ---- what rocks ---- */
+/* ---- rocking ---- */
 
 static void a_sheet_rocks_smoothly_and_never_shows_its_back(void **state)
 {
@@ -254,7 +254,7 @@ static void damaged_texts_of_settings_are_read_as_far_as_they_make_sense(void **
     assert_int_equal(wr_tuning_count(NULL), 0);
 }
 
-/* ---- brushes that are remembered ---- */
+/* ---- stored brushes ---- */
 
 static void favourites_come_and_go_and_survive_the_settings_file(void **state)
 {
@@ -307,7 +307,7 @@ static void more_favourites_than_there_are_places_are_left_out(void **state)
     wr_settings_fini(&s);
 }
 
-/* ---- keys that are held ---- */
+/* ---- modifier keys ---- */
 
 static void keys_that_are_held_go_by_the_map(void **state)
 {

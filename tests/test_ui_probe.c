@@ -174,7 +174,7 @@ static void the_text_holds_numbers_that_read_back_whole(void **state)
     assert_string_equal(wr_accuracy_probe_number(-0.0, number), "0");
 }
 
-/* ---- what a tolerance chose ---- */
+/* ---- choice of a tolerance ---- */
 
 static WrScene *with(WrScheme scheme, WrBumpMode mode, int samples)
 {

@@ -101,7 +101,7 @@ static void every_page_of_the_guide_has_a_title_in_german(void **state)
     assert_true(!german || pages > 20);
 }
 
-/* ---- what can be done is found ---- */
+/* ---- search ---- */
 
 static const char *listed[1000];
 static int listed_count;
@@ -230,7 +230,7 @@ static void no_key_does_two_things(void **state)
     assert_true(count > 100);
 }
 
-/* ---- room ---- */
+/* ---- available width ---- */
 
 static struct {
     Walk *walk;

@@ -501,7 +501,7 @@ static void the_rim_of_a_solid_over_another_is_smoothed(void **state)
     wr_field_free(like);
 }
 
-/* ---- what is wrong ---- */
+/* ---- errors ---- */
 
 static void expect_error(const WrZScene *scene, const WrField *like, const char *words)
 {
