@@ -96,10 +96,11 @@ static void a_texture_transform_moves_coordinates(void **state)
     wr_mesh_fini(&mesh);
 }
 
-/* The example of the Khronos specification of KHR_texture_transform: offset (0, 1), a quarter turn, scale 0.5 show the lower
-   left quadrant of the picture, turned clockwise. So the model's top left corner, glTF's (0, 0), has the quadrant's lower
-   left one, (0, 1); its top right one the quadrant's top left one, (0, 0.5); its lower left one the lower right, (0.5, 1).
-   (The GLSL lines of that text turn the other way; its prose, this example and its test model are followed.) */
+/* The example of the Khronos specification of KHR_texture_transform: offset (0, 1), a quarter turn, scale 0.5 show
+   the lower left quadrant of the picture, rotated clockwise. So the model's top left corner, (0, 0) in glTF, gets the
+   quadrant's lower left one, (0, 1); its top right one the quadrant's top left one, (0, 0.5); its lower left one the
+   lower right, (0.5, 1). (The GLSL lines of that text rotate in the other direction; its prose, this example and its
+   test model are followed.) */
 static void a_texture_transform_turns_as_the_specification_shows(void **state)
 {
     (void)state;

@@ -12,7 +12,7 @@
 
 #define TEXTS 5
 
-/* Sorted as the file wants them; the empty one is the head. */
+/* Sorted, as required by the format; the empty one is the header. */
 static const char *const from[TEXTS] = { "", "%d of %s", "Brush", "Height", "Layer" };
 static const char *const to[TEXTS] = { "Language: xx\n", "%d von %s", "Pinsel", "H\xc3\xb6he", "" };
 

@@ -197,8 +197,8 @@ static bool is_cancelled(const WrCli *cli)
     return wr_cancel_asked(cli->cancel);
 }
 
-/* True if the file or one of its inputs has changed. An input that is missing, as during its replacement, counts when it is
-   back; but a changed script counts at once, since it may no longer need that input. */
+/* True if the file or one of its inputs has changed. A missing input, as during its replacement, counts when it is
+   back. A changed script counts at once, since it may no longer need that input. */
 static bool is_another(const WrCli *cli, WrFileStamp *stamp, const Last *last)
 {
     const WrFileStamp now = wr_file_stamp(cli->file);

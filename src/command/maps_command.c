@@ -65,7 +65,7 @@ static bool run_maps(WrSession *session, WrCall *call, WrError *err)
     return good;
 }
 
-/* Some kind takes that value; whether those of the set do is seen when it is written. */
+/* Accept a value that any kind of map accepts; the kinds of the set are checked when they are written. */
 static bool check_word(const void *ctx, const char *name, const char *value, WrError *err)
 {
     (void)ctx;
@@ -77,7 +77,7 @@ static bool check_word(const void *ctx, const char *name, const char *value, WrE
     return false;
 }
 
-/* Accept a value that any kind of map accepts; the kinds of the set are checked when they are written. */
+/* All options of all kinds, each once. */
 static bool row_maps(WrForm *out)
 {
     int count = 0;

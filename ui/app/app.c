@@ -66,7 +66,7 @@
 
 #define FRAME_SECONDS (1.0 / 125.0) /* least time between two frames */
 #define DRAWN_SECONDS                                                                              \
-    (1.0 / 300.0)         /* while the pointer is held, so that what it does is seen at once */
+    (1.0 / 300.0)         /* during a drag, so that its effect is visible with low latency */
 #define CARET_SECONDS 0.3 /* interval for a text field's blinking caret and for messages */
 #define BAR_SECONDS 0.1   /* interval for progress bars */
 #define YOUNG_MS 3        /* interval of completion checks while events are held back */

@@ -167,7 +167,7 @@ static bool is_stale(WrApp *app, const WrInputItem *item)
     return stale;
 }
 
-/* The modifier keys and the pointer as the event leaves them. */
+/* Record the modifier keys and the pointer position after the event. */
 static void note_state(WrHand *hand, const SDL_Event *event)
 {
     if (event->type == SDL_KEYDOWN || event->type == SDL_KEYUP)

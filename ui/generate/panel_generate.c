@@ -140,7 +140,7 @@ static void presets(WrApp *app)
 
 /* ---- messages ---- */
 
-/* A file that is still to be chosen is no error. */
+/* A required file that is not chosen yet is not an error. */
 static bool lacks_file(const WrGenerateHand *hand)
 {
     return hand->blamed >= 0 && hand->generator->params[hand->blamed].kind == WR_PARAM_FILE &&
@@ -203,8 +203,8 @@ static void expectation(const WrApp *app)
     if (text[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 
-/* Errors and notes, or how long it will take, above the buttons. Its space is always kept, so that the values stay where
-   they are when a note appears or goes. */
+/* Errors and notes, or the expected duration, above the buttons. The space is reserved, so that the values do not
+   move when a note appears or disappears. */
 static void said(const WrApp *app, SDL_Rect *room)
 {
     const char *text = notes(app);

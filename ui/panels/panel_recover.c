@@ -248,7 +248,7 @@ void wr_dialog_recover(WrApp *app)
                             "Wrinkle ended before this was saved. It can be brought back.");
     tell(recovery);
     wr_gui_space(8);
-    wr_busy_hold(app); /* what the command line asked for may still be opening */
+    wr_busy_hold(app); /* the document of the command line may still be opening */
     recover_buttons(app, key && !wr_busy_refuses(app));
     wr_busy_hold_end();
     bool lose = wr_gui_button(recovery->sure ? "Discard for good"

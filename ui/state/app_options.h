@@ -10,7 +10,7 @@ typedef struct WrText WrText;
 typedef struct WrAppOptions {
     /* borrowed; output commands enabled. If file_given, the requested file is open in it, or `open` opens it */
     WrSession *session;
-    /* Opens what was requested, on a worker thread while the window is shown; NULL: it is open already */
+    /* Open the requested document; called on a worker thread while the window is shown; NULL: it is open already */
     bool (*open)(WrSession *session, void *ctx, WrError *err);
     void *open_ctx;
     const char

@@ -1,4 +1,5 @@
-/* busy_internal.h - state of the running background command and its queue. Private to busy*.c, run_line.c and document.c. */
+/* busy_internal.h - state of the running background command and its queue. Private to busy*.c, run_line.c and
+   document.c. */
 #pragma once
 #include "ui/state/busy.h"
 

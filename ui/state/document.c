@@ -33,7 +33,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define START_SECONDS 0.25 /* an opening that takes less is not seen at start */
+#define START_SECONDS 0.25 /* shorter openings need no progress display at the start */
 
 static void note_recent(WrApp *app, const char *path)
 {
@@ -98,7 +98,7 @@ static void lay_flat(WrSession *session, Opened *opened)
     wr_text_fini(&lines);
 }
 
-/* What the command line asked for, on its way. */
+/* The document of the command line while it is being opened. */
 typedef struct Asked {
     const WrAppOptions *options;
     Opened opened; /* of options->file */
@@ -229,7 +229,7 @@ static bool take_starter(WrApp *app, WrError *err)
     return good;
 }
 
-/* ---- what the command line asked for ---- */
+/* ---- document of the command line ---- */
 
 static bool open_asked(WrSession *session, void *ctx, WrError *err)
 {
@@ -240,7 +240,7 @@ static bool open_asked(WrSession *session, void *ctx, WrError *err)
     return true;
 }
 
-/* Takes asked. */
+/* Finish the opening; frees `asked`. */
 static void asked_is_open(WrApp *app, Asked *asked)
 {
     if (wr_session_path(app->session)[0]) note_recent(app, wr_session_path(app->session));
@@ -261,8 +261,8 @@ static void asked_is_done(WrApp *app, void *ctx, bool ok, const WrError *err)
     wr_free(ctx);
 }
 
-/* A document that opens in a moment is there in the first picture, and its error ends the program. One that takes longer
-   opens beside the window. */
+/* A document that opens within a moment is in the first frame, and its error ends the program. A slower one opens on
+   a worker thread. */
 static bool start_asked(WrApp *app, WrError *err)
 {
     Asked *asked = wr_alloc(1, sizeof *asked);

@@ -49,7 +49,7 @@ void wr_app_tend(WrApp *app); /* idle-time upkeep of the journal */
 /* Load the starter document, if nothing else was requested, on a separate thread while the window opens. No other
    code may use the session until wr_app_start or wr_app_start_end. */
 void wr_app_start_ahead(WrApp *app);
-/* Opens the starter, or what was requested; that may still be opening in the background. False: it cannot be opened. */
+/* Open the starter, or the requested document, which may continue in the background. False: it cannot be opened. */
 bool wr_app_start(WrApp *app, WrError *err);
 void wr_app_start_end(WrApp *app); /* wait for the thread; may be called at any time */
 void wr_app_new(WrApp *app);

@@ -205,8 +205,8 @@ bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index
 int wr_gui_tab_rows(const char *const *items, int count, double width);
 WrEdit wr_gui_colour(const char *id, double width, double linear_rgb[3]);
 bool wr_gui_check(const char *label, bool *value);
-/* The next button or chip keeps this id while its label changes with what it does, so that the keyboard's ring stays on it
-   and a quick second click counts. Not where the new label asks to confirm. */
+/* The next button or chip keeps this id while its label changes with its state, so that the keyboard's ring stays on
+   it and a quick second click counts. Not for buttons whose new label requests a confirmation. */
 void wr_gui_next_id(const char *id);
 bool wr_gui_button(const char *label, bool primary);
 /* A flat button with one icon, `units` wide and high. */

@@ -206,7 +206,7 @@ static void key_up(WrGui *gui, int code)
     else ImGui::GetIO().KeysDown[code] = false;
 }
 
-/* Gives the next frame what it is to see of them, from the first that waits. */
+/* Move queued input to the next frame, from the first item. */
 static void take_typed(WrGui *gui)
 {
     bool letters = false, acted = false;
@@ -242,8 +242,8 @@ static void take_typed(WrGui *gui)
     memmove(gui->typed_on, gui->typed_on + taken, (size_t)gui->typed_count * sizeof *gui->typed_on);
 }
 
-/* Those held at the newest key event, and those that were held while a key went down since the last frame: Ctrl+A counts
-   even if both were let go before there was one. */
+/* Modifiers: those held at the newest key event, and those held during a key press since the last frame, so that
+   Ctrl+A works even if both were released before the frame. */
 void wr_gui_keys_frame(WrGui *gui)
 {
     if (ImGui::GetCurrentContext() != gui->context) return;
