@@ -164,7 +164,7 @@ static void rows_have_the_values_of_the_file(void **state)
     wr_image_rows_close(rows);
 }
 
-/* Of a channel; only its last row shows it. */
+/* Check that a channel is 0 or not; only its last row reveals it. */
 static void expect_zero(const char *channel, bool zero)
 {
     WrError err = { "" };

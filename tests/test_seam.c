@@ -112,7 +112,7 @@ static WrField *laid(const WrField *cell, bool half_drop)
     return sheet;
 }
 
-/* Of a half-drop: the same half a cell lower. */
+/* A half-drop pattern: f(u + 1/2, v + 1/2) = f(u, v). */
 static double drops(double u, double v)
 {
     return sin(TURN * (u + v)) * cos(TURN * (u - v)) + 0.2 * sin(2 * TURN * v);

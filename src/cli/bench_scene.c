@@ -90,6 +90,8 @@ WrScene *wr_bench_scene(const char *surface, WrBenchMode mode, bool fast, WrErro
     scene->posed = kind == WR_SURFACE_bezier;
     if (kind == WR_SURFACE_torus) scene->shape.value[0] = 0.7, scene->shape.value[1] = 0.28;
     scene->camera = (WrCamera){ .eye = { 0, 0, 4 }, .up = { 0, 1, 0 } };
+    /* The tangent from distance 4 to the unit sphere has the slope 1 / sqrt(4^2 - 1): the silhouette touches the
+       view's edge. */
     scene->camera.fov_deg = 2 * atan(1 / sqrt(15.0)) / WR_RAD_PER_DEG;
     scene->material = (WrMaterial){ .ambient = 0.08,
                                     .diffuse = 0.72,

@@ -63,6 +63,7 @@ double wr_canvas_ink_step(double low, double high)
     if (!(range > 0.0) || !isfinite(range)) return 1.0;
     double most = range / LINES, power = pow(10.0, floor(log10(most)));
     double part = most / power;
+    /* The borders are the arithmetic means of neighbouring round numbers: 1, 2, 5, 10. */
     return power * (part < 1.5 ? 1.0 : part < 3.5 ? 2.0 : part < 7.5 ? 5.0 : 10.0);
 }
 

@@ -22,6 +22,7 @@ void wr_view_turn_of(double degrees, double *c, double *s)
     double quarters = degrees / 90.0;
     *c = cos(degrees * WR_RAD_PER_DEG);
     *s = sin(degrees * WR_RAD_PER_DEG);
+    /* cos and sin of quarter turns are off by 1e-16, which would blur a picture rotated by them. */
     if (quarters == rint(quarters)) *c = rint(*c), *s = rint(*s);
 }
 

@@ -34,6 +34,7 @@ static int rough_step(const WrGenerator *generator, const WrField *like)
     for (const WrParam *p = generator->params; p->name; p++)
         if (p->kind == WR_PARAM_FILE || p->kind == WR_PARAM_TEXT || strcmp(p->name, "at") == 0)
             return 1;
+    /* Reduction by step on both axes divides the number of texels by its square. */
     int step = (int)ceil(sqrt(texels / ROUGH_TEXELS));
     return step < 1 || least / step < ROUGH_LEAST ? 1 : step;
 }

@@ -217,6 +217,7 @@ static void histogram(const WrSheetLook *look, double wide, double high)
     for (int i = 0; i < WR_HISTOGRAM; i++) {
         const double middle = h->low + (i + 0.5) / WR_HISTOGRAM * (h->high - h->low);
         const bool out = look->ask.range == WR_SHEET_RANGE_UNIT && (middle < 0 || middle > 1);
+        /* The exponent 0.4 keeps rare heights visible; every height in use is at least a pixel tall. */
         const double tall =
             h->count[i] > 0 ? fmax(1, pow((double)h->count[i] / (double)most, 0.4) * (pad.h - 2))
                             : 0;

@@ -343,6 +343,7 @@ void wr_patch_wheel_angle(WrApp *app, double steps)
     if (app->patch->zoom_commit_at > 0.0 && !app->patch->zoom_angle && !app->busy)
         wr_patch_commit_zoom(app, true);
     double *deg = &wr_app_live(app)->camera.fov_deg;
+    /* Six steps of the wheel halve the angle. */
     *deg = fmin(fov->soft_high, fmax(fov->soft_low, *deg * exp2(-steps / 6.0)));
     app->patch->zoom_angle = true;
     app->patch->zoom_commit_at = wr_clock_seconds() + ZOOM_COMMIT_SECONDS;

@@ -161,6 +161,8 @@ void wr_patch_handle_drag(WrApp *app, const WrPointer *at)
         by = turned_back(by, p->turn_deg);
         scene->at = wr_line_round_vec(v3_add(p->from_at, by), 4);
     } else if (p->handle == WR_HANDLE_SIZE) {
+        /* The size is proportional to the pointer's distance from the centre, so the handle stays under the
+           pointer. */
         const double before = hypot(app->hand->start.x - ball.x, app->hand->start.y - ball.y);
         const double now = hypot(at->x - ball.x, at->y - ball.y);
         scene->size = fmax(1e-3, wr_line_round(p->from_size * now / fmax(before, 1), 4));

@@ -48,6 +48,7 @@ static void follow(double *known, double measured)
 
 static void choose_scale(WrMoving *moving, double view_pixels, double allowed)
 {
+    /* The time is proportional to the number of pixels, so the scale of a side is the square root of the ratio. */
     double scale = sqrt(allowed / moving->seconds[WR_MOVING_POINT] / view_pixels);
     scale = scale > 0.9 ? 1.0 : scale < WR_MOVING_COARSEST ? WR_MOVING_COARSEST : scale;
     if (fabs(scale - moving->scale) > WOBBLE * moving->scale || scale == 1.0) moving->scale = scale;

@@ -282,6 +282,7 @@ static void move(WrApp *app, const WrPointer *at, const double way[2])
 static void turn(WrApp *app, const WrPointer *at, const double here[2])
 {
     WrTransformHand *hand = app->transform;
+    /* y is negated, since rows run down and angles are anticlockwise. */
     double by = atan2(-here[1], here[0]) - atan2(-hand->from[1], hand->from[0]);
     double deg = hand->first.turn + by * WR_DEG_PER_RAD, quarter = rint(deg / 90.0) * 90.0;
     if (at->mods & WR_MOD_SHIFT) deg = rint(deg / 15.0) * 15.0;
