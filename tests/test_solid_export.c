@@ -12,6 +12,7 @@
 #include "document/document.h"
 #include "export/export.h"
 #include "field/field.h"
+#include "image/image.h"
 #include "image/mesh.h"
 #include "scene/scene.h"
 #include "surface/data.h"
@@ -433,6 +434,191 @@ static void an_stl_says_millimetres(void **state)
     wr_document_free(document);
 }
 
+/* ---- (u,v) ---- */
+
+static WrMesh read_whole(const char *path)
+{
+    WrMesh mesh;
+    WrError err = { "" };
+    if (!wr_mesh_read_whole(path, &mesh, &err)) fail_msg("%s", err.text);
+    return mesh;
+}
+
+/* Of a flat plane of 1.37 x 0.71 with its middle at the origin, 3 x 2 cells: u is 3 (x / 83.7 + 1/2), and v likewise; walls
+   and back have those of the relief above them, and the middle of the back, too, those of the middle. */
+static void bodies_have_coordinates_of_their_cells(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = { "obj", "ply" };
+    const double width = 83.7, height = 83.7 * 0.71 / 1.37;
+    for (int k = 0; k < 2; k++) {
+        WrExportReport report;
+        WrDocument *document = document_of(19, 31, 0.3, WR_WRAP_PERIODIC);
+        document->scene->shape.value[0] = 1.37;
+        document->scene->shape.value[1] = 0.71;
+        document->scene->replicate_u = 3;
+        document->scene->replicate_v = 2;
+        Body body = export_body(document, kinds[k], "size=83.7 error=0.3 thickness=3", &report);
+        WrMesh mesh = read_whole(k == 0 ? "body.obj" : "body.ply");
+        int checked = 0;
+        for (int32_t i = 0; i < 3 * mesh.triangle_count; i++) {
+            const int32_t c = mesh.corners[i / 3][i % 3];
+            const float *p = mesh.points[c], *uv = mesh.uv[c];
+            if (fabs((double)p[0]) < 1e-3 && fabs((double)p[1]) < 1e-3)
+                continue; /* the back's middle */
+            assert_near((double)uv[0], 3 * ((double)p[0] / width + 0.5), 1e-4);
+            assert_near((double)uv[1], 2 * ((double)p[1] / height + 0.5), 1e-4);
+            checked++;
+        }
+        assert_true(checked > 3000);
+        assert_int_equal(check_closed(&body.mesh, kinds[k]), 2);
+        wr_mesh_fini(&mesh);
+        wr_mesh_fini(&body.mesh);
+        wr_document_free(document);
+    }
+}
+
+/* Where a tube closes, u goes on to 1 and does not jump back: no triangle has corners more than half a turn apart, and all
+   have the angle of their place. */
+static void coordinates_do_not_jump_at_a_seam(void **state)
+{
+    (void)state;
+    WrExportReport report;
+    WrDocument *document = document_of(19, 31, 0.3, WR_WRAP_PERIODIC);
+    set_surface(document, WR_SURFACE_cylinder);
+    Body body = export_body(document, "obj", "size=50 error=0.2 thickness=2", &report);
+    WrMesh mesh = read_whole("body.obj");
+    for (int32_t t = 0; t < mesh.triangle_count; t++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int k = 0; k < 3; k++) {
+            const int32_t c = mesh.corners[t][k];
+            const double u = (double)mesh.uv[c][0], x = (double)mesh.points[c][0],
+                         y = (double)mesh.points[c][1];
+            const double turn = atan2(y, x) / (2 * M_PI) - u;
+            assert_near(turn - rint(turn), 0, 1e-4);
+            low = fmin(low, u), high = fmax(high, u);
+        }
+        if (high - low > 0.5) fail_msg("triangle %d: u from %g to %g", t, low, high);
+    }
+    wr_mesh_fini(&mesh);
+    wr_mesh_fini(&body.mesh);
+    wr_document_free(document);
+}
+
+/* ---- models ---- */
+
+/* The PNG files in a GLB, which are the only places with their eight first bytes. */
+static WrImage *picture_in(const char *path, int which)
+{
+    static const char head[] = "\x89PNG\r\n\x1a\n";
+    WrError err = { "" };
+    FILE *file = fopen(path, "rb");
+    char *bytes = wr_alloc(1 << 22, 1);
+    const size_t length = fread(bytes, 1, 1 << 22, file);
+    fclose(file);
+    const char *at = bytes;
+    for (int k = 0; k <= which; k++) {
+        at = memmem(at + (k > 0), length - (size_t)(at - bytes) - (k > 0), head, 8);
+        if (!at) fail_msg("%s: %d pictures", path, k);
+    }
+    WrImage *image = wr_image_read_bytes("map.png", at, length - (size_t)(at - bytes), &err);
+    if (!image) fail_msg("%s", err.text);
+    wr_free(bytes);
+    return image;
+}
+
+static WrMesh export_model(const WrDocument *document, const char *settings, WrExportReport *report)
+{
+    WrError err = { "" };
+    if (!try_export(document, "glb", settings, "model.glb", report, &err)) fail_msg("%s", err.text);
+    WrMesh mesh = read_whole("model.glb");
+    assert_int_equal(mesh.triangle_count, report->triangles);
+    return mesh;
+}
+
+/* A plane of 2 x 1 with 4 x 2 cells of 1/2 x 1/2 (its u 0..4), as a ramp of slope 1/2 along u: its normal is (-1, 0, 2) / sqrt 5
+   inside, code 255 (n/2 + 1/2): 71 and 242. */
+static void a_model_has_the_slopes_of_its_cells(void **state)
+{
+    (void)state;
+    WrExportReport report;
+    WrDocument *document = document_of(16, 16, 0, WR_WRAP_CLAMP);
+    WrField *field = wr_field_new(16, 16, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0, NULL);
+    for (int i = 0; i < 256; i++) wr_field_set(field, i % 16, i / 16, (float)(i % 16) / 16);
+    wr_field_free(document->layers[0].heights);
+    document->layers[0].heights = field;
+    document->scene->height = 0.25; /* of F from 0 to 1 across a cell 1/2 wide */
+    document->scene->shape.value[0] = 2;
+    document->scene->shape.value[1] = 1;
+    document->scene->replicate_u = 4;
+    document->scene->replicate_v = 2;
+    WrMesh mesh = export_model(document, "", &report);
+    assert_int_equal(report.pictures, 2);
+    for (int32_t i = 0; i < mesh.point_count; i++) {
+        const float *p = mesh.points[i], *uv = mesh.uv[i];
+        assert_near((double)uv[0], 4 * (double)p[0] / 2, 1e-6);
+        assert_near((double)uv[1], 2 * (double)p[1] / 1, 1e-6);
+        assert_near((double)mesh.normals[i][2], 1, 0);
+    }
+    WrImage *map = picture_in("model.glb", 0);
+    assert_int_equal(map->width, 16);
+    for (int c = 0; c < 3; c++) {
+        static const double codes[3] = { 71, 128, 242 };
+        const float *middle = map->data + (8 * 16 + 8) * map->channels;
+        assert_near(255 * (double)middle[c], codes[c], 0.6);
+    }
+    wr_image_free(map);
+    wr_mesh_fini(&mesh);
+    wr_document_free(document);
+}
+
+/* Every surface by a formula: places and normals are the surface's own at the file's (u,v), and face outwards. */
+static void every_surface_is_a_model(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
+        if (wr_surfaces[kind]->held) continue;
+        WrExportReport report;
+        WrDocument *document = document_of(8, 8, 0.1, WR_WRAP_PERIODIC);
+        set_surface(document, (WrSurfaceKind)kind);
+        WrMesh mesh = export_model(document, "directions=4", &report);
+        const double radius = wr_shape_radius(&document->scene->shape);
+        int wrong = 0;
+        for (int32_t i = 0; i < mesh.point_count; i++) {
+            double best = INFINITY;
+            for (int face = 0; face < wr_surfaces[kind]->faces; face++) {
+                WrSurfacePoint o;
+                wr_surface_at(&document->scene->shape, face, (double)mesh.uv[i][0],
+                              (double)mesh.uv[i][1], &o);
+                const WrVec3 n = { (double)mesh.normals[i][0], (double)mesh.normals[i][1],
+                                   (double)mesh.normals[i][2] };
+                const double far = v3_len(v3_sub(o.p, point_of(&mesh, i)));
+                best = fmin(best, far / radius + 1e-2 * v3_len(v3_sub(n, o.n_unit)));
+            }
+            wrong += !(best < 1e-4);
+        }
+        if (wrong)
+            fail_msg("%s: %d of %d points", wr_surfaces[kind]->name, wrong, mesh.point_count);
+        for (int32_t t = 0; t < mesh.triangle_count; t++) {
+            const int32_t *c = mesh.corners[t];
+            const WrVec3 a = point_of(&mesh, c[0]), b = point_of(&mesh, c[1]),
+                         d = point_of(&mesh, c[2]);
+            const WrVec3 n = v3_cross(v3_sub(b, a), v3_sub(d, a));
+            double facing = 0;
+            for (int k = 0; k < 3; k++)
+                facing += v3_dot(n, (WrVec3){ (double)mesh.normals[c[k]][0],
+                                              (double)mesh.normals[c[k]][1],
+                                              (double)mesh.normals[c[k]][2] });
+            wrong += !(facing > 0);
+        }
+        if (wrong * 100 > mesh.triangle_count)
+            fail_msg("%s: %d of %d triangles face inwards", wr_surfaces[kind]->name, wrong,
+                     mesh.triangle_count);
+        wr_mesh_fini(&mesh);
+        wr_document_free(document);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -440,6 +626,10 @@ int main(void)
         cmocka_unit_test(hc155_the_smallest_tables_are_closed_too),
         cmocka_unit_test(smooth_bodies_have_the_volumes_of_their_formulas),
         cmocka_unit_test(every_surface_is_closed),
+        cmocka_unit_test(bodies_have_coordinates_of_their_cells),
+        cmocka_unit_test(coordinates_do_not_jump_at_a_seam),
+        cmocka_unit_test(a_model_has_the_slopes_of_its_cells),
+        cmocka_unit_test(every_surface_is_a_model),
         cmocka_unit_test(no_texel_is_farther_off_than_was_asked),
         cmocka_unit_test(what_cannot_be_made_is_told),
         cmocka_unit_test(an_stl_says_millimetres),

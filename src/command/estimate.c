@@ -203,6 +203,7 @@ static const Need needs[] = {
     BODY("stl"),
     BODY("ply"),
     BODY("obj"),
+    { "export", "glb", texels, .bytes = 30 }, /* three maps in memory */
     { "maps", NULL, texels, .bytes = 24 }, /* four maps, as in most sets */
     { "render", NULL, picture, .bytes = 17 },
     { "script", .count = NULL },

@@ -449,6 +449,11 @@ static void add_solid(const WrExportReport *report, WrText *text)
 
 static void add_facts(const WrExportReport *report, WrText *text)
 {
+    if (report->model) {
+        wr_text_addf(text, "%lld triangles, %d map%s", (long long)report->triangles,
+                     report->pictures, report->pictures == 1 ? "" : "s");
+        return;
+    }
     if (report->triangles) {
         add_solid(report, text);
         return;

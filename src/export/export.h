@@ -211,6 +211,8 @@ typedef struct WrExportReport {
     double solid_error;   /* largest distance of a sample of the table */
     double solid_size[3]; /* of the body, including relief and back */
     double solid_volume;  /* mm3 */
+    bool model;           /* a model, without the three above */
+    int pictures;         /* in the model */
 } WrExportReport;
 
 typedef struct WrExportOptionInfo {
@@ -256,7 +258,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 24
+#define WR_EXPORT_KIND_COUNT 25
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if unknown */
 

@@ -155,3 +155,4 @@ void wr_export_bump_slopes_describe(WrExportJob *job);
 bool wr_export_drawing_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err);
+bool wr_export_glb_write(WrExportJob *job, const char *path, WrError *err);

@@ -493,5 +493,20 @@ const WrExportKind wr_export_kinds[] = {
       .options = SOLID_OPTIONS,
       .ending = "obj",
       .write = wr_export_solid_write },
+    { .name = "glb",
+      .label = "glTF model",
+      .help = "the object with its normal map, occlusion, roughness, metalness and colours as one "
+              "glTF file, in scene units",
+      .options = { SCHEME,
+                   OBJECT,
+                   { "size", "WIDTHxHEIGHT",
+                     "meshes: of the normal map in texels; left out: the table's",
+                     wr_export_set_map_size },
+                   WR_OPTION_DIRECTIONS,
+                   WR_OPTION_REACH,
+                   WR_OPTION_BOX,
+                   WR_OPTION_BASE },
+      .ending = "glb",
+      .write = wr_export_glb_write },
 };
 _Static_assert(WR_LENGTH(wr_export_kinds) == WR_EXPORT_KIND_COUNT, "export.h counts them");

@@ -79,16 +79,23 @@ int32_t wr_solid_add_point(WrSolid *solid, const WrSolidSight *sights, int count
     return wr_solid_add_bare(solid, at);
 }
 
-void wr_solid_add_triangle(WrSolid *solid, int32_t a, int32_t b, int32_t c)
+void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSolidSight at[3])
 {
     if (solid->triangle_count == solid->triangle_room) {
         const int32_t room = solid->triangle_room ? 2 * solid->triangle_room : 1024;
         solid->triangles = wr_realloc(solid->triangles, (size_t)solid->triangle_room, (size_t)room,
                                       sizeof *solid->triangles);
+        solid->uv =
+            wr_realloc(solid->uv, (size_t)solid->triangle_room, (size_t)room, sizeof *solid->uv);
         solid->triangle_room = room;
     }
-    int32_t *t = solid->triangles[solid->triangle_count++];
-    t[0] = a, t[1] = b, t[2] = c;
+    for (int k = 0; k < 3; k++) {
+        float *uv = solid->uv[solid->triangle_count][k];
+        solid->triangles[solid->triangle_count][k] = corners[k];
+        uv[0] = (float)(at[k].u * solid->scene->replicate_u);
+        uv[1] = (float)(at[k].v * solid->scene->replicate_v);
+    }
+    solid->triangle_count++;
 }
 
 /* ---- the scene in millimetres ---- */
@@ -179,6 +186,7 @@ static void free_solid(WrSolid *s)
     wr_array_free(&s->first);
     wr_free(s->points);
     wr_free(s->triangles);
+    wr_free(s->uv);
 }
 
 static void report(WrExportJob *job, const WrSolid *s)

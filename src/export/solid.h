@@ -70,6 +70,8 @@ typedef struct WrSolid {
     float (*points)[3];            /* mm; owned */
     int32_t point_count, point_room;
     int32_t (*triangles)[3]; /* of the closed mesh; owned */
+    /* (u,v) of their corners in cells: u and v times the number of repeats of the table; owned */
+    float (*uv)[3][2];
     int32_t triangle_count, triangle_room;
     double worst; /* mm: the largest error of all */
 } WrSolid;
@@ -81,7 +83,8 @@ void wr_solid_place(WrSolid *solid, const WrSolidSight *sights, int count, bool 
 /* Adds a point with these sights; returns its number. */
 int32_t wr_solid_add_point(WrSolid *solid, const WrSolidSight *sights, int count);
 int32_t wr_solid_add_bare(WrSolid *solid, const float at[3]); /* a point without sights */
-void wr_solid_add_triangle(WrSolid *solid, int32_t a, int32_t b, int32_t c);
+/* at: (u,v) of the corners. */
+void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSolidSight at[3]);
 
 /* solid_base.c: builds the squares and joins shared sides. */
 void wr_solid_lay(WrSolid *solid);

@@ -70,6 +70,29 @@ static bool find_border(const WrSolid *s, Border *border, WrError *err)
     return good;
 }
 
+/* ---- (u,v) ---- */
+
+/* A place of point b, the one next to that of point a: at a seam a point is seen at both ends of u. */
+static void side_sights(const WrSolid *s, int32_t a, int32_t b, WrSolidSight out[2])
+{
+    const int32_t first = s->first.data[b];
+    const int32_t end = b + 1 < s->first.count ? s->first.data[b + 1] : s->sights.count;
+    double least = INFINITY;
+    out[0] = s->sights.data[s->first.data[a]];
+    for (int32_t i = first; i < end; i++) {
+        const WrSolidSight *at = &s->sights.data[i];
+        const double far = fabs(at->u - out[0].u) + fabs(at->v - out[0].v);
+        if (i > first && !(far < least)) continue;
+        least = far;
+        out[1] = *at;
+    }
+}
+
+static void triangle_sights(const WrSolidTriangle *t, WrSolidSight out[3])
+{
+    for (int k = 0; k < 3; k++) out[k] = (WrSolidSight){ t->u[k], t->v[k], t->face };
+}
+
 /* ---- a fan over a loop ---- */
 
 /* Centre of a loop of points, and its axis of rotation; `map` converts point numbers. */
@@ -115,7 +138,10 @@ static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
         return false;
     }
     do {
-        wr_solid_add_triangle(s, map[b->next[i]], map[i], centre);
+        WrSolidSight uv[3];
+        side_sights(s, b->next[i], i, uv);
+        uv[2] = (WrSolidSight){ (uv[0].u + uv[1].u) / 2, (uv[0].v + uv[1].v) / 2, uv[0].face };
+        wr_solid_add_triangle(s, (const int32_t[3]){ map[b->next[i]], map[i], centre }, uv);
         i = b->next[i];
     } while (i != start);
     return true;
@@ -162,7 +188,11 @@ static bool add_shell(WrSolid *s, int32_t *back, int32_t points, WrError *err)
                 err,
                 "thickness=%.6g: more than the surface's curves leave room for: thinner, or filled",
                 s->thickness);
-        wr_solid_add_triangle(s, back[t->point[1]], back[t->point[0]], back[t->point[2]]);
+        WrSolidSight at[3];
+        triangle_sights(t, at);
+        wr_solid_add_triangle(
+            s, (const int32_t[3]){ back[t->point[1]], back[t->point[0]], back[t->point[2]] },
+            (const WrSolidSight[3]){ at[1], at[0], at[2] });
     }
     return true;
 }
@@ -172,8 +202,12 @@ static void add_walls(WrSolid *s, const Border *border, const int32_t *back, int
     for (int32_t a = 0; a < points; a++) {
         const int32_t b = border->next[a];
         if (b < 0) continue;
-        wr_solid_add_triangle(s, b, a, back[a]);
-        wr_solid_add_triangle(s, b, back[a], back[b]);
+        WrSolidSight at[2];
+        side_sights(s, a, b, at);
+        wr_solid_add_triangle(s, (const int32_t[3]){ b, a, back[a] },
+                              (const WrSolidSight[3]){ at[1], at[0], at[0] });
+        wr_solid_add_triangle(s, (const int32_t[3]){ b, back[a], back[b] },
+                              (const WrSolidSight[3]){ at[1], at[0], at[1] });
     }
 }
 
@@ -227,6 +261,10 @@ static void turn_outwards(WrSolid *s)
         const int32_t a = s->triangles[i][0];
         s->triangles[i][0] = s->triangles[i][1];
         s->triangles[i][1] = a;
+        float uv[2];
+        memcpy(uv, s->uv[i][0], sizeof uv);
+        memcpy(s->uv[i][0], s->uv[i][1], sizeof uv);
+        memcpy(s->uv[i][1], uv, sizeof uv);
     }
 }
 
@@ -248,7 +286,9 @@ bool wr_solid_close(WrSolid *solid, WrError *err)
     Border border = { 0 };
     for (int32_t i = 0; i < solid->relief.count; i++) {
         const WrSolidTriangle *t = &solid->relief.data[i];
-        if (!is_pole(t)) wr_solid_add_triangle(solid, t->point[0], t->point[1], t->point[2]);
+        WrSolidSight at[3];
+        triangle_sights(t, at);
+        if (!is_pole(t)) wr_solid_add_triangle(solid, t->point, at);
     }
     bool good = find_border(solid, &border, err);
     if (good && border.loops > 0)

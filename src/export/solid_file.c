@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "base/progress.h"
 #include "base/enum_rows.h"
 #include "base/text.h"
@@ -87,7 +88,8 @@ static bool write_ply(const WrSolid *s, Out *out, WrError *err)
     wr_text_addf(&out->bytes,
                  "ply\nformat binary_little_endian 1.0\ncomment " WORDS "\nelement vertex %d\n"
                  "property float x\nproperty float y\nproperty float z\nelement face %d\n"
-                 "property list uchar int vertex_indices\nend_header\n",
+                 "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+                 "end_header\n",
                  s->point_count, s->triangle_count);
     bool good = true;
     for (int32_t i = 0; i < s->point_count && good; i++) {
@@ -97,6 +99,8 @@ static bool write_ply(const WrSolid *s, Out *out, WrError *err)
     for (int32_t i = 0; i < s->triangle_count && good; i++) {
         wr_text_add_n(&out->bytes, "\3", 1);
         for (int k = 0; k < 3; k++) add_u32(out, (uint32_t)s->triangles[i][k]);
+        wr_text_add_n(&out->bytes, "\6", 1);
+        for (int k = 0; k < 6; k++) add_float(out, s->uv[i][k / 2][k % 2]);
         good = entry(out, err);
     }
     return good;
@@ -104,25 +108,57 @@ static bool write_ply(const WrSolid *s, Out *out, WrError *err)
 
 /* ---- OBJ ---- */
 
-static bool write_obj(const WrSolid *s, Out *out, WrError *err)
+static void add_numbers(Out *out, const char *word, int count, const float *x)
 {
     char number[WR_NUMBER_SIZE];
-    bool good = true;
-    wr_text_add(&out->bytes, "# " WORDS "\no relief\n");
-    for (int32_t i = 0; i < s->point_count && good; i++) {
-        wr_text_add(&out->bytes, "v");
-        for (int k = 0; k < 3; k++) {
-            wr_text_add(&out->bytes, " ");
-            wr_text_add(&out->bytes, wr_number_print_float(s->points[i][k], number));
-        }
-        wr_text_add(&out->bytes, "\n");
-        good = entry(out, err);
+    wr_text_add(&out->bytes, word);
+    for (int k = 0; k < count; k++) {
+        wr_text_add(&out->bytes, " ");
+        wr_text_add(&out->bytes, wr_number_print_float(x[k], number));
     }
+    wr_text_add(&out->bytes, "\n");
+}
+
+/* A `vt` line is written when a corner's (u,v) differ from those that its point had last.
+ * first: [2][points]: the corner with those, 3 times its triangle and its number, -1: none; then the number of their line. */
+static bool write_obj_faces(const WrSolid *s, int32_t *first, Out *out, WrError *err)
+{
+    int32_t count = 0;
+    bool good = true;
     for (int32_t i = 0; i < s->triangle_count && good; i++) {
         const int32_t *t = s->triangles[i];
-        wr_text_addf(&out->bytes, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
+        int32_t vt[3];
+        for (int k = 0; k < 3; k++) {
+            const int32_t was = first[t[k]];
+            if (was >= 0 && memcmp(s->uv[was / 3][was % 3], s->uv[i][k], sizeof s->uv[i][k]) == 0) {
+                vt[k] = first[s->point_count + t[k]];
+                continue;
+            }
+            add_numbers(out, "vt", 2, s->uv[i][k]);
+            vt[k] = ++count;
+            first[t[k]] = 3 * i + k;
+            first[s->point_count + t[k]] = count;
+        }
+        wr_text_addf(&out->bytes, "f %d/%d %d/%d %d/%d\n", t[0] + 1, vt[0], t[1] + 1, vt[1],
+                     t[2] + 1, vt[2]);
         good = entry(out, err);
     }
+    return good;
+}
+
+static bool write_obj(const WrSolid *s, Out *out, WrError *err)
+{
+    const size_t points = (size_t)s->point_count;
+    int32_t *first = wr_try_alloc(2 * points, sizeof *first, "a solid", err);
+    bool good = first;
+    wr_text_add(&out->bytes, "# " WORDS "\no relief\n");
+    for (int32_t i = 0; i < s->point_count && good; i++) {
+        first[i] = -1;
+        add_numbers(out, "v", 3, s->points[i]);
+        good = entry(out, err);
+    }
+    good = good && write_obj_faces(s, first, out, err);
+    wr_free(first);
     return good;
 }
 

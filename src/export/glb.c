@@ -1,0 +1,356 @@
+/* The object at hand as a glTF 2.0 model in one binary file, with maps of its relief and its material.
+   Source: glTF 2.0 specification: 3.6 (buffers), 3.7 (meshes), 3.9 (materials), 4 (GLB); KHR_texture_transform. */
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "export/job.h"
+#include "export/model.h"
+#include "export/picture.h"
+#include "scene/scene.h"
+#include "surface/surface.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { NORMAL, PACKED, COLOUR, MAPS };
+
+/* One picture of the file. */
+typedef struct Map {
+    char *png; /* owned; NULL: there is none */
+    size_t length;
+    double repeat[2]; /* times that it lies over u and v 0..1 */
+} Map;
+
+typedef struct Glb {
+    const WrExportJob *job;
+    WrModel model;
+    Map maps[MAPS];
+    double repeat[2]; /* TEXCOORD_0 is u and v times these, v downwards */
+    int count;        /* of maps */
+    WrText json, bin;
+} Glb;
+
+/* ---- pictures ---- */
+
+typedef struct Source {
+    int width;
+    const uint8_t *rgb;    /* codes; NULL: */
+    const WrImage *colour; /* linear light */
+} Source;
+
+static bool source_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    const Source *s = ctx;
+    const size_t first = (size_t)y * (size_t)s->width, count = (size_t)rows * (size_t)s->width;
+    uint8_t *to = out;
+    (void)err;
+    if (s->rgb) {
+        memcpy(to, s->rgb + 3 * first, 3 * count);
+        return true;
+    }
+    const int channels = s->colour->channels;
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            const int from = channels >= 3 ? c : 0;
+            const float x = s->colour->data[(first + i) * (size_t)channels + (size_t)from];
+            const float code = wr_srgb_encode(fminf(fmaxf(x, 0), 1));
+            to[3 * i + (size_t)c] = (uint8_t)lrintf(255 * code);
+        }
+    return true;
+}
+
+static bool encode(Source *source, int height, bool data, Map *map, WrError *err)
+{
+    const WrImageOut out = { .width = source->width,
+                             .height = height,
+                             .channels = 3,
+                             .type = WR_PIXEL_U8,
+                             .data = data,
+                             .rows = source_rows,
+                             .ctx = source };
+    return wr_image_write_bytes("map.png", &out, &map->png, &map->length, err);
+}
+
+/* A map of another kind, of the same table, as 8-bit codes. */
+static bool add_map(Glb *glb, const char *kind, int which, const double repeat[2], WrError *err)
+{
+    WrExportJob job = *glb->job;
+    WrExportPicture picture;
+    job.options.depth = 8;
+    if (which == NORMAL) { /* slopes are those of one cell as it lies on the surface, on average */
+        job.options.cell_w = glb->model.per_u / fabs(repeat[0]);
+        job.options.cell_h = glb->model.per_v / fabs(repeat[1]);
+    }
+    bool good = wr_export_picture_like(&job, wr_export_find(kind), &picture, err);
+    Source source = { picture.width, picture.rgb, NULL };
+    Map *map = &glb->maps[which];
+    good = good && encode(&source, picture.height, true, map, err);
+    memcpy(map->repeat, repeat, sizeof map->repeat);
+    wr_export_picture_fini(&picture);
+    return good;
+}
+
+static bool add_colour(Glb *glb, const double cells[2], WrError *err)
+{
+    const WrScene *scene = glb->job->scene;
+    if (!scene->colour) return true;
+    Source source = { scene->colour->width, NULL, scene->colour };
+    Map *map = &glb->maps[COLOUR];
+    map->repeat[0] = scene->colour_laid.own ? scene->colour_laid.ru : cells[0];
+    map->repeat[1] = scene->colour_laid.own ? scene->colour_laid.rv : cells[1];
+    return encode(&source, scene->colour->height, false, map, err);
+}
+
+/* Of a mesh the normal map is baked, in the frames that glTF's readers compute; else it is that of a cell, repeated. */
+static bool add_maps(Glb *glb, WrError *err)
+{
+    const WrScene *scene = glb->job->scene;
+    const double cells[2] = { scene->replicate_u, scene->replicate_v }, once[2] = { 1, 1 };
+    const bool held = wr_surfaces[scene->shape.kind]->held;
+    const double *base = held ? once : cells;
+    WrProgressPart part;
+    memcpy(glb->repeat, base, sizeof glb->repeat);
+    if (!glb->model.mapped) return true;
+    const WrProgress *whole = wr_progress_enter(&part, 0.1, 0.4);
+    bool good = add_map(glb, held ? "normal-baked" : "normal+y", NORMAL, base, err);
+    wr_progress_set(whole);
+    wr_progress_enter(&part, 0.4, 0.8);
+    good = good && add_map(glb, "packed", PACKED, cells, err);
+    wr_progress_set(whole);
+    return good && add_colour(glb, cells, err);
+}
+
+/* ---- the binary chunk ---- */
+
+static void add_bytes(Glb *glb, const void *bytes, size_t length)
+{
+    wr_text_add_n(&glb->bin, bytes, length);
+    while (glb->bin.length % 4) wr_text_add_n(&glb->bin, "", 1);
+}
+
+static void add_uint(WrText *text, uint32_t x)
+{
+    const char bytes[4] = { (char)(x & 255), (char)(x >> 8 & 255), (char)(x >> 16 & 255),
+                            (char)(x >> 24) };
+    wr_text_add_n(text, bytes, 4);
+}
+
+static void add_float(WrText *text, float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    add_uint(text, bits);
+}
+
+/* An entry of bufferViews. */
+static void add_view(Glb *glb, size_t from, size_t length, int target)
+{
+    wr_text_addf(&glb->json, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu",
+                 from ? "," : "", from, length);
+    if (target) wr_text_addf(&glb->json, ",\"target\":%d", target);
+    wr_text_add(&glb->json, "}");
+}
+
+/* Views 0 to 3 are places, normals, (u,v) and corners; then one for each map. */
+static void add_views(Glb *glb)
+{
+    const WrModel *m = &glb->model;
+    size_t from = 0;
+    wr_text_add(&glb->json, "\"bufferViews\":[");
+    for (int k = 0; k < 4; k++) {
+        for (int32_t i = 0; k < 2 && i < m->point_count; i++)
+            for (int c = 0; c < 3; c++)
+                add_float(&glb->bin, k == 0 ? m->points[i][c] : m->normals[i][c]);
+        for (int32_t i = 0; k == 2 && i < m->point_count; i++) {
+            const bool is = isfinite(m->uv[i][0]) && isfinite(m->uv[i][1]);
+            add_float(&glb->bin, is ? (float)((double)m->uv[i][0] * glb->repeat[0]) : 0);
+            add_float(&glb->bin, is ? (float)(1 - (double)m->uv[i][1] * glb->repeat[1]) : 0);
+        }
+        for (int32_t i = 0; k == 3 && i < m->triangle_count; i++)
+            for (int c = 0; c < 3; c++) add_uint(&glb->bin, m->triangles[i][c]);
+        add_view(glb, from, glb->bin.length - from, k == 3 ? 34963 : 34962);
+        from = glb->bin.length;
+    }
+    for (int k = 0; k < MAPS; k++) {
+        if (!glb->maps[k].png) continue;
+        add_bytes(glb, glb->maps[k].png, glb->maps[k].length);
+        add_view(glb, from, glb->maps[k].length, 0);
+        from = glb->bin.length;
+    }
+    wr_text_add(&glb->json, "]");
+}
+
+/* ---- JSON ---- */
+
+static void add_number(Glb *glb, double x)
+{
+    wr_text_add_number(&glb->json, x);
+}
+
+static void add_accessors(Glb *glb)
+{
+    const WrModel *m = &glb->model;
+    float low[3], high[3];
+    memcpy(low, m->points[0], sizeof low);
+    memcpy(high, m->points[0], sizeof high);
+    for (int32_t i = 1; i < m->point_count; i++)
+        for (int c = 0; c < 3; c++) {
+            low[c] = fminf(low[c], m->points[i][c]);
+            high[c] = fmaxf(high[c], m->points[i][c]);
+        }
+    wr_text_addf(&glb->json,
+                 ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":%d,"
+                 "\"type\":\"VEC3\"",
+                 m->point_count);
+    for (int end = 0; end < 2; end++) {
+        wr_text_add(&glb->json, end ? ",\"max\":[" : ",\"min\":[");
+        for (int c = 0; c < 3; c++) {
+            if (c) wr_text_add(&glb->json, ",");
+            add_number(glb, (double)(end ? high : low)[c]);
+        }
+        wr_text_add(&glb->json, "]");
+    }
+    wr_text_addf(&glb->json,
+                 "},{\"bufferView\":1,\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"},"
+                 "{\"bufferView\":2,\"componentType\":5126,\"count\":%d,\"type\":\"VEC2\"},"
+                 "{\"bufferView\":3,\"componentType\":5125,\"count\":%d,\"type\":\"SCALAR\"}]",
+                 m->point_count, m->point_count, 3 * m->triangle_count);
+}
+
+static bool repeats_otherwise(const Glb *glb, const Map *map)
+{
+    return map->png && !(fabs(map->repeat[0] - glb->repeat[0]) <= 0 &&
+                         fabs(map->repeat[1] - glb->repeat[1]) <= 0);
+}
+
+/* "NAME":{"index":N ...}; nothing where there is no such map. v is 1 - repeat v both before and after the transform. */
+static void add_texture(Glb *glb, const char *name, int which)
+{
+    const Map *map = &glb->maps[which];
+    if (!map->png) return;
+    int index = 0;
+    for (int k = 0; k < which; k++) index += glb->maps[k].png != NULL;
+    wr_text_addf(&glb->json, ",\"%s\":{\"index\":%d", name, index);
+    if (repeats_otherwise(glb, map)) {
+        const double x = map->repeat[0] / glb->repeat[0], y = map->repeat[1] / glb->repeat[1];
+        wr_text_add(&glb->json, ",\"extensions\":{\"KHR_texture_transform\":{\"scale\":[");
+        add_number(glb, x);
+        wr_text_add(&glb->json, ",");
+        add_number(glb, y);
+        wr_text_add(&glb->json, "],\"offset\":[0,");
+        add_number(glb, 1 - y);
+        wr_text_add(&glb->json, "]}}");
+    }
+    wr_text_add(&glb->json, "}");
+}
+
+/* The packed picture holds occlusion, roughness and metalness in red, green and blue, as glTF wants them. */
+static void add_material(Glb *glb)
+{
+    const WrMaterial *m = &glb->job->scene->material;
+    const double colour[3] = { m->colour.x, m->colour.y, m->colour.z };
+    wr_text_add(&glb->json, ",\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[");
+    for (int c = 0; c < 3; c++) {
+        add_number(glb, fmin(fmax(colour[c], 0), 1));
+        wr_text_add(&glb->json, ",");
+    }
+    wr_text_add(&glb->json, glb->maps[PACKED].png ? "1]" : "1],\"metallicFactor\":0");
+    add_texture(glb, "baseColorTexture", COLOUR);
+    add_texture(glb, "metallicRoughnessTexture", PACKED);
+    wr_text_add(&glb->json, "}");
+    add_texture(glb, "normalTexture", NORMAL);
+    add_texture(glb, "occlusionTexture", PACKED);
+    if (wr_surfaces[glb->job->scene->shape.kind]->open)
+        wr_text_add(&glb->json, ",\"doubleSided\":true");
+    wr_text_add(&glb->json, "}]");
+}
+
+static void add_pictures(Glb *glb)
+{
+    static const char *const names[MAPS] = { "normal", "occlusion-roughness-metalness", "colour" };
+    if (!glb->count) return;
+    wr_text_add(&glb->json, ",\"samplers\":[{\"wrapS\":10497,\"wrapT\":10497}],\"textures\":[");
+    for (int k = 0; k < glb->count; k++)
+        wr_text_addf(&glb->json, "%s{\"sampler\":0,\"source\":%d}", k ? "," : "", k);
+    wr_text_add(&glb->json, "],\"images\":[");
+    int at = 0;
+    for (int k = 0; k < MAPS; k++)
+        if (glb->maps[k].png) {
+            wr_text_addf(&glb->json,
+                         "%s{\"name\":\"%s\",\"mimeType\":\"image/png\",\"bufferView\":%d}",
+                         at ? "," : "", names[k], 4 + at);
+            at++;
+        }
+    wr_text_add(&glb->json, "]");
+}
+
+static void describe(Glb *glb)
+{
+    bool moved = false;
+    for (int k = 0; k < MAPS; k++) {
+        glb->count += glb->maps[k].png != NULL;
+        moved |= repeats_otherwise(glb, &glb->maps[k]);
+    }
+    wr_text_add(&glb->json, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Wrinkle\"},");
+    if (moved) wr_text_add(&glb->json, "\"extensionsUsed\":[\"KHR_texture_transform\"],");
+    add_views(glb);
+    add_accessors(glb);
+    add_pictures(glb);
+    add_material(glb);
+    wr_text_addf(&glb->json,
+                 ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1%s},"
+                 "\"indices\":3,\"material\":0}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":"
+                 "[0]}],\"scene\":0,\"buffers\":[{\"byteLength\":%zu}]}",
+                 glb->model.mapped ? ",\"TEXCOORD_0\":2" : "", glb->bin.length);
+    while (glb->json.length % 4) wr_text_add(&glb->json, " ");
+}
+
+/* ---- the file ---- */
+
+static bool write_file(Glb *glb, const char *path, WrError *err)
+{
+    WrText head = { 0 }, between = { 0 };
+    WrFileTarget target;
+    const size_t all = 28 + glb->json.length + glb->bin.length;
+    if (all > UINT32_MAX)
+        return wr_fail(err, "%s: larger than 4 GB, which GLB files cannot be", path);
+    if (!wr_file_begin(&target, path, err)) return false;
+    wr_text_add(&head, "glTF");
+    add_uint(&head, 2);
+    add_uint(&head, (uint32_t)all);
+    add_uint(&head, (uint32_t)glb->json.length);
+    wr_text_add(&head, "JSON");
+    add_uint(&between, (uint32_t)glb->bin.length);
+    wr_text_add_n(&between, "BIN\0", 4);
+    const bool good = wr_file_put(&target, head.data, head.length, err) &&
+                      wr_file_put(&target, glb->json.data, glb->json.length, err) &&
+                      wr_file_put(&target, between.data, between.length, err) &&
+                      wr_file_put(&target, glb->bin.data, glb->bin.length, err);
+    wr_text_fini(&head);
+    wr_text_fini(&between);
+    if (good) return wr_file_commit(&target, err);
+    wr_file_abort(&target);
+    return false;
+}
+
+bool wr_export_glb_write(WrExportJob *job, const char *path, WrError *err)
+{
+    Glb glb = { .job = job };
+    bool good = wr_model_make(job->scene, &glb.model, err) && add_maps(&glb, err);
+    if (good && glb.model.triangle_count == 0)
+        good = wr_fail(err, "%s: the surface has no area", path);
+    if (good) {
+        describe(&glb);
+        job->report.triangles = glb.model.triangle_count;
+        job->report.pictures = glb.count;
+        job->report.model = true;
+        good = write_file(&glb, path, err);
+    }
+    for (int k = 0; k < MAPS; k++) wr_free(glb.maps[k].png);
+    wr_model_fini(&glb.model);
+    wr_text_fini(&glb.json);
+    wr_text_fini(&glb.bin);
+    return good;
+}
