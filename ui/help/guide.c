@@ -8,6 +8,8 @@
 #include "ui/help/guide_flow.h"
 #include "ui/help/guide_page.h"
 #include "ui/help/guide_picture.h"
+#include "ui/help/guide_run.h"
+#include "ui/state/busy.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -40,6 +42,8 @@ struct WrGuide {
     int found_count, chosen;
     WrGuideLayout layout;
     WrGuidePictures *pictures;
+    WrGuiPage field; /* as the page was drawn last */
+    char *proposed;  /* a command whose effect is shown before it runs; owned; NULL: none */
 };
 
 /* ---- pages ---- */
@@ -48,6 +52,9 @@ static void add_page(WrGuide *guide, const char *name, const char *text)
 {
     WrGuidePage page;
     wr_guide_parse(&page, name, text);
+    for (int i = 0; i < page.blocks.count; i++)
+        page.blocks.data[i].command = page.blocks.data[i].kind == WR_GUIDE_CODE &&
+                                      wr_guide_is_command(page.blocks.data[i].cell[0]);
     wr_array_push(&guide->pages, page);
     wr_array_push(&guide->scrolls, 0.0);
 }
@@ -118,6 +125,7 @@ void wr_guide_free(WrApp *app)
     wr_array_free(&guide->scrolls);
     wr_guide_layout_fini(&guide->layout);
     wr_guide_pictures_free(guide->pictures);
+    wr_free(guide->proposed);
     wr_free(guide);
     app->guide = NULL;
 }
@@ -171,6 +179,71 @@ static void follow(WrApp *app, WrGuide *guide, const char *link, int length)
             heading_is(target->blocks.data[i].cell[0], anchor + 1, (size_t)length - name - 1))
             block = i;
     open_page(app, guide, page, block);
+}
+
+/* ---- running ---- */
+
+#define PROPOSAL 74 /* units of its place below the page */
+
+const char *wr_guide_proposed(const WrApp *app)
+{
+    return app->guide ? app->guide->proposed : NULL;
+}
+
+static void propose(WrApp *app, WrGuide *guide, const char *line)
+{
+    wr_free(guide->proposed);
+    guide->proposed = wr_strdup(line);
+    wr_app_redraw(app);
+}
+
+/* Whether a link is that of a command; then its effect is shown. */
+static bool take_command(WrApp *app, WrGuide *guide, const char *link)
+{
+    const WrGuidePage *page = &guide->pages.data[guide->page];
+    for (int i = 0; i < page->blocks.count; i++)
+        if (page->blocks.data[i].command && page->blocks.data[i].cell[0] == link) {
+            propose(app, guide, link);
+            return true;
+        }
+    return false;
+}
+
+bool wr_guide_run_place(const WrApp *app, const char *line, int *x, int *y)
+{
+    const WrGuide *guide = app->guide;
+    const WrGuidePage *page = guide ? guide->layout.page : NULL;
+    for (int i = 0; page && i < page->blocks.count; i++) {
+        double at_x, at_y;
+        if (!page->blocks.data[i].command || strcmp(page->blocks.data[i].cell[0], line) != 0)
+            continue;
+        wr_guide_run_at(&guide->layout, &guide->field, i, &at_x, &at_y);
+        if (at_y < guide->field.top || at_y >= guide->field.bottom) continue;
+        *x = (int)at_x;
+        *y = (int)at_y;
+        return true;
+    }
+    return false;
+}
+
+/* What the command would change, and the buttons that run it or not. */
+static void show_proposal(WrApp *app, WrGuide *guide)
+{
+    WrText effect = { 0 };
+    wr_guide_effect(app, guide->proposed, &effect);
+    wr_gui_as_it_is(true);
+    wr_gui_text_wrapped(WR_FONT_BOLD, WR_COLOUR_STRONG, guide->proposed);
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, wr_text_get(&effect));
+    wr_gui_as_it_is(false);
+    wr_text_fini(&effect);
+    const bool run = wr_gui_button("Run", true) || wr_gui_return_pressed();
+    wr_gui_same_line(8);
+    const bool cancel = wr_gui_button("Cancel", false) || wr_gui_escape_pressed();
+    if (!run && !cancel) return;
+    if (run) wr_app_run_slow(app, guide->proposed);
+    wr_free(guide->proposed);
+    guide->proposed = NULL;
+    wr_app_redraw(app);
 }
 
 /* ---- search ---- */
@@ -264,6 +337,7 @@ static void show_page(WrApp *app, WrGuide *guide, double tall)
 {
     int length;
     WrGuiPage field = wr_gui_page_begin("page", 0, tall);
+    guide->field = field;
     const WrGuidePage *page = &guide->pages.data[guide->page];
     wr_gui_as_it_is(true); /* the page of keys is translated, the others are English */
     if (wr_guide_layout(&guide->layout, page, field.w, guide->pictures)) wr_app_redraw(app);
@@ -276,7 +350,7 @@ static void show_page(WrApp *app, WrGuide *guide, double tall)
     guide->jump = -1;
     wr_gui_page_end(guide->layout.height, to);
     if (to >= 0) wr_app_redraw(app);
-    if (link && field.clicked) follow(app, guide, link, length);
+    if (link && field.clicked && !take_command(app, guide, link)) follow(app, guide, link, length);
 }
 
 void wr_guide_show(WrApp *app, double tall)
@@ -284,12 +358,16 @@ void wr_guide_show(WrApp *app, double tall)
     WrGuide *guide = guide_of(app);
     if (app->dialog->fresh) refresh_keys(app, guide);
     guide->opened = guide->opened || app->dialog->fresh;
+    if (app->dialog->fresh) wr_free(guide->proposed), guide->proposed = NULL;
     search(app, guide);
+    if (guide->proposed) tall -= wr_gui_px(PROPOSAL);
     double wide = fmin(wr_gui_px(COLUMN), 0.34 * wr_gui_available());
     wr_gui_column_begin("pages", wide, tall);
     if (guide->query[0]) list_found(app, guide);
     else list_pages(app, guide);
     wr_gui_list_end();
     wr_gui_same_line(8);
+    const bool asked = guide->proposed != NULL; /* before this click: its place is there */
     show_page(app, guide, tall);
+    if (asked && guide->proposed) show_proposal(app, guide);
 }

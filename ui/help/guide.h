@@ -11,3 +11,7 @@ void wr_guide_free(WrApp *app);
 void wr_guide_keys(const WrApp *app, WrText *text);
 /* Content of the dialog: search, list of pages and the open page, with that height in pixels. */
 void wr_guide_show(WrApp *app, double tall);
+/* The command whose Run was clicked and whose effect is shown, until it runs or is cancelled; NULL: none. */
+const char *wr_guide_proposed(const WrApp *app);
+/* Where the Run of a command of the page was drawn last, pixels of the window; false: it is not seen. */
+bool wr_guide_run_place(const WrApp *app, const char *line, int *x, int *y);

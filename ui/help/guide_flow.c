@@ -2,6 +2,7 @@
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/gui_page.h"
 #include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/help/guide_page.h"
 #include "ui/help/guide_picture.h"
 
@@ -177,6 +178,26 @@ static double set_code(Flow *flow, const char *text)
     return flow->y - top;
 }
 
+/* At the right end of a command's first line; its link is the command itself. */
+static void set_run(Flow *flow, const WrGuideBlock *block)
+{
+    const char *word = wr_words("Run");
+    const double width = wr_gui_text_width(flow->font, word);
+    const WrGuideSpan span = { WR_GUIDE_LINK, NULL, 0, block->cell[0],
+                               (int)strlen(block->cell[0]) };
+    flow->x = flow->right - width;
+    if (flow->draw) draw_word(flow, &span, word, flow->x, width);
+    flow->right -= width + wr_gui_px(10);
+}
+
+void wr_guide_run_at(const WrGuideLayout *layout, const WrGuiPage *field, int block, double *x,
+                     double *y)
+{
+    *x = field->x + layout->width - wr_gui_px(MARGIN) - wr_gui_px(10) -
+         wr_gui_text_width(WR_FONT_TEXT, wr_words("Run")) / 2;
+    *y = field->y + layout->places.data[block].y + line_height(WR_FONT_TEXT) / 2;
+}
+
 /* ---- layout of blocks ---- */
 
 static WrFont font_for(const WrGuideBlock *block)
@@ -270,6 +291,7 @@ static double set_block(const WrGuideBlock *block, const WrGuidePlace *place, do
         if (flow->draw) wr_gui_draw_fill(x, y, width, place->height, GROUND, 0);
         flow->left += wr_gui_px(10);
         flow->right -= wr_gui_px(10);
+        if (block->command) set_run(flow, block);
         return set_code(flow, block->cell[0]);
     }
     if (block->kind == WR_GUIDE_ITEM) {

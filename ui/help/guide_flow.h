@@ -26,6 +26,9 @@ void wr_guide_layout_fini(WrGuideLayout *layout);
 /* Update the layout. True if a position changed. */
 bool wr_guide_layout(WrGuideLayout *layout, const WrGuidePage *page, double width,
                      WrGuidePictures *pictures);
+/* Position of a pixel inside the Run button of a command's block. */
+void wr_guide_run_at(const WrGuideLayout *layout, const WrGuiPage *field, int block, double *x,
+                     double *y);
 /* Draw the visible part; marked: highlighted block, -1: none. Returns the target of the link under the pointer,
  * within the page, and its length, or NULL. */
 const char *wr_guide_draw(const WrGuideLayout *layout, const WrGuiPage *field, int marked,

@@ -19,11 +19,13 @@ void wr_dialog_help(WrApp *app)
 {
     bool only_about = app->dialog->now == WR_DIALOG_ABOUT;
     if (!wr_gui_dialog_begin(only_about ? "Wrinkle" : "Guide", only_about ? 440 : 1060)) return;
+    const bool asks = !only_about && wr_guide_proposed(app); /* its keys are Run and Cancel */
     if (only_about) about();
     else wr_guide_show(app, fmax(0.92 * app->height - wr_gui_px(180), wr_gui_px(120)));
     wr_gui_space(8);
     bool leave = wr_gui_button("Close", true);
-    if (!app->dialog->fresh && (wr_gui_escape_pressed() || wr_gui_return_pressed())) leave = true;
+    if (!app->dialog->fresh && !asks && (wr_gui_escape_pressed() || wr_gui_return_pressed()))
+        leave = true;
     if (leave) wr_dialog_close(app);
     wr_gui_dialog_end();
 }
