@@ -58,7 +58,7 @@ static inline WrField *made(const WrGenerator *g, const WrParamValue *values, co
                             WrPool *pool, bool coarse)
 {
     WrError err = { "" };
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     WrGenerateJob job = { .like = like, .pool = pool, .coarse = coarse };
     if (!wr_generator_make(g, values, &job, &relief, &err))
         fail_msg("%s %s: %s", g->family, g->name ? g->name : "", err.text);

@@ -320,7 +320,7 @@ static void weather_can_be_stopped(void **state)
         const WrProgress progress = { &cancel, stop_soon, (void *)&cancel };
         const WrGenerateJob job = { .like = f, .progress = &progress };
         WrParamValue values[WR_GENERATOR_PARAMS];
-        WrNormalMips relief = { NULL, NULL };
+        WrRelief relief = { NULL, NULL };
         WrError err;
         wr_generator_defaults(g, values);
         assert_false(wr_generator_make(g, values, &job, &relief, &err));

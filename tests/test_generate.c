@@ -177,7 +177,7 @@ static void check_bad_values(const WrGenerator *g)
         for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
             WrParamValue values[WR_GENERATOR_PARAMS];
             WrError err = { "" };
-            WrNormalMips relief = { NULL, NULL };
+            WrRelief relief = { NULL, NULL };
             WrGenerateJob job = { .like = like };
             usual_values(g, values);
             values[i].number[0] = bad[k];
@@ -210,7 +210,7 @@ static void check_ends(const WrGenerator *g)
                 const WrParam *p = &g->params[i];
                 WrParamValue values[WR_GENERATOR_PARAMS];
                 WrError err = { "" };
-                WrNormalMips relief = { NULL, NULL };
+                WrRelief relief = { NULL, NULL };
                 WrGenerateJob job = { .like = like };
                 usual_values(g, values);
                 if (p->kind == WR_PARAM_NUMBER || p->kind == WR_PARAM_WHOLE ||
@@ -223,7 +223,7 @@ static void check_ends(const WrGenerator *g)
                 for (int y = 0; y < sizes[s][1]; y++)
                     for (int x = 0; x < sizes[s][0]; x++)
                         assert_true(isfinite(wr_field_get(relief.heights, x, y)));
-                wr_normal_mips_fini(&relief);
+                wr_relief_fini(&relief);
             }
         wr_field_free(like);
     }
@@ -260,7 +260,7 @@ static void a_cancelled_generator_stops_with_an_error_and_makes_nothing(void **s
     WrGenerateJob job = { .like = like, .progress = &progress };
     const WrGenerator *g = wr_generator_find("pattern", "checks");
     WrParamValue values[WR_GENERATOR_PARAMS];
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     WrError err = { "" };
     wr_generator_defaults(g, values);
     assert_false(wr_generator_make(g, values, &job, &relief, &err));
@@ -296,7 +296,7 @@ static void a_formula_without_terms_or_with_odd_ones_is_refused(void **state)
     const WrGenerator *g = wr_generator_find("formula", "poly");
     WrField *like = table_of(4, 4);
     WrGenerateJob job = { .like = like };
-    WrNormalMips relief;
+    WrRelief relief;
     WrError err;
     WrParamValue none = { .count = 0 }, broken = { .points = half, .count = 1 };
     WrParamValue far = { .points = high, .count = 1 };

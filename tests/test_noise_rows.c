@@ -153,7 +153,7 @@ static void hc62_octaves_beyond_nyquist_are_left_out_and_said_to_be(void **state
     WrField *like = table_of(128, 128);
     Said said = { "" };
     WrGenerateJob job = { .like = like, .note = hear, .note_ctx = &said };
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     wr_generator_defaults(g, values);
     value_of(g, values, "octaves")->number[0] = 8;
     assert_true(wr_generator_make(g, values, &job, &relief, NULL));
@@ -162,11 +162,11 @@ static void hc62_octaves_beyond_nyquist_are_left_out_and_said_to_be(void **state
     WrField *five = made(g, values, like, NULL, false);
     assert_true(is_rolled(relief.heights, five, 0, 0));
     said.text[0] = '\0';
-    WrNormalMips again = { NULL, NULL };
+    WrRelief again = { NULL, NULL };
     assert_true(wr_generator_make(g, values, &job, &again, NULL));
     assert_string_equal(said.text, "");
-    wr_normal_mips_fini(&again);
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&again);
+    wr_relief_fini(&relief);
     wr_field_free(five);
     wr_field_free(like);
 }
@@ -197,7 +197,7 @@ static void hc64_sums_that_do_not_converge_are_refused_by_name(void **state)
     WrGenerateJob job = { .like = like };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         WrParamValue values[WR_GENERATOR_PARAMS];
-        WrNormalMips relief;
+        WrRelief relief;
         WrError err = { "" };
         wr_generator_defaults(g, values);
         value_of(g, values, bad[k].name)->number[0] = bad[k].value;

@@ -289,7 +289,7 @@ static WrField *heights_of(const WrImage *map, double height, const char *y, Sai
     value_of(g, values, "y")->number[0] = strcmp(y, "auto") == 0 ? 0 : strcmp(y, "up") == 0 ? 1 : 2;
     WrField *like = table_of(map->width, map->height);
     WrGenerateJob job = { .like = like, .note = hear, .note_ctx = said };
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     WrError err;
     if (!wr_generator_make(g, values, &job, &relief, &err)) fail_msg("%s", err.text);
     wr_field_free(like);

@@ -199,7 +199,7 @@ static void a_draft_that_cannot_close_is_refused_by_name(void **state)
         const WrGenerator *g = wr_generator_find("pattern", cases[k].row);
         WrParamValue values[WR_GENERATOR_PARAMS];
         WrGenerateJob job = { .like = like };
-        WrNormalMips relief;
+        WrRelief relief;
         WrError err = { "" };
         wr_generator_defaults(g, values);
         value_of(g, values, cases[k].param)->number[0] = cases[k].value;
@@ -224,12 +224,12 @@ static void a_bond_that_does_not_close_is_said_and_so_is_stretch(void **state)
         WrParamValue values[WR_GENERATOR_PARAMS];
         Said said = { "" };
         WrGenerateJob job = { .like = like, .note = hear, .note_ctx = &said };
-        WrNormalMips relief = { NULL, NULL };
+        WrRelief relief = { NULL, NULL };
         wr_generator_defaults(g, values);
         value_of(g, values, cases[k].param)->number[0] = cases[k].value;
         assert_true(wr_generator_make(g, values, &job, &relief, NULL));
         assert_non_null(strstr(said.text, cases[k].want));
-        wr_normal_mips_fini(&relief);
+        wr_relief_fini(&relief);
     }
     wr_field_free(like);
 }

@@ -184,7 +184,7 @@ static WrField *photo_of(int width, int height, int channels, const void *codes,
 {
     const WrGenerator *g = wr_generator_find("picture", "photo");
     WrParamValue values[WR_GENERATOR_PARAMS];
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     assert_true(wr_image_write_pixels(path, width, height, channels, type, true, codes, NULL));
     wr_generator_defaults(g, values);
     value_of(g, values, "file")->text = path;
@@ -290,7 +290,7 @@ static void mistakes_in_pictures_are_told(void **state)
     WrParamValue values[WR_GENERATOR_PARAMS];
     WrField *like = table_of(4, 4);
     WrGenerateJob job = { .like = like };
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     wr_generator_defaults(g, values);
     assert_false(wr_generator_make(g, values, &job, &relief, &err));
     assert_non_null(strstr(err.text, "file is missing"));

@@ -463,10 +463,10 @@ static void a_trial_tells_true_from_false_and_leaves_memory_alone(void **state)
     (void)state;
     int five = 5, six = 6;
     WrError err = { "untouched" };
-    assert_int_equal(wr_journal_trial(succeeds, &five, 20, 0, &err), WR_EDIT_PREVIEW_TRUE);
+    assert_int_equal(wr_journal_trial(succeeds, &five, 20, 0, &err), WR_PROBE_TRUE);
     assert_string_equal(err.text, "untouched");
-    assert_int_equal(wr_journal_trial(succeeds, &six, 20, 0, &err), WR_EDIT_PREVIEW_FALSE);
-    assert_int_equal(wr_journal_trial(fails, NULL, 20, 0, &err), WR_EDIT_PREVIEW_FALSE);
+    assert_int_equal(wr_journal_trial(succeeds, &six, 20, 0, &err), WR_PROBE_FALSE);
+    assert_int_equal(wr_journal_trial(fails, NULL, 20, 0, &err), WR_PROBE_FALSE);
     assert_string_equal(err.text, "no such brush");
     assert_int_equal(touched, 0);
 }
@@ -479,10 +479,10 @@ static void a_trial_outlives_crashes(void **state)
     for (int i = 0; i < 6; i++) {
         char number[32];
         snprintf(number, sizeof number, "signal %d", signals[i]);
-        assert_int_equal(wr_journal_trial(dies, &signals[i], 20, 0, &err), WR_EDIT_PREVIEW_CRASHED);
+        assert_int_equal(wr_journal_trial(dies, &signals[i], 20, 0, &err), WR_PROBE_CRASHED);
         assert_non_null(strstr(err.text, number));
     }
-    assert_int_equal(wr_journal_trial(leaves, NULL, 20, 0, &err), WR_EDIT_PREVIEW_CRASHED);
+    assert_int_equal(wr_journal_trial(leaves, NULL, 20, 0, &err), WR_PROBE_CRASHED);
     assert_non_null(strstr(err.text, "status 3"));
 }
 
@@ -491,7 +491,7 @@ static void a_trial_that_takes_too_long_is_ended(void **state)
     (void)state;
     int zero = 0;
     WrError err;
-    assert_int_equal(wr_journal_trial(loops, &zero, 0.1, 0, &err), WR_EDIT_PREVIEW_TIMEOUT);
+    assert_int_equal(wr_journal_trial(loops, &zero, 0.1, 0, &err), WR_PROBE_TIMEOUT);
     assert_non_null(strstr(err.text, "0.1 s"));
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* no child is left */
 }
@@ -501,8 +501,7 @@ static void what_a_trial_starts_ends_with_it(void **state)
     (void)state;
     volatile pid_t *started = shared_memory(sizeof *started);
     WrError err;
-    assert_int_equal(wr_journal_trial(starts_another, (void *)started, 20, 0, &err),
-                     WR_EDIT_PREVIEW_TRUE);
+    assert_int_equal(wr_journal_trial(starts_another, (void *)started, 20, 0, &err), WR_PROBE_TRUE);
     char path[64], line[512] = "";
     snprintf(path, sizeof path, "/proc/%ld/stat", (long)*started);
     for (int i = 0; i < 2000; i++) { /* gone, or ended and not yet reaped by its new parent */
@@ -526,13 +525,13 @@ static void a_trial_is_held_to_its_memory(void **state)
 {
     (void)state;
     WrError err;
-    assert_int_equal(wr_journal_trial(takes_much_memory, NULL, 20, 0, &err), WR_EDIT_PREVIEW_TRUE);
+    assert_int_equal(wr_journal_trial(takes_much_memory, NULL, 20, 0, &err), WR_PROBE_TRUE);
     if (!BOUNDED) skip();
     assert_int_equal(wr_journal_trial(takes_much_memory, NULL, 20, (size_t)64 << 20, &err),
-                     WR_EDIT_PREVIEW_FALSE);
+                     WR_PROBE_FALSE);
     assert_non_null(strstr(err.text, "no memory"));
     assert_int_equal(wr_journal_trial(takes_much_memory, NULL, 20, (size_t)2 << 30, &err),
-                     WR_EDIT_PREVIEW_TRUE);
+                     WR_PROBE_TRUE);
 }
 
 int main(void)

@@ -33,9 +33,9 @@ static void set(Asked *asked, const char *name, double x, double y, double z)
     number[2] = z;
 }
 
-static WrNormalMips make(const Asked *asked, const WrField *like, WrPool *pool)
+static WrRelief make(const Asked *asked, const WrField *like, WrPool *pool)
 {
-    WrNormalMips relief = { 0 };
+    WrRelief relief = { 0 };
     WrError err = { "" };
     WrGenerateJob job = { .like = like, .pool = pool };
     if (!wr_generator_make(asked->row, asked->values, &job, &relief, &err))
@@ -46,7 +46,7 @@ static WrNormalMips make(const Asked *asked, const WrField *like, WrPool *pool)
 static void refuse(const Asked *asked, const char *words)
 {
     WrField *like = table_of(32, 32);
-    WrNormalMips relief = { 0 };
+    WrRelief relief = { 0 };
     WrError err = { "" };
     WrGenerateJob job = { .like = like };
     assert_false(wr_generator_make(asked->row, asked->values, &job, &relief, &err));
@@ -65,13 +65,13 @@ static void a_rivet_rises_to_its_height_less_what_is_sunk(void **state)
     for (int sunk = 0; sunk < 2; sunk++) {
         const Setting settings[] = { { "radius", 40 }, { "sink", sunk ? 20 : 0 }, { NULL, 0 } };
         Asked asked = ask("sphere", settings);
-        WrNormalMips relief = make(&asked, like, NULL);
+        WrRelief relief = make(&asked, like, NULL);
         for (int i = 0; i < 129; i++) {
             double d = i - 64, z = sqrt(fmax(0.0, 1600.0 - d * d)) - (sunk ? 20.0 : 0.0);
             if (z < 0.01) continue;
             assert_near((double)wr_field_get(relief.heights, i, 64), z / 40.0, 1e-6);
         }
-        wr_normal_mips_fini(&relief);
+        wr_relief_fini(&relief);
     }
     wr_field_free(like);
 }
@@ -88,10 +88,10 @@ static void every_closed_form_rises_to_its_height_in_any_pose(void **state)
             Asked asked = ask(names[k], NULL);
             set(&asked, "rotate", pose * 37.0, pose * 61.0, 20.0);
             set(&asked, "height", 3.0, 0.0, 0.0);
-            WrNormalMips relief = make(&asked, like, NULL);
+            WrRelief relief = make(&asked, like, NULL);
             wr_field_range(relief.heights, &low, &high);
             if (high > 3.0001f || high < 2.75f) fail_msg("%s: %g", names[k], (double)high);
-            wr_normal_mips_fini(&relief);
+            wr_relief_fini(&relief);
         }
     wr_field_free(like);
 }
@@ -109,14 +109,14 @@ static void hc79_a_moved_solid_is_a_rolled_one_over_edges_bit_for_bit(void **sta
                                      { "stagger", 0.5 }, { NULL, 0 } };
         Asked asked = ask(names[k], settings);
         if (k == 4) set(&asked, "size", 30, 0, 0);
-        WrNormalMips still = make(&asked, like, NULL);
+        WrRelief still = make(&asked, like, NULL);
         set(&asked, "at", 0.5 + 45.0 / 128.0, 0.5 - 19.0 / 64.0, 0);
-        WrNormalMips moved = make(&asked, like, NULL);
+        WrRelief moved = make(&asked, like, NULL);
         if (!is_rolled(still.heights, moved.heights, 45, -19) ||
             !is_rolled(still.cover, moved.cover, 45, -19))
             fail_msg("%s: a moved one is not rolled", names[k]);
-        wr_normal_mips_fini(&still);
-        wr_normal_mips_fini(&moved);
+        wr_relief_fini(&still);
+        wr_relief_fini(&moved);
     }
     wr_field_free(like);
 }
@@ -128,14 +128,14 @@ static void ten_thousand_rivets_are_alike_and_quickly_there(void **state)
     WrField *like = table_of(1600, 1600);
     const Setting settings[] = { { "across", 100 }, { "rows", 100 }, { "radius", 6 }, { NULL, 0 } };
     Asked asked = ask("sphere", settings);
-    WrNormalMips first = { 0 };
+    WrRelief first = { 0 };
     double start = wr_clock_seconds();
     for (int threads = 1; threads <= 3; threads++) {
         WrPool *pool = wr_pool_new(threads);
-        WrNormalMips again = make(&asked, like, pool);
+        WrRelief again = make(&asked, like, pool);
         if (first.heights) {
             assert_true(wr_hash_equal(wr_field_hash(first.heights), wr_field_hash(again.heights)));
-            wr_normal_mips_fini(&again);
+            wr_relief_fini(&again);
         } else {
             first = again;
         }
@@ -146,7 +146,7 @@ static void ten_thousand_rivets_are_alike_and_quickly_there(void **state)
     assert_true(is_rolled(first.heights, first.heights, 16, 0));
     assert_true(is_rolled(first.heights, first.heights, 0, 16 * 7));
     assert_false(is_rolled(first.heights, first.heights, 8, 0));
-    wr_normal_mips_fini(&first);
+    wr_relief_fini(&first);
     wr_field_free(like);
 }
 
@@ -157,14 +157,14 @@ static void the_seed_alone_decides_about_accidents(void **state)
     const Setting settings[] = { { "across", 4 }, { "rows", 4 },   { "radius", 15 },
                                  { "jitter", 8 }, { "vary", 0.5 }, { NULL, 0 } };
     Asked asked = ask("sphere", settings);
-    WrNormalMips a = make(&asked, like, NULL), b = make(&asked, like, NULL);
+    WrRelief a = make(&asked, like, NULL), b = make(&asked, like, NULL);
     set(&asked, "seed", 2, 0, 0);
-    WrNormalMips c = make(&asked, like, NULL);
+    WrRelief c = make(&asked, like, NULL);
     assert_true(wr_hash_equal(wr_field_hash(a.heights), wr_field_hash(b.heights)));
     assert_false(wr_hash_equal(wr_field_hash(a.heights), wr_field_hash(c.heights)));
-    wr_normal_mips_fini(&a);
-    wr_normal_mips_fini(&b);
-    wr_normal_mips_fini(&c);
+    wr_relief_fini(&a);
+    wr_relief_fini(&b);
+    wr_relief_fini(&c);
     wr_field_free(like);
 }
 
@@ -180,7 +180,7 @@ static void a_surface_is_what_its_formula_says_within_a_fiftieth_of_a_texel(void
     set(&asked, "size", 200, 0, 0);
     set(&asked, "height", 200, 0, 0);
     set(&asked, "rotate", 30, 50, 70);
-    WrNormalMips relief = make(&asked, like, NULL);
+    WrRelief relief = make(&asked, like, NULL);
     for (int j = 0; j < 256; j++)
         for (int i = 0; i < 256; i++) {
             double d = hypot(i - 127.5, j - 127.5);
@@ -190,7 +190,7 @@ static void a_surface_is_what_its_formula_says_within_a_fiftieth_of_a_texel(void
                 assert_near((double)wr_field_get(relief.heights, i, j),
                             100.0 + sqrt(10000.0 - d * d), 2 * 0.02 / 0.6 + 0.02);
         }
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&relief);
     wr_field_free(like);
 }
 
@@ -204,11 +204,11 @@ static void every_surface_can_be_seen_from_above(void **state)
         value_of(asked.row, asked.values, "shape")->text = wr_surfaces[k]->name;
         set(&asked, "size", 40, 0, 0);
         set(&asked, "rotate", 20, 30, 0);
-        WrNormalMips relief = make(&asked, like, NULL);
+        WrRelief relief = make(&asked, like, NULL);
         wr_field_range(relief.heights, &low, &high);
         if (!(high > 0.8f && high <= 1.0001f))
             fail_msg("%s: %g", wr_surfaces[k]->name, (double)high);
-        wr_normal_mips_fini(&relief);
+        wr_relief_fini(&relief);
     }
     wr_field_free(like);
 }
@@ -224,7 +224,7 @@ static void surfaces_of_words_can_be_seen_from_above(void **state)
                         "z=2*sin(pi*(v-0.5))" }
     };
     for (int k = 0; k < 2; k++) {
-        WrNormalMips relief[2];
+        WrRelief relief[2];
         for (int i = 0; i < 2; i++) {
             Asked asked = ask("surface", NULL);
             value_of(asked.row, asked.values, "shape")->text = same[k][i];
@@ -234,7 +234,7 @@ static void surfaces_of_words_can_be_seen_from_above(void **state)
         for (int t = 0; t < 64 * 64; t++)
             assert_near((double)wr_field_get(relief[0].heights, t % 64, t / 64),
                         (double)wr_field_get(relief[1].heights, t % 64, t / 64), 2e-3);
-        for (int i = 0; i < 2; i++) wr_normal_mips_fini(&relief[i]);
+        for (int i = 0; i < 2; i++) wr_relief_fini(&relief[i]);
     }
     static const char *const wrong[][2] = { { "revolution profile=1,0", "2 to 65" },
                                             { "formula x=1+ y=u", "column 3" },
@@ -262,7 +262,7 @@ static void a_mesh_is_fitted_to_its_size_and_stands_on_the_ground(void **state)
     value_of(asked.row, asked.values, "file")->text = path;
     set(&asked, "size", 40, 0, 0);
     set(&asked, "height", 8, 0, 0);
-    WrNormalMips relief = make(&asked, like, NULL);
+    WrRelief relief = make(&asked, like, NULL);
     for (int j = 13; j <= 50; j++)
         for (int i = 13; i <= 50; i++) {
             double up = (51.5 - j) / 40.0; /* from the lower edge to the upper one */
@@ -270,7 +270,7 @@ static void a_mesh_is_fitted_to_its_size_and_stands_on_the_ground(void **state)
             assert_true(wr_field_get(relief.cover, i, j) == 1.0f);
         }
     assert_true(wr_field_get(relief.cover, 10, 30) == 0.0f);
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&relief);
     wr_field_free(like);
     unlink(path);
 }
@@ -286,7 +286,7 @@ static void letters_are_level_on_top_and_bevelled_at_their_edges(void **state)
                                  { "profile", 1 }, { "height", 10 }, { NULL, 0 } };
     Asked asked = ask("letters", settings);
     value_of(asked.row, asked.values, "text")->text = "HE";
-    WrNormalMips relief = make(&asked, like, NULL);
+    WrRelief relief = make(&asked, like, NULL);
     int top = 0, flank = 0, bare = 0;
     for (int j = 0; j < 128; j++)
         for (int i = 0; i < 256; i++) {
@@ -299,7 +299,7 @@ static void letters_are_level_on_top_and_bevelled_at_their_edges(void **state)
             else flank++;
         }
     assert_true(top > 200 && flank > 200 && bare > 8000);
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&relief);
     wr_field_free(like);
 }
 
@@ -310,9 +310,9 @@ static void letters_turned_by_half_a_turn_are_upside_down(void **state)
     WrField *like = wr_field_new(127, 127, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0.0f, NULL);
     Asked asked = ask("letters", NULL);
     value_of(asked.row, asked.values, "text")->text = "L";
-    WrNormalMips a = make(&asked, like, NULL);
+    WrRelief a = make(&asked, like, NULL);
     set(&asked, "rotate", 0, 0, 180);
-    WrNormalMips b = make(&asked, like, NULL);
+    WrRelief b = make(&asked, like, NULL);
     for (int j = 0; j < 127; j++)
         for (int i = 0; i < 127; i++) {
             if (wr_field_get(a.cover, i, j) < 1.0f ||
@@ -321,8 +321,8 @@ static void letters_turned_by_half_a_turn_are_upside_down(void **state)
             assert_near((double)wr_field_get(a.heights, i, j),
                         (double)wr_field_get(b.heights, 126 - i, 126 - j), 1e-5);
         }
-    wr_normal_mips_fini(&a);
-    wr_normal_mips_fini(&b);
+    wr_relief_fini(&a);
+    wr_relief_fini(&b);
     wr_field_free(like);
 }
 

@@ -169,7 +169,7 @@ static WrField *elevation(const char *path, const char *size, const Setting *s, 
 {
     const WrGenerator *g = wr_generator_find("terrain", "elevation");
     WrParamValue values[WR_GENERATOR_PARAMS];
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     Said said = { "" };
     WrGenerateJob job = { .like = like, .note = hear, .note_ctx = &said };
     wr_generator_defaults(g, values);

@@ -25,7 +25,7 @@ typedef struct Text {
     double lattice[2];
 } Text;
 
-static bool try_text(const Text *t, const WrGenerateJob *job, WrNormalMips *out, WrError *err)
+static bool try_text(const Text *t, const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     const WrGenerator *g = wr_generator_find("text", NULL);
     WrParamValue values[WR_GENERATOR_PARAMS];
@@ -45,10 +45,10 @@ static bool try_text(const Text *t, const WrGenerateJob *job, WrNormalMips *out,
     return wr_generator_make(g, values, job, out, err);
 }
 
-static WrNormalMips relief_of(const Text *t, const WrField *like, WrPool *pool)
+static WrRelief relief_of(const Text *t, const WrField *like, WrPool *pool)
 {
     WrError err = { "" };
-    WrNormalMips out = { NULL, NULL };
+    WrRelief out = { NULL, NULL };
     WrGenerateJob job = { .like = like, .pool = pool };
     if (!try_text(t, &job, &out, &err)) fail_msg("%s", err.text);
     assert_non_null(out.cover);
@@ -63,7 +63,7 @@ static double sum_of(const WrField *f)
     return sum;
 }
 
-static bool same(const WrNormalMips *a, const WrNormalMips *b)
+static bool same(const WrRelief *a, const WrRelief *b)
 {
     return wr_hash_equal(wr_field_hash(a->heights), wr_field_hash(b->heights)) &&
            wr_hash_equal(wr_field_hash(a->cover), wr_field_hash(b->cover));
@@ -182,7 +182,7 @@ static void dots_of_a_whole_scale_are_squares_of_texels_exactly(void **state)
         Text t = { words, 0, 32.0 * k, 0.25, 0.5, NULL, NULL, 0, { 0 } };
         const Setting more[] = { { "align", 0 }, { "anchor", 1 }, { "height", 0.7 }, { NULL, 0 } };
         t.more = more;
-        WrNormalMips r = relief_of(&t, like, NULL);
+        WrRelief r = relief_of(&t, like, NULL);
         for (int j = 0; j < 128; j++)
             for (int i = 0; i < 256; i++) {
                 bool on = false;
@@ -199,7 +199,7 @@ static void dots_of_a_whole_scale_are_squares_of_texels_exactly(void **state)
                 assert_true(
                     same_bits((double)wr_field_get(r.heights, i, j), on ? (double)0.7f : 0.0));
             }
-        wr_normal_mips_fini(&r);
+        wr_relief_fini(&r);
         wr_field_free(like);
     }
     wr_font_text_fini(&font);
@@ -238,7 +238,7 @@ static void a_bitmap_text_is_freetypes_own_bitmap_bit_for_bit(void **state)
     Text t = {
         "Wr\xc3\xa4\xe2\x82\xack", 0, 16.0, 20.0 / 128.0, 24.0 / 64.0, more, NULL, 0, { 0 }
     };
-    WrNormalMips r = relief_of(&t, like, NULL);
+    WrRelief r = relief_of(&t, like, NULL);
     double set = 0.0;
     for (int j = 0; j < 64; j++)
         for (int i = 0; i < 128; i++) {
@@ -246,7 +246,7 @@ static void a_bitmap_text_is_freetypes_own_bitmap_bit_for_bit(void **state)
             set += (double)want[j][i];
         }
     assert_true(set > 100.0);
-    wr_normal_mips_fini(&r);
+    wr_relief_fini(&r);
     wr_field_free(like);
 }
 
@@ -278,7 +278,7 @@ static void coverage_is_that_of_freetypes_own_rasterizer(void **state)
     for (int k = 0; k < 4; k++) {
         const Setting more[] = { { "align", 0 }, { "anchor", 1 }, { NULL, 0 } };
         Text t = { letters[k], SANS, 170.0, 0.25, 0.25, more, NULL, 0, { 0 } };
-        WrNormalMips r = relief_of(&t, like, NULL);
+        WrRelief r = relief_of(&t, like, NULL);
         double sum = 0.0;
         assert_int_equal(FT_Load_Char(face, (FT_ULong)letters[k][0],
                                       FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP | FT_LOAD_RENDER),
@@ -292,7 +292,7 @@ static void coverage_is_that_of_freetypes_own_rasterizer(void **state)
             }
         assert_true(sum > 2000.0);
         assert_near(sum_of(r.cover) / sum, 1.0, 1.0 / 512.0);
-        wr_normal_mips_fini(&r);
+        wr_relief_fini(&r);
     }
     wr_field_free(like);
     FT_Done_Face(face);
@@ -311,11 +311,11 @@ static void coverage_adds_up_to_the_outlines_area_at_any_angle(void **state)
     for (int k = 0; k < 4; k++) {
         const Setting more[] = { { "rotate", turns[k] }, { NULL, 0 } };
         Text t = { "o&", SANS, 90.0, 0.513, 0.477, more, NULL, 0, { 0 } };
-        WrNormalMips r = relief_of(&t, like, NULL);
+        WrRelief r = relief_of(&t, like, NULL);
         /* chords of 1/64 texel, all inside convex curves, over some 700 texels of edge */
         assert_near(sum_of(r.cover), area, 700.0 / 64.0);
         assert_true(area > 1500.0);
-        wr_normal_mips_fini(&r);
+        wr_relief_fini(&r);
     }
     wr_field_free(like);
     wr_font_outline_fini(&o);
@@ -336,7 +336,7 @@ static void slopes_follow_the_exact_distance_from_the_outline(void **state)
                                  { "anchor", 1 },
                                  { NULL, 0 } };
         Text t = { "B", SANS, 150.0, 0.25, 0.25, more, NULL, 0, { 0 } };
-        WrNormalMips r = relief_of(&t, like, NULL);
+        WrRelief r = relief_of(&t, like, NULL);
         int checked = 0;
         for (int j = 0; j < 192; j++)
             for (int i = 0; i < 192; i++) {
@@ -347,7 +347,7 @@ static void slopes_follow_the_exact_distance_from_the_outline(void **state)
                 checked++;
             }
         assert_true(checked > 1500);
-        wr_normal_mips_fini(&r);
+        wr_relief_fini(&r);
     }
     wr_field_free(like);
     wr_font_outline_fini(&o);
@@ -361,7 +361,7 @@ static void each_profile_has_its_formula_on_a_straight_stem(void **state)
     for (int p = 0; p <= WR_TEXT_ENGRAVED; p++) {
         const Setting more[] = { { "profile", p }, { "bevel", 8 }, { "height", 2 }, { NULL, 0 } };
         Text t = { "l", SANS, 256.0, 0.5, 0.5, more, NULL, 0, { 0 } };
-        WrNormalMips r = relief_of(&t, like, NULL);
+        WrRelief r = relief_of(&t, like, NULL);
         int first = 0;
         while (wr_field_get(r.cover, first, 128) < 1.0f) first++;
         /* position of the edge */
@@ -378,7 +378,7 @@ static void each_profile_has_its_formula_on_a_straight_stem(void **state)
             mean *= (p == WR_TEXT_ENGRAVED ? -2.0 : 2.0) / 1000.0;
             assert_near((double)wr_field_get(r.heights, i, 128), mean, 2e-4);
         }
-        wr_normal_mips_fini(&r);
+        wr_relief_fini(&r);
     }
     wr_field_free(like);
 }
@@ -397,11 +397,11 @@ static void overlapping_letters_are_one_shape(void **state)
     };
     Text a = { "O", SANS, 80.0, 0.2, 0.5, once, NULL, 0, { 0 } };
     Text b = { "OO", SANS, 80.0, 0.2, 0.5, laid, NULL, 0, { 0 } };
-    WrNormalMips ra = relief_of(&a, like, NULL), rb = relief_of(&b, like, NULL);
+    WrRelief ra = relief_of(&a, like, NULL), rb = relief_of(&b, like, NULL);
     assert_near(largest_difference(ra.cover, rb.cover), 0.0, 0);
     assert_near(largest_difference(ra.heights, rb.heights), 0.0, 1e-6);
-    wr_normal_mips_fini(&ra);
-    wr_normal_mips_fini(&rb);
+    wr_relief_fini(&ra);
+    wr_relief_fini(&rb);
     wr_field_free(like);
     wr_font_text_fini(&font);
 }
@@ -421,15 +421,15 @@ static void hc78_a_moved_text_is_the_rolled_table(void **state)
                                  { NULL, 0 } };
         Text t = { "Wrap\nit", k % 3 ? SERIF_BOLD : 0, k % 3 ? 71.3 : 80, 0.31, 0.62, more, NULL, 0,
                    { 0 } };
-        WrNormalMips r = relief_of(&t, like, NULL);
+        WrRelief r = relief_of(&t, like, NULL);
         const int *m = moves[k % 5];
         t.u += m[0] / 160.0;
         t.v += m[1] / 96.0;
-        WrNormalMips moved = relief_of(&t, like, NULL);
+        WrRelief moved = relief_of(&t, like, NULL);
         assert_true(is_rolled(r.heights, moved.heights, m[0], m[1]));
         assert_true(is_rolled(r.cover, moved.cover, m[0], m[1]));
-        wr_normal_mips_fini(&r);
-        wr_normal_mips_fini(&moved);
+        wr_relief_fini(&r);
+        wr_relief_fini(&moved);
     }
     wr_field_free(like);
 }
@@ -441,7 +441,7 @@ static void hc78_a_glyph_wider_than_the_table_wraps_onto_itself(void **state)
     (void)state;
     WrField *small = table_of(48, 40), *large = table_of(480, 480);
     Text t = { "S", SERIF_BOLD, 300.0, 0.5, 0.5, NULL, NULL, 0, { 0 } };
-    WrNormalMips folded = relief_of(&t, small, NULL), whole = relief_of(&t, large, NULL);
+    WrRelief folded = relief_of(&t, small, NULL), whole = relief_of(&t, large, NULL);
     int inside = 0;
     for (int j = 0; j < 40; j++)
         for (int i = 0; i < 48; i++) {
@@ -459,8 +459,8 @@ static void hc78_a_glyph_wider_than_the_table_wraps_onto_itself(void **state)
             if (most == 0.0) assert_near(is, 0.0, 0);
         }
     assert_true(inside > 1000);
-    wr_normal_mips_fini(&folded);
-    wr_normal_mips_fini(&whole);
+    wr_relief_fini(&folded);
+    wr_relief_fini(&whole);
     wr_field_free(small);
     wr_field_free(large);
 }
@@ -474,10 +474,10 @@ static void hc78_clipping_leaves_what_is_on_the_table(void **state)
     for (int k = 0; k < 4; k++) {
         const Setting more[] = { { "edge", 1 }, { "rotate", 10.0 * k }, { NULL, 0 } };
         Text t = { "Clip", SANS, 60.0, at[k][0], at[k][1], more, NULL, 0, { 0 } };
-        WrNormalMips cut = relief_of(&t, small, NULL);
+        WrRelief cut = relief_of(&t, small, NULL);
         t.u = 0.25 + at[k][0] / 2;
         t.v = 0.25 + at[k][1] / 2;
-        WrNormalMips whole = relief_of(&t, large, NULL);
+        WrRelief whole = relief_of(&t, large, NULL);
         for (int j = 0; j < 128; j++)
             for (int i = 0; i < 128; i++) {
                 assert_true(same_bits((double)wr_field_get(cut.cover, i, j),
@@ -486,14 +486,14 @@ static void hc78_clipping_leaves_what_is_on_the_table(void **state)
                                       (double)wr_field_get(whole.heights, i + 64, j + 64)));
             }
         assert_true(sum_of(cut.cover) > 100.0);
-        wr_normal_mips_fini(&cut);
-        wr_normal_mips_fini(&whole);
+        wr_relief_fini(&cut);
+        wr_relief_fini(&whole);
     }
     const Setting clip[] = { { "edge", 1 }, { NULL, 0 } };
     Text off = { "Clip", SANS, 60.0, 3.0, -7.0, clip, NULL, 0, { 0 } };
-    WrNormalMips nothing = relief_of(&off, small, NULL);
+    WrRelief nothing = relief_of(&off, small, NULL);
     assert_near(sum_of(nothing.cover), 0.0, 0);
-    wr_normal_mips_fini(&nothing);
+    wr_relief_fini(&nothing);
     wr_field_free(small);
     wr_field_free(large);
 }
@@ -505,10 +505,10 @@ static void hc78_an_empty_text_covers_nothing(void **state)
     WrField *like = table_of(64, 64);
     for (int k = 0; k < 4; k++) {
         Text t = { empty[k], SANS, 40.0, 0.5, 0.5, NULL, NULL, 0, { 0 } };
-        WrNormalMips r = relief_of(&t, like, NULL);
+        WrRelief r = relief_of(&t, like, NULL);
         assert_null(wr_field_tile(r.cover, 0, 0));
         assert_near((double)wr_field_level(r.cover), 0.0, 0);
-        wr_normal_mips_fini(&r);
+        wr_relief_fini(&r);
     }
     wr_field_free(like);
 }
@@ -523,16 +523,16 @@ static void hc78_a_second_line_stands_one_line_below(void **state)
     first.text = "ab";
     second.text = "cd";
     second.v = 0.5; /* 32 texels */
-    WrNormalMips r = relief_of(&both, like, NULL), a = relief_of(&first, like, NULL),
-                 b = relief_of(&second, like, NULL);
+    WrRelief r = relief_of(&both, like, NULL), a = relief_of(&first, like, NULL),
+             b = relief_of(&second, like, NULL);
     for (int j = 0; j < 128; j++)
         for (int i = 0; i < 64; i++)
             assert_near((double)wr_field_get(r.cover, i, j),
                         (double)wr_field_get(a.cover, i, j) + (double)wr_field_get(b.cover, i, j),
                         0);
-    wr_normal_mips_fini(&r);
-    wr_normal_mips_fini(&a);
-    wr_normal_mips_fini(&b);
+    wr_relief_fini(&r);
+    wr_relief_fini(&a);
+    wr_relief_fini(&b);
     wr_field_free(like);
 }
 
@@ -544,11 +544,11 @@ static void text_around_the_table_repeats_exactly(void **state)
     WrField *like = table_of(256, 64);
     const Setting more[] = { { "around", 1 }, { "repeats", 4 }, { "profile", 1 }, { NULL, 0 } };
     Text t = { "ab ", SANS, 40.0, 0.1, 0.5, more, NULL, 0, { 0 } };
-    WrNormalMips r = relief_of(&t, like, NULL);
+    WrRelief r = relief_of(&t, like, NULL);
     assert_true(is_rolled(r.heights, r.heights, 64, 0));
     assert_false(is_rolled(r.heights, r.heights, 32, 0));
     assert_true(sum_of(r.cover) > 500.0);
-    wr_normal_mips_fini(&r);
+    wr_relief_fini(&r);
     wr_field_free(like);
 }
 
@@ -559,12 +559,12 @@ static void text_along_a_lattice_direction_closes(void **state)
     WrField *like = table_of(128, 128);
     const Setting more[] = { { "around", 3 }, { "repeats", 2 }, { NULL, 0 } };
     Text t = { "ring ", SANS, 20.0, 0.1, 0.3, more, NULL, 0, { 1, 1 } };
-    WrNormalMips r = relief_of(&t, like, NULL);
+    WrRelief r = relief_of(&t, like, NULL);
     assert_true(is_rolled(r.cover, r.cover, 64, 64));
     assert_true(sum_of(r.cover) > 300.0);
-    wr_normal_mips_fini(&r);
+    wr_relief_fini(&r);
     WrError err = { "" };
-    WrNormalMips out = { NULL, NULL };
+    WrRelief out = { NULL, NULL };
     WrGenerateJob job = { .like = like };
     t.lattice[0] = 0.5;
     assert_false(try_text(&t, &job, &out, &err));
@@ -582,11 +582,11 @@ static void a_straight_path_is_a_turned_line(void **state)
         const Setting more[] = { { "rotate", 90.0 * k }, { NULL, 0 } };
         Text line = { "path", SANS, 36.0, 0.5, 0.5, more, NULL, 0, { 0 } };
         Text path = { "path", SANS, 36.0, 0.1, 0.1, NULL, k ? up : right, 2, { 0 } };
-        WrNormalMips a = relief_of(&line, like, NULL), b = relief_of(&path, like, NULL);
+        WrRelief a = relief_of(&line, like, NULL), b = relief_of(&path, like, NULL);
         assert_near(largest_difference(a.cover, b.cover), 0.0, 1e-3);
         assert_true(sum_of(a.cover) > 500.0);
-        wr_normal_mips_fini(&a);
-        wr_normal_mips_fini(&b);
+        wr_relief_fini(&a);
+        wr_relief_fini(&b);
     }
     wr_field_free(like);
 }
@@ -601,15 +601,15 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
     Text t = {
         "\xd8\xb3\xd9\x84\xd8\xa7\xd9\x85 and\nthreads", SANS, 99.0, 0.9, 0.5, more, NULL, 0, { 0 }
     };
-    WrNormalMips one = relief_of(&t, like, NULL);
+    WrRelief one = relief_of(&t, like, NULL);
     for (int threads = 2; threads <= 7; threads += 5) {
         WrPool *pool = wr_pool_new(threads);
-        WrNormalMips many = relief_of(&t, like, pool);
+        WrRelief many = relief_of(&t, like, pool);
         assert_true(same(&one, &many));
-        wr_normal_mips_fini(&many);
+        wr_relief_fini(&many);
         wr_pool_free(pool);
     }
-    wr_normal_mips_fini(&one);
+    wr_relief_fini(&one);
     wr_field_free(like);
 }
 
@@ -636,7 +636,7 @@ static void hc78_missing_glyphs_are_told_and_drawn(void **state)
         Said said = { "" };
         Kept kept = { "" };
         WrError err = { "" };
-        WrNormalMips out = { NULL, NULL };
+        WrRelief out = { NULL, NULL };
         WrGenerateJob job = {
             .like = like, .note = hear, .note_ctx = &said, .chose = keep, .chose_ctx = &kept
         };
@@ -646,7 +646,7 @@ static void hc78_missing_glyphs_are_told_and_drawn(void **state)
         assert_non_null(strstr(said.text, borrow ? "U+10FFFD; no installed" : "U+0939, U+093F"));
         assert_int_equal(strstr(kept.text, "missing=sign") != NULL, borrow);
         assert_true(sum_of(out.cover) > 50.0);
-        wr_normal_mips_fini(&out);
+        wr_relief_fini(&out);
     }
     wr_field_free(like);
 }
@@ -657,7 +657,7 @@ static void hc78_bytes_that_are_not_utf8_are_told_and_drawn(void **state)
     WrField *like = table_of(128, 64);
     Said said = { "" };
     WrError err = { "" };
-    WrNormalMips bad = { NULL, NULL }, sign = { NULL, NULL };
+    WrRelief bad = { NULL, NULL }, sign = { NULL, NULL };
     WrGenerateJob job = { .like = like, .note = hear, .note_ctx = &said };
     Text t = { "a\xff\xc0"
                "b",
@@ -677,8 +677,8 @@ static void hc78_bytes_that_are_not_utf8_are_told_and_drawn(void **state)
     assert_int_equal(strlen(said.text),
                      strlen("2 bytes of the text are not UTF-8: drawn as U+FFFD\n"));
     assert_true(same(&bad, &sign));
-    wr_normal_mips_fini(&bad);
-    wr_normal_mips_fini(&sign);
+    wr_relief_fini(&bad);
+    wr_relief_fini(&sign);
     wr_field_free(like);
 }
 
@@ -690,7 +690,7 @@ static void hc78_lent_letters_are_told_and_come_again_by_name(void **state)
     Said said = { "" };
     Kept kept = { "" };
     WrError err = { "" };
-    WrNormalMips lent = { NULL, NULL }, named = { NULL, NULL };
+    WrRelief lent = { NULL, NULL }, named = { NULL, NULL };
     WrGenerateJob job = {
         .like = like, .note = hear, .note_ctx = &said, .chose = keep, .chose_ctx = &kept
     };
@@ -712,8 +712,8 @@ static void hc78_lent_letters_are_told_and_come_again_by_name(void **state)
     value_of(g, values, "fallback2")->text = path; /* the position in the list does not matter */
     assert_true(wr_generator_make(g, values, &job, &named, &err));
     assert_true(same(&lent, &named));
-    wr_normal_mips_fini(&lent);
-    wr_normal_mips_fini(&named);
+    wr_relief_fini(&lent);
+    wr_relief_fini(&named);
     wr_field_free(like);
 }
 
@@ -724,7 +724,7 @@ static void hc78_endless_texts_meet_a_limit_or_are_cancelled(void **state)
     char *million = wr_alloc(1000001, 1);
     memset(million, 'a', 1000000);
     WrError err = { "" };
-    WrNormalMips out = { NULL, NULL };
+    WrRelief out = { NULL, NULL };
     volatile int cancel = 1;
     WrProgress progress = { .cancel = &cancel };
     WrGenerateJob job = { .like = like };
@@ -732,9 +732,9 @@ static void hc78_endless_texts_meet_a_limit_or_are_cancelled(void **state)
     assert_false(try_text(&t, &job, &out, &err));
     assert_non_null(strstr(err.text, "262144"));
     million[5000] = '\0';
-    WrNormalMips r = relief_of(&t, like, NULL); /* 120 000 texels long, on 64 */
+    WrRelief r = relief_of(&t, like, NULL); /* 120 000 texels long, on 64 */
     assert_true(sum_of(r.cover) > 500.0);
-    wr_normal_mips_fini(&r);
+    wr_relief_fini(&r);
     job.progress = &progress;
     assert_false(try_text(&t, &job, &out, &err));
     assert_string_equal(err.text, "cancelled");
@@ -748,7 +748,7 @@ static void around_wants_a_periodic_table(void **state)
     (void)state;
     WrField *like = wr_field_new(64, 64, WR_WRAP_CLAMP, WR_WRAP_PERIODIC, 0.0f, NULL);
     WrError err = { "" };
-    WrNormalMips out = { NULL, NULL };
+    WrRelief out = { NULL, NULL };
     WrGenerateJob job = { .like = like };
     const Setting more[] = { { "around", 1 }, { NULL, 0 } };
     Text t = { "a", SANS, 40.0, 0.5, 0.5, more, NULL, 0, { 0 } };

@@ -63,7 +63,7 @@ static void what_changed_is_covered_by_rectangles_that_do_not_overlap(void **sta
     WrDirtyRects *damage = wr_dirty_rects_new();
     int none = 0, few = 0;
     for (int k = 0; k < 400; k++) {
-        SDL_Rect rects[WR_DIRTY_RECTS_RECTS], whole[2] = { some_box(&r), some_box(&r) };
+        SDL_Rect rects[WR_DIRTY_RECTS_MAX], whole[2] = { some_box(&r), some_box(&r) };
         const SDL_Rect touched = some_box(&r), room = { 0, 0, WIDE, TALL };
         const bool touch = k % 5 == 4;
         memset(now, 0, sizeof now);
@@ -78,7 +78,7 @@ static void what_changed_is_covered_by_rectangles_that_do_not_overlap(void **sta
         }
         if (touch) wr_dirty_rects_touch(damage, &touched);
         const int count = wr_dirty_rects_end(damage, whole, 2, rects);
-        assert_true(count >= 0 && count <= WR_DIRTY_RECTS_RECTS);
+        assert_true(count >= 0 && count <= WR_DIRTY_RECTS_MAX);
         if (k == 0) assert_true(count == 1 && SDL_RectEquals(&rects[0], &room));
         none += count == 0;
         few += count > 1;
@@ -103,7 +103,7 @@ static void what_changed_is_covered_by_rectangles_that_do_not_overlap(void **sta
         }
         memcpy(before, now, sizeof now);
     }
-    SDL_Rect rects[WR_DIRTY_RECTS_RECTS], all = { 0, 0, 99, 55 };
+    SDL_Rect rects[WR_DIRTY_RECTS_MAX], all = { 0, 0, 99, 55 };
     wr_dirty_rects_begin(damage, 99, 55);
     assert_int_equal(wr_dirty_rects_end(damage, NULL, 0, rects), 1);
     assert_true(SDL_RectEquals(&rects[0], &all));

@@ -17,16 +17,16 @@ static WrZSolid solid_of(WrZShape shape, double param, double sx, double sy, dou
     return solid;
 }
 
-static WrNormalMips drawn(const WrZScene *scene, const WrField *like, WrPool *pool)
+static WrRelief drawn(const WrZScene *scene, const WrField *like, WrPool *pool)
 {
     WrGenerateJob job = { .like = like, .pool = pool };
-    WrNormalMips relief = { 0 };
+    WrRelief relief = { 0 };
     WrError err = { "" };
     if (!wr_zbuffer_draw(scene, &job, &relief, &err)) fail_msg("%s", err.text);
     return relief;
 }
 
-static WrNormalMips drawn_solid(const WrZSolid *solid, const WrField *like)
+static WrRelief drawn_solid(const WrZSolid *solid, const WrField *like)
 {
     WrZScene scene = { .solids = solid, .solid_count = 1, .floor = -1e9, .scale = 1.0 };
     return drawn(&scene, like, NULL);
@@ -39,7 +39,7 @@ static void check_sphere(double radius, double x, double y, int n)
 {
     WrField *like = wr_field_new(n, n, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0.0f, NULL);
     WrZSolid sphere = solid_of(WR_Z_SPHERE, 0, radius, radius, radius, upright, x, y, 0);
-    WrNormalMips relief = drawn_solid(&sphere, like);
+    WrRelief relief = drawn_solid(&sphere, like);
     x = sphere.at[0];
     y = sphere.at[1];
     for (int j = 0; j < n; j++)
@@ -56,7 +56,7 @@ static void check_sphere(double radius, double x, double y, int n)
             if (far > 0.71) assert_true(cover == 0.0 && z == 0.0);
             if (far < -0.71) assert_true(cover == 1.0);
         }
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&relief);
     wr_field_free(like);
 }
 
@@ -80,7 +80,7 @@ static void hc79_a_sphere_larger_than_a_periodic_table_is_the_highest_of_its_ima
     const double r = 31.0;
     WrField *like = table_of(w, h);
     WrZSolid sphere = solid_of(WR_Z_SPHERE, 0, r, r, r, upright, 5.5, 8.25, 0);
-    WrNormalMips relief = drawn_solid(&sphere, like);
+    WrRelief relief = drawn_solid(&sphere, like);
     for (int j = 0; j < h; j++)
         for (int i = 0; i < w; i++) {
             double most = -1.0;
@@ -93,7 +93,7 @@ static void hc79_a_sphere_larger_than_a_periodic_table_is_the_highest_of_its_ima
             assert_near((double)wr_field_get(relief.heights, i, j), most, 1e-5);
             assert_true(wr_field_get(relief.cover, i, j) == 1.0f);
         }
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&relief);
     wr_field_free(like);
 }
 
@@ -241,16 +241,16 @@ static void a_mesh_has_no_cracks_and_no_sample_is_covered_twice(void **state)
         double cell = trial < 3 ? 13.3 : 0.9 + trial, low = 2.5 + 0.37 * trial;
         int count = jittered_square(mesh, low, low, cell, &r);
         WrZScene all = { .triangles = mesh, .triangle_count = count, .floor = -1e9, .scale = 1 };
-        WrNormalMips whole = drawn(&all, like, NULL);
+        WrRelief whole = drawn(&all, like, NULL);
         double *sum = calloc(130 * 130, sizeof *sum);
         for (int t = 0; t < count; t++) {
             WrZScene one = all;
             one.triangles = &mesh[t];
             one.triangle_count = 1;
-            WrNormalMips part = drawn(&one, like, NULL);
+            WrRelief part = drawn(&one, like, NULL);
             for (int i = 0; i < 130 * 130; i++)
                 sum[i] += (double)wr_field_get(part.cover, i % 130, i / 130);
-            wr_normal_mips_fini(&part);
+            wr_relief_fini(&part);
         }
         double area = 0.0;
         for (int i = 0; i < 130 * 130; i++) {
@@ -267,7 +267,7 @@ static void a_mesh_has_no_cracks_and_no_sample_is_covered_twice(void **state)
         /* a sixteenth of a texel at most along each side */
         assert_near(area, cell * MESH * cell * MESH, 4.0 * (cell * MESH + 1.0) / 16.0);
         free(sum);
-        wr_normal_mips_fini(&whole);
+        wr_relief_fini(&whole);
     }
     wr_field_free(like);
 }
@@ -305,7 +305,7 @@ static void a_fine_mesh_of_a_sphere_is_the_sphere_within_its_chords(void **state
         WrZTriangle *mesh = calloc((size_t)(4 * n * n), sizeof *mesh);
         int count = sphere_mesh(mesh, r, 63.7, 64.1, n);
         WrZScene scene = { .triangles = mesh, .triangle_count = count, .floor = -1e9, .scale = 1 };
-        WrNormalMips relief = drawn(&scene, like, NULL);
+        WrRelief relief = drawn(&scene, like, NULL);
         double most = 0.0, bound = 2.0 * r * (1.0 - cos(M_PI / n / 2.0)) / 0.6;
         for (int j = 0; j < 128; j++)
             for (int i = 0; i < 128; i++) {
@@ -320,7 +320,7 @@ static void a_fine_mesh_of_a_sphere_is_the_sphere_within_its_chords(void **state
         assert_true(most <= bound + 0.0007);
         assert_true(most < before / 3.5 + 0.0005); /* second order */
         before = most;
-        wr_normal_mips_fini(&relief);
+        wr_relief_fini(&relief);
         free(mesh);
     }
     wr_field_free(like);
@@ -328,7 +328,7 @@ static void a_fine_mesh_of_a_sphere_is_the_sphere_within_its_chords(void **state
 
 /* ---- ties, order, threads, rolls ---- */
 
-static bool same_relief(const WrNormalMips *a, const WrNormalMips *b)
+static bool same_relief(const WrRelief *a, const WrRelief *b)
 {
     return wr_hash_equal(wr_field_hash(a->heights), wr_field_hash(b->heights)) &&
            wr_hash_equal(wr_field_hash(a->cover), wr_field_hash(b->cover));
@@ -366,10 +366,10 @@ static void hc80_equal_and_coplanar_depths_do_not_depend_on_the_order(void **sta
     for (int i = 0; i < triangles; i++) other[i] = mesh[triangles - 1 - i];
     WrZScene a = { solids, count, mesh, triangles, 0.0, 0.0, 0.5, 0.0, false };
     WrZScene b = { turned, count, other, triangles, 0.0, 0.0, 0.5, 0.0, false };
-    WrNormalMips one = drawn(&a, like, NULL), two = drawn(&b, like, NULL);
+    WrRelief one = drawn(&a, like, NULL), two = drawn(&b, like, NULL);
     assert_true(same_relief(&one, &two));
-    wr_normal_mips_fini(&one);
-    wr_normal_mips_fini(&two);
+    wr_relief_fini(&one);
+    wr_relief_fini(&two);
     wr_field_free(like);
 }
 
@@ -381,15 +381,15 @@ static void hc80_any_number_of_threads_gives_the_same_bytes(void **state)
     WrZSolid solids[200];
     int count = soup(solids, 200, 333.0, &r);
     WrZScene scene = { .solids = solids, .solid_count = count, .scale = 1.0, .soft = 2.0 };
-    WrNormalMips first = drawn(&scene, like, NULL);
+    WrRelief first = drawn(&scene, like, NULL);
     for (int threads = 1; threads <= 3; threads++) {
         WrPool *pool = wr_pool_new(threads);
-        WrNormalMips again = drawn(&scene, like, pool);
+        WrRelief again = drawn(&scene, like, pool);
         assert_true(same_relief(&first, &again));
-        wr_normal_mips_fini(&again);
+        wr_relief_fini(&again);
         wr_pool_free(pool);
     }
-    wr_normal_mips_fini(&first);
+    wr_relief_fini(&first);
     wr_field_free(like);
 }
 
@@ -409,7 +409,7 @@ static void what_moves_by_whole_texels_rolls_bit_for_bit(void **state)
             mesh[i].y[k] = wr_z_place(mesh[i].y[k]);
         }
     WrZScene scene = { solids, count, mesh, triangles, 0.0, 0.0, 1.0, 0.0, false };
-    WrNormalMips still = drawn(&scene, like, NULL);
+    WrRelief still = drawn(&scene, like, NULL);
     for (int i = 0; i < count; i++) {
         solids[i].at[0] += di;
         solids[i].at[1] -= dj;
@@ -419,12 +419,12 @@ static void what_moves_by_whole_texels_rolls_bit_for_bit(void **state)
             mesh[i].x[k] += di - 3 * w;
             mesh[i].y[k] -= dj - 2 * h;
         }
-    WrNormalMips moved = drawn(&scene, like, NULL);
+    WrRelief moved = drawn(&scene, like, NULL);
     assert_true(is_rolled(still.heights, moved.heights, di, dj));
     assert_true(is_rolled(still.cover, moved.cover, di, dj));
     assert_false(is_rolled(still.heights, moved.heights, di + 1, dj));
-    wr_normal_mips_fini(&still);
-    wr_normal_mips_fini(&moved);
+    wr_relief_fini(&still);
+    wr_relief_fini(&moved);
     wr_field_free(like);
 }
 
@@ -447,10 +447,10 @@ static void coverage_sums_to_the_area_that_is_seen(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double s = cases[i].size, sum = 0.0;
         WrZSolid solid = solid_of(cases[i].shape, cases[i].param, s, s, s, upright, 31.3, 63.6, 0);
-        WrNormalMips relief = drawn_solid(&solid, like);
+        WrRelief relief = drawn_solid(&solid, like);
         for (int k = 0; k < 64 * 64; k++) sum += (double)wr_field_get(relief.cover, k % 64, k / 64);
         assert_near(sum, cases[i].area, 0.01 * cases[i].area + 0.5);
-        wr_normal_mips_fini(&relief);
+        wr_relief_fini(&relief);
     }
     wr_field_free(like);
 }
@@ -462,9 +462,9 @@ static void what_is_below_the_ground_is_neither_seen_nor_covers(void **state)
     WrField *like = wr_field_new(40, 40, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0.0f, NULL);
     WrZSolid sphere = solid_of(WR_Z_SPHERE, 0, 10, 10, 10, upright, 20, 20, -6);
     WrZScene scene = { .solids = &sphere, .solid_count = 1, .scale = 2.0, .offset = 0.5 };
-    WrNormalMips relief = drawn(&scene, like, NULL);
+    WrRelief relief = drawn(&scene, like, NULL);
     scene.soft = 3.0;
-    WrNormalMips soft = drawn(&scene, like, NULL);
+    WrRelief soft = drawn(&scene, like, NULL);
     double area = 0.0;
     for (int j = 0; j < 40; j++)
         for (int i = 0; i < 40; i++) {
@@ -478,8 +478,8 @@ static void what_is_below_the_ground_is_neither_seen_nor_covers(void **state)
                         1e-6);
         }
     assert_near(area, M_PI * 64.0, 2.0);
-    wr_normal_mips_fini(&relief);
-    wr_normal_mips_fini(&soft);
+    wr_relief_fini(&relief);
+    wr_relief_fini(&soft);
     wr_field_free(like);
 }
 
@@ -491,13 +491,13 @@ static void the_rim_of_a_solid_over_another_is_smoothed(void **state)
     WrZSolid plates[2] = { solid_of(WR_Z_BOX, 0, 15, 15, 1, upright, 20, 20, 1),
                            solid_of(WR_Z_BOX, 0, 5, 5, 1, upright, 20, 20, 9) };
     WrZScene scene = { .solids = plates, .solid_count = 2, .scale = 1.0 };
-    WrNormalMips relief = drawn(&scene, like, NULL);
+    WrRelief relief = drawn(&scene, like, NULL);
     assert_near((double)wr_field_get(relief.heights, 20, 20), 10.0, 0.0);
     assert_near((double)wr_field_get(relief.heights, 15, 20), 6.0, 1.0);
     assert_near((double)wr_field_get(relief.heights, 25, 20), 6.0, 1.0);
     assert_near((double)wr_field_get(relief.heights, 14, 20), 2.0, 0.0);
     assert_near((double)wr_field_get(relief.heights, 5, 20), 2.0, 0.0); /* the outer edge */
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&relief);
     wr_field_free(like);
 }
 
@@ -506,7 +506,7 @@ static void the_rim_of_a_solid_over_another_is_smoothed(void **state)
 static void expect_error(const WrZScene *scene, const WrField *like, const char *words)
 {
     WrGenerateJob job = { .like = like };
-    WrNormalMips relief = { 0 };
+    WrRelief relief = { 0 };
     WrError err = { "" };
     assert_false(wr_zbuffer_draw(scene, &job, &relief, &err));
     if (!strstr(err.text, words)) fail_msg("%s: has not: %s", err.text, words);
@@ -547,12 +547,12 @@ static void triangles_without_area_or_of_extreme_shape_are_harmless(void **state
     for (int i = 0; i < 5; i++) {
         WrZScene scene = { .triangles = &t[i], .triangle_count = 1, .floor = -1e9, .scale = 1e10 };
         WrField *clamp = wr_field_new(50, 50, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0.0f, NULL);
-        WrNormalMips relief = drawn(&scene, clamp, NULL);
+        WrRelief relief = drawn(&scene, clamp, NULL);
         for (int k = 0; k < 2500; k++)
             assert_true(isfinite(wr_field_get(relief.heights, k % 50, k / 50)));
         if (i < 2) assert_near((double)wr_field_get(relief.cover, 5, 5), 0.0, 0.0);
         if (i == 4) assert_near((double)wr_field_get(relief.heights, 7, 9), 2.5e9, 1.0);
-        wr_normal_mips_fini(&relief);
+        wr_relief_fini(&relief);
         wr_field_free(clamp);
     }
     wr_field_free(like);

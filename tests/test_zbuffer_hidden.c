@@ -55,13 +55,13 @@ static WrZSolid *crowd(TestRandom *r, WrZShape shape, const WrZLetters *letters,
 static WrHash hash_of(const WrZScene *scene, const WrField *like, int64_t *squares)
 {
     WrGenerateJob job = { .like = like };
-    WrNormalMips relief = { 0 };
+    WrRelief relief = { 0 };
     WrError err = { "" };
     int64_t before = wr_zbuffer_squares();
     if (!wr_zbuffer_draw(scene, &job, &relief, &err)) fail_msg("%s", err.text);
     *squares = wr_zbuffer_squares() - before;
     WrHash hashes[2] = { wr_field_hash(relief.heights), wr_field_hash(relief.cover) };
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&relief);
     return wr_hash_bytes(hashes, sizeof hashes, (WrHash){ 0, 0 });
 }
 

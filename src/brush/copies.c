@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-const char *const wr_env_lookup_names[] = { "none", "u", "v", "uv", NULL };
+const char *const wr_mirror_names[] = { "none", "u", "v", "uv", NULL };
 
 static int at_least_1(int n)
 {

@@ -28,7 +28,7 @@ typedef struct WrSymmetry {
 } WrSymmetry;
 
 /* Words for mirror_u + 2 mirror_v, as in commands: "none", "u", "v", "uv"; ends with NULL. */
-extern const char *const wr_env_lookup_names[];
+extern const char *const wr_mirror_names[];
 
 /* An isometry of texel space: (x, y) -> (a x + b y + dx, c x + d y + dy), y down. */
 typedef struct WrCopy {

@@ -204,7 +204,7 @@ static const Need needs[] = {
     BODY("ply"),
     BODY("obj"),
     { "export", "glb", texels, .bytes = 30 }, /* three maps in memory */
-    { "maps", NULL, texels, .bytes = 24 }, /* four maps, as in most sets */
+    { "maps", NULL, texels, .bytes = 24 },    /* four maps, as in most sets */
     { "render", NULL, picture, .bytes = 17 },
     { "script", .count = NULL },
 };

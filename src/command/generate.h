@@ -11,7 +11,7 @@ typedef struct WrLayer WrLayer;
 typedef struct WrParamValue WrParamValue;
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
-typedef struct WrNormalMips WrNormalMips;
+typedef struct WrRelief WrRelief;
 
 /* The generator that the line names, or NULL if its verb is not a generator family. */
 const WrGenerator *wr_call_generator(const WrCall *call);
@@ -30,5 +30,5 @@ char *wr_generator_text(const char *text);
 
 /* Blend the output of the line's generator into a layer, by the line's other arguments, within `selection` (NULL:
  * everywhere). False: cancelled, and the layer is half done. */
-bool wr_call_join(const WrCall *call, const WrNormalMips *relief, const WrField *selection,
+bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *selection,
                   WrLayer *layer, WrPool *pool, const WrProgress *progress, WrError *err);

@@ -120,13 +120,13 @@ static bool run_generate(WrSession *session, WrCall *call, WrError *err)
                           .chose_ctx = call };
     WrParamValue values[WR_GENERATOR_PARAMS];
     char *owned[WR_GENERATOR_PARAMS] = { NULL };
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     wr_call_values(call, generator, values);
     bool good = resolve(session, call, generator, values, owned, err) &&
                 wr_generator_make(generator, values, &job, &relief, err) &&
                 wr_call_join(call, &relief, session->state.document->selection, layer, job.pool,
                              wr_progress_part(&joining, wr_progress_here(), 0.9, 1.0), err);
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&relief);
     for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(owned[i]);
     return good;
 }

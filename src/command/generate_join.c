@@ -197,7 +197,7 @@ static WrField *weight_of(const WrField *cover, const WrField *selection)
     return weight;
 }
 
-bool wr_call_join(const WrCall *call, const WrNormalMips *relief, const WrField *selection,
+bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *selection,
                   WrLayer *layer, WrPool *pool, const WrProgress *progress, WrError *err)
 {
     float(*result)[TEXELS] = wr_try_alloc(BATCH, sizeof *result, "tiles to be joined", err);

@@ -17,7 +17,7 @@ static void note(void *ctx, const char *text)
 }
 
 /* Run the picture generator with the line's values. */
-static bool make(WrSession *session, const WrCall *call, const char *path, WrNormalMips *out,
+static bool make(WrSession *session, const WrCall *call, const char *path, WrRelief *out,
                  WrError *err)
 {
     const WrGenerator *generator = wr_generator_find("picture", "paste");
@@ -40,7 +40,7 @@ static bool make(WrSession *session, const WrCall *call, const char *path, WrNor
 bool wr_layer_paste(WrSession *session, WrCall *call, WrLayer layer, WrError *err)
 {
     WrDocument *document = session->state.document;
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     char *path = wr_session_input_path(session, wr_call_arg(call, "FILE")->text);
     const bool good =
         wr_session_check_sha256(call, path, err) && make(session, call, path, &relief, err);

@@ -115,8 +115,8 @@ static bool last_is_safe(Replay *r, const char *line)
     WrError why = { "" };
     Try attempt = { r->session, line };
     switch (wr_journal_trial(try_line, &attempt, TRIAL_SECONDS, 0, &why)) {
-    case WR_EDIT_PREVIEW_TRUE: return true;
-    case WR_EDIT_PREVIEW_FALSE:
+    case WR_PROBE_TRUE: return true;
+    case WR_PROBE_FALSE:
         wr_text_addf(r->report, "the last command failed and was left out: %s\n", why.text);
         r->done++; /* it failed then as well, or would have: the document never contained it */
         return false;

@@ -158,7 +158,7 @@ static WrField *heights_of_map(WrSession *session, const WrImageLabel *label, co
 {
     const WrGenerator *row = wr_generator_find("picture", "normals");
     WrParamValue values[WR_GENERATOR_PARAMS];
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     wr_generator_defaults(row, values);
     value_of(row, values, "file")->text = path;
     value_of(row, values, "y")->number[0] = label->kind == WR_LABEL_NORMAL_DOWN ? 2 : 1;

@@ -67,8 +67,8 @@ static Texel over(WrBlend blend, Texel below, Texel piece)
     return (Texel){ (float)height, (float)all };
 }
 
-static void join_rows(const Moving *m, WrLayer *layer, const WrNormalMips *piece,
-                      const WrField *cover, int j, float *rows)
+static void join_rows(const Moving *m, WrLayer *layer, const WrRelief *piece, const WrField *cover,
+                      int j, float *rows)
 {
     const int n = wr_field_width(layer->heights);
     float *h = rows, *c = rows + n, *ph = rows + 2 * (size_t)n, *pc = rows + 3 * (size_t)n,
@@ -99,7 +99,7 @@ static bool any_in_row(const WrField *field, int j, float *row)
 }
 
 /* cover: coverage of the piece; NULL: 1 everywhere. */
-static bool join(const Moving *m, WrLayer *layer, const WrNormalMips *piece, const WrField *cover,
+static bool join(const Moving *m, WrLayer *layer, const WrRelief *piece, const WrField *cover,
                  WrError *err)
 {
     float *rows = wr_try_alloc((size_t)wr_field_width(layer->heights), 5 * sizeof *rows,
@@ -117,7 +117,7 @@ static bool join(const Moving *m, WrLayer *layer, const WrNormalMips *piece, con
 
 /* ---- one table ---- */
 
-static bool place(Moving *m, const WrField *what, WrNormalMips *out, WrError *err)
+static bool place(Moving *m, const WrField *what, WrRelief *out, WrError *err)
 {
     m->placing.heights = what;
     m->placing.weight = m->selection;
@@ -136,20 +136,20 @@ static void take_out(const Moving *m, WrField **field)
 /* Move the mask with its whole layer; uncovered areas show everything. */
 static bool move_mask(Moving *m, WrLayer *layer, WrError *err)
 {
-    WrNormalMips piece = { NULL, NULL };
+    WrRelief piece = { NULL, NULL };
     if (!layer->mask || m->selection || m->leave) return true;
     if (!place(m, layer->mask, &piece, err)) return false;
     WrField *white = flat(layer->mask, 1.0f);
     wr_field_free(layer->mask);
     layer->mask = wr_edit_within(white, piece.heights, piece.cover);
     wr_field_free(white);
-    wr_normal_mips_fini(&piece);
+    wr_relief_fini(&piece);
     return true;
 }
 
 static bool move_layer(Moving *m, WrLayer *layer, WrError *err)
 {
-    WrNormalMips piece = { NULL, NULL }, cover = { NULL, NULL };
+    WrRelief piece = { NULL, NULL }, cover = { NULL, NULL };
     if (layer->filter.op) return move_mask(m, layer, err);
     bool good = place(m, layer->heights, &piece, err) &&
                 (!layer->cover || place(m, layer->cover, &cover, err));
@@ -158,8 +158,8 @@ static bool move_layer(Moving *m, WrLayer *layer, WrError *err)
         if (layer->cover) take_out(m, &layer->cover);
     }
     good = good && join(m, layer, &piece, cover.heights, err) && move_mask(m, layer, err);
-    wr_normal_mips_fini(&piece);
-    wr_normal_mips_fini(&cover);
+    wr_relief_fini(&piece);
+    wr_relief_fini(&cover);
     return good;
 }
 
@@ -217,12 +217,12 @@ static bool set_up(Moving *m, const WrCall *call, const WrDocument *document, Wr
 /* Move the selection too. */
 static bool move_selection(Moving *m, WrDocument *document, WrError *err)
 {
-    WrNormalMips piece = { NULL, NULL };
+    WrRelief piece = { NULL, NULL };
     if (!m->selection) return true;
     if (!place(m, m->selection, &piece, err)) return false;
     wr_field_free(document->selection);
     document->selection = wr_field_share(piece.cover);
-    wr_normal_mips_fini(&piece);
+    wr_relief_fini(&piece);
     return true;
 }
 

@@ -17,7 +17,7 @@ typedef struct Verdict {
 } Verdict;
 
 typedef struct Trial {
-    WrEditPreviewFunction function;
+    WrProbeFunction function;
     void *ctx;
 } Trial;
 
@@ -28,24 +28,24 @@ static void work(void *ctx, void *answer)
     verdict->result = trial->function(trial->ctx, &verdict->err);
 }
 
-static WrEditPreviewEnd judge(const Verdict *verdict, WrError *err)
+static WrProbeEnd judge(const Verdict *verdict, WrError *err)
 {
-    if (verdict->result) return WR_EDIT_PREVIEW_TRUE;
+    if (verdict->result) return WR_PROBE_TRUE;
     wr_fail(err, "%.500s", verdict->err.text);
-    return WR_EDIT_PREVIEW_FALSE;
+    return WR_PROBE_FALSE;
 }
 
-static WrEditPreviewEnd tell_crash(WrChildEnd end, WrError *err)
+static WrProbeEnd tell_crash(WrChildEnd end, WrError *err)
 {
     const char *name = wr_child_crash(end.number);
     if (end.why == WR_CHILD_LEFT)
         wr_fail(err, "it ended the program by itself (status %d)", end.number);
     else wr_fail(err, "it crashed: %s (signal %d)", name ? name : "unknown", end.number);
-    return WR_EDIT_PREVIEW_CRASHED;
+    return WR_PROBE_CRASHED;
 }
 
-WrEditPreviewEnd wr_journal_trial(WrEditPreviewFunction function, void *ctx, double seconds,
-                                  size_t bytes, WrError *err)
+WrProbeEnd wr_journal_trial(WrProbeFunction function, void *ctx, double seconds, size_t bytes,
+                            WrError *err)
 {
     Verdict verdict;
     WrChildEnd end;
@@ -65,9 +65,9 @@ WrEditPreviewEnd wr_journal_trial(WrEditPreviewFunction function, void *ctx, dou
     if (result == WR_TRY_ENDED) return tell_crash(end, err);
     if (result == WR_TRY_LATE) {
         wr_fail(err, "it took more than %g s", seconds);
-        return WR_EDIT_PREVIEW_TIMEOUT;
+        return WR_PROBE_TIMEOUT;
     }
     wr_fail(err, "no %s a trial: %s", result == WR_TRY_NO_PIPE ? "pipe to" : "child for",
             strerror(errno));
-    return WR_EDIT_PREVIEW_UNABLE;
+    return WR_PROBE_UNABLE;
 }

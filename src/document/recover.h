@@ -116,13 +116,13 @@ bool wr_journal_claim_remove(WrJournalClaim *claim, WrError *err);
 bool wr_journal_kept_file(const char *journal_path, const char *sha256, const char *named,
                           WrText *path, WrError *err);
 
-typedef enum WrEditPreviewEnd {
-    WR_EDIT_PREVIEW_TRUE,    /* the function returned true */
-    WR_EDIT_PREVIEW_FALSE,   /* it returned false: *err has the message */
-    WR_EDIT_PREVIEW_CRASHED, /* a signal or an exit ended it: *err names it */
-    WR_EDIT_PREVIEW_TIMEOUT, /* it exceeded the time limit and was killed */
-    WR_EDIT_PREVIEW_UNABLE   /* no child could be started: the result is unknown */
-} WrEditPreviewEnd;
+typedef enum WrProbeEnd {
+    WR_PROBE_TRUE,    /* the function returned true */
+    WR_PROBE_FALSE,   /* it returned false: *err has the message */
+    WR_PROBE_CRASHED, /* a signal or an exit ended it: *err names it */
+    WR_PROBE_TIMEOUT, /* it exceeded the time limit and was killed */
+    WR_PROBE_UNABLE   /* no child could be started: the result is unknown */
+} WrProbeEnd;
 
 /* Runs function(ctx) in a forked child and reports its end. Changes of memory are not visible in this process;
    changes of files are, so it must not change files. Its standard output and error are discarded.
@@ -132,6 +132,6 @@ typedef enum WrEditPreviewEnd {
    the child has only the calling thread: the function must not use a lock, pool or library
             that other threads of this program may hold at that moment. `wrinkle recover` calls this
             before any thread is started. */
-typedef bool (*WrEditPreviewFunction)(void *ctx, WrError *err);
-WrEditPreviewEnd wr_journal_trial(WrEditPreviewFunction function, void *ctx, double seconds,
-                                  size_t bytes, WrError *err);
+typedef bool (*WrProbeFunction)(void *ctx, WrError *err);
+WrProbeEnd wr_journal_trial(WrProbeFunction function, void *ctx, double seconds, size_t bytes,
+                            WrError *err);

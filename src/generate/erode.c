@@ -39,8 +39,7 @@ static bool add_change(WrSheet *sheet, const WrGenerateJob *job, WrError *err)
     return good;
 }
 
-bool wr_erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrNormalMips *out,
-                  WrError *err)
+bool wr_erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrRelief *out, WrError *err)
 {
     bool small =
         sheet->width != wr_field_width(job->like) || sheet->height != wr_field_height(job->like);

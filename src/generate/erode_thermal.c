@@ -102,7 +102,7 @@ bool wr_erode_thermal(WrSheet *sheet, const WrThermal *how, const WrGenerateJob 
     return good;
 }
 
-bool wr_terrain_thermal(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_terrain_thermal(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                         WrError *err)
 {
     const WrParams p = { wr_params_thermal, values };

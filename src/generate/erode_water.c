@@ -381,7 +381,7 @@ bool wr_erode_rain(WrSheet *sheet, const WrRain *rain, const WrGenerateJob *job,
            (wr_progress_step(job->progress, 1.0) || wr_fail(err, "cancelled"));
 }
 
-bool wr_terrain_hydraulic(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_terrain_hydraulic(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                           WrError *err)
 {
     const WrParams p = { wr_params_hydraulic, values };

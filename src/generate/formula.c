@@ -54,7 +54,7 @@ static void fill(const void *ctx, const WrGenerateBlock *b, int worker, float *h
 }
 
 static bool make(WrAnalyticKind kind, const WrParam *param, const WrParamValue *value,
-                 const WrGenerateJob *job, WrNormalMips *out, WrError *err)
+                 const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     WrAnalytic analytic = { .kind = kind, .count = value->count };
     analytic.terms =
@@ -73,13 +73,13 @@ static bool make(WrAnalyticKind kind, const WrParam *param, const WrParamValue *
     return good;
 }
 
-static bool make_poly(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_poly(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     return make(WR_ANALYTIC_POLY, poly_params, values, job, out, err);
 }
 
-static bool make_fourier(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_fourier(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                          WrError *err)
 {
     return make(WR_ANALYTIC_FOURIER, fourier_params, values, job, out, err);

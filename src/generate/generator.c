@@ -53,11 +53,11 @@ const WrFamily wr_families[] = {
     { .name = NULL },
 };
 
-void wr_normal_mips_fini(WrNormalMips *relief)
+void wr_relief_fini(WrRelief *relief)
 {
     wr_field_free(relief->heights);
     wr_field_free(relief->cover);
-    *relief = (WrNormalMips){ NULL, NULL };
+    *relief = (WrRelief){ NULL, NULL };
 }
 
 const WrFamily *wr_family_find(const char *name)
@@ -207,7 +207,7 @@ static bool check(const WrGenerator *g, const WrParam *p, const WrParamValue *va
 }
 
 bool wr_generator_make(const WrGenerator *generator, const WrParamValue *values,
-                       const WrGenerateJob *job, WrNormalMips *out, WrError *err)
+                       const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     for (int i = 0; generator->params[i].name; i++)
         if (!check(generator, &generator->params[i], &values[i], err)) return false;

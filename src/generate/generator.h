@@ -68,11 +68,11 @@ typedef struct WrParamValue {
 } WrParamValue;
 
 /* Output of a generator: heights and coverage. */
-typedef struct WrNormalMips {
+typedef struct WrRelief {
     WrField *heights; /* owned */
     WrField *cover;   /* 0..1, owned; NULL: 1 everywhere */
-} WrNormalMips;
-void wr_normal_mips_fini(WrNormalMips *relief);
+} WrRelief;
+void wr_relief_fini(WrRelief *relief);
 
 typedef struct WrGenerateJob {
     const WrField
@@ -100,8 +100,7 @@ typedef struct WrGenerator {
     const char *blend;     /* default blend mode on the layer: "replace", "add", "max" */
     const WrParam *params; /* ends with name NULL */
     /* values: [params], already checked. out: unchanged on failure; caller owns it. */
-    bool (*make)(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
-                 WrError *err);
+    bool (*make)(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out, WrError *err);
 } WrGenerator;
 
 typedef struct WrFamily {
@@ -127,4 +126,4 @@ int wr_generator_param_find(const WrGenerator *generator, const char *name); /* 
 void wr_generator_defaults(const WrGenerator *generator, WrParamValue *values);
 /* Checks the values against the row (errors: parameter, value, valid range), then runs the generator. */
 bool wr_generator_make(const WrGenerator *generator, const WrParamValue *values,
-                       const WrGenerateJob *job, WrNormalMips *out, WrError *err);
+                       const WrGenerateJob *job, WrRelief *out, WrError *err);

@@ -335,7 +335,7 @@ static void say(const WrGenerateJob *job, const WrNoiseMaker *m, const WrParams 
 }
 
 static bool make(const WrGenerator *row, const WrParamValue *values, const WrGenerateJob *job,
-                 WrNormalMips *out, WrError *err)
+                 WrRelief *out, WrError *err)
 {
     int width = wr_field_width(job->like), height = wr_field_height(job->like);
     Filling filling = { .line = NULL };
@@ -362,8 +362,8 @@ static bool make(const WrGenerator *row, const WrParamValue *values, const WrGen
 
 /* Each row's function needs its own row. */
 #define MAKE(index, name)                                                                          \
-    static bool make_##name(const WrParamValue *values, const WrGenerateJob *job,                  \
-                            WrNormalMips *out, WrError *err)                                       \
+    static bool make_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,   \
+                            WrError *err)                                                          \
     {                                                                                              \
         return make(&wr_noise_rows[index], values, job, out, err);                                 \
     }

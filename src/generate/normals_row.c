@@ -130,7 +130,7 @@ static WrEnds ends_of(const WrParams *p, WrWrap wrap)
     return choice == EDGES_FREE ? WR_ENDS_FREE : WR_ENDS_RING;
 }
 
-static bool make(const WrParams *p, WrNormals *normals, const WrGenerateJob *job, WrNormalMips *out,
+static bool make(const WrParams *p, WrNormals *normals, const WrGenerateJob *job, WrRelief *out,
                  WrError *err)
 {
     const WrParamValue *cell = wr_param_value(p, "cell");
@@ -203,7 +203,7 @@ static bool decode(const WrParams *p, const WrImage *image, const WrGenerateJob 
     return good;
 }
 
-bool wr_picture_normals(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_picture_normals(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                         WrError *err)
 {
     const WrParams p = { wr_params_normals, values };

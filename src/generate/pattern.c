@@ -50,7 +50,7 @@ static void fill(const void *ctx, const WrGenerateBlock *b, int worker, float *h
 }
 
 bool wr_pattern_make(const WrParams *params, const WrGenerateJob *job, WrPatternAt at,
-                     const void *ctx, int samples, WrNormalMips *out, WrError *err)
+                     const void *ctx, int samples, WrRelief *out, WrError *err)
 {
     const double *origin = wr_param_value(params, "origin")->number;
     Drawing d = { .at = at,
@@ -146,7 +146,7 @@ WrPieces wr_pieces_of(const WrParams *params, const WrCells *c)
     return pieces;
 }
 
-double wr_solid_texture(const WrNoise grain[2], const WrPieces *pieces, double x, double y)
+double wr_piece_roughness(const WrNoise grain[2], const WrPieces *pieces, double x, double y)
 {
     double u = x / pieces->width, v = y / pieces->height, sum = 0.0;
     for (int k = 0; k < 2; k++) {
@@ -165,7 +165,7 @@ double wr_piece(const WrPieces *p, double d, double px, double py, int i, int j,
     double lean_x = wr_chance(p->seed, i, j, 1) - 0.5, lean_y = wr_chance(p->seed, i, j, 2) - 0.5;
     top += p->tilt * (lean_x * px + lean_y * py);
     top -= p->pillow * 0.5 * (px * px + py * py);
-    if (p->rough > 0.0) top += p->rough * 0.5 * wr_solid_texture(p->grain, p, x, y);
+    if (p->rough > 0.0) top += p->rough * 0.5 * wr_piece_roughness(p->grain, p, x, y);
     return e * (top > 0.05 ? top : 0.05);
 }
 

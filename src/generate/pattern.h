@@ -20,7 +20,7 @@ typedef double (*WrPatternAt)(const void *ctx, double x, double y);
 /* Fills the output: height times the mean of samples x samples positions in each texel (1: its centre,
  * for antialiased patterns; always in a coarse preview). Reads height and origin. */
 bool wr_pattern_make(const WrParams *params, const WrGenerateJob *job, WrPatternAt at,
-                     const void *ctx, int samples, WrNormalMips *out, WrError *err);
+                     const void *ctx, int samples, WrRelief *out, WrError *err);
 #define WR_PATTERN_SAMPLES 4
 
 /* ---- cells ---- */
@@ -129,7 +129,7 @@ double wr_piece(const WrPieces *pieces, double d, double px, double py, int i, i
 /* sin(2 pi turns) to 1e-7, for detail evaluated many times per texel; |turns| < 1e9. */
 double wr_ripple(double turns);
 /* Noise of -1..1, two octaves, at a position. */
-double wr_solid_texture(const WrNoise grain[2], const WrPieces *pieces, double x, double y);
+double wr_piece_roughness(const WrNoise grain[2], const WrPieces *pieces, double x, double y);
 /* A noise that repeats after this many cells. */
 WrNoise wr_pattern_noise(uint32_t seed, double cells_u, double cells_v);
 
@@ -137,8 +137,8 @@ WrNoise wr_pattern_noise(uint32_t seed, double cells_u, double cells_v);
 
 #define WR_PATTERN(name)                                                                           \
     extern const WrParam wr_params_##name[];                                                       \
-    bool wr_pattern_##name(const WrParamValue *values, const WrGenerateJob *job,                   \
-                           WrNormalMips *out, WrError *err)
+    bool wr_pattern_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
+                           WrError *err)
 
 WR_PATTERN(bricks); /* pattern_wall.c */
 WR_PATTERN(tiles);

@@ -91,7 +91,7 @@ static double dot_at(const void *ctx, double x, double y)
     return best;
 }
 
-bool wr_pattern_dots(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_dots(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                      WrError *err)
 {
     const WrParams params = { wr_params_dots, values };
@@ -252,7 +252,7 @@ static double voronoi_at(const void *ctx, double x, double y)
     return 1.0 - n.first * n.first;
 }
 
-bool wr_pattern_voronoi(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_voronoi(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                         WrError *err)
 {
     const WrParams params = { wr_params_voronoi, values };
@@ -295,8 +295,8 @@ static double crack_at(const void *ctx, double x, double y)
     const WrCells *c = &k->points.cells;
     double px = x, py = y;
     if (k->jagged > 0.0) {
-        px += k->jagged * wr_solid_texture(k->stray_x, &k->pieces, x, y);
-        py += k->jagged * wr_solid_texture(k->stray_y, &k->pieces, x, y);
+        px += k->jagged * wr_piece_roughness(k->stray_x, &k->pieces, x, y);
+        py += k->jagged * wr_piece_roughness(k->stray_y, &k->pieces, x, y);
     }
     double u = px / c->cell_width, v = py / c->cell_height;
     Nearest n = find_nearest(&k->points, EUCLID, u, v);
@@ -305,7 +305,7 @@ static double crack_at(const void *ctx, double x, double y)
                     wr_modulo(n.j, c->rows), x, y);
 }
 
-bool wr_pattern_cracks(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_cracks(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                        WrError *err)
 {
     const WrParams params = { wr_params_cracks, values };

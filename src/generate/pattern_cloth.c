@@ -81,7 +81,7 @@ static double weave_at(const void *ctx, double x, double y)
     return warp > weft ? warp : weft;
 }
 
-bool wr_pattern_weave(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_weave(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     const WrParams params = { wr_params_weave, values };
@@ -138,7 +138,7 @@ static double rope_at(const void *ctx, double x, double y)
     return bow * h;
 }
 
-bool wr_pattern_rope(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_rope(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                      WrError *err)
 {
     const WrParams params = { wr_params_rope, values };

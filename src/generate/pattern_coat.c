@@ -61,7 +61,7 @@ static double shingle_top(const Coat *c, double dx, double half, int i, int j, d
     double across = dx / half;
     top += p->tilt * 0.5 * (wr_chance(p->seed, i, j, 1) - 0.5) * across;
     top -= p->pillow * 0.5 * across * across;
-    if (p->rough > 0.0) top += p->rough * 0.5 * wr_solid_texture(p->grain, p, x, y);
+    if (p->rough > 0.0) top += p->rough * 0.5 * wr_piece_roughness(p->grain, p, x, y);
     if (c->wood > 0.0) {
         const int *n = c->fibre.lattice.period;
         const double t[2] = { x / c->cells.width * n[0] +
@@ -100,7 +100,7 @@ static Coat coat_of(const WrParams *params, const WrGenerateJob *job)
     return c;
 }
 
-bool wr_pattern_shingles(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_shingles(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                          WrError *err)
 {
     const WrParams params = { wr_params_shingles, values };
@@ -146,7 +146,7 @@ static double scale_top(const Coat *c, double dx, double dy, int i, int j, doubl
     double top = 1.0 - 0.6 * up - p->uneven * wr_chance(p->seed, i, j, 0);
     top += p->tilt * 0.5 * (wr_chance(p->seed, i, j, 1) - 0.5) * across;
     top -= (c->ridge + 0.5 * p->pillow) * across * across;
-    if (p->rough > 0.0) top += p->rough * 0.5 * wr_solid_texture(p->grain, p, x, y);
+    if (p->rough > 0.0) top += p->rough * 0.5 * wr_piece_roughness(p->grain, p, x, y);
     return top > 0.05 ? top : 0.05;
 }
 
@@ -171,7 +171,7 @@ static double scale_at(const void *ctx, double x, double y)
     return h;
 }
 
-bool wr_pattern_scales(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_scales(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                        WrError *err)
 {
     const WrParams params = { wr_params_scales, values };

@@ -39,7 +39,7 @@ static double grid_at(const void *ctx, double x, double y)
     return 1.0 - (1.0 - a) * (1.0 - b);
 }
 
-bool wr_pattern_grid(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_grid(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                      WrError *err)
 {
     const WrParams params = { wr_params_grid, values };
@@ -78,7 +78,7 @@ static double check_at(const void *ctx, double x, double y)
     return 0.5 + 0.5 * s * t;
 }
 
-bool wr_pattern_checks(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_checks(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                        WrError *err)
 {
     const WrParams params = { wr_params_checks, values };
@@ -132,7 +132,7 @@ static double stripe_at(const void *ctx, double x, double y)
     return wr_edge(&l->edge, (0.5 * l->width - to_whole(phase_at(l, x, y))) / l->steep);
 }
 
-bool wr_pattern_stripes(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_stripes(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                         WrError *err)
 {
     const WrParams params = { wr_params_stripes, values };
@@ -200,7 +200,7 @@ static int common_divisor(int a, int b)
     return a;
 }
 
-bool wr_pattern_waves(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_waves(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     const WrParams params = { wr_params_waves, values };
@@ -242,7 +242,7 @@ static double knurl_at(const void *ctx, double x, double y)
     return h > low ? (h - low) / (top - low) : 0.0;
 }
 
-bool wr_pattern_knurl(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_knurl(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     const WrParams params = { wr_params_knurl, values };

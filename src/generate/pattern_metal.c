@@ -63,7 +63,7 @@ static double chain_at(const void *ctx, double x, double y)
     return h > 0.0 ? h / c->most : 0.0;
 }
 
-bool wr_pattern_chain(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_chain(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     const WrParams params = { wr_params_chain, values };

@@ -169,7 +169,7 @@ static int bucket_count(double size)
     return buckets < 1.0 ? 1 : buckets > BUCKETS ? BUCKETS : (int)buckets;
 }
 
-bool wr_pattern_scratches(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_scratches(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                           WrError *err)
 {
     const WrParams given = { wr_params_scratches, values };

@@ -88,8 +88,8 @@ static double brick_at(const void *ctx, double x, double y)
     const WrCells *c = &b->cells;
     double px = x, py = y;
     if (b->wobble > 0.0) {
-        px = wrapped(x + b->wobble * wr_solid_texture(b->stray_x, &b->pieces, x, y), c->width);
-        py = wrapped(y + b->wobble * wr_solid_texture(b->stray_y, &b->pieces, x, y), c->height);
+        px = wrapped(x + b->wobble * wr_piece_roughness(b->stray_x, &b->pieces, x, y), c->width);
+        py = wrapped(y + b->wobble * wr_piece_roughness(b->stray_y, &b->pieces, x, y), c->height);
     }
     double up = py / c->cell_height, begin, length;
     int row = (int)floor(up);
@@ -106,7 +106,7 @@ static double brick_at(const void *ctx, double x, double y)
                     y);
 }
 
-bool wr_pattern_bricks(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_bricks(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                        WrError *err)
 {
     const WrParams params = { wr_params_bricks, values };
@@ -182,7 +182,7 @@ static double tile_at(const void *ctx, double x, double y)
     return wr_piece(&t->pieces, d, 2.0 * dx, 2.0 * dy, i, j, x, y);
 }
 
-bool wr_pattern_tiles(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_tiles(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     const WrParams params = { wr_params_tiles, values };
@@ -256,7 +256,7 @@ static int regular_rows(const WrField *like, int across)
     return pairs < 1 ? 2 : pairs > WR_CELLS_MOST / 2 ? WR_CELLS_MOST : 2 * pairs;
 }
 
-bool wr_pattern_hexagons(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_hexagons(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                          WrError *err)
 {
     const WrParams params = { wr_params_hexagons, values };
@@ -342,7 +342,7 @@ static double plank_at(const void *ctx, double x, double y)
     return h * (1.0 - p->wood * wood(p, x / c->width, y / c->height, dy / half_y, column, row));
 }
 
-bool wr_pattern_planks(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_pattern_planks(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                        WrError *err)
 {
     const WrParams params = { wr_params_planks, values };

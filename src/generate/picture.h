@@ -14,7 +14,7 @@ typedef struct WrImageLabel WrImageLabel;
 typedef struct WrImageWish WrImageWish;
 typedef struct WrParamValue WrParamValue;
 typedef struct WrParams WrParams;
-typedef struct WrNormalMips WrNormalMips;
+typedef struct WrRelief WrRelief;
 
 /* Methods to make a picture seamless on the periodic axes of the sheet. blend: subtracts the smoothest
    function with the jump at the edges: the periodic component of Moisan (J. Math. Imaging Vis. 39,
@@ -86,8 +86,8 @@ void wr_picture_note(const char *path, const WrImage *image, const WrGenerateJob
 
 #define WR_PICTURE(name)                                                                           \
     extern const WrParam wr_params_##name[];                                                       \
-    bool wr_picture_##name(const WrParamValue *values, const WrGenerateJob *job,                   \
-                           WrNormalMips *out, WrError *err)
+    bool wr_picture_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
+                           WrError *err)
 WR_PICTURE(photo);   /* picture_photo.c */
 WR_PICTURE(normals); /* normals_row.c */
 WR_PICTURE(paste);   /* picture_paste.c */

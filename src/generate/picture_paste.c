@@ -79,7 +79,7 @@ static bool check_size(double scale, const WrImage *image, double size, WrError 
                    WR_PLACE_SCALE, WR_PLACE_SCALE, image->width);
 }
 
-bool wr_picture_paste(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_picture_paste(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     const WrParams p = { wr_params_paste, values };

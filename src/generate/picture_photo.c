@@ -215,7 +215,7 @@ static bool check(const WrParams *p, const WrImage *image, const char *path, WrE
     return true;
 }
 
-bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     const WrParams p = { wr_params_photo, values };

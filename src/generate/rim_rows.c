@@ -193,7 +193,7 @@ static WrField *shape_of(const WrParams *p, const WrGenerateJob *job, WrError *e
     return NULL;
 }
 
-static bool make_rim(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_rim(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                      WrError *err)
 {
     const WrParams p = { params, values };

@@ -59,7 +59,7 @@ bool wr_solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPl
 
 /* Draws the scene with the parameters' height (for `rise` texels of z), cut at the ground. */
 bool wr_solid_draw(const WrParams *params, WrZScene *scene, double rise, const WrGenerateJob *job,
-                   WrNormalMips *out, WrError *err);
+                   WrRelief *out, WrError *err);
 
 /* A triangle mesh to be placed. */
 typedef struct WrSolidNet {
@@ -71,14 +71,14 @@ typedef struct WrSolidNet {
 /* Draws copies of a mesh with their lowest point on the ground. The points are rotated about the
  * origin. */
 bool wr_solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
-                       WrNormalMips *out, WrError *err);
+                       WrRelief *out, WrError *err);
 
 /* ---- the rows that have files of their own ---- */
 
 extern const WrParam wr_params_solid_mesh[], wr_params_solid_letters[], wr_params_solid_surface[];
-bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                    WrError *err);
-bool wr_solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err);
-bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err);

@@ -104,7 +104,7 @@ static void box_range(const WrZSolid *solid, double range[2])
 }
 
 static bool draw(const WrParams *params, const WrZLetters *letters, const WrGenerateJob *job,
-                 WrNormalMips *out, WrError *err)
+                 WrRelief *out, WrError *err)
 {
     WrSolidPlace *places = NULL;
     int64_t count;
@@ -129,7 +129,7 @@ static bool draw(const WrParams *params, const WrZLetters *letters, const WrGene
     return good;
 }
 
-bool wr_solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_solid_letters(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     const WrParams params = { wr_params_solid_letters, values };

@@ -42,7 +42,7 @@ static bool fit(const WrMesh *mesh, double size, double (*points)[3])
     return true;
 }
 
-bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_solid_mesh(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                    WrError *err)
 {
     const WrParams params = { wr_params_solid_mesh, values };

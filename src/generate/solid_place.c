@@ -106,7 +106,7 @@ bool wr_solid_places(const WrParams *params, const WrGenerateJob *job, WrSolidPl
 }
 
 bool wr_solid_draw(const WrParams *params, WrZScene *scene, double rise, const WrGenerateJob *job,
-                   WrNormalMips *out, WrError *err)
+                   WrRelief *out, WrError *err)
 {
     scene->floor = 0.0;
     scene->soft = wr_param_number(params, "soft");
@@ -150,7 +150,7 @@ static void put_copy(const Copies *c, const WrSolidPlace *p, double low, WrZTria
 }
 
 bool wr_solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGenerateJob *job,
-                       WrNormalMips *out, WrError *err)
+                       WrRelief *out, WrError *err)
 {
     WrSolidPlace *places = NULL;
     int64_t count;

@@ -232,7 +232,7 @@ static bool make_net(const WrShape *shape, double size, double error, Net *net, 
     return true;
 }
 
-bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     const WrParams params = { wr_params_solid_surface, values };

@@ -55,7 +55,7 @@ static const WrParam torus_params[] = {
 /* ---- drawing ---- */
 
 static bool draw(const WrParams *params, WrZShape shape, double param, const double size[3],
-                 const WrGenerateJob *job, WrNormalMips *out, WrError *err)
+                 const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     WrSolidPlace *places = NULL;
     int64_t count;
@@ -76,7 +76,7 @@ static bool draw(const WrParams *params, WrZShape shape, double param, const dou
     return good;
 }
 
-static bool make_sphere(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_sphere(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                         WrError *err)
 {
     const WrParams params = { sphere_params, values };
@@ -85,14 +85,14 @@ static bool make_sphere(const WrParamValue *values, const WrGenerateJob *job, Wr
     return draw(&params, WR_Z_SPHERE, 0.0, size, job, out, err);
 }
 
-static bool make_ellipsoid(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_ellipsoid(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                            WrError *err)
 {
     const WrParams params = { ellipsoid_params, values };
     return draw(&params, WR_Z_SPHERE, 0.0, wr_param_value(&params, "radii")->number, job, out, err);
 }
 
-static bool make_box(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_box(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                      WrError *err)
 {
     const WrParams params = { box_params, values };
@@ -102,7 +102,7 @@ static bool make_box(const WrParamValue *values, const WrGenerateJob *job, WrNor
 }
 
 static bool make_round(const WrParamValue *values, WrZShape shape, const WrGenerateJob *job,
-                       WrNormalMips *out, WrError *err)
+                       WrRelief *out, WrError *err)
 {
     const WrParams params = { round_params, values };
     double r = wr_param_number(&params, "radius");
@@ -110,19 +110,19 @@ static bool make_round(const WrParamValue *values, WrZShape shape, const WrGener
     return draw(&params, shape, 0.0, size, job, out, err);
 }
 
-static bool make_cylinder(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_cylinder(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                           WrError *err)
 {
     return make_round(values, WR_Z_CYLINDER, job, out, err);
 }
 
-static bool make_cone(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_cone(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     return make_round(values, WR_Z_CONE, job, out, err);
 }
 
-static bool make_capsule(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_capsule(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                          WrError *err)
 {
     const WrParams params = { capsule_params, values };
@@ -134,7 +134,7 @@ static bool make_capsule(const WrParamValue *values, const WrGenerateJob *job, W
     return draw(&params, WR_Z_CAPSULE, (0.5 * length - r) / r, size, job, out, err);
 }
 
-static bool make_torus(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_torus(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                        WrError *err)
 {
     const WrParams params = { torus_params, values };

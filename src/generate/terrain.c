@@ -130,8 +130,7 @@ bool wr_sheet_resize(WrSheet *sheet, int width, int height, const WrGenerateJob 
     return good;
 }
 
-bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrNormalMips *out,
-                     WrError *err)
+bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     const WrWrap wrap[2] = { wr_field_wrap_u(job->like), wr_field_wrap_v(job->like) };
     WrSheet same = *sheet;
@@ -139,7 +138,7 @@ bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrNormalMip
     same.wrap[1] = wrap[1];
     WrField *heights = wr_sheet_field(&same, err);
     if (!heights) return false;
-    *out = (WrNormalMips){ .heights = heights };
+    *out = (WrRelief){ .heights = heights };
     return true;
 }
 

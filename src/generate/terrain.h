@@ -37,8 +37,7 @@ bool wr_sheet_resize(WrSheet *sheet, int width, int height, const WrGenerateJob 
 /* Converts to a new table, rounded to float: values beyond its range are clamped, NaN becomes 0. */
 WrField *wr_sheet_field(const WrSheet *sheet, WrError *err);
 /* Converts the sheet, of the job's size, to the output. */
-bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrNormalMips *out,
-                     WrError *err);
+bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrRelief *out, WrError *err);
 
 /* Index of a neighbour i of an axis of n, i any number: wrapped on a ring, else the last texel. */
 static inline int wr_sheet_index(int i, int n, WrWrap wrap)
@@ -59,8 +58,8 @@ bool wr_sheet_run(const WrSheet *sheet, const WrGenerateJob *job, bool report, W
 
 #define WR_TERRAIN(name)                                                                           \
     extern const WrParam wr_params_##name[];                                                       \
-    bool wr_terrain_##name(const WrParamValue *values, const WrGenerateJob *job,                   \
-                           WrNormalMips *out, WrError *err)
+    bool wr_terrain_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
+                           WrError *err)
 WR_TERRAIN(fractal);   /* terrain_fractal.c */
 WR_TERRAIN(terraces);  /* terrain_terraces.c */
 WR_TERRAIN(thermal);   /* erode_thermal.c */

@@ -170,7 +170,7 @@ static void bring_to_heights(const WrParams *p, Elevation *e, const WrGenerateJo
     }
 }
 
-bool wr_terrain_elevation(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_terrain_elevation(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                           WrError *err)
 {
     const WrParams p = { wr_params_elevation, values };

@@ -237,7 +237,7 @@ static void shape(const WrParams *p, WrSheet *sheet)
     }
 }
 
-bool wr_terrain_fractal(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_terrain_fractal(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                         WrError *err)
 {
     const WrParams p = { wr_params_fractal, values };

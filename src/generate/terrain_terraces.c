@@ -89,7 +89,7 @@ static bool plan(Terraces *t, const WrParams *p, WrError *err)
     return true;
 }
 
-bool wr_terrain_terraces(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+bool wr_terrain_terraces(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                          WrError *err)
 {
     const WrParams p = { wr_params_terraces, values };

@@ -109,4 +109,4 @@ typedef struct WrTextFinish {
 float wr_text_height(const WrTextFinish *finish, double cover, bool centre, double distance);
 /* The relief of a shape: heights, and the coverage of each texel. */
 bool wr_text_relief(WrTextShape *shape, const WrTextFinish *finish, const WrGenerateJob *job,
-                    WrNormalMips *out, WrError *err);
+                    WrRelief *out, WrError *err);

@@ -75,7 +75,7 @@ static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, fl
 }
 
 bool wr_text_relief(WrTextShape *shape, const WrTextFinish *finish, const WrGenerateJob *job,
-                    WrNormalMips *out, WrError *err)
+                    WrRelief *out, WrError *err)
 {
     WrTextInside inside = { NULL, NULL };
     if (!wr_text_inside(shape, job, 0.1, 0.5, &inside, err)) return false;

@@ -133,7 +133,7 @@ static WrTextWish wish_of(const WrParams *p)
 }
 
 static bool make_shaped(const WrTextWish *wish, const WrFontText *text, const WrTextFinish *finish,
-                        const WrGenerateJob *job, WrNormalMips *out, WrError *err)
+                        const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     WrTextShape shape = { 0 };
     if (!wr_text_shape_init(&shape, job->like, wish->clip, err)) return false;
@@ -143,7 +143,7 @@ static bool make_shaped(const WrTextWish *wish, const WrFontText *text, const Wr
     return good;
 }
 
-static bool make_text(const WrParamValue *values, const WrGenerateJob *job, WrNormalMips *out,
+static bool make_text(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
     WrParams p = { params, values };

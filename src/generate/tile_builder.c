@@ -116,9 +116,9 @@ static WrField *empty_like(const WrField *like, WrError *err)
 }
 
 bool wr_generate_build(const WrGenerateJob *job, WrGenerateFill fill, const void *ctx, bool covered,
-                       double from, WrNormalMips *out, WrError *err)
+                       double from, WrRelief *out, WrError *err)
 {
-    WrNormalMips relief = { empty_like(job->like, err), NULL };
+    WrRelief relief = { empty_like(job->like, err), NULL };
     if (relief.heights && covered) relief.cover = empty_like(job->like, err);
     Build build = { .fill = fill,
                     .ctx = ctx,
@@ -131,7 +131,7 @@ bool wr_generate_build(const WrGenerateJob *job, WrGenerateFill fill, const void
                wr_fail(err, "cancelled");
     }
     if (good) *out = relief;
-    else wr_normal_mips_fini(&relief);
+    else wr_relief_fini(&relief);
     return good;
 }
 

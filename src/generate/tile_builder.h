@@ -24,7 +24,7 @@ typedef void (*WrGenerateFill)(const void *ctx, const WrGenerateBlock *block, in
  * from     fraction 0..1 of the whole work done before, for reports
  * Errors   out of memory; "cancelled" Tiles that are 0 throughout are represented by the level. */
 bool wr_generate_build(const WrGenerateJob *job, WrGenerateFill fill, const void *ctx, bool covered,
-                       double from, WrNormalMips *out, WrError *err);
+                       double from, WrRelief *out, WrError *err);
 
 /* Adds a remark of a generator; ignored without a listener. */
 void wr_generate_note(const WrGenerateJob *job, const char *format, ...)

@@ -14,7 +14,7 @@
 typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrGenerateJob WrGenerateJob;
-typedef struct WrNormalMips WrNormalMips;
+typedef struct WrRelief WrRelief;
 
 /* Interpolation between texels; when shrinking, the filter is widened. */
 #define WR_PLACE_FILTERS(X)                                                                        \
@@ -40,4 +40,4 @@ typedef struct WrPlacing {
 } WrPlacing;
 
 /* The piece on a table like job->like: heights and coverage. */
-bool wr_place(const WrPlacing *placing, const WrGenerateJob *job, WrNormalMips *out, WrError *err);
+bool wr_place(const WrPlacing *placing, const WrGenerateJob *job, WrRelief *out, WrError *err);

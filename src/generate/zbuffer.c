@@ -344,7 +344,7 @@ static void draw_tile(int index, int worker, void *ctx)
     wr_free(sheet);
 }
 
-static bool run_tiles(Drawing *d, const WrGenerateJob *job, WrNormalMips *relief)
+static bool run_tiles(Drawing *d, const WrGenerateJob *job, WrRelief *relief)
 {
     size_t count = (size_t)d->busy_count;
     bool going = true;
@@ -365,21 +365,20 @@ static bool run_tiles(Drawing *d, const WrGenerateJob *job, WrNormalMips *relief
     return going && wr_progress_step(job->progress, 1.0);
 }
 
-static bool draw(Drawing *d, const WrGenerateJob *job, WrNormalMips *out, WrError *err)
+static bool draw(Drawing *d, const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
-    WrNormalMips relief = { 0 };
+    WrRelief relief = { 0 };
     WrWrap wrap_u = wr_field_wrap_u(d->like), wrap_v = wr_field_wrap_v(d->like);
     relief.heights = wr_field_new(d->width, d->height, wrap_u, wrap_v, 0.0f, err);
     relief.cover = wr_field_new(d->width, d->height, wrap_u, wrap_v, 0.0f, err);
     bool good = relief.heights && relief.cover;
     if (good && !run_tiles(d, job, &relief)) good = wr_fail(err, "cancelled");
     if (good) *out = relief;
-    else wr_normal_mips_fini(&relief);
+    else wr_relief_fini(&relief);
     return good;
 }
 
-bool wr_zbuffer_draw(const WrZScene *scene, const WrGenerateJob *job, WrNormalMips *out,
-                     WrError *err)
+bool wr_zbuffer_draw(const WrZScene *scene, const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     const WrField *like = job->like;
     for (int64_t i = 0; i < scene->solid_count + scene->triangle_count; i++)

@@ -103,8 +103,7 @@ typedef struct WrZScene {
 /* Draws the scene. Hidden primitives cost very little, whatever their size and number. Errors:
  * coordinates not finite or beyond WR_Z_REACH, with the index of the first one; more than WR_Z_ENTRIES
  * pieces; out of memory; cancelled. */
-bool wr_zbuffer_draw(const WrZScene *scene, const WrGenerateJob *job, WrNormalMips *out,
-                     WrError *err);
+bool wr_zbuffer_draw(const WrZScene *scene, const WrGenerateJob *job, WrRelief *out, WrError *err);
 
 /* Number of squares of 8 x 8 texels in which this process has drawn solids, for tests that count work. */
 int64_t wr_zbuffer_squares(void);

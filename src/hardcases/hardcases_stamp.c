@@ -36,7 +36,7 @@ static WrParamValue *param(Values *values, const char *name)
     return index >= 0 ? &values->value[index] : &none;
 }
 
-static bool make(const Values *values, const WrField *like, WrPool *pool, WrNormalMips *out,
+static bool make(const Values *values, const WrField *like, WrPool *pool, WrRelief *out,
                  WrError *err)
 {
     const WrGenerateJob job = { .like = like, .pool = pool };
@@ -51,7 +51,7 @@ static WrField *blank(int w, int h)
 /* ---- text ---- */
 
 static bool write_text(Values *values, const char *text, double u, double v, const WrField *like,
-                       WrNormalMips *out, WrError *err)
+                       WrRelief *out, WrError *err)
 {
     param(values, "text")->text = text;
     param(values, "at")->number[0] = u;
@@ -60,8 +60,7 @@ static bool write_text(Values *values, const char *text, double u, double v, con
 }
 
 /* Number of texels of either part that differ from the other's, moved by half a table. */
-static void same_rolled(WrHardGauge *g, const WrNormalMips *still, const WrNormalMips *moved, int w,
-                        int h)
+static void same_rolled(WrHardGauge *g, const WrRelief *still, const WrRelief *moved, int w, int h)
 {
     WrField *heights = wr_hard_rolled(still->heights, w / 2, h / 2);
     WrField *cover = wr_hard_rolled(still->cover, w / 2, h / 2);
@@ -75,7 +74,7 @@ static bool hc78(WrHardGauge *g, WrError *err)
 {
     enum { W = 64, H = 48 };
     Values values;
-    WrNormalMips none = { NULL, NULL }, still = { NULL, NULL }, moved = { NULL, NULL };
+    WrRelief none = { NULL, NULL }, still = { NULL, NULL }, moved = { NULL, NULL };
     if (!values_of(&values, "text", NULL, err)) return false;
     WrField *like = blank(W, H);
     param(&values, "size")->number[0] = 60; /* one letter is wider than half the table */
@@ -93,9 +92,9 @@ static bool hc78(WrHardGauge *g, WrError *err)
         wr_field_range(still.cover, &low, &high);
         wr_hard_holds(g, WR_HARD_FLOAT, high == 1.0f); /* something is visible */
     }
-    wr_normal_mips_fini(&none);
-    wr_normal_mips_fini(&still);
-    wr_normal_mips_fini(&moved);
+    wr_relief_fini(&none);
+    wr_relief_fini(&still);
+    wr_relief_fini(&moved);
     wr_field_free(like);
     return good;
 }
@@ -103,7 +102,7 @@ static bool hc78(WrHardGauge *g, WrError *err)
 /* ---- solids ---- */
 
 /* sqrt(max(0, r^2 - d^2)) of the nearest periodic image, for a sphere of that radius at (u, v). */
-static void check_sphere(WrHardGauge *g, const WrNormalMips *relief, int n, double r, double u,
+static void check_sphere(WrHardGauge *g, const WrRelief *relief, int n, double r, double u,
                          double v)
 {
     const double x = n * u - 0.5, y = n * (1.0 - v) - 0.5;
@@ -128,18 +127,18 @@ static bool hc79(WrHardGauge *g, WrError *err)
     WrField *like = blank(64, 64);
     bool good = true;
     for (int k = 0; k < 6 && good; k++) {
-        WrNormalMips relief = { NULL, NULL };
+        WrRelief relief = { NULL, NULL };
         param(&values, "radius")->number[0] = spheres[k][0];
         memcpy(param(&values, "at")->number, spheres[k] + 1, 2 * sizeof(double));
         good = make(&values, like, NULL, &relief, err);
         if (good) check_sphere(g, &relief, 64, spheres[k][0], spheres[k][1], spheres[k][2]);
-        wr_normal_mips_fini(&relief);
+        wr_relief_fini(&relief);
     }
-    WrNormalMips refused = { NULL, NULL };
+    WrRelief refused = { NULL, NULL };
     param(&values, "radius")->number[0] = 0.0;
     const bool made = make(&values, like, NULL, &refused, NULL);
     wr_hard_off(g, WR_HARD_FLOAT, made ? 1.0 : 0.0);
-    wr_normal_mips_fini(&refused);
+    wr_relief_fini(&refused);
     wr_field_free(like);
     return good;
 }
@@ -155,24 +154,24 @@ static bool hc80(WrHardGauge *g, WrError *err)
     param(&values, "rows")->number[0] = 7;
     param(&values, "stagger")->number[0] = 0.37;
     param(&values, "jitter")->number[0] = 5;
-    WrNormalMips first = { NULL, NULL };
+    WrRelief first = { NULL, NULL };
     bool good = make(&values, like, NULL, &first, err);
     for (int threads = 1; threads <= 3 && good; threads++) {
         WrPool *pool = wr_pool_new(threads);
-        WrNormalMips again = { NULL, NULL };
+        WrRelief again = { NULL, NULL };
         good = make(&values, like, pool, &again, err);
         if (good)
             wr_hard_holds(g, WR_HARD_FLOAT,
                           wr_hard_equal(first.heights, again.heights) &&
                               wr_hard_equal(first.cover, again.cover));
-        wr_normal_mips_fini(&again);
+        wr_relief_fini(&again);
         wr_pool_free(pool);
     }
     for (int k = 0; k < 150 * 100 && good; k++) { /* between the boxes' tops and the ground */
         const float f = wr_field_get(first.heights, k % 150, k / 150);
         wr_hard_holds(g, WR_HARD_FLOAT, f == 0.0f || fabsf(f - 1.0f) < 1e-6f);
     }
-    wr_normal_mips_fini(&first);
+    wr_relief_fini(&first);
     wr_field_free(like);
     return good;
 }

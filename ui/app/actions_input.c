@@ -64,32 +64,32 @@ bool wr_is_pressure_speed(const WrApp *app)
 
 void wr_act_steady_off(WrApp *app)
 {
-    app->settings->steady = WR_RELIGHT_OFF;
+    app->settings->steady = WR_SMOOTHING_OFF;
 }
 
 bool wr_is_steady_off(const WrApp *app)
 {
-    return app->settings->steady == WR_RELIGHT_OFF;
+    return app->settings->steady == WR_SMOOTHING_OFF;
 }
 
 void wr_act_steady_smooth(WrApp *app)
 {
-    app->settings->steady = WR_RELIGHT_SMOOTH;
+    app->settings->steady = WR_SMOOTHING_SMOOTH;
 }
 
 bool wr_is_steady_smooth(const WrApp *app)
 {
-    return app->settings->steady == WR_RELIGHT_SMOOTH;
+    return app->settings->steady == WR_SMOOTHING_SMOOTH;
 }
 
 void wr_act_steady_string(WrApp *app)
 {
-    app->settings->steady = WR_RELIGHT_STRING;
+    app->settings->steady = WR_SMOOTHING_STRING;
 }
 
 bool wr_is_steady_string(const WrApp *app)
 {
-    return app->settings->steady == WR_RELIGHT_STRING;
+    return app->settings->steady == WR_SMOOTHING_STRING;
 }
 
 void wr_act_steady_catch_up(WrApp *app)

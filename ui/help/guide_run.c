@@ -59,15 +59,14 @@ void wr_guide_effect(const WrApp *app, const char *line, WrText *out)
     case WR_CLASS_EDIT:
         wr_text_addf(out,
                      wr_words("Changes layers, heights or the selection; the active layer is %s. "
-                              "One step, which Undo takes back."),
+                              "One undo step."),
                      document->layers[document->active].name);
         break;
     case WR_CLASS_SCENE:
-        wr_text_add(out, wr_words("Changes the scene and no heights. One step, which Undo takes "
-                                  "back."));
+        wr_text_add(out, wr_words("Changes the scene and no heights. One undo step."));
         break;
     case WR_CLASS_VIEW:
-        wr_text_add(out, wr_words("Changes the view: no step of Undo, and no heights."));
+        wr_text_add(out, wr_words("Changes the view, no heights. No undo step."));
         break;
     case WR_CLASS_OUTPUT: add_output(call, out); break;
     default: wr_text_add(out, wr_words("Goes to another step of the history.")); break;

@@ -9,27 +9,27 @@ static double mix(double a, double b, double t)
     return a + t * (b - a);
 }
 
-static WrRelightPoint between(const WrRelightPoint *a, const WrRelightPoint *b, double t)
+static WrSmoothingPoint between(const WrSmoothingPoint *a, const WrSmoothingPoint *b, double t)
 {
-    return (WrRelightPoint){ mix(a->x, b->x, t),
-                             mix(a->y, b->y, t),
-                             mix(a->pressure, b->pressure, t),
-                             mix(a->tilt_x, b->tilt_x, t),
-                             mix(a->tilt_y, b->tilt_y, t),
-                             mix(a->seconds, b->seconds, t) };
+    return (WrSmoothingPoint){ mix(a->x, b->x, t),
+                               mix(a->y, b->y, t),
+                               mix(a->pressure, b->pressure, t),
+                               mix(a->tilt_x, b->tilt_x, t),
+                               mix(a->tilt_y, b->tilt_y, t),
+                               mix(a->seconds, b->seconds, t) };
 }
 
-void wr_relight_begin(WrRelight *steady, WrRelightKind kind, double length,
-                      const WrRelightPoint *at)
+void wr_smoothing_begin(WrSmoothing *steady, WrSmoothingKind kind, double length,
+                        const WrSmoothingPoint *at)
 {
-    steady->kind = length > 0.0 ? kind : WR_RELIGHT_OFF;
+    steady->kind = length > 0.0 ? kind : WR_SMOOTHING_OFF;
     steady->length = length;
     steady->pointer = steady->follower = *at;
 }
 
 /* Position of the follower after the pointer has moved `s` pixels from `a` in the direction (mx, my). */
-static void follow_smooth(const WrRelight *steady, const WrRelightPoint *a, double mx, double my,
-                          double s, double *x, double *y)
+static void follow_smooth(const WrSmoothing *steady, const WrSmoothingPoint *a, double mx,
+                          double my, double s, double *x, double *y)
 {
     double length = steady->length, decay = exp(-s / length);
     double lag = s + length * (decay - 1.0); /* s - L + L exp(-s/L), without cancellation at 0 */
@@ -38,8 +38,8 @@ static void follow_smooth(const WrRelight *steady, const WrRelightPoint *a, doub
 }
 
 /* Position of the follower on a string. True if it was dragged. */
-static bool follow_string(const WrRelight *steady, const WrRelightPoint *a, double mx, double my,
-                          double s, double *x, double *y)
+static bool follow_string(const WrSmoothing *steady, const WrSmoothingPoint *a, double mx,
+                          double my, double s, double *x, double *y)
 {
     double length = steady->length, px = steady->follower.x, py = steady->follower.y;
     /* vector from the follower to the pointer: along and across the pointer's path */
@@ -60,12 +60,12 @@ static bool follow_string(const WrRelight *steady, const WrRelightPoint *a, doub
     return true;
 }
 
-int wr_relight_move(WrRelight *steady, const WrRelightPoint *to,
-                    WrRelightPoint out[WR_RELIGHT_POINTS])
+int wr_smoothing_move(WrSmoothing *steady, const WrSmoothingPoint *to,
+                      WrSmoothingPoint out[WR_SMOOTHING_POINTS])
 {
-    const WrRelightPoint from = steady->pointer;
+    const WrSmoothingPoint from = steady->pointer;
     double dx = to->x - from.x, dy = to->y - from.y, way = hypot(dx, dy);
-    if (steady->kind == WR_RELIGHT_OFF) {
+    if (steady->kind == WR_SMOOTHING_OFF) {
         steady->pointer = steady->follower = *to;
         out[0] = *to;
         return 1;
@@ -74,12 +74,12 @@ int wr_relight_move(WrRelight *steady, const WrRelightPoint *to,
         steady->pointer = *to;
         return 0;
     }
-    int steps = way > STEP * WR_RELIGHT_POINTS ? WR_RELIGHT_POINTS : (int)ceil(way / STEP);
+    int steps = way > STEP * WR_SMOOTHING_POINTS ? WR_SMOOTHING_POINTS : (int)ceil(way / STEP);
     int count = 0;
     for (int i = 1; i <= steps; i++) {
         double t = (double)i / steps, x = 0.0, y = 0.0;
         bool moved = true;
-        if (steady->kind == WR_RELIGHT_SMOOTH)
+        if (steady->kind == WR_SMOOTHING_SMOOTH)
             follow_smooth(steady, &from, dx / way, dy / way, way * t, &x, &y);
         else moved = follow_string(steady, &from, dx / way, dy / way, way * t, &x, &y);
         if (!moved) continue;
@@ -93,11 +93,11 @@ int wr_relight_move(WrRelight *steady, const WrRelightPoint *to,
     return count;
 }
 
-int wr_relight_end(WrRelight *steady, bool catch_up, WrRelightPoint *out)
+int wr_smoothing_end(WrSmoothing *steady, bool catch_up, WrSmoothingPoint *out)
 {
     bool comes =
-        steady->kind == WR_RELIGHT_SMOOTH || (steady->kind == WR_RELIGHT_STRING && catch_up);
-    const WrRelightPoint *p = &steady->pointer, *f = &steady->follower;
+        steady->kind == WR_SMOOTHING_SMOOTH || (steady->kind == WR_SMOOTHING_STRING && catch_up);
+    const WrSmoothingPoint *p = &steady->pointer, *f = &steady->follower;
     if (!comes || (p->x == f->x && p->y == f->y)) return 0;
     *out = steady->follower = steady->pointer;
     return 1;

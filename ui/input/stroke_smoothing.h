@@ -11,33 +11,33 @@
 #pragma once
 #include <stdbool.h>
 
-typedef enum WrRelightKind {
-    WR_RELIGHT_OFF,
-    WR_RELIGHT_SMOOTH,
-    WR_RELIGHT_STRING,
-    WR_RELIGHT_COUNT
-} WrRelightKind;
+typedef enum WrSmoothingKind {
+    WR_SMOOTHING_OFF,
+    WR_SMOOTHING_SMOOTH,
+    WR_SMOOTHING_STRING,
+    WR_SMOOTHING_COUNT
+} WrSmoothingKind;
 
-typedef struct WrRelightPoint {
+typedef struct WrSmoothingPoint {
     double x, y; /* pixels */
     double pressure, tilt_x, tilt_y, seconds;
-} WrRelightPoint;
+} WrSmoothingPoint;
 
-typedef struct WrRelight {
-    WrRelightKind kind;
-    double length;           /* L, pixels; 0: off */
-    WrRelightPoint pointer;  /* newest position of the pointer */
-    WrRelightPoint follower; /* newest position of the drawn line */
-} WrRelight;
+typedef struct WrSmoothing {
+    WrSmoothingKind kind;
+    double length;             /* L, pixels; 0: off */
+    WrSmoothingPoint pointer;  /* newest position of the pointer */
+    WrSmoothingPoint follower; /* newest position of the drawn line */
+} WrSmoothing;
 
 /* Limit of points resulting from one motion, a few pixels apart on curves. */
-#define WR_RELIGHT_POINTS 64
+#define WR_SMOOTHING_POINTS 64
 
 /* Start the line at `at`, its first point. */
-void wr_relight_begin(WrRelight *steady, WrRelightKind kind, double length,
-                      const WrRelightPoint *at);
+void wr_smoothing_begin(WrSmoothing *steady, WrSmoothingKind kind, double length,
+                        const WrSmoothingPoint *at);
 /* The pointer moved straight to `to`. Returns the number of new points on the line; none while the follower rests. */
-int wr_relight_move(WrRelight *steady, const WrRelightPoint *to,
-                    WrRelightPoint out[WR_RELIGHT_POINTS]);
+int wr_smoothing_move(WrSmoothing *steady, const WrSmoothingPoint *to,
+                      WrSmoothingPoint out[WR_SMOOTHING_POINTS]);
 /* End the line: a smooth one is drawn to the pointer, one on a string only if `catch_up`. Returns 0 or 1 points. */
-int wr_relight_end(WrRelight *steady, bool catch_up, WrRelightPoint *out);
+int wr_smoothing_end(WrSmoothing *steady, bool catch_up, WrSmoothingPoint *out);

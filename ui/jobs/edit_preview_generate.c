@@ -73,7 +73,7 @@ static bool enlarge(WrField **field, const WrField *like, const WrGenerateJob *j
 }
 
 static bool make_small(const WrGenerator *generator, WrParamValue *values, WrGenerateJob *job,
-                       int step, WrNormalMips *out, WrError *err)
+                       int step, WrRelief *out, WrError *err)
 {
     const WrField *like = job->like;
     WrField *small =
@@ -82,17 +82,17 @@ static bool make_small(const WrGenerator *generator, WrParamValue *values, WrGen
     if (!small) return false;
     shrink(generator, values, step);
     job->like = small;
-    WrNormalMips made = { NULL, NULL };
+    WrRelief made = { NULL, NULL };
     bool good = wr_generator_make(generator, values, job, &made, err) &&
                 enlarge(&made.heights, like, job, err) && enlarge(&made.cover, like, job, err);
     wr_field_free(small);
     job->like = like;
     if (good) *out = made;
-    else wr_normal_mips_fini(&made);
+    else wr_relief_fini(&made);
     return good;
 }
 
-static bool make(const WrCall *call, WrGenerateJob *job, WrNormalMips *out, WrError *err)
+static bool make(const WrCall *call, WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     const WrGenerator *generator = wr_call_generator(call);
     WrParamValue values[WR_GENERATOR_PARAMS];
@@ -113,7 +113,7 @@ bool wr_edit_preview_generate(WrDocument *document, const char *line, bool rough
 {
     WrCall *call = NULL;
     if (!wr_call_parse(line, false, &call, err)) return false;
-    WrNormalMips relief = { NULL, NULL };
+    WrRelief relief = { NULL, NULL };
     WrStandIn stand_in = { .index = 0 };
     WrLayer *layer = wr_document_edit_begin(document, &stand_in);
     WrGenerateJob job = { .like = layer->heights,
@@ -128,7 +128,7 @@ bool wr_edit_preview_generate(WrDocument *document, const char *line, bool rough
                                         : wr_fail(err, "%s: must be a generator's line", line);
     good = good && wr_call_join(call, &relief, document->selection, layer, pool, progress, err);
     wr_document_edit_end(document, &stand_in);
-    wr_normal_mips_fini(&relief);
+    wr_relief_fini(&relief);
     wr_call_free(call);
     return good;
 }

@@ -277,7 +277,7 @@ static void overlay_clipped(WrApp *app)
         return;
     }
     double x = hand->at.x, y = hand->at.y;
-    if (painting && app->brush->steady.kind != WR_RELIGHT_OFF) {
+    if (painting && app->brush->steady.kind != WR_SMOOTHING_OFF) {
         x = app->brush->steady.follower.x;
         y = app->brush->steady.follower.y;
         wr_brush_show_string(app);

@@ -161,7 +161,7 @@ static int drawing_rows(WrSettings *s, Row *rows)
 static int view_rows(WrSettings *s, Row *rows)
 {
     const Row some[] = {
-        { "steady", NULL, &s->steady, NULL, 0, WR_RELIGHT_COUNT - 1 },
+        { "steady", NULL, &s->steady, NULL, 0, WR_SMOOTHING_COUNT - 1 },
         { "steady_smooth", &s->steady_smooth, NULL, NULL, 1, 1000 },
         { "steady_string", &s->steady_string, NULL, NULL, 1, 1000 },
         { "steady_catch_up", NULL, NULL, &s->steady_catch_up, 0, 1 },

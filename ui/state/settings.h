@@ -69,7 +69,7 @@ typedef struct WrSettings {
     bool symmetry_panel; /* visible */
     int key_map;         /* index into wr_key_maps */
     WrDrawSettings drawing;
-    int steady;                          /* stroke stabilizer: WrRelightKind */
+    int steady;                          /* stroke stabilizer: WrSmoothingKind */
     double steady_smooth, steady_string; /* stabilizer lengths, pixels at scale 1 */
     bool steady_catch_up;                /* the line catches up with the pointer at its end */
     /* simulated pressure of the mouse; `held` is its value unless it depends on speed */

@@ -114,7 +114,7 @@ static SDL_Rect join(const SDL_Rect *a, const SDL_Rect *b)
 }
 
 /* Add to the list, or merge into the rectangle that grows least if that is cheap or the list is full. */
-static void collect(SDL_Rect rects[WR_DIRTY_RECTS_RECTS], int *count, const SDL_Rect *more)
+static void collect(SDL_Rect rects[WR_DIRTY_RECTS_MAX], int *count, const SDL_Rect *more)
 {
     int best = -1;
     int64_t least = INT64_MAX;
@@ -123,12 +123,12 @@ static void collect(SDL_Rect rects[WR_DIRTY_RECTS_RECTS], int *count, const SDL_
         const int64_t wasted = area(&both) - area(&rects[i]) - area(more);
         if (wasted < least) least = wasted, best = i;
     }
-    if (best < 0 || (least > SPARE && *count < WR_DIRTY_RECTS_RECTS)) rects[(*count)++] = *more;
+    if (best < 0 || (least > SPARE && *count < WR_DIRTY_RECTS_MAX)) rects[(*count)++] = *more;
     else rects[best] = join(&rects[best], more);
 }
 
 /* Merge overlapping rectangles until none overlap. */
-static void part(SDL_Rect rects[WR_DIRTY_RECTS_RECTS], int *count)
+static void part(SDL_Rect rects[WR_DIRTY_RECTS_MAX], int *count)
 {
     for (int i = 0; i < *count; i++)
         for (int j = i + 1; j < *count; j++) {
@@ -156,7 +156,7 @@ static bool take_whole(SDL_Rect *rects, int count, const SDL_Rect *box)
     return false;
 }
 
-static void find(const WrDirtyRects *damage, SDL_Rect rects[WR_DIRTY_RECTS_RECTS], int *count)
+static void find(const WrDirtyRects *damage, SDL_Rect rects[WR_DIRTY_RECTS_MAX], int *count)
 {
     for (int y = 0; y < damage->rows; y++)
         for (int x = 0, end; x < damage->columns; x = end + 1) {
@@ -173,7 +173,7 @@ static void find(const WrDirtyRects *damage, SDL_Rect rects[WR_DIRTY_RECTS_RECTS
 }
 
 int wr_dirty_rects_end(WrDirtyRects *damage, const SDL_Rect *whole, int count,
-                       SDL_Rect rects[WR_DIRTY_RECTS_RECTS])
+                       SDL_Rect rects[WR_DIRTY_RECTS_MAX])
 {
     const SDL_Rect room = { 0, 0, damage->width, damage->height };
     int found = 0;

@@ -4,7 +4,7 @@
 #include <SDL.h>
 #include <stdint.h>
 
-#define WR_DIRTY_RECTS_RECTS 16
+#define WR_DIRTY_RECTS_MAX 16
 
 typedef struct WrDirtyRects WrDirtyRects;
 
@@ -22,4 +22,4 @@ void wr_dirty_rects_forget(WrDirtyRects *damage);
 /* Finish the frame: returns the number of rectangles to redraw (0: none), which do not overlap. Each of the `count`
    boxes in `whole` that they touch is completely inside one of them. */
 int wr_dirty_rects_end(WrDirtyRects *damage, const SDL_Rect *whole, int count,
-                       SDL_Rect rects[WR_DIRTY_RECTS_RECTS]);
+                       SDL_Rect rects[WR_DIRTY_RECTS_MAX]);

@@ -296,7 +296,7 @@ static void put(WrRetainedFrame *kept, const SDL_Rect *rects, int count)
 
 void wr_retained_frame_end(WrRetainedFrame *kept)
 {
-    SDL_Rect rects[WR_DIRTY_RECTS_RECTS] = { { 0, 0, kept->width, kept->height } };
+    SDL_Rect rects[WR_DIRTY_RECTS_MAX] = { { 0, 0, kept->width, kept->height } };
     int count = 1;
     const bool lost = __atomic_exchange_n(&kept->lost, 0, __ATOMIC_RELAXED) != 0;
     if (lost && kept->damage) wr_dirty_rects_forget(kept->damage);

@@ -47,7 +47,7 @@ static void add_symmetry(WrText *line, const WrSymmetry *s)
 {
     int mirror = (s->mirror_u ? 1 : 0) | (s->mirror_v ? 2 : 0);
     int across = s->repeat_u > 1 ? s->repeat_u : 1, down = s->repeat_v > 1 ? s->repeat_v : 1;
-    if (mirror) wr_text_addf(line, " mirror=%s", wr_env_lookup_names[mirror]);
+    if (mirror) wr_text_addf(line, " mirror=%s", wr_mirror_names[mirror]);
     if (s->radial > 1) wr_text_addf(line, " radial=%d", s->radial);
     if ((mirror || s->radial > 1) && (s->centre_u != 0.5 || s->centre_v != 0.5))
         pair(line, "centre", s->centre_u, s->centre_v);

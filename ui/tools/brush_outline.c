@@ -186,8 +186,8 @@ static void show_line(const WrApp *app, const WrBrushMark *mark)
 
 void wr_brush_show_string(const WrApp *app)
 {
-    const WrRelight *s = &app->brush->steady;
-    if (!app->brush->drawing || s->kind == WR_RELIGHT_OFF) return;
+    const WrSmoothing *s = &app->brush->steady;
+    if (!app->brush->drawing || s->kind == WR_SMOOTHING_OFF) return;
     wr_gui_draw_line(s->follower.x, s->follower.y, s->pointer.x, s->pointer.y, 0xb0000000u, 3.0);
     wr_gui_draw_line(s->follower.x, s->follower.y, s->pointer.x, s->pointer.y, WR_COLOUR_ACCENT,
                      1.4);
@@ -208,14 +208,14 @@ static void show_size(const WrApp *app, const WrPointer *at)
 void wr_brush_overlay(WrApp *app)
 {
     const WrPointer *at = app->hand->grab == WR_GRAB_RESIZE ? &app->hand->start : &app->hand->at;
-    const WrRelight *steady = &app->brush->steady;
+    const WrSmoothing *steady = &app->brush->steady;
     WrBrushMark mark = wr_brush_mark(app);
     double x, y, px = at->x, py = at->y;
     if (app->brush->straight) {
         show_line(app, &mark);
         return;
     }
-    if (app->brush->drawing && steady->kind != WR_RELIGHT_OFF) {
+    if (app->brush->drawing && steady->kind != WR_SMOOTHING_OFF) {
         px = steady->follower.x; /* the outline is at the drawn position, not at the pointer */
         py = steady->follower.y;
     }

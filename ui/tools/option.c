@@ -166,12 +166,12 @@ void wr_option_pressure(WrApp *app, double width)
 static void steady(WrApp *app, double width)
 {
     WR_ROWS(names);
-    static const char *const names[WR_RELIGHT_COUNT] = {
-        [WR_ROW(WR_RELIGHT_OFF)] = "as it is",
-        [WR_ROW(WR_RELIGHT_SMOOTH)] = "smooth",
-        [WR_ROW(WR_RELIGHT_STRING)] = "on a string",
+    static const char *const names[WR_SMOOTHING_COUNT] = {
+        [WR_ROW(WR_SMOOTHING_OFF)] = "as it is",
+        [WR_ROW(WR_SMOOTHING_SMOOTH)] = "smooth",
+        [WR_ROW(WR_SMOOTHING_STRING)] = "on a string",
     };
-    WR_ROWS_END(names, WR_RELIGHT_COUNT);
+    WR_ROWS_END(names, WR_SMOOTHING_COUNT);
     static const WrNumber spec = { .low = 2,
                                    .high = 200,
                                    .hard_low = 1,
@@ -182,13 +182,13 @@ static void steady(WrApp *app, double width)
                                    .logarithmic = true,
                                    .tip = "How far behind the pointer the brush may be" };
     WrSettings *s = app->settings;
-    wr_gui_choice("steady", width, names, WR_RELIGHT_COUNT, &s->steady);
+    wr_gui_choice("steady", width, names, WR_SMOOTHING_COUNT, &s->steady);
     wr_gui_tip("A steadier hand: the brush follows the pointer on a smoother way, or hangs on a "
                "string behind it");
-    if (s->steady == WR_RELIGHT_OFF) return;
+    if (s->steady == WR_SMOOTHING_OFF) return;
     wr_gui_same_line(6);
     wr_gui_number("length", 0.7 * width, &spec,
-                  s->steady == WR_RELIGHT_STRING ? &s->steady_string : &s->steady_smooth);
+                  s->steady == WR_SMOOTHING_STRING ? &s->steady_string : &s->steady_smooth);
 }
 
 void wr_option_symmetry(WrApp *app, double width)
@@ -268,7 +268,7 @@ void wr_option_brush_row(WrApp *app, const WrOption *first, int first_count)
 {
     unsigned uses = wr_option_mode_of(app)->uses;
     bool strong = (uses & WR_USES_STRENGTH) != 0,
-         steadies = app->settings->steady != WR_RELIGHT_OFF;
+         steadies = app->settings->steady != WR_SMOOTHING_OFF;
     bool forced = wr_tool_now(app)->mode != 0, round = app->settings->brush.preset == NULL;
     bool paints = wr_tool_now(app)->paints;
     const WrOption items[] = { { "", 104, 12, wr_option_mode, !forced },

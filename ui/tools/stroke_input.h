@@ -31,7 +31,7 @@ typedef struct WrBrushHand {
     double began;               /* time of its first sample in seconds */
     double pressure;            /* newest pressure */
     double way_x, way_y;        /* newest direction in pixels, for outlines that follow it */
-    WrRelight steady;
+    WrSmoothing steady;
     bool have_last; /* end of the last stroke, for straight lines */
     double last_u, last_v;
     bool straight; /* a straight line is being aimed */

@@ -26,9 +26,9 @@
 
 #define SNAP_DEG 15.0
 
-static WrRelightPoint steady_point(const WrPointer *at)
+static WrSmoothingPoint steady_point(const WrPointer *at)
 {
-    return (WrRelightPoint){ at->x, at->y, at->pressure, at->tilt_x, at->tilt_y, at->seconds };
+    return (WrSmoothingPoint){ at->x, at->y, at->pressure, at->tilt_x, at->tilt_y, at->seconds };
 }
 
 /* Convert to the table's coordinates: mirroring flips the tilt, and a rotated view rotates it. */
@@ -42,7 +42,7 @@ static void sample(WrApp *app, const WrPointer *at, double u, double v)
     wr_strokes_sample(app, &seen, u, v);
 }
 
-static WrPointer pointer_of(const WrPointer *at, const WrRelightPoint *p)
+static WrPointer pointer_of(const WrPointer *at, const WrSmoothingPoint *p)
 {
     WrPointer out = *at;
     out.x = p->x;
@@ -57,18 +57,19 @@ static WrPointer pointer_of(const WrPointer *at, const WrRelightPoint *p)
 void wr_brush_steady_begin(WrApp *app, const WrPointer *at)
 {
     const WrSettings *s = app->settings;
-    double length = s->steady == WR_RELIGHT_STRING ? s->steady_string : s->steady_smooth;
-    WrRelightPoint p = steady_point(at);
-    wr_relight_begin(&app->brush->steady, (WrRelightKind)s->steady, length * wr_gui_scale(), &p);
+    double length = s->steady == WR_SMOOTHING_STRING ? s->steady_string : s->steady_smooth;
+    WrSmoothingPoint p = steady_point(at);
+    wr_smoothing_begin(&app->brush->steady, (WrSmoothingKind)s->steady, length * wr_gui_scale(),
+                       &p);
     app->brush->way_x = app->brush->way_y = 0.0;
 }
 
 void wr_brush_steady_move(WrApp *app, const WrPointer *at,
                           void (*draw)(WrApp *app, const WrPointer *at))
 {
-    WrRelightPoint out[WR_RELIGHT_POINTS], p = steady_point(at);
+    WrSmoothingPoint out[WR_SMOOTHING_POINTS], p = steady_point(at);
     WrBrushHand *hand = app->brush;
-    int count = wr_relight_move(&hand->steady, &p, out);
+    int count = wr_smoothing_move(&hand->steady, &p, out);
     double dx = at->x - app->hand->at.x, dy = at->y - app->hand->at.y;
     if (hypot(dx, dy) > 0.5) {
         wr_view_step_back(app->view, dx, dy, &hand->way_x, &hand->way_y);
@@ -83,8 +84,8 @@ void wr_brush_steady_move(WrApp *app, const WrPointer *at,
 void wr_brush_steady_end(WrApp *app, const WrPointer *at,
                          void (*draw)(WrApp *app, const WrPointer *at))
 {
-    WrRelightPoint out;
-    if (wr_relight_end(&app->brush->steady, app->settings->steady_catch_up, &out) == 0) return;
+    WrSmoothingPoint out;
+    if (wr_smoothing_end(&app->brush->steady, app->settings->steady_catch_up, &out) == 0) return;
     WrPointer to = pointer_of(at, &out);
     draw(app, &to);
 }
@@ -188,7 +189,7 @@ static bool crosses(const WrApp *app, const WrPointer *at)
 
 void wr_brush_drag(WrApp *app, const WrPointer *at)
 {
-    bool pulls = app->brush->steady.kind != WR_RELIGHT_OFF;
+    bool pulls = app->brush->steady.kind != WR_SMOOTHING_OFF;
     if (app->brush->drawing && !app->brush->straight && !pulls && crosses(app, at)) {
         WrBrush brush = wr_strokes_brush(app, at);
         wr_strokes_end(app);

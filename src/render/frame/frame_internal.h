@@ -32,8 +32,8 @@ struct WrRenderer {
     WrTable table;
     WrPyramid pyramid, range; /* of slopes; of their least and largest values */
     WrQuantizedHeights rounded;
-    WrNormalMipsBounds bounds; /* slope bounds for parallax ... */
-    WrParallax parallax;       /* ... and the last frame's parallax parameters, for picking */
+    WrHeightBounds bounds; /* slope bounds for parallax ... */
+    WrParallax parallax;   /* ... and the last frame's parallax parameters, for picking */
     WrSphereRows balls[WR_VIEW_GRIDS];
     WrLook look;
     WrLookd look_double;

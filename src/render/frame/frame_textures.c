@@ -118,7 +118,7 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     const bool looked = plan->source == WR_SOURCE_TABLE && plan->precision == WR_PRECISION_SINGLE;
     facts->sloped = looked ? sloped_share(renderer, field) : -1;
     if (wr_plan_runs(plan, WR_EFFECT_PARALLAX) && plan->source == WR_SOURCE_TABLE)
-        wr_normal_mips_bounds_bring(&renderer->bounds, table, plan->scheme, renderer->looked);
+        wr_height_bounds_bring(&renderer->bounds, table, plan->scheme, renderer->looked);
     return true;
 }
 

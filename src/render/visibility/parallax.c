@@ -21,7 +21,7 @@ static double entry(const WrTableCopy *copy, int i, int j)
 }
 
 /* Ranges of all entries and of the differences of neighbours, one past each border included. */
-static void measure(WrNormalMipsBounds *bounds, const WrTableCopy *copy, int width, int height)
+static void measure(WrHeightBounds *bounds, const WrTableCopy *copy, int width, int height)
 {
     bounds->low = INFINITY, bounds->high = -INFINITY;
     bounds->steep[0] = bounds->steep[1] = 0;
@@ -42,8 +42,8 @@ bool wr_parallax_has_shell(const WrShape *shape)
     return how == WR_INVERT_SPHERE || how == WR_INVERT_CYLINDER;
 }
 
-void wr_normal_mips_bounds_bring(WrNormalMipsBounds *bounds, const WrTable *table, WrScheme scheme,
-                                 const WrField *field)
+void wr_height_bounds_bring(WrHeightBounds *bounds, const WrTable *table, WrScheme scheme,
+                            const WrField *field)
 {
     const bool fitted = wr_schemes[scheme].taps == WR_TAPS_FITTED;
     const WrCopyKind kind = fitted ? WR_COPY_FITTED : WR_COPY_HEIGHTS;
@@ -52,9 +52,8 @@ void wr_normal_mips_bounds_bring(WrNormalMipsBounds *bounds, const WrTable *tabl
     if (bounds->known && bounds->key == key && bounds->copy == kind &&
         bounds->precision == copy->precision)
         return;
-    *bounds = (WrNormalMipsBounds){
-        .key = key, .copy = kind, .precision = copy->precision, .known = true
-    };
+    *bounds =
+        (WrHeightBounds){ .key = key, .copy = kind, .precision = copy->precision, .known = true };
     measure(bounds, copy, wr_field_width(field), wr_field_height(field));
 }
 
@@ -85,7 +84,7 @@ static void note_ends(WrParallax *parallax, const WrShape *shape)
 
 #define FARTHEST 1e15 /* kernel units: replaces values that are not finite */
 
-void wr_parallax_range(const WrScene *scene, const WrNormalMipsBounds *bounds, const WrPlan *plan,
+void wr_parallax_range(const WrScene *scene, const WrHeightBounds *bounds, const WrPlan *plan,
                        double unit, double range[2])
 {
     double low = bounds->low, high = bounds->high;
@@ -100,7 +99,7 @@ void wr_parallax_range(const WrScene *scene, const WrNormalMipsBounds *bounds, c
 }
 
 void wr_parallax_fill(WrParallax *parallax, const WrScene *scene, const WrField *field,
-                      const WrNormalMipsBounds *bounds, const WrPlan *plan, double scale)
+                      const WrHeightBounds *bounds, const WrPlan *plan, double scale)
 {
     const bool formula = plan->source == WR_SOURCE_FORMULA;
     const double unit = scene->height * scale;

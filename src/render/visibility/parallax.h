@@ -27,13 +27,13 @@ typedef struct WrField WrField;
 typedef struct WrScene WrScene;
 
 /* Bounds of the heights that fetches return; table units, per texel. */
-typedef struct WrNormalMipsBounds {
+typedef struct WrHeightBounds {
     uint64_t key; /* key of the measured table */
     WrCopyKind copy;
     WrPrecision precision;
     bool known;
     double low, high, steep[2]; /* of F; of |Fu|, |Fv|, the largest */
-} WrNormalMipsBounds;
+} WrHeightBounds;
 
 /* In kernel units, by u and v of the patch. */
 typedef struct WrParallax {
@@ -51,11 +51,11 @@ typedef struct WrParallax {
    Then rays pass through the shell that contains the relief. */
 bool wr_parallax_has_shell(const WrShape *shape);
 /* Updates the bounds of the copy that the plan's scheme fetches from, after an edit. */
-void wr_normal_mips_bounds_bring(WrNormalMipsBounds *bounds, const WrTable *table, WrScheme scheme,
-                                 const WrField *field);
+void wr_height_bounds_bring(WrHeightBounds *bounds, const WrTable *table, WrScheme scheme,
+                            const WrField *field);
 /* Fills the parameters. scale: scene units -> kernel units. bounds: of a table; not read with a formula. */
 void wr_parallax_fill(WrParallax *parallax, const WrScene *scene, const WrField *field,
-                      const WrNormalMipsBounds *bounds, const WrPlan *plan, double scale);
+                      const WrHeightBounds *bounds, const WrPlan *plan, double scale);
 /* Lowest and highest F, in units of which a table unit has `unit`. */
-void wr_parallax_range(const WrScene *scene, const WrNormalMipsBounds *bounds, const WrPlan *plan,
+void wr_parallax_range(const WrScene *scene, const WrHeightBounds *bounds, const WrPlan *plan,
                        double unit, double range[2]);
