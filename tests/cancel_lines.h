@@ -136,6 +136,7 @@ static const char *const lines[] = {
     "export mask new20.png",
     "export wear new21.png",
     "export packed new25.png alpha=cavity",
+    "export glb new30.glb",
     "export contact new26.png",
     "export height new27.r16",
     "export height new28.png lay=brick repeat=2x2 mips=on",
