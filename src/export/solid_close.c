@@ -72,20 +72,24 @@ static bool find_border(const WrSolid *s, Border *border, WrError *err)
 
 /* ---- (u,v) ---- */
 
-/* A place of point b, the one next to that of point a: at a seam a point is seen at both ends of u. */
+static int32_t sights_end(const WrSolid *s, int32_t point)
+{
+    return point + 1 < s->first.count ? s->first.data[point + 1] : s->sights.count;
+}
+
+/* (u,v) of points a and b, neighbours on a border. A point on a seam has a sight at each end of u: the nearest pair is taken,
+   so that u does not jump between a and b. */
 static void side_sights(const WrSolid *s, int32_t a, int32_t b, WrSolidSight out[2])
 {
-    const int32_t first = s->first.data[b];
-    const int32_t end = b + 1 < s->first.count ? s->first.data[b + 1] : s->sights.count;
     double least = INFINITY;
-    out[0] = s->sights.data[s->first.data[a]];
-    for (int32_t i = first; i < end; i++) {
-        const WrSolidSight *at = &s->sights.data[i];
-        const double far = fabs(at->u - out[0].u) + fabs(at->v - out[0].v);
-        if (i > first && !(far < least)) continue;
-        least = far;
-        out[1] = *at;
-    }
+    for (int32_t i = s->first.data[a]; i < sights_end(s, a); i++)
+        for (int32_t j = s->first.data[b]; j < sights_end(s, b); j++) {
+            const WrSolidSight *p = &s->sights.data[i], *q = &s->sights.data[j];
+            const double far = fabs(p->u - q->u) + fabs(p->v - q->v);
+            if (least < INFINITY && !(far < least)) continue;
+            least = far;
+            out[0] = *p, out[1] = *q;
+        }
 }
 
 static void triangle_sights(const WrSolidTriangle *t, WrSolidSight out[3])
@@ -152,9 +156,8 @@ static bool fan(WrSolid *s, const Border *b, const int32_t *map, int32_t start)
 static int32_t add_back_point(WrSolid *s, int32_t of)
 {
     const int32_t first = s->first.data[of];
-    const int32_t end = of + 1 < s->first.count ? s->first.data[of + 1] : s->sights.count;
     float at[3];
-    wr_solid_place(s, s->sights.data + first, end - first, true, at);
+    wr_solid_place(s, s->sights.data + first, sights_end(s, of) - first, true, at);
     return wr_solid_add_bare(s, at);
 }
 
