@@ -26,7 +26,7 @@ static void press(WrApp *app, SDL_Scancode code)
     draw_again(app);
     event.type = SDL_KEYUP;
     SDL_PushEvent(&(SDL_Event){ .key = event });
-    draw_again(app);
+    for (int i = 0; i < 3; i++) draw_again(app);
 }
 
 static void type(WrApp *app, const char *text)
@@ -39,16 +39,25 @@ static void type(WrApp *app, const char *text)
     }
 }
 
+/* The page moves to the place that the search found, so the pointer goes where Run is at rest. */
 static void click_run(WrApp *app, const char *line)
 {
-    int x, y;
-    if (!wr_guide_run_place(app, line, &x, &y)) fail_msg("%s: no Run is seen", line);
+    int x = -1, y = -1, was_y = -2;
+    const double end = wr_clock_seconds() + PATIENCE;
+    while (y != was_y && wr_clock_seconds() < end) {
+        was_y = y;
+        for (int i = 0; i < 3; i++) draw_again(app);
+        if (!wr_guide_run_place(app, line, &x, &y)) was_y = -2;
+    }
+    if (y != was_y) fail_msg("%s: no Run is seen", line);
     push_motion(app, x, y);
     draw_again(app);
     push_button(app, true, SDL_BUTTON_LEFT, x, y);
     draw_again(app);
     push_button(app, false, SDL_BUTTON_LEFT, x, y);
-    draw_again(app);
+    while (!wr_guide_proposed(app) && wr_clock_seconds() < end) draw_again(app);
+    assert_non_null(wr_guide_proposed(app));
+    for (int i = 0; i < 3; i++) draw_again(app);
 }
 
 static void wait_for_step(WrApp *app, int steps)

@@ -142,7 +142,7 @@ static void it_finds_what_the_renderer_shows_there(void **state)
                 v3_sub(point_of(scene, face, u, v), point_of(scene, spot.face, spot.u, spot.v)));
             if (off > 2e-3 * radius) differ++;
         }
-        assert_true(hits > 1000);
+        assert_true(hits > 500); /* of 11886 pixels; an upright patch set is a narrow strip */
         /* only along silhouettes */
         if (differ * 50 > hits)
             fail_msg("%s: %d of %d differ", wr_surfaces[kind]->name, differ, hits);

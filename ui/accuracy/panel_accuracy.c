@@ -81,11 +81,10 @@ static void error_state(const WrApp *app)
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, a->error_why.text);
         return;
     }
-    const char *text = old ? "Of the view before; measured anew when it rests."
-                       : app->settings->turning
-                           ? "The patch turns: its error is measured while it rests."
-                       : !a->error ? "Measuring ..."
-                                   : "Of this view.";
+    const char *text = old                      ? "Of the view before; measured anew when it rests."
+                       : app->settings->turning ? "Measured while the patch rests."
+                       : !a->error              ? "Measuring ..."
+                                                : "Of this view.";
     wr_gui_text_cut(WR_FONT_SMALL, old ? WR_COLOUR_CELL : WR_COLOUR_LABEL, text,
                     wr_gui_available());
     wr_gui_tip(text);
@@ -122,16 +121,14 @@ static void error(WrApp *app)
     wr_gui_heading("ERROR AGAINST THE REFERENCE");
     error_state(app);
     Cell c[4] = {
-        { 0, "rms",
-          "Root mean square of the error of linear intensity, over all pixels with something in "
-          "them",
+        { 0, "rms", "Root mean square of the error of linear intensity, over all covered pixels",
           "" },
         { 0, "max", "The largest error of a channel of any pixel", "" },
-        { 0, "99.9 %", "All but a thousandth of the pixels are nearer than this", "" },
+        { 0, "99.9 %", "Error that 99.9 % of the pixels do not exceed", "" },
         { 0, "angle",
-          "Between the normals at the pixels' middles and the reference's, root mean square; with "
-          "a "
-          "tolerance, whose dials differ from place to place, it is not measured",
+          "Root mean square angle between normals and the reference's, at pixel centres; not "
+          "measured "
+          "with a tolerance",
           "" },
     };
     if (e) {
