@@ -199,7 +199,7 @@ static bool keep_shaped(Free *f, const WrFontChars *chars, WrError *err)
     const hb_glyph_position_t *at = hb_buffer_get_glyph_positions(f->buffer, NULL);
     if (!hb_buffer_allocation_successful(f->buffer) ||
         (int64_t)f->making->placed.count + count > PLACED_MAX)
-        return wr_fail(err, "shaping gives more glyphs than there can be: is the font damaged?");
+        return wr_fail(err, "shaping returned more glyphs than possible: is the font damaged?");
     for (unsigned i = 0; i < count; i++) {
         uint32_t character = info[i].cluster < (unsigned)chars->count ? info[i].cluster : 0;
         if (info[i].codepoint == 0) add_missing(f, chars, (int)character);

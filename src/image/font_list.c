@@ -238,7 +238,7 @@ bool wr_font_list(WrFontList *list, WrError *err)
     wr_array_free(&found);
     if (set) FcFontSetDestroy(set);
     if (config) FcConfigDestroy(config);
-    return set || wr_fail(err, "fontconfig gives no list of fonts");
+    return set || wr_fail(err, "fontconfig returned no list of fonts");
 }
 
 void wr_font_list_fini(WrFontList *list)
