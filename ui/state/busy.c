@@ -199,8 +199,6 @@ bool wr_busy_close(WrApp *app)
 {
     if (!app->busy) return false;
     app->busy->closes = true;
-    if (app->busy->kind == WR_BUSY_ANOTHER)
-        wr_busy_cancel(app->busy); /* its result is no longer needed */
     wr_app_redraw(app);
     return true;
 }
