@@ -137,8 +137,8 @@ static void bench_init(Bench *b, TestRandom *random)
     WrField *field = wr_field_new(SIDE, SIDE, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 0; j < SIDE; j++)
         for (int i = 0; i < SIDE; i++) wr_field_set(field, i, j, between(random, -1, 1));
-    assert_true(wr_pyramid_bring(&b->pyramid, WR_PYRAMID_MOMENTS, field, NULL, NULL));
-    assert_true(wr_pyramid_bring(&b->range, WR_PYRAMID_RANGE, field, NULL, NULL));
+    assert_true(wr_pyramid_update(&b->pyramid, WR_PYRAMID_MOMENTS, field, NULL, NULL));
+    assert_true(wr_pyramid_update(&b->range, WR_PYRAMID_RANGE, field, NULL, NULL));
     wr_field_free(field);
     b->look = (WrLook){ .heights = b->heights,
                         .gradient = b->gradient,

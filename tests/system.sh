@@ -65,7 +65,7 @@ for file in src/system/*_linux.c; do
     [[ -f ${file/_linux.c/_plain.c} ]] || complain "$file: has no plain form beside it"
 done
 for file in src/system/*.h; do
-    grep -q 'Belongs to one system\|Private to this room' "$file" || complain "$file: does not say that it belongs to one system"
+    grep -q 'Belongs to one system' "$file" || complain "$file: does not say that it belongs to one system"
 done
 
 # ---- would it tell? ----

@@ -2,7 +2,7 @@
    reports and must leave no trace. Its work afterwards is counted in pieces and reports, not in seconds, so that the
    speed of the machine does not matter. */
 #include "test.h"
-#include "looks.h"
+#include "progress_checks.h"
 #include "test_folder.h"
 #include "test_session_help.h"
 #include "cancel_lines.h"

@@ -2,7 +2,7 @@
    complete ones afterwards. Pictures, films and generators with every kind of cached table. The test replaces the
    check function (tests/CMakeLists.txt). */
 #include "test.h"
-#include "looks.h"
+#include "progress_checks.h"
 #include "test_folder.h"
 #include "test_session_help.h"
 #include "cancel_lines.h"

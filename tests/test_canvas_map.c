@@ -35,9 +35,9 @@ static WrMapJob job_of(WrScheme scheme)
 static const WrField *rested(WrCanvasMap *map, const WrField *field, WrFieldMapKind kind,
                              const WrMapJob *job)
 {
-    wr_canvas_map_bring(map, field, kind, job);
+    wr_canvas_map_update(map, field, kind, job);
     while (wr_canvas_map_busy(map)) SDL_Delay(1);
-    const WrField *made = wr_canvas_map_bring(map, field, kind, job);
+    const WrField *made = wr_canvas_map_update(map, field, kind, job);
     assert_false(wr_canvas_map_busy(map));
     return made;
 }
@@ -91,7 +91,7 @@ static void what_is_asked_for_otherwise_is_made_anew(void **state)
     WrMapJob job = job_of(WR_SCHEME_CENTRAL);
     WrField *field = rough(65, 3), *other = rough(2, 3);
     is_that_of(rested(map, field, WR_FIELD_MAP_SLOPE, &job), field, WR_FIELD_MAP_SLOPE, &job);
-    assert_null(wr_canvas_map_bring(map, field, WR_FIELD_MAP_OCCLUSION, &job));
+    assert_null(wr_canvas_map_update(map, field, WR_FIELD_MAP_OCCLUSION, &job));
     is_that_of(rested(map, field, WR_FIELD_MAP_OCCLUSION, &job), field, WR_FIELD_MAP_OCCLUSION,
                &job);
     job.reach = 7;
@@ -100,7 +100,7 @@ static void what_is_asked_for_otherwise_is_made_anew(void **state)
     const int64_t tiles = wr_canvas_map_tiles(map);
     rested(map, field, WR_FIELD_MAP_OCCLUSION, &job);
     assert_int_equal(wr_canvas_map_tiles(map), tiles);
-    assert_null(wr_canvas_map_bring(map, other, WR_FIELD_MAP_OCCLUSION, &job));
+    assert_null(wr_canvas_map_update(map, other, WR_FIELD_MAP_OCCLUSION, &job));
     is_that_of(rested(map, other, WR_FIELD_MAP_OCCLUSION, &job), other, WR_FIELD_MAP_OCCLUSION,
                &job);
     wr_canvas_map_free(map);

@@ -18,7 +18,7 @@ static WrFontText shaped(const char *path, const char *text)
 {
     WrError err = { "" };
     WrFontText out = { 0 };
-    WrFontAsk ask = { .text = text };
+    WrFontRequest ask = { .text = text };
     if (!wr_font_shape(path, &ask, &out, &err)) fail_msg("%s", err.text);
     return out;
 }
@@ -27,7 +27,7 @@ static WrFontText shaped_bytes(const void *bytes, size_t length, const char *tex
 {
     WrError err = { "" };
     WrFontText out = { 0 };
-    WrFontAsk ask = { .text = text };
+    WrFontRequest ask = { .text = text };
     if (!wr_font_shape_bytes("made", bytes, length, &ask, &out, &err)) fail_msg("%s", err.text);
     return out;
 }
@@ -328,7 +328,7 @@ static void mixed_directions_follow_unicodes_order(void **state)
     for (int way = 1; way <= 2; way++) {
         WrError err = { "" };
         WrFontText t = { 0 };
-        WrFontAsk ask = { .text = text, .direction = (WrFontDirection)way };
+        WrFontRequest ask = { .text = text, .direction = (WrFontDirection)way };
         assert_true(wr_font_shape(SANS, &ask, &t, &err));
         assert_int_equal(t.placed_count, 8);
         for (int i = 0; i < 8; i++)
@@ -416,7 +416,7 @@ static void refused(const char *name, const void *bytes, size_t length, const ch
 {
     WrError err = { "" };
     WrFontText text = { .units = 77 };
-    WrFontAsk ask = { .text = "Ag" };
+    WrFontRequest ask = { .text = "Ag" };
     if (wr_font_shape_bytes(name, bytes, length, &ask, &text, &err)) fail_msg("%s: read", name);
     if (!strstr(err.text, word)) fail_msg("%s", err.text);
     assert_int_equal(text.units, 77);
@@ -430,7 +430,7 @@ static void what_is_no_font_is_refused_with_a_reason(void **state)
                         0,    0,    0,    0,    0, 0, 255, 255, 255, 255 };
     WrError err = { "" };
     WrFontText text = { 0 };
-    WrFontAsk ask = { .text = "A" };
+    WrFontRequest ask = { .text = "A" };
     refused("words", "this is no font at all", 22, "no font");
     refused("zeros", zeros, sizeof zeros, "no font");
     refused("empty", zeros, 0, "empty");
@@ -469,7 +469,7 @@ static void a_text_that_is_too_long_is_refused(void **state)
     WrFontText text = { 0 };
     char *million = wr_alloc(1000001, 1);
     memset(million, 'a', 1000000);
-    WrFontAsk ask = { .text = million };
+    WrFontRequest ask = { .text = million };
     assert_false(wr_font_shape(TERMINUS, &ask, &text, &err));
     assert_non_null(strstr(err.text, "1000000 bytes: must be up to 262144"));
     wr_free(million);
@@ -486,7 +486,7 @@ static void damaged_fonts_do_no_harm(void **state)
     assert_true(wr_file_read(DEVANAGARI, 1 << 24, &bytes, &length, &err));
     for (int i = 0; i < 30; i++) {
         WrFontText text = { 0 };
-        WrFontAsk ask = { .text = "\xe0\xa4\x95\xe0\xa4\xbf Ag" };
+        WrFontRequest ask = { .text = "\xe0\xa4\x95\xe0\xa4\xbf Ag" };
         size_t keep = i % 2 ? length : (size_t)(test_random(&random) * (double)length) + 1;
         for (int k = 0; k < 20; k++)
             bytes[(size_t)(test_random(&random) * 3000.0)] = (char)test_random_u64(&random);
@@ -506,7 +506,7 @@ static void answers_are_checked_number_by_number(void **state)
     (void)state;
     WrError err = { "" };
     WrText block = { 0 };
-    WrFontAsk ask = { .text = "O\ni" };
+    WrFontRequest ask = { .text = "O\ni" };
     char *bytes;
     size_t length;
     TestRandom random = { 3 };

@@ -19,7 +19,7 @@
 #define CONSOLE "/usr/share/consolefonts/Lat15-Terminus16.psf.gz"
 #define VARIABLE "/usr/share/fonts/truetype/inter-vf/Inter-roman.var.ttf"
 
-static WrFontText shaped(const char *path, const WrFontAsk *ask)
+static WrFontText shaped(const char *path, const WrFontRequest *ask)
 {
     WrError err = { "" };
     WrFontText out = { 0 };
@@ -105,7 +105,7 @@ static void words_of_one_script_are_harfbuzzs_own_glyphs_at_its_places(void **st
         { INTER, "AVATAR -> 12x30 (A)", NULL, 0 },
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        WrFontAsk ask = { .text = words[i].text, .language = words[i].language };
+        WrFontRequest ask = { .text = words[i].text, .language = words[i].language };
         WrFontText text = shaped(words[i].font, &ask);
         Direct d = directly(words[i].font, words[i].text, words[i].language, NULL);
         assert_int_equal(text.placed_count, d.count);
@@ -136,7 +136,7 @@ static void reaches(const WrFontText *text, int placed, bool *left, bool *right)
 static void arabic_letters_touch_their_neighbours(void **state)
 {
     (void)state;
-    WrFontAsk three = { .text = "\xd8\xa8\xd8\xa8\xd8\xa8" }, one = { .text = "\xd8\xa8" };
+    WrFontRequest three = { .text = "\xd8\xa8\xd8\xa8\xd8\xa8" }, one = { .text = "\xd8\xa8" };
     WrFontText word = shaped(SANS, &three), alone = shaped(SANS, &one);
     bool left, right;
     assert_int_equal(word.placed_count, 3);
@@ -168,7 +168,7 @@ static void what_a_font_lacks_comes_from_the_next_that_has_it(void **state)
     (void)state;
     static const char text[] = "AV " KSHATRIYA " To";
     int after = 3 + (int)strlen(KSHATRIYA);
-    WrFontAsk ask = { .text = text, .others = { DEVANAGARI } };
+    WrFontRequest ask = { .text = text, .others = { DEVANAGARI } };
     WrFontText t = shaped(INTER, &ask);
     Direct before = directly(INTER, "AV ", NULL, NULL);
     Direct middle = directly(DEVANAGARI, KSHATRIYA, NULL, NULL);
@@ -192,7 +192,7 @@ static void lent_letters_stand_in_unicodes_order(void **state)
 {
     (void)state;
     static const char text[] = "ab " SHALOM " " HINDI " 12";
-    WrFontAsk ask = { .text = text, .others = { SANS, DEVANAGARI } };
+    WrFontRequest ask = { .text = text, .others = { SANS, DEVANAGARI } };
     WrFontText t = shaped(TERMINUS, &ask);
     static const int hebrew[] = { 9, 7, 5, 3 };
     int found = 0;
@@ -220,7 +220,7 @@ static void marks_stay_with_what_they_stand_on(void **state)
     assert_true(FT_Get_Char_Index(face, 'x') != 0 && FT_Get_Char_Index(face, 0x301) == 0);
     FT_Done_Face(face);
     FT_Done_FreeType(library);
-    WrFontAsk ask = { .text = "axx\xcc\x81x", .others = { SANS } };
+    WrFontRequest ask = { .text = "axx\xcc\x81x", .others = { SANS } };
     WrFontText t = shaped(DEVANAGARI, &ask);
     for (int i = 0; i < t.placed_count; i++)
         assert_int_equal(font_of(&t, i), t.placed[i].cluster == 2 || t.placed[i].cluster == 3);
@@ -234,8 +234,8 @@ static void bitmaps_and_outlines_are_as_large_as_asked(void **state)
     (void)state;
     WrError err = { "" };
     WrFontOutline both = { 0 }, own = { 0 };
-    WrFontAsk ask = { .text = "i\xe0\xa4\x95", .others = { DEVANAGARI } };
-    WrFontAsk alone = { .text = "\xe0\xa4\x95" };
+    WrFontRequest ask = { .text = "i\xe0\xa4\x95", .others = { DEVANAGARI } };
+    WrFontRequest alone = { .text = "\xe0\xa4\x95" };
     WrFontText t = shaped(CONSOLE, &ask), k = shaped(DEVANAGARI, &alone);
     WrFontSetting setting = { 64.0, 0.0, 1.0, WR_FONT_LEFT };
     double place[2][2];
@@ -261,13 +261,13 @@ static void fonts_that_cannot_lend_are_named(void **state)
     (void)state;
     WrError err = { "" };
     WrFontText t = { .units = 77 };
-    WrFontAsk gone = { .text = "a", .others = { "/nonexistent.ttf" } };
+    WrFontRequest gone = { .text = "a", .others = { "/nonexistent.ttf" } };
     assert_false(wr_font_shape(SANS, &gone, &t, &err));
     assert_non_null(strstr(err.text, "/nonexistent.ttf"));
-    WrFontAsk folder = { .text = "a", .others = { DEVANAGARI, "/usr/share" } };
+    WrFontRequest folder = { .text = "a", .others = { DEVANAGARI, "/usr/share" } };
     assert_false(wr_font_shape(SANS, &folder, &t, &err));
     assert_non_null(strstr(err.text, "/usr/share: is a folder"));
-    WrFontAsk none = { .text = "a", .others = { WR_SOURCE_DIR "/README.md" } };
+    WrFontRequest none = { .text = "a", .others = { WR_SOURCE_DIR "/README.md" } };
     assert_false(wr_font_shape(SANS, &none, &t, &err));
     assert_non_null(strstr(err.text, "number 1"));
     assert_non_null(strstr(err.text, "no font"));
@@ -282,7 +282,7 @@ static void installed_fonts_that_have_letters_are_found(void **state)
     char *paths[2] = { NULL, NULL };
     int count = wr_font_lenders(hindi, 6, "serif-bold", NULL, 2, paths);
     assert_int_equal(count, 1); /* the first has all of them */
-    WrFontAsk ask = { .text = HINDI };
+    WrFontRequest ask = { .text = HINDI };
     WrFontText t = shaped(paths[0], &ask);
     assert_int_equal(t.missing_count, 0);
     assert_false(t.bitmap);
@@ -298,7 +298,7 @@ static void installed_fonts_that_have_letters_are_found(void **state)
 static void a_packed_console_font_is_read(void **state)
 {
     (void)state;
-    WrFontAsk ask = { .text = "\xc3\x84i\xe2\x82\xac" };
+    WrFontRequest ask = { .text = "\xc3\x84i\xe2\x82\xac" };
     WrFontText t = shaped(CONSOLE, &ask), same;
     assert_int_equal(t.missing_count, 0);
     assert_int_equal(t.units, 16);
@@ -341,7 +341,7 @@ static void axes_of_a_variable_font_are_freetypes_and_harfbuzzs(void **state)
     for (FT_UInt i = 0; i < axes->num_axis; i++)
         at[i] = axes->axis[i].tag == wish.tag ? 650 * 65536 : axes->axis[i].def;
     assert_int_equal(FT_Set_Var_Design_Coordinates(face, axes->num_axis, at), 0);
-    WrFontAsk ask = { .text = "H", .axes = "wght=650" }, plain = { .text = "H" };
+    WrFontRequest ask = { .text = "H", .axes = "wght=650" }, plain = { .text = "H" };
     WrFontText bold = shaped(VARIABLE, &ask), thin = shaped(VARIABLE, &plain);
     Direct d = directly(VARIABLE, "H", NULL, &wish);
     compare(&bold, 0, &d, 0);
@@ -376,12 +376,13 @@ static void wrong_axes_are_told(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         WrError err = { "" };
         WrFontText t = { 0 };
-        WrFontAsk ask = { .text = "a", .axes = wrong[i][1] };
+        WrFontRequest ask = { .text = "a", .axes = wrong[i][1] };
         assert_false(wr_font_shape(wrong[i][0], &ask, &t, &err));
         if (!strstr(err.text, wrong[i][2])) fail_msg("%s: %s", wrong[i][1], err.text);
     }
     /* beyond its range an axis is clamped */
-    WrFontAsk far = { .text = "a", .axes = "wght=5000" }, end = { .text = "a", .axes = "wght=900" };
+    WrFontRequest far = { .text = "a", .axes = "wght=5000" },
+                  end = { .text = "a", .axes = "wght=900" };
     WrFontText a = shaped(VARIABLE, &far), b = shaped(VARIABLE, &end);
     assert_int_equal(a.placed[0].advance, b.placed[0].advance);
     wr_font_text_fini(&a);

@@ -93,7 +93,7 @@ static bool read_mesh_file(WrError *err)
 static bool read_font_file(WrError *err)
 {
     WrFontText text;
-    WrFontAsk ask = { .text = "a" };
+    WrFontRequest ask = { .text = "a" };
     return wr_font_shape("a.png", &ask, &text, err);
 }
 

@@ -266,7 +266,7 @@ static void expect_turned(const WrImage *image, int orientation, double toleranc
 static void expect_rows(const char *path, const WrImage *image)
 {
     WrError err = { "" };
-    const WrImageWish all = { .channel = NULL };
+    const WrImageRequest all = { .channel = NULL };
     WrImageRows *rows = wr_image_rows_open(path, &all, &err);
     if (!rows) fail_msg("%s", err.text);
     assert_int_equal(wr_image_rows_head(rows)->width, image->width);
@@ -364,7 +364,7 @@ static void expect_channels(const char *path, const char *channel, const char *p
                             const char *answer)
 {
     WrError err = { "" };
-    const WrImageWish wish = { .channel = channel, .part = part };
+    const WrImageRequest wish = { .channel = channel, .part = part };
     WrImage *image = wr_image_read_wish(path, &wish, &err);
     if (!image != !*answer)
         fail_msg("%s, channel %s: %s", path, channel ? channel : "-", image ? "read" : err.text);

@@ -138,7 +138,7 @@ static void a_depth_that_is_not_read_is_named(void **state)
     assert_non_null(strstr(err.text, "24 bits a channel"));
 }
 
-static WrImage *read_case(const char *name, const WrImageWish *wish)
+static WrImage *read_case(const char *name, const WrImageRequest *wish)
 {
     char path[512];
     WrError err;
@@ -162,7 +162,7 @@ static void check_range(const WrImage *image, double low, double high)
 static void missing_elevations_are_filled(void **state)
 {
     (void)state;
-    const WrImageWish plain = { 0 }, kept = { .keep_lost = true };
+    const WrImageRequest plain = { 0 }, kept = { .keep_lost = true };
     WrImage *image = read_case("dem_srtm.tif", &plain);
     check_range(image, 101, 899);
     assert_true(image->filled == 16 && image->replaced == 0);
@@ -186,7 +186,7 @@ static void no_data_is_found_however_it_is_written(void **state)
 {
     (void)state;
     static const char *const names[] = { "void_int32.tif", "no_data_nan.tif", "no_data_short.tif" };
-    const WrImageWish plain = { 0 };
+    const WrImageRequest plain = { 0 };
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         WrImage *image = read_case(names[k], &plain);
         check_range(image, 100, 381);
@@ -199,7 +199,7 @@ static void no_data_is_found_however_it_is_written(void **state)
 static void integers_are_the_numbers_of_their_header(void **state)
 {
     (void)state;
-    const WrImageWish plain = { 0 };
+    const WrImageRequest plain = { 0 };
     WrImage *image = read_case("e_uint.exr", &plain);
     check_range(image, 0, 97);
     wr_image_free(image);
@@ -214,7 +214,7 @@ static void integers_are_the_numbers_of_their_header(void **state)
 static void an_exr_is_its_display_window(void **state)
 {
     (void)state;
-    const WrImageWish plain = { 0 };
+    const WrImageRequest plain = { 0 };
     WrImage *image = read_case("e_crop.exr", &plain);
     assert_true(image->width == 30 && image->height == 20 && image->note[0]);
     for (int y = 0; y < 20; y++)
@@ -233,7 +233,7 @@ static void an_exr_is_its_display_window(void **state)
 static void webp_is_turned_and_run_length_bmp_read(void **state)
 {
     (void)state;
-    const WrImageWish plain = { 0 };
+    const WrImageRequest plain = { 0 };
     WrImage *image = read_case("exif_turned.webp", &plain);
     assert_true(image->width == 10 && image->height == 20);
     wr_image_free(image);

@@ -45,7 +45,7 @@ static bool code_rows(void *ctx, int y, int rows, void *out, WrError *err)
 }
 
 /* Both ways to a table of that size. */
-static void expect_same(const char *path, const WrImageWish *wish, int width, int height,
+static void expect_same(const char *path, const WrImageRequest *wish, int width, int height,
                         WrWrap wrap)
 {
     WrError err = { "" };
@@ -74,7 +74,7 @@ static void expect_same(const char *path, const WrImageWish *wish, int width, in
     wr_image_free(image);
 }
 
-static const WrImageWish all = { .channel = NULL };
+static const WrImageRequest all = { .channel = NULL };
 
 static void rows_give_the_same_heights_as_the_whole_picture(void **state)
 {
@@ -130,10 +130,10 @@ static void write_layers(const char *path)
 static void rows_are_of_the_channels_and_the_part_that_are_wished_for(void **state)
 {
     (void)state;
-    static const WrImageWish wishes[] = { { .channel = NULL },
-                                          { .channel = "Z" },
-                                          { .channel = "d.X", .part = "far" },
-                                          { .channel = "B", .part = "2" } };
+    static const WrImageRequest wishes[] = { { .channel = NULL },
+                                             { .channel = "Z" },
+                                             { .channel = "d.X", .part = "far" },
+                                             { .channel = "B", .part = "2" } };
     write_layers("layers.exr");
     for (size_t k = 0; k < sizeof wishes / sizeof *wishes; k++) {
         expect_same("layers.exr", &wishes[k], 0, 0, WR_WRAP_CLAMP);
@@ -147,7 +147,7 @@ static void rows_have_the_values_of_the_file(void **state)
 {
     (void)state;
     WrError err = { "" };
-    const WrImageWish wish = { .channel = "d.X" };
+    const WrImageRequest wish = { .channel = "d.X" };
     write_layers("layers.exr");
     WrImageRows *rows = wr_image_rows_open("layers.exr", &wish, &err);
     if (!rows) fail_msg("%s", err.text);
@@ -168,7 +168,7 @@ static void rows_have_the_values_of_the_file(void **state)
 static void expect_zero(const char *channel, bool zero)
 {
     WrError err = { "" };
-    const WrImageWish wish = { .channel = channel };
+    const WrImageRequest wish = { .channel = channel };
     WrImageRows *rows = wr_image_rows_open("layers.exr", &wish, &err);
     if (!rows) fail_msg("%s", err.text);
     const WrImage *head = wr_image_rows_head(rows);
@@ -189,7 +189,7 @@ static void it_is_told_where_all_that_was_taken_is_0(void **state)
     write_layers("layers.exr");
     expect_zero("nil", true);
     expect_zero("Z", false);
-    const WrImageWish none = { .channel = "specular" };
+    const WrImageRequest none = { .channel = "specular" };
     assert_null(wr_image_rows_open("layers.exr", &none, &err));
     assert_non_null(strstr(err.text, "layers.exr: "));
 }

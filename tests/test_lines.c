@@ -123,9 +123,9 @@ static void the_cancel_is_looked_at_row_by_row(void **state)
     WrLinesView view = view_of(9, 7, 30.0, 40.0);
     WrDrawing drawing;
     WrError err;
-    int64_t before = wr_progress_looks();
+    int64_t before = wr_progress_checks();
     assert_true(wr_lines_draw(heights, SIDE, SIDE, &view, NULL, &drawing, &err));
-    assert_true(wr_progress_looks() - before >= 2 * (SIDE - 1) + 9 + 7);
+    assert_true(wr_progress_checks() - before >= 2 * (SIDE - 1) + 9 + 7);
     wr_drawing_fini(&drawing);
     volatile int cancel = 1;
     const WrProgress told = { .cancel = &cancel };
@@ -146,12 +146,12 @@ static void a_picture_of_lines_looks_at_the_cancel_too(void **state)
         points[i] = (WrVectorDrawingPoint){ (float)(i % 400), (float)(i % 299) };
     WrVectorDrawing *ink = wr_vector_drawing_new("/nowhere/at/all.png", 400, HIGH, &err);
     assert_non_null(ink);
-    int64_t before = wr_progress_looks();
+    int64_t before = wr_progress_checks();
     wr_vector_drawing_line(ink, points, POINTS);
-    assert_true(wr_progress_looks() - before >= POINTS / 256);
-    before = wr_progress_looks();
+    assert_true(wr_progress_checks() - before >= POINTS / 256);
+    before = wr_progress_checks();
     assert_false(wr_vector_drawing_write(ink, &err)); /* there is no such folder */
-    assert_true(wr_progress_looks() - before >= HIGH);
+    assert_true(wr_progress_checks() - before >= HIGH);
     wr_vector_drawing_free(ink);
     free(points);
 }

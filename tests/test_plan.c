@@ -986,7 +986,7 @@ static void backs_are_seen_from_within(void **state)
 static WrPlan plan_of(const Stage *stage)
 {
     WrPlan plan;
-    const WrPlanAsk ask = { .scene = stage->scene, .dials = &stage->scene->dials };
+    const WrPlanRequest ask = { .scene = stage->scene, .dials = &stage->scene->dials };
     wr_plan_build(&plan, &ask);
     return plan;
 }

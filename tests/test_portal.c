@@ -231,17 +231,17 @@ static void end_portal(pid_t portal)
 
 /* ---- questions ---- */
 
-static const WrPortalAsk plain = { .title = "Open",
-                                   .accept = "Open",
-                                   .folder = "",
-                                   .name = "",
-                                   .parent = "",
-                                   .kind = "Pictures",
-                                   .all = "All files",
-                                   .patience = 20.0 };
+static const WrPortalRequest plain = { .title = "Open",
+                                       .accept = "Open",
+                                       .folder = "",
+                                       .name = "",
+                                       .parent = "",
+                                       .kind = "Pictures",
+                                       .all = "All files",
+                                       .patience = 20.0 };
 static volatile int never;
 
-static WrPortalEnd answer(const Act *act, const WrPortalAsk *ask, char path[4096])
+static WrPortalEnd answer(const Act *act, const WrPortalRequest *ask, char path[4096])
 {
     const pid_t portal = start_portal(act);
     const WrPortalEnd end = wr_portal_ask(ask, &never, path, 4096);
@@ -262,7 +262,7 @@ static void a_question_says_all_that_the_portal_can_use(void **state)
     size_t length;
     WrError err;
     const Act act = { .replies = true, .uris = { "file:///tmp/a.png" } };
-    WrPortalAsk ask = plain;
+    WrPortalRequest ask = plain;
     ask.title = "S\xc3\xa4ve \"as\"";
     ask.accept = "Keep";
     ask.folder = "/tmp/two words \xff";
@@ -327,7 +327,7 @@ static void who_does_not_answer_is_given_up_and_told(void **state)
 {
     NEEDS_BUS;
     char path[4096];
-    WrPortalAsk ask = plain;
+    WrPortalRequest ask = plain;
     ask.patience = 0.25;
     const Act silent = { .replies = false };
     assert_int_equal(answer(&silent, &ask, path), WR_PORTAL_NONE);

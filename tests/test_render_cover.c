@@ -174,11 +174,11 @@ static void blocks_keep_their_boxes_near_the_eye(void **state)
         scene->camera.eye = (WrVec3){ 0, 1.5 - 0.2 * k, 0.03 };
         scene->camera.target = (WrVec3){ 0, 0, 0 };
         scene->camera.up = (WrVec3){ 0, 0, 1 };
-        const WrPlanAsk ask = { .scene = scene, .dials = &scene->dials };
+        const WrPlanRequest ask = { .scene = scene, .dials = &scene->dials };
         wr_plan_build(&plan, &ask);
         assert_true(
             wr_view_init(&view, scene, wr_shape_radius(&scene->shape), &plan, 0, 512, 401, &err));
-        const WrMeshAsk asked = { .newton = -1, .table_w = 64, .table_h = 64 };
+        const WrMeshRequest asked = { .newton = -1, .table_w = 64, .table_h = 64 };
         wr_view_mesh_prepare(&mesh, &scene->shape, &view, &asked, kernels, pool);
         int out = 0, behind = 0, clipped = 0;
         for (int i = 0; i < (mesh.mu + 1) * (mesh.mv + 1); i++) {

@@ -425,9 +425,9 @@ static void rounded_tables_are_refreshed_to_the_bits_of_new_ones(void **state)
             wr_field_range(field, &low, &high);
             WrQuantizedHeights fresh = { 0 };
             const WrField *a =
-                wr_quantized_heights_bring(&kept, field, (WrHeights)h, low, high, NULL);
+                wr_quantized_heights_update(&kept, field, (WrHeights)h, low, high, NULL);
             const WrField *b =
-                wr_quantized_heights_bring(&fresh, field, (WrHeights)h, low, high, NULL);
+                wr_quantized_heights_update(&fresh, field, (WrHeights)h, low, high, NULL);
             assert_true(wr_hash_equal(wr_field_hash(a), wr_field_hash(b)));
             wr_quantized_heights_drop(&fresh);
         }

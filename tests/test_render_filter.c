@@ -22,7 +22,7 @@ static WrPyramid pyramid_of(const WrField *field, WrPyramidKind kind)
 {
     WrPyramid pyramid = { 0 };
     WrError err = { "" };
-    if (!wr_pyramid_bring(&pyramid, kind, field, NULL, &err)) fail_msg("%s", err.text);
+    if (!wr_pyramid_update(&pyramid, kind, field, NULL, &err)) fail_msg("%s", err.text);
     return pyramid;
 }
 
@@ -147,7 +147,7 @@ static void edits_refresh_a_pyramid_to_the_bits_of_a_new_one(void **state)
                 int i = step == 0 ? 0 : (int)(w * test_random(&random));
                 int j = step == 1 ? h - 1 : (int)(h * test_random(&random));
                 wr_field_set(field, i, j, 5);
-                assert_true(wr_pyramid_bring(&kept, (WrPyramidKind)kind, field, NULL, NULL));
+                assert_true(wr_pyramid_update(&kept, (WrPyramidKind)kind, field, NULL, NULL));
                 assert_true(kept.texels_refreshed < w * h);
                 WrPyramid fresh = pyramid_of(field, (WrPyramidKind)kind);
                 for (int l = 0; l < kept.levels; l++) {

@@ -46,8 +46,8 @@ static bool see(Seen *seen, int first, int rows, TestRandom *random)
 {
     WrError err = { "" };
     WrScene *scene = seen->scene;
-    const WrPlanAsk ask = { .scene = scene, .dials = &scene->dials };
-    const WrMeshAsk asked = { .mesh = seen->finer, .newton = -1, .table_w = 64, .table_h = 64 };
+    const WrPlanRequest ask = { .scene = scene, .dials = &scene->dials };
+    const WrMeshRequest asked = { .mesh = seen->finer, .newton = -1, .table_w = 64, .table_h = 64 };
     wr_plan_build(&seen->plan, &ask);
     if (!wr_view_init(&seen->view, scene, wr_shape_radius(&scene->shape), &seen->plan, seen->turn,
                       W, H, &err))
@@ -58,14 +58,14 @@ static bool see(Seen *seen, int first, int rows, TestRandom *random)
                          seen->pool);
     if (seen->crumpled) crumple(seen, random);
     const bool sheet = wr_wide_sheet(scene->shape.kind, &seen->view.shape, &seen->sheet);
-    WrSparseHitsAsk how = { .kernels = seen->kernels,
-                            .wide = seen->wide,
-                            .sheet = sheet ? &seen->sheet : NULL,
-                            .newton = seen->mesh.newton,
-                            .first = first,
-                            .rows = rows };
+    WrSparseHitsRequest how = { .kernels = seen->kernels,
+                                .wide = seen->wide,
+                                .sheet = sheet ? &seen->sheet : NULL,
+                                .newton = seen->mesh.newton,
+                                .first = first,
+                                .rows = rows };
     how.newton.last = 0x1p-15f;
-    return wr_sparse_hits_bring(&seen->knots, &seen->mesh, &seen->view, &how, seen->pool);
+    return wr_sparse_hits_update(&seen->knots, &seen->mesh, &seen->view, &how, seen->pool);
 }
 
 static void forget(Seen *seen)
@@ -281,7 +281,7 @@ static void look_at(Seen *seen, int first, int rows, TestRandom *random, Kinds *
                          .v = v,
                          .k = 1,
                          .kernels = seen->kernels };
-    wr_sparse_hits_tell(&seen->knots, &tile);
+    wr_sparse_hits_report(&seen->knots, &tile);
     wr_view_mesh_raster(&seen->mesh, &seen->view, &tile);
     wr_sparse_hits_fill(&seen->knots, seen->wide, &tile);
     for (int y = first - first % 8 + 8; y + 8 < first + rows - Y; y += 8) {

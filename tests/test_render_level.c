@@ -209,7 +209,7 @@ static void tiles_are_as_steep_as_what_is_read_of_them(void **state)
         WrField *field = spotted_field(65 + 3 * k, 130 + k, &random);
         wr_table_init(&table);
         for (int edit = 0; edit < 6; edit++) {
-            assert_true(wr_table_bring(&table, WR_COPY_GRADIENT, field, pool, &err));
+            assert_true(wr_table_update(&table, WR_COPY_GRADIENT, field, pool, &err));
             check_steep(&table, field, k);
             WrField *next = wr_field_share(field);
             const int w = wr_field_width(field), h = wr_field_height(field);

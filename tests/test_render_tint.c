@@ -34,8 +34,8 @@ static const float *texel_of(const WrColorMips *tint, int level, int i, int j)
 static WrColorMips tint_of(const WrImage *image, WrWrap wrap, WrPool *pool)
 {
     WrColorMips tint = { 0 };
-    assert_true(wr_color_mips_bring(&tint, image, wrap, wrap, NULL));
-    assert_true(wr_color_mips_bring_pyramid(&tint, pool, NULL));
+    assert_true(wr_color_mips_update(&tint, image, wrap, wrap, NULL));
+    assert_true(wr_color_mips_update_pyramid(&tint, pool, NULL));
     return tint;
 }
 

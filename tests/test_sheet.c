@@ -115,7 +115,7 @@ static void a_document_keeps_what_the_sheet_was_told(void **state)
     must_fail(session, "sheet unreal depth=12", "depth");
     if (!wr_session_save(session, "kept.exr", &err) || !wr_session_open(again, "kept.exr", &err))
         fail_msg("%s", err.text);
-    const WrSheetAsk *sheet = &doc(again)->scene->sheet;
+    const WrSheetRequest *sheet = &doc(again)->scene->sheet;
     assert_string_equal(sheet->as, "unreal");
     assert_string_equal(sheet->folder, "maps of mine");
     assert_string_equal(sheet->name, "tile");

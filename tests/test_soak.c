@@ -47,11 +47,11 @@ static void wait_for_preview(Soak *soak)
 static void look(Soak *soak, bool moving)
 {
     const WrDocument *document = doc(soak->session);
-    WrPreviewWish wish = { .field = wr_document_field(document),
-                           .scene = document->scene,
-                           .width = 160,
-                           .height = 120,
-                           .moving = moving };
+    WrPreviewRequest wish = { .field = wr_document_field(document),
+                              .scene = document->scene,
+                              .width = 160,
+                              .height = 120,
+                              .moving = moving };
     wr_preview_want(soak->preview, &wish);
     wait_for_preview(soak);
 }
@@ -94,7 +94,7 @@ static void special_strokes(Soak *soak)
 /* A dialog that previews an operation before it runs. */
 static void try_blur(Soak *soak)
 {
-    WrEditPreviewAsk ask = { .op = wr_op_find("blur"), .param = { 2.0 } };
+    WrEditPreviewRequest ask = { .op = wr_op_find("blur"), .param = { 2.0 } };
     wr_edit_preview_ask(soak->trial, doc(soak->session), &ask);
     while (wr_edit_preview_busy(soak->trial, NULL, NULL)) SDL_Delay(1);
     (void)wr_edit_preview_field(soak->trial);

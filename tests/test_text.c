@@ -73,7 +73,7 @@ static WrFontText shaped(const char *path, const char *text)
 {
     WrError err = { "" };
     WrFontText out = { 0 };
-    WrFontAsk ask = { .text = text };
+    WrFontRequest ask = { .text = text };
     if (!wr_font_shape(path, &ask, &out, &err)) fail_msg("%s", err.text);
     return out;
 }

@@ -41,7 +41,7 @@ static void assert_same_heights(const WrField *a, const WrField *b)
 }
 
 /* Preview, then run: both composites are bit-identical. */
-static void try_then_run(const WrEditPreviewAsk *ask, const char *line)
+static void try_then_run(const WrEditPreviewRequest *ask, const char *line)
 {
     WrError err;
     WrSession *session = session_of(painted, 5);
@@ -64,10 +64,10 @@ static void try_then_run(const WrEditPreviewAsk *ask, const char *line)
 static void an_operation_that_is_tried_comes_out_as_its_command(void **state)
 {
     (void)state;
-    try_then_run(&(WrEditPreviewAsk){ .op = wr_op_find("blur"), .param = { 5 } },
+    try_then_run(&(WrEditPreviewRequest){ .op = wr_op_find("blur"), .param = { 5 } },
                  "adjust blur sigma=5");
     try_then_run(
-        &(WrEditPreviewAsk){ .op = wr_op_find("invert"), .param = { 1 }, .all_layers = true },
+        &(WrEditPreviewRequest){ .op = wr_op_find("invert"), .param = { 1 }, .all_layers = true },
         "adjust invert about=zero layers=all");
 }
 
@@ -75,13 +75,14 @@ static void an_operation_that_is_tried_comes_out_as_its_command(void **state)
 static void an_offset_that_is_tried_moves_what_layers_say_too(void **state)
 {
     (void)state;
-    try_then_run(
-        &(WrEditPreviewAsk){ .op = wr_op_find("offset"), .param = { 100, 31 }, .all_layers = true },
-        "adjust offset du=100 dv=31 layers=all");
+    try_then_run(&(WrEditPreviewRequest){ .op = wr_op_find("offset"),
+                                          .param = { 100, 31 },
+                                          .all_layers = true },
+                 "adjust offset du=100 dv=31 layers=all");
     /* if the filter overshoots, coverage stays within 0 to 1 */
-    try_then_run(&(WrEditPreviewAsk){ .op = wr_op_find("warp"),
-                                      .param = { 23.7, 9, 3, 0, 7 },
-                                      .all_layers = true },
+    try_then_run(&(WrEditPreviewRequest){ .op = wr_op_find("warp"),
+                                          .param = { 23.7, 9, 3, 0, 7 },
+                                          .all_layers = true },
                  "adjust warp amount=23.7 cells=9 octaves=3 seed=7 layers=all");
 }
 
@@ -89,7 +90,7 @@ static void a_layers_settings_that_are_tried_come_out_as_their_command(void **st
 {
     (void)state;
     try_then_run(
-        &(WrEditPreviewAsk){
+        &(WrEditPreviewRequest){
             .layer = 1, .blend = WR_BLEND_SMOOTH_MAX, .opacity = 0.5f, .radius = 0.25f },
         "layer set 2 blend=smooth-max opacity=0.5 radius=0.25");
 }
@@ -104,7 +105,7 @@ static void a_generator_that_is_tried_comes_out_as_its_command(void **state)
         "formula fourier terms=3,0,0.5;0,5,0.25,90,0 blend=multiply"
     };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
-        try_then_run(&(WrEditPreviewAsk){ .line = lines[i] }, lines[i]);
+        try_then_run(&(WrEditPreviewRequest){ .line = lines[i] }, lines[i]);
 }
 
 static void take_note(void *ctx, const char *text)
@@ -120,7 +121,8 @@ static void what_a_generator_notes_is_told_with_what_it_shows(void **state)
     static const char line[] = "noise perlin cells=64 octaves=10";
     WrSession *session = wr_session_new(&(WrSessionOptions){ .note = take_note, .note_ctx = said });
     WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
-    wr_edit_preview_ask(trial, wr_session_document(session), &(WrEditPreviewAsk){ .line = line });
+    wr_edit_preview_ask(trial, wr_session_document(session),
+                        &(WrEditPreviewRequest){ .line = line });
     wait_until_done(trial);
     assert_true(wr_session_run(session, line, &err));
     assert_true(said[0]);
@@ -156,7 +158,7 @@ static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
     static const char line[] = "pattern grid across=8 rows=8 width=24 bevel=8";
     WrSession *session = session_of((const char *const[]){ "table 1024x1024" }, 1);
     WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
-    WrEditPreviewAsk ask = { .line = line, .rough = true };
+    WrEditPreviewRequest ask = { .line = line, .rough = true };
     wr_edit_preview_ask(trial, wr_session_document(session), &ask);
     wait_until_done(trial);
     assert_true(wr_edit_preview_rough(trial)); /* the exact one starts when this is fetched */
@@ -189,7 +191,7 @@ static void a_line_that_is_wrong_is_said_to_be(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         WrError err = { "" };
         wr_edit_preview_ask(trial, wr_session_document(session),
-                            &(WrEditPreviewAsk){ .line = wrong[i].line });
+                            &(WrEditPreviewRequest){ .line = wrong[i].line });
         wait_until_done(trial);
         assert_null(wr_edit_preview_field(trial));
         assert_true(wr_edit_preview_error(trial, &err));
@@ -206,7 +208,7 @@ static void a_trial_that_fails_says_why_once(void **state)
     WrSession *session = session_of(painted, 5);
     WrEditPreview *trial = wr_edit_preview_new(1, SDL_USEREVENT);
     wr_edit_preview_ask(trial, wr_session_document(session),
-                        &(WrEditPreviewAsk){ .op = wr_op_find("blur"), .param = { -1 } });
+                        &(WrEditPreviewRequest){ .op = wr_op_find("blur"), .param = { -1 } });
     wait_until_done(trial);
     assert_null(wr_edit_preview_field(trial));
     assert_true(wr_edit_preview_error(trial, &err));
@@ -219,7 +221,7 @@ static void a_trial_that_fails_says_why_once(void **state)
 /* ---- outlines ---- */
 
 static const WrOutline *outline_of(WrOutliner *outliner, const WrSession *session,
-                                   const WrOutlineAsk *ask)
+                                   const WrOutlineRequest *ask)
 {
     uint64_t serial;
     wr_outliner_ask(outliner, wr_session_document(session), ask);
@@ -244,15 +246,15 @@ static void outlines_show_what_a_selection_would_become(void **state)
     (void)state;
     WrSession *session = session_of(painted, 5);
     WrOutliner *outliner = wr_outliner_new(1, SDL_USEREVENT);
-    const WrOutline *now = outline_of(outliner, session, &(WrOutlineAsk){ 0 });
+    const WrOutline *now = outline_of(outliner, session, &(WrOutlineRequest){ 0 });
     assert_non_null(now);
     assert_near(width_of(now), 0.9, 1.5 / 256); /* 0.3 to 1.2, across the edge */
     const WrOutline *grown =
-        outline_of(outliner, session, &(WrOutlineAsk){ .kind = WR_OUTLINE_GROW, .by = 5 });
+        outline_of(outliner, session, &(WrOutlineRequest){ .kind = WR_OUTLINE_GROW, .by = 5 });
     assert_non_null(grown);
     assert_near(width_of(grown), 0.9 + 10.0 / 256, 1.5 / 256);
     const WrOutline *shrunk =
-        outline_of(outliner, session, &(WrOutlineAsk){ .kind = WR_OUTLINE_SHRINK, .by = 5 });
+        outline_of(outliner, session, &(WrOutlineRequest){ .kind = WR_OUTLINE_SHRINK, .by = 5 });
     assert_non_null(shrunk);
     assert_near(width_of(shrunk), 0.9 - 10.0 / 256, 1.5 / 256);
     uint64_t serial;
@@ -267,10 +269,12 @@ static void without_a_selection_there_is_no_outline(void **state)
     (void)state;
     WrSession *session = session_of(painted, 4);
     WrOutliner *outliner = wr_outliner_new(1, SDL_USEREVENT);
-    assert_null(outline_of(outliner, session, &(WrOutlineAsk){ .kind = WR_OUTLINE_GROW, .by = 5 }));
+    assert_null(
+        outline_of(outliner, session, &(WrOutlineRequest){ .kind = WR_OUTLINE_GROW, .by = 5 }));
     /* by height there is one: around the strokes and the grid's lines */
-    assert_non_null(outline_of(
-        outliner, session, &(WrOutlineAsk){ .kind = WR_OUTLINE_HEIGHT, .low = 0.5, .high = 10 }));
+    assert_non_null(
+        outline_of(outliner, session,
+                   &(WrOutlineRequest){ .kind = WR_OUTLINE_HEIGHT, .low = 0.5, .high = 10 }));
     wr_outliner_free(outliner);
     wr_session_free(session);
 }

@@ -190,7 +190,7 @@ static void the_keys_come_to_all_that_the_pointer_finds(void **state)
     (void)state;
     Walk walk;
     walk_open(&walk, "en");
-    wr_gui_tells_all = false;
+    wr_gui_reports_all = false;
     wr_gui_unseen = true;
     walk.shown = examine;
     walk_all(&walk);
@@ -206,7 +206,7 @@ static void the_keys_come_to_all_that_the_pointer_finds(void **state)
 static void enter_bench(Walk *walk)
 {
     walk_open(walk, "en");
-    wr_gui_tells_all = false;
+    wr_gui_reports_all = false;
     wr_gui_unseen = true;
     for (int i = 0; i < 4; i++) walk_frame(walk);
 }

@@ -104,7 +104,7 @@ static void a_transform_frame_is_that_of_the_content(void **state)
     run(&bench, "dab 0.25,0.25 radius=5 hardness=1"); /* about texel 16, 48 from the top */
     wr_action_run(bench.app, "transform");
     settle(&bench);
-    WrTransformHand *hand = bench.app->transform;
+    WrTransformState *hand = bench.app->transform;
     assert_in_range(hand->box.i, 9, 11);
     assert_in_range(hand->box.j, 41, 43);
     assert_in_range(hand->box.count_i, 10, 13);

@@ -18,12 +18,12 @@ static const WrPreviewPicture *finest(WrPreview *preview, const WrSession *sessi
 {
     WrError err;
     const WrDocument *document = doc(session);
-    const WrPreviewWish wish = { .field = wr_document_composite(document, NULL),
-                                 .scene = document->scene,
-                                 .turn_deg = turn_deg,
-                                 .width = SIDE,
-                                 .height = SIDE,
-                                 .chosen = kept };
+    const WrPreviewRequest wish = { .field = wr_document_composite(document, NULL),
+                                    .scene = document->scene,
+                                    .turn_deg = turn_deg,
+                                    .width = SIDE,
+                                    .height = SIDE,
+                                    .chosen = kept };
     wr_preview_want(preview, &wish);
     while (!wr_preview_settled(preview)) SDL_Delay(1);
     if (wr_preview_error(preview, &err)) fail_msg("%s", err.text);

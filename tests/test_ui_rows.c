@@ -409,7 +409,7 @@ static void no_row_is_answered_by_an_error(void **state)
     Walk walk;
     walk_open(&walk, "en");
     fill_again(&walk);
-    wr_gui_tells_all = false;
+    wr_gui_reports_all = false;
     wr_gui_unseen = true;
     walk.shown = examine;
     walk_all(&walk);

@@ -145,9 +145,9 @@ static void every_action_has_a_help_line(void **state)
     (void)state;
     Walk walk;
     walk_open(&walk, "en");
-    wr_words_asked = note_help;
+    wr_words_requested = note_help;
     walk_frame(&walk);
-    wr_words_asked = NULL;
+    wr_words_requested = NULL;
     int lacking = 0;
     const WrRoster *roster = walk.app->roster;
     for (int i = 0; roster->actions[i].name; i++) {
@@ -187,10 +187,10 @@ static void every_command_is_reached_by_the_search(void **state)
         walk.app->finder->line = true; /* as by its row in the list */
         told_of = (*c)->help;
         told = false;
-        wr_words_asked = note_told;
+        wr_words_requested = note_told;
         walk_frame(&walk);
         walk_frame(&walk);
-        wr_words_asked = NULL;
+        wr_words_requested = NULL;
         if (!told) fail_msg("the search says nothing about '%s'", (*c)->name);
         wr_dialog_close(walk.app);
         walk_frame(&walk);

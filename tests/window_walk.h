@@ -94,14 +94,14 @@ static inline void walk_open(Walk *walk, const char *language)
     walk->app->options = &walk->options;
     walk->app->session = walk->session;
     if (!wr_app_begin(walk->app, &err)) fail_msg("%s", err.text);
-    wr_gui_tells_all = true;
+    wr_gui_reports_all = true;
     walk->app->hints = walk->app->file->starter = true; /* as at the first start */
     walk->app->hand->on_canvas = true;
 }
 
 static inline void walk_close(Walk *walk)
 {
-    wr_gui_tells_all = false;
+    wr_gui_reports_all = false;
     wr_app_end(walk->app);
     wr_free(walk->app);
     wr_session_free(walk->session);

@@ -31,7 +31,7 @@ static bool render(const Measure *m, Side *side, WrError *err)
     request.force = side->force;
     if (m->request->choice) {
         side->plan = (WrPlan){ 0 };
-        if (!wr_choice_frame_told(side->renderer, &request, m->request->choice, &side->plan, &frame,
+        if (!wr_choice_frame_plan(side->renderer, &request, m->request->choice, &side->plan, &frame,
                                   err))
             return false;
     } else {

@@ -274,7 +274,7 @@ bool wr_tolerance_frame(WrRenderer *renderer, const WrFrameRequest *request, WrC
     if (!wr_choice_fits(choice, request))
         return wr_tolerance_choose(renderer, request, choice, frame, err);
     choice->plan = (WrPlan){ 0 };
-    if (!wr_choice_frame_told(renderer, request, choice, &choice->plan, frame, err)) return false;
+    if (!wr_choice_frame_plan(renderer, request, choice, &choice->plan, frame, err)) return false;
     /* it was read from text: the time is unknown */
     if (choice->studies == 0) choice->seconds = frame->times.total;
     return true;

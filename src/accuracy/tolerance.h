@@ -75,7 +75,7 @@ typedef struct WrChoice {
     double top_seconds; /* estimated time with 16 x 16 samples everywhere */
     double spent;       /* seconds spent on choosing, including the picture */
     char reason[480];   /* one or two sentences */
-    bool told;          /* set by the caller after showing the reason to the user */
+    bool shown;         /* set by the caller after showing the reason to the user */
     int frames;         /* number of frames rendered for it, each of some of the blocks */
     int studies;        /* number of frames studied for it; 0: it was read from text */
     WrPlan plan;        /* costs of its last picture: the frame's plan */

@@ -139,7 +139,7 @@ static void clear_nothing(const WrChoice *choice, WrFrame *frame)
         }
 }
 
-bool wr_choice_frame_told(WrRenderer *renderer, const WrFrameRequest *request,
+bool wr_choice_frame_plan(WrRenderer *renderer, const WrFrameRequest *request,
                           const WrChoice *choice, WrPlan *plan, WrFrame *frame, WrError *err)
 {
     const int64_t blocks = (int64_t)((choice->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK) *
@@ -177,7 +177,7 @@ bool wr_choice_frame_told(WrRenderer *renderer, const WrFrameRequest *request,
 bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const WrChoice *choice,
                      WrFrame *frame, WrError *err)
 {
-    return wr_choice_frame_told(renderer, request, choice, NULL, frame, err);
+    return wr_choice_frame_plan(renderer, request, choice, NULL, frame, err);
 }
 
 void wr_choice_print(const WrChoice *choice, WrText *text)

@@ -56,7 +56,7 @@ static Change times(Change a, double squares, double most)
 }
 
 /* At a level: by the step to it, but at least the prediction of the steps before. */
-static Change foretold(const Block *block, int level)
+static Change predicted(const Block *block, int level)
 {
     if (level == 0) return times(block->change[1], COARSER_LEAST, 1);
     Change off = block->step[level];
@@ -88,10 +88,10 @@ static Change off_here(const Study *study, const Block *block)
 {
     const int level = block->level;
     const Learnt *learnt = &study->learnt[level][block->edge];
-    const Change off = foretold(block, level);
-    if (learnt->blocks < LEARNT_LEAST || !(learnt->foretold > 0)) return off;
+    const Change off = predicted(block, level);
+    if (learnt->blocks < LEARNT_LEAST || !(learnt->predicted > 0)) return off;
     const double caution = 1 + 1 / sqrt((double)learnt->blocks);
-    const double right = caution * learnt->told / learnt->foretold;
+    const double right = caution * learnt->measured / learnt->predicted;
     return times(off, fmax(LEARNT_LOW, fmin(LEARNT_HIGH, right)), 1);
 }
 
@@ -166,8 +166,8 @@ void wr_study_learn(Study *study)
         const Block *block = &study->block[b];
         for (int level = 1; block->shown && level < block->level; level++) {
             Learnt *learnt = &study->learnt[level][block->edge];
-            learnt->foretold += foretold(block, level).squares;
-            learnt->told += coarser(block, level) * block->change[level + 1].squares;
+            learnt->predicted += predicted(block, level).squares;
+            learnt->measured += coarser(block, level) * block->change[level + 1].squares;
             learnt->blocks++;
         }
     }

@@ -69,7 +69,7 @@ typedef struct Doubt {
 
 /* Predictions for a level's blocks from the step to it, and the results of the step from it. */
 typedef struct Learnt {
-    double foretold, told; /* squares, of the blocks that climbed */
+    double predicted, measured; /* squares, of the blocks that climbed */
     int64_t blocks;
 } Learnt;
 
@@ -194,7 +194,7 @@ WrScene *wr_level_scene(const WrScene *scene, WrScheme scheme, WrBumpMode mode, 
 /* Converts the study's picks to a choice with its parts, owned by the caller. */
 void wr_study_settle(const Study *study, WrChoice *out);
 /* wr_choice_frame; the sum of its parts' costs goes into *plan, which becomes the frame's, or NULL. */
-bool wr_choice_frame_told(WrRenderer *renderer, const WrFrameRequest *request,
+bool wr_choice_frame_plan(WrRenderer *renderer, const WrFrameRequest *request,
                           const WrChoice *choice, WrPlan *plan, WrFrame *frame, WrError *err);
 /* Adds the times of each stage. */
 void wr_times_add(WrStageTimes *sum, const WrStageTimes *more);

@@ -104,7 +104,8 @@ char *wr_program_folder(void)
 /* The checkout that the program was built from, if the program runs in its build folder; else NULL. */
 static const char *source_folder(const char *program_folder)
 {
-    WrFileStamp here = wr_file_stamp(program_folder), built = wr_file_stamp(WR_BUILD_FOLDER);
+    WrFileIdentity here = wr_file_identity(program_folder),
+                   built = wr_file_identity(WR_BUILD_FOLDER);
     bool same = here.there && here.device == built.device && here.inode == built.inode;
     return same ? WR_SOURCE_FOLDER : NULL;
 }

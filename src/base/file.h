@@ -72,7 +72,7 @@ bool wr_file_fail(const WrFileTarget *target, const char *reason, WrError *err);
 const char *wr_file_why(int error, char text[WR_FILE_WHY]);
 /* Describes a failed write reported by a library: if its message contains a system message, that one is
  * described; otherwise the library's message is returned. */
-const char *wr_file_why_told(const char *reason, char text[WR_FILE_WHY]);
+const char *wr_file_why_of_library(const char *reason, char text[WR_FILE_WHY]);
 
 /* ---- several files together ---- */
 

@@ -2,19 +2,19 @@
 
 #include "system/path.h"
 
-WrFileStamp wr_file_stamp(const char *path)
+WrFileIdentity wr_file_identity(const char *path)
 {
     WrFileInfo info;
-    if (!wr_path_info(path, &info)) return (WrFileStamp){ 0 };
-    return (WrFileStamp){ .there = true,
-                          .device = info.device,
-                          .inode = info.inode,
-                          .bytes = info.bytes,
-                          .seconds = info.seconds,
-                          .nanoseconds = info.nanoseconds };
+    if (!wr_path_info(path, &info)) return (WrFileIdentity){ 0 };
+    return (WrFileIdentity){ .there = true,
+                             .device = info.device,
+                             .inode = info.inode,
+                             .bytes = info.bytes,
+                             .seconds = info.seconds,
+                             .nanoseconds = info.nanoseconds };
 }
 
-bool wr_file_stamp_same(const WrFileStamp *a, const WrFileStamp *b)
+bool wr_file_identity_same(const WrFileIdentity *a, const WrFileIdentity *b)
 {
     return a->there == b->there && a->device == b->device && a->inode == b->inode &&
            a->bytes == b->bytes && a->seconds == b->seconds && a->nanoseconds == b->nanoseconds;

@@ -131,7 +131,7 @@ const char *wr_file_why(int error, char text[WR_FILE_WHY])
     return text;
 }
 
-const char *wr_file_why_told(const char *reason, char text[WR_FILE_WHY])
+const char *wr_file_why_of_library(const char *reason, char text[WR_FILE_WHY])
 {
     for (size_t i = 0; i < sizeof helps / sizeof *helps; i++)
         if (strstr(reason, strerror(helps[i].error))) return wr_file_why(helps[i].error, text);

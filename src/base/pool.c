@@ -21,7 +21,7 @@ struct WrPool {
     int count;
     WrPiece piece;
     void *ctx;
-    bool told;        /* the caller's progress is reported after each of its pieces */
+    bool reports;     /* the caller's progress is reported after each of its pieces */
     WrProgress quiet; /* the caller's progress for other threads: cancellation without reports */
     int threads;      /* including the caller */
     Worker *workers;
@@ -35,9 +35,9 @@ int64_t wr_pool_pieces(void)
 }
 
 /* False: the work was cancelled. */
-static bool run_piece(int index, int count, int worker, bool told, WrPiece piece, void *ctx)
+static bool run_piece(int index, int count, int worker, bool reports, WrPiece piece, void *ctx)
 {
-    if (told && worker == 0) wr_progress_tell((double)index / count);
+    if (reports && worker == 0) wr_progress_report((double)index / count);
     if (wr_progress_stopped()) return false;
     __atomic_fetch_add(&begun, 1, __ATOMIC_RELAXED);
     piece(index, worker, ctx);
@@ -49,7 +49,7 @@ static void take_pieces(WrPool *pool, int worker)
     for (;;) {
         int index = __atomic_fetch_add(&pool->next, 1, __ATOMIC_RELAXED);
         if (index >= pool->count) return;
-        if (!run_piece(index, pool->count, worker, pool->told, pool->piece, pool->ctx)) return;
+        if (!run_piece(index, pool->count, worker, pool->reports, pool->piece, pool->ctx)) return;
     }
 }
 
@@ -117,15 +117,15 @@ int wr_pool_threads(const WrPool *pool)
 
 /* Runs all pieces on this thread. A pool of one thread still serialises runs: scratch memory is indexed
  * by worker. */
-static void run_here(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
+static void run_here(WrPool *pool, int count, WrPiece piece, void *ctx, bool reports)
 {
     if (pool) wr_mutex_lock(&pool->run_lock);
-    for (int i = 0; i < count && run_piece(i, count, 0, told, piece, ctx); i++) {
+    for (int i = 0; i < count && run_piece(i, count, 0, reports, piece, ctx); i++) {
     }
     if (pool) wr_mutex_unlock(&pool->run_lock);
 }
 
-static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
+static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool reports)
 {
     const WrProgress *here = wr_progress_here();
     wr_mutex_lock(&pool->run_lock);
@@ -133,7 +133,7 @@ static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool t
     pool->piece = piece;
     pool->ctx = ctx;
     pool->count = count;
-    pool->told = told;
+    pool->reports = reports;
     pool->quiet = (WrProgress){ .cancel = here ? here->cancel : NULL };
     __atomic_store_n(&pool->next, 0, __ATOMIC_RELAXED);
     pool->active = pool->threads - 1;
@@ -147,12 +147,12 @@ static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool t
     wr_mutex_unlock(&pool->run_lock);
 }
 
-static bool run(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
+static bool run(WrPool *pool, int count, WrPiece piece, void *ctx, bool reports)
 {
-    if (told) wr_progress_tell(0.0); /* whichever thread takes the first piece */
+    if (reports) wr_progress_report(0.0); /* whichever thread takes the first piece */
     if (count <= 0) return !wr_progress_stopped();
-    if (!pool || pool->threads == 1 || count == 1) run_here(pool, count, piece, ctx, told);
-    else run_on_all(pool, count, piece, ctx, told);
+    if (!pool || pool->threads == 1 || count == 1) run_here(pool, count, piece, ctx, reports);
+    else run_on_all(pool, count, piece, ctx, reports);
     return !wr_progress_stopped();
 }
 
@@ -161,7 +161,7 @@ bool wr_pool_run(WrPool *pool, int count, WrPiece piece, void *ctx)
     return run(pool, count, piece, ctx, false);
 }
 
-bool wr_pool_run_told(WrPool *pool, int count, WrPiece piece, void *ctx)
+bool wr_pool_run_with_progress(WrPool *pool, int count, WrPiece piece, void *ctx)
 {
     return run(pool, count, piece, ctx, true);
 }

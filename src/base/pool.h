@@ -22,7 +22,7 @@ int wr_pool_threads(const WrPool *pool); /* number of workers, including the cal
 typedef void (*WrPiece)(int index, int worker, void *ctx);
 bool wr_pool_run(WrPool *pool, int count, WrPiece piece, void *ctx);
 /* wr_pool_run that also reports the fraction of started pieces to the caller's progress. */
-bool wr_pool_run_told(WrPool *pool, int count, WrPiece piece, void *ctx);
+bool wr_pool_run_with_progress(WrPool *pool, int count, WrPiece piece, void *ctx);
 
 /* Number of pieces that this process has started, for tests that count work. */
 int64_t wr_pool_pieces(void);

@@ -34,7 +34,7 @@ const WrProgress *wr_progress_set(const WrProgress *progress)
     return before;
 }
 
-int64_t wr_progress_looks(void)
+int64_t wr_progress_checks(void)
 {
     return looks;
 }
@@ -45,7 +45,7 @@ bool wr_progress_stopped(void)
     return wr_progress_cancelled(here);
 }
 
-bool wr_progress_tell(double fraction)
+bool wr_progress_report(double fraction)
 {
     looks++;
     return wr_progress_step(here, fraction);

@@ -41,11 +41,11 @@ const WrProgress *wr_progress_set(const WrProgress *progress);
 /* True if this thread's work was cancelled. */
 bool wr_progress_stopped(void);
 /* Reports the fraction done to it. True if the work should continue. */
-bool wr_progress_tell(double fraction);
+bool wr_progress_report(double fraction);
 
 /* Number of the thread's calls of the two functions above, for tests that count work between two
  * checks. */
-int64_t wr_progress_looks(void);
+int64_t wr_progress_checks(void);
 
 /* A sub-range of a progress: its 0..1 is from..to of the whole. */
 typedef struct WrProgressPart {

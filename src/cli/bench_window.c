@@ -141,13 +141,13 @@ static void add_start(bool quick, WrText *text)
     if (!wr_process_program(program, sizeof program) || strchr(program, '\'') ||
         !wr_folder_make_temporary(folder))
         return;
-    bool told = time_start(program, folder) > 0; /* the first start loads files into memory */
-    for (int i = 0; i < count && told; i++) told = (ms[i] = time_start(program, folder)) > 0;
-    if (told)
+    bool started = time_start(program, folder) > 0; /* the first start loads files into memory */
+    for (int i = 0; i < count && started; i++) started = (ms[i] = time_start(program, folder)) > 0;
+    if (started)
         wr_text_addf(
             text, "\nfrom the command to the window's first picture, without a display: %.0f ms\n",
             wr_bench_median(ms, count));
-    else wr_text_add(text, "\nthe window's first picture: it did not tell\n");
+    else wr_text_add(text, "\nthe window's first picture: none\n");
     /* files that the window stores there */
     snprintf(program, sizeof program, "rm -r '%s'", folder);
     if (system(program) != 0) wr_text_addf(text, "%s: cannot be removed\n", folder);

@@ -21,4 +21,4 @@ bool wr_brushes_thumbnails(const WrCli *cli, const WrBrushList *list, const char
                            WrError *err);
 
 /* Print everything about a preset, as lines or as one JSON object and a line end. */
-void wr_brushes_tell(const WrPresetEntry *entry, const WrPreset *preset, bool json, WrText *text);
+void wr_brushes_report(const WrPresetEntry *entry, const WrPreset *preset, bool json, WrText *text);

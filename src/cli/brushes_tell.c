@@ -155,7 +155,7 @@ static void tell_object(const WrPresetEntry *entry, const WrPreset *preset, WrTe
     wr_text_add(text, "]}\n");
 }
 
-void wr_brushes_tell(const WrPresetEntry *entry, const WrPreset *preset, bool json, WrText *text)
+void wr_brushes_report(const WrPresetEntry *entry, const WrPreset *preset, bool json, WrText *text)
 {
     if (json) tell_object(entry, preset, text);
     else tell_text(entry, preset, text);

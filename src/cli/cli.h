@@ -154,10 +154,10 @@ int wr_cli_print(const WrCli *cli, const WrText *text);
 
 /* Progress line on standard error, if that is a terminal: start reporting `progress`; clear the line until the next
    report; stop reporting. */
-void wr_cli_tell(WrProgress *progress);
-void wr_cli_tell_again(void); /* restart for another piece of work */
-void wr_cli_tell_end(void);
-void wr_cli_tell_no_more(void);
+void wr_cli_report(WrProgress *progress);
+void wr_cli_report_resume(void); /* restart for another piece of work */
+void wr_cli_report_end(void);
+void wr_cli_report_stop(void);
 
 int wr_cli_paint(const WrCli *cli);
 int wr_cli_run(const WrCli *cli);

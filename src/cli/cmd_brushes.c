@@ -100,7 +100,7 @@ static bool tell_each(const WrCli *cli, const WrBrushList *list, WrText *text, W
         WrPreset *preset = wr_preset_read(list->entry[i]->path, list->entry[i]->id, err);
         if (!preset) return false;
         if (i > 0 && !cli->json) wr_text_add(text, "\n");
-        wr_brushes_tell(list->entry[i], preset, cli->json, text);
+        wr_brushes_report(list->entry[i], preset, cli->json, text);
         wr_preset_free(preset);
     }
     return true;

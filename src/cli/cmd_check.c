@@ -27,7 +27,7 @@ static void add_edge(WrText *text, const char *name, const WrCheckEdge *edge)
     }
     wr_text_addf(text, "%s: ", edge->seam ? "A SEAM" : "seamless");
     wr_seam_text(&edge->test, text);
-    if (edge->told) wr_text_add(text, "; but its label says that the pattern is torn");
+    if (edge->by_label) wr_text_add(text, "; but its label says that the pattern is torn");
     if (edge->repeats) wr_text_add(text, "; the last line is the first one again: leave it out");
     wr_text_add(text, "\n");
 }
@@ -131,7 +131,7 @@ static void json_edge(WrText *text, const char *name, const WrCheckEdge *edge)
     json_number(text, "inside", test->inside[k]);
     json_number(text, "ratio", test->ratio[k]);
     json_number(text, "rank", test->rank);
-    wr_text_addf(text, ",\"told\":%s,\"repeats\":%s}", truth(edge->told), truth(edge->repeats));
+    wr_text_addf(text, ",\"told\":%s,\"repeats\":%s}", truth(edge->by_label), truth(edge->repeats));
 }
 
 static void json_numbers(WrText *text, const WrCheckNumbers *n)

@@ -57,7 +57,7 @@ static bool fail_unknown(const char *name, WrError *err)
 /* Identity of an input file when it was read. */
 typedef struct Input {
     char *path; /* owned */
-    WrFileStamp stamp;
+    WrFileIdentity stamp;
 } Input;
 
 /* The previous export while a file is watched. */
@@ -199,23 +199,23 @@ static bool is_cancelled(const WrCli *cli)
 
 /* True if the file or one of its inputs has changed. A missing input, as during its replacement, counts when it is
    back. A changed script counts at once, since it may no longer need that input. */
-static bool is_another(const WrCli *cli, WrFileStamp *stamp, const Last *last)
+static bool is_another(const WrCli *cli, WrFileIdentity *stamp, const Last *last)
 {
-    const WrFileStamp now = wr_file_stamp(cli->file);
+    const WrFileIdentity now = wr_file_identity(cli->file);
     bool other = false;
     if (!now.there) return false;
-    if (!wr_file_stamp_same(&now, stamp)) other = true, *stamp = now;
+    if (!wr_file_identity_same(&now, stamp)) other = true, *stamp = now;
     for (int i = 0; i < last->inputs.count; i++) {
         const Input *input = &last->inputs.data[i];
-        const WrFileStamp own = wr_file_stamp(input->path);
-        other |= own.there && !wr_file_stamp_same(&own, &input->stamp);
+        const WrFileIdentity own = wr_file_identity(input->path);
+        other |= own.there && !wr_file_identity_same(&own, &input->stamp);
     }
     return other;
 }
 
 /* Wait for a change that stays for a moment. False: an error, or an interrupt. */
-static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileStamp *stamp, const Last *last,
-                            WrError *err)
+static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileIdentity *stamp,
+                            const Last *last, WrError *err)
 {
     while (!is_another(cli, stamp, last)) { /* includes changes since the file was read */
         WrWatchEnd end = wr_watch_wait(watch, DAY_SECONDS);
@@ -231,8 +231,8 @@ static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileStamp *stamp
 static int export_again(const WrCli *cli, Last *last)
 {
     const int count = last->inputs.count;
-    WrFileStamp *stamps = wr_alloc((size_t)count + 1, sizeof *stamps);
-    for (int i = 0; i < count; i++) stamps[i] = wr_file_stamp(last->inputs.data[i].path);
+    WrFileIdentity *stamps = wr_alloc((size_t)count + 1, sizeof *stamps);
+    for (int i = 0; i < count; i++) stamps[i] = wr_file_identity(last->inputs.data[i].path);
     const int status = export_once(cli, last);
     for (int i = 0; last->unread && i < count; i++) last->inputs.data[i].stamp = stamps[i];
     wr_free(stamps);
@@ -245,14 +245,14 @@ static bool goes_on(const WrCli *cli, const Last *last, int status)
 {
     if (status == WR_EXIT_DONE) return true;
     if (status != WR_EXIT_FAILED) return false;
-    return last->written || (last->unread && wr_file_stamp(cli->file).there);
+    return last->written || (last->unread && wr_file_identity(cli->file).there);
 }
 
 static int watch_file(const WrCli *cli)
 {
     WrError err;
     WrWatch *watch = wr_watch_new(cli->file);
-    WrFileStamp stamp = wr_file_stamp(cli->file);
+    WrFileIdentity stamp = wr_file_identity(cli->file);
     Last last = { 0 };
     if (!watch) {
         wr_fail(&err, "%s: cannot be watched (%s)", cli->file, strerror(errno));

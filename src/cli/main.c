@@ -21,14 +21,14 @@ static void on_interrupt(void)
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err)
 {
     bool stopped = wr_cancel_asked(cli->cancel) && status == WR_EXIT_FAILED;
-    wr_cli_tell_end();
+    wr_cli_report_end();
     fprintf(stderr, "wrinkle: %s\n", stopped ? "interrupted" : err->text);
     return stopped ? WR_EXIT_INTERRUPTED : status;
 }
 
 void wr_cli_note(const char *text)
 {
-    wr_cli_tell_end();
+    wr_cli_report_end();
     fprintf(stderr, "wrinkle: note: %s\n", text);
 }
 
@@ -55,12 +55,12 @@ static int run(WrCli *cli)
     if (cli->command->run == wr_cli_run || cli->command->run == wr_cli_export ||
         cli->command->run == wr_cli_render || cli->command->run == wr_cli_recover ||
         cli->command->run == wr_cli_paint)
-        wr_cli_tell(&progress);
+        wr_cli_report(&progress);
     cli->pool = wr_pool_new(cli->threads);
     wr_progress_set(&progress);
     int status = cli->command->run(cli);
     wr_progress_set(NULL);
-    wr_cli_tell_end();
+    wr_cli_report_end();
     wr_pool_free(cli->pool);
     return status;
 }

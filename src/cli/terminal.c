@@ -27,7 +27,7 @@ static void report(void *ctx, double fraction)
     line.shown = true;
 }
 
-void wr_cli_tell(WrProgress *progress)
+void wr_cli_report(WrProgress *progress)
 {
     if (!wr_process_has_terminal()) return;
     line.began = wr_clock_seconds();
@@ -35,20 +35,20 @@ void wr_cli_tell(WrProgress *progress)
     line.progress = progress;
 }
 
-void wr_cli_tell_again(void)
+void wr_cli_report_resume(void)
 {
-    wr_cli_tell_end();
+    wr_cli_report_end();
     line.began = line.told = wr_clock_seconds();
 }
 
-void wr_cli_tell_end(void)
+void wr_cli_report_end(void)
 {
     if (line.shown) fprintf(stderr, "\r%*s\r", 24, "");
     line.shown = false;
 }
 
-void wr_cli_tell_no_more(void)
+void wr_cli_report_stop(void)
 {
-    wr_cli_tell_end();
+    wr_cli_report_end();
     if (line.progress) line.progress->report = NULL;
 }

@@ -39,7 +39,7 @@
         .name = "diagonal", .type = WR_ARG_CHOICE, .words = wr_off_on, .fallback_text = "off",     \
         .help = "on: texels that meet at a corner are connected too"                               \
     }
-/* Channel and part of a picture file (WrImageWish). */
+/* Channel and part of a picture file (WrImageRequest). */
 #define WR_ARGS_OF_FILE                                                                            \
     { .name = "layer",                                                                             \
       .also = "channel",                                                                           \

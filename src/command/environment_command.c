@@ -66,7 +66,7 @@ static WrImage *find_picture(WrSession *session, WrCall *call, const char *name,
         return NULL;
     }
     char *path = wr_session_input_path(session, name);
-    WrImageWish wish = wr_call_wish(call);
+    WrImageRequest wish = wr_call_request(call);
     wish.keep_lost = true;
     WrImage *image = NULL;
     if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
@@ -104,7 +104,7 @@ static bool take_light(WrSession *session, WrCall *call, const char *name, WrEnv
     if (!light && kind != WR_ENVIRONMENT_MAP_OFF) return false;
     wr_environment_set(to, kind, light, file ? name : NULL,
                        file ? wr_call_arg(call, "sha256")->text : NULL);
-    const WrImageWish wish = wr_call_wish(call);
+    const WrImageRequest wish = wr_call_request(call);
     if (file) to->channel = wr_strdup(wish.channel), to->part = wr_strdup(wish.part);
     return true;
 }

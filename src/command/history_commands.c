@@ -149,7 +149,7 @@ void wr_session_lines(const WrSession *session, WrLineSink *sink, void *ctx)
     WrSceneView now = wr_views_start(session->state.views), there;
     bool known = true;
     for (int i = 0; i <= position; i++) {
-        bool brings = i < position && wr_history_brings_view(history, i);
+        bool brings = i < position && wr_history_restores_view(history, i);
         if ((brings || i == position) && wr_history_view(history, i, &there)) {
             if (!known || !wr_scene_view_equal(&now, &there)) put_view(&there, sink, ctx);
             now = there;

@@ -61,7 +61,7 @@ static WrField *heights_of_ora(WrSession *session, const char *path, const WrFie
 static WrField *heights_of_picture(WrSession *session, const char *path, const WrField *like,
                                    WrError *err)
 {
-    const WrImageWish wish = { 0 };
+    const WrImageRequest wish = { 0 };
     WrImageRows *rows = wr_image_rows_open(path, &wish, err);
     if (!rows) return NULL;
     const WrImage *head = wr_image_rows_head(rows);

@@ -86,7 +86,7 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     char *kept = wr_strdup(path); /* `path` may be the old name itself */
     wr_free(session->state.path);
     session->state.path = kept;
-    session->state.stamp = wr_file_stamp(kept);
+    session->state.stamp = wr_file_identity(kept);
     session->state.saved_revision = wr_session_revision(session);
     wr_session_journal_saved(session);
     return true;

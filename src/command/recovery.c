@@ -242,7 +242,7 @@ static bool replay(Replay *r, bool from_saved, WrError *err)
     wr_progress_set(whole);
     if (good) wr_session_rebase(r->session);
     r->end = r->beyond ? read->total : wr_journal_sound_end(read, r->from, r->known);
-    for (int i = r->from; good && wr_progress_tell(done_part(r, i)) && i < r->end;) {
+    for (int i = r->from; good && wr_progress_report(done_part(r, i)) && i < r->end;) {
         if (!replay_line(r, i)) break;
         i++;
     }
@@ -356,7 +356,7 @@ static void take_path(WrSession *session, const WrJournalRead *read)
 {
     const char *path = own_path(read);
     session->state.path = wr_strdup(path);
-    WrFileStamp stamp = wr_file_stamp(path ? path : ""); /* taken before the file is read */
+    WrFileIdentity stamp = wr_file_identity(path ? path : ""); /* taken before the file is read */
     WrError err;
     if (path && own_stands(read, &err)) session->state.stamp = stamp;
 }

@@ -424,8 +424,8 @@ bool wr_session_file_changed(const WrSession *session)
 {
     const WrSessionState *state = &session->state;
     if (!state->path) return false;
-    WrFileStamp now = wr_file_stamp(state->path);
-    return now.there && !wr_file_stamp_same(&now, &state->stamp);
+    WrFileIdentity now = wr_file_identity(state->path);
+    return now.there && !wr_file_identity_same(&now, &state->stamp);
 }
 
 uint64_t wr_session_saved_revision(const WrSession *session)

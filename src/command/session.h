@@ -128,7 +128,7 @@ bool wr_session_file_changed(const WrSession *session);
  * Borrowed until the next call that changes the session. */
 typedef struct WrSessionInput {
     const char *path;
-    WrFileStamp stamp;
+    WrFileIdentity stamp;
 } WrSessionInput;
 int wr_session_input_count(const WrSession *session);
 WrSessionInput wr_session_input(const WrSession *session, int index);

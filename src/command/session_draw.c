@@ -14,7 +14,7 @@ bool wr_session_draw(const WrPainting *painting, WrSampleAt *sample, const void 
     for (int i = 0; i < count; i++) {
         wr_stroke_push(stroke, sample(ctx, i));
         do {
-            if (!wr_progress_tell((double)i / count)) {
+            if (!wr_progress_report((double)i / count)) {
                 wr_stroke_abandon(stroke);
                 return wr_fail(err, "cancelled");
             }

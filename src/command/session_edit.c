@@ -18,7 +18,7 @@ void wr_session_note_input(WrSession *session, const char *path)
 {
     for (int i = 0; i < session->inputs.count; i++)
         if (strcmp(session->inputs.data[i].path, path) == 0) return;
-    wr_array_push(&session->inputs, ((WrSessionInput){ wr_strdup(path), wr_file_stamp(path) }));
+    wr_array_push(&session->inputs, ((WrSessionInput){ wr_strdup(path), wr_file_identity(path) }));
 }
 
 void wr_session_forget_inputs(WrSession *session)

@@ -227,7 +227,7 @@ static bool note_origin(WrSession *session, const char *path, WrError *err)
 
 static bool open_document(WrSession *session, const char *path, WrError *err)
 {
-    WrFileStamp stamp = wr_file_stamp(path); /* taken before the file is read */
+    WrFileIdentity stamp = wr_file_identity(path); /* taken before the file is read */
     if (!note_origin(session, path, err) || !wr_session_load(session, path, err)) return false;
     wr_session_rebase(session);
     session->state.path = wr_strdup(path);

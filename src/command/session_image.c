@@ -25,7 +25,7 @@ static bool picture_bytes(const char *name, size_t length, int image, char **byt
     return good;
 }
 
-WrImage *wr_input_image(const char *path, const WrImageWish *wish, WrError *err)
+WrImage *wr_input_image(const char *path, const WrImageRequest *wish, WrError *err)
 {
     size_t length, size;
     int index;
@@ -86,10 +86,10 @@ bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, cons
     return true;
 }
 
-WrImageWish wr_call_wish(WrCall *call)
+WrImageRequest wr_call_request(WrCall *call)
 {
-    return (WrImageWish){ .channel = wr_call_arg(call, "layer")->text,
-                          .part = wr_call_arg(call, "part")->text };
+    return (WrImageRequest){ .channel = wr_call_arg(call, "layer")->text,
+                             .part = wr_call_arg(call, "part")->text };
 }
 
 void wr_session_note_read(WrSession *session, const char *path, const WrImage *image)

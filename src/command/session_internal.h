@@ -43,10 +43,10 @@ typedef struct WrSessionState {
     WrHistory *history;   /* owned; its state numbers are revisions */
     WrViews *views;       /* owned; the present view is the document's */
     uint64_t saved_revision;
-    char *path;        /* path of the document file; owned; NULL: none */
-    WrFileStamp stamp; /* identity of that file when it was opened or saved here */
-    char *origin;      /* command line that creates the history's first state; owned; NULL: none */
-    char *newer_path;  /* file of a newer version that must not be overwritten; owned; NULL: none */
+    char *path;           /* path of the document file; owned; NULL: none */
+    WrFileIdentity stamp; /* identity of that file when it was opened or saved here */
+    char *origin;     /* command line that creates the history's first state; owned; NULL: none */
+    char *newer_path; /* file of a newer version that must not be overwritten; owned; NULL: none */
     /* stored dials of the document for its tolerance (wr_choice_write); owned; NULL: none */
     char *chosen;
     bool chosen_told; /* the note that they do not fit was sent */
@@ -198,7 +198,7 @@ bool wr_session_find_layer(const WrSession *session, const char *word, int *inde
    changes with any part. */
 bool wr_input_sha256(const char *path, char hex[65], WrError *err);
 /* Read a picture file, or a picture that a glTF file contains or references, "FILE.glb#2". The caller frees it. */
-WrImage *wr_input_image(const char *path, const WrImageWish *wish, WrError *err);
+WrImage *wr_input_image(const char *path, const WrImageRequest *wish, WrError *err);
 /* Hash a file that a command reads, compare with the line's checksum, and store it in the line. */
 bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err);
 /* Check the checksum of a file that was hashed already; name: the argument that holds it. */
@@ -207,7 +207,7 @@ bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, cons
 /* Read the picture that a line names; checks its sha256= argument, or sets it. The caller owns it. */
 WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *name, WrError *err);
 /* The channel= and part= arguments of a call. */
-WrImageWish wr_call_wish(WrCall *call);
+WrImageRequest wr_call_request(WrCall *call);
 /* Note which part of a picture file was read if it has several, and the number of values that were not finite. */
 void wr_session_note_read(WrSession *session, const char *path, const WrImage *image);
 /* Convert a picture to heights in a table like `like`, using its labels (labels false: ignore them). */

@@ -97,7 +97,7 @@ bool wr_session_turn(WrSession *session, int width, int height, const double *tu
     if (!wr_tolerance_turn(session->renderer, &request, turn_deg, count, &session->choice, err))
         return false;
     wr_session_note(session, "%s", session->choice.reason);
-    session->choice.told = true;
+    session->choice.shown = true;
     return true;
 }
 
@@ -208,7 +208,7 @@ static bool give_rows(void *ctx, int y, int rows, void *out, WrError *err)
                                                picture->session->options.pool);
     count_clipped(picture, rows, out);
     const double share = (double)(y + rows - picture->first) / picture->frame.height;
-    return wr_progress_tell(done_of(picture, picture->drawn + (1 - picture->drawn) * share)) ||
+    return wr_progress_report(done_of(picture, picture->drawn + (1 - picture->drawn) * share)) ||
            wr_fail(err, "cancelled");
 }
 
@@ -238,10 +238,10 @@ static bool draw_first(Picture *picture, WrError *err)
 static void tell_choice(WrSession *session, const char *path)
 {
     if (session->state.document->scene->tolerance.kind == WR_TOLERANCE_NONE ||
-        session->choice.count == 0 || session->choice.met || session->choice.told)
+        session->choice.count == 0 || session->choice.met || session->choice.shown)
         return;
     wr_session_note(session, "%s: %s", path, session->choice.reason);
-    session->choice.told = true;
+    session->choice.shown = true;
 }
 
 static bool write_picture(Picture *picture, const char *path, WrError *err)
@@ -288,7 +288,7 @@ static bool has_alpha(const WrSession *session, const char *path)
 
 bool wr_session_has_rendered(const WrSession *session, const char *path, int width, int height)
 {
-    static const WrImageWish as_it_is = { .keep_lost = true };
+    static const WrImageRequest as_it_is = { .keep_lost = true };
     const bool linear = is_linear(path);
     if (!wr_path_is_there(path)) return false; /* avoids starting a reader process */
     WrImageRows *rows = wr_image_rows_open(path, &as_it_is, NULL);

@@ -15,7 +15,7 @@ WrSession *wr_session_snapshot(const WrSession *session)
     still->options.smooth = session->options.smooth;
     still->options.pool = session->options.pool; /* memory estimates depend on the thread count */
     still->state = (WrSessionState){ .document = wr_document_share(state->document),
-                                     .history = wr_history_still(state->history),
+                                     .history = wr_history_snapshot(state->history),
                                      .views = wr_views_clone(state->views),
                                      .saved_revision = state->saved_revision,
                                      .path = wr_strdup(state->path),

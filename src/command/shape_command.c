@@ -228,7 +228,7 @@ static WrField *cover_copies(WrSession *session, const WrField *field, const WrS
         wr_field_free(one);
         wr_field_free(cover);
         cover = both;
-        if (cover && !wr_progress_tell((double)i / count)) {
+        if (cover && !wr_progress_report((double)i / count)) {
             wr_fail(err, "cancelled");
             wr_field_free(cover);
             cover = NULL;

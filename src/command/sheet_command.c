@@ -28,7 +28,7 @@ static bool check_length(const void *ctx, const char *name, const char *value, W
 
 static void print_sheet(const WrScene *scene, WrText *text)
 {
-    const WrSheetAsk *sheet = &scene->sheet;
+    const WrSheetRequest *sheet = &scene->sheet;
     if (!*sheet->as) return;
     wr_text_add(text, "sheet ");
     wr_text_add_word(text, sheet->as);
@@ -48,7 +48,7 @@ static bool run_sheet(WrSession *session, WrCall *call, WrError *err)
 {
     (void)err;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    WrSheetAsk *sheet = &scene->sheet;
+    WrSheetRequest *sheet = &scene->sheet;
     take(call, "SET", sheet->as, sizeof sheet->as);
     take(call, "folder", sheet->folder, sizeof sheet->folder);
     take(call, "name", sheet->name, sizeof sheet->name);

@@ -242,7 +242,7 @@ static bool run_image(WrSession *session, WrCall *call, WrError *err)
     if (!layer) return false;
     const WrField *old = layer->heights;
     char *path = wr_session_input_path(session, name);
-    const WrImageWish wish = wr_call_wish(call);
+    const WrImageRequest wish = wr_call_request(call);
     WrImageRows *rows = NULL;
     if (wr_session_check_sha256(call, path, err)) rows = wr_image_rows_open(path, &wish, err);
     const WrImage *image = rows ? wr_image_rows_head(rows) : NULL;

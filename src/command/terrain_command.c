@@ -72,7 +72,7 @@ static void note_needle(WrSession *session, const char *path, const WrImage *ima
 WrTriangles *wr_terrain_read(WrSession *session, const char *path, const WrShape *shape,
                              WrError *err)
 {
-    const WrImageWish wish = { .elevation = true };
+    const WrImageRequest wish = { .elevation = true };
     WrImage *image = wr_image_read_wish(path, &wish, err);
     if (!image) return NULL;
     wr_session_note_read(session, path, image);

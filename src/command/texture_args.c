@@ -62,7 +62,7 @@ void wr_take_repeat(const WrCall *call, WrTextureSample *laid)
 void wr_take_laid(WrCall *call, const char *name, WrTextureSample *laid)
 {
     const char *hex = wr_call_arg(call, "sha256")->text;
-    const WrImageWish wish = wr_call_wish(call);
+    const WrImageRequest wish = wr_call_request(call);
     wr_texture_sample_fini(laid);
     if (!name) return;
     laid->path = wr_strdup(name);
@@ -84,7 +84,7 @@ WrImage *wr_find_laid(WrSession *session, WrCall *call, const char *name, int wh
     }
     char *path = wr_session_input_path(session, name);
     WrImage *image = NULL;
-    const WrImageWish wish = wr_call_wish(call);
+    const WrImageRequest wish = wr_call_request(call);
     if (wr_session_check_sha256(call, path, err)) image = wr_input_image(path, &wish, err);
     if (image) wr_session_note_read(session, path, image);
     wr_free(path);

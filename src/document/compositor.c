@@ -308,7 +308,7 @@ static void repaint(Update *update, WrPool *pool)
             c->strays++;
         }
     }
-    if (update->jobs.count) wr_pool_run_told(pool, update->jobs.count, run_job, update);
+    if (update->jobs.count) wr_pool_run_with_progress(pool, update->jobs.count, run_job, update);
 }
 
 typedef struct Gathering {

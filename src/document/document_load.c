@@ -224,7 +224,7 @@ static WrField *read_field(Loading *in, int part, bool heights, WrError *err)
     for (int y = 0; strip && y < in->height; y += WR_TILE) {
         int rows = in->height - y < WR_TILE ? in->height - y : WR_TILE;
         double done = part + (double)y / in->height;
-        if (!wr_progress_tell(done / wr_image_file_parts(in->file))) {
+        if (!wr_progress_report(done / wr_image_file_parts(in->file))) {
             wr_fail(err, "%s: cancelled", in->path);
             goto fail;
         }

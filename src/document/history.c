@@ -81,7 +81,7 @@ void wr_history_free(WrHistory *history)
     wr_free(history);
 }
 
-WrHistory *wr_history_still(const WrHistory *history)
+WrHistory *wr_history_snapshot(const WrHistory *history)
 {
     WrHistory *still = wr_alloc(1, sizeof *still);
     *still = *history;
@@ -221,7 +221,7 @@ const WrField *wr_history_heights(const WrHistory *history, int state)
     return document->layers[layer].heights;
 }
 
-bool wr_history_brings_view(const WrHistory *history, int step)
+bool wr_history_restores_view(const WrHistory *history, int step)
 {
     WR_ASSERT(step >= 0 && step < history->steps.count);
     return history->steps.data[step]->brings_view;

@@ -29,7 +29,7 @@ WrHistory *wr_history_new(const WrDocument *start, uint64_t mark, size_t budget)
 void wr_history_free(WrHistory *history); /* NULL is fine */
 /* A read-only snapshot that any thread may read while the original changes: it shares the steps, so its cost
    depends only on their number. The caller owns it. */
-WrHistory *wr_history_still(const WrHistory *history);
+WrHistory *wr_history_snapshot(const WrHistory *history);
 
 /* Adds a step: `line` led from the current state to `document`, which becomes the current one; the steps after
    the old one are discarded. folder: base of relative file names in the line, or NULL. Strings and the document
@@ -55,7 +55,7 @@ bool wr_history_view(const WrHistory *history, int state, WrSceneView *view);
    until the history changes. */
 const WrField *wr_history_heights(const WrHistory *history, int state);
 /* True if step k has a view of its own. */
-bool wr_history_brings_view(const WrHistory *history, int step);
+bool wr_history_restores_view(const WrHistory *history, int step);
 
 /* Makes `state` (oldest..count) the current one. Returns its document, a snapshot owned by the caller. */
 WrDocument *wr_history_go(WrHistory *history, int state);

@@ -140,7 +140,7 @@ static bool make_rows(const Resampling *r, int j, int count, float *out, WrError
 {
     bool same = r->u.from == r->u.to && r->v.from == r->v.to;
     for (int k = 0; k < count; k++, out += r->u.to) {
-        if (!wr_progress_tell((double)(j + k) / r->v.to)) return wr_fail(err, "cancelled");
+        if (!wr_progress_report((double)(j + k) / r->v.to)) return wr_fail(err, "cancelled");
         if (!(same ? copy_row : resample_row)(r, j + k, out, err)) return false;
     }
     return true;

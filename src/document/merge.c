@@ -90,7 +90,7 @@ static WrField *sum_of(const WrLayer *a, const WrLayer *b)
     WrField *out = wr_field_new(wr_field_width(like), wr_field_height(like), wr_field_wrap_u(like),
                                 wr_field_wrap_v(like),
                                 bounded(added(a, &ha, &ma, 0) + added(b, &hb, &mb, 0)), NULL);
-    for (int ty = 0; ty < wr_field_tiles_v(like) && wr_progress_tell(row_part(like, ty)); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(like) && wr_progress_report(row_part(like, ty)); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(like); tx++) add_tile(a, b, tx, ty, out);
     return out;
 }

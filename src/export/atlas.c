@@ -43,7 +43,7 @@ static WrField *from_document(const char *path, WrError *err)
 
 static WrField *from_picture(const char *path, WrError *err)
 {
-    const WrImageWish all = { .channel = NULL };
+    const WrImageRequest all = { .channel = NULL };
     WrImageRows *rows = wr_image_rows_open(path, &all, err);
     if (!rows) return NULL;
     const WrImageLabel *label = &wr_image_rows_head(rows)->label;

@@ -63,7 +63,7 @@ static void judge(const WrImageLabel *label, int axis, WrCheckEdge *edge)
     if (!label->edged || !edge->judged) return;
     if (label->edge[axis] >= 1)
         edge->seam = edge->seam && worst_ratio(&edge->test) > WR_CHECK_SURELY;
-    else if (!edge->seam) edge->seam = edge->told = true;
+    else if (!edge->seam) edge->seam = edge->by_label = true;
 }
 
 /* True if the last column (row) equals the first. */

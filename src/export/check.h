@@ -56,7 +56,7 @@ extern const char *const wr_check_problems[];
 typedef struct WrCheckEdge {
     bool judged;     /* has enough texels */
     bool seam;       /* the height or the slope is discontinuous there */
-    bool told;       /* a seam stated by the file's own label; not visible in its numbers */
+    bool by_label;   /* a seam stated by the file's own label; not visible in its numbers */
     bool repeats;    /* the seam consists of a repeated line: the last one equals the first */
     WrSeamEdge test; /* for the worst colour, in the file's numbers */
 } WrCheckEdge;

@@ -163,7 +163,7 @@ static bool compare_frame(WrFilm *film, int64_t part, int64_t of, int frame, WrF
     char number[24];
     WrFilmSums sums, want = film->sums.data[frame];
     snprintf(number, sizeof number, "%lld", (long long)part);
-    const WrImageWish wish = { .part = of > 1 ? number : NULL };
+    const WrImageRequest wish = { .part = of > 1 ? number : NULL };
     WrImage *image = wr_image_read_wish(film->target.temporary, &wish, err);
     if (!image) return false;
     bool good = (image->width == film->width && image->height == film->height) ||

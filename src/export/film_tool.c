@@ -82,7 +82,7 @@ static void complaint(const WrTool *tool, char words[WR_FILE_WHY])
     line += strspn(line, " ");
     for (size_t length = strlen(line); length > 0 && line[length - 1] == ' ';) line[--length] = 0;
     char why[WR_FILE_WHY];
-    snprintf(words, WR_FILE_WHY, "%s", wr_file_why_told(line, why));
+    snprintf(words, WR_FILE_WHY, "%s", wr_file_why_of_library(line, why));
 }
 
 static bool fail_end(const WrTool *tool, WrError *err)

@@ -132,7 +132,7 @@ static void fill_depth(Sheet *sheet)
 {
     size_t cells = (size_t)sheet->wide * (size_t)sheet->high;
     for (size_t i = 0; i < cells; i++) sheet->depth[i] = INFINITY;
-    for (int row = 0; row + 1 < sheet->rows && wr_progress_tell((double)row / sheet->rows); row++)
+    for (int row = 0; row + 1 < sheet->rows && wr_progress_report((double)row / sheet->rows); row++)
         for (int column = 0; column + 1 < sheet->columns; column++) {
             WrLinesPlace a = vertex(sheet, column, row), b = vertex(sheet, column + 1, row);
             WrLinesPlace c = vertex(sheet, column, row + 1), d = vertex(sheet, column + 1, row + 1);

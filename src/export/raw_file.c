@@ -97,7 +97,7 @@ static bool each_strip(const Strips *s, Step *step, double from, double to, WrEr
 {
     const int height = s->job->height;
     for (int y = 0; y < height; y += STRIP) {
-        if (!wr_progress_tell(from + (to - from) * y / height)) return wr_fail(err, "cancelled");
+        if (!wr_progress_report(from + (to - from) * y / height)) return wr_fail(err, "cancelled");
         if (!step(s, y, height - y < STRIP ? height - y : STRIP, err)) return false;
     }
     return true;

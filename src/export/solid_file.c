@@ -22,7 +22,7 @@ typedef struct Out {
 
 static bool flush(Out *out, WrError *err)
 {
-    if (!wr_progress_tell((double)out->done / (double)out->all)) return wr_fail(err, "cancelled");
+    if (!wr_progress_report((double)out->done / (double)out->all)) return wr_fail(err, "cancelled");
     const bool good = wr_file_put(&out->target, out->bytes.data, out->bytes.length, err);
     wr_text_clear(&out->bytes);
     return good;

@@ -261,7 +261,7 @@ bool wr_solid_refine(WrSolid *solid, WrError *err)
         wr_pool_run(solid->pool, (work.count + PIECE - 1) / PIECE, measure_piece, &work);
         halved = wr_progress_stopped() ? 0 : halve_bad(solid, fresh, work.count);
         wr_free(fresh);
-        if (!wr_progress_tell(1.0 - 8.0 / (8.0 + round))) return wr_fail(err, "cancelled");
+        if (!wr_progress_report(1.0 - 8.0 / (8.0 + round))) return wr_fail(err, "cancelled");
     }
     if (halved == 0) return settle(solid, err);
     return wr_fail(err,

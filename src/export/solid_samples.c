@@ -119,7 +119,7 @@ bool wr_solid_measure(WrSolid *solid, WrError *err)
         work.face = face;
         l->at = wr_try_alloc((size_t)l->count_u * (size_t)l->count_v, sizeof *l->at,
                              "a solid's samples", err);
-        good = l->at && (wr_pool_run_told(solid->pool, l->count_v, sample_row, &work) ||
+        good = l->at && (wr_pool_run_with_progress(solid->pool, l->count_v, sample_row, &work) ||
                          wr_fail(err, "cancelled"));
         wr_progress_set(whole);
     }

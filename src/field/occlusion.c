@@ -130,7 +130,7 @@ static bool run_table(WrSky *sky, WrPool *pool, WrError *err)
 {
     const int pairs = sky->occlusion->directions / 2;
     for (int pair = 0; pair < pairs; pair++)
-        if (!wr_sky_run_pair(sky, pair, pool) || !wr_progress_tell((pair + 1.0) / pairs))
+        if (!wr_sky_run_pair(sky, pair, pool) || !wr_progress_report((pair + 1.0) / pairs))
             return wr_fail(err, "occlusion: cancelled");
     return true;
 }

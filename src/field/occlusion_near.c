@@ -106,6 +106,6 @@ bool wr_sky_near(const WrOcclusion *occlusion, const WrMapPart *part, int k, con
                  const float *q, WrPool *pool, float *out, WrError *err)
 {
     Near near = { occlusion, part, k, p, q, out, wr_sky_kernels() };
-    if (wr_pool_run_told(pool, (part->h + ROWS - 1) / ROWS, piece, &near)) return true;
+    if (wr_pool_run_with_progress(pool, (part->h + ROWS - 1) / ROWS, piece, &near)) return true;
     return wr_fail(err, "occlusion: cancelled");
 }

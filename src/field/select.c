@@ -234,7 +234,7 @@ WrField *wr_select_combine(const WrField *a, const WrField *b, WrSelectMode mode
                           : wr_field_new(wr_field_width(a), wr_field_height(a), wr_field_wrap_u(a),
                                          wr_field_wrap_v(a),
                                          join(mode, wr_field_level(a), wr_field_level(b)), err);
-    for (int ty = 0; ty < wr_field_tiles_v(a) && wr_progress_tell(row_part(a, ty)); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(a) && wr_progress_report(row_part(a, ty)); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(a); tx++)
             if (wr_field_tile(b, tx, ty) || (!sparse && wr_field_tile(a, tx, ty)))
                 join_tile(out, a, b, mode, tx, ty);
@@ -245,7 +245,7 @@ WrField *wr_select_invert(const WrField *a)
 {
     WrField *out = wr_field_new(wr_field_width(a), wr_field_height(a), wr_field_wrap_u(a),
                                 wr_field_wrap_v(a), 1.0f - wr_field_level(a), NULL);
-    for (int ty = 0; ty < wr_field_tiles_v(a) && wr_progress_tell(row_part(a, ty)); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(a) && wr_progress_report(row_part(a, ty)); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(a); tx++) {
             const float *from = wr_field_tile(a, tx, ty);
             if (!from) continue;

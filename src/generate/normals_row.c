@@ -168,8 +168,8 @@ static WrNormalCodes codes_of(const WrParams *p, const WrImage *image)
 static bool decode_bump_slopes(const WrParams *p, const WrImage *first, WrNormals *out,
                                WrError *err)
 {
-    const WrImageWish wish = { .channel = "b1_dhds,b2_dhdt",
-                               .part = wr_param_value(p, "part")->text };
+    const WrImageRequest wish = { .channel = "b1_dhds,b2_dhdt",
+                                  .part = wr_param_value(p, "part")->text };
     const WrParamValue *cell = wr_param_value(p, "cell");
     const WrImageLabel *label = &first->label;
     const double k = label->uvslopes, height = wr_param_number(p, "height"),
@@ -208,7 +208,7 @@ bool wr_picture_normals(const WrParamValue *values, const WrGenerateJob *job, Wr
 {
     const WrParams p = { wr_params_normals, values };
     WrNormals normals = { .p = NULL };
-    WrImage *image = wr_picture_read(&p, "layer", (WrImageWish){ 0 }, job, err);
+    WrImage *image = wr_picture_read(&p, "layer", (WrImageRequest){ 0 }, job, err);
     const bool good =
         image && decode(&p, image, job, &normals, err) && make(&p, &normals, job, out, err);
     wr_image_free(image);

@@ -11,7 +11,7 @@ typedef struct WrError WrError;
 typedef struct WrGenerateJob WrGenerateJob;
 typedef struct WrImage WrImage;
 typedef struct WrImageLabel WrImageLabel;
-typedef struct WrImageWish WrImageWish;
+typedef struct WrImageRequest WrImageRequest;
 typedef struct WrParamValue WrParamValue;
 typedef struct WrParams WrParams;
 typedef struct WrRelief WrRelief;
@@ -74,7 +74,7 @@ const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *imag
                                      const WrGenerateJob *job);
 /* Reads the picture of a row with `file`, `part` and channels of that name; adds a remark on the
    selection. wish: further options; its channel and part are replaced. */
-WrImage *wr_picture_read(const WrParams *params, const char *channels, WrImageWish wish,
+WrImage *wr_picture_read(const WrParams *params, const char *channels, WrImageRequest wish,
                          const WrGenerateJob *job, WrError *err);
 /* Adds remarks on differences from the file's pixels. */
 void wr_picture_note(const char *path, const WrImage *image, const WrGenerateJob *job);

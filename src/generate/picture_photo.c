@@ -54,7 +54,7 @@ double wr_picture_light(double code)
     return code <= 0.04045 ? code / 12.92 : wr_pow((code + 0.055) / 1.055, 2.4);
 }
 
-WrImage *wr_picture_read(const WrParams *params, const char *channels_, WrImageWish wish,
+WrImage *wr_picture_read(const WrParams *params, const char *channels_, WrImageRequest wish,
                          const WrGenerateJob *job, WrError *err)
 {
     const char *path = wr_param_value(params, "file")->text;
@@ -223,7 +223,7 @@ bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrRe
     const char *path = wr_param_value(&p, "file")->text;
     double sigma = wr_param_number(&p, "highpass");
     WrSheet sheet = { .z = NULL };
-    WrImage *image = wr_picture_read(&p, "layer", (WrImageWish){ 0 }, job, err);
+    WrImage *image = wr_picture_read(&p, "layer", (WrImageRequest){ 0 }, job, err);
     bool good = image && check(&p, image, path, err) &&
                 wr_sheet_new(&sheet, image->width, image->height, wrap, err);
     if (good) {

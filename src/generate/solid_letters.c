@@ -70,8 +70,8 @@ static bool outline_of(const WrParams *params, const WrGenerateJob *job, WrFontO
                               .letter_spacing = wr_param_number(params, "letters"),
                               .line_spacing = wr_param_number(params, "lines"),
                               .align = WR_FONT_CENTRE };
-    const WrFontAsk ask = { .text = wr_param_value(params, "text")->text,
-                            .face = wr_param_whole(params, "face") };
+    const WrFontRequest ask = { .text = wr_param_value(params, "text")->text,
+                                .face = wr_param_whole(params, "face") };
     const char *file = wr_param_value(params, "file")->text;
     WrFontText text = { 0 };
     char *found = NULL;

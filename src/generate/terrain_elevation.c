@@ -107,8 +107,8 @@ static bool apply_label(const WrParams *p, WrImage *image, const WrGenerateJob *
 static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[2],
                          const WrGenerateJob *job, Elevation *out, WrError *err)
 {
-    const WrImageWish wish = { .keep_lost = true,
-                               .elevation = wr_param_whole(p, "values") != CODE };
+    const WrImageRequest wish = { .keep_lost = true,
+                                  .elevation = wr_param_whole(p, "values") != CODE };
     WrImage *image = wr_picture_read(p, "layer", wish, job, err);
     if (!image) return false;
     bool good = wr_sheet_new(&out->sheet, image->width, image->height, wrap, err);

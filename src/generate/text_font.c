@@ -17,7 +17,7 @@ typedef struct Fonts {
     const WrGenerateJob *job;
     const char *file; /* of the first font */
     char *found;      /* owned; NULL: given as a file */
-    WrFontAsk ask;
+    WrFontRequest ask;
     char *lent[WR_FONT_OTHERS]; /* owned; chosen automatically */
     int lent_count;
 } Fonts;
@@ -130,7 +130,7 @@ static void take_named(Fonts *fonts)
     }
 }
 
-bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
+bool wr_text_shape(const WrParams *params, const WrFontRequest *ask, double size,
                    const WrGenerateJob *job, WrFontText *out, WrError *err)
 {
     Fonts fonts = { .params = params, .job = job, .ask = *ask };

@@ -22,7 +22,7 @@ typedef struct Path {
 } Path;
 
 typedef struct Lay {
-    const WrTextWish *wish;
+    const WrTextRequest *wish;
     const WrFontText *text;
     const WrGenerateJob *job;
     WrTextShape *shape;
@@ -178,7 +178,7 @@ static double nearest(const Lay *lay, double x)
 
 static bool lay_lines(Lay *lay, WrError *err)
 {
-    const WrTextWish *wish = lay->wish;
+    const WrTextRequest *wish = lay->wish;
     Stand stand = { nearest(lay, wish->at[0] * lay->width),
                     nearest(lay, (1.0 - wish->at[1]) * lay->height), 1.0, 0.0 };
     double up = rise(lay);
@@ -247,7 +247,7 @@ static bool lay_round(Lay *lay, int32_t index, const Stand *stand, double length
 
 static bool lay_around(Lay *lay, WrError *err)
 {
-    const WrTextWish *wish = lay->wish;
+    const WrTextRequest *wish = lay->wish;
     double i = wish->lattice[0], j = wish->lattice[1];
     if (i != floor(i) || j != floor(j) || (i == 0.0 && j == 0.0))
         return wr_fail(err, "lattice=%g,%g: must be whole numbers, not both 0", i, j);
@@ -273,7 +273,7 @@ static bool is_on_texels(const Lay *lay)
            lay->wish->point_count == 0 && !lay->wish->around;
 }
 
-bool wr_text_lay(const WrTextWish *wish, const WrFontText *text, const WrGenerateJob *job,
+bool wr_text_lay(const WrTextRequest *wish, const WrFontText *text, const WrGenerateJob *job,
                  WrTextShape *shape, WrError *err)
 {
     size_t glyphs = (size_t)text->glyph_count;

@@ -22,8 +22,8 @@ typedef enum WrTextAnchor { WR_TEXT_ANCHORS(WR_WORD_ID) } WrTextAnchor;
 #define WR_TEXT_MISSING(X) X(WR_TEXT_BORROW, "borrow") X(WR_TEXT_SIGN, "sign")
 enum { WR_TEXT_MISSING(WR_WORD_ID) };
 
-typedef struct WrTextWish {
-    WrFontAsk ask;
+typedef struct WrTextRequest {
+    WrFontRequest ask;
     WrFontSetting setting;
     double at[2]; /* u, v */
     WrTextAnchor anchor;
@@ -34,13 +34,13 @@ typedef struct WrTextWish {
     double lattice[2]; /* integers */
     int repeats;       /* 0: the best number */
     bool clip;
-} WrTextWish;
+} WrTextRequest;
 
 /* Shapes a text with the fonts of the parameters `font`, `file`, `missing`, `fallback`, `fallback2`,
  * `fallback3`. If the first one lacks letters, no fallback is given and missing=borrow, installed fonts
  * are used, and the job's `chose` callback receives them. Remarks list the fallback fonts and the
  * characters missing in all fonts. ask: everything except its fonts. */
-bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
+bool wr_text_shape(const WrParams *params, const WrFontRequest *ask, double size,
                    const WrGenerateJob *job, WrFontText *out, WrError *err);
 /* Rows of those parameters, and of the others that select fonts. */
 #define WR_P_FONT(value)                                                                           \
@@ -69,5 +69,5 @@ bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
  * fonts with an integer number of texels each, unrotated, are exactly at texels.
  * Errors   all points are equal; around= on a table that is not periodic, or without direction; those
  *          of wr_text_shape_add; cancelled */
-bool wr_text_lay(const WrTextWish *wish, const WrFontText *text, const WrGenerateJob *job,
+bool wr_text_lay(const WrTextRequest *wish, const WrFontText *text, const WrGenerateJob *job,
                  WrTextShape *shape, WrError *err);

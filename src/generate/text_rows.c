@@ -100,13 +100,13 @@ static const WrParam params[] = {
     WR_P_END
 };
 
-static WrTextWish wish_of(const WrParams *p)
+static WrTextRequest wish_of(const WrParams *p)
 {
     const WrParamValue *at = wr_param_value(p, "at"), *lattice = wr_param_value(p, "lattice");
     const WrParamValue *path = wr_param_value(p, "points");
     const char *language = wr_param_value(p, "language")->text;
     const char *axes = wr_param_value(p, "axes")->text;
-    WrTextWish wish = {
+    WrTextRequest wish = {
         .setting = { .size = wr_param_number(p, "size"),
                      .letter_spacing = wr_param_number(p, "letters"),
                      .line_spacing = wr_param_number(p, "lines"),
@@ -120,11 +120,11 @@ static WrTextWish wish_of(const WrParams *p)
         .repeats = wr_param_whole(p, "repeats"),
         .clip = wr_param_whole(p, "edge") == CLIPPED,
     };
-    wish.ask = (WrFontAsk){ .text = wr_param_value(p, "text")->text,
-                            .face = wr_param_whole(p, "face"),
-                            .direction = (WrFontDirection)wr_param_whole(p, "direction"),
-                            .language = language && *language ? language : NULL,
-                            .axes = axes && *axes ? axes : NULL };
+    wish.ask = (WrFontRequest){ .text = wr_param_value(p, "text")->text,
+                                .face = wr_param_whole(p, "face"),
+                                .direction = (WrFontDirection)wr_param_whole(p, "direction"),
+                                .language = language && *language ? language : NULL,
+                                .axes = axes && *axes ? axes : NULL };
     wish.lattice[0] = wr_param_whole(p, "around") == ALONG_U ? 1.0 : 0.0;
     wish.lattice[1] = wr_param_whole(p, "around") == ALONG_V ? 1.0 : 0.0;
     for (int k = 0; k < 2 && wr_param_whole(p, "around") == LATTICE; k++)
@@ -132,8 +132,9 @@ static WrTextWish wish_of(const WrParams *p)
     return wish;
 }
 
-static bool make_shaped(const WrTextWish *wish, const WrFontText *text, const WrTextFinish *finish,
-                        const WrGenerateJob *job, WrRelief *out, WrError *err)
+static bool make_shaped(const WrTextRequest *wish, const WrFontText *text,
+                        const WrTextFinish *finish, const WrGenerateJob *job, WrRelief *out,
+                        WrError *err)
 {
     WrTextShape shape = { 0 };
     if (!wr_text_shape_init(&shape, job->like, wish->clip, err)) return false;
@@ -147,7 +148,7 @@ static bool make_text(const WrParamValue *values, const WrGenerateJob *job, WrRe
                       WrError *err)
 {
     WrParams p = { params, values };
-    WrTextWish wish = wish_of(&p);
+    WrTextRequest wish = wish_of(&p);
     WrTextFinish finish = { (WrTextProfile)wr_param_whole(&p, "profile"),
                             wr_param_number(&p, "bevel"), wr_param_number(&p, "height") };
     WrFontText text = { 0 };

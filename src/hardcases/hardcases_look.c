@@ -11,8 +11,8 @@ bool wr_hard_look_init(WrHardGauge *gauge, WrHardLook *look, const WrField *fiel
         wr_schemes[scheme].taps == WR_TAPS_FITTED ? WR_COPY_FITTED : WR_COPY_HEIGHTS;
     *look = (WrHardLook){ .scheme = scheme };
     wr_table_init(&look->table);
-    if (!wr_table_bring(&look->table, kind, field, gauge->pool, err) ||
-        !wr_table_bring(&look->table, WR_COPY_GRADIENT, field, gauge->pool, err)) {
+    if (!wr_table_update(&look->table, kind, field, gauge->pool, err) ||
+        !wr_table_update(&look->table, WR_COPY_GRADIENT, field, gauge->pool, err)) {
         wr_table_fini(&look->table);
         return false;
     }

@@ -66,7 +66,7 @@ static bool hc55(WrHardGauge *g, WrError *err)
             wr_sincos_turns((i % w + 0.5) / w, &s, &c);
             wr_field_set(field, i % w, i / w, (float)(1.0 + c));
         }
-        good = wr_pyramid_bring(&pyramid, WR_PYRAMID_MOMENTS, field, g->pool, err);
+        good = wr_pyramid_update(&pyramid, WR_PYRAMID_MOMENTS, field, g->pool, err);
         if (good) check_levels(g, &pyramid, field);
         wr_pyramid_drop(&pyramid);
         wr_field_free(field);
@@ -113,7 +113,7 @@ static bool hc56(WrHardGauge *g, WrError *err)
     WrField *field = wr_hard_rough(g, 64, 48, WR_WRAP_PERIODIC);
     WrPyramid pyramid = { 0 };
     WrHardLook look;
-    bool good = wr_pyramid_bring(&pyramid, WR_PYRAMID_MOMENTS, field, g->pool, err);
+    bool good = wr_pyramid_update(&pyramid, WR_PYRAMID_MOMENTS, field, g->pool, err);
     if (good) good = wr_hard_look_init(g, &look, field, WR_SCHEME_CENTRAL, 1, 1, err);
     if (good) check_footprints(g, &look.look);
     for (int k = 0; k < SIDES * SIDES * 2 && good; k++)

@@ -103,7 +103,7 @@ static bool hc111(WrHardGauge *g, WrError *err)
 {
     WrEnvLookup m = { 0 };
     WrEnvironmentMap *from = around(37, 18, rough, err);
-    if (!from || !wr_env_lookup_bring(&m, from, NULL, 0, g->pool, err)) {
+    if (!from || !wr_env_lookup_update(&m, from, NULL, 0, g->pool, err)) {
         wr_environment_map_free(from);
         return false;
     }
@@ -124,7 +124,7 @@ static bool hc112(WrHardGauge *g, WrError *err)
     for (int k = 0; k < 5; k++) {
         WrEnvLookup m = { 0 };
         WrEnvironmentMap *from = around(sizes[k][0], sizes[k][1], rough, err);
-        if (!from || !wr_env_lookup_bring(&m, from, NULL, 0, g->pool, err)) {
+        if (!from || !wr_env_lookup_update(&m, from, NULL, 0, g->pool, err)) {
             wr_environment_map_free(from);
             return false;
         }
@@ -177,7 +177,7 @@ static bool hc114(WrHardGauge *g, WrError *err)
     const WrEnvironmentBrdf wide = { .lobe = WR_LOBE_FACETS, .alpha = 0.3, .gated = true };
     WrEnvironmentMap *from = wr_environment_map_new(image, &told, err);
     wr_image_free(image);
-    const bool good = from && wr_env_lookup_bring(&m, from, &wide, 16, g->pool, err);
+    const bool good = from && wr_env_lookup_update(&m, from, &wide, 16, g->pool, err);
     for (int i = 0; i < 40 && good; i++) {
         const WrVec3 d = random_unit(g);
         double at[3];
@@ -206,7 +206,7 @@ static bool hc115(WrHardGauge *g, WrError *err)
                                          .power = 7.3,
                                          .gated = true };
         double order[1];
-        good = wr_env_lookup_bring(&m, from, &wide, 16, g->pool, err);
+        good = wr_env_lookup_update(&m, from, &wide, 16, g->pool, err);
         wr_blur_orders(&wide, 1, order);
         wr_hard_near(g, WR_HARD_DOUBLE, order[0] * 0.73, 0.73);
         for (int i = 0; i < 20 && good; i++)
@@ -262,7 +262,7 @@ static bool hc101(WrHardGauge *g, WrError *err)
     WrEnvironmentMap *from = around(64, 32, linear, err);
     WrEnvLookup m = { 0 };
     const WrEnvironmentBrdf gloss = facets_of(1);
-    bool good = from && wr_env_lookup_bring(&m, from, &gloss, 16, g->pool, err);
+    bool good = from && wr_env_lookup_update(&m, from, &gloss, 16, g->pool, err);
     for (int i = 0; i < 20 && good; i++)
         for (int set = 0; set < g->all; set++) {
             const WrVec3 d = random_unit(g);

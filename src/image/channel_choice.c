@@ -129,7 +129,7 @@ bool wr_channels_choose(const WrImagePart *part, const char *channel, WrChannelC
     return false;
 }
 
-void wr_channels_tell(const WrImagePart *part, const WrChannelChoice *choice, WrText *text)
+void wr_channels_report(const WrImagePart *part, const WrChannelChoice *choice, WrText *text)
 {
     if (choice->count == part->channels) return;
     for (int k = 0; k < choice->count; k++)

@@ -18,4 +18,4 @@ typedef struct WrChannelChoice {
 bool wr_channels_choose(const WrImagePart *part, const char *channel, WrChannelChoice *choice,
                         WrError *err);
 /* Appends "diffuse.R, diffuse.G, diffuse.B of Z, diffuse.R, ..."; nothing if all channels are used. */
-void wr_channels_tell(const WrImagePart *part, const WrChannelChoice *choice, WrText *text);
+void wr_channels_report(const WrImagePart *part, const WrChannelChoice *choice, WrText *text);

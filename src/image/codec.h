@@ -31,7 +31,7 @@ typedef struct WrCodec {
 
     /* fd: open for reading; borrowed until close. format: OpenImageIO's name or an extension. most:
        maximum number of parts; more is an error. WR_CODEC_LEVELS: the mip levels of the first part are
-       the parts. numbers: integers that are measurements (WrImageWish.elevation) are read as numbers,
+       the parts. numbers: integers that are measurements (WrImageRequest.elevation) are read as numbers,
        not as codes. */
     WrCodecReader *(*open)(int fd, const char *format, int most, bool numbers, char *reason);
     void (*close)(WrCodecReader *reader);

@@ -82,7 +82,7 @@ typedef struct Files {
     uint64_t lengths[WR_FONT_FILES], total;
 } Files;
 
-static bool shape_inside(const Files *files, const WrFontAsk *ask, WrText *block, WrError *err)
+static bool shape_inside(const Files *files, const WrFontRequest *ask, WrText *block, WrError *err)
 {
     WrFontFile parts[WR_FONT_FILES];
     void *map = wr_map(files->fd, (size_t)files->total, WR_MAP_READ);
@@ -98,7 +98,7 @@ static bool shape_inside(const Files *files, const WrFontAsk *ask, WrText *block
     return good;
 }
 
-static bool shape_outside(const Files *files, const WrFontAsk *ask, WrText *block, WrError *err)
+static bool shape_outside(const Files *files, const WrFontRequest *ask, WrText *block, WrError *err)
 {
     const char *language = ask->language ? ask->language : "", *axes = ask->axes ? ask->axes : "";
     WrFontOrder order = { .face = ask->face,
@@ -133,7 +133,7 @@ static bool take_file(Files *files, const char *name, int fd, WrError *err)
     return true;
 }
 
-static bool check_ask(const char *name, const WrFontAsk *ask, WrError *err)
+static bool check_ask(const char *name, const WrFontRequest *ask, WrError *err)
 {
     size_t length = strlen(ask->text);
     if (length > WR_FONT_TEXT_MAX)
@@ -159,7 +159,7 @@ static bool append_file(Files *files, const char *name, int fd, WrError *err)
 }
 
 /* Concatenates all files into one memory file. */
-static bool gather(Files *files, int fd, const WrFontAsk *ask, WrError *err)
+static bool gather(Files *files, int fd, const WrFontRequest *ask, WrError *err)
 {
     files->fd = wr_fd_memory("wrinkle fonts");
     if (files->fd < 0) return wr_fail(err, "%s: no memory to read it from", files->name);
@@ -173,7 +173,7 @@ static bool gather(Files *files, int fd, const WrFontAsk *ask, WrError *err)
     return good;
 }
 
-static bool shape(const char *name, int fd, const WrFontAsk *ask, WrFontText *out, WrError *err)
+static bool shape(const char *name, int fd, const WrFontRequest *ask, WrFontText *out, WrError *err)
 {
     WrText block = { 0 };
     Files files = { .name = name, .fd = fd };
@@ -190,7 +190,7 @@ static bool shape(const char *name, int fd, const WrFontAsk *ask, WrFontText *ou
                    name);
 }
 
-bool wr_font_shape(const char *path, const WrFontAsk *ask, WrFontText *out, WrError *err)
+bool wr_font_shape(const char *path, const WrFontRequest *ask, WrFontText *out, WrError *err)
 {
     int fd = wr_file_open(path, WR_FONT_FILE_MAX, NULL, err);
     if (fd < 0) return false;
@@ -199,8 +199,8 @@ bool wr_font_shape(const char *path, const WrFontAsk *ask, WrFontText *out, WrEr
     return good;
 }
 
-bool wr_font_shape_bytes(const char *name, const void *bytes, size_t length, const WrFontAsk *ask,
-                         WrFontText *out, WrError *err)
+bool wr_font_shape_bytes(const char *name, const void *bytes, size_t length,
+                         const WrFontRequest *ask, WrFontText *out, WrError *err)
 {
     int fd = wr_fd_in_memory(name, bytes, length, err);
     if (fd < 0) return false;

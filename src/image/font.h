@@ -68,7 +68,7 @@ typedef enum WrFontDirection {
     WR_FONT_DIRECTIONS(WR_WORD_ID) WR_FONT_DIRECTION_COUNT
 } WrFontDirection;
 
-typedef struct WrFontAsk {
+typedef struct WrFontRequest {
     const char *text; /* UTF-8, \n between lines; up to WR_FONT_TEXT_MAX bytes. Invalid bytes count
                          as U+FFFD */
     int face;         /* index in a font collection, from 0 */
@@ -79,7 +79,7 @@ typedef struct WrFontAsk {
     /* Fallback fonts for missing glyphs, in order; face 0 of each. A mark uses the font of its base
        character. */
     const char *others[WR_FONT_OTHERS]; /* files; the first NULL ends the list */
-} WrFontAsk;
+} WrFontRequest;
 
 /* In halves of the glyph's units, since curves may join half way between two points; y up, the origin
    on the baseline. */
@@ -97,7 +97,7 @@ typedef enum WrFontVerb {
 /* One of a text's distinct glyphs. For bitmaps a unit is a dot. */
 typedef struct WrFontGlyph {
     uint32_t id;   /* glyph index in the font */
-    int32_t font;  /* 0: the first font; else 1 + index in WrFontAsk.others */
+    int32_t font;  /* 0: the first font; else 1 + index in WrFontRequest.others */
     int32_t units; /* units per em of that font; bitmaps: dots of height; 1..16384 */
     int32_t first_verb, verb_count, first_point, point_count;
     int32_t left, top, width, height; /* bitmaps: left edge, upper edge above the baseline, dots */
@@ -142,10 +142,10 @@ typedef struct WrFontText {
  * Errors   name the file: unreadable, not a font, damaged or hostile, too large, none of the axes
  *          exists; the text is too long
  * Threads  any number at once */
-bool wr_font_shape(const char *path, const WrFontAsk *ask, WrFontText *out, WrError *err);
+bool wr_font_shape(const char *path, const WrFontRequest *ask, WrFontText *out, WrError *err);
 /* wr_font_shape for bytes in memory; `name` is for messages. */
-bool wr_font_shape_bytes(const char *name, const void *bytes, size_t length, const WrFontAsk *ask,
-                         WrFontText *out, WrError *err);
+bool wr_font_shape_bytes(const char *name, const void *bytes, size_t length,
+                         const WrFontRequest *ask, WrFontText *out, WrError *err);
 void wr_font_text_fini(WrFontText *text);
 
 /* Texels per unit of the glyph. */

@@ -54,7 +54,7 @@ bool wr_font_unpack(char *block, size_t length, size_t text_length, WrFontText *
 /* Reads the fonts, 1..WR_FONT_FILES, the first of which is the main one, and shapes the text, in this
  * process.
  * Errors   one sentence that does not name the file */
-bool wr_font_make(const WrFontFile *files, int count, const WrFontAsk *ask, WrText *block,
+bool wr_font_make(const WrFontFile *files, int count, const WrFontRequest *ask, WrText *block,
                   WrError *err);
 
 /* Unpacks a gzip file, up to `limit` bytes. *out is owned by the caller (wr_free). */
@@ -78,7 +78,7 @@ typedef struct WrFontChars {
 typedef struct WrFontFace {
     void *ctx;
     WrFontMaking *making; /* receives the shaped glyphs */
-    const WrFontAsk *ask;
+    const WrFontRequest *ask;
     int32_t font;            /* as in WrFontGlyph */
     WrFontHead head;         /* its measures */
     WR_ARRAY(int32_t) known; /* glyph id -> its index in glyphs + 1; 0: not there yet */
@@ -118,7 +118,7 @@ typedef struct WrFontRun {
  * parts by direction. */
 typedef bool (*WrFontLineMake)(void *ctx, const WrFontChars *chars, const WrFontRun *runs,
                                int run_count, WrError *err);
-bool wr_font_lines(WrFontMaking *making, const WrFontAsk *ask, WrFontLineMake make, void *ctx,
+bool wr_font_lines(WrFontMaking *making, const WrFontRequest *ask, WrFontLineMake make, void *ctx,
                    WrError *err);
 
 /* Shapes the text with open fonts, each part with the first one that contains it. */

@@ -133,7 +133,7 @@ static void free_lines(Lines *lines)
     wr_array_free(&lines->runs);
 }
 
-bool wr_font_lines(WrFontMaking *making, const WrFontAsk *ask, WrFontLineMake make, void *ctx,
+bool wr_font_lines(WrFontMaking *making, const WrFontRequest *ask, WrFontLineMake make, void *ctx,
                    WrError *err)
 {
     size_t length = strlen(ask->text), at = 0;

@@ -21,7 +21,7 @@ void wr_font_face_expect(WrFontFace *face, int count)
 
 /* Opens the next file. */
 static bool open_file(Opened *all, const WrFontFile *file, WrFontMaking *making,
-                      const WrFontAsk *ask, WrError *err)
+                      const WrFontRequest *ask, WrError *err)
 {
     WrFontFace *face = &all->faces[all->count];
     WrFontFile in = *file;
@@ -48,7 +48,7 @@ static bool check_placed(const WrFontMaking *making, WrError *err)
     return true;
 }
 
-bool wr_font_make(const WrFontFile *files, int count, const WrFontAsk *ask, WrText *block,
+bool wr_font_make(const WrFontFile *files, int count, const WrFontRequest *ask, WrText *block,
                   WrError *err)
 {
     WrFontMaking making = { 0 };

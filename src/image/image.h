@@ -89,7 +89,7 @@ void wr_image_free(WrImage *image);
    image, truncated, over the limit. */
 WrImage *wr_image_read(const char *path, WrError *err);
 /* Options for reading an image. */
-typedef struct WrImageWish {
+typedef struct WrImageRequest {
     const char *
         channel; /* "Depth.Z", several, "a,b", or a layer, "diffuse"; NULL, "": the default above */
     const char *part; /* number from 1, or name; a frame of an animation; NULL, "": the first */
@@ -98,8 +98,8 @@ typedef struct WrImageWish {
     bool elevation; /* unsigned integers are numbers, not codes: those of 32 bits, and in TIFF all
                       that are georeferenced or have a no-data value. Unless keep_lost: -9999 and
                       -32768 also mark missing values of numbers */
-} WrImageWish;
-WrImage *wr_image_read_wish(const char *path, const WrImageWish *wish, WrError *err);
+} WrImageRequest;
+WrImage *wr_image_read_wish(const char *path, const WrImageRequest *wish, WrError *err);
 /* Reads a file in memory; name is used in messages, and its extension selects the format. */
 WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err);
 
@@ -107,7 +107,7 @@ WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length,
    rotated. The head is the image without its pixels; `replaced` counts those of the rows read so far,
    and `taken` reports an all-zero image only after the last row. */
 typedef struct WrImageRows WrImageRows;
-WrImageRows *wr_image_rows_open(const char *path, const WrImageWish *wish, WrError *err);
+WrImageRows *wr_image_rows_open(const char *path, const WrImageRequest *wish, WrError *err);
 void wr_image_rows_close(WrImageRows *rows); /* NULL is allowed */
 const WrImage *wr_image_rows_head(const WrImageRows *rows);
 /* Row y, [width][channels], valid until the next call; y must not decrease. NULL and an error on

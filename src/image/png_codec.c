@@ -42,7 +42,7 @@ bool wr_png_swaps(void)
     return first == 1;
 }
 
-bool wr_png_tell(const WrPngTrouble *trouble, const char *before, char *reason)
+bool wr_png_report(const WrPngTrouble *trouble, const char *before, char *reason)
 {
     if (trouble->no_memory) snprintf(reason, WR_CODEC_REASON, "%s", WR_CODEC_NO_MEMORY);
     else if (!*before) snprintf(reason, WR_CODEC_REASON, "%s", trouble->why);

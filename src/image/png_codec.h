@@ -38,4 +38,4 @@ png_voidp wr_png_alloc(png_structp png, png_alloc_size_t bytes);
 void wr_png_free(png_structp png, png_voidp memory);
 bool wr_png_swaps(void); /* 16-bit codes have the other byte order in files */
 /* Always false; the reason is WR_CODEC_NO_MEMORY, or "before (why)". */
-bool wr_png_tell(const WrPngTrouble *trouble, const char *before, char *reason);
+bool wr_png_report(const WrPngTrouble *trouble, const char *before, char *reason);

@@ -152,7 +152,7 @@ static void end(WrCodecReader *reader)
 static bool begin_or_jump(WrCodecReader *reader, char *reason)
 {
     if (setjmp(png_jmpbuf(reader->png)))
-        return wr_png_tell(&reader->trouble, "cannot be opened, truncated or damaged", reason);
+        return wr_png_report(&reader->trouble, "cannot be opened, truncated or damaged", reason);
     png_set_user_limits(reader->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_benign_errors(reader->png, 1);
     png_set_read_fn(reader->png, reader, take);
@@ -176,7 +176,7 @@ static bool begin(WrCodecReader *reader, char *reason)
                                  &reader->trouble, wr_png_alloc, wr_png_free);
     reader->info = reader->png ? png_create_info_struct(reader->png) : NULL;
     reader->trouble.no_memory |= !reader->info;
-    if (!reader->info) return wr_png_tell(&reader->trouble, "", reason);
+    if (!reader->info) return wr_png_report(&reader->trouble, "", reason);
     return begin_or_jump(reader, reason);
 }
 
@@ -281,7 +281,7 @@ static bool read_or_jump(WrCodecReader *reader, int y, int rows, int channels, f
                          char *reason)
 {
     const size_t row = (size_t)reader->part.part.width * (size_t)channels;
-    if (setjmp(png_jmpbuf(reader->png))) return wr_png_tell(&reader->trouble, "", reason);
+    if (setjmp(png_jmpbuf(reader->png))) return wr_png_report(&reader->trouble, "", reason);
     for (int i = 0; i < rows; i++)
         divide(reader, codes_of(reader, y + i), channels, out + (size_t)i * row);
     return true;

@@ -58,7 +58,7 @@ static void flush(png_structp png)
 
 static bool tell(const WrCodecWriter *writer, char *reason)
 {
-    if (!writer->error) return wr_png_tell(&writer->trouble, "", reason);
+    if (!writer->error) return wr_png_report(&writer->trouble, "", reason);
     snprintf(reason, WR_CODEC_REASON, "%s", strerror(writer->error));
     return false;
 }

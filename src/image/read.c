@@ -115,7 +115,7 @@ bool wr_image_file_read(WrImageFile *file, int part, float *out, WrError *err)
     size_t row = (size_t)is.width * (size_t)is.channels;
     for (int y = 0; y < is.height; y += WR_IMAGE_BAND) {
         int rows = is.height - y < WR_IMAGE_BAND ? is.height - y : WR_IMAGE_BAND;
-        if (!wr_progress_tell((double)y / is.height)) return wr_fail(err, "cancelled");
+        if (!wr_progress_report((double)y / is.height)) return wr_fail(err, "cancelled");
         if (!wr_image_file_read_rows(file, part, y, rows, out + (size_t)y * row, err)) return false;
     }
     return true;
@@ -143,7 +143,7 @@ bool wr_image_file_read_first(WrImageFile *file, int part, int y, int rows, int 
 }
 
 /* Only the first part is opened, unless more are requested, or the format's parts can be listed safely. */
-static int most_parts(const char *name, const WrImageWish *wish)
+static int most_parts(const char *name, const WrImageRequest *wish)
 {
     char buffer[16];
     const char *ending = wr_path_ending(name, buffer);
@@ -152,7 +152,7 @@ static int most_parts(const char *name, const WrImageWish *wish)
     return several || (wish->part && *wish->part) ? WR_IMAGE_PARTS_MAX : 1;
 }
 
-static WrImageRows *open_rows(const char *name, int fd, const WrImageWish *wish, WrError *err)
+static WrImageRows *open_rows(const char *name, int fd, const WrImageRequest *wish, WrError *err)
 {
     WrImageFile *file =
         open_file(name, fd, most_parts(name, wish), wish->elevation, !wr_reader_inside(), err);
@@ -166,7 +166,7 @@ static WrImage *read_whole(WrImageRows *rows, WrError *err)
     return image;
 }
 
-WrImageRows *wr_image_rows_open(const char *path, const WrImageWish *wish, WrError *err)
+WrImageRows *wr_image_rows_open(const char *path, const WrImageRequest *wish, WrError *err)
 {
     if (wr_sidecar_takes(path)) return wr_sidecar_rows(path, wish, err);
     return open_rows(path, wr_reader_file(path, WR_FILE_MOST, err), wish, err);
@@ -174,18 +174,18 @@ WrImageRows *wr_image_rows_open(const char *path, const WrImageWish *wish, WrErr
 
 WrImage *wr_image_read(const char *path, WrError *err)
 {
-    const WrImageWish all = { .channel = NULL };
+    const WrImageRequest all = { .channel = NULL };
     return wr_image_read_wish(path, &all, err);
 }
 
-WrImage *wr_image_read_wish(const char *path, const WrImageWish *wish, WrError *err)
+WrImage *wr_image_read_wish(const char *path, const WrImageRequest *wish, WrError *err)
 {
     return read_whole(wr_image_rows_open(path, wish, err), err);
 }
 
 WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err)
 {
-    const WrImageWish all = { .channel = NULL };
+    const WrImageRequest all = { .channel = NULL };
     if (length == 0) {
         wr_fail(err, "%s: is empty", name);
         return NULL;

@@ -8,14 +8,14 @@ typedef struct WrHash WrHash;
 typedef struct WrImage WrImage;
 typedef struct WrImageFile WrImageFile;
 typedef struct WrImageRows WrImageRows;
-typedef struct WrImageWish WrImageWish;
+typedef struct WrImageRequest WrImageRequest;
 
 /* Reads rows and the first `channels` channels of a part. */
 bool wr_image_file_read_first(WrImageFile *file, int part, int y, int rows, int channels,
                               float *out, WrError *err);
 const char *wr_image_file_path(const WrImageFile *file); /* for messages */
 /* The rows of an open file, owned by the result, on failure too; whole.c. */
-WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageWish *wish, WrError *err);
+WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageRequest *wish, WrError *err);
 
 /* The rows of an existing image, owned by the result. keep: non-finite values are kept. */
 WrImageRows *wr_image_rows_of(WrImage *image, bool keep);

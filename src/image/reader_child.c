@@ -156,9 +156,9 @@ static bool make_font(const char *bytes, size_t length, const char *want, size_t
     WrFontFile files[WR_FONT_FILES];
     if (want_length < sizeof order) return wr_fail(err, "no text to shape");
     memcpy(&order, want, sizeof order);
-    WrFontAsk ask = { .text = want + sizeof order,
-                      .face = order.face,
-                      .direction = (WrFontDirection)order.direction };
+    WrFontRequest ask = { .text = want + sizeof order,
+                          .face = order.face,
+                          .direction = (WrFontDirection)order.direction };
     const char *language = ask.text + order.text_length + 1;
     if (order.language_length) ask.language = language;
     if (order.axes_length) ask.axes = language + order.language_length + 1;

@@ -196,7 +196,7 @@ static const char *label_text(const void *from, const char *name)
     return text_of(labels, name);
 }
 
-WrImageRows *wr_sidecar_rows(const char *path, const WrImageWish *wish, WrError *err)
+WrImageRows *wr_sidecar_rows(const char *path, const WrImageRequest *wish, WrError *err)
 {
     WrText name = { 0 };
     WrImageRows *rows = NULL;

@@ -4,7 +4,7 @@
 
 typedef struct WrError WrError;
 typedef struct WrImageRows WrImageRows;
-typedef struct WrImageWish WrImageWish;
+typedef struct WrImageRequest WrImageRequest;
 typedef struct WrText WrText;
 
 /* True for the extensions of raw files: raw, r16, r32. */
@@ -20,4 +20,4 @@ void wr_sidecar_name(const char *path, WrText *name);
  *   sha256: of the file (default: any)   labels: texts by name, "wrinkle:range" and so on
  *
  * Other members are ignored. Errors: no sidecar; it or the file is invalid. */
-WrImageRows *wr_sidecar_rows(const char *path, const WrImageWish *wish, WrError *err);
+WrImageRows *wr_sidecar_rows(const char *path, const WrImageRequest *wish, WrError *err);

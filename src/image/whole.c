@@ -108,7 +108,7 @@ static void tell(const WrImageFile *file, int index, const WrChannelChoice *choi
     WrText text = { 0 };
     const WrImagePart part = wr_image_file_part(file, index);
     const int parts = wr_image_file_parts(file);
-    wr_channels_tell(&part, choice, &text);
+    wr_channels_report(&part, choice, &text);
     if (parts > 1)
         wr_text_addf(&text, "%spart %d of %d%s%.40s", text.length ? " in " : "", index + 1, parts,
                      *part.name ? ", " : "", part.name);
@@ -187,7 +187,7 @@ static bool read_bands(WrImageRows *rows, WrImage *image, WrError *err)
     bool good = true;
     for (int y = 0; good && y < image->height; y += most) {
         const int left = image->height - y;
-        wr_progress_tell((double)y / image->height);
+        wr_progress_report((double)y / image->height);
         good = read_band(rows, y, left < most ? left : most, image->data + (size_t)y * row, err);
     }
     wr_free(rows->all);
@@ -244,7 +244,7 @@ static void name_file(const WrImageRows *rows, WrError *err)
     if (err && strncmp(err->text, path, strlen(path)) != 0) wr_error_prefix(err, "%s: ", path);
 }
 
-static bool choose(WrImageRows *rows, const WrImageWish *wish, WrError *err)
+static bool choose(WrImageRows *rows, const WrImageRequest *wish, WrError *err)
 {
     if (!find_part(rows->file, wish->part, &rows->part, err)) return false;
     rows->is = wr_image_file_part(rows->file, rows->part);
@@ -275,7 +275,7 @@ WrImageRows *wr_image_rows_of(WrImage *image, bool keep)
     return rows;
 }
 
-WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageWish *wish, WrError *err)
+WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageRequest *wish, WrError *err)
 {
     WrImageRows *rows = wr_alloc(1, sizeof *rows);
     *rows = (WrImageRows){ .file = file, .keep = wish->keep_lost };

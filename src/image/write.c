@@ -56,7 +56,8 @@ static bool is_cut(int fd)
 static bool fail_write(WrError *err, const char *path, int file, const char *reason)
 {
     char text[WR_FILE_WHY];
-    const char *why = is_cut(file) ? wr_file_why(EFBIG, text) : wr_file_why_told(reason, text);
+    const char *why =
+        is_cut(file) ? wr_file_why(EFBIG, text) : wr_file_why_of_library(reason, text);
     return wr_fail(err, "%s: cannot be written%s%s%s", path, *why ? " (" : "", why,
                    *why ? ")" : "");
 }
@@ -132,7 +133,7 @@ static bool write_part(Writing *to, const WrImageOut *part, WrHash *digest, WrEr
     bool ok = pixels && to->values;
     for (int y = 0; y < part->height && ok; y += strip) {
         int rows = part->height - y < strip ? part->height - y : strip;
-        if (part->tells ? wr_progress_stopped() : !wr_progress_tell((double)y / part->height)) {
+        if (part->tells ? wr_progress_stopped() : !wr_progress_report((double)y / part->height)) {
             ok = wr_fail(err, "cancelled");
             break;
         }

@@ -29,8 +29,8 @@ typedef enum WrSheetRange {
 #define WR_SHEET_FOLDER 1024
 #define WR_SHEET_NAME 128
 
-typedef struct WrSheetAsk {
+typedef struct WrSheetRequest {
     char as[WR_SHEET_WORD]; /* a set, or a kind of map; "": not set yet */
     char folder[WR_SHEET_FOLDER], name[WR_SHEET_NAME]; /* "": the document's */
     int depth, size, range;                            /* WrSheetDepth, WrSheetSize, WrSheetRange */
-} WrSheetAsk;
+} WrSheetRequest;

@@ -83,7 +83,7 @@ static WrImage *picture_of(int w, int h, WrError *err)
 /* Checks for cancellation before another row; frees the image if cancelled. */
 static bool stopped(WrImage **image, double done, WrError *err)
 {
-    if (wr_progress_tell(done)) return false;
+    if (wr_progress_report(done)) return false;
     wr_image_free(*image);
     *image = NULL;
     wr_fail(err, "cancelled");

@@ -161,8 +161,8 @@ struct WrScene {
     WrEnvironment environment;
     WrTone tone;
     WrCellSize cell;
-    WrSheetAsk sheet; /* only for the window */
-    double radius;    /* cached radius of the shape, for members of `others`; private */
+    WrSheetRequest sheet; /* only for the window */
+    double radius;        /* cached radius of the shape, for members of `others`; private */
 };
 
 /* Sets the scene's triangles, which it owns; NULL: any other shape, or the square. The shape keeps its

@@ -27,7 +27,7 @@ static bool parameter_at(double t, double repeat, double *out)
 void wr_inspector_follow(WrApp *app)
 {
     WrInspector *in = &app->accuracy->inspector;
-    const WrHand *hand = app->hand;
+    const WrInputRouter *hand = app->hand;
     const SDL_Rect *room = &app->layout->patch;
     double u, v;
     if (!in->shown || in->pinned || hand->grab != WR_GRAB_NONE) return;

@@ -213,7 +213,7 @@ static void add_at(const WrApp *app, const char *path, WrText *line)
 /* Scale a picture down that is larger than the table. */
 static bool add_size(const WrApp *app, const char *path, WrText *line, WrError *err)
 {
-    WrImageRows *rows = wr_image_rows_open(path, &(WrImageWish){ 0 }, err);
+    WrImageRows *rows = wr_image_rows_open(path, &(WrImageRequest){ 0 }, err);
     if (!rows) return false;
     const double w = wr_image_rows_head(rows)->width, h = wr_image_rows_head(rows)->height;
     const double by = fmin(app->view->table_w / w, app->view->table_h / h);

@@ -23,7 +23,7 @@ bool wr_is_straight_line(const WrApp *app)
 
 void wr_act_paint_patch(WrApp *app)
 {
-    if (app->hand->grab == WR_GRAB_PATCH_PAINT) wr_hand_let_go(app);
+    if (app->hand->grab == WR_GRAB_PATCH_PAINT) wr_input_router_let_go(app);
     app->paint->on = !app->paint->on;
 }
 

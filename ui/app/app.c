@@ -120,6 +120,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     wr_preset_browser_start(app);
     wr_generate_new(app);
     wr_accuracy_new(app);
+    app->rest = app->latency ? NULL : wr_idle_probe_new(app->rest_event);
     if (!wr_app_start(app, err)) return false;
     const char *fonts = wr_gui_missing_fonts(app->gui);
     WrError missing;
@@ -127,7 +128,6 @@ bool wr_app_begin(WrApp *app, WrError *err)
     wr_app_title(app);
     if (!app->latency) wr_dialog_recover_open(app);
     SDL_ShowWindow(app->window);
-    app->rest = app->latency ? NULL : wr_idle_probe_new(app->rest_event);
     SDL_StartTextInput();
     wr_app_redraw(app);
     return true;
@@ -200,7 +200,7 @@ static void handle(WrApp *app, const SDL_Event *event)
         wr_idle_probe_asked(app);
         return;
     }
-    while (wr_pen_next_before(app->pen, event, &pen)) wr_hand_pen(app, &pen);
+    while (wr_pen_next_before(app->pen, event, &pen)) wr_input_router_pen(app, &pen);
     if (event->type == app->job_event) { /* the component that needs the result fetches it */
         wr_app_redraw(app);
         return;
@@ -230,7 +230,7 @@ static void handle(WrApp *app, const SDL_Event *event)
         if (path) wr_app_file_chosen(app, purpose, path);
         else app->file->after = WR_AFTER_NOTHING;
     } else {
-        wr_hand_event(app, event);
+        wr_input_router_event(app, event);
     }
 }
 
@@ -238,7 +238,7 @@ static void handle(WrApp *app, const SDL_Event *event)
 
 static SDL_SystemCursor cursor_for(const WrApp *app)
 {
-    const WrHand *hand = app->hand;
+    const WrInputRouter *hand = app->hand;
     if (hand->grab == WR_GRAB_DIVIDER ||
         (hand->grab == WR_GRAB_NONE &&
          wr_layout_inside(&app->layout->divider, (int)hand->at.x, (int)hand->at.y)))
@@ -322,7 +322,7 @@ static void draw(WrApp *app, double now)
     wr_input_take(app); /* these came while the previous frame was on the screen */
     wr_gui_frame_end(app->gui);
     wr_input_shown(app);
-    wr_hand_look(app);
+    wr_input_router_look(app);
     set_cursor(app);
     app->drawn_at = now;
     if (app->redraw < 1 && wr_gui_unsettled(app->gui)) app->redraw = 1;
@@ -377,7 +377,7 @@ static bool take_pens(WrApp *app)
     WrPenEvent event;
     bool any = false;
     while (wr_pen_next(app->pen, &event)) {
-        wr_hand_pen(app, &event);
+        wr_input_router_pen(app, &event);
         any = true;
     }
     return any;
@@ -454,7 +454,7 @@ int wr_app_run(const WrAppOptions *options)
     if (wr_app_begin(app, &err)) {
         while (!app->quit) wr_app_step(app);
         wr_settings_end(app);
-        wr_timing_tell(app);
+        wr_timing_report(app);
     } else {
         fprintf(stderr, "wrinkle: %s\n", err.text);
         status = 1;

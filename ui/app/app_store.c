@@ -44,20 +44,20 @@ typedef struct Store {
     WrTiming timing;
     WrCanvasView view;
     WrCanvasRange range, map_range;
-    WrHand hand;
-    WrBrushHand brush;
+    WrInputRouter hand;
+    WrBrushState brush;
     WrBrushSources brush_files;
     WrPresetBrowser shelf;
-    WrDrawHand draw;
+    WrDrawState draw;
     WrPatch patch;
     WrPatchPaint paint;
     WrMarks marks;
-    WrSelectHand select;
-    WrLayersHand layers;
-    WrSurfaceHand surface;
-    WrObjectsHand objects;
+    WrSelectState select;
+    WrLayersState layers;
+    WrSurfaceState surface;
+    WrObjectsState objects;
     WrAdjust adjust;
-    WrOutlineAsk selecting;
+    WrOutlineRequest selecting;
     WrFinder finder;
     WrPreferences preferences;
     WrSeam seam;
@@ -68,11 +68,11 @@ typedef struct Store {
     WrMessages messages;
     WrForms forms;
     WrReplace replace;
-    WrCloneHand clone;
-    WrTransformHand transform;
-    WrStampHand stamp;
-    WrDialogHand dialog;
-    WrDocumentHand file;
+    WrCloneState clone;
+    WrTransformState transform;
+    WrStampState stamp;
+    WrDialogState dialog;
+    WrDocumentState file;
 } Store;
 
 WrApp *wr_store_new(void)

@@ -59,9 +59,9 @@ static const WrField *map_of(WrApp *app, const WrField *field, const WrField **s
     job.directions = 8; /* short range only, so that a dab changes a small region */
     job.reach = 48;
     const WrField *map =
-        wr_canvas_map_bring(app->canvas_map, field, wr_canvas_maps[now].kind, &job);
+        wr_canvas_map_update(app->canvas_map, field, wr_canvas_maps[now].kind, &job);
     if (!wr_canvas_maps[now].two) return map;
-    *second = wr_canvas_map_bring(app->canvas_second, field, WR_FIELD_MAP_SLOPE_V, &job);
+    *second = wr_canvas_map_update(app->canvas_second, field, WR_FIELD_MAP_SLOPE_V, &job);
     return *second ? map : NULL;
 }
 

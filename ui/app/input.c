@@ -168,7 +168,7 @@ static bool is_stale(WrApp *app, const WrInputItem *item)
 }
 
 /* Record the modifier keys and the pointer position after the event. */
-static void note_state(WrHand *hand, const SDL_Event *event)
+static void note_state(WrInputRouter *hand, const SDL_Event *event)
 {
     if (event->type == SDL_KEYDOWN || event->type == SDL_KEYUP)
         hand->mods = wr_key_mods((SDL_Keymod)event->key.keysym.mod);

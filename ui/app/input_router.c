@@ -82,7 +82,7 @@ static bool can_look(const WrApp *app, int button)
 
 static void press_canvas(WrApp *app, const WrPointer *at)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     const WrTool *tool = wr_tool_now(app);
     if (at->button == SDL_BUTTON_MIDDLE || (at->button == SDL_BUTTON_LEFT && hand->space)) {
         hand->grab = at->mods & WR_MOD_SHIFT ? WR_GRAB_TURN : WR_GRAB_PAN;
@@ -126,7 +126,7 @@ static void press_patch(WrApp *app, const WrPointer *at)
 /* Handle a press outside the widgets. */
 static void press(WrApp *app, const WrPointer *at, int device)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     int x = (int)at->x, y = (int)at->y;
     if (hand->grab != WR_GRAB_NONE || (blocked(app) && !can_look(app, at->button))) return;
     if (wr_gui_owns_point(app->gui, x, y)) return;
@@ -171,7 +171,7 @@ static void release(WrApp *app, const WrPointer *at)
 
 static void let_go(WrApp *app, const WrPointer *at, int device)
 {
-    const WrHand *hand = app->hand;
+    const WrInputRouter *hand = app->hand;
     if (hand->grab != WR_GRAB_NONE && at->button == hand->button && device == hand->device)
         release(app, at);
 }
@@ -200,7 +200,7 @@ static void cancel_held(WrApp *app)
     bool aimed = app->brush->straight;
     app->brush->straight = false;
     wr_strokes_cancel(app);
-    if (!drew && !aimed) wr_hand_let_go(app);
+    if (!drew && !aimed) wr_input_router_let_go(app);
     else app->hand->grab = WR_GRAB_NONE;
 }
 
@@ -244,7 +244,7 @@ static void drag(WrApp *app, const WrPointer *at)
 /* Update the view under the pointer at that pixel, if no widget is there. */
 static void look(WrApp *app, int x, int y)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     bool free = hand->grab == WR_GRAB_NONE && !blocked(app) && !wr_gui_owns_point(app->gui, x, y) &&
                 !wr_gui_holds_mouse(app->gui);
     bool held = hand->grab != WR_GRAB_NONE;
@@ -254,7 +254,7 @@ static void look(WrApp *app, int x, int y)
 
 static void move(WrApp *app, const WrPointer *at)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     int x = (int)at->x, y = (int)at->y;
     if (hand->grab != WR_GRAB_NONE) drag(app, at);
     hand->at = *at;
@@ -262,9 +262,9 @@ static void move(WrApp *app, const WrPointer *at)
     look(app, x, y);
 }
 
-void wr_hand_look(WrApp *app)
+void wr_input_router_look(WrApp *app)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     bool canvas = hand->on_canvas, patch = hand->on_patch;
     /* The view may have appeared or moved since the last pointer motion. */
     if (hand->grab == WR_GRAB_NONE)
@@ -334,7 +334,7 @@ static int pen_button(int button)
 
 static void pen_down(WrApp *app, const WrPointer *at, int device)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     bool over = wr_layout_inside(&app->layout->canvas, (int)at->x, (int)at->y) ||
                 wr_layout_inside(&app->layout->patch, (int)at->x, (int)at->y);
     if (at->button != SDL_BUTTON_RIGHT || !over) {
@@ -351,14 +351,14 @@ static void pen_down(WrApp *app, const WrPointer *at, int device)
     pick(app, at);
 }
 
-void wr_hand_pen(WrApp *app, const WrPenEvent *event)
+void wr_input_router_pen(WrApp *app, const WrPenEvent *event)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     bool holds = hand->grab != WR_GRAB_NONE && hand->device == event->device;
     app->input_at = wr_clock_seconds();
     wr_app_redraw(app);
     if (event->kind == WR_PEN_LOST) {
-        if (holds) wr_hand_let_go(app);
+        if (holds) wr_input_router_let_go(app);
         return;
     }
     if (hand->grab != WR_GRAB_NONE && !holds) return;                 /* one pointer at a time */
@@ -381,7 +381,7 @@ void wr_hand_pen(WrApp *app, const WrPenEvent *event)
 
 static void space(WrApp *app, bool down)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     if (down && hand->on_patch) {
         wr_action_run(app, WR_ACT(turn));
         return;
@@ -395,7 +395,7 @@ static void space(WrApp *app, bool down)
 /* Handle modifier actions. True if `action` is one of them. */
 static bool hold(WrApp *app, const char *action, const SDL_KeyboardEvent *event)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     if (strcmp(action, WR_ACT(straight_line)) == 0) {
         if (hand->grab == WR_GRAB_NONE) hand->line = true;
         hand->line_key = event->keysym.sym;
@@ -423,7 +423,7 @@ static bool hold(WrApp *app, const char *action, const SDL_KeyboardEvent *event)
 /* After a long press, or after painting during it, the release of the key for painting on the patch switches back. */
 static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
 {
-    WrHand *hand = app->hand;
+    WrInputRouter *hand = app->hand;
     SDL_Keycode key = event->keysym.sym;
     if (key == SDLK_SPACE) space(app, false);
     if (hand->line && key == hand->line_key) hand->line = false;
@@ -471,7 +471,7 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
     if (action && !hold(app, action, event)) wr_action_run(app, action);
 }
 
-void wr_hand_event(WrApp *app, const SDL_Event *event)
+void wr_input_router_event(WrApp *app, const SDL_Event *event)
 {
     switch (event->type) {
     case SDL_MOUSEMOTION: mouse_moved(app, &event->motion); break;

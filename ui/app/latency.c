@@ -233,7 +233,7 @@ static bool measure(WrApp *app, WrLatency *latency, WrError *err)
     wr_thread_join(latency->thread);
     if (stopped(app)) return wr_fail(err, "interrupted");
     double end = wr_clock_seconds() + LAST_SECONDS;
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     while (!all_seen(latency) && wr_clock_seconds() < end) step_for(app, 0.02);
     if (latency->seen[1] == 0 || latency->seen[2] == 0)
         return wr_fail(err, "nothing that was painted was ever seen");

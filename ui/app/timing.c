@@ -35,7 +35,7 @@ void wr_timing_note(WrApp *app, double seconds)
     t->slowest = seconds > t->slowest ? seconds : t->slowest;
 }
 
-void wr_timing_tell(const WrApp *app)
+void wr_timing_report(const WrApp *app)
 {
     const WrTiming *t = app->timing;
     const WrPreviewPicture *p = wr_preview_picture(app->preview);

@@ -9,4 +9,4 @@ typedef struct WrTiming { /* frame times */
 
 /* Record the time of a frame; print the summary at the end. */
 void wr_timing_note(WrApp *app, double seconds);
-void wr_timing_tell(const WrApp *app);
+void wr_timing_report(const WrApp *app);

@@ -416,7 +416,7 @@ bool wr_canvas_draw(WrCanvas *canvas, WrRetainedFrame *kept, const WrCanvasView 
         paint(canvas, field, level, wr_clock_seconds() + budget);
     *range = (WrCanvasRange){ canvas->low, canvas->high, (double)canvas->table_low,
                               (double)canvas->table_high };
-    wr_retained_frame_copy_told(kept, canvas->texture, NULL,
-                                &(SDL_Rect){ view->x, view->y, view->w, view->h });
+    wr_retained_frame_copy_tracked(kept, canvas->texture, NULL,
+                                   &(SDL_Rect){ view->x, view->y, view->w, view->h });
     return is_rough(canvas);
 }

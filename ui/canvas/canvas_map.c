@@ -216,8 +216,8 @@ static void take(WrCanvasMap *map)
     drop(work);
 }
 
-const WrField *wr_canvas_map_bring(WrCanvasMap *map, const WrField *field, WrFieldMapKind kind,
-                                   const WrMapJob *job)
+const WrField *wr_canvas_map_update(WrCanvasMap *map, const WrField *field, WrFieldMapKind kind,
+                                    const WrMapJob *job)
 {
     WrMapJob plain = *job;
     plain.ground.field = NULL;

@@ -17,8 +17,8 @@ void wr_canvas_map_free(WrCanvasMap *map); /* NULL is allowed */
 /* The newest map of that kind, which may lag behind the table during painting; NULL: none yet. Requests an update
  * after a change. job's field is ignored; a change of its settings restarts the map. Curvature is multiplied by the
  * texel width: change of slope from one texel to the next. Borrowed, valid until the next call. */
-const WrField *wr_canvas_map_bring(WrCanvasMap *map, const WrField *field, WrFieldMapKind kind,
-                                   const WrMapJob *job);
+const WrField *wr_canvas_map_update(WrCanvasMap *map, const WrField *field, WrFieldMapKind kind,
+                                    const WrMapJob *job);
 /* True while an update is running. */
 bool wr_canvas_map_busy(WrCanvasMap *map);
 /* Number of tiles computed so far, for tests. */

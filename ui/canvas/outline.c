@@ -15,7 +15,7 @@
 
 typedef struct Work {
     WrDocument *document; /* a snapshot */
-    WrOutlineAsk ask;
+    WrOutlineRequest ask;
     WrOutline outline; /* the result */
     bool made;
 } Work;
@@ -55,7 +55,7 @@ static WrField *join(const Work *work, WrField *made)
 
 static WrField *make(const Work *work, WrPool *pool)
 {
-    const WrOutlineAsk *ask = &work->ask;
+    const WrOutlineRequest *ask = &work->ask;
     const WrField *now = work->document->selection;
     if (ask->kind == WR_OUTLINE_HEIGHT || ask->kind == WR_OUTLINE_SLOPE) {
         const WrField *field = wr_document_composite(work->document, pool);
@@ -98,7 +98,7 @@ void wr_outliner_free(WrOutliner *outliner)
     wr_free(outliner);
 }
 
-void wr_outliner_ask(WrOutliner *outliner, const WrDocument *document, const WrOutlineAsk *ask)
+void wr_outliner_ask(WrOutliner *outliner, const WrDocument *document, const WrOutlineRequest *ask)
 {
     Work *work = wr_alloc(1, sizeof *work);
     work->document = wr_document_share(document);

@@ -24,15 +24,15 @@ typedef enum WrOutlineKind {
     WR_OUTLINE_KINDS
 } WrOutlineKind;
 
-typedef struct WrOutlineAsk {
+typedef struct WrOutlineRequest {
     WrOutlineKind kind;
     double by, low, high, soft;
     WrSelectMode mode;
     bool to_mask; /* for the active layer's mask, not the selection */
-} WrOutlineAsk;
+} WrOutlineRequest;
 
 /* Request an outline from a snapshot; replaces an earlier request. */
-void wr_outliner_ask(WrOutliner *outliner, const WrDocument *document, const WrOutlineAsk *ask);
+void wr_outliner_ask(WrOutliner *outliner, const WrDocument *document, const WrOutlineRequest *ask);
 /* Remove the outline. */
 void wr_outliner_clear(WrOutliner *outliner);
 /* The newest outline; NULL: none. serial changes with it. Valid until the next call. */

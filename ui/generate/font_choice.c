@@ -269,12 +269,12 @@ static void sort_shown(const WrApp *app, WrFontChoice *choice)
 
 /* ---- current font ---- */
 
-static int param_of(const WrGenerateHand *hand, const char *name)
+static int param_of(const WrGenerateState *hand, const char *name)
 {
     return wr_generator_param_find(hand->generator, name);
 }
 
-static bool is_in_hand(const WrGenerateHand *hand, int param, const Row *row)
+static bool is_in_hand(const WrGenerateState *hand, int param, const Row *row)
 {
     const int file = param_of(hand, "file"), face = param_of(hand, "face");
     const char *path = file >= 0 ? hand->value[file].text : "";
@@ -287,7 +287,7 @@ static bool is_in_hand(const WrGenerateHand *hand, int param, const Row *row)
 
 static void take_in_hand(WrApp *app, int param, const Row *row)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     const int file = param_of(hand, "file"), face = param_of(hand, "face");
     WrText kept = { 0 };
     for (int i = 0; row->named && i < WR_FONT_FAMILY_COUNT; i++)
@@ -410,7 +410,7 @@ static bool list(WrApp *app, int param)
 bool wr_font_choice_row(WrApp *app, int param)
 {
     char label[200];
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     const WrFontChoice *known = hand->fonts;
     const int file = param_of(hand, "file");
     const char *path = hand->value[file].text, *slash = strrchr(path, '/');

@@ -20,7 +20,7 @@
 
 static const char action_prefix[] = "generate_";
 
-void wr_generate_free_values(WrGenerateHand *hand)
+void wr_generate_free_values(WrGenerateState *hand)
 {
     for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(hand->value[i].text);
     memset(hand->value, 0, sizeof hand->value);
@@ -47,7 +47,7 @@ const WrGenerator *wr_action_generator(const char *name)
     return NULL;
 }
 
-int wr_generate_find(const WrGenerateHand *hand, const char *const *names, WrParamKind kind)
+int wr_generate_find(const WrGenerateState *hand, const char *const *names, WrParamKind kind)
 {
     for (; hand->generator && *names; names++) {
         int i = wr_generator_param_find(hand->generator, *names);
@@ -88,7 +88,7 @@ static void first_term(const WrParam *p, WrText *text)
     }
 }
 
-static void set_default(WrGenerateHand *hand, int i)
+static void set_default(WrGenerateState *hand, int i)
 {
     const WrParam *p = &hand->generator->params[i];
     WrText text = { 0 };
@@ -102,7 +102,7 @@ static void set_default(WrGenerateHand *hand, int i)
 
 void wr_generate_defaults(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     for (int i = 0; hand->generator->params[i].name; i++) set_default(hand, i);
     hand->blend = wr_blend_find(hand->generator->blend);
     hand->radius = 0.1;
@@ -132,7 +132,7 @@ static bool take_written(WrGenerateValue *value, const WrCall *call, const WrPar
 
 static bool take_values(WrApp *app, const WrCall *call, const WrGenerator *generator, WrError *err)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     WrParamValue values[WR_GENERATOR_PARAMS];
     wr_generate_take(app, generator);
     wr_call_values(call, generator, values);
@@ -213,12 +213,12 @@ static bool is_default(const WrParam *p, const WrGenerateValue *value)
     return true;
 }
 
-bool wr_generate_is_default(const WrGenerateHand *hand, int param)
+bool wr_generate_is_default(const WrGenerateState *hand, int param)
 {
     return is_default(&hand->generator->params[param], &hand->value[param]);
 }
 
-void wr_generate_line(const WrGenerateHand *hand, WrText *line)
+void wr_generate_line(const WrGenerateState *hand, WrText *line)
 {
     const WrGenerator *g = hand->generator;
     wr_text_add(line, g->family);
@@ -240,9 +240,9 @@ void wr_generate_line(const WrGenerateHand *hand, WrText *line)
 
 void wr_generate_default_line(const WrGenerator *generator, const char *written, WrText *line)
 {
-    WrGenerateHand hand = { .generator = generator,
-                            .blend = wr_blend_find(generator->blend),
-                            .radius = 0.1 };
+    WrGenerateState hand = { .generator = generator,
+                             .blend = wr_blend_find(generator->blend),
+                             .radius = 0.1 };
     int text = wr_generate_written(generator);
     for (int i = 0; generator->params[i].name; i++) set_default(&hand, i);
     if (text >= 0 && !generator->params[text].fallback_text)

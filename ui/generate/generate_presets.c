@@ -20,7 +20,7 @@
 
 #define FILE_MAX (1 << 22) /* bytes */
 
-static void forget(WrGenerateHand *hand)
+static void forget(WrGenerateState *hand)
 {
     for (int i = 0; i < hand->presets.count; i++) {
         wr_free(hand->presets.data[i].name);
@@ -39,7 +39,7 @@ static const WrGenerator *generator_of(const char *line)
     return generator;
 }
 
-static void parse(WrGenerateHand *hand, const char *text)
+static void parse(WrGenerateState *hand, const char *text)
 {
     char *name = NULL;
     while (*text) {
@@ -77,7 +77,7 @@ static bool read_file(WrApp *app, WrError *err)
 
 static bool write_file(WrApp *app, WrError *err)
 {
-    const WrGenerateHand *hand = app->generate;
+    const WrGenerateState *hand = app->generate;
     char *path = wr_config_path("presets.wrinkle");
     WrText text = { 0 };
     for (int i = 0; i < hand->presets.count; i++)
@@ -98,7 +98,7 @@ void wr_generate_presets_find(WrApp *app)
     if (!read_file(app, &err)) wr_app_fail(app, &err);
 }
 
-static int find(const WrGenerateHand *hand, const WrGenerator *generator, const char *name)
+static int find(const WrGenerateState *hand, const WrGenerator *generator, const char *name)
 {
     for (int i = 0; i < hand->presets.count; i++)
         if (hand->presets.data[i].generator == generator &&
@@ -125,7 +125,7 @@ bool wr_generate_preset_taken(const WrApp *app, const char *name)
 
 bool wr_generate_preset_save(WrApp *app, const char *name)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     WrError err;
     WrText line = { 0 };
     char own[WR_GENERATE_NAME];
@@ -155,7 +155,7 @@ bool wr_generate_preset_save(WrApp *app, const char *name)
 
 bool wr_generate_preset_delete(WrApp *app, int index)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     WrError err;
     if (index < 0 || index >= hand->presets.count) return false;
     char *name = wr_strdup(hand->presets.data[index].name);

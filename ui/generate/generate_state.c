@@ -40,7 +40,7 @@ void wr_generate_new(WrApp *app)
 
 void wr_generate_free(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     if (!hand) return;
     wr_generate_free_values(hand);
     for (int i = 0; i < hand->kept.count; i++) wr_free(hand->kept.data[i]);
@@ -59,7 +59,7 @@ void wr_generate_free(WrApp *app)
 
 /* Messages are "GENERATOR: NAME=VALUE: remedy", "GENERATOR: NAME is missing ..." or "GENERATOR: FILE: fault of the
    file". */
-void wr_generate_blame(WrGenerateHand *hand)
+void wr_generate_blame(WrGenerateState *hand)
 {
     const char *said = hand->err.text, *colon = strstr(said, ": ");
     size_t family = hand->generator ? strlen(hand->generator->family) : 0;
@@ -90,14 +90,14 @@ static bool is_of(const char *line, const WrGenerator *generator)
     return good;
 }
 
-static int find_kept(const WrGenerateHand *hand, const WrGenerator *generator)
+static int find_kept(const WrGenerateState *hand, const WrGenerator *generator)
 {
     for (int i = 0; i < hand->kept.count; i++)
         if (is_of(hand->kept.data[i], generator)) return i;
     return -1;
 }
 
-static void keep(WrGenerateHand *hand)
+static void keep(WrGenerateState *hand)
 {
     WrText line = { 0 };
     if (!hand->generator) return;
@@ -114,7 +114,7 @@ static void keep(WrGenerateHand *hand)
 
 void wr_generate_take(WrApp *app, const WrGenerator *generator)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     if (hand->generator == generator) return;
     keep(hand);
     wr_generate_free_values(hand);
@@ -132,7 +132,7 @@ void wr_generate_focus_text(WrApp *app)
 
 void wr_generate_open(WrApp *app, const WrGenerator *generator)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     if (hand->generator != generator) {
         int kept = find_kept(hand, generator);
         char *line = kept >= 0 ? wr_strdup(hand->kept.data[kept]) : NULL;
@@ -170,7 +170,7 @@ void wr_generate_changed(WrApp *app)
 
 void wr_generate_file(WrApp *app, const char *path)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     if (!hand->generator || hand->asking_file >= wr_generator_param_count(hand->generator)) return;
     if (hand->generator->params[hand->asking_file].kind != WR_PARAM_FILE) return;
     wr_generate_set_text(&hand->value[hand->asking_file], path);
@@ -181,7 +181,7 @@ void wr_generate_file(WrApp *app, const char *path)
 
 static void ask(WrApp *app, const char *line)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     double texels = (double)app->view->table_w * app->view->table_h;
     bool slow = hand->seconds > 0.0 ? hand->seconds > QUICK_SECONDS : texels > LARGE_TEXELS;
     char *copy = wr_strdup(line);
@@ -189,7 +189,7 @@ static void ask(WrApp *app, const char *line)
     hand->asked = copy;
     hand->asked_of = hand->generator;
     hand->asked_at = wr_session_revision(app->session);
-    wr_app_try(app, &(WrEditPreviewAsk){ .line = line, .rough = slow });
+    wr_app_try(app, &(WrEditPreviewRequest){ .line = line, .rough = slow });
 }
 
 /* True if a result, even an outdated one, will be ready soon. It is then shown first, so that a continuously dragged
@@ -203,7 +203,7 @@ static bool is_awaited(WrApp *app)
 
 static void look(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     WrError err;
     if (wr_edit_preview_error(app->trial, &err)) {
         hand->err = err;
@@ -218,7 +218,7 @@ static void look(WrApp *app)
 
 void wr_generate_update(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     WrText line = { 0 };
     if (!hand->active || !hand->generator || app->dialog->now != WR_DIALOG_NONE ||
         wr_app_line_waits(app))
@@ -236,7 +236,7 @@ void wr_generate_update(WrApp *app)
 
 void wr_generate_cancel(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     if (hand->active && app->dialog->now == WR_DIALOG_NONE) wr_app_try_end(app);
     hand->active = false;
     hand->held = WR_POSE_NONE;
@@ -246,7 +246,7 @@ void wr_generate_cancel(WrApp *app)
 
 void wr_generate_commit(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     WrText line = { 0 };
     if (!hand->generator || wr_busy_refuse(app)) return;
     wr_generate_line(hand, &line);
@@ -263,7 +263,7 @@ void wr_generate_commit(WrApp *app)
 
 bool wr_generate_writes(const WrApp *app)
 {
-    const WrGenerateHand *hand = app->generate;
+    const WrGenerateState *hand = app->generate;
     return hand->active && hand->generator && wr_generate_written(hand->generator) >= 0;
 }
 

@@ -47,7 +47,7 @@ typedef enum WrPosePart {
     WR_POSE_POINT
 } WrPosePart;
 
-typedef struct WrGenerateHand {
+typedef struct WrGenerateState {
     const WrGenerator *generator; /* NULL: none chosen yet */
     WrGenerateValue value[WR_GENERATOR_PARAMS];
     int blend; /* WrBlend */
@@ -80,7 +80,7 @@ typedef struct WrGenerateHand {
     bool placed; /* the press placed the object there */
     int point;   /* index of the dragged point; -1: none */
     WrSelectPoint point_first;
-} WrGenerateHand;
+} WrGenerateState;
 
 void wr_generate_new(WrApp *app);
 void wr_generate_free(WrApp *app);
@@ -103,19 +103,19 @@ void wr_generate_defaults(WrApp *app);
 /* Load the values of a command line; a failure becomes a message. */
 bool wr_generate_load(WrApp *app, const char *line);
 /* The command line of the values; defaults are omitted. */
-void wr_generate_line(const WrGenerateHand *hand, WrText *line);
+void wr_generate_line(const WrGenerateState *hand, WrText *line);
 /* Index of the first parameter of that kind whose name is in `names` (NULL-terminated), or -1. */
-int wr_generate_find(const WrGenerateHand *hand, const char *const *names, WrParamKind kind);
+int wr_generate_find(const WrGenerateState *hand, const char *const *names, WrParamKind kind);
 /* Index of the written text: the first text parameter. -1: none. */
 int wr_generate_written(const WrGenerator *generator);
 /* The line of its defaults, with `written` as its text, if any. */
 void wr_generate_default_line(const WrGenerator *generator, const char *written, WrText *line);
-bool wr_generate_is_default(const WrGenerateHand *hand, int param);
+bool wr_generate_is_default(const WrGenerateState *hand, int param);
 /* Find the parameter that err is about: sets blamed and blame. */
-void wr_generate_blame(WrGenerateHand *hand);
+void wr_generate_blame(WrGenerateState *hand);
 /* Set a text value, truncated if too long. */
 void wr_generate_set_text(WrGenerateValue *value, const char *text);
-void wr_generate_free_values(WrGenerateHand *hand);
+void wr_generate_free_values(WrGenerateState *hand);
 /* To be called after a change of a value. */
 void wr_generate_changed(WrApp *app);
 void wr_generate_focus_text(WrApp *app);             /* give the keyboard focus to the text field */
@@ -145,8 +145,8 @@ void wr_panel_generate_values(WrApp *app); /* panel_generate_values.c */
 /* handled: the generator has points now */
 bool wr_pose_points_press(WrApp *app, const WrPointer *at);
 void wr_pose_points_drag(WrApp *app, const WrPointer *at);
-bool wr_pose_points_marks(const WrApp *app);           /* it has points */
-bool wr_pose_points_taken(const WrGenerateHand *hand); /* it may have points */
+bool wr_pose_points_marks(const WrApp *app);            /* it has points */
+bool wr_pose_points_taken(const WrGenerateState *hand); /* it may have points */
 
 extern const WrPart wr_part_generate;
 

@@ -67,7 +67,7 @@ static void choose_generator(WrApp *app, const WrFamily *family)
 
 static void save_popup(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     if (!wr_gui_popup_begin("preset_name")) return;
     wr_gui_width_at_least(240);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, "Name of the preset");
@@ -84,7 +84,7 @@ static void save_popup(WrApp *app)
 
 static void take_preset(WrApp *app, int preset)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     if (preset < 0) {
         wr_generate_defaults(app);
     } else {
@@ -98,7 +98,7 @@ static void take_preset(WrApp *app, int preset)
 
 static void presets(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     const char *labels[WR_GENERATE_PRESETS + 2];
     int ids[WR_GENERATE_PRESETS + 2], count = 0, index = 0;
     wr_generate_presets_find(app);
@@ -141,7 +141,7 @@ static void presets(WrApp *app)
 /* ---- messages ---- */
 
 /* A required file that is not chosen yet is not an error. */
-static bool lacks_file(const WrGenerateHand *hand)
+static bool lacks_file(const WrGenerateState *hand)
 {
     return hand->blamed >= 0 && hand->generator->params[hand->blamed].kind == WR_PARAM_FILE &&
            !hand->value[hand->blamed].text[0];
@@ -150,7 +150,7 @@ static bool lacks_file(const WrGenerateHand *hand)
 /* The error, or the notes of the preview; "" if there are none. */
 static const char *notes(const WrApp *app)
 {
-    const WrGenerateHand *hand = app->generate;
+    const WrGenerateState *hand = app->generate;
     if (lacks_file(hand)) return "Choose a file to begin.";
     if (hand->err.text[0]) return hand->blame;
     return hand->active && app->trying ? wr_edit_preview_notes(app->trial) : "";
@@ -217,7 +217,7 @@ static void said(const WrApp *app, SDL_Rect *room)
 
 static void foot(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     double fraction, seconds;
     bool busy = hand->active && app->trying &&
                 wr_edit_preview_busy(app->trial, &fraction, &seconds) && seconds > 0.3;
@@ -242,7 +242,7 @@ static void foot(WrApp *app)
 
 void wr_panel_generate(WrApp *app, SDL_Rect room)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     SDL_Rect top = cut(&room, wr_gui_px(82), true);
     SDL_Rect low = cut(&room, wr_gui_px(44), false);
     if (!hand->generator) wr_generate_take(app, wr_generate_last(app));

@@ -187,7 +187,7 @@ static bool field(WrApp *app, int i, const WrParam *p, WrGenerateValue *value)
 
 static bool parameter(WrApp *app, int i)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     const WrParam *p = &hand->generator->params[i];
     wr_gui_push_id(i);
     wr_gui_label(p->label);
@@ -199,7 +199,7 @@ static bool parameter(WrApp *app, int i)
     return changed;
 }
 
-static bool joining(WrGenerateHand *hand)
+static bool joining(WrGenerateState *hand)
 {
     const char *labels[WR_BLEND_COUNT];
     bool changed = false;
@@ -245,7 +245,7 @@ static const Group *group_at(const WrGenerator *generator, int i)
 }
 
 /* Number of values in the group that differ from their defaults. */
-static int count_changed(const WrGenerateHand *hand, int first, const Group *group)
+static int count_changed(const WrGenerateState *hand, int first, const Group *group)
 {
     int count = 0;
     for (int i = first; hand->generator->params[i].name; i++) {
@@ -257,7 +257,7 @@ static int count_changed(const WrGenerateHand *hand, int first, const Group *gro
 }
 
 /* Heading of a group; true while the group is open. */
-static bool heading(const WrGenerateHand *hand, int first, const Group *group)
+static bool heading(const WrGenerateState *hand, int first, const Group *group)
 {
     char label[96];
     int changed = count_changed(hand, first, group);
@@ -281,7 +281,7 @@ static bool comes_first(const WrGenerator *generator, int i)
 
 static bool parameters(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     const Group *group = NULL;
     bool changed = false, shown = true;
     for (int i = 0; hand->generator->params[i].name; i++) {
@@ -303,7 +303,7 @@ static bool parameters(WrApp *app)
 
 void wr_panel_generate_values(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     bool changed = parameters(app);
     changed |= joining(hand);
     if (wr_app_document(app)->selection)

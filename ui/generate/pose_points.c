@@ -27,14 +27,14 @@ typedef struct Points {
     int count;
 } Points;
 
-static int points_param(const WrGenerateHand *hand)
+static int points_param(const WrGenerateState *hand)
 {
     for (int i = 0; hand->generator && hand->generator->params[i].name; i++)
         if (hand->generator->params[i].kind == WR_PARAM_POINTS) return i;
     return -1;
 }
 
-bool wr_pose_points_taken(const WrGenerateHand *hand)
+bool wr_pose_points_taken(const WrGenerateState *hand)
 {
     return points_param(hand) >= 0;
 }
@@ -59,7 +59,7 @@ static bool read_points(const char *text, Points *points)
 
 static void write_points(WrApp *app, int param, const Points *points)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     WrText text = { 0 };
     for (int i = 0; i < points->count; i++) {
         if (i > 0) wr_text_add(&text, ";");
@@ -100,7 +100,7 @@ static WrSelectPoint place(const WrApp *app, const Points *points, const WrPoint
 
 bool wr_pose_points_press(WrApp *app, const WrPointer *at)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     Points points;
     int param = points_param(hand);
     hand->point = -1;
@@ -126,7 +126,7 @@ bool wr_pose_points_press(WrApp *app, const WrPointer *at)
 
 void wr_pose_points_drag(WrApp *app, const WrPointer *at)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     Points points;
     int param = points_param(hand);
     if (param < 0 || !read_points(hand->value[param].text, &points)) return;
@@ -138,7 +138,7 @@ void wr_pose_points_drag(WrApp *app, const WrPointer *at)
 
 bool wr_pose_points_marks(const WrApp *app)
 {
-    const WrGenerateHand *hand = app->generate;
+    const WrGenerateState *hand = app->generate;
     Points points;
     int param = points_param(hand);
     if (param < 0 || !read_points(hand->value[param].text, &points) || points.count == 0)

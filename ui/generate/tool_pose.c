@@ -38,18 +38,18 @@ typedef struct Pose {
     int turned; /* component of the rotation: the last one, about the viewing axis */
 } Pose;
 
-static bool has_unit(const WrGenerateHand *hand, int i, const char *unit)
+static bool has_unit(const WrGenerateState *hand, int i, const char *unit)
 {
     return i >= 0 && strcmp(hand->generator->params[i].unit, unit) == 0;
 }
 
-static int number_or_tuple(const WrGenerateHand *hand, const char *const *names)
+static int number_or_tuple(const WrGenerateState *hand, const char *const *names)
 {
     int i = wr_generate_find(hand, names, WR_PARAM_NUMBER);
     return i >= 0 ? i : wr_generate_find(hand, names, WR_PARAM_TUPLE); /* per axis */
 }
 
-static Pose pose_of(const WrGenerateHand *hand)
+static Pose pose_of(const WrGenerateState *hand)
 {
     Pose pose = { wr_generate_find(hand, place_names, WR_PARAM_TUPLE),
                   number_or_tuple(hand, size_names), number_or_tuple(hand, turn_names), 0 };
@@ -155,7 +155,7 @@ static double wrapped(const WrParam *p, bool periodic, double x)
 
 static void put(WrApp *app, const Pose *pose, double u, double v)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     const WrParam *p = &hand->generator->params[pose->place];
     const WrField *field = wr_app_field(app);
     double *number = hand->value[pose->place].number;
@@ -163,7 +163,7 @@ static void put(WrApp *app, const Pose *pose, double u, double v)
     number[1] = wrapped(p, wr_field_wrap_v(field) == WR_WRAP_PERIODIC, v);
 }
 
-static void begin(WrGenerateHand *hand, const Pose *pose)
+static void begin(WrGenerateState *hand, const Pose *pose)
 {
     int i = hand->held == WR_POSE_SIZE   ? pose->size
             : hand->held == WR_POSE_TURN ? pose->turn
@@ -173,7 +173,7 @@ static void begin(WrGenerateHand *hand, const Pose *pose)
 
 static void press(WrApp *app, const WrPointer *at)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     app->hints = false;
     if (!hand->generator) return;
     Pose pose = pose_of(hand);
@@ -197,7 +197,7 @@ static void press(WrApp *app, const WrPointer *at)
 
 static void resize(WrApp *app, const Pose *pose, const WrPointer *at)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     const WrParam *p = &hand->generator->params[pose->size];
     int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
     double x, y, fx, fy;
@@ -214,7 +214,7 @@ static void resize(WrApp *app, const Pose *pose, const WrPointer *at)
 
 static void turn(WrApp *app, const Pose *pose, const WrPointer *at)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     const WrParam *p = &hand->generator->params[pose->turn];
     double x, y, fx, fy;
     WrPointer first = app->hand->start;
@@ -230,7 +230,7 @@ static void turn(WrApp *app, const Pose *pose, const WrPointer *at)
 
 static void drag(WrApp *app, const WrPointer *at)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     bool moved = hypot(at->x - app->hand->start.x, at->y - app->hand->start.y) >= 2.0;
     if (!hand->generator || hand->held == WR_POSE_NONE || !moved) return;
     Pose pose = pose_of(hand);
@@ -250,7 +250,7 @@ static void drag(WrApp *app, const WrPointer *at)
 /* A click on a text gives its field the keyboard focus. */
 static void release(WrApp *app, const WrPointer *at)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     bool moved = hypot(at->x - app->hand->start.x, at->y - app->hand->start.y) >= 2.0;
     bool point = hand->held == WR_POSE_POINT;
     if (hand->generator && !moved && !point && wr_generate_written(hand->generator) >= 0)
@@ -262,7 +262,7 @@ static void release(WrApp *app, const WrPointer *at)
 
 static bool key(WrApp *app, SDL_Keycode key)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     if (!hand->active) return false;
     if (key == SDLK_ESCAPE && hand->held != WR_POSE_NONE && hand->held != WR_POSE_POINT) {
         Pose pose = pose_of(hand); /* the dragged handle has priority */
@@ -303,7 +303,7 @@ static void handle(const WrApp *app, double x, double y, bool round, bool hot)
 
 static void marks(WrApp *app)
 {
-    const WrGenerateHand *hand = app->generate;
+    const WrGenerateState *hand = app->generate;
     double x, y;
     if (!is_shown(app)) return;
     bool points = wr_pose_points_marks(app); /* the points then set the position */
@@ -328,7 +328,7 @@ static void marks(WrApp *app)
 
 static void options(WrApp *app)
 {
-    WrGenerateHand *hand = app->generate;
+    WrGenerateState *hand = app->generate;
     wr_gui_same_line(14);
     if (!hand->generator) {
         wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Choose what to make in the Generate tab");

@@ -20,7 +20,7 @@
 
 typedef struct Work {
     WrDocument *document; /* own snapshot, changed by the work */
-    WrEditPreviewAsk ask;
+    WrEditPreviewRequest ask;
     /* unchanged copy of the snapshot, for the exact result after a rough one; NULL: none */
     WrDocument *again;
     char *line; /* generator line; ask.line points to it */
@@ -134,7 +134,7 @@ static void dab(Work *work, WrPool *pool)
 static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
     Work *work = arg;
-    const WrEditPreviewAsk *ask = &work->ask;
+    const WrEditPreviewRequest *ask = &work->ask;
     double began = wr_clock_seconds();
     if (ask->line) {
         bool moves = strncmp(ask->line, "transform", 9) == 0;
@@ -194,7 +194,7 @@ static void forget_made(WrEditPreview *trial)
 }
 
 void wr_edit_preview_ask(WrEditPreview *trial, const WrDocument *document,
-                         const WrEditPreviewAsk *ask)
+                         const WrEditPreviewRequest *ask)
 {
     Work *work = wr_alloc(1, sizeof *work);
     work->document = wr_document_share(document);
@@ -231,7 +231,7 @@ void wr_edit_preview_stop(WrEditPreview *trial)
 /* Start the exact computation after the rough result. */
 static void go_on(WrEditPreview *trial, const Work *rough)
 {
-    WrEditPreviewAsk ask = rough->ask;
+    WrEditPreviewRequest ask = rough->ask;
     ask.rough = false;
     wr_edit_preview_ask(trial, rough->again, &ask);
 }

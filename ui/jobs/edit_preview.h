@@ -18,7 +18,7 @@ typedef struct WrEditPreview WrEditPreview;
 WrEditPreview *wr_edit_preview_new(int threads, Uint32 done_event);
 void wr_edit_preview_free(WrEditPreview *trial); /* NULL is allowed */
 
-typedef struct WrEditPreviewAsk {
+typedef struct WrEditPreviewRequest {
     const WrOpInfo *op; /* operation on the active layer, inside the selection; or NULL: */
     double param[WR_OP_VALUES];
     bool all_layers;
@@ -37,13 +37,13 @@ typedef struct WrEditPreviewAsk {
     int layer; /* or a layer with changed settings; or the filter layer */
     WrBlend blend;
     float opacity, radius;
-} WrEditPreviewAsk;
+} WrEditPreviewRequest;
 
 /* Request the document's composite after an edit. Cancels an earlier request; its result, if any, stays until the new
  * one is ready. Copies a snapshot of the document. (An operation that changes the table's size is previewed on the
  * composite itself.) */
 void wr_edit_preview_ask(WrEditPreview *trial, const WrDocument *document,
-                         const WrEditPreviewAsk *ask);
+                         const WrEditPreviewRequest *ask);
 /* Discard the preview and its results. */
 void wr_edit_preview_end(WrEditPreview *trial);
 /* The whole document after the last requested edit, exact; NULL: not ready, or of another size. Borrowed like the

@@ -45,7 +45,7 @@ struct WrFiles {
     char parent[32]; /* identifier of the window for the portal */
     /* native dialog: by the portal, or a child process */
     bool running, by_portal;
-    WrPortalAsk ask; /* its texts are owned */
+    WrPortalRequest ask; /* its texts are owned */
     WrPortalEnd end;
     volatile int stop;
     WrPid child;
@@ -160,11 +160,11 @@ static bool ask_program(WrFiles *files, const char *start_at)
 #define SOON 1.0
 #define LATE 10.0 /* timeout if the user has chosen the portal: it may be starting */
 
-static void free_ask(WrPortalAsk *ask)
+static void free_ask(WrPortalRequest *ask)
 {
     const char *const texts[] = { ask->title, ask->accept, ask->folder, ask->name };
     for (int i = 0; i < WR_LENGTH(texts); i++) wr_free((char *)(uintptr_t)texts[i]);
-    *ask = (WrPortalAsk){ 0 };
+    *ask = (WrPortalRequest){ 0 };
 }
 
 /* Runs on a separate thread. */
@@ -182,16 +182,16 @@ static bool ask_portal(WrFiles *files, const char *folder, const char *name)
     const bool writes = wr_files_writes(files->purpose);
     if (!wr_portal_may_be()) return false;
     free_ask(&files->ask);
-    files->ask = (WrPortalAsk){ .title = wr_strdup(wr_words(purposes[files->purpose].title)),
-                                .accept = wr_strdup(wr_words(purposes[files->purpose].done)),
-                                .folder = wr_strdup(folder),
-                                .name = wr_strdup(name),
-                                .parent = files->parent,
-                                .kind = wr_words("What can be read here"),
-                                .all = wr_words("All files"),
-                                .endings = writes ? NULL : wr_file_endings(files->purpose),
-                                .save = writes,
-                                .patience = files->way == WR_FILE_WAY_DESKTOP ? LATE : SOON };
+    files->ask = (WrPortalRequest){ .title = wr_strdup(wr_words(purposes[files->purpose].title)),
+                                    .accept = wr_strdup(wr_words(purposes[files->purpose].done)),
+                                    .folder = wr_strdup(folder),
+                                    .name = wr_strdup(name),
+                                    .parent = files->parent,
+                                    .kind = wr_words("What can be read here"),
+                                    .all = wr_words("All files"),
+                                    .endings = writes ? NULL : wr_file_endings(files->purpose),
+                                    .save = writes,
+                                    .patience = files->way == WR_FILE_WAY_DESKTOP ? LATE : SOON };
     files->stop = 0;
     files->running = wr_thread_start(&files->waiter, wait_for_portal, files);
     files->by_portal = files->running;

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-typedef struct WrPortalAsk {
+typedef struct WrPortalRequest {
     const char *title, *accept; /* titles of the dialog and of its button */
     const char *folder, *name;  /* initial place; folder absolute, either may be "" */
     const char *parent;         /* parent window, as in "x11:1a0000f"; "": none */
@@ -14,7 +14,7 @@ typedef struct WrPortalAsk {
     const char *const *endings; /* as in "png", NULL-terminated; NULL: all files */
     bool save;                  /* a file to be written */
     double patience;            /* timeout in seconds for the portal's first response */
-} WrPortalAsk;
+} WrPortalRequest;
 
 typedef enum WrPortalEnd {
     WR_PORTAL_NONE, /* none, no answer in time, failed, or lost: use another dialog */
@@ -29,7 +29,7 @@ bool wr_portal_may_be(void);
  * stop     non-zero, set by any thread, closes the dialog: CANCELLED
  * path     [size]: the chosen file; the first of several
  * Threads  any; blocks the calling one */
-WrPortalEnd wr_portal_ask(const WrPortalAsk *ask, const volatile int *stop, char *path,
+WrPortalEnd wr_portal_ask(const WrPortalRequest *ask, const volatile int *stop, char *path,
                           size_t size);
 
 /* ---- portal_path.c ---- */

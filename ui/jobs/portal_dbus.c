@@ -291,7 +291,7 @@ static void add_filter(const Bus *bus, DBusMessageIter *filters, const char *cal
     bus->dbus.message_iter_close_container(filters, &filter);
 }
 
-static void add_filters(const Bus *bus, DBusMessageIter *options, const WrPortalAsk *ask)
+static void add_filters(const Bus *bus, DBusMessageIter *options, const WrPortalRequest *ask)
 {
     Entry e;
     DBusMessageIter filters;
@@ -303,7 +303,7 @@ static void add_filters(const Bus *bus, DBusMessageIter *options, const WrPortal
     end(bus, options, &e);
 }
 
-static DBusMessage *question(const Bus *bus, const WrPortalAsk *ask, const char *token)
+static DBusMessage *question(const Bus *bus, const WrPortalRequest *ask, const char *token)
 {
     DBusMessageIter at, options;
     DBusMessage *message = bus->dbus.message_new_method_call(DESKTOP, DESKTOP_PATH, CHOOSER,
@@ -376,7 +376,7 @@ static void close_request(const Bus *bus)
     bus->dbus.message_unref(message);
 }
 
-static WrPortalEnd ask_bus(Bus *bus, const WrPortalAsk *ask)
+static WrPortalEnd ask_bus(Bus *bus, const WrPortalRequest *ask)
 {
     static volatile int count;
     char token[40];
@@ -400,7 +400,8 @@ static WrPortalEnd ask_bus(Bus *bus, const WrPortalAsk *ask)
     return wr_cancel_asked(bus->stop) ? WR_PORTAL_CANCELLED : WR_PORTAL_NONE;
 }
 
-WrPortalEnd wr_portal_ask(const WrPortalAsk *ask, const volatile int *stop, char *path, size_t size)
+WrPortalEnd wr_portal_ask(const WrPortalRequest *ask, const volatile int *stop, char *path,
+                          size_t size)
 {
     Bus bus = { .stop = stop, .path = path, .size = size };
     path[0] = '\0';

@@ -68,7 +68,7 @@ static void change_ending(WrSetMap *map, const char *from, const char *to)
     memcpy(map->after + length - tail, to, tail);
 }
 
-static void adapt(WrSetMap *map, const WrSheetAsk *ask)
+static void adapt(WrSetMap *map, const WrSheetRequest *ask)
 {
     WR_ROWS(depths);
     static const char *const depths[] = { [WR_ROW(WR_SHEET_AS_SET)] = NULL,
@@ -107,7 +107,7 @@ static WrSet *set_of_kind(const WrExportKind *kind, WrError *err)
     return set;
 }
 
-WrSet *wr_sheet_set(const WrSheetAsk *ask, WrError *err)
+WrSet *wr_sheet_set(const WrSheetRequest *ask, WrError *err)
 {
     const WrExportKind *kind = wr_export_find(ask->as);
     WrSet *set = kind ? set_of_kind(kind, err) : wr_set_find(ask->as, err);
@@ -148,7 +148,7 @@ static bool resize(WrDocument *document, int w, int h, WrPool *pool, WrError *er
 
 /* ---- pictures ---- */
 
-WrSheetLook *wr_sheet_look_new(WrDocument *document, const WrSheetAsk *ask)
+WrSheetLook *wr_sheet_look_new(WrDocument *document, const WrSheetRequest *ask)
 {
     WrSheetLook *look = wr_alloc(1, sizeof *look);
     look->document = document;
@@ -217,7 +217,7 @@ const WrJobKind wr_sheet_look_kind = { run_look, drop_look };
 
 /* ---- files ---- */
 
-WrSheetWrite *wr_sheet_write_new(WrDocument *document, const WrSheetAsk *ask)
+WrSheetWrite *wr_sheet_write_new(WrDocument *document, const WrSheetRequest *ask)
 {
     WrSheetWrite *write = wr_alloc(1, sizeof *write);
     write->document = document;
@@ -241,7 +241,7 @@ static void drop_write(void *work)
 static void run_write(void *work, WrPool *pool, const WrProgress *progress)
 {
     WrSheetWrite *write = work;
-    const WrSheetAsk *ask = &write->ask;
+    const WrSheetRequest *ask = &write->ask;
     const double began = wr_clock_seconds();
     WrSet *set = wr_sheet_set(ask, &write->err);
     if (set) {

@@ -17,7 +17,7 @@ typedef struct WrDocument WrDocument;
 
 /* The requested maps: the set with its depth and range, or a kind as a set of one map. The caller frees it; NULL on
    failure. */
-WrSet *wr_sheet_set(const WrSheetAsk *ask, WrError *err);
+WrSet *wr_sheet_set(const WrSheetRequest *ask, WrError *err);
 /* Change w x h to the requested export size. */
 void wr_sheet_size(int size, int *w, int *h);
 /* Bits per channel of the map. */
@@ -25,7 +25,7 @@ int wr_sheet_depth(const WrSetMap *map);
 
 typedef struct WrSheetLook {
     WrDocument *document; /* owned */
-    WrSheetAsk ask;
+    WrSheetRequest ask;
     WrSet *set; /* owned; NULL: err */
     WrExportPicture pictures[WR_SET_MAPS];
     WrHistogram histogram;
@@ -37,7 +37,7 @@ typedef struct WrSheetLook {
 
 typedef struct WrSheetWrite {
     WrDocument *document; /* owned */
-    WrSheetAsk ask;
+    WrSheetRequest ask;
     WrText told; /* one line per file */
     int files;
     double seconds;
@@ -47,7 +47,7 @@ typedef struct WrSheetWrite {
 
 /* Job kinds; they own the document. */
 extern const WrJobKind wr_sheet_look_kind, wr_sheet_write_kind;
-WrSheetLook *wr_sheet_look_new(WrDocument *document, const WrSheetAsk *ask);
+WrSheetLook *wr_sheet_look_new(WrDocument *document, const WrSheetRequest *ask);
 void wr_sheet_look_free(WrSheetLook *look); /* NULL is allowed */
-WrSheetWrite *wr_sheet_write_new(WrDocument *document, const WrSheetAsk *ask);
+WrSheetWrite *wr_sheet_write_new(WrDocument *document, const WrSheetRequest *ask);
 void wr_sheet_write_free(WrSheetWrite *write);

@@ -34,10 +34,10 @@ const WrOpInfo *wr_action_op(const char *name)
 
 static void ask(WrApp *app)
 {
-    WrEditPreviewAsk trial = { .op = app->adjust->op,
-                               .all_layers = app->adjust->layers == 1,
-                               .filters = app->adjust->filters,
-                               .layer = app->adjust->layer };
+    WrEditPreviewRequest trial = { .op = app->adjust->op,
+                                   .all_layers = app->adjust->layers == 1,
+                                   .filters = app->adjust->filters,
+                                   .layer = app->adjust->layer };
     memcpy(trial.param, app->adjust->param, sizeof trial.param);
     app->adjust->asked_at = wr_session_revision(app->session);
     wr_app_try(app, &trial);
@@ -83,7 +83,7 @@ static void ask_values(WrApp *app, const WrFilter *filter, bool filters, int lay
     app->adjust->op = filter->op;
     app->adjust->view = *app->view;
     app->adjust->layers = app->adjust->held = 0;
-    app->adjust->points = (WrPointsHand){ 0 };
+    app->adjust->points = (WrPointsState){ 0 };
     app->adjust->filters = filters;
     app->adjust->layer = layer;
     memcpy(app->adjust->param, filter->param, sizeof app->adjust->param);

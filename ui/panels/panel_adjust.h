@@ -38,7 +38,7 @@ typedef struct WrAdjust {
     WrCanvasView view;        /* canvas view before the dialog */
     WrHeightCounts histogram; /* for levels and curves */
     int held;                 /* dragged limit: 1 low, 2 high; 0: none */
-    WrPointsHand points;      /* of a curve */
+    WrPointsState points;     /* of a curve */
     WrHeightSpan held_span;   /* range of the histogram at the start of the drag */
     bool lacks;               /* a missing filter result was reported */
 } WrAdjust;

@@ -27,7 +27,7 @@
 
 struct WrDynamics {
     int setting, input; /* libmypaint's numbers */
-    WrPointsHand hand;
+    WrPointsState hand;
     /* points of the current curve, in the form of wr_points_move */
     double value[1 + 2 * WR_PRESET_POINTS];
     /* the pad spans -reach..reach; 0: derived from the points */
@@ -76,7 +76,7 @@ void wr_dialog_dynamics_open(WrApp *app, int setting)
             if (wr_preset_curve(app->shelf->tuned, setting, i, &points) > 0) d->input = i;
         }
     }
-    d->hand = (WrPointsHand){ 0 };
+    d->hand = (WrPointsState){ 0 };
     d->reach = 0.0;
     forget_steps(d);
     wr_dialog_open(app, WR_DIALOG_DYNAMICS);
@@ -101,7 +101,7 @@ static void take_back(WrApp *app)
     WrDynamics *d = app->dynamics;
     if (d->before.count == 0) return;
     char *set = d->before.data[--d->before.count];
-    d->hand = (WrPointsHand){ 0 };
+    d->hand = (WrPointsState){ 0 };
     wr_preset_browser_tune_all(app, set);
     wr_free(set);
 }
@@ -275,7 +275,7 @@ static void what(WrApp *app)
     other |= choose("input", &inputs, &d->input);
     wr_gui_tip(wr_preset_input(d->input)->help);
     if (!other) return;
-    d->hand = (WrPointsHand){ 0 };
+    d->hand = (WrPointsState){ 0 };
     d->reach = 0.0;
 }
 

@@ -41,7 +41,7 @@ void wr_panel_layers_forget(WrApp *app)
 static void try_layer(WrApp *app, int index, double opacity, double radius)
 {
     const WrLayer *layer = &wr_app_document(app)->layers[index];
-    WrEditPreviewAsk ask = {
+    WrEditPreviewRequest ask = {
         .layer = index, .blend = layer->blend, .opacity = (float)opacity, .radius = (float)radius
     };
     wr_app_try(app, &ask);
@@ -103,7 +103,7 @@ static void settings(WrApp *app, int index)
 
 void wr_layer_rename_start(WrApp *app, int index)
 {
-    WrLayersHand *hand = app->layers;
+    WrLayersState *hand = app->layers;
     hand->renamed = index;
     hand->fresh = true;
     SDL_utf8strlcpy(hand->name, wr_app_document(app)->layers[index].name, sizeof hand->name);
@@ -112,7 +112,7 @@ void wr_layer_rename_start(WrApp *app, int index)
 
 static void finish_rename(WrApp *app, bool keep)
 {
-    WrLayersHand *hand = app->layers;
+    WrLayersState *hand = app->layers;
     int index = hand->renamed;
     const WrDocument *document = wr_app_document(app);
     hand->renamed = -1;
@@ -128,7 +128,7 @@ static void finish_rename(WrApp *app, bool keep)
 
 static void name_field(WrApp *app, double width)
 {
-    WrLayersHand *hand = app->layers;
+    WrLayersState *hand = app->layers;
     bool first = hand->fresh;
     bool done = wr_gui_text_field("##name", width, hand->name, sizeof hand->name, first);
     bool left = wr_gui_field_left();
@@ -267,7 +267,7 @@ static bool row_parts(WrApp *app, int i, bool active)
 /* Update the drop position of the dragged layer. */
 static void follow_drag(WrApp *app, const WrRow *row, int i, int count)
 {
-    WrLayersHand *hand = app->layers;
+    WrLayersState *hand = app->layers;
     hand->dragged = i;
     /* rows run down, layers up */
     double rows_up = (row->top + row->height / 2.0 - row->pointer_y) / row->height;
@@ -278,7 +278,7 @@ static void follow_drag(WrApp *app, const WrRow *row, int i, int count)
 
 static void drop(WrApp *app)
 {
-    WrLayersHand *hand = app->layers;
+    WrLayersState *hand = app->layers;
     int from = hand->dragged, to = hand->gap > from ? hand->gap - 1 : hand->gap;
     hand->dragged = -1;
     if (from >= 0 && to != from) wr_app_run_linef(app, "layer move %d to=%d", from + 1, to + 1);

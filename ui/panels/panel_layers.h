@@ -11,7 +11,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef struct WrLayersHand {
+typedef struct WrLayersState {
     int dragged; /* index of the dragged layer, -1: none */
     int gap;     /* drop position: between layers gap - 1 and gap */
     int renamed; /* index of the layer being renamed, -1: none */
@@ -20,7 +20,7 @@ typedef struct WrLayersHand {
     bool open;          /* open the menu */
     WrThumbList thumbs; /* two per layer: heights, mask */
     WrThumbList steps;  /* one per state of the history */
-} WrLayersHand;
+} WrLayersState;
 
 void wr_panel_layers(WrApp *app, SDL_Rect room);
 void wr_panel_layers_forget(WrApp *app); /* drop its textures */

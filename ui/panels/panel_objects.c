@@ -123,7 +123,7 @@ static void buttons(WrApp *app)
 
 static void name_row(WrApp *app)
 {
-    WrObjectsHand *hand = app->objects;
+    WrObjectsState *hand = app->objects;
     const WrScene *scene = wr_app_scene(app);
     char buffer[WR_OBJECT_LABEL];
     const char *label = wr_scene_object_label(scene, scene->chosen, buffer);

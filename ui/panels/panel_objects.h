@@ -3,10 +3,10 @@
 #include "document/document.h"
 
 /* Name of the active object while it is typed. */
-typedef struct WrObjectsHand {
+typedef struct WrObjectsState {
     char name[WR_LAYER_NAME_MAX + 1];
     char of[WR_LAYER_NAME_MAX + 1]; /* name at the start */
-} WrObjectsHand;
+} WrObjectsState;
 
 typedef struct WrApp WrApp;
 /* Handle the chosen file for the active object's table. */

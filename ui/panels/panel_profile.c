@@ -23,7 +23,7 @@
 /* ---- geometry ---- */
 
 /* Map from profile lengths to the pad: the axis in the middle, z up. Fixed while a point is dragged. */
-static void fit(WrProfileHand *hand, const WrPad *pad)
+static void fit(WrProfileState *hand, const WrPad *pad)
 {
     double most = 1e-9, low = INFINITY, high = -INFINITY;
     for (int i = 0; i < hand->edit.count; i++) {
@@ -34,19 +34,19 @@ static void fit(WrProfileHand *hand, const WrPad *pad)
     hand->middle = (low + high) / 2;
 }
 
-static double x_of(const WrProfileHand *hand, const WrPad *pad, double r)
+static double x_of(const WrProfileState *hand, const WrPad *pad, double r)
 {
     return pad->x + pad->w / 2 + r * hand->scale;
 }
 
-static double y_of(const WrProfileHand *hand, const WrPad *pad, double z)
+static double y_of(const WrProfileState *hand, const WrPad *pad, double z)
 {
     return pad->y + pad->h / 2 - (z - hand->middle) * hand->scale;
 }
 
 /* ---- drawing ---- */
 
-static void draw_curve(const WrProfileHand *hand, const WrPad *pad, const WrShape *shape)
+static void draw_curve(const WrProfileState *hand, const WrPad *pad, const WrShape *shape)
 {
     const double s = wr_gui_scale();
     WrSurfacePoint last = { 0 };
@@ -67,7 +67,7 @@ static void draw_curve(const WrProfileHand *hand, const WrPad *pad, const WrShap
     }
 }
 
-static void draw_points(const WrProfileHand *hand, const WrPad *pad, int over)
+static void draw_points(const WrProfileState *hand, const WrPad *pad, int over)
 {
     const double s = wr_gui_scale();
     for (int i = 0; i < hand->edit.count; i++) {
@@ -86,7 +86,7 @@ static void draw_points(const WrProfileHand *hand, const WrPad *pad, int over)
 /* ---- dragging ---- */
 
 /* Show the surface of the present points in the preview; invalid profiles are not shown. */
-static void show(WrApp *app, WrProfileHand *hand)
+static void show(WrApp *app, WrProfileState *hand)
 {
     WrText text = { 0 };
     wr_profile_edit_write(&hand->edit, &text);
@@ -103,7 +103,7 @@ static void show(WrApp *app, WrProfileHand *hand)
     wr_text_fini(&text);
 }
 
-static void run(WrApp *app, WrProfileHand *hand)
+static void run(WrApp *app, WrProfileState *hand)
 {
     WrText text = { 0 };
     wr_profile_edit_write(&hand->edit, &text);
@@ -113,7 +113,7 @@ static void run(WrApp *app, WrProfileHand *hand)
     hand->key = 0; /* read again, also after a refusal */
 }
 
-static void press(WrApp *app, WrProfileHand *hand, int over, double r, double z)
+static void press(WrApp *app, WrProfileState *hand, int over, double r, double z)
 {
     const int mods = app->hand->mods;
     if (over >= 0 && (mods & (WR_MOD_CTRL | WR_MOD_SHIFT))) {
@@ -126,7 +126,7 @@ static void press(WrApp *app, WrProfileHand *hand, int over, double r, double z)
     hand->held = 1 + (over >= 0 ? over : wr_profile_edit_add(&hand->edit, fmax(r, 0), z));
 }
 
-static void drag(WrApp *app, WrProfileHand *hand, double r, double z)
+static void drag(WrApp *app, WrProfileState *hand, double r, double z)
 {
     const WrProfilePlace *p = &hand->edit.place[hand->held - 1];
     const double axis = AXIS * wr_gui_scale() / hand->scale;
@@ -138,7 +138,7 @@ static void drag(WrApp *app, WrProfileHand *hand, double r, double z)
 
 void wr_profile_row(WrApp *app)
 {
-    WrProfileHand *hand = &app->surface->profile;
+    WrProfileState *hand = &app->surface->profile;
     const WrShape *shape = &wr_app_scene(app)->shape;
     const double wide = wr_gui_available();
     if (hand->held == 0 && hand->key != shape->key) {

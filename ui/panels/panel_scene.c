@@ -164,7 +164,7 @@ static void browse(WrApp *app, const char *file)
 static void surface_file(WrApp *app)
 {
     const WrShape *shape = &wr_app_scene(app)->shape;
-    WrSurfaceHand *hand = app->surface;
+    WrSurfaceState *hand = app->surface;
     int table;
     const char *file = file_of(app, shape->kind, &table);
     const double key = shape->value[WR_MESH_KEY] + 0x1p40 * (1 + (int)shape->kind);
@@ -207,7 +207,7 @@ static void surface_texts(WrApp *app)
 {
     const WrShape *shape = &wr_app_scene(app)->shape;
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
-    WrSurfaceHand *hand = app->surface;
+    WrSurfaceState *hand = app->surface;
     const char *text[WR_SURFACE_TEXTS] = { NULL };
     bool done = false, left = false;
     if (!shape->data) return;

@@ -4,23 +4,23 @@
 #include "ui/panels/profile_edit.h"
 
 /* State of the profile editor (panel_profile.c). */
-typedef struct WrProfileHand {
+typedef struct WrProfileState {
     WrProfileEdit edit;
     uint64_t key;         /* key of the data that it was read from */
     int held;             /* index of the dragged place, from 1; 0: none */
     bool moved;           /* moved since the press */
     bool wrong;           /* the present profile is invalid */
     double scale, middle; /* pixels per scene unit; z at the pad's middle */
-} WrProfileHand;
+} WrProfileState;
 
 /* Text parameters of a surface while they are typed. */
-typedef struct WrSurfaceHand {
+typedef struct WrSurfaceState {
     char text[WR_SURFACE_TEXTS][WR_SURFACE_TEXT_MAX + 1];
     uint64_t key; /* key of the data that they were read from */
     char file[4096];
     double file_key; /* key of the mesh that the file name was read from */
-    WrProfileHand profile;
-} WrSurfaceHand;
+    WrProfileState profile;
+} WrSurfaceState;
 
 typedef struct WrApp WrApp;
 /* Run the surface command for that shape. text: texts of its row; NULL: the defaults. */

@@ -43,7 +43,7 @@ void wr_dialog_select_open(WrApp *app, WrOutlineKind kind)
 {
     wr_dialog_open(app, WR_DIALOG_SELECT);
     *app->selecting =
-        (WrOutlineAsk){ .kind = kind, .by = 4.0, .mode = (WrSelectMode)app->settings->join };
+        (WrOutlineRequest){ .kind = kind, .by = 4.0, .mode = (WrSelectMode)app->settings->join };
     if (kind == WR_OUTLINE_HEIGHT) {
         float low, high;
         wr_field_range(wr_app_field(app), &low, &high);
@@ -81,7 +81,7 @@ static bool range_fields(WrApp *app)
         [WR_ROW(WR_SELECT_INTERSECT)] = "Intersect with it",
     };
     WR_ROWS_END(joins, WR_SELECT_MODES);
-    WrOutlineAsk *a = app->selecting;
+    WrOutlineRequest *a = app->selecting;
     bool changed = false, slope = a->kind == WR_OUTLINE_SLOPE;
     double low = slope ? 0.0 : app->selecting->low < 0.0 ? -1.0 : 0.0, high = slope ? 90.0 : 1.0;
     double least = slope ? 0.0 : -1e30, most = slope ? 90.0 : 1e30;
@@ -103,7 +103,7 @@ static bool range_fields(WrApp *app)
 
 static void commit(WrApp *app)
 {
-    const WrOutlineAsk *a = app->selecting;
+    const WrOutlineRequest *a = app->selecting;
     WrText line = { 0 };
     if (a->to_mask)
         wr_text_addf(&line, "layer mask %d from=%s", wr_app_document(app)->active + 1,

@@ -6,13 +6,13 @@
 #include "ui/jobs/sheet_job.h"
 
 typedef struct WrSheetState {
-    WrSheetAsk ask;      /* settings of the sheet */
+    WrSheetRequest ask;  /* settings of the sheet */
     bool live;           /* live export: write again after each pause in editing */
     WrJob *look, *write; /* owned; NULL until needed */
     WrSheetLook *shown;  /* the newest pictures; owned; NULL: none yet */
     SDL_Texture *pictures[WR_SET_MAPS],
-        *greens[2];    /* owned; greens: pictures of a bump with green up and down */
-    WrSheetAsk looked; /* request of the newest pictures */
+        *greens[2];        /* owned; greens: pictures of a bump with green up and down */
+    WrSheetRequest looked; /* request of the newest pictures */
     uint64_t looked_key;
     WrSetNames names;                      /* names of sets when the sheet was opened */
     uint64_t key, key_table, key_revision; /* hashes of all inputs of the maps at that revision */

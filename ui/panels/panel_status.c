@@ -361,7 +361,7 @@ static bool work(WrApp *app)
     bool outlined = !tried && wr_outliner_busy(app->marks->outliner, &fraction, &seconds) &&
                     seconds > MOMENT_SECONDS;
     if (!tried && !outlined) return false;
-    const WrGenerateHand *hand = app->generate;
+    const WrGenerateState *hand = app->generate;
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_STRONG,
                 outlined                          ? "Outlining the selection"
                 : app->adjust->op                 ? app->adjust->op->label

@@ -26,7 +26,7 @@ struct WrTester {
     int drawing; /* device that draws the present line, -1: none */
     /* rectangle of the scribble in the last frame, pixels of the window */
     double pad_x, pad_y, pad_w, pad_h;
-    WrPointsHand grip;       /* drag of a curve point */
+    WrPointsState grip;      /* drag of a curve point */
     double counted_at, rate; /* events per second */
     int64_t counted;
     double newest_at; /* clock */

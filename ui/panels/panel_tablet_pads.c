@@ -271,7 +271,7 @@ static void grid(const WrApp *app, const WrPad *pad)
 WrEdit wr_tester_curve(WrApp *app, double side, WrPenCurve *curve)
 {
     static const WrPointsSpan span = { 0.0, 1.0, 0.0, 1.0 };
-    WrPointsHand *hand = &app->tester->grip;
+    WrPointsState *hand = &app->tester->grip;
     double value[1 + 2 * WR_PEN_POINTS];
     WrPad pad = wr_gui_pad_begin("curve", side, side);
     to_pad(curve, value);

@@ -20,8 +20,8 @@ static double y_of(const WrPad *pad, const WrPointsSpan *span, double y)
     return pad->y + pad->h * (1.0 - (y - span->low) / (span->high - span->low));
 }
 
-void wr_points_draw(const WrPad *pad, const WrPointsHand *hand, const double *value, WrPointsAt *at,
-                    const void *ctx)
+void wr_points_draw(const WrPad *pad, const WrPointsState *hand, const double *value,
+                    WrPointsAt *at, const void *ctx)
 {
     const WrPointsSpan *span = &hand->span;
     double before_x = 0.0, before_y = 0.0;
@@ -109,7 +109,7 @@ static void move(const WrPointsSpan *span, const WrPointsRules *rules, double *v
     value[2 + 2 * i] = y;
 }
 
-static bool drag(const WrPad *pad, const WrPointsRules *rules, WrPointsHand *hand, double *value,
+static bool drag(const WrPad *pad, const WrPointsRules *rules, WrPointsState *hand, double *value,
                  double x, double y)
 {
     const int i = hand->held - 1;
@@ -125,7 +125,7 @@ static bool drag(const WrPad *pad, const WrPointsRules *rules, WrPointsHand *han
     return value[1 + 2 * i] != was_x || value[2 + 2 * i] != was_y;
 }
 
-static bool keys(const WrPointsRules *rules, WrPointsHand *hand, double *value)
+static bool keys(const WrPointsRules *rules, WrPointsState *hand, double *value)
 {
     const WrPointsSpan *span = &hand->span;
     const int i = hand->chosen - 1;
@@ -144,7 +144,7 @@ static bool keys(const WrPointsRules *rules, WrPointsHand *hand, double *value)
 }
 
 bool wr_points_move(const WrPad *pad, const WrPointsSpan *now, const WrPointsRules *rules,
-                    WrPointsHand *hand, double *value)
+                    WrPointsState *hand, double *value)
 {
     if (!hand->held) hand->span = *now;
     const WrPointsSpan *span = &hand->span;

@@ -11,11 +11,11 @@ typedef struct WrPointsSpan {
 } WrPointsSpan;
 
 /* State between frames; zero-initialised. */
-typedef struct WrPointsHand {
+typedef struct WrPointsState {
     int held;          /* index of the dragged point, from 1; 0: none */
     int chosen;        /* index of the point for keys, from 1; 0: none */
     WrPointsSpan span; /* range at the start of the drag, fixed until its end */
-} WrPointsHand;
+} WrPointsState;
 
 /* Constraints of a curve. */
 typedef struct WrPointsRules {
@@ -28,10 +28,10 @@ typedef struct WrPointsRules {
 /* Handle one frame of the pad. span: the range for now; hand->span is the range in use. value: the number of points,
  * then x, y of each, x increasing; room for rules->most. True if a point was changed. */
 bool wr_points_move(const WrPad *pad, const WrPointsSpan *span, const WrPointsRules *rules,
-                    WrPointsHand *hand, double *value);
+                    WrPointsState *hand, double *value);
 
 /* Draw the points as discs, and y(x) from the left to the right edge as a line; at(ctx, x, &y) returns false where
    there is no curve. */
 typedef bool WrPointsAt(const void *ctx, double x, double *y);
-void wr_points_draw(const WrPad *pad, const WrPointsHand *hand, const double *value, WrPointsAt *at,
-                    const void *ctx);
+void wr_points_draw(const WrPad *pad, const WrPointsState *hand, const double *value,
+                    WrPointsAt *at, const void *ctx);

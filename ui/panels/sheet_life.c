@@ -27,7 +27,7 @@
 
 /* ---- settings and their storage in the document ---- */
 
-static bool is_same(const WrSheetAsk *a, const WrSheetAsk *b)
+static bool is_same(const WrSheetRequest *a, const WrSheetRequest *b)
 {
     return strcmp(a->as, b->as) == 0 && strcmp(a->folder, b->folder) == 0 &&
            strcmp(a->name, b->name) == 0 && a->depth == b->depth && a->size == b->size &&
@@ -40,7 +40,7 @@ static void keep(WrApp *app)
     static const char *const depths[] = { "set", "8", "16", "32" };
     static const char *const sizes[] = { "table", "half", "quarter", "power" };
     static const char *const ranges[] = { "set", "auto", "unit", "signed" };
-    const WrSheetAsk *ask = &app->sheet->ask;
+    const WrSheetRequest *ask = &app->sheet->ask;
     if (is_same(ask, &wr_session_document(app->session)->scene->sheet)) return;
     WrText line = { 0 };
     wr_text_add(&line, "sheet ");
@@ -56,9 +56,9 @@ static void keep(WrApp *app)
 }
 
 /* Default folder and name: those of the document. */
-static void take_place(const WrApp *app, WrSheetAsk *ask)
+static void take_place(const WrApp *app, WrSheetRequest *ask)
 {
-    const WrSheetAsk *kept = &wr_session_document(app->session)->scene->sheet;
+    const WrSheetRequest *kept = &wr_session_document(app->session)->scene->sheet;
     *ask = *kept;
     if (!*ask->as) snprintf(ask->as, sizeof ask->as, "%s", wr_set_rows[0].name);
     if (*ask->folder && *ask->name) return;

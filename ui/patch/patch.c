@@ -118,17 +118,17 @@ static void wish(WrApp *app, bool moving)
     WrPatch *p = app->patch;
     const SDL_Rect *room = &app->layout->patch;
     WrTables *tables = tables_of(app);
-    WrPreviewWish w = { .field = wr_app_field(app),
-                        .scene = wr_app_scene(app),
-                        .tables = tables,
-                        .turn_deg = p->turn_deg,
-                        .width = room->w,
-                        .height = room->h,
-                        .tag = app->brush->shown,
-                        .chosen = moving ? NULL : wr_session_chosen(app->session),
-                        .moving = moving,
-                        .painting = is_painted(app),
-                        .look = p->look };
+    WrPreviewRequest w = { .field = wr_app_field(app),
+                           .scene = wr_app_scene(app),
+                           .tables = tables,
+                           .turn_deg = p->turn_deg,
+                           .width = room->w,
+                           .height = room->h,
+                           .tag = app->brush->shown,
+                           .chosen = moving ? NULL : wr_session_chosen(app->session),
+                           .moving = moving,
+                           .painting = is_painted(app),
+                           .look = p->look };
     wr_preview_want(app->preview, &w);
     wr_field_free(p->wished_field);
     wr_tables_free(p->wished_tables);
@@ -304,8 +304,8 @@ void wr_patch_draw(WrApp *app)
         return;
     }
     if (picture->serial != p->serial) take_picture(app);
-    wr_retained_frame_copy_told(wr_gui_kept(app->gui), p->texture,
-                                &(SDL_Rect){ 0, 0, picture->width, picture->height }, room);
+    wr_retained_frame_copy_tracked(wr_gui_kept(app->gui), p->texture,
+                                   &(SDL_Rect){ 0, 0, picture->width, picture->height }, room);
 }
 
 /* Quality of the picture: a ring that closes. */

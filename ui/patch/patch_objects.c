@@ -196,7 +196,7 @@ void wr_patch_handles_draw(const WrApp *app)
     Ball ball;
     double x, y;
     const double s = wr_gui_scale();
-    const WrHand *hand = app->hand;
+    const WrInputRouter *hand = app->hand;
     if (!find_ball(app, &ball) || wr_patch_paints(app)) return;
     if (!hand->on_patch && hand->grab != WR_GRAB_HANDLE) return;
     const WrHandle over =

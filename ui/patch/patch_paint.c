@@ -262,7 +262,7 @@ static void draw_marks(const WrApp *app, const WrPatchPick *pick)
 
 static void overlay_clipped(WrApp *app)
 {
-    const WrHand *hand = app->hand;
+    const WrInputRouter *hand = app->hand;
     bool painting = hand->grab == WR_GRAB_PATCH_PAINT;
     bool over = painting || (hand->on_patch && hand->grab == WR_GRAB_NONE && wr_patch_paints(app) &&
                              !wr_patch_control_under(app, &hand->at));

@@ -16,7 +16,7 @@ static bool make_room(WrPictureRan *ran, int width, int height, WrError *err)
     return ran->map != NULL;
 }
 
-bool wr_picture_ran_bring(WrPictureRan *ran, WrFrameRequest *request, WrError *err)
+bool wr_picture_heatmap_update(WrPictureRan *ran, WrFrameRequest *request, WrError *err)
 {
     if (!make_room(ran, request->width, request->height, err)) return false;
     request->map = ran->map;

@@ -14,6 +14,6 @@ typedef struct WrPictureRan {
 } WrPictureRan;
 
 /* Make the request fill the map. Errors: out of memory. */
-bool wr_picture_ran_bring(WrPictureRan *ran, WrFrameRequest *request, WrError *err);
+bool wr_picture_heatmap_update(WrPictureRan *ran, WrFrameRequest *request, WrError *err);
 /* Write the colours to the picture's pixels, of the same size, and its counts. */
 void wr_picture_ran_show(const WrPictureRan *ran, WrPreviewPicture *out);

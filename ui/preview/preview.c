@@ -232,7 +232,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     wr_free(out->kept);
     out->kept = NULL;
     out->ran = wish->look.ran;
-    if (wish->look.ran && !wr_picture_ran_bring(&preview->ran, &request, err)) return false;
+    if (wish->look.ran && !wr_picture_heatmap_update(&preview->ran, &request, err)) return false;
     bool good = level == WR_PREVIEW_FINAL && has_tolerance(wish)
                     ? by_tolerance(preview, &request, out, &frame, err)
                     : wr_renderer_frame(renderer, &request, &frame, err);
@@ -400,7 +400,7 @@ static void work_in_place(WrPreview *preview)
 
 /* ---- on the window's thread ---- */
 
-void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
+void wr_preview_want(WrPreview *preview, const WrPreviewRequest *wish)
 {
     wr_mutex_lock(&preview->lock);
     wish_clear(&preview->next);

@@ -47,7 +47,7 @@ typedef struct WrPreviewLook {
 } WrPreviewLook;
 bool wr_preview_look_same(const WrPreviewLook *a, const WrPreviewLook *b);
 
-typedef struct WrPreviewWish {
+typedef struct WrPreviewRequest {
     const WrField *field; /* shared by the call, as is the scene */
     const WrScene *scene;
     const WrTables *tables; /* prepared tables of its objects; NULL: all use `field` */
@@ -59,10 +59,10 @@ typedef struct WrPreviewWish {
     bool painting; /* edits follow in quick succession: prefer speed and do not refine */
     WrPreviewLook look;
     bool moving; /* further requests follow at once: do not go beyond WR_PREVIEW_MOVING */
-} WrPreviewWish;
+} WrPreviewRequest;
 
 /* Replace the request. A high-quality picture in progress for an older one is cancelled. */
-void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish);
+void wr_preview_want(WrPreview *preview, const WrPreviewRequest *wish);
 
 /* Request the (u,v) under a point of the view, as fractions of its width and height; outside 0..1: no request. The
  * answer is updated with every picture until another point is requested. */

@@ -10,7 +10,7 @@ typedef struct WrAccuracy WrAccuracy;
 typedef struct WrAction WrAction;
 typedef struct WrAdjust WrAdjust;
 typedef struct WrAppOptions WrAppOptions;
-typedef struct WrBrushHand WrBrushHand;
+typedef struct WrBrushState WrBrushState;
 typedef struct WrBrushSources WrBrushSources;
 typedef struct WrBusy WrBusy;
 typedef struct WrCanvas WrCanvas;
@@ -18,28 +18,28 @@ typedef struct WrCanvasMap WrCanvasMap;
 typedef struct WrCanvasRange WrCanvasRange;
 typedef struct WrCanvasView WrCanvasView;
 typedef struct WrCertificate WrCertificate;
-typedef struct WrCloneHand WrCloneHand;
-typedef struct WrDialogHand WrDialogHand;
+typedef struct WrCloneState WrCloneState;
+typedef struct WrDialogState WrDialogState;
 typedef struct WrDocument WrDocument;
-typedef struct WrDocumentHand WrDocumentHand;
-typedef struct WrDrawHand WrDrawHand;
+typedef struct WrDocumentState WrDocumentState;
+typedef struct WrDrawState WrDrawState;
 typedef struct WrFiles WrFiles;
 typedef struct WrFinder WrFinder;
 typedef struct WrPreferences WrPreferences;
 typedef struct WrForms WrForms;
-typedef struct WrGenerateHand WrGenerateHand;
+typedef struct WrGenerateState WrGenerateState;
 typedef struct WrGui WrGui;
 typedef struct WrGuide WrGuide;
-typedef struct WrHand WrHand;
+typedef struct WrInputRouter WrInputRouter;
 typedef struct WrKeyMap WrKeyMap;
 typedef struct WrLatency WrLatency;
 typedef struct WrDeferred WrDeferred;
-typedef struct WrLayersHand WrLayersHand;
+typedef struct WrLayersState WrLayersState;
 typedef struct WrLayout WrLayout;
 typedef struct WrMarks WrMarks;
 typedef struct WrMessages WrMessages;
 typedef struct WrMeter WrMeter;
-typedef struct WrOutlineAsk WrOutlineAsk;
+typedef struct WrOutlineRequest WrOutlineRequest;
 typedef struct WrPart WrPart;
 typedef struct WrPatch WrPatch;
 typedef struct WrPatchPaint WrPatchPaint;
@@ -53,19 +53,19 @@ typedef struct WrIdleProbe WrIdleProbe;
 typedef struct WrRoster WrRoster;
 typedef struct WrScene WrScene;
 typedef struct WrSeam WrSeam;
-typedef struct WrSelectHand WrSelectHand;
+typedef struct WrSelectState WrSelectState;
 typedef struct WrSession WrSession;
 typedef struct WrSettings WrSettings;
 typedef struct WrSheetState WrSheetState;
 typedef struct WrPresetBrowser WrPresetBrowser;
-typedef struct WrStampHand WrStampHand;
-typedef struct WrSurfaceHand WrSurfaceHand;
-typedef struct WrObjectsHand WrObjectsHand;
+typedef struct WrStampState WrStampState;
+typedef struct WrSurfaceState WrSurfaceState;
+typedef struct WrObjectsState WrObjectsState;
 typedef struct WrDynamics WrDynamics;
 typedef struct WrTester WrTester;
 typedef struct WrTiming WrTiming;
 typedef struct WrTool WrTool;
-typedef struct WrTransformHand WrTransformHand;
+typedef struct WrTransformState WrTransformState;
 typedef struct WrEditPreview WrEditPreview;
 typedef struct WrWaits WrWaits;
 
@@ -120,16 +120,16 @@ struct WrApp {
     bool mask_alone; /* show the active layer's mask on the canvas while edits go to it */
     bool canvas_unfinished;
     int tool;
-    WrHand *hand;
-    WrBrushHand *brush;
+    WrInputRouter *hand;
+    WrBrushState *brush;
     WrBrushSources *brush_files;
     WrPresetBrowser *shelf;
-    WrDrawHand *draw;
-    WrCloneHand *clone;
-    WrTransformHand *transform;
-    WrStampHand *stamp;
-    WrGenerateHand *generate; /* owned */
-    WrAccuracy *accuracy;     /* owned */
+    WrDrawState *draw;
+    WrCloneState *clone;
+    WrTransformState *transform;
+    WrStampState *stamp;
+    WrGenerateState *generate; /* owned */
+    WrAccuracy *accuracy;      /* owned */
     WrPatch *patch;
     WrPatchPaint *paint;
     WrLatency *latency;        /* running latency measurement; borrowed */
@@ -140,14 +140,14 @@ struct WrApp {
     WrEditPreview *trial;
     bool trying; /* the views show the edit preview */
     WrMarks *marks;
-    WrSelectHand *select;
-    WrLayersHand *layers;
-    WrSurfaceHand *surface;
-    WrObjectsHand *objects;
+    WrSelectState *select;
+    WrLayersState *layers;
+    WrSurfaceState *surface;
+    WrObjectsState *objects;
     WrSheetState *sheet;    /* state of the export sheet; owned; NULL until it is opened */
     WrPresetTiles *presets; /* owned; NULL until the material list is drawn */
     WrAdjust *adjust;
-    WrOutlineAsk *selecting; /* state of the dialogs that change the selection */
+    WrOutlineRequest *selecting; /* state of the dialogs that change the selection */
     WrFinder *finder;
     WrPreferences *preferences;
     WrSeam *seam;
@@ -165,10 +165,10 @@ struct WrApp {
     double thrifty_at;    /* clock of the last memory trim after an idle period */
 
     WrMessages *messages;
-    WrDialogHand *dialog;
+    WrDialogState *dialog;
     WrForms *forms;
     WrReplace *replace;
-    WrDocumentHand *file;
+    WrDocumentState *file;
 };
 
 /* Request another frame. */

@@ -34,10 +34,10 @@ typedef enum WrDialog {
 } WrDialog;
 
 /* The open dialog. */
-typedef struct WrDialogHand {
+typedef struct WrDialogState {
     WrDialog now;
     bool fresh; /* first frame */
-} WrDialogHand;
+} WrDialogState;
 
 void wr_panel_dialogs(WrApp *app);
 void wr_dialog_close(WrApp *app);

@@ -147,7 +147,7 @@ static bool open_now(WrApp *app, const char *path)
 {
     WrError err;
     Opened opened = { .path = path };
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     if (!wr_busy_run(app, WR_BUSY_ANOTHER, "Opening", open_work, &opened, &err)) {
         wr_busy_fail(app, "opening", &err);
         return false;
@@ -313,7 +313,7 @@ static bool new_work(WrSession *session, void *ctx, WrError *err)
 void wr_app_new_of(WrApp *app, const char *lines)
 {
     WrError err;
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     bool good =
         wr_busy_run(app, WR_BUSY_ANOTHER, "Making the document", new_work, (char *)lines, &err);
     if (!good && app->busy) { /* refused: the document is unchanged */
@@ -363,7 +363,7 @@ static void ask_first(WrApp *app, WrAfter after, const char *path)
     if (after == WR_AFTER_QUIT ? wr_busy_refuses(app) && wr_busy_close(app) : wr_busy_refuse(app))
         return;
     wr_busy_settle(app);
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     app->file->after = after;
     wr_free(app->file->after_path);
     app->file->after_path = path ? wr_strdup(path) : NULL;
@@ -452,14 +452,14 @@ static void ask_file(WrApp *app, WrFilePurpose purpose, const char *name)
 
 void wr_app_save_as(WrApp *app)
 {
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     ask_file(app, WR_FILE_SAVE,
              wr_session_path(app->session)[0] ? wr_app_name(app) : "untitled.exr");
 }
 
 void wr_app_save_history(WrApp *app)
 {
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     ask_file(app, WR_FILE_HISTORY, "history.wrinkle");
 }
 

@@ -35,7 +35,7 @@ typedef struct WrForms { /* values of open dialogs */
 } WrForms;
 
 /* Data of the window about the document, besides the session. */
-typedef struct WrDocumentHand {
+typedef struct WrDocumentState {
     WrAfter after;
     char *after_path; /* owned */
     char *picture;    /* picture whose heights were opened; owned, NULL: none */
@@ -43,7 +43,7 @@ typedef struct WrDocumentHand {
     uint64_t clean_revision;
     bool starter;          /* the document is the starter */
     struct WrAhead *ahead; /* starter being loaded; owned */
-} WrDocumentHand;
+} WrDocumentState;
 
 void wr_app_tend(WrApp *app); /* idle-time upkeep of the journal */
 /* Load the starter document, if nothing else was requested, on a separate thread while the window opens. No other

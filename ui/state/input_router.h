@@ -44,7 +44,7 @@ static inline bool wr_grab_on_patch(WrGrab grab)
 
 typedef struct WrInput WrInput;
 
-typedef struct WrHand {
+typedef struct WrInputRouter {
     WrInput *input;  /* event queue (ui/app/input.h); owned */
     WrPointer at;    /* newest position */
     int mods;        /* modifier keys at the event that is handled, WR_MOD_ bits */
@@ -64,4 +64,4 @@ typedef struct WrHand {
     int device;       /* device that started the drag: a pen's index, or -1 */
     double fake_at;   /* seconds of the mouse's last motion, for its simulated pressure */
     int64_t events;   /* number of pointer events handled so far (latency.c) */
-} WrHand;
+} WrInputRouter;

@@ -26,7 +26,7 @@
 
 bool wr_replace_ask(WrApp *app, WrReplaceKind kind, WrFilePurpose purpose, const char *path)
 {
-    if (!wr_file_stamp(path).there) return false;
+    if (!wr_file_identity(path).there) return false;
     char *kept = wr_strdup(path); /* `path` may be the old string */
     wr_free(app->replace->path);
     *app->replace = (WrReplace){ .kind = kind, .purpose = purpose, .path = kept };
@@ -43,7 +43,7 @@ static const char *name_of(const char *path)
 /* "1.25 MB, written 3 May 2026, 14:02:07" */
 static void describe(const WrReplace *replace, char *text, size_t size)
 {
-    WrFileStamp stamp = wr_file_stamp(replace->path);
+    WrFileIdentity stamp = wr_file_identity(replace->path);
     char when[64] = "";
     struct tm parts;
     time_t t = (time_t)stamp.seconds;

@@ -18,7 +18,7 @@ void wr_tab_show(WrApp *app, const char *label)
     app->settings->tab = wr_tab_find(app, label);
 }
 
-void wr_hand_let_go(WrApp *app)
+void wr_input_router_let_go(WrApp *app)
 {
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->let_go) (*p)->let_go(app);
@@ -26,7 +26,7 @@ void wr_hand_let_go(WrApp *app)
 
 void wr_app_settle(WrApp *app)
 {
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->settle) (*p)->settle(app);
 }

@@ -65,6 +65,6 @@ int wr_tab_find(const WrApp *app, const char *label);
 /* Show that tab. */
 void wr_tab_show(WrApp *app, const char *label);
 /* End all drags in all components, keeping their results. */
-void wr_hand_let_go(WrApp *app);
+void wr_input_router_let_go(WrApp *app);
 /* End all drags, and run delayed changes as commands now, such as a wheel zoom. */
 void wr_app_settle(WrApp *app);

@@ -102,7 +102,7 @@ static bool run_command(WrApp *app, const char *text, const WrDocument *made, co
     if (app->busy) return put_off(app, text);
     WrError err = { "" };
     WrText words = { 0 };
-    wr_hand_let_go(app);                               /* an open stroke would refuse the line */
+    wr_input_router_let_go(app);                       /* an open stroke would refuse the line */
     if (app->trying) wr_edit_preview_stop(app->trial); /* the preview is outdated */
     wr_line_words(text, &words);
     Line *line = wr_alloc(1, sizeof *line);

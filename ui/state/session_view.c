@@ -46,7 +46,7 @@ const WrField *wr_app_canvas_field(const WrApp *app)
     return worn ? layer->heights : wr_app_field(app);
 }
 
-void wr_app_try(WrApp *app, const WrEditPreviewAsk *ask)
+void wr_app_try(WrApp *app, const WrEditPreviewRequest *ask)
 {
     app->trying = true;
     wr_edit_preview_ask(app->trial, wr_app_document(app), ask);

@@ -18,7 +18,7 @@ const WrField *wr_app_canvas_field(const WrApp *app);
 bool wr_app_shows_mask(const WrApp *app);
 const WrDocument *wr_app_document(const WrApp *app);
 /* Start an edit preview; the document is unchanged. */
-void wr_app_try(WrApp *app, const WrEditPreviewAsk *ask);
+void wr_app_try(WrApp *app, const WrEditPreviewRequest *ask);
 void wr_app_try_end(WrApp *app);
 const WrScene *wr_app_scene(const WrApp *app); /* `live` if a value is being dragged */
 bool wr_app_unsaved(const WrApp *app);

@@ -154,7 +154,7 @@ void wr_gui_as_it_is(bool on);
 extern void (*wr_gui_cut)(const char *text, double width, double room);
 /* If set, menus, lists, popups and folds are open, tips are translated, and no picture is drawn: all texts of the
    panels appear within a frame or two. For tests. */
-extern bool wr_gui_tells_all;
+extern bool wr_gui_reports_all;
 /* If set, everything works except that frames are not drawn. For tests. */
 extern bool wr_gui_unseen;
 

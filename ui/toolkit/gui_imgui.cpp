@@ -403,7 +403,7 @@ try {
     double sizes = fitted_sizes(*ImGui::GetCurrentContext());
     gui->fits = sizes != gui->fitted;
     gui->fitted = sizes;
-    if (wr_gui_tells_all || wr_gui_unseen) {
+    if (wr_gui_reports_all || wr_gui_unseen) {
         wr_retained_frame_drop(gui->kept);
         return;
     }

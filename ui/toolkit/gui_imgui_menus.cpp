@@ -37,12 +37,12 @@ try {
     const char *shown = wr_gui_labelled(label, said);
     const ImGuiID id = ImGui::GetID(shown);
     ImGuiWindow *window = ImGui::GetCurrentWindow();
-    bool open = !wr_gui_tells_all && ImGui::BeginMenu(shown);
+    bool open = !wr_gui_reports_all && ImGui::BeginMenu(shown);
     /* While a menu is open, its own window is the current one. */
     if (!open) wr_gui_stop(WR_STOP_MENU, false);
     else wr_gui_stop_open(window, id);
-    if (wr_gui_tells_all) ImGui::MenuItem(shown);
-    if (!wr_gui_tells_all) wr_gui_fits_window(label);
+    if (wr_gui_reports_all) ImGui::MenuItem(shown);
+    if (!wr_gui_reports_all) wr_gui_fits_window(label);
     ImGui::PopStyleVar();
     return open || wr_gui_stands_in(label);
 }
@@ -50,7 +50,7 @@ WR_CAUGHT(false)
 
 extern "C" void wr_gui_menu_end(void)
 {
-    if (wr_gui_tells_all) ImGui::End();
+    if (wr_gui_reports_all) ImGui::End();
     else ImGui::EndMenu();
 }
 
@@ -76,7 +76,7 @@ extern "C" void wr_gui_popup_open(const char *id)
 extern "C" bool wr_gui_popup_begin(const char *id)
 try {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(12), px(10)));
-    bool open = wr_gui_tells_all ? wr_gui_stands_in(id) : ImGui::BeginPopup(id);
+    bool open = wr_gui_reports_all ? wr_gui_stands_in(id) : ImGui::BeginPopup(id);
     ImGui::PopStyleVar();
     return open;
 }
@@ -84,12 +84,12 @@ WR_CAUGHT(false)
 
 extern "C" void wr_gui_popup_close(void)
 {
-    if (!wr_gui_tells_all) ImGui::CloseCurrentPopup();
+    if (!wr_gui_reports_all) ImGui::CloseCurrentPopup();
 }
 
 extern "C" void wr_gui_popup_end(void)
 {
-    if (wr_gui_tells_all) ImGui::End();
+    if (wr_gui_reports_all) ImGui::End();
     else ImGui::EndPopup();
 }
 

@@ -92,7 +92,7 @@ try {
     ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(WR_COLOUR_LABEL));
     ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
     char said[320];
-    if (wr_gui_tells_all) ImGui::SetNextItemOpen(true);
+    if (wr_gui_reports_all) ImGui::SetNextItemOpen(true);
     bool shown = ImGui::CollapsingHeader(wr_gui_labelled(label, said),
                                          open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     wr_gui_stop(WR_STOP_PRESS, false);

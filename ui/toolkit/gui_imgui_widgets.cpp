@@ -232,7 +232,7 @@ static double rested()
    identifier. */
 static bool wants_tip(ImGuiID id, const char *text)
 {
-    if (text && wr_gui_tells_all) wr_gui_said(text);
+    if (text && wr_gui_reports_all) wr_gui_said(text);
     if (!text || !text[0] ||
         !(wr_gui_focused(id) || ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)))
         return false;
@@ -307,7 +307,7 @@ try {
     ImGui::EndDisabled();
     const char *why = gui->grey_why;
     gui->grey_why = nullptr;
-    if (why && wr_gui_tells_all) wr_gui_said(why);
+    if (why && wr_gui_reports_all) wr_gui_said(why);
     if (!why || !g.HoveredIdDisabled || !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows))
         return;
     if (g.HoveredIdTimer < TIP_SECONDS) {
@@ -382,7 +382,7 @@ try {
     if (!tight || place.x + said_wide < right - arrow)
         list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
                                 ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
-    if (wr_gui_tells_all)
+    if (wr_gui_reports_all)
         for (int i = 0; i < count; i++) wr_gui_said(items[i]);
     if (open) {
         int chosen = choose_by_key(ImGui::GetID("rows"), count, *index);

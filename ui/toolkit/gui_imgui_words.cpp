@@ -8,7 +8,7 @@
 #include <string.h>
 
 void (*wr_gui_cut)(const char *text, double width, double room);
-bool wr_gui_tells_all, wr_gui_unseen;
+bool wr_gui_reports_all, wr_gui_unseen;
 
 extern "C" void wr_gui_as_it_is(bool on)
 {
@@ -23,7 +23,7 @@ const char *wr_gui_said(const char *text)
 /* Test mode: stand-in for a popup that is not open. */
 bool wr_gui_stands_in(const char *name)
 {
-    if (!wr_gui_tells_all) return false;
+    if (!wr_gui_reports_all) return false;
     ImGui::SetNextWindowPos(ImVec2(0, 0));
     ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
     return true;

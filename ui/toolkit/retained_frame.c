@@ -176,8 +176,8 @@ void wr_retained_frame_copy(WrRetainedFrame *kept, SDL_Texture *texture, const S
     note_copy(kept, texture, of, to, false);
 }
 
-void wr_retained_frame_copy_told(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rect *of,
-                                 const SDL_Rect *to)
+void wr_retained_frame_copy_tracked(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rect *of,
+                                    const SDL_Rect *to)
 {
     note_copy(kept, texture, of, to, true);
 }

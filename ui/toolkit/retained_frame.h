@@ -25,8 +25,8 @@ void wr_retained_frame_copy(WrRetainedFrame *kept, SDL_Texture *texture, const S
                             const SDL_Rect *to);
 /* Copy a texture whose owner reports changes by wr_retained_frame_changed, so that only these are redrawn; if scaled,
    it is redrawn as a whole. */
-void wr_retained_frame_copy_told(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rect *of,
-                                 const SDL_Rect *to);
+void wr_retained_frame_copy_tracked(WrRetainedFrame *kept, SDL_Texture *texture, const SDL_Rect *of,
+                                    const SDL_Rect *to);
 /* Report changed pixels of such a texture within `place` of the window; allowed at any time, takes effect at the next
    end. */
 void wr_retained_frame_changed(WrRetainedFrame *kept, const SDL_Rect *place);

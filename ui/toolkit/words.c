@@ -21,7 +21,7 @@ const WrLanguage wr_languages[] = { { "", "As the system" },
 const int wr_language_count = WR_LENGTH(wr_languages);
 
 void (*wr_words_missed)(const char *english);
-void (*wr_words_asked)(const char *english);
+void (*wr_words_requested)(const char *english);
 
 /* ---- catalogue file ---- */
 
@@ -177,7 +177,7 @@ const char *wr_words_language(void)
 
 const char *wr_words(const char *english)
 {
-    if (wr_words_asked && english) wr_words_asked(english);
+    if (wr_words_requested && english) wr_words_requested(english);
     if (!spoken.now || !english) return english;
     const char *found = wr_catalogue_find(spoken.read[spoken.now], english);
     if (!found && wr_words_missed) wr_words_missed(english);

@@ -45,7 +45,7 @@ const char *wr_catalogue_find(const WrCatalogue *catalogue, const char *english)
 
 /* Called for each requested text without a translation, if set; for tests. */
 extern void (*wr_words_missed)(const char *english);
-extern void (*wr_words_asked)(const char *english); /* called for each requested text */
+extern void (*wr_words_requested)(const char *english); /* called for each requested text */
 
 #ifdef __cplusplus
 }

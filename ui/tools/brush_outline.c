@@ -40,7 +40,7 @@ static void cross(double x, double y)
 
 WrBrushMark wr_brush_mark(const WrApp *app)
 {
-    const WrBrushHand *hand = app->brush;
+    const WrBrushState *hand = app->brush;
     const WrBrush *brush = hand->drawing ? &hand->now : &app->settings->brush;
     WrBrushMark mark = { .radius = brush->radius,
                          .aspect = brush->aspect > 1.0 ? brush->aspect : 1.0,
@@ -166,7 +166,7 @@ static void outline_copies(const WrApp *app, const WrBrushMark *mark, double x, 
 
 static void show_line(const WrApp *app, const WrBrushMark *mark)
 {
-    const WrBrushHand *hand = app->brush;
+    const WrBrushState *hand = app->brush;
     double w = app->view->table_w, h = app->view->table_h, x0, y0, x1, y1;
     wr_view_to_pixel(app->view, hand->line_u * w, (1.0 - hand->line_v) * h, &x0, &y0);
     wr_view_to_pixel(app->view, hand->to_u * w, (1.0 - hand->to_v) * h, &x1, &y1);

@@ -65,7 +65,7 @@ WrBrush wr_preset_browser_own(const WrApp *app)
 static void install(WrApp *app, WrPreset *preset, WrPreset *tuned)
 {
     WrPresetBrowser *shelf = app->shelf;
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     wr_preset_free(shelf->tuned);
     if (preset != shelf->preset) wr_preset_free(shelf->preset);
     shelf->preset = preset;
@@ -165,7 +165,7 @@ bool wr_preset_browser_tip(WrApp *app, const char *path)
         }
     }
     char *copy = path ? wr_strdup(path) : NULL;
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     drop_tip(app);
     app->shelf->tip = tip;
     app->brush->now.tip = NULL;

@@ -70,7 +70,7 @@ WrBrush wr_strokes_brush(WrApp *app, const WrPointer *at)
 
 /* ---- queued strokes ---- */
 
-static void drop_job(WrBrushHand *hand, int index)
+static void drop_job(WrBrushState *hand, int index)
 {
     wr_free(hand->jobs.data[index].head);
     wr_array_free(&hand->jobs.data[index].samples);
@@ -81,7 +81,7 @@ static void drop_job(WrBrushHand *hand, int index)
 /* Begin the oldest stroke in the session; dropped, with a message, if that fails. */
 static bool open_first(WrApp *app)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     WrStrokeJob *job = &hand->jobs.data[0];
     WrError err;
     if (wr_session_stroke_begin(app->session, job->head, &err)) {
@@ -97,7 +97,7 @@ static bool open_first(WrApp *app)
 
 static void push_samples(WrApp *app)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     WrStrokeJob *job = &hand->jobs.data[0];
     WrError err;
     if (job->samples.count == 0) return;
@@ -120,7 +120,7 @@ static void close_first(WrApp *app)
 /* Draw until the clock reads `end`. */
 static void work_until(WrApp *app, double end)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     while (!app->busy && hand->jobs.count > 0 && !hand->jobs.data[0].waits) {
         if (!hand->opened && !open_first(app)) continue;
         push_samples(app);
@@ -140,7 +140,7 @@ static void work_until(WrApp *app, double end)
 /* The background command has ended or was cancelled: draw or drop the stroke of this number. */
 static void draw_late(WrApp *app, const char *text, bool dropped)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     int i = 0;
     while (i < hand->jobs.count && hand->jobs.data[i].waits != atoi(text)) i++;
     if (i == hand->jobs.count) return; /* cancelled by the user */
@@ -155,7 +155,7 @@ static void draw_late(WrApp *app, const char *text, bool dropped)
 
 bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     WrText head = { 0 };
     wr_strokes_head(app, brush, &head);
     wr_array_push(&hand->jobs, ((WrStrokeJob){ .head = wr_strdup(wr_text_get(&head)) }));
@@ -176,7 +176,7 @@ bool wr_strokes_begin(WrApp *app, const WrBrush *brush, const WrPointer *at)
 
 void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     if (!hand->drawing || hand->jobs.count == 0) return;
     const WrBrush *brush = &hand->now;
     bool presses = brush->preset || brush->pressure != WR_PRESSURE_NONE;
@@ -198,7 +198,7 @@ void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v)
 
 void wr_strokes_end(WrApp *app)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     if (!hand->drawing) return;
     hand->drawing = false;
     if (hand->jobs.count > 0) hand->jobs.data[hand->jobs.count - 1].released = true;
@@ -214,7 +214,7 @@ void wr_strokes_work(WrApp *app)
 
 bool wr_strokes_waits(const WrApp *app)
 {
-    const WrBrushHand *hand = app->brush;
+    const WrBrushState *hand = app->brush;
     if (hand->jobs.count > 0 && hand->jobs.data[0].waits) return false;
     return hand->unfinished || hand->jobs.count > (hand->drawing ? 1 : 0);
 }
@@ -232,7 +232,7 @@ void wr_strokes_finish(WrApp *app)
 
 void wr_strokes_cancel(WrApp *app)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     hand->drawing = false;
     if (hand->jobs.count == 0) return;
     if (hand->jobs.count == 1 && hand->opened) {
@@ -250,7 +250,7 @@ void wr_strokes_cancel(WrApp *app)
 
 void wr_strokes_marks(const WrApp *app)
 {
-    const WrBrushHand *hand = app->brush;
+    const WrBrushState *hand = app->brush;
     WR_ARRAY(WrSelectPoint) points = { 0 };
     for (int i = 0; i < hand->jobs.count; i++) {
         const WrStrokeJob *job = &hand->jobs.data[i];

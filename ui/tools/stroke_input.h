@@ -21,7 +21,7 @@ typedef struct WrStrokeJob {
     int waits; /* its number while it waits for a background command (ui/state/busy.h); else 0 */
 } WrStrokeJob;
 
-typedef struct WrBrushHand {
+typedef struct WrBrushState {
     WR_ARRAY(WrStrokeJob) jobs; /* oldest first; the first may be open in the session */
     bool opened;                /* the first is open */
     bool unfinished;            /* the session has undrawn samples of it */
@@ -42,7 +42,7 @@ typedef struct WrBrushHand {
     int strokes;          /* number of strokes so far */
     uint32_t seeds;       /* number of strokes with random numbers so far */
     int64_t taken, shown; /* pointer events passed to the session, and drawn (latency.c) */
-} WrBrushHand;
+} WrBrushState;
 
 /* Append the stroke command without points for a brush, with the files in *app->brush_files. */
 void wr_strokes_head(const WrApp *app, const WrBrush *brush, WrText *line);

@@ -25,7 +25,7 @@ int wr_tool_find(const WrApp *app, const char *action)
 void wr_tool_choose(WrApp *app, int index)
 {
     const WrTool *old = wr_tool_now(app), *tool = app->roster->tools[index];
-    wr_hand_let_go(app);
+    wr_input_router_let_go(app);
     if (index == app->tool) return;
     if (old->leave) old->leave(app);
     if (old->mode) app->settings->brush.mode = app->shelf->kept;

@@ -68,7 +68,7 @@ void wr_brush_steady_move(WrApp *app, const WrPointer *at,
                           void (*draw)(WrApp *app, const WrPointer *at))
 {
     WrSmoothingPoint out[WR_SMOOTHING_POINTS], p = steady_point(at);
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     int count = wr_smoothing_move(&hand->steady, &p, out);
     double dx = at->x - app->hand->at.x, dy = at->y - app->hand->at.y;
     if (hypot(dx, dy) > 0.5) {
@@ -104,7 +104,7 @@ static void draw_at(WrApp *app, const WrPointer *at)
 /* End of the aimed line in pixels: with Ctrl or Shift at the nearest of 24 directions. */
 static void aim(WrApp *app, const WrPointer *at)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     const WrPointer *from = &app->hand->start;
     double dx = at->x - from->x, dy = at->y - from->y;
     if (at->mods & (WR_MOD_CTRL | WR_MOD_SHIFT)) {
@@ -132,7 +132,7 @@ static void straight_on(WrApp *app, const WrPointer *at, double u, double v, dou
 /* Draw the aimed line with the highest pressure reached. */
 static void draw_line(WrApp *app, const WrPointer *at)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     WrPointer steady = *at;
     steady.pressure = hand->pressure;
     WrBrush brush = wr_strokes_brush(app, at);
@@ -146,7 +146,7 @@ static void draw_line(WrApp *app, const WrPointer *at)
 
 void wr_brush_press(WrApp *app, const WrPointer *at)
 {
-    WrBrushHand *hand = app->brush;
+    WrBrushState *hand = app->brush;
     if (app->hand->line) {
         hand->straight = true;
         hand->pressure = at->pressure;

@@ -30,7 +30,7 @@ static bool sets_source(const WrPointer *at)
 
 static void set_source(WrApp *app, const WrPointer *at)
 {
-    WrCloneHand *draw = app->clone;
+    WrCloneState *draw = app->clone;
     draw->source = true;
     draw->anchored = false;
     draw->source_u = at->u;
@@ -47,7 +47,7 @@ static double short_way(double d, bool wraps)
 
 static void press(WrApp *app, const WrPointer *at)
 {
-    WrCloneHand *draw = app->clone;
+    WrCloneState *draw = app->clone;
     const WrField *field = wr_app_field(app);
     if (sets_source(at)) {
         set_source(app, at);
@@ -82,7 +82,7 @@ static void drag(WrApp *app, const WrPointer *at)
 
 static void marks(WrApp *app)
 {
-    const WrCloneHand *draw = app->clone;
+    const WrCloneState *draw = app->clone;
     const WrBrush *brush = &app->settings->brush;
     if (!draw->source) return;
     double u = draw->source_u, v = draw->source_v;

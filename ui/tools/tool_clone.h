@@ -4,9 +4,9 @@
 
 #include <stdbool.h>
 
-typedef struct WrCloneHand {
+typedef struct WrCloneState {
     bool source, anchored; /* a source is set; a stroke has fixed the offset */
     double source_u, source_v;
-} WrCloneHand;
+} WrCloneState;
 
 extern const WrPart wr_part_clone;

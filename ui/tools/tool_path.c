@@ -37,7 +37,7 @@ static bool is_path(const WrApp *app)
     return strcmp(wr_tool_now(app)->action, WR_ACT(shape_path)) == 0;
 }
 
-static WrAnchor *last_of(WrDrawHand *draw)
+static WrAnchor *last_of(WrDrawState *draw)
 {
     return &draw->anchors.data[draw->anchors.count - 1];
 }
@@ -52,7 +52,7 @@ static bool is_near(const WrApp *app, const WrPointer *at, double x, double y)
 /* Find the anchor or handle under the pointer; handles first, since they are on top. */
 static bool find(const WrApp *app, const WrPointer *at, int *index, int *part)
 {
-    const WrDrawHand *draw = app->draw;
+    const WrDrawState *draw = app->draw;
     for (int i = draw->anchors.count - 1; i >= 0; i--) {
         const WrAnchor *a = &draw->anchors.data[i];
         bool in = is_path(app) && is_near(app, at, a->in_x, a->in_y);
@@ -89,7 +89,7 @@ static void add_piece(WrText *line, const WrApp *app, const WrAnchor *a, const W
 
 static void write_line(const WrApp *app, WrText *line)
 {
-    const WrDrawHand *draw = app->draw;
+    const WrDrawState *draw = app->draw;
     const WrAnchor *list = draw->anchors.data;
     WrSelectPoint first = wr_overlay_uv(app, list[0].x, list[0].y);
     WrSelectPoint home = wr_overlay_home(app, first.u, first.v);
@@ -127,7 +127,7 @@ static void commit(WrApp *app)
 
 static void put_anchor(WrApp *app, const WrPointer *at)
 {
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     double x, y;
     wr_view_to_texel(app->view, at->x, at->y, &x, &y);
     wr_array_push(&draw->anchors, ((WrAnchor){ x, y, x, y, x, y }));
@@ -138,7 +138,7 @@ static void put_anchor(WrApp *app, const WrPointer *at)
 
 static void press(WrApp *app, const WrPointer *at)
 {
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     int index, part;
     double now = wr_clock_seconds();
     bool again = draw->active && now - draw->clicked_at < DOUBLE_SECONDS &&
@@ -166,7 +166,7 @@ static void press(WrApp *app, const WrPointer *at)
 
 static void drag(WrApp *app, const WrPointer *at)
 {
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     double x, y;
     if (!draw->active || draw->held < 0 || draw->held >= draw->anchors.count) return;
     wr_view_to_texel(app->view, at->x, at->y, &x, &y);
@@ -192,7 +192,7 @@ static void drag(WrApp *app, const WrPointer *at)
 
 static void release(WrApp *app, const WrPointer *at)
 {
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     if (draw->active && draw->held >= 0 && draw->held < draw->anchors.count &&
         draw->part != PART_ANCHOR &&
         hypot(at->x - app->hand->start.x, at->y - app->hand->start.y) < 3.0) {
@@ -206,7 +206,7 @@ static void release(WrApp *app, const WrPointer *at)
 
 static bool key(WrApp *app, SDL_Keycode key)
 {
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     if (!draw->active) return false;
     if (key == SDLK_RETURN || key == SDLK_KP_ENTER) {
         commit(app);
@@ -251,7 +251,7 @@ static void draw_arm(const WrApp *app, const WrAnchor *a, double x, double y)
 
 static void marks(WrApp *app)
 {
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     int count = draw->anchors.count;
     if (!draw->active || count == 0) return;
     const WrAnchor *list = draw->anchors.data;

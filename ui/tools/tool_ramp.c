@@ -28,7 +28,7 @@
 
 static void end_at(WrApp *app, const WrPointer *at)
 {
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     wr_view_to_texel(app->view, at->x, at->y, &draw->x1, &draw->y1);
     if (!(at->mods & WR_MOD_SHIFT)) return;
     double dx = draw->x1 - draw->x0, dy = draw->y1 - draw->y0, step = 3.141592653589793 / 12.0;
@@ -55,7 +55,7 @@ static void drag(WrApp *app, const WrPointer *at)
 static void release(WrApp *app, const WrPointer *at)
 {
     const WrDrawSettings *how = &app->settings->drawing;
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     if (!draw->active) return;
     end_at(app, at);
     draw->active = false;
@@ -102,7 +102,7 @@ static void ring(const WrApp *app, double radius, WrColour colour)
 /* A bar across the drag at its end: the limit of a linear ramp. */
 static void bar(const WrApp *app, double x, double y)
 {
-    const WrDrawHand *draw = app->draw;
+    const WrDrawState *draw = app->draw;
     double dx = draw->x1 - draw->x0, dy = draw->y1 - draw->y0, way = fmax(hypot(dx, dy), 1e-9);
     double half = 40.0 * wr_gui_scale() / app->view->zoom;
     WrSelectPoint points[2] = { wr_overlay_uv(app, x - dy / way * half, y + dx / way * half),
@@ -121,7 +121,7 @@ static void end_label(const WrApp *app, double x, double y, double height)
 
 static void marks(WrApp *app)
 {
-    const WrDrawHand *draw = app->draw;
+    const WrDrawState *draw = app->draw;
     const WrDrawSettings *how = &app->settings->drawing;
     if (!draw->active) return;
     WrSelectPoint way[2] = { wr_overlay_uv(app, draw->x0, draw->y0),

@@ -56,7 +56,7 @@ static WrSelectPoint point_of(const WrApp *app, double x, double y)
 
 static void put_rect(WrApp *app, double x0, double y0, double x1, double y1)
 {
-    WrSelectHand *hand = app->select;
+    WrSelectState *hand = app->select;
     hand->points.count = 0;
     wr_array_push(&hand->points, point_of(app, x0, y0));
     wr_array_push(&hand->points, point_of(app, x1, y0));
@@ -66,7 +66,7 @@ static void put_rect(WrApp *app, double x0, double y0, double x1, double y1)
 
 static void put_ellipse(WrApp *app, double x0, double y0, double x1, double y1)
 {
-    WrSelectHand *hand = app->select;
+    WrSelectState *hand = app->select;
     hand->points.count = 0;
     for (int i = 0; i < ELLIPSE_POINTS; i++) {
         double a = 6.28318530717958648 * i / ELLIPSE_POINTS;
@@ -105,7 +105,7 @@ static void follow(WrApp *app, const WrPointer *at)
 
 static void press(WrApp *app, const WrPointer *at)
 {
-    WrSelectHand *hand = app->select;
+    WrSelectState *hand = app->select;
     bool shift = (at->mods & WR_MOD_SHIFT) != 0, alt = (at->mods & WR_MOD_ALT) != 0;
     hand->active = true;
     hand->mode = shift && alt ? WR_SELECT_INTERSECT
@@ -157,7 +157,7 @@ static void add_point(WrText *line, double u, double v)
 
 static void write_lasso(const WrApp *app, WrSelectPoint shift, WrText *line)
 {
-    const WrSelectHand *hand = app->select;
+    const WrSelectState *hand = app->select;
     wr_text_add(line, "select lasso points=");
     for (int i = 0; i < hand->points.count; i++) {
         if (i) wr_text_add(line, ";");
@@ -198,7 +198,7 @@ static bool is_click(const WrApp *app, const WrPointer *at)
 
 static void release(WrApp *app, const WrPointer *at)
 {
-    WrSelectHand *hand = app->select;
+    WrSelectState *hand = app->select;
     if (!hand->active) return;
     WrText line = { 0 };
     bool click = is_click(app, at) || (shape_of(app) == SHAPE_LASSO && hand->points.count < 3);

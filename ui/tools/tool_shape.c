@@ -58,7 +58,7 @@ static bool is_round(const WrApp *app)
 /* The two corners, with the modifiers applied. */
 static void corners(const WrApp *app, int mods, double box[4])
 {
-    const WrDrawHand *draw = app->draw;
+    const WrDrawState *draw = app->draw;
     double dx = draw->x1 - draw->x0, dy = draw->y1 - draw->y0;
     if (mods & WR_MOD_SHIFT) {
         double side = fmax(fabs(dx), fabs(dy));
@@ -74,7 +74,7 @@ static void corners(const WrApp *app, int mods, double box[4])
 
 static void press(WrApp *app, const WrPointer *at)
 {
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     draw->active = true;
     wr_view_to_texel(app->view, at->x, at->y, &draw->x0, &draw->y0);
     draw->x1 = draw->x0;
@@ -123,7 +123,7 @@ static void commit(WrApp *app, const double box[4])
 
 static void release(WrApp *app, const WrPointer *at)
 {
-    WrDrawHand *draw = app->draw;
+    WrDrawState *draw = app->draw;
     double box[4];
     if (!draw->active) return;
     corners(app, at->mods, box);

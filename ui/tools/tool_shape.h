@@ -15,7 +15,7 @@ typedef struct WrAnchor {
 } WrAnchor;
 
 /* State of drawing tools other than the brush. Positions are texels, unwrapped. */
-typedef struct WrDrawHand {
+typedef struct WrDrawState {
     bool active;                /* an operation is in progress */
     double x0, y0, x1, y1;      /* of a drag: start, present position */
     WR_ARRAY(WrAnchor) anchors; /* of polygons and paths */
@@ -23,7 +23,7 @@ typedef struct WrDrawHand {
     /* dragged anchor, -1: none; part 0 the anchor, 1 its back handle, 2 its front handle */
     int held, part;
     double clicked_at; /* clock at the last press */
-} WrDrawHand;
+} WrDrawState;
 
 void wr_shape_options(WrApp *app);
 void wr_draw_leave(WrApp *app); /* cancels the operation */

@@ -66,7 +66,7 @@ static WrBrush brush_of(const WrApp *app)
 
 bool wr_stamp_choose(WrApp *app, const char *path)
 {
-    WrStampHand *draw = app->stamp;
+    WrStampState *draw = app->stamp;
     WrError err;
     WrTip *tip = path ? wr_tip_read(path, &err) : NULL;
     if (path && !tip) {
@@ -97,7 +97,7 @@ void wr_stamp_forget(WrApp *app)
 /* The centre, rounded as in the command. */
 static void place_of(const WrApp *app, double *u, double *v)
 {
-    const WrStampHand *draw = app->stamp;
+    const WrStampState *draw = app->stamp;
     double pu = draw->placed ? draw->u : app->hand->at.u,
            pv = draw->placed ? draw->v : app->hand->at.v;
     WrSelectPoint home = wr_overlay_home(app, pu, pv);
@@ -126,14 +126,14 @@ static bool same_brush(const WrBrush *a, const WrBrush *b)
 
 static void update(WrApp *app)
 {
-    WrStampHand *draw = app->stamp;
+    WrStampState *draw = app->stamp;
     if (!is_wanted(app)) {
         if (draw->trying && app->dialog->now == WR_DIALOG_NONE) wr_app_try_end(app);
         draw->trying = false;
         return;
     }
     WrBrush brush = brush_of(app);
-    WrEditPreviewAsk ask = { .dab = &brush };
+    WrEditPreviewRequest ask = { .dab = &brush };
     place_of(app, &ask.u, &ask.v);
     bool same = draw->trying && app->trying && draw->tried.u == ask.u && draw->tried.v == ask.v &&
                 same_brush(&draw->tried_brush, &brush);
@@ -155,7 +155,7 @@ static void leave(WrApp *app)
 
 static void commit(WrApp *app)
 {
-    WrStampHand *draw = app->stamp;
+    WrStampState *draw = app->stamp;
     WrBrush brush = brush_of(app), base = wr_brush_default();
     WrBrushNames names = { .tip = draw->tip_path };
     WrText line = { 0 };
@@ -177,7 +177,7 @@ static void commit(WrApp *app)
 
 static void press(WrApp *app, const WrPointer *at)
 {
-    WrStampHand *draw = app->stamp;
+    WrStampState *draw = app->stamp;
     draw->placed = true;
     draw->dragged = false;
     draw->u = at->u;
@@ -189,7 +189,7 @@ static void press(WrApp *app, const WrPointer *at)
 
 static void drag(WrApp *app, const WrPointer *at)
 {
-    WrStampHand *draw = app->stamp;
+    WrStampState *draw = app->stamp;
     double dx = at->x - app->hand->start.x, dy = at->y - app->hand->start.y, way = hypot(dx, dy);
     if (!draw->placed || (!draw->dragged && way < DRAG_PIXELS * wr_gui_scale())) return;
     draw->dragged = true;
@@ -210,7 +210,7 @@ static void release(WrApp *app, const WrPointer *at)
 
 static bool key(WrApp *app, SDL_Keycode key)
 {
-    WrStampHand *draw = app->stamp;
+    WrStampState *draw = app->stamp;
     if (key == SDLK_ESCAPE && draw->placed) {
         draw->radius = draw->first_radius;
         draw->angle_deg = draw->first_angle;
@@ -259,7 +259,7 @@ static void overlay(WrApp *app)
 
 static void marks(WrApp *app)
 {
-    const WrStampHand *draw = app->stamp;
+    const WrStampState *draw = app->stamp;
     char text[64];
     if (!draw->placed || !draw->dragged) return;
     snprintf(text, sizeof text, "%.4g px  %.0f\xc2\xb0", 2.0 * draw->radius, draw->angle_deg);

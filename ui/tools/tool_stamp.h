@@ -11,18 +11,18 @@
 #include <stdbool.h>
 
 /* Mode and values of settings.brush, with separate picture, size and rotation. */
-typedef struct WrStampHand {
+typedef struct WrStampState {
     WrTip *tip;     /* owned; NULL: none chosen */
     char *tip_path; /* owned */
     double radius, angle_deg, first_radius, first_angle;
-    bool placed, dragged;   /* its position is set; rotation and size were dragged */
-    double u, v;            /* its position */
-    WrEditPreviewAsk tried; /* last requested preview */
+    bool placed, dragged;       /* its position is set; rotation and size were dragged */
+    double u, v;                /* its position */
+    WrEditPreviewRequest tried; /* last requested preview */
     WrBrush tried_brush;
     bool trying;
     WR_ARRAY(char *) stamps; /* available pictures, owned */
     bool stamps_known;
-} WrStampHand;
+} WrStampState;
 
 /* Use that picture, NULL: the round brush. False: unreadable, with a message. */
 bool wr_stamp_choose(WrApp *app, const char *path);

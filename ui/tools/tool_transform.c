@@ -52,23 +52,23 @@ static WrSelectBox content_box(const WrDocument *document)
 
 static void measure(WrApp *app)
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     const WrDocument *document = wr_app_document(app);
     const WrField *like = document->layers[0].heights;
     uint64_t revision = wr_session_revision(app->session);
     if (hand->measured && hand->revision == revision) return;
-    *hand = (WrTransformHand){ .measured = true,
-                               .revision = revision,
-                               .any = true,
-                               .box = { 0, 0, wr_field_width(like), wr_field_height(like) },
-                               .now = still,
-                               .leave = hand->leave,
-                               .all = hand->all };
+    *hand = (WrTransformState){ .measured = true,
+                                .revision = revision,
+                                .any = true,
+                                .box = { 0, 0, wr_field_width(like), wr_field_height(like) },
+                                .now = still,
+                                .leave = hand->leave,
+                                .all = hand->all };
     if (document->selection) hand->any = wr_select_box(document->selection, &hand->box);
     else if (!hand->all) hand->box = content_box(document);
 }
 
-static bool is_still(const WrTransformHand *hand)
+static bool is_still(const WrTransformState *hand)
 {
     const WrTransformValues *v = &hand->now;
     return v->move[0] == 0.0 && v->move[1] == 0.0 && v->turn == 0.0 && v->scale[0] == 1.0 &&
@@ -76,7 +76,7 @@ static bool is_still(const WrTransformHand *hand)
 }
 
 /* A position in the piece, 0..1 along its axes from the left and the top, in texels. */
-static void place_of(const WrTransformHand *hand, const WrTransformValues *v, double along,
+static void place_of(const WrTransformState *hand, const WrTransformValues *v, double along,
                      double down, double out[2])
 {
     double x = (along - 0.5) * hand->box.count_i * v->scale[0];
@@ -99,7 +99,7 @@ static void add_pair(WrText *line, const char *name, double a, double b)
    centre is another point, the line must name it. */
 static void add_middle(const WrApp *app, WrText *line)
 {
-    const WrTransformHand *hand = app->transform;
+    const WrTransformState *hand = app->transform;
     const double w = app->view->table_w, h = app->view->table_h;
     const double x = hand->box.i + 0.5 * hand->box.count_i,
                  y = hand->box.j + 0.5 * hand->box.count_j;
@@ -110,7 +110,7 @@ static void add_middle(const WrApp *app, WrText *line)
 
 static void write_line(const WrApp *app, WrText *line)
 {
-    const WrTransformHand *hand = app->transform;
+    const WrTransformState *hand = app->transform;
     const WrTransformValues *v = &hand->now;
     wr_text_add(line, "transform");
     if (v->move[0] != 0.0 || v->move[1] != 0.0) add_pair(line, "move", v->move[0], v->move[1]);
@@ -129,7 +129,7 @@ static double near_one(double x)
 
 static void changed(WrApp *app)
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     WrText line = { 0 };
     for (int k = 0; k < 2; k++) {
         hand->now.scale[k] = near_one(hand->now.scale[k]);
@@ -142,14 +142,14 @@ static void changed(WrApp *app)
         return;
     }
     write_line(app, &line);
-    WrEditPreviewAsk ask = { .line = wr_text_get(&line) };
+    WrEditPreviewRequest ask = { .line = wr_text_get(&line) };
     wr_app_try(app, &ask);
     wr_text_fini(&line);
 }
 
 static void cancel(WrApp *app)
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     hand->now = still;
     hand->part = WR_TRANSFORM_NONE;
     wr_app_try_end(app);
@@ -158,7 +158,7 @@ static void cancel(WrApp *app)
 
 static void apply(WrApp *app)
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     WrText line = { 0 };
     if (is_still(hand)) return;
     write_line(app, &line);
@@ -171,7 +171,7 @@ static void apply(WrApp *app)
 /* On a change of the tool the result is kept as a step; on a change of the document it is dropped. */
 static void leave(WrApp *app)
 {
-    const WrTransformHand *hand = app->transform;
+    const WrTransformState *hand = app->transform;
     const bool ours = hand->measured && hand->revision == wr_session_revision(app->session);
     if (app->trying && ours && !is_still(hand)) apply(app); /* no preview of the old document */
     else cancel(app);
@@ -202,7 +202,7 @@ static double texels(const WrApp *app, double units)
 /* The handle near the pointer. */
 static bool find_handle(const WrApp *app, const double at[2], int side[2])
 {
-    const WrTransformHand *hand = app->transform;
+    const WrTransformState *hand = app->transform;
     double middle[2], near = texels(app, NEAR_UNITS);
     place_of(hand, &hand->now, 0.5, 0.5, middle);
     for (int y = -1; y <= 1; y++)
@@ -227,7 +227,7 @@ static void to_own(const WrTransformValues *v, const double at[2], double out[2]
     out[1] = s * at[0] + c * at[1];
 }
 
-static bool is_inside(const WrTransformHand *hand, const double at[2])
+static bool is_inside(const WrTransformState *hand, const double at[2])
 {
     double own[2];
     to_own(&hand->now, at, own);
@@ -237,7 +237,7 @@ static bool is_inside(const WrTransformHand *hand, const double at[2])
 
 static void press(WrApp *app, const WrPointer *at)
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     app->hints = false;
     measure(app);
     if (!hand->any) return;
@@ -266,7 +266,7 @@ static double snapped(const WrApp *app, int axis, double move, double from, doub
 
 static void move(WrApp *app, const WrPointer *at, const double way[2])
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     double m[2] = { way[0], way[1] }; /* right, down */
     if (at->mods & WR_MOD_SHIFT) m[fabs(m[0]) < fabs(m[1]) ? 0 : 1] = 0.0;
     m[0] += hand->first.move[0];
@@ -281,7 +281,7 @@ static void move(WrApp *app, const WrPointer *at, const double way[2])
 
 static void turn(WrApp *app, const WrPointer *at, const double here[2])
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     /* y is negated, since rows run down and angles are anticlockwise. */
     double by = atan2(-here[1], here[0]) - atan2(-hand->from[1], hand->from[0]);
     double deg = hand->first.turn + by * WR_DEG_PER_RAD, quarter = rint(deg / 90.0) * 90.0;
@@ -294,7 +294,7 @@ static void turn(WrApp *app, const WrPointer *at, const double here[2])
 /* The handle follows the pointer, and the opposite one is fixed. */
 static void scale(WrApp *app, const WrPointer *at, const double here[2])
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     const double count[2] = { hand->box.count_i, hand->box.count_j };
     double own[2], stays[2], stays_now[2];
     WrTransformValues v = hand->first;
@@ -319,7 +319,7 @@ static void scale(WrApp *app, const WrPointer *at, const double here[2])
 
 static void drag(WrApp *app, const WrPointer *at)
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     double here[2], x, y, x0, y0;
     if (hand->part == WR_TRANSFORM_NONE) return;
     wr_view_to_texel(app->view, at->x, at->y, &x, &y);
@@ -341,7 +341,7 @@ static void release(WrApp *app, const WrPointer *at)
 
 static bool key(WrApp *app, SDL_Keycode key)
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     double step = 1.0;
     if (key == SDLK_RETURN || key == SDLK_KP_ENTER) apply(app);
     else if (key == SDLK_ESCAPE && !is_still(hand)) cancel(app);
@@ -359,7 +359,7 @@ static bool key(WrApp *app, SDL_Keycode key)
 static void marks(WrApp *app)
 {
     measure(app);
-    const WrTransformHand *hand = app->transform;
+    const WrTransformState *hand = app->transform;
     WrSelectPoint frame[4];
     static const double corner[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
     if (!hand->any) return;
@@ -449,7 +449,7 @@ static void turned(WrApp *app, double width)
 
 static void switches(WrApp *app, double width)
 {
-    WrTransformHand *hand = app->transform;
+    WrTransformState *hand = app->transform;
     (void)width;
     bool leave = hand->leave, all = hand->all;
     wr_gui_check("copy", &hand->leave);

@@ -21,7 +21,7 @@ typedef struct WrTransformValues {
     double turn; /* degrees */
 } WrTransformValues;
 
-typedef struct WrTransformHand {
+typedef struct WrTransformState {
     bool measured; /* the box is up to date for the document's revision, */
     uint64_t revision;
     bool any; /* and is not empty */
@@ -31,4 +31,4 @@ typedef struct WrTransformHand {
     WrTransformPart part;
     int side[2];    /* of the handle: -1, 0, 1 along the piece's axes, right and down */
     double from[2]; /* start of the drag, texels from the piece's centre at that time */
-} WrTransformHand;
+} WrTransformState;

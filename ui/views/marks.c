@@ -31,12 +31,12 @@ void wr_marks_update(WrApp *app)
     uint64_t key = selection ? wr_field_key(selection) : 0;
     if (marks->trying || key == marks->asked_key) return;
     marks->asked_key = key;
-    if (selection) wr_outliner_ask(marks->outliner, wr_app_document(app), &(WrOutlineAsk){ 0 });
+    if (selection) wr_outliner_ask(marks->outliner, wr_app_document(app), &(WrOutlineRequest){ 0 });
     else wr_outliner_clear(marks->outliner);
     wr_app_redraw(app);
 }
 
-void wr_marks_try(WrApp *app, const WrOutlineAsk *ask)
+void wr_marks_try(WrApp *app, const WrOutlineRequest *ask)
 {
     WrMarks *marks = app->marks;
     marks->trying = ask != NULL;

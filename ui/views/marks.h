@@ -24,17 +24,17 @@ typedef struct WrMarks {
 } WrMarks;
 
 /* A selection being drawn. */
-typedef struct WrSelectHand {
+typedef struct WrSelectState {
     bool active;
     WrSelectMode mode;
     double x, y; /* start position in texels, unwrapped */
     /* the shape so far; of a lasso also the points of the command */
     WR_ARRAY(WrSelectPoint) points;
-} WrSelectHand;
+} WrSelectState;
 
 void wr_marks_update(WrApp *app);
 void wr_marks_draw(WrApp *app);
-void wr_marks_try(WrApp *app, const WrOutlineAsk *ask); /* NULL: the selection itself */
+void wr_marks_try(WrApp *app, const WrOutlineRequest *ask); /* NULL: the selection itself */
 double wr_marks_next_time(const WrApp *app); /* clock of the next animation step; 0: none */
 void wr_marks_free(WrApp *app);
 

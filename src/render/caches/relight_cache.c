@@ -301,7 +301,7 @@ static bool make_room(WrRelight *steady, const WrRelightView *view)
     return steady->numbers && steady->owner;
 }
 
-WrRelightUse wr_relight_bring(WrRelight *steady, const WrRelightView *view)
+WrRelightUse wr_relight_update(WrRelight *steady, const WrRelightView *view)
 {
     const bool known = steady->whole;
     const bool lacks = known && (all_groups(view) & ~steady->groups) != 0;

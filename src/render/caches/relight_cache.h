@@ -123,4 +123,4 @@ size_t wr_relight_bytes(const WrRelightView *view);
    from the last one only in light, NOTE if it does so for the first time. Without memory the cache is not used.
    The caller sets `whole` once every tile is stored; until then it is filled again. view: borrowed for the call;
    scenes are shared, plans copied. */
-WrRelightUse wr_relight_bring(WrRelight *steady, const WrRelightView *view);
+WrRelightUse wr_relight_update(WrRelight *steady, const WrRelightView *view);

@@ -27,7 +27,7 @@ void wr_uv_cache_key(WrUvCacheKey *key, const WrViewMesh *mesh, const WrView *vi
     key->kernels = kernels;
 }
 
-bool wr_uv_cache_bring(WrUvCache *sight, const WrUvCacheKey *key)
+bool wr_uv_cache_update(WrUvCache *sight, const WrUvCacheKey *key)
 {
     const size_t count = (size_t)key->width * (size_t)key->height;
     if (sight->whole && memcmp(&sight->key, key, sizeof *key) == 0) return true;

@@ -41,4 +41,4 @@ void wr_uv_cache_key(WrUvCacheKey *key, const WrViewMesh *mesh, const WrView *vi
                      const WrKernels *kernels);
 /* True if the cache holds this view. Otherwise it is emptied and ready to be filled; the caller then sets
    `whole`. Without memory u and v are NULL and nothing is stored. */
-bool wr_uv_cache_bring(WrUvCache *sight, const WrUvCacheKey *key);
+bool wr_uv_cache_update(WrUvCache *sight, const WrUvCacheKey *key);

@@ -75,8 +75,8 @@ static bool fill_blurred(WrEnvLookup *mirror, const WrEnvironmentBrdf *gloss, Wr
     return good;
 }
 
-bool wr_env_lookup_bring(WrEnvLookup *mirror, const WrEnvironmentMap *surround,
-                         const WrEnvironmentBrdf *gloss, double fine, WrPool *pool, WrError *err)
+bool wr_env_lookup_update(WrEnvLookup *mirror, const WrEnvironmentMap *surround,
+                          const WrEnvironmentBrdf *gloss, double fine, WrPool *pool, WrError *err)
 {
     if (holds(mirror, surround, gloss, fine)) return true;
     wr_env_lookup_drop(mirror);

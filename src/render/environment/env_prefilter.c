@@ -45,8 +45,8 @@ static void rungs_of(const WrEnvironmentBrdf *gloss, const WrPlan *plan, int *fi
     if (!wr_plan_runs(plan, WR_EFFECT_SPREAD)) *first = (int)fmin(fmax(floor(rung), 0), most - 1);
 }
 
-bool wr_env_prefilter_bring(WrEnvPrefilter *grades, const WrScene *scene, const WrPlan *plan,
-                            WrPool *pool, WrError *err)
+bool wr_env_prefilter_update(WrEnvPrefilter *grades, const WrScene *scene, const WrPlan *plan,
+                             WrPool *pool, WrError *err)
 {
     WrEnvironmentBrdf gloss, lobe;
     int first, last;
@@ -57,8 +57,8 @@ bool wr_env_prefilter_bring(WrEnvPrefilter *grades, const WrScene *scene, const 
     for (int i = first; i <= last; i++) {
         const bool blurred = i + 1 < WR_TEXTURED_REFLECTION_RUNGS;
         wr_textured_reflection_rung(&gloss, i, &lobe);
-        if (!wr_env_lookup_bring(&grades->rung[i], scene->environment.light, blurred ? &lobe : NULL,
-                                 plan->gloss, pool, err))
+        if (!wr_env_lookup_update(&grades->rung[i], scene->environment.light,
+                                  blurred ? &lobe : NULL, plan->gloss, pool, err))
             return false;
     }
     return true;

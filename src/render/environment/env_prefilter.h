@@ -17,8 +17,8 @@ typedef struct WrEnvPrefilter {
     WrTexturedReflection vary;
 } WrEnvPrefilter;
 
-bool wr_env_prefilter_bring(WrEnvPrefilter *grades, const WrScene *scene, const WrPlan *plan,
-                            WrPool *pool, WrError *err);
+bool wr_env_prefilter_update(WrEnvPrefilter *grades, const WrScene *scene, const WrPlan *plan,
+                             WrPool *pool, WrError *err);
 void wr_env_prefilter_fill(const WrEnvPrefilter *grades, const WrScene *scene, WrTileJob *job);
 void wr_env_prefilter_drop(WrEnvPrefilter *grades);
 void wr_env_prefilter_drop_rungs(

@@ -136,8 +136,8 @@ static void want_codes(WrRenderer *renderer, const WrFrameCodes *codes, WrTileJo
     job->codes = renderer->codes;
     job->rgba = NULL;
     job->coder.tone = wr_tone_curve(&codes->tone);
-    wr_backdrop_bring(&renderer->backdrop, codes, renderer->radius, job->width, job->height,
-                      job->top, job->rows, &job->coder, renderer->pool);
+    wr_backdrop_update(&renderer->backdrop, codes, renderer->radius, job->width, job->height,
+                       job->top, job->rows, &job->coder, renderer->pool);
     job->backdrop = &renderer->backdrop;
 }
 
@@ -270,10 +270,10 @@ static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrP
 
 /* True if view and mesh of the last picture fit this request. */
 static bool view_stands(const WrRenderer *renderer, const WrFrameRequest *request,
-                        const WrPlan *before, const WrPlanAsk *ask)
+                        const WrPlan *before, const WrPlanRequest *ask)
 {
     WrPlan lively = renderer->plan;
-    WrPlanAsk other = *ask;
+    WrPlanRequest other = *ask;
     if (!same_view(renderer, request)) return false;
     if (wr_plan_same(before, &renderer->plan)) return true;
     other.facts.lively = true;
@@ -282,7 +282,7 @@ static bool view_stands(const WrRenderer *renderer, const WrFrameRequest *reques
 }
 
 /* Falls back to all samples where adaptive sampling does not pay or needs a bound that is unknown. */
-static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask)
+static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request, WrPlanRequest *ask)
 {
     WrPlan *plan = &renderer->plan;
     const WrForce *force = request->force;
@@ -329,7 +329,7 @@ bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrErro
         wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, err);
     if (!kernels) return false;
     const WrPlan before = renderer->plan;
-    WrPlanAsk ask = {
+    WrPlanRequest ask = {
         .scene = request->scene, .dials = dials, .force = request->force, .full = request->full
     };
     ask.facts.normals = request->normals;
@@ -405,8 +405,8 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     if (!wr_frame_decide(renderer, request, err)) return false;
     choose_steady(renderer, request);
     if (!wr_frame_prepare(renderer, request, err)) return false;
-    wr_frame_bring_sight(renderer, request, (WrHash){ 0 },
-                         wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN));
+    wr_frame_update_visibility(renderer, request, (WrHash){ 0 },
+                               wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN));
     wr_frame_start_counts(renderer);
     FrameJob job = { .tile = wr_frame_job(renderer, request),
                      .scratch = renderer->scratch,

@@ -33,7 +33,7 @@ static bool update_horizon(WrRenderer *renderer, WrError *err)
 }
 
 /* Updates the table's horizons; after an edit, only the changed ones. */
-bool wr_frame_bring_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+bool wr_frame_update_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const double sign = request->scene->height < 0 ? -1 : 1;
     const uint64_t key = wr_field_key(renderer->looked);
@@ -54,14 +54,14 @@ bool wr_frame_bring_horizon(WrRenderer *renderer, const WrFrameRequest *request,
     return wr_horizon_make(horizon, renderer->looked, plan->horizons, sign, renderer->pool, err);
 }
 
-bool wr_frame_bring_opening(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+bool wr_frame_update_occlusion(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_OCCLUSION))
-        return wr_occlusion_map_table_bring(&renderer->opening, request->scene, renderer->looked,
-                                            &(WrOcclusionMapEdit){ renderer->horizon_key,
-                                                                   renderer->horizon_before,
-                                                                   renderer->horizon_edit },
-                                            &renderer->horizon, renderer->pool, err);
+        return wr_occlusion_map_table_update(&renderer->opening, request->scene, renderer->looked,
+                                             &(WrOcclusionMapEdit){ renderer->horizon_key,
+                                                                    renderer->horizon_before,
+                                                                    renderer->horizon_edit },
+                                             &renderer->horizon, renderer->pool, err);
     if (!request->hold) wr_occlusion_map_table_drop(&renderer->opening);
     return true;
 }

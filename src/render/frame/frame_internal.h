@@ -86,7 +86,7 @@ struct WrRenderer {
     bool outside;  /* the eye of that view is outside the surface */
     bool stands;   /* the planned view equals the last one */
     WrDirty keep;
-    WrPlanAsk ask;       /* inputs of this frame's plan */
+    WrPlanRequest ask;   /* inputs of this frame's plan */
     WrFrameRequest last; /* of the last whole or refreshed picture; only its numbers are valid */
     const WrKernels *kernels; /* of this frame once prepared; before, of the last one */
     int64_t covered;
@@ -124,8 +124,8 @@ bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrErro
 bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 /* Next call: the uv cache is reused from the last frame, or filled where every tile is new. beside: hash of the
    other objects of the picture, 0: there are none. */
-void wr_frame_bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
-                          bool anew);
+void wr_frame_update_visibility(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
+                                bool anew);
 /* Decides whether the relight cache serves this frame of `count` objects (relight_cache.h). Plan rows that
    depend on it are decided again in each object's renderer. */
 void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
@@ -153,14 +153,14 @@ void wr_renderer_forget(
 
 /* Decides, builds the tables that the decision needs, and decides again once the gradient table is known. ask:
    its facts about the table are filled in. */
-bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask,
+bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanRequest *ask,
                             WrError *err);
 bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 void wr_frame_drop_tables(WrRenderer *renderer);
 /* Updates the table's horizons, and its ambient occlusion, where the plan uses them. Errors: no memory;
    cancelled. */
-bool wr_frame_bring_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
-bool wr_frame_bring_opening(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+bool wr_frame_update_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+bool wr_frame_update_occlusion(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 void wr_frame_drop_horizon(WrRenderer *renderer);
 /* Fills the fetch parameters of tiles; scale: object units -> kernel units. */
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,

@@ -38,15 +38,15 @@ static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
 {
     const WrScene *scene = request->scene;
     const WrPlan *plan = &renderer->plan;
-    const WrMeshAsk ask = { .mesh = plan->mesh,
-                            .newton = plan->newton,
-                            .texels = plan->texels,
-                            .table_w =
-                                fmax(grains(renderer, scene),
-                                     fabs(scene->replicate_u) * wr_field_width(request->field)),
-                            .table_h =
-                                fmax(grains(renderer, scene),
-                                     fabs(scene->replicate_v) * wr_field_height(request->field)) };
+    const WrMeshRequest ask = {
+        .mesh = plan->mesh,
+        .newton = plan->newton,
+        .texels = plan->texels,
+        .table_w = fmax(grains(renderer, scene),
+                        fabs(scene->replicate_u) * wr_field_width(request->field)),
+        .table_h = fmax(grains(renderer, scene),
+                        fabs(scene->replicate_v) * wr_field_height(request->field))
+    };
     int slot = 0;
     while (slot + 1 < WR_HELD_MESHES && 1 << slot < plan->samples) slot++;
     const bool grid = plan->inversion == WR_INVERT_MESH && wr_plan_runs(plan, WR_EFFECT_DEPTH);
@@ -77,14 +77,14 @@ void wr_frame_bind_sparse_hits(WrRenderer *renderer, WrTileJob *job)
     const int k = renderer->view.samples;
     if (job->steady || !wr_frame_ties(renderer)) return;
     if (job->seen_before && !renderer->sight.partly) return; /* every sample is in the uv cache */
-    const WrSparseHitsAsk ask = { .kernels = job->kernels,
-                                  .wide = job->wide,
-                                  .sheet = job->wide_newton ? &job->sheet : NULL,
-                                  .newton = wr_pipe_newton(job),
-                                  .first = renderer->top * k,
-                                  .rows = renderer->rows * k };
+    const WrSparseHitsRequest ask = { .kernels = job->kernels,
+                                      .wide = job->wide,
+                                      .sheet = job->wide_newton ? &job->sheet : NULL,
+                                      .newton = wr_pipe_newton(job),
+                                      .first = renderer->top * k,
+                                      .rows = renderer->rows * k };
     const bool tied =
-        wr_sparse_hits_bring(&renderer->knots, job->mesh, &renderer->view, &ask, renderer->pool);
+        wr_sparse_hits_update(&renderer->knots, job->mesh, &renderer->view, &ask, renderer->pool);
     if (tied) job->knots = &renderer->knots;
     if (job->sight && !job->seen_before) renderer->sight.partly = tied;
     /* the uv cache is incomplete */

@@ -26,16 +26,16 @@ bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
     }
     if (dials->rays == 0 || !wr_shadow_rays_asked(request->scene)) return true;
     for (int i = 0; i < count; i++) {
-        const WrShadowRaysAsk ask = { .scenes = scenes,
-                                      .fields = fields,
-                                      .bodies = bodies,
-                                      .count = count,
-                                      .at = i,
-                                      .rays = dials->rays,
-                                      .all = wants_all(request),
-                                      .moves = !keeps_bases(request),
-                                      .turn_deg = request->turn_deg,
-                                      .aspect = (double)request->width / request->height };
+        const WrShadowRaysRequest ask = { .scenes = scenes,
+                                          .fields = fields,
+                                          .bodies = bodies,
+                                          .count = count,
+                                          .at = i,
+                                          .rays = dials->rays,
+                                          .all = wants_all(request),
+                                          .moves = !keeps_bases(request),
+                                          .turn_deg = request->turn_deg,
+                                          .aspect = (double)request->width / request->height };
         if (!wr_shadow_rays_prepare(&renderers[i]->cast, &ask, err)) return false;
     }
     return true;

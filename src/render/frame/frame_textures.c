@@ -47,8 +47,8 @@ static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bo
     if (!gradient && !slope_free && !hold) wr_table_drop(table, WR_COPY_GRADIENT);
     if (!fitted && !hold) wr_table_drop(table, WR_COPY_FITTED);
     if (!heights && !hold) wr_table_drop(table, WR_COPY_HEIGHTS);
-    if (fitted && !wr_table_bring(table, WR_COPY_FITTED, field, renderer->pool, err)) return false;
-    return !heights || wr_table_bring(table, WR_COPY_HEIGHTS, field, renderer->pool, err);
+    if (fitted && !wr_table_update(table, WR_COPY_FITTED, field, renderer->pool, err)) return false;
+    return !heights || wr_table_update(table, WR_COPY_HEIGHTS, field, renderer->pool, err);
 }
 
 static bool bring_pyramids(WrRenderer *renderer, bool hold, WrError *err)
@@ -61,10 +61,10 @@ static bool bring_pyramids(WrRenderer *renderer, bool hold, WrError *err)
     if (!filter && !hold) wr_pyramid_drop(&renderer->pyramid);
     if (!range) wr_pyramid_drop(&renderer->range);
     if (filter &&
-        !wr_pyramid_bring(&renderer->pyramid, kind, renderer->looked, renderer->pool, err))
+        !wr_pyramid_update(&renderer->pyramid, kind, renderer->looked, renderer->pool, err))
         return false;
-    return !range || wr_pyramid_bring(&renderer->range, WR_PYRAMID_RANGE, renderer->looked,
-                                      renderer->pool, err);
+    return !range || wr_pyramid_update(&renderer->range, WR_PYRAMID_RANGE, renderer->looked,
+                                       renderer->pool, err);
 }
 
 static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
@@ -73,8 +73,8 @@ static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, W
     float low = 0, high = 0;
     if (plan->heights == WR_HEIGHTS_16 || plan->heights == WR_HEIGHTS_8)
         wr_table_range(&renderer->table, &low, &high);
-    renderer->looked = wr_quantized_heights_bring(&renderer->rounded, request->field, plan->heights,
-                                                  low, high, err);
+    renderer->looked = wr_quantized_heights_update(&renderer->rounded, request->field,
+                                                   plan->heights, low, high, err);
     renderer->table.precision = plan->precision;
     return renderer->looked != NULL;
 }
@@ -91,7 +91,7 @@ static double sloped_share(const WrRenderer *renderer, const WrField *field)
     return (double)sloped / tiles;
 }
 
-bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask,
+bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanRequest *ask,
                             WrError *err)
 {
     const WrField *field = request->field;
@@ -106,7 +106,7 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     wr_plan_build(plan, ask);
     if (!round_heights(renderer, request, err)) return false;
     if (wr_plan_runs(plan, WR_EFFECT_GRADIENT)) {
-        if (!wr_table_bring(table, WR_COPY_GRADIENT, renderer->looked, renderer->pool, err))
+        if (!wr_table_update(table, WR_COPY_GRADIENT, renderer->looked, renderer->pool, err))
             return false;
         facts->slope_free = wr_table_slope_free(table);
         wr_plan_build(plan, ask);
@@ -118,7 +118,7 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     const bool looked = plan->source == WR_SOURCE_TABLE && plan->precision == WR_PRECISION_SINGLE;
     facts->sloped = looked ? sloped_share(renderer, field) : -1;
     if (wr_plan_runs(plan, WR_EFFECT_PARALLAX) && plan->source == WR_SOURCE_TABLE)
-        wr_height_bounds_bring(&renderer->bounds, table, plan->scheme, renderer->looked);
+        wr_height_bounds_update(&renderer->bounds, table, plan->scheme, renderer->looked);
     return true;
 }
 
@@ -128,13 +128,13 @@ static bool bring_relief(WrRenderer *renderer, const WrFrameRequest *request, Wr
     const WrPlan *plan = &renderer->plan;
     const bool framed = plan->map_frame == WR_FRAME_MIKK || plan->map_frame == WR_FRAME_LECTURE;
     if (!framed || plan->inversion != WR_INVERT_TRIANGLES) wr_frames_drop(&renderer->frames);
-    else if (!wr_frames_bring(&renderer->frames, wr_frame_triangles(renderer, request->scene),
-                              plan->map_frame, err))
+    else if (!wr_frames_update(&renderer->frames, wr_frame_triangles(renderer, request->scene),
+                               plan->map_frame, err))
         return false;
     if (wr_plan_runs(plan, WR_EFFECT_NORMALS))
-        return wr_normal_mips_bring(&renderer->relief, request->scene->normals.image,
-                                    plan->map_frame == WR_FRAME_OBJECT, wr_field_wrap_u(field),
-                                    wr_field_wrap_v(field), renderer->pool, err);
+        return wr_normal_mips_update(&renderer->relief, request->scene->normals.image,
+                                     plan->map_frame == WR_FRAME_OBJECT, wr_field_wrap_u(field),
+                                     wr_field_wrap_v(field), renderer->pool, err);
     wr_normal_mips_drop(&renderer->relief);
     return true;
 }
@@ -147,7 +147,7 @@ static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, Wr
     WrEnvironmentBrdf gloss;
     if (!plan->graded && !request->hold) wr_env_prefilter_drop_rungs(&renderer->grades);
     if (plan->graded || wr_plan_runs(plan, WR_EFFECT_VARIED)) {
-        if (!wr_env_prefilter_bring(&renderer->grades, request->scene, plan, renderer->pool, err))
+        if (!wr_env_prefilter_update(&renderer->grades, request->scene, plan, renderer->pool, err))
             return false;
     }
     if (plan->graded || !wr_plan_runs(plan, WR_EFFECT_MIRROR) || (light->even && !blurred)) {
@@ -155,8 +155,8 @@ static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, Wr
         return true;
     }
     wr_scene_gloss(&request->scene->material, &gloss);
-    return wr_env_lookup_bring(&renderer->mirror, light, blurred ? &gloss : NULL, plan->gloss,
-                               renderer->pool, err);
+    return wr_env_lookup_update(&renderer->mirror, light, blurred ? &gloss : NULL, plan->gloss,
+                                renderer->pool, err);
 }
 
 /* True if light reads roughness or metalness from a picture of that kind. */
@@ -177,10 +177,10 @@ static bool bring_facets(WrRenderer *renderer, const WrFrameRequest *request, Wr
             wr_color_mips_drop(tint);
             continue;
         }
-        if (!wr_color_mips_bring(tint, request->scene->facets[k].image, wr_field_wrap_u(field),
-                                 wr_field_wrap_v(field), err))
+        if (!wr_color_mips_update(tint, request->scene->facets[k].image, wr_field_wrap_u(field),
+                                  wr_field_wrap_v(field), err))
             return false;
-        if (plan->facets_filtered && !wr_color_mips_bring_pyramid(tint, renderer->pool, err))
+        if (plan->facets_filtered && !wr_color_mips_update_pyramid(tint, renderer->pool, err))
             return false;
     }
     return true;
@@ -193,18 +193,18 @@ bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, 
     WrColorMips *tint = &renderer->tint;
     if (!bring_relief(renderer, request, err)) return false;
     if (!bring_mirror(renderer, request, err)) return false;
-    if (!wr_frame_bring_horizon(renderer, request, err)) return false;
-    if (!wr_frame_bring_opening(renderer, request, err)) return false;
+    if (!wr_frame_update_horizon(renderer, request, err)) return false;
+    if (!wr_frame_update_occlusion(renderer, request, err)) return false;
     if (!bring_facets(renderer, request, err)) return false;
     if (!wr_plan_runs(plan, WR_EFFECT_COLOUR)) {
         wr_color_mips_drop(tint);
         return true;
     }
-    if (!wr_color_mips_bring(tint, request->scene->colour, wr_field_wrap_u(field),
-                             wr_field_wrap_v(field), err))
+    if (!wr_color_mips_update(tint, request->scene->colour, wr_field_wrap_u(field),
+                              wr_field_wrap_v(field), err))
         return false;
     if (wr_plan_runs(plan, WR_EFFECT_TINT))
-        return wr_color_mips_bring_pyramid(tint, renderer->pool, err);
+        return wr_color_mips_update_pyramid(tint, renderer->pool, err);
     if (!request->hold) wr_pyramid_drop(&tint->pyramid);
     return true;
 }

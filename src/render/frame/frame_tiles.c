@@ -102,6 +102,6 @@ bool wr_frame_run(WrRenderer *renderer, FrameJob *job)
 {
     job->tiles_u = tiles_across(&job->tile);
     const bool whole =
-        wr_pool_run_told(renderer->pool, wr_frame_tiles(&job->tile), render_tile, job);
+        wr_pool_run_with_progress(renderer->pool, wr_frame_tiles(&job->tile), render_tile, job);
     return whole && !wr_cancel_asked(job->cancel);
 }

@@ -79,15 +79,15 @@ static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrH
     wr_uv_cache_key(&key, renderer->mesh, &renderer->view, wr_tile_exact(&job), renderer->kernels);
     key.beside = beside;
     key.tied = wr_frame_ties(renderer);
-    if (wr_uv_cache_bring(&renderer->sight, &key)) return true;
+    if (wr_uv_cache_update(&renderer->sight, &key)) return true;
     renderer->sighting = renderer->sight.u != NULL && anew;
     return false;
 }
 
-void wr_frame_bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
-                          bool anew)
+void wr_frame_update_visibility(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
+                                bool anew)
 {
-    WrPlanAsk *ask = &renderer->ask;
+    WrPlanRequest *ask = &renderer->ask;
     ask->facts.sighted = renderer->sighted = bring_sight(renderer, request, beside, anew);
     wr_plan_again(&renderer->plan, ask);
 }
@@ -165,10 +165,10 @@ void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
     bool anew = false;
     for (int i = 0; i < count; i++) anew |= wr_plan_runs(parts[i].plan, WR_EFFECT_AGAIN);
     const bool may = may_be_steady(request) && count > 0 && !hinders && anew && has_normals(&view);
-    steady->use = may ? wr_relight_bring(steady, &view) : WR_RELIGHT_NONE;
+    steady->use = may ? wr_relight_update(steady, &view) : WR_RELIGHT_NONE;
     if (count > 0) tell_steady(steady, &view, hinders);
     for (int i = 0; i < count; i++) {
-        WrPlanAsk *ask = &owners[i]->ask;
+        WrPlanRequest *ask = &owners[i]->ask;
         ask->facts.steady = steady->use == WR_RELIGHT_KNOWN;
         ask->facts.steady_told = steady->told;
         ask->facts.normals |= steady->use == WR_RELIGHT_NOTE; /* on the dark side as well */

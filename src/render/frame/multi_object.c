@@ -161,8 +161,8 @@ static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, W
 static void join_plans(WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrGroup *group = renderer->group;
-    const WrPlanAsk ask = { .scene = request->scene,
-                            .dials = request->dials ? request->dials : &request->scene->dials };
+    const WrPlanRequest ask = { .scene = request->scene,
+                                .dials = request->dials ? request->dials : &request->scene->dials };
     if (group->count == 0) wr_plan_build(&renderer->plan, &ask);
     for (int i = 0; i < group->count; i++) {
         const WrPlan *own = &group->parts[i].renderer->plan;
@@ -226,7 +226,7 @@ static void bring_sights(WrRenderer *renderer, const WrFrameRequest *request, bo
     }
     for (int i = 0; i < group->count; i++) {
         const WrFrameRequest own = request_of(&group->parts[i], request);
-        wr_frame_bring_sight(group->parts[i].renderer, &own, all, anew);
+        wr_frame_update_visibility(group->parts[i].renderer, &own, all, anew);
     }
 }
 

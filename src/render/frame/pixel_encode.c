@@ -121,8 +121,8 @@ static void fill_rows(WrBackdrop *b, const WrBackground *ground, int height, int
     }
 }
 
-void wr_backdrop_bring(WrBackdrop *backdrop, const WrFrameCodes *of, double radius, int width,
-                       int height, int first, int rows, const WrPixelEncoder *coder, WrPool *pool)
+void wr_backdrop_update(WrBackdrop *backdrop, const WrFrameCodes *of, double radius, int width,
+                        int height, int first, int rows, const WrPixelEncoder *coder, WrPool *pool)
 {
     WrOutlook outlook;
     if (of->background.kind != WR_BACKGROUND_SURROUNDINGS ||

@@ -50,8 +50,8 @@ typedef struct WrBackdrop {
 
 /* Fills the background of rows [first, first + rows); an environment that is already there is kept. radius:
    wr_shape_radius of the scene's shape, or 0 if unknown. */
-void wr_backdrop_bring(WrBackdrop *backdrop, const WrFrameCodes *of, double radius, int width,
-                       int height, int first, int rows, const WrPixelEncoder *coder, WrPool *pool);
+void wr_backdrop_update(WrBackdrop *backdrop, const WrFrameCodes *of, double radius, int width,
+                        int height, int first, int rows, const WrPixelEncoder *coder, WrPool *pool);
 void wr_backdrop_fini(WrBackdrop *backdrop);
 static inline const WrBehind *wr_backdrop_at(const WrBackdrop *backdrop, int x, int row)
 {

@@ -111,8 +111,8 @@ int64_t wr_frame_to_srgb8(const WrFrame *frame, const WrFrameCodes *how, bool bg
 {
     ResolveJob job = { .frame = frame, .bgra = bgra, .out = out };
     job.coder = coder_of(&job, &how->tone);
-    wr_backdrop_bring(&job.backdrop, how, 0, frame->width, frame->of, frame->first, frame->height,
-                      &job.coder, pool);
+    wr_backdrop_update(&job.backdrop, how, 0, frame->width, frame->of, frame->first, frame->height,
+                       &job.coder, pool);
     wr_pool_run(pool, frame->height, resolve_row, &job);
     wr_backdrop_fini(&job.backdrop);
     return job.not_finite;

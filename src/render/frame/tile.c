@@ -56,7 +56,7 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
                          .kernels = job->kernels };
     if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) wr_tile_jitter(&tile, k, scratch->shift);
     if (job->knots && k == job->view->samples && !tile.shift)
-        wr_sparse_hits_tell(job->knots, &tile);
+        wr_sparse_hits_report(job->knots, &tile);
     if (job->mesh && !job->seen_before && !job->steady) {
         double start = wr_clock_seconds();
         if (!tile.knots || tile.untold) wr_view_mesh_raster(job->mesh, job->view, &tile);

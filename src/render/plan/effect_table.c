@@ -15,7 +15,7 @@
 /* Reason why the table cannot change the normal, or NULL if it can. The exact normal of an offset surface
    (constant F) is the base's up to its sign, which flips where F passes a focal distance: so with `exact` on a
    curved base a constant F is left out only if it is 0. */
-static const char *no_bump(const WrPlan *plan, const WrPlanAsk *ask)
+static const char *no_bump(const WrPlan *plan, const WrPlanRequest *ask)
 {
     const WrScene *scene = ask->scene;
     const WrPlanFacts *facts = &ask->facts;
@@ -30,7 +30,7 @@ static const char *no_bump(const WrPlan *plan, const WrPlanAsk *ask)
     return NULL;
 }
 
-static WrVerdict decide_bump(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+static WrVerdict decide_bump(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (wr_plan_normal(plan, ask) == WR_BUMP_NONE)
         return say(WR_VERDICT_NONE, why, "bump mode is none");
@@ -39,7 +39,7 @@ static WrVerdict decide_bump(const WrPlan *plan, const WrPlanAsk *ask, const cha
     return say(WR_VERDICT_RUN, why, "the table has slopes and a light shows them");
 }
 
-static void settle_bump(WrPlan *plan, const WrPlanAsk *ask)
+static void settle_bump(WrPlan *plan, const WrPlanRequest *ask)
 {
     const bool run = runs(plan, WR_EFFECT_BUMP);
     plan->bump = run || runs(plan, WR_EFFECT_NORMALS) ? WR_BUMP_BLINN : WR_BUMP_NONE;
@@ -49,7 +49,7 @@ static void settle_bump(WrPlan *plan, const WrPlanAsk *ask)
                                                                   : WR_SOURCE_FORMULA;
 }
 
-static WrVerdict decide_gradient(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+static WrVerdict decide_gradient(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrScheme scheme = ask->scene->scheme;
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
@@ -59,7 +59,7 @@ static WrVerdict decide_gradient(const WrPlan *plan, const WrPlanAsk *ask, const
                "one look-up of central differences equals the paper's four of F");
 }
 
-static WrVerdict decide_wide(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+static WrVerdict decide_wide(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const double r = fmax(fabs(ask->scene->replicate_u), fabs(ask->scene->replicate_v));
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
@@ -70,7 +70,7 @@ static WrVerdict decide_wide(const WrPlan *plan, const WrPlanAsk *ask, const cha
                "replication of 1024 and more loses texels in single precision");
 }
 
-static WrVerdict decide_invariant(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+static WrVerdict decide_invariant(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrShape *shape = &ask->scene->shape;
     if (wr_plan_normal(plan, ask) != WR_BUMP_INVARIANT)
@@ -82,7 +82,7 @@ static WrVerdict decide_invariant(const WrPlan *plan, const WrPlanAsk *ask, cons
     return say(WR_VERDICT_RUN, why, "bump mode is invariant");
 }
 
-static void settle_invariant(WrPlan *plan, const WrPlanAsk *ask)
+static void settle_invariant(WrPlan *plan, const WrPlanRequest *ask)
 {
     (void)ask;
     if (runs(plan, WR_EFFECT_INVARIANT)) plan->bump = WR_BUMP_INVARIANT;
@@ -90,7 +90,7 @@ static void settle_invariant(WrPlan *plan, const WrPlanAsk *ask)
 
 /* ---- samples ---- */
 
-static WrVerdict decide_spread(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+static WrVerdict decide_spread(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (ask->dials->aa != WR_AA_MOMENTS)
         return say(WR_VERDICT_NONE, why, "the dials do not ask for moments");
@@ -104,7 +104,7 @@ static WrVerdict decide_spread(const WrPlan *plan, const WrPlanAsk *ask, const c
                    : "the variance of the slopes widens the highlight");
 }
 
-static void settle_spread(WrPlan *plan, const WrPlanAsk *ask)
+static void settle_spread(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->graded = wr_plan_graded(plan, ask->scene);
     plan->lean = runs(plan, WR_EFFECT_SPREAD) && ask->dials->moments == WR_MOMENTS_LEAN;
@@ -112,7 +112,7 @@ static void settle_spread(WrPlan *plan, const WrPlanAsk *ask)
 
 /* ---- arithmetic ---- */
 
-static WrVerdict decide_rounded(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+static WrVerdict decide_rounded(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrHeights heights = ask->dials->heights;
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
@@ -121,12 +121,12 @@ static WrVerdict decide_rounded(const WrPlan *plan, const WrPlanAsk *ask, const 
     return say(WR_VERDICT_RUN, why, "the dial asks for heights of fewer bits");
 }
 
-static void settle_rounded(WrPlan *plan, const WrPlanAsk *ask)
+static void settle_rounded(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->heights = runs(plan, WR_EFFECT_ROUNDED) ? ask->dials->heights : WR_HEIGHTS_FLOAT;
 }
 
-static WrVerdict decide_double(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+static WrVerdict decide_double(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (ask->dials->shading == WR_SHADING_DOUBLE)
         return say(WR_VERDICT_RUN, why, "the dial asks for shading in double precision");
@@ -138,7 +138,7 @@ static WrVerdict decide_double(const WrPlan *plan, const WrPlanAsk *ask, const c
     return say(WR_VERDICT_NONE, why, "single precision was asked for");
 }
 
-static void settle_double(WrPlan *plan, const WrPlanAsk *ask)
+static void settle_double(WrPlan *plan, const WrPlanRequest *ask)
 {
     const bool run = runs(plan, WR_EFFECT_DOUBLE);
     plan->shading_double =
@@ -148,7 +148,7 @@ static void settle_double(WrPlan *plan, const WrPlanAsk *ask)
                                                                  : WR_PRECISION_WIDENED;
 }
 
-static WrVerdict decide_half(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+static WrVerdict decide_half(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan;
     if (ask->dials->shading != WR_SHADING_HALF)

@@ -17,7 +17,7 @@ const char *wr_proof_letter(WrProof proof)
 
 /* ---- deciding ---- */
 
-static void decide(WrPlan *plan, WrEffect effect, const WrPlanAsk *ask)
+static void decide(WrPlan *plan, WrEffect effect, const WrPlanRequest *ask)
 {
     const WrEffectInfo *info = &wr_effects[effect];
     const WrForce force = ask->force ? ask->force[effect] : WR_FORCE_NONE;
@@ -40,20 +40,20 @@ static void decide(WrPlan *plan, WrEffect effect, const WrPlanAsk *ask)
     if (info->settle) info->settle(plan, ask);
 }
 
-void wr_plan_build(WrPlan *plan, const WrPlanAsk *ask)
+void wr_plan_build(WrPlan *plan, const WrPlanRequest *ask)
 {
     memset(plan, 0, sizeof *plan);
     for (int e = 0; e < WR_EFFECT_COUNT; e++) decide(plan, (WrEffect)e, ask);
 }
 
-void wr_plan_samples(WrPlan *plan, const WrPlanAsk *ask)
+void wr_plan_samples(WrPlan *plan, const WrPlanRequest *ask)
 {
     decide(plan, WR_EFFECT_SAMPLES, ask);
     decide(plan, WR_EFFECT_BOUND, ask);
     decide(plan, WR_EFFECT_DARK, ask); /* depends on the bound */
 }
 
-void wr_plan_again(WrPlan *plan, const WrPlanAsk *ask)
+void wr_plan_again(WrPlan *plan, const WrPlanRequest *ask)
 {
     for (int e = 0; e < WR_EFFECT_COUNT; e++)
         if (wr_effects[e].manner) decide(plan, (WrEffect)e, ask);

@@ -298,13 +298,13 @@ typedef enum WrForce {
     WR_FORCE_OFF /* wherever a picture remains without it */
 } WrForce;
 
-typedef struct WrPlanAsk {
+typedef struct WrPlanRequest {
     const WrScene *scene;
     const WrDials *dials;
     WrPlanFacts facts;
     const WrForce *force; /* [WR_EFFECT_COUNT]; NULL: nothing is forced */
     bool full; /* everything is forced on, except effects that would make the picture more exact */
-} WrPlanAsk;
+} WrPlanRequest;
 
 /* Description of one effect: all facts about it are in its row. */
 typedef struct WrEffectInfo {
@@ -319,18 +319,18 @@ typedef struct WrEffectInfo {
     bool manner;     /* it changes the method only: plans that differ in it make the same picture */
     bool finer; /* running it where it could be left out makes the picture more exact: other bits */
     /* Decides whether the scene needs it, and the reason. Rows before it are decided. */
-    WrVerdict (*decide)(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
+    WrVerdict (*decide)(const WrPlan *plan, const WrPlanRequest *ask, const char **why);
     /* Fills its own WR_PLAN_SETTINGS once its row is decided; NULL: it has none. */
-    void (*settle)(WrPlan *plan, const WrPlanAsk *ask);
+    void (*settle)(WrPlan *plan, const WrPlanRequest *ask);
 } WrEffectInfo;
 extern const WrEffectInfo wr_effects[WR_EFFECT_COUNT];
 
-void wr_plan_build(WrPlan *plan, const WrPlanAsk *ask);
+void wr_plan_build(WrPlan *plan, const WrPlanRequest *ask);
 /* Decides again the rows that depend on comparing plans and on table copies; these change only the method, not
    the picture. */
-void wr_plan_again(WrPlan *plan, const WrPlanAsk *ask);
+void wr_plan_again(WrPlan *plan, const WrPlanRequest *ask);
 /* Decides the sampling rows again, once adaptive sampling has probed the view. */
-void wr_plan_samples(WrPlan *plan, const WrPlanAsk *ask);
+void wr_plan_samples(WrPlan *plan, const WrPlanRequest *ask);
 /* True if both plans make the same picture of one scene. Compares everything that rows own, except the method. */
 bool wr_plan_same(const WrPlan *a, const WrPlan *b);
 /* Adds up frames that make one picture: costs are added; an effect has run if it ran in any frame. */

@@ -13,7 +13,7 @@ static bool shine(const WrScene *scene)
     return e->strength != 0 && sum > 0;
 }
 
-WrVerdict wr_decide_surround(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_surround(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrMaterial *m = &ask->scene->material;
     (void)plan;
@@ -28,7 +28,7 @@ WrVerdict wr_decide_surround(const WrPlan *plan, const WrPlanAsk *ask, const cha
     return say(WR_VERDICT_RUN, why, "light comes from all sides and diffuse is not 0");
 }
 
-WrVerdict wr_decide_harmonics(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_harmonics(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!runs(plan, WR_EFFECT_SURROUND))
         return say(WR_VERDICT_NONE, why, "there is no diffuse light of surroundings");
@@ -43,17 +43,17 @@ WrVerdict wr_decide_harmonics(const WrPlan *plan, const WrPlanAsk *ask, const ch
                    : "diffuse light of them turns with the normal: by 9 coefficients");
 }
 
-void wr_settle_harmonics(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_harmonics(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->harmonics = runs(plan, WR_EFFECT_HARMONICS) ? ask->dials->harmonics : 0;
 }
 
-void wr_settle_blur(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_blur(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->gloss = runs(plan, WR_EFFECT_BLUR) ? ask->dials->gloss : 0;
 }
 
-WrVerdict wr_decide_mirror(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_mirror(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrMaterial *m = &ask->scene->material;
     (void)plan;
@@ -67,7 +67,7 @@ WrVerdict wr_decide_mirror(const WrPlan *plan, const WrPlanAsk *ask, const char 
     return say(WR_VERDICT_RUN, why, "they are seen about the mirrored direction");
 }
 
-WrVerdict wr_decide_blur(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_blur(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     WrEnvironmentBrdf gloss;
     if (!runs(plan, WR_EFFECT_MIRROR))

@@ -24,7 +24,7 @@ static inline bool light_shines(const WrLight *light)
     return light->strength != 0 && (c.x != 0 || c.y != 0 || c.z != 0);
 }
 
-static inline const WrSurfaceInfo *surface_of(const WrPlanAsk *ask)
+static inline const WrSurfaceInfo *surface_of(const WrPlanRequest *ask)
 {
     return wr_surfaces[ask->scene->shape.kind];
 }
@@ -74,7 +74,7 @@ bool wr_plan_surround_turns(const WrPlan *plan, const WrScene *scene);
 bool wr_plan_graded(const WrPlan *plan, const WrScene *scene);
 
 /* True if anything depends on n'. */
-static inline bool lit(const WrPlan *plan, const WrPlanAsk *ask)
+static inline bool lit(const WrPlan *plan, const WrPlanRequest *ask)
 {
     return runs(plan, WR_EFFECT_DIFFUSE) || runs(plan, WR_EFFECT_SPECULAR) || ask->facts.normals ||
            wr_plan_surround_turns(plan, ask->scene);
@@ -87,8 +87,8 @@ static inline bool still(const WrScene *scene)
 
 /* Functions of WrEffectInfo's rows. They are in plan_light.c, plan_reflection.c, plan_environment.c,
    plan_visibility.c, plan_runs.c, plan_samples.c, plan_shape.c and plan_maps.c. */
-typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
-typedef void WrSettle(WrPlan *plan, const WrPlanAsk *ask);
+typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanRequest *ask, const char **why);
+typedef void WrSettle(WrPlan *plan, const WrPlanRequest *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
     wr_decide_steady, wr_decide_parameters, wr_decide_tangents, wr_decide_hidden, wr_decide_between,
     wr_decide_beside, wr_decide_dark, wr_decide_ground, wr_decide_colour, wr_decide_tint,
@@ -105,4 +105,4 @@ WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr
     wr_settle_curvature, wr_settle_grain, wr_settle_samples, wr_settle_kept, wr_settle_faint;
 
 /* The formula that bends the normal: the scene's, or the exact one of a displaced surface. */
-WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanAsk *ask);
+WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanRequest *ask);

@@ -12,7 +12,7 @@ static bool any_light(const WrScene *scene)
     return false;
 }
 
-WrVerdict wr_decide_diffuse(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_diffuse(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrMaterial *m = &ask->scene->material;
     (void)plan;
@@ -25,7 +25,7 @@ WrVerdict wr_decide_diffuse(const WrPlan *plan, const WrPlanAsk *ask, const char
     return say(WR_VERDICT_RUN, why, "a light shines and diffuse is not 0");
 }
 
-WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan;
     if (!any_light(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light shines");
@@ -49,7 +49,7 @@ static const char *same_model(const WrPlan *plan, const WrScene *scene)
     return NULL;
 }
 
-WrVerdict wr_decide_model(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_model(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrMaterial *m = &ask->scene->material;
     if (m->model == WR_REFLECT_DEFAULT && m->tint == 0)
@@ -63,7 +63,7 @@ WrVerdict wr_decide_model(const WrPlan *plan, const WrPlanAsk *ask, const char *
                                               : wr_reflects[m->model].help);
 }
 
-void wr_settle_model(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_model(WrPlan *plan, const WrPlanRequest *ask)
 {
     const WrMaterial *m = &ask->scene->material;
     const bool run = runs(plan, WR_EFFECT_MODEL);
@@ -78,7 +78,7 @@ static bool goes_by_facets(const WrPlan *plan)
            runs(plan, WR_EFFECT_MIRROR);
 }
 
-WrVerdict wr_decide_facets(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_facets(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
     const bool rough = scene->facets[WR_FACET_ROUGHNESS].image;
@@ -93,14 +93,14 @@ WrVerdict wr_decide_facets(const WrPlan *plan, const WrPlanAsk *ask, const char 
                                         : "light goes by them");
 }
 
-void wr_settle_facets(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_facets(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->facets_filtered = runs(plan, WR_EFFECT_FACETS) && wants_filter(ask->dials);
     plan->facets_anisotropic =
         plan->facets_filtered && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
 }
 
-WrVerdict wr_decide_varied(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_varied(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrSolidTexture *grain = &ask->scene->grain;
     const bool driven =
@@ -115,7 +115,7 @@ WrVerdict wr_decide_varied(const WrPlan *plan, const WrPlanAsk *ask, const char 
 }
 
 /* Reason why the relief's horizons are not available, or NULL. */
-static const char *no_horizon(const WrPlan *plan, const WrPlanAsk *ask)
+static const char *no_horizon(const WrPlan *plan, const WrPlanRequest *ask)
 {
     const WrVec3 sizes = ask->scene->sizes;
     int columns, rows;
@@ -132,7 +132,7 @@ static const char *no_horizon(const WrPlan *plan, const WrPlanAsk *ask)
 }
 
 /* True if every enabled lamp uses shadow rays against a displaced surface's own relief. */
-static bool rays_tell(const WrPlan *plan, const WrPlanAsk *ask)
+static bool rays_tell(const WrPlan *plan, const WrPlanRequest *ask)
 {
     bool all = runs(plan, WR_EFFECT_DISPLACED) && ask->dials->rays > 0;
     for (int i = 0; i < ask->scene->light_count; i++)
@@ -140,7 +140,7 @@ static bool rays_tell(const WrPlan *plan, const WrPlanAsk *ask)
     return all;
 }
 
-WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!ask->scene->material.shadow)
         return say(WR_VERDICT_NONE, why, "the material asks for no shadows");
@@ -155,7 +155,7 @@ WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanAsk *ask, const char 
     return say(WR_VERDICT_RUN, why, "lamps below the relief's horizon are hidden");
 }
 
-WrVerdict wr_decide_cast(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_cast(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!wr_shadow_rays_asked(ask->scene))
         return say(WR_VERDICT_NONE, why, "no light asks for them");
@@ -172,7 +172,7 @@ WrVerdict wr_decide_cast(const WrPlan *plan, const WrPlanAsk *ask, const char **
             : "a convex or flat object alone hides no lamp from itself");
 }
 
-void wr_settle_cast(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_cast(WrPlan *plan, const WrPlanRequest *ask)
 {
     if (runs(plan, WR_EFFECT_CAST)) plan->rays = ask->dials->rays;
 }
@@ -183,7 +183,7 @@ static bool has_sky(const WrPlan *plan, const WrMaterial *m)
     return m->ambient != 0 || runs(plan, WR_EFFECT_SURROUND);
 }
 
-WrVerdict wr_decide_occlusion(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_occlusion(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!ask->scene->material.occlusion)
         return say(WR_VERDICT_NONE, why, "the material asks for no occlusion");
@@ -196,7 +196,7 @@ WrVerdict wr_decide_occlusion(const WrPlan *plan, const WrPlanAsk *ask, const ch
     return say(WR_VERDICT_RUN, why, "hollows of the relief see less of the sky");
 }
 
-void wr_settle_occlusion(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_occlusion(WrPlan *plan, const WrPlanRequest *ask)
 {
     const int n = ask->dials->horizons / WR_HORIZON_LEAST * WR_HORIZON_LEAST;
     if (runs(plan, WR_EFFECT_OCCLUSION) || runs(plan, WR_EFFECT_SHADOW)) plan->horizons = n;

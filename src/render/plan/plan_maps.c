@@ -16,7 +16,7 @@ static bool colour_white(const WrImage *image)
     return true;
 }
 
-WrVerdict wr_decide_colour(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_colour(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrImage *image = ask->scene->colour;
     (void)plan;
@@ -36,7 +36,7 @@ static bool colour_even(const WrImage *image)
     return true;
 }
 
-WrVerdict wr_decide_tint(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_tint(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     double ru, rv;
     wr_scene_repeat(ask->scene, &ask->scene->colour_laid, &ru, &rv);
@@ -55,7 +55,7 @@ WrVerdict wr_decide_tint(const WrPlan *plan, const WrPlanAsk *ask, const char **
                "footprints over a texel look up means of it; smaller ones itself");
 }
 
-void wr_settle_tint(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_tint(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->tint_anisotropic =
         runs(plan, WR_EFFECT_TINT) && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
@@ -76,7 +76,7 @@ static bool all_white(const WrSolidTexture *grain)
            grain->light[2] == 1;
 }
 
-WrVerdict wr_decide_grain(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_grain(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrSolidTexture *grain = &ask->scene->grain;
     (void)plan;
@@ -91,7 +91,7 @@ WrVerdict wr_decide_grain(const WrPlan *plan, const WrPlanAsk *ask, const char *
 }
 
 /* Reason why the solid texture does not bend the normal, or NULL if it does. */
-static const char *no_embossing(const WrPlan *plan, const WrPlanAsk *ask)
+static const char *no_embossing(const WrPlan *plan, const WrPlanRequest *ask)
 {
     const WrSolidTexture *grain = &ask->scene->grain;
     if (grain->height == 0) return "the solid texture's height is 0";
@@ -99,7 +99,7 @@ static const char *no_embossing(const WrPlan *plan, const WrPlanAsk *ask)
     return NULL;
 }
 
-WrVerdict wr_decide_embossed(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_embossed(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrSolidTexture *grain = &ask->scene->grain;
     if (grain->kind == WR_SOLID_TEXTURE_OFF)
@@ -112,7 +112,7 @@ WrVerdict wr_decide_embossed(const WrPlan *plan, const WrPlanAsk *ask, const cha
 }
 
 /* True if its pattern is used. */
-void wr_settle_grain(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_grain(WrPlan *plan, const WrPlanRequest *ask)
 {
     const WrSolidTexture *grain = &ask->scene->grain;
     const bool coloured = runs(plan, WR_EFFECT_GRAIN) && !one_colour(grain);
@@ -122,7 +122,7 @@ void wr_settle_grain(WrPlan *plan, const WrPlanAsk *ask)
                       : WR_SOLID_TEXTURE_OFF;
 }
 
-WrVerdict wr_decide_octaves(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_octaves(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (plan->grain == WR_SOLID_TEXTURE_OFF)
         return say(WR_VERDICT_NONE, why, "no solid pattern is worked out");
@@ -133,7 +133,7 @@ WrVerdict wr_decide_octaves(const WrPlan *plan, const WrPlanAsk *ask, const char
     return say(WR_VERDICT_RUN, why, "noise moves the solid texture");
 }
 
-WrVerdict wr_decide_faded(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_faded(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const bool endless = wr_shape_endless(&ask->scene->shape) && !ask->scene->camera.orthographic;
     if (plan->grain == WR_SOLID_TEXTURE_OFF)
@@ -163,7 +163,7 @@ static bool map_still(const WrScene *scene)
     return ru == 0 && rv == 0;
 }
 
-WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
     const WrNormalMap *map = &scene->normals;
@@ -188,7 +188,7 @@ WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanAsk *ask, const char
     }
 }
 
-void wr_settle_normals(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_normals(WrPlan *plan, const WrPlanRequest *ask)
 {
     const bool run = runs(plan, WR_EFFECT_NORMALS);
     plan->map_frame = run ? wr_scene_frame(ask->scene) : WR_FRAME_GRADIENT;
@@ -197,7 +197,7 @@ void wr_settle_normals(WrPlan *plan, const WrPlanAsk *ask)
     plan->map_anisotropic = plan->map_filtered && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
 }
 
-WrVerdict wr_decide_filter(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_filter(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!wants_filter(ask->dials))
         return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
@@ -207,7 +207,7 @@ WrVerdict wr_decide_filter(const WrPlan *plan, const WrPlanAsk *ask, const char 
                "footprints over a texel look up a pyramid; smaller ones level 0");
 }
 
-void wr_settle_filter(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_filter(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->anisotropic =
         runs(plan, WR_EFFECT_FILTER) && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;

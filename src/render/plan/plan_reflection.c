@@ -5,7 +5,7 @@
 
 /* ---- energy left for diffuse light ---- */
 
-WrVerdict wr_decide_kept(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_kept(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrMaterial *m = &ask->scene->material;
     if (!wr_reflect_shares(&wr_reflects[m->model], m->energy == WR_ENERGY_KEPT))
@@ -17,7 +17,7 @@ WrVerdict wr_decide_kept(const WrPlan *plan, const WrPlanAsk *ask, const char **
     return say(WR_VERDICT_RUN, why, "diffuse light is what the highlight leaves of what came");
 }
 
-void wr_settle_kept(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_kept(WrPlan *plan, const WrPlanRequest *ask)
 {
     const WrMaterial *m = &ask->scene->material;
     plan->kept = m->energy == WR_ENERGY_KEPT &&
@@ -26,7 +26,7 @@ void wr_settle_kept(WrPlan *plan, const WrPlanAsk *ask)
 
 /* ---- runs of samples ---- */
 
-WrVerdict wr_decide_widened(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_widened(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)ask;
     if (!runs(plan, WR_EFFECT_SPREAD)) return say(WR_VERDICT_NONE, why, "no highlight is widened");
@@ -42,7 +42,7 @@ static const char *no_facets(const WrPlan *plan)
     return NULL;
 }
 
-WrVerdict wr_decide_faced(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_faced(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const char *reason = no_facets(plan);
     (void)ask;
@@ -53,7 +53,7 @@ WrVerdict wr_decide_faced(const WrPlan *plan, const WrPlanAsk *ask, const char *
                "runs of samples whose normals all face the viewer have none to bend");
 }
 
-WrVerdict wr_decide_faint(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_faint(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const char *reason = no_facets(plan);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
@@ -67,7 +67,7 @@ WrVerdict wr_decide_faint(const WrPlan *plan, const WrPlanAsk *ask, const char *
                "highlights below `faint` are none; runs that have no other are not worked out");
 }
 
-void wr_settle_faint(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_faint(WrPlan *plan, const WrPlanRequest *ask)
 {
     const bool spared = plan->rows[WR_EFFECT_FAINT].verdict == WR_VERDICT_SPARED;
     plan->faint = spared && !runs(plan, WR_EFFECT_FAINT) ? ask->dials->faint : 0;

@@ -31,7 +31,7 @@ static const char *no_ground(const WrPlan *plan)
     return NULL;
 }
 
-WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
     const char *reason = no_ground(plan);
@@ -61,7 +61,7 @@ static const char *no_cone(const WrPlan *plan)
     return NULL;
 }
 
-static const char *no_dark(const WrPlan *plan, const WrPlanAsk *ask)
+static const char *no_dark(const WrPlan *plan, const WrPlanRequest *ask)
 {
     const bool shines = runs(plan, WR_EFFECT_SPECULAR);
     if (is_forced(plan, WR_EFFECT_DIFFUSE) || is_forced(plan, WR_EFFECT_SPECULAR))
@@ -76,7 +76,7 @@ static const char *no_dark(const WrPlan *plan, const WrPlanAsk *ask)
     return no_cone(plan);
 }
 
-WrVerdict wr_decide_dark(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_dark(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
         return say(WR_VERDICT_NONE, why, "no light is worked out");
@@ -88,7 +88,7 @@ WrVerdict wr_decide_dark(const WrPlan *plan, const WrPlanAsk *ask, const char **
 
 /* ---- beside the object ---- */
 
-WrVerdict wr_decide_beside(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_beside(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan, (void)ask;
     return say(WR_VERDICT_SPARED, why,

@@ -10,12 +10,12 @@ static bool takes_grid(const WrDials *dials)
 }
 
 /* True if a bound is requested but unknown. Where outlines meet, light may change by any amount. */
-static bool unbounded(const WrPlanAsk *ask)
+static bool unbounded(const WrPlanRequest *ask)
 {
     return ask->facts.among > 1 && ask->dials->refine == WR_REFINE_BOUND;
 }
 
-WrVerdict wr_decide_samples(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_samples(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrDials *dials = ask->dials;
     (void)plan;
@@ -35,7 +35,7 @@ WrVerdict wr_decide_samples(const WrPlan *plan, const WrPlanAsk *ask, const char
                      "near with fewer");
 }
 
-void wr_settle_samples(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_samples(WrPlan *plan, const WrPlanRequest *ask)
 {
     const WrDials *dials = ask->dials;
     const bool run = runs(plan, WR_EFFECT_SAMPLES);
@@ -51,7 +51,7 @@ void wr_settle_samples(WrPlan *plan, const WrPlanAsk *ask)
 }
 
 /* Reason why no bound on the change of intensity over a pixel is known, or NULL if one is. */
-static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
+static const char *no_bound(const WrPlan *plan, const WrPlanRequest *ask)
 {
     if (runs(plan, WR_EFFECT_SHADOW) || runs(plan, WR_EFFECT_CAST))
         return "no bound is known of shadows: K x K everywhere";
@@ -83,7 +83,7 @@ static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
     return NULL;
 }
 
-WrVerdict wr_decide_bound(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_bound(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (ask->dials->aa != WR_AA_ADAPTIVE || plan->refine != WR_REFINE_BOUND)
         return say(WR_VERDICT_NONE, why, "the dials do not ask for a bound");

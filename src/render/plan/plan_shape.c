@@ -8,7 +8,7 @@
 
 #define SEEN 0.5 /* pixels: bump suffices for a smaller displacement (E21, E50) */
 
-WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
     (void)plan;
@@ -26,12 +26,12 @@ WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanAsk *ask, const ch
     return say(WR_VERDICT_RUN, why, "F moves the surface: facets of P + F n are seen");
 }
 
-void wr_settle_displaced(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_displaced(WrPlan *plan, const WrPlanRequest *ask)
 {
     if (runs(plan, WR_EFFECT_DISPLACED)) plan->dice = ask->dials->dice;
 }
 
-WrVerdict wr_decide_parallax(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_parallax(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
     if (!scene->parallax) return say(WR_VERDICT_NONE, why, "rays end at the base");
@@ -47,23 +47,23 @@ WrVerdict wr_decide_parallax(const WrPlan *plan, const WrPlanAsk *ask, const cha
     return say(WR_VERDICT_RUN, why, "rays go on from the base to the relief");
 }
 
-void wr_settle_parallax(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_parallax(WrPlan *plan, const WrPlanRequest *ask)
 {
     if (runs(plan, WR_EFFECT_PARALLAX)) plan->steps = ask->dials->steps;
 }
 
-WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanAsk *ask)
+WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanRequest *ask)
 {
     return runs(plan, WR_EFFECT_DISPLACED) ? WR_BUMP_EXACT : ask->scene->bump;
 }
 
 /* True if the mesh is cut from patches. */
-static bool is_cut(const WrPlanAsk *ask)
+static bool is_cut(const WrPlanRequest *ask)
 {
     return ask->scene->triangles && ask->scene->triangles->patches;
 }
 
-WrVerdict wr_decide_exact(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_exact(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (wr_plan_normal(plan, ask) != WR_BUMP_EXACT)
         return say(WR_VERDICT_NONE, why, "bump mode is not exact");
@@ -80,13 +80,13 @@ WrVerdict wr_decide_exact(const WrPlan *plan, const WrPlanAsk *ask, const char *
                    : "bump mode is exact and the base is curved");
 }
 
-void wr_settle_exact(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_exact(WrPlan *plan, const WrPlanRequest *ask)
 {
     (void)ask;
     if (runs(plan, WR_EFFECT_EXACT)) plan->bump = WR_BUMP_EXACT;
 }
 
-WrVerdict wr_decide_curvature(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_curvature(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (surface_of(ask)->held)
         return say(WR_VERDICT_NONE, why,
@@ -97,7 +97,7 @@ WrVerdict wr_decide_curvature(const WrPlan *plan, const WrPlanAsk *ask, const ch
     return say(WR_VERDICT_SPARED, why, "only the exact normal needs them");
 }
 
-void wr_settle_curvature(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_curvature(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->normals = lit(plan, ask) || runs(plan, WR_EFFECT_BUMP) ||
                     runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_TINT) ||

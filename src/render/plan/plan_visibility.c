@@ -6,19 +6,19 @@
 
 /* ---- visibility ---- */
 
-static bool is_closed(const WrPlanAsk *ask)
+static bool is_closed(const WrPlanRequest *ask)
 {
     const WrSurfaceInfo *info = surface_of(ask);
     if (info->held) return ask->scene->triangles && ask->scene->triangles->closed;
     return info->convex_closed || (info->closed_u && info->closed_v);
 }
 
-static bool is_held(const WrPlanAsk *ask)
+static bool is_held(const WrPlanRequest *ask)
 {
     return surface_of(ask)->inversion == WR_INVERT_TRIANGLES;
 }
 
-WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
         return say(WR_VERDICT_RUN, why, "a displaced surface may fold: its back can be seen");
@@ -29,7 +29,7 @@ WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **
     return say(WR_VERDICT_SPARED, why, "a closed body seen from outside hides its own back");
 }
 
-WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
         return say(WR_VERDICT_RUN, why, "facets of the displaced surface hide others");
@@ -40,14 +40,14 @@ WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char *
     return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
 }
 
-void wr_settle_depth(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_depth(WrPlan *plan, const WrPlanRequest *ask)
 {
     plan->inversion =
         runs(plan, WR_EFFECT_DISPLACED) ? WR_INVERT_TRIANGLES : surface_of(ask)->inversion;
     if (plan->inversion == WR_INVERT_MESH) plan->mesh = ask->dials->mesh;
 }
 
-WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (plan->inversion == WR_INVERT_TRIANGLES)
         return say(WR_VERDICT_NONE, why,
@@ -59,14 +59,14 @@ WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char 
     return say(WR_VERDICT_RUN, why, "this surface has no closed inverse");
 }
 
-void wr_settle_newton(WrPlan *plan, const WrPlanAsk *ask)
+void wr_settle_newton(WrPlan *plan, const WrPlanRequest *ask)
 {
     if (!runs(plan, WR_EFFECT_NEWTON)) return;
     plan->newton = ask->dials->newton;
     plan->texels = ask->dials->texels;
 }
 
-WrVerdict wr_decide_perspective(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_perspective(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan;
     if (ask->scene->camera.orthographic)
@@ -75,7 +75,7 @@ WrVerdict wr_decide_perspective(const WrPlan *plan, const WrPlanAsk *ask, const 
 }
 
 /* Not with a bound, which reads blocks of texels beyond those that the picture uses. */
-WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
         return say(WR_VERDICT_RUN, why, "an edit moves the displaced surface: facets are new");
@@ -84,7 +84,7 @@ WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char *
     return say(WR_VERDICT_SPARED, why, "the view rests: only tiles that an edit reached are new");
 }
 
-WrVerdict wr_decide_steady(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_steady(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
     const char *told = ask->facts.steady_told;
@@ -94,14 +94,14 @@ WrVerdict wr_decide_steady(const WrPlan *plan, const WrPlanAsk *ask, const char 
 
 /* ---- surface geometry ---- */
 
-static bool is_round(const WrPlanAsk *ask)
+static bool is_round(const WrPlanRequest *ask)
 {
     const WrInversion inversion = surface_of(ask)->inversion;
     return inversion == WR_INVERT_SPHERE || inversion == WR_INVERT_CYLINDER ||
            inversion == WR_INVERT_CONE;
 }
 
-WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED))
         return say(WR_VERDICT_RUN, why, "the displaced surface's frame goes by them");
@@ -120,7 +120,7 @@ WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const c
     return say(WR_VERDICT_SPARED, why, "nothing is looked up at u and v");
 }
 
-WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (runs(plan, WR_EFFECT_DISPLACED) || runs(plan, WR_EFFECT_PARALLAX) ||
         (!is_round(ask) && !is_held(ask)))
@@ -138,7 +138,7 @@ WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const cha
 
 /* ---- among several objects ---- */
 
-WrVerdict wr_decide_hidden(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_hidden(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan;
     if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
@@ -146,14 +146,14 @@ WrVerdict wr_decide_hidden(const WrPlan *plan, const WrPlanAsk *ask, const char 
                "objects are drawn from the front; where one fills a tile, what lies behind is not");
 }
 
-WrVerdict wr_decide_between(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_between(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan;
     if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
     return say(WR_VERDICT_RUN, why, "objects may hide others where their outlines meet");
 }
 
-WrVerdict wr_decide_horizon(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_horizon(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     (void)plan;
     if (!wr_shape_endless(&ask->scene->shape))
@@ -167,7 +167,7 @@ WrVerdict wr_decide_horizon(const WrPlan *plan, const WrPlanAsk *ask, const char
 
 static const char not_held[] = "the surface is no mesh out of a file";
 
-WrVerdict wr_decide_smooth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_smooth(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     const WrTriangles *mesh = ask->scene->triangles;
     (void)plan;
@@ -179,7 +179,7 @@ WrVerdict wr_decide_smooth(const WrPlan *plan, const WrPlanAsk *ask, const char 
     return say(WR_VERDICT_RUN, why, "the normals of triangles' corners differ");
 }
 
-WrVerdict wr_decide_blocks(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+WrVerdict wr_decide_blocks(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!is_held(ask)) return say(WR_VERDICT_NONE, why, not_held);
     if (runs(plan, WR_EFFECT_BACK))

@@ -167,8 +167,8 @@ static bool needs_facets(const WrShadowRaysBody *body)
     return body->rise > 0 || (mesh && body->shape.kind != WR_SURFACE_torus);
 }
 
-bool wr_shadow_rays_body_bring(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                               WrError *err)
+bool wr_shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
+                                WrError *err)
 {
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
     if (body->made) return true;
@@ -182,7 +182,7 @@ bool wr_shadow_rays_body_bring(WrShadowRaysBody *body, const WrScene *scene, con
     } else if (how == WR_INVERT_PLANE || how == WR_INVERT_CUBE) {
         take_quads(body);
     }
-    if (body->triangles && !wr_shadow_rays_tree_bring(body, err)) return false;
+    if (body->triangles && !wr_shadow_rays_tree_update(body, err)) return false;
     return body->made = true;
 }
 

@@ -77,8 +77,8 @@ bool wr_shadow_rays_spares_itself(const WrShadowRaysBody *body);
 void wr_shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
                               bool moves);
 /* Builds the geometry. Call body_size before, with the same field. Errors: no memory. */
-bool wr_shadow_rays_body_bring(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                               WrError *err);
+bool wr_shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
+                                WrError *err);
 void wr_shadow_rays_body_fini(WrShadowRaysBody *body);
 /* True if the ray o + t d, object units, d of any length, hits the body for 0 < t < most. */
 bool wr_shadow_rays_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double most);
@@ -86,7 +86,7 @@ bool wr_shadow_rays_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, doub
 bool wr_shadow_rays_meets_torus(const WrShape *shape, WrVec3 o, WrVec3 d, double most);
 /* tree_bring builds the tree of boxes around body->triangles; tree_meets intersects a ray with it. Errors: no
    memory. */
-bool wr_shadow_rays_tree_bring(WrShadowRaysBody *body, WrError *err);
+bool wr_shadow_rays_tree_update(WrShadowRaysBody *body, WrError *err);
 bool wr_shadow_rays_tree_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double most);
 /* Builds facets of a surface that has no closed form, or is displaced, into body->triangles; adds their error to
    body->lift. */
@@ -96,7 +96,7 @@ bool wr_shadow_rays_facets(WrShadowRaysBody *body, const WrScene *scene, const W
 /* Arguments of wr_shadow_rays_prepare: finds which of `count` objects (scenes of one each, and their bodies) can
    hide a lamp from object `at`; those come first in the result. Only these bodies are built, or, with `all`, all
    of them. rays: to an area lamp. Errors: no memory; an invalid camera. */
-typedef struct WrShadowRaysAsk {
+typedef struct WrShadowRaysRequest {
     const WrScene *const *scenes;
     const WrField *const *fields; /* [count]: their tables; NULL with a formula */
     WrShadowRaysBody *const *bodies;
@@ -104,8 +104,8 @@ typedef struct WrShadowRaysAsk {
     bool all;
     bool moves; /* a displaced object casts its displaced shadow */
     double turn_deg, aspect;
-} WrShadowRaysAsk;
-bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysAsk *ask, WrError *err);
+} WrShadowRaysRequest;
+bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysRequest *ask, WrError *err);
 
 /* Visibility of a lamp from p, 0..1. n: the surface's unit normal there, on the visible side; p and n in the
    object's units, stretched. l: unit vector to the lamp; away: its distance; radius: of an area lamp, radians.

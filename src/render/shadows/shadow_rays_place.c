@@ -19,7 +19,7 @@ static double widest(const WrPlacement *place)
     return place->stretched ? fmax(fabs(s.x), fmax(fabs(s.y), fabs(s.z))) : 1;
 }
 
-static bool stand(const WrShadowRaysAsk *ask, int i, Standing *out, WrError *err)
+static bool stand(const WrShadowRaysRequest *ask, int i, Standing *out, WrError *err)
 {
     const WrScene *scene = ask->scenes[i];
     WrShadowRaysBody *body = ask->bodies[i];
@@ -60,7 +60,7 @@ static bool may_hide(const Standing *a, const Standing *b, const WrLight *light)
     return gap(from, way, a->ball, point, to, (low + high) / 2) <= (b->ball + wide) * SLACK;
 }
 
-static bool may_any(const WrShadowRaysAsk *ask, const Standing *a, const Standing *b)
+static bool may_any(const WrShadowRaysRequest *ask, const Standing *a, const Standing *b)
 {
     const WrScene *scene = ask->scenes[ask->at];
     for (int i = 0; i < scene->light_count; i++)
@@ -117,7 +117,7 @@ static void fill_disc(WrShadowRays *cast, int rays)
     }
 }
 
-bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysAsk *ask, WrError *err)
+bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysRequest *ask, WrError *err)
 {
     Standing own, other;
     const int count = ask->count < WR_OBJECTS_MAX ? ask->count : WR_OBJECTS_MAX;
@@ -133,7 +133,7 @@ bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysAsk *ask, WrEr
                 self ? !wr_shadow_rays_spares_itself(ask->bodies[i]) : may_any(ask, &own, &other);
             const WrShadowRaysTo to = see(&own, &other, ask->bodies[i], self);
             if (can != (round == 0) || !finite_to(&to)) continue;
-            if (!wr_shadow_rays_body_bring(ask->bodies[i], ask->scenes[i], ask->fields[i], err))
+            if (!wr_shadow_rays_body_update(ask->bodies[i], ask->scenes[i], ask->fields[i], err))
                 return false;
             cast->to[cast->all++] = to;
             cast->count += can;

@@ -79,7 +79,7 @@ static int32_t first_of(const WrShadowRaysBody *body, int32_t box, int32_t besid
     return (int32_t)(count * box / beside);
 }
 
-bool wr_shadow_rays_tree_bring(WrShadowRaysBody *body, WrError *err)
+bool wr_shadow_rays_tree_update(WrShadowRaysBody *body, WrError *err)
 {
     const int32_t count = body->triangles->triangle_count;
     int32_t leaves = 1;

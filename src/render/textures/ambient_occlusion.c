@@ -31,9 +31,9 @@ void wr_occlusion_map_texel(const WrScene *scene, const WrField *field, double *
     *down = high / (fmax(fabs(scene->replicate_v), 1e-9) * wr_field_height(field) * per);
 }
 
-bool wr_occlusion_map_table_bring(WrOcclusionMapTable *table, const WrScene *scene,
-                                  const WrField *field, const WrOcclusionMapEdit *edit,
-                                  const WrHorizon *horizon, WrPool *pool, WrError *err)
+bool wr_occlusion_map_table_update(WrOcclusionMapTable *table, const WrScene *scene,
+                                   const WrField *field, const WrOcclusionMapEdit *edit,
+                                   const WrHorizon *horizon, WrPool *pool, WrError *err)
 {
     const double sign = scene->height < 0 ? -1 : 1;
     double across, down;

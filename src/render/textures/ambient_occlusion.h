@@ -28,9 +28,9 @@ typedef struct WrOcclusionMapEdit {
 
 /* Updates the map from the horizons of that table. A texel has its mean length on the surface; the scene's
    height must not be 0. Errors: no memory; cancelled; then there is no map. */
-bool wr_occlusion_map_table_bring(WrOcclusionMapTable *table, const WrScene *scene,
-                                  const WrField *field, const WrOcclusionMapEdit *edit,
-                                  const WrHorizon *horizon, WrPool *pool, WrError *err);
+bool wr_occlusion_map_table_update(WrOcclusionMapTable *table, const WrScene *scene,
+                                   const WrField *field, const WrOcclusionMapEdit *edit,
+                                   const WrHorizon *horizon, WrPool *pool, WrError *err);
 /* Mean length of a texel along u and v, in units of height, which must not be 0. */
 void wr_occlusion_map_texel(const WrScene *scene, const WrField *field, double *across,
                             double *down);

@@ -16,8 +16,8 @@ void wr_color_mips_drop(WrColorMips *tint)
     *tint = (WrColorMips){ 0 };
 }
 
-bool wr_color_mips_bring(WrColorMips *tint, const WrImage *image, WrWrap wrap_u, WrWrap wrap_v,
-                         WrError *err)
+bool wr_color_mips_update(WrColorMips *tint, const WrImage *image, WrWrap wrap_u, WrWrap wrap_v,
+                          WrError *err)
 {
     if (tint->source == image && tint->wrap_u == wrap_u && tint->wrap_v == wrap_v) return true;
     wr_color_mips_drop(tint);
@@ -92,7 +92,7 @@ static void make_apron(const WrColorMips *tint, int level)
     memcpy(row_of(tint, level, h) - 4, row_of(tint, level, below) - 4, bytes);
 }
 
-bool wr_color_mips_bring_pyramid(WrColorMips *tint, WrPool *pool, WrError *err)
+bool wr_color_mips_update_pyramid(WrColorMips *tint, WrPool *pool, WrError *err)
 {
     WrPyramid *pyramid = &tint->pyramid;
     Job job = { .tint = tint };

@@ -23,7 +23,7 @@ typedef struct WrColorMips {
 
 void wr_color_mips_drop(WrColorMips *tint);
 /* Updates level 0 from a picture of one channel, or of three and more, with these wrap modes. */
-bool wr_color_mips_bring(WrColorMips *tint, const WrImage *image, WrWrap wrap_u, WrWrap wrap_v,
-                         WrError *err);
+bool wr_color_mips_update(WrColorMips *tint, const WrImage *image, WrWrap wrap_u, WrWrap wrap_v,
+                          WrError *err);
 /* Updates the pyramid, after level 0. */
-bool wr_color_mips_bring_pyramid(WrColorMips *tint, WrPool *pool, WrError *err);
+bool wr_color_mips_update_pyramid(WrColorMips *tint, WrPool *pool, WrError *err);

@@ -434,8 +434,8 @@ static bool allocate(CopyJob *job, WrError *err)
     return true;
 }
 
-bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPool *pool,
-                    WrError *err)
+bool wr_table_update(WrTable *table, WrCopyKind kind, const WrField *field, WrPool *pool,
+                     WrError *err)
 {
     CopyJob job = { .table = table, .copy = &table->copies[kind], .kind = kind, .field = field };
     WrTableCopy *copy = job.copy;

@@ -48,8 +48,8 @@ bool wr_table_flat(WrTable *table, const WrField *field);
 void wr_table_range(const WrTable *table, float *low, float *high);
 
 /* Updates one copy to the field. */
-bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPool *pool,
-                    WrError *err);
+bool wr_table_update(WrTable *table, WrCopyKind kind, const WrField *field, WrPool *pool,
+                     WrError *err);
 /* Frees a copy that the plan no longer needs. */
 void wr_table_drop(WrTable *table, WrCopyKind kind);
 /* True if the gradient, which must be up to date, is 0 everywhere. */

@@ -31,8 +31,8 @@ static void fill(WrPyramid *pyramid, const WrImage *image)
         }
 }
 
-bool wr_normal_mips_bring(WrNormalMips *relief, const WrImage *image, bool vectors, WrWrap wrap_u,
-                          WrWrap wrap_v, WrPool *pool, WrError *err)
+bool wr_normal_mips_update(WrNormalMips *relief, const WrImage *image, bool vectors, WrWrap wrap_u,
+                           WrWrap wrap_v, WrPool *pool, WrError *err)
 {
     if (relief->source == image && relief->vectors == vectors && relief->wrap_u == wrap_u &&
         relief->wrap_v == wrap_v)
@@ -65,8 +65,8 @@ static void put_frame(const WrTangent *from, bool mikk, float *out)
     out[3] = (float)second.x, out[4] = (float)second.y, out[5] = (float)second.z;
 }
 
-bool wr_frames_bring(WrFrames *frames, const WrTriangles *triangles, WrNormalFrame kind,
-                     WrError *err)
+bool wr_frames_update(WrFrames *frames, const WrTriangles *triangles, WrNormalFrame kind,
+                      WrError *err)
 {
     const size_t corners = 3 * (size_t)triangles->triangle_count;
     const bool mikk = kind == WR_FRAME_MIKK;

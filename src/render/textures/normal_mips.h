@@ -23,8 +23,8 @@ typedef struct WrNormalMips {
 void wr_normal_mips_drop(WrNormalMips *relief);
 /* Updates the pyramid from a picture of unit vectors (WrNormalMap) with these wrap modes. vectors: stores the
    vectors themselves instead of slopes. */
-bool wr_normal_mips_bring(WrNormalMips *relief, const WrImage *image, bool vectors, WrWrap wrap_u,
-                          WrWrap wrap_v, WrPool *pool, WrError *err);
+bool wr_normal_mips_update(WrNormalMips *relief, const WrImage *image, bool vectors, WrWrap wrap_u,
+                           WrWrap wrap_v, WrPool *pool, WrError *err);
 
 /* Floats at a triangle's corner: t, then b. By MikkTSpace t is unit and the first number of b is the handedness. */
 #define WR_CORNER_FRAME 6
@@ -39,5 +39,5 @@ struct WrFrames {
 
 void wr_frames_drop(WrFrames *frames);
 /* Updates the frames to that mesh. kind: MIKK or LECTURE. Errors: no memory; then they are freed. */
-bool wr_frames_bring(WrFrames *frames, const WrTriangles *triangles, WrNormalFrame kind,
-                     WrError *err);
+bool wr_frames_update(WrFrames *frames, const WrTriangles *triangles, WrNormalFrame kind,
+                      WrError *err);

@@ -48,8 +48,8 @@ static bool same_layout(const WrField *a, const WrField *b)
            wr_field_wrap_v(a) == wr_field_wrap_v(b);
 }
 
-const WrField *wr_quantized_heights_bring(WrQuantizedHeights *rounded, const WrField *field,
-                                          WrHeights format, float low, float high, WrError *err)
+const WrField *wr_quantized_heights_update(WrQuantizedHeights *rounded, const WrField *field,
+                                           WrHeights format, float low, float high, WrError *err)
 {
     if (format == WR_HEIGHTS_DOUBLE || format == WR_HEIGHTS_FLOAT) {
         wr_quantized_heights_drop(rounded);

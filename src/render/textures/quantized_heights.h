@@ -23,6 +23,6 @@ typedef struct WrQuantizedHeights {
      16bit  low + round((F - low) / (high - low) M) (high - low) / M with M = 65535 and the table's least
      8bit   and largest height; M = 255. A table of one height stays as it is
    low, high: of the table. NULL and an error if there is no memory. */
-const WrField *wr_quantized_heights_bring(WrQuantizedHeights *rounded, const WrField *field,
-                                          WrHeights format, float low, float high, WrError *err);
+const WrField *wr_quantized_heights_update(WrQuantizedHeights *rounded, const WrField *field,
+                                           WrHeights format, float low, float high, WrError *err);
 void wr_quantized_heights_drop(WrQuantizedHeights *rounded);

@@ -310,8 +310,8 @@ static bool same_layout(const WrField *a, const WrField *b)
            wr_field_wrap_v(a) == wr_field_wrap_v(b);
 }
 
-bool wr_pyramid_bring(WrPyramid *pyramid, WrPyramidKind kind, const WrField *field, WrPool *pool,
-                      WrError *err)
+bool wr_pyramid_update(WrPyramid *pyramid, WrPyramidKind kind, const WrField *field, WrPool *pool,
+                       WrError *err)
 {
     Job job = { .pyramid = pyramid,
                 .field = field,

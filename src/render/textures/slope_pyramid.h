@@ -52,8 +52,8 @@ typedef struct WrPyramid {
 } WrPyramid;
 
 /* Updates the pyramid to the field: only what depends on changed tiles, unless half of the table changed. */
-bool wr_pyramid_bring(WrPyramid *pyramid, WrPyramidKind kind, const WrField *field, WrPool *pool,
-                      WrError *err);
+bool wr_pyramid_update(WrPyramid *pyramid, WrPyramidKind kind, const WrField *field, WrPool *pool,
+                       WrError *err);
 void wr_pyramid_drop(WrPyramid *pyramid);
 
 /* ---- for modules that fill a pyramid themselves ---- */

@@ -42,8 +42,8 @@ bool wr_parallax_has_shell(const WrShape *shape)
     return how == WR_INVERT_SPHERE || how == WR_INVERT_CYLINDER;
 }
 
-void wr_height_bounds_bring(WrHeightBounds *bounds, const WrTable *table, WrScheme scheme,
-                            const WrField *field)
+void wr_height_bounds_update(WrHeightBounds *bounds, const WrTable *table, WrScheme scheme,
+                             const WrField *field)
 {
     const bool fitted = wr_schemes[scheme].taps == WR_TAPS_FITTED;
     const WrCopyKind kind = fitted ? WR_COPY_FITTED : WR_COPY_HEIGHTS;

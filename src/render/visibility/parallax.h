@@ -51,8 +51,8 @@ typedef struct WrParallax {
    Then rays pass through the shell that contains the relief. */
 bool wr_parallax_has_shell(const WrShape *shape);
 /* Updates the bounds of the copy that the plan's scheme fetches from, after an edit. */
-void wr_height_bounds_bring(WrHeightBounds *bounds, const WrTable *table, WrScheme scheme,
-                            const WrField *field);
+void wr_height_bounds_update(WrHeightBounds *bounds, const WrTable *table, WrScheme scheme,
+                             const WrField *field);
 /* Fills the parameters. scale: scene units -> kernel units. bounds: of a table; not read with a formula. */
 void wr_parallax_fill(WrParallax *parallax, const WrScene *scene, const WrField *field,
                       const WrHeightBounds *bounds, const WrPlan *plan, double scale);

@@ -54,7 +54,7 @@ static bool make_room(WrSparseHits *knots, int across, int down, int blocks)
 
 static void solve_some(const WrSparseHitsJob *job, WrStrip *strip)
 {
-    const WrSparseHitsAsk *ask = job->ask;
+    const WrSparseHitsRequest *ask = job->ask;
     const WrView *view = job->view;
     if (strip->count == 0) return;
     WrNewton how = ask->newton;
@@ -226,7 +226,7 @@ static void place_row(int y, int worker, void *ctx)
         place[x] = sheet[x] ? WR_SPARSE_HITS_SHEET : place_of(knots, x, y);
 }
 
-static void fill_key(const WrViewMesh *mesh, const WrView *view, const WrSparseHitsAsk *ask,
+static void fill_key(const WrViewMesh *mesh, const WrView *view, const WrSparseHitsRequest *ask,
                      WrSparseHitsKey *key)
 {
     memset(key, 0, sizeof *key); /* clears padding as well: keys are compared as bytes */
@@ -255,8 +255,8 @@ static bool tie(WrSparseHitsJob *job, WrPool *pool)
            wr_pool_run(pool, knots->down, place_row, job);
 }
 
-bool wr_sparse_hits_bring(WrSparseHits *knots, const WrViewMesh *mesh, const WrView *view,
-                          const WrSparseHitsAsk *ask, WrPool *pool)
+bool wr_sparse_hits_update(WrSparseHits *knots, const WrViewMesh *mesh, const WrView *view,
+                           const WrSparseHitsRequest *ask, WrPool *pool)
 {
     WrSparseHitsKey key;
     fill_key(mesh, view, ask, &key);

@@ -72,22 +72,22 @@ void wr_sparse_hits_row(const WrSparseHits *knots, const WrWide *wide, int x, in
                         int at, WrStrip *strip);
 
 /* Inputs for computing the hits. */
-typedef struct WrSparseHitsAsk {
+typedef struct WrSparseHitsRequest {
     const WrKernels *kernels;
     const WrWide *wide;
     const WrWideSheet *sheet; /* NULL: a surface without SIMD kernels */
     WrNewton newton;
     int first, rows; /* requested samples of the grid: tiles are within these rows */
-} WrSparseHitsAsk;
+} WrSparseHitsRequest;
 
 void wr_sparse_hits_fini(WrSparseHits *knots);
 /* Computes or keeps the hits of a mesh that was prepared for the view. False: there are none, because memory is
    short, the mesh reaches behind the eye, or the work was cancelled (pool.h). */
-bool wr_sparse_hits_bring(WrSparseHits *knots, const WrViewMesh *mesh, const WrView *view,
-                          const WrSparseHitsAsk *ask, WrPool *pool);
+bool wr_sparse_hits_update(WrSparseHits *knots, const WrViewMesh *mesh, const WrView *view,
+                           const WrSparseHitsRequest *ask, WrPool *pool);
 /* True if a rectangle, 1/256 samples, overlaps a block that uses the depth buffer. */
 bool wr_sparse_hits_deep(const WrSparseHits *knots, int32_t x0, int32_t y0, int32_t x1, int32_t y1);
 /* Prepares a tile of the view's own grid to use sparse hits: fills `knots`, `untold`, `deep`. */
-void wr_sparse_hits_tell(const WrSparseHits *knots, WrDepthTile *tile);
+void wr_sparse_hits_report(const WrSparseHits *knots, WrDepthTile *tile);
 /* Writes start values for interpolated samples, u, v and a depth of 0, after the triangles are drawn. */
 void wr_sparse_hits_fill(const WrSparseHits *knots, const WrWide *wide, WrDepthTile *tile);

@@ -11,7 +11,7 @@ typedef struct WrSparseHitsJob {
     WrSparseHits *knots;
     const WrViewMesh *mesh;
     const WrView *view;
-    const WrSparseHitsAsk *ask;
+    const WrSparseHitsRequest *ask;
     const WrRays *rays;
     bool mirrored;
     float step_u;         /* from vertex to vertex */

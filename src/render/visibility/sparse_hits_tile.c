@@ -72,7 +72,7 @@ static void fill_part(const WrSparseHits *k, const WrWide *wide, int x, int y, i
         }
 }
 
-void wr_sparse_hits_tell(const WrSparseHits *knots, WrDepthTile *tile)
+void wr_sparse_hits_report(const WrSparseHits *knots, WrDepthTile *tile)
 {
     const int x1 = (tile->x + tile->w - 1) / WR_KNOT + WR_SPARSE_HITS_AROUND;
     const int y1 = (tile->y + tile->h - 1) / WR_KNOT - knots->top;

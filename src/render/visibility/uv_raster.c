@@ -188,7 +188,7 @@ static void allocate(WrViewMesh *mesh, int mu, int mv)
 }
 
 static WrNewton choose_newton(const WrViewMesh *mesh, const WrSurfaceInfo *info, double scale,
-                              const WrMeshAsk *ask)
+                              const WrMeshRequest *ask)
 {
     const int enough = mesh->mu < 64 || mesh->mv < 64 ? 3 : 2;
     return (WrNewton){ .reach_u = 1.0f / (float)mesh->mu,
@@ -218,7 +218,7 @@ WrViewSight wr_view_sight(const WrView *view)
 }
 
 void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view,
-                          const WrMeshAsk *ask, const WrKernels *kernels, WrPool *pool)
+                          const WrMeshRequest *ask, const WrKernels *kernels, WrPool *pool)
 {
     MeshJob job = { mesh, view, kernels };
     int mu, mv;

@@ -69,18 +69,18 @@ typedef struct WrDepthTile {
 } WrDepthTile;
 
 /* Mesh settings of a scene. */
-typedef struct WrMeshAsk {
+typedef struct WrMeshRequest {
     int mesh; /* WrDials: 2^mesh times as fine */
     /* steps; or -1: at most two, or three from a coarse mesh (Newton's method doubles the digits at each step),
        fewer if the tangents no longer change */
     int newton;
     double texels;           /* 0, or the largest step in texels, of a table of ... */
     double table_w, table_h; /* ... this many texels along u and v, replication included */
-} WrMeshAsk;
+} WrMeshRequest;
 
 /* Builds the points and projects them for this view, or keeps the last ones. */
 void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view,
-                          const WrMeshAsk *ask, const WrKernels *kernels, WrPool *pool);
+                          const WrMeshRequest *ask, const WrKernels *kernels, WrPool *pool);
 void wr_view_mesh_fini(WrViewMesh *mesh);
 /* Rasterises the mesh on the tile. Watertight: neighbouring cells share edges in whole numbers with a top-left
    rule (HC85); at equal depths the first cell stays. Skips samples that the tile's sparse hits provide. */

@@ -1,4 +1,4 @@
-/* looks.h - measurement of the time between two cancellation checks of a thread, in its own processor time, so that
+/* progress_checks.h - measurement of the time between two cancellation checks of a thread, in its own processor time, so that
    machine load and waiting do not count. The test is linked so that these functions replace those of base/progress.h
    (tests/CMakeLists.txt). Include after test.h, in only one file of a test. */
 #pragma once
@@ -97,11 +97,11 @@ bool __wrap_wr_progress_stopped(void)
     return __real_wr_progress_stopped();
 }
 
-bool __real_wr_progress_tell(double fraction);
-bool __wrap_wr_progress_tell(double fraction);
-bool __wrap_wr_progress_tell(double fraction)
+bool __real_wr_progress_report(double fraction);
+bool __wrap_wr_progress_report(double fraction);
+bool __wrap_wr_progress_report(double fraction)
 {
     if (looks.hook) looks.hook();
     else look();
-    return __real_wr_progress_tell(fraction);
+    return __real_wr_progress_report(fraction);
 }
