@@ -319,13 +319,12 @@ static bool is_packed(Gltf *file, json_object *primitive, json_object *attribute
            wr_gltf_index(points, "bufferView", -1) < 0;
 }
 
-/* ---- skins: a point is transformed by the weighted mean of its joints' matrices (glTF 2.0, 3.7.3.3)
- * ---- */
+/* ---- skins: a point is transformed by the weighted mean of its joints' matrices (glTF 2.0, 3.7.3.3) ---- */
 
 static bool read_weights(Gltf *file, json_object *attributes, Body *body, WrError *err)
 {
     for (int k = 0; k < SETS; k++) {
-        char joints[16], weights[16];
+        char joints[24], weights[24];
         snprintf(joints, sizeof joints, "JOINTS_%d", k);
         snprintf(weights, sizeof weights, "WEIGHTS_%d", k);
         if (!read_attribute(file, attributes, joints, 4, body->points.count, &body->joints[k],
