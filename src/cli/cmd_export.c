@@ -213,18 +213,28 @@ static bool is_another(const WrCli *cli, WrFileIdentity *stamp, const Last *last
     return other;
 }
 
+/* Wait until no change has come for SETTLE_SECONDS; a file that another program still writes is empty or in part. */
+static WrWatchEnd settle(const WrCli *cli, WrWatch *watch)
+{
+    WrWatchEnd end;
+    do end = wr_watch_wait(watch, SETTLE_SECONDS);
+    while (end == WR_WATCH_CHANGED && !is_cancelled(cli));
+    return end;
+}
+
 /* Wait for a change that stays for a moment. False: an error, or an interrupt. */
 static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileIdentity *stamp,
                             const Last *last, WrError *err)
 {
-    while (!is_another(cli, stamp, last)) { /* includes changes since the file was read */
-        WrWatchEnd end = wr_watch_wait(watch, DAY_SECONDS);
-        while (end == WR_WATCH_CHANGED && !is_cancelled(cli))
-            if ((end = wr_watch_wait(watch, SETTLE_SECONDS)) == WR_WATCH_NOTHING) break;
+    bool other = is_another(cli, stamp, last); /* since the file was read */
+    for (;;) {
+        WrWatchEnd end = other ? WR_WATCH_CHANGED : wr_watch_wait(watch, DAY_SECONDS);
+        if (end == WR_WATCH_CHANGED) end = settle(cli, watch);
         if (is_cancelled(cli)) return wr_fail(err, "interrupted");
         if (end == WR_WATCH_LOST) return wr_fail(err, "%s: its folder is gone", cli->file);
+        const bool later = is_another(cli, stamp, last);
+        if (other || later) return true;
     }
-    return true;
 }
 
 /* Repeat export_once. After a failure the next try waits for a change of one of the files. */
