@@ -67,7 +67,7 @@ static void forget_old(const char *path)
     for (const char *name; folder && (name = wr_folder_next(folder));)
         if (strncmp(name, "copy-", 5) == 0) wr_array_push(&names, wr_strdup(name));
     wr_folder_close(folder);
-    qsort(names.data, (size_t)names.count, sizeof *names.data, by_name);
+    if (names.count > 1) qsort(names.data, (size_t)names.count, sizeof *names.data, by_name);
     for (int i = 0; i < names.count; i++) {
         char *old = wr_path_join(path, names.data[i]);
         if (i < names.count - KEPT) wr_path_remove(old);
