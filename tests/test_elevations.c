@@ -281,6 +281,67 @@ static void fits_exponents_may_be_written_with_d(void **state)
     }
 }
 
+/* Ends a header of `cards` lines so far. */
+static void end_header(FILE *file, int cards)
+{
+    fprintf(file, "%-80s", "END");
+    for (int card = cards + 1; card < 36; card++) fprintf(file, "%-80s", "");
+}
+
+/* A file as telescopes write it: no picture in the first header, 4 x 2 numbers x - 3 in the second. */
+static void write_extension(const char *path, int bits)
+{
+    char text[16];
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    put_card(file, "SIMPLE", "T");
+    put_card(file, "BITPIX", "8");
+    put_card(file, "NAXIS", "0");
+    put_card(file, "EXTEND", "T");
+    end_header(file, 4);
+    fprintf(file, "%-80s", "XTENSION= 'IMAGE   '");
+    snprintf(text, sizeof text, "%d", bits);
+    put_card(file, "BITPIX", text);
+    put_card(file, "NAXIS", "2");
+    put_card(file, "NAXIS1", "4");
+    put_card(file, "NAXIS2", "2");
+    put_card(file, "PCOUNT", "0");
+    put_card(file, "GCOUNT", "1");
+    end_header(file, 7);
+    const int size = bits / 8;
+    for (int i = 0; i < 2880; i++) { /* big-endian */
+        const int64_t value = i / size < 8 ? i / size - 3 : 0;
+        putc((int)((uint64_t)value >> 8 * (size - 1 - i % size) & 255), file);
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+static void fits_headers_without_a_picture_are_skipped(void **state)
+{
+    (void)state;
+    WrError err;
+    for (int bits = 16; bits <= 32; bits *= 2) {
+        write_extension("sci.fits", bits);
+        WrImage *image = wr_image_read("sci.fits", &err);
+        if (!image) fail_msg("%d bits: %s", bits, err.text);
+        for (int x = 0; x < 4; x++) {
+            assert_true(image->data[4 + x] == (float)(x - 3));
+            assert_true(image->data[x] == (float)(x + 1));
+        }
+        wr_image_free(image);
+    }
+}
+
+/* The library returns zeros for 64 bits. */
+static void fits_of_64_bits_are_refused(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    write_extension("long.fits", 64);
+    assert_null(wr_image_read("long.fits", &err));
+    assert_non_null(strstr(err.text, "32-bit integers or floats"));
+}
+
 /* ---- EXR ---- */
 
 #define SIDE 16
@@ -394,6 +455,8 @@ int main(void)
         cmocka_unit_test(a_file_of_nothing_but_missing_values_is_refused),
         cmocka_unit_test(a_photo_that_comes_out_flat_is_noted),
         cmocka_unit_test(fits_exponents_may_be_written_with_d),
+        cmocka_unit_test(fits_headers_without_a_picture_are_skipped),
+        cmocka_unit_test(fits_of_64_bits_are_refused),
         cmocka_unit_test(a_vector_is_read_like_a_colour),
         cmocka_unit_test(surroundings_are_the_display_window),
     };

@@ -148,6 +148,15 @@ static WrImage *read_case(const char *name, const WrImageRequest *wish)
     return image;
 }
 
+/* The first 700 of the 1118 bytes of a progressive JPEG file. */
+static void a_cut_progressive_jpeg_is_refused(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    assert_null(wr_image_read(WR_SOURCE_DIR "/tests/cases/cut_progressive.jpg", &err));
+    assert_non_null(strstr(err.text, "truncated or damaged"));
+}
+
 static void check_range(const WrImage *image, double low, double high)
 {
     double least = INFINITY, most = -INFINITY;
@@ -252,6 +261,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(smallest_is_white_at_every_depth),
         cmocka_unit_test(a_depth_that_is_not_read_is_named),
+        cmocka_unit_test(a_cut_progressive_jpeg_is_refused),
         cmocka_unit_test(missing_elevations_are_filled),
         cmocka_unit_test(no_data_is_found_however_it_is_written),
         cmocka_unit_test(integers_are_the_numbers_of_their_header),

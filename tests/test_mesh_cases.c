@@ -166,6 +166,18 @@ static void odd_lines_of_obj_files_are_read(void **state)
     wr_mesh_fini(&mesh);
 }
 
+/* Read as 0 by the library, which stops at the comma. */
+static void decimal_commas_are_refused(void **state)
+{
+    static const char *const lines[] = { "v 0,5 1 0", "v 0,5 1,25 0,75", "v 1 2 0\nvt 0,5 1" };
+    (void)state;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char text[96];
+        snprintf(text, sizeof text, "v 0 0 0\nv 1 0 0\n%s\nf 1 2 3\n", lines[i]);
+        refuse("comma.obj", text, "save it with decimal points");
+    }
+}
+
 /* An L of six corners, area 3, is not a fan from each of its corners; its dent must not be covered. */
 static void dented_polygons_keep_their_area(void **state)
 {
@@ -308,6 +320,7 @@ int main(void)
         cmocka_unit_test(faces_have_coordinates_of_their_own),
         cmocka_unit_test(strips_are_triangles),
         cmocka_unit_test(odd_lines_of_obj_files_are_read),
+        cmocka_unit_test(decimal_commas_are_refused),
         cmocka_unit_test(dented_polygons_keep_their_area),
         cmocka_unit_test(far_meshes_keep_their_relief),
         cmocka_unit_test(messages_say_what_is_wrong),

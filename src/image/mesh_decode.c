@@ -90,7 +90,9 @@ static bool read_kind(const void *bytes, size_t length, const char *ending, WrMe
     if ((strcmp(ending, "gltf") == 0 || strcmp(ending, "glb") == 0) && wr_gltf_is(bytes, length))
         return wr_gltf_read(bytes, length, build, err);
     if (!*ending || strcmp(ending, "obj") == 0) {
-        if (wr_obj_read(bytes, length, build)) return true;
+        const char *wrong;
+        if (wr_obj_read(bytes, length, build, &wrong)) return true;
+        if (wrong) return wr_fail(err, "%s", wrong);
         const bool whole = build->whole;
         wr_mesh_build_fini(build);
         build->whole = whole;

@@ -264,7 +264,15 @@ static void free_all(Obj *obj)
     wr_free(obj->polygon);
 }
 
-bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build)
+/* 0,5 for 0.5. The library reads it as 0 and drops the rest. */
+static bool has_decimal_comma(WrScan line)
+{
+    bool numbers = take_word(&line, "v") || take_word(&line, "vt") || take_word(&line, "vn");
+    cut_remark(&line);
+    return numbers && memchr(line.at, ',', (size_t)(line.end - line.at));
+}
+
+bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build, const char **wrong)
 {
     Obj obj = { .build = build, .object = "defaultobject" };
     const bool mark = length >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0;
@@ -273,6 +281,9 @@ bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build)
     count_lines(&obj, start, end);
     bool good = make_room(&obj);
     while (good && next_line(&at, end, &line)) good = read_line(&obj, line);
+    *wrong = !good && at > start && has_decimal_comma(line)
+                 ? "has numbers with a decimal comma; save it with decimal points"
+                 : NULL;
     free_all(&obj);
     return good;
 }

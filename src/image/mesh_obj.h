@@ -15,6 +15,6 @@ typedef struct WrMeshBuild WrMeshBuild;
  * faces.
  *
  * Returns  false for all other content: curves, rational weights other than 1, continued lines, forward
- *          indices, invalid numbers, damage, lack of memory. The library then reads the file, or
- *          reports the error. */
-bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build);
+ *          indices, invalid numbers, damage, lack of memory. *wrong is then an error that the library
+ *          would not notice, or NULL: the library reads the file, or reports the error. */
+bool wr_obj_read(const char *bytes, size_t length, WrMeshBuild *build, const char **wrong);

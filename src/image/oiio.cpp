@@ -65,10 +65,15 @@ struct WrCodecReader {
     std::vector<char> codes;    /* scratch */
     std::vector<float> window;  /* rows of the data window, if it differs from the image */
     std::vector<float> band; /* of a tiled file: rows [band_y, band_y + band_rows) of band_part */
+    int skipped = 0;         /* pictures without pixels before part 0 */
     int band_part = -1, band_y = 0, band_rows = 0, band_channels = 0;
     bool levels = false;  /* parts are mip levels of the first part */
     bool numbers = false; /* integers that are measurements are numbers */
 };
+
+/* 64-bit integers of FITS and TIFF: the library has no type for them, or returns zeros. */
+#define UNREAD_NUMBERS                                                                             \
+    "has numbers of a kind that is not read: save it as 32-bit integers or floats"
 
 static bool check_spec(const ImageSpec &spec, char *reason)
 {
@@ -78,6 +83,7 @@ static bool check_spec(const ImageSpec &spec, char *reason)
         return fail(reason, "picture of " + size + ": each side must be 1.." +
                                 std::to_string(WR_IMAGE_MAX));
     if (spec.depth > 1) return fail(reason, "is a volume, not a picture");
+    if (spec.format == TypeDesc::UNKNOWN) return fail(reason, UNREAD_NUMBERS);
     if (spec.deep) return fail(reason, "is a deep picture (several samples a pixel)");
     if (spec.nchannels < 1 || spec.nchannels > WR_IMAGE_CHANNELS_MAX)
         return fail(reason, std::to_string(spec.nchannels) + " channels: must be 1.." +
@@ -134,7 +140,8 @@ static bool choose_values(const WrCodecReader &reader, const ImageSpec &spec, Va
     const std::string format = reader.in->format_name();
     std::string problem;
     choose_numbers(spec, format, values);
-    const int directory = reader.levels ? 0 : static_cast<int>(reader.parts.size());
+    const int directory =
+        reader.levels ? 0 : reader.skipped + static_cast<int>(reader.parts.size());
     if (format == "fits") choose_fits(spec, reader.fd, directory, values);
     if (format == "tiff" &&
         !choose_tiff(spec, reader.fd, directory, reader.numbers, values, note, problem))
@@ -208,6 +215,26 @@ static bool give_file(WrCodecReader &reader, char *reason)
     return true;
 }
 
+static bool fail_open(const std::string &why, const std::string &path, char *reason)
+{
+    if (why.find("No support for data format") != std::string::npos)
+        return fail(reason, UNREAD_NUMBERS);
+    return fail(reason,
+                "cannot be opened, truncated or damaged" + (why.empty() ? "" : " (" + why + ")"),
+                path);
+}
+
+/* Telescopes write FITS files whose first header has no picture. Such pictures are not parts. */
+static bool skip_empty(WrCodecReader &reader, char *reason)
+{
+    if (std::strcmp(reader.in->format_name(), "fits") != 0) return true;
+    while (reader.in->spec().width < 1)
+        if (!reader.in->seek_subimage(++reader.skipped, 0))
+            return fail(reason, "has no picture, or only compressed ones, which are not read: "
+                                "uncompress it, with funpack for example");
+    return true;
+}
+
 static bool open_file(WrCodecReader &reader, const char *format, int most, char *reason)
 {
     settle_library();
@@ -219,20 +246,20 @@ static bool open_file(WrCodecReader &reader, const char *format, int most, char 
     ImageSpec config, spec;
     config.attribute("oiio:UnassociatedAlpha", 1);
     if (reader.in->supports("ioproxy") && !give_file(reader, reason)) return false;
-    if (!reader.in->open(reader.path, spec, config)) {
-        std::string why = reader.in->geterror();
-        return fail(reason,
-                    "cannot be opened, truncated or damaged" +
-                        (why.empty() ? "" : " (" + why + ")"),
-                    reader.path);
-    }
+    if (!reader.in->open(reader.path, spec, config))
+        return fail_open(reader.in->geterror(), reader.path, reason);
+    /* Progressive JPEG files are decoded here, and the library reports success when they end early. */
+    const std::string warning = reader.in->geterror();
+    if (warning.find("Premature end") != std::string::npos)
+        return fail_open(warning, reader.path, reason);
+    if (!skip_empty(reader, reason)) return false;
     if (!add_part(reader, reader.in->spec(), reason)) return false;
     /* Readers detect further parts by trial; some do not recover from a failed trial, so it is avoided
      * if possible. */
     reader.levels = most == WR_CODEC_LEVELS;
     for (int i = 1; reader.levels && i < WR_IMAGE_PARTS_MAX && reader.in->seek_subimage(0, i); i++)
         if (!add_part(reader, reader.in->spec(), reason)) return false;
-    for (int i = 1; most > 1 && reader.in->seek_subimage(i, 0); i++) {
+    for (int i = 1; most > 1 && reader.in->seek_subimage(reader.skipped + i, 0); i++) {
         if (i >= most) return fail(reason, "more than " + std::to_string(most) + " parts");
         if (!add_part(reader, reader.in->spec(), reason)) return false;
     }
@@ -313,7 +340,7 @@ static bool read_fits_rows(WrCodecReader &reader, int part, int top, int rows, i
     const ImageSpec &spec = reader.specs[static_cast<size_t>(part)];
     const size_t row =
         static_cast<size_t>(spec.width) * static_cast<size_t>(channels) * type.size();
-    bool ok = channels == spec.nchannels && reader.in->seek_subimage(part, 0);
+    bool ok = channels == spec.nchannels && reader.in->seek_subimage(reader.skipped + part, 0);
     for (int j = 0; ok && j < rows; j++)
         ok = reader.in->read_scanline(top + j + 1, 0, type,
                                       static_cast<char *>(out) + static_cast<size_t>(j) * row);
