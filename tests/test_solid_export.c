@@ -619,6 +619,33 @@ static void every_surface_is_a_model(void **state)
     }
 }
 
+/* A mesh, patches and a terrain, each its square of side 1, under a ramp of slope 1/4 along u: normal (-1, 0, 4) / sqrt 17. */
+static void held_triangles_are_a_model(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
+        if (!wr_surfaces[kind]->held) continue;
+        WrExportReport report;
+        WrDocument *document = document_of(16, 16, 0, WR_WRAP_CLAMP);
+        for (int i = 0; i < 256; i++)
+            wr_field_set(document->layers[0].heights, i % 16, i / 16, (float)(i % 16) / 16);
+        set_surface(document, (WrSurfaceKind)kind);
+        document->scene->height = 0.25;
+        WrMesh mesh = export_model(document, "", &report);
+        assert_int_equal(mesh.triangle_count, 2);
+        assert_int_equal(report.pictures, 2);
+        WrImage *map = picture_in("model.glb", 0);
+        for (int c = 0; c < 3; c++) {
+            const double normal[3] = { -1 / sqrt(17), 0, 4 / sqrt(17) };
+            const float *middle = map->data + (8 * 16 + 8) * map->channels;
+            assert_near(255 * (double)middle[c], 255 * (normal[c] / 2 + 0.5), 0.51);
+        }
+        wr_image_free(map);
+        wr_mesh_fini(&mesh);
+        wr_document_free(document);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -630,6 +657,7 @@ int main(void)
         cmocka_unit_test(coordinates_do_not_jump_at_a_seam),
         cmocka_unit_test(a_model_has_the_slopes_of_its_cells),
         cmocka_unit_test(every_surface_is_a_model),
+        cmocka_unit_test(held_triangles_are_a_model),
         cmocka_unit_test(no_texel_is_farther_off_than_was_asked),
         cmocka_unit_test(what_cannot_be_made_is_told),
         cmocka_unit_test(an_stl_says_millimetres),

@@ -285,8 +285,10 @@ static bool bake_mesh(WrExportJob *job, const WrTriangles *mesh, WrError *err)
 bool wr_export_baked_make(WrExportJob *job, WrError *err)
 {
     const WrScene *scene = job->scene;
-    if (scene->shape.kind != WR_SURFACE_mesh)
-        return wr_fail(err, "surface %s: maps are baked for a mesh (`surface mesh file=FILE`)",
+    if (!wr_surfaces[scene->shape.kind]->held)
+        return wr_fail(err,
+                       "surface %s: maps are baked for a mesh, patches or a terrain (`surface mesh "
+                       "file=FILE`)",
                        wr_surfaces[scene->shape.kind]->name);
     if (scene->bump != WR_BUMP_NONE && scene->bump != WR_BUMP_BLINN)
         return wr_fail(err, "maps are baked for bump mode=blinn, or none: choose one of them");
