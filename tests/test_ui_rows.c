@@ -1,6 +1,7 @@
-/* Every row of every panel, option bar and dialog is changed once by keys and once by the pointer; an error message
+/* Every row of every panel, option bar and dialog is changed once by keys and once by the pointer, every menu and list
+   is walked, every action is run in several documents, and every kind of every generator is applied; an error message
    fails the test. The rows come from the window's list of widgets (ui/toolkit/focus.h), the kinds of lights,
-   surfaces, materials and so on from their tables, so that new rows are tested automatically. */
+   surfaces, generators and so on from their tables, so that new ones are tested automatically. */
 #include "test.h"
 
 #include "window_walk.h"
@@ -20,6 +21,7 @@
 #define STEPS_MOST 40 /* steps through a list by keys */
 
 static int rows_changed, rows_of_document, complaints;
+static bool dialogs_seen[WR_DIALOG_COUNT];
 
 /* ---- the window ---- */
 
@@ -67,11 +69,11 @@ static void point(Walk *walk, double x, double y)
     walk_frame(walk);
 }
 
-static void button(Walk *walk, bool down, double x, double y)
+static void button_of(Walk *walk, Uint8 which, bool down, double x, double y)
 {
     wr_gui_event(walk->app->gui,
                  &(SDL_Event){ .button = { .type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
-                                           .button = SDL_BUTTON_LEFT,
+                                           .button = which,
                                            .state = down ? SDL_PRESSED : SDL_RELEASED,
                                            .clicks = 1,
                                            .x = (int)x,
@@ -79,15 +81,23 @@ static void button(Walk *walk, bool down, double x, double y)
     walk_frame(walk);
 }
 
-static void click(Walk *walk, double x, double y)
+static void button(Walk *walk, bool down, double x, double y)
+{
+    button_of(walk, SDL_BUTTON_LEFT, down, x, y);
+}
+
+static void click_with(Walk *walk, Uint8 which, double x, double y)
 {
     point(walk, x, y);
-    button(walk, true, x, y);
-    button(walk, false, x, y);
+    button_of(walk, which, true, x, y);
+    button_of(walk, which, false, x, y);
     settle(walk);
 }
 
-/* deferred work does not wait for a drawn frame */
+static void click(Walk *walk, double x, double y)
+{
+    click_with(walk, SDL_BUTTON_LEFT, x, y);
+}
 
 static void forget_messages(Walk *walk)
 {
@@ -278,21 +288,6 @@ static void by_pointer(Walk *walk, const WrKeyStop *stop)
     see_messages(walk, stop, "the pointer");
 }
 
-static void change_row(Walk *walk, unsigned id, const Base *base)
-{
-    WrKeyStop stop;
-    if (!come_to(walk, id, &stop)) return;
-    by_keys(walk, &stop);
-    rows_of_document += wr_session_history_position(walk->session) != base->position;
-    back_to(walk, base);
-    if (!come_to(walk, id, &stop)) return;
-    by_pointer(walk, &stop);
-    back_to(walk, base);
-    rows_changed++;
-}
-
-/* ---- one place ---- */
-
 /* Menus, tool strip and status line are the same at every place: they are tested only at the first. */
 static unsigned known[4 * ROWS_MOST];
 static int known_count;
@@ -304,6 +299,72 @@ static bool is_new(unsigned id)
     if (known_count < 4 * ROWS_MOST) known[known_count++] = id;
     return true;
 }
+
+static void click_stop(Walk *walk, Uint8 which, const WrKeyStop *stop)
+{
+    click_with(walk, which, 0.5 * (double)(stop->x0 + stop->x1),
+               0.5 * (double)(stop->y0 + stop->y1));
+}
+
+/* The stops of the newest frame that are not among the older ones. */
+static int list_added(Walk *walk, const WrKeyStop *old, int old_count, WrKeyStop *out, int most)
+{
+    int count, n = 0;
+    const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &count);
+    for (int i = 0; i < count; i++) {
+        bool is_old = false;
+        for (int k = 0; k < old_count && !is_old; k++) is_old = old[k].id == stops[i].id;
+        if (!is_old && n < most) out[n++] = stops[i];
+    }
+    return n;
+}
+
+#define POPUP_MOST 60 /* tried entries of a popup */
+
+static int popups_opened;
+
+/* If a press of the button opens a list or a menu: each of its entries once, by the pointer. */
+static void change_popup(Walk *walk, unsigned id, Uint8 which, const Base *base)
+{
+    static WrKeyStop before[ROWS_MOST];
+    WrKeyStop items[POPUP_MOST], stop;
+    int old;
+    if (!come_to(walk, id, &stop)) return;
+    const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &old);
+    memcpy(before, stops, (size_t)old * sizeof *before);
+    click_stop(walk, which, &stop);
+    const bool opened = wr_gui_popup_open_now(walk->app->gui);
+    const int count = opened ? list_added(walk, before, old, items, POPUP_MOST) : 0;
+    see_messages(walk, &stop, "a press that may open a list");
+    back_to(walk, base);
+    for (int i = 0; i < count; i++) {
+        WrKeyStop item;
+        if (!is_new(items[i].id) || !come_to(walk, id, &stop)) continue;
+        click_stop(walk, which, &stop);
+        if (find(walk, items[i].id, &item)) by_pointer(walk, &item);
+        see_messages(walk, &stop, "an entry of its list");
+        back_to(walk, base);
+        rows_changed++;
+    }
+    popups_opened += count > 0;
+}
+
+static void change_row(Walk *walk, unsigned id, const Base *base)
+{
+    WrKeyStop stop;
+    if (!come_to(walk, id, &stop)) return;
+    by_keys(walk, &stop);
+    rows_of_document += wr_session_history_position(walk->session) != base->position;
+    back_to(walk, base);
+    if (!come_to(walk, id, &stop)) return;
+    by_pointer(walk, &stop);
+    back_to(walk, base);
+    change_popup(walk, id, SDL_BUTTON_RIGHT, base);
+    if (stop.kind == WR_STOP_PRESS) change_popup(walk, id, SDL_BUTTON_LEFT, base);
+    rows_changed++;
+}
+
+/* ---- one place ---- */
 
 /* The rows of the open place; of a dialog, its own. */
 static int list_rows(Walk *walk, WrKeyStop *out)
@@ -377,6 +438,7 @@ static void change_kinds(Walk *walk, const WrKeyStop *rows, int count)
 
 static void examine(Walk *walk)
 {
+    dialogs_seen[walk->app->dialog->now] = true;
     static WrKeyStop rows[ROWS_MOST];
     const double began = (double)clock() / CLOCKS_PER_SEC;
     const int before = rows_changed;
@@ -414,15 +476,285 @@ static void no_row_is_answered_by_an_error(void **state)
     walk.shown = examine;
     walk_all(&walk);
     walk_each(&walk, open_with, NULL);
-    printf("%d rows changed, %d of them the document\n", rows_changed, rows_of_document);
+    printf("%d rows changed, %d of them the document; %d lists opened\n", rows_changed,
+           rows_of_document, popups_opened);
     wr_gui_unseen = false;
     walk_close(&walk);
+    for (int i = 0; i < WR_DIALOG_COUNT; i++)
+        if (!dialogs_seen[i]) printf("dialog %d was not opened\n", i), complaints++;
     assert_int_equal(complaints, 0);
     assert_true(rows_changed > 500 && rows_of_document > 200);
 }
 
+/* ---- actions, menus ---- */
+
+/* Documents in which actions are run: an action that needs more than they have must be disabled. */
+static const char *const states[][8] = {
+    { "table 32x32" },
+    { "table 32x32 wrap=clamp" },
+    { "table 32x32", "layer add", "layer set 2 lock=on" },
+    { "table 32x32", "layer add", "layer set 2 visible=off" },
+    { "table 32x32", "filter blur sigma=2" },
+    { "table 32x32", "layer add", "layer mask 2 from=white", "layer use 2 part=mask" },
+    { "table 32x32", "layer add", "layer use 1", "select rect from=0.2,0.2 to=0.7,0.7" },
+    { "table 32x32", "layer add", "layer set 2 lock=on", "layer use 1" },
+    { "table 32x32", "select rect from=0.2,0.2 to=0.7,0.7", "select none", "undo" },
+    { "table 32x32", "surface plane", "object add second at=2,0,0", "light clear" },
+    { "table 1x1" },
+};
+
+static void take_state(Walk *walk, int which)
+{
+    wr_session_reset(walk->session);
+    for (int i = 0; i < 8 && states[which][i]; i++) {
+        walk_run(walk, states[which][i]);
+        snprintf(walk->where, sizeof walk->where, "document %d: %.90s", which, states[which][i]);
+    }
+    for (const WrPart *const *p = walk->app->roster->parts; *p; p++)
+        if ((*p)->another) (*p)->another(walk->app);
+    settle(walk);
+    forget_messages(walk);
+}
+
+static void run_action(Walk *walk, const char *name, Base *base)
+{
+    const WrKeyStop none = { .kind = WR_STOP_ITEM };
+    wr_action_run(walk->app, name);
+    settle(walk);
+    dialogs_seen[walk->app->dialog->now] = true;
+    see_messages(walk, &none, name);
+    walk->app->quit = false;
+    base->tool = walk->app->tool;
+    base->tab = walk->app->settings->tab;
+    back_to(walk, base);
+}
+
+static void no_action_is_answered_by_an_error(void **state)
+{
+    (void)state;
+    Walk walk;
+    int count = 0;
+    complaints = 0;
+    walk_open(&walk, "en");
+    wr_gui_reports_all = false;
+    wr_gui_unseen = true;
+    for (int i = 0; i < (int)(sizeof states / sizeof *states); i++) {
+        take_state(&walk, i);
+        Base base = base_of(&walk);
+        for (const WrAction *a = walk.app->roster->actions; a->name; a++) {
+            if (wr_session_history_count(walk.session) < base.position) take_state(&walk, i);
+            if (!wr_action_can(walk.app, a)) continue;
+            run_action(&walk, a->name, &base);
+            count++;
+        }
+    }
+    printf("%d actions\n", count);
+    wr_gui_unseen = false;
+    walk_close(&walk);
+    assert_int_equal(complaints, 0);
+}
+
+/* ---- menus ---- */
+
+#define MENU_LEVELS 3
+
+static int items_pressed;
+
+/* Click through the menus of the path; out: the entries of the last one. */
+static int open_menus(Walk *walk, const unsigned *path, int levels, WrKeyStop *out)
+{
+    static WrKeyStop before[ROWS_MOST];
+    int known_before = 0;
+    WrKeyStop stop;
+    for (int i = 0; i < levels; i++) {
+        const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &known_before);
+        memcpy(before, stops, (size_t)known_before * sizeof *before);
+        if (!find(walk, path[i], &stop)) return 0;
+        click_stop(walk, SDL_BUTTON_LEFT, &stop);
+    }
+    return list_added(walk, before, known_before, out, ROWS_MOST);
+}
+
+static void after_item(Walk *walk, const WrKeyStop *item, const char *act)
+{
+    settle(walk);
+    dialogs_seen[walk->app->dialog->now] = true;
+    see_messages(walk, item, act);
+    walk->app->quit = false;
+    if (walk->app->settings->scale != 0.0) wr_app_set_scale(walk->app, 0.0);
+}
+
+static void press_item(Walk *walk, const unsigned *path, int levels, const WrKeyStop *item,
+                       const Base *base, bool by_key)
+{
+    static WrKeyStop items[ROWS_MOST];
+    WrKeyStop stop;
+    Base now = *base;
+    open_menus(walk, path, levels, items);
+    assert_true(find(walk, item->id, &stop));
+    if (by_key) {
+        assert_true(wr_gui_focus_on(walk->app->gui, item->id));
+        tap(walk, SDL_SCANCODE_RETURN);
+    } else {
+        click_stop(walk, SDL_BUTTON_LEFT, &stop);
+    }
+    after_item(walk, item, by_key ? "the menu by keys" : "the menu");
+    now.tool = walk->app->tool;
+    now.tab = walk->app->settings->tab;
+    back_to(walk, &now);
+    items_pressed++;
+}
+
+static void walk_menu(Walk *walk, unsigned *path, int levels, const Base *base)
+{
+    WrKeyStop items[200];
+    static WrKeyStop all[ROWS_MOST];
+    int count = open_menus(walk, path, levels, all);
+    if (count > 200) count = 200;
+    memcpy(items, all, (size_t)count * sizeof *items);
+    close_lists(walk);
+    for (int i = 0; i < count; i++) {
+        snprintf(walk->where, sizeof walk->where, "menu %u entry %d", path[0], i);
+        path[levels] = items[i].id;
+        if (items[i].kind == WR_STOP_MENU && levels < MENU_LEVELS)
+            walk_menu(walk, path, levels + 1, base);
+        else press_item(walk, path, levels, &items[i], base, i % 2 == 1);
+    }
+}
+
+static void no_menu_is_answered_by_an_error(void **state)
+{
+    (void)state;
+    Walk walk;
+    WrKeyStop titles[40];
+    int count, n = 0;
+    complaints = 0;
+    walk_open(&walk, "en");
+    fill_again(&walk);
+    wr_gui_reports_all = false;
+    wr_gui_unseen = true;
+    settle(&walk);
+    forget_messages(&walk);
+    const Base base = base_of(&walk);
+    const WrKeyStop *stops = wr_gui_stops(walk.app->gui, &count);
+    for (int i = 0; i < count && n < 40; i++)
+        if (stops[i].kind == WR_STOP_MENU) titles[n++] = stops[i];
+    for (int i = 0; i < n; i++) {
+        unsigned path[MENU_LEVELS + 1] = { titles[i].id };
+        walk_menu(&walk, path, 1, &base);
+    }
+    printf("%d entries of %d menus\n", items_pressed, n);
+    wr_gui_unseen = false;
+    walk_close(&walk);
+    assert_int_equal(complaints, 0);
+    assert_true(n > 5 && items_pressed > 200);
+}
+
+/* ---- generators ---- */
+
+/* A file for each generator that needs one. */
+static void give_file(WrGenerateState *generate)
+{
+    const WrGenerator *generator = generate->generator;
+    const bool mesh = strcmp(generator->family, "solid") == 0;
+    for (int i = 0; generator->params[i].name; i++)
+        if (generator->params[i].kind == WR_PARAM_FILE && !generator->params[i].fallback_text)
+            wr_generate_set_text(&generate->value[i],
+                                 mesh ? "cube.obj" : WR_SOURCE_DIR "/samples/wood-normal.jpg");
+}
+
+/* An answer that names the file: it lacks what the choice asks for, such as alpha. */
+static bool is_about_file(const Walk *walk)
+{
+    for (int i = 0; i < walk->app->messages->list.count; i++)
+        if (strstr(walk->app->messages->list.data[i].text, "wood-normal.jpg: ")) return true;
+    return false;
+}
+
+static void apply(Walk *walk, const WrKeyStop *stop)
+{
+    WrApp *app = walk->app;
+    WrText line = { 0 };
+    wr_generate_line(app->generate, &line);
+    snprintf(walk->where, sizeof walk->where, "%.110s", wr_text_get(&line));
+    wr_text_fini(&line);
+    wr_generate_changed(app);
+    settle(walk);
+    wr_generate_commit(app);
+    settle(walk);
+    if (is_about_file(walk)) forget_messages(walk);
+    else see_messages(walk, stop, "Apply");
+}
+
+/* Each word of each choice, each switch, each blend. */
+static int apply_choices(Walk *walk, const WrGenerator *generator, const Base *base)
+{
+    const WrKeyStop stop = { .kind = WR_STOP_CHOICE };
+    WrGenerateState *generate = walk->app->generate;
+    int applied = 0;
+    for (int i = 0; generator->params[i].name; i++) {
+        const WrParam *p = &generator->params[i];
+        int words = p->kind == WR_PARAM_SWITCH ? 2 : 0;
+        while (p->kind == WR_PARAM_CHOICE && p->words[words]) words++;
+        for (int w = i == 0 && words == 0 ? -1 : 0; w < words; w++) {
+            wr_generate_open(walk->app, generator);
+            wr_generate_defaults(walk->app);
+            give_file(generate);
+            if (w >= 0) generate->value[i].number[0] = w;
+            apply(walk, &stop);
+            back_to(walk, base);
+            applied++;
+        }
+    }
+    return applied;
+}
+
+/* cube.obj in the current folder, which is the test's. */
+static void write_cube(void)
+{
+    FILE *file = fopen("cube.obj", "w");
+    assert_non_null(file);
+    for (int i = 0; i < 8; i++) fprintf(file, "v %d %d %d\n", i & 1, i >> 1 & 1, i >> 2);
+    fputs("f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n", file);
+    fclose(file);
+}
+
+static void every_kind_of_every_generator_is_applied(void **state)
+{
+    (void)state;
+    Walk walk;
+    int applied = 0;
+    complaints = 0;
+    walk_open(&walk, "en");
+    walk_run(&walk, "table 32x32");
+    walk_run(&walk, "layer mask 1 from=white");
+    walk_run(&walk, "select rect from=0.2,0.2 to=0.7,0.7");
+    write_cube();
+    wr_gui_reports_all = false;
+    wr_gui_unseen = true;
+    settle(&walk);
+    forget_messages(&walk);
+    Base base = base_of(&walk);
+    for (const WrFamily *f = wr_families; f->name; f++)
+        for (const WrGenerator *g = f->rows; g->family; g++) {
+            wr_generate_open(walk.app, g);
+            settle(&walk);
+            base.tool = walk.app->tool;
+            base.tab = walk.app->settings->tab;
+            applied += apply_choices(&walk, g, &base);
+        }
+    printf("%d times applied\n", applied);
+    wr_gui_unseen = false;
+    walk_close(&walk);
+    assert_int_equal(complaints, 0);
+    assert_true(applied > 100);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(no_row_is_answered_by_an_error) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(no_action_is_answered_by_an_error),
+                                        cmocka_unit_test(no_menu_is_answered_by_an_error),
+                                        cmocka_unit_test(every_kind_of_every_generator_is_applied),
+                                        cmocka_unit_test(no_row_is_answered_by_an_error) };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

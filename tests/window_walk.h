@@ -43,6 +43,8 @@
 #include "ui/tools/tool.h"
 
 #include <SDL.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 /* Opens place `which` of a kind; false past the last, or if it does not exist. */
 typedef struct Walk Walk;
@@ -180,20 +182,26 @@ static inline void walk_close_dialog(Walk *walk)
     wr_app_try_end(walk->app); /* as by its Cancel */
 }
 
-/* Open each dialog by its action, if there is one, so that it has its data. */
+/* True for actions that open a dialog: their labels end with dots, but for three. */
+static inline bool walk_opens_dialog(const WrAction *action)
+{
+    static const char *const others[] = { "new", "help", "about" };
+    const size_t length = strlen(action->label);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strcmp(action->name, others[i]) == 0) return true;
+    return length > 3 && strcmp(action->label + length - 3, "...") == 0;
+}
+
+/* Open each dialog by its action, so that it has its data. */
 static inline bool walk_open_dialog(Walk *walk, int which)
 {
-    static const char *const actions[] = {
-        "new",          "open",        "save_as",       "export",         "maps",
-        "render",       "film",        "search",        "preferences",    "symmetry",
-        "preset_save",  "select_grow", "select_shrink", "select_feather", "select_height",
-        "select_slope", "mask_height", "mask_slope",    "table_size",     "fill",
-        "grid",         "hard_cases",  "tablet",        "about",          "help",
-        "import"
-    };
-    if (which >= (int)(sizeof actions / sizeof *actions)) return false;
-    wr_action_run(walk->app, actions[which]);
-    return walk_name(walk, "dialog of %s", actions[which]);
+    for (const WrAction *a = walk->app->roster->actions; a->name; a++) {
+        if (!walk_opens_dialog(a) || which-- > 0) continue;
+        walk->app->file->clean_revision = wr_session_revision(walk->session);
+        wr_action_run(walk->app, a->name);
+        return walk_name(walk, "dialog of %s", a->name);
+    }
+    return false;
 }
 
 static inline bool walk_open_adjust(Walk *walk, int which)
@@ -227,6 +235,47 @@ static inline bool walk_open_unsaved(Walk *walk, int which)
     return walk_name(walk, "dialog %s", "unsaved");
 }
 
+/* The window's own file dialog, for each purpose. */
+static inline bool walk_open_file(Walk *walk, int which)
+{
+    char title[64];
+    if (which >= WR_FILE_PRESET) return false;
+    wr_files_ask(walk->app->files, (WrFilePurpose)which, NULL, "");
+    wr_dialog_open(walk->app, WR_DIALOG_FILE);
+    snprintf(title, sizeof title, "%d", which);
+    return walk_name(walk, "file dialog of purpose %s", title);
+}
+
+/* The question before a file is replaced, of each kind; the file is in the test's folder. */
+static inline bool walk_open_replace(Walk *walk, int which)
+{
+    char path[600];
+    if (which >= WR_REPLACE_KINDS) return false;
+    snprintf(path, sizeof path, "%.500s/replaced-%d.wrinkle", getenv("XDG_STATE_HOME"), which);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fclose(file);
+    wr_replace_ask(walk->app, (WrReplaceKind)which, WR_FILE_HISTORY, path);
+    return walk_name(walk, "question before %s is replaced", path + strlen(path) - 18);
+}
+
+/* The journal of a program that has ended without saving, and the question that follows. */
+static inline bool walk_open_recover(Walk *walk, int which)
+{
+    if (which > 0) return false;
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        WrSession *session = wr_session_new(&(WrSessionOptions){ .journal = true });
+        _exit(wr_session_run(session, "table 16x16", NULL) ? 0 : 1);
+    }
+    int status;
+    assert_true(waitpid(child, &status, 0) == child && status == 0);
+    wr_dialog_recover_open(walk->app);
+    assert_int_equal(walk->app->dialog->now, WR_DIALOG_RECOVER);
+    return walk_name(walk, "dialog %s", "recover");
+}
+
 static inline void walk_dialogs(Walk *walk)
 {
     WrApp *app = walk->app;
@@ -242,6 +291,9 @@ static inline void walk_dialogs(Walk *walk)
     wr_dialog_close(app);
     wr_preset_browser_choose(app, WR_ROUND);
     walk_each(walk, walk_open_unsaved, walk_close_dialog);
+    walk_each(walk, walk_open_file, walk_close_dialog);
+    walk_each(walk, walk_open_replace, walk_close_dialog);
+    walk_each(walk, walk_open_recover, walk_close_dialog);
 }
 
 static inline bool walk_open_generator(Walk *walk, int which)

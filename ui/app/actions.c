@@ -257,8 +257,14 @@ static void save(WrApp *app)
     wr_app_save(app);
 }
 
-#define ROW(name, ...) [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, false }
-#define EDIT(name, ...) [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, true }
+#define ROW(name, ...)                                                                             \
+    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, false, WR_ACTION_ANY_LAYER }
+#define EDIT(name, ...)                                                                            \
+    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, true, WR_ACTION_ANY_LAYER }
+#define LAYER(name, ...)                                                                           \
+    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, true, WR_ACTION_UNLOCKED }
+#define PAINT(name, ...)                                                                           \
+    [WR_ROW(WR_ACTION_##name)] = { #name, __VA_ARGS__, true, WR_ACTION_PAINTABLE }
 WR_ROWS(wr_actions);
 const WrAction wr_actions[] = {
     EDIT(new, "New", wr_app_new, NULL, NULL),
@@ -273,7 +279,7 @@ const WrAction wr_actions[] = {
     ROW(quit, "Quit", wr_app_quit, NULL, NULL),
     EDIT(undo, "Undo", undo, can_undo, NULL),
     EDIT(redo, "Redo", redo, can_redo, NULL),
-    EDIT(cut, "Cut", wr_act_cut, NULL, NULL),
+    LAYER(cut, "Cut", wr_act_cut, wr_has_heights, NULL),
     ROW(copy, "Copy", wr_act_copy, NULL, NULL),
     ROW(copy_shown, "Copy what is shown", wr_act_copy_shown, NULL, NULL),
     EDIT(paste, "Paste", wr_act_paste, NULL, NULL),
@@ -349,32 +355,33 @@ const WrAction wr_actions[] = {
     EDIT(select_mask, "Select what the mask shows", wr_act_select_mask, wr_has_mask, NULL),
     EDIT(layer_add, "New layer", wr_act_layer_add, NULL, NULL),
     EDIT(layer_duplicate, "Duplicate layer", wr_act_layer_duplicate, NULL, NULL),
-    EDIT(layer_delete, "Delete layer", wr_act_layer_delete, wr_can_several_layers, NULL),
+    LAYER(layer_delete, "Delete layer", wr_act_layer_delete, wr_can_several_layers, NULL),
     EDIT(layer_rename, "Rename layer", wr_act_layer_rename, NULL, NULL),
     EDIT(filter_edit, "Edit filter...", wr_act_filter_edit, wr_is_filter, NULL),
-    EDIT(layer_merge, "Merge layer down", wr_act_layer_merge, wr_can_merge, NULL),
-    EDIT(layer_flatten, "Flatten all layers", wr_act_layer_flatten, wr_can_several_layers, NULL),
-    EDIT(layer_clear, "Clear layer", wr_act_layer_clear, NULL, NULL),
+    LAYER(layer_merge, "Merge layer down", wr_act_layer_merge, wr_can_merge_down, NULL),
+    EDIT(layer_flatten, "Flatten all layers", wr_act_layer_flatten, wr_can_flatten, NULL),
+    LAYER(layer_clear, "Clear layer", wr_act_layer_clear, wr_has_heights, NULL),
     ROW(layer_show, "Layer is shown", wr_act_layer_show, NULL, wr_is_layer_shown),
     ROW(layer_lock, "Layer is locked", wr_act_layer_lock, NULL, wr_is_layer_locked),
     ROW(layer_solo, "Show layer alone", wr_act_layer_solo, NULL, wr_is_solo),
     EDIT(layer_raise, "Raise layer", wr_act_layer_raise, wr_can_raise, NULL),
-    EDIT(layer_lower, "Lower layer", wr_act_layer_lower, wr_can_merge, NULL),
+    EDIT(layer_lower, "Lower layer", wr_act_layer_lower, wr_can_lower, NULL),
     ROW(layer_above, "Layer above", wr_act_layer_above, wr_can_raise, NULL),
-    ROW(layer_below, "Layer below", wr_act_layer_below, wr_can_merge, NULL),
-    EDIT(mask_selection, "Mask from selection", wr_act_mask_selection, wr_can_mask_selection, NULL),
-    EDIT(mask_white, "Mask that shows all", wr_act_mask_white, NULL, NULL),
-    EDIT(mask_black, "Mask that hides all", wr_act_mask_black, NULL, NULL),
-    EDIT(mask_height, "Mask by height...", wr_act_mask_height, NULL, NULL),
-    EDIT(mask_slope, "Mask by slope...", wr_act_mask_slope, NULL, NULL),
-    EDIT(mask_invert, "Invert mask", wr_act_mask_invert, wr_has_mask, NULL),
-    EDIT(mask_none, "Remove mask", wr_act_mask_none, wr_has_mask, NULL),
+    ROW(layer_below, "Layer below", wr_act_layer_below, wr_can_lower, NULL),
+    LAYER(mask_selection, "Mask from selection", wr_act_mask_selection, wr_can_mask_selection,
+          NULL),
+    LAYER(mask_white, "Mask that shows all", wr_act_mask_white, NULL, NULL),
+    LAYER(mask_black, "Mask that hides all", wr_act_mask_black, NULL, NULL),
+    LAYER(mask_height, "Mask by height...", wr_act_mask_height, NULL, NULL),
+    LAYER(mask_slope, "Mask by slope...", wr_act_mask_slope, NULL, NULL),
+    LAYER(mask_invert, "Invert mask", wr_act_mask_invert, wr_has_mask, NULL),
+    LAYER(mask_none, "Remove mask", wr_act_mask_none, wr_has_mask, NULL),
     ROW(mask_edit, "Paint on the mask", wr_act_mask_edit, wr_has_mask, wr_is_mask_edited),
     ROW(mask_alone, "Show the mask alone", wr_act_mask_alone, wr_has_mask, wr_app_shows_mask),
     EDIT(table_size, "New table...", table_size, NULL, NULL),
-    EDIT(offset_half, "Offset by half a cell", wr_act_offset_half, NULL, NULL),
-    EDIT(fill, "Fill...", fill, NULL, NULL),
-    EDIT(grid, "Grid...", grid, NULL, NULL),
+    EDIT(offset_half, "Offset by half a cell", wr_act_offset_half, wr_can_change_all, NULL),
+    PAINT(fill, "Fill...", fill, NULL, NULL),
+    PAINT(grid, "Grid...", grid, NULL, NULL),
     EDIT(import, "Import heights...", import, NULL, NULL),
     EDIT(gltf, "Materials of a glTF...", wr_app_ask_gltf, NULL, NULL),
     ROW(zoom_in, "Zoom in", zoom_in, NULL, NULL),
@@ -466,8 +473,10 @@ const WrAction wr_actions[] = {
     ROW(tablet, "Tablet tester...", wr_dialog_tablet_open, NULL, NULL),
     ROW(help, "Guide", help, NULL, NULL),
     ROW(about, "About Wrinkle", about, NULL, NULL),
-    [WR_ACTION_COUNT] = { NULL, NULL, NULL, NULL, NULL, false }
+    [WR_ACTION_COUNT] = { NULL, NULL, NULL, NULL, NULL, false, WR_ACTION_ANY_LAYER }
 };
 WR_ROWS_END(wr_actions, WR_ACTION_COUNT);
 #undef ROW
 #undef EDIT
+#undef LAYER
+#undef PAINT

@@ -88,7 +88,11 @@ void wr_act_select_slope(WrApp *app);
 void wr_act_offset_half(WrApp *app);
 
 bool wr_can_several_layers(const WrApp *app);
-bool wr_can_merge(const WrApp *app); /* there is a layer below */
+bool wr_can_lower(const WrApp *app); /* there is a layer below */
+bool wr_can_merge_down(const WrApp *app);
+bool wr_can_flatten(const WrApp *app);
+bool wr_can_change_all(const WrApp *app); /* no layer is locked */
+bool wr_has_heights(const WrApp *app);    /* the active layer is no filter */
 bool wr_can_raise(const WrApp *app);
 bool wr_can_mask_selection(const WrApp *app); /* the selection is not empty */
 void wr_act_copy(WrApp *app);

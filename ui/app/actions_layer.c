@@ -186,9 +186,33 @@ bool wr_can_several_layers(const WrApp *app)
     return count(app) > 1;
 }
 
-bool wr_can_merge(const WrApp *app)
+bool wr_can_lower(const WrApp *app)
 {
     return number(app) > 1;
+}
+
+/* Both layers are visible, and the one below is unlocked. */
+bool wr_can_merge_down(const WrApp *app)
+{
+    const WrLayer *layer = active(app);
+    return wr_can_lower(app) && layer->visible && layer[-1].visible && !layer[-1].locked;
+}
+
+bool wr_can_change_all(const WrApp *app)
+{
+    for (int i = 0; i < count(app); i++)
+        if (wr_app_document(app)->layers[i].locked) return false;
+    return true;
+}
+
+bool wr_can_flatten(const WrApp *app)
+{
+    return wr_can_several_layers(app) && wr_can_change_all(app);
+}
+
+bool wr_has_heights(const WrApp *app)
+{
+    return !wr_is_filter(app);
 }
 
 bool wr_can_raise(const WrApp *app)

@@ -3,7 +3,13 @@
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
 #include "ui/state/deferred_actions.h"
+#include "ui/state/messages.h"
 #include "ui/state/roster.h"
+#include "ui/state/session_view.h"
+
+#include "base/error.h"
+#include "command/session_internal.h"
+#include "document/document.h"
 
 #include <string.h>
 
@@ -19,10 +25,23 @@ const char *wr_action_help(const WrApp *app, const WrAction *action)
     return app->roster->helps[action - app->roster->actions];
 }
 
+/* Checks the active layer; false, with the reason. */
+static bool layer_fits(const WrApp *app, const WrAction *action, WrError *err)
+{
+    switch (action->layer) {
+    case WR_ACTION_UNLOCKED:
+        return wr_session_check_unlocked(app->session, wr_app_document(app)->active, err);
+    case WR_ACTION_PAINTABLE: return wr_session_check_layer(app->session, err);
+    case WR_ACTION_ANY_LAYER: break;
+    }
+    return true;
+}
+
 bool wr_action_can(const WrApp *app, const WrAction *action)
 {
     if (action->edits && wr_busy_greys(app)) return false;
-    return !action->enabled || action->enabled(app);
+    WrError err;
+    return (!action->enabled || action->enabled(app)) && layer_fits(app, action, &err);
 }
 
 static void run_now(WrApp *app, const char *name)
@@ -39,6 +58,8 @@ void wr_action_run(WrApp *app, const char *name)
     if (action && action->edits && wr_busy_refuse(app)) return;
     for (WrActionFamily *const *f = app->roster->families; !action && *f; f++)
         if ((*f)(app, name)) break;
+    WrError err;
+    if (action && !layer_fits(app, action, &err)) wr_app_say_why(app, &err);
     if (!action || !wr_action_can(app, action)) return;
     if (app->in_frame) wr_deferred(app, run_now, name); /* the action may take long */
     else run_now(app, name);

@@ -4,6 +4,13 @@
 
 #include <stdbool.h>
 
+/* State of the active layer that an action needs; otherwise it is disabled, and its key shows a note with the reason. */
+typedef enum WrActionLayer {
+    WR_ACTION_ANY_LAYER,
+    WR_ACTION_UNLOCKED,
+    WR_ACTION_PAINTABLE /* unlocked, visible, with heights or a mask to edit */
+} WrActionLayer;
+
 struct WrAction {
     const char *name;  /* as in the key file */
     const char *label; /* as in menus; "..." if it opens a dialog first */
@@ -12,6 +19,7 @@ struct WrAction {
     bool (*checked)(const WrApp *app); /* NULL: never */
     /* changes the document or a file of it: disabled while a command runs in the background */
     bool edits;
+    WrActionLayer layer;
 };
 
 /* NULL: none, or an action of a family */

@@ -50,6 +50,12 @@ void wr_app_say_lines(WrApp *app, const char *text)
     }
 }
 
+void wr_app_say_why(WrApp *app, const WrError *err)
+{
+    char said[WR_SENTENCE];
+    add(app, wr_sentence(err->text, said, sizeof said), false);
+}
+
 void wr_app_fail(WrApp *app, const WrError *err)
 {
     char said[WR_SENTENCE];
