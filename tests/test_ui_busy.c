@@ -10,6 +10,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "command/session_internal.h"
+#include "field/field.h"
 #include "system/clock.h"
 
 #include "ui/app/loop.h"
@@ -21,6 +22,7 @@
 #include "ui/state/input_router.h"
 #include "ui/state/layout.h"
 #include "ui/state/messages.h"
+#include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/jobs/files.h"
 
@@ -302,10 +304,68 @@ static void a_number_is_where_the_button_went_up(void **state)
     finish(&bench);
 }
 
+/* The document of the command line: its reading ends after the first frame, so a window that waits for it is never
+   drawn. */
+typedef struct Opening {
+    int frames;         /* atomic: drawn so far */
+    int before_its_end; /* frames drawn when the reading ended */
+} Opening;
+
+static Opening *opening;
+
+static void count_frame(WrApp *app)
+{
+    (void)app;
+    __atomic_add_fetch(&opening->frames, 1, __ATOMIC_RELEASE);
+}
+
+static bool open_after_a_frame(WrSession *session, void *ctx, WrError *err)
+{
+    Opening *now = ctx;
+    const double end = wr_clock_seconds() + PATIENCE;
+    while (!__atomic_load_n(&now->frames, __ATOMIC_ACQUIRE) && wr_clock_seconds() < end)
+        usleep(1000);
+    now->before_its_end = __atomic_load_n(&now->frames, __ATOMIC_ACQUIRE);
+    return wr_session_run(session, "table 48x16", err);
+}
+
+static void the_first_frame_does_not_wait_for_the_document(void **state)
+{
+    (void)state;
+    Opening now = { 0 };
+    Bench bench;
+    WrError err = { "" };
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
+    bench.pool = wr_pool_new(1);
+    bench.session = wr_session_new(&(WrSessionOptions){ .pool = bench.pool, .outputs = true });
+    bench.options = (WrAppOptions){ .session = bench.session,
+                                    .open = open_after_a_frame,
+                                    .open_ctx = &now,
+                                    .file_given = true,
+                                    .threads = 1,
+                                    .width = 900,
+                                    .height = 700 };
+    bench.app = wr_store_new();
+    bench.app->options = &bench.options;
+    bench.app->session = bench.session;
+    bench.app->drawn = count_frame;
+    opening = &now;
+    if (!wr_app_begin(bench.app, &err)) fail_msg("%s", err.text);
+    const double end = wr_clock_seconds() + PATIENCE;
+    while (wr_field_width(wr_app_field(bench.app)) != 48 && wr_clock_seconds() < end) {
+        SDL_PushEvent(&(SDL_Event){ .type = bench.app->ready_event });
+        wr_app_step(bench.app);
+    }
+    assert_int_equal(wr_field_width(wr_app_field(bench.app)), 48);
+    assert_true(now.before_its_end > 0);
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_the_window_is_told_holds_at_once),
+        cmocka_unit_test(the_first_frame_does_not_wait_for_the_document),
         cmocka_unit_test(the_views_are_alive_meanwhile),
         cmocka_unit_test(what_changes_the_document_is_refused_meanwhile),
         cmocka_unit_test(a_dropped_file_opens_afterwards),

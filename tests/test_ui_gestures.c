@@ -6,6 +6,7 @@
 #include "document/document.h"
 #include "field/field.h"
 #include "scene/scene.h"
+#include "surface/surface.h"
 
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/view.h"
@@ -217,6 +218,37 @@ static void a_hovering_stamp_leaves_the_greys_alone(void **state)
     finish(&bench);
 }
 
+/* Cosine of the angle between the plane's normal, its z axis, and the direction to the eye. */
+static double facing(const Bench *bench)
+{
+    WrPlacement place;
+    WrError err;
+    const WrScene *scene = document_of(bench)->scene;
+    if (!wr_scene_place(scene, bench->app->patch->turn_deg, 1.0, &place, &err))
+        fail_msg("%s", err.text);
+    return -(place.rotation[2] * place.forward.x + place.rotation[5] * place.forward.y +
+             place.rotation[8] * place.forward.z);
+}
+
+/* Also after the object before it has turned; from the side the cosine is 0, from the back below 0. */
+static void a_photo_is_seen_from_its_front(void **state)
+{
+    (void)state;
+    static const double turns[] = { 0.0, 90.0, 180.0, 271.0 };
+    for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) {
+        Bench bench;
+        begin(&bench);
+        bench.app->settings->turning = false;
+        bench.app->patch->turn_deg = turns[i];
+        wr_app_open_path(bench.app, WR_SOURCE_DIR "/samples/wood-diffuse.jpg");
+        settle(&bench);
+        settle(&bench);
+        assert_string_equal(wr_surfaces[document_of(&bench)->scene->shape.kind]->name, "plane");
+        assert_true(facing(&bench) > 0.8);
+        finish(&bench);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -225,6 +257,7 @@ int main(void)
         cmocka_unit_test(what_is_copied_comes_back_in_its_place),
         cmocka_unit_test(a_stroke_on_a_mask_hides_in_full),
         cmocka_unit_test(a_hovering_stamp_leaves_the_greys_alone),
+        cmocka_unit_test(a_photo_is_seen_from_its_front),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

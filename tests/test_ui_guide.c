@@ -12,6 +12,7 @@
 #include "ui/help/guide.h"
 #include "ui/help/guide_run.h"
 #include "ui/state/dialog.h"
+#include "ui/toolkit/focus.h"
 
 #include <string.h>
 
@@ -107,6 +108,52 @@ static void a_command_runs_as_one_step_once_its_effect_was_shown(void **state)
     finish(&bench);
 }
 
+/* True if the ring is around the word Run of the command. */
+static bool is_on_run(const WrApp *app, const char *line)
+{
+    int count, x, y;
+    const WrKeyStop *stops = wr_gui_stops(app->gui, &count);
+    const unsigned now = wr_gui_focus_now(app->gui);
+    if (!wr_guide_run_place(app, line, &x, &y)) return false;
+    for (int i = 0; i < count; i++)
+        if (stops[i].id == now && x >= stops[i].x0 && x <= stops[i].x1 && y >= stops[i].y0 &&
+            y <= stops[i].y1)
+            return true;
+    return false;
+}
+
+static void tab_to(WrApp *app, const char *line)
+{
+    for (int i = 0; i < 400 && !is_on_run(app, line); i++) press(app, SDL_SCANCODE_TAB);
+    assert_true(is_on_run(app, line));
+}
+
+static void keys_reach_and_run_a_command(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    WrApp *app = bench.app;
+    const int steps = wr_session_history_position(app->session);
+    wr_dialog_open(app, WR_DIALOG_HELP);
+    for (int i = 0; i < 3; i++) draw_again(app);
+    type(app, TORUS);
+    for (int i = 0; i < 3; i++) draw_again(app);
+    tab_to(app, TORUS);
+    press(app, SDL_SCANCODE_RETURN); /* shown, not run */
+    assert_string_equal(wr_guide_proposed(app), TORUS);
+    assert_int_equal(wr_session_history_position(app->session), steps);
+    press(app, SDL_SCANCODE_ESCAPE);
+    assert_null(wr_guide_proposed(app));
+    assert_int_equal(app->dialog->now, WR_DIALOG_HELP);
+    tab_to(app, TORUS);
+    press(app, SDL_SCANCODE_RETURN);
+    press(app, SDL_SCANCODE_RETURN);
+    wait_for_step(app, steps + 1);
+    assert_string_equal(wr_session_last_command(app->session), TORUS);
+    finish(&bench);
+}
+
 static void expect_effect(const WrApp *app, const char *line, const char *words)
 {
     WrText effect = { 0 };
@@ -137,6 +184,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_command_runs_as_one_step_once_its_effect_was_shown),
+        cmocka_unit_test(keys_reach_and_run_a_command),
         cmocka_unit_test(what_a_command_would_change_is_said_of_each_class),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

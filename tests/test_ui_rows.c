@@ -750,11 +750,120 @@ static void every_kind_of_every_generator_is_applied(void **state)
     assert_true(applied > 100);
 }
 
+/* ---- places of rows ---- */
+
+/* Every widget of the newer frame that the older one has is at the same height. */
+static void assert_in_place(Walk *walk, const WrKeyStop *old, int old_count, const char *what)
+{
+    int count, moved = 0, same = 0;
+    const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &count);
+    for (int i = 0; i < old_count; i++)
+        for (int k = 0; k < count; k++) {
+            if (stops[k].id != old[i].id) continue;
+            same++;
+            if (stops[k].y0 == old[i].y0) continue;
+            moved++;
+            printf("%s: a row moved from y %g to %g\n", what, (double)old[i].y0,
+                   (double)stops[k].y0);
+        }
+    assert_int_equal(moved, 0);
+    assert_true(same > 10);
+}
+
+static int rows_now(Walk *walk, WrKeyStop *out)
+{
+    int count;
+    for (int i = 0; i < 3; i++) walk_frame(walk);
+    const WrKeyStop *stops = wr_gui_stops(walk->app->gui, &count);
+    assert_true(count <= ROWS_MOST);
+    memcpy(out, stops, (size_t)count * sizeof *out);
+    return count;
+}
+
+static const char long_reason[] = "the view cannot be measured: the eye is inside the object, "
+                                  "where the reference has no picture; "
+                                  "move the camera away from it, or reset it";
+
+static void notes_of_generators_move_no_row(Walk *walk)
+{
+    static WrKeyStop rows[ROWS_MOST], after[ROWS_MOST];
+    WrApp *app = walk->app;
+    wr_action_run(app, "generate_pattern_bricks");
+    settle(walk);
+    wr_generate_cancel(app); /* the preview does not change err meanwhile */
+    const int count = rows_now(walk, rows);
+    wr_fail(&app->generate->err, "%s", long_reason);
+    rows_now(walk, after);
+    assert_in_place(walk, rows, count, "the note of a generator");
+    app->generate->err.text[0] = '\0';
+}
+
+static void notes_of_accuracy_move_no_row(Walk *walk)
+{
+    static WrKeyStop rows[ROWS_MOST], after[ROWS_MOST];
+    WrApp *app = walk->app;
+    WrAccuracy *a = app->accuracy;
+    walk_run(walk, "tolerance rms=0.004");
+    wr_tab_show(app, "Accuracy");
+    settle(walk);
+    a->error_why.text[0] = '\0';
+    a->full_times.chosen = (WrChosen){ 0 };
+    const int count = rows_now(walk, rows);
+    a->error_of = a->state;
+    wr_fail(&a->error_why, "%s", long_reason);
+    rows_now(walk, after);
+    assert_in_place(walk, rows, count, "the error's reason");
+    a->full_times.chosen = (WrChosen){ .any = true, .met = true };
+    snprintf(a->full_times.chosen.reason, sizeof a->full_times.chosen.reason, "%s", long_reason);
+    snprintf(a->full_times.chosen.lines, sizeof a->full_times.chosen.lines, "%s\n%s", long_reason,
+             long_reason);
+    rows_now(walk, after);
+    assert_in_place(walk, rows, count, "the dials of a tolerance");
+}
+
+/* Rows of a dialog with a picture that needs no note, and with one that does. */
+static void estimates_move_no_row(Walk *walk)
+{
+    static WrKeyStop rows[ROWS_MOST], after[ROWS_MOST];
+    WrApp *app = walk->app;
+    wr_action_run(app, "render");
+    settle(walk);
+    app->forms->picture_width = app->forms->picture_height = 32;
+    const int count = rows_now(walk, rows);
+    app->forms->picture_width = app->forms->picture_height = 16384;
+    rows_now(walk, after);
+    assert_in_place(walk, rows, count, "the estimate of a dialog");
+    wr_dialog_close(app);
+}
+
+static void notes_keep_their_space(void **state)
+{
+    (void)state;
+    Walk walk;
+    walk_open(&walk, "en");
+    wr_gui_reports_all = false;
+    wr_gui_unseen = true;
+    settle(&walk);
+    notes_of_generators_move_no_row(&walk);
+    notes_of_accuracy_move_no_row(&walk);
+    wr_gui_unseen = false;
+    walk_close(&walk);
+    walk_open(&walk, "de"); /* longer texts */
+    wr_gui_reports_all = false;
+    wr_gui_unseen = true;
+    wr_app_set_scale(walk.app, 3.0); /* little room */
+    settle(&walk);
+    estimates_move_no_row(&walk);
+    wr_gui_unseen = false;
+    walk_close(&walk);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(no_action_is_answered_by_an_error),
                                         cmocka_unit_test(no_menu_is_answered_by_an_error),
                                         cmocka_unit_test(every_kind_of_every_generator_is_applied),
+                                        cmocka_unit_test(notes_keep_their_space),
                                         cmocka_unit_test(no_row_is_answered_by_an_error) };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

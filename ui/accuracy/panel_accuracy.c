@@ -77,16 +77,13 @@ static void error_state(const WrApp *app)
     const WrAccuracy *a = app->accuracy;
     const bool failed = a->error_of == a->state && a->error_why.text[0];
     const bool old = a->error && a->error->of != a->state;
-    if (failed) {
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, a->error_why.text);
-        return;
-    }
-    const char *text = old                      ? "Of the view before; measured anew when it rests."
+    const char *text = failed                   ? a->error_why.text
+                       : old                    ? "Of the view before; measured anew when it rests."
                        : app->settings->turning ? "Measured while the patch rests."
                        : !a->error              ? "Measuring ..."
                                                 : "Of this view.";
-    wr_gui_text_cut(WR_FONT_SMALL, old ? WR_COLOUR_CELL : WR_COLOUR_LABEL, text,
-                    wr_gui_available());
+    const WrColour ink = failed ? WR_COLOUR_BAD : old ? WR_COLOUR_CELL : WR_COLOUR_LABEL;
+    wr_gui_text_cut(WR_FONT_SMALL, ink, text, wr_gui_available());
     wr_gui_tip(text);
 }
 

@@ -23,6 +23,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#define CHOSEN_UNITS 120 /* height of the box with the chosen dials */
+
 /* ---- tolerance ---- */
 
 static void run_tolerance(WrApp *app, int kind, double value)
@@ -58,9 +60,8 @@ static void tolerance_value(WrApp *app, const WrTolerance *t)
         run_tolerance(app, (int)t->kind, timed ? 1e-3 * value : value);
 }
 
-static void chosen(WrApp *app)
+static void tell_chosen(const WrApp *app, const WrChosen *c)
 {
-    const WrChosen *c = &app->accuracy->full_times.chosen;
     if (!c->any) {
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                             app->settings->turning ? "Chosen when the patch rests."
@@ -72,7 +73,18 @@ static void chosen(WrApp *app)
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                         c->kept ? "Kept with the document for this very view: nothing was chosen."
                                 : "Chosen for this view; saved with the document.");
+}
+
+/* The result of a tolerance, in a box of constant height, so that the rows below stay in place. */
+static void chosen(WrApp *app)
+{
+    const WrChosen *c = &app->accuracy->full_times.chosen;
+    wr_gui_list_begin("chosen", wr_gui_px(CHOSEN_UNITS));
+    tell_chosen(app, c);
+    wr_gui_list_end();
+    wr_gui_disable(!c->any);
     if (wr_gui_button("Keep these dials", false)) wr_accuracy_keep(app);
+    wr_gui_enable();
     wr_gui_tip("The finest of what was chosen becomes the scene's own setting, for the whole "
                "picture, and the "
                "tolerance is switched off");

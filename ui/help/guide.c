@@ -192,9 +192,10 @@ const char *wr_guide_proposed(const WrApp *app)
 
 static void propose(WrApp *app, WrGuide *guide, const char *line)
 {
+    wr_app_redraw(app);
+    if (guide->proposed && strcmp(guide->proposed, line) == 0) return;
     wr_free(guide->proposed);
     guide->proposed = wr_strdup(line);
-    wr_app_redraw(app);
 }
 
 /* Whether a link is that of a command; then its effect is shown. */
@@ -207,6 +208,24 @@ static bool take_command(WrApp *app, WrGuide *guide, const char *link)
             return true;
         }
     return false;
+}
+
+/* Let the keys reach the word Run of each command. The first press shows the effect; a second one, which returns true,
+   runs the command. */
+static bool take_keys(WrApp *app, WrGuide *guide)
+{
+    bool again = false;
+    const WrGuidePage *page = &guide->pages.data[guide->page];
+    const double w = wr_gui_text_width(WR_FONT_TEXT, "Run"), h = wr_gui_line_height(WR_FONT_TEXT);
+    for (int i = 0; i < page->blocks.count && i < guide->layout.places.count; i++) {
+        double x, y;
+        if (!page->blocks.data[i].command) continue;
+        wr_guide_run_at(&guide->layout, &guide->field, i, &x, &y);
+        if (!wr_gui_page_stop(i, x - w / 2, y - h / 2, w, h)) continue;
+        again = guide->proposed && strcmp(guide->proposed, page->blocks.data[i].cell[0]) == 0;
+        propose(app, guide, page->blocks.data[i].cell[0]);
+    }
+    return again;
 }
 
 bool wr_guide_run_place(const WrApp *app, const char *line, int *x, int *y)
@@ -226,8 +245,8 @@ bool wr_guide_run_place(const WrApp *app, const char *line, int *x, int *y)
     return false;
 }
 
-/* What the command would change, and the buttons that run it or not. */
-static void show_proposal(WrApp *app, WrGuide *guide)
+/* What the command would change, and the buttons that run it or not. agreed: its Run was pressed again. */
+static void show_proposal(WrApp *app, WrGuide *guide, bool agreed)
 {
     WrText effect = { 0 };
     wr_guide_effect(app, guide->proposed, &effect);
@@ -236,7 +255,7 @@ static void show_proposal(WrApp *app, WrGuide *guide)
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, wr_text_get(&effect));
     wr_gui_as_it_is(false);
     wr_text_fini(&effect);
-    const bool run = wr_gui_button("Run", true) || wr_gui_return_pressed();
+    const bool run = wr_gui_button("Run", true) || wr_gui_return_pressed() || agreed;
     wr_gui_same_line(8);
     const bool cancel = wr_gui_button("Cancel", false) || wr_gui_escape_pressed();
     if (!run && !cancel) return;
@@ -333,7 +352,8 @@ static double scroll_to(WrGuide *guide, const WrGuiPage *field)
     return to;
 }
 
-static void show_page(WrApp *app, WrGuide *guide, double tall)
+/* True if the proposed command was chosen again by keys. */
+static bool show_page(WrApp *app, WrGuide *guide, double tall)
 {
     int length;
     WrGuiPage field = wr_gui_page_begin("page", 0, tall);
@@ -344,6 +364,7 @@ static void show_page(WrApp *app, WrGuide *guide, double tall)
     const char *link =
         wr_guide_draw(&guide->layout, &field, guide->marked, guide->pictures, &length);
     wr_gui_as_it_is(false);
+    const bool again = take_keys(app, guide);
     double to = scroll_to(guide, &field);
     guide->scrolls.data[guide->page] = to >= 0 ? to : field.scroll;
     guide->opened = false;
@@ -351,6 +372,7 @@ static void show_page(WrApp *app, WrGuide *guide, double tall)
     wr_gui_page_end(guide->layout.height, to);
     if (to >= 0) wr_app_redraw(app);
     if (link && field.clicked && !take_command(app, guide, link)) follow(app, guide, link, length);
+    return again;
 }
 
 void wr_guide_show(WrApp *app, double tall)
@@ -367,7 +389,7 @@ void wr_guide_show(WrApp *app, double tall)
     else list_pages(app, guide);
     wr_gui_list_end();
     wr_gui_same_line(8);
-    const bool asked = guide->proposed != NULL; /* before this click: its place is there */
-    show_page(app, guide, tall);
-    if (asked && guide->proposed) show_proposal(app, guide);
+    const bool asked = guide->proposed != NULL; /* before this press: its place is there */
+    const bool again = show_page(app, guide, tall);
+    if (asked && guide->proposed) show_proposal(app, guide, again);
 }

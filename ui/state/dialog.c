@@ -6,6 +6,7 @@
 #include "ui/state/roster.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/jobs/edit_preview.h"
 
 #include "base/progress.h"
@@ -30,13 +31,23 @@ void wr_dialog_close(WrApp *app)
     wr_app_redraw(app);
 }
 
+void wr_time_left(double fraction, double seconds, char text[WR_PROGRESS_LEFT])
+{
+    char english[WR_PROGRESS_LEFT];
+    int whole_minutes, rest;
+    text[0] = '\0';
+    wr_progress_left(fraction, seconds, english);
+    if (sscanf(english, "%d:%d", &whole_minutes, &rest) == 2)
+        snprintf(text, WR_PROGRESS_LEFT, wr_words("%d:%02d left"), whole_minutes, rest);
+}
+
 /* Append the remaining time of the edit preview. */
 static void add_time_left(const WrApp *app, char text[WR_EXPECTATION])
 {
     char left[WR_PROGRESS_LEFT];
     double fraction, seconds;
     if (!app->trying || !wr_edit_preview_busy(app->trial, &fraction, &seconds)) return;
-    wr_progress_left(fraction, seconds, left);
+    wr_time_left(fraction, seconds, left);
     size_t used = strlen(text);
     if (left[0])
         snprintf(text + used, WR_EXPECTATION - used, "%s%s", used > 0 ? "  \xc2\xb7  " : "", left);
@@ -48,7 +59,8 @@ void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION
     char about[WR_ESTIMATE_TEXT] = "";
     if (wr_session_estimate(app->session, line, &estimate, NULL))
         wr_estimate_print(&estimate, about);
-    snprintf(text, WR_EXPECTATION, "%s%s", about[0] ? "Needs " : "", about);
+    text[0] = '\0';
+    if (about[0]) snprintf(text, WR_EXPECTATION, wr_words("Needs %s"), about);
     add_time_left(app, text);
 }
 
@@ -58,13 +70,10 @@ void wr_panel_estimate(const WrApp *app, const char *line)
     wr_expectation(app, line, text);
     if (!text[0]) return;
     wr_gui_same_line(12);
-    const bool fits = wr_gui_text_width(WR_FONT_SMALL, text) <= wr_gui_available();
-    if (fits) {
-        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
-        return;
-    }
-    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, ""); /* ends the row */
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+    wr_gui_as_it_is(true); /* it is translated */
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, wr_gui_available());
+    wr_gui_tip(text);
+    wr_gui_as_it_is(false);
 }
 
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)

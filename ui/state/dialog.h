@@ -2,6 +2,8 @@
 #pragma once
 #include "ui/state/app_state.h"
 
+#include "base/progress.h"
+
 #include <SDL.h>
 #include <stdbool.h>
 
@@ -46,8 +48,10 @@ SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
 /* The buttons at the end of a dialog: 1 confirmed, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
+/* Remaining time of work in the user's language, as wr_progress_left; "" if it is not known. */
+void wr_time_left(double fraction, double seconds, char text[WR_PROGRESS_LEFT]);
 /* Memory and time note, "Needs 300 MB" and the remaining time of a preview, if significant; else "". */
 #define WR_EXPECTATION 96
 void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION]);
-/* Show that note beside a dialog's buttons, or below them if there is no room; the buttons do not move. */
+/* Show that note beside a dialog's buttons; without room its end is in the tip, so that no row is added. */
 void wr_panel_estimate(const WrApp *app, const char *line);

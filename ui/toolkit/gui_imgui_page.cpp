@@ -27,6 +27,17 @@ try {
 }
 WR_CAUGHT(WrGuiPage{})
 
+extern "C" bool wr_gui_page_stop(int index, double x, double y, double w, double h)
+try {
+    ImGui::PushID(index);
+    const ImGuiID id = ImGui::GetID("place");
+    ImGui::PopID();
+    wr_gui_stop_at(WR_STOP_PRESS, id, false, ImVec2((float)x, (float)y),
+                   ImVec2((float)(x + w), (float)(y + h)));
+    return wr_gui_focus_pressed(id);
+}
+WR_CAUGHT(false)
+
 extern "C" void wr_gui_page_image(SDL_Texture *texture, double x, double y, double w, double h)
 {
     ImVec2 low((float)x, (float)y), high((float)(x + w), (float)(y + h));

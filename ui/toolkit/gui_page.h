@@ -16,6 +16,8 @@ typedef struct WrGuiPage {
 
 /* wide, tall: pixels; wide <= 0: the rest of the row. Until the end, drawing goes to it, clipped. */
 WrGuiPage wr_gui_page_begin(const char *id, double wide, double tall);
+/* Let the keys reach a drawn place of the page; index: unlike that of others on the page. True if they press it. */
+bool wr_gui_page_stop(int index, double x, double y, double w, double h);
 void wr_gui_page_image(SDL_Texture *texture, double x, double y, double w, double h);
 /* height: of the whole content, pixels. scroll: new offset; below 0: unchanged. */
 void wr_gui_page_end(double height, double scroll);
