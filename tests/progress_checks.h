@@ -17,7 +17,7 @@ static struct Looks {
     double longest;            /* seconds */
     void *where[LOOKS_FRAMES]; /* call stack of the second check */
     int frames;
-    void (*hook)(void); /* called at each check instead of the measurement; NULL: none */
+    void (*hook)(void); /* called after each check instead of the measurement; NULL: none */
 } looks = { .lock = PTHREAD_MUTEX_INITIALIZER };
 
 /* Accessed by any thread. */
@@ -74,34 +74,38 @@ bool __real_wr_progress_cancelled(const WrProgress *progress);
 bool __wrap_wr_progress_cancelled(const WrProgress *progress);
 bool __wrap_wr_progress_cancelled(const WrProgress *progress)
 {
+    if (!looks.hook) look();
+    const bool result = __real_wr_progress_cancelled(progress);
     if (looks.hook) looks.hook();
-    else look();
-    return __real_wr_progress_cancelled(progress);
+    return result;
 }
 
 bool __real_wr_progress_step(const WrProgress *progress, double fraction);
 bool __wrap_wr_progress_step(const WrProgress *progress, double fraction);
 bool __wrap_wr_progress_step(const WrProgress *progress, double fraction)
 {
+    if (!looks.hook) look();
+    const bool result = __real_wr_progress_step(progress, fraction);
     if (looks.hook) looks.hook();
-    else look();
-    return __real_wr_progress_step(progress, fraction);
+    return result;
 }
 
 bool __real_wr_progress_stopped(void);
 bool __wrap_wr_progress_stopped(void);
 bool __wrap_wr_progress_stopped(void)
 {
+    if (!looks.hook) look();
+    const bool result = __real_wr_progress_stopped();
     if (looks.hook) looks.hook();
-    else look();
-    return __real_wr_progress_stopped();
+    return result;
 }
 
 bool __real_wr_progress_report(double fraction);
 bool __wrap_wr_progress_report(double fraction);
 bool __wrap_wr_progress_report(double fraction)
 {
+    if (!looks.hook) look();
+    const bool result = __real_wr_progress_report(fraction);
     if (looks.hook) looks.hook();
-    else look();
-    return __real_wr_progress_report(fraction);
+    return result;
 }

@@ -9,7 +9,9 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/memory_count.h"
 #include "base/progress.h"
+#include "base/slab.h"
 #include <math.h>
 
 #define THREADS 2
@@ -18,15 +20,17 @@
 #define TABLE "table 130x97", "noise perlin", "surface sphere", "bump height=0.05"
 #define SCENE 10
 
-/* The check to cancel at, from 1; 0: none. Any thread checks. */
+/* The check after which to cancel, from 1; 0: none. Any thread checks. */
 static struct {
     int64_t at, seen;
+    int64_t tiles; /* taken before */
     volatile int cancel;
 } stop;
 
 static void count_look(void)
 {
     const int64_t seen = __atomic_add_fetch(&stop.seen, 1, __ATOMIC_RELAXED);
+    if (stop.at > 0 && seen == stop.at) stop.tiles = wr_slab_pieces();
     if (stop.at > 0 && seen >= stop.at) __atomic_store_n(&stop.cancel, 1, __ATOMIC_RELAXED);
 }
 
@@ -156,10 +160,90 @@ static void a_line_stops_at_any_look(void **state)
     wr_pool_free(pool);
 }
 
+#define LARGE_STOPS 6
+#define CHECKS_AFTER                                                                               \
+    1200 /* one for each of the 768 tiles at most, whose work it ends, and some on the way back */
+#define TILES_AFTER 256 /* of two tables' batch */
+
+/* Runs the line whole, to count its checks, then cancels it between two checks. A bounded number of others follows, few
+   tiles are made, and all memory is given back. */
+static void try_large(WrSession *s, const char *line)
+{
+    const int before = wr_session_history_position(s);
+    int64_t all = 0;
+    for (int n = 0; n <= LARGE_STOPS; n++) {
+        WrError err = { "" };
+        const int64_t held = wr_memory_bytes();
+        const int64_t at = n == 0  ? INT64_MAX
+                           : n < 3 ? n
+                                   : 2 + (all - 3) * (n - 2) / (LARGE_STOPS - 1);
+        const bool good = run_until(s, line, at, &err);
+        if (n == 0) all = stop.seen;
+        if (n == 0 && !good) fail_msg("%s: %s", line, err.text);
+        if (wr_session_history_position(s) != before) must_run(s, "undo");
+        if (good) continue;
+        const int64_t checks = stop.seen - at, tiles = wr_slab_pieces() - stop.tiles;
+        if (checks > CHECKS_AFTER || tiles > TILES_AFTER || wr_memory_bytes() != held)
+            fail_msg("%s: cancelled after check %d of %d it made %d checks and %d tiles and keeps "
+                     "%d bytes",
+                     line, (int)at, (int)all, (int)checks, (int)tiles,
+                     (int)(wr_memory_bytes() - held));
+    }
+}
+
+/* Lines after a + prepare the following ones. */
+static void a_large_table_stops_within_a_slice(void **state)
+{
+    (void)state;
+    static const char *const large[] = {
+        "adjust invert",
+        "adjust flip-u",
+        "adjust rotate angle=90",
+        "adjust resize width=3000 height=2000",
+        "adjust blur sigma=2",
+        "adjust blur sigma=50",
+        "adjust slope-limit limit=0.001",
+        "adjust median radius=2",
+        "noise perlin",
+        "noise perlin blend=add",
+        "pattern bricks",
+        "terrain fractal octaves=2",
+        "terrain thermal rounds=1",
+        "terrain hydraulic rain=0.002",
+        "solid sphere radius=700",
+        "solid torus across=16 rows=16",
+        "solid surface sphere size=900",
+        "rim",
+        "grid cells=512x512 width=2",
+        "ramp linear from=0,0 to=1,0",
+        "flood 0.5,0.5 tolerance=100",
+        "shape rectangle a=0.1,0.1 b=0.9,0.9 paint=fill",
+        "export height x.png",
+        "save x.exr",
+        "+select ellipse centre=0.5,0.5 radii=0.45,0.4",
+        "transform move=17,9",
+        "select grow by=30",
+        "select feather by=40",
+        "select slope low=0 high=30",
+        "layer clear 1",
+    };
+    WrPool *pool = wr_pool_new(THREADS);
+    WrSessionOptions options = { .pool = pool, .outputs = true };
+    WrSession *s = wr_session_new(&options);
+    must_run(s, "table 2048x1536"); /* several batches of tiles */
+    must_run(s, "noise value cells=64");
+    for (size_t i = 0; i < sizeof large / sizeof *large; i++)
+        if (large[i][0] == '+') must_run(s, large[i] + 1);
+        else try_large(s, large[i]);
+    wr_session_free(s);
+    wr_pool_free(pool);
+}
+
 int main(void)
 {
     looks.hook = count_look;
     const struct CMUnitTest tests[] = { cmocka_unit_test(a_picture_stops_at_any_look),
-                                        cmocka_unit_test(a_line_stops_at_any_look) };
+                                        cmocka_unit_test(a_line_stops_at_any_look),
+                                        cmocka_unit_test(a_large_table_stops_within_a_slice) };
     return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
 }

@@ -1,6 +1,7 @@
 #include "base/memory.h"
 
 #include "base/error.h"
+#include "base/memory_count.h"
 #include "system/large_pages.h"
 #include "system/thread.h"
 
@@ -23,13 +24,40 @@
 
 /* Header before each block. */
 typedef struct Head {
-    void *raw;   /* pointer returned by malloc */
-    size_t kept; /* bytes of a block that may be cached when freed; else 0 */
+    void *raw;      /* pointer returned by malloc */
+    size_t kept;    /* bytes of a block that may be cached when freed; else 0 */
+    size_t counted; /* bytes in wr_memory_bytes while the block is in use */
 } Head;
 
 /* Cache of freed blocks; guarded by `lock`. */
 static void *kept[KEPT];
 static WrMutex lock = WR_MUTEX_READY;
+
+static int64_t in_use, peak; /* bytes; atomic */
+
+int64_t wr_memory_bytes(void)
+{
+    return __atomic_load_n(&in_use, __ATOMIC_RELAXED);
+}
+
+int64_t wr_memory_peak(void)
+{
+    return __atomic_load_n(&peak, __ATOMIC_RELAXED);
+}
+
+void wr_memory_peak_begin(void)
+{
+    __atomic_store_n(&peak, wr_memory_bytes(), __ATOMIC_RELAXED);
+}
+
+void wr_memory_count(int64_t bytes)
+{
+    const int64_t now = __atomic_add_fetch(&in_use, bytes, __ATOMIC_RELAXED);
+    int64_t most = wr_memory_peak();
+    while (now > most && !__atomic_compare_exchange_n(&peak, &most, now, true, __ATOMIC_RELAXED,
+                                                      __ATOMIC_RELAXED)) {
+    }
+}
 
 static Head *head_of(void *block)
 {
@@ -51,7 +79,9 @@ static void *aligned(size_t bytes, bool zeroed)
     if (!raw) return NULL;
     if (whole >= LARGE) wr_pages_large(raw, whole);
     uintptr_t start = ((uintptr_t)raw + sizeof(Head) + align - 1) & ~(uintptr_t)(align - 1);
-    *head_of((void *)start) = (Head){ raw, 0 };
+    const size_t counted = bytes < WR_MEMORY_COUNTED ? 0 : bytes;
+    *head_of((void *)start) = (Head){ raw, 0, counted };
+    if (counted) wr_memory_count((int64_t)counted);
     return (void *)start;
 }
 
@@ -130,7 +160,10 @@ void *wr_try_alloc_unset(size_t count, size_t size, const char *what, WrError *e
     if (__builtin_mul_overflow(count, size, &bytes) || bytes < KEPT_LEAST || bytes > KEPT_MOST)
         return wr_try_alloc(count, size, what, err);
     void *block = take_kept(bytes);
-    if (block) return block;
+    if (block) {
+        wr_memory_count((int64_t)head_of(block)->counted);
+        return block;
+    }
     block = wr_try_alloc(count, size, what, err);
     if (block) head_of(block)->kept = bytes;
     return block;
@@ -143,7 +176,10 @@ void wr_memory_trim(void)
 
 void wr_free(void *block)
 {
-    if (block) give(head_of(block)->kept ? keep(block) : block);
+    if (!block) return;
+    const Head *head = head_of(block);
+    if (head->counted) wr_memory_count(-(int64_t)head->counted);
+    give(head->kept ? keep(block) : block);
 }
 
 char *wr_strdup(const char *text)

@@ -1,6 +1,7 @@
 #include "base/slab.h"
 
 #include "base/memory.h"
+#include "base/memory_count.h"
 
 #include <stdbool.h>
 
@@ -14,6 +15,13 @@ typedef struct WrSlab {
     void *given;      /* the last freed piece, which starts with a pointer to the previous one */
     size_t used, cut; /* pieces in use; pieces ever cut */
 } WrSlab;
+
+static int64_t taken; /* atomic */
+
+int64_t wr_slab_pieces(void)
+{
+    return __atomic_load_n(&taken, __ATOMIC_RELAXED);
+}
 
 static size_t rounded(size_t bytes)
 {
@@ -64,6 +72,7 @@ static WrSlab *slab_with_room(WrSlabs *slabs)
         unlist(&slabs->idle, slab);
         slabs->idle_count--;
     } else {
+        wr_memory_count(-(int64_t)BLOCK); /* pieces are counted in its place */
         slab = wr_alloc_unset(1, BLOCK);
         *slab = (WrSlab){ 0 };
     }
@@ -98,10 +107,17 @@ static WrSlab *give(WrSlabs *slabs, void *piece)
     return NULL;
 }
 
+static void free_slab(WrSlab *slab)
+{
+    wr_free(slab);
+    if (slab) wr_memory_count((int64_t)BLOCK);
+}
+
 #ifdef __SANITIZE_ADDRESS__
 void *wr_slab_take(WrSlabs *slabs)
 {
     (void)take;
+    __atomic_fetch_add(&taken, 1, __ATOMIC_RELAXED);
     return wr_alloc_unset(1, slabs->bytes);
 }
 
@@ -116,6 +132,8 @@ void *wr_slab_take(WrSlabs *slabs)
     wr_mutex_lock(&slabs->lock);
     void *piece = take(slabs);
     wr_mutex_unlock(&slabs->lock);
+    wr_memory_count((int64_t)slabs->bytes);
+    __atomic_fetch_add(&taken, 1, __ATOMIC_RELAXED);
     return piece;
 }
 
@@ -125,7 +143,8 @@ void wr_slab_give(WrSlabs *slabs, void *piece)
     wr_mutex_lock(&slabs->lock);
     WrSlab *empty = give(slabs, piece);
     wr_mutex_unlock(&slabs->lock);
-    wr_free(empty);
+    wr_memory_count(-(int64_t)slabs->bytes);
+    free_slab(empty);
 }
 #endif
 
@@ -138,7 +157,7 @@ void wr_slab_trim(WrSlabs *slabs)
     wr_mutex_unlock(&slabs->lock);
     while (slab) {
         WrSlab *next = slab->after;
-        wr_free(slab);
+        free_slab(slab);
         slab = next;
     }
 }

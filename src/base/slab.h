@@ -7,6 +7,7 @@
 #include "system/thread.h"
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* All pieces of one size, for the life of the program: { WR_SLABS_OF(bytes) }. */
 typedef struct WrSlabs {
@@ -25,3 +26,6 @@ void *wr_slab_take(WrSlabs *slabs);
 void wr_slab_give(WrSlabs *slabs, void *piece);
 /* Returns the cached empty blocks to the system. Any thread; pieces in use are unchanged. */
 void wr_slab_trim(WrSlabs *slabs);
+
+/* Number of pieces that this process has taken, for tests that count work. */
+int64_t wr_slab_pieces(void);

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "command/args.h"
 #include "command/commands.h"
 #include "document/document.h"
@@ -60,11 +61,12 @@ static bool any_set(const unsigned char *marks, int count)
     return memchr(marks, 1, (size_t)count) != NULL;
 }
 
-static void draw_lines(WrField *field, const unsigned char *columns, const unsigned char *rows,
+static bool draw_lines(WrField *field, const unsigned char *columns, const unsigned char *rows,
                        float level)
 {
     int width = wr_field_width(field), height = wr_field_height(field);
-    for (int ty = 0; ty < wr_field_tiles_v(field); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(field); ty++) {
+        if (!wr_progress_report((double)ty / wr_field_tiles_v(field))) return false;
         for (int tx = 0; tx < wr_field_tiles_u(field); tx++) {
             int i = tx * WR_TILE, j = ty * WR_TILE;
             int w = width - i < WR_TILE ? width - i : WR_TILE;
@@ -75,6 +77,8 @@ static void draw_lines(WrField *field, const unsigned char *columns, const unsig
                 for (int x = 0; x < w; x++)
                     if (columns[i + x] || rows[j + y]) texels[WR_TILE * y + x] = level;
         }
+    }
+    return true;
 }
 
 static bool run_grid(WrSession *session, WrCall *call, WrError *err)
@@ -88,11 +92,12 @@ static bool run_grid(WrSession *session, WrCall *call, WrError *err)
     unsigned char *rows = wr_alloc((size_t)wr_field_height(field), 1);
     mark_lines(wr_field_width(field), (int)cells->numbers[0], width, columns);
     mark_lines(wr_field_height(field), (int)cells->numbers[1], width, rows);
-    draw_lines(field, columns, rows, (float)wr_call_number(call, "high"));
+    bool good = draw_lines(field, columns, rows, (float)wr_call_number(call, "high"));
     wr_free(columns);
     wr_free(rows);
-    wr_session_put_heights(session, layer, field);
-    return true;
+    if (good) wr_session_put_heights(session, layer, field);
+    else wr_field_free(field);
+    return good || wr_fail(err, "cancelled");
 }
 
 /* ---- open ---- */

@@ -406,12 +406,14 @@ typedef struct Survey {
     int64_t tiles;
     float low, high;
     bool heights; /* read the texels, not only the tree */
+    bool stopped; /* cancelled: nothing more is read */
 } Survey;
 
 static void survey_tile(Survey *s, const float *texels, int tx, int ty)
 {
     s->tiles++;
-    if (!s->heights || wr_progress_stopped()) return;
+    s->stopped = s->heights && wr_progress_stopped();
+    if (!s->heights || s->stopped) return;
     int count_i = used(tx, s->field->width), count_j = used(ty, s->field->height);
     float low = s->low, high = s->high;
     for (int j = 0; j < count_j; j++)
@@ -426,7 +428,7 @@ static void survey_tile(Survey *s, const float *texels, int tx, int ty)
 
 static void survey(Survey *s, const Counted *thing, int depth, int tx, int ty)
 {
-    if (!thing) return;
+    if (!thing || s->stopped) return;
     if (depth == 0) {
         survey_tile(s, ((const Tile *)thing)->texels, tx, ty);
         return;

@@ -237,7 +237,6 @@ static void make_stack(int index, int worker, void *ctx)
     for (int k = index * build->tall; k < (index + 1) * build->tall; k++) {
         WrOpBlock b = block_at(build, build->first + k);
         b.follows = follows;
-        memset(build->tile[k], 0, sizeof build->tile[k]);
         follows = make_block(build, b, worker, build->tile[k]);
     }
 }
@@ -272,6 +271,8 @@ static bool run_batches(Build *build)
     for (int first = 0; first < count; first += BATCH) {
         int blocks = min_int(BATCH, count - first);
         build->first = first;
+        /* pieces that a cancellation skips leave no tile of the last batch behind */
+        memset(build->tile, 0, sizeof build->tile);
         wr_pool_run(build->job->pool, blocks / build->tall, make_stack, build);
         put_tiles(build, blocks);
         if (wr_progress_cancelled(build->job->progress))

@@ -8,6 +8,8 @@
 
 #include <string.h>
 
+#define ROWS 64 /* of a plane, between two checks for cancellation */
+
 bool wr_op_step(const WrOpJob *job, double fraction)
 {
     if (wr_progress_step(job->progress, job->from + (job->to - job->from) * fraction)) return true;
@@ -85,14 +87,20 @@ bool wr_op_plane_init(WrOpPlane *plane, const WrOpJob *job)
 {
     int width = wr_field_width(job->in), height = wr_field_height(job->in);
     size_t pitch = ((size_t)width + 4 + 15) / 16 * 16 + 16;
+    if (!wr_op_step(job, 0.0)) return false;
     float *block = wr_try_alloc_unset(pitch * (size_t)height, sizeof *block, job->name, job->err);
     if (!block) return false;
-    *plane = (WrOpPlane){ block, block + 2, pitch, width, height };
     for (int y = 0; y < height; y++) { /* vector code also computes on the padding between rows */
+        /* the system clears each page when it is first written: seconds for the largest tables */
+        if (y % ROWS == 0 && wr_progress_cancelled(job->progress)) {
+            wr_free(block);
+            return wr_fail(job->err, "%s: cancelled", job->name);
+        }
         float *row = block + pitch * (size_t)y;
         memset(row, 0, 2 * sizeof *row);
         memset(row + 2 + width, 0, (pitch - 2 - (size_t)width) * sizeof *row);
     }
+    *plane = (WrOpPlane){ block, block + 2, pitch, width, height };
     return true;
 }
 

@@ -17,6 +17,7 @@
  * along a long slope the rounding errors of its steps accumulate. */
 #include "field/ops_internal.h"
 
+#include "base/progress.h"
 #include "field/field.h"
 
 #include <math.h>
@@ -30,7 +31,7 @@ typedef struct Sweep {
     int changed; /* atomic while rows are swept by several threads */
 } Sweep;
 
-#define ROWS 16 /* rows of a piece of work */
+#define ROWS 16 /* rows of a piece of work, and of a sweep between two checks for cancellation */
 
 static float *row_at(const WrOpPlane *plane, int j)
 {
@@ -82,6 +83,12 @@ static bool lower_row(const Sweep *sweep, float *from, float *restrict row)
     return changed != 0;
 }
 
+/* True if the sweep should stop before row y; the caller checks for cancellation after it. */
+static bool gives_up(const Sweep *sweep, int y)
+{
+    return y % ROWS == 0 && wr_progress_cancelled(sweep->job->progress);
+}
+
 /* A table of one periodic row is its own neighbour: the diagonals from the ends of the row would lower
    it like the steps along it, but are longer, so there is nothing to do. */
 static bool sweep_down(const Sweep *sweep)
@@ -91,7 +98,7 @@ static bool sweep_down(const Sweep *sweep)
     bool changed = false;
     if (height == 1) return false;
     if (sweep->wraps_v) changed |= lower_row(sweep, row_at(plane, height - 1), row_at(plane, 0));
-    for (int y = 1; y < height; y++)
+    for (int y = 1; y < height && !gives_up(sweep, y); y++)
         changed |= lower_row(sweep, row_at(plane, y - 1), row_at(plane, y));
     return changed;
 }
@@ -103,7 +110,7 @@ static bool sweep_up(const Sweep *sweep)
     bool changed = false;
     if (height == 1) return false;
     if (sweep->wraps_v) changed |= lower_row(sweep, row_at(plane, 0), row_at(plane, height - 1));
-    for (int y = height - 2; y >= 0; y--)
+    for (int y = height - 2; y >= 0 && !gives_up(sweep, y); y--)
         changed |= lower_row(sweep, row_at(plane, y + 1), row_at(plane, y));
     return changed;
 }

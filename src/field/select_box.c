@@ -2,12 +2,13 @@
 #include "field/select.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "field/field.h"
 
 static void mark(const WrField *selection, bool *columns, bool *rows)
 {
     const int width = wr_field_width(selection), height = wr_field_height(selection);
-    for (int ty = 0; ty < wr_field_tiles_v(selection); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(selection) && !wr_progress_stopped(); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(selection); tx++) {
             const float *tile = wr_field_tile(selection, tx, ty);
             const float level = wr_field_level(selection);

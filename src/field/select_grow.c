@@ -59,6 +59,12 @@ static void sweep_row(Distance *d, int tx, int j, bool first, uint16_t *steps)
     }
 }
 
+/* False: cancelled, which is checked at intervals. wr_pool_run then returns false. */
+static bool goes_on(int j)
+{
+    return j % 256 != 0 || !wr_progress_stopped();
+}
+
 static void column_piece(int tx, int worker, void *ctx)
 {
     (void)worker;
@@ -67,10 +73,10 @@ static void column_piece(int tx, int worker, void *ctx)
     uint16_t steps[WR_TILE];
     for (int x = 0; x < WR_TILE; x++) steps[x] = FAR;
     for (int round = 0; round < rounds; round++)
-        for (int j = 0; j < d->height; j++) sweep_row(d, tx, j, round == 0, steps);
+        for (int j = 0; j < d->height && goes_on(j); j++) sweep_row(d, tx, j, round == 0, steps);
     for (int x = 0; x < WR_TILE; x++) steps[x] = FAR;
     for (int round = 0; round < rounds; round++)
-        for (int j = d->height; j-- > 0;) sweep_row(d, tx, j, false, steps);
+        for (int j = d->height; j-- > 0 && goes_on(j);) sweep_row(d, tx, j, false, steps);
 }
 
 static int wrap_index(int i, int n)

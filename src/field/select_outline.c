@@ -5,6 +5,7 @@
 
 #include "base/array.h"
 #include "base/error.h"
+#include "base/progress.h"
 #include "field/field.h"
 #include "field/select_internal.h"
 
@@ -141,6 +142,7 @@ static bool follow(Trace *t, Walker w, WrError *err)
         if (++t->passed > WR_OUTLINE_POINTS)
             return wr_fail(err, "outline of the selection: over %d points, too fine to draw",
                            WR_OUTLINE_POINTS);
+        if (t->passed % 65536 == 0 && wr_progress_stopped()) return wr_fail(err, "cancelled");
         add_point(t, loop.first, point_on(t, &w));
         cross_side(&w, way_out(t, &w));
     }
@@ -254,9 +256,11 @@ bool wr_select_outline(const WrField *selection, WrOutline *outline, WrError *er
     t.seen = wr_try_alloc(passages / 8 + 1, 1, "outline of the selection", err);
     if (!t.seen) return false;
     bool good = true;
-    for (int ty = 0; good && ty < wr_field_tiles_v(selection); ty++)
+    for (int ty = 0; good && ty < wr_field_tiles_v(selection); ty++) {
+        good = !wr_progress_stopped() || wr_fail(err, "cancelled");
         for (int tx = 0; good && tx < wr_field_tiles_u(selection); tx++)
             if (may_start(&t, tx, ty)) good = trace_tile(&t, tx, ty, err);
+    }
     wr_free(t.seen);
     if (!good) {
         wr_array_free(&t.points);

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "base/progress.h"
 #include "field/field.h"
 #include "field/ops.h"
 #include "field/select.h"
@@ -95,13 +96,19 @@ static bool sort_rims(Rim *rim, WrError *err)
     const int strips = (s->height + WR_TILE - 1) / WR_TILE;
     rim->inside.rims = wr_try_alloc((size_t)strips, sizeof *rim->inside.rims, "an edge", err);
     if (!rim->inside.rims) return false;
-    if (s->count > 1) qsort(s->pieces, (size_t)s->count, sizeof *s->pieces, compare_pieces);
-    int64_t k = 0;
-    for (int j = 0; j < strips * WR_TILE; j++) {
-        struct WrTextRim *r = &rim->inside.rims[j / WR_TILE];
-        r->first[j % WR_TILE] = r->pieces.count;
-        for (; k < s->count && s->pieces[k].j == j; k++) wr_array_push(&r->pieces, s->pieces[k]);
-        r->first[j % WR_TILE + 1] = r->pieces.count;
+    for (int64_t k = 0; k < s->count; k++)
+        wr_array_push(&rim->inside.rims[s->pieces[k].j / WR_TILE].pieces, s->pieces[k]);
+    for (int strip = 0; strip < strips; strip++) {
+        struct WrTextRim *r = &rim->inside.rims[strip];
+        if (!wr_progress_report(0.2 * strip / strips)) return wr_fail(err, "cancelled");
+        if (r->pieces.count > 1)
+            qsort(r->pieces.data, (size_t)r->pieces.count, sizeof *r->pieces.data, compare_pieces);
+        int k = 0;
+        for (int j = 0; j < WR_TILE; j++) {
+            r->first[j] = k;
+            while (k < r->pieces.count && r->pieces.data[k].j == strip * WR_TILE + j) k++;
+        }
+        r->first[WR_TILE] = k;
     }
     return true;
 }

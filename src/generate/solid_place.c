@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "field/field.h"
 #include "generate/pattern.h"
 
@@ -122,10 +123,16 @@ typedef struct Copies {
     double (*turned)[3]; /* [point_count] of the present copy */
 } Copies;
 
+/* For loops over a net: false after a cancellation, which is checked at intervals. The result is then incomplete. */
+static bool goes_on(int64_t i)
+{
+    return i % 4096 != 0 || !wr_progress_stopped();
+}
+
 /* Rotates the points about the origin, y down; returns the lowest and the highest z. */
 static void turn_points(const Copies *c, const WrSolidPlace *p, double range[2])
 {
-    for (int64_t i = 0; i < c->net->point_count; i++) {
+    for (int64_t i = 0; i < c->net->point_count && goes_on(i); i++) {
         const double *q = c->net->points[i];
         for (int k = 0; k < 3; k++) {
             const double *m = &p->turn[3 * k];
@@ -140,7 +147,7 @@ static void turn_points(const Copies *c, const WrSolidPlace *p, double range[2])
 
 static void put_copy(const Copies *c, const WrSolidPlace *p, double low, WrZTriangle *out)
 {
-    for (int64_t i = 0; i < c->net->count; i++)
+    for (int64_t i = 0; i < c->net->count && goes_on(i); i++)
         for (int k = 0; k < 3; k++) {
             const double *q = c->turned[c->net->corners[i][k]];
             out[i].x[k] = p->at[0] + q[0];
@@ -173,6 +180,7 @@ bool wr_solid_draw_net(const WrParams *params, const WrSolidNet *net, const WrGe
         turn_points(&c, &places[i], range);
         put_copy(&c, &places[i], range[0], triangles + i * net->count);
         if (i == 0) rise = (range[1] - range[0]) / places[0].scale;
+        good = !wr_progress_stopped() || wr_fail(err, "cancelled");
     }
     WrZScene scene = { .triangles = triangles, .triangle_count = count * net->count };
     good = good && wr_solid_draw(params, &scene, rise, job, out, err);

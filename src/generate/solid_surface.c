@@ -1,6 +1,7 @@
 /* The parametric surfaces as triangle meshes, seen from above. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "generate/tile_builder.h"
 #include "generate/solid.h"
@@ -189,7 +190,7 @@ static void fill_face(const WrShape *shape, int face, const int cells[2], const 
 {
     int across = cells[0] + 1;
     int32_t first = (int32_t)net->point_count;
-    for (int j = 0; j <= cells[1]; j++)
+    for (int j = 0; j <= cells[1] && !wr_progress_stopped(); j++)
         for (int i = 0; i <= cells[0]; i++) {
             WrSurfacePoint p;
             part_at(shape, face, (double)i / cells[0], (double)j / cells[1], &p);
@@ -198,7 +199,7 @@ static void fill_face(const WrShape *shape, int face, const int cells[2], const 
             out[1] = scale * (p.p.y - middle[1]);
             out[2] = scale * (p.p.z - middle[2]);
         }
-    for (int j = 0; j < cells[1]; j++)
+    for (int j = 0; j < cells[1] && !wr_progress_stopped(); j++)
         for (int i = 0; i < cells[0]; i++) {
             int32_t a = first + j * across + i, b = a + 1, c = a + across, d = c + 1;
             int32_t(*two)[3] = &net->corners[net->count];
@@ -229,7 +230,7 @@ static bool make_net(const WrShape *shape, double size, double error, Net *net, 
         net->points ? wr_try_alloc(count, sizeof *net->corners, "its triangles", err) : NULL;
     if (!net->corners) return false;
     for (int face = 0; face < faces; face++) fill_face(shape, face, cells, middle, scale, net);
-    return true;
+    return !wr_progress_stopped() || wr_fail(err, "cancelled");
 }
 
 bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,

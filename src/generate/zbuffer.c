@@ -10,7 +10,8 @@
 #include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
-#define BATCH 64 /* tiles between two reports */
+#define BATCH 64     /* tiles between two reports */
+#define CHECKED 4096 /* primitives between two checks for cancellation */
 #define MANY_SLOW 4
 #define MANY 64    /* images in a tile from which on hidden-surface culling pays off */
 #define LEVELS 512 /* height classes for sorting */
@@ -32,8 +33,8 @@ typedef struct Drawing {
     int64_t total;     /* counted so far */
     int *busy;         /* tiles with entries */
     int busy_count;
-    int first;                 /* first of the busy tiles being drawn */
-    float **heights, **covers; /* [busy_count] */
+    int first;                             /* first of the busy tiles being drawn */
+    float *heights[BATCH], *covers[BATCH]; /* their texels */
     const WrProgress *progress;
 } Drawing;
 
@@ -120,7 +121,7 @@ static bool put_all(Drawing *d, WrError *err)
 {
     int64_t count = d->scene->solid_count + d->scene->triangle_count;
     for (int64_t index = 0; index < count; index++) {
-        if (index % 4096 == 0 && wr_progress_cancelled(d->progress))
+        if (index % CHECKED == 0 && wr_progress_cancelled(d->progress))
             return wr_fail(err, "cancelled");
         Box box = box_of(d->scene, index);
         int first_x, first_y;
@@ -132,10 +133,12 @@ static bool put_all(Drawing *d, WrError *err)
                            "things larger than the table lie over it %lld times: must be fewer, at "
                            "most %d",
                            (long long)nx * ny, WR_Z_ENTRIES);
-        for (int j = 0; j < ny && !wr_progress_cancelled(d->progress); j++)
+        for (int j = 0; j < ny; j++) {
+            if (wr_progress_cancelled(d->progress)) return wr_fail(err, "cancelled");
             for (int i = 0; i < nx; i++)
                 put_image(d, index, &box, (double)(first_x + i) * d->width,
                           (double)(first_y + j) * d->height);
+        }
         if (d->total > WR_Z_ENTRIES)
             return wr_fail(err,
                            "all things together cover more than %d tiles of the table: must be "
@@ -262,7 +265,7 @@ static bool sort_triangles(const Drawing *d, int busy, const Bin *bin, double *t
     double range[2] = { INFINITY, -INFINITY };
     int64_t starts[LEVELS + 1] = { 0 };
     for (int64_t i = 0; i < bin->count; i++) {
-        if (i % 4096 == 0 && !go_on(d, busy, 0.0)) return false;
+        if (i % CHECKED == 0 && !go_on(d, busy, 0.0)) return false;
         int64_t index = d->entries[bin->first + i].index - d->scene->solid_count;
         double z = tops[i] = top_of(&d->scene->triangles[index]);
         range[0] = z < range[0] ? z : range[0];
@@ -338,31 +341,26 @@ static void draw_tile(int index, int worker, void *ctx)
     for (int i = 0; i < TEXELS; i++) sheet->depth[i] = sheet->edge[i] = sheet->whole[i] = -INFINITY;
     if (d->scene->hidden) draw_few(d, busy, &d->bins[tile], sheet);
     else draw_bin(d, busy, &d->bins[tile], sheet);
-    finish_tile(d, sheet, d->heights[busy], d->covers[busy]);
+    finish_tile(d, sheet, d->heights[index], d->covers[index]);
     __atomic_fetch_add(&squares, sheet->squares, __ATOMIC_RELAXED);
     wr_array_free(&sheet->blocks);
     wr_free(sheet);
 }
 
+/* Tiles are allocated batch by batch: for the largest tables all of them would take seconds. */
 static bool run_tiles(Drawing *d, const WrGenerateJob *job, WrRelief *relief)
 {
-    size_t count = (size_t)d->busy_count;
-    bool going = true;
-    d->heights = wr_alloc(count + 1, sizeof *d->heights);
-    d->covers = wr_alloc(count + 1, sizeof *d->covers);
-    for (int i = 0; i < d->busy_count; i++) {
-        int tx = d->busy[i] % d->tiles_u, ty = d->busy[i] / d->tiles_u;
-        d->heights[i] = wr_field_tile_write(relief->heights, tx, ty);
-        d->covers[i] = wr_field_tile_write(relief->cover, tx, ty);
+    for (d->first = 0; d->first < d->busy_count; d->first += BATCH) {
+        const int left = d->busy_count - d->first, count = left < BATCH ? left : BATCH;
+        if (!wr_progress_step(job->progress, (double)d->first / d->busy_count)) return false;
+        for (int i = 0; i < count; i++) {
+            int tx = d->busy[d->first + i] % d->tiles_u, ty = d->busy[d->first + i] / d->tiles_u;
+            d->heights[i] = wr_field_tile_write(relief->heights, tx, ty);
+            d->covers[i] = wr_field_tile_write(relief->cover, tx, ty);
+        }
+        wr_pool_run(job->pool, count, draw_tile, d);
     }
-    for (d->first = 0; going && d->first < d->busy_count; d->first += BATCH) {
-        int left = d->busy_count - d->first;
-        going = wr_progress_step(job->progress, (double)d->first / d->busy_count);
-        if (going) wr_pool_run(job->pool, left < BATCH ? left : BATCH, draw_tile, d);
-    }
-    wr_free(d->heights);
-    wr_free(d->covers);
-    return going && wr_progress_step(job->progress, 1.0);
+    return wr_progress_step(job->progress, 1.0);
 }
 
 static bool draw(Drawing *d, const WrGenerateJob *job, WrRelief *out, WrError *err)
@@ -381,8 +379,11 @@ static bool draw(Drawing *d, const WrGenerateJob *job, WrRelief *out, WrError *e
 bool wr_zbuffer_draw(const WrZScene *scene, const WrGenerateJob *job, WrRelief *out, WrError *err)
 {
     const WrField *like = job->like;
-    for (int64_t i = 0; i < scene->solid_count + scene->triangle_count; i++)
+    for (int64_t i = 0; i < scene->solid_count + scene->triangle_count; i++) {
+        if (i % CHECKED == 0 && wr_progress_cancelled(job->progress))
+            return wr_fail(err, "cancelled");
         if (!check_reach(scene, i, err)) return false;
+    }
     Drawing d = { .scene = scene,
                   .like = like,
                   .width = wr_field_width(like),
