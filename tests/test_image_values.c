@@ -14,6 +14,7 @@
 typedef struct Tiff {
     int bits, channels;
     bool white_is_0, big;
+    bool no_data; /* GDAL's tag: 9 marks missing values */
 } Tiff;
 
 static unsigned long last_of(int bits)
@@ -84,7 +85,7 @@ static void write_tiff(const char *path, const Tiff *tiff)
     put(file, big, 8UL + (unsigned long)(size + size % 2), 4);
     put_pixels(file, tiff);
     if (size % 2) putc(0, file);
-    put(file, big, n > 1 ? 11 : 10, 2);
+    put(file, big, 10UL + (n > 1) + tiff->no_data, 2);
     put_tag(file, big, 256, 3, 1, WIDTH);
     put_tag(file, big, 257, 3, 1, HEIGHT);
     put_tag(file, big, 258, 3, n, (unsigned long)tiff->bits);
@@ -96,6 +97,7 @@ static void write_tiff(const char *path, const Tiff *tiff)
     put_tag(file, big, 279, 4, 1, (unsigned long)size);
     put_tag(file, big, 284, 3, 1, 1);
     if (n > 1) put_tag(file, big, 338, 3, 1, 2); /* unassociated alpha */
+    if (tiff->no_data) put_tag(file, big, 42113, 2, 2, '9');
     put(file, big, 0, 4);
     fclose(file);
 }
@@ -126,16 +128,37 @@ static void smallest_is_white_at_every_depth(void **state)
     static const int depths[] = { 1, 2, 4, 8, 10, 12, 14, 16, 32 };
     for (size_t d = 0; d < sizeof depths / sizeof *depths; d++)
         for (int k = 0; k < 8; k++)
-            check_tiff(&(Tiff){ depths[d], 1 + k % 2, (k & 2) != 0, (k & 4) != 0 });
+            check_tiff(&(Tiff){ depths[d], 1 + k % 2, (k & 2) != 0, (k & 4) != 0, false });
 }
 
 static void a_depth_that_is_not_read_is_named(void **state)
 {
     (void)state;
     WrError err;
-    write_tiff("24.tif", &(Tiff){ 24, 1, false, false });
+    write_tiff("24.tif", &(Tiff){ 24, 1, false, false, false });
     assert_null(wr_image_read("24.tif", &err));
     assert_non_null(strstr(err.text, "24 bits a channel"));
+}
+
+/* Measured values of less than 16 bits are the file's numbers, not those that the library widens. */
+static void narrow_elevations_are_numbers(void **state)
+{
+    (void)state;
+    static const int depths[] = { 4, 8, 10, 12, 14, 16 };
+    const WrImageRequest wish = { .elevation = true };
+    for (size_t d = 0; d < sizeof depths / sizeof *depths; d++) {
+        WrError err;
+        const Tiff tiff = { .bits = depths[d], .channels = 1, .no_data = true };
+        write_tiff("narrow.tif", &tiff);
+        WrImage *image = wr_image_read_wish("narrow.tif", &wish, &err);
+        if (!image) fail_msg("%d bits: %s", tiff.bits, err.text);
+        for (int k = 0; k < WIDTH * HEIGHT; k++) {
+            const double number = (double)code_of(&tiff, k % WIDTH, k / WIDTH, 0);
+            if (number < 9 || number > 9) /* else missing, and filled */
+                assert_float_equal((double)image->data[k], number, 0);
+        }
+        wr_image_free(image);
+    }
 }
 
 static WrImage *read_case(const char *name, const WrImageRequest *wish)
@@ -261,6 +284,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(smallest_is_white_at_every_depth),
         cmocka_unit_test(a_depth_that_is_not_read_is_named),
+        cmocka_unit_test(narrow_elevations_are_numbers),
         cmocka_unit_test(a_cut_progressive_jpeg_is_refused),
         cmocka_unit_test(missing_elevations_are_filled),
         cmocka_unit_test(no_data_is_found_however_it_is_written),

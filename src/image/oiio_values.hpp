@@ -20,6 +20,7 @@
 struct Values {
     OIIO::TypeDesc type;  /* type in which rows are requested from the library */
     double divisor = 0.0; /* codes / divisor; 0: numbers unchanged */
+    int shift = 0;        /* of numbers: low bits that the library added */
     double scale = 1.0;   /* then value = scale x + offset */
     double offset = 0.0;
     bool invert = false;        /* 1 - x for every channel except `alpha` */
@@ -106,7 +107,11 @@ inline bool choose_tiff(const OIIO::ImageSpec &spec, int fd, int directory, bool
     }
     std::string text;
     const bool measured = tiff_no_data(fd, directory, text);
-    if (tiff_has_numbers(spec, measured, numbers)) values.divisor = 0.0;
+    if (tiff_has_numbers(spec, measured, numbers)) {
+        const int wide = static_cast<int>(8 * spec.format.size());
+        values.divisor = 0.0;
+        if (bits > 0 && bits < wide) values.shift = wide - bits; /* 12 bits are widened to 16 */
+    }
     values.alpha = spec.alpha_channel;
     if (spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0) {
         const bool library = spec.format == OIIO::TypeDesc::UINT8;
@@ -177,7 +182,8 @@ inline void decode_codes(const Code *codes, size_t count, const Values &values, 
                          ? static_cast<float>(codes[i]) / divisor
                          : static_cast<float>(static_cast<double>(codes[i]) / values.divisor);
     } else {
-        for (size_t i = 0; i < count; i++) out[i] = static_cast<float>(codes[i]);
+        for (size_t i = 0; i < count; i++)
+            out[i] = static_cast<float>(static_cast<Code>(codes[i] >> values.shift));
     }
 }
 
