@@ -14,7 +14,8 @@
 typedef struct Tiff {
     int bits, channels;
     bool white_is_0, big;
-    bool no_data; /* GDAL's tag: 9 marks missing values */
+    bool no_data;         /* GDAL's tag: 9 marks missing values */
+    const char *metadata; /* GDAL's tag */
 } Tiff;
 
 static unsigned long last_of(int bits)
@@ -82,10 +83,13 @@ static void write_tiff(const char *path, const Tiff *tiff)
     assert_non_null(file);
     fputs(big ? "MM" : "II", file);
     put(file, big, 42, 2);
-    put(file, big, 8UL + (unsigned long)(size + size % 2), 4);
+    const char *more = tiff->metadata ? tiff->metadata : "";
+    const unsigned long end = 8UL + (unsigned long)(size + size % 2), length = strlen(more);
+    put(file, big, end + length + length % 2, 4);
     put_pixels(file, tiff);
     if (size % 2) putc(0, file);
-    put(file, big, 10UL + (n > 1) + tiff->no_data, 2);
+    fprintf(file, "%s%s", more, length % 2 ? " " : "");
+    put(file, big, 10UL + (n > 1) + tiff->no_data + (length > 0), 2);
     put_tag(file, big, 256, 3, 1, WIDTH);
     put_tag(file, big, 257, 3, 1, HEIGHT);
     put_tag(file, big, 258, 3, n, (unsigned long)tiff->bits);
@@ -97,6 +101,7 @@ static void write_tiff(const char *path, const Tiff *tiff)
     put_tag(file, big, 279, 4, 1, (unsigned long)size);
     put_tag(file, big, 284, 3, 1, 1);
     if (n > 1) put_tag(file, big, 338, 3, 1, 2); /* unassociated alpha */
+    if (length > 0) put_tag(file, big, 42112, 2, length, end);
     if (tiff->no_data) put_tag(file, big, 42113, 2, 2, '9');
     put(file, big, 0, 4);
     fclose(file);
@@ -128,14 +133,14 @@ static void smallest_is_white_at_every_depth(void **state)
     static const int depths[] = { 1, 2, 4, 8, 10, 12, 14, 16, 32 };
     for (size_t d = 0; d < sizeof depths / sizeof *depths; d++)
         for (int k = 0; k < 8; k++)
-            check_tiff(&(Tiff){ depths[d], 1 + k % 2, (k & 2) != 0, (k & 4) != 0, false });
+            check_tiff(&(Tiff){ depths[d], 1 + k % 2, (k & 2) != 0, (k & 4) != 0, false, NULL });
 }
 
 static void a_depth_that_is_not_read_is_named(void **state)
 {
     (void)state;
     WrError err;
-    write_tiff("24.tif", &(Tiff){ 24, 1, false, false, false });
+    write_tiff("24.tif", &(Tiff){ 24, 1, false, false, false, NULL });
     assert_null(wr_image_read("24.tif", &err));
     assert_non_null(strstr(err.text, "24 bits a channel"));
 }
@@ -159,6 +164,31 @@ static void narrow_elevations_are_numbers(void **state)
         }
         wr_image_free(image);
     }
+}
+
+/* GDAL: value = scale x number + offset. Codes that are not measured have none. */
+static void elevations_have_the_scale_of_their_header(void **state)
+{
+    (void)state;
+    const WrImageRequest wish = { .elevation = true };
+    const Tiff tiff = { .bits = 16,
+                        .channels = 1,
+                        .no_data = true,
+                        .metadata = "<GDALMetadata><Item name=\"OFFSET\" sample=\"0\" "
+                                    "role=\"offset\">-50</Item><Item name=\"SCALE\" sample=\"0\" "
+                                    "role=\"scale\">0.25</Item></GDALMetadata>" };
+    WrError err;
+    write_tiff("scaled.tif", &tiff);
+    WrImage *image = wr_image_read_wish("scaled.tif", &wish, &err);
+    if (!image) fail_msg("%s", err.text);
+    for (int k = 0; k < WIDTH * HEIGHT; k++)
+        assert_float_equal((double)image->data[k],
+                           0.25 * (double)code_of(&tiff, k % WIDTH, k / WIDTH, 0) - 50, 0);
+    wr_image_free(image);
+    image = wr_image_read("scaled.tif", &err);
+    if (!image) fail_msg("%s", err.text);
+    assert_float_equal((double)image->data[0], (double)code_of(&tiff, 0, 0, 0) / 65535, 1e-7);
+    wr_image_free(image);
 }
 
 static WrImage *read_case(const char *name, const WrImageRequest *wish)
@@ -284,6 +314,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(smallest_is_white_at_every_depth),
         cmocka_unit_test(a_depth_that_is_not_read_is_named),
+        cmocka_unit_test(elevations_have_the_scale_of_their_header),
         cmocka_unit_test(narrow_elevations_are_numbers),
         cmocka_unit_test(a_cut_progressive_jpeg_is_refused),
         cmocka_unit_test(missing_elevations_are_filled),

@@ -10,9 +10,11 @@ extern "C" {
 }
 
 #include <cerrno>
+#include <cmath>
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -52,13 +54,26 @@ int TIFFGetField(struct tiff *file, uint32_t tag, ...) __attribute__((weak));
 void TIFFClose(struct tiff *file) __attribute__((weak));
 }
 
-#define TIFF_GDAL_NODATA 42113U /* a number as text */
+#define TIFF_GDAL_METADATA 42112U /* XML */
+#define TIFF_GDAL_NODATA 42113U   /* a number as text */
 #define TIFF_MODEL_PIXEL_SCALE 33550U
 #define TIFF_MODEL_TRANSFORMATION 34264U
 
-/* GDAL's no-data value of a directory, "" if absent. Returns true if the directory is georeferenced or
+/* A number of GDAL's metadata for the first channel, "scale" or "offset", or the fallback. */
+inline double gdal_number(const std::string &metadata, const char *role, double fallback)
+{
+    const std::string begin = std::string("sample=\"0\" role=\"") + role + "\">";
+    const size_t at = metadata.find(begin);
+    if (at == std::string::npos) return fallback;
+    const char *from = metadata.c_str() + at + begin.size();
+    char *end = nullptr;
+    const double value = std::strtod(from, &end);
+    return end != from && std::isfinite(value) ? value : fallback;
+}
+
+/* GDAL's no-data value and metadata of a directory, "" if absent. Returns true if the directory is georeferenced or
    has that value: its numbers are measurements. */
-inline bool tiff_no_data(int fd, int directory, std::string &text)
+inline bool tiff_no_data(int fd, int directory, std::string &text, std::string &metadata)
 {
     if (!TIFFFdOpen || !TIFFSetDirectory || !TIFFGetField || !TIFFClose) return false;
     /* A copy shares its position with the original, which OpenImageIO reads. */
@@ -83,6 +98,8 @@ inline bool tiff_no_data(int fd, int directory, std::string &text)
             text.assign(found, strnlen(found, count));
             measured = true;
         }
+        if (TIFFGetField(file, TIFF_GDAL_METADATA, &count, &found) && found && count < 65536)
+            metadata.assign(found, strnlen(found, count));
         if (TIFFGetField(file, TIFF_MODEL_PIXEL_SCALE, &count, &numbers) ||
             TIFFGetField(file, TIFF_MODEL_TRANSFORMATION, &count, &numbers))
             measured = true;

@@ -105,12 +105,16 @@ inline bool choose_tiff(const OIIO::ImageSpec &spec, int fd, int directory, bool
                   " bits a channel, which is not read: save it with 16 or 32 bits";
         return false;
     }
-    std::string text;
-    const bool measured = tiff_no_data(fd, directory, text);
+    std::string text, metadata;
+    const bool measured = tiff_no_data(fd, directory, text, metadata);
     if (tiff_has_numbers(spec, measured, numbers)) {
         const int wide = static_cast<int>(8 * spec.format.size());
         values.divisor = 0.0;
         if (bits > 0 && bits < wide) values.shift = wide - bits; /* 12 bits are widened to 16 */
+    }
+    if (values.divisor == 0.0) {
+        values.scale = gdal_number(metadata, "scale", 1.0);
+        values.offset = gdal_number(metadata, "offset", 0.0);
     }
     values.alpha = spec.alpha_channel;
     if (spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0) {
