@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "command/session_internal.h"
+#include "document/blend.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "scene/scene.h"
@@ -12,8 +13,9 @@
 #include <string.h>
 
 #define PI 3.14159265358979323846
-#define LEAST_MB 64.0     /* smaller amounts are not reported */
-#define TILES_BYTES 0.5e6 /* of any command that creates a table, however small */
+#define LEAST_MB 64.0    /* smaller amounts are not reported */
+#define ROWS_BYTES 1.5e6 /* of any command: rows, lists, a block of tiles */
+#define TABLE 4.2        /* bytes of a texel in tiles, with what lists them */
 
 typedef struct Job {
     const WrCall *call;
@@ -68,12 +70,24 @@ static double texels(const Job *job, const Need *need)
 static double filter(const Job *job, const Need *need)
 {
     const double layers = choice(job, "layers") > 0.0 ? job->document->layer_count : 1.0;
-    return need->bytes * job->texels * layers;
+    const double further =
+        fmin(need->bytes, 2.0 * TABLE) * (layers - 1.0); /* only the results stay */
+    return (need->bytes + further) * job->texels;
 }
 
-static double all_layers(const Job *job, const Need *need)
+/* Heights that join those of the layer: by their coverage, by a blend, or within the selection. */
+static double generator(const Job *job, const Need *need)
 {
-    return need->bytes * job->texels * job->document->layer_count;
+    const bool blends = has(job, "blend") && choice(job, "blend") != WR_BLEND_REPLACE;
+    const double joining = job->document->selection ? 1.2 * TABLE : blends ? TABLE : 0.0;
+    return (need->bytes + joining) * job->texels;
+}
+
+/* OpenRaster files also hold the composite. */
+static double saving(const Job *job, const Need *need)
+{
+    const char *dot = strrchr(wr_call_arg(job->call, "FILE")->text, '.');
+    return dot && strcmp(dot, ".ora") == 0 ? need->bytes * job->texels : 0.0;
 }
 
 /* bytes: per texel of the new tables. */
@@ -110,12 +124,12 @@ static double solid(const Job *job, const Need *need)
     return need->bytes * fmin(copies * area, job->texels) + 440.0 * copies;
 }
 
-/* 140 bytes for each triangle. The size of a surface determines its subdivision. */
+/* 180 bytes for each triangle. The size of a surface determines its subdivision. */
 static double net(const Job *job, const Need *need)
 {
     const double copies = number(job, "across", 0) * number(job, "rows", 0);
     const double triangles = copies * fmin(600.0 * number(job, "size", 0), 3.3e6);
-    return 140.0 * triangles + need->bytes * job->texels;
+    return 180.0 * triangles + need->bytes * job->texels;
 }
 
 /* bytes: per texel under the brush. */
@@ -131,12 +145,12 @@ static double brush(const Job *job, const Need *need)
     return need->bytes * fmin(PI * r * r + 2.0 * r * length, job->texels);
 }
 
-/* bytes: per pixel. Under a tolerance the whole picture is in memory, else one band. */
+/* bytes: per pixel. Under a tolerance the whole picture is in memory, else one band; and the derivatives of the table. */
 static double picture(const Job *job, const Need *need)
 {
     const double bytes = need->bytes * number(job, "size", 0) * number(job, "size", 1);
     const bool whole = job->document->scene->tolerance.kind != WR_TOLERANCE_NONE;
-    return whole ? bytes : fmin(bytes, WR_PICTURE_BYTES);
+    return (whole ? bytes : fmin(bytes, WR_PICTURE_BYTES)) + 8.0 * job->texels;
 }
 
 /* 68 bytes for each pixel of the rasterised drawing at its default size. */
@@ -147,64 +161,79 @@ static double drawing(const Job *job, const Need *need)
 
 /* ---- the table ---- */
 
-#define BODY(form)                                                                                 \
+#define UNKNOWN(verb, form, why)                                                                   \
     {                                                                                              \
-        "export", form, .unknown = "it goes by the relief, and by its error="                      \
+        verb, form, .unknown = why                                                                 \
     }
-#define UNKNOWN(verb, form)                                                                        \
-    {                                                                                              \
-        verb, form, .unknown = "it goes by what is in the file"                                    \
-    }
+#define BY_RELIEF "it goes by the relief, and by its error="
+#define BY_FILE "it goes by what is in the file"
+#define BY_AREA "it goes by how much of the table it covers"
 
+/* Upper bounds; a test counts the bytes in use and fails if one is exceeded, or is far above the peak. */
 static const Need needs[] = {
-    { "pattern", NULL, texels, .bytes = 8.2 },
-    { "noise", NULL, texels, .bytes = 8.2 },
-    { "formula", NULL, texels, .bytes = 8.2 },
-    { "rim", NULL, texels, .bytes = 20 },
-    { "text", NULL, texels, .bytes = 6 },
-    { "solid", NULL, solid, .bytes = 14 },
+    { "pattern", NULL, generator, .bytes = 4.5 },
+    { "noise", NULL, generator, .bytes = 4.5 },
+    { "formula", NULL, generator, .bytes = 4.5 },
+    UNKNOWN("rim", NULL, BY_AREA),
+    UNKNOWN("text", NULL, BY_AREA),
+    { "solid", NULL, solid, .bytes = 20 },
     { "solid", "surface", net, .bytes = 1 },
-    UNKNOWN("solid", "mesh"),
-    { "terrain", "fractal", texels, .bytes = 12 },
-    { "terrain", "hydraulic", texels, .bytes = 29 },
-    { "terrain", "thermal", texels, .bytes = 25 },
-    { "terrain", "terraces", texels, .bytes = 12 },
-    UNKNOWN("terrain", "elevation"),
-    UNKNOWN("picture", "photo"),
-    UNKNOWN("picture", "normals"),
-    UNKNOWN("picture", "paste"),
-    UNKNOWN("image", NULL),
-    UNKNOWN("open", NULL),
-    { "adjust", NULL, filter, .bytes = 9 },
-    { "adjust", "slope-limit", filter, .bytes = 14 },
+    UNKNOWN("solid", "mesh", BY_FILE),
+    { "terrain", "fractal", texels, .bytes = 12.2 },
+    { "terrain", "hydraulic", texels, .bytes = 28 },
+    { "terrain", "thermal", texels, .bytes = 24.5 },
+    { "terrain", "terraces", texels, .bytes = 12.2 },
+    UNKNOWN("terrain", "elevation", BY_FILE),
+    UNKNOWN("picture", "photo", BY_FILE),
+    UNKNOWN("picture", "normals", BY_FILE),
+    UNKNOWN("picture", "paste", BY_FILE),
+    UNKNOWN("image", NULL, BY_FILE),
+    UNKNOWN("open", NULL, BY_FILE),
+    { "adjust", NULL, filter, .bytes = 4.5 },
+    { "adjust", "blur", filter, .bytes = 8.5 },
+    { "adjust", "sharpen", filter, .bytes = 8.5 },
+    { "adjust", "rotate", filter, .bytes = 8.5 },
+    { "adjust", "slope-limit", filter, .bytes = 12.6 },
     { "adjust", "resize", resizing, .bytes = 6.5 },
-    { "adjust", "crop", resizing, .bytes = 8 },
-    { "transform", NULL, texels, .bytes = 16 },
-    { "copy", NULL, texels, .bytes = 8 },
-    { "select", NULL, texels, .bytes = 4 },
-    { "select", "slope", texels, .bytes = 6 },
-    { "grid", NULL, texels, .bytes = 4 },
-    { "ramp", NULL, texels, .bytes = 4 },
-    { "flood", NULL, texels, .bytes = 4 },
-    { "shape", NULL, texels, .bytes = 4 },
-    { "dab", NULL, brush, .bytes = 5 },
-    { "stroke", NULL, brush, .bytes = 8 },
+    { "adjust", "crop", resizing, .bytes = 6.5 },
+    { "transform", NULL, filter, .bytes = 25 },
+    { "copy", .count = NULL },
+    { "select", NULL, texels, .bytes = 8.2 },
+    UNKNOWN("select", "flood", BY_AREA),
+    UNKNOWN("select", "invert", BY_AREA),
+    { "select", "all", .count = NULL },
+    { "select", "none", .count = NULL },
+    { "grid", NULL, texels, .bytes = 4.2 },
+    { "ramp", NULL, texels, .bytes = 4.6 },
+    UNKNOWN("flood", NULL, BY_AREA),
+    UNKNOWN("shape", NULL, BY_AREA),
+    { "dab", NULL, brush, .bytes = 16 },
+    { "stroke", NULL, brush, .bytes = 4 },
     { "layer", .count = NULL },
-    { "layer", "merge", all_layers, .bytes = 4 },
-    { "layer", "flatten", all_layers, .bytes = 4 },
+    { "layer", "mask", texels, .bytes = 4.5 },
+    { "layer", "merge", texels, .bytes = 4.2 },
+    { "layer", "flatten", texels, .bytes = 4.2 },
     { "table", .count = NULL },
     { "fill", .count = NULL },
-    { "save", NULL, texels, .bytes = 6 },
-    { "export", NULL, texels, .bytes = 6 },
-    { "export", "contact", texels, .bytes = 30 }, /* all maps of the cell */
-    { "export", "packed", texels, .bytes = 24 },
+    { "save", NULL, saving, .bytes = 8.4 }, /* rows at a time, as most exports */
+    { "export", .count = NULL },
+    { "export", "contact", texels, .bytes = 36 }, /* all maps of the cell */
+    { "export", "packed", texels, .bytes = 35 },
     { "export", "lines", drawing, .bytes = 4.5 },
-    { "export", "profile", drawing, .bytes = 0 },
-    BODY("stl"),
-    BODY("ply"),
-    BODY("obj"),
-    { "export", "glb", texels, .bytes = 30 }, /* three maps in memory */
-    { "maps", NULL, texels, .bytes = 24 },    /* four maps, as in most sets */
+    { "export", "curvature", texels, .bytes = 4.5 }, /* one map in memory */
+    { "export", "roughness", texels, .bytes = 4.5 },
+    { "export", "direction", texels, .bytes = 4.5 },
+    { "export", "displacement", texels, .bytes = 4.5 },
+    { "export", "mask", texels, .bytes = 4.5 },
+    { "export", "cavity", texels, .bytes = 8.8 },
+    { "export", "wear", texels, .bytes = 8.8 },
+    { "export", "occlusion", texels, .bytes = 18 },
+    UNKNOWN("export", "horizon", "it goes by the number of directions and threads"),
+    UNKNOWN("export", "stl", BY_RELIEF),
+    UNKNOWN("export", "ply", BY_RELIEF),
+    UNKNOWN("export", "obj", BY_RELIEF),
+    { "export", "glb", texels, .bytes = 36 }, /* three maps in memory */
+    { "maps", NULL, texels, .bytes = 34 },
     { "render", NULL, picture, .bytes = 17 },
     { "script", .count = NULL },
 };
@@ -242,8 +271,11 @@ void wr_session_estimate_call(const WrSession *session, const WrCall *call, WrEs
     const Need *need = find(call->command->name, call->form_name);
     if (!need) return; /* scene, view and history commands */
     out->unknown = need->unknown;
-    if (need->unknown || !need->count) return;
-    out->bytes = need->count(&job, need) + TILES_BYTES;
+    if (need->unknown) return;
+    if (need->count) out->bytes = need->count(&job, need) + ROWS_BYTES;
+    const bool whole = call->command->kind == WR_CLASS_OUTPUT && document->layer_count > 1;
+    if (whole && !session->options.composites)
+        out->bytes += 1.2 * TABLE * job.texels; /* the composite */
 }
 
 bool wr_session_estimate(const WrSession *session, const char *line, WrEstimate *out, WrError *err)
