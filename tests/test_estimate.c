@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/memory_count.h"
+#include "base/progress.h"
 #include "command/estimate.h"
 #include "command/session.h"
 #include "command/command_table.h"
@@ -273,6 +274,38 @@ static void estimates_are_told_in_a_few_words(void **state)
     }
 }
 
+/* The time left is extrapolated from the fraction done, which thus must not start again for each table. */
+static void rises(void *ctx, double fraction)
+{
+    double *last = ctx;
+    if (fraction < *last) fail_msg("%g was reported after %g", fraction, *last);
+    *last = fraction;
+}
+
+static void the_fraction_done_only_rises(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "adjust resize width=300 height=200", "adjust flip-u",
+                                         "adjust blur sigma=9 layers=all",
+                                         "transform move=17,9 layers=all", "transform turn=30" };
+    WrSession *s = table_of(256, 256);
+    must_run(s, "noise perlin");
+    must_run(s, "layer add \"second\"");
+    must_run(s, "noise value");
+    must_run(s, "layer mask 2 from=height low=0.2");
+    must_run(s, "select ellipse centre=0.5,0.5 radii=0.45,0.4");
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        double last = 0.0;
+        const WrProgress progress = { .report = rises, .ctx = &last };
+        wr_progress_set(&progress);
+        must_run(s, lines[i]);
+        wr_progress_set(NULL);
+        if (last < 0.99) fail_msg("%s: ended at %g", lines[i], last);
+        must_run(s, "undo");
+    }
+    wr_session_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -283,6 +316,7 @@ int main(void)
         cmocka_unit_test(memory_stays_within_the_estimate),
         cmocka_unit_test(large_pictures_take_the_memory_of_a_band),
         cmocka_unit_test(estimates_are_told_in_a_few_words),
+        cmocka_unit_test(the_fraction_done_only_rises),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

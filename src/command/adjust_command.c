@@ -16,16 +16,21 @@ typedef struct Adjusting {
     const WrOpInfo *op;
     WrFilter filter;
     WrOpOptions options;
+    int tables, done; /* to change, and changed: equal parts of the progress */
 } Adjusting;
 
 typedef WrField *Runner(const WrOpInfo *op, const WrField *in, const double *param,
                         const WrOpOptions *options, WrError *err);
 
-static bool run_with(Runner *run, const Adjusting *adjusting, WrField **field, WrError *err)
+static bool run_with(Runner *run, Adjusting *adjusting, WrField **field, WrError *err)
 {
     if (!*field) return true;
     WrOpOptions options = adjusting->options;
-    options.progress = wr_progress_here();
+    WrProgressPart part;
+    options.progress =
+        wr_progress_part(&part, wr_progress_here(), (double)adjusting->done / adjusting->tables,
+                         (adjusting->done + 1.0) / adjusting->tables);
+    adjusting->done++;
     WrField *made = run(adjusting->op, *field, adjusting->filter.param, &options, err);
     if (!made) return false;
     wr_field_free(*field);
@@ -33,19 +38,26 @@ static bool run_with(Runner *run, const Adjusting *adjusting, WrField **field, W
     return true;
 }
 
-static bool run_on(const Adjusting *adjusting, WrField **field, WrError *err)
+static bool run_on(Adjusting *adjusting, WrField **field, WrError *err)
 {
     return run_with(wr_op_run, adjusting, field, err);
 }
 
 /* Apply the filter to coverage, a mask or a selection; the result is clamped to 0..1 even if the filter
    overshoots. */
-static bool run_on_part(const Adjusting *adjusting, WrField **field, WrError *err)
+static bool run_on_part(Adjusting *adjusting, WrField **field, WrError *err)
 {
     return run_with(wr_op_run_unit, adjusting, field, err);
 }
 
-static bool run_on_layer(const Adjusting *adjusting, WrLayer *layer, WrError *err)
+/* Number of tables that run_on_layer changes. */
+static int tables_of(const WrOpInfo *op, const WrLayer *layer)
+{
+    const bool parts = op->moves || op->reshapes;
+    return (!layer->filter.op || op->reshapes) + (parts && layer->cover) + (parts && layer->mask);
+}
+
+static bool run_on_layer(Adjusting *adjusting, WrLayer *layer, WrError *err)
 {
     const WrOpInfo *op = adjusting->op;
     const bool holds = !layer->filter.op || op->reshapes; /* a filter has no heights to change */
@@ -54,18 +66,16 @@ static bool run_on_layer(const Adjusting *adjusting, WrLayer *layer, WrError *er
                                             run_on_part(adjusting, &layer->mask, err));
 }
 
-static bool run_on_all(WrSession *session, const Adjusting *adjusting, WrError *err)
+static bool run_on_all(WrSession *session, Adjusting *adjusting, WrError *err)
 {
     WrDocument *document = session->state.document;
+    adjusting->tables = adjusting->op->reshapes && document->selection;
+    for (int i = 0; i < document->layer_count; i++)
+        adjusting->tables += tables_of(adjusting->op, &document->layers[i]);
     for (int i = 0; i < document->layer_count; i++) {
         /* all tables have one size, so a lock cannot keep one from being reshaped */
         if (!adjusting->op->reshapes && !wr_session_check_unlocked(session, i, err)) return false;
-        WrProgressPart part;
-        double count = document->layer_count;
-        const WrProgress *whole = wr_progress_enter(&part, i / count, (i + 1) / count);
-        bool good = run_on_layer(adjusting, &document->layers[i], err);
-        wr_progress_set(whole);
-        if (!good) return false;
+        if (!run_on_layer(adjusting, &document->layers[i], err)) return false;
     }
     return !adjusting->op->reshapes || run_on_part(adjusting, &document->selection, err);
 }
@@ -80,6 +90,7 @@ static bool run_adjust(WrSession *session, WrCall *call, WrError *err)
     if (op->reshapes || wr_call_choice(call, "layers") == 1)
         return run_on_all(session, &adjusting, err);
     WrLayer *layer = wr_session_layer(session, err);
+    if (layer) adjusting.tables = tables_of(op, layer);
     return layer && run_on_layer(&adjusting, layer, err);
 }
 

@@ -23,6 +23,7 @@ typedef struct Moving {
     WrBlend blend;
     bool leave;
     WrGenerateJob job;
+    int tables, done; /* to move, and moved: equal parts of the progress */
 } Moving;
 
 /* Blend modes that depend only on the two heights. */
@@ -121,7 +122,12 @@ static bool place(Moving *m, const WrField *what, WrRelief *out, WrError *err)
 {
     m->placing.heights = what;
     m->placing.weight = m->selection;
-    return wr_place(&m->placing, &m->job, out, err);
+    WrGenerateJob job = m->job;
+    WrProgressPart part;
+    job.progress = wr_progress_part(&part, m->job.progress, (double)m->done / m->tables,
+                                    (m->done + 1.0) / m->tables);
+    m->done++;
+    return wr_place(&m->placing, &job, out, err);
 }
 
 /* Clear the source area, weighted by the selection. */
@@ -145,6 +151,13 @@ static bool move_mask(Moving *m, WrLayer *layer, WrError *err)
     wr_field_free(white);
     wr_relief_fini(&piece);
     return true;
+}
+
+/* Number of tables that move_layer moves. */
+static int tables_of(const Moving *m, const WrLayer *layer)
+{
+    const bool holds = !layer->filter.op;
+    return holds + (holds && layer->cover) + (layer->mask && !m->selection && !m->leave);
 }
 
 static bool move_layer(Moving *m, WrLayer *layer, WrError *err)
@@ -233,6 +246,10 @@ bool wr_call_transform(const WrCall *call, WrDocument *document, WrLayer *active
     /* the layers' tables are replaced meanwhile */
     WrField *like = wr_field_share(document->layers[0].heights);
     bool good = set_up(&moving, call, document, pool, like, progress, err);
+    moving.tables = moving.selection != NULL;
+    for (int i = 0; i < document->layer_count; i++)
+        if (!active || i == document->active)
+            moving.tables += tables_of(&moving, active ? active : &document->layers[i]);
     for (int i = 0; good && i < document->layer_count; i++)
         if (!active || i == document->active)
             good = move_layer(&moving, active ? active : &document->layers[i], err);
