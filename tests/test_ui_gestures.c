@@ -12,14 +12,19 @@
 #include "ui/canvas/view.h"
 #include "ui/state/action.h"
 #include "ui/state/input_router.h"
+#include "ui/state/dialog.h"
 #include "ui/state/layout.h"
+#include "ui/state/messages.h"
 #include "ui/state/roster.h"
 #include "ui/state/session_view.h"
 #include "ui/state/settings.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_cube.h"
 #include "ui/patch/patch_paint.h"
+#include "ui/jobs/edit_preview.h"
+#include "ui/toolkit/focus.h"
 #include "ui/tools/stroke_input.h"
+#include "ui/tools/tool.h"
 #include "ui/tools/tool_transform.h"
 
 #include <math.h>
@@ -249,6 +254,395 @@ static void a_photo_is_seen_from_its_front(void **state)
     }
 }
 
+/* ---- interrupted drags ---- */
+
+static int complaints;
+
+static void complain(const char *where, const char *what, const char *detail)
+{
+    complaints++;
+    printf("%s: %s: %s\n", where, what, detail);
+}
+
+static void push_key(const WrApp *app, SDL_Keycode sym, SDL_Keymod mod)
+{
+    SDL_KeyboardEvent event = {
+        .windowID = SDL_GetWindowID(app->window),
+        .keysym = { .scancode = SDL_GetScancodeFromKey(sym), .sym = sym, .mod = mod }
+    };
+    SDL_SetModState(mod);
+    event.type = SDL_KEYDOWN;
+    SDL_PushEvent(&(SDL_Event){ .key = event });
+    event.type = SDL_KEYUP;
+    SDL_PushEvent(&(SDL_Event){ .key = event });
+    SDL_SetModState(KMOD_NONE);
+}
+
+static void push_wheel(const WrApp *app, int steps)
+{
+    SDL_PushEvent(&(SDL_Event){ .wheel = { .type = SDL_MOUSEWHEEL,
+                                           .windowID = SDL_GetWindowID(app->window),
+                                           .y = steps,
+                                           .preciseY = (float)steps } });
+}
+
+static void push_window(const WrApp *app, SDL_WindowEventID id, int a, int b)
+{
+    SDL_PushEvent(&(SDL_Event){ .window = { .type = SDL_WINDOWEVENT,
+                                            .windowID = SDL_GetWindowID(app->window),
+                                            .event = (Uint8)id,
+                                            .data1 = a,
+                                            .data2 = b } });
+}
+
+typedef enum Break {
+    BREAK_NONE,
+    BREAK_WHEEL,
+    BREAK_RESIZE,
+    BREAK_FOCUS_LOST,
+    BREAK_LEAVE,
+    BREAK_HIDDEN,
+    BREAK_RIGHT,
+    BREAK_MIDDLE,
+    BREAK_LEFT_AGAIN,
+    BREAK_KEYS /* the first key */
+} Break;
+
+static const struct {
+    const char *name;
+    SDL_Keycode sym;
+    SDL_Keymod mod;
+} keys[] = {
+    { "Escape", SDLK_ESCAPE, KMOD_NONE },
+    { "Ctrl+Z", SDLK_z, KMOD_LCTRL },
+    { "Ctrl+Shift+Z", SDLK_z, KMOD_LCTRL | KMOD_LSHIFT },
+    { "Return", SDLK_RETURN, KMOD_NONE },
+    { "Delete", SDLK_DELETE, KMOD_NONE },
+    { "Tab", SDLK_TAB, KMOD_NONE },
+    { "Space", SDLK_SPACE, KMOD_NONE },
+    { "F3", SDLK_F3, KMOD_NONE },
+    { "F4", SDLK_F4, KMOD_NONE },
+    { "B", SDLK_b, KMOD_NONE },
+    { "Ctrl+T", SDLK_t, KMOD_LCTRL },
+    { "Ctrl+A", SDLK_a, KMOD_LCTRL },
+    { "Ctrl+J", SDLK_j, KMOD_LCTRL },
+    { "Ctrl+X", SDLK_x, KMOD_LCTRL },
+    { "Ctrl+V", SDLK_v, KMOD_LCTRL },
+    { "Ctrl+N", SDLK_n, KMOD_LCTRL },
+    { "Ctrl+M", SDLK_m, KMOD_LCTRL },
+    { "]", SDLK_RIGHTBRACKET, KMOD_NONE },
+    { "X", SDLK_x, KMOD_NONE },
+    { "F1", SDLK_F1, KMOD_NONE },
+    { "Ctrl+Shift+N", SDLK_n, KMOD_LCTRL | KMOD_LSHIFT },
+    { "Page down", SDLK_PAGEDOWN, KMOD_NONE },
+};
+enum { BREAKS = BREAK_KEYS + sizeof keys / sizeof *keys };
+
+static const char *break_name(int which)
+{
+    static const char *const names[] = { "nothing", "wheel", "resize", "focus lost", "pointer out",
+                                         "hidden",  "right", "middle", "left again" };
+    return which < BREAK_KEYS ? names[which] : keys[which - BREAK_KEYS].name;
+}
+
+static void interrupt(WrApp *app, int which, int x, int y)
+{
+    switch (which) {
+    case BREAK_NONE: return;
+    case BREAK_WHEEL: push_wheel(app, 2); return;
+    case BREAK_RESIZE: SDL_SetWindowSize(app->window, 700, 620); return;
+    case BREAK_FOCUS_LOST: push_window(app, SDL_WINDOWEVENT_FOCUS_LOST, 0, 0); return;
+    case BREAK_LEAVE: push_window(app, SDL_WINDOWEVENT_LEAVE, 0, 0); return;
+    case BREAK_HIDDEN:
+        push_window(app, SDL_WINDOWEVENT_HIDDEN, 0, 0);
+        push_window(app, SDL_WINDOWEVENT_SHOWN, 0, 0);
+        return;
+    case BREAK_RIGHT:
+        push_button(app, true, SDL_BUTTON_RIGHT, x, y);
+        push_button(app, false, SDL_BUTTON_RIGHT, x, y);
+        return;
+    case BREAK_MIDDLE:
+        push_button(app, true, SDL_BUTTON_MIDDLE, x, y);
+        push_button(app, false, SDL_BUTTON_MIDDLE, x, y);
+        return;
+    case BREAK_LEFT_AGAIN: push_button(app, true, SDL_BUTTON_LEFT, x, y); return;
+    default: push_key(app, keys[which - BREAK_KEYS].sym, keys[which - BREAK_KEYS].mod);
+    }
+}
+
+static void broken_drag(Bench *bench, double x, double y, int dx, int dy, int which)
+{
+    WrApp *app = bench->app;
+    push_motion(app, (int)x, (int)y);
+    draw_again(app);
+    push_button(app, true, SDL_BUTTON_LEFT, (int)x, (int)y);
+    draw_again(app);
+    for (int i = 1; i <= 6; i++) {
+        push_motion(app, (int)x + dx * i / 6, (int)y + dy * i / 6);
+        draw_again(app);
+        if (i != 3) continue;
+        interrupt(app, which, (int)x + dx / 2, (int)y + dy / 2);
+        draw_again(app);
+    }
+    push_button(app, false, SDL_BUTTON_LEFT, (int)x + dx, (int)y + dy);
+    settle(bench);
+}
+
+static void see_errors(Bench *bench, const char *where)
+{
+    WrMessages *messages = bench->app->messages;
+    for (int i = 0; i < messages->list.count; i++)
+        if (messages->list.data[i].bad) complain(where, "error", messages->list.data[i].text);
+    wr_messages_free(messages);
+    *messages = (WrMessages){ 0 };
+}
+
+/* The document before a drag. Its view is not a part of the history. */
+typedef struct Base {
+    int position;
+    int layers;
+    WrField *heights; /* owned */
+} Base;
+
+static Base base_of(const Bench *bench)
+{
+    return (Base){ .position = wr_session_history_position(bench->session),
+                   .layers = document_of(bench)->layer_count,
+                   .heights = wr_field_share(wr_document_field(document_of(bench))) };
+}
+
+static bool is_base(const Bench *bench, const Base *base)
+{
+    const WrDocument *document = document_of(bench);
+    const WrField *now = wr_document_field(document);
+    bool same = document->layer_count == base->layers && !document->selection &&
+                wr_field_width(now) == 64 && wr_field_height(now) == 64;
+    for (int i = 0; same && i < 64 * 64; i++)
+        same = wr_field_get(now, i % 64, i / 64) == wr_field_get(base->heights, i % 64, i / 64);
+    return same;
+}
+
+static void rebuild(Bench *bench, Base *base)
+{
+    static const char *const lines[] = { "table 64x64", "surface torus",
+                                         "noise value cells=5 amplitude=0.5", "layer add",
+                                         "dab 0.5,0.5 radius=12" };
+    wr_field_free(base->heights);
+    wr_session_reset(bench->session);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) run(bench, lines[i]);
+    wr_app_changed_document(bench->app);
+    settle(bench);
+    *base = base_of(bench);
+}
+
+/* What holds after any drag: no error, nothing held, and undo leads back to the same document. */
+static void see_state(Bench *bench, const char *where, Base *base, bool cancelled)
+{
+    const int before = base->position;
+    WrApp *app = bench->app;
+    WrError err = { "" };
+    char text[120];
+    see_errors(bench, where);
+    if (app->hand->grab != WR_GRAB_NONE) complain(where, "held", "after the release");
+    for (int i = 0; i < 3 && app->dialog->now != WR_DIALOG_NONE; i++) wr_dialog_close(app);
+    wr_tool_choose(app, 0);
+    wr_app_try_end(app);
+    settle(bench);
+    wr_app_settle(app);
+    const int now = wr_session_history_position(bench->session);
+    snprintf(text, sizeof text, "%d steps, the last is %.80s", now - before,
+             wr_session_last_command(bench->session));
+    if (cancelled && now != before) complain(where, "Escape left a change", text);
+    if (now > before + 3) complain(where, "many steps", text);
+    if (now != before && !wr_session_go(bench->session, before, &err))
+        complain(where, "no way back", err.text);
+    settle(bench);
+    if (!is_base(bench, base)) {
+        complain(where, "another document", text);
+        rebuild(bench, base);
+    }
+    see_errors(bench, where);
+}
+
+static void restore_window(Bench *bench)
+{
+    WrApp *app = bench->app;
+    SDL_SetWindowSize(app->window, 900, 700);
+    app->settings->panels = true;
+    wr_action_run(app, "view_both");
+    wr_action_run(app, "fit");
+    app->paint->on = false;
+    push_motion(app, 2, 2);
+    settle(bench);
+}
+
+/* All pairs with WR_FULL, else each fifth; Escape and undo always. */
+static bool is_tried(int a, int b)
+{
+    return (a + b) % 5 == 0 || b == BREAK_KEYS || b == BREAK_KEYS + 1 || getenv("WR_FULL");
+}
+
+static void every_tool_survives_every_interruption(void **state)
+{
+    (void)state;
+    Bench bench;
+    int tries = 0;
+    complaints = 0;
+    begin(&bench);
+    WrApp *app = bench.app;
+    app->settings->turning = false;
+    Base base = { .heights = NULL };
+    rebuild(&bench, &base);
+    for (int tool = 0; tool < app->roster->tool_count; tool++)
+        for (int which = 0; which < BREAKS; which++) {
+            char where[120];
+            double x0, y0, x1, y1;
+            if (!is_tried(tool, which)) continue;
+            snprintf(where, sizeof where, "%s, %s", app->roster->tools[tool]->action,
+                     break_name(which));
+            restore_window(&bench);
+            wr_tool_choose(app, tool);
+            settle(&bench);
+            wr_view_to_pixel(app->view, 16, 40, &x0, &y0);
+            wr_view_to_pixel(app->view, 40, 24, &x1, &y1);
+            broken_drag(&bench, x0, y0, (int)(x1 - x0), (int)(y1 - y0), which);
+            /* a tool without a drag acts at the press */
+            const bool drags = app->roster->tools[tool]->drag != NULL;
+            see_state(&bench, where, &base, drags && which == BREAK_KEYS);
+            tries++;
+        }
+    printf("%d drags\n", tries);
+    wr_field_free(base.heights);
+    finish(&bench);
+    assert_int_equal(complaints, 0);
+}
+
+/* Places of the window where drags begin; false: it is not there. */
+typedef bool Place(Bench *bench, double *x, double *y);
+
+static bool middle_of(const SDL_Rect *r, double *x, double *y)
+{
+    *x = r->x + r->w / 2.0;
+    *y = r->y + r->h / 2.0;
+    return r->w > 0 && r->h > 0;
+}
+
+static bool on_patch(Bench *bench, double *x, double *y)
+{
+    return middle_of(&bench->app->layout->patch, x, y);
+}
+
+static bool on_painted_patch(Bench *bench, double *x, double *y)
+{
+    bench->app->paint->on = true;
+    settle(bench);
+    return middle_of(&bench->app->layout->patch, x, y);
+}
+
+static bool on_lamp(Bench *bench, double *x, double *y)
+{
+    WrPointer lamp;
+    if (!find_lamp(bench->app, &lamp)) return false;
+    *x = lamp.x + 4;
+    *y = lamp.y + 4;
+    return true;
+}
+
+static bool on_divider(Bench *bench, double *x, double *y)
+{
+    return middle_of(&bench->app->layout->divider, x, y);
+}
+
+static bool on_panel_divider(Bench *bench, double *x, double *y)
+{
+    return middle_of(&bench->app->layout->panel_divider, x, y);
+}
+
+/* The first widget of that kind in the panels at the right. */
+static bool on_widget(Bench *bench, WrKeyStopKind kind, double *x, double *y)
+{
+    int count;
+    const WrKeyStop *stops = wr_gui_stops(bench->app->gui, &count);
+    const int left = bench->app->layout->panel.x;
+    for (int i = 0; i < count; i++) {
+        if (stops[i].kind != kind || stops[i].x0 < left) continue;
+        *x = 0.5 * (double)(stops[i].x0 + stops[i].x1);
+        *y = 0.5 * (double)(stops[i].y0 + stops[i].y1);
+        return true;
+    }
+    return false;
+}
+
+static bool on_number(Bench *bench, double *x, double *y)
+{
+    wr_tab_show(bench->app, "Scene");
+    settle(bench);
+    return on_widget(bench, WR_STOP_NUMBER, x, y);
+}
+
+static bool on_layer(Bench *bench, double *x, double *y)
+{
+    if (!on_widget(bench, WR_STOP_ROW, x, y)) return false;
+    *x += 30;
+    return true;
+}
+
+static bool on_menu(Bench *bench, double *x, double *y)
+{
+    (void)bench;
+    *x = 20;
+    *y = 10;
+    return true;
+}
+
+static const struct {
+    const char *name;
+    Place *find;
+} places[] = { { "patch", on_patch },
+               { "painted patch", on_painted_patch },
+               { "lamp", on_lamp },
+               { "divider", on_divider },
+               { "panels", on_panel_divider },
+               { "number", on_number },
+               { "layer", on_layer },
+               { "menu", on_menu } };
+
+static void every_place_survives_every_interruption(void **state)
+{
+    (void)state;
+    Bench bench;
+    int tries = 0;
+    complaints = 0;
+    begin(&bench);
+    WrApp *app = bench.app;
+    app->settings->turning = false;
+    Base base = { .heights = NULL };
+    rebuild(&bench, &base);
+    for (int place = 0; place < (int)(sizeof places / sizeof *places); place++)
+        for (int which = 0; which < BREAKS; which++) {
+            char where[120];
+            double x, y;
+            if (!is_tried(place, which)) continue;
+            snprintf(where, sizeof where, "%s, %s", places[place].name, break_name(which));
+            restore_window(&bench);
+            wr_tool_choose(app, 0);
+            settle(&bench);
+            if (!places[place].find(&bench, &x, &y)) {
+                if (which == 0) complain(where, "no such place", "");
+                continue;
+            }
+            broken_drag(&bench, x, y, 12, 30, which);
+            push_key(app, SDLK_ESCAPE, KMOD_NONE); /* an opened menu */
+            settle(&bench);
+            see_state(&bench, where, &base, false);
+            tries++;
+        }
+    printf("%d drags\n", tries);
+    wr_field_free(base.heights);
+    finish(&bench);
+    assert_int_equal(complaints, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -257,6 +651,8 @@ int main(void)
         cmocka_unit_test(what_is_copied_comes_back_in_its_place),
         cmocka_unit_test(a_stroke_on_a_mask_hides_in_full),
         cmocka_unit_test(a_hovering_stamp_leaves_the_greys_alone),
+        cmocka_unit_test(every_tool_survives_every_interruption),
+        cmocka_unit_test(every_place_survives_every_interruption),
         cmocka_unit_test(a_photo_is_seen_from_its_front),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);

@@ -42,11 +42,6 @@ static void undo(WrApp *app)
     wr_app_run_line(app, "undo");
 }
 
-static void redo(WrApp *app)
-{
-    wr_app_run_line(app, "redo");
-}
-
 static bool can_undo(const WrApp *app)
 {
     return wr_strokes_under_way(app) ||
@@ -56,6 +51,13 @@ static bool can_undo(const WrApp *app)
 static bool can_redo(const WrApp *app)
 {
     return wr_session_history_position(app->session) < wr_session_history_count(app->session);
+}
+
+/* A drag that this ends may have made a step: then there is nothing to redo. */
+static void redo(WrApp *app)
+{
+    wr_app_settle(app);
+    if (can_redo(app)) wr_app_run_line(app, "redo");
 }
 
 static bool has_history(const WrApp *app)

@@ -174,10 +174,12 @@ static bool save_bytes(const char *path, const char *bytes, size_t length, WrErr
     return wr_file_commit(&target, err);
 }
 
-/* Write the system clipboard's content to a file: a picture of another program, or use the path it contains. */
-static bool find_picture(WrText *path, WrError *err)
+/* Write the system clipboard's content to a file: a picture of another program, or use the path it contains. *none: it
+   holds nothing that can be pasted. */
+static bool find_picture(WrText *path, bool *none, WrError *err)
 {
     char *bytes = NULL, *text;
+    *none = false;
     const char *ending;
     size_t length;
     if (wr_clip_picture(&bytes, &length, &ending)) {
@@ -190,6 +192,7 @@ static bool find_picture(WrText *path, WrError *err)
     bool is_path = text && text[0] == '/' && !strchr(text, '\n') && wr_path_is_file(text);
     if (is_path) wr_text_add(path, text);
     SDL_free(text);
+    *none = !is_path;
     return is_path || wr_fail(err, "the clipboard holds neither heights nor a picture");
 }
 
@@ -252,9 +255,10 @@ void wr_act_paste(WrApp *app)
     WrText path = { 0 };
     WrError err;
     const WrDocument *document = wr_app_document(app);
-    bool good = find_picture(&path, &err);
+    bool none, good = find_picture(&path, &none, &err);
     if (good && document->layers[document->active].on_mask) paste_on_mask(app, wr_text_get(&path));
     else good = good && paste_layer(app, wr_text_get(&path), &err);
-    if (!good) wr_app_fail(app, &err);
+    if (none) wr_app_say_why(app, &err);
+    else if (!good) wr_app_fail(app, &err);
     wr_text_fini(&path);
 }

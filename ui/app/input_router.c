@@ -450,6 +450,8 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
     if (wr_dynamics_take_key(app, event)) return;
     if (blocked(app) || wr_gui_popup_open_now(app->gui)) return;
     if (wr_gui_wants_text(app->gui) && !leaves_text(app, event)) return;
+    /* A dragged widget runs its command at the release: an undo before it would cost the steps that redo has. */
+    if (wr_gui_holds_mouse(app->gui)) return;
     int mods = wr_key_mods((SDL_Keymod)event->keysym.mod);
     if (event->keysym.sym == SDLK_SPACE &&
         (mods == 0 || (mods == WR_MOD_SHIFT && app->hand->on_canvas))) {
