@@ -1,4 +1,5 @@
-/* Gestures in a window without a display: effect of drags and actions on the document. */
+/* Gestures in a window without a display: effect of drags and actions on the document; drags of every tool and place that are
+   interrupted by keys, buttons, the wheel and the window system. */
 #include "test.h"
 
 #include "test_app.h"
@@ -643,6 +644,168 @@ static void every_place_survives_every_interruption(void **state)
     assert_int_equal(complaints, 0);
 }
 
+/* ---- gestures with known results ---- */
+
+/* A stroke of each mode is one step; undo and redo lead to the same heights. */
+static void every_brush_mode_is_undone_and_redone(void **state)
+{
+    (void)state;
+    Bench bench;
+    Base base = { .heights = NULL };
+    begin(&bench);
+    complaints = 0;
+    rebuild(&bench, &base);
+    for (int mode = 0; mode < WR_BRUSH_MODE_COUNT; mode++) {
+        double x, y;
+        bench.app->settings->brush.mode = (WrBrushMode)mode;
+        bench.app->settings->brush.radius = 6;
+        wr_view_to_pixel(bench.app->view, 20, 20, &x, &y);
+        drag(&bench, x, y, 40, 30);
+        see_errors(&bench, wr_brush_modes[mode].name);
+        assert_int_equal(wr_session_history_position(bench.session), base.position + 1);
+        WrField *after = wr_field_share(wr_document_field(document_of(&bench)));
+        wr_action_run(bench.app, "undo");
+        settle(&bench);
+        assert_true(is_base(&bench, &base));
+        wr_action_run(bench.app, "redo");
+        settle(&bench);
+        const WrField *now = wr_document_field(document_of(&bench));
+        for (int i = 0; i < 64 * 64; i++)
+            assert_true(wr_field_get(now, i % 64, i / 64) == wr_field_get(after, i % 64, i / 64));
+        wr_field_free(after);
+        wr_action_run(bench.app, "undo");
+        settle(&bench);
+    }
+    wr_field_free(base.heights);
+    finish(&bench);
+    assert_int_equal(complaints, 0);
+}
+
+/* In the column beside the cell, half a cell lower, the texel seen at row 40 is that of row 8. */
+static void a_stroke_on_a_half_dropped_copy_changes_the_texel_shown_there(void **state)
+{
+    (void)state;
+    Bench bench;
+    double x, y;
+    begin(&bench);
+    WrApp *app = bench.app;
+    wr_action_run(app, "tiling_half_drop");
+    wr_action_run(app, "fit");
+    settle(&bench);
+    wr_view_zoom_at(app->view, app->view->x + app->view->w / 2.0, app->view->y + app->view->h / 2.0,
+                    app->view->zoom / 3.0);
+    settle(&bench);
+    app->settings->brush.radius = 3;
+    app->settings->brush.hardness = 1;
+    wr_view_place(app->view, 64 + 16.5, 40.5, &x, &y);
+    drag(&bench, x, y, 0, 0);
+    const WrField *field = wr_document_field(document_of(&bench));
+    assert_true(wr_field_get(field, 16, 8) > 0.0f);
+    assert_true(wr_field_get(field, 16, 40) == 0.0f);
+    finish(&bench);
+}
+
+static void one_of_two_lamps_is_dragged(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrPointer lamp;
+    begin(&bench);
+    bench.app->settings->turning = false;
+    run(&bench, "light directional to=-0.5,0.6,0.75 index=1");
+    run(&bench, "light directional to=0.6,-0.5,0.75");
+    settle(&bench);
+    assert_int_equal(document_of(&bench)->scene->light_count, 2);
+    WrLight was[2] = { document_of(&bench)->scene->lights[0],
+                       document_of(&bench)->scene->lights[1] };
+    assert_true(find_lamp(bench.app, &lamp));
+    drag(&bench, lamp.x + 4, lamp.y + 4, 30, 20);
+    int moved = 0;
+    for (int i = 0; i < 2; i++)
+        moved += document_of(&bench)->scene->lights[i].where.x != was[i].where.x;
+    assert_int_equal(moved, 1);
+    finish(&bench);
+}
+
+static void escape_gives_a_dragged_number_back(void **state)
+{
+    (void)state;
+    Bench bench;
+    double x, y;
+    begin(&bench);
+    WrApp *app = bench.app;
+    run(&bench, "layer set 1 opacity=0.5");
+    settle(&bench);
+    const int before = wr_session_history_position(bench.session);
+    assert_true(on_number(&bench, &x, &y));
+    broken_drag(&bench, x, y, 30, 0, BREAK_KEYS);
+    assert_int_equal(wr_session_history_position(bench.session), before);
+    assert_true(document_of(&bench)->layers[0].opacity == 0.5f);
+    assert_false(app->trying);
+    broken_drag(&bench, x, y, 30, 0, BREAK_KEYS + 1); /* undo is no part of a drag */
+    assert_int_equal(wr_session_history_position(bench.session), before + 1);
+    assert_true(document_of(&bench)->layers[0].opacity != 0.5f);
+    assert_int_equal(app->hand->grab, WR_GRAB_NONE);
+    finish(&bench);
+}
+
+/* The key shows the reason as a note; nothing changes. */
+static void delete_on_a_locked_layer_says_why(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    run(&bench, "layer add");
+    run(&bench, "layer set 2 lock=on");
+    settle(&bench);
+    const int before = wr_session_history_position(bench.session);
+    push_key(bench.app, SDLK_DELETE, KMOD_NONE);
+    settle(&bench);
+    const WrMessages *messages = bench.app->messages;
+    assert_true(messages->list.count > 0);
+    const WrMessage *last = &messages->list.data[messages->list.count - 1];
+    assert_false(last->bad);
+    assert_non_null(strstr(last->text, "is locked"));
+    assert_int_equal(wr_session_history_position(bench.session), before);
+    finish(&bench);
+}
+
+static void a_rectangle_selects_its_texels(void **state)
+{
+    (void)state;
+    Bench bench;
+    double x0, y0, x1, y1;
+    begin(&bench);
+    wr_action_run(bench.app, "select_rect");
+    settle(&bench);
+    wr_view_to_pixel(bench.app->view, 16, 24, &x0, &y0);
+    wr_view_to_pixel(bench.app->view, 40, 40, &x1, &y1);
+    drag(&bench, x0, y0, (int)lrint(x1 - x0), (int)lrint(y1 - y0));
+    const WrField *selection = document_of(&bench)->selection;
+    assert_non_null(selection);
+    double count = 0;
+    for (int i = 0; i < 64 * 64; i++) count += (double)wr_field_get(selection, i % 64, i / 64);
+    assert_true(fabs(count - 24 * 16) <= 40); /* an edge is off by less than a texel */
+    assert_true(wr_field_get(selection, 28, 32) == 1.0f);
+    assert_true(wr_field_get(selection, 44, 32) == 0.0f);
+    finish(&bench);
+}
+
+static void a_dragged_layer_changes_its_place(void **state)
+{
+    (void)state;
+    Bench bench;
+    double x, y;
+    begin(&bench);
+    run(&bench, "layer add upper");
+    settle(&bench);
+    assert_true(on_layer(&bench, &x, &y)); /* the upper one is the first row */
+    drag(&bench, x + 60, y, 0, 70);
+    assert_string_equal(wr_session_last_command(bench.session), "layer move 2 to=1");
+    assert_string_equal(document_of(&bench)->layers[0].name, "upper");
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -653,6 +816,13 @@ int main(void)
         cmocka_unit_test(a_hovering_stamp_leaves_the_greys_alone),
         cmocka_unit_test(every_tool_survives_every_interruption),
         cmocka_unit_test(every_place_survives_every_interruption),
+        cmocka_unit_test(every_brush_mode_is_undone_and_redone),
+        cmocka_unit_test(a_stroke_on_a_half_dropped_copy_changes_the_texel_shown_there),
+        cmocka_unit_test(one_of_two_lamps_is_dragged),
+        cmocka_unit_test(escape_gives_a_dragged_number_back),
+        cmocka_unit_test(delete_on_a_locked_layer_says_why),
+        cmocka_unit_test(a_rectangle_selects_its_texels),
+        cmocka_unit_test(a_dragged_layer_changes_its_place),
         cmocka_unit_test(a_photo_is_seen_from_its_front),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);

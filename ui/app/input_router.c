@@ -7,12 +7,14 @@
 #include "ui/state/action_list.h"
 #include "ui/state/busy.h"
 #include "ui/state/app_state.h"
+#include "ui/state/deferred_actions.h"
 #include "ui/state/dialog.h"
 #include "ui/state/input_router.h"
 #include "ui/state/keys.h"
 #include "ui/state/layout.h"
 #include "ui/state/roster.h"
 #include "ui/state/settings.h"
+#include "ui/state/session_view.h"
 #include "ui/generate/generate_state.h"
 #include "ui/toolkit/focus.h"
 #include "ui/toolkit/gui.h"
@@ -444,6 +446,14 @@ static bool leaves_text(const WrApp *app, const SDL_KeyboardEvent *event)
                       strcmp(action, WR_ACT(part_back)) == 0 || strcmp(action, WR_ACT(menus)) == 0);
 }
 
+/* After the frame in which Escape restored a dragged value: the views show the document again. */
+static void end_live(WrApp *app, const char *text)
+{
+    (void)text;
+    if (!app->generate->active) wr_app_try_end(app);
+    wr_app_live_end(app);
+}
+
 static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
 {
     if (wr_preferences_take_key(app, event) || wr_gui_took_key(app->gui)) return;
@@ -451,7 +461,10 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
     if (blocked(app) || wr_gui_popup_open_now(app->gui)) return;
     if (wr_gui_wants_text(app->gui) && !leaves_text(app, event)) return;
     /* A dragged widget runs its command at the release: an undo before it would cost the steps that redo has. */
-    if (wr_gui_holds_mouse(app->gui)) return;
+    if (wr_gui_holds_mouse(app->gui)) {
+        if (event->keysym.sym == SDLK_ESCAPE) wr_deferred(app, end_live, "");
+        return;
+    }
     int mods = wr_key_mods((SDL_Keymod)event->keysym.mod);
     if (event->keysym.sym == SDLK_SPACE &&
         (mods == 0 || (mods == WR_MOD_SHIFT && app->hand->on_canvas))) {

@@ -192,8 +192,8 @@ typedef struct WrNumber {
     const char *tip;            /* may be NULL */
 } WrNumber;
 
-/* A slider with text input: a drag moves it, a click types, a double click resets. width <= 0: the rest of the
-   row. */
+/* A slider with text input: a drag moves it, a click types, a double click resets, Escape in a drag restores the value
+   (LIVE with the old value). width <= 0: the rest of the row. */
 WrEdit wr_gui_number(const char *id, double width, const WrNumber *spec, double *value);
 bool wr_gui_choice(const char *id, double width, const char *const *items, int count, int *index);
 /* Alternatives as buttons in a row; colours[i] (may be NULL) is shown while i is chosen. */

@@ -113,6 +113,7 @@ struct WrGui {
     ImGuiID typing, armed, dragging;
     bool typing_focus, moved;
     double armed_since, drag_value, drag_from;
+    double drag_start; /* value of the dragged field at the press */
     float drag_x;
     char typed[64];
     /* the open row in pixels of the window; the dragged row */

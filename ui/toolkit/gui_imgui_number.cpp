@@ -150,7 +150,7 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
         gui->dragging = item;
         gui->drag_x = gui->pointer.x;
         gui->drag_from = place_of(spec, *value);
-        gui->drag_value = *value;
+        gui->drag_value = gui->drag_start = *value;
         gui->moved = false;
         if (ImGui::IsMouseDoubleClicked(0)) {
             gui->armed = gui->dragging = 0;
@@ -174,6 +174,12 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
                 gui->armed_since = wr_clock_seconds();
             }
         }
+    }
+    if (gui->dragging == item && wr_gui_went_down(SDL_SCANCODE_ESCAPE)) {
+        gui->dragging = 0;
+        ImGui::ClearActiveID();
+        *value = gui->drag_start;
+        edit = gui->moved ? WR_EDIT_LIVE : WR_EDIT_NONE;
     }
     draw_field(spec, at, ImVec2(at.x + size.x, at.y + size.y), *value,
                ImGui::IsItemHovered() || gui->dragging == item);
