@@ -695,6 +695,7 @@ static void a_stroke_on_a_half_dropped_copy_changes_the_texel_shown_there(void *
     wr_view_zoom_at(app->view, app->view->x + app->view->w / 2.0, app->view->y + app->view->h / 2.0,
                     app->view->zoom / 3.0);
     settle(&bench);
+    app->settings->brush = wr_brush_default();
     app->settings->brush.radius = 3;
     app->settings->brush.hardness = 1;
     wr_view_place(app->view, 64 + 16.5, 40.5, &x, &y);
@@ -702,6 +703,7 @@ static void a_stroke_on_a_half_dropped_copy_changes_the_texel_shown_there(void *
     const WrField *field = wr_document_field(document_of(&bench));
     assert_true(wr_field_get(field, 16, 8) > 0.0f);
     assert_true(wr_field_get(field, 16, 40) == 0.0f);
+    wr_action_run(app, "tiling_straight"); /* settings are kept */
     finish(&bench);
 }
 
@@ -814,8 +816,6 @@ int main(void)
         cmocka_unit_test(what_is_copied_comes_back_in_its_place),
         cmocka_unit_test(a_stroke_on_a_mask_hides_in_full),
         cmocka_unit_test(a_hovering_stamp_leaves_the_greys_alone),
-        cmocka_unit_test(every_tool_survives_every_interruption),
-        cmocka_unit_test(every_place_survives_every_interruption),
         cmocka_unit_test(every_brush_mode_is_undone_and_redone),
         cmocka_unit_test(a_stroke_on_a_half_dropped_copy_changes_the_texel_shown_there),
         cmocka_unit_test(one_of_two_lamps_is_dragged),
@@ -824,6 +824,9 @@ int main(void)
         cmocka_unit_test(a_rectangle_selects_its_texels),
         cmocka_unit_test(a_dragged_layer_changes_its_place),
         cmocka_unit_test(a_photo_is_seen_from_its_front),
+        /* last: they leave settings of their own */
+        cmocka_unit_test(every_tool_survives_every_interruption),
+        cmocka_unit_test(every_place_survives_every_interruption),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

@@ -183,7 +183,7 @@ static void follow(WrApp *app, WrGuide *guide, const char *link, int length)
 
 /* ---- running ---- */
 
-#define PROPOSAL 74 /* units of its place below the page */
+#define PROPOSAL 85 /* units of its place below the page */
 
 const char *wr_guide_proposed(const WrApp *app)
 {
