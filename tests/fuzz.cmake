@@ -45,7 +45,7 @@ function(wr_fuzz name)
 endfunction()
 
 wr_fuzz(journal document/journal_folder.c document/journal_line.c document/recover.c base/error.c
-        base/file.c base/file_open.c base/hash.c base/memory.c base/progress.c base/file_identity.c base/text.c)
+        base/file.c base/hash.c base/memory.c base/progress.c base/text.c)
 
 set(tip_sources brush/tip.c brush/tip_gbr.c brush/tip_gih.c brush/tip_smooth.c base/error.c base/exactmath.c
     base/memory.c base/text.c)
@@ -67,7 +67,7 @@ if(NOT WR_SANITIZE)
             ROOMS command export accuracy render document generate brush scene shade surface noise image field
                   base
             LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lzip -lexpat -ldl -lpthread)
-    wr_fuzz(myb brush/engine.c brush/engine_path.c brush/preset.c brush/preset_parse.c brush/preset_print.c
+    wr_fuzz(myb brush/engine.c brush/preset.c
             brush/settings.c
             ROOMS brush image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lfreetype -ldl -lpthread)
 endif()

@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "field/field.h"
 #include "render/kernels/kern.h"
-#include "render/textures/quantized_heights.h"
+#include "render/textures/height_copies.h"
 #include "scene/scene.h"
 
 #define SIDE 72

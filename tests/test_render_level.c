@@ -3,7 +3,7 @@
 #include "field/scheme_list.h"
 #include "test_render_scenes.h"
 
-#include "render/textures/slope_bounds.h"
+#include "render/textures/slope_pyramid.h"
 #include "render/textures/height_copies.h"
 
 /* Level except for a few texels, often beside a tile's border or the table's end. */

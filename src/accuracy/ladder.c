@@ -1,13 +1,16 @@
 /* Measurement of the rungs: interleaved times, errors against the reference. */
-#include "accuracy/ladder_internal.h"
+#include "accuracy/ladder.h"
 
+#include "accuracy/ladder_internal.h"
+#include "base/enum_rows.h"
 #include "base/error.h"
-#include "field/scheme_list.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
 #include "field/field.h"
+#include "field/scheme_list.h"
 #include "image/image.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "system/clock.h"
 #include "system/thread.h"
@@ -15,6 +18,287 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- fault ---- */
+
+/* Detection of contradictory arithmetic rungs: more bits, but farther from the reference. That is never the cost
+   of an approximation but a fault of the program, and is reported as one. */
+
+/* A smaller excess of the error is attributed to chance: roundings that add to the samples' own error. */
+#define FACTOR 1.25
+#define FLOOR 1e-5 /* RMS of linear intensity */
+
+/* Rank by cost; -1: not of this axis. Of 16 bits and half precision either may be closer, depending on the
+   table's level and range. */
+static int dearness(int dial, double value)
+{
+    WR_ROWS(heights);
+    static const int heights[] = { [WR_ROW(WR_HEIGHTS_DOUBLE)] = 3,
+                                   [WR_ROW(WR_HEIGHTS_FLOAT)] = 2,
+                                   [WR_ROW(WR_HEIGHTS_HALF)] = 1,
+                                   [WR_ROW(WR_HEIGHTS_16)] = 1,
+                                   [WR_ROW(WR_HEIGHTS_8)] = 1 };
+    WR_ROWS_END(heights, WR_HEIGHTS_COUNT);
+    WR_ROWS(shadings);
+    static const int shadings[] = { [WR_ROW(WR_SHADING_DOUBLE)] = 3,
+                                    [WR_ROW(WR_SHADING_FLOAT)] = 2,
+                                    [WR_ROW(WR_SHADING_HALF)] = 1 };
+    WR_ROWS_END(shadings, WR_SHADING_COUNT);
+    WR_ROWS(arithmetics);
+    static const int arithmetics[] = { [WR_ROW(WR_ARITHMETIC_EXACT)] = 2,
+                                       [WR_ROW(WR_ARITHMETIC_FAST)] = 1 };
+    WR_ROWS_END(arithmetics, WR_ARITHMETIC_COUNT);
+    const int rung = (int)value;
+    if (dial == WR_DIAL_HEIGHTS) return heights[rung];
+    if (dial == WR_DIAL_SHADING) return shadings[rung];
+    return dial == WR_DIAL_ARITHMETIC ? arithmetics[rung] : -1;
+}
+
+/* True for a rung of one arithmetic dial that has an own_rms. */
+static bool plain(const WrRung *rung)
+{
+    return rung->axis == WR_AXIS_ARITHMETIC && rung->setting.count == 1 && !rung->model &&
+           !rung->note.text[0] && !isnan(rung->own_rms);
+}
+
+static bool farther(double rms, double than)
+{
+    return rms > FACTOR * than + FLOOR;
+}
+
+static void compare(WrRung *dear, int dial, double cheap_value, double cheap_rms)
+{
+    if (dearness(dial, dear->setting.value[0]) <= dearness(dial, cheap_value) ||
+        !farther(dear->own_rms, cheap_rms))
+        return;
+    dear->fault = true;
+    dear->fault_than = cheap_value;
+    dear->fault_rms = cheap_rms;
+}
+
+void wr_ladder_faults(WrLadder *ladder, const WrScene *scene)
+{
+    for (int i = 0; i < ladder->count; i++) {
+        WrRung *rung = &ladder->rungs[i];
+        rung->fault = false;
+        if (!plain(rung)) continue;
+        const int dial = rung->setting.dial[0];
+        if (!isnan(ladder->arithmetic_rms))
+            compare(rung, dial, wr_dials[dial].get(scene), ladder->arithmetic_rms);
+        for (int k = 0; k < ladder->count; k++) {
+            const WrRung *other = &ladder->rungs[k];
+            if (plain(other) && other->setting.dial[0] == dial)
+                compare(rung, dial, other->setting.value[0], other->own_rms);
+        }
+    }
+}
+
+/* "heights=double is farther from the reference than heights=float" */
+bool wr_ladder_fault_print(const WrRung *rung, WrText *text)
+{
+    if (!rung->fault) return false;
+    const WrDial *dial = &wr_dials[rung->setting.dial[0]];
+    wr_text_addf(text, "%s=%s is farther from the reference (%.1e) than %s=%s (%.1e)", dial->name,
+                 dial->choice((int)rung->setting.value[0]), rung->own_rms, dial->name,
+                 dial->choice((int)rung->fault_than), rung->fault_rms);
+    return true;
+}
+
+/* ---- Settings that the ladder tries ---- */
+
+typedef struct RungList {
+    const WrScene *scene;
+    WrRung *out;
+    int count, room;
+} RungList;
+
+/* Adds a setting, reduced to its differences from the scene. */
+static void add(RungList *list, WrAxis axis, const WrSetting *wanted)
+{
+    WrRung rung = { .axis = axis };
+    for (int i = 0; i < wanted->count; i++) {
+        const WrDial *dial = &wr_dials[wanted->dial[i]];
+        if (dial->get(list->scene) == wanted->value[i]) continue;
+        rung.setting.dial[rung.setting.count] = wanted->dial[i];
+        rung.setting.value[rung.setting.count++] = wanted->value[i];
+        rung.model |= wanted->dial[i] == WR_DIAL_NORMAL && wanted->value[i] == WR_BUMP_INVARIANT;
+    }
+    if (rung.setting.count == 0) return; /* the scene's own setting is already in the list */
+    if (list->count < list->room) list->out[list->count] = rung;
+    list->count++;
+}
+
+/* The values of one dial: its choices, or the numbers in its row. */
+static int rungs_of(const WrDial *dial, double *out, int room)
+{
+    int count = 0;
+    for (int i = 0; dial->choices > 0 ? i < dial->choices : dial->rungs && !isnan(dial->rungs[i]);
+         i++)
+        if (count < room) out[count++] = dial->choices > 0 ? (double)i : dial->rungs[i];
+    return count;
+}
+
+#define RUNGS_MAX 16
+
+/* Adds the dials of that axis that become relevant by that choice: each of their values, one at a time. */
+static void add_dependents(RungList *list, WrAxis axis, const WrScene *chosen, WrSetting setting)
+{
+    double rungs[RUNGS_MAX];
+    for (int d = 0; d < WR_DIAL_COUNT; d++) {
+        const WrDial *dial = &wr_dials[d];
+        if (dial->axis != axis || !dial->matters || !dial->matters(chosen)) continue;
+        setting.dial[setting.count] = d;
+        const int count = rungs_of(dial, rungs, RUNGS_MAX);
+        for (int r = 0; r < count; r++) {
+            if (rungs[r] == dial->get(list->scene)) continue;
+            WrSetting with = setting;
+            with.value[with.count++] = rungs[r];
+            add(list, axis, &with);
+        }
+    }
+}
+
+static void add_dial(RungList *list, int id)
+{
+    const WrDial *dial = &wr_dials[id];
+    double rungs[RUNGS_MAX];
+    const int count = rungs_of(dial, rungs, RUNGS_MAX);
+    const bool antialiasing = id == WR_DIAL_AA; /* the dial that others of its axis depend on */
+    if (dial->axis == WR_AXIS_ANTIALIASING && !antialiasing) return;
+    if (dial->matters && !dial->matters(list->scene)) return;
+    for (int r = 0; r < count; r++) {
+        WrSetting setting = { 1, { id }, { rungs[r] } };
+        add(list, dial->axis, &setting);
+        if (!antialiasing) continue;
+        WrScene *chosen = wr_setting_apply(&setting, list->scene);
+        add_dependents(list, dial->axis, chosen, setting);
+        wr_scene_free(chosen);
+    }
+}
+
+/* Combinations of approximations: the cheapest of all, the paper's with more samples, and the better slopes with
+   the anti-aliasing methods. */
+static const WrSetting combinations[] = {
+    { 2, { WR_DIAL_NORMAL, WR_DIAL_ARITHMETIC }, { WR_BUMP_BLINN, WR_ARITHMETIC_FAST } },
+    { 3,
+      { WR_DIAL_SCHEME, WR_DIAL_NORMAL, WR_DIAL_ARITHMETIC },
+      { WR_SCHEME_NEAREST, WR_BUMP_BLINN, WR_ARITHMETIC_FAST } },
+    { 3,
+      { WR_DIAL_AA, WR_DIAL_MOMENTS, WR_DIAL_FOOTPRINT },
+      { WR_AA_MOMENTS, WR_MOMENTS_LEAN, WR_FOOTPRINT_ANISOTROPIC } },
+    { 4,
+      { WR_DIAL_SCHEME, WR_DIAL_NORMAL, WR_DIAL_AA, WR_DIAL_SAMPLES },
+      { WR_SCHEME_CENTRAL, WR_BUMP_BLINN, WR_AA_SUPERSAMPLE, 4 } },
+    { 5,
+      { WR_DIAL_SCHEME, WR_DIAL_NORMAL, WR_DIAL_AA, WR_DIAL_SAMPLES, WR_DIAL_ARITHMETIC },
+      { WR_SCHEME_CENTRAL, WR_BUMP_BLINN, WR_AA_SUPERSAMPLE, 4, WR_ARITHMETIC_FAST } },
+    { 4,
+      { WR_DIAL_SCHEME, WR_DIAL_NORMAL, WR_DIAL_AA, WR_DIAL_SAMPLES },
+      { WR_SCHEME_CATMULL, WR_BUMP_BLINN, WR_AA_SUPERSAMPLE, 4 } },
+    { 4,
+      { WR_DIAL_SCHEME, WR_DIAL_NORMAL, WR_DIAL_AA, WR_DIAL_SAMPLES },
+      { WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, WR_AA_SUPERSAMPLE, 2 } },
+    { 4,
+      { WR_DIAL_SCHEME, WR_DIAL_NORMAL, WR_DIAL_AA, WR_DIAL_SAMPLES },
+      { WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, WR_AA_SUPERSAMPLE, 4 } },
+    { 4,
+      { WR_DIAL_SCHEME, WR_DIAL_NORMAL, WR_DIAL_AA, WR_DIAL_SAMPLES },
+      { WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, WR_AA_SUPERSAMPLE, 8 } },
+    { 5,
+      { WR_DIAL_SCHEME, WR_DIAL_NORMAL, WR_DIAL_AA, WR_DIAL_SAMPLES, WR_DIAL_CONTRAST },
+      { WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, WR_AA_ADAPTIVE, 8, 0.002 } },
+    { 4,
+      { WR_DIAL_SCHEME, WR_DIAL_NORMAL, WR_DIAL_AA, WR_DIAL_SAMPLES },
+      { WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, WR_AA_SUPERSAMPLE, 16 } },
+};
+
+int wr_ladder_settings(const WrScene *scene, WrAxis axis, WrRung *out, int room)
+{
+    RungList list = { .scene = scene, .out = out, .room = room };
+    if (room > 0)
+        out[0] = (WrRung){ .axis = WR_AXIS_COUNT,
+                           .current = true,
+                           .model = scene->bump == WR_BUMP_INVARIANT };
+    list.count = 1;
+    for (int d = 0; d < WR_DIAL_COUNT; d++)
+        if (axis == WR_AXIS_COUNT || wr_dials[d].axis == axis) add_dial(&list, d);
+    for (size_t i = 0; axis == WR_AXIS_COUNT && i < sizeof combinations / sizeof *combinations; i++)
+        add(&list, WR_AXIS_COUNT, &combinations[i]);
+    return list.count;
+}
+
+WrScene *wr_ladder_best_but(const WrScene *scene, WrAxis axis)
+{
+    WrScene *best = wr_scene_clone(scene);
+    if (axis != WR_AXIS_DERIVATIVE) best->scheme = WR_SCHEME_BSPLINE_FIT;
+    if (axis != WR_AXIS_NORMAL && best->bump != WR_BUMP_INVARIANT) best->bump = WR_BUMP_EXACT;
+    wr_scene_set_all_slopes(best, axis != WR_AXIS_DERIVATIVE, axis != WR_AXIS_NORMAL);
+    if (axis != WR_AXIS_ANTIALIASING) {
+        best->dials.aa = WR_AA_SUPERSAMPLE;
+        best->dials.samples = 16;
+        best->dials.spread = WR_SPREAD_REGULAR;
+    }
+    if (axis != WR_AXIS_VISIBILITY) {
+        const WrDials dials = wr_dials_default();
+        best->dials.mesh = dials.mesh;
+        best->dials.newton = dials.newton;
+        best->dials.texels = dials.texels;
+    }
+    if (axis != WR_AXIS_LIGHT) {
+        best->dials.harmonics = 2;
+        best->dials.gloss = 64;
+    }
+    if (axis != WR_AXIS_ARITHMETIC) {
+        best->dials.heights = WR_HEIGHTS_FLOAT;
+        best->dials.shading = WR_SHADING_FLOAT;
+        best->dials.arithmetic = WR_ARITHMETIC_EXACT;
+    }
+    return best;
+}
+
+/* ---- Dial settings: differences from a scene, applied to a scene or printed as text ---- */
+
+WrScene *wr_setting_apply(const WrSetting *setting, const WrScene *scene)
+{
+    WrScene *out = wr_scene_clone(scene);
+    bool scheme = false, normals = false;
+    for (int i = 0; i < setting->count; i++) {
+        wr_dials[setting->dial[i]].set(out, setting->value[i]);
+        scheme |= setting->dial[i] == WR_DIAL_SCHEME;
+        normals |= setting->dial[i] == WR_DIAL_NORMAL;
+    }
+    if (scheme || normals) wr_scene_set_all_slopes(out, scheme, normals);
+    return out;
+}
+
+static void print_dial(const WrDial *dial, double value, WrText *text)
+{
+    wr_text_addf(text, "%s%s=", text->length > 0 ? " " : "", dial->name);
+    if (dial->choices > 0) wr_text_add(text, dial->choice((int)value));
+    else wr_text_add_number(text, value);
+}
+
+/* The scene's own setting, only the relevant dials: "scheme=central mode=blinn aa=supersample samples=4". */
+static void setting_present(const WrScene *scene, WrText *text)
+{
+    WrScene *usual = wr_scene_new();
+    for (int d = 0; d < WR_DIAL_COUNT; d++) {
+        const WrDial *dial = &wr_dials[d];
+        const double value = dial->get(scene);
+        const bool told = dial->axis < WR_AXIS_VISIBILITY || value != dial->get(usual);
+        if (told && (!dial->matters || dial->matters(scene))) print_dial(dial, value, text);
+    }
+    wr_scene_free(usual);
+}
+
+void wr_setting_print(const WrSetting *setting, WrText *text)
+{
+    WrText words = { 0 };
+    for (int i = 0; i < setting->count; i++)
+        print_dial(&wr_dials[setting->dial[i]], setting->value[i], &words);
+    wr_text_add(text, setting->count > 0 ? wr_text_get(&words) : "as it stands");
+    wr_text_fini(&words);
+}
 
 #define RUNS_LEAST 3
 #define RUNS_MAX 64
@@ -284,7 +568,7 @@ static void name_whole(const WrScene *scene, WrRung *rung)
 {
     WrText text = { 0 };
     WrScene *with = wr_setting_apply(&rung->setting, scene);
-    wr_setting_present(with, &text);
+    setting_present(with, &text);
     snprintf(rung->full, sizeof rung->full, "%s", wr_text_get(&text));
     wr_scene_free(with);
     wr_text_fini(&text);

@@ -26,8 +26,6 @@ typedef struct WrSetting {
 
 /* The scene with that setting, applied to all of its objects; the caller frees it. */
 WrScene *wr_setting_apply(const WrSetting *setting, const WrScene *scene);
-/* The scene's own setting, only the relevant dials: "scheme=central mode=blinn aa=supersample samples=4". */
-void wr_setting_present(const WrScene *scene, WrText *text);
 /* "scheme=bspline aa=supersample samples=4"; "as it stands" for an empty setting. */
 void wr_setting_print(const WrSetting *setting, WrText *text);
 

@@ -9,7 +9,7 @@
    if their errors exceed the estimates, all blocks of their kind climb.
 
    So no error is measured directly: a setting's error is estimated from the change to the next finer one, the
-   finest from the change before it. Cost is counted work (tolerance_price.c), never time: the same table, scene,
+   finest from the change before it. Cost is counted work (tolerance.c), never time: the same table, scene,
    size and tolerance give the same dials, on any machine and any number of threads. Only `time=` needs the speed
    of the machine, which is measured once and stored.
 
@@ -31,10 +31,10 @@
    Known doubts, each added to the estimate because a picture broke its bound without it:
    - an outline, crease, end of the relief or pole that ends in a corner or along a side of a block, where none of
      the block's samples meets it: the change of the neighbour's nearest pixels counts (tolerance_estimate.c,
-     tolerance_survey.c);
-   - outlines and creases parallel to the pixels' rows or columns, also between two blocks (tolerance_blocks.c);
+     tolerance_estimate.c);
+   - outlines and creases parallel to the pixels' rows or columns, also between two blocks (tolerance_estimate.c);
    - the greatest error of a pixel is estimated less surely than the rms: for max= estimates stay below 0.75 of the
-     tolerance, for the rms below 0.93 (MARGIN_MAX, MARGIN_RMS in tolerance_pick.c).
+     tolerance, for the rms below 0.93 (MARGIN_MAX, MARGIN_RMS in tolerance.c).
    Details smaller than a pixel in the middle of a block that neither 1 sample nor 2 x 2 meet remain undetected
    unless a probe meets them. The measurements in samples/accuracy are older than these three. */
 #pragma once

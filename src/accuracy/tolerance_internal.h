@@ -96,31 +96,24 @@ typedef struct Study {
     WrPlan plan; /* costs of all frames */
 } Study;
 
-/* ---- tolerance_blocks.c ---- */
+/* ---- tolerance_estimate.c ---- */
 
 /* The scene with a pair's and a level's dials; the caller frees it. */
 WrScene *wr_study_scene(const Study *study, int pair, int level);
-Corner wr_study_corner(const Study *study, int64_t block);
 /* Content of a block, by its pictures, and of the pixels next to it: NOTHING, OBJECT or both; also counts its
    pixels covered in the first picture. */
-int wr_study_look(const Study *study, int64_t b);
-int wr_study_look_around(const Study *study, int64_t b);
-void wr_study_drop(Block *block, int level);
 /* Renders the blocks of study->mask at a level with a pair. keep: stores their pictures of that level; else into
    `out`, BLOCK_FLOATS for each of them in order, or, if that is NULL too, only into study->frame. */
-bool wr_study_render(Study *study, int pair, int level, bool keep, float *out, WrError *err);
 /* Climb: each wanted block is rendered at the next level, with its pair. */
 bool wr_study_climb(Study *study, const unsigned char *wanted, WrError *err);
 /* Measures the change by another pair, with one sample a pixel. */
 bool wr_study_formula(Study *study, int pair, WrError *err);
 /* Composes each block's picture at its pick, rendered if missing, in study->frame. */
 bool wr_study_compose(Study *study, WrError *err);
-Change wr_block_change(const float *a, const float *b);
 /* Compares a block's pictures of a level and the one below: sets block->change and block->side of that level. */
-void wr_block_compare(Block *block, int level);
 void wr_study_fini(Study *study);
 
-/* ---- tolerance_survey.c ---- */
+/* ---- tolerance_estimate.c ---- */
 
 /* After wr_study_begin: renders the second level with the best pair where necessary; sets all blocks' pictures
    and contents. */
@@ -149,31 +142,27 @@ bool wr_study_probe(Study *study, bool *worse, WrError *err);
 /* Factor that corrects predictions, with a safety margin, from the actual errors divided by the predicted ones,
    each raised by a floor that adds up to half of all predictions. shares, squares: sum of the ratios, and of
    their squares. */
-double wr_study_factor(double shares, double squares, int64_t count);
 
-/* ---- tolerance_pick.c ---- */
+/* ---- tolerance.c ---- */
 
 /* Chooses the cheapest pair and level for each block that together meet the tolerance, by the current estimates;
    for a time limit, in prices, the most accurate that it allows. free_pairs: blocks may change their pairs. */
-void wr_study_pick(Study *study, const WrTolerance *tolerance, bool free_pairs);
 /* Cost of the picks, in prices, and their error. */
 double wr_study_cost(const Study *study);
-Change wr_study_picked_off(const Study *study);
 
-/* ---- tolerance_price.c ---- */
+/* ---- tolerance.c ---- */
 
 /* Price of one sample: nanoseconds on the machine that the table was measured on; proportional elsewhere. */
 double wr_price_sample(const WrScene *scene, WrScheme scheme, WrBumpMode mode);
 /* Additional price of a frame of that many samples: passes over its pixels. */
 double wr_price_pass(int64_t pixels);
 
-/* ---- tolerance_speed.c ---- */
+/* ---- tolerance.c ---- */
 
 /* Seconds per price on this machine with that many threads: measured once and stored in a file, so that the same
    time limit gives the same dials. The renderer's last picture is lost. */
-bool wr_price_seconds(WrRenderer *renderer, double *out, WrError *err);
 
-/* ---- tolerance_choice.c ---- */
+/* ---- tolerance.c ---- */
 
 /* Kinds of blocks for descriptions: outlines, and insides by the size of the change by 2 x 2 samples. A part's
    `kinds` has two bits for each. */
@@ -191,8 +180,6 @@ void wr_choice_say(WrChoice *choice, const WrTolerance *tolerance, const char *m
 WrScene *wr_level_scene(const WrScene *scene, WrScheme scheme, WrBumpMode mode, int level,
                         int mesh);
 
-/* Converts the study's picks to a choice with its parts, owned by the caller. */
-void wr_study_settle(const Study *study, WrChoice *out);
 /* wr_choice_frame; the sum of its parts' costs goes into *plan, which becomes the frame's, or NULL. */
 bool wr_choice_frame_plan(WrRenderer *renderer, const WrFrameRequest *request,
                           const WrChoice *choice, WrPlan *plan, WrFrame *frame, WrError *err);

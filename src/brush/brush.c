@@ -2,7 +2,7 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
-#include "brush/stroke_resolve.h"
+#include "brush/coverage.h"
 #include "brush/paint.h"
 #include "field/field.h"
 

@@ -2,11 +2,324 @@
 
 #include "base/memory.h"
 #include "base/pool.h"
+#include "brush/scan_convert.h"
 #include "field/field.h"
 #include "system/clock.h"
 
 #include <math.h>
 #include <stdalign.h>
+#include <string.h>
+
+/* ---- blend target ---- */
+
+#define TEXELS (WR_TILE * WR_TILE)
+
+/* A clone's source offset in texels, rounded to a fine grid so that whole texels are detected; limited
+   in size. */
+static double shift(double source, int n, WrWrap wrap)
+{
+    double texels = source * n;
+    if (wrap == WR_WRAP_PERIODIC) texels -= n * floor(texels / n);
+    if (!(fabs(texels) <= 2.0 * n)) texels = texels > 0.0 ? 2.0 * n : texels < 0.0 ? -2.0 * n : 0.0;
+    return rint(texels * 65536.0) / 65536.0;
+}
+
+/* brush from wr_brush_sane. */
+static WrTargets wr_targets(const WrBrushGround *ground, const WrField *start, const WrBrush *brush)
+{
+    return (WrTargets){ .kind = wr_mode_work(brush->mode)->target,
+                        .start = start,
+                        .below = ground->below,
+                        .neutral = isfinite(ground->neutral) ? ground->neutral : 0.0f,
+                        .shift_x =
+                            shift(brush->source_u, wr_field_width(start), wr_field_wrap_u(start)),
+                        .shift_y =
+                            shift(-brush->source_v, wr_field_height(start), wr_field_wrap_v(start)),
+                        .reach = (int)brush->reach };
+}
+
+static int limit(int i, int n)
+{
+    return i < 0 ? 0 : i < n ? i : n - 1;
+}
+
+/* Reads one row, j inside the table. */
+static void read_row(const WrField *field, int i, int j, int count, float *out)
+{
+    int width = wr_field_width(field);
+    bool clamps = wr_field_wrap_u(field) == WR_WRAP_CLAMP;
+    for (int k = 0; k < count;) {
+        int texel, run;
+        if (clamps && (i + k < 0 || i + k >= width)) {
+            texel = limit(i + k, width);
+            run = 1;
+        } else {
+            run = wr_tile_run(i + k, i + count - 1, width, &texel);
+        }
+        const float *tile = wr_field_tile(field, texel / WR_TILE, j / WR_TILE);
+        const float *from = tile ? tile + j % WR_TILE * WR_TILE + texel % WR_TILE : NULL;
+        for (int n = 0; n < run; n++) out[k + n] = from ? from[n] : wr_field_level(field);
+        k += run;
+    }
+}
+
+void wr_read_box(const WrField *field, int i, int j, int count_i, int count_j, int pitch,
+                 float *out)
+{
+    int height = wr_field_height(field);
+    bool clamps = wr_field_wrap_v(field) == WR_WRAP_CLAMP;
+    for (int row = 0; row < count_j; row++) {
+        int at = j + row, wrapped = at % height < 0 ? at % height + height : at % height;
+        read_row(field, i, clamps ? limit(at, height) : wrapped, count_i,
+                 out + (size_t)row * (size_t)pitch);
+    }
+}
+
+static void below_tile(const WrTargets *t, int tx, int ty, float *out)
+{
+    const float *tile = t->below ? wr_field_tile(t->below, tx, ty) : NULL;
+    float level = t->below ? wr_field_level(t->below) : t->neutral;
+    if (tile) memcpy(out, tile, TEXELS * sizeof *out);
+    else
+        for (int k = 0; k < TEXELS; k++) out[k] = level;
+}
+
+/* Bilinear between whole texels; an integer shift copies. */
+static void shifted_tile(const WrTargets *t, int tx, int ty, float *out)
+{
+    enum { SIDE = WR_TILE + 1 };
+    float taps[SIDE * SIDE];
+    double whole_x = floor(t->shift_x), whole_y = floor(t->shift_y);
+    double fx = t->shift_x - whole_x, fy = t->shift_y - whole_y;
+    wr_read_box(t->start, tx * WR_TILE + (int)whole_x, ty * WR_TILE + (int)whole_y, SIDE, SIDE,
+                SIDE, taps);
+    for (int y = 0; y < WR_TILE; y++)
+        for (int x = 0; x < WR_TILE; x++) {
+            const float *at = taps + y * SIDE + x;
+            double upper = at[0] * (1.0 - fx) + at[1] * fx;
+            double lower = at[SIDE] * (1.0 - fx) + at[SIDE + 1] * fx;
+            out[y * WR_TILE + x] = (float)(upper * (1.0 - fy) + lower * fy);
+        }
+}
+
+/* Half the width of a disc's row `off` texels from its middle; at least 0. */
+static int half_width(int reach, int off)
+{
+    double r = reach + 0.5, half2 = r * r - (double)off * off;
+    return half2 > 0.0 ? (int)sqrt(half2) : 0;
+}
+
+/* Prefix sums of rows give the sum of any part of a row by one difference. */
+static void sharp_tile(const WrTargets *t, int tx, int ty, float *out)
+{
+    int reach = t->reach, side = WR_TILE + 2 * reach, texels = 0;
+    float *row = wr_alloc((size_t)side, sizeof *row);
+    double *sums = wr_alloc((size_t)side + 1, sizeof *sums);
+    double *means = wr_alloc(TEXELS, sizeof *means);
+    for (int off = -reach; off <= reach; off++) texels += 2 * half_width(reach, off) + 1;
+    for (int j = 0; j < side; j++) {
+        wr_read_box(t->start, tx * WR_TILE - reach, ty * WR_TILE - reach + j, side, 1, side, row);
+        for (int i = 0; i < side; i++) sums[i + 1] = sums[i] + row[i];
+        for (int y = 0; y < WR_TILE; y++) {
+            int off = j - reach - y;
+            if (off < -reach || off > reach) continue;
+            int half = half_width(reach, off);
+            const double *left = sums + reach - half, *right = sums + reach + half + 1;
+            for (int x = 0; x < WR_TILE; x++) means[y * WR_TILE + x] += right[x] - left[x];
+        }
+    }
+    wr_read_box(t->start, tx * WR_TILE, ty * WR_TILE, WR_TILE, WR_TILE, WR_TILE, out);
+    for (int k = 0; k < TEXELS; k++) {
+        double f = out[k];
+        out[k] = wr_finite_float(f + (f - means[k] / texels));
+    }
+    wr_free(row);
+    wr_free(sums);
+    wr_free(means);
+}
+
+#define LEVELS 10 /* 2^9 <= 2 WR_REACH_MAX + 1 < 2^10 */
+
+/* Maxima (of heights times sign) of runs of 1, 2, 4, ... texels starting at each texel. */
+static void doublings(const float *row, int side, float sign, int levels, float *runs)
+{
+    for (int i = 0; i < side; i++) runs[i] = sign * row[i];
+    for (int level = 1; level < levels; level++) {
+        const float *from = runs + (size_t)(level - 1) * (size_t)side;
+        float *to = runs + (size_t)level * (size_t)side;
+        int half = 1 << (level - 1), last = side - 2 * half;
+        for (int i = 0; i <= last; i++) to[i] = from[i] > from[i + half] ? from[i] : from[i + half];
+    }
+}
+
+static void extreme_tile(const WrTargets *t, int tx, int ty, float sign, float *out)
+{
+    int reach = t->reach, side = WR_TILE + 2 * reach, levels = 1;
+    while ((1 << levels) <= 2 * reach + 1) levels++;
+    float *row = wr_alloc((size_t)side, sizeof *row);
+    float *runs = wr_alloc((size_t)side * LEVELS, sizeof *runs);
+    for (int k = 0; k < TEXELS; k++) out[k] = -3.4028234663852886e38f;
+    for (int j = 0; j < side; j++) {
+        wr_read_box(t->start, tx * WR_TILE - reach, ty * WR_TILE - reach + j, side, 1, side, row);
+        doublings(row, side, sign, levels, runs);
+        for (int y = 0; y < WR_TILE; y++) {
+            int off = j - reach - y;
+            if (off < -reach || off > reach) continue;
+            int half = half_width(reach, off), level = 0;
+            while ((2 << level) <= 2 * half + 1) level++;
+            const float *left = runs + (size_t)level * (size_t)side + (reach - half);
+            const float *right = left + (2 * half + 1 - (1 << level));
+            float *to = out + y * WR_TILE;
+            for (int x = 0; x < WR_TILE; x++) {
+                float larger = left[x] > right[x] ? left[x] : right[x];
+                to[x] = to[x] > larger ? to[x] : larger;
+            }
+        }
+    }
+    for (int k = 0; k < TEXELS; k++) out[k] = sign * out[k];
+    wr_free(row);
+    wr_free(runs);
+}
+
+void wr_blend_target_tile(const WrTargets *t, int tx, int ty, float *out)
+{
+    switch (t->kind) {
+    case WR_BLEND_TARGET_NONE: break;
+    case WR_BLEND_TARGET_BELOW: below_tile(t, tx, ty, out); break;
+    case WR_BLEND_TARGET_SHIFTED: shifted_tile(t, tx, ty, out); break;
+    case WR_BLEND_TARGET_SHARP: sharp_tile(t, tx, ty, out); break;
+    case WR_BLEND_TARGET_LARGEST: extreme_tile(t, tx, ty, 1.0f, out); break;
+    case WR_BLEND_TARGET_SMALLEST: extreme_tile(t, tx, ty, -1.0f, out); break;
+    }
+}
+
+/* ---- stroke resolve ---- */
+
+void wr_maker_init(WrMaker *maker, const WrBrushGround *ground, const WrBrush *brush)
+{
+    *maker = (WrMaker){ .ground = *ground, .brush = *brush };
+    maker->start = wr_field_share(ground->field);
+    maker->work = wr_mode_work(brush->mode);
+    if (ground->mark && maker->work->lowers_mark) maker->mark_start = wr_field_share(ground->mark);
+    maker->args = wr_mode_args(brush);
+    maker->targets = wr_targets(ground, maker->start, brush);
+}
+
+void wr_maker_fini(WrMaker *maker)
+{
+    wr_field_free(maker->start);
+    wr_field_free(maker->mark_start);
+    maker->start = maker->mark_start = NULL;
+}
+
+static int texel_at(double x, int n, WrWrap wrap)
+{
+    double cell = floor(x + 0.5);
+    if (wrap == WR_WRAP_PERIODIC) cell -= n * floor(cell / n);
+    return cell > 0.0 ? (cell < n ? (int)cell : n - 1) : 0;
+}
+
+void wr_maker_first(WrMaker *maker, double x, double y)
+{
+    if (!maker->work->first_height) return;
+    const WrField *field = maker->start;
+    maker->args.to = wr_field_get(field, texel_at(x, wr_field_width(field), wr_field_wrap_u(field)),
+                                  texel_at(y, wr_field_height(field), wr_field_wrap_v(field)));
+}
+
+/* True if nothing is selected in that tile. */
+static bool maker_closed(const WrMaker *maker, int tx, int ty)
+{
+    const WrField *selection = maker->ground.selection;
+    return selection && !wr_field_tile(selection, tx, ty) && !(wr_field_level(selection) > 0.0f);
+}
+
+/* The effective weight of the coverage. */
+static void parts(const WrMaker *maker, const WrStrokeResolve *make, const float *selection, int at,
+                  float *part)
+{
+    const float *cover = make->cover + at, *rest = make->rest ? make->rest + at : NULL;
+    float opacity = (float)maker->brush.opacity;
+    if (maker->brush.buildup) {
+        for (int i = 0; i < make->count; i++)
+            part[i] = (float)(((double)cover[i] + (rest ? rest[i] : 0.0f)) * opacity);
+    } else {
+        for (int i = 0; i < make->count; i++)
+            part[i] = (cover[i] < 1.0f ? cover[i] : 1.0f) * opacity;
+    }
+    if (!maker->ground.selection) return;
+    float level = wr_field_level(maker->ground.selection);
+    for (int i = 0; i < make->count; i++) {
+        float s = selection ? selection[at + i] : level;
+        s = s > 0.0f ? s : 0.0f;
+        part[i] *= s < 1.0f ? s : 1.0f;
+    }
+}
+
+static const float *selection_of(const WrMaker *maker, const WrStrokeResolve *make)
+{
+    const WrField *selection = maker->ground.selection;
+    return selection ? wr_field_tile(selection, make->tx, make->ty) : NULL;
+}
+
+bool wr_stroke_resolve_needed(const WrMaker *maker, const WrStrokeResolve *make)
+{
+    if (maker_closed(maker, make->tx, make->ty) || !(maker->brush.opacity > 0.0)) return false;
+    const float *selection = selection_of(maker, make);
+    for (int y = make->low_y; y <= make->high_y; y++) {
+        int at = y * WR_TILE + make->low_x, any = 0;
+        for (int i = at; i < at + make->count; i++)
+            any |= make->cover[i] > 0.0f && (!selection || selection[i] > 0.0f);
+        if (any) return true;
+    }
+    return false;
+}
+
+void wr_stroke_resolve_open(const WrMaker *maker, WrStrokeResolve *make)
+{
+    make->out = wr_field_tile_write(maker->ground.field, make->tx, make->ty);
+    make->mark =
+        maker->ground.mark ? wr_field_tile_write(maker->ground.mark, make->tx, make->ty) : NULL;
+}
+
+/* Painting raises the mark to the weight; erasing removes that fraction of the previous mark. */
+static void make_mark(const WrMaker *maker, const float *before, const float *part, int count,
+                      float *mark)
+{
+    float level = maker->mark_start ? wr_field_level(maker->mark_start) : 0.0f;
+    for (int i = 0; i < count; i++) {
+        float p = part[i] < 1.0f ? part[i] : 1.0f;
+        if (maker->mark_start) {
+            float was = before ? before[i] : level;
+            mark[i] = p > 0.0f ? was * (1.0f - p) : was;
+        } else {
+            mark[i] = mark[i] < p ? p : mark[i];
+        }
+    }
+}
+
+void wr_stroke_resolve(const WrMaker *maker, const WrStrokeResolve *make)
+{
+    alignas(WR_ALIGN) float part[WR_TILE], flat[WR_TILE];
+    const float *selection = selection_of(maker, make);
+    const float *start = wr_field_tile(maker->start, make->tx, make->ty);
+    const float *mark_start =
+        maker->mark_start ? wr_field_tile(maker->mark_start, make->tx, make->ty) : NULL;
+    if (!start)
+        for (int i = 0; i < WR_TILE; i++) flat[i] = wr_field_level(maker->start);
+    bool all_counts = make->within_1 && !maker->brush.buildup && maker->brush.opacity == 1.0 &&
+                      !maker->ground.selection;
+    for (int y = make->low_y; y <= make->high_y; y++) {
+        int at = y * WR_TILE + make->low_x;
+        const float *counts = all_counts ? make->cover + at : part;
+        if (!all_counts) parts(maker, make, selection, at, part);
+        if (make->mark)
+            make_mark(maker, mark_start ? mark_start + at : NULL, counts, make->count,
+                      make->mark + at);
+        maker->work->cover(&maker->args, start ? start + at : flat, counts,
+                           make->target ? make->target + at : NULL, make->count, make->out + at);
+    }
+}
 
 #define MANY_PAGES 64 /* number worth several threads */
 #define FEW_PAGES 8   /* between checks of the clock */
@@ -53,7 +366,7 @@ static WrPage *page_of(WrCoverage *cover, int tx, int ty)
 static bool prepare(void *ctx, int tx, int ty)
 {
     WrCoverage *cover = ctx;
-    if (wr_maker_closed(&cover->maker, tx, ty)) return false;
+    if (maker_closed(&cover->maker, tx, ty)) return false;
     WrPage *page = page_of(cover, tx, ty);
     if (!page->listed) {
         page->listed = true;

@@ -5,10 +5,65 @@
    has no influence, since they are computed from the heights before the stroke. */
 #pragma once
 #include "base/array.h"
-#include "brush/stroke_resolve.h"
+#include "brush/mode.h"
 #include "brush/scan_convert.h"
 
 #include <stdbool.h>
+
+/* ---- target heights of coverage-based modes, tile by tile, from the table before the stroke ---- */
+
+#define WR_REACH_MAX 256 /* texels */
+
+typedef struct WrTargets {
+    WrBlendTargetKind kind;
+    const WrField *start, *below; /* borrowed; below may be NULL */
+    float neutral;
+    double shift_x, shift_y; /* texels, y down */
+    int reach;               /* 1..WR_REACH_MAX */
+} WrTargets;
+
+/* Computes the targets of tile (tx, ty), row by row; out: [WR_TILE * WR_TILE]. Any number of threads. */
+void wr_blend_target_tile(const WrTargets *targets, int tx, int ty, float *out);
+
+/* Copies count_i x count_j texels at (i, j), contiguous rows; indices wrap on periodic axes and are
+ * clamped to the ends of others. */
+void wr_read_box(const WrField *field, int i, int j, int count_i, int count_j, int pitch,
+                 float *out);
+
+/* ---- computation of heights from those before the stroke and its coverage ---- */
+
+typedef struct WrMaker {
+    WrBrushGround ground; /* borrowed */
+    WrBrush brush;        /* sane */
+    WrField *start;       /* the table before the stroke; owned */
+    WrField *mark_start;  /* the mark before the stroke, if erasing lowers it; owned, or NULL */
+    const WrModeWork *work;
+    WrModeArgs args;
+    WrTargets targets;
+} WrMaker;
+
+void wr_maker_init(WrMaker *maker, const WrBrushGround *ground, const WrBrush *brush);
+void wr_maker_fini(WrMaker *maker);
+/* Sets flatten's height: that of the texel at (x, y), before the stroke. */
+void wr_maker_first(WrMaker *maker, double x, double y);
+
+/* A rectangle of one tile's texels. */
+typedef struct WrStrokeResolve {
+    int tx, ty;
+    int low_y, high_y;                  /* rows in the tile */
+    int low_x, count;                   /* columns in the tile: whole blocks */
+    const float *cover, *rest, *target; /* of the tile; rest and target may be NULL */
+    bool within_1;                      /* no coverage is above 1 */
+    float *out, *mark;                  /* of the tile; for wr_stroke_resolve */
+} WrStrokeResolve;
+
+/* True if nothing is selected in that tile. */
+/* True if any texel of it may change, judging by coverage and selection. */
+bool wr_stroke_resolve_needed(const WrMaker *maker, const WrStrokeResolve *make);
+/* Opens the tile for writing: sets out and mark. Not for several threads at once. */
+void wr_stroke_resolve_open(const WrMaker *maker, WrStrokeResolve *make);
+/* Any number of threads, on different tiles. */
+void wr_stroke_resolve(const WrMaker *maker, const WrStrokeResolve *make);
 
 typedef enum WrCoverageRule {
     WR_COVERAGE_MAX,

@@ -33,13 +33,8 @@ struct WrPreset {
 };
 
 /* A preset with every setting at its fallback, and the library's default curve: opacity by pressure. */
-WrPreset *wr_preset_new(const char *name);
-void wr_preset_drop_curves(WrPreset *preset, int setting);
 /* The curve of a setting and an input, NULL if none. */
-const WrCurve *wr_preset_find_curve(const WrPreset *preset, int setting, int input);
 /* The largest value of a setting with its curves. */
 double wr_preset_peak(const WrPreset *preset, int setting);
-/* True if its base value and its curves' points can exceed 0. */
-bool wr_preset_uses(const WrPreset *preset, int setting);
 /* True if it uses a random input, or settings that are random themselves. */
 bool wr_preset_is_random(const WrPreset *preset);

@@ -79,7 +79,6 @@ typedef struct WrBenchBrush {
     double engine; /* its engine with the same brush and motion, on our tiles */
     double round;  /* our round brush, with the same spacing */
 } WrBenchBrush;
-bool wr_bench_brush(const WrCli *cli, WrBenchBrush *brush, int dabs, int rounds, WrError *err);
 /* All radii, as lines or as a table. */
 bool wr_bench_brush_lines(const WrCli *cli, bool quick, WrText *text, WrError *err);
 bool wr_bench_brush_table(const WrCli *cli, bool quick, WrText *text, WrError *err);

@@ -19,7 +19,7 @@ static double rate(double dabs, double seconds)
     return seconds > 0 ? dabs / seconds : 0;
 }
 
-bool wr_bench_brush(const WrCli *cli, WrBenchBrush *brush, int dabs, int rounds, WrError *err)
+static bool bench_brush(const WrCli *cli, WrBenchBrush *brush, int dabs, int rounds, WrError *err)
 {
     WrBrushPace pace;
     if (!wr_brush_pace(brush->table, brush->radius, dabs, &pace, err)) return false;
@@ -52,7 +52,7 @@ bool wr_bench_brush_lines(const WrCli *cli, bool quick, WrText *text, WrError *e
     for (int i = 0; i < 3; i++) {
         WrBenchBrush b = sizes[i];
         b.table = 4096;
-        if (!wr_bench_brush(cli, &b, dab_counts[i], quick ? 3 : 9, err)) return false;
+        if (!bench_brush(cli, &b, dab_counts[i], quick ? 3 : 9, err)) return false;
         const double rates[] = { b.peer, b.engine, b.round };
         static const char *const names[] = { "libmypaint", "engine", "round" };
         for (int n = 0; n < 3; n++)
@@ -109,7 +109,7 @@ bool wr_bench_brush_table(const WrCli *cli, bool quick, WrText *text, WrError *e
     for (int i = 0; i < 3; i++) {
         WrBenchBrush b = sizes[i];
         b.table = 4096;
-        if (!wr_bench_brush(cli, &b, dab_counts[i], quick ? 3 : 9, err)) return false;
+        if (!bench_brush(cli, &b, dab_counts[i], quick ? 3 : 9, err)) return false;
         double mega = 3.14159265358979 * b.radius * b.radius * 1e-6;
         wr_text_addf(text, "  radius %-12g %12.0f %8.0f %12.0f %8.0f %6.2f %12.0f %8.0f %6.2f\n",
                      b.radius, b.peer, b.peer * mega, b.engine, b.engine * mega, b.engine / b.peer,

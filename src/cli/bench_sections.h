@@ -75,10 +75,6 @@ int wr_bench_section_find(const char *name);     /* -1 if there is none */
 bool wr_bench_section_measure(WrBenchSections *all, const WrBenchSection *section, WrError *err);
 void wr_bench_section_clear(WrBenchSections *all);
 
-/* Count the memory traffic and operations of a picture: bytes and flops, 0 if not counted. */
-void wr_bench_picture_count(const WrBenchSections *all, WrBenchPicture *picture,
-                            const WrFrame *frame);
-
 /* Print as tables, and as members of a JSON object. */
 void wr_bench_peaks_print(const WrBenchSections *all, WrText *text);
 void wr_bench_section_print(const WrBenchSections *all, WrText *text);

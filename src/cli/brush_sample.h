@@ -19,8 +19,5 @@
 typedef struct WrSampler WrSampler;
 
 /* A sampler for pictures of width x height pixels, which should have the aspect ratio 4:3. The caller owns it. */
-WrSampler *wr_sampler_new(const WrCli *cli, int width, int height, WrError *err);
-void wr_sampler_free(WrSampler *sampler); /* NULL is allowed */
+/* NULL is allowed */
 
-/* The preset's sample as grey 8-bit sRGB, [height][width]. */
-bool wr_sampler_paint(WrSampler *sampler, const WrPreset *preset, uint8_t *grey, WrError *err);

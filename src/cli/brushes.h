@@ -11,14 +11,5 @@ typedef struct WrBrushList {
     int count;
 } WrBrushList;
 
-/* File name of an entry's thumbnail in MyPaint's form: its name with '/' as '-', and "_prev.png". */
-void wr_brushes_thumbnail_name(const WrPresetEntry *entry, WrText *name);
-
 /* Write one picture of all entries with their names, by collection and group; PNG, or the format of the extension. */
-bool wr_brushes_sheet(const WrCli *cli, const WrBrushList *list, const char *path, WrError *err);
-/* Write one picture for each entry into an existing folder. */
-bool wr_brushes_thumbnails(const WrCli *cli, const WrBrushList *list, const char *folder,
-                           WrError *err);
 
-/* Print everything about a preset, as lines or as one JSON object and a line end. */
-void wr_brushes_report(const WrPresetEntry *entry, const WrPreset *preset, bool json, WrText *text);

@@ -123,9 +123,6 @@ void wr_cli_fini(WrCli *cli);
 /* Help of one subcommand with its options; of the program if command is NULL. */
 void wr_cli_help(const WrSubcommand *command, WrText *text);
 /* Markdown tables: every subcommand with its options; the effects that a plan may skip; the sets of maps. */
-void wr_cli_markdown_subcommands(WrText *text);
-void wr_cli_markdown_effects(WrText *text);
-void wr_cli_markdown_sets(WrText *text);
 /* Option i of a subcommand, or of the common ones: its name, other name, value and help (NULL: none). False past the
  * last. */
 bool wr_cli_option(const WrSubcommand *command, bool common, int i, const char *out[4]);

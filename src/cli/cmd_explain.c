@@ -1,15 +1,76 @@
-#include "cli/cli.h"
-
 #include "accuracy/effect_savings.h"
 #include "accuracy/tolerance.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/text.h"
-#include "cli/explain_map.h"
+#include "cli/cli.h"
 #include "command/session.h"
+#include "image/image.h"
 #include "render/frame/frame.h"
-#include "render/plan/plan.h"
 #include "render/plan/effect_heatmap.h"
+#include "render/plan/plan.h"
 #include "scene/dials.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+
+typedef struct WrCli WrCli;
+typedef struct WrError WrError;
+typedef struct WrHeatmapCounts WrHeatmapCounts;
+typedef struct WrSession WrSession;
+typedef struct WrText WrText;
+
+/* ---- explain map ---- */
+
+static bool map_check(const WrCli *cli, WrError *err)
+{
+    return !cli->map || wr_image_can_write(cli->map, WR_PIXEL_U8, 3, true, err);
+}
+
+/* Render the session's picture and write the effects of each pixel to cli->map. */
+static bool map_write(const WrCli *cli, WrSession *session, WrHeatmapCounts *counts, WrError *err)
+{
+    const size_t pixels = (size_t)cli->width * (size_t)cli->height;
+    uint8_t *map = wr_try_alloc(pixels, 1, "map", err), *rgb = NULL;
+    bool good = map && wr_session_map(session, cli->width, cli->height, 0, map, err);
+    if (good) wr_heatmap_count(map, pixels, counts);
+    if (good) rgb = wr_try_alloc(pixels, 3, "map", err);
+    uint8_t colours[256][3];
+    if (rgb) wr_heatmap_colours(counts, colours);
+    for (size_t i = 0; rgb && i < pixels; i++)
+        for (int c = 0; c < 3; c++) rgb[3 * i + (size_t)c] = colours[map[i]][c];
+    good = rgb &&
+           wr_image_write_pixels(cli->map, cli->width, cli->height, 3, WR_PIXEL_U8, true, rgb, err);
+    wr_free(map);
+    wr_free(rgb);
+    return good;
+}
+
+/* ---- the legend ---- */
+
+static void map_legend(const WrHeatmapCounts *counts, WrText *text)
+{
+    WrHeatmapLine line;
+    wr_text_addf(text, "\n%-7s %9s  %s\n", "colour", "pixels", "in the map");
+    for (int i = 0; wr_heatmap_line(counts, i, &line); i++) {
+        wr_text_addf(text, "#%02x%02x%02x %9lld  ", line.rgb[0], line.rgb[1], line.rgb[2],
+                     (long long)line.pixels);
+        wr_heatmap_colour(&line, text);
+        wr_text_add(text, ": ");
+        wr_heatmap_words(&line, text);
+        wr_text_add(text, "\n");
+    }
+}
+
+static void map_legend_json(const WrHeatmapCounts *counts, WrText *text)
+{
+    WrHeatmapLine line;
+    for (int i = 0; wr_heatmap_line(counts, i, &line); i++) {
+        wr_text_addf(text, "%s{\"colour\":\"#%02x%02x%02x\",\"what\":\"%s\",\"samples\":%d,",
+                     i ? "," : "", line.rgb[0], line.rgb[1], line.rgb[2], line.what, line.samples);
+        wr_text_addf(text, "\"pixels\":%lld}", (long long)line.pixels);
+    }
+}
 
 /* Print {"blocks":n,"share":0.12,"where":"edges","bump":"mode=...","dials":"aa=..."} */
 static void add_json_part(WrText *text, const WrChoicePart *part, int64_t all)
@@ -149,7 +210,7 @@ static void add_json(WrText *text, const Told *told)
     if (told->choice->count > 0) add_json_choice(text, told->choice);
     if (told->map) {
         wr_text_add(text, ",\"map\":[");
-        wr_map_legend_json(told->map, text);
+        map_legend_json(told->map, text);
         wr_text_add(text, "]");
     }
     wr_text_add(text, "}\n");
@@ -219,7 +280,7 @@ static void add_table(WrText *text, const Told *told)
         wr_text_addf(text, "\n%s\n", choice->reason);
         wr_choice_print(choice, text);
     }
-    if (told->map) wr_map_legend(told->map, text);
+    if (told->map) map_legend(told->map, text);
     wr_text_addf(text, "\n%dx%d pixels, %lld covered, %lld samples shaded, %.2f ms\n", frame->width,
                  frame->height, (long long)frame->covered, (long long)frame->shaded,
                  frame->times.total * 1e3);
@@ -236,7 +297,7 @@ static bool explain(const WrCli *cli, WrSession *session, WrText *text, WrError 
     plan = *frame.plan; /* plan of the first picture; later ones overwrite frame.plan */
     if (cli->measure && !wr_session_savings(session, cli->width, cli->height, 0, savings, err))
         return false;
-    if (cli->map && !wr_map_write(cli, session, &map, err)) return false;
+    if (cli->map && !map_write(cli, session, &map, err)) return false;
     const Told told = { &plan, wr_session_choice(session), &frame, cli->measure ? savings : NULL,
                         cli->map ? &map : NULL };
     if (cli->json) add_json(text, &told);
@@ -248,7 +309,7 @@ int wr_cli_explain(const WrCli *cli)
 {
     WrError err;
     WrText text = { 0 };
-    WrSession *session = wr_map_check(cli, &err) ? wr_cli_load(cli, false, &err) : NULL;
+    WrSession *session = map_check(cli, &err) ? wr_cli_load(cli, false, &err) : NULL;
     const bool good = session && explain(cli, session, &text, &err);
     const int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     wr_text_fini(&text);

@@ -1,4 +1,4 @@
-#include "export/check_internal.h"
+#include "export/check.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -10,6 +10,210 @@
 
 #include <math.h>
 #include <string.h>
+
+typedef struct WrImage WrImage;
+
+/* A picture whose first `colours` numbers per texel are checked; the rest is coverage. */
+typedef struct WrCheckPicture {
+    const WrImage *image;
+    int colours;
+} WrCheckPicture;
+
+/* ---- Test for slopes being the gradient of one height field ---- */
+
+#define CLEARLY 4 /* factor over the effect of rounding on the sum */
+
+/* Sums over D_v p and D_u q: squares, their product, and the mean effect of rounding on the squares. */
+typedef struct Sums {
+    double pp, qq, pq, noise_p, noise_q;
+} Sums;
+
+/* Slopes of texel (i, j); returns the mean square of the error caused by rounding a code by `step`. */
+static double slopes_at(const WrImage *map, int i, int j, double step, double *p, double *q)
+{
+    const float *n = map->data + 3 * ((size_t)j * (size_t)map->width + (size_t)i);
+    const double error = step / ((double)n[2] * (double)n[2]);
+    wr_normal_map_slopes(n, p, q);
+    return error * error / 12;
+}
+
+static void add_texel(const WrImage *map, int i, int j, double step, Sums *sums)
+{
+    double p[2], q[2], other;
+    sums->noise_p += slopes_at(map, i, j - 1, step, &p[0], &other);
+    sums->noise_p += slopes_at(map, i, j + 1, step, &p[1], &other);
+    sums->noise_q += slopes_at(map, i + 1, j, step, &other, &q[0]);
+    sums->noise_q += slopes_at(map, i - 1, j, step, &other, &q[1]);
+    const double dp = p[0] - p[1], dq = q[0] - q[1];
+    sums->pp += dp * dp;
+    sums->qq += dq * dq;
+    sums->pq += dp * dq;
+}
+
+/* Computes curl for unit vectors from codes that are `step` apart. */
+static void check_curl(const WrImage *map, double step, WrCheckNormals *normals)
+{
+    Sums s = { 0 };
+    for (int j = 1; j < map->height - 1; j++)
+        for (int i = 1; i < map->width - 1; i++) add_texel(map, i, j, step, &s);
+    const double pp = s.pp - s.noise_p, qq = s.qq - s.noise_q;
+    normals->curl_known = pp > CLEARLY * s.noise_p || qq > CLEARLY * s.noise_q;
+    const double both = pp > 0 && qq > 0 ? s.pq / sqrt(pp * qq) : 0;
+    normals->curl = sqrt(1 - fmax(-1, fmin(1, both)));
+}
+
+/* ---- Number of distinct values of a picture, and the fewest bits that represent them ---- */
+
+#define ENOUGH 8 /* minimum of values besides black and white for detecting their step */
+
+/* True if every code is one of `bits` bits, spread over all of `total` bits. */
+static bool spread(const bool *seen, int total, int bits)
+{
+    const double last = (1 << total) - 1, few = (1 << bits) - 1;
+    for (int c = 0; c < 1 << total; c++)
+        if (seen[c] && floor(floor(c * few / last + 0.5) * last / few + 0.5) != c) return false;
+    return true;
+}
+
+/* True if every code has `bits` bits and zeros below. */
+static bool shifted(const bool *seen, int total, int bits)
+{
+    for (int c = 0; c < 1 << total; c++)
+        if (seen[c] && c & ((1 << (total - bits)) - 1)) return false;
+    return true;
+}
+
+static size_t texels_of(const WrCheckPicture *p)
+{
+    return (size_t)p->image->width * (size_t)p->image->height;
+}
+
+static const float *texel_of(const WrCheckPicture *p, size_t i)
+{
+    return p->image->data + i * (size_t)p->image->channels;
+}
+
+static void count_codes(const WrCheckPicture *p, int total, WrCheckNumbers *n)
+{
+    bool *seen = wr_alloc(WR_CHECK_DISTINCT, sizeof *seen);
+    const int last = (1 << total) - 1;
+    for (size_t i = 0; i < texels_of(p); i++)
+        for (int c = 0; c < p->colours; c++) {
+            const int code = (int)((double)texel_of(p, i)[c] * last + 0.5);
+            seen[code < 0 ? 0 : code > last ? last : code] = true;
+        }
+    for (int c = 0; c <= last; c++) n->distinct += seen[c];
+    n->judged = n->distinct - seen[0] - seen[last] >= ENOUGH;
+    n->bits = 1;
+    while (n->judged && n->bits < total && !spread(seen, total, n->bits) &&
+           !shifted(seen, total, n->bits))
+        n->bits++;
+    if (!n->judged) n->bits = total;
+    wr_free(seen);
+}
+
+/* ---- floats ---- */
+
+/* Hash set of numbers by their bits, limited to WR_CHECK_DISTINCT. Slots contain bits + 1, 0: empty. */
+typedef struct Set {
+    uint64_t *slot; /* [2 * WR_CHECK_DISTINCT] */
+    int count;
+} Set;
+
+static uint32_t bits_of(float x)
+{
+    uint32_t bits;
+    x += 0.0f; /* -0 becomes 0 */
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static void add(Set *set, float x)
+{
+    const uint32_t bits = bits_of(x), mask = 2 * WR_CHECK_DISTINCT - 1;
+    if (set->count == WR_CHECK_DISTINCT) return;
+    uint32_t at = (bits * 0x9e3779b1u) >> 15 & mask;
+    while (set->slot[at] && set->slot[at] != (uint64_t)bits + 1) at = (at + 1) & mask;
+    set->count += !set->slot[at];
+    set->slot[at] = (uint64_t)bits + 1;
+}
+
+/* True if half precision represents it: 11 digits; below 2^-14 multiples of 2^-24. */
+static bool is_half(float x)
+{
+    const double size = fabs((double)x);
+    if (size > 65504) return false;
+    return size < 0x1p-14 ? size * 0x1p24 == floor(size * 0x1p24) : (bits_of(x) & 0x1fff) == 0;
+}
+
+/* True if it is a code k of 0..last stored as a float k/last, up to rounding. */
+static bool is_code(float x, double last)
+{
+    const double code = (double)x * last;
+    return code >= 0 && code <= last && fabs(code - floor(code + 0.5)) <= last * 0x1p-22;
+}
+
+static void count_floats(const WrCheckPicture *p, WrCheckNumbers *n)
+{
+    Set set = { wr_alloc((size_t)2 * WR_CHECK_DISTINCT, sizeof *set.slot), 0 };
+    bool eight = true, sixteen = true, half = true;
+    for (size_t i = 0; i < texels_of(p); i++)
+        for (int c = 0; c < p->colours; c++) {
+            const float x = texel_of(p, i)[c];
+            add(&set, x);
+            half = half && is_half(x);
+            eight = eight && is_code(x, 255);
+            sixteen = sixteen && is_code(x, 65535);
+        }
+    n->distinct = set.count;
+    n->judged = set.count >= ENOUGH + 2;
+    n->half = n->judged && half;
+    n->bits = !n->judged ? 32 : eight ? 8 : sixteen || half ? 16 : 32;
+    wr_free(set.slot);
+}
+
+/* ---- whole picture ---- */
+
+static void find_range(const WrCheckPicture *p, WrCheckNumbers *n)
+{
+    n->low = INFINITY, n->high = -INFINITY;
+    for (size_t i = 0; i < texels_of(p); i++)
+        for (int c = 0; c < p->colours; c++) {
+            n->low = fmin(n->low, (double)texel_of(p, i)[c]);
+            n->high = fmax(n->high, (double)texel_of(p, i)[c]);
+        }
+}
+
+static void count_ends(const WrCheckPicture *p, WrCheckNumbers *n)
+{
+    int64_t low = 0, high = 0;
+    for (size_t i = 0; i < texels_of(p); i++)
+        for (int c = 0; c < p->colours; c++) {
+            low += (double)texel_of(p, i)[c] <= n->low;
+            high += (double)texel_of(p, i)[c] >= n->high;
+        }
+    const double all = (double)texels_of(p) * p->colours;
+    n->at_low = (double)low / all;
+    n->at_high = (double)high / all;
+}
+
+/* check.c */
+static void check_numbers(const WrCheckPicture *picture, WrCheckNumbers *numbers)
+{
+    *numbers = (WrCheckNumbers){ 0 };
+    find_range(picture, numbers);
+    count_ends(picture, numbers);
+    if (picture->image->type == WR_PIXEL_F32) count_floats(picture, numbers);
+    else count_codes(picture, picture->image->type == WR_PIXEL_U8 ? 8 : 16, numbers);
+}
+
+/* Distance of two neighbouring numbers, as far as known; 0 for floats. */
+static double check_step(const WrCheckNumbers *numbers)
+{
+    const double size = fmax(fabs(numbers->low), fabs(numbers->high));
+    if (numbers->bits < 32 && !numbers->half) return 1.0 / ((1 << numbers->bits) - 1);
+    return numbers->half ? size * 0x1p-11 : 0;
+}
 
 #define NORMAL_OFF 0.15  /* largest mean deviation of lengths from 1 for a normal map */
 #define NORMAL_AWAY 0.05 /* largest share of normals that point away */
@@ -85,7 +289,7 @@ static bool check_edges(const WrCheckPicture *p, WrCheck *check, WrError *err)
 {
     const WrImageLabel *label = &p->image->label;
     const WrSeamOptions how = { .copies = { label->copies[0], label->copies[1] },
-                                .noise = wr_check_step(&check->numbers) };
+                                .noise = check_step(&check->numbers) };
     for (int c = 0; c < p->colours && !label->open; c++) {
         if (wr_progress_stopped()) return wr_fail(err, "cancelled");
         WrField *field = field_of(p, c, label->border, err);
@@ -166,7 +370,7 @@ static bool check_normals(const WrImage *image, int kind, WrCoding coding, WrChe
     const double step = codes ? 2.0 / ((1 << check->numbers.bits) - 1) : 1e-6;
     if (check->kind == WR_CHECK_NORMAL && map) {
         take_told(&told, &check->normals);
-        wr_check_curl(map, step, &check->normals);
+        check_curl(map, step, &check->normals);
     }
     wr_image_free(map);
     return true;
@@ -190,7 +394,7 @@ static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
     if (map) {
         take_told(&told, &check->normals);
         check->normals.lengths = false; /* computed here */
-        wr_check_curl(map, 1e-6, &check->normals);
+        check_curl(map, 1e-6, &check->normals);
     }
     wr_image_free(map);
     wr_image_free(normals);
@@ -248,7 +452,7 @@ static bool check_image(const WrImage *image, int colours, int kind, WrCoding co
     check->depth = image->type == WR_PIXEL_U8 ? 8 : image->type == WR_PIXEL_U16 ? 16 : 32;
     check->replaced = image->replaced;
     check->label = label_of(&image->label);
-    wr_check_numbers(&picture, &check->numbers);
+    check_numbers(&picture, &check->numbers);
     const bool slopes = kind == WR_CHECK_SLOPES;
     if (!(slopes ? check_slopes(image, check, err)
                  : check_normals(image, kind, coding, check, err)) ||

@@ -56,7 +56,8 @@ void wr_contact_free(WrContact *contact)
     wr_free(contact);
 }
 
-void wr_contact_size(const WrContact *contact, int *width, int *height)
+/* Size of the whole sheet, in pixels. */
+static void contact_size(const WrContact *contact, int *width, int *height)
 {
     *width = contact->width, *height = contact->height;
 }
@@ -211,7 +212,7 @@ bool wr_export_contact_write(WrExportJob *job, const char *path, WrError *err)
         wr_progress_set(whole);
     }
     if (good) {
-        wr_contact_size(contact, &job->report.width, &job->report.height);
+        contact_size(contact, &job->report.width, &job->report.height);
         job->report.lines = 1;
         good = wr_contact_write(contact, err);
     }

@@ -17,8 +17,6 @@ void wr_contact_free(WrContact *contact); /* NULL is fine */
 void wr_contact_add(WrContact *contact, const char *name, const WrExportPicture *picture);
 /* Writes the file atomically. */
 bool wr_contact_write(WrContact *contact, WrError *err);
-/* Size of the whole sheet, in pixels. */
-void wr_contact_size(const WrContact *contact, int *width, int *height);
 
 /* Option parsers of the kind. */
 bool wr_export_set_contact_maps(WrExportOptions *options, const char *value, WrError *err);

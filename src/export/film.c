@@ -1,14 +1,418 @@
 #include "export/film.h"
 
+#include "base/array.h"
+#include "base/enum_rows.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/enum_rows.h"
+#include "base/spool.h"
 #include "base/text.h"
-#include "export/film_internal.h"
+#include "image/image.h"
+#include "system/channel.h"
+#include "system/child.h"
+#include "system/clock.h"
+#include "system/fd.h"
+#include "system/thread.h"
 
 #include <errno.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#define WR_FILM_GRID 8 /* maximum cells per side for comparing colours */
+
+/* A running ffmpeg: bytes are written to it or read from it through one channel. */
+typedef struct WrTool {
+    WrPid child;
+    int channel, complaints; /* -1: none */
+    double patience;         /* seconds */
+    double since;            /* time of its last input or output */
+    bool ended;
+    WrChildEnd end;
+} WrTool;
+
+/* Kills it if it runs, and clears the struct; allowed after finish, and if it was never started (zeroed, channel
+   -1). */
+static void tool_drop(WrTool *tool);
+
+/* Mean colours of a frame's cells. */
+typedef struct WrFilmSums {
+    uint16_t mean[WR_FILM_GRID * WR_FILM_GRID][4]; /* in 257ths of a code: 65535 is 255 */
+} WrFilmSums;
+
+struct WrFilm {
+    const WrFilmKind *kind;
+    WrFilmOptions options;
+    WrFileTarget target;
+    WrSpool spool; /* ffmpeg's output */
+    WrTool tool;
+    int width, height; /* of the file */
+    int channels;
+    uint8_t *padded;           /* a frame padded to the file's size, if that differs; owned */
+    uint8_t *read;             /* a decoded frame; owned */
+    WR_ARRAY(WrFilmSums) sums; /* of each frame */
+};
+
+/* ---- The ffmpeg process: transfer of bytes in either direction, with cancellation at any time ---- */
+
+#define LOOK_MS 20 /* between two checks for cancellation */
+
+static bool tool_start(WrTool *tool, const char *const *arguments, int out, double patience,
+                       WrError *err)
+{
+    int ends[2] = { -1, -1 };
+    *tool = (WrTool){ .channel = -1, .complaints = wr_fd_memory("complaints") };
+    if (tool->complaints < 0 || !wr_channel_pair(ends, false)) {
+        wr_fail(err, "ffmpeg cannot be started: %s", strerror(errno));
+        tool_drop(tool);
+        return false;
+    }
+    const bool gives = out < 0;
+    const int nowhere = gives ? wr_fd_open_nowhere() : -1;
+    const WrChildStart it = { .program = "ffmpeg",
+                              .arguments = arguments,
+                              .in = gives ? nowhere : ends[1],
+                              .out = gives ? ends[1] : out,
+                              .err = tool->complaints,
+                              .search = true,
+                              .bound = true };
+    const int trouble = wr_child_start(&it, &tool->child);
+    wr_fd_close(ends[1]);
+    if (nowhere >= 0) wr_fd_close(nowhere);
+    tool->channel = ends[0];
+    tool->patience = patience;
+    tool->since = wr_clock_seconds();
+    if (trouble == 0) return true;
+    tool->child = 0;
+    tool_drop(tool);
+    if (trouble == ENOENT)
+        return wr_fail(err,
+                       "films are made by the program ffmpeg, which is not installed (Debian's "
+                       "package ffmpeg)");
+    return wr_fail(err, "ffmpeg cannot be started: %s", strerror(trouble));
+}
+
+/* True if waiting may continue. Otherwise the process is ended. */
+static bool waits(WrTool *tool, WrError *err)
+{
+    if (wr_progress_stopped()) return wr_fail(err, "cancelled");
+    if (wr_clock_seconds() - tool->since < tool->patience) return true;
+    return wr_fail(err, "ffmpeg hangs: it did nothing for %g seconds", tool->patience);
+}
+
+static bool has_ended(WrTool *tool)
+{
+    if (!tool->ended && tool->child > 0) tool->ended = wr_child_ended(tool->child, &tool->end);
+    return tool->ended;
+}
+
+/* Waits for its end. */
+static bool wait_for_end(WrTool *tool, WrError *err)
+{
+    for (int ms = 1; !has_ended(tool); ms = ms < LOOK_MS ? 2 * ms : LOOK_MS) {
+        if (!waits(tool, err)) return false;
+        wr_thread_sleep_ms(ms);
+    }
+    return true;
+}
+
+/* Its last error message, in one line. */
+static void complaint(const WrTool *tool, char words[WR_FILE_WHY])
+{
+    char text[2048], *line = text;
+    const int64_t n = wr_fd_read_at(tool->complaints, text, sizeof text - 1, 0);
+    text[n > 0 ? n : 0] = '\0';
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 127) *c = ' ';
+    line += strspn(line, " ");
+    for (size_t length = strlen(line); length > 0 && line[length - 1] == ' ';) line[--length] = 0;
+    char why[WR_FILE_WHY];
+    snprintf(words, WR_FILE_WHY, "%s", wr_file_why_of_library(line, why));
+}
+
+static bool fail_end(const WrTool *tool, WrError *err)
+{
+    char words[WR_FILE_WHY];
+    const char *crash = tool->end.why == WR_CHILD_CRASHED ? wr_child_crash(tool->end.number) : NULL;
+    complaint(tool, words);
+    if (words[0]) return wr_fail(err, "ffmpeg failed: %s", words);
+    if (tool->end.why == WR_CHILD_KILLED)
+        return wr_fail(err, "ffmpeg was killed, by somebody or for want of memory");
+    if (tool->end.why == WR_CHILD_LEFT)
+        return wr_fail(err, "ffmpeg failed with status %d and does not say why", tool->end.number);
+    return wr_fail(err, "ffmpeg crashed (%s)", crash ? crash : "at its limit of time");
+}
+
+/* Writes all bytes; false also if cancelled, or if it reads nothing for longer than its patience. */
+static bool tool_put(WrTool *tool, const void *bytes, size_t length, WrError *err)
+{
+    const char *at = bytes;
+    while (length > 0) {
+        const int64_t n = wr_channel_put(tool->channel, at, length);
+        if (n < 0) {
+            if (!wait_for_end(tool, err)) return false;
+            return fail_end(tool, err);
+        }
+        if (n > 0) {
+            tool->since = wr_clock_seconds();
+            at += n;
+            length -= (size_t)n;
+        } else if (!wr_channel_wait_room(tool->channel, LOOK_MS) && !waits(tool, err)) {
+            return false;
+        }
+        if (wr_progress_stopped()) return wr_fail(err, "cancelled");
+    }
+    return true;
+}
+
+/* Reads up to `length` bytes, fewer only at its end: *got. */
+static bool tool_get(WrTool *tool, void *bytes, size_t length, size_t *got, WrError *err)
+{
+    char *at = bytes;
+    *got = 0;
+    while (*got < length) {
+        if (wr_channel_wait(tool->channel, LOOK_MS) != WR_CHANNEL_NEWS) {
+            if (!waits(tool, err)) return false;
+            continue;
+        }
+        const int64_t n = wr_channel_receive(tool->channel, at + *got, length - *got, NULL, 0);
+        if (n == 0 || n == -1) break;
+        if (n > 0) *got += (size_t)n;
+        tool->since = wr_clock_seconds();
+        if (wr_progress_stopped()) return wr_fail(err, "cancelled");
+    }
+    return true;
+}
+
+/* Closes its input and waits for its end; false and its error output if it failed. */
+static bool tool_finish(WrTool *tool, WrError *err)
+{
+    wr_channel_end(tool->channel);
+    tool->since = wr_clock_seconds();
+    if (!wait_for_end(tool, err)) return false;
+    if (tool->end.why == WR_CHILD_LEFT && tool->end.number == 0) return true;
+    return fail_end(tool, err);
+}
+
+static void tool_drop(WrTool *tool)
+{
+    if (tool->child > 0 && !has_ended(tool)) {
+        wr_child_kill(tool->child);
+        wr_child_wait(tool->child, &tool->end);
+    }
+    tool->child = 0;
+    if (tool->channel >= 0) wr_fd_close(tool->channel);
+    if (tool->complaints >= 0) wr_fd_close(tool->complaints);
+    tool->channel = tool->complaints = -1;
+}
+
+/* ---- check ---- */
+
+/* Verification of a finished film before it is renamed: by ffmpeg, every frame; for animated WebP, which ffmpeg
+   cannot decode, the chunks of the file, and its first and last frame by the picture reader. */
+
+#define CELL 16 /* smallest side of a cell, pixels, if the frame is that large */
+
+/* ---- colours of a frame ---- */
+
+static int cells_of(int side)
+{
+    const int cells = side / CELL;
+    return cells < 1 ? 1 : cells > WR_FILM_GRID ? WR_FILM_GRID : cells;
+}
+
+static void sum_cell(const uint8_t *pixels, int width, int channels, const int x[2], const int y[2],
+                     uint16_t mean[4])
+{
+    uint64_t sum[4] = { 0 };
+    for (int j = y[0]; j < y[1]; j++) {
+        const uint8_t *at = pixels + ((size_t)j * (size_t)width + (size_t)x[0]) * (size_t)channels;
+        for (int i = x[0]; i < x[1]; i++, at += channels)
+            for (int c = 0; c < channels; c++) sum[c] += at[c];
+    }
+    const double count = (double)(x[1] - x[0]) * (y[1] - y[0]);
+    for (int c = 0; c < channels; c++) mean[c] = (uint16_t)rint(257.0 * (double)sum[c] / count);
+}
+
+static void film_sum(const uint8_t *pixels, int width, int height, int channels, WrFilmSums *sums)
+{
+    const int across = cells_of(width), down = cells_of(height);
+    memset(sums, 0, sizeof *sums);
+    for (int j = 0; j < down; j++)
+        for (int i = 0; i < across; i++)
+            sum_cell(pixels, width, channels,
+                     (const int[2]){ width * i / across, width * (i + 1) / across },
+                     (const int[2]){ height * j / down, height * (j + 1) / down },
+                     sums->mean[j * WR_FILM_GRID + i]);
+}
+
+/* Largest difference of two cells' means, codes. */
+static double difference(const WrFilmSums *a, const WrFilmSums *b)
+{
+    int worst = 0;
+    for (int i = 0; i < WR_FILM_GRID * WR_FILM_GRID; i++)
+        for (int c = 0; c < 4; c++) {
+            const int off = abs(a->mean[i][c] - b->mean[i][c]);
+            worst = off > worst ? off : worst;
+        }
+    return worst / 257.0;
+}
+
+/* ---- by ffmpeg ---- */
+
+static bool read_frames(WrFilm *film, WrTool *tool, WrFilmReport *report, WrError *err)
+{
+    const size_t bytes = (size_t)film->width * (size_t)film->height * (size_t)film->channels;
+    size_t got = bytes;
+    int frames = 0;
+    for (; got == bytes; frames++) {
+        WrFilmSums sums;
+        if (!tool_get(tool, film->read, bytes, &got, err)) return false;
+        if (got < bytes) break;
+        if (frames == film->sums.count)
+            return wr_fail(err, "%d frames were handed to ffmpeg, more stand in the file", frames);
+        film_sum(film->read, film->width, film->height, film->channels, &sums);
+        const double off = difference(&sums, &film->sums.data[frames]);
+        report->worst = off > report->worst ? off : report->worst;
+    }
+    if (frames != film->sums.count || got != 0)
+        return wr_fail(err, "%d frames were handed to ffmpeg, %d stand in the file%s",
+                       film->sums.count, frames, got ? " and a piece of one" : "");
+    return true;
+}
+
+static bool read_back(WrFilm *film, WrFilmReport *report, WrError *err)
+{
+    WrTool tool;
+    WrText in = { 0 };
+    wr_text_addf(&in, "file:%s", film->target.temporary);
+    const char *const line[] = {
+        "ffmpeg",       "-nostdin",
+        "-hide_banner", "-loglevel",
+        "error",        "-xerror",
+        "-i",           wr_text_get(&in),
+        "-fps_mode",    "passthrough",
+        "-vf",          "scale=flags=accurate_rnd+full_chroma_int+full_chroma_inp",
+        "-f",           "rawvideo",
+        "-pix_fmt",     film->channels == 4 ? "rgba" : "rgb24",
+        "pipe:1",       NULL
+    };
+    bool good = tool_start(&tool, line, -1, film->options.patience, err);
+    if (good) good = read_frames(film, &tool, report, err) && tool_finish(&tool, err);
+    tool_drop(&tool);
+    wr_text_fini(&in);
+    return good;
+}
+
+/* ---- animated WebP: chunks of a name, a length and that many bytes, padded to even ---- */
+
+/* Summary of the chunks. */
+typedef struct Pieces {
+    int64_t frames;      /* equal consecutive frames are merged */
+    double milliseconds; /* total duration; 0 for a still picture */
+    bool whole;
+} Pieces;
+
+static uint32_t little(const unsigned char *bytes, int count)
+{
+    uint32_t value = 0;
+    for (int i = count - 1; i >= 0; i--) value = value << 8 | bytes[i];
+    return value;
+}
+
+static bool is_one(const unsigned char *head, const char *name)
+{
+    return memcmp(head, name, 4) == 0;
+}
+
+static Pieces pieces_of(const WrFilm *film, int64_t bytes)
+{
+    Pieces pieces = { 0 };
+    unsigned char head[24];
+    int64_t at = 12;
+    const int fd = film->target.fd;
+    if (wr_fd_read_at(fd, head, 12, 0) != 12 || !is_one(head, "RIFF") || !is_one(head + 8, "WEBP"))
+        return pieces;
+    const int64_t end = (int64_t)little(head + 4, 4) + 8;
+    while (at < end && wr_fd_read_at(fd, head, sizeof head, at) >= 8) {
+        if (is_one(head, "ANMF")) pieces.milliseconds += little(head + 20, 3);
+        pieces.frames += is_one(head, "ANMF") || is_one(head, "VP8 ") || is_one(head, "VP8L");
+        at += 8 + (((int64_t)little(head + 4, 4) + 1) & ~(int64_t)1);
+    }
+    pieces.whole = end == bytes && at == end;
+    return pieces;
+}
+
+/* Converts a picture of the film's size to a frame. */
+static void take_codes(WrFilm *film, const WrImage *image)
+{
+    const size_t pixels = (size_t)film->width * (size_t)film->height;
+    const int channels = film->channels, have = image->channels;
+    for (size_t i = 0; i < pixels; i++)
+        for (int c = 0; c < channels; c++) {
+            const double value = c < have ? (double)image->data[i * (size_t)have + (size_t)c] : 1.0;
+            film->read[i * (size_t)channels + (size_t)c] = (uint8_t)rint(255.0 * value);
+        }
+}
+
+/* Verifies by the picture reader: frame `part` of the file against the original. For transparent frames the
+   coverage is compared, since a reader may have premultiplied the colours. */
+static bool compare_frame(WrFilm *film, int64_t part, int64_t of, int frame, WrFilmReport *report,
+                          WrError *err)
+{
+    char number[24];
+    WrFilmSums sums, want = film->sums.data[frame];
+    snprintf(number, sizeof number, "%lld", (long long)part);
+    const WrImageRequest wish = { .part = of > 1 ? number : NULL };
+    WrImage *image = wr_image_read_wish(film->target.temporary, &wish, err);
+    if (!image) return false;
+    bool good = (image->width == film->width && image->height == film->height) ||
+                wr_fail(err, "frames of %dx%d were handed to ffmpeg, of %dx%d stand in the file",
+                        film->width, film->height, image->width, image->height);
+    if (good) {
+        take_codes(film, image);
+        film_sum(film->read, film->width, film->height, film->channels, &sums);
+        for (int i = 0; film->channels == 4 && i < WR_FILM_GRID * WR_FILM_GRID; i++)
+            for (int c = 0; c < 3; c++) sums.mean[i][c] = want.mean[i][c] = 0;
+        const double off = difference(&sums, &want);
+        report->worst = off > report->worst ? off : report->worst;
+    }
+    wr_image_free(image);
+    return good;
+}
+
+static bool read_pieces(WrFilm *film, WrFilmReport *report, WrError *err)
+{
+    const Pieces pieces = pieces_of(film, report->bytes);
+    const double frame_ms = 1000.0 / film->options.fps, handed_ms = film->sums.count * frame_ms;
+    if (!pieces.whole) return wr_fail(err, "ffmpeg's file is no whole WebP file");
+    if (pieces.frames < 1 || pieces.frames > film->sums.count ||
+        (pieces.milliseconds > 0.0 &&
+         fabs(pieces.milliseconds - handed_ms) > frame_ms + (double)film->sums.count))
+        return wr_fail(
+            err, "%d frames, %.0f ms, were handed to ffmpeg, %lld, %.0f ms, stand in the file",
+            film->sums.count, handed_ms, (long long)pieces.frames, pieces.milliseconds);
+    /* Readers compose a transparent frame over the one before: only the first equals the original. */
+    return compare_frame(film, 1, pieces.frames, 0, report, err) &&
+           (film->channels == 4 ||
+            compare_frame(film, pieces.frames, pieces.frames, film->sums.count - 1, report, err));
+}
+
+/* film.c: verifies the finished file. */
+static bool film_check(WrFilm *film, WrFilmReport *report, WrError *err)
+{
+    WrFileInfo info;
+    if (!wr_fd_info(film->target.fd, &info) || info.bytes == 0)
+        return wr_fail(err, "ffmpeg wrote nothing");
+    report->bytes = info.bytes;
+    if (!(film->kind->by_reader ? read_pieces : read_back)(film, report, err)) return false;
+    if (report->worst <= film->kind->wrong) return true;
+    return wr_fail(err, "ffmpeg's file has other colours: off by %.3g codes where %g may be",
+                   report->worst, film->kind->wrong);
+}
 
 #define PATIENCE 300.0 /* seconds: one frame of the largest size takes that order of time */
 #define LEAST_FPS 0.1
@@ -158,7 +562,7 @@ static bool start(WrFilm *film, WrError *err)
         add(&line, strcmp(*word, "LOOP") == 0 ? loop : *word);
     add(&line, "-y");
     add(&line, wr_text_get(&out));
-    const bool good = wr_tool_start(&film->tool, line.words, film->spool.fd, o->patience, err);
+    const bool good = tool_start(&film->tool, line.words, film->spool.fd, o->patience, err);
     wr_text_fini(&out);
     return good;
 }
@@ -211,7 +615,7 @@ WrFilm *wr_film_begin(const char *path, const WrFilmOptions *options, WrError *e
 void wr_film_drop(WrFilm *film)
 {
     if (!film) return;
-    wr_tool_drop(&film->tool);
+    tool_drop(&film->tool);
     wr_spool_close(&film->spool);
     wr_file_abort(&film->target);
     wr_free(film->padded);
@@ -253,9 +657,9 @@ bool wr_film_add(WrFilm *film, const uint8_t *pixels, WrError *err)
     if (film->sums.count >= WR_FILM_FRAMES)
         return wr_fail(err, "%s: a film has at most %d frames", film->target.path, WR_FILM_FRAMES);
     pixels = padded(film, pixels);
-    wr_film_sum(pixels, film->width, film->height, film->channels, &sums);
+    film_sum(pixels, film->width, film->height, film->channels, &sums);
     wr_array_push(&film->sums, sums);
-    if (wr_tool_put(&film->tool, pixels, bytes, err) && pass_on(film, false, err)) return true;
+    if (tool_put(&film->tool, pixels, bytes, err) && pass_on(film, false, err)) return true;
     if (!wr_progress_stopped()) wr_error_prefix(err, "%s: ", film->target.path);
     return false;
 }
@@ -267,9 +671,9 @@ static bool finish(WrFilm *film, WrFilmReport *report, WrError *err)
         .kind = film->kind, .width = film->width, .height = film->height, .frames = film->sums.count
     };
     if (film->sums.count == 0) return wr_fail(err, "a film needs a frame");
-    if (!wr_tool_finish(&film->tool, err)) return false;
-    wr_tool_drop(&film->tool);
-    return pass_on(film, true, err) && wr_film_check(film, report, err);
+    if (!tool_finish(&film->tool, err)) return false;
+    tool_drop(&film->tool);
+    return pass_on(film, true, err) && film_check(film, report, err);
 }
 
 bool wr_film_end(WrFilm *film, WrFilmReport *report, WrError *err)

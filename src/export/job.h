@@ -28,7 +28,7 @@ struct WrExportJob {
     char channel_names[WR_EXPORT_CHANNELS][WR_EXPORT_NAME]; /* for kinds that compute them */
     float *map; /* [height][width][channels] for kinds that compute it as a whole */
     struct WrExportPicture *picture; /* output if no file is written; NULL: a file */
-    bool numbers;                    /* a raw file (raw_file.h) */
+    bool numbers;                    /* a raw file (write.c) */
     bool sidecar;                    /* a sidecar is written beside the file */
     bool analytic;                   /* F is the scene's formula, not the table */
     double *u;                       /* [width] texel centres */
@@ -59,10 +59,6 @@ void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void 
 /* write.c: writes the picture file of a job with final options; and the pixel type for a depth. */
 bool wr_export_write(WrExportJob *job, const char *path, WrError *err);
 WrPixelType wr_export_pixels(int depth);
-
-/* receipt.c: a WrRowSeen of the job that compares rows read back from disk; the largest error goes into the
-   report. */
-bool wr_export_receipt(void *ctx, int y, int rows, const float *values, bool exact, WrError *err);
 
 /* picture.c: fills a picture instead of writing a file. */
 bool wr_export_fill_picture(WrExportJob *job, WrError *err);
@@ -98,13 +94,12 @@ WrDerivatives wr_export_ground(const WrExportJob *job, const WrField *field);
 /* Stores the smallest and largest number of the map in the report. */
 void wr_export_map_range(WrExportJob *job, const char *quantity);
 /* Codes of a map with 0 in the middle, from -full to full. */
-void wr_export_signed_codes(WrExportJob *job, double full);
 /* Codes of a map's numbers from low to high. */
 void wr_export_codes(WrExportJob *job, double low, double high);
 void wr_export_map_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_map_describe(WrExportJob *job);
 
-/* maps.c, maps_heights.c */
+/* maps.c, maps.c */
 bool wr_export_occlusion_make(WrExportJob *job, WrError *err);
 bool wr_export_horizon_make(WrExportJob *job, WrError *err);
 int wr_export_horizon_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NAME]);
@@ -121,7 +116,7 @@ int wr_export_packed_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NA
 bool wr_export_packed_make(WrExportJob *job, WrError *err);
 void wr_export_packed_describe(WrExportJob *job);
 
-/* height.c, normal.c, derived.c, drawing.c, profile.c, solid.c: functions of the kinds. */
+/* height.c, normal.c, derived.c, line_drawing.c, profile.c, solid.c: functions of the kinds. */
 void wr_export_height_prepare(WrExportJob *job);
 void wr_export_height_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_height_describe(WrExportJob *job);

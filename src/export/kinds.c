@@ -5,7 +5,6 @@
 #include "export/contact_sheet.h"
 #include "export/job.h"
 #include "export/line_drawing.h"
-#include "export/map_options.h"
 #include "export/options.h"
 #include "export/channel_packing.h"
 #include "field/scheme.h"

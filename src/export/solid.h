@@ -86,13 +86,13 @@ int32_t wr_solid_add_bare(WrSolid *solid, const float at[3]); /* a point without
 /* at: (u,v) of the corners. */
 void wr_solid_add_triangle(WrSolid *solid, const int32_t corners[3], const WrSolidSight at[3]);
 
-/* solid_base.c: builds the squares and joins shared sides. */
+/* solid_body.c: builds the squares and joins shared sides. */
 void wr_solid_lay(WrSolid *solid);
-/* solid_samples.c: computes positions and heights of all samples. */
+/* solid_body.c: computes positions and heights of all samples. */
 bool wr_solid_measure(WrSolid *solid, WrError *err);
-/* solid_refine.c: bisects triangles until every sample's error is at most `error`. */
+/* solid_body.c: bisects triangles until every sample's error is at most `error`. */
 bool wr_solid_refine(WrSolid *solid, WrError *err);
-/* solid_close.c: adds the back, and walls between it and the relief. */
+/* solid_body.c: adds the back, and walls between it and the relief. */
 bool wr_solid_close(WrSolid *solid, WrError *err);
 /* mm3; positive if sides face outwards. */
 double wr_solid_volume(const WrSolid *solid);

@@ -4,12 +4,259 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "export/vector_drawing_internal.h"
-#include "image/image.h"
+#include "base/text.h"
 #include "image/caption.h"
+#include "image/image.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
+
+/* One format. Numbers are written by vector_drawing_number; y points down. */
+typedef struct WrVectorDrawingVectors {
+    const char *ending;
+    void (*head)(WrVectorDrawing *ink);
+    void (*begin_path)(WrVectorDrawing *ink); /* with the current pen */
+    void (*place)(WrVectorDrawing *ink, bool first, const WrVectorDrawingPoint *p);
+    void (*end_line)(WrVectorDrawing *ink);
+    void (*end_path)(WrVectorDrawing *ink);
+    void (*word)(WrVectorDrawing *ink, const char *word, double x, double y, double size,
+                 double anchor);
+    void (*tail)(WrVectorDrawing *ink);
+} WrVectorDrawingVectors;
+
+extern const WrVectorDrawingVectors wr_vector_drawing_svg, wr_vector_drawing_pdf;
+
+struct WrVectorDrawing {
+    char *path;
+    int width, height;
+    double breadth, darkness;
+    const WrVectorDrawingVectors *vectors; /* NULL: a picture */
+    bool drawing;                          /* vectors: a path is open */
+    WrText text;                           /* vectors: the file so far */
+    size_t stream;                         /* PDF: offset of the page's content in it */
+    float *ink;                            /* pictures: [height][width] darkness 0..1 */
+};
+
+/* sRGB code of the pen */
+static int vector_drawing_grey(const WrVectorDrawing *ink);
+/* rounded to a hundredth */
+static void vector_drawing_number(WrVectorDrawing *ink, double x);
+
+/* ---- SVG: one path element for all lines of one pen ---- */
+
+static void head(WrVectorDrawing *ink)
+{
+    wr_text_addf(&ink->text,
+                 "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
+                 "viewBox=\"0 0 %d %d\">\n<rect width=\"100%%\" height=\"100%%\" "
+                 "fill=\"#fff\"/>\n",
+                 ink->width, ink->height, ink->width, ink->height);
+}
+
+static void begin_path(WrVectorDrawing *ink)
+{
+    const int grey = vector_drawing_grey(ink);
+    wr_text_addf(&ink->text,
+                 "<path fill=\"none\" stroke=\"#%02x%02x%02x\" stroke-linecap=\"round\" "
+                 "stroke-linejoin=\"round\" stroke-width=\"",
+                 grey, grey, grey);
+    wr_text_add_number(&ink->text, ink->breadth);
+    wr_text_add(&ink->text, "\" d=\"");
+}
+
+static void place(WrVectorDrawing *ink, bool first, const WrVectorDrawingPoint *p)
+{
+    wr_text_add(&ink->text, first ? "M" : "L");
+    vector_drawing_number(ink, p->x);
+    wr_text_add(&ink->text, " ");
+    vector_drawing_number(ink, p->y);
+}
+
+static void end_line(WrVectorDrawing *ink)
+{
+    wr_text_add(&ink->text, "\n");
+}
+
+static void end_path(WrVectorDrawing *ink)
+{
+    wr_text_add(&ink->text, "\"/>\n");
+}
+
+static void word(WrVectorDrawing *ink, const char *word, double x, double y, double size,
+                 double anchor)
+{
+    wr_text_add(&ink->text, "<text font-family=\"Inter, sans-serif\" font-size=\"");
+    vector_drawing_number(ink, size);
+    wr_text_add(&ink->text, "\" x=\"");
+    vector_drawing_number(ink, x);
+    wr_text_add(&ink->text, "\" y=\"");
+    vector_drawing_number(ink, y);
+    wr_text_addf(&ink->text, "\" text-anchor=\"%s\">",
+                 anchor > 0.75   ? "end"
+                 : anchor > 0.25 ? "middle"
+                                 : "start");
+    for (; *word; word++) {
+        const char *escape = *word == '<'   ? "&lt;"
+                             : *word == '>' ? "&gt;"
+                             : *word == '&' ? "&amp;"
+                                            : NULL;
+        if (escape) wr_text_add(&ink->text, escape);
+        else wr_text_add_n(&ink->text, word, 1);
+    }
+    wr_text_add(&ink->text, "</text>\n");
+}
+
+static void tail(WrVectorDrawing *ink)
+{
+    wr_text_add(&ink->text, "</svg>\n");
+}
+
+const WrVectorDrawingVectors wr_vector_drawing_svg = { "svg",    head,     begin_path, place,
+                                                       end_line, end_path, word,       tail };
+
+/* ---- pdf ---- */
+
+/* PDF, version 1.4: one page, a pixel is 1/96 inch as in SVG, Helvetica for text, nothing compressed. */
+
+#define POINTS 0.75 /* per pixel */
+
+/* Helvetica's advance widths of the characters from space to tilde, in thousandths of the size: Adobe's metrics. */
+static const short advances[95] = {
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333,  278, 278, 556, 556, 556,
+    556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
+    611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778, 722, 667,  611, 722, 667, 944, 667,
+    667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278,  556, 556, 222, 222, 500,
+    222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584
+};
+
+enum { CATALOG = 1, PAGES, PAGE, FONT, DRAWING, LENGTH, OBJECTS };
+
+/* Objects are written in the order of their numbers; their offsets are found at the end. */
+static void begin_object(WrVectorDrawing *ink, int number)
+{
+    wr_text_addf(&ink->text, "%d 0 obj\n", number);
+}
+
+static void head_pdf(WrVectorDrawing *ink)
+{
+    WrText *text = &ink->text;
+    wr_text_add(text, "%PDF-1.4\n%\xe2\xe3\xcf\xd3\n");
+    begin_object(ink, CATALOG);
+    wr_text_addf(text, "<< /Type /Catalog /Pages %d 0 R >>\nendobj\n", PAGES);
+    begin_object(ink, PAGES);
+    wr_text_addf(text, "<< /Type /Pages /Kids [%d 0 R] /Count 1 >>\nendobj\n", PAGE);
+    begin_object(ink, PAGE);
+    wr_text_addf(text, "<< /Type /Page /Parent %d 0 R /MediaBox [0 0 ", PAGES);
+    vector_drawing_number(ink, POINTS * ink->width);
+    wr_text_add(text, " ");
+    vector_drawing_number(ink, POINTS * ink->height);
+    wr_text_addf(text, "] /Resources << /Font << /F %d 0 R >> >> /Contents %d 0 R >>\nendobj\n",
+                 FONT, DRAWING);
+    begin_object(ink, FONT);
+    wr_text_add(text, "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica >>\nendobj\n");
+    begin_object(ink, DRAWING);
+    wr_text_addf(text, "<< /Length %d 0 R >>\nstream\n", LENGTH);
+    ink->stream = text->length;
+    vector_drawing_number(ink, POINTS);
+    wr_text_add(text, " 0 0 ");
+    vector_drawing_number(ink, -POINTS); /* units from here on: pixels, y down */
+    wr_text_add(text, " 0 ");
+    vector_drawing_number(ink, POINTS * ink->height);
+    wr_text_add(text, " cm\n1 J 1 j\n");
+}
+
+static void add_grey(WrVectorDrawing *ink, const char *operator)
+{
+    const int parts = (1000 * vector_drawing_grey(ink) + 127) / 255;
+    wr_text_addf(&ink->text, "%d.%03d %s\n", parts / 1000, parts % 1000, operator);
+}
+
+static void begin_path_pdf(WrVectorDrawing *ink)
+{
+    vector_drawing_number(ink, ink->breadth);
+    wr_text_add(&ink->text, " w ");
+    add_grey(ink, "G");
+}
+
+static void place_pdf(WrVectorDrawing *ink, bool first, const WrVectorDrawingPoint *p)
+{
+    vector_drawing_number(ink, p->x);
+    wr_text_add(&ink->text, " ");
+    vector_drawing_number(ink, p->y);
+    wr_text_add(&ink->text, first ? " m " : " l ");
+}
+
+static void end_line_pdf(WrVectorDrawing *ink)
+{
+    wr_text_add(&ink->text, "S\n");
+}
+
+static void end_path_pdf(WrVectorDrawing *ink)
+{
+    (void)ink;
+}
+
+static double advance(const char *word_pdf, double size)
+{
+    double sum = 0.0;
+    for (; *word_pdf; word_pdf++)
+        sum += *word_pdf >= ' ' && *word_pdf <= '~' ? advances[*word_pdf - ' '] : 556;
+    return sum * size / 1000.0;
+}
+
+static void word_pdf(WrVectorDrawing *ink, const char *word_pdf, double x, double y, double size,
+                     double anchor)
+{
+    add_grey(ink, "g");
+    wr_text_add(&ink->text, "BT /F ");
+    vector_drawing_number(ink, size);
+    wr_text_add(&ink->text, " Tf 1 0 0 -1 ");
+    vector_drawing_number(ink, x - anchor * advance(word_pdf, size));
+    wr_text_add(&ink->text, " ");
+    vector_drawing_number(ink, y);
+    wr_text_add(&ink->text, " Tm (");
+    for (; *word_pdf; word_pdf++) {
+        if (*word_pdf == '(' || *word_pdf == ')' || *word_pdf == '\\')
+            wr_text_add(&ink->text, "\\");
+        wr_text_add_n(&ink->text, *word_pdf >= ' ' && *word_pdf <= '~' ? word_pdf : "?", 1);
+    }
+    wr_text_add(&ink->text, ") Tj ET\n");
+}
+
+/* Finds the objects' offsets: each begins a line, and no line of a drawing looks like one. */
+static void find_objects(const WrVectorDrawing *ink, size_t at[OBJECTS])
+{
+    const char *text = wr_text_get(&ink->text);
+    size_t from = 0;
+    for (int i = CATALOG; i < OBJECTS; i++) {
+        char line[24];
+        const int length = snprintf(line, sizeof line, "\n%d 0 obj\n", i);
+        while (strncmp(text + from, line, (size_t)length) != 0) from++;
+        at[i] = from + 1;
+    }
+}
+
+static void tail_pdf(WrVectorDrawing *ink)
+{
+    WrText *text = &ink->text;
+    size_t at[OBJECTS];
+    const size_t length = text->length - ink->stream;
+    wr_text_add(text, "endstream\nendobj\n");
+    begin_object(ink, LENGTH);
+    wr_text_addf(text, "%zu\nendobj\n", length);
+    find_objects(ink, at);
+    const size_t table = text->length;
+    wr_text_addf(text, "xref\n0 %d\n0000000000 65535 f \n", OBJECTS);
+    for (int i = CATALOG; i < OBJECTS; i++) wr_text_addf(text, "%010zu 00000 n \n", at[i]);
+    wr_text_addf(text, "trailer\n<< /Size %d /Root %d 0 R >>\nstartxref\n%zu\n%%%%EOF\n", OBJECTS,
+                 CATALOG, table);
+}
+
+const WrVectorDrawingVectors wr_vector_drawing_pdf = { "pdf",     head_pdf,     begin_path_pdf,
+                                                       place_pdf, end_line_pdf, end_path_pdf,
+                                                       word_pdf,  tail_pdf };
 
 #define LOOK 256 /* pieces of a line between two checks for cancellation */
 
@@ -53,19 +300,19 @@ void wr_vector_drawing_free(WrVectorDrawing *ink)
 
 /* ---- vectors ---- */
 
-static void end_path(WrVectorDrawing *ink)
+static void close_path(WrVectorDrawing *ink)
 {
     if (ink->drawing) ink->vectors->end_path(ink);
     ink->drawing = false;
 }
 
-int wr_vector_drawing_grey(const WrVectorDrawing *ink)
+static int vector_drawing_grey(const WrVectorDrawing *ink)
 {
     return (int)rint(255.0 * (double)wr_srgb_encode((float)(1.0 - ink->darkness)));
 }
 
 /* Formats without an exponent, which PDF does not support. */
-void wr_vector_drawing_number(WrVectorDrawing *ink, double x)
+static void vector_drawing_number(WrVectorDrawing *ink, double x)
 {
     const long long parts = llrint(100.0 * fabs(x));
     const int tenth = (int)(parts / 10 % 10), hundredth = (int)(parts % 10);
@@ -177,7 +424,7 @@ static bool write_picture(WrVectorDrawing *ink, WrError *err)
 
 void wr_vector_drawing_pen(WrVectorDrawing *ink, double breadth, double darkness)
 {
-    if (breadth != ink->breadth || darkness != ink->darkness) end_path(ink);
+    if (breadth != ink->breadth || darkness != ink->darkness) close_path(ink);
     ink->breadth = breadth;
     ink->darkness = darkness;
 }
@@ -198,7 +445,7 @@ void wr_vector_drawing_word(WrVectorDrawing *ink, const char *word, double x, do
                             double anchor)
 {
     if (ink->vectors) {
-        end_path(ink);
+        close_path(ink);
         ink->vectors->word(ink, word, x, y, size, anchor);
     } else {
         ink_word(ink, word, x, y, size, anchor);
@@ -208,7 +455,7 @@ void wr_vector_drawing_word(WrVectorDrawing *ink, const char *word, double x, do
 bool wr_vector_drawing_write(WrVectorDrawing *ink, WrError *err)
 {
     if (!ink->vectors) return write_picture(ink, err);
-    end_path(ink);
+    close_path(ink);
     ink->vectors->tail(ink);
     return wr_file_write(ink->path, wr_text_get(&ink->text), ink->text.length, err);
 }

@@ -46,7 +46,3 @@ bool wr_erode_rain(WrSheet *sheet, const WrRain *rain, const WrGenerateJob *job,
 /* Maximum texels along an axis of a coarse preview. */
 #define WR_ERODE_COARSE 160
 
-/* Reads the table of a job into a sheet; at lower resolution for a coarse preview. */
-bool wr_erode_begin(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
-/* Converts the sheet to the output; for a smaller one, adds its change to the table. Releases it. */
-bool wr_erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrRelief *out, WrError *err);

@@ -38,8 +38,6 @@ typedef struct WrNormals {
  * represent 0, so that a flat map is flat. Errors: one channel, out of memory, coding=signed for codes. */
 bool wr_normals_decode(const WrImage *image, WrCoding coding, WrNormals *out, WrError *err);
 /* Decodes slopes: the first two channels times these factors, to the right and down. */
-bool wr_normals_from_slopes(const WrImage *image, double right, double down, WrNormals *out,
-                            WrError *err);
 void wr_normals_fini(WrNormals *normals);
 
 /* Correlation that reveals the direction of the green axis: heights have dp/dy = dq/dx, so

@@ -33,14 +33,11 @@ extern const char *const wr_seamless_words[];
  * mean. Errors: out of memory, "cancelled". */
 bool wr_picture_blend(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
 bool wr_picture_cut(WrSheet *sheet, int width, int height, const WrGenerateJob *job, WrError *err);
-/* Overlap in texels on an axis of n: an eighth, at least 1; 0 if it is too short to cut. */
-int wr_seamless_overlap(int n);
 
 /* Resizes a picture (with the table's wraps) to the job's size, seamless by that method. */
 bool wr_picture_fit(WrSheet *sheet, WrSeamless seamless, const WrGenerateJob *job, WrError *err);
 
 /* Linear light of an sRGB code (IEC 61966-2-1), 0..1 and beyond; the same on every processor. */
-double wr_picture_light(double code);
 
 #define WR_P_FILE(h)                                                                               \
     {                                                                                              \
@@ -77,7 +74,6 @@ const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *imag
 WrImage *wr_picture_read(const WrParams *params, const char *channels, WrImageRequest wish,
                          const WrGenerateJob *job, WrError *err);
 /* Adds remarks on differences from the file's pixels. */
-void wr_picture_note(const char *path, const WrImage *image, const WrGenerateJob *job);
 #define WR_P_SEAMLESS(value)                                                                       \
     WR_P_CHOICE("seamless", "Seamless", value, wr_seamless_words,                                  \
                 "how its edges are made to meet: blend evens out, cut overlaps and cuts")
@@ -88,7 +84,7 @@ void wr_picture_note(const char *path, const WrImage *image, const WrGenerateJob
     extern const WrParam wr_params_##name[];                                                       \
     bool wr_picture_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
                            WrError *err)
-WR_PICTURE(photo);   /* picture_photo.c */
-WR_PICTURE(normals); /* normals_row.c */
-WR_PICTURE(paste);   /* picture_paste.c */
+WR_PICTURE(photo);   /* picture_rows.c */
+WR_PICTURE(normals); /* normals.c */
+WR_PICTURE(paste);   /* picture_rows.c */
 #undef WR_PICTURE

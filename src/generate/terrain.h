@@ -60,9 +60,9 @@ bool wr_sheet_run(const WrSheet *sheet, const WrGenerateJob *job, bool report, W
     extern const WrParam wr_params_##name[];                                                       \
     bool wr_terrain_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
                            WrError *err)
-WR_TERRAIN(fractal);   /* terrain_fractal.c */
-WR_TERRAIN(terraces);  /* terrain_terraces.c */
-WR_TERRAIN(thermal);   /* erode_thermal.c */
-WR_TERRAIN(hydraulic); /* erode_water.c */
+WR_TERRAIN(fractal);   /* terrain.c */
+WR_TERRAIN(terraces);  /* terrain.c */
+WR_TERRAIN(thermal);   /* erode.c */
+WR_TERRAIN(hydraulic); /* erode.c */
 WR_TERRAIN(elevation); /* terrain_elevation.c */
 #undef WR_TERRAIN

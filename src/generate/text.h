@@ -63,8 +63,6 @@ typedef struct WrTextInside {
 } WrTextInside;
 
 /* Sorts the shape's pieces. */
-bool wr_text_inside(WrTextShape *shape, const WrGenerateJob *job, double from, double to,
-                    WrTextInside *out, WrError *err);
 void wr_text_inside_fini(WrTextInside *inside, int height);
 
 /* Processes one texel: n pieces of one texel, winding number w at its upper left corner. Returns the

@@ -36,12 +36,6 @@ typedef struct WrTextRequest {
     bool clip;
 } WrTextRequest;
 
-/* Shapes a text with the fonts of the parameters `font`, `file`, `missing`, `fallback`, `fallback2`,
- * `fallback3`. If the first one lacks letters, no fallback is given and missing=borrow, installed fonts
- * are used, and the job's `chose` callback receives them. Remarks list the fallback fonts and the
- * characters missing in all fonts. ask: everything except its fonts. */
-bool wr_text_shape(const WrParams *params, const WrFontRequest *ask, double size,
-                   const WrGenerateJob *job, WrFontText *out, WrError *err);
 /* Rows of those parameters, and of the others that select fonts. */
 #define WR_P_FONT(value)                                                                           \
     {                                                                                              \

@@ -47,7 +47,7 @@ typedef enum WrZShape {
     WR_Z_SHAPES
 } WrZShape;
 
-/* The members used for many solids come first: see zbuffer_many.c. */
+/* The members used for many solids come first: see zbuffer.c. */
 typedef struct WrZSolid {
     WrZShape shape;
     bool level;   /* its top is horizontal */

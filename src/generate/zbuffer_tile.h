@@ -44,11 +44,8 @@ typedef struct WrZEntry {
 } WrZEntry;
 
 /* Draws one image of a primitive, moved by (dx, dy) whole texels. */
-void wr_zsheet_triangle(WrZSheet *sheet, const WrZTriangle *triangle, double dx, double dy);
-void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy);
 /* Draws only its part in the square whose first texel is (x, y) of the tile. dx, dy may be fractional
  * positions from wr_z_place. */
-void wr_zsheet_solid_at(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy, int x, int y);
 
 /* Returns false if the work was cancelled. part: fraction of the tile, 0..1. */
 typedef struct WrZGoOn {
@@ -57,10 +54,8 @@ typedef struct WrZGoOn {
 } WrZGoOn;
 /* Draws the visible images of solids [count]. Drawing hidden ones too would change no bit. False:
    cancelled. */
-bool wr_zsheet_many(WrZSheet *sheet, const WrZScene *scene, const WrZEntry *entries, int64_t count,
-                    const WrZGoOn *go_on);
 
-/* ---- culling: zbuffer_bound.c ---- */
+/* ---- culling: zbuffer.c ---- */
 
 /* Fills in the data for the solid's bounds; part of wr_zsolid_set. */
 void wr_zsolid_set_bounds(WrZSolid *solid);
@@ -70,16 +65,11 @@ typedef struct WrZRect {
 } WrZRect;
 /* Upper bound of the solid over the rectangle; -inf: it is not there. *least: lower bound if it covers
    all of the rectangle; else -inf. */
-double wr_zsolid_range(const WrZSolid *solid, const WrZRect *rect, double *least);
 /* For each texel of the square of WR_Z_SQUARE from (x, y) on: the height below which a solid changes
    nothing there; inf beyond the table. Returns the least. */
-double wr_zsheet_settled(const WrZSheet *sheet, int x, int y,
-                         double settled[WR_Z_SQUARE * WR_Z_SQUARE]);
 /* wr_zsheet_settled for one texel. */
-double wr_zsheet_settled_texel(const WrZSheet *sheet, int at);
 
 /* True for a flat torus that is not thin, for which single texels can be selected. */
-bool wr_zsolid_is_ring(const WrZSolid *solid);
 /* Squared distances from its axis at which such a torus may change each texel of a square. Valid for
    all of the same height and radii. */
 typedef struct WrZBand {
@@ -90,18 +80,6 @@ typedef struct WrZBand {
 } WrZBand;
 /* Sets the band for the ring: completely if the kind differs, else only for the changed texels (a bit
  * each, row by row). settled: from wr_zsheet_settled. */
-void wr_zband_set(WrZBand *band, const WrZSolid *ring, double floor, const double *settled,
-                  uint64_t texels);
-/* The texels that such a ring may change. (x, y): from its axis to the square's first texel. */
-uint64_t wr_zband_meets(const WrZBand *band, double x, double y);
-/* True if it lies well within those texels. */
-bool wr_zband_is_within(const WrZBand *band, double x, double y, uint64_t texels);
-/* Draws it there, where only its height at the centre matters. (x, y): the square's first texel;
- * texels: not 0. */
-void wr_zsheet_ring_at(WrZSheet *sheet, const WrZSolid *ring, double dx, double dy, int x, int y,
-                       uint64_t texels);
-/* wr_zsheet_settled for triangles, anywhere in the tile. */
-double wr_zsheet_filled(const WrZSheet *sheet);
 
 /* clamps to [low, high] as integers; x may be any number */
 static inline int wr_z_clip(double x, int low, int high)

@@ -1,11 +1,794 @@
 /* Hard cases of fetching from the table: ends, wraps, repeats, odd sizes. */
-#include "hardcases/hardcases_look.h"
-#include "field/scheme_list.h"
-
 #include "base/error.h"
+#include "base/exactmath.h"
+#include "base/memory.h"
+#include "base/vec.h"
+#include "document/blend.h"
 #include "field/field.h"
+#include "field/ops.h"
+#include "field/scheme_list.h"
+#include "hardcases/hardcases_later.h"
+#include "hardcases/hardcases_look.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #include <float.h>
+#include <string.h>
+
+/* ---- Hard cases of flat tables: no detail, and detail at a level of a million ---- */
+
+static bool hc47(WrHardGauge *g, WrError *err)
+{
+    static const float levels[] = { 0, 1, 0.1f, -1e6f, 3.3e38f, 1e-40f };
+    bool good = true;
+    for (int k = 0; k < 12 && good; k++) {
+        const WrWrap wrap = k % 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
+        WrField *field = wr_field_new(100, 37, wrap, wrap, levels[k / 2], err);
+        good = field != NULL;
+        for (int scheme = 0; scheme < WR_SCHEME_COUNT && good; scheme++) {
+            WrHardLook look;
+            good = wr_hard_look_init(g, &look, field, (WrScheme)scheme, 1, 1, err);
+            for (int i = 0; i < 30 && good; i++) {
+                const float u = wr_hard_float(g), v = wr_hard_float(g);
+                WrHardSlope s = wr_hard_sample(field, (WrScheme)scheme, (double)u, (double)v);
+                wr_hard_holds(g, WR_HARD_DOUBLE,
+                              s.f == (double)levels[k / 2] && s.fu == 0.0 && s.fv == 0.0);
+                for (int set = 0; set < g->sets; set++) {
+                    s = wr_hard_look_at(g, set, &look, u, v);
+                    wr_hard_holds(g, WR_HARD_FLOAT,
+                                  s.f == (double)levels[k / 2] && s.fu == 0.0 && s.fv == 0.0);
+                }
+            }
+            if (good) wr_hard_look_fini(&look);
+        }
+        wr_field_free(field);
+    }
+    return good;
+}
+
+/* Slopes of a table at a level of a million, compared with those of the same stored heights minus a million
+   (which is exact), heights per texel, in units of the step of stored heights, 1/16. */
+static bool hc48(WrHardGauge *g, WrError *err)
+{
+    WrField *low = wr_hard_waves(64, 64), *high = wr_field_share(low);
+    for (int j = 0; j < 64; j++)
+        for (int i = 0; i < 64; i++) {
+            wr_field_set(high, i, j, 1e6f + 4.0f * wr_field_get(low, i, j));
+            wr_field_set(low, i, j, wr_field_get(high, i, j) - 1e6f);
+        }
+    bool good = true;
+    for (int scheme = 0; scheme < WR_SCHEME_COUNT && good; scheme++) {
+        WrHardLook a;
+        good = wr_hard_look_init(g, &a, high, (WrScheme)scheme, 1, 1, err);
+        for (int k = 0; k < 300 && good; k++) {
+            const float u = wr_hard_float(g), v = wr_hard_float(g);
+            const double step = 64.0 / 16.0;
+            const WrHardSlope want = wr_hard_sample(low, (WrScheme)scheme, (double)u, (double)v);
+            WrHardSlope got = wr_hard_sample(high, (WrScheme)scheme, (double)u, (double)v);
+            wr_hard_near(g, WR_HARD_DOUBLE, got.fu / step, want.fu / step);
+            wr_hard_near(g, WR_HARD_DOUBLE, got.fv / step, want.fv / step);
+            for (int set = 0; set < g->sets; set++) {
+                got = wr_hard_look_at(g, set, &a, u, v);
+                wr_hard_near(g, WR_HARD_FLOAT, got.fu / step, want.fu / step);
+                wr_hard_near(g, WR_HARD_FLOAT, got.fv / step, want.fv / step);
+            }
+        }
+        if (good) wr_hard_look_fini(&a);
+    }
+    wr_field_free(low);
+    wr_field_free(high);
+    return good;
+}
+
+static const WrHardCase rows[] = {
+    { .id = "HC47",
+      .subject = WR_HARD_TABLE,
+      .what = "a level table, whatever its level",
+      .holds = "F is the level and the slopes are 0, to the bit, in every scheme",
+      .unit = "violations",
+      .bound = { 0, 0 },
+      .measure = hc47,
+      .scene = "table 100x37\nfill 1e6\nsurface sphere\nbump scheme=bspline height=0.1" },
+    { .id = "HC48",
+      .subject = WR_HARD_TABLE,
+      .what = "fine detail on a level of a million",
+      .holds = "slopes are those of the stored heights without the level",
+      .unit = "steps of height",
+      .bound = { 2, 1 },
+      .measure = hc48,
+      .scene = "table 64x64\nformula fourier terms=3,0,2;0,5,1,90,0\nadjust add amount=1e6\n"
+               "surface plane\nbump height=0.01" },
+};
+WR_HARD_LIST(flat, rows);
+
+/* ---- Hard cases of heights: extreme ones, integer ones, and edges of cells ---- */
+
+/* One texel at float's maximum: outside the scheme's reach not a bit differs. */
+static bool hc49(WrHardGauge *g, WrError *err)
+{
+    WrField *field = wr_hard_rough(g, 100, 100, WR_WRAP_PERIODIC), *spoilt = wr_field_share(field);
+    const float wild[] = { NAN, INFINITY, -INFINITY };
+    wr_field_set(spoilt, 50, 50, FLT_MAX);
+    bool good = true;
+    for (int scheme = 0; scheme < WR_SCHEME_COUNT && good; scheme++) {
+        WrHardLook a, b;
+        good = wr_hard_look_init(g, &a, field, (WrScheme)scheme, 1, 1, err) &&
+               wr_hard_look_init(g, &b, spoilt, (WrScheme)scheme, 1, 1, err);
+        for (int k = 0; k < 64 && good; k++) {
+            const double out = (wr_schemes[scheme].reach + 0.51 + k % 8) / 100;
+            const float u = 0.505f + (float)(k & 8 ? out : -out), v = wr_hard_float(g);
+            const float at[2] = { k & 16 ? v : u, k & 16 ? 1.0f - u : v };
+            wr_hard_holds(
+                g, WR_HARD_DOUBLE,
+                wr_hard_same_slope(
+                    wr_hard_sample(field, (WrScheme)scheme, (double)at[0], (double)at[1]),
+                    wr_hard_sample(spoilt, (WrScheme)scheme, (double)at[0], (double)at[1])));
+            for (int set = 0; set < g->sets; set++)
+                wr_hard_holds(g, WR_HARD_FLOAT,
+                              wr_hard_same_slope(wr_hard_look_at(g, set, &a, at[0], at[1]),
+                                                 wr_hard_look_at(g, set, &b, at[0], at[1])));
+        }
+        if (!good) break;
+        wr_hard_look_fini(&a);
+        wr_hard_look_fini(&b);
+    }
+    const int64_t replaced = wr_field_write(spoilt, 3, 4, 3, 1, wild, 3);
+    bool level = true;
+    for (int i = 3; i < 6; i++) level = level && wr_field_get(spoilt, i, 4) == 0.0f;
+    wr_hard_holds(g, WR_HARD_DOUBLE, replaced == 3 && level);
+    wr_field_free(field);
+    wr_field_free(spoilt);
+    return good;
+}
+
+static bool hc50(WrHardGauge *g, WrError *err)
+{
+    bool good = true;
+    for (int wrap = 0; wrap < 2 && good; wrap++) {
+        WrField *field = wr_hard_rough(g, 8, 8, wrap ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
+        for (int k = 0; k < 64; k++)
+            wr_field_set(field, k % 8, k / 8, (k * k / 3) % 2 ? FLT_MAX : -FLT_MAX);
+        for (int scheme = 0; scheme < WR_SCHEME_COUNT && good; scheme++) {
+            WrHardLook look;
+            good = wr_hard_look_init(g, &look, field, (WrScheme)scheme, 1, 1, err);
+            for (int k = 0; k < 200 && good; k++) {
+                const float u = (float)k / 200, v = wr_hard_float(g);
+                WrHardSlope s = wr_hard_sample(field, (WrScheme)scheme, (double)u, (double)v);
+                wr_hard_holds(g, WR_HARD_DOUBLE, isfinite(s.f) && isfinite(s.fu) && isfinite(s.fv));
+                for (int set = 0; set < g->sets; set++) {
+                    s = wr_hard_look_at(g, set, &look, u, v);
+                    wr_hard_holds(g, WR_HARD_FLOAT,
+                                  isfinite(s.f) && isfinite(s.fu) && isfinite(s.fv));
+                }
+            }
+            if (good) wr_hard_look_fini(&look);
+        }
+        wr_field_free(field);
+    }
+    return good;
+}
+
+/* ---- heights as integers ---- */
+
+/* A table after saving it as a file of that type: codes of 0..1. */
+static WrField *through_codes(const WrField *field, WrPixelType type, double *worst)
+{
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    const size_t count = (size_t)w * (size_t)h;
+    const double last = type == WR_PIXEL_U8 ? 255.0 : 65535.0;
+    float *heights = wr_alloc(count, sizeof *heights);
+    void *codes = wr_alloc(count, 2);
+    WrField *out = wr_field_share(field);
+    wr_field_read(field, 0, 0, w, h, heights, (size_t)w);
+    wr_image_codes(type, heights, count, codes, NULL);
+    *worst = 0.0;
+    for (size_t k = 0; k < count; k++) {
+        const double code =
+            type == WR_PIXEL_U8 ? ((uint8_t *)codes)[k] : (double)((uint16_t *)codes)[k];
+        const double off = fabs(code / last - (double)heights[k]);
+        if (off > *worst) *worst = off;
+        heights[k] = (float)(code / last);
+    }
+    wr_field_write(out, 0, 0, w, h, heights, (size_t)w);
+    wr_free(heights);
+    wr_free(codes);
+    return out;
+}
+
+/* Slopes of integer heights compared with those of the heights themselves, in n / (2 last code): the largest
+   effect of half a code in either direction on a central difference. */
+static bool quantised(WrHardGauge *g, WrPixelType type, WrError *err)
+{
+    static const int sizes[] = { 64, 256, 1024 };
+    const double last = type == WR_PIXEL_U8 ? 255.0 : 65535.0;
+    bool good = true;
+    for (int s = 0; s < 3 && good; s++) {
+        WrField *field = wr_hard_waves(sizes[s], 16);
+        for (int j = 0; j < 16; j++)
+            for (int i = 0; i < sizes[s]; i++)
+                wr_field_set(field, i, j, 0.5f + 0.5f * wr_field_get(field, i, j));
+        double worst;
+        WrField *coarse = through_codes(field, type, &worst);
+        const double quantum = sizes[s] / (2.0 * last);
+        WrHardLook look;
+        wr_hard_off(g, WR_HARD_DOUBLE, worst * 2.0 * last);
+        good = wr_hard_look_init(g, &look, coarse, WR_SCHEME_CENTRAL, 1, 1, err);
+        for (int k = 0; k < 400 && good; k++) {
+            const float u = wr_hard_float(g), v = wr_hard_float(g);
+            const double want = wr_hard_sample(field, WR_SCHEME_CENTRAL, (double)u, (double)v).fu;
+            const double got = wr_hard_sample(coarse, WR_SCHEME_CENTRAL, (double)u, (double)v).fu;
+            wr_hard_off(g, WR_HARD_DOUBLE, fabs(got - want) / quantum);
+            for (int set = 0; set < g->sets; set++)
+                wr_hard_off(g, WR_HARD_FLOAT,
+                            fabs(wr_hard_look_at(g, set, &look, u, v).fu - want) / quantum);
+        }
+        if (good) wr_hard_look_fini(&look);
+        wr_field_free(field);
+        wr_field_free(coarse);
+    }
+    return good;
+}
+
+static bool hc51(WrHardGauge *g, WrError *err)
+{
+    return quantised(g, WR_PIXEL_U8, err);
+}
+
+static bool hc52(WrHardGauge *g, WrError *err)
+{
+    return quantised(g, WR_PIXEL_U16, err);
+}
+
+enum { SIDE = 256, CODES = SIDE * SIDE };
+
+static bool give_rows(void *ctx, int y, int count, void *out, WrError *err)
+{
+    (void)err;
+    memcpy(out, (uint16_t *)ctx + (size_t)y * SIDE, (size_t)count * SIDE * sizeof(uint16_t));
+    return true;
+}
+
+/* Converts heights to codes and to a file in memory. */
+static bool write_codes(const char *name, const float *heights, uint16_t *codes, char **bytes,
+                        size_t *length, WrError *err)
+{
+    const WrImageOut part = { .width = SIDE,
+                              .height = SIDE,
+                              .channels = 1,
+                              .type = WR_PIXEL_U16,
+                              .data = true,
+                              .rows = give_rows,
+                              .ctx = codes };
+    wr_image_codes(WR_PIXEL_U16, heights, CODES, codes, NULL);
+    return wr_image_write_bytes(name, &part, bytes, length, err);
+}
+
+/* Saved, read, and saved again: the same bytes, and heights within half a code. */
+static bool save_twice(WrHardGauge *g, const char *name, const float *heights, uint16_t *codes,
+                       WrError *err)
+{
+    char *first = NULL, *second = NULL;
+    size_t first_length = 0, second_length = 0;
+    bool good = write_codes(name, heights, codes, &first, &first_length, err);
+    WrImage *image = good ? wr_image_read_bytes(name, first, first_length, err) : NULL;
+    good = image != NULL;
+    for (int k = 0; k < CODES && good; k++)
+        wr_hard_holds(g, WR_HARD_FLOAT,
+                      fabs((double)image->data[k] - (double)heights[k]) <= 0.5001 / 65535.0);
+    good = good && write_codes(name, image->data, codes, &second, &second_length, err);
+    if (good)
+        wr_hard_holds(g, WR_HARD_FLOAT,
+                      first_length == second_length && memcmp(first, second, first_length) == 0);
+    wr_image_free(image);
+    wr_free(first);
+    wr_free(second);
+    return good;
+}
+
+/* Every possible code, and random heights. */
+static bool hc53(WrHardGauge *g, WrError *err)
+{
+    float *heights = wr_alloc(CODES, sizeof *heights);
+    uint16_t *codes = wr_alloc(CODES, sizeof *codes);
+    bool good = true;
+    for (int i = 0; i < 3 && good; i++) {
+        for (int k = 0; k < CODES; k++)
+            heights[k] = i < 1 ? (float)(k / 65535.0) : (float)wr_hard_random(g);
+        good = save_twice(g, "heights.png", heights, codes, err);
+    }
+    wr_free(heights);
+    wr_free(codes);
+    return good;
+}
+
+/* ---- edges of cells ---- */
+
+/* The jump of Fu from one ulp before a cell's edge to one after, heights per texel. */
+static bool hc54(WrHardGauge *g, WrError *err)
+{
+    static const WrScheme smooth[] = { WR_SCHEME_CENTRAL, WR_SCHEME_BSPLINE, WR_SCHEME_BSPLINE_FIT,
+                                       WR_SCHEME_CATMULL };
+    WrField *field = wr_hard_rough(g, 32, 32, WR_WRAP_PERIODIC);
+    bool good = true;
+    for (int k = 0; k < 4 && good; k++) {
+        WrHardLook look;
+        good = wr_hard_look_init(g, &look, field, smooth[k], 1, 1, err);
+        for (int i = 0; i < 32 * 8 && good; i++) {
+            const double u = (i % 32 + 0.5) / 32;
+            const float single = (float)u, v = wr_hard_float(g);
+            WrHardSlope a = wr_hard_sample(field, smooth[k], nextafter(u, 0), (double)v);
+            WrHardSlope b = wr_hard_sample(field, smooth[k], nextafter(u, 1), (double)v);
+            wr_hard_near(g, WR_HARD_DOUBLE, a.fu / 32, b.fu / 32);
+            for (int set = 0; set < g->sets; set++) {
+                a = wr_hard_look_at(g, set, &look, nextafterf(single, 0), v);
+                b = wr_hard_look_at(g, set, &look, nextafterf(single, 1), v);
+                wr_hard_near(g, WR_HARD_FLOAT, a.fu / 32, b.fu / 32);
+            }
+        }
+        if (good) wr_hard_look_fini(&look);
+    }
+    wr_field_free(field);
+    return good;
+}
+
+#define ROW(number, situation, rule, u, in_float, in_double, script)                               \
+    {                                                                                              \
+        .id = "HC" #number, .subject = WR_HARD_TABLE, .what = situation, .holds = rule, .unit = u, \
+        .bound = { in_float, in_double }, .measure = hc##number, .scene = script                   \
+    }
+static const WrHardCase rows_limits[] = {
+    ROW(49, "a NaN, infinite or largest height in a table",
+        "NaN and infinity become 0 and are counted; the largest spoils the scheme's reach alone",
+        "violations", 0, 0,
+        "table 100x100\ngrid cells=8x8 width=2\ndab 0.5,0.5 radius=0.5 strength=3e38\nsurface "
+        "plane"),
+    ROW(50, "the largest height beside its negative", "F and its slopes stay finite", "violations",
+        0, 0,
+        "table 8x8\npattern checks across=8 rows=8 height=1e30\nsurface plane\nbump height=1e-30"),
+    ROW(51, "heights of 8 bits",
+        "slopes are off by as much as half a code can do: terraces, so tables hold floats",
+        "n / 510", 1.001, 1 + 1e-6,
+        "table 256x256\nformula fourier terms=1,0,0.5\nsurface plane\nbump height=0.2\n"
+        "dials heights=8bit"),
+    ROW(52, "heights of 16 bits", "heights to half a code, slopes by what that can do",
+        "n / 131070", 1.1, 1.01,
+        "table 256x256\nformula fourier terms=1,0,0.5\nsurface plane\nbump height=0.2\n"
+        "dials heights=16bit"),
+    ROW(53, "16-bit heights written, read and written again", "the same bytes", "violations", 0,
+        NAN, NULL),
+    ROW(54, "a last place either side of a cell's edge",
+        "slopes of all schemes but bilinear are continuous", "height a texel", 5e-5, 1e-13,
+        "table 16x16\nnoise value cells=8\nsurface plane\nbump scheme=bilinear height=0.1"),
+};
+WR_HARD_LIST(limits, rows_limits);
+
+/* ---- hardcases ends ---- */
+
+/* Hard cases of HC156 and later: surfaces, tables and heights at the limits of their range, and light without a
+   direction. */
+
+/* ---- surfaces ---- */
+
+/* A shallow dish; `how` selects the coincident control points: two at a corner along u, along v, three at the
+   corner, two within an edge, two in the middle, four there. */
+static WrShape coincident(int how)
+{
+    static const int pairs[6][3][2] = { { { 1, 0 } },           { { 4, 0 } },
+                                        { { 1, 0 }, { 4, 0 } }, { { 2, 1 } },
+                                        { { 6, 5 } },           { { 6, 5 }, { 9, 5 }, { 10, 5 } } };
+    WrShape shape = wr_hard_shape(WR_SURFACE_bezier);
+    for (int k = 0; k < 16; k++) {
+        const double x = k % 4 / 3.0, y = k / 4 / 3.0;
+        shape.value[3 * k] = x;
+        shape.value[3 * k + 1] = y;
+        shape.value[3 * k + 2] = 0.37 * (x * x + y * y);
+    }
+    for (int p = 0; p < 3; p++) {
+        const int to = pairs[how][p][0], from = pairs[how][p][1];
+        if (to != from) memcpy(shape.value + 3 * to, shape.value + 3 * from, 3 * sizeof(double));
+    }
+    return shape;
+}
+
+/* Along the diagonal n is continuous at the corner, in float and in double (the edges beside it have normals of
+   their own); everywhere it has length 1 after perturbation. */
+bool wr_hard_hc156(WrHardGauge *g, WrError *err)
+{
+    static const double near[] = { 0, 1e-30, 1e-7, 1e-5 };
+    WrField *field = wr_hard_waves(32, 32);
+    bool good = true;
+    for (int how = 0; how < 6 && good; how++) {
+        const WrShape shape = coincident(how);
+        WrSurfacePoint beside;
+        wr_surface_at(&shape, 0, 1e-4, 1e-4, &beside);
+        for (int k = 0; k < 16; k++) {
+            const double u = near[k % 4], v = near[k / 4];
+            WrSurfacePoint at;
+            wr_surface_at(&shape, 0, u, v, &at);
+            const bool middle = k % 4 == k / 4;
+            if (middle)
+                wr_hard_holds(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, beside.n_unit) < 2e-3);
+            wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(at.n_unit) - 1.0) < 1e-14);
+            for (int set = 0; set < g->all; set++) {
+                const WrSurfacePointf atf =
+                    wr_hard_point(g, set, &shape, 1.0, 0, (float)u, (float)v);
+                if (middle)
+                    wr_hard_holds(g, WR_HARD_FLOAT,
+                                  v3_angle_rad(wr_hard_vec(atf.n_unit), beside.n_unit) < 2e-3);
+                for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
+                    const WrVec3 perturbed = wr_hard_perturbed_f(
+                        g, set, (WrBumpMode)mode, &atf, (WrHardSlope){ 0.1, 2, -3 }, false);
+                    wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-6);
+                }
+            }
+        }
+        WrScene *scene = wr_scene_new();
+        scene->shape = shape;
+        good = wr_hard_tame(g, field, scene, err);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+    return good;
+}
+
+/* The hole closes to a point where Pu vanishes: beside it n points away from the tube's centre line, and
+   perturbed normals have length 1 for any table. */
+bool wr_hard_hc160(WrHardGauge *g, WrError *err)
+{
+    WrField *field = wr_hard_waves(32, 32);
+    bool good = true;
+    for (int i = 0; i < 40 && good; i++) {
+        WrShape torus = wr_hard_shape(WR_SURFACE_torus);
+        torus.value[0] = torus.value[1] = wr_hard_between(g, 0.2, 0.8);
+        for (int k = -24; k <= 24; k++) {
+            const double v = 0.5 + (k < 0 ? -ldexp(1.0, k) : k > 0 ? ldexp(1.0, -k) : 0.0) / 4;
+            const float u = wr_hard_float(g), single = (float)v;
+            const WrHardSlope slope = { 0, wr_hard_between(g, -4, 4), wr_hard_between(g, -4, 4) };
+            double s, c, sp, cp;
+            wr_sincos_turns((double)u, &s, &c);
+            wr_sincos_turns((double)single, &sp, &cp);
+            const WrVec3 want = { cp * c, cp * s, sp };
+            for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
+                WrSurfacePoint at;
+                wr_surface_at(&torus, 0, (double)u, (double)single, &at);
+                wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, want));
+                wr_hard_off(g, WR_HARD_DOUBLE,
+                            fabs(v3_len(wr_hard_perturbed((WrBumpMode)mode, &at, slope)) - 1.0));
+                for (int set = 0; set < g->all; set++) {
+                    const WrSurfacePointf atf = wr_hard_point(g, set, &torus, 1.0, 0, u, single);
+                    const WrVec3 perturbed =
+                        wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &atf, slope, false);
+                    wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(wr_hard_vec(atf.n_unit), want));
+                    wr_hard_off(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0));
+                }
+            }
+        }
+        if (i > 3) continue;
+        WrScene *scene = wr_scene_new();
+        scene->shape = torus;
+        WrHardGauge quiet = *g; /* counts violations; here deviations are measured */
+        good = wr_hard_tame(&quiet, field, scene, err);
+        wr_hard_off(g, WR_HARD_FLOAT, good && quiet.worst[0] == g->worst[0] ? 0.0 : 1.0);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+    return good;
+}
+
+/* Kernel results n and n' there: NaN light counts as none, so pictures would hide it. */
+static void thin_point(WrHardGauge *g, int set, const WrScene *scene, WrHardSlope slope)
+{
+    const double unit = scalbn(1.0, -ilogb(wr_shape_radius(&scene->shape)));
+    const WrSurfacePointf at =
+        wr_hard_point(g, set, &scene->shape, unit, 0, wr_hard_float(g), wr_hard_float(g));
+    const WrVec3 perturbed = wr_hard_perturbed_f(g, set, scene->bump, &at, slope, false);
+    wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(wr_hard_vec(at.n_unit)) - 1.0) < 1e-5);
+    wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-5);
+}
+
+/* Sides of 1e-30 beside others of 1: almost no area, and unbounded slopes per unit of length. */
+bool wr_hard_hc161(WrHardGauge *g, WrError *err)
+{
+    static const struct {
+        WrSurfaceKind kind;
+        int side;
+    } thin[] = { { WR_SURFACE_plane, 0 },    { WR_SURFACE_plane, 1 },  { WR_SURFACE_cylinder, 0 },
+                 { WR_SURFACE_cylinder, 1 }, { WR_SURFACE_cone, 0 },   { WR_SURFACE_cone, 1 },
+                 { WR_SURFACE_torus, 1 },    { WR_SURFACE_ribbon, 3 }, { WR_SURFACE_sphere, 0 } };
+    WrField *field = wr_hard_waves(32, 32);
+    bool good = true;
+    for (int k = 0; k < 9 * (WR_BUMP_COUNT - 1) && good; k++) {
+        const int which = k % 9;
+        WrScene *scene = wr_scene_new();
+        scene->shape = wr_hard_shape(thin[which].kind);
+        scene->shape.value[thin[which].side] = WR_LENGTH_MIN;
+        scene->bump = (WrBumpMode)(WR_BUMP_BLINN + k / 9);
+        scene->height = 0.1;
+        good = wr_shape_check(&scene->shape, err) && wr_hard_tame(g, field, scene, err);
+        for (int i = 0; i < 20 && good; i++) {
+            WrSurfacePoint at;
+            const WrHardSlope slope = { 0.1, wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1) };
+            wr_surface_at(&scene->shape, 0, wr_hard_random(g), wr_hard_random(g), &at);
+            const WrVec3 perturbed = wr_hard_perturbed(scene->bump, &at, slope);
+            wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(at.n_unit) - 1.0) < 1e-14);
+            wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(perturbed) - 1.0) < 1e-14);
+            for (int set = 0; set < g->all; set++) thin_point(g, set, scene, slope);
+        }
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+    return good;
+}
+
+/* ---- tables ---- */
+
+/* The table repeated to `across` and `down` times as many columns and rows: F is the same function. */
+static WrField *repeated(const WrField *field, int across, int down)
+{
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    WrField *out =
+        wr_field_new(w * across, h * down, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, NULL);
+    for (int j = 0; j < h * down; j++)
+        for (int i = 0; i < w * across; i++)
+            wr_field_set(out, i, j, wr_field_get(field, i % w, j % h));
+    return out;
+}
+
+/* Tables of one row, one column and one texel, as pictures: equal to those of the table repeated to eight. */
+bool wr_hard_hc157(WrHardGauge *g, WrError *err)
+{
+    static const int sizes[][2] = { { 1, 24 }, { 24, 1 }, { 1, 1 } };
+    static const WrSurfaceKind kinds[] = { WR_SURFACE_sphere, WR_SURFACE_plane, WR_SURFACE_bent };
+    bool good = true;
+    for (int k = 0; k < 3 * WR_SCHEME_COUNT && good; k++) {
+        const int w = sizes[k % 3][0], h = sizes[k % 3][1];
+        WrField *thin = wr_hard_rough(g, w, h, WR_WRAP_PERIODIC);
+        WrField *wide = repeated(thin, w == 1 ? 8 : 1, h == 1 ? 8 : 1);
+        WrScene *scene = wr_scene_new();
+        scene->shape = wr_hard_shape(kinds[k / 3 % 3]);
+        scene->scheme = (WrScheme)(k / 3);
+        scene->height = 0.05;
+        WrFrameRequest request = { .field = thin, .scene = scene, .width = 40, .height = 40 };
+        WrReference thin_truth = { 0 }, wide_truth = { 0 };
+        good = wr_hard_refer(g, &request, 1, &thin_truth, err);
+        for (int way = 0; way < WR_HARD_WAYS && good; way++) {
+            WrHardShot a = { .renderer = NULL }, b = { .renderer = NULL };
+            request.field = thin;
+            good = wr_hard_shoot_by(g, &request, (WrHardWay)way, &a, err);
+            request.field = wide;
+            good = good && wr_hard_shoot_by(g, &request, (WrHardWay)way, &b, err);
+            if (good) wr_hard_holds(g, wr_hard_precision(way), wr_hard_differ(&a, &b, 2e-4) == 0);
+            wr_hard_put_away(&a);
+            wr_hard_put_away(&b);
+        }
+        good = good && wr_hard_refer(g, &request, 1, &wide_truth, err);
+        for (int i = 0; i < 4 * 40 * 40 && good; i++)
+            wr_hard_holds(g, WR_HARD_DOUBLE, fabs(thin_truth.rgba[i] - wide_truth.rgba[i]) < 1e-9);
+        wr_reference_fini(&thin_truth);
+        wr_reference_fini(&wide_truth);
+        wr_scene_free(scene);
+        wr_field_free(thin);
+        wr_field_free(wide);
+    }
+    return good;
+}
+
+/* A layer added and an almost equal one subtracted: the result is the difference of two stored heights, which is
+   exact at any level; in either order, above any layers. */
+bool wr_hard_hc162(WrHardGauge *g, WrError *err)
+{
+    (void)err;
+    enum { COUNT = 512 };
+    static const float levels[] = { 1, 1e3f, 1e6f, 1e30f, 3e38f };
+    for (int k = 0; k < 5; k++) {
+        float up[COUNT], down[COUNT], below[COUNT];
+        for (int i = 0; i < COUNT; i++) {
+            up[i] = levels[k] * (0.75f + 0.25f * wr_hard_float(g));
+            down[i] = up[i] * (1.0f + 0x1p-20f * wr_hard_float(g));
+            below[i] = 0.0f;
+        }
+        const WrBlendTile first = { .heights = up, .cover_level = 1, .mask_level = 1 };
+        const WrBlendTile second = { .heights = down, .cover_level = 1, .mask_level = 1 };
+        const bool added_first = k % 2 == 0;
+        wr_blend_tile(added_first ? WR_BLEND_ADD : WR_BLEND_SUBTRACT, 1, 0,
+                      added_first ? &first : &second, COUNT, below);
+        wr_blend_tile(added_first ? WR_BLEND_SUBTRACT : WR_BLEND_ADD, 1, 0,
+                      added_first ? &second : &first, COUNT, below);
+        for (int i = 0; i < COUNT; i++)
+            wr_hard_holds(g, WR_HARD_FLOAT, (double)below[i] == (double)up[i] - (double)down[i]);
+    }
+    return true;
+}
+
+/* Every operation on tables at both limits of float: heights stay finite, and a flat table of the largest height
+   is unchanged by operations that do not affect flat areas. */
+bool wr_hard_hc165(WrHardGauge *g, WrError *err)
+{
+    enum { WIDE = 80, HIGH = 70 }; /* crop limits itself to 64 */
+    static const float ends[] = { FLT_MAX, -FLT_MAX, 1e-45f, -1e-45f, 0x1p-126f, -0.0f, 1e37f };
+    bool good = true;
+    for (int k = 0; k < wr_op_count * 3 && good; k++) {
+        const WrOpInfo *op = &wr_ops[k / 3];
+        const WrWrap wrap = k % 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
+        WrField *field = wr_field_new(WIDE, HIGH, wrap, wrap, 0.0f, err);
+        good = field != NULL;
+        for (int i = 0; i < WIDE * HIGH && good; i++)
+            wr_field_set(field, i % WIDE, i / WIDE, ends[(int)(7 * wr_hard_random(g))]);
+        WrField *out = good ? wr_op_run(op, field, NULL, NULL, err) : NULL;
+        good = out != NULL;
+        for (int j = 0; good && j < wr_field_height(out); j++)
+            for (int i = 0; i < wr_field_width(out); i++)
+                wr_hard_holds(g, WR_HARD_FLOAT, isfinite(wr_field_get(out, i, j)));
+        wr_field_free(out);
+        wr_field_free(field);
+    }
+    return good;
+}
+
+/* +0 and -0 in one table: the picture of a flat table, to the bit. */
+bool wr_hard_hc173(WrHardGauge *g, WrError *err)
+{
+    WrField *mixed = wr_field_new(24, 24, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, err);
+    WrField *plain = wr_field_new(24, 24, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, err);
+    bool good = mixed && plain;
+    for (int i = 0; i < 24 * 24 && good; i++)
+        wr_field_set(mixed, i % 24, i / 24, wr_hard_random(g) < 0.5 ? -0.0f : 0.0f);
+    for (int k = 0; k < WR_SCHEME_COUNT * (WR_BUMP_COUNT - 1) && good; k++) {
+        WrScene *scene = wr_scene_new();
+        WrFrameRequest request = { .scene = scene, .width = 32, .height = 32, .full = true };
+        scene->shape = wr_hard_shape(k % 2 ? WR_SURFACE_sphere : WR_SURFACE_torus);
+        scene->scheme = (WrScheme)(k % WR_SCHEME_COUNT);
+        scene->bump = (WrBumpMode)(WR_BUMP_BLINN + k / WR_SCHEME_COUNT);
+        scene->height = k % 3 ? 1 : -1e30;
+        for (int way = 0; way < WR_HARD_WAYS && good; way++) {
+            WrHardShot a = { .renderer = NULL }, b = { .renderer = NULL };
+            request.field = mixed;
+            good = wr_hard_shoot_by(g, &request, (WrHardWay)way, &a, err);
+            request.field = plain;
+            good = good && wr_hard_shoot_by(g, &request, (WrHardWay)way, &b, err);
+            if (good) wr_hard_holds(g, wr_hard_precision(way), wr_hard_differ(&a, &b, 0.0) == 0);
+            wr_hard_put_away(&a);
+            wr_hard_put_away(&b);
+        }
+        wr_scene_free(scene);
+    }
+    wr_field_free(mixed);
+    wr_field_free(plain);
+    return good;
+}
+
+/* Kernel fetches from it, scaled to float's maximum, are finite: an infinite slope has no direction. */
+static bool look_stays_finite(WrHardGauge *g, const WrField *field, const WrScene *scene,
+                              WrError *err)
+{
+    WrHardLook look;
+    if (!wr_hard_look_init(g, &look, field, scene->scheme, 1, 1, err)) return false;
+    look.look.scale_f = look.look.scale_u = (float)fmin(fabs(scene->height), (double)FLT_MAX);
+    look.look.scale_v = -look.look.scale_u;
+    for (int i = 0; i < 20 * g->all; i++) {
+        const WrHardSlope s =
+            wr_hard_look_at(g, i % g->all, &look, wr_hard_float(g), wr_hard_float(g));
+        wr_hard_holds(g, WR_HARD_FLOAT, isfinite(s.f) && isfinite(s.fu) && isfinite(s.fv));
+    }
+    wr_hard_look_fini(&look);
+    return true;
+}
+
+/* Heights of 1e30 in a table, with a height of 1e30 in the scene. */
+bool wr_hard_hc175(WrHardGauge *g, WrError *err)
+{
+    static const double heights[] = { 1e30, -1e300, 1e-300 };
+    WrField *field = wr_hard_waves(24, 24);
+    for (int i = 0; i < 24 * 24; i++)
+        wr_field_set(field, i % 24, i / 24, 1e30f * wr_field_get(field, i % 24, i / 24));
+    bool good = true;
+    for (int k = 0; k < WR_SCHEME_COUNT * (WR_BUMP_COUNT - 1) * 3 && good; k++) {
+        WrScene *scene = wr_scene_new();
+        scene->shape = wr_hard_shape((WrSurfaceKind)(k % WR_SURFACE_COUNT));
+        scene->scheme = (WrScheme)(k % WR_SCHEME_COUNT);
+        scene->bump = (WrBumpMode)(WR_BUMP_BLINN + k / WR_SCHEME_COUNT % (WR_BUMP_COUNT - 1));
+        scene->height = heights[k / WR_SCHEME_COUNT / (WR_BUMP_COUNT - 1)];
+        good = look_stays_finite(g, field, scene, err) && wr_hard_tame(g, field, scene, err);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+    return good;
+}
+
+/* ---- light ---- */
+
+/* Kernels with the lamp, and the eye, exactly at the lit point. */
+static void touching(WrHardGauge *g)
+{
+    for (int k = 0; k < 40; k++) {
+        const float hair = k % 4 ? ldexpf(1.0f, -20 * (k % 4) - k) : 0.0f;
+        const float p[3] = { wr_hard_float(g), wr_hard_float(g), wr_hard_float(g) };
+        const WrKernLight lamp = { .point = true,
+                                   .where = { p[0], p[1], p[2] + hair },
+                                   .rgb = { 1, 1, 1 } };
+        const WrRays rays = { .perspective = true, .eye = { p[0], p[1], p[2] + hair } };
+        for (int set = 0; set < g->all; set++) {
+            WrStrip *s = g->strip;
+            s->count = 1;
+            s->px[0] = p[0], s->py[0] = p[1], s->pz[0] = p[2];
+            s->bx[0] = s->by[0] = 0.0f, s->bz[0] = 1.0f;
+            g->kernels[set]->view(&rays, s);
+            g->kernels[set]->begin(0.0f, s);
+            g->kernels[set]->light(&lamp, s);
+            g->kernels[set]->diffuse(&lamp, 1.0f, s);
+            g->kernels[set]->specular(&lamp, 1.0f, 20.0f, k % 2, s);
+            wr_hard_holds(g, WR_HARD_FLOAT, s->dr[0] >= 0.0f && s->dr[0] <= 1.00001f);
+            wr_hard_holds(g, WR_HARD_FLOAT, s->sr[0] >= 0.0f && s->sr[0] <= 1.00001f);
+            wr_hard_holds(g, WR_HARD_FLOAT, isfinite(s->lx[0]) && isfinite(s->vz[0]));
+        }
+        const WrKernLightd wide = { .point = true,
+                                    .where = { (double)p[0], (double)p[1],
+                                               (double)p[2] + (double)hair },
+                                    .rgb = { 1, 1, 1 } };
+        for (int set = 0; set < 2; set++) {
+            WrStripd *s = g->wide_strip;
+            s->count = 1;
+            s->px[0] = (double)p[0], s->py[0] = (double)p[1], s->pz[0] = (double)p[2];
+            s->bx[0] = s->by[0] = 0.0, s->bz[0] = 1.0;
+            g->wide[set]->begin(0.0, s);
+            g->wide[set]->light(&wide, s);
+            g->wide[set]->diffuse(&wide, 1.0, s);
+            wr_hard_holds(g, WR_HARD_DOUBLE, s->dr[0] >= 0.0 && s->dr[0] <= 1.00001);
+            wr_hard_holds(g, WR_HARD_DOUBLE, isfinite(s->lx[0]) && isfinite(s->lz[0]));
+        }
+    }
+}
+
+/* A lamp at a point of the surface, and one inside: the direction is undefined there, but every value is finite
+   and within the light's range. */
+bool wr_hard_hc159(WrHardGauge *g, WrError *err)
+{
+    WrField *field = wr_hard_waves(32, 32);
+    bool good = true;
+    touching(g);
+    for (int k = 0; k < 2 * WR_SURFACE_COUNT && good; k++) {
+        WrScene *scene = wr_scene_new();
+        WrSurfacePoint at;
+        scene->shape = wr_hard_shape((WrSurfaceKind)(k / 2));
+        scene->posed = scene->lights_given = true;
+        scene->height = k % 2 ? 0.0 : 0.05;
+        wr_surface_at(&scene->shape, 0, 0.5, 0.5, &at);
+        const WrVec3 where = v3_sub(at.p, wr_shape_centre(&scene->shape));
+        const double radius = wr_shape_radius(&scene->shape);
+        scene->lights[0] = (WrLight){
+            .kind = WR_LIGHT_POINT, .where = where, .colour = { 1, 1, 1 }, .strength = 1
+        };
+        scene->material = (WrMaterial){
+            .diffuse = 1, .specular = 1, .shininess = 20, .colour = { 1, 1, 1 }, .gate = k % 2
+        };
+        /* straight towards it, so that the middle sample is at the lamp */
+        scene->camera = (WrCamera){ .orthographic = true,
+                                    .eye = v3_mad(where, at.n_unit, 3 * radius),
+                                    .target = where,
+                                    .up = { 0.3, 0.2, 0.9 },
+                                    .size = k % 4 < 2 ? radius : 0.1 * radius };
+        const WrFrameRequest request = {
+            .field = field, .scene = scene, .width = 41, .height = 41
+        };
+        for (int way = 0; way < WR_HARD_WAYS && good; way++) {
+            WrHardShot shot = { .renderer = NULL };
+            good = wr_hard_shoot_by(g, &request, (WrHardWay)way, &shot, err);
+            for (int i = 0; i < 41 * 41 * 4 && good; i++)
+                wr_hard_holds(g, wr_hard_precision(way),
+                              shot.frame.rgba[i] >= 0.0f && shot.frame.rgba[i] <= 2.00001f);
+            wr_hard_put_away(&shot);
+        }
+        WrReference reference = { 0 };
+        good = good && wr_hard_refer(g, &request, 1, &reference, err);
+        for (int i = 0; i < 41 * 41 * 4 && good; i++)
+            wr_hard_holds(g, WR_HARD_DOUBLE,
+                          reference.rgba[i] >= 0.0 && reference.rgba[i] <= 2.00001);
+        wr_reference_fini(&reference);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+    return good;
+}
 
 static const double ends[] = { 0, 1, -0.0, 5, -3 };
 
@@ -392,12 +1175,7 @@ static bool hc45(WrHardGauge *g, WrError *err)
     return good;
 }
 
-#define ROW(number, situation, rule, u, in_float, in_double, script)                               \
-    {                                                                                              \
-        .id = "HC" #number, .subject = WR_HARD_TABLE, .what = situation, .holds = rule, .unit = u, \
-        .bound = { in_float, in_double }, .measure = hc##number, .scene = script                   \
-    }
-static const WrHardCase rows[] = {
+static const WrHardCase rows_table[] = {
     ROW(35, "u at 0, at 1, beside them, and -0", "indices stay in the table; 1 is 0 to the bit",
         "violations", 0, 0, "table 64x64\nnoise perlin cells=8\nsurface cylinder"),
     ROW(36, "u just below 0, down to what 1 - u cannot show", "F there is F(0) to slope times u",
@@ -429,4 +1207,4 @@ static const WrHardCase rows[] = {
         "table 3x100\nformula fourier terms=1,4,0.5\nsurface torus\nreplicate 5,3\nbump "
         "height=0.3"),
 };
-WR_HARD_LIST(table, rows);
+WR_HARD_LIST(table, rows_table);

@@ -35,12 +35,7 @@ typedef struct WrNoiseBand {
     float fx[WR_NOISE_BAND][WR_NOISE_STRIP], fy[WR_NOISE_BAND][WR_NOISE_STRIP];
 } WrNoiseBand;
 
-/* grid: at most a piece. Without slopes, fx and fy are unchanged. */
-void wr_noise_band(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes, WrNoiseBand *band);
-
 /* wr_noise_band for sheared noise of at most one cell per texel along x. */
-void wr_noise_band_sheared(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
-                           WrNoiseBand *band);
 
 /* The centre of a texel. */
 static inline double wr_noise_grid_u(const WrNoiseGrid *grid, int i)

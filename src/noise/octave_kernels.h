@@ -1,4 +1,4 @@
-/* octave_kernels.h - inner loops of octaves on square cells (grid_octave.c), compiled once per
+/* octave_kernels.h - inner loops of octaves on square cells (grid.c), compiled once per
    instruction set.
 
    All sets give the same bits: only + - * / floor, comparisons and conversions, without contraction.
@@ -87,10 +87,6 @@ typedef struct WrNoiseKernels {
     void (*add)(float factor, const float *f, int count, float *n);
     void (*add_magnitude)(float factor, float below, const float *f, int count, float *n);
 } WrNoiseKernels;
-
-/* Adds one octave over a piece to n. False, without any change, if there is no fast path. */
-bool wr_noise_sum(const WrOctave *octave, const WrNoiseGrid *grid, WrNoiseShare share, float *n,
-                  size_t pitch);
 
 extern const WrNoiseKernels wr_noise_kernels_v1, wr_noise_kernels_v3, wr_noise_kernels_v4;
 

@@ -18,10 +18,7 @@ typedef struct WrEnvironment {
     double strength; /* 0..1e6: factor of the picture's values */
 } WrEnvironment;
 
-/* replaces the content of `to` */
-void wr_environment_copy(WrEnvironment *to, const WrEnvironment *from);
 /* Sets other surroundings, or none; owns `light`. Turn and strength are kept, but reset for none. path,
    sha256: of a file, or NULL. */
 void wr_environment_set(WrEnvironment *environment, WrEnvironmentMapKind kind,
                         WrEnvironmentMap *light, const char *path, const char *sha256);
-void wr_environment_fini(WrEnvironment *environment);

@@ -58,7 +58,8 @@ void wr_height_colormap_at(const WrHeightColormap *colouring, double height, dou
     if (colouring->steep) ease(colouring->steep_rgb, colouring->slope, slope_deg, rgb);
 }
 
-void wr_height_colormap_hollow(const WrHeightColormap *colouring, double below, double rgb[3])
+/* Blends with the colour of hollows in the same way, for a place this far below its surroundings. */
+static void height_colormap_hollow(const WrHeightColormap *colouring, double below, double rgb[3])
 {
     if (colouring->hollow) ease(colouring->hollow_rgb, colouring->depth, below, rgb);
 }
@@ -69,7 +70,7 @@ static void put(const WrHeightColormap *colouring, double height, double slope, 
 {
     double rgb[3];
     wr_height_colormap_at(colouring, height, slope * 180 / WR_PI, rgb);
-    if (mean) wr_height_colormap_hollow(colouring, (double)*mean - height, rgb);
+    if (mean) height_colormap_hollow(colouring, (double)*mean - height, rgb);
     for (int c = 0; c < 3; c++) out[c] = (float)rgb[c];
 }
 
@@ -122,7 +123,7 @@ static void fill_hollows(const WrHeightColormap *colouring, const WrField *heigh
         const int i = k % image->width, j = k / image->width;
         float *at = image->data + 3 * (size_t)k;
         double rgb[3] = { (double)at[0], (double)at[1], (double)at[2] };
-        wr_height_colormap_hollow(
+        height_colormap_hollow(
             colouring, (double)wr_field_get(means, i, j) - (double)wr_field_get(heights, i, j),
             rgb);
         for (int c = 0; c < 3; c++) at[c] = (float)rgb[c];

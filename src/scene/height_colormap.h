@@ -47,8 +47,6 @@ void wr_height_colormap_default(WrHeightColormap *out);
  * height; on steep slopes blended with their colour by t^2 (3 - 2 t). */
 void wr_height_colormap_at(const WrHeightColormap *colouring, double height, double slope_deg,
                            double rgb[3]);
-/* Blends with the colour of hollows in the same way, for a place this far below its surroundings. */
-void wr_height_colormap_hollow(const WrHeightColormap *colouring, double below, double rgb[3]);
 /* The picture for a terrain's patches, covering it once; height: of value 1. */
 WrImage *wr_height_colormap_form(const WrHeightColormap *colouring, const WrPatches *set,
                                  double height, int w, int h, WrError *err);

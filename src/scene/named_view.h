@@ -13,5 +13,3 @@ int wr_scene_find_view(const WrScene *scene, const char *name); /* its index, or
 void wr_scene_name_view(WrScene *scene, const char *name, const WrSceneView *view);
 void wr_scene_forget_view(WrScene *scene, int i);
 /* Replaces the views by those of another scene; removes all views. */
-void wr_scene_take_views(WrScene *scene, const WrScene *from);
-void wr_scene_drop_views(WrScene *scene);

@@ -1,11 +1,255 @@
 #include "scene/objects.h"
 
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/vec.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* Maximum displacement of a displaced surface from its base, in the object's units, for table heights
+   of -1..1 or the bound of its formula; 0: not displaced. The table's heights are not used: a camera
+   must not move while the user paints. */
+static double scene_stands_out(const WrScene *object);
+
+/* ---- place ---- */
+
+/* Ratio of the view to the object's bounding sphere, so that the object does not touch the picture's
+   border. */
+#define MARGIN 1.04
+
+static bool finite3(WrVec3 a)
+{
+    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+}
+
+/* out = a b, 3 x 3, row-major */
+static void multiply(const double a[9], const double b[9], double out[9])
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+    }
+}
+
+/* out = (rotation by `deg` about the axis 0, 1, 2 = x, y, z) in. Whole turns are subtracted exactly
+ * before rounding, so that the angle of a turntable after days is as accurate as a small one (HC87). */
+static void turn(int axis, double deg, const double in[9], double out[9])
+{
+    double s, c;
+    wr_sincos_turns(remainder(deg, 360) / 360, &s, &c);
+    int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    double m[9] = { 0 };
+    m[4 * axis] = 1;
+    m[4 * j] = m[4 * k] = c;
+    m[3 * j + k] = -s;
+    m[3 * k + j] = s;
+    multiply(m, in, out);
+}
+
+static WrVec3 turned(const double m[9], WrVec3 p)
+{
+    return (WrVec3){ m[0] * p.x + m[1] * p.y + m[2] * p.z, m[3] * p.x + m[4] * p.y + m[5] * p.z,
+                     m[6] * p.x + m[7] * p.y + m[8] * p.z };
+}
+
+/* A size relative to the largest, at least the thinnest; 0 becomes positive. */
+static double part_of(double size, double largest)
+{
+    const double part = size / largest;
+    return part < 0 ? fmin(part, -WR_THINNEST) : fmax(part, WR_THINNEST);
+}
+
+/* Cofactors of the stretch times the sign of its determinant: |s1 s2 s3| / s. */
+static void place_stretch(WrVec3 sizes, WrPlacement *out)
+{
+    const double largest = fmax(fabs(sizes.x), fmax(fabs(sizes.y), fabs(sizes.z)));
+    out->stretched = largest > 0;
+    out->stretch = out->cofactor = (WrVec3){ 1, 1, 1 };
+    if (!out->stretched) return;
+    const WrVec3 s = { part_of(sizes.x, largest), part_of(sizes.y, largest),
+                       part_of(sizes.z, largest) };
+    const double all = fabs(s.x * s.y * s.z);
+    out->stretch = s;
+    out->cofactor = (WrVec3){ all / s.x, all / s.y, all / s.z };
+}
+
+void wr_scene_stretch(const WrScene *scene, WrVec3 *stretch, WrVec3 *cofactor)
+{
+    WrPlacement place;
+    place_stretch(scene->sizes, &place);
+    *stretch = place.stretch;
+    *cofactor = place.cofactor;
+}
+
+bool wr_scene_is_thin(const WrScene *scene)
+{
+    WrPlacement place;
+    place_stretch(scene->sizes, &place);
+    const WrVec3 s = place.stretch;
+    return place.stretched && fmin(fabs(s.x), fmin(fabs(s.y), fabs(s.z))) < 1.0 / 32;
+}
+
+/* Turntable Ry(turn) after the pose Rz Ry Rx; it also rotates the object's position. */
+static void place_object(const WrScene *scene, double turn_deg, WrPlacement *out)
+{
+    const double *pose = wr_surfaces[scene->shape.kind]->pose_deg;
+    WrVec3 deg = scene->posed ? scene->rotate_deg : (WrVec3){ pose[0], pose[1], pose[2] };
+    const double same[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    double a[9], b[9];
+    if (scene->still) turn_deg = 0;
+    turn(0, deg.x, same, a);
+    turn(1, deg.y, a, b);
+    turn(2, deg.z, b, a);
+    turn(1, turn_deg, a, out->rotation);
+    turn(1, turn_deg, same, a);
+    out->position = turned(a, scene->at);
+    out->size = scene->size;
+    place_stretch(scene->sizes, out);
+}
+
+/* Replacement if `up` is 0 or parallel to the view: the far side is up when looking straight down, the
+ * near side when looking straight up, else the world's y. */
+static WrVec3 other_up(WrVec3 forward)
+{
+    if (fabs(forward.y) > 0.9) return (WrVec3){ 0, 0, forward.y > 0 ? 1 : -1 };
+    return (WrVec3){ 0, 1, 0 };
+}
+
+static void place_axes(const WrCamera *camera, WrVec3 forward, WrPlacement *out)
+{
+    const WrVec3 none = { 0, 0, 0 };
+    WrVec3 across = v3_cross(forward, v3_unit(camera->up, none));
+    if (v3_len(across) < 1e-9) across = v3_cross(forward, other_up(forward));
+    out->forward = forward;
+    out->right = v3_unit(across, none);
+    if (v3_len(across) < 1e-3) { /* a short product consists of rounding errors */
+        across = v3_mad(out->right, forward, -v3_dot(out->right, forward));
+        out->right = v3_unit(across, none);
+    }
+    out->up = v3_unit(v3_cross(out->right, forward), none);
+}
+
+static bool check_camera(const WrCamera *camera, double aspect, WrError *err)
+{
+    if (!(aspect > 0) || !isfinite(aspect))
+        return wr_fail(err, "picture %g times as wide as high: must be above 0", aspect);
+    if (!finite3(camera->eye) || !finite3(camera->target) || !finite3(camera->up))
+        return wr_fail(err, "camera eye, target, up: must be finite");
+    if (!camera->orthographic && !(camera->fov_deg >= 0.01 && camera->fov_deg <= 179))
+        return wr_fail(err, "camera fov = %g: must be 0.01..179 degrees", camera->fov_deg);
+    if (!isfinite(camera->size)) return wr_fail(err, "camera size: must be finite");
+    if (!(camera->frame >= 0 && camera->frame <= 1e4))
+        return wr_fail(err, "camera frame = %g: must be 0..10000", camera->frame);
+    WrVec3 back = v3_sub(camera->eye, camera->target);
+    if (!finite3(back) || v3_len(back) > 1e150)
+        return wr_fail(err, "camera eye and target: too far apart; keep them within 1e150");
+    if (v3_len(back) > 0) return true;
+    return wr_fail(err,
+                   "camera eye = target = %g,%g,%g: there is no direction of view; move the eye",
+                   camera->eye.x, camera->eye.y, camera->eye.z);
+}
+
+/* Distance of the eye from the target so that a sphere of radius `ball` about the target fits: its
+ * outline, at ball / sqrt(distance^2 - ball^2), is at the nearer border divided by `margin`. Parallel
+ * rays: twice the radius; for a larger sphere that fills the picture (margin 1) twice that of the
+ * sphere that would keep MARGIN. */
+static double fit_distance(double ball, double margin, double half_height, double aspect,
+                           bool orthographic)
+{
+    if (orthographic) return margin < MARGIN ? 2 * ball / MARGIN : 2 * ball;
+    double half = half_height * (aspect < 1 ? aspect : 1); /* for the nearer pair of borders */
+    return ball * sqrt(1 + margin / half * (margin / half));
+}
+
+static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out)
+{
+    WrVec3 back = v3_unit(v3_sub(camera->eye, camera->target), (WrVec3){ 0, 0, 1 });
+    place_axes(camera, v3_neg(back), out);
+    /* The objects' sphere is about the world's origin; this one is about the target and contains it. */
+    const double off = v3_len(camera->target);
+    double ball = out->ball + off, reach = out->reach + off;
+    out->orthographic = camera->orthographic;
+    if (camera->orthographic) {
+        double fitted = fmax(MARGIN * ball, reach) * (aspect < 1 ? 1 / aspect : 1);
+        out->half_height = camera->size > 0 ? camera->size / 2 : fitted;
+    } else {
+        double s, c;
+        wr_sincos_turns(camera->fov_deg / 720, &s, &c);
+        out->half_height = s / c;
+    }
+    const bool fits = camera->fit || (camera->orthographic && camera->size <= 0);
+    out->widen = !fits && camera->frame > aspect ? camera->frame / aspect : 1;
+    out->half_height *= out->widen;
+    /* The bases keep the margin; only displacements beyond it move the eye. */
+    const double away =
+        fmax(fit_distance(ball, MARGIN, out->half_height, aspect, camera->orthographic),
+             fit_distance(reach, 1, out->half_height, aspect, camera->orthographic));
+    out->eye = camera->fit ? v3_mad(camera->target, back, away) : camera->eye;
+}
+
+bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlacement *out,
+                    WrError *err)
+{
+    return wr_scene_place_sized(scene, wr_shape_radius(&scene->shape), turn_deg, aspect, out, err);
+}
+
+bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, double aspect,
+                          WrPlacement *out, WrError *err)
+{
+    if (!check_camera(&scene->camera, aspect, err)) return false;
+    if (!isfinite(turn_deg)) return wr_fail(err, "turn: the angle must be finite");
+    if (scene->posed && !finite3(scene->rotate_deg))
+        return wr_fail(err, "rotate: the angles must be finite");
+    WrPlacement placed;
+    memset(&placed, 0, sizeof placed);
+    placed.centre = wr_shape_centre(&scene->shape);
+    placed.radius = radius;
+    place_object(scene, turn_deg, &placed);
+    const bool one = scene->other_count == 0;
+    placed.ball = one ? v3_len(scene->at) + scene->size * radius : wr_scene_ball(scene, false);
+    placed.reach =
+        one ? placed.ball + scene->size * scene_stands_out(scene) : wr_scene_ball(scene, true);
+    place_camera(&scene->camera, aspect, &placed);
+    *out = placed;
+    return true;
+}
+
+WrVec3 wr_place_world(const WrPlacement *place, WrVec3 p)
+{
+    WrVec3 away = v3_sub(p, place->centre);
+    if (place->stretched) away = v3_times(away, place->stretch);
+    const WrVec3 own = turned(place->rotation, away);
+    return v3_mad(place->position, own, place->size);
+}
+
+WrVec3 wr_place_turn_back(const WrPlacement *place, WrVec3 w)
+{
+    const double *m = place->rotation;
+    return (WrVec3){ m[0] * w.x + m[3] * w.y + m[6] * w.z, m[1] * w.x + m[4] * w.y + m[7] * w.z,
+                     m[2] * w.x + m[5] * w.y + m[8] * w.z };
+}
+
+WrVec3 wr_place_shrink_back(const WrPlacement *place, WrVec3 w)
+{
+    const WrVec3 own = wr_place_turn_back(place, w), s = place->stretch;
+    if (!place->stretched) return own;
+    return (WrVec3){ own.x / s.x, own.y / s.y, own.z / s.z };
+}
+
+WrVec3 wr_place_dual_back(const WrPlacement *place, WrVec3 w)
+{
+    const WrVec3 own = wr_place_turn_back(place, w);
+    return place->stretched ? v3_times(own, place->stretch) : own;
+}
+
+WrVec3 wr_place_object(const WrPlacement *place, WrVec3 world)
+{
+    const WrVec3 own = wr_place_shrink_back(place, v3_sub(world, place->position));
+    return v3_add(v3_scale(own, 1 / place->size), place->centre);
+}
 
 int wr_scene_object_count(const WrScene *scene)
 {
@@ -229,7 +473,7 @@ bool wr_scene_fits(const WrScene *scene, int i)
     return shown == 0 || !object->hidden;
 }
 
-double wr_scene_stands_out(const WrScene *object)
+static double scene_stands_out(const WrScene *object)
 {
     const bool formula = object->analytic.kind != WR_ANALYTIC_OFF;
     if (!object->displaced || wr_shape_unmoved(&object->shape)) return 0;
@@ -242,7 +486,7 @@ double wr_scene_ball(const WrScene *scene, bool displaced)
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         const WrScene *object = wr_scene_object(scene, i);
         if (!wr_scene_fits(scene, i)) continue;
-        const double more = displaced ? wr_scene_stands_out(object) : 0;
+        const double more = displaced ? scene_stands_out(object) : 0;
         ball = fmax(ball, v3_len(object->at) + object->size * (radius_of(scene, i) + more));
     }
     return ball;

@@ -47,10 +47,6 @@ WrScene *wr_scene_remove_object(const WrScene *scene, int i);
 /* True if a fitting camera includes object i: all visible turning ones; if there are none, all visible
  * ones; else all. */
 bool wr_scene_fits(const WrScene *scene, int i);
-/* Maximum displacement of a displaced surface from its base, in the object's units, for table heights
-   of -1..1 or the bound of its formula; 0: not displaced. The table's heights are not used: a camera
-   must not move while the user paints. */
-double wr_scene_stands_out(const WrScene *object);
 /* Radius of the sphere about the world's origin that contains those objects for every turn of the
    turntable. displaced: including displacements; else only their bases. */
 double wr_scene_ball(const WrScene *scene, bool displaced);

@@ -1,18 +1,217 @@
 #include "scene/scene.h"
 
-#include "base/memory.h"
-#include "field/scheme_list.h"
 #include "base/enum_rows.h"
+#include "base/memory.h"
 #include "field/field.h"
+#include "field/scheme_list.h"
 #include "image/image.h"
+#include "scene/background.h"
+#include "scene/environment.h"
 #include "scene/named_view.h"
 #include "scene/param.h"
+#include "scene/tone_mapping.h"
 #include "shade/slope.h"
 #include "surface/data.h"
 #include "surface/triangles.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
+
+/* ---- Comparison of scenes that differ only in light ---- */
+
+/* Compares the repetition; the caller compares the picture itself. */
+static bool same_laid(const WrTextureSample *a, const WrTextureSample *b)
+{
+    return a->own == b->own && a->ru == b->ru && a->rv == b->rv;
+}
+
+static bool same_map(const WrNormalMap *a, const WrNormalMap *b)
+{
+    return a->image == b->image && same_laid(&a->laid, &b->laid) && a->channels == b->channels &&
+           a->green_down == b->green_down && a->object == b->object && a->frame == b->frame &&
+           a->strength == b->strength;
+}
+
+static bool same_formula(const WrAnalytic *a, const WrAnalytic *b)
+{
+    return a->kind == b->kind && a->count == b->count &&
+           (a->count == 0 || memcmp(a->terms, b->terms, (size_t)a->count * sizeof *a->terms) == 0);
+}
+
+static bool same_vec(WrVec3 a, WrVec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static bool same_camera(const WrCamera *a, const WrCamera *b)
+{
+    return a->orthographic == b->orthographic && a->fit == b->fit && same_vec(a->eye, b->eye) &&
+           same_vec(a->target, b->target) && same_vec(a->up, b->up) && a->fov_deg == b->fov_deg &&
+           a->size == b->size && a->frame == b->frame;
+}
+
+bool wr_scene_same_normals(const WrScene *a, const WrScene *b)
+{
+    if (a == b) return true;
+    return memcmp(&a->shape, &b->shape, sizeof a->shape) == 0 && a->posed == b->posed &&
+           same_vec(a->rotate_deg, b->rotate_deg) && a->bump == b->bump && a->scheme == b->scheme &&
+           a->height == b->height && a->displaced == b->displaced && a->parallax == b->parallax &&
+           a->replicate_u == b->replicate_u && a->replicate_v == b->replicate_v &&
+           same_formula(&a->analytic, &b->analytic) && same_map(&a->normals, &b->normals) &&
+           a->triangles == b->triangles && same_vec(a->at, b->at) && a->size == b->size &&
+           same_vec(a->sizes, b->sizes) && a->hidden == b->hidden && a->still == b->still &&
+           a->other_count == 0 && b->other_count == 0 && same_camera(&a->camera, &b->camera);
+}
+
+/* ---- named view ---- */
+
+int wr_scene_find_view(const WrScene *scene, const char *name)
+{
+    for (int i = 0; i < scene->view_count; i++)
+        if (strcmp(scene->views[i].name, name) == 0) return i;
+    return -1;
+}
+
+void wr_scene_name_view(WrScene *scene, const char *name, const WrSceneView *view)
+{
+    const int found = wr_scene_find_view(scene, name);
+    if (found >= 0) {
+        scene->views[found].view = *view;
+        return;
+    }
+    const size_t count = (size_t)scene->view_count;
+    scene->views = wr_realloc(scene->views, count, count + 1, sizeof *scene->views);
+    scene->views[scene->view_count++] = (WrNamedView){ wr_strdup(name), *view };
+}
+
+void wr_scene_forget_view(WrScene *scene, int i)
+{
+    wr_free(scene->views[i].name);
+    for (int k = i + 1; k < scene->view_count; k++) scene->views[k - 1] = scene->views[k];
+    scene->view_count--;
+}
+
+static void scene_drop_views(WrScene *scene)
+{
+    for (int i = 0; i < scene->view_count; i++) wr_free(scene->views[i].name);
+    wr_free(scene->views);
+    scene->views = NULL;
+    scene->view_count = 0;
+}
+
+/* Replaces the views by those of another scene; removes all views. */
+static void scene_take_views(WrScene *scene, const WrScene *from)
+{
+    scene_drop_views(scene);
+    for (int i = 0; i < from->view_count; i++)
+        wr_scene_name_view(scene, from->views[i].name, &from->views[i].view);
+}
+
+/* ---- background ---- */
+
+WR_ROWS(wr_background_names);
+const char *const wr_background_names[WR_BACKGROUND_KINDS] = {
+    [WR_ROW(WR_BACKGROUND_PLAIN)] = "plain",
+    [WR_ROW(WR_BACKGROUND_GRADIENT)] = "gradient",
+    [WR_ROW(WR_BACKGROUND_NONE)] = "none",
+    [WR_ROW(WR_BACKGROUND_SURROUNDINGS)] = "surroundings",
+};
+WR_ROWS_END(wr_background_names, WR_BACKGROUND_KINDS);
+
+/* Interpolates two values evenly for the eye. Above 1, where codes are saturated, it is linear in
+   light. */
+static float between(double top, double bottom, double share)
+{
+    if (top == bottom) return (float)top;
+    if (top > 1 || bottom > 1) return (float)(top + (bottom - top) * share);
+    const double a = (double)wr_srgb_encode((float)top), b = (double)wr_srgb_encode((float)bottom);
+    return wr_srgb_decode((float)(a + (b - a) * share));
+}
+
+void wr_background_row(const WrBackground *background, int row, int height, float out[3])
+{
+    const bool gradient = background->kind == WR_BACKGROUND_GRADIENT;
+    for (int c = 0; c < 3; c++) {
+        const double top = background->top[c], bottom = background->bottom[c];
+        if (!gradient || row <= 0 || height <= 1) out[c] = (float)top;
+        else if (row >= height - 1) out[c] = (float)bottom;
+        else out[c] = between(top, bottom, row / (height - 1.0));
+    }
+}
+
+bool wr_background_equal(const WrBackground *a, const WrBackground *b)
+{
+    return a->kind == b->kind && memcmp(a->top, b->top, sizeof a->top) == 0 &&
+           (a->kind != WR_BACKGROUND_GRADIENT ||
+            memcmp(a->bottom, b->bottom, sizeof a->bottom) == 0);
+}
+
+/* ---- environment ---- */
+
+static void environment_fini(WrEnvironment *environment)
+{
+    wr_environment_map_free(environment->light);
+    wr_free(environment->path);
+    wr_free(environment->channel);
+    wr_free(environment->part);
+    environment->light = NULL;
+    environment->path = environment->channel = environment->part = NULL;
+}
+
+/* replaces the content of `to` */
+static void environment_copy(WrEnvironment *to, const WrEnvironment *from)
+{
+    WrEnvironment copy = *from;
+    copy.light = wr_environment_map_share(from->light);
+    copy.path = wr_strdup(from->path);
+    copy.channel = wr_strdup(from->channel);
+    copy.part = wr_strdup(from->part);
+    environment_fini(to);
+    *to = copy;
+}
+
+void wr_environment_set(WrEnvironment *environment, WrEnvironmentMapKind kind,
+                        WrEnvironmentMap *light, const char *path, const char *sha256)
+{
+    WrEnvironment made = { .kind = kind, .light = light, .strength = 1 };
+    if (kind != WR_ENVIRONMENT_MAP_OFF && environment->kind != WR_ENVIRONMENT_MAP_OFF)
+        made.turn_deg = environment->turn_deg, made.strength = environment->strength;
+    made.path = wr_strdup(path);
+    if (sha256) memcpy(made.sha256, sha256, 64);
+    environment_fini(environment);
+    *environment = made;
+}
+
+/* ---- tone mapping ---- */
+
+WR_ROWS(wr_tone_names);
+const char *const wr_tone_names[WR_TONE_KINDS] = {
+    [WR_ROW(WR_TONE_CLIP)] = "clip",
+    [WR_ROW(WR_TONE_SOFT)] = "soft",
+};
+WR_ROWS_END(wr_tone_names, WR_TONE_KINDS);
+
+#define NO_KNEE 3.0e38f /* never reached by light */
+
+WrToneCurve wr_tone_curve(const WrTone *tone)
+{
+    return (WrToneCurve){ .gain = (float)exp2(tone->exposure),
+                          .knee = tone->kind == WR_TONE_SOFT ? 0.5f : NO_KNEE,
+                          .plain = tone->kind == WR_TONE_CLIP && tone->exposure == 0 };
+}
+
+float wr_tone_at(const WrTone *tone, float light)
+{
+    const WrToneCurve curve = wr_tone_curve(tone);
+    const float y = curve.gain * light, left = 1.0f - curve.knee;
+    return y > curve.knee ? 1.0f - left * left / (y + 1.0f - 2.0f * curve.knee) : y;
+}
+
+bool wr_tone_equal(const WrTone *a, const WrTone *b)
+{
+    return a->kind == b->kind && a->exposure == b->exposure;
+}
 
 WR_ROWS(wr_light_names);
 const char *const wr_light_names[WR_LIGHT_KINDS] = { [WR_ROW(WR_LIGHT_DIRECTIONAL)] = "directional",
@@ -134,11 +333,11 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     scene->lights = copied(from->lights, from->light_count, sizeof *from->lights);
     scene->light_count = from->light_count;
     scene->camera = from->camera;
-    wr_scene_take_views(scene, from);
+    scene_take_views(scene, from);
     scene->dials = from->dials;
     scene->tolerance = from->tolerance;
     scene->background = from->background;
-    wr_environment_copy(&scene->environment, &from->environment);
+    environment_copy(&scene->environment, &from->environment);
     scene->tone = from->tone;
     scene->cell = from->cell;
     scene->sheet = from->sheet;
@@ -196,8 +395,8 @@ void wr_scene_free(WrScene *scene)
     wr_free(scene->triangles_path);
     wr_free(scene->form_layer);
     wr_free(scene->lights);
-    wr_environment_fini(&scene->environment);
-    wr_scene_drop_views(scene);
+    environment_fini(&scene->environment);
+    scene_drop_views(scene);
     wr_free(scene);
 }
 

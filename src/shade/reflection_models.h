@@ -7,7 +7,7 @@
 
    ID         enumerator WR_REFLECT_ID
    formula    reflect_FORMULA in shade/reflection_body.h, and FORMULA in
-              render/reference/reference_reflection.c
+              render/reference/reference_shade.c
    LOOPS      WrReflectLoops without its prefix
    HIGHLIGHT  WrReflectHighlight without its prefix
    DIFFUSE    WrReflectDiffuse without its prefix

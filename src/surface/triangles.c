@@ -6,7 +6,454 @@
 #include "surface/patches.h"
 #include "surface/triangles_internal.h"
 
+#include <math.h>
 #include <string.h>
+
+/* Fills in all members derived from the arrays. */
+static void triangles_measure(WrTriangles *made);
+
+/* ---- Sorting of a mesh's triangles, and its final arrays ---- */
+
+/* Spreads 21 bits to every third bit. */
+static uint64_t spread_bits(uint64_t x)
+{
+    x &= 0x1fffff;
+    x = (x | x << 32) & 0x1f00000000ffffULL;
+    x = (x | x << 16) & 0x1f0000ff0000ffULL;
+    x = (x | x << 8) & 0x100f00f00f00f00fULL;
+    x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
+    return (x | x << 2) & 0x1249249249249249ULL;
+}
+
+/* Position of a face's centre on the space-filling curve. */
+static uint64_t curve_place(const WrTrianglesBuild *b, int32_t i)
+{
+    const WrTriangleCorner *c = b->corner + 3 * (size_t)i;
+    uint64_t key = 0;
+    for (int k = 0; k < 3; k++) {
+        const double mid =
+            ((double)c[0].p[k] + (double)c[1].p[k] + (double)c[2].p[k]) / 3 - b->centre[k];
+        const double t = (mid / b->radius + 1) * 0x1p20;
+        key |= spread_bits((uint64_t)(t > 0 ? t : 0)) << k;
+    }
+    return key;
+}
+
+typedef struct Item {
+    uint64_t key;
+    int32_t face;
+} Item;
+
+/* Stable radix sort by key: eight passes of a byte each. */
+static void sort_items(Item *items, Item *spare, int32_t count)
+{
+    for (int shift = 0; shift < 64; shift += 8) {
+        size_t start[257] = { 0 };
+        for (int32_t i = 0; i < count; i++) start[(items[i].key >> shift & 255) + 1]++;
+        for (int k = 0; k < 256; k++) start[k + 1] += start[k];
+        for (int32_t i = 0; i < count; i++) spare[start[items[i].key >> shift & 255]++] = items[i];
+        Item *old = items;
+        items = spare, spare = old;
+    }
+}
+
+/* Sorts faces by parts and the curve. */
+static bool sort_faces(const WrTrianglesBuild *b, Item *items, WrError *err)
+{
+    const WrTrianglesSource *source = b->source;
+    Item *spare = wr_try_alloc((size_t)b->count, sizeof *spare, "a mesh's order", err);
+    if (!spare) return false;
+    for (int32_t i = 0; i < b->count; i++) items[i] = (Item){ curve_place(b, i), i };
+    int32_t from = 0;
+    for (int part = 0; part < (source->parts ? source->part_count : 1); part++) {
+        const int32_t end = source->parts ? source->parts[part].first + source->parts[part].count
+                                          : source->triangle_count;
+        int32_t to = from;
+        while (to < b->count && b->of[to] < end) to++;
+        sort_items(items + from, spare, to - from);
+        from = to;
+    }
+    wr_free(spare);
+    return true;
+}
+
+static WrTrianglePart *make_parts(const WrTrianglesBuild *b, int *count)
+{
+    const WrTrianglesSource *source = b->source;
+    const int most = source->parts ? source->part_count : 1;
+    WrTrianglePart *parts = wr_alloc((size_t)most, sizeof *parts);
+    int32_t at = 0;
+    *count = 0;
+    for (int i = 0; i < most; i++) {
+        WrTrianglePart part = { .first = at };
+        if (source->parts) {
+            memcpy(part.name, source->parts[i].name, sizeof part.name - 1);
+            part.patch = source->parts[i].patch;
+        }
+        const int32_t end = source->parts ? source->parts[i].first + source->parts[i].count
+                                          : source->triangle_count;
+        for (; at < b->count && b->of[at] < end; at++) part.mapped |= b->mapped[at];
+        part.count = at - part.first;
+        if (part.count > 0) parts[(*count)++] = part;
+    }
+    return parts;
+}
+
+/* Numbers corners in the order of their first use. */
+static bool number_corners(WrTriangles *made, WrTriangleCorner *rows, WrError *err)
+{
+    const int32_t count = 3 * made->triangle_count;
+    WrTriangle *triangles =
+        wr_try_alloc((size_t)made->triangle_count, sizeof *triangles, "a mesh", err);
+    made->triangles = triangles;
+    if (!triangles ||
+        !wr_weld(rows, sizeof *rows, count, &triangles[0].corner[0], &made->corner_count, err))
+        return false;
+    if (made->corner_count > 1 << 24)
+        return wr_fail(err, "%d different corners: at most %d", (int)made->corner_count, 1 << 24);
+    WrTriangleCorner *corners =
+        wr_try_alloc((size_t)made->corner_count, sizeof *corners, "a mesh", err);
+    made->corners = corners;
+    if (!corners) return false;
+    for (int32_t i = 0; i < count; i++) corners[triangles[i / 3].corner[i % 3]] = rows[i];
+    return true;
+}
+
+/* ---- nearly equal corners ---- */
+
+/* True within four units of the last place of the larger. */
+static bool all_but(float a, float b)
+{
+    return fabsf(a - b) <= 0x1p-21f * fmaxf(fabsf(a), fabsf(b));
+}
+
+static bool all_but_one(const WrTriangleCorner *a, const WrTriangleCorner *b)
+{
+    return memcmp(a->n, b->n, sizeof a->n) == 0 && all_but(a->u, b->u) && all_but(a->v, b->v);
+}
+
+/* Counts corners whose position and normal equal another's, and nearly its (u,v): seams by rounding,
+ * which split tangent frames (HC129). */
+static int32_t count_near(const WrTriangles *made)
+{
+    const int32_t count = made->corner_count;
+    int32_t places = 0, near = 0;
+    float(*p)[3] = wr_try_alloc((size_t)count, sizeof *p, "a mesh's seams", NULL);
+    int32_t *at = wr_try_alloc((size_t)count, sizeof *at, "a mesh's seams", NULL);
+    int32_t *last = wr_try_alloc((size_t)count, sizeof *last, "a mesh's seams", NULL);
+    int32_t *before = wr_try_alloc((size_t)count, sizeof *before, "a mesh's seams", NULL);
+    bool good = p && at && last && before;
+    for (int32_t i = 0; i < count && good; i++) memcpy(p[i], made->corners[i].p, sizeof p[i]);
+    good = good && wr_weld(p, sizeof *p, count, at, &places, NULL);
+    for (int32_t i = 0; i < count && good && places < count; i++) {
+        int32_t other = last[at[i]] - 1; /* an earlier one of the same position */
+        before[i] = last[at[i]];
+        last[at[i]] = i + 1;
+        for (int looks = 0; other >= 0 && looks < 16; looks++, other = before[other] - 1)
+            if (all_but_one(&made->corners[i], &made->corners[other])) {
+                near++;
+                break;
+            }
+    }
+    wr_free(p);
+    wr_free(at);
+    wr_free(last);
+    wr_free(before);
+    return near;
+}
+
+/* Sorts, numbers the corners in that order, and packs the mesh. NULL: out of memory. */
+static WrTriangles *triangles_finish(WrTrianglesBuild *b, WrError *err)
+{
+    WrTriangles *made = wr_alloc(1, sizeof *made);
+    const size_t count = (size_t)b->count;
+    made->refs = 1;
+    made->triangle_count = b->count;
+    made->closed = b->closed;
+    made->told = b->told;
+    Item *items = wr_try_alloc(count, sizeof *items, "a mesh's order", err);
+    WrTriangleCorner *rows = items ? wr_try_alloc(count, 3 * sizeof *rows, "a mesh", err) : NULL;
+    bool good = rows && sort_faces(b, items, err);
+    for (size_t i = 0; i < count && good; i++)
+        memcpy(rows + 3 * i, b->corner + 3 * (size_t)items[i].face, 3 * sizeof *rows);
+    good = good && number_corners(made, rows, err);
+    wr_free(rows);
+    wr_free(items);
+    if (!good) {
+        wr_triangles_free(made);
+        return NULL;
+    }
+    made->parts = make_parts(b, &made->part_count);
+    memcpy(made->centre, b->centre, sizeof made->centre);
+    made->radius = b->radius;
+    triangles_measure(made);
+    return made;
+}
+
+static bool same_normals(const WrTriangles *made, int32_t i)
+{
+    const int32_t *c = made->triangles[i].corner;
+    const float *a = made->corners[c[0]].n;
+    return memcmp(a, made->corners[c[1]].n, sizeof made->corners[0].n) == 0 &&
+           memcmp(a, made->corners[c[2]].n, sizeof made->corners[0].n) == 0;
+}
+
+static void triangles_measure(WrTriangles *made)
+{
+    const WrHash none = { 0, 0 };
+    WrHash hash =
+        wr_hash_bytes(made->corners, (size_t)made->corner_count * sizeof *made->corners, none);
+    hash = wr_hash_bytes(made->triangles, (size_t)made->triangle_count * sizeof *made->triangles,
+                         hash);
+    made->key = hash.low;
+    made->faceted = true;
+    for (int32_t i = 0; i < made->triangle_count && made->faceted; i++)
+        made->faceted = same_normals(made, i);
+    made->mapped = false;
+    for (int i = 0; i < made->part_count; i++) made->mapped |= made->parts[i].mapped;
+    made->told.near_uv = made->mapped ? count_near(made) : 0;
+}
+
+/* ---- Serialisation of a mesh as numbers, for documents ---- */
+
+#define PACK_VERSION 1
+
+/* version, corners, triangles, parts, closed, then the statistics; the bounding sphere as twice three
+ * floats and so on */
+enum { HEAD = 5, TOLD_COUNT = 9, BALL = 12, PART = 3 + WR_TRIANGLE_NAME };
+
+static void told_to_floats(const WrTrianglesTold *told, float *out)
+{
+    const int32_t numbers[TOLD_COUNT] = { told->no_area,     told->no_normal, told->bad_normal,
+                                          told->face_normal, told->bad_uv,    told->no_map,
+                                          told->collinear,   told->mirrored,  told->inside_out };
+    for (int i = 0; i < TOLD_COUNT; i++) out[i] = (float)numbers[i];
+}
+
+static void told_from_floats(const float *in, WrTrianglesTold *told)
+{
+    int32_t n[TOLD_COUNT];
+    for (int i = 0; i < TOLD_COUNT; i++) n[i] = (int32_t)in[i];
+    *told = (WrTrianglesTold){ n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] != 0, 0 };
+}
+
+/* A double as three floats whose sum it is. */
+static void split(double x, float out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = (float)x;
+        x -= (double)out[i];
+    }
+}
+
+static double join(const float in[3])
+{
+    return ((double)in[2] + (double)in[1]) + (double)in[0];
+}
+
+static size_t packed(int32_t corners, int32_t triangles, int32_t parts)
+{
+    return HEAD + TOLD_COUNT + BALL + (size_t)parts * PART + (size_t)corners * 8 +
+           (size_t)triangles * 3;
+}
+
+float *wr_triangles_pack(const WrTriangles *t, size_t *count)
+{
+    if (t->patches) return wr_patches_pack(t->patches, count);
+    *count = packed(t->corner_count, t->triangle_count, t->part_count);
+    float *block = wr_alloc(*count, sizeof *block), *at = block;
+    const float head[HEAD] = { PACK_VERSION, (float)t->corner_count, (float)t->triangle_count,
+                               (float)t->part_count, t->closed };
+    memcpy(at, head, sizeof head), at += HEAD;
+    told_to_floats(&t->told, at), at += TOLD_COUNT;
+    for (int k = 0; k < 3; k++) split(t->centre[k], at + 3 * k);
+    split(t->radius, at + 9), at += BALL;
+    for (int i = 0; i < t->part_count; i++, at += PART) {
+        const WrTrianglePart *part = &t->parts[i];
+        at[0] = (float)part->first, at[1] = (float)part->count, at[2] = part->mapped;
+        for (int k = 0; k < WR_TRIANGLE_NAME; k++) at[3 + k] = (float)(unsigned char)part->name[k];
+    }
+    memcpy(at, t->corners, (size_t)t->corner_count * sizeof *t->corners);
+    at += 8 * (size_t)t->corner_count;
+    for (size_t i = 0; i < 3 * (size_t)t->triangle_count; i++)
+        at[i] = (float)t->triangles[i / 3].corner[i % 3];
+    return block;
+}
+
+/* True for an integer of low .. high. */
+static bool whole(float x, double low, double high)
+{
+    return (double)x >= low && (double)x <= high && (double)x == floor((double)x);
+}
+
+static bool check_head(const float *block, size_t count)
+{
+    return count >= HEAD + TOLD_COUNT + BALL && whole(block[0], PACK_VERSION, PACK_VERSION) &&
+           whole(block[1], 3, 1 << 24) && whole(block[2], 1, WR_TRIANGLES_MAX) &&
+           whole(block[3], 1, WR_TRIANGLE_PARTS_MAX) && whole(block[4], 0, 1) &&
+           count >= packed((int32_t)block[1], (int32_t)block[2], (int32_t)block[3]);
+}
+
+static bool check_numbers(const WrTriangles *t, const float *told)
+{
+    for (int i = 0; i < TOLD_COUNT; i++)
+        if (!whole(told[i], 0, 0x1p30)) return false;
+    for (int32_t i = 0; i < t->corner_count; i++) {
+        const WrTriangleCorner *c = &t->corners[i];
+        for (int k = 0; k < 3; k++)
+            if (!(fabsf(c->p[k]) <= 1e30f) || !(fabsf(c->n[k]) <= 1.001f)) return false;
+        if (!(fabsf(c->u) <= 1e6f) || !(fabsf(c->v) <= 1e6f)) return false;
+    }
+    return t->radius > 0 && t->radius <= 1e31 && fabs(t->centre[0]) <= 1e30 &&
+           fabs(t->centre[1]) <= 1e30 && fabs(t->centre[2]) <= 1e30;
+}
+
+static bool take_parts(const float *at, int count, int32_t triangles, WrTrianglePart *parts)
+{
+    int32_t sum = 0;
+    for (int i = 0; i < count; i++, at += PART) {
+        if (!whole(at[0], sum, sum) || !whole(at[1], 1, triangles - sum) || !whole(at[2], 0, 1))
+            return false;
+        parts[i] = (WrTrianglePart){ .first = sum, .count = (int32_t)at[1], .mapped = at[2] != 0 };
+        for (int k = 0; k + 1 < WR_TRIANGLE_NAME; k++) {
+            if (!whole(at[3 + k], 0, 255)) return false;
+            parts[i].name[k] = (char)(unsigned char)at[3 + k];
+        }
+        sum += parts[i].count;
+    }
+    return sum == triangles;
+}
+
+static bool take_triangles(const float *at, int32_t corners, int32_t count, WrTriangle *out)
+{
+    for (size_t i = 0; i < 3 * (size_t)count; i++) {
+        if (!whole(at[i], 0, corners - 1)) return false;
+        out[i / 3].corner[i % 3] = (int32_t)at[i];
+    }
+    return true;
+}
+
+WrTriangles *wr_triangles_unpack(const float *block, size_t count, WrError *err)
+{
+    if (count > 0 && block[0] == (float)WR_PATCHES_PACKED)
+        return wr_patches_unpack(block, count, err);
+    if (!check_head(block, count)) {
+        wr_fail(err, "the mesh that is kept here makes no sense");
+        return NULL;
+    }
+    WrTriangles *t = wr_alloc(1, sizeof *t);
+    t->refs = 1;
+    t->corner_count = (int32_t)block[1];
+    t->triangle_count = (int32_t)block[2];
+    t->part_count = (int32_t)block[3];
+    t->closed = block[4] != 0;
+    WrTriangleCorner *corners =
+        wr_try_alloc((size_t)t->corner_count, sizeof *corners, "a mesh", err);
+    WrTriangle *triangles =
+        corners ? wr_try_alloc((size_t)t->triangle_count, sizeof *triangles, "a mesh", err) : NULL;
+    WrTrianglePart *parts = wr_alloc((size_t)t->part_count, sizeof *parts);
+    t->corners = corners, t->triangles = triangles, t->parts = parts;
+    if (triangles) {
+        const float *at = block + HEAD + TOLD_COUNT;
+        for (int k = 0; k < 3; k++) t->centre[k] = join(at + 3 * k);
+        t->radius = join(at + 9), at += BALL;
+        const float *rows = at + (size_t)t->part_count * PART;
+        memcpy(corners, rows, (size_t)t->corner_count * sizeof *corners);
+        if (check_numbers(t, block + HEAD) &&
+            take_parts(at, t->part_count, t->triangle_count, parts) &&
+            take_triangles(rows + 8 * (size_t)t->corner_count, t->corner_count, t->triangle_count,
+                           triangles)) {
+            told_from_floats(block + HEAD, &t->told);
+            triangles_measure(t);
+            return t;
+        }
+        wr_fail(err, "the mesh that is kept here is damaged");
+    }
+    wr_triangles_free(t);
+    return NULL;
+}
+
+/* ---- Areas of a mesh with overlapping texture coordinates ---- */
+
+/* Coverage count of cell centres: 0, 1, 2 for more. */
+typedef struct Count {
+    unsigned char *cell;
+    int cells;
+} Count;
+
+typedef struct Flat {
+    double u[3], v[3]; /* in cells */
+} Flat;
+
+static double side(const Flat *t, int k, double x, double y)
+{
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    return (t->u[b] - t->u[a]) * (y - t->v[a]) - (t->v[b] - t->v[a]) * (x - t->u[a]);
+}
+
+/* True if the edge includes the points on it; its reverse does not (fill rule). */
+static bool owns(const Flat *t, int k)
+{
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    const double du = t->u[b] - t->u[a], dv = t->v[b] - t->v[a];
+    return dv < 0 || (dv == 0 && du < 0);
+}
+
+static bool holds(const Flat *t, double sign, double x, double y)
+{
+    for (int k = 0; k < 3; k++) {
+        const double e = sign * side(t, k, x, y);
+        if (e < 0 || (e == 0 && owns(t, k) != (sign > 0))) return false;
+    }
+    return true;
+}
+
+static void cover(const Count *count, const Flat *t)
+{
+    const double area = side(t, 0, t->u[0], t->v[0]);
+    if (area == 0) return;
+    const double sign = area > 0 ? 1 : -1;
+    /* A triangle over very many repeats covers everything it can within the first ones. */
+    const int most = 4 * count->cells;
+    const double x0 = floor(fmin(fmin(t->u[0], t->u[1]), t->u[2]) - 0.5);
+    const double y0 = floor(fmin(fmin(t->v[0], t->v[1]), t->v[2]) - 0.5);
+    const double x1 = fmin(ceil(fmax(fmax(t->u[0], t->u[1]), t->u[2])), x0 + most);
+    const double y1 = fmin(ceil(fmax(fmax(t->v[0], t->v[1]), t->v[2])), y0 + most);
+    for (double y = y0; y <= y1; y++)
+        for (double x = x0; x <= x1; x++) {
+            if (!holds(t, sign, x + 0.5, y + 0.5)) continue;
+            const double n = count->cells;
+            const int i = (int)(x - n * floor(x / n)), j = (int)(y - n * floor(y / n));
+            unsigned char *cell = &count->cell[(size_t)j * (size_t)count->cells + (size_t)i];
+            *cell = (unsigned char)(*cell < 2 ? *cell + 1 : 2);
+        }
+}
+
+double wr_triangles_overlap(const WrTriangles *triangles, int cells, int32_t *outside)
+{
+    const size_t total = (size_t)cells * (size_t)cells;
+    Count count = { wr_alloc(total, 1), cells };
+    int32_t beyond = 0;
+    for (int32_t i = 0; i < triangles->triangle_count; i++) {
+        Flat t;
+        bool out = false;
+        for (int k = 0; k < 3; k++) {
+            const WrTriangleCorner *c = &triangles->corners[triangles->triangles[i].corner[k]];
+            t.u[k] = (double)c->u * cells, t.v[k] = (double)c->v * cells;
+            out |= c->u < 0 || c->u > 1 || c->v < 0 || c->v > 1;
+        }
+        beyond += out;
+        cover(&count, &t);
+    }
+    size_t once = 0, often = 0;
+    for (size_t i = 0; i < total; i++) {
+        once += count.cell[i] > 0;
+        often += count.cell[i] > 1;
+    }
+    wr_free(count.cell);
+    if (outside) *outside = beyond;
+    return once > 0 ? (double)often / (double)once : 0;
+}
 
 /* ---- merging of equal positions ---- */
 
@@ -413,7 +860,7 @@ WrTriangles *wr_triangles_new(const WrTrianglesSource *source, WrError *err)
 {
     if (!check_source(source, err)) return NULL;
     WrTrianglesBuild b = { .source = source };
-    WrTriangles *made = build(&b, err) ? wr_triangles_finish(&b, err) : NULL;
+    WrTriangles *made = build(&b, err) ? triangles_finish(&b, err) : NULL;
     end(&b);
     return made;
 }

@@ -33,11 +33,6 @@ typedef struct WrTrianglesBuild {
 bool wr_weld(const void *rows, size_t size, int32_t count, int32_t *to, int32_t *kinds,
              WrError *err);
 
-/* Sorts, numbers the corners in that order, and packs the mesh. NULL: out of memory. */
-WrTriangles *wr_triangles_finish(WrTrianglesBuild *build, WrError *err);
-/* Fills in all members derived from the arrays. */
-void wr_triangles_measure(WrTriangles *made);
-
 /* The angle between two vectors, radians, 0 .. pi; 0 where one is 0. */
 static inline double wr_angle(WrVec3 a, WrVec3 b)
 {

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "field/field.h"
-#include "render/textures/min_max.h"
+#include "render/textures/height_copies.h"
 #include "render/kernels/kern.h"
 
 #include <math.h>

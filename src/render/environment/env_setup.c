@@ -1,12 +1,219 @@
 #include "render/environment/env_setup.h"
 
+#include "base/error.h"
+#include "base/memory.h"
 #include "image/image.h"
-#include "render/environment/env_lookup.h"
+#include "render/frame/tile.h"
 #include "render/plan/plan.h"
 #include "scene/scene.h"
+#include "shade/environment_blur.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
+
+/* ---- env lookup ---- */
+
+void wr_env_lookup_drop(WrEnvLookup *mirror)
+{
+    wr_environment_map_free(mirror->source);
+    wr_free(mirror->rgba);
+    *mirror = (WrEnvLookup){ 0 };
+}
+
+static bool holds(const WrEnvLookup *mirror, const WrEnvironmentMap *surround,
+                  const WrEnvironmentBrdf *gloss, double fine)
+{
+    const WrEnvironmentBrdf *own = &mirror->gloss;
+    if (mirror->source != surround) return false;
+    if (!gloss) return own->lobe == WR_LOBE_NONE;
+    return own->lobe == gloss->lobe && own->alpha == gloss->alpha && own->power == gloss->power &&
+           own->gated == gloss->gated && mirror->fine == fine;
+}
+
+/* Copies row j >= 0 of rgb into the padded table. */
+static void put_row(WrEnvLookup *mirror, int j, const float *rgb)
+{
+    const int w = mirror->width;
+    float *out = mirror->rgba + (size_t)(j + 1) * (size_t)mirror->pitch * 4;
+    for (int i = -1; i <= w; i++, out += 4)
+        memcpy(out, rgb + (size_t)((i + w) % w) * 3, 3 * sizeof *out);
+}
+
+/* Fills the row above the first or below the last so that the pole is the mean of that row. */
+static void put_pole(WrEnvLookup *mirror, int from, int to)
+{
+    const int w = mirror->width;
+    const size_t row = (size_t)mirror->pitch * 4;
+    const float *in = mirror->rgba + (size_t)(from + 1) * row;
+    float *out = mirror->rgba + (size_t)(to + 1) * row;
+    for (int c = 0; c < 3; c++) {
+        double mean = 0;
+        for (int i = 1; i <= w; i++) mean += (double)in[4 * i + c] / w;
+        for (int i = 0; i < mirror->pitch; i++)
+            out[4 * i + c] = (float)(2 * mean - (double)in[4 * i + c]);
+    }
+}
+
+static bool fill(WrEnvLookup *mirror, const float *rgb, WrError *err)
+{
+    mirror->pitch = mirror->width + 2;
+    mirror->rgba = wr_try_alloc((size_t)mirror->pitch * (size_t)(mirror->height + 2),
+                                4 * sizeof(float), "surroundings", err);
+    if (!mirror->rgba) return false;
+    for (int j = 0; j < mirror->height; j++)
+        put_row(mirror, j, rgb + (size_t)j * (size_t)mirror->width * 3);
+    put_pole(mirror, 0, -1);
+    put_pole(mirror, mirror->height - 1, mirror->height);
+    return true;
+}
+
+static bool fill_blurred(WrEnvLookup *mirror, const WrEnvironmentBrdf *gloss, WrPool *pool,
+                         WrError *err)
+{
+    mirror->width = wr_blur_width(gloss, mirror->fine);
+    mirror->height = mirror->width / 2;
+    float *rgb = wr_try_alloc((size_t)mirror->width * (size_t)mirror->height, 3 * sizeof *rgb,
+                              "blurred surroundings", err);
+    const bool good =
+        rgb && wr_environment_map_blur(mirror->source, gloss, mirror->width, pool, rgb, err) &&
+        fill(mirror, rgb, err);
+    wr_free(rgb);
+    return good;
+}
+
+bool wr_env_lookup_update(WrEnvLookup *mirror, const WrEnvironmentMap *surround,
+                          const WrEnvironmentBrdf *gloss, double fine, WrPool *pool, WrError *err)
+{
+    if (holds(mirror, surround, gloss, fine)) return true;
+    wr_env_lookup_drop(mirror);
+    mirror->source = wr_environment_map_share(surround);
+    mirror->fine = fine;
+    if (gloss) mirror->gloss = *gloss;
+    mirror->width = surround->image->width, mirror->height = surround->image->height;
+    if (gloss ? fill_blurred(mirror, gloss, pool, err) : fill(mirror, surround->image->data, err))
+        return true;
+    wr_env_lookup_drop(mirror);
+    return false;
+}
+
+/* ---- env prefilter ---- */
+
+void wr_env_prefilter_drop_rungs(WrEnvPrefilter *grades)
+{
+    for (int i = 0; i < WR_TEXTURED_REFLECTION_RUNGS; i++) wr_env_lookup_drop(&grades->rung[i]);
+}
+
+void wr_env_prefilter_drop(WrEnvPrefilter *grades)
+{
+    wr_env_prefilter_drop_rungs(grades);
+    grades->there = false;
+}
+
+static bool same(const WrReflectance *a, const WrReflectance *b)
+{
+    return a->model == b->model && a->energy == b->energy && a->shininess == b->shininess &&
+           a->ior == b->ior;
+}
+
+static void bring_shares(WrEnvPrefilter *grades, const WrMaterial *m)
+{
+    const WrReflectance of = wr_scene_reflectance(m);
+    if (grades->there && same(&grades->of, &of) && grades->ks == m->specular &&
+        grades->tint == m->tint && grades->gated == m->gate)
+        return;
+    grades->of = of, grades->ks = m->specular, grades->tint = m->tint, grades->gated = m->gate;
+    grades->there = true;
+    wr_textured_reflection_init(&grades->vary, &of, m->specular, m->tint, m->gate);
+}
+
+/* Range of blur levels that the material's widths need. */
+static void rungs_of(const WrEnvironmentBrdf *gloss, const WrPlan *plan, int *first, int *last)
+{
+    const double rung = -log2(gloss->alpha), most = WR_TEXTURED_REFLECTION_RUNGS - 1;
+    *first = 0, *last = (int)most;
+    if (wr_plan_runs(plan, WR_EFFECT_VARIED)) return;
+    *last = (int)fmin(ceil(rung) + 1, most);
+    if (!wr_plan_runs(plan, WR_EFFECT_SPREAD)) *first = (int)fmin(fmax(floor(rung), 0), most - 1);
+}
+
+bool wr_env_prefilter_update(WrEnvPrefilter *grades, const WrScene *scene, const WrPlan *plan,
+                             WrPool *pool, WrError *err)
+{
+    WrEnvironmentBrdf gloss, lobe;
+    int first, last;
+    bring_shares(grades, &scene->material);
+    if (!plan->graded) return true;
+    wr_scene_gloss(&scene->material, &gloss);
+    rungs_of(&gloss, plan, &first, &last);
+    for (int i = first; i <= last; i++) {
+        const bool blurred = i + 1 < WR_TEXTURED_REFLECTION_RUNGS;
+        wr_textured_reflection_rung(&gloss, i, &lobe);
+        if (!wr_env_lookup_update(&grades->rung[i], scene->environment.light,
+                                  blurred ? &lobe : NULL, plan->gloss, pool, err))
+            return false;
+    }
+    return true;
+}
+
+/* Copies the terms of one roughness step and pads them with 0. */
+static void put_terms(const double *terms, double *to, float *single)
+{
+    for (int k = 0; k < WR_TEXTURED_REFLECTION_TERMS; k++)
+        to[k] = k < WR_ALBEDO_TERMS ? terms[k] : 0, single[k] = (float)to[k];
+}
+
+static void put_step(const WrTexturedReflection *vary, int i, WrKernVaryd *wide, WrKernVary *single)
+{
+    wide->mean[i] = vary->mean[i], single->mean[i] = (float)vary->mean[i];
+    wide->again[i] = vary->again[i], single->again[i] = (float)vary->again[i];
+    put_terms(vary->albedo[i], wide->albedo[i], single->albedo[i]);
+    put_terms(vary->matt[i], wide->matt[i], single->matt[i]);
+    put_terms(vary->twice[i], wide->twice[i], single->twice[i]);
+}
+
+/* Reflected shares at step i: for non-metal and metal, or for one fixed metalness. */
+static void put_shares(const WrTexturedReflection *vary, bool alike, double metal, int i,
+                       WrKernVaryd *wide, WrKernVary *single)
+{
+    double own[2][WR_ALBEDO_TERMS], white[2][WR_ALBEDO_TERMS];
+    for (int k = 0; k < 2 * WR_ALBEDO_TERMS; k++) {
+        const int at = k / WR_ALBEDO_TERMS, term = k % WR_ALBEDO_TERMS;
+        const double to = alike ? metal : at;
+        const double o = vary->own[0][i][term], w = vary->white[0][i][term];
+        own[at][term] = o + to * (vary->own[1][i][term] - o);
+        white[at][term] = w + to * (vary->white[1][i][term] - w);
+    }
+    for (int at = 0; at < 2; at++) {
+        put_terms(own[at], wide->own[at][i], single->own[at][i]);
+        put_terms(white[at], wide->white[at][i], single->white[at][i]);
+    }
+}
+
+void wr_env_prefilter_fill(const WrEnvPrefilter *grades, const WrScene *scene, WrTileJob *job)
+{
+    const WrTexturedReflection *vary = &grades->vary;
+    const WrMaterial *m = &scene->material;
+    WrKernVaryd *wide = &job->vary_double;
+    WrKernVary *single = &job->vary;
+    WrEnvironmentBrdf gloss;
+    wr_scene_gloss(m, &gloss);
+    job->rough = sqrt(gloss.alpha);
+    wide->metals = single->metals = wr_reflects[m->model].metalness;
+    wide->again_twice = single->again_twice =
+        wr_reflect_again(&wr_reflects[m->model], m->energy == WR_ENERGY_KEPT);
+    wide->alike = single->alike = !job->facets[WR_FACET_METALNESS].near.rgba;
+    for (int i = 0; i < WR_TEXTURED_REFLECTION_STEPS; i++) {
+        put_step(vary, i, wide, single);
+        put_shares(vary, wide->alike, fmin(fmax(m->metalness, 0), 1), i, wide, single);
+    }
+    for (int i = 0; i < WR_TEXTURED_REFLECTION_RUNGS; i++) {
+        const WrEnvLookup *of = &grades->rung[i];
+        const WrKernRung rung = { of->rgba ? of->rgba + 4 * ((ptrdiff_t)of->pitch + 1) : NULL,
+                                  of->pitch, of->width, of->height };
+        wide->rung[i] = single->rung[i] = rung;
+    }
+}
 
 /* out = a b, row-major 3 x 3. */
 static void product(const double a[9], const double b[9], double out[9])

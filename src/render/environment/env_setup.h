@@ -3,6 +3,54 @@
 #pragma once
 #include "render/kernels/kern.h"
 #include "shade/environment_brdf.h"
+#include "shade/environment_map.h"
+#include "shade/textured_reflection.h"
+
+#include <stdbool.h>
+
+/* ---- environment table for mirrored directions, sharp or blurred by a material's lobe ---- */
+
+/* Kept between frames. */
+
+typedef struct WrPool WrPool;
+
+typedef struct WrEnvLookup {
+    WrEnvironmentMap *source; /* own share; NULL: empty */
+    WrEnvironmentBrdf gloss;  /* the lobe that blurs it; lobe none: sharp */
+    double fine;
+    /* texels; pitch: row length including one neighbour texel on either side */
+    int width, height, pitch;
+    float *rgba; /* [height + 2][pitch][4], with an extra row above and below, A 0; owned */
+} WrEnvLookup;
+
+/* Updates the table. gloss NULL: sharp. fine: as in wr_blur_width. Errors: no memory, cancelled; the table is
+   then empty. */
+bool wr_env_lookup_update(WrEnvLookup *mirror, const WrEnvironmentMap *surround,
+                          const WrEnvironmentBrdf *gloss, double fine, WrPool *pool, WrError *err);
+void wr_env_lookup_drop(WrEnvLookup *mirror);
+
+/* ---- environment prefiltered by lobes of several widths, with the reflected shares at steps of roughness ---- */
+
+/* Kept between frames. For surfaces whose roughness varies from sample to sample, or is widened by slopes. */
+
+typedef struct WrPlan WrPlan;
+typedef struct WrScene WrScene;
+typedef struct WrTileJob WrTileJob;
+
+typedef struct WrEnvPrefilter {
+    WrEnvLookup rung[WR_TEXTURED_REFLECTION_RUNGS]; /* only the levels in use */
+    WrReflectance of; /* the reflectance that `vary` was computed for */
+    double ks, tint;
+    bool gated, there;
+    WrTexturedReflection vary;
+} WrEnvPrefilter;
+
+bool wr_env_prefilter_update(WrEnvPrefilter *grades, const WrScene *scene, const WrPlan *plan,
+                             WrPool *pool, WrError *err);
+void wr_env_prefilter_fill(const WrEnvPrefilter *grades, const WrScene *scene, WrTileJob *job);
+void wr_env_prefilter_drop(WrEnvPrefilter *grades);
+void wr_env_prefilter_drop_rungs(
+    WrEnvPrefilter *grades); /* frees the prefiltered tables; keeps the reflected shares */
 
 typedef struct WrEnvLookup WrEnvLookup;
 typedef struct WrPlan WrPlan;

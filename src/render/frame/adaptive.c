@@ -4,16 +4,517 @@
    neighbours (kern_adaptive_body.h). Elsewhere K of the K x K samples are taken, and all K x K where those
    disagree with the neighbours' prediction. By bound: one sample, or all. A pixel that ends at K x K has the
    bits of `supersample`; no pixel depends on the division into tiles. */
-#include "render/frame/adaptive_internal.h"
-#include "render/visibility/silhouette.h"
 #include "field/scheme_list.h"
+#include "render/frame/tile.h"
+#include "render/frame/tile_internal.h"
 #include "render/pipeline/pipeline.h"
+#include "render/visibility/raster.h"
+#include "scene/objects.h"
 #include "system/clock.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
+enum { WR_OPEN = 1, WR_OPEN_ALL = 2 }; /* the pixel needs more samples; needs all of them */
+
+/* Above this many texels per pixel, neighbours predict little: K samples are taken and have to agree more
+   closely. */
+#define WR_FINE 2.0f
+
+/* Thresholds for the pixels that show one object. */
+typedef struct WrRefineRule {
+    float texels[2]; /* per pixel along u and v, of the fetched textures */
+    float most;      /* largest error allowed of the estimate */
+    bool some;       /* K samples are tried before all K x K */
+    bool all;        /* for this object, fewer than all would cost more */
+} WrRefineRule;
+
+typedef struct WrRefiner {
+    const WrTileJob *job; /* target of the pixels */
+    /* objects that may cover the tile, the nearest first */
+    const WrTileJob *objects[WR_OBJECTS_MAX];
+    int count;
+    bool among; /* the picture has several objects */
+    int index;  /* several objects: the tile's index, for WrTileJob.seen */
+    WrTileScratch *scratch;
+    WrTilePart part;
+    float contrast;
+    bool by_bound;
+    /* by WrTileJob.object; `nothing`: the background's */
+    WrRefineRule rules[WR_OBJECTS_MAX], nothing;
+    unsigned char rook[WR_TILE_SAMPLES_H]; /* column of the chosen sample in each row */
+} WrRefiner;
+
+/* True if the object may cover that part of the picture. */
+static inline bool wr_refine_touches(const WrTileJob *job, WrTilePart part)
+{
+    if (wr_plan_runs(job->plan, WR_EFFECT_BESIDE)) return true;
+    part = wr_tile_touched(job, part);
+    return part.w > 0 && part.h > 0;
+}
+
+/* Makes `job` the object of the following samples. */
+static inline void wr_refine_turn_to(const WrRefiner *r, const WrTileJob *job)
+{
+    if (r->among) r->scratch->notes = wr_dirty_open(job->seen, r->index, 0, 0);
+}
+
+/* Depth beyond which the whole object is hidden (E52). */
+static inline float wr_refine_limit(const WrTileJob *job, WrTileScratch *scratch)
+{
+    if (!wr_plan_runs(job->plan, WR_EFFECT_HIDDEN)) return wr_tile_hidden_from(job);
+    wr_did(scratch, WR_EFFECT_HIDDEN);
+    return -INFINITY;
+}
+
+/* ---- probe ---- */
+
+/* Estimate of whether adaptive sampling pays in this view: a few small blocks of the picture are refined and
+   counted. */
+
+#define BLOCK_W 8 /* pixels */
+#define BLOCK_H 4
+#define AREA 3000 /* pixels of the view for each block, ... */
+#define LEAST 16  /* ... and the least number of blocks */
+#define MOST 128
+/* mesh blocks: above this each probe is slow, because it traverses them all, so only ... */
+#define HEAVY 4096
+#define FEW 5   /* ... this many probes are taken */
+#define SURE 12 /* after this many blocks the answer may be clear */
+
+/* Measured costs, in samples of plain supersampling. With a mesh each sample costs more, so the overhead counts
+   less. */
+#define FIRST 1.9 /* a first sample, its share of the ring, and the test */
+#define FIRST_MESH 1.7
+#define FIRST_BOUND 7.0 /* with a bound */
+#define MORE 1.6        /* each further sample: they are scattered */
+#define MORE_MESH 1.2
+#define DEPTH 0.15 /* one cell of the depth tile, which is filled for all of them */
+#define GAIN 0.85  /* of plain supersampling's cost: above this the gain is too small */
+
+typedef struct Spent {
+    double adaptive, plain;
+} Spent;
+
+/* Counts the first samples of the block that hit something: inside it, and with the ring. */
+static void count_first(const WrTileScratch *scratch, int w, int h, int ring, int *within, int *all)
+{
+    *within = *all = 0;
+    for (int y = -ring; y < h + ring; y++)
+        for (int x = -ring; x < w + ring; x++) {
+            const bool met = scratch->centre[y + WR_REFINE_RING][x + WR_REFINE_RING][3] > 0;
+            *all += met;
+            *within += met && y >= 0 && y < h && x >= 0 && x < w;
+        }
+}
+
+static void spend_block(const WrTileJob *job, int x, int y, WrTileScratch *scratch, Spent *spent)
+{
+    WrTileJob own = *job;
+    const int w = job->width < BLOCK_W ? job->width : BLOCK_W;
+    const int h = job->height < BLOCK_H ? job->height : BLOCK_H;
+    const bool bound = job->plan->refine == WR_REFINE_BOUND;
+    const double cells = (double)job->samples * job->samples;
+    int within, all;
+    own.rgba = scratch->mean[0];
+    own.rgba_pitch = (size_t)w;
+    own.x0 = x < 0 ? 0 : x > job->width - w ? job->width - w : x;
+    own.y0 = y < 0 ? 0 : y > job->height - h ? job->height - h : y;
+    memset(scratch->mean, 0, (size_t)(w * h) * sizeof *scratch->mean);
+    wr_refine_tile(&own, own.x0, own.y0, w, h, scratch);
+    count_first(scratch, w, h, bound ? 0 : WR_REFINE_RING, &within, &all);
+    const double more = (double)(scratch->met - all);
+    double area = 0;
+    for (int i = 0; i < w * h; i++) area += (double)scratch->mean[i][3];
+    spent->plain += cells * area;
+    const bool tiled = job->mesh || job->triangles;
+    const double first = bound ? FIRST_BOUND : tiled ? FIRST_MESH : FIRST;
+    spent->adaptive += first * within + (tiled ? MORE_MESH : MORE) * more +
+                       (tiled && more > 0 ? DEPTH * cells * area : 0);
+}
+
+/* True if more blocks would hardly change the answer. */
+static bool clear(const Spent *spent)
+{
+    return spent->plain > 0 &&
+           (spent->adaptive > 1.3 * spent->plain || spent->adaptive < 0.5 * spent->plain);
+}
+
+/* Blocks are spread evenly over the view, but not in rows, with which relief may be in step: they lie at
+   multiples of 1/p and 1/p^2, p the plastic number. */
+#define ACROSS 0xc13fa9a9U /* of 2^32 */
+#define DOWN 0x91e10da5U
+
+static int place(int k, uint32_t step, int room)
+{
+    return (int)(((uint64_t)((uint32_t)(k + 1) * step) * (uint64_t)room) >> 32);
+}
+
+/* True if each probe is slow: cells near the eye that need clipping are visited by every one. */
+static bool is_heavy(const WrViewMesh *mesh)
+{
+    const int count = mesh->blocks_u * mesh->blocks_v;
+    for (int i = 0; i < count; i++)
+        if (mesh->blocks[i].clipped) return true;
+    return count > HEAVY;
+}
+
+bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
+{
+    const WrView *view = job->view;
+    const int w = view->x1 - view->x0, h = view->y1 - view->y0;
+    if (w < 6 * BLOCK_W || h < 6 * BLOCK_W) return true; /* too small to measure */
+    WrTileJob own = *job;
+    Spent spent = { 0 };
+    own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;
+    scratch->notes = (WrDirtyNotes){ 0 };
+    const int64_t area = (int64_t)w * h / AREA;
+    const bool heavy = job->triangles || (job->mesh && is_heavy(job->mesh));
+    const int count = heavy ? FEW : area < LEAST ? LEAST : area > MOST ? MOST : (int)area;
+    for (int k = 0; k < count && !(k >= SURE && clear(&spent)); k++)
+        spend_block(&own, view->x0 + place(k, ACROSS, w - BLOCK_W),
+                    view->y0 + place(k, DOWN, h - BLOCK_H), scratch, &spent);
+    return !(spent.adaptive > GAIN * spent.plain);
+}
+
+/* ---- samples ---- */
+
+/* Further samples for open pixels: K of the K x K, then the others where those are not enough (adaptive.c). */
+
 #define RING WR_REFINE_RING
+#define MOST_SAMPLES WR_TILE_SAMPLES_H /* largest K */
+/* Largest deviation of each of the K samples, and of their mean, from the neighbours' prediction, in multiples
+   of `contrast`. */
+#define SAMPLE_OFF 4.0f
+#define FINE_OFF 1.5f /* as SAMPLE_OFF, for pixels with many texels */
+
+/* ---- more samples -------------------------------------------------------------------------------- */
+
+/* For K = 4, 8, 12, ...: one sample in each row and column, a set that a quarter turn maps to itself. For any
+   quadratic function its mean equals that of all K x K samples. */
+static bool refine_rooks(WrRefiner *r)
+{
+    const int k = r->job->samples, quarter = k / 4;
+    if (k % 4 != 0 || r->job->plan->spread == WR_SPREAD_JITTERED) return false;
+    for (int c = 0; c < quarter; c++) {
+        const int x = c, y = c & 1 ? k - 1 - (c + quarter) : c + quarter;
+        r->rook[x] = (unsigned char)y;
+        r->rook[y] = (unsigned char)(k - 1 - x);
+        r->rook[k - 1 - x] = (unsigned char)(k - 1 - y);
+        r->rook[k - 1 - y] = (unsigned char)x;
+    }
+    return true;
+}
+
+/* A list of pixels, the objects that they may show, and the depth tile of one of them. */
+typedef struct Batch {
+    const WrRefiner *r;
+    WrTilePart part; /* of the tile */
+    const WrTileJob *objects[WR_OBJECTS_MAX];
+    int count;
+    bool tiled;
+    const WrTileJob *of; /* owner of the depth tile; NULL: none yet */
+    WrDepthTile tile;
+} Batch;
+
+/* Samples of one object that wait for a full strip, and their destinations. */
+typedef struct Queue {
+    const Batch *batch;
+    const WrTileJob *job;
+    bool first;  /* no object was drawn before it */
+    float limit; /* depth beyond which the object is hidden */
+    float (*to[WR_SPAN])[4];
+} Queue;
+
+/* Depth and object of a sample, where there are several objects. */
+static WrNearest *nearest_of(WrTileScratch *s, float (*sample)[4])
+{
+    return &s->nearest[0][0] + (sample - &s->sample[0][0]);
+}
+
+static void empty_queue(Queue *queue)
+{
+    WrTileScratch *s = queue->batch->r->scratch;
+    const WrTileJob *job = queue->job;
+    float line[WR_SPAN][4];
+    WrNearest nearest[WR_SPAN];
+    const int count = s->scatter.count;
+    const bool several = queue->batch->count > 1;
+    if (count == 0) return;
+    if (queue->first) memset(line, 0, (size_t)count * sizeof line[0]);
+    for (int i = 0; i < count && several; i++) {
+        if (!queue->first) memcpy(line[i], queue->to[i], sizeof line[i]);
+        nearest[i] = queue->first ? (WrNearest){ INFINITY, 0 } : *nearest_of(s, queue->to[i]);
+    }
+    WrSink sink = { .rgba = line[0], .nearest = several ? nearest : NULL };
+    const double start = wr_clock_seconds();
+    job->pipe->points(job, job->samples, &queue->batch->tile, &sink, s);
+    s->all_strips += wr_clock_seconds() - start;
+    for (int i = 0; i < count; i++) memcpy(queue->to[i], line[i], sizeof line[i]);
+    for (int i = 0; i < count && several; i++) *nearest_of(s, queue->to[i]) = nearest[i];
+    s->scatter.count = 0;
+}
+
+/* Queues sample (i, j) of the tile's pixel (x, y). */
+static void queue_sample(Queue *queue, const unsigned char at[2], int i, int j, float (*to)[4])
+{
+    const WrRefiner *r = queue->batch->r;
+    const WrDepthTile *tile = &queue->batch->tile;
+    WrScatter *places = &r->scratch->scatter;
+    const int k = r->job->samples, n = places->count;
+    const int x = (r->part.x + at[0]) * k + i, y = (r->part.y + at[1]) * k + j;
+    const int cell = (y - tile->y) * tile->w + x - tile->x;
+    const signed char *shift = tile->shift ? tile->shift + 2 * cell : NULL;
+    if (!queue->first && nearest_of(r->scratch, to)->depth < queue->limit) return;
+    places->x[n] = x + (shift ? shift[0] / 256.0 : 0);
+    places->y[n] = y + (shift ? shift[1] / 256.0 : 0);
+    places->cell[n] = cell;
+    queue->to[n] = to;
+    if (++places->count == WR_SPAN) empty_queue(queue);
+}
+
+/* The samples of `count` pixels of the list, K x K each, pixel by pixel. */
+static float (*samples_of(const WrRefiner *r, int at))[4]
+{
+    const int k = r->job->samples;
+    return &r->scratch->sample[0][0] + (size_t)at * (size_t)(k * k);
+}
+
+/* Queues the K first samples of pixels that may suffice with them. */
+static void queue_rooks(Queue *queue, int first, int count)
+{
+    const WrRefiner *r = queue->batch->r;
+    const int k = r->job->samples;
+    for (int n = 0; n < count; n++) {
+        const unsigned char *at = r->scratch->list[first + n];
+        if (r->scratch->open[at[1]][at[0]] != WR_OPEN) continue;
+        for (int j = 0; j < k; j++)
+            queue_sample(queue, at, r->rook[j], j, samples_of(r, n) + j * k + r->rook[j]);
+    }
+}
+
+/* Queues the samples that open pixels still lack: all, or those outside the K. */
+static void queue_rest(Queue *queue, int first, int count)
+{
+    const WrRefiner *r = queue->batch->r;
+    const int k = r->job->samples;
+    for (int n = 0; n < count; n++) {
+        const unsigned char *at = r->scratch->list[first + n];
+        const int open = r->scratch->open[at[1]][at[0]];
+        if (!open) continue;
+        for (int j = 0; j < k; j++)
+            for (int i = 0; i < k; i++)
+                if (open == WR_OPEN_ALL || i != r->rook[j])
+                    queue_sample(queue, at, i, j, samples_of(r, n) + j * k + i);
+    }
+}
+
+static void bring_tile(Batch *batch, const WrTileJob *job)
+{
+    const WrRefiner *r = batch->r;
+    const WrTilePart *part = &batch->part;
+    const int k = job->samples;
+    wr_refine_turn_to(r, job);
+    if (!batch->tiled || batch->of == job) return;
+    batch->tile = wr_tile_depth(job, k, (r->part.x + part->x) * k, (r->part.y + part->y) * k,
+                                part->w * k, part->h * k, r->scratch);
+    batch->of = job;
+}
+
+/* Draws samples of listed pixels, for all objects. */
+static void sample_pixels(Batch *batch, void (*fill)(Queue *, int, int), int first, int count)
+{
+    WrTileScratch *s = batch->r->scratch;
+    for (int i = 0; i < batch->count; i++) {
+        const WrTileJob *job = batch->objects[i];
+        Queue queue = { .batch = batch, .job = job, .first = i == 0 };
+        if (i > 0) queue.limit = wr_refine_limit(job, s);
+        bring_tile(batch, job);
+        s->scatter.count = 0;
+        fill(&queue, first, count);
+        empty_queue(&queue);
+    }
+}
+
+static bool any_open(const WrRefiner *r, int first, int count, int least, int most)
+{
+    for (int n = first; n < first + count; n++) {
+        const unsigned char *at = r->scratch->list[n];
+        const int open = r->scratch->open[at[1]][at[0]];
+        if (open >= least && open <= most) return true;
+    }
+    return false;
+}
+
+/* Sum of count colours, added in pairs, into the first one; the others are overwritten. */
+static void sum_pairs(float (*x)[4], int count)
+{
+    for (; count > 1; count = (count + 1) / 2) {
+        for (int i = 0; i < count / 2; i++)
+            for (int c = 0; c < 4; c++) x[i][c] = x[2 * i][c] + x[2 * i + 1][c];
+        if (count & 1) memcpy(x[count / 2], x[count - 1], sizeof *x);
+    }
+}
+
+/* Linear and quadratic change of light around a pixel's centre, estimated from its neighbours. */
+typedef struct Bend {
+    float x[4], y[4], xx[4], yy[4], xy[4];
+} Bend;
+
+static Bend bend_at(const WrTileScratch *s, int x, int y)
+{
+    const float(*up)[4] = (const float(*)[4])s->centre[y + RING - 1] + x + RING;
+    const float(*mid)[4] = (const float(*)[4])s->centre[y + RING] + x + RING;
+    const float(*low)[4] = (const float(*)[4])s->centre[y + RING + 1] + x + RING;
+    Bend b;
+    for (int c = 0; c < 4; c++) {
+        b.x[c] = (mid[1][c] - mid[-1][c]) / 2, b.y[c] = (low[0][c] - up[0][c]) / 2;
+        b.xx[c] = (mid[1][c] + mid[-1][c]) / 2 - mid[0][c];
+        b.yy[c] = (low[0][c] + up[0][c]) / 2 - mid[0][c];
+        b.xy[c] = ((low[1][c] - low[-1][c]) - (up[1][c] - up[-1][c])) / 4;
+    }
+    return b;
+}
+
+/* True if the mean of the K samples is accurate enough; it then becomes the pixel. */
+static bool rooks_agree(const WrRefiner *r, const unsigned char at[2], float (*sample)[4])
+{
+    const int k = r->job->samples;
+    const float *centre = r->scratch->centre[at[1] + RING][at[0] + RING];
+    const Bend bend = bend_at(r->scratch, at[0], at[1]);
+    float rook[MOST_SAMPLES][4];
+    float most = 0, *pixel = wr_tile_pixel(r->job, r->part.x + at[0], r->part.y + at[1]);
+    for (int j = 0; j < k; j++) {
+        const float dx = ((float)r->rook[j] + 0.5f) / (float)k - 0.5f;
+        const float dy = ((float)j + 0.5f) / (float)k - 0.5f;
+        memcpy(rook[j], sample[j * k + r->rook[j]], sizeof rook[j]);
+        for (int c = 0; c < 4; c++) {
+            const float told = centre[c] + dx * (bend.x[c] + dx * bend.xx[c] + dy * bend.xy[c]) +
+                               dy * (bend.y[c] + dy * bend.yy[c]);
+            const float off = fabsf(rook[j][c] - told);
+            most = off <= most ? most : off; /* NaN is kept */
+        }
+        if (rook[j][3] != centre[3]) return false;
+    }
+    const bool fine = r->scratch->texels[at[1]][at[0]] > WR_FINE;
+    if (!(most <= (fine ? FINE_OFF : SAMPLE_OFF) * r->contrast)) return false;
+    sum_pairs(rook, k);
+    for (int c = 0; c < 4; c++) {
+        rook[0][c] /= (float)k;
+        if (!(fabsf(rook[0][c] - pixel[c]) <= r->contrast)) return false;
+    }
+    memcpy(pixel, rook[0], sizeof rook[0]);
+    return true;
+}
+
+/* Replaces the pixel's sample count in the effect map by the last level's. */
+static void map_samples(const WrRefiner *r, const unsigned char at[2], int k)
+{
+    if (!r->job->map) return;
+    uint8_t *map = &r->job->map[wr_tile_place(r->job, r->part.x + at[0], r->part.y + at[1])];
+    *map = (uint8_t)(*map % WR_MAP_SAMPLES | wr_tile_map_samples(k));
+}
+
+static void finish_rooks(const WrRefiner *r, int first, int count)
+{
+    WrTileScratch *s = r->scratch;
+    int side = 1;
+    while (side * side < r->job->samples) side++;
+    for (int n = 0; n < count; n++) {
+        const unsigned char *at = s->list[first + n];
+        if (s->open[at[1]][at[0]] != WR_OPEN || !rooks_agree(r, at, samples_of(r, n))) continue;
+        s->open[at[1]][at[0]] = 0;
+        map_samples(r, at, side);
+    }
+}
+
+static void finish_all(const WrRefiner *r, int first, int count)
+{
+    WrTileScratch *s = r->scratch;
+    const int k = r->job->samples;
+    for (int n = 0; n < count; n++) {
+        const unsigned char *at = s->list[first + n];
+        if (!s->open[at[1]][at[0]]) continue;
+        wr_tile_mean(samples_of(r, n)[0], k, 4 * (size_t)k,
+                     wr_tile_pixel(r->job, r->part.x + at[0], r->part.y + at[1]));
+        map_samples(r, at, k);
+    }
+}
+
+/* Samples as many listed pixels at once as the buffer holds. */
+static void sample_list(Batch *batch, int count)
+{
+    const WrRefiner *r = batch->r;
+    const int room = WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H / (r->job->samples * r->job->samples);
+    for (int first = 0; first < count; first += room) {
+        const int some = count - first < room ? count - first : room;
+        if (any_open(r, first, some, WR_OPEN, WR_OPEN)) {
+            sample_pixels(batch, queue_rooks, first, some);
+            finish_rooks(r, first, some);
+        }
+        if (any_open(r, first, some, WR_OPEN, WR_OPEN_ALL))
+            sample_pixels(batch, queue_rest, first, some);
+        finish_all(r, first, some);
+    }
+}
+
+/* Lists the open pixels of a part of the tile; the part shrinks to their bounding box. */
+static int list_open(const WrRefiner *r, WrTilePart *part)
+{
+    WrTileScratch *s = r->scratch;
+    int count = 0, x0 = WR_REFINE_W, x1 = 0, y0 = WR_REFINE_H, y1 = 0;
+    for (int y = part->y; y < part->y + part->h; y++)
+        for (int x = part->x; x < part->x + part->w; x++) {
+            if (!s->open[y][x]) continue;
+            s->list[count][0] = (unsigned char)x;
+            s->list[count++][1] = (unsigned char)y;
+            x0 = x < x0 ? x : x0, x1 = x >= x1 ? x + 1 : x1;
+            y0 = y < y0 ? y : y0, y1 = y + 1;
+        }
+    *part = (WrTilePart){ x0, y0, x1 - x0, y1 - y0 };
+    return count;
+}
+
+/* True if samples need a depth tile, or positions of their own tile. */
+static bool is_tiled(const WrRefiner *r)
+{
+    bool tiled = r->count > 1;
+    for (int i = 0; i < r->count; i++)
+        tiled |= r->objects[i]->mesh || r->objects[i]->triangles ||
+                 r->job->plan->spread == WR_SPREAD_JITTERED;
+    return tiled;
+}
+
+static void sample_part(const WrRefiner *r, WrTilePart part, bool tiled)
+{
+    const int count = list_open(r, &part);
+    Batch batch = { .r = r, .part = part, .tiled = tiled };
+    const WrTilePart on = { r->part.x + part.x, r->part.y + part.y, part.w, part.h };
+    if (count == 0) return;
+    for (int i = 0; i < r->count; i++)
+        if (r->count == 1 || wr_refine_touches(r->objects[i], on))
+            batch.objects[batch.count++] = r->objects[i];
+    if (batch.count == 0) batch.objects[batch.count++] = r->objects[0];
+    sample_list(&batch, count);
+}
+
+/* In parts, where samples need a depth tile. */
+static void refine_more(const WrRefiner *r)
+{
+    const int k = r->job->samples;
+    const bool tiled = is_tiled(r);
+    const int most_w = tiled ? WR_TILE_SAMPLES_W / 2 / k : r->part.w;
+    const int most_h = tiled ? WR_TILE_SAMPLES_H / k : r->part.h;
+    for (int y = 0; y < r->part.h; y += most_h)
+        for (int x = 0; x < r->part.w; x += most_w) {
+            WrTilePart part = { x, y, most_w, most_h };
+            part.w = r->part.w - x < part.w ? r->part.w - x : part.w;
+            part.h = r->part.h - y < part.h ? r->part.h - y : part.h;
+            sample_part(r, part, tiled);
+        }
+}
+
 #define EDGES_ALONE                                                                                \
     0.02f /* a `contrast` this large means speed first: the first samples are trusted */
 /* Added where coverage differs: one sample is then off by more than any contrast (kern_adaptive_body.h). */
@@ -278,7 +779,7 @@ static void refine(WrRefiner *r, const WrTileJob *jobs, int count)
     const double start = wr_clock_seconds(), before = told_elsewhere(s);
     const int64_t covered = s->covered;
     wr_did(s, WR_EFFECT_SAMPLES);
-    make_rules(r, jobs, count, !r->by_bound && wr_refine_rooks(r));
+    make_rules(r, jobs, count, !r->by_bound && refine_rooks(r));
     if (!r->by_bound || wr_plan_runs(plan, WR_EFFECT_BOUND)) {
         first_samples(r);
         if (r->by_bound) open_by_bound(r);
@@ -287,7 +788,7 @@ static void refine(WrRefiner *r, const WrTileJob *jobs, int count)
     } else { /* no bound is known in this scene: K x K everywhere */
         memset(s->open, WR_OPEN_ALL, sizeof s->open);
     }
-    wr_refine_more(r);
+    refine_more(r);
     count_covered(r, covered);
     s->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start - (told_elsewhere(s) - before);
 }

@@ -6,13 +6,349 @@
 #include "base/progress.h"
 #include "field/field.h"
 #include "render/frame/frame_internal.h"
-#include "render/simd/simd_kernels.h"
 #include "render/pipeline/pipeline.h"
+#include "render/simd/simd_kernels.h"
 #include "scene/objects.h"
 #include "system/clock.h"
 
 #include <math.h>
 #include <string.h>
+
+/* ---- Cost counters of a frame, by stage and by effect ---- */
+
+void wr_frame_start_counts(WrRenderer *renderer)
+{
+    for (int i = 0; i < renderer->threads; i++) {
+        if (!renderer->scratch[i]) renderer->scratch[i] = wr_alloc(1, sizeof(WrTileScratch));
+        WrTileScratch *s = renderer->scratch[i];
+        const bool wide = wr_plan_runs(&renderer->plan, WR_EFFECT_DOUBLE);
+        if (wide && !s->wide) s->wide = wr_alloc(3, sizeof *s->wide);
+        if (renderer->group && !s->nearest)
+            s->nearest = wr_alloc(WR_TILE_SAMPLES_H, sizeof *s->nearest);
+        memset(s->seconds, 0, sizeof s->seconds);
+        memset(s->whole, 0, sizeof s->whole);
+        s->all = s->all_strips = 0;
+        s->covered = s->not_finite = s->shaded = s->tiles = s->wide_samples = s->wide_tints = 0;
+        memset(s->spared, 0, sizeof s->spared);
+        memset(s->spared_tiles, 0, sizeof s->spared_tiles);
+        s->strips = 0;
+        s->ran = 0;
+    }
+}
+
+/* ---- time of each stage ---- */
+
+/* Sum of all threads' counters. */
+typedef struct Counts {
+    int64_t tiles, shaded, filtered, tinted;
+    int64_t spared[WR_RUN_KINDS], spared_tiles[WR_RUN_KINDS]; /* as in WrTileScratch */
+    WrEffects ran;
+} Counts;
+
+/* Writes cost and touched samples of each effect to the plan's rows. */
+static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Counts *counts)
+{
+    const int64_t shaded = counts->shaded;
+    for (int c = 0; c < WR_COST_COUNT; c++) plan->cost[c] = 0;
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        WrPlanRow *row = &plan->rows[e];
+        row->seconds = 0;
+        row->ran = counts->ran >> e & 1;
+        if (!row->run) continue;
+        const unsigned spared = wr_effects[e].spared;
+        row->tiles = counts->tiles - counts->spared_tiles[spared];
+        row->pixels = e == WR_EFFECT_FILTER ? counts->filtered
+                      : e == WR_EFFECT_TINT ? counts->tinted
+                                            : shaded;
+        for (unsigned run = 0; run < WR_RUN_KINDS; run++)
+            if (run & spared) row->pixels -= counts->spared[run];
+    }
+    for (int stage = 0; stage < WR_STAGE_COUNT; stage++)
+        wr_plan_charge(plan, (WrStage)stage, seconds[stage]);
+    plan->shaded = shaded;
+    for (int e = 0; e < WR_EFFECT_COUNT; e++)
+        plan->rows[e].ns_per_pixel = shaded > 0 ? 1e9 * plan->rows[e].seconds / (double)shaded : 0;
+}
+
+/* Adds one thread's stage times. One strip in sixteen is measured; the total time of strips is divided in that
+   ratio. Returns the rest of its tiles' time. */
+static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
+{
+    double strips = 0, left = s->all;
+    for (int k = 0; k < WR_STAGE_COUNT; k++) {
+        strips += s->seconds[k];
+        left -= s->whole[k];
+    }
+    left = fmax(left, 0);
+    const double share = strips > 0 ? fmin(s->all_strips, left) / strips : 0;
+    for (int k = 0; k < WR_STAGE_COUNT; k++) seconds[k] += s->whole[k] + share * s->seconds[k];
+    return left - share * strips;
+}
+
+void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame)
+{
+    double seconds[WR_STAGE_COUNT] = { 0 }, rest = 0, busy = 0;
+    Counts counts = { 0 };
+    WrPlan *plan = &renderer->plan;
+    const double total = wr_clock_seconds() - started;
+    *frame = (WrFrame){ .width = renderer->width,
+                        .height = renderer->rows,
+                        .first = renderer->top,
+                        .of = renderer->height,
+                        .plan = plan };
+    if (renderer->last.codes.wanted) frame->codes = renderer->codes;
+    else frame->rgba = renderer->rgba;
+    for (int i = 0; i < renderer->threads; i++) {
+        const WrTileScratch *s = renderer->scratch[i];
+        rest += add_thread(s, seconds);
+        busy += s->all;
+        frame->covered += s->covered;
+        frame->shaded += s->shaded;
+        frame->not_finite += s->not_finite;
+        counts.tiles += s->tiles;
+        counts.filtered += s->wide_samples;
+        counts.tinted += s->wide_tints;
+        for (int run = 0; run < WR_RUN_KINDS; run++) {
+            counts.spared[run] += s->spared[run];
+            counts.spared_tiles[run] += s->spared_tiles[run];
+        }
+        counts.ran |= s->ran;
+    }
+    if (!wr_plan_runs(plan, WR_EFFECT_AGAIN))
+        frame->covered = renderer->covered; /* heights do not change the outline */
+    renderer->covered = frame->covered;
+    counts.shaded = frame->shaded;
+    account(plan, seconds, &counts);
+    plan->work = prepared + renderer->threads * (total - prepared);
+    plan->cost[WR_COST_PREPARE] += prepared;
+    plan->cost[WR_COST_REST] += rest;
+    plan->cost[WR_COST_WAIT] += plan->work - prepared - busy;
+    frame->times = (WrStageTimes){
+        .prepare = prepared,
+        .visibility = seconds[WR_STAGE_VISIBILITY] + seconds[WR_STAGE_NEWTON],
+        .geometry = seconds[WR_STAGE_GEOMETRY] + seconds[WR_STAGE_CURVATURE],
+        .bump = seconds[WR_STAGE_FOOTPRINT] + seconds[WR_STAGE_LOOK] + seconds[WR_STAGE_PYRAMID] +
+                seconds[WR_STAGE_NORMALS] + seconds[WR_STAGE_BUMP] + seconds[WR_STAGE_SPREAD],
+        .shade = seconds[WR_STAGE_COLOUR] + seconds[WR_STAGE_TINT] + seconds[WR_STAGE_DIFFUSE] +
+                 seconds[WR_STAGE_SPECULAR] + seconds[WR_STAGE_SURROUND] +
+                 seconds[WR_STAGE_MIRROR] + seconds[WR_STAGE_SHADOW] + seconds[WR_STAGE_CAST] +
+                 seconds[WR_STAGE_OCCLUSION] + seconds[WR_STAGE_LIGHT],
+        .resolve = seconds[WR_STAGE_RESOLVE] + seconds[WR_STAGE_BOUND] + seconds[WR_STAGE_STORE],
+        .pyramid = renderer->pyramid_seconds,
+        .total = total,
+    };
+}
+
+/* ---- Horizon and ambient occlusion tables of the height field, updated with each frame ---- */
+
+void wr_frame_drop_horizon(WrRenderer *renderer)
+{
+    wr_horizon_drop(&renderer->horizon);
+    wr_field_free(renderer->horizon_field);
+    wr_free(renderer->horizon_edit);
+    renderer->horizon_field = NULL;
+    renderer->horizon_edit = NULL;
+}
+
+/* Updates the horizons after an edit of the table. */
+static bool update_horizon(WrRenderer *renderer, WrError *err)
+{
+    WrHorizon *horizon = &renderer->horizon;
+    const size_t texels = (size_t)horizon->width * (size_t)horizon->height;
+    if (!renderer->horizon_edit)
+        renderer->horizon_edit = wr_try_alloc(texels, 1, "horizons of the table", err);
+    if (!renderer->horizon_edit ||
+        !wr_horizon_update(horizon, renderer->horizon_field, renderer->looked,
+                           renderer->horizon_sign, renderer->horizon_edit, renderer->pool, err)) {
+        wr_frame_drop_horizon(renderer);
+        return false;
+    }
+    wr_field_free(renderer->horizon_field);
+    renderer->horizon_field = wr_field_share(renderer->looked);
+    renderer->horizon_before = renderer->horizon_key;
+    renderer->horizon_key = wr_field_key(renderer->looked);
+    return true;
+}
+
+/* Updates the table's horizons; after an edit, only the changed ones. */
+bool wr_frame_update_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    const double sign = request->scene->height < 0 ? -1 : 1;
+    const uint64_t key = wr_field_key(renderer->looked);
+    WrHorizon *horizon = &renderer->horizon;
+    const WrPlan *plan = &renderer->plan;
+    if (!wr_plan_runs(plan, WR_EFFECT_SHADOW) && !wr_plan_runs(plan, WR_EFFECT_OCCLUSION)) {
+        if (!request->hold) wr_frame_drop_horizon(renderer);
+        return true;
+    }
+    const bool like = horizon->slope && renderer->horizon_sign == sign &&
+                      horizon->directions == plan->horizons &&
+                      wr_field_alike(renderer->horizon_field, renderer->looked);
+    if (like && renderer->horizon_key == key) return true;
+    if (like) return update_horizon(renderer, err);
+    wr_frame_drop_horizon(renderer);
+    renderer->horizon_key = key, renderer->horizon_sign = sign;
+    renderer->horizon_field = wr_field_share(renderer->looked);
+    return wr_horizon_make(horizon, renderer->looked, plan->horizons, sign, renderer->pool, err);
+}
+
+bool wr_frame_update_occlusion(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_OCCLUSION))
+        return wr_occlusion_map_table_update(&renderer->opening, request->scene, renderer->looked,
+                                             &(WrOcclusionMapEdit){ renderer->horizon_key,
+                                                                    renderer->horizon_before,
+                                                                    renderer->horizon_edit },
+                                             &renderer->horizon, renderer->pool, err);
+    if (!request->hold) wr_occlusion_map_table_drop(&renderer->opening);
+    return true;
+}
+
+/* ---- Shadow casters of each object of a picture, found before it is planned ---- */
+
+/* True if forced effects request even casters that cannot hide a lamp. */
+static bool wants_all(const WrFrameRequest *request)
+{
+    return request->full || (request->force && request->force[WR_EFFECT_CAST] == WR_FORCE_ON);
+}
+
+/* True if forced effects replace even displaced casters by their bases. */
+static bool keeps_bases(const WrFrameRequest *request)
+{
+    return request->force && request->force[WR_EFFECT_DISPLACED] == WR_FORCE_OFF;
+}
+
+bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes,
+                    const WrField *const *fields, int count, const WrFrameRequest *request,
+                    WrError *err)
+{
+    const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
+    WrShadowRaysBody *bodies[WR_OBJECTS_MAX];
+    for (int i = 0; i < count; i++) {
+        renderers[i]->cast.count = renderers[i]->cast.all = 0;
+        bodies[i] = &renderers[i]->body;
+    }
+    if (dials->rays == 0 || !wr_shadow_rays_asked(request->scene)) return true;
+    for (int i = 0; i < count; i++) {
+        const WrShadowRaysRequest ask = { .scenes = scenes,
+                                          .fields = fields,
+                                          .bodies = bodies,
+                                          .count = count,
+                                          .at = i,
+                                          .rays = dials->rays,
+                                          .all = wants_all(request),
+                                          .moves = !keeps_bases(request),
+                                          .turn_deg = request->turn_deg,
+                                          .aspect = (double)request->width / request->height };
+        if (!wr_shadow_rays_prepare(&renderers[i]->cast, &ask, err)) return false;
+    }
+    return true;
+}
+
+/* ---- tiles ---- */
+
+/* Tile scheduling of a frame: all tiles, the requested blocks, or the patches that edits of a static view reach. */
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static void render_part(const FrameJob *job, WrTilePart part, int index, WrTileScratch *scratch)
+{
+    if (job->objects)
+        wr_tile_render_group(&job->tile, job->objects, job->count, part, index, scratch);
+    else wr_tile_render(&job->tile, part, index, scratch);
+}
+
+/* True if the changes of a static view's tables reach the tile. */
+static bool touches(const FrameJob *job, int index)
+{
+    bool any = job->keep_count == 0;
+    for (int i = 0; i < job->keep_count && !any; i++) any = wr_dirty_touches(job->keeps[i], index);
+    return any;
+}
+
+/* Renders the requested blocks of the tile, neighbouring ones at once: long rows are faster. */
+static void render_asked(const FrameJob *job, WrTilePart tile, int index, WrTileScratch *scratch)
+{
+    const int blocks = (job->tile.width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
+    const unsigned char *row = job->only + tile.y / WR_FRAME_BLOCK * blocks;
+    const int end = tile.x + tile.w;
+    for (int x = tile.x, next; x < end; x = next) {
+        const bool asked = row[x / WR_FRAME_BLOCK];
+        next = x;
+        while (next < end && (row[next / WR_FRAME_BLOCK] != 0) == asked)
+            next = least(end, (next / WR_FRAME_BLOCK + 1) * WR_FRAME_BLOCK);
+        if (asked) render_part(job, (WrTilePart){ x, tile.y, next - x, tile.h }, index, scratch);
+    }
+}
+
+static bool touches_patch(const FrameJob *job, int index, int column, int row)
+{
+    bool any = false;
+    for (int i = 0; i < job->keep_count && !any; i++)
+        any = wr_dirty_touches_patch(job->keeps[i], index, column, row);
+    return any;
+}
+
+/* Renders the tile's patches that those changes reach: runs of patches, and rows with the same runs at once. */
+static void render_touched(const FrameJob *job, WrTilePart tile, int index, WrTileScratch *scratch)
+{
+    const WrDirty *keep = job->keeps[0];
+    WrTilePart next = { 0, 0, 0, 0 };
+    for (int row = 0; row * keep->patch_h < tile.h; row++)
+        for (int from = 0, to; from * keep->patch_w < tile.w; from = to + 1) {
+            for (to = from; to < keep->across && touches_patch(job, index, to, row);) to++;
+            if (to == from) continue;
+            const int x = from * keep->patch_w, y = row * keep->patch_h;
+            const WrTilePart run = { tile.x + x, tile.y + y, least(to * keep->patch_w, tile.w) - x,
+                                     least(tile.h - y, keep->patch_h) };
+            if (run.x == next.x && run.w == next.w && run.y == next.y + next.h) {
+                next.h += run.h;
+                continue;
+            }
+            if (next.h > 0) render_part(job, next, index, scratch);
+            next = run;
+        }
+    if (next.h > 0) render_part(job, next, index, scratch);
+}
+
+static void render_tile(int index, int worker, void *ctx)
+{
+    FrameJob *job = ctx;
+    const WrTileJob *tile = &job->tile;
+    WrTilePart part = { index % job->tiles_u * tile->tile_w, index / job->tiles_u * tile->tile_h, 0,
+                        0 };
+    part.w = least(tile->width - part.x, tile->tile_w);
+    part.h = least(tile->rows - part.y, tile->tile_h);
+    part.y += tile->top;
+    if (wr_cancel_asked(job->cancel)) return;
+    if (!touches(job, index)) return;
+    const double start = wr_clock_seconds();
+    if (job->only) render_asked(job, part, index, job->scratch[worker]);
+    else if (job->keep_count > 0) render_touched(job, part, index, job->scratch[worker]);
+    else render_part(job, part, index, job->scratch[worker]);
+    job->scratch[worker]->all += wr_clock_seconds() - start;
+}
+
+static int tiles_across(const WrTileJob *tile)
+{
+    return (tile->width + tile->tile_w - 1) / tile->tile_w;
+}
+
+int wr_frame_tiles(const WrTileJob *tile)
+{
+    return tiles_across(tile) * ((tile->rows + tile->tile_h - 1) / tile->tile_h);
+}
+
+bool wr_frame_run(WrRenderer *renderer, FrameJob *job)
+{
+    job->tiles_u = tiles_across(&job->tile);
+    const bool whole =
+        wr_pool_run_with_progress(renderer->pool, wr_frame_tiles(&job->tile), render_tile, job);
+    return whole && !wr_cancel_asked(job->cancel);
+}
 
 WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err)
 {

@@ -6,7 +6,6 @@
 #include "image/image.h"
 #include "render/frame/frame_internal.h"
 #include "render/textures/solid_texture_setup.h"
-#include "render/textures/solid_texture_footprint.h"
 #include "render/plan/plan_internal.h"
 #include "scene/scene.h"
 #include "shade/slope.h"

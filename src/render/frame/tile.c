@@ -1,13 +1,199 @@
 #include "render/frame/tile.h"
+
 #include "base/hash.h"
 #include "render/frame/frame.h"
-#include "render/visibility/sparse_hits.h"
-#include "render/pipeline/pipeline.h"
 #include "render/frame/tile_internal.h"
+#include "render/pipeline/pipeline.h"
+#include "render/visibility/sparse_hits.h"
+#include "scene/objects.h"
 #include "system/clock.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
+
+/* Means of a row of `width` pixels, from k rows of samples `step` floats apart, which are overwritten. Returns
+   the number of covered pixels. */
+static int tile_means(int k, int width, float *sample, size_t step, float *pixel);
+
+static void tile_code(const WrTileJob *apart, WrTilePart part, WrTileScratch *scratch);
+
+/* tile_apart: a job that renders to the tile's own floats. tile_code: encodes those floats to the picture. */
+static WrTileJob tile_apart(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch);
+
+/* Clears the tile; of codes only those beside `part`, because each is written once. */
+static void tile_clear(const WrTileJob *job, WrTilePart whole, WrTilePart part);
+
+/* Sets the cost bits that every pixel of the tile has, whatever it shows. */
+static void tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch);
+
+/* Draws all samples of a tile in the grid of k x k samples a pixel. */
+static void tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
+                     WrTileScratch *scratch);
+
+/* Encodes a row of premultiplied colours, [width][4], into the picture's codes. */
+static void tile_code_row(const WrTileJob *job, int x, int y, int width, const float *rgba,
+                      WrTileScratch *scratch);
+
+/* ---- multi object ---- */
+
+/* Tile of several objects: drawn front to back; each sample shows the nearest object (E51-E53). */
+
+/* Objects whose bound overlaps the tile, nearest first as the jobs are. */
+typedef struct Touching {
+    const WrTileJob *job[WR_OBJECTS_MAX];
+    WrTilePart part[WR_OBJECTS_MAX];
+    int count;
+} Touching;
+
+static void find_touching(const WrTileJob *jobs, int count, WrTilePart whole, Touching *out)
+{
+    out->count = 0;
+    for (int i = 0; i < count; i++) {
+        const bool beside = wr_plan_runs(jobs[i].plan, WR_EFFECT_BESIDE);
+        const WrTilePart part = beside ? whole : wr_tile_touched(&jobs[i], whole);
+        if (part.w <= 0 || part.h <= 0) continue;
+        out->job[out->count] = &jobs[i];
+        out->part[out->count++] = part;
+    }
+}
+
+/* Bounding rectangle of all objects on the tile. */
+static WrTilePart united(const Touching *touching)
+{
+    WrTilePart all = touching->part[0];
+    for (int i = 1; i < touching->count; i++) {
+        const WrTilePart part = touching->part[i];
+        const int x1 = all.x + all.w, y1 = all.y + all.h;
+        const int right = part.x + part.w, bottom = part.y + part.h;
+        all.x = part.x < all.x ? part.x : all.x;
+        all.y = part.y < all.y ? part.y : all.y;
+        all.w = (right > x1 ? right : x1) - all.x;
+        all.h = (bottom > y1 ? bottom : y1) - all.y;
+    }
+    return all;
+}
+
+/* Clears the samples of a tile, k x k a pixel. */
+static void empty(int k, WrTilePart whole, bool nearest, WrTileScratch *scratch)
+{
+    const size_t width = (size_t)(whole.w * k);
+    for (int y = 0; y < whole.h * k; y++) {
+        memset(scratch->sample[y], 0, width * sizeof(float[4]));
+        if (!nearest) continue;
+        for (size_t x = 0; x < width; x++) scratch->nearest[y][x] = (WrNearest){ INFINITY, 0 };
+    }
+}
+
+/* Largest depth among the tile's samples; INFINITY if one of them is background. */
+static float farthest(int k, WrTilePart whole, const WrTileScratch *scratch)
+{
+    float depth = -INFINITY;
+    for (int y = 0; y < whole.h * k; y++) {
+        for (int x = 0; x < whole.w * k; x++) {
+            const float deep = scratch->nearest[y][x].depth;
+            depth = deep > depth ? deep : depth;
+        }
+        if (depth == INFINITY) break;
+    }
+    return depth;
+}
+
+float wr_tile_hidden_from(const WrTileJob *job)
+{
+    const float nearest = (float)job->view->nearest;
+    return nearest - FLT_EPSILON * fabsf(nearest);
+}
+
+/* Draws all objects' samples into scratch->sample and, where requested, n' into the picture. */
+static void draw(const Touching *touching, int k, WrTilePart whole, bool light, int index,
+                 WrTileScratch *scratch)
+{
+    const bool several = touching->count > 1;
+    for (int i = 0; i < touching->count; i++) {
+        const WrTileJob *job = touching->job[i];
+        const WrTilePart part = touching->part[i];
+        /* All that follows lies behind: drawing can stop (E52). Samples from the relight cache have no depth. */
+        if (i > 0 && !job->steady && !wr_plan_runs(job->plan, WR_EFFECT_HIDDEN) &&
+            farthest(k, whole, scratch) < wr_tile_hidden_from(job))
+            break;
+        if (i > 0 && wr_plan_runs(job->plan, WR_EFFECT_HIDDEN)) wr_did(scratch, WR_EFFECT_HIDDEN);
+        const int x = (part.x - whole.x) * k, y = (part.y - whole.y) * k;
+        WrTileRows out = { .rgba_step = 4 * WR_TILE_SAMPLES_W,
+                           .wide = (size_t)job->width,
+                           .over = several,
+                           .nearest_step = WR_TILE_SAMPLES_W };
+        if (light) out.rgba = scratch->sample[y][x];
+        if (k == 1 && job->normals)
+            out.normals = job->normals + 3 * wr_tile_place(job, part.x, part.y);
+        if (several && !job->steady) out.nearest = &scratch->nearest[y][x];
+        scratch->notes = wr_dirty_open(job->seen, index, whole.x, whole.y);
+        const WrDepthTile tile =
+            wr_tile_depth(job, k, part.x * k, part.y * k, part.w * k, part.h * k, scratch);
+        tile_samples(job, k, &tile, &out, scratch);
+    }
+}
+
+/* Stores the means of the samples in the picture. */
+static void resolve(const WrTileJob *canvas, WrTilePart whole, WrTileScratch *scratch)
+{
+    const int k = canvas->samples;
+    const size_t step = sizeof scratch->sample[0] / sizeof(float);
+    float row[WR_TILE_SAMPLES_W][4];
+    for (int y = 0; y < whole.h; y++) {
+        float *to = canvas->codes ? row[0] : wr_tile_pixel(canvas, whole.x, whole.y + y);
+        scratch->covered += tile_means(k, whole.w, scratch->sample[y * k][0], step, to);
+        if (canvas->codes) tile_code_row(canvas, whole.x, whole.y + y, whole.w, row[0], scratch);
+    }
+}
+
+/* Adaptive sampling of the tile. */
+static void refine(const WrTileJob *canvas, const WrTileJob *jobs, int count, WrTilePart part,
+                   int index, WrTileScratch *scratch)
+{
+    const WrTileJob apart = canvas->codes ? tile_apart(canvas, part, scratch) : *canvas;
+    wr_refine_group(&apart, jobs, count, part, index, scratch);
+    if (canvas->codes) tile_code(&apart, part, scratch);
+}
+
+/* All samples everywhere. */
+static void sample(const WrTileJob *canvas, const Touching *touching, WrTilePart whole, int index,
+                   WrTileScratch *scratch)
+{
+    const int k = canvas->samples;
+    const int64_t covered = scratch->covered;
+    empty(k, whole, touching->count > 1, scratch);
+    draw(touching, k, whole, true, index, scratch);
+    scratch->covered = covered; /* it counted samples */
+    if (k > 1) wr_did(scratch, WR_EFFECT_SAMPLES);
+    const double start = wr_clock_seconds();
+    resolve(canvas, whole, scratch);
+    scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+}
+
+void wr_tile_render_group(const WrTileJob *canvas, const WrTileJob *jobs, int count,
+                          WrTilePart tile, int index, WrTileScratch *scratch)
+{
+    const int64_t before = scratch->shaded;
+    Touching touching;
+    const double start = wr_clock_seconds();
+    find_touching(jobs, count, tile, &touching);
+    if (canvas->map) tile_start_map(canvas, tile, scratch);
+    const WrTilePart none = { tile.x, tile.y, 0, 0 };
+    const WrTilePart whole = touching.count > 0 ? united(&touching) : none;
+    tile_clear(canvas, tile, whole);
+    scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
+    if (touching.count == 0) return;
+    if (canvas->normals && canvas->samples > 1) {
+        empty(1, whole, touching.count > 1, scratch);
+        draw(&touching, 1, whole, false, index, scratch);
+    }
+    if (canvas->plan->sampling == WR_SAMPLING_ADAPTIVE)
+        refine(canvas, jobs, count, whole, index, scratch);
+    else sample(canvas, &touching, whole, index, scratch);
+    for (int i = 0; i < touching.count; i++) wr_dirty_close(touching.job[i]->seen, index);
+    scratch->tiles += scratch->shaded > before;
+}
 
 /* Largest power of two up to x. */
 static int power_below(int x)
@@ -28,7 +214,8 @@ void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *til
     *tile_h = tall < WR_FRAME_BLOCK ? power_below(tall) : WR_FRAME_BLOCK;
 }
 
-void wr_tile_jitter(WrDepthTile *tile, int k, signed char *shift)
+/* Fills tile->shift for a grid of k x k a pixel (spread=jittered). */
+static void tile_jitter(WrDepthTile *tile, int k, signed char *shift)
 {
     for (int y = 0; y < tile->h; y++)
         for (int x = 0; x < tile->w; x++) {
@@ -54,7 +241,7 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
                          .v = scratch->v,
                          .k = k,
                          .kernels = job->kernels };
-    if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) wr_tile_jitter(&tile, k, scratch->shift);
+    if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) tile_jitter(&tile, k, scratch->shift);
     if (job->knots && k == job->view->samples && !tile.shift)
         wr_sparse_hits_report(job->knots, &tile);
     if (job->mesh && !job->seen_before && !job->steady) {
@@ -109,7 +296,7 @@ void wr_tile_mean(float *sample, int k, size_t step, float out[4])
     for (int c = 0; c < 4; c++) out[c] = sample[c] * share;
 }
 
-int wr_tile_means(int k, int width, float *sample, size_t step, float *pixel)
+static int tile_means(int k, int width, float *sample, size_t step, float *pixel)
 {
     const float share = 1.0f / (float)(k * k);
     int covered = 0;
@@ -268,7 +455,7 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
     }
 }
 
-void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
+static void tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
                      WrTileScratch *scratch)
 {
     if (tile->w <= WR_SPAN / 2 && tile->h > 1) {
@@ -301,7 +488,7 @@ static void render_point(const WrTileJob *job, WrTilePart part, bool light, WrTi
     if (light && job->codes) out.codes = code_at(job, part.x, part.y);
     else if (light) out.rgba = wr_tile_pixel(job, part.x, part.y);
     if (job->normals) out.normals = job->normals + wr_tile_place(job, part.x, part.y) * 3;
-    wr_tile_samples(job, 1, &tile, &out, scratch);
+    tile_samples(job, 1, &tile, &out, scratch);
 }
 
 /* Renders the mean of K x K samples. */
@@ -315,12 +502,12 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     double start = wr_clock_seconds();
     for (int y = 0; y < h; y++) memset(scratch->sample[y], 0, (size_t)w * sizeof(float[4]));
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
-    wr_tile_samples(job, k, &tile, &out, scratch);
+    tile_samples(job, k, &tile, &out, scratch);
     scratch->covered = covered; /* it counted samples */
     if (k > 1) wr_did(scratch, WR_EFFECT_SAMPLES);
     start = wr_clock_seconds();
     for (int y = 0; y < part.h; y++)
-        scratch->covered += wr_tile_means(k, part.w, scratch->sample[y * k][0], step,
+        scratch->covered += tile_means(k, part.w, scratch->sample[y * k][0], step,
                                           wr_tile_pixel(job, part.x, part.y + y));
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
@@ -338,7 +525,7 @@ static void clear_codes(const WrTileJob *job, WrTilePart whole, WrTilePart part)
     }
 }
 
-void wr_tile_clear(const WrTileJob *job, WrTilePart whole, WrTilePart part)
+static void tile_clear(const WrTileJob *job, WrTilePart whole, WrTilePart part)
 {
     if (job->codes) clear_codes(job, whole, part);
     for (int y = whole.y; y < whole.y + whole.h; y++) {
@@ -350,7 +537,7 @@ void wr_tile_clear(const WrTileJob *job, WrTilePart whole, WrTilePart part)
     }
 }
 
-void wr_tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch)
+static void tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch)
 {
     const int all = job->plan->sampling == WR_SAMPLING_ALL ? job->samples : 1;
     scratch->mapped = whole;
@@ -398,7 +585,7 @@ static void render_many(const WrTileJob *job, WrTilePart part, WrTileScratch *sc
     else wr_refine_tile(job, part.x, part.y, part.w, part.h, scratch);
 }
 
-WrTileJob wr_tile_apart(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
+static WrTileJob tile_apart(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
 {
     WrTileJob own = *job;
     own.rgba = scratch->mean[0];
@@ -408,27 +595,27 @@ WrTileJob wr_tile_apart(const WrTileJob *job, WrTilePart part, WrTileScratch *sc
     return own;
 }
 
-void wr_tile_code_row(const WrTileJob *job, int x, int y, int width, const float *rgba,
+static void tile_code_row(const WrTileJob *job, int x, int y, int width, const float *rgba,
                       WrTileScratch *scratch)
 {
     scratch->not_finite += wr_code_row(&job->coder, wr_tile_behind(job, x, y),
                                        job->backdrop->across, width, rgba, code_at(job, x, y));
 }
 
-void wr_tile_code(const WrTileJob *apart, WrTilePart part, WrTileScratch *scratch)
+static void tile_code(const WrTileJob *apart, WrTilePart part, WrTileScratch *scratch)
 {
     const double start = wr_clock_seconds();
     for (int y = part.y; y < part.y + part.h; y++)
-        wr_tile_code_row(apart, part.x, y, part.w, wr_tile_pixel(apart, part.x, y), scratch);
+        tile_code_row(apart, part.x, y, part.w, wr_tile_pixel(apart, part.x, y), scratch);
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 
 /* Renders several samples a pixel to codes, by way of the tile's own floats. */
 static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
 {
-    const WrTileJob apart = wr_tile_apart(job, part, scratch);
+    const WrTileJob apart = tile_apart(job, part, scratch);
     render_many(&apart, part, scratch);
-    wr_tile_code(&apart, part, scratch);
+    tile_code(&apart, part, scratch);
 }
 
 /* Counts the tile if every run skipped work. `before`: sample counts before the tile. */
@@ -452,8 +639,8 @@ void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScr
     const bool beside = wr_plan_runs(job->plan, WR_EFFECT_BESIDE);
     if (beside) wr_did(scratch, WR_EFFECT_BESIDE);
     const WrTilePart part = beside ? whole : wr_tile_touched(job, whole);
-    if (job->map) wr_tile_start_map(job, whole, scratch);
-    wr_tile_clear(job, whole, part);
+    if (job->map) tile_start_map(job, whole, scratch);
+    tile_clear(job, whole, part);
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
     if (part.w > 0 && part.h > 0) {
         const bool one = job->plan->sampling == WR_SAMPLING_ONE && !job->view->endless;

@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 #include "render/caches/dirty_regions.h"
 #include "render/simd/simd_kernels.h"
-#include "render/textures/slope_bounds.h"
+#include "render/textures/slope_pyramid.h"
 #include "render/visibility/uv_raster.h"
 #include "render/textures/ambient_occlusion.h"
 #include "render/visibility/parallax.h"

@@ -38,8 +38,6 @@ void wr_refine_group(const WrTileJob *canvas, const WrTileJob *jobs, int count, 
 /* True if adaptive sampling costs less than K x K everywhere. Estimated from a few blocks of the whole picture,
    whichever part is rendered. Overwrites the scratch's counters. */
 bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch);
-/* Fills tile->shift for a grid of k x k a pixel (spread=jittered). */
-void wr_tile_jitter(WrDepthTile *tile, int k, signed char *shift);
 /* A depth tile of w x h samples at (x, y) of the grid of k x k a pixel; rasterised if there is a mesh. */
 WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int h,
                           WrTileScratch *scratch);

@@ -1,9 +1,310 @@
 #include "render/plan/plan.h"
 
 #include "base/enum_rows.h"
+#include "field/analytic.h"
+#include "render/plan/plan_internal.h"
+#include "render/shadows/shadow_rays.h"
+#include "render/textures/solid_texture_setup.h"
+#include "scene/scene.h"
+#include "surface/triangles.h"
 
 #include <stdio.h>
 #include <string.h>
+
+/* ---- runs ---- */
+
+/* Plan rows of partial skipping: runs of samples without bump or light, and the area beside the object. These
+   rows change the method, never the picture. */
+
+/* From this share of sloped tiles on, runs over flat parts are too rare to test for. */
+#define MOSTLY_SLOPED 0.75
+
+/* True if it runs only because it is forced. Then it runs everywhere. */
+static bool is_forced(const WrPlan *plan, WrEffect effect)
+{
+    return runs(plan, effect) && plan->rows[effect].verdict != WR_VERDICT_RUN;
+}
+
+/* ---- flat parts of the table ---- */
+
+/* Reason why bump cannot be skipped in runs whose slopes are 0, or NULL if it can. */
+static const char *no_ground(const WrPlan *plan)
+{
+    if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
+    if (runs(plan, WR_EFFECT_NORMALS)) return "a normal map has slopes where the table has none";
+    if (plan->bump == WR_BUMP_EXACT) return "the exact normal turns with heights, not slopes alone";
+    if (wr_schemes[plan->scheme].taps == WR_TAPS_FITTED)
+        return "this scheme's coefficients each reach over the whole table";
+    if (runs(plan, WR_EFFECT_FILTER)) return "a footprint may reach over any of the table";
+    if (runs(plan, WR_EFFECT_TINT)) return "the colour picture's footprints go by tangents";
+    if (plan->facets_filtered) return "footprints of pictures of roughness go by tangents";
+    if (plan->precision != WR_PRECISION_SINGLE)
+        return "slopes of single precision say nothing of those in double";
+    return NULL;
+}
+
+WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    const char *reason = no_ground(plan);
+    if (reason) return say(WR_VERDICT_RUN, why, reason);
+    const double sloped = ask->facts.sloped;
+    if (!(sloped >= 0 && sloped < MOSTLY_SLOPED))
+        return say(WR_VERDICT_RUN, why, "most of the table has slopes: asking is not worth it");
+    return say(WR_VERDICT_SPARED, why,
+               "much of the table is level: runs of samples there have no bump");
+}
+
+/* ---- the dark side ---- */
+
+/* Reason why the bound on bump's rotation of the normal cannot be used to skip light, or NULL if it can. */
+static const char *no_cone(const WrPlan *plan)
+{
+    if (runs(plan, WR_EFFECT_DISPLACED)) return "facets of a displaced surface face anywhere";
+    if (runs(plan, WR_EFFECT_PARALLAX)) return "what parallax shows may stand on either side";
+    if (runs(plan, WR_EFFECT_EMBOSSED)) return "no bound is known of a solid texture's slopes";
+    if (plan->bump == WR_BUMP_NONE) return NULL;
+    if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
+    if (runs(plan, WR_EFFECT_NORMALS)) return "no bound is known of a normal map's slopes";
+    if (plan->bump != WR_BUMP_BLINN) return "no bound is known of how far this normal turns";
+    if (!runs(plan, WR_EFFECT_GRADIENT) || runs(plan, WR_EFFECT_FILTER) ||
+        plan->precision != WR_PRECISION_SINGLE)
+        return "no bound is known of slopes but a gradient table's own";
+    return NULL;
+}
+
+static const char *no_dark(const WrPlan *plan, const WrPlanRequest *ask)
+{
+    const bool shines = runs(plan, WR_EFFECT_SPECULAR);
+    if (is_forced(plan, WR_EFFECT_DIFFUSE) || is_forced(plan, WR_EFFECT_SPECULAR))
+        return "light is forced: it runs everywhere";
+    if (v3_len(ask->scene->sizes) > 0) return "the object is stretched: its normals turn with it";
+    if (ask->facts.normals) return "normals are wanted everywhere";
+    if (runs(plan, WR_EFFECT_SURROUND) || runs(plan, WR_EFFECT_MIRROR))
+        return "surroundings shine there too";
+    if (shines && !ask->scene->material.gate) return "a highlight without gate shows there too";
+    if (runs(plan, WR_EFFECT_BOUND)) return "a bound of the light's change is wanted everywhere";
+    if (runs(plan, WR_EFFECT_HALF)) return "the dial asks for light in half precision";
+    return no_cone(plan);
+}
+
+WrVerdict wr_decide_dark(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
+        return say(WR_VERDICT_NONE, why, "no light is worked out");
+    const char *reason = no_dark(plan, ask);
+    if (reason) return say(WR_VERDICT_RUN, why, reason);
+    return say(WR_VERDICT_SPARED, why,
+               "runs that all lights are behind, bump or not, have ambient light alone");
+}
+
+/* ---- beside the object ---- */
+
+WrVerdict wr_decide_beside(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    (void)plan, (void)ask;
+    return say(WR_VERDICT_SPARED, why,
+               "only the part of a tile is drawn that the object may be on");
+}
+
+/* ---- Plan rows of sampling: samples per pixel, and the bound for taking fewer ---- */
+
+static bool takes_grid(const WrDials *dials)
+{
+    return dials->aa == WR_AA_ADAPTIVE || dials->aa == WR_AA_SUPERSAMPLE;
+}
+
+/* True if a bound is requested but unknown. Where outlines meet, light may change by any amount. */
+static bool unbounded(const WrPlanRequest *ask)
+{
+    return ask->facts.among > 1 && ask->dials->refine == WR_REFINE_BOUND;
+}
+
+WrVerdict wr_decide_samples(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    const WrDials *dials = ask->dials;
+    (void)plan;
+    if (!takes_grid(dials))
+        return say(WR_VERDICT_NONE, why, "the dial says one sample at the pixel's centre");
+    if (dials->samples == 1) return say(WR_VERDICT_NONE, why, "one sample a pixel was asked for");
+    if (dials->aa == WR_AA_ADAPTIVE && unbounded(ask))
+        return say(WR_VERDICT_RUN, why,
+                   "up to K x K were asked for: no bound is known of several objects");
+    if (dials->aa == WR_AA_ADAPTIVE && ask->facts.lively)
+        return say(WR_VERDICT_RUN, why,
+                   "up to K x K were asked for: here fewer would cost more, so all are taken");
+    return say(WR_VERDICT_RUN, why,
+               dials->aa == WR_AA_SUPERSAMPLE
+                   ? "the dial asks for the mean of K x K intensities"
+                   : "up to K x K where one is not enough for `contrast`; a smooth view may be as "
+                     "near with fewer");
+}
+
+void wr_settle_samples(WrPlan *plan, const WrPlanRequest *ask)
+{
+    const WrDials *dials = ask->dials;
+    const bool run = runs(plan, WR_EFFECT_SAMPLES);
+    plan->samples = run ? dials->samples : 1;
+    const bool adaptive =
+        dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively && !unbounded(ask) &&
+        (plan->grain == WR_SOLID_TEXTURE_OFF || wr_solid_texture_bounded(ask->scene));
+    plan->sampling = !run ? WR_SAMPLING_ONE : adaptive ? WR_SAMPLING_ADAPTIVE : WR_SAMPLING_ALL;
+    if (!run) return;
+    plan->spread = dials->spread;
+    plan->refine = dials->refine;
+    plan->contrast = dials->contrast;
+}
+
+/* Reason why no bound on the change of intensity over a pixel is known, or NULL if one is. */
+static const char *no_bound(const WrPlan *plan, const WrPlanRequest *ask)
+{
+    if (runs(plan, WR_EFFECT_SHADOW) || runs(plan, WR_EFFECT_CAST))
+        return "no bound is known of shadows: K x K everywhere";
+    if (ask->dials->shading == WR_SHADING_HALF)
+        return "no bound is known of rounding to half precision: K x K everywhere";
+    if (v3_len(ask->scene->sizes) > 0)
+        return "no bound is known of a stretched object: K x K everywhere";
+    if (runs(plan, WR_EFFECT_MODEL))
+        return "no bound is known of this reflection: K x K everywhere";
+    if (runs(plan, WR_EFFECT_SURROUND) || runs(plan, WR_EFFECT_MIRROR))
+        return "no bound is known of light from surroundings: K x K everywhere";
+    const WrInversion how = surface_of(ask)->inversion;
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return "no bound is known of a displaced surface: K x K everywhere";
+    if (runs(plan, WR_EFFECT_PARALLAX)) return "no bound is known of parallax: K x K everywhere";
+    if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
+        return "no bound is known on this surface: K x K everywhere";
+    if (runs(plan, WR_EFFECT_COLOUR))
+        return "no bound is known for a colour picture: K x K everywhere";
+    if (runs(plan, WR_EFFECT_GRAIN))
+        return "no bound is known for a solid texture: K x K everywhere";
+    if (runs(plan, WR_EFFECT_NORMALS))
+        return "no bound is known for a normal map: K x K everywhere";
+    if (plan->bump == WR_BUMP_NONE) return NULL;
+    if (plan->bump != WR_BUMP_BLINN)
+        return "no bound is known for this normal formula: K x K everywhere";
+    if (!runs(plan, WR_EFFECT_GRADIENT))
+        return "a bound needs slopes from a table, central or nearest: K x K everywhere";
+    return NULL;
+}
+
+WrVerdict wr_decide_bound(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    if (ask->dials->aa != WR_AA_ADAPTIVE || plan->refine != WR_REFINE_BOUND)
+        return say(WR_VERDICT_NONE, why, "the dials do not ask for a bound");
+    const char *reason = no_bound(plan, ask);
+    if (reason) return say(WR_VERDICT_NONE, why, reason);
+    if (ask->facts.among > 1)
+        return say(WR_VERDICT_NONE, why, "no bound is known of several objects: K x K everywhere");
+    if (ask->facts.lively)
+        return say(WR_VERDICT_NONE, why,
+                   "bounds would spare too little of this view: K x K everywhere");
+    return say(WR_VERDICT_RUN, why,
+               "K x K only where the intensity may change by more than `contrast`");
+}
+
+/* ---- shape ---- */
+
+/* Plan rows of the table's effect on the surface: displacement, or bending of the normal, and by which formula. */
+
+#define SEEN 0.5 /* pixels: bump suffices for a smaller displacement (E21, E50) */
+
+WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    const WrScene *scene = ask->scene;
+    (void)plan;
+    if (!scene->displaced) return say(WR_VERDICT_NONE, why, "the table turns the normal alone");
+    const char *reason = wr_shape_unmoved(&scene->shape);
+    if (reason) return say(WR_VERDICT_NONE, why, reason);
+    if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
+    if (scene->analytic.kind == WR_ANALYTIC_OFF && ask->facts.zero)
+        return say(WR_VERDICT_SPARED, why, "the table is 0 everywhere");
+    /* Shadow rays intersect facets of P + F n, however low it is. Started from the base, all rays would be
+       blocked, or none. */
+    const bool met = wr_shadow_rays_asked(scene) && ask->dials->rays > 0;
+    if (ask->facts.rise >= 0 && ask->facts.rise < SEEN && !met)
+        return say(WR_VERDICT_SPARED, why, "F moves no point by half a pixel: bump looks the same");
+    return say(WR_VERDICT_RUN, why, "F moves the surface: facets of P + F n are seen");
+}
+
+void wr_settle_displaced(WrPlan *plan, const WrPlanRequest *ask)
+{
+    if (runs(plan, WR_EFFECT_DISPLACED)) plan->dice = ask->dials->dice;
+}
+
+WrVerdict wr_decide_parallax(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    const WrScene *scene = ask->scene;
+    if (!scene->parallax) return say(WR_VERDICT_NONE, why, "rays end at the base");
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_NONE, why, "the surface itself is displaced: rays meet its facets");
+    const char *reason = wr_shape_without_parallax(&scene->shape);
+    if (reason) return say(WR_VERDICT_NONE, why, reason);
+    if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
+    if (scene->analytic.kind == WR_ANALYTIC_OFF && ask->facts.zero)
+        return say(WR_VERDICT_SPARED, why, "the table is 0 everywhere");
+    if (ask->facts.rise >= 0 && ask->facts.rise < SEEN)
+        return say(WR_VERDICT_SPARED, why, "F moves no point by half a pixel: bump looks the same");
+    return say(WR_VERDICT_RUN, why, "rays go on from the base to the relief");
+}
+
+void wr_settle_parallax(WrPlan *plan, const WrPlanRequest *ask)
+{
+    if (runs(plan, WR_EFFECT_PARALLAX)) plan->steps = ask->dials->steps;
+}
+
+WrBumpMode wr_plan_normal(const WrPlan *plan, const WrPlanRequest *ask)
+{
+    return runs(plan, WR_EFFECT_DISPLACED) ? WR_BUMP_EXACT : ask->scene->bump;
+}
+
+/* True if the mesh is cut from patches. */
+static bool is_cut(const WrPlanRequest *ask)
+{
+    return ask->scene->triangles && ask->scene->triangles->patches;
+}
+
+WrVerdict wr_decide_exact(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    if (wr_plan_normal(plan, ask) != WR_BUMP_EXACT)
+        return say(WR_VERDICT_NONE, why, "bump mode is not exact");
+    if (!runs(plan, WR_EFFECT_BUMP)) return say(WR_VERDICT_NONE, why, "bump does not run");
+    if (surface_of(ask)->held)
+        return say(WR_VERDICT_NONE, why,
+                   is_cut(ask) ? "on sets of patches blinn takes the exact normal's place"
+                               : "triangles are flat: blinn is exact on them for any F");
+    if (surface_of(ask)->flat)
+        return say(WR_VERDICT_SPARED, why, "the base is flat: blinn is exact there for any F");
+    return say(WR_VERDICT_RUN, why,
+               runs(plan, WR_EFFECT_DISPLACED)
+                   ? "the surface is displaced: its own normal is the exact one"
+                   : "bump mode is exact and the base is curved");
+}
+
+void wr_settle_exact(WrPlan *plan, const WrPlanRequest *ask)
+{
+    (void)ask;
+    if (runs(plan, WR_EFFECT_EXACT)) plan->bump = WR_BUMP_EXACT;
+}
+
+WrVerdict wr_decide_curvature(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
+{
+    if (surface_of(ask)->held)
+        return say(WR_VERDICT_NONE, why,
+                   is_cut(ask) ? "only the exact normal needs them"
+                               : "triangles are flat: there are none");
+    if (runs(plan, WR_EFFECT_EXACT))
+        return say(WR_VERDICT_RUN, why, "the exact normal needs how n turns");
+    return say(WR_VERDICT_SPARED, why, "only the exact normal needs them");
+}
+
+void wr_settle_curvature(WrPlan *plan, const WrPlanRequest *ask)
+{
+    plan->normals = lit(plan, ask) || runs(plan, WR_EFFECT_BUMP) ||
+                    runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_TINT) ||
+                    runs(plan, WR_EFFECT_NORMALS) || runs(plan, WR_EFFECT_GRAIN) ||
+                    runs(plan, WR_EFFECT_EMBOSSED);
+}
 
 const char *wr_proof_letter(WrProof proof)
 {

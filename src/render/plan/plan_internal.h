@@ -85,8 +85,8 @@ static inline bool still(const WrScene *scene)
     return scene->replicate_u == 0 && scene->replicate_v == 0;
 }
 
-/* Functions of WrEffectInfo's rows. They are in plan_light.c, plan_reflection.c, plan_environment.c,
-   plan_visibility.c, plan_runs.c, plan_samples.c, plan_shape.c and plan_maps.c. */
+/* Functions of WrEffectInfo's rows. They are in plan_light.c, plan_light.c, plan_light.c,
+   plan_visibility.c, plan.c, plan.c, plan.c and plan_maps.c. */
 typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanRequest *ask, const char **why);
 typedef void WrSettle(WrPlan *plan, const WrPlanRequest *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,

@@ -1,7 +1,7 @@
 /* Boxes: a cell is evaluated at 3 x 3 points. The bilinear patches of its four quarters are inside the box of
    these points, and the surface within (|P'uu| du^2 + 2 |P'uv| du dv + |P'vv| dv^2) / 8 of them. The second
    derivatives are estimated from the change of the first ones between the points. */
-#include "render/reference/reference_displaced_internal.h"
+#include "render/reference/reference_displaced.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -10,6 +10,223 @@
 
 #include <math.h>
 #include <stdint.h>
+
+/* Floats, rounded outwards. */
+typedef struct WrRaisedBox {
+    float low[3], high[3];
+    /* of a cell: largest sine of the angle between its normals and the middle one; 2: unknown */
+    float sine;
+} WrRaisedBox;
+
+typedef enum WrRaisedKind {
+    WR_RAISED_FACE,
+    /* along an edge: its first parameter follows the edge, its second leads across */
+    WR_RAISED_STRIP,
+    WR_RAISED_CORNER /* of three faces: the parallelogram between two strips' ends */
+} WrRaisedKind;
+
+/* An edge of a face: 0 v lowest, 1 v highest, 2 u lowest, 3 u highest. */
+typedef struct WrRaisedEdge {
+    int face, side;
+    bool back; /* it runs in the opposite direction */
+} WrRaisedEdge;
+
+#define WR_RAISED_LEVELS 24
+struct WrRaisedSheet {
+    WrRaisedKind kind;
+    WrSurfaceCell domain;    /* of its parameters */
+    WrRaisedEdge edge, mate; /* a strip's own edge, and the one that it connects to */
+    int face;
+    double u, v;             /* a corner's position ... */
+    WrVec3 p, across, aside; /* ... and its parallelogram */
+    int nu, nv, levels;
+    WrRaisedBox *boxes[WR_RAISED_LEVELS]; /* [ceil(nu / 2^l) * ceil(nv / 2^l)]; owned */
+};
+
+typedef struct WrRaisedPoint {
+    WrVec3 p, pu, pv;
+} WrRaisedPoint;
+
+/* Converts the sheet's parameters to a position on the surface. */
+
+/* ---- reference_displaced.c ---- */
+
+/* Finds strips and corners where sheets separate: at most WR_RAISED_JOINTS into out; returns their number. */
+#define WR_RAISED_JOINTS 128
+
+/* ---- edges ---- */
+
+/* Closing pieces of a displaced surface where its domain ends: strips along edges shared by two sheets, and
+   corners of a cube. */
+
+#define SIDES 4
+#define LOOKS 64      /* test points along an edge for a gap between the sheets */
+#define ALIKE 1e-6    /* tolerance of equal positions, in sizes of the object */
+#define PARTED 1e-9   /* tolerance of equal heights */
+#define PARALLEL 1e-9 /* tolerance: 1 minus the cosine of two normals */
+#define STEP 1e-5     /* step of a difference along an edge */
+
+typedef struct End {
+    WrVec3 p, n;
+    double f, u, v;
+} End;
+
+/* u and v of the patch at t, 0..1, along an edge. */
+static void raised_edge_at(const WrReferenceRaised *raised, WrRaisedEdge edge, double t, double *u,
+                           double *v)
+{
+    const WrSurfaceCell c = wr_surface_cell(raised->shape, edge.face);
+    const double along = edge.back ? 1 - t : t;
+    *u = edge.side == 2 ? c.u0 : edge.side == 3 ? c.u1 : c.u0 + along * (c.u1 - c.u0);
+    *v = edge.side == 0 ? c.v0 : edge.side == 1 ? c.v1 : c.v0 + along * (c.v1 - c.v0);
+}
+
+static End end_of(const WrReferenceRaised *raised, WrRaisedEdge edge, double t)
+{
+    WrSurfacePoint at;
+    End end;
+    double fu, fv;
+    raised_edge_at(raised, edge, t, &end.u, &end.v);
+    wr_surface_at(raised->shape, edge.face, end.u, end.v, &at);
+    raised->height(raised->ctx, end.u, end.v, &end.f, &fu, &fv);
+    end.p = at.p, end.n = at.n_unit;
+    return end;
+}
+
+/* Displacement of a point shared by two sheets: onto both their planes; if those are almost parallel, the mean
+   displacement. */
+static WrVec3 shared(const End *a, const End *b)
+{
+    const double c = v3_dot(a->n, b->n), most = fmax(fabs(a->f), fabs(b->f));
+    const double left = 1 - c * c;
+    if (left > PARALLEL) {
+        const WrVec3 d = v3_add(v3_scale(a->n, (a->f - c * b->f) / left),
+                                v3_scale(b->n, (b->f - c * a->f) / left));
+        if (v3_len(d) <= 2 * most) return d;
+    }
+    const WrVec3 none = { 0, 0, 0 };
+    return v3_scale(v3_unit(v3_add(a->n, b->n), none), (a->f + b->f) / 2);
+}
+
+/* Start and end of a strip at t. */
+static void strip_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double t,
+                     WrVec3 *from, WrVec3 *to)
+{
+    const End a = end_of(raised, sheet->edge, t), b = end_of(raised, sheet->mate, t);
+    *from = v3_mad(a.p, a.n, a.f);
+    *to = v3_add(a.p, shared(&a, &b));
+}
+
+/* As wr_raised_at, for strips and corners. */
+static void raised_joint_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u,
+                            double v, WrRaisedPoint *out)
+{
+    if (sheet->kind == WR_RAISED_CORNER) {
+        *out = (WrRaisedPoint){ v3_mad(v3_mad(sheet->p, sheet->across, u), sheet->aside, v),
+                                sheet->across, sheet->aside };
+        return;
+    }
+    WrVec3 from, to, low[2], high[2];
+    const double below = fmax(u - STEP, 0), above = fmin(u + STEP, 1);
+    strip_at(raised, sheet, u, &from, &to);
+    strip_at(raised, sheet, below, &low[0], &low[1]);
+    strip_at(raised, sheet, above, &high[0], &high[1]);
+    out->pv = v3_sub(to, from);
+    out->p = v3_mad(from, out->pv, v);
+    const WrVec3 a = v3_sub(high[0], low[0]), b = v3_sub(high[1], low[1]);
+    out->pu = v3_scale(v3_mad(a, v3_sub(b, a), v), 1 / (above - below));
+}
+
+static bool same_place(const WrReferenceRaised *raised, WrVec3 a, WrVec3 b)
+{
+    return v3_len(v3_sub(a, b)) < ALIKE * raised->size;
+}
+
+/* True if both are one edge in space, in equal or opposite direction. */
+static bool mates(const WrReferenceRaised *raised, WrRaisedEdge a, WrRaisedEdge *b)
+{
+    const double t[2] = { 0.287, 0.731 };
+    for (int back = 0; back < 2; back++) {
+        b->back = back == 1;
+        bool same = true;
+        for (int k = 0; k < 2; k++)
+            same =
+                same && same_place(raised, end_of(raised, a, t[k]).p, end_of(raised, *b, t[k]).p);
+        if (same) return true;
+    }
+    return false;
+}
+
+/* True if it is an edge, not a point, and the strip along it has a width. */
+static bool parts(const WrReferenceRaised *raised, const WrRaisedSheet *sheet)
+{
+    if (same_place(raised, end_of(raised, sheet->edge, 0.287).p,
+                   end_of(raised, sheet->edge, 0.731).p))
+        return false;
+    for (int k = 0; k <= LOOKS; k++) {
+        WrVec3 from, to;
+        strip_at(raised, sheet, (double)k / LOOKS, &from, &to);
+        if (v3_len(v3_sub(to, from)) > PARTED * raised->size) return true;
+    }
+    return false;
+}
+
+static WrRaisedEdge edge_number(int k)
+{
+    return (WrRaisedEdge){ .face = k / SIDES, .side = k % SIDES };
+}
+
+static int find_strips(const WrReferenceRaised *raised, WrRaisedSheet *out)
+{
+    const int edges = SIDES * wr_surfaces[raised->shape->kind]->faces;
+    int count = 0;
+    for (int i = 0; i < edges; i++)
+        for (int k = 0; k < edges; k++) {
+            WrRaisedSheet strip = { .kind = WR_RAISED_STRIP,
+                                    .domain = { 0, 1, 0, 1 },
+                                    .edge = edge_number(i),
+                                    .mate = edge_number(k) };
+            strip.face = strip.edge.face;
+            if (k == i || !mates(raised, strip.edge, &strip.mate) || !parts(raised, &strip))
+                continue;
+            if (count < WR_RAISED_JOINTS / 2) out[count++] = strip;
+        }
+    return count;
+}
+
+/* The corner piece between the ends of two strips of one face. */
+static bool corner_of(const WrReferenceRaised *raised, const WrRaisedSheet *a,
+                      const WrRaisedSheet *b, int which, WrRaisedSheet *out)
+{
+    const double s = which % 2, t = (double)(which / 2);
+    const End at = end_of(raised, a->edge, s), other = end_of(raised, b->edge, t);
+    if (!same_place(raised, at.p, other.p)) return false;
+    WrVec3 from, to, aside;
+    strip_at(raised, a, s, &from, &to);
+    *out = (WrRaisedSheet){ .kind = WR_RAISED_CORNER,
+                            .domain = { 0, 1, 0, 1 },
+                            .face = a->edge.face,
+                            .u = at.u,
+                            .v = at.v,
+                            .p = from,
+                            .across = v3_sub(to, from) };
+    strip_at(raised, b, t, &from, &aside);
+    out->aside = v3_sub(aside, from);
+    return v3_len(v3_cross(out->across, out->aside)) > 0;
+}
+
+static int raised_joints(const WrReferenceRaised *raised, WrRaisedSheet out[WR_RAISED_JOINTS])
+{
+    const int strips = find_strips(raised, out);
+    int count = strips;
+    for (int i = 0; i < strips; i++)
+        for (int k = i + 1; k < strips; k++)
+            for (int which = 0; which < 4 && count < WR_RAISED_JOINTS; which++)
+                if (out[i].edge.face == out[k].edge.face &&
+                    corner_of(raised, &out[i], &out[k], which, &out[count]))
+                    count++;
+    return count;
+}
 
 #define SAFETY 2.0 /* for bends measured at 3 x 3 points */
 #define ROUND 48   /* minimum number of cells along a whole curved surface */
@@ -20,11 +237,11 @@
 #define UNDECIDED 1e-10
 #define SLACK 1e-7 /* of a cell: extension beyond its border, so that no hit is lost between two */
 
-void wr_raised_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u, double v,
-                  WrRaisedPoint *out)
+static void raised_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u,
+                      double v, WrRaisedPoint *out)
 {
     if (sheet->kind != WR_RAISED_FACE) {
-        wr_raised_joint_at(raised, sheet, u, v, out);
+        raised_joint_at(raised, sheet, u, v, out);
         return;
     }
     WrSurfacePoint at;
@@ -36,12 +253,13 @@ void wr_raised_at(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, d
     out->pv = v3_mad(v3_mad(at.pv, at.n_unit, fv), at.n_v, f);
 }
 
-void wr_raised_place(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u,
-                     double v, WrReferenceHit *hit)
+/* Converts the sheet's parameters to a position on the surface. */
+static void raised_place(const WrReferenceRaised *raised, const WrRaisedSheet *sheet, double u,
+                         double v, WrReferenceHit *hit)
 {
     hit->face = sheet->kind == WR_RAISED_STRIP ? sheet->edge.face : sheet->face;
     hit->u = u, hit->v = v;
-    if (sheet->kind == WR_RAISED_STRIP) wr_raised_edge_at(raised, sheet->edge, u, &hit->u, &hit->v);
+    if (sheet->kind == WR_RAISED_STRIP) raised_edge_at(raised, sheet->edge, u, &hit->u, &hit->v);
     if (sheet->kind == WR_RAISED_CORNER) hit->u = sheet->u, hit->v = sheet->v;
 }
 
@@ -99,8 +317,8 @@ static WrRaisedBox measure(const WrReferenceRaised *raised, const WrRaisedSheet 
     WrVec3 pu[9], pv[9], low, high;
     for (int k = 0; k < 9; k++) {
         WrRaisedPoint at;
-        wr_raised_at(raised, sheet, d->u0 + (i + k % 3 / 2.0) * du,
-                     d->v0 + (j + (double)(k / 3) / 2) * dv, &at);
+        raised_at(raised, sheet, d->u0 + (i + k % 3 / 2.0) * du,
+                  d->v0 + (j + (double)(k / 3) / 2) * dv, &at);
         if (k == 0) low = high = at.p;
         include(&low, &high, at.p);
         pu[k] = at.pu, pv[k] = at.pv;
@@ -212,7 +430,7 @@ bool wr_reference_raised_init(WrReferenceRaised *raised, const WrShape *shape,
     for (int face = 0; face < faces; face++)
         raised->sheets[face] =
             (WrRaisedSheet){ .face = face, .domain = wr_surface_cell(shape, face) };
-    raised->count = faces + wr_raised_joints(raised, raised->sheets + faces);
+    raised->count = faces + raised_joints(raised, raised->sheets + faces);
     if (!cut_sheets(raised, cells, err)) return false;
     for (int i = 0; i < raised->count; i++)
         if (!build(raised, &raised->sheets[i], pool, err)) return false;
@@ -267,7 +485,7 @@ static void offer(Search *search, const Cell *c, const WrRaisedPoint *at, double
     if (!(s > ray->s_min) || (search->found && s >= search->best.s)) return;
     search->found = true;
     search->best = (WrReferenceHit){ .s = s, .lost = lost };
-    wr_raised_place(search->raised, search->sheet, u, v, &search->best);
+    raised_place(search->raised, search->sheet, u, v, &search->best);
 }
 
 /* Newton's method from (u, v); most: longest step, in cells. */
@@ -278,7 +496,7 @@ static void solve(Search *search, const Cell *c, double u, double v, double most
     WrRaisedPoint at;
     double du = 0, dv = 0, nearest = INFINITY, off = INFINITY;
     for (int k = 0, stalled = 0; k < STEPS && stalled < 3; k++) {
-        wr_raised_at(search->raised, search->sheet, u, v, &at);
+        raised_at(search->raised, search->sheet, u, v, &at);
         off = v3_len(v3_cross(v3_sub(at.p, ray->q), ray->d)) / search->length;
         stalled = off < 0.5 * nearest ? 0 : stalled + 1;
         nearest = fmin(nearest, off);
@@ -304,7 +522,7 @@ static void try_cell(Search *search, const WrRaisedBox *box, int i, int j)
     const double u = c.u0 + du / 2, v = c.v0 + dv / 2;
     if (box->sine < 1) {
         WrRaisedPoint at;
-        wr_raised_at(search->raised, sheet, u, v, &at);
+        raised_at(search->raised, sheet, u, v, &at);
         const WrVec3 n = v3_cross(at.pu, at.pv);
         if (fabs(v3_dot(n, search->ray->d)) > (double)box->sine * v3_len(n) * search->length) {
             solve(search, &c, u, v, 2);

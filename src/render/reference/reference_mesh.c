@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "render/reference/reference_box.h"
+#include "render/reference/reference_patch.h"
 
 #include <math.h>
 #include <stdlib.h>

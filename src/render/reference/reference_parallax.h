@@ -14,6 +14,3 @@ void wr_reference_parallax_init(WrReferenceStage *stage, const WrField *field,
    no hit. */
 bool wr_reference_parallax(const WrReferenceStage *stage, const WrReferenceRay *ray,
                            WrReferenceHit *hit, WrSurfacePoint *at, double *side);
-/* Hit on the relief of a base that has a shell (wr_parallax_has_shell), without the point. */
-bool wr_reference_shell(const WrReferenceStage *stage, const WrReferenceRay *ray,
-                        WrReferenceHit *hit, double *side);

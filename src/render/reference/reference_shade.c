@@ -1,20 +1,442 @@
 #include "render/reference/reference_shade.h"
 
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/vec.h"
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "render/reference/reference_solid_texture.h"
-#include "render/reference/reference_shadow_rays.h"
-#include "render/reference/reference_occlusion.h"
+#include "noise/octaves.h"
+#include "render/reference/reference_environment.h"
 #include "render/reference/reference_parallax.h"
-#include "render/reference/reference_reflection.h"
-#include "scene/texture_sample.h"
+#include "render/reference/reference_shadow_rays.h"
 #include "scene/scene.h"
+#include "scene/texture_sample.h"
 #include "shade/bump.h"
+#include "shade/reflection.h"
+#include "shade/reflection_models.h"
+#include "shade/solid_texture.h"
 
 #include <math.h>
+
+typedef struct WrReferenceStage WrReferenceStage;
+typedef struct WrSurfacePoint WrSurfacePoint;
+
+/* ---- reference occlusion ---- */
+
+#define DISC 48  /* points on an area lamp */
+#define ROUND 48 /* directions around a point */
+
+/* True if the ray to the lamp hits the displaced surface before the lamp. */
+static bool meets_relief(const WrReferenceStage *stage, WrVec3 p, WrVec3 perturbed, WrVec3 l,
+                         double away)
+{
+    const WrReferenceRay ray = { v3_mad(p, perturbed, 1e-7 * stage->raised.size), l, 0 };
+    WrReferenceHit hit;
+    return wr_reference_raised_hit(&stage->raised, &ray, &hit) && hit.s < away;
+}
+
+/* True if the relief hides a lamp in direction l. Above the tangent plane the ray rises by n.l per length, and
+   (a, b) is its motion in u and v: it is marched in steps of an eighth of a texel until it is above everything. */
+static bool is_hidden(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
+                      WrVec3 l)
+{
+    const double e = v3_dot(at->pu, at->pu), f = v3_dot(at->pu, at->pv), g = v3_dot(at->pv, at->pv);
+    const double lu = v3_dot(l, at->pu), lv = v3_dot(l, at->pv), det = e * g - f * f;
+    const double up = v3_dot(l, at->n_unit);
+    if (!(det > 0) || wr_reference_side(&stage->view, at) < 0) return false;
+    if (up < 0) return true;
+    const double a = (g * lu - f * lv) / det, b = (e * lv - f * lu) / det;
+    const double moves = hypot(a * stage->texels[0], b * stage->texels[1]);
+    const double farthest = 4 * (stage->texels[0] + stage->texels[1]);
+    double from, fu, fv, here;
+    wr_reference_height(stage, u, v, &from, &fu, &fv);
+    for (double way = 0.125; moves > 0 && way < farthest; way += 0.125) {
+        const double t = way / moves;
+        if (t * up > stage->shadow) return false;
+        wr_reference_height(stage, u + t * a, v + t * b, &here, &fu, &fv);
+        if (here - from > t * up) return true;
+    }
+    return false;
+}
+
+static bool hides(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
+                  WrVec3 perturbed, WrVec3 l, double away)
+{
+    return stage->raised.count > 0 ? meets_relief(stage, at->p, perturbed, l, away)
+                                   : is_hidden(stage, at, u, v, l);
+}
+
+/* Two unit vectors perpendicular to d. */
+static void across(WrVec3 d, WrVec3 *a, WrVec3 *b)
+{
+    const WrVec3 least = fabs(d.x) < 0.6 ? (WrVec3){ 1, 0, 0 } : (WrVec3){ 0, 1, 0 };
+    *a = v3_unit(v3_cross(d, least), (WrVec3){ 0, 0, 1 });
+    *b = v3_cross(d, *a);
+}
+
+/* Visible share of a lamp in direction l. radius: of an area lamp, angular; away: its distance. perturbed: n'
+   facing the viewer; share: of the lamp's sample points. */
+static double reference_lamp_share(const WrReferenceStage *stage, const WrSurfacePoint *at,
+                                   double u, double v, WrVec3 perturbed, WrVec3 l, double away,
+                                   double radius, WrReferenceShare share)
+{
+    if (!(radius > 0)) return hides(stage, at, u, v, perturbed, l, away) ? 0 : 1;
+    WrVec3 a, b;
+    int seen = 0, all = 0;
+    across(l, &a, &b);
+    for (int k = share.part % DISC; k < DISC;
+         k += share.of, all++) { /* evenly spread over the disc, by the golden angle */
+        const double r = radius * sqrt((k + 0.5) / DISC), turn = 2.39996322972865 * k;
+        const WrVec3 side = v3_mad(v3_scale(a, cos(turn)), b, sin(turn));
+        const WrVec3 to = v3_mad(v3_scale(l, cos(r)), side, sin(r));
+        seen += !hides(stage, at, u, v, perturbed, to, away);
+    }
+    return (double)seen / all;
+}
+
+/* Tangent of the horizon's elevation along w, a unit vector in the tangent plane: marched in quarters of a texel
+   until nothing can be higher. */
+static double horizon_along(const WrReferenceStage *stage, const WrSurfacePoint *at, double u,
+                            double v, WrVec3 w)
+{
+    const double e = v3_dot(at->pu, at->pu), f = v3_dot(at->pu, at->pv), g = v3_dot(at->pv, at->pv);
+    const double wu = v3_dot(w, at->pu), wv = v3_dot(w, at->pv), det = e * g - f * f;
+    if (!(det > 0)) return 0;
+    const double a = (g * wu - f * wv) / det, b = (e * wv - f * wu) / det;
+    const double moves = hypot(a * stage->texels[0], b * stage->texels[1]);
+    double from, fu, fv, here, best = 0;
+    wr_reference_height(stage, u, v, &from, &fu, &fv);
+    for (double way = 0.25; moves > 0 && way < stage->texels[0] + stage->texels[1]; way += 0.25) {
+        const double t = way / moves;
+        if (t * best > stage->relief) break;
+        wr_reference_height(stage, u + t * a, v + t * b, &here, &fu, &fv);
+        best = fmax(best, (here - from) / t);
+    }
+    return best;
+}
+
+/* Unoccluded share of the sky's light. */
+static double reference_open(const WrReferenceStage *stage, const WrSurfacePoint *at, double u,
+                             double v, WrVec3 perturbed)
+{
+    WrVec3 a, b;
+    const WrVec3 n = wr_reference_side(&stage->view, at) < 0 ? v3_neg(perturbed) : perturbed;
+    const double up = v3_dot(n, at->n_unit);
+    double sum = 0;
+    across(at->n_unit, &a, &b);
+    for (int k = 0; k < ROUND; k++) {
+        const double phi = 2 * WR_PI * (k + 0.5) / ROUND;
+        const WrVec3 w = v3_mad(v3_scale(a, cos(phi)), b, sin(phi));
+        const double out = v3_dot(n, w);
+        const double h = fmax(atan(horizon_along(stage, at, u, v, w)), atan2(-out, up));
+        sum += up * cos(h) * cos(h) / 2 + out * ((WR_PI / 2 - h) / 2 - sin(2 * h) / 4);
+    }
+    return fmin(fmax(2 * sum / ROUND, 0), 1);
+}
+
+/* ---- reference solid texture ---- */
+
+static double fraction(double t)
+{
+    return t - floor(t);
+}
+
+/* Value of a pattern as a function of one number, and its slope. */
+typedef struct Rise {
+    double value, slope;
+} Rise;
+
+/* Total length of the pulses 1 - d .. 1 of all turns, from 0 to t. */
+static double pulses(double t, double d)
+{
+    return floor(t) * d + fmax(0, fraction(t) - (1 - d));
+}
+
+static double pulse(double t, double d)
+{
+    return fraction(t) >= 1 - d ? 1 : 0;
+}
+
+/* Pulses, or their mean over an edge. */
+static Rise ring(double t, double d, double edge)
+{
+    if (!(edge > 0)) return (Rise){ pulse(t, d), 0 };
+    const double f = fraction(t), low = f - edge / 2, high = f + edge / 2;
+    return (Rise){ (pulses(high, d) - pulses(low, d)) / edge,
+                   (pulse(high, d) - pulse(low, d)) / edge };
+}
+
+static Rise ramp(double t)
+{
+    return (Rise){ fmin(fmax(t, 0), 1), t > 0 && t < 1 ? 1 : 0 };
+}
+
+static Rise wave(double t)
+{
+    const double turn = 2 * WR_PI * fraction(t);
+    return (Rise){ 0.5 + 0.5 * sin(turn), WR_PI * cos(turn) };
+}
+
+/* Checker of cubes: odd cells along one axis are 1, even ones 0. */
+static double board(const WrSolidTexture *grain, double edge, const double p[3], double slope[3])
+{
+    double side[3], rise[3];
+    for (int a = 0; a < 3; a++) {
+        const Rise odd = ring(grain->rings * p[a] / 2, 0.5, edge / 2);
+        side[a] = 1 - 2 * odd.value;
+        rise[a] = -grain->rings * odd.slope;
+    }
+    for (int a = 0; a < 3; a++) slope[a] = -0.5 * rise[a] * side[(a + 1) % 3] * side[(a + 2) % 3];
+    return 0.5 - 0.5 * side[0] * side[1] * side[2];
+}
+
+/* Argument of the pattern, with its slope: noise, and rings or bands. */
+static double place(const WrSolidTexture *grain, const WrOctavesPlan *noise, const double p[3],
+                    double slope[3])
+{
+    const int x = (grain->axis + 1) % 3, y = (grain->axis + 2) % 3, z = grain->axis;
+    const double amount = grain->kind == WR_SOLID_TEXTURE_NOISE ? grain->amount / 2 : grain->amount;
+    double t = 0, by[3] = { 0, 0, 0 };
+    if (wr_grains[grain->kind].noisy && amount != 0) t = amount * wr_octaves_at(noise, p, by);
+    for (int a = 0; a < 3; a++) slope[a] = amount * by[a];
+    if (grain->kind == WR_SOLID_TEXTURE_NOISE) return 0.5 + t;
+    if (grain->kind == WR_SOLID_TEXTURE_MARBLE) {
+        slope[z] += grain->rings;
+        return grain->rings * p[z] + t;
+    }
+    if (grain->kind != WR_SOLID_TEXTURE_WOOD) return t;
+    const double from = hypot(p[x], p[y]);
+    if (from > 0) slope[x] += grain->rings * p[x] / from, slope[y] += grain->rings * p[y] / from;
+    return grain->rings * from + t;
+}
+
+static Rise pattern(const WrSolidTexture *grain, double edge, double t)
+{
+    switch (grain->kind) {
+    case WR_SOLID_TEXTURE_WOOD: return ring(t, grain->share, edge);
+    case WR_SOLID_TEXTURE_MARBLE: return wave(t);
+    case WR_SOLID_TEXTURE_GRANITE:
+    case WR_SOLID_TEXTURE_NOISE: return ramp(t);
+    case WR_SOLID_TEXTURE_CHECKER:
+    case WR_SOLID_TEXTURE_OFF:
+    case WR_SOLID_TEXTURE_KINDS: break;
+    }
+    return (Rise){ 0, 0 };
+}
+
+/* The pattern at a point of the object, scene units, 0..1, and its slope per scene unit. noise: from
+   wr_solid_texture_noise; slope NULL: not requested. */
+static double reference_grain(const WrSolidTexture *grain, const WrOctavesPlan *noise, WrVec3 p,
+                              WrVec3 *slope)
+{
+    const double at[3] = { p.x, p.y, p.z }, edge = wr_solid_texture_edge(grain);
+    double by[3], value;
+    if (grain->kind == WR_SOLID_TEXTURE_CHECKER) {
+        value = board(grain, edge, at, by);
+    } else {
+        const Rise got = pattern(grain, edge, place(grain, noise, at, by));
+        value = got.value;
+        for (int a = 0; a < 3; a++) by[a] *= got.slope;
+    }
+    if (slope) *slope = (WrVec3){ by[0], by[1], by[2] };
+    return value;
+}
+
+/* ---- reference reflection ---- */
+
+static const double pi = 3.14159265358979323846;
+
+/* Cosines of lamp and viewer relative to the microfacets' normal. */
+typedef struct Facing {
+    double nl, nv, nh, vh;
+    double c, s; /* cosine and sine of the angle between n and h */
+} Facing;
+
+static double dot(WrVec3 a, WrVec3 b)
+{
+    return v3_dot(a, b);
+}
+
+static WrVec3 unit_of(WrVec3 a)
+{
+    return v3_scale(a, 1 / sqrt(dot(a, a)));
+}
+
+/* Rule for normals that bump turned away from the viewer. */
+static WrVec3 bent_back(WrVec3 n, WrVec3 v)
+{
+    const double short_of = 1e-3 - dot(n, v);
+    return short_of > 0 ? unit_of(v3_mad(n, v, short_of)) : n;
+}
+
+/* False where microfacets reflect nothing. */
+static bool face(WrVec3 n, WrVec3 l, WrVec3 v, Facing *out)
+{
+    const WrVec3 seen = bent_back(n, v), sum = v3_add(l, v);
+    if (!(dot(sum, sum) > 1e-12) || !(dot(n, l) > 0) || !(dot(seen, l) > 0)) return false;
+    const WrVec3 h = unit_of(sum), across = v3_cross(seen, h);
+    *out = (Facing){ .nl = dot(seen, l), .nv = dot(seen, v), .nh = dot(seen, h), .vh = dot(v, h) };
+    const double side = sqrt(dot(across, across)), whole = sqrt(side * side + out->nh * out->nh);
+    out->c = out->nh / whole, out->s = side / whole;
+    return true;
+}
+
+/* Blinn 1977 with Cook's form of Fresnel's equation: g^2 = ior^2 + c^2 - 1. */
+static double fresnel(double c, double ior)
+{
+    const double gg = ior * ior + c * c - 1;
+    if (gg < 0) return 1;
+    if (ior == 1) return 0;
+    const double g = sqrt(gg), a = (g - c) / (g + c), b = (c * (g + c) - 1) / (c * (g - c) + 1);
+    return fmin(0.5 * a * a * (1 + b * b), 1);
+}
+
+/* Directions, unit, n facing the viewer; colour: C of the surface. */
+typedef struct Incidence {
+    WrVec3 n, l, v;
+    const double *colour;
+} Incidence;
+
+/* Formulas of the models named in shade/reflection_models.h. On entry own is Lambert's and white 0. */
+
+/* Phong's lobe (r.v)^s with r = 2 (n.l) n - l, gated by n.l > 0. Near 1 the cosine is 1 - |r - v|^2 / 2, whose
+   power keeps its digits. Energy-conserving form: times (s + 2) / 2 n.l. */
+static double power_lobe(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
+{
+    const double nl = dot(n, l);
+    if (!(nl > 0)) return 0;
+    const WrVec3 r = v3_sub(v3_scale(n, 2 * nl), l), off = v3_sub(r, v);
+    const double c = dot(r, v), s = m->shininess;
+    const double strength = energy == WR_ENERGY_KEPT ? nl * (s + 2) / 2 : 1;
+    if (s == 0) return m->ks * strength;
+    if (!(c > 0)) return 0;
+    return m->ks * strength * (c > 0.5 ? exp(s * log1p(-dot(off, off) / 2)) : pow(c, s));
+}
+
+/* D G F / (n.v) as in Blinn 1977, with D = (c3^2 / (cos^2 (c3^2 - 1) + 1))^2, here c3 for c3^2; 1 - cos^2 is
+   written as sin^2, which keeps its digits near the peak. */
+static double cavities(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v)
+{
+    Facing at;
+    if (!face(n, l, v, &at)) return 0;
+    const double c = at.c, s = at.s, c3 = m->alpha * m->alpha;
+    const double root = c3 / (c * c * c3 + s * s), d = root * root;
+    const double whole = energy == WR_ENERGY_KEPT ? 1 / (4 * c3) : 1;
+    const double g = fmin(1, fmin(2 * at.nh * at.nv / at.vh, 2 * at.nh * at.nl / at.vh));
+    return m->ks * whole * d * g * fresnel(at.vh, m->ior) / at.nv;
+}
+
+static void phong(const WrMatter *m, WrEnergy energy, const Incidence *at, double own[3],
+                  double *white)
+{
+    (void)own;
+    *white = power_lobe(m, energy, at->n, at->l, at->v);
+}
+
+static void torrance_sparrow(const WrMatter *m, WrEnergy energy, const Incidence *at, double own[3],
+                             double *white)
+{
+    (void)own;
+    *white = cavities(m, energy, at->n, at->l, at->v);
+}
+
+/* Share that microfacets reflect directly, and the rest, for multiple reflection. */
+static double matt_albedo(const WrMatter *m, double mu)
+{
+    const double s = sqrt(fmax(0, 1 - mu * mu));
+    const double g = s * (acos(mu) - s * mu) + 2.0 / 3 * (s * mu * (1 + s + s * s) / (1 + s) - s);
+    return m->a * (1 + m->sigma / pi * g);
+}
+
+static void oren_nayar(const WrMatter *m, WrEnergy energy, const Incidence *at, double own[3],
+                       double *white)
+{
+    const WrVec3 n = at->n, l = at->l, v = at->v;
+    const double nl = fmin(fmax(0, dot(n, l)), 1), nv = fmin(fmax(0, dot(n, v)), 1);
+    const double q = dot(l, v) - nl * nv, most = fmax(nl, nv);
+    *white = own[0] = own[1] = own[2] = 0;
+    if (!(nl > 0)) return;
+    if (energy == WR_ENERGY_PUBLISHED) {
+        const double rough = m->a + m->b * fmax(0, q) / most;
+        for (int c = 0; c < 3; c++) own[c] = m->kd * nl * rough;
+        return;
+    }
+    const double once = m->a * (1 + m->sigma * q / (q > 0 ? most : 1));
+    const double mean = m->a * (1 + (2.0 / 3 - 28 / (15 * pi)) * m->sigma);
+    const double left = (1 - matt_albedo(m, nl)) * (1 - matt_albedo(m, nv));
+    for (int c = 0; c < 3; c++) {
+        const double rho = fmin(fmax(0, m->kd * at->colour[c]), 1);
+        const double again =
+            m->sigma > 1e-6 ? left / (1 - mean) * rho * mean / (1 - rho * (1 - mean)) : 0;
+        own[c] = m->kd * nl * (once + again);
+    }
+}
+
+static double kept_albedo(const WrMatter *m, double mu)
+{
+    const double x = sqrt(fmin(fmax(0, mu), 1));
+    double sum = 0, power = 1;
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++, power *= x) sum += m->albedo[i] * power;
+    return fmin(sum, 1);
+}
+
+/* GGX's D with sin^2 for 1 - cos^2, times Smith's height-correlated masking, n.l and pi; Schlick's Fresnel term
+   with v.h = |l + v| / 2. Metal (share m->metal) reflects in the surface's colour. */
+static void ggx(const WrMatter *m, WrEnergy energy, const Incidence *by, double own[3],
+                double *white)
+{
+    const WrVec3 n = by->n, l = by->l, v = by->v;
+    Facing at;
+    const double lit = dot(n, l), nv = dot(bent_back(n, v), v), a2 = m->alpha * m->alpha;
+    *own = *white = 0;
+    if (!(lit > 0)) return;
+    double f = m->f0, lobe = 0, p = 0;
+    const WrVec3 sum = v3_add(l, v);
+    const double off = fmax(0, 1 - 0.5 * sqrt(dot(sum, sum)));
+    p = off * off * off * off * off;
+    f += (1 - m->f0) * p;
+    if (face(n, l, v, &at)) {
+        const double c = at.c, s = at.s, root = c * c * a2 + s * s;
+        const double d = a2 / (root * root);
+        lobe = m->ks * d * at.nl * 0.5 /
+               (at.nl * sqrt(at.nv * at.nv * (1 - a2) + a2) +
+                at.nv * sqrt(at.nl * at.nl * (1 - a2) + a2));
+    }
+    const double matt = m->kd * (1 - m->metal);
+    const double left = matt == 0 ? 0
+                        : energy == WR_ENERGY_KEPT
+                            ? (1 - kept_albedo(m, lit)) * (1 - kept_albedo(m, nv)) * m->again
+                            : 1 - f;
+    own[0] = own[1] = own[2] = matt * lit * left + m->metal * (1 - p) * lobe;
+    *white = (1 - m->metal) * f * lobe + m->metal * p * lobe;
+}
+
+#define CASE_STAGES(ID, formula)                                                                   \
+    case WR_REFLECT_##ID:                                                                          \
+        break; /* wr_reference_lamp */
+#define CASE_UNIFORM(ID, formula)                                                                  \
+    case WR_REFLECT_##ID:                                                                          \
+        formula(m, energy, &at, own, white);                                                       \
+        break;
+#define CASE_ROUGH CASE_UNIFORM
+#define CASE_METAL CASE_UNIFORM
+#define CASE(ID, formula, LOOPS, ...) CASE_##LOOPS(ID, formula)
+
+/* All vectors unit; n faces the viewer. colour: C(u,v), the picture's times the material's. own: to be
+   multiplied by the surface's colour, each channel; white: by the lamp's colour only. */
+static void reference_reflect(const WrMatter *m, int model, WrEnergy energy, WrVec3 n, WrVec3 l,
+                              WrVec3 v, const double colour[3], double own[3], double *white)
+{
+    const Incidence at = { n, l, v, colour };
+    *white = 0;
+    own[0] = own[1] = own[2] = m->kd * fmax(0, dot(n, l));
+    switch ((WrReflect)model) {
+        WR_REFLECTION_MODELS(CASE)
+    case WR_REFLECT_COUNT: break;
+    }
+}
 
 #define WAVE 12 /* cells per wave of a formula */
 
@@ -91,7 +513,7 @@ static double roughness_at(const WrReferenceStage *stage, WrVec3 object, double 
     const WrSolidTexture *grain = &stage->scene->grain;
     if (stage->scene->facets[WR_FACET_ROUGHNESS].image)
         return facet_at(stage, WR_FACET_ROUGHNESS, u, v);
-    const double g = wr_reference_grain(grain, &stage->grain, object, NULL);
+    const double g = reference_grain(grain, &stage->grain, object, NULL);
     return (1 - g) * grain->roughness[0] + g * grain->roughness[1];
 }
 
@@ -280,7 +702,7 @@ void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, Wr
     const WrVec3 h = v3_add(l, v);
     const double nl = v3_dot(n, l), hh = v3_dot(h, h);
     if (m->model != WR_REFLECT_DEFAULT) {
-        wr_reference_reflect(matter, m->model, m->energy, n, l, v, colour, own, white);
+        reference_reflect(matter, m->model, m->energy, n, l, v, colour, own, white);
     } else {
         *white = 0;
         if (m->specular != 0 && (nl > 0 || !m->gate) && hh > 1e-24)
@@ -299,7 +721,7 @@ static void place_colour(const WrReferenceStage *stage, WrVec3 object, double u,
     if (stage->scene->colour) picture_colour(stage, u, v, rgb);
     const WrSolidTexture *grain = &stage->scene->grain;
     if (grain->kind == WR_SOLID_TEXTURE_OFF || !(grain->drives & WR_SOLID_TEXTURE_COLOURS)) return;
-    const double g = wr_reference_grain(grain, &stage->grain, object, NULL);
+    const double g = reference_grain(grain, &stage->grain, object, NULL);
     for (int c = 0; c < 3; c++) rgb[c] *= (1 - g) * grain->light[c] + g * grain->dark[c];
 }
 
@@ -309,7 +731,7 @@ static WrVec3 embossed(const WrReferenceStage *stage, WrVec3 object, double side
     const WrSolidTexture *grain = &stage->scene->grain;
     WrVec3 slope;
     if (grain->kind == WR_SOLID_TEXTURE_OFF || !(grain->drives & WR_SOLID_TEXTURE_BUMPS)) return n;
-    wr_reference_grain(grain, &stage->grain, object, &slope);
+    reference_grain(grain, &stage->grain, object, &slope);
     const WrVec3 s = v3_scale(slope, side * grain->height);
     return unit(v3_sub(n, v3_mad(s, n, -v3_dot(s, n))));
 }
@@ -324,7 +746,7 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
     const WrVec3 p = wr_reference_stretched(view, at->p);
     const WrVec3 to = view->perspective ? unit(v3_sub(view->lit_eye, p)) : view->lit_toward;
     const double open =
-        stage->relief > 0 && m->occlusion ? wr_reference_open(stage, at, u, v, perturbed) : 1;
+        stage->relief > 0 && m->occlusion ? reference_open(stage, at, u, v, perturbed) : 1;
     const double ambient = open * m->ambient;
     double diffuse[3] = { ambient, ambient, ambient }, shine[3] = { 0, 0, 0 };
     double colour[3];
@@ -338,8 +760,8 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
         const WrVec3 way = v3_sub(light->where, p), l = light->point ? unit(way) : light->where;
         const double away = light->point ? v3_len(way) : INFINITY;
         double own[3], white;
-        double seen = stage->shadow > 0 ? wr_reference_lamp_share(stage, at, u, v, perturbed, l,
-                                                                  away, light->radius, share)
+        double seen = stage->shadow > 0 ? reference_lamp_share(stage, at, u, v, perturbed, l, away,
+                                                               light->radius, share)
                                         : 1;
         if (light->shadow && seen > 0)
             seen *=

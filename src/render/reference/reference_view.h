@@ -2,7 +2,6 @@
    precision. Private to the reference. Closed forms if there are any, else a tree of patches and Newton's
    method. */
 #pragma once
-#include "render/reference/reference_bezier.h"
 #include "render/reference/reference_mesh.h"
 #include "render/reference/reference_patch.h"
 #include "scene/scene.h"

@@ -1,14 +1,613 @@
 /* Shadow casters: closed forms and facets, and the visibility of a lamp past them. */
 #include "render/shadows/shadow_rays.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "field/field.h"
 #include "render/tessellation/displacement_lookup.h"
 #include "surface/triangles.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
+
+/* Builds the geometry. Call body_size before, with the same field. Errors: no memory. */
+static bool shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
+                                WrError *err);
+
+/* Computes only the body's size. field: table of F for a displaced surface; NULL with a formula. moves: a
+   displaced surface is intersected as displaced, else its base. */
+static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
+                              bool moves);
+
+/* True if the object can never hide a lamp from itself. Its size must be known. */
+static bool shadow_rays_spares_itself(const WrShadowRaysBody *body);
+
+/* ---- torus ---- */
+
+/* Shadow test of a torus in closed form. Sign changes show whether a ray hits it, so no root of the quartic has
+   to be found. */
+
+/* c[0] + c[1] t + ... c[degree] t^degree */
+static double value(const double *c, int degree, double t)
+{
+    double sum = c[degree];
+    for (int k = degree - 1; k >= 0; k--) sum = sum * t + c[k];
+    return sum;
+}
+
+/* of the interval: near an extreme, the value's error is the square of this */
+#define NEAR_ENOUGH 1e-7
+
+/* Root of the cubic c, which is monotonic from a to b. false: there is none. */
+static bool root_of(const double c[4], double a, double b, double *root)
+{
+    const double slopes[3] = { c[1], 2 * c[2], 3 * c[3] };
+    const double from = value(c, 3, a), to = value(c, 3, b), near = NEAR_ENOUGH * (b - a);
+    if (!(a < b) || (from > 0) == (to > 0)) return false;
+    double t = a + (b - a) * (from / (from - to));
+    for (int step = 0; step < 60; step++) {
+        const double at = value(c, 3, t), slope = value(slopes, 2, t);
+        if ((at > 0) == (from > 0)) a = t;
+        else b = t;
+        double next = slope != 0 ? t - at / slope : a;
+        if (!(next > a && next < b)) next = a + (b - a) / 2;
+        const bool done = fabs(next - t) <= near;
+        t = next;
+        if (done) break;
+    }
+    *root = t;
+    return true;
+}
+
+/* True if p is on the outer half and the ray leads outwards. Then it never returns, because the squared distance
+   from the circle in the tube's middle is convex outside that circle. */
+static bool goes_away(double R, double r, WrVec3 p, WrVec3 d)
+{
+    const double rho = sqrt(p.x * p.x + p.y * p.y), out = p.x * d.x + p.y * d.y;
+    const double off = rho - R;
+    return off >= 0 && out >= 0 && off * off + p.z * p.z > r * r &&
+           off * out + rho * p.z * d.z >= 0;
+}
+
+/* With the foot f nearest the middle and p = f + t d, G = (p.p + R^2 - r^2)^2 - 4 R^2 (x^2 + y^2) is 0 on the
+   torus; p.p = f.f + t^2 d.d, so it has no t^3. G changes sign on the way exactly if it does so between the ends
+   of the way and its extremes, the roots of a cubic. */
+static bool shadow_rays_meets_torus(const WrShape *shape, WrVec3 o, WrVec3 d, double most)
+{
+    const double R = shape->value[0], r = shape->value[1], dd = v3_dot(d, d);
+    const double start = v3_dot(o, d) / dd;
+    const WrVec3 f = v3_mad(o, d, -start);
+    const double left = (R + r) * (R + r) - v3_dot(f, f);
+    if (!(left >= 0) || goes_away(R, r, o, d)) return false;
+    const double half = sqrt(left / dd);
+    const double low = fmax(start, -half), high = fmin(start + most, half);
+    if (!(low < high)) return false;
+    const double k = v3_dot(f, f) + (R - r) * (R + r), four = 4 * R * R;
+    const double q = 2 * dd * k - four * (d.x * d.x + d.y * d.y);
+    const double G[5] = { k * k - four * (f.x * f.x + f.y * f.y),
+                          -2 * four * (f.x * d.x + f.y * d.y), q, 0, dd * dd };
+    const double slope[4] = { G[1], 2 * q, 0, 4 * dd * dd };
+    const double turn = q < 0 ? sqrt(-q / (6 * dd * dd)) : 0;
+    const double ends[4] = { low, fmin(fmax(-turn, low), high), fmin(fmax(turn, low), high), high };
+    const bool outside = value(G, 4, low) > 0;
+    bool meets = (value(G, 4, high) > 0) != outside;
+    for (int i = 0; i < 3 && !meets; i++) {
+        double t;
+        if (root_of(slope, ends[i], ends[i + 1], &t)) meets = (value(G, 4, t) > 0) != outside;
+    }
+    return meets;
+}
+
+/* ---- Bounding box tree of triangles: each box is split in halves along its widest side ---- */
+
+#define LEAF 4  /* triangles */
+#define DEEP 64 /* stack depth: twice the largest possible number of levels */
+/* by which triangles extend over their edges, so that no ray passes between two */
+#define SEAM 1e-9
+
+static void empty(float box[6])
+{
+    for (int k = 0; k < 3; k++) box[k] = FLT_MAX, box[k + 3] = -FLT_MAX;
+}
+
+static void hold(float box[6], const float p[3])
+{
+    for (int k = 0; k < 3; k++) {
+        box[k] = p[k] < box[k] ? p[k] : box[k];
+        box[k + 3] = p[k] > box[k + 3] ? p[k] : box[k + 3];
+    }
+}
+
+/* Twice the centre of a triangle's box along an axis. */
+static float middle(const WrTriangles *t, int32_t i, int axis)
+{
+    const int32_t *corner = t->triangles[i].corner;
+    const float a = t->corners[corner[0]].p[axis], b = t->corners[corner[1]].p[axis];
+    const float c = t->corners[corner[2]].p[axis];
+    const float low = a < b ? a : b, high = a < b ? b : a;
+    return (c < low ? c : low) + (c > high ? c : high);
+}
+
+/* Partitions order[first .. end): the first `split - first` along the axis come before all others (Hoare's
+   selection). */
+static void part_at(const WrTriangles *t, int32_t *order, int32_t first, int32_t end, int32_t split,
+                    int axis)
+{
+    while (end - first > 1) {
+        const float pivot = middle(t, order[first + (end - first) / 2], axis);
+        int32_t i = first, k = end - 1;
+        while (i <= k) {
+            while (middle(t, order[i], axis) < pivot) i++;
+            while (middle(t, order[k], axis) > pivot) k--;
+            if (i > k) break;
+            const int32_t swap = order[i];
+            order[i++] = order[k], order[k--] = swap;
+        }
+        if (split <= k) end = k + 1;
+        else if (split >= i) first = i;
+        else return;
+    }
+}
+
+static void hold_triangles(const WrShadowRaysBody *body, int32_t first, int32_t end, float box[6])
+{
+    const WrTriangles *t = body->triangles;
+    empty(box);
+    for (int32_t i = first; i < end; i++)
+        for (int c = 0; c < 3; c++) hold(box, t->corners[t->triangles[body->order[i]].corner[c]].p);
+}
+
+static int widest_axis(const float box[6])
+{
+    int axis = 0;
+    for (int k = 1; k < 3; k++)
+        if (box[k + 3] - box[k] > box[axis + 3] - box[axis]) axis = k;
+    return axis;
+}
+
+/* The first triangle below a box, one of the 2^level neighbouring boxes of its level. */
+static int32_t first_of(const WrShadowRaysBody *body, int32_t box, int32_t beside)
+{
+    const int64_t count = body->triangles->triangle_count;
+    return (int32_t)(count * box / beside);
+}
+
+/* tree_bring builds the tree of boxes around body->triangles; tree_meets intersects a ray with it. Errors: no
+   memory. */
+static bool shadow_rays_tree_update(WrShadowRaysBody *body, WrError *err)
+{
+    const int32_t count = body->triangles->triangle_count;
+    int32_t leaves = 1;
+    while ((int64_t)leaves * LEAF < count) leaves *= 2;
+    body->boxes = wr_try_alloc(2 * (size_t)leaves, sizeof *body->boxes, "boxes for shadows", err);
+    if (body->boxes)
+        body->order = wr_try_alloc((size_t)count, sizeof *body->order, "boxes for shadows", err);
+    if (!body->order) return false;
+    body->leaves = leaves;
+    for (int32_t i = 0; i < count; i++) body->order[i] = i;
+    for (int32_t beside = 1; beside <= leaves; beside *= 2)
+        for (int32_t k = 0; k < beside; k++) {
+            const int32_t first = first_of(body, k, beside), end = first_of(body, k + 1, beside);
+            float *box = body->boxes[beside - 1 + k];
+            hold_triangles(body, first, end, box);
+            if (beside < leaves)
+                part_at(body->triangles, body->order, first, end,
+                        first_of(body, 2 * k + 1, 2 * beside), widest_axis(box));
+        }
+    return true;
+}
+
+typedef struct Ray {
+    double o[3], d[3], by[3], most; /* by: 1 / d */
+} Ray;
+
+static bool meets_box(const Ray *ray, const float box[6])
+{
+    double near = 0, far = ray->most;
+    for (int k = 0; k < 3; k++) {
+        const double a = ((double)box[k] - ray->o[k]) * ray->by[k];
+        const double b = ((double)box[k + 3] - ray->o[k]) * ray->by[k];
+        const double in = a < b ? a : b, out = a < b ? b : a;
+        near = in > near ? in : near;
+        far = out < far ? out : far;
+    }
+    return near <= far + 1e-12 * (far < 0 ? -far : far);
+}
+
+static WrVec3 place(const float p[3])
+{
+    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
+}
+
+/* Ray-triangle intersection by Moeller and Trumbore (1997), two-sided. */
+static bool meets_triangle(const WrTriangles *t, int32_t i, WrVec3 o, WrVec3 d, double most)
+{
+    const int32_t *corner = t->triangles[i].corner;
+    const WrVec3 a = place(t->corners[corner[0]].p);
+    const WrVec3 e = v3_sub(place(t->corners[corner[1]].p), a);
+    const WrVec3 f = v3_sub(place(t->corners[corner[2]].p), a);
+    const WrVec3 p = v3_cross(d, f), w = v3_sub(o, a);
+    const double det = v3_dot(e, p);
+    if (det == 0) return false;
+    const double x = v3_dot(w, p) / det;
+    if (!(x >= -SEAM && x <= 1 + SEAM)) return false;
+    const WrVec3 q = v3_cross(w, e);
+    const double y = v3_dot(d, q) / det, s = v3_dot(f, q) / det;
+    return y >= -SEAM && x + y <= 1 + SEAM && s > 0 && s < most;
+}
+
+static bool shadow_rays_tree_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double most)
+{
+    const double tiny = 1e-30 * fmax(fabs(d.x), fmax(fabs(d.y), fabs(d.z)));
+    Ray ray = { { o.x, o.y, o.z }, { d.x, d.y, d.z }, { 0 }, most };
+    int32_t stack[DEEP];
+    int depth = 0;
+    for (int k = 0; k < 3; k++)
+        ray.by[k] = 1 / (fabs(ray.d[k]) > tiny ? ray.d[k] : copysign(tiny, ray.d[k]));
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const int32_t at = stack[--depth];
+        if (!meets_box(&ray, body->boxes[at])) continue;
+        if (at < body->leaves - 1) {
+            stack[depth++] = 2 * at + 2, stack[depth++] = 2 * at + 1;
+            continue;
+        }
+        const int32_t leaf = at - body->leaves + 1, end = first_of(body, leaf + 1, body->leaves);
+        for (int32_t i = first_of(body, leaf, body->leaves); i < end; i++)
+            if (meets_triangle(body->triangles, body->order[i], o, d, most)) return true;
+    }
+    return false;
+}
+
+/* ---- facets ---- */
+
+/* Facets of a surface without closed-form intersection, or of a displaced one. Their error is a few
+   hundred-thousandths of its radius. */
+
+#define OFF 0x1p-15 /* of the radius: error that facets may have, if ... */
+#define MOST 512    /* ... this many steps are enough */
+#define LEAST 16
+#define LOOKS 16   /* test points in each direction for the error of a step */
+#define CORNERS 64 /* rows at which Pv may be discontinuous */
+
+typedef struct Cut {
+    const WrShape *shape;
+    const WrRaised *raised; /* P + F n; NULL: P */
+    int face;
+    WrSurfaceCell cell;
+    double corner[CORNERS];
+    int corners;
+    double rows[MOST + CORNERS + 1];
+    int across, down; /* number of steps */
+    double off;       /* largest error of the facets */
+} Cut;
+
+static WrVec3 at(const Cut *cut, double u, double v)
+{
+    WrSurfacePoint p;
+    double f = 0;
+    wr_surface_at(cut->shape, cut->face, u, v, &p);
+    if (cut->raised) wr_scene_height(cut->raised->scene, cut->raised->field, u, v, &f, NULL, NULL);
+    return v3_mad(p.p, p.n_unit, f);
+}
+
+static double between(double a, double b, double part)
+{
+    return a + part * (b - a);
+}
+
+static bool holds_corner(const Cut *cut, double v, double step)
+{
+    for (int k = 0; k < cut->corners; k++)
+        if (cut->corner[k] > v && cut->corner[k] < v + step) return true;
+    return false;
+}
+
+/* Largest distance of a step's middle from its chord, with n steps along u or v. */
+static double off_by(const Cut *cut, bool along_u, int n)
+{
+    const WrSurfaceCell c = cut->cell;
+    const double step = (along_u ? c.u1 - c.u0 : c.v1 - c.v0) / n;
+    double most = 0;
+    for (int i = 0; i < LOOKS; i++)
+        for (int k = 0; k < LOOKS; k++) {
+            const double start = (along_u ? c.u0 : c.v0) + floor((i + 0.5) * n / LOOKS) * step;
+            const double other = (k + 0.43) / LOOKS;
+            if (!along_u && holds_corner(cut, start, step)) continue;
+            const double u = along_u ? start : between(c.u0, c.u1, other);
+            const double v = along_u ? between(c.v0, c.v1, other) : start;
+            const double du = along_u ? step : 0, dv = along_u ? 0 : step;
+            const WrVec3 chord = v3_scale(v3_add(at(cut, u, v), at(cut, u + du, v + dv)), 0.5);
+            const double d = v3_len(v3_sub(at(cut, u + du / 2, v + dv / 2), chord));
+            if (d > most) most = d;
+        }
+    return most;
+}
+
+/* Largest distance of a cell's centre from the diagonal along which the cell is cut. */
+static double off_across(const Cut *cut, int across, int down)
+{
+    const WrSurfaceCell c = cut->cell;
+    const double du = (c.u1 - c.u0) / across, dv = (c.v1 - c.v0) / down;
+    double most = 0;
+    for (int i = 0; i < LOOKS; i++)
+        for (int k = 0; k < LOOKS; k++) {
+            const double u = c.u0 + floor((i + 0.5) * across / LOOKS) * du;
+            const double v = c.v0 + floor((k + 0.5) * down / LOOKS) * dv;
+            if (holds_corner(cut, v, dv)) continue;
+            const WrVec3 chord = v3_scale(v3_add(at(cut, u, v), at(cut, u + du, v + dv)), 0.5);
+            const double d = v3_len(v3_sub(at(cut, u + du / 2, v + dv / 2), chord));
+            if (d > most) most = d;
+        }
+    return most;
+}
+
+/* Starting number: the table's texels there, before the error is measured. */
+static int least_steps(const Cut *cut, bool along_u)
+{
+    if (!cut->raised) return LEAST;
+    const WrScene *scene = cut->raised->scene;
+    const WrField *field = cut->raised->field;
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
+    const double of = fabs(along_u ? scene->replicate_u : scene->replicate_v);
+    const int texels = !table ? LEAST : along_u ? wr_field_width(field) : wr_field_height(field);
+    return (int)fmin(fmax(LEAST, of * texels), MOST);
+}
+
+static int steps_of(const Cut *cut, bool along_u, double enough)
+{
+    int n = least_steps(cut, along_u);
+    while (n < MOST && off_by(cut, along_u, n) > enough) n *= 2;
+    return n < MOST ? n : MOST;
+}
+
+/* Chooses the steps in both directions; returns their error. */
+static int choose_steps(Cut *cut, double enough)
+{
+    int across = steps_of(cut, true, enough), down = steps_of(cut, false, enough);
+    while ((across < MOST || down < MOST) && off_across(cut, across, down) > 2 * enough) {
+        across = 2 * across < MOST ? 2 * across : MOST;
+        down = 2 * down < MOST ? 2 * down : MOST;
+    }
+    cut->across = across;
+    cut->off =
+        fmax(off_across(cut, across, down), off_by(cut, true, across) + off_by(cut, false, down));
+    return down;
+}
+
+static void place_rows(Cut *cut, int steps)
+{
+    int next = 0;
+    cut->down = 0;
+    for (int j = 0; j <= steps; j++) {
+        const double v = between(cut->cell.v0, cut->cell.v1, (double)j / steps);
+        while (next < cut->corners && cut->corner[next] < v)
+            cut->rows[cut->down++] = cut->corner[next++];
+        cut->rows[cut->down++] = v;
+    }
+    cut->down--;
+}
+
+static void find_corners(Cut *cut)
+{
+    const WrSurfaceInfo *info = wr_surfaces[cut->shape->kind];
+    cut->corners = info->corners ? info->corners(cut->shape, cut->corner, CORNERS) : 0;
+    if (cut->corners > CORNERS) cut->corners = CORNERS;
+}
+
+typedef struct Facets {
+    float (*points)[3];
+    int32_t (*corners)[3];
+    int32_t point_count, count;
+} Facets;
+
+static void add_cut(const Cut *cut, Facets *to)
+{
+    const int32_t first = to->point_count, wide = cut->across + 1;
+    for (int j = 0; j <= cut->down; j++)
+        for (int i = 0; i <= cut->across; i++) {
+            const double u = between(cut->cell.u0, cut->cell.u1, (double)i / cut->across);
+            const WrVec3 p = at(cut, u, cut->rows[j]);
+            float *out = to->points[to->point_count++];
+            out[0] = (float)p.x, out[1] = (float)p.y, out[2] = (float)p.z;
+        }
+    for (int j = 0; j < cut->down; j++)
+        for (int i = 0; i < cut->across; i++) {
+            const int32_t a = first + j * wide + i, b = a + wide;
+            const int32_t two[2][3] = { { a, a + 1, b + 1 }, { a, b + 1, b } };
+            for (int k = 0; k < 6; k++) to->corners[to->count + k / 3][k % 3] = two[k / 3][k % 3];
+            to->count += 2;
+        }
+}
+
+static bool facets_of(WrShadowRaysBody *body, const WrRaised *raised, WrError *err)
+{
+    const int faces = wr_surfaces[body->shape.kind]->faces;
+    Cut *cuts = wr_alloc((size_t)faces, sizeof *cuts);
+    size_t points = 0, cells = 0;
+    double off = 0;
+    for (int face = 0; face < faces; face++) {
+        Cut *cut = &cuts[face];
+        cut->shape = &body->shape, cut->raised = raised, cut->face = face;
+        cut->cell = wr_surface_cell(&body->shape, face);
+        find_corners(cut);
+        place_rows(cut, choose_steps(cut, OFF * body->radius));
+        points += (size_t)(cut->across + 1) * (size_t)(cut->down + 1);
+        cells += (size_t)cut->across * (size_t)cut->down;
+        off = fmax(off, cut->off);
+    }
+    Facets facets = { .points = wr_try_alloc(points, sizeof *facets.points, "facets", err) };
+    if (facets.points)
+        facets.corners = wr_try_alloc(2 * cells, sizeof *facets.corners, "facets", err);
+    for (int face = 0; face < faces && facets.corners; face++) add_cut(&cuts[face], &facets);
+    const WrTrianglesSource source = { .points = (const float(*)[3])facets.points,
+                                       .corners = (const int32_t(*)[3])facets.corners,
+                                       .point_count = facets.point_count,
+                                       .triangle_count = facets.count };
+    body->triangles = facets.corners ? wr_triangles_new(&source, err) : NULL;
+    body->lift += 2 * off;
+    wr_free(facets.points);
+    wr_free(facets.corners);
+    wr_free(cuts);
+    return body->triangles != NULL;
+}
+
+/* Builds facets of a surface that has no closed form, or is displaced, into body->triangles; adds their error to
+   body->lift. */
+static bool shadow_rays_facets(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
+                           WrError *err)
+{
+    WrRaised raised = { 0 };
+    if (!(body->rise > 0)) return facets_of(body, NULL, err);
+    const bool good = wr_raised_init(&raised, scene, field, err) && facets_of(body, &raised, err);
+    wr_raised_fini(&raised);
+    return good;
+}
+
+/* ---- place ---- */
+
+/* Selection of possible casters: which objects can hide lamps from which, by bounding spheres and lamp
+   positions. */
+
+#define SLACK (1 + 1e-9)
+
+/* An object with its placement. */
+typedef struct Standing {
+    WrPlacement place;
+    double ball; /* radius of the bounding sphere, world; INFINITY: unbounded */
+} Standing;
+
+static double widest(const WrPlacement *place)
+{
+    const WrVec3 s = place->stretch;
+    return place->stretched ? fmax(fabs(s.x), fmax(fabs(s.y), fabs(s.z))) : 1;
+}
+
+static bool stand(const WrShadowRaysRequest *ask, int i, Standing *out, WrError *err)
+{
+    const WrScene *scene = ask->scenes[i];
+    WrShadowRaysBody *body = ask->bodies[i];
+    shadow_rays_body_size(body, scene, ask->fields[i], ask->moves);
+    if (!wr_scene_place_sized(scene, body->radius, ask->turn_deg, ask->aspect, &out->place, err))
+        return false;
+    out->ball = wr_shape_endless(&scene->shape)
+                    ? INFINITY
+                    : (body->radius + body->rise) * out->place.size * widest(&out->place) * SLACK;
+    return true;
+}
+
+/* Distance between a fixed sphere and a sphere that moves from the object to the lamp. It shrinks to a point at
+   a point lamp, or keeps its size towards a distant one. Below 0: they touch. t: position along the way, 0..1. */
+static double gap(WrVec3 from, WrVec3 way, double ball, bool shrinks, WrVec3 to, double t)
+{
+    return v3_len(v3_sub(v3_mad(from, way, t), to)) - (shrinks ? ball * (1 - t) : ball);
+}
+
+/* True if b can be between any point of a and the lamp. The gap is convex in t, so its minimum is found by
+   ternary search. */
+static bool may_hide(const Standing *a, const Standing *b, const WrLight *light)
+{
+    const double spread = tan(fmin(light->size_deg, 45) * WR_PI / 180);
+    const bool point = light->kind == WR_LIGHT_POINT;
+    const WrVec3 from = a->place.position, to = b->place.position, ahead = { 0, 0, 1 };
+    if (!(a->ball < INFINITY) || !(b->ball < INFINITY)) return true;
+    const double far = v3_len(v3_sub(to, from)) + a->ball + b->ball;
+    const WrVec3 way =
+        point ? v3_sub(light->where, from) : v3_scale(v3_unit(light->where, ahead), far);
+    double low = 0, high = 1;
+    for (int i = 0; i < 100; i++) {
+        const double x = low + (high - low) / 3, y = high - (high - low) / 3;
+        if (gap(from, way, a->ball, point, to, x) < gap(from, way, a->ball, point, to, y)) high = y;
+        else low = x;
+    }
+    const double wide = spread * (point ? v3_len(way) + a->ball : far);
+    return gap(from, way, a->ball, point, to, (low + high) / 2) <= (b->ball + wide) * SLACK;
+}
+
+static bool may_any(const WrShadowRaysRequest *ask, const Standing *a, const Standing *b)
+{
+    const WrScene *scene = ask->scenes[ask->at];
+    for (int i = 0; i < scene->light_count; i++)
+        if (scene->lights[i].shadow && may_hide(a, b, &scene->lights[i])) return true;
+    return false;
+}
+
+/* Rotation from a's axes to b's, times `by`, with b's stretch removed. */
+static void turn_to(const WrPlacement *a, const WrPlacement *b, double by, double m[9])
+{
+    const double stretch[3] = { b->stretched ? b->stretch.x : 1, b->stretched ? b->stretch.y : 1,
+                                b->stretched ? b->stretch.z : 1 };
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            double sum = 0;
+            for (int j = 0; j < 3; j++) sum += b->rotation[3 * j + i] * a->rotation[3 * j + k];
+            m[3 * i + k] = by * sum / stretch[i];
+        }
+}
+
+static WrShadowRaysTo see(const Standing *a, const Standing *b, const WrShadowRaysBody *body,
+                          bool own)
+{
+    WrShadowRaysTo to = { .body = body, .own = own, .radius = b->ball / a->place.size * SLACK };
+    const WrPlacement *pa = &a->place, *pb = &b->place;
+    const WrVec3 stretch = pa->stretched ? pa->stretch : (WrVec3){ 1, 1, 1 };
+    const WrVec3 centre = v3_times(pa->centre, stretch);
+    turn_to(pa, pb, pa->size / pb->size, to.m);
+    const WrVec3 at = wr_place_object(pb, pa->position);
+    const double *m = to.m;
+    to.from = (WrVec3){ at.x - (m[0] * centre.x + m[1] * centre.y + m[2] * centre.z),
+                        at.y - (m[3] * centre.x + m[4] * centre.y + m[5] * centre.z),
+                        at.z - (m[6] * centre.x + m[7] * centre.y + m[8] * centre.z) };
+    const WrVec3 off = wr_place_turn_back(pa, v3_sub(pb->position, pa->position));
+    to.middle = v3_mad(centre, off, 1 / pa->size);
+    return to;
+}
+
+static bool finite_to(const WrShadowRaysTo *to)
+{
+    double sum = to->from.x + to->from.y + to->from.z;
+    for (int k = 0; k < 9; k++) sum += to->m[k];
+    return isfinite(sum);
+}
+
+static void fill_disc(WrShadowRays *cast, int rays)
+{
+    cast->rays = rays < WR_SHADOW_RAYS_RAYS ? rays : WR_SHADOW_RAYS_RAYS;
+    for (int k = 0; k < cast->rays; k++) { /* evenly distributed, by the golden angle */
+        const double r = sqrt((k + 0.5) / cast->rays);
+        double sine, cosine;
+        wr_sincos_turns(0.38196601125010515 * k, &sine, &cosine);
+        cast->disc[k][0] = r * cosine, cast->disc[k][1] = r * sine;
+    }
+}
+
+bool wr_shadow_rays_prepare(WrShadowRays *cast, const WrShadowRaysRequest *ask, WrError *err)
+{
+    Standing own, other;
+    const int count = ask->count < WR_OBJECTS_MAX ? ask->count : WR_OBJECTS_MAX;
+    cast->count = cast->all = 0;
+    fill_disc(cast, ask->rays);
+    if (!stand(ask, ask->at, &own, err)) return false;
+    /* first those that can, then the others */
+    for (int round = 0; round < (ask->all ? 2 : 1); round++)
+        for (int i = 0; i < count; i++) {
+            if (!stand(ask, i, &other, err)) return false;
+            const bool self = i == ask->at;
+            const bool can =
+                self ? !shadow_rays_spares_itself(ask->bodies[i]) : may_any(ask, &own, &other);
+            const WrShadowRaysTo to = see(&own, &other, ask->bodies[i], self);
+            if (can != (round == 0) || !finite_to(&to)) continue;
+            if (!shadow_rays_body_update(ask->bodies[i], ask->scenes[i], ask->fields[i], err))
+                return false;
+            cast->to[cast->all++] = to;
+            cast->count += can;
+        }
+    const WrShadowRaysBody *body = ask->bodies[ask->at];
+    cast->lift = fmax(body->lift, 0x1p-19 * body->radius) * widest(&own.place);
+    return true;
+}
 
 bool wr_shadow_rays_asked(const WrScene *scene)
 {
@@ -21,7 +620,7 @@ bool wr_shadow_rays_asked(const WrScene *scene)
     return false;
 }
 
-bool wr_shadow_rays_spares_itself(const WrShadowRaysBody *body)
+static bool shadow_rays_spares_itself(const WrShadowRaysBody *body)
 {
     const WrSurfaceInfo *info = wr_surfaces[body->shape.kind];
     if (body->rise > 0) return false;
@@ -91,10 +690,11 @@ static bool meets_tube(double r, double k, double H, WrVec3 o, WrVec3 d, double 
     return false;
 }
 
-bool wr_shadow_rays_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double most)
+/* True if the ray o + t d, object units, d of any length, hits the body for 0 < t < most. */
+static bool shadow_rays_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double most)
 {
     const double *value = body->shape.value;
-    if (body->triangles) return wr_shadow_rays_tree_meets(body, o, d, most);
+    if (body->triangles) return shadow_rays_tree_meets(body, o, d, most);
     switch (wr_surfaces[body->shape.kind]->inversion) {
     case WR_INVERT_PLANE:
     case WR_INVERT_CUBE: return meets_quads(body, o, d, most);
@@ -103,7 +703,7 @@ bool wr_shadow_rays_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, doub
     case WR_INVERT_CONE:
         return meets_tube(value[0] / 2, -value[0] / value[1], value[1], o, d, most);
     case WR_INVERT_MESH:
-        return wr_shadow_rays_meets_torus(&body->shape, o, d, most); /* all others have facets */
+        return shadow_rays_meets_torus(&body->shape, o, d, most); /* all others have facets */
     case WR_INVERT_TRIANGLES: break;
     }
     return false;
@@ -139,7 +739,7 @@ static WrHash relief_of(const WrScene *scene, const WrField *field)
     return hash;
 }
 
-void wr_shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
+static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
                               bool moves)
 {
     const WrTriangles *held = scene->triangles;
@@ -167,7 +767,7 @@ static bool needs_facets(const WrShadowRaysBody *body)
     return body->rise > 0 || (mesh && body->shape.kind != WR_SURFACE_torus);
 }
 
-bool wr_shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
+static bool shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
                                 WrError *err)
 {
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
@@ -178,11 +778,11 @@ bool wr_shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene, co
             scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
         if (body->triangles->patches) body->lift = PATCHY * body->radius;
     } else if (needs_facets(body)) {
-        if (!wr_shadow_rays_facets(body, scene, field, err)) return false;
+        if (!shadow_rays_facets(body, scene, field, err)) return false;
     } else if (how == WR_INVERT_PLANE || how == WR_INVERT_CUBE) {
         take_quads(body);
     }
-    if (body->triangles && !wr_shadow_rays_tree_update(body, err)) return false;
+    if (body->triangles && !shadow_rays_tree_update(body, err)) return false;
     return body->made = true;
 }
 
@@ -207,7 +807,7 @@ static bool is_hidden(const WrShadowRaysTo *to, WrVec3 p, WrVec3 l, double away)
                        m[6] * p.x + m[7] * p.y + m[8] * p.z + to->from.z };
     const WrVec3 d = { m[0] * l.x + m[1] * l.y + m[2] * l.z, m[3] * l.x + m[4] * l.y + m[5] * l.z,
                        m[6] * l.x + m[7] * l.y + m[8] * l.z };
-    return wr_shadow_rays_meets(to->body, o, d, away);
+    return shadow_rays_meets(to->body, o, d, away);
 }
 
 /* True if any caster blocks that point of the lamp. */

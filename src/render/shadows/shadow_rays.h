@@ -70,28 +70,15 @@ typedef struct WrShadowRays {
 
 /* True if the scene has such shadows, of a lamp that is on. */
 bool wr_shadow_rays_asked(const WrScene *scene);
-/* True if the object can never hide a lamp from itself. Its size must be known. */
-bool wr_shadow_rays_spares_itself(const WrShadowRaysBody *body);
 /* Computes only the body's size. field: table of F for a displaced surface; NULL with a formula. moves: a
    displaced surface is intersected as displaced, else its base. */
-void wr_shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                              bool moves);
 /* Builds the geometry. Call body_size before, with the same field. Errors: no memory. */
-bool wr_shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                                WrError *err);
 void wr_shadow_rays_body_fini(WrShadowRaysBody *body);
-/* True if the ray o + t d, object units, d of any length, hits the body for 0 < t < most. */
-bool wr_shadow_rays_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double most);
 /* True if that ray hits the torus. */
-bool wr_shadow_rays_meets_torus(const WrShape *shape, WrVec3 o, WrVec3 d, double most);
 /* tree_bring builds the tree of boxes around body->triangles; tree_meets intersects a ray with it. Errors: no
    memory. */
-bool wr_shadow_rays_tree_update(WrShadowRaysBody *body, WrError *err);
-bool wr_shadow_rays_tree_meets(const WrShadowRaysBody *body, WrVec3 o, WrVec3 d, double most);
 /* Builds facets of a surface that has no closed form, or is displaced, into body->triangles; adds their error to
    body->lift. */
-bool wr_shadow_rays_facets(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                           WrError *err);
 
 /* Arguments of wr_shadow_rays_prepare: finds which of `count` objects (scenes of one each, and their bodies) can
    hide a lamp from object `at`; those come first in the result. Only these bodies are built, or, with `all`, all

@@ -16,7 +16,8 @@ void wr_occlusion_map_table_drop(WrOcclusionMapTable *table)
     *table = (WrOcclusionMapTable){ 0 };
 }
 
-void wr_occlusion_map_texel(const WrScene *scene, const WrField *field, double *across,
+/* Mean length of a texel along u and v, in units of height, which must not be 0. */
+static void occlusion_map_texel(const WrScene *scene, const WrField *field, double *across,
                             double *down)
 {
     double wide = 0, high = 0;
@@ -38,7 +39,7 @@ bool wr_occlusion_map_table_update(WrOcclusionMapTable *table, const WrScene *sc
     const double sign = scene->height < 0 ? -1 : 1;
     double across, down;
     WrOcclusionMap opening;
-    wr_occlusion_map_texel(scene, field, &across, &down);
+    occlusion_map_texel(scene, field, &across, &down);
     const bool like = table->open && table->width == horizon->width &&
                       table->height == horizon->height &&
                       table->directions == horizon->directions && table->across == sign * across &&

@@ -31,6 +31,3 @@ typedef struct WrOcclusionMapEdit {
 bool wr_occlusion_map_table_update(WrOcclusionMapTable *table, const WrScene *scene,
                                    const WrField *field, const WrOcclusionMapEdit *edit,
                                    const WrHorizon *horizon, WrPool *pool, WrError *err);
-/* Mean length of a texel along u and v, in units of height, which must not be 0. */
-void wr_occlusion_map_texel(const WrScene *scene, const WrField *field, double *across,
-                            double *down);

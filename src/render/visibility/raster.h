@@ -1,6 +1,7 @@
 /* raster.h - triangle rasteriser into a tile of depth, u, v: projection, clipping, integer edge functions.
    Private to the renderer. */
 #pragma once
+#include "render/frame/tile.h"
 #include "render/visibility/uv_raster.h"
 
 #include <stdbool.h>
@@ -51,3 +52,13 @@ typedef struct WrRasterBounds {
 } WrRasterBounds;
 WrRasterBounds wr_raster_bounds(const WrDepthTile *tile, int samples);
 bool wr_raster_meets(const WrViewMeshBlock *block, const WrRasterBounds *tile);
+
+/* ---- silhouette tests that need no samples ---- */
+
+/* True if pixel (x, y), whose centre is empty, is certainly empty. For planes, cubes and spheres. */
+bool wr_outline_misses(const WrTileJob *job, double x, double y);
+
+/* Corners of the outline, which may lie between all samples: the corners of planar faces and of patches, in
+   1/256 samples. Returns their number. */
+#define WR_OUTLINE_TIPS 24
+int wr_outline_tips(const WrTileJob *job, WrRasterVertex tips[WR_OUTLINE_TIPS]);
