@@ -47,7 +47,7 @@ endfunction()
 wr_fuzz(journal document/journal_folder.c document/journal_line.c document/recover.c base/error.c
         base/file.c base/hash.c base/memory.c base/progress.c base/text.c)
 
-set(tip_sources brush/tip.c brush/tip_gbr.c brush/tip_gih.c brush/tip_smooth.c base/error.c base/exactmath.c
+set(tip_sources brush/tip.c base/error.c base/exactmath.c
     base/memory.c base/text.c)
 wr_fuzz(gbr ${tip_sources} LIBRARIES -lsleef)
 wr_fuzz(gih ${tip_sources} LIBRARIES -lsleef)

@@ -1,58 +1,11 @@
-#include "brush/tip.h"
-
 #include "base/error.h"
 #include "base/exactmath.h"
-#include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "image/image.h"
+#include "brush/tip_internal.h"
 
 #include <math.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
-
-#define WR_TIP_LEVELS 14 /* 8192 .. 1 */
-#define WR_TIP_RANKS 4   /* maximum ranks of a .gih */
-
-typedef enum WrTipRule { /* selection rule of the next cell along one rank */
-                         WR_TIP_CONSTANT,
-                         WR_TIP_INCREMENTAL,
-                         WR_TIP_RANDOM,
-                         WR_TIP_ANGULAR,
-                         WR_TIP_PRESSURE
-} WrTipRule;
-
-typedef struct WrTipCell {
-    float *values; /* all levels, consecutively; owned */
-    int levels;
-    int width[WR_TIP_LEVELS], height[WR_TIP_LEVELS];
-    size_t start[WR_TIP_LEVELS]; /* offset of each level in values */
-} WrTipCell;
-
-struct WrTip {
-    int refs; /* atomic */
-    char *name;
-    double spacing; /* relative to the radius; 0: unspecified */
-    size_t bytes;   /* of all values */
-    int ranks;      /* 1..WR_TIP_RANKS */
-    int rank[WR_TIP_RANKS];
-    WrTipRule rule[WR_TIP_RANKS];
-    int cells;
-    WrTipCell *cell; /* [cells], owned */
-};
-
-/* A tip of this many empty cells, incremental; the caller owns it. */
-static WrTip *tip_blank(int cells);
-
-/* Allocates the levels of one cell and checks its size and the tip's; values are zero. what: its name
- * in messages. */
-static bool tip_cell_alloc(WrTip *tip, int cell, int width, int height, const char *what,
-                           WrError *err);
-/* Level 0 contains values in units of 1/codes (codes 0: of 1). Smooths them if there are codes, scales
- * them to 0..1 and computes the other levels. */
-static bool tip_cell_finish(WrTip *tip, int cell, int codes, WrError *err);
 
 /* ---- smooth ---- */
 
@@ -97,8 +50,7 @@ static double share(const Span *s, int k)
     return k == s->first ? s->head : k == s->last ? s->tail : 1.0;
 }
 
-/* One level from the next larger one: box means by area. */
-static void tip_halve(const float *in, int in_w, int in_h, float *out, int out_w, int out_h)
+void wr_tip_halve(const float *in, int in_w, int in_h, float *out, int out_w, int out_h)
 {
     for (int j = 0; j < out_h; j++) {
         Span rows = span_of(j, in_h, out_h);
@@ -146,7 +98,7 @@ static void punch(const Picture *codes, Picture *out)
 /* Half the size; a hole if any covered pixel is one, or if they differ by over a step. */
 static void shrink(const Picture *in, Picture *out)
 {
-    tip_halve(in->values, in->width, in->height, out->values, out->width, out->height);
+    wr_tip_halve(in->values, in->width, in->height, out->values, out->width, out->height);
     for (int j = 0; j < out->height; j++)
         for (int i = 0; i < out->width; i++) {
             Span rows = span_of(j, in->height, out->height);
@@ -242,8 +194,7 @@ static bool picture_new(Picture *p, int width, int height, WrError *err)
     return p->values;
 }
 
-/* Smooths values in units of codes; each changes by at most 1/2. */
-static bool tip_smooth(float *values, int width, int height, WrError *err)
+bool wr_tip_smooth(float *values, int width, int height, WrError *err)
 {
     Picture codes[WR_SMOOTH_LEVELS + 1] = { { .values = NULL } }, smooth = { .values = NULL };
     Picture given = { values, width, height };
@@ -292,8 +243,7 @@ static uint32_t big32(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* True if it begins like a .gbr. */
-static bool tip_is_gbr(const uint8_t *bytes, size_t size)
+bool wr_tip_is_gbr(const uint8_t *bytes, size_t size)
 {
     if (size < WR_GBR_V1) return false;
     uint32_t version = big32(bytes + 4);
@@ -317,8 +267,7 @@ static size_t utf8_length(const uint8_t *p, size_t size)
     return good ? n : 0;
 }
 
-/* Untrusted text made printable: control characters and invalid UTF-8 become '?'. The caller frees it. */
-static char *tip_clean_name(const uint8_t *bytes, size_t size)
+char *wr_tip_clean_name(const uint8_t *bytes, size_t size)
 {
     char *name = wr_alloc(size + 1, 1);
     size_t length = 0;
@@ -385,19 +334,17 @@ static void read_pixels(const uint8_t *in, size_t count, uint32_t bytes, float *
     }
 }
 
-/* Parses one .gbr at the start of bytes into a cell; *used: its length. name (may be NULL) and spacing
- * are set if the file has them. */
-static bool tip_parse_gbr(WrTip *tip, int cell, const uint8_t *bytes, size_t size, size_t *used,
-                          char **name, double *spacing, const char *what, WrError *err)
+bool wr_tip_parse_gbr(WrTip *tip, int cell, const uint8_t *bytes, size_t size, size_t *used,
+                      char **name, double *spacing, const char *what, WrError *err)
 {
     Header h = { 0 };
     if (!read_header(bytes, size, &h, what, err)) return false;
-    if (!tip_cell_alloc(tip, cell, (int)h.width, (int)h.height, what, err)) return false;
+    if (!wr_tip_cell_alloc(tip, cell, (int)h.width, (int)h.height, what, err)) return false;
     size_t count = (size_t)h.width * h.height;
     read_pixels(bytes + h.length, count, h.bytes, tip->cell[cell].values);
-    if (!tip_cell_finish(tip, cell, 255, err)) return false;
+    if (!wr_tip_cell_finish(tip, cell, 255, err)) return false;
     *used = h.length + count * h.bytes;
-    if (name) *name = tip_clean_name(bytes + h.fixed, h.length - h.fixed);
+    if (name) *name = wr_tip_clean_name(bytes + h.fixed, h.length - h.fixed);
     if (spacing) *spacing = h.spacing;
     return true;
 }
@@ -533,7 +480,8 @@ static bool read_cells(WrTip *tip, const uint8_t *bytes, size_t size, const char
     for (int i = 0; i < tip->cells; i++) {
         size_t length = 0;
         double *spacing = i == 0 ? &tip->spacing : NULL;
-        if (!tip_parse_gbr(tip, i, bytes + used, size - used, &length, NULL, spacing, what, err)) {
+        if (!wr_tip_parse_gbr(tip, i, bytes + used, size - used, &length, NULL, spacing, what,
+                              err)) {
             wr_error_prefix(err, "picture %d of %d: ", i + 1, tip->cells);
             return false;
         }
@@ -542,8 +490,7 @@ static bool read_cells(WrTip *tip, const uint8_t *bytes, size_t size, const char
     return true;
 }
 
-/* Parses a whole .gih. */
-static WrTip *tip_parse_gih(const uint8_t *bytes, size_t size, const char *what, WrError *err)
+WrTip *wr_tip_parse_gih(const uint8_t *bytes, size_t size, const char *what, WrError *err)
 {
     size_t offset = 0;
     Line name, line, word;
@@ -560,20 +507,20 @@ static WrTip *tip_parse_gih(const uint8_t *bytes, size_t size, const char *what,
         wr_fail(err, "%s: %d pictures: must be 1..%d", what, count, WR_TIP_CELLS);
         return NULL;
     }
-    WrTip *tip = tip_blank(count);
+    WrTip *tip = wr_tip_blank(count);
     if (!read_cells(tip, bytes + offset, size - offset, what, err)) {
         wr_tip_free(tip);
         return NULL;
     }
     Ranks ranks = read_ranks(line);
     set_ranks(tip, &ranks);
-    tip->name = tip_clean_name(name.text, name.length);
+    tip->name = wr_tip_clean_name(name.text, name.length);
     return tip;
 }
 
 /* ---- creation ---- */
 
-static WrTip *tip_blank(int cells)
+WrTip *wr_tip_blank(int cells)
 {
     WrTip *tip = wr_alloc(1, sizeof *tip);
     tip->refs = 1;
@@ -601,8 +548,7 @@ void wr_tip_free(WrTip *tip)
     wr_free(tip);
 }
 
-static bool tip_cell_alloc(WrTip *tip, int cell, int width, int height, const char *what,
-                           WrError *err)
+bool wr_tip_cell_alloc(WrTip *tip, int cell, int width, int height, const char *what, WrError *err)
 {
     if (width < 1 || width > WR_TIP_SIDE || height < 1 || height > WR_TIP_SIDE)
         return wr_fail(err, "%s: a tip of %dx%d pixels: each side must be 1..%d", what, width,
@@ -632,19 +578,19 @@ static float unit(float x)
     return x > 0.0f ? x < 1.0f ? x : 1.0f : 0.0f; /* NaN becomes 0 */
 }
 
-static bool tip_cell_finish(WrTip *tip, int cell, int codes, WrError *err)
+bool wr_tip_cell_finish(WrTip *tip, int cell, int codes, WrError *err)
 {
     WrTipCell *c = &tip->cell[cell];
     size_t count = (size_t)c->width[0] * (size_t)c->height[0];
     if (codes > 0) {
-        if (!tip_smooth(c->values, c->width[0], c->height[0], err)) return false;
+        if (!wr_tip_smooth(c->values, c->width[0], c->height[0], err)) return false;
         for (size_t i = 0; i < count; i++) c->values[i] = unit(c->values[i] / (float)codes);
     } else {
         for (size_t i = 0; i < count; i++) c->values[i] = unit(c->values[i]);
     }
     for (int l = 1; l < c->levels; l++)
-        tip_halve(c->values + c->start[l - 1], c->width[l - 1], c->height[l - 1],
-                  c->values + c->start[l], c->width[l], c->height[l]);
+        wr_tip_halve(c->values + c->start[l - 1], c->width[l - 1], c->height[l - 1],
+                     c->values + c->start[l], c->width[l], c->height[l]);
     return true;
 }
 
@@ -654,12 +600,12 @@ WrTip *wr_tip_new(int width, int height, const float *values, int codes, WrError
         wr_fail(err, "a tip of %d codes: must be 0..65535", codes);
         return NULL;
     }
-    WrTip *tip = tip_blank(1);
-    if (!tip_cell_alloc(tip, 0, width, height, "tip", err)) goto fail;
+    WrTip *tip = wr_tip_blank(1);
+    if (!wr_tip_cell_alloc(tip, 0, width, height, "tip", err)) goto fail;
     float *out = tip->cell[0].values;
     size_t count = (size_t)width * (size_t)height;
     for (size_t i = 0; i < count; i++) out[i] = unit(values[i]) * (float)(codes > 0 ? codes : 1);
-    if (!tip_cell_finish(tip, 0, codes, err)) goto fail;
+    if (!wr_tip_cell_finish(tip, 0, codes, err)) goto fail;
     return tip;
 fail:
     wr_tip_free(tip);
@@ -668,10 +614,10 @@ fail:
 
 WrTip *wr_tip_parse(const void *bytes, size_t size, const char *name, WrError *err)
 {
-    if (!tip_is_gbr(bytes, size)) return tip_parse_gih(bytes, size, name, err);
-    WrTip *tip = tip_blank(1);
+    if (!wr_tip_is_gbr(bytes, size)) return wr_tip_parse_gih(bytes, size, name, err);
+    WrTip *tip = wr_tip_blank(1);
     size_t used;
-    if (!tip_parse_gbr(tip, 0, bytes, size, &used, &tip->name, &tip->spacing, name, err)) {
+    if (!wr_tip_parse_gbr(tip, 0, bytes, size, &used, &tip->name, &tip->spacing, name, err)) {
         wr_tip_free(tip);
         return NULL;
     }
@@ -779,46 +725,4 @@ float wr_tip_value(const WrTipView *view, double s, double t)
     if (!view->coarse) return fine;
     float coarse = bilinear(view->coarse, view->coarse_w, view->coarse_h, s, t);
     return fine + view->mix * (coarse - fine);
-}
-
-/* ---- read ---- */
-
-static WrTip *from_image(const WrImage *image, const char *path, WrError *err)
-{
-    int codes = image->type == WR_PIXEL_U8 ? 255 : 0;
-    float steps = codes > 0 ? (float)codes : 1.0f;
-    WrTip *tip = tip_blank(1);
-    if (!tip_cell_alloc(tip, 0, image->width, image->height, path, err)) goto fail;
-    size_t count = (size_t)image->width * (size_t)image->height;
-    int channels = image->channels;
-    for (size_t i = 0; i < count; i++) {
-        const float *pixel = image->data + i * (size_t)channels;
-        float alpha = channels == 2 || channels == 4 ? pixel[channels - 1] : 1.0f;
-        float value = wr_image_luma(pixel, channels) * alpha;
-        value = value > 0.0f ? value < 1.0f ? value : 1.0f : 0.0f;
-        tip->cell[0].values[i] = value * steps;
-    }
-    if (!tip_cell_finish(tip, 0, codes, err)) goto fail;
-    return tip;
-fail:
-    wr_tip_free(tip);
-    return NULL;
-}
-
-WrTip *wr_tip_read(const char *path, WrError *err)
-{
-    char ending[16];
-    wr_path_ending(path, ending);
-    if (strcmp(ending, "gbr") != 0 && strcmp(ending, "gih") != 0) {
-        WrImage *image = wr_image_read(path, err);
-        WrTip *tip = image ? from_image(image, path, err) : NULL;
-        wr_image_free(image);
-        return tip;
-    }
-    char *bytes = NULL;
-    size_t size = 0;
-    if (!wr_file_read(path, WR_TIP_BYTES, &bytes, &size, err)) return NULL;
-    WrTip *tip = wr_tip_parse(bytes, size, path, err);
-    wr_free(bytes);
-    return tip;
 }

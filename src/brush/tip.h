@@ -4,7 +4,7 @@
    0..1), GIMP's .gbr (version 1 and 2; grey: 255 is full paint; RGBA: luma times alpha) and .gih
    (several pictures with selection rules, of up to 4 ranks). 8-bit tips are smoothed when loaded, so
    that heights have no quantization steps: values change by at most half a code, and edges and black
-   pixels beside them not at all (tip_smooth.c). Each cell has a mip pyramid for small sizes, which
+   pixels beside them not at all. Each cell has a mip pyramid for small sizes, which
    preserves its mean. */
 #pragma once
 #include <stdbool.h>
