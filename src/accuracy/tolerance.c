@@ -1099,8 +1099,7 @@ bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, Wr
     double price = 1;
     if (tolerance.kind == WR_TOLERANCE_NONE)
         return wr_fail(err, "the scene has no tolerance: set one with `tolerance rms=0.004`");
-    if (tolerance.kind == WR_TOLERANCE_TIME && !price_seconds(renderer, &price, err))
-        return false;
+    if (tolerance.kind == WR_TOLERANCE_TIME && !price_seconds(renderer, &price, err)) return false;
     Study study = { .renderer = renderer,
                     .request = request,
                     .frame = frame,

@@ -101,7 +101,7 @@ static double bytes_of(const WrBenchSections *all, const WrBenchPicture *p, cons
 
 /* Count the memory traffic and operations of a picture: bytes and flops, 0 if not counted. */
 static void bench_picture_count(const WrBenchSections *all, WrBenchPicture *picture,
-                            const WrFrame *frame)
+                                const WrFrame *frame)
 {
     picture->bytes = bytes_of(all, picture, frame);
     picture->flops = flops_of(picture, frame->plan);

@@ -1,5 +1,3 @@
-#include "cli/brushes.h"
-
 #include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/exactmath.h"
@@ -7,8 +5,10 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "brush/library.h"
+#include "brush/preset.h"
 #include "brush/tip.h"
-#include "cli/brush_sample.h"
+#include "cli/cli.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"
@@ -19,10 +19,19 @@
 #include "system/process.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
 
-/* NULL is allowed */
-static void sampler_free(WrSampler *sampler);
+#define WR_SAMPLE_W 256 /* texels of the table */
+#define WR_SAMPLE_H 192
+
+/* The presets of the library that a command lists. */
+typedef struct WrBrushList {
+    WrLibrary *library;          /* owned */
+    const WrPresetEntry **entry; /* [count], borrowed from the library; the array is owned */
+    int count;
+} WrBrushList;
 
 /* ---- brush sample ---- */
 
@@ -32,13 +41,15 @@ static void sampler_free(WrSampler *sampler);
 /* upper limit for the slope of the steepest tenth of the texels that are not flat */
 #define WR_SAMPLE_STEEP 1.5
 
-struct WrSampler {
+typedef struct WrSampler {
     WrPool *pool; /* borrowed */
     int width, height;
     WrScene *scene;
     WrRenderer *renderer;
     WrField *ridges; /* table for brushes that act on existing heights */
-};
+} WrSampler;
+
+static void sampler_free(WrSampler *sampler); /* NULL is allowed */
 
 /* ---- the table ---- */
 
@@ -368,7 +379,7 @@ static void brushes_thumbnail_name(const WrPresetEntry *entry, WrText *name)
 
 /* Write one picture for each entry into an existing folder. */
 static bool brushes_thumbnails(const WrCli *cli, const WrBrushList *list, const char *folder,
-                           WrError *err)
+                               WrError *err)
 {
     WrSampler *sampler = sampler_new(cli, WR_THUMBNAIL_W, WR_THUMBNAIL_H, err);
     uint8_t *sample = wr_alloc((size_t)WR_THUMBNAIL_W * WR_THUMBNAIL_H, 1);
@@ -545,7 +556,8 @@ static void tell_object(const WrPresetEntry *entry, const WrPreset *preset, WrTe
 }
 
 /* Print everything about a preset, as lines or as one JSON object and a line end. */
-static void brushes_report(const WrPresetEntry *entry, const WrPreset *preset, bool json, WrText *text)
+static void brushes_report(const WrPresetEntry *entry, const WrPreset *preset, bool json,
+                           WrText *text)
 {
     if (json) tell_object(entry, preset, text);
     else tell_text(entry, preset, text);

@@ -198,29 +198,27 @@ static void end_path_pdf(WrVectorDrawing *ink)
     (void)ink;
 }
 
-static double advance(const char *word_pdf, double size)
+static double advance(const char *word, double size)
 {
     double sum = 0.0;
-    for (; *word_pdf; word_pdf++)
-        sum += *word_pdf >= ' ' && *word_pdf <= '~' ? advances[*word_pdf - ' '] : 556;
+    for (; *word; word++) sum += *word >= ' ' && *word <= '~' ? advances[*word - ' '] : 556;
     return sum * size / 1000.0;
 }
 
-static void word_pdf(WrVectorDrawing *ink, const char *word_pdf, double x, double y, double size,
+static void word_pdf(WrVectorDrawing *ink, const char *word, double x, double y, double size,
                      double anchor)
 {
     add_grey(ink, "g");
     wr_text_add(&ink->text, "BT /F ");
     vector_drawing_number(ink, size);
     wr_text_add(&ink->text, " Tf 1 0 0 -1 ");
-    vector_drawing_number(ink, x - anchor * advance(word_pdf, size));
+    vector_drawing_number(ink, x - anchor * advance(word, size));
     wr_text_add(&ink->text, " ");
     vector_drawing_number(ink, y);
     wr_text_add(&ink->text, " Tm (");
-    for (; *word_pdf; word_pdf++) {
-        if (*word_pdf == '(' || *word_pdf == ')' || *word_pdf == '\\')
-            wr_text_add(&ink->text, "\\");
-        wr_text_add_n(&ink->text, *word_pdf >= ' ' && *word_pdf <= '~' ? word_pdf : "?", 1);
+    for (; *word; word++) {
+        if (*word == '(' || *word == ')' || *word == '\\') wr_text_add(&ink->text, "\\");
+        wr_text_add_n(&ink->text, *word >= ' ' && *word <= '~' ? word : "?", 1);
     }
     wr_text_add(&ink->text, ") Tj ET\n");
 }

@@ -25,7 +25,8 @@
 
 /* write.c: a WrRowSeen of the job that compares rows read back from disk; the largest error goes into the
    report. */
-static bool export_receipt(void *ctx, int y, int rows, const float *values, bool exact, WrError *err);
+static bool export_receipt(void *ctx, int y, int rows, const float *values, bool exact,
+                           WrError *err);
 
 typedef struct WrError WrError;
 typedef struct WrExportJob WrExportJob;
@@ -360,7 +361,8 @@ static float *wanted(const WrExportJob *job, int y, int rows)
     return want;
 }
 
-static bool export_receipt(void *ctx, int y, int rows, const float *values, bool exact, WrError *err)
+static bool export_receipt(void *ctx, int y, int rows, const float *values, bool exact,
+                           WrError *err)
 {
     WrExportJob *job = ctx;
     WrExportReport *report = &job->report;

@@ -11,7 +11,8 @@
 #include <math.h>
 
 /* Converts the sheet to the output; for a smaller one, adds its change to the table. Releases it. */
-static bool erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrRelief *out, WrError *err);
+static bool erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrRelief *out,
+                      WrError *err);
 
 /* Reads the table of a job into a sheet; at lower resolution for a coarse preview. */
 static bool erode_begin(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
@@ -558,7 +559,8 @@ static bool add_change_to_table(WrSheet *sheet, const WrGenerateJob *job, WrErro
     return good;
 }
 
-static bool erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrRelief *out, WrError *err)
+static bool erode_end(WrSheet *sheet, const WrGenerateJob *job, bool good, WrRelief *out,
+                      WrError *err)
 {
     bool small =
         sheet->width != wr_field_width(job->like) || sheet->height != wr_field_height(job->like);

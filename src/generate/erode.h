@@ -45,4 +45,3 @@ bool wr_erode_rain(WrSheet *sheet, const WrRain *rain, const WrGenerateJob *job,
 
 /* Maximum texels along an axis of a coarse preview. */
 #define WR_ERODE_COARSE 160
-

@@ -14,7 +14,7 @@
 
 /* Decodes slopes: the first two channels times these factors, to the right and down. */
 static bool normals_from_slopes(const WrImage *image, double right, double down, WrNormals *out,
-                            WrError *err);
+                                WrError *err);
 
 /* ---- The generator row of heights from a normal map ---- */
 
@@ -301,7 +301,7 @@ bool wr_normals_decode(const WrImage *image, WrCoding coding, WrNormals *out, Wr
 }
 
 static bool normals_from_slopes(const WrImage *image, double right, double down, WrNormals *out,
-                            WrError *err)
+                                WrError *err)
 {
     WrNormals made;
     if (image->channels < 2)

@@ -37,8 +37,6 @@ bool wr_picture_cut(WrSheet *sheet, int width, int height, const WrGenerateJob *
 /* Resizes a picture (with the table's wraps) to the job's size, seamless by that method. */
 bool wr_picture_fit(WrSheet *sheet, WrSeamless seamless, const WrGenerateJob *job, WrError *err);
 
-/* Linear light of an sRGB code (IEC 61966-2-1), 0..1 and beyond; the same on every processor. */
-
 #define WR_P_FILE(h)                                                                               \
     {                                                                                              \
         .name = "file", .label = "File", .help = (h), .unit = "", .kind = WR_PARAM_FILE,           \

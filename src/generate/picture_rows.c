@@ -498,8 +498,7 @@ static double *light_of_codes(const WrImage *image, bool linear, double *most)
     *most = image->type == WR_PIXEL_U8 ? 255.0 : image->type == WR_PIXEL_U16 ? 65535.0 : 0.0;
     if (*most == 0.0) return NULL;
     double *light = wr_alloc((size_t)*most + 1, sizeof *light);
-    for (int k = 0; k <= (int)*most; k++)
-        light[k] = linear ? picture_light(k / *most) : k / *most;
+    for (int k = 0; k <= (int)*most; k++) light[k] = linear ? picture_light(k / *most) : k / *most;
     return light;
 }
 

@@ -328,7 +328,7 @@ void wr_text_inside_fini(WrTextInside *inside, int height)
 
 /* Sorts the shape's pieces. */
 static bool text_inside(WrTextShape *shape, const WrGenerateJob *job, double from, double to,
-                    WrTextInside *out, WrError *err)
+                        WrTextInside *out, WrError *err)
 {
     WrTextInside inside = { NULL, NULL };
     int64_t *first = NULL;

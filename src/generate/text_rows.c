@@ -140,7 +140,7 @@ static void take_named(Fonts *fonts)
  * are used, and the job's `chose` callback receives them. Remarks list the fallback fonts and the
  * characters missing in all fonts. ask: everything except its fonts. */
 static bool text_shape(const WrParams *params, const WrFontRequest *ask, double size,
-                   const WrGenerateJob *job, WrFontText *out, WrError *err)
+                       const WrGenerateJob *job, WrFontText *out, WrError *err)
 {
     Fonts fonts = { .params = params, .job = job, .ask = *ask };
     WrFontText text = { 0 };

@@ -261,9 +261,9 @@ static void band_texel(const WrZSolid *s, WrZBand *band, int k, double settled)
 }
 
 /* Sets the band for the ring: completely if the kind differs, else only for the changed texels (a bit
- * each, row by row). settled: from wr_zsheet_settled. */
+ * each, row by row). settled: from zsheet_settled. */
 static void zband_set(WrZBand *band, const WrZSolid *s, double floor, const double *settled,
-                  uint64_t texels)
+                      uint64_t texels)
 {
     bool same = band->at == s->at[2] && band->ring == s->ring && band->tube == s->tube;
     if (!same) {
@@ -330,7 +330,7 @@ static double zsheet_settled_texel(const WrZSheet *sheet, int at)
 /* For each texel of the square of WR_Z_SQUARE from (x, y) on: the height below which a solid changes
    nothing there; inf beyond the table. Returns the least. */
 static double zsheet_settled(const WrZSheet *sheet, int x, int y,
-                         double settled[WR_Z_SQUARE * WR_Z_SQUARE])
+                             double settled[WR_Z_SQUARE * WR_Z_SQUARE])
 {
     double least = INFINITY;
     for (int j = 0; j < WR_Z_SQUARE; j++)
@@ -343,7 +343,7 @@ static double zsheet_settled(const WrZSheet *sheet, int x, int y,
     return least;
 }
 
-/* wr_zsheet_settled for triangles, anywhere in the tile. */
+/* zsheet_settled for triangles, anywhere in the tile. */
 static double zsheet_filled(const WrZSheet *sheet)
 {
     double least = INFINITY;
@@ -751,7 +751,8 @@ static void zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, doub
 
 /* Draws only its part in the square whose first texel is (x, y) of the tile. dx, dy may be fractional
  * positions from wr_z_place. */
-static void zsheet_solid_at(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy, int x, int y)
+static void zsheet_solid_at(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy, int x,
+                            int y)
 {
     Body body = body_of(sheet, solid, dx, dy);
     if (body.x1 < x || body.x0 >= x + SQUARE || body.y1 < y || body.y0 >= y + SQUARE) return;
@@ -760,8 +761,8 @@ static void zsheet_solid_at(WrZSheet *sheet, const WrZSolid *solid, double dx, d
 
 /* Draws it there, where only its height at the centre matters. (x, y): the square's first texel;
  * texels: not 0. */
-static void zsheet_ring_at(WrZSheet *sheet, const WrZSolid *ring, double dx, double dy, int x, int y,
-                       uint64_t texels)
+static void zsheet_ring_at(WrZSheet *sheet, const WrZSolid *ring, double dx, double dy, int x,
+                           int y, uint64_t texels)
 {
     double at_x[SQUARE * SQUARE], at_y[SQUARE * SQUARE], z[SQUARE * SQUARE];
     int at[SQUARE * SQUARE], count = 0;
@@ -996,8 +997,8 @@ static void list_all(const Many *m, int64_t count, Item *all)
 
 /* Draws the visible images of solids [count]. Drawing hidden ones too would change no bit. False:
    cancelled. */
-static bool zsheet_many(WrZSheet *sheet, const WrZScene *scene, const WrZEntry *entries, int64_t count,
-                    const WrZGoOn *go_on)
+static bool zsheet_many(WrZSheet *sheet, const WrZScene *scene, const WrZEntry *entries,
+                        int64_t count, const WrZGoOn *go_on)
 {
     Many m = { .sheet = sheet, .scene = scene, .entries = entries, .go_on = go_on };
     _Static_assert(WR_Z_SQUARE << (DEPTH - 2) >= WR_TILE, "each part has its place in items");

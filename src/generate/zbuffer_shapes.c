@@ -181,8 +181,7 @@ static WrZSpan cone_span(const double a[3], const double b[3])
 
 static WrZSpan capsule_span(const double a[3], const double b[3], double half)
 {
-    WrZSpan middle =
-        wr_zspan_meet(zspan_round(a, b, 2, 0.0, 1.0), wr_zspan_slab(a[2], b[2], half));
+    WrZSpan middle = wr_zspan_meet(zspan_round(a, b, 2, 0.0, 1.0), wr_zspan_slab(a[2], b[2], half));
     WrZSpan ends[2] = { zspan_round(a, b, 3, half, 1.0), zspan_round(a, b, 3, -half, 1.0) };
     for (int i = 0; i < 2; i++)
         if (ends[i].low <= ends[i].high &&

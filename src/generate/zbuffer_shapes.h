@@ -15,4 +15,3 @@ static inline WrZSpan wr_zspan_meet(WrZSpan a, WrZSpan b)
 
 /* The interval with |a + b t| <= r on one axis. */
 WrZSpan wr_zspan_slab(double a, double b, double r);
-

@@ -43,18 +43,11 @@ typedef struct WrZEntry {
     double dx, dy; /* texels: offset of the image */
 } WrZEntry;
 
-/* Draws one image of a primitive, moved by (dx, dy) whole texels. */
-/* Draws only its part in the square whose first texel is (x, y) of the tile. dx, dy may be fractional
- * positions from wr_z_place. */
-
 /* Returns false if the work was cancelled. part: fraction of the tile, 0..1. */
 typedef struct WrZGoOn {
     bool (*call)(const void *ctx, double part);
     const void *ctx;
 } WrZGoOn;
-/* Draws the visible images of solids [count]. Drawing hidden ones too would change no bit. False:
-   cancelled. */
-
 /* ---- culling: zbuffer.c ---- */
 
 /* Fills in the data for the solid's bounds; part of wr_zsolid_set. */
@@ -63,12 +56,6 @@ void wr_zsolid_set_bounds(WrZSolid *solid);
 typedef struct WrZRect {
     double x0, y0, x1, y1; /* texels, closed */
 } WrZRect;
-/* Upper bound of the solid over the rectangle; -inf: it is not there. *least: lower bound if it covers
-   all of the rectangle; else -inf. */
-/* For each texel of the square of WR_Z_SQUARE from (x, y) on: the height below which a solid changes
-   nothing there; inf beyond the table. Returns the least. */
-/* wr_zsheet_settled for one texel. */
-
 /* True for a flat torus that is not thin, for which single texels can be selected. */
 /* Squared distances from its axis at which such a torus may change each texel of a square. Valid for
    all of the same height and radii. */
@@ -78,9 +65,6 @@ typedef struct WrZBand {
                    height matters */
     double low[WR_Z_SQUARE * WR_Z_SQUARE], high[WR_Z_SQUARE * WR_Z_SQUARE];
 } WrZBand;
-/* Sets the band for the ring: completely if the kind differs, else only for the changed texels (a bit
- * each, row by row). settled: from wr_zsheet_settled. */
-
 /* clamps to [low, high] as integers; x may be any number */
 static inline int wr_z_clip(double x, int low, int high)
 {

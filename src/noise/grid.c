@@ -9,7 +9,7 @@
 
 /* wr_noise_band for sheared noise of at most one cell per texel along x. */
 static void noise_band_sheared(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
-                           WrNoiseBand *band);
+                               WrNoiseBand *band);
 
 /* ---- octave ---- */
 
@@ -116,7 +116,7 @@ static void band_of_cells(const WrOctave *octave, const WrNoiseGrid *grid, bool 
 
 /* Adds one octave over a piece to n. False, without any change, if there is no fast path. */
 static bool noise_sum(const WrOctave *octave, const WrNoiseGrid *grid, WrNoiseShare share, float *n,
-                  size_t pitch)
+                      size_t pitch)
 {
     if (!wr_noises[octave->noise.kind].cells || 2.0 * octave->frequency[0] > grid->width)
         return false;
@@ -151,7 +151,8 @@ static void band_of_points(const WrOctave *octave, const WrNoiseGrid *grid, bool
 }
 
 /* grid: at most a piece. Without slopes, fx and fy are unchanged. */
-static void noise_band(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes, WrNoiseBand *band)
+static void noise_band(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
+                       WrNoiseBand *band)
 {
     WR_ASSERT(grid->count_i <= WR_NOISE_STRIP && grid->count_j <= WR_NOISE_BAND);
     if (octave->frequency[0] <= grid->width && wr_noises[octave->noise.kind].cells)
@@ -307,8 +308,9 @@ static void span_slopes(const Columns *columns, const Places *places, const Latt
     }
 }
 
+/* wr_noise_band for sheared noise of at most one cell per texel along x. */
 static void noise_band_sheared(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
-                           WrNoiseBand *band)
+                               WrNoiseBand *band)
 {
     Columns columns;
     LatticeRow rows[2]; /* the lattice's even and odd rows */

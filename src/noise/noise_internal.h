@@ -35,8 +35,6 @@ typedef struct WrNoiseBand {
     float fx[WR_NOISE_BAND][WR_NOISE_STRIP], fy[WR_NOISE_BAND][WR_NOISE_STRIP];
 } WrNoiseBand;
 
-/* wr_noise_band for sheared noise of at most one cell per texel along x. */
-
 /* The centre of a texel. */
 static inline double wr_noise_grid_u(const WrNoiseGrid *grid, int i)
 {

@@ -28,12 +28,12 @@ static void tile_clear(const WrTileJob *job, WrTilePart whole, WrTilePart part);
 static void tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch);
 
 /* Draws all samples of a tile in the grid of k x k samples a pixel. */
-static void tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
-                     WrTileScratch *scratch);
+static void tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile,
+                         const WrTileRows *out, WrTileScratch *scratch);
 
 /* Encodes a row of premultiplied colours, [width][4], into the picture's codes. */
 static void tile_code_row(const WrTileJob *job, int x, int y, int width, const float *rgba,
-                      WrTileScratch *scratch);
+                          WrTileScratch *scratch);
 
 /* ---- multi object ---- */
 
@@ -455,8 +455,8 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
     }
 }
 
-static void tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
-                     WrTileScratch *scratch)
+static void tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile,
+                         const WrTileRows *out, WrTileScratch *scratch)
 {
     if (tile->w <= WR_SPAN / 2 && tile->h > 1) {
         run_packed(job, k, tile, out, scratch);
@@ -508,7 +508,7 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     start = wr_clock_seconds();
     for (int y = 0; y < part.h; y++)
         scratch->covered += tile_means(k, part.w, scratch->sample[y * k][0], step,
-                                          wr_tile_pixel(job, part.x, part.y + y));
+                                       wr_tile_pixel(job, part.x, part.y + y));
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 
@@ -596,7 +596,7 @@ static WrTileJob tile_apart(const WrTileJob *job, WrTilePart part, WrTileScratch
 }
 
 static void tile_code_row(const WrTileJob *job, int x, int y, int width, const float *rgba,
-                      WrTileScratch *scratch)
+                          WrTileScratch *scratch)
 {
     scratch->not_finite += wr_code_row(&job->coder, wr_tile_behind(job, x, y),
                                        job->backdrop->across, width, rgba, code_at(job, x, y));

@@ -13,13 +13,13 @@
 #include <string.h>
 
 /* Builds the geometry. Call body_size before, with the same field. Errors: no memory. */
-static bool shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                                WrError *err);
+static bool shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene,
+                                    const WrField *field, WrError *err);
 
 /* Computes only the body's size. field: table of F for a displaced surface; NULL with a formula. moves: a
    displaced surface is intersected as displaced, else its base. */
-static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                              bool moves);
+static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene,
+                                  const WrField *field, bool moves);
 
 /* True if the object can never hide a lamp from itself. Its size must be known. */
 static bool shadow_rays_spares_itself(const WrShadowRaysBody *body);
@@ -457,7 +457,7 @@ static bool facets_of(WrShadowRaysBody *body, const WrRaised *raised, WrError *e
 /* Builds facets of a surface that has no closed form, or is displaced, into body->triangles; adds their error to
    body->lift. */
 static bool shadow_rays_facets(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                           WrError *err)
+                               WrError *err)
 {
     WrRaised raised = { 0 };
     if (!(body->rise > 0)) return facets_of(body, NULL, err);
@@ -739,8 +739,8 @@ static WrHash relief_of(const WrScene *scene, const WrField *field)
     return hash;
 }
 
-static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                              bool moves)
+static void shadow_rays_body_size(WrShadowRaysBody *body, const WrScene *scene,
+                                  const WrField *field, bool moves)
 {
     const WrTriangles *held = scene->triangles;
     const bool moved = moves && wr_is_raised(scene);
@@ -767,8 +767,8 @@ static bool needs_facets(const WrShadowRaysBody *body)
     return body->rise > 0 || (mesh && body->shape.kind != WR_SURFACE_torus);
 }
 
-static bool shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene, const WrField *field,
-                                WrError *err)
+static bool shadow_rays_body_update(WrShadowRaysBody *body, const WrScene *scene,
+                                    const WrField *field, WrError *err)
 {
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
     if (body->made) return true;

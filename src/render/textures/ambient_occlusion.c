@@ -18,7 +18,7 @@ void wr_occlusion_map_table_drop(WrOcclusionMapTable *table)
 
 /* Mean length of a texel along u and v, in units of height, which must not be 0. */
 static void occlusion_map_texel(const WrScene *scene, const WrField *field, double *across,
-                            double *down)
+                                double *down)
 {
     double wide = 0, high = 0;
     for (int k = 0; k < LOOKS * LOOKS; k++) {
