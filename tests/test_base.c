@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "base/time_left.h"
 #include "base/spool.h"
 #include "base/text.h"
 #include "base/vec.h"
@@ -17,6 +18,8 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <grp.h>
+#include <math.h>
+#include <stdio.h>
 #include <sys/file.h>
 #include <sys/inotify.h>
 #include <sys/random.h>
@@ -743,9 +746,71 @@ static void a_spool_passes_on_what_lies_behind_its_head(void **state)
     wr_free(path);
 }
 
+/* ---- remaining time ---- */
+
+/* Report fraction(t) every `step` seconds until `end`. Each promise must be within a factor of
+   2 of the rest to `end`, where the work ends. Returns the number of promises. */
+static int promises(double (*fraction)(double t), double end, double step,
+                    char last[WR_PROGRESS_LEFT])
+{
+    WrTimeLeft task = { .repeats = false };
+    int count = 0, minutes, seconds;
+    for (double t = step; t < end; t += step) {
+        wr_time_left(&task, fraction(t), t, last);
+        if (sscanf(last, "%d:%d left", &minutes, &seconds) != 2) continue;
+        const double said = 60 * minutes + seconds, rest = end - t;
+        if (rest < 2.0) continue; /* whole seconds are shown */
+        count++;
+        assert_true(said + 0.5 >= rest / 2.0 && said - 0.5 <= rest * 2.0);
+    }
+    return count;
+}
+
+static double evenly(double t)
+{
+    return t / 83.0;
+}
+
+/* A quick tenth of the time does nine tenths of the fraction. */
+static double quick_then_slow(double t)
+{
+    return t < 8.3 ? 0.9 * t / 8.3 : 0.9 + 0.1 * (t - 8.3) / 74.7;
+}
+
+static double in_rounds(double t)
+{
+    return fmod(t, 27.7) / 27.7;
+}
+
+static void time_is_promised_only_at_a_steady_rate(void **state)
+{
+    (void)state;
+    char last[WR_PROGRESS_LEFT];
+    WrTimeLeft task = { .repeats = false };
+    assert_in_range(promises(evenly, 83.0, 0.37, last), 210, 224);
+    assert_string_equal(last, "0:00 left");
+    /* after the change of rate nothing is promised until the new rate holds for long */
+    for (double t = 0.37; t < 8.3; t += 0.37) wr_time_left(&task, quick_then_slow(t), t, last);
+    for (double t = 10.4; t < 30.0; t += 0.37) {
+        wr_time_left(&task, quick_then_slow(t), t, last);
+        assert_string_equal(last, "");
+    }
+    /* a fraction that begins again is not that of the whole work */
+    task = (WrTimeLeft){ .repeats = false };
+    for (double t = 0.37; t < 83.0; t += 0.37) {
+        wr_time_left(&task, in_rounds(t), t, last);
+        if (t > 27.7) assert_string_equal(last, "");
+    }
+    /* fewer seconds: another task, which begins without a promise */
+    wr_time_left(&task, 0.1, 0.3, last);
+    assert_string_equal(last, "");
+    assert_false(task.repeats);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(time_is_promised_only_at_a_steady_rate),
         cmocka_unit_test(bytes_written_in_any_order_are_checked),
         cmocka_unit_test(a_byte_that_changes_on_the_disk_fails_the_commit),
         cmocka_unit_test(a_spool_passes_on_what_lies_behind_its_head),

@@ -1,5 +1,5 @@
 /* Progress and remaining time of long work, on the terminal's last line. */
-#include "base/progress.h"
+#include "base/time_left.h"
 #include "cli/cli.h"
 #include "system/clock.h"
 #include "system/process.h"
@@ -12,6 +12,7 @@
 static struct {
     double began, told; /* clock readings */
     bool shown;
+    WrTimeLeft left;
     WrProgress *progress; /* progress that is reported */
 } line;
 
@@ -20,8 +21,8 @@ static void report(void *ctx, double fraction)
     (void)ctx;
     double now = wr_clock_seconds();
     char left[WR_PROGRESS_LEFT];
+    wr_time_left(&line.left, fraction, now - line.began, left);
     if (now - line.began < SILENT_SECONDS || now - line.told < STEP_SECONDS) return;
-    wr_progress_left(fraction, now - line.began, left);
     fprintf(stderr, "\r%3.0f %%  %-16s", 100.0 * fraction, left);
     line.told = now;
     line.shown = true;

@@ -1,5 +1,5 @@
 /* estimate.h - memory estimate of a command before it runs, computed from its values and the size of the tables. Time
-   estimates are made while a command runs (wr_progress_left). */
+   estimates are made while a command runs (wr_time_left). */
 #pragma once
 #include "command/command_line.h"
 

@@ -78,7 +78,7 @@ static void bar(WrApp *app, bool refused, double now)
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, seconds);
     wr_gui_same_line(12);
     wr_gui_move_to(end + wr_gui_px(70));
-    wr_time_left(busy->furthest, took, left);
+    wr_time_left_words(&busy->left, busy->furthest, took, left);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, busy->cancelled ? "cancelling" : left);
     wr_gui_same_line(12);
     wr_gui_move_to(end + wr_gui_px(160));

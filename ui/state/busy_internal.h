@@ -1,6 +1,7 @@
 /* busy_internal.h - state of the running background command and its queue. Private to busy*.c, run_line.c and
    document.c. */
 #pragma once
+#include "base/time_left.h"
 #include "ui/state/busy.h"
 
 #include "base/array.h"
@@ -31,6 +32,7 @@ struct WrBusy {
     double quiet;      /* seconds that wr_busy_begin waits for the work; 0: QUIET_SECONDS */
     double furthest;   /* fraction shown so far: progress never goes back */
     double refused_at; /* clock */
+    WrTimeLeft left;
     bool cancelled, closes;
     bool in_frame;     /* it began inside a frame: */
     double picture;    /* app->drawn_at at that time */

@@ -31,12 +31,13 @@ void wr_dialog_close(WrApp *app)
     wr_app_redraw(app);
 }
 
-void wr_time_left(double fraction, double seconds, char text[WR_PROGRESS_LEFT])
+void wr_time_left_words(WrTimeLeft *task, double fraction, double seconds,
+                        char text[WR_PROGRESS_LEFT])
 {
     char english[WR_PROGRESS_LEFT];
     int whole_minutes, rest;
     text[0] = '\0';
-    wr_progress_left(fraction, seconds, english);
+    wr_time_left(task, fraction, seconds, english);
     if (sscanf(english, "%d:%d", &whole_minutes, &rest) == 2)
         snprintf(text, WR_PROGRESS_LEFT, wr_words("%d:%02d left"), whole_minutes, rest);
 }
@@ -47,7 +48,7 @@ static void add_time_left(const WrApp *app, char text[WR_EXPECTATION])
     char left[WR_PROGRESS_LEFT];
     double fraction, seconds;
     if (!app->trying || !wr_edit_preview_busy(app->trial, &fraction, &seconds)) return;
-    wr_time_left(fraction, seconds, left);
+    wr_time_left_words(&app->dialog->preview_left, fraction, seconds, left);
     size_t used = strlen(text);
     if (left[0])
         snprintf(text + used, WR_EXPECTATION - used, "%s%s", used > 0 ? "  \xc2\xb7  " : "", left);

@@ -2,7 +2,7 @@
 #pragma once
 #include "ui/state/app_state.h"
 
-#include "base/progress.h"
+#include "base/time_left.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -39,6 +39,7 @@ typedef enum WrDialog {
 typedef struct WrDialogState {
     WrDialog now;
     bool fresh; /* first frame */
+    WrTimeLeft preview_left;
 } WrDialogState;
 
 void wr_panel_dialogs(WrApp *app);
@@ -48,8 +49,9 @@ SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
 /* The buttons at the end of a dialog: 1 confirmed, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
-/* Remaining time of work in the user's language, as wr_progress_left; "" if it is not known. */
-void wr_time_left(double fraction, double seconds, char text[WR_PROGRESS_LEFT]);
+/* wr_time_left in the user's language. */
+void wr_time_left_words(WrTimeLeft *task, double fraction, double seconds,
+                        char text[WR_PROGRESS_LEFT]);
 /* Memory and time note, "Needs 300 MB" and the remaining time of a preview, if significant; else "". */
 #define WR_EXPECTATION 96
 void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION]);
