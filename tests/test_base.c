@@ -18,8 +18,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <grp.h>
-#include <math.h>
-#include <stdio.h>
 #include <sys/file.h>
 #include <sys/inotify.h>
 #include <sys/random.h>
