@@ -1,15 +1,16 @@
 #include "base/time_left.h"
 
-#define AGREE 1.5 /* factor between the two rates */
+#define GROWTH 1.25 /* of the time between two kept reports */
+#define AGREE 1.5   /* factor between the two rates */
 #define FIRST_SECONDS 0.25
 
-/* The earlier reports are those at which the time had doubled, so the oldest is from between a quarter and a half of
-   the present time, and the rate since then is that of the latest half to three quarters. */
+/* The earlier reports are those at which the time had grown by GROWTH, so the oldest is from 64 to 80 % of the present
+   time, and the rate since then is that of the latest fifth to third of the work. */
 static void note(WrTimeLeft *t, double fraction, double seconds)
 {
     if (seconds < t->seconds[2]) *t = (WrTimeLeft){ .repeats = false };
     if (fraction < t->fraction[2]) t->repeats = true;
-    if (seconds >= FIRST_SECONDS && seconds >= 2.0 * t->seconds[1]) {
+    if (seconds >= FIRST_SECONDS && seconds >= GROWTH * t->seconds[1]) {
         t->fraction[0] = t->fraction[1], t->seconds[0] = t->seconds[1];
         t->fraction[1] = fraction, t->seconds[1] = seconds;
     }

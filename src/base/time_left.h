@@ -11,6 +11,6 @@ typedef struct WrTimeLeft {
 } WrTimeLeft;
 
 /* Formats "0:07 left" from the fraction done (0..1) and the seconds used. "" in the first second, and unless the rate
- * since the middle of the work so far agrees with the rate of the whole within a factor of 1.5: a promise that may be
+ * of the latest part agrees with the rate of the whole within a factor of 1.5: a promise that may be
  * wrong by more than 2 is worse than none. */
 void wr_time_left(WrTimeLeft *task, double fraction, double seconds, char text[WR_PROGRESS_LEFT]);
