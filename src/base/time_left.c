@@ -8,8 +8,7 @@
    time, and the rate since then is that of the latest fifth to third of the work. */
 static void note(WrTimeLeft *t, double fraction, double seconds)
 {
-    if (seconds < t->seconds[2]) *t = (WrTimeLeft){ .repeats = false };
-    if (fraction < t->fraction[2]) t->repeats = true;
+    if (seconds < t->seconds[2]) *t = (WrTimeLeft){ .seconds = { 0 } };
     if (seconds >= FIRST_SECONDS && seconds >= GROWTH * t->seconds[1]) {
         t->fraction[0] = t->fraction[1], t->seconds[0] = t->seconds[1];
         t->fraction[1] = fraction, t->seconds[1] = seconds;
@@ -21,7 +20,7 @@ void wr_time_left(WrTimeLeft *task, double fraction, double seconds, char text[W
 {
     note(task, fraction, seconds);
     text[0] = '\0';
-    if (task->repeats || !(task->seconds[0] > 0.0) || seconds < 1.0) return;
+    if (!(task->seconds[0] > 0.0) || seconds < 1.0) return;
     const double whole = fraction / seconds;
     const double recent = (fraction - task->fraction[0]) / (seconds - task->seconds[0]);
     if (recent * AGREE >= whole && recent <= whole * AGREE)
