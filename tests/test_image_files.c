@@ -111,6 +111,25 @@ static void pnm_in_words_and_in_colours_is_read(void **state)
     }
 }
 
+/* The format's definition (netpbm, "Plain PBM") makes spaces between the pixels optional; 1 is black. */
+static void pixels_of_a_plain_pbm_need_no_spaces(void **state)
+{
+    (void)state;
+    static const char *const files[] = { "P1\n5 3\n10110\n01001\n11100\n",
+                                         "P1 5 3 1 0 1 1 0 0 1 0 0 1 1 1 1 0 0",
+                                         "P1\n# made by hand\n5\n3\n101 10010 # middle\n0111100" };
+    static const float codes[] = { 0, 1, 0, 0, 1, 1, 0, 1, 1, 0, 0, 0, 0, 1, 1 };
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        Bytes b = bytes_new(200);
+        put_text(&b, files[k]);
+        write_bytes("p.pbm", &b);
+        WrImage *image = read_well("p.pbm");
+        assert_true(image->width == 5 && image->height == 3 && image->channels == 1);
+        for (int c = 0; c < 15; c++) assert_true(image->data[c] == codes[c]);
+        wr_image_free(image);
+    }
+}
+
 static void pnm_that_is_too_short_or_makes_no_sense_is_refused(void **state)
 {
     (void)state;
@@ -122,6 +141,7 @@ static void pnm_that_is_too_short_or_makes_no_sense_is_refused(void **state)
         { "P5 0 2 255\n", "each side" },           { "P5 99999 2 255\n", "each side" },
         { "P6 16384 16384 65535\n", "truncated" }, { "P2 16384 16384 255\n", "truncated" },
         { "P5 2 2 0\n1234", "largest code" },      { "P5 2 2 65536\n12341234", "largest code" },
+        { "P1 3 2\n10110", "truncated" },          { "P1 3 2\n101102", "truncated" },
         { "P5 -2 2 255\n1234", "header" },         { "P5 2 2", "header" }
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -525,6 +545,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_code_of_a_16_bit_pgm_is_read_as_it_is),
         cmocka_unit_test(pnm_in_words_and_in_colours_is_read),
+        cmocka_unit_test(pixels_of_a_plain_pbm_need_no_spaces),
         cmocka_unit_test(pnm_that_is_too_short_or_makes_no_sense_is_refused),
         cmocka_unit_test(gimp_patterns_are_read),
         cmocka_unit_test(srtm_elevations_are_metres_and_voids_are_filled),

@@ -35,7 +35,7 @@ static uint32_t big32(const uint8_t *p)
 
 static bool is_pnm(const unsigned char *bytes, size_t count)
 {
-    return count >= 3 && bytes[0] == 'P' && strchr("2356", bytes[1]) && bytes[1] &&
+    return count >= 3 && bytes[0] == 'P' && strchr("12356", bytes[1]) && bytes[1] &&
            (strchr(" \t\r\n#", bytes[2]) && bytes[2]);
 }
 
@@ -85,12 +85,18 @@ static int next_letter(FILE *file)
     return c;
 }
 
-/* The next number, up to about 65535; consumes the letter after it. */
-static bool read_number(FILE *file, uint32_t *number)
+static int skip_space(FILE *file)
 {
     int c = next_letter(file);
     while (c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f')
         c = next_letter(file);
+    return c;
+}
+
+/* The next number, up to about 65535; consumes the letter after it. */
+static bool read_number(FILE *file, uint32_t *number)
+{
+    int c = skip_space(file);
     if (c < '0' || c > '9') return false;
     for (*number = 0; c >= '0' && c <= '9'; c = getc(file)) {
         *number = *number * 10 + (uint32_t)(c - '0');
@@ -100,15 +106,23 @@ static bool read_number(FILE *file, uint32_t *number)
     return true;
 }
 
-static bool read_text(WrPlain *p, int64_t length, WrError *err)
+/* A pixel of P1, white space before it is optional; 1 is black. */
+static bool read_bit(FILE *file, uint32_t *code)
+{
+    const int c = skip_space(file);
+    *code = c == '0';
+    return c == '0' || c == '1';
+}
+
+static bool read_text(WrPlain *p, bool bits, int64_t length, WrError *err)
 {
     const size_t count = (size_t)p->width * (size_t)p->height * (size_t)p->channels;
-    if ((uint64_t)length < 2 * (uint64_t)count - 1)
+    if ((uint64_t)length < (bits ? (uint64_t)count : 2 * (uint64_t)count - 1))
         return truncated(err); /* before memory is allocated */
     p->codes = wr_try_alloc(count, sizeof *p->codes, "a picture", err);
     for (size_t k = 0; p->codes && k < count; k++) {
         uint32_t code;
-        if (!read_number(p->file, &code)) return truncated(err);
+        if (!(bits ? read_bit : read_number)(p->file, &code)) return truncated(err);
         p->codes[k] = (uint16_t)(code < p->most ? code : p->most);
     }
     return p->codes != NULL;
@@ -116,19 +130,19 @@ static bool read_text(WrPlain *p, int64_t length, WrError *err)
 
 static bool open_pnm(WrPlain *p, int64_t length, WrError *err)
 {
-    uint32_t width, height, most;
+    uint32_t width, height, most = 1;
     getc(p->file);
     const int kind = getc(p->file);
     if (!read_number(p->file, &width) || !read_number(p->file, &height) ||
-        !read_number(p->file, &most))
+        (kind != '1' && !read_number(p->file, &most)))
         return wr_fail(err, "cannot be opened, truncated or damaged (its header)");
     if (!check_size(width, height, err)) return false;
     if (most < 1 || most > 65535) return wr_fail(err, "largest code %u: must be 1..65535", most);
     p->width = (int)width, p->height = (int)height, p->most = most;
     p->channels = kind == '3' || kind == '6' ? 3 : 1;
-    p->coding = kind == '2' || kind == '3' ? DECODED : most > 255 ? CODES_16 : CODES_8;
+    p->coding = kind <= '3' ? DECODED : most > 255 ? CODES_16 : CODES_8;
     p->data = wr_stream_tell(p->file);
-    return p->coding != DECODED || read_text(p, length, err);
+    return p->coding != DECODED || read_text(p, kind == '1', length, err);
 }
 
 /* ---- .pat: big-endian numbers of 32 bits: length of the header, version 1, width, height, bytes a pixel,

@@ -1,9 +1,9 @@
 /* simple_formats.h - readers of simple image formats, without a library.
 
-   PNM of numbers (P2, P3, P5, P6; OpenImageIO reads half of all 16-bit codes one too low), GIMP's
-   patterns (.pat), SRTM elevations (.hgt) and run-length BMP (OpenImageIO rejects an end of line
-   before the end of the bitmap, which ImageMagick writes). Part of the reading of untrusted files: the
-   reader process, or reading "inside".
+   PNM of numbers (P1, P2, P3, P5, P6; OpenImageIO reads half of all 16-bit codes one too low, and no P1
+   without spaces), GIMP's patterns (.pat), SRTM elevations (.hgt) and run-length BMP (OpenImageIO rejects
+   an end of line before the end of the bitmap, which ImageMagick writes). Part of the reading of untrusted
+   files: the reader process, or reading "inside".
    Private to this module. */
 #pragma once
 #include "image/image.h"
