@@ -17,11 +17,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* ---- file_target.c: checksums of all bytes written to a file ---- */
-
 typedef struct WrFileSums WrFileSums;
-
-/* ---- file_target.c ---- */
 
 /* Leaves a finished file under its temporary name if this thread has a group: returns true, and the
  * group owns both names. */

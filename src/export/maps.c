@@ -367,7 +367,7 @@ void wr_export_map_describe(WrExportJob *job)
     wr_export_derived_describe(job);
 }
 
-/* ---- maps of field/maps.h ------------------------------------------------------------------------ */
+/* ---- maps of field/maps.h ---- */
 
 /* Computes the map and its range. job: settings except the ground. */
 static bool fill(WrExportJob *job, WrFieldMapKind kind, const WrMapJob *settings,

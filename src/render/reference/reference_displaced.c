@@ -49,8 +49,6 @@ typedef struct WrRaisedPoint {
 
 /* Converts the sheet's parameters to a position on the surface. */
 
-/* ---- reference_displaced.c ---- */
-
 /* Finds strips and corners where sheets separate: at most WR_RAISED_JOINTS into out; returns their number. */
 #define WR_RAISED_JOINTS 128
 

@@ -61,8 +61,6 @@ typedef struct WrDicePoint {
     double f;
 } WrDicePoint;
 
-/* ---- dice.c ---- */
-
 /* ---- Welding of shared points on the domain's border: seams, poles, edges of a cube ---- */
 
 #define FINE 1e6 /* resolution of positions: parts of the surface's radius */
