@@ -180,7 +180,7 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
 
 /* ---- samples ---- */
 
-/* Further samples for open pixels: K of the K x K, then the others where those are not enough (adaptive.c). */
+/* Further samples for open pixels: K of the K x K, then the others where those are not enough. */
 
 #define RING WR_REFINE_RING
 #define MOST_SAMPLES WR_TILE_SAMPLES_H /* largest K */

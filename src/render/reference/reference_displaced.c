@@ -47,8 +47,6 @@ typedef struct WrRaisedPoint {
     WrVec3 p, pu, pv;
 } WrRaisedPoint;
 
-/* Converts the sheet's parameters to a position on the surface. */
-
 /* Finds strips and corners where sheets separate: at most WR_RAISED_JOINTS into out; returns their number. */
 #define WR_RAISED_JOINTS 128
 
