@@ -70,7 +70,7 @@ static void add_inside(const WrIllusion *it, WrText *text)
     if (it->shadow < CODE) wr_text_add(text, "Shadows of the relief make no difference.");
     else if (it->shadow > it->shading)
         wr_text_add(text, "Most of it is shadow: material shadow=on brings that to bump mapping.");
-    else wr_text_add(text, "Shadow is the smaller part: what differs is where things are seen.");
+    else wr_text_add(text, "Shadow is the smaller part: most of the difference is in visibility.");
 }
 
 void wr_illusion_advice(const WrIllusion *illusion, WrText *text)

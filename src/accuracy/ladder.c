@@ -285,8 +285,8 @@ static void setting_present(const WrScene *scene, WrText *text)
     for (int d = 0; d < WR_DIAL_COUNT; d++) {
         const WrDial *dial = &wr_dials[d];
         const double value = dial->get(scene);
-        const bool told = dial->axis < WR_AXIS_VISIBILITY || value != dial->get(usual);
-        if (told && (!dial->matters || dial->matters(scene))) print_dial(dial, value, text);
+        const bool differs = dial->axis < WR_AXIS_VISIBILITY || value != dial->get(usual);
+        if (differs && (!dial->matters || dial->matters(scene))) print_dial(dial, value, text);
     }
     wr_scene_free(usual);
 }

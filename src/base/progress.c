@@ -1,7 +1,5 @@
 #include "base/progress.h"
 
-#include <stdio.h>
-
 static _Thread_local const WrProgress *here;
 static _Thread_local int64_t looks;
 
@@ -71,13 +69,4 @@ const WrProgress *wr_progress_part(WrProgressPart *part, const WrProgress *whole
 const WrProgress *wr_progress_enter(WrProgressPart *part, double from, double to)
 {
     return wr_progress_set(wr_progress_part(part, here, from, to));
-}
-
-void wr_progress_left(double fraction, double seconds, char text[WR_PROGRESS_LEFT])
-{
-    double left = fraction > 0.0 ? seconds * (1.0 - fraction) / fraction : 1e9;
-    text[0] = '\0';
-    if (fraction < 0.01 || seconds < 0.4 || left > 1e6) return;
-    int whole = (int)(left + 0.5);
-    snprintf(text, WR_PROGRESS_LEFT, "%d:%02d left", whole / 60, whole % 60);
 }

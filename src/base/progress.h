@@ -23,11 +23,6 @@ bool wr_progress_cancelled(const WrProgress *progress);
 /* Reports the fraction done. True if the work should continue. */
 bool wr_progress_step(const WrProgress *progress, double fraction);
 
-/* Formats "0:07 left" from the fraction done and the seconds used; "" while that is no reliable
- * estimate. */
-#define WR_PROGRESS_LEFT 24
-void wr_progress_left(double fraction, double seconds, char text[WR_PROGRESS_LEFT]);
-
 /* ---- progress of the thread ---- The caller of long work (a session, a background job) sets a
    progress for its thread. Deep loops find it without passing it through every function; the pieces of
    a pool's run inherit it. After cancellation a function may return with half of its work done, if its

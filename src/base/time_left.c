@@ -1,5 +1,7 @@
 #include "base/time_left.h"
 
+#include <math.h>
+
 #define GROWTH 1.25 /* of the time between two kept reports */
 #define AGREE 1.5   /* factor between the two rates */
 #define FIRST_SECONDS 0.25
@@ -8,21 +10,20 @@
    time, and the rate since then is that of the latest fifth to third of the work. */
 static void note(WrTimeLeft *t, double fraction, double seconds)
 {
-    if (seconds < t->seconds[2]) *t = (WrTimeLeft){ .seconds = { 0 } };
+    if (seconds < t->last) *t = (WrTimeLeft){ .last = 0 };
     if (seconds >= FIRST_SECONDS && seconds >= GROWTH * t->seconds[1]) {
         t->fraction[0] = t->fraction[1], t->seconds[0] = t->seconds[1];
         t->fraction[1] = fraction, t->seconds[1] = seconds;
     }
-    t->fraction[2] = fraction, t->seconds[2] = seconds;
+    t->last = seconds;
 }
 
-void wr_time_left(WrTimeLeft *task, double fraction, double seconds, char text[WR_PROGRESS_LEFT])
+double wr_time_left(WrTimeLeft *task, double fraction, double seconds)
 {
     note(task, fraction, seconds);
-    text[0] = '\0';
-    if (!(task->seconds[0] > 0.0) || seconds < 1.0) return;
+    if (!(task->seconds[0] > 0.0) || seconds < 1.0 || fraction < 0.01) return NAN;
     const double whole = fraction / seconds;
     const double recent = (fraction - task->fraction[0]) / (seconds - task->seconds[0]);
-    if (recent * AGREE >= whole && recent <= whole * AGREE)
-        wr_progress_left(fraction, seconds, text);
+    if (recent * AGREE < whole || recent > whole * AGREE) return NAN;
+    return fmax((1.0 - fraction) / whole, 0.0);
 }

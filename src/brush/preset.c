@@ -50,8 +50,8 @@ static const char *excerpt(json_object *value, char buffer[48])
 
 static bool fail_type(WrError *err, Place at, json_object *value, const char *right)
 {
-    char what[48], text[160];
-    snprintf(text, sizeof text, "%s: must be %s", excerpt(value, what), right);
+    char shown[48], text[160];
+    snprintf(text, sizeof text, "%s: must be %s", excerpt(value, shown), right);
     return fail_at(err, at, text);
 }
 
@@ -201,9 +201,9 @@ static bool read_mode(WrPreset *preset, json_object *value, Place at, WrError *e
             preset->gives_mode = true;
             return true;
         }
-    char found[48], what[200];
-    snprintf(what, sizeof what, "%.100s: wrinkle: mode: %s", at.file, excerpt(value, found));
-    return wr_fail_word(err, what, text, mode_name, NULL);
+    char shown[48], place[200];
+    snprintf(place, sizeof place, "%.100s: wrinkle: mode: %s", at.file, excerpt(value, shown));
+    return wr_fail_word(err, place, text, mode_name, NULL);
 }
 
 static bool read_bool(json_object *value, Place at, bool *flag, WrError *err)
@@ -367,15 +367,15 @@ static json_object *parse_json(const char *text, size_t size, const char *name, 
     }
     json_tokener_set_flags(tokener, JSON_TOKENER_STRICT | JSON_TOKENER_VALIDATE_UTF8);
     json_object *root = json_tokener_parse_ex(tokener, text, (int)size);
-    enum json_tokener_error what = json_tokener_get_error(tokener);
+    enum json_tokener_error status = json_tokener_get_error(tokener);
     size_t end = json_tokener_get_parse_end(tokener);
     json_tokener_free(tokener);
-    if (what != json_tokener_success) {
+    if (status != json_tokener_success) {
         json_object_put(root);
         root = NULL;
         wr_fail(err, "%.100s: byte %zu: %s: a preset is a JSON object", name, end,
-                what == json_tokener_continue ? "the text ends too early"
-                                              : json_tokener_error_desc(what));
+                status == json_tokener_continue ? "the text ends too early"
+                                                : json_tokener_error_desc(status));
     } else if (!root) {
         wr_fail(err, "%.100s: null: a preset is a JSON object", name);
     }

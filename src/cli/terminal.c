@@ -1,9 +1,11 @@
 /* Progress and remaining time of long work, on the terminal's last line. */
+#include "base/progress.h"
 #include "base/time_left.h"
 #include "cli/cli.h"
 #include "system/clock.h"
 #include "system/process.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #define SILENT_SECONDS 1.0 /* shorter work is not reported */
@@ -20,10 +22,12 @@ static void report(void *ctx, double fraction)
 {
     (void)ctx;
     double now = wr_clock_seconds();
-    char left[WR_PROGRESS_LEFT];
-    wr_time_left(&line.left, fraction, now - line.began, left);
+    const double left = wr_time_left(&line.left, fraction, now - line.began);
     if (now - line.began < SILENT_SECONDS || now - line.told < STEP_SECONDS) return;
-    fprintf(stderr, "\r%3.0f %%  %-16s", 100.0 * fraction, left);
+    char time[24] = "";
+    if (left < 60000.0)
+        snprintf(time, sizeof time, "%d:%02d left", (int)rint(left) / 60, (int)rint(left) % 60);
+    fprintf(stderr, "\r%3.0f %%  %-16s", 100.0 * fraction, time);
     line.told = now;
     line.shown = true;
 }

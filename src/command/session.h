@@ -113,6 +113,11 @@ void wr_session_forget_brushes(WrSession *session);
 
 /* The document; borrowed until the next call that changes the session. */
 const WrDocument *wr_session_document(const WrSession *session);
+/* True if the active layer, or its mask while that is edited, can be painted on; else the error says why: locked, hidden,
+   or a filter. */
+bool wr_session_check_layer(const WrSession *session, WrError *err);
+/* True if layer `index` (from 0) is unlocked; else the error names it. */
+bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err);
 /* The canonical text of the last command in force ("" if none), and the number of the state after it. Each state has
    a unique number; undo returns to the earlier number. */
 const char *wr_session_last_command(const WrSession *session);

@@ -177,13 +177,10 @@ bool wr_height_colormap_make(const WrSession *session, WrScene *object, WrError 
 bool wr_session_follow(WrSession *session, WrError *err);
 /* The layer that edits change, or the stand-in for its mask. NULL and an error if it is locked or hidden. */
 WrLayer *wr_session_layer(WrSession *session, WrError *err);
-bool wr_session_check_layer(const WrSession *session, WrError *err); /* the check alone */
 /* Fails if that layer is a filter, which has no heights, unless edits go to its mask. */
 bool wr_session_check_heights(const WrSession *session, int index, WrError *err);
 /* Name of a layer in messages: "layer 2 \"moss\"". */
 const char *wr_session_layer_name(const WrSession *session, int index, WrText *buffer);
-/* Fails if that layer is locked. */
-bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err);
 /* Replace *field by `made` (ownership passes; same size) inside the selection. */
 void wr_session_put_field(WrSession *session, WrField **field, WrField *made);
 /* Replace a layer's heights inside the selection (ownership passes; same size); the layer's coverage there becomes
@@ -204,8 +201,6 @@ bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err);
 /* Check the checksum of a file that was hashed already; name: the argument that holds it. */
 bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, const char *hex,
                           WrError *err);
-/* Read the picture that a line names; checks its sha256= argument, or sets it. The caller owns it. */
-WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *name, WrError *err);
 /* The channel= and part= arguments of a call. */
 WrImageRequest wr_call_request(WrCall *call);
 /* Note which part of a picture file was read if it has several, and the number of values that were not finite. */

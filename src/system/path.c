@@ -19,14 +19,6 @@ bool wr_path_info(const char *path, WrFileInfo *info)
     return true;
 }
 
-bool wr_path_info_itself(const char *path, WrFileInfo *info)
-{
-    struct stat got;
-    if (lstat(path, &got) != 0) return false;
-    wr_fd_info_of(&got, info);
-    return true;
-}
-
 bool wr_path_is_folder(const char *path)
 {
     WrFileInfo info;

@@ -7,9 +7,8 @@
 extern "C" {
 #endif
 
-/* Information about a link's target; about the link itself. */
+/* Information about a file, or a link's target. */
 bool wr_path_info(const char *path, WrFileInfo *info);
-bool wr_path_info_itself(const char *path, WrFileInfo *info);
 bool wr_path_is_folder(const char *path);
 bool wr_path_is_file(const char *path);
 

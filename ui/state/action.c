@@ -8,7 +8,7 @@
 #include "ui/state/session_view.h"
 
 #include "base/error.h"
-#include "command/session_internal.h"
+#include "command/session.h"
 #include "document/document.h"
 
 #include <string.h>

@@ -63,7 +63,7 @@ static void drop_button(WrApp *app)
 static void bar(WrApp *app, bool refused, double now)
 {
     WrBusy *busy = app->busy;
-    char seconds[24], left[WR_PROGRESS_LEFT];
+    char seconds[24], left[WR_TIME_LEFT];
     const double took = now - busy->since;
     const bool waits = app->waits->items.count > 0;
     const double whole = waits ? 970 : 830;

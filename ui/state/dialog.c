@@ -31,21 +31,18 @@ void wr_dialog_close(WrApp *app)
     wr_app_redraw(app);
 }
 
-void wr_time_left_words(WrTimeLeft *task, double fraction, double seconds,
-                        char text[WR_PROGRESS_LEFT])
+void wr_time_left_words(WrTimeLeft *task, double fraction, double seconds, char text[WR_TIME_LEFT])
 {
-    char english[WR_PROGRESS_LEFT];
-    int whole_minutes, rest;
+    const double left = rint(wr_time_left(task, fraction, seconds));
     text[0] = '\0';
-    wr_time_left(task, fraction, seconds, english);
-    if (sscanf(english, "%d:%d", &whole_minutes, &rest) == 2)
-        snprintf(text, WR_PROGRESS_LEFT, wr_words("%d:%02d left"), whole_minutes, rest);
+    if (left < 60000.0)
+        snprintf(text, WR_TIME_LEFT, wr_words("%d:%02d left"), (int)left / 60, (int)left % 60);
 }
 
 /* Append the remaining time of the edit preview. */
 static void add_time_left(const WrApp *app, char text[WR_EXPECTATION])
 {
-    char left[WR_PROGRESS_LEFT];
+    char left[WR_TIME_LEFT];
     double fraction, seconds;
     if (!app->trying || !wr_edit_preview_busy(app->trial, &fraction, &seconds)) return;
     wr_time_left_words(&app->dialog->preview_left, fraction, seconds, left);

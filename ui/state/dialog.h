@@ -49,9 +49,9 @@ SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
 /* The buttons at the end of a dialog: 1 confirmed, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
-/* wr_time_left in the user's language. */
-void wr_time_left_words(WrTimeLeft *task, double fraction, double seconds,
-                        char text[WR_PROGRESS_LEFT]);
+/* wr_time_left as text in the user's language, "0:07 left"; "" for NAN. */
+#define WR_TIME_LEFT 24
+void wr_time_left_words(WrTimeLeft *task, double fraction, double seconds, char text[WR_TIME_LEFT]);
 /* Memory and time note, "Needs 300 MB" and the remaining time of a preview, if significant; else "". */
 #define WR_EXPECTATION 96
 void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION]);
