@@ -24,6 +24,7 @@
 #include "ui/patch/patch_paint.h"
 #include "ui/jobs/edit_preview.h"
 #include "ui/toolkit/focus.h"
+#include "ui/toolkit/gui.h"
 #include "ui/tools/stroke_input.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_transform.h"
@@ -744,7 +745,8 @@ static void escape_gives_a_dragged_number_back(void **state)
     assert_int_equal(wr_session_history_position(bench.session), before);
     assert_true(document_of(&bench)->layers[0].opacity == 0.5f);
     assert_false(app->trying);
-    broken_drag(&bench, x, y, 30, 0, BREAK_KEYS + 1); /* undo is no part of a drag */
+    /* undo is no part of a drag; 12 pixels beside the first press, so that the two are no double click */
+    broken_drag(&bench, x + 12, y, 30, 0, BREAK_KEYS + 1);
     assert_int_equal(wr_session_history_position(bench.session), before + 1);
     assert_true(document_of(&bench)->layers[0].opacity != 0.5f);
     assert_int_equal(app->hand->grab, WR_GRAB_NONE);
@@ -808,9 +810,40 @@ static void a_dragged_layer_changes_its_place(void **state)
     finish(&bench);
 }
 
+/* Opened by a key and walked by Tab: nothing had the focus before, so nothing has it afterwards, and the window must
+   not wait for the frame that shows it. */
+static void a_dialog_that_keys_walked_leaves_the_input_free(void **state)
+{
+    (void)state;
+    static const char *const dialogs[] = { "help", "fill", "table_size", "search", "preferences" };
+    Bench bench;
+    double x, y;
+    begin(&bench);
+    wr_action_run(bench.app, "brush");
+    settle(&bench);
+    wr_view_to_pixel(bench.app->view, 32, 32, &x, &y);
+    for (size_t k = 0; k < sizeof dialogs / sizeof *dialogs; k++) {
+        wr_action_run(bench.app, dialogs[k]);
+        settle(&bench);
+        for (int i = 0; i < 5; i++) push_key(bench.app, SDLK_TAB, KMOD_NONE), settle(&bench);
+        for (int i = 0; i < 3 && bench.app->dialog->now != WR_DIALOG_NONE; i++)
+            push_key(bench.app, SDLK_ESCAPE, KMOD_NONE), settle(&bench);
+        if (bench.app->dialog->now != WR_DIALOG_NONE) fail_msg("%s stays open", dialogs[k]);
+        const double end = wr_clock_seconds() + PATIENCE; /* the veil behind a dialog fades */
+        while (wr_gui_unsettled(bench.app->gui) && wr_clock_seconds() < end) draw_again(bench.app);
+        if (wr_gui_unsettled(bench.app->gui)) fail_msg("%s leaves a frame to wait for", dialogs[k]);
+        const int before = wr_session_history_position(bench.session);
+        drag(&bench, x, y, 9, 4);
+        if (wr_session_history_position(bench.session) != before + 1)
+            fail_msg("no stroke after %s", dialogs[k]);
+    }
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_dialog_that_keys_walked_leaves_the_input_free),
         cmocka_unit_test(a_lamp_is_dragged_while_the_patch_is_painted_on),
         cmocka_unit_test(a_transform_frame_is_that_of_the_content),
         cmocka_unit_test(what_is_copied_comes_back_in_its_place),

@@ -269,6 +269,7 @@ void wr_gui_focus_end(WrGui *gui)
     if (focus->levels == wr_gui_levels_open(*ImGui::GetCurrentContext())) keep_place(focus);
     const WrKeyStop *now = wr_gui_find_stop(focus, focus->at);
     if (focus->shown && now) draw_ring(now);
+    if (!now) focus->moved = false; /* input must not wait for a frame that scrolls to it */
     if (focus->stepped && !wr_gui_find_stop(focus, focus->stepped)) focus->stepped = 0;
 }
 
