@@ -21,24 +21,26 @@ complain() {
 # Nobody waits for the end of this: hours of work.
 printf 'table 4096x4096\nnoise perlin cells=64 octaves=12 warp=0.3\nterrain hydraulic rain=64\n' >long.wrinkle
 
-# says COMMAND...: on a terminal it comes to say both.
+# says PATTERN COMMAND...: on a terminal the text comes to hold the pattern.
 says() {
+    local pattern=$1
+    shift
     : >said
     setsid script -qefc "$*" said >/dev/null 2>&1 </dev/null &
     talk=$!
-    local end=$((SECONDS + 120))
-    until grep -qE '[0-9] %  [0-9]+:[0-9]{2} left' said; do
-        [[ $SECONDS -lt $end ]] || { complain "$*: not how far it is: $(tr '\r' '\n' <said | tail -n 3)"; break; }
+    local end=$((SECONDS + 300))
+    until grep -qE "$pattern" said; do
+        [[ $SECONDS -lt $end ]] || { complain "$*: no '$pattern': $(tr '\r' '\n' <said | tail -n 3)"; break; }
         sleep 0.1
     done
-    [[ $2 != run ]] || # others have no lines that are foretold
-        grep -qE 'note: noise perlin: needs [0-9.]+ [MG]B of memory' said || complain "$*: its memory is not told before: $(cat said)"
     kill -KILL -- "-$talk" 2>/dev/null
     { wait "$talk"; } 2>/dev/null
     talk=''
 }
-says "$program" run long.wrinkle
-says "$program" render -o "'f##.png'" --size 8192x8192 --frames 1-2 --do "'dials aa=supersample samples=16'"
+says '[0-9] %' "$program" run long.wrinkle
+grep -qE 'note: noise perlin: needs [0-9.]+ [MG]B of memory' said || complain "its memory is not told before: $(cat said)"
+# The time left comes only at a steady rate: frames that are all alike have one.
+says '[0-9] %  [0-9]+:[0-9]{2} left' "$program" render -o "'f###.png'" --size 512x512 --frames 1-900 --do "'dials aa=supersample samples=16'"
 
 # ---- into a file ----
 printf 'table 1024x1024\nnoise perlin cells=64 octaves=12 warp=0.3\n' >short.wrinkle

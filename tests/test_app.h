@@ -10,6 +10,7 @@
 
 #include "ui/app/loop.h"
 #include "ui/app/app_store.h"
+#include "ui/app/input.h"
 #include "ui/state/app_options.h"
 #include "ui/state/app_state.h"
 #include "ui/state/document.h"
@@ -53,12 +54,12 @@ static inline void finish(Bench *bench)
     wr_pool_free(bench->pool);
 }
 
-/* Run until the next frame, even if nothing has changed. */
+/* Run until a frame is drawn, even if nothing has changed, and every event is handled: events wait for frames. */
 static inline void draw_again(WrApp *app)
 {
     const double before = app->drawn_at;
     double end = wr_clock_seconds() + PATIENCE;
-    while (app->drawn_at == before && wr_clock_seconds() < end) {
+    while ((app->drawn_at == before || wr_input_waits(app)) && wr_clock_seconds() < end) {
         app->redraw = 2;
         SDL_PushEvent(&(SDL_Event){ .type = app->ready_event });
         wr_app_step(app);
