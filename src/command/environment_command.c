@@ -1,6 +1,5 @@
 /* The command environment: image-based lighting. */
 #include "base/error.h"
-#include "base/enum_rows.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/args.h"
@@ -14,7 +13,9 @@
 
 #include <string.h>
 
-static const char *const set_words[] = { "off", "studio", "sky", "raking", NULL };
+#define WORD(KIND, word, label, light) word,
+#define LISTED(KIND, word, label, light) word ", "
+static const char *const set_words[] = { "off", WR_ENVIRONMENT_SETS(WORD) NULL };
 
 static void print_environment_line(const WrScene *scene, bool named, WrText *text)
 {
@@ -154,9 +155,10 @@ static bool row_environment(WrForm *out)
                                  .type = WR_ARG_PATH,
                                  .positional = true,
                                  .words = set_words,
-                                 .help = "a picture by longitude and latitude, or studio, sky, "
-                                         "raking, or off (a file of that name is ./sky). Left out: "
-                                         "those that are there" } } };
+                                 .help =
+                                     "a picture by longitude and latitude, or " WR_ENVIRONMENT_SETS(
+                                         LISTED) "or off (a file of that name is ./sky). Left out: "
+                                                 "those that are there" } } };
     return wr_scene_args("environment", NULL, out->args + 1) > 0;
 }
 

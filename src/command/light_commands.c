@@ -1,7 +1,6 @@
 /* The command light. */
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
@@ -15,7 +14,7 @@ static void print_light(const WrScene *scene, WrText *text)
     if (scene->lights_given && scene->light_count == 0) wr_text_add(text, "light clear\n");
     for (int i = 0; scene->lights_given && i < scene->light_count; i++) {
         const WrLight *light = &scene->lights[i];
-        const char *form = wr_light_names[light->kind];
+        const char *form = wr_light_kinds[light->kind].name;
         wr_text_addf(text, "light %s", form);
         wr_scene_print_params("light", form, light, text);
         wr_text_add(text, "\n");
@@ -51,10 +50,10 @@ static bool run_light(WrSession *session, WrCall *call, WrError *err)
         scene->light_count = 0;
     } else {
         WrLight light = { .kind = (WrLightKind)call->form };
-        wr_scene_take(call, wr_light_names[light.kind], &light);
+        wr_scene_take(call, wr_light_kinds[light.kind].name, &light);
         const bool zero = light.where.x == 0 && light.where.y == 0 && light.where.z == 0;
         int index = wr_call_given(call, "index") ? (int)wr_call_number(call, "index") : 0;
-        if (light.kind == WR_LIGHT_DIRECTIONAL && zero)
+        if (!wr_light_kinds[light.kind].placed && zero)
             good = wr_fail(err, "to=0,0,0 points nowhere: one number must not be 0");
         else good = put_light(scene, light, index, err);
     }
@@ -70,18 +69,12 @@ static bool run_light(WrSession *session, WrCall *call, WrError *err)
 /* One form for each kind of light, and one for none. */
 static bool form_light(int i, WrForm *out)
 {
-    WR_ROWS(help);
-    static const char *const help[WR_LIGHT_KINDS] = {
-        [WR_ROW(WR_LIGHT_DIRECTIONAL)] = "light from far away",
-        [WR_ROW(WR_LIGHT_POINT)] = "light from a point",
-    };
-    WR_ROWS_END(help, WR_LIGHT_KINDS);
     if (i > WR_LIGHT_KINDS) return false;
     if (i == WR_LIGHT_KINDS) {
         *out = (WrForm){ .name = "clear", .help = "no light at all" };
         return true;
     }
-    *out = (WrForm){ .name = wr_light_names[i], .help = help[i] };
+    *out = (WrForm){ .name = wr_light_kinds[i].name, .help = wr_light_kinds[i].help };
     const int count = wr_scene_args("light", out->name, out->args);
     out->args[count] =
         (WrArgSpec){ .name = "index",

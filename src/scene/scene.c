@@ -213,10 +213,12 @@ bool wr_tone_equal(const WrTone *a, const WrTone *b)
     return a->kind == b->kind && a->exposure == b->exposure;
 }
 
-WR_ROWS(wr_light_names);
-const char *const wr_light_names[WR_LIGHT_KINDS] = { [WR_ROW(WR_LIGHT_DIRECTIONAL)] = "directional",
-                                                     [WR_ROW(WR_LIGHT_POINT)] = "point" };
-WR_ROWS_END(wr_light_names, WR_LIGHT_KINDS);
+WR_ROWS(wr_light_kinds);
+const WrLightKindInfo wr_light_kinds[WR_LIGHT_KINDS] = {
+    [WR_ROW(WR_LIGHT_DIRECTIONAL)] = { "directional", "Far away", "light from far away", false },
+    [WR_ROW(WR_LIGHT_POINT)] = { "point", "Point", "light from a point", true },
+};
+WR_ROWS_END(wr_light_kinds, WR_LIGHT_KINDS);
 
 const char *const wr_normal_frame_names[WR_FRAME_COUNT] = { "auto", "gradient", "mikk", "lecture",
                                                             NULL };

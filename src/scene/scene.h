@@ -33,12 +33,17 @@ typedef struct WrImage WrImage;
 typedef struct WrTriangles WrTriangles;
 
 typedef enum WrLightKind { WR_LIGHT_DIRECTIONAL, WR_LIGHT_POINT, WR_LIGHT_KINDS } WrLightKind;
-/* As in commands: "directional", "point". */
-extern const char *const wr_light_names[WR_LIGHT_KINDS];
+typedef struct WrLightKindInfo {
+    const char *name;  /* as in commands */
+    const char *label; /* in the window, English */
+    const char *help;
+    bool placed; /* WrLight.where is a position, else a direction */
+} WrLightKindInfo;
+extern const WrLightKindInfo wr_light_kinds[WR_LIGHT_KINDS];
 
 typedef struct WrLight {
     WrLightKind kind;
-    WrVec3 where;  /* directional: from the surface TO the light, any length > 0; point: position */
+    WrVec3 where;  /* a position, or the direction from the surface TO the light, any length > 0 */
     WrVec3 colour; /* linear RGB, 0..1e6 */
     double strength; /* 0..1e6; the light's L is colour * strength */
     double size_deg; /* 0..45: angular radius of a round lamp, for shadows; 0: a point */

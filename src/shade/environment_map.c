@@ -4,19 +4,18 @@
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/enum_rows.h"
 #include "image/image.h"
 
 #include <math.h>
 #include <string.h>
 
-WR_ROWS(wr_environment_map_names);
-const char *const wr_environment_map_names[WR_ENVIRONMENT_MAP_KINDS] = {
-    [WR_ROW(WR_ENVIRONMENT_MAP_OFF)] = "off",   [WR_ROW(WR_ENVIRONMENT_MAP_STUDIO)] = "studio",
-    [WR_ROW(WR_ENVIRONMENT_MAP_SKY)] = "sky",   [WR_ROW(WR_ENVIRONMENT_MAP_RAKING)] = "raking",
-    [WR_ROW(WR_ENVIRONMENT_MAP_FILE)] = "file",
+#define WORD(KIND, word, label, light) word,
+#define LABEL(KIND, word, label, light) label,
+const char *const wr_environment_map_names[WR_ENVIRONMENT_MAP_KINDS] = { "off", WR_ENVIRONMENT_SETS(
+                                                                                    WORD) "file" };
+const char *const wr_environment_map_labels[WR_ENVIRONMENT_MAP_KINDS] = {
+    "None", WR_ENVIRONMENT_SETS(LABEL) "A picture \xe2\x80\xa6"
 };
-WR_ROWS_END(wr_environment_map_names, WR_ENVIRONMENT_MAP_KINDS);
 
 WrEnvironmentMap *wr_environment_map_share(const WrEnvironmentMap *surround)
 {
@@ -385,18 +384,21 @@ static void raking(WrVec3 d, double rgb[3])
     add_light(rgb, panel(d, (WrVec3){ 1, 0.3, -0.3 }, 0.3, 0.3), 0.28, 0.34, 0.45);
 }
 
+/* Linear light from the unit direction d. */
+typedef void Light(WrVec3 d, double rgb[3]);
+#define LIGHT(KIND, word, label, light) [WR_ENVIRONMENT_MAP_##KIND] = light,
+static Light *const lights[WR_ENVIRONMENT_MAP_KINDS] = { WR_ENVIRONMENT_SETS(LIGHT) };
+
 WrEnvironmentMap *wr_environment_map_built(WrEnvironmentMapKind kind, WrError *err)
 {
-    void (*const at)(WrVec3, double *) = kind == WR_ENVIRONMENT_MAP_STUDIO ? studio
-                                         : kind == WR_ENVIRONMENT_MAP_SKY  ? sky
-                                                                           : raking;
     WrImage *to = wr_image_new(512, 256, 3, err);
     if (!to) return NULL;
     for (int j = 0; j < to->height; j++)
         for (int i = 0; i < to->width; i++) {
             double rgb[3];
-            at(wr_environment_map_direction((i + 0.5) / to->width, 1 - (j + 0.5) / to->height),
-               rgb);
+            lights[kind](
+                wr_environment_map_direction((i + 0.5) / to->width, 1 - (j + 0.5) / to->height),
+                rgb);
             float *out = to->data + ((size_t)j * (size_t)to->width + (size_t)i) * 3;
             for (int c = 0; c < 3; c++) out[c] = (float)rgb[c];
         }

@@ -16,16 +16,23 @@
 typedef struct WrError WrError;
 typedef struct WrImage WrImage;
 
+/* The built-in sets, one row each: enumerator; word in commands; label in the window, English; function in
+   environment_map.c of the light from a direction. */
+#define WR_ENVIRONMENT_SETS(X)                                                                     \
+    X(STUDIO, "studio", "Studio", studio)                                                          \
+    X(SKY, "sky", "Sky", sky)                                                                      \
+    X(RAKING, "raking", "Raking", raking)
+
 typedef enum WrEnvironmentMapKind {
     WR_ENVIRONMENT_MAP_OFF,
-    WR_ENVIRONMENT_MAP_STUDIO,
-    WR_ENVIRONMENT_MAP_SKY,
-    WR_ENVIRONMENT_MAP_RAKING,
-    WR_ENVIRONMENT_MAP_FILE,
+#define WR_X(KIND, word, label, light) WR_ENVIRONMENT_MAP_##KIND,
+    WR_ENVIRONMENT_SETS(WR_X)
+#undef WR_X
+        WR_ENVIRONMENT_MAP_FILE,
     WR_ENVIRONMENT_MAP_KINDS
 } WrEnvironmentMapKind;
-extern const char
-    *const wr_environment_map_names[WR_ENVIRONMENT_MAP_KINDS]; /* "off", "studio" ... "file" */
+extern const char *const wr_environment_map_names[WR_ENVIRONMENT_MAP_KINDS];
+extern const char *const wr_environment_map_labels[WR_ENVIRONMENT_MAP_KINDS]; /* English */
 
 #define WR_ENVIRONMENT_MAP_MOST                                                                    \
     1e9f /* largest texel value; larger values and infinity are replaced by it (HC114) */

@@ -24,10 +24,8 @@
 /* True if a command was run: the list of lights has changed. */
 static bool one_light(WrApp *app, int i)
 {
-    WR_ROWS(kinds);
-    static const char *const kinds[WR_LIGHT_KINDS] = { [WR_ROW(WR_LIGHT_DIRECTIONAL)] = "Far away",
-                                                       [WR_ROW(WR_LIGHT_POINT)] = "Point" };
-    WR_ROWS_END(kinds, WR_LIGHT_KINDS);
+    const char *kinds[WR_LIGHT_KINDS];
+    for (int k = 0; k < WR_LIGHT_KINDS; k++) kinds[k] = wr_light_kinds[k].label;
     const WrSceneParam *power = &wr_scene_params[WR_SCENE_PARAM_LIGHT_STRENGTH],
                        *tint = &wr_scene_params[WR_SCENE_PARAM_LIGHT_COLOUR],
                        *round = &wr_scene_params[WR_SCENE_PARAM_LIGHT_SIZE],
@@ -56,7 +54,7 @@ static bool one_light(WrApp *app, int i)
     if (chosen && kind != (int)light.kind) {
         light.kind = (WrLightKind)kind;
         WrVec3 unit = v3_unit(light.where, (WrVec3){ 0, 0, 1 });
-        light.where = wr_line_round_vec(v3_scale(unit, kind == WR_LIGHT_POINT ? 4.0 : 1.0), 3);
+        light.where = wr_line_round_vec(v3_scale(unit, wr_light_kinds[kind].placed ? 4.0 : 1.0), 3);
     }
     if (!chosen && !thrown && a != WR_EDIT_DONE && b != WR_EDIT_DONE && c != WR_EDIT_DONE)
         return false;
@@ -142,21 +140,13 @@ static void choose_surround(WrApp *app, WrEnvironmentMapKind kind)
 
 static void surroundings(WrApp *app)
 {
-    WR_ROWS(kinds);
-    static const char *const kinds[WR_ENVIRONMENT_MAP_KINDS] = {
-        [WR_ROW(WR_ENVIRONMENT_MAP_OFF)] = "None",
-        [WR_ROW(WR_ENVIRONMENT_MAP_STUDIO)] = "Studio",
-        [WR_ROW(WR_ENVIRONMENT_MAP_SKY)] = "Sky",
-        [WR_ROW(WR_ENVIRONMENT_MAP_RAKING)] = "Raking",
-        [WR_ROW(WR_ENVIRONMENT_MAP_FILE)] = "A picture \xe2\x80\xa6",
-    };
-    WR_ROWS_END(kinds, WR_ENVIRONMENT_MAP_KINDS);
     const WrEnvironment *now = &wr_app_scene(app)->environment;
     int kind = (int)now->kind;
     wr_gui_space(8);
     wr_gui_heading("SURROUNDINGS");
     wr_gui_label("Kind");
-    if (wr_gui_choice("surroundings", 0, kinds, WR_ENVIRONMENT_MAP_KINDS, &kind)) {
+    if (wr_gui_choice("surroundings", 0, wr_environment_map_labels, WR_ENVIRONMENT_MAP_KINDS,
+                      &kind)) {
         choose_surround(app, (WrEnvironmentMapKind)kind);
         return;
     }

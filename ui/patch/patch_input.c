@@ -89,7 +89,7 @@ static void move_light(WrApp *app, double x, double y)
     WrVec3 world =
         v3_add(v3_add(v3_scale(at.right, d.x), v3_scale(at.up, d.y)), v3_scale(at.forward, -d.z));
     WrLight *light = &wr_app_live(app)->lights[app->patch->light];
-    double length = light->kind == WR_LIGHT_POINT ? v3_len(light->where) : 1.0;
+    double length = wr_light_kinds[light->kind].placed ? v3_len(light->where) : 1.0;
     world = v3_scale(world, length > 0.0 ? length : 1.0);
     light->where = wr_line_round_vec(world, 3);
 }

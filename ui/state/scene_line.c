@@ -25,7 +25,7 @@ void wr_line_param(WrText *line, const WrSceneParam *param, const double *values
 
 void wr_line_light(WrText *line, const WrLight *light, int index)
 {
-    const char *form = wr_light_names[light->kind];
+    const char *form = wr_light_kinds[light->kind].name;
     const WrSceneParam *param;
     wr_text_addf(line, "light %s", form);
     for (int i = 0; (param = wr_scene_param("light", form, i)) != NULL; i++) {

@@ -51,7 +51,7 @@ static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPla
         const WrLight *light = &scene->lights[i];
         WrReferenceLight *out = &view->lights[i];
         const WrVec3 ahead = { 0, 0, 1 };
-        out->point = light->kind == WR_LIGHT_POINT;
+        out->point = wr_light_kinds[light->kind].placed;
         out->where = out->point ? v3_times(point_to_object(place, light->where), place->stretch)
                                 : v3_unit(world_to_object(place, light->where), ahead);
         out->radius = light->size_deg * (WR_PI / 180);

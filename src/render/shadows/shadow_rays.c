@@ -510,7 +510,7 @@ static double gap(WrVec3 from, WrVec3 way, double ball, bool shrinks, WrVec3 to,
 static bool may_hide(const Standing *a, const Standing *b, const WrLight *light)
 {
     const double spread = tan(fmin(light->size_deg, 45) * WR_PI / 180);
-    const bool point = light->kind == WR_LIGHT_POINT;
+    const bool point = wr_light_kinds[light->kind].placed;
     const WrVec3 from = a->place.position, to = b->place.position, ahead = { 0, 0, 1 };
     if (!(a->ball < INFINITY) || !(b->ball < INFINITY)) return true;
     const double far = v3_len(v3_sub(to, from)) + a->ball + b->ball;

@@ -384,7 +384,7 @@ static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *p
         if (!wr_view_shows_light(scene, k)) continue;
         const int i = view->light_count++;
         WrKernLightd *out = &view->lights_d[i];
-        out->point = light->kind == WR_LIGHT_POINT;
+        out->point = wr_light_kinds[light->kind].placed;
         WrVec3 where = out->point
                            ? v3_times(bring_in(place, view->scale, light->where), place->stretch)
                            : v3_unit(wr_place_turn_back(place, light->where), ahead);
