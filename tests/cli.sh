@@ -365,7 +365,7 @@ has out 'of all threads together'
 expect 0 explain work.wrinkle --measure --size 16x16
 has out 'costs ms  saved ms    spread   tiles    pixels  measured'
 has out 'cannot be forced: there is no picture without it'
-has out 'cannot be forced: nothing in the scene asks for it'
+has out 'cannot be forced: nothing in the scene needs it'
 [[ $(grep -c ' [0-9]* runs' out) -ge 5 ]] || complain "explain --measure: $(cat out)"
 for words in 'surface torus' 'dials aa=moments' 'tolerance rms=0.05'; do
     expect 0 explain work.wrinkle --measure --json --size 32x32 --do "$words"
@@ -376,7 +376,7 @@ for words in 'surface torus' 'dials aa=moments' 'tolerance rms=0.05'; do
             or (.run == false and .measured.costs_seconds == null and (.measured.saved_seconds | type) == "number"))) and
         (.effects | measured | all(.measured.tiles > 0 and .measured.pixels > 0 and .measured.spread_seconds >= 0)) and
         (.effects[] | select(.rule == "E28") | .measured.why_not | contains("no picture without it")) and
-        (.effects[] | select(.rule == "E34") | .measured.why_not | contains("nothing in the scene asks for it"))' \
+        (.effects[] | select(.rule == "E34") | .measured.why_not | contains("nothing in the scene needs it"))' \
         out >/dev/null || complain "explain --measure, $words: $(cat out)"
 done
 # Where each effect ran, as a picture whose colours are told: those of all pixels, and no others.

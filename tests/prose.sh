@@ -10,7 +10,7 @@ limits='
 comments               0.5    0.8
 tests                  0.5    0.8
 messages              7.0     5.0
-guide                  5.5    2.1
+guide                  3.1    1.0
 '
 clauses_max=0 # first lines of headers that begin with a clause instead of a noun
 coined_max=10  # words of the project's own that the field has another word for; none is in the glossary of src/README.md

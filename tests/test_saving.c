@@ -108,7 +108,7 @@ static void an_effect_goes_with_what_it_needs(void **state)
     assert_string_equal(stage.savings[WR_EFFECT_CURVATURE].why_not,
                         "cannot be forced: there is no picture without it");
     assert_string_equal(stage.savings[WR_EFFECT_HALF].why_not,
-                        "cannot be forced: nothing in the scene asks for it");
+                        "cannot be forced: nothing in the scene needs it");
     strike(&stage);
 }
 

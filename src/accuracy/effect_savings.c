@@ -49,7 +49,7 @@ static const char *why_not(const WrPlanRow *row, const WrEffectInfo *info)
     if (row->run && info->only_way && row->verdict == WR_VERDICT_RUN)
         return "cannot be forced: there is no picture without it";
     if (!row->run && row->verdict == WR_VERDICT_NONE)
-        return "cannot be forced: nothing in the scene asks for it";
+        return "cannot be forced: nothing in the scene needs it";
     return NULL;
 }
 

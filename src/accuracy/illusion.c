@@ -33,10 +33,10 @@ void wr_illusion_height(const WrIllusion *illusion, WrText *text)
     const double moved = fmax(illusion->way, illusion->hausdorff); /* fmax ignores NAN */
     const bool shadows = illusion->shadow >= CODE;
     if (!(moved >= SEEN))
-        wr_text_add(text, shadows ? "Nobody sees the difference here, but for shadows."
-                                  : "Nobody sees the difference here.");
+        wr_text_add(text, shadows ? "The difference is invisible here, except in shadows."
+                                  : "The difference is invisible here.");
     else
-        wr_text_addf(text, "Below height %.3g nobody sees %s.",
+        wr_text_addf(text, "Below height %.3g %s is invisible.",
                      fabs(illusion->bump_height) * SEEN / moved,
                      shadows ? "it here, but for shadows" : "the difference here");
 }
@@ -47,7 +47,7 @@ static void add_outline(const WrIllusion *it, WrText *text)
     if (!(moved >= 0)) {
         wr_text_add(text, "No outline is in the picture. ");
     } else if (moved < SEEN) {
-        wr_text_addf(text, "The outline is %.2g pixels off at most, which nobody sees. ", moved);
+        wr_text_addf(text, "The outline is %.2g pixels off at most, which is invisible. ", moved);
     } else {
         wr_text_addf(text, "The outline is up to %.3g pixels off. ", moved);
         if (it->rise > 0)
@@ -69,7 +69,7 @@ static void add_inside(const WrIllusion *it, WrText *text)
             it->way_mean, it->way, fabs(it->bump_height) * SEEN / it->way);
     if (it->shadow < CODE) wr_text_add(text, "Shadows of the relief make no difference.");
     else if (it->shadow > it->shading)
-        wr_text_add(text, "Most of it is shadow: material shadow=on brings that to bump mapping.");
+        wr_text_add(text, "Most of it is shadow: material shadow=on adds that to bump mapping.");
     else wr_text_add(text, "Shadow is the smaller part: most of the difference is in visibility.");
 }
 
@@ -100,7 +100,7 @@ static void numbers_of(const WrIllusion *it, Number out[NUMBERS])
         { "all", "shading and shadow, rms", it->all },
         { "moved_mean", "places moved, mean pixels", it->way_mean },
         { "moved_most", "places moved, at most", it->way },
-        { "rise", "what F could move, pixels", it->rise },
+        { "rise", "displacement by F at most, pixels", it->rise },
     };
     for (int i = 0; i < NUMBERS; i++) out[i] = numbers[i];
 }

@@ -87,8 +87,8 @@ static void add_claim(const WrLadder *ladder, WrText *text)
 {
     wr_text_addf(
         text,
-        "the paper: bump takes about 4 times Phong and 2 times a colour picture; here %.2f "
-        "and %.2f\n",
+        "the paper: bump costs about 4 times Phong and 2 times a colour picture; here %.2f and "
+        "%.2f\n",
         ladder->blinn_phong, ladder->blinn_colour);
 }
 

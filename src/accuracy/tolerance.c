@@ -874,8 +874,8 @@ static void say_turn(Turn *turn, int count, double spent)
     wr_text_addf(&text, "tolerance %s=", wr_tolerance_names[tolerance->kind]);
     wr_text_add_number(&text, tolerance->value);
     wr_text_addf(&text,
-                 "%s, %d frames: %s; dials chosen on %d of them for all, looked at on %d others%s; "
-                 "estimated rms at most %.2g; choosing took %.1f ms, each frame takes %.1f; ",
+                 "%s, %d frames: %s; dials chosen on %d of them for all, checked on %d others%s; "
+                 "estimated rms at most %.2g; choosing took %.1f ms, each frame %.1f; ",
                  tolerance->kind == WR_TOLERANCE_TIME ? " s" : "", count,
                  choice->met ? "met" : "CANNOT be promised by any setting: the nearest was taken",
                  turn->studied, turn->checked, turn->again > 0 ? ", which mended them" : "",
@@ -1061,7 +1061,7 @@ static void say_reason(const WrTolerance *tolerance, WrChoice *out)
 {
     char more[160];
     snprintf(more, sizeof more,
-             "choosing and the picture took %.1f ms, one more such frame takes %.1f, 16 x 16 "
+             "choosing and the picture took %.1f ms; one more such frame costs %.1f, 16 x 16 "
              "samples everywhere %.1f",
              1e3 * out->spent, 1e3 * out->seconds, 1e3 * out->top_seconds);
     wr_choice_say(out, tolerance, more);

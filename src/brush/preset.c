@@ -599,11 +599,12 @@ static bool read_curve_point(WrCurve *curve, Piece point, WrError *err)
     double at, by;
     char most[WR_NUMBER_SIZE];
     if (!read_in(x, -WR_CURVE_FAR, WR_CURVE_FAR, &at) || !read_in(point, -reach, reach, &by))
-        return wr_fail(err,
-                       "settings: %s:%s: point '%.*s': must be x,y with the input's value x and "
-                       "what is added to the setting there, -%s..%s",
-                       info->name, wr_preset_input(curve->input)->name, shown(whole), whole.at,
-                       wr_number_print(reach, most), most);
+        return wr_fail(
+            err,
+            "settings: %s:%s: point '%.*s': must be x,y with the input's value x and the "
+            "number y that is added to the setting there, -%s..%s",
+            info->name, wr_preset_input(curve->input)->name, shown(whole), whole.at,
+            wr_number_print(reach, most), most);
     float *to = curve->points[curve->count];
     to[0] = (float)at;
     to[1] = (float)by;
@@ -636,7 +637,7 @@ static bool set_curve(WrPreset *preset, int setting, Piece input, Piece points, 
     if (curve.input < 0)
         return wr_fail(err,
                        "settings: %s:%.*s: is no input of brushes: must be pressure, speed1, "
-                       "random, direction or another that MyPaint knows",
+                       "random, direction or another of MyPaint's",
                        of, shown(input), input.at);
     while (points.length > 0) {
         if (curve.count == WR_PRESET_POINTS)
@@ -668,10 +669,11 @@ static bool set_one(WrPreset *preset, Piece text, WrError *err)
     name_of(setting, name);
     const int index = wr_preset_setting_find(name);
     if (index < 0)
-        return wr_fail(err,
-                       "settings: '%.*s' is not a setting of brush presets: `wrinkle brushes` "
-                       "tells them",
-                       shown(setting), setting.at);
+        return wr_fail(
+            err,
+            "settings: '%.*s' is not a setting of brush presets: `wrinkle brushes` lists "
+            "them",
+            shown(setting), setting.at);
     return curve ? set_curve(preset, index, left, text, err) : set_value(preset, index, text, err);
 }
 

@@ -9,7 +9,7 @@
 static const WrSettingInfo settings[MYPAINT_BRUSH_SETTINGS_COUNT] = {
     /* name, label, meaning, low, high, fallback, use */
     [MYPAINT_BRUSH_SETTING_OPAQUE] = { "opaque", "Opacity",
-                                       "How much of a dab's height one touch gives.", 0, 2, 1,
+                                       "Fraction of a dab's height that one touch adds.", 0, 2, 1,
                                        WR_SETTING_USED },
     [MYPAINT_BRUSH_SETTING_OPAQUE_MULTIPLY] = { "opaque_multiply", "Opacity multiply",
                                                 "Multiplied with the opacity; by default the pen's "
@@ -22,11 +22,12 @@ static const WrSettingInfo settings[MYPAINT_BRUSH_SETTINGS_COUNT] = {
                                                  0, 2, 0.9, WR_SETTING_USED },
     [MYPAINT_BRUSH_SETTING_RADIUS_LOGARITHMIC] = { "radius_logarithmic", "Radius",
                                                    "Logarithm of the radius in texels; the brush's "
-                                                   "own radius takes its place, curves add to it.",
+                                                   "own radius replaces it, curves add to it.",
                                                    -2, 6, 2, WR_SETTING_MAPPED },
     [MYPAINT_BRUSH_SETTING_HARDNESS] = { "hardness", "Hardness",
                                          "Where the slope to the dab's edge begins; the brush's "
-                                         "own hardness takes its place, curves add to it.",
+                                         "own "
+                                         "hardness replaces it, curves add to it.",
                                          0.01, 1, 0.8, WR_SETTING_MAPPED },
     [MYPAINT_BRUSH_SETTING_ANTI_ALIASING] = { "anti_aliasing", "Pixel feather",
                                               "Texels that the edge is at least wide, so that "
@@ -281,7 +282,7 @@ static const WrInputInfo inputs[MYPAINT_BRUSH_INPUTS_COUNT] = {
     [MYPAINT_BRUSH_INPUT_TILT_ASCENSION] = { "tilt_ascension", "Tilt's direction",
                                              "Where the pen leans to, degrees.", -180, 180 },
     [MYPAINT_BRUSH_INPUT_CUSTOM] = { "custom", "Custom",
-                                     "What the setting `custom_input` draws it to.", -2, 2 },
+                                     "Target value: the setting `custom_input`.", -2, 2 },
     [MYPAINT_BRUSH_INPUT_DIRECTION_ANGLE] = { "direction_angle", "Direction all round",
                                               "Of the path, degrees; back and forth differ.", 0,
                                               360 },

@@ -62,7 +62,7 @@ static WrField *from_picture(const char *path, WrError *err)
     const WrWrap v = label->wrapped && label->clamp[1] ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
     WrField *field = NULL;
     if (label->kind >= WR_LABEL_NORMAL_UP)
-        wr_fail(err, "%s: its label tells that it holds no heights, which an atlas is made of",
+        wr_fail(err, "%s: according to its label it holds no heights; an atlas is made of heights",
                 path);
     else field = wr_import_rows(rows, 0, 0, u, v, err);
     wr_image_rows_close(rows);
@@ -84,7 +84,7 @@ static WrField *from_file(const char *path, WrError *err)
 static bool add_file(Cells *cells, const char *path, WrError *err)
 {
     if (cells->count == CELLS_MOST)
-        return wr_fail(err, "an atlas takes up to %d cells", CELLS_MOST);
+        return wr_fail(err, "an atlas holds up to %d cells", CELLS_MOST);
     WrField *field = from_file(path, err);
     if (field) cells->cell[cells->count++] = field;
     return field != NULL;

@@ -174,7 +174,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
         !wr_image_can_write(path, wr_export_pixels(options->depth), channels, true, err))
         return false;
     if (options->dither && options->depth != 8)
-        return wr_fail(err, "dither is for 8 bits a channel; this file has %d (depth=8 asks for 8)",
+        return wr_fail(err, "dither is for 8 bits a channel; this file has %d (depth=8 writes 8)",
                        options->depth);
     if (options->range == WR_EXPORT_RANGE_GIVEN &&
         !(options->low < options->high && isfinite(options->high - options->low)))

@@ -196,8 +196,8 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
 
 #define OBJECT                                                                                     \
     {                                                                                              \
-        "object", "NAME", "the table that this object wears; left out: that of all layers",        \
-            set_object, true                                                                       \
+        "object", "NAME", "the table of this object; left out: that of all layers", set_object,    \
+            true                                                                                   \
     }
 
 #define MAP_SIZE                                                                                   \
@@ -209,7 +209,8 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
 #define AXES                                                                                       \
     {                                                                                              \
         "axes", "+x+y+z, opengl or directx",                                                       \
-            "what red, green and blue hold, in any order with any signs; left out: as the name "   \
+            "components in red, green and blue, in any order with any signs; left out: as the "    \
+            "name "                                                                                \
             "says",                                                                                \
             wr_export_set_axes                                                                     \
     }
@@ -364,8 +365,8 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "cavity",
       .label = "cavity",
-      .help = "how deep a texel lies below what is about it, dark in grooves; float files hold "
-              "the depth, below 0",
+      .help = "depth of a texel below its surroundings, dark in grooves; float files hold the "
+              "depth, below 0",
       .options = { DEPTH, DITHER, OBJECT, WR_OPTION_RADIUS, WR_OPTION_DEEPEST, WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_cavity_make,
@@ -381,8 +382,8 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "roughness",
       .label = "roughness",
-      .help = "what the slopes of a box of texels are from afar, 0 to 1: the root of Beckmann's "
-              "alpha",
+      .help = "roughness of the slopes in a box of texels seen from afar, 0 to 1: the root of "
+              "Beckmann's alpha",
       .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_BOX, WR_OPTION_BASE,
                    WR_OPTION_SHEET },
       .channels = 1,
@@ -409,7 +410,7 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "wear",
       .label = "edge wear",
-      .help = "where edges rub off: what is convex, beyond a threshold, and broken up by noise",
+      .help = "where edges rub off: convex places beyond a threshold, broken up by noise",
       .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_WORN, WR_OPTION_THRESHOLD,
                    WR_OPTION_NOISE, WR_OPTION_GRAIN, WR_OPTION_SHEET },
       .channels = 1,
@@ -418,8 +419,8 @@ const WrExportKind wr_export_kinds[] = {
       .describe = wr_export_map_describe },
     { .name = "packed",
       .label = "packed maps",
-      .help = "several maps in one picture, a channel each: occlusion, roughness and metalness, "
-              "or what red=, green=, blue= and alpha= say",
+      .help = "several maps in one picture, a channel each: occlusion, roughness and metalness, or "
+              "those of red=, green=, blue= and alpha=",
       .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_PACK, WR_OPTION_DIRECTIONS,
                    WR_OPTION_REACH, WR_OPTION_BOX, WR_OPTION_BASE, WR_OPTION_SHEET },
       .channels = 3,
@@ -456,7 +457,7 @@ const WrExportKind wr_export_kinds[] = {
                      set_relief },
                    { "size", "WIDTHxHEIGHT", "pixels; left out: 1024x768", set_size },
                    { "pen", "WIDTH", "of a line, pixels; left out: 1", set_pen },
-                   { "hidden", "on or off", "draw what is hidden too; left out: off",
+                   { "hidden", "on or off", "draw hidden lines too; left out: off",
                      wr_export_set_hidden },
                    OBJECT },
       .channels = 1,

@@ -43,9 +43,10 @@ const WrSetRow wr_set_rows[] = {
       "height T_*_H.png depth=16\n"
       "packed T_*_ORM.png depth=8 red=occlusion green=roughness blue=metalness base=material\n" },
     { "unity",
-      "normals, heights, the mask map: metalness (red), occlusion (green), where details go "
-      "(blue: everywhere), smoothness (alpha); the built-in pipeline takes it for metalness and "
-      "occlusion as well",
+      "normals, heights, the mask map: metalness (red), occlusion (green), detail mask (blue: "
+      "everywhere), smoothness (alpha); the built-in pipeline reads metalness and occlusion from "
+      "it "
+      "as well",
       "normal+y *_Normal.png depth=8\n"
       "height *_Height.png depth=16\n"
       "packed *_MaskMap.png depth=8 red=metalness green=occlusion blue=1 alpha=smoothness "
@@ -434,7 +435,7 @@ static bool settle(const WrSetOrder *order, WrExportOptions options[WR_SET_MAPS]
             err, CONTACT "%.80s: must be a picture's name, such as contact.png, without a folder",
             contact);
     if (order->word_count > WR_SET_WORDS)
-        return wr_fail(err, "%d options: a set takes up to %d", order->word_count, WR_SET_WORDS);
+        return wr_fail(err, "%d options: a set has up to %d", order->word_count, WR_SET_WORDS);
     for (int i = 0; i < order->set->maps.count; i++)
         if (!settle_map(order, &order->set->maps.data[i], &options[i], taken, err)) return false;
     for (int i = 0; i < order->word_count; i++)

@@ -326,7 +326,7 @@ bool wr_set_ground(WrExportOptions *options, const char *value, WrError *err)
 
 bool wr_set_scale(WrExportOptions *options, const char *value, WrError *err)
 {
-    const Allowed allowed = { "scale", "what F = 1 becomes", -1e30, 1e30, false };
+    const Allowed allowed = { "scale", "size of F = 1", -1e30, 1e30, false };
     return parse(&allowed, value, &options->scale, err);
 }
 

@@ -25,7 +25,7 @@ WrExportSet wr_set_directions, wr_set_reach, wr_set_toward, wr_set_steepest, wr_
 #define WR_OPTION_BEND                                                                             \
     {                                                                                              \
         "full", "CURVATURE or auto",                                                               \
-            "what is white, 1 / scene unit, and its opposite black; left out: the largest "        \
+            "value of white, 1 / scene unit, its opposite is black; left out: the largest "        \
             "there is",                                                                            \
             wr_set_full                                                                            \
     }
@@ -41,16 +41,15 @@ WrExportSet wr_set_directions, wr_set_reach, wr_set_toward, wr_set_steepest, wr_
     }
 #define WR_OPTION_STEEPEST                                                                         \
     {                                                                                              \
-        "full", "SLOPE or auto", "what is white; left out: the largest there is", wr_set_steepest  \
+        "full", "SLOPE or auto", "value of white; left out: the largest", wr_set_steepest          \
     }
 #define WR_OPTION_RADIUS                                                                           \
     {                                                                                              \
-        "radius", "TEXELS", "of what is about it, a Gaussian's; left out: 8", wr_set_radius        \
+        "radius", "TEXELS", "of the surroundings, a Gaussian's; left out: 8", wr_set_radius        \
     }
 #define WR_OPTION_DEEPEST                                                                          \
     {                                                                                              \
-        "full", "DEPTH or auto", "what is black; left out: the deepest there is",                  \
-            wr_set_depth_full                                                                      \
+        "full", "DEPTH or auto", "depth of black; left out: the deepest", wr_set_depth_full        \
     }
 #define WR_OPTION_BOX                                                                              \
     {                                                                                              \
@@ -62,7 +61,7 @@ WrExportSet wr_set_directions, wr_set_reach, wr_set_toward, wr_set_steepest, wr_
     }
 #define WR_OPTION_GROUND                                                                           \
     {                                                                                              \
-        "ground", "zero, lowest or HEIGHT", "what becomes 0; left out: zero", wr_set_ground        \
+        "ground", "zero, lowest or HEIGHT", "height that becomes 0; left out: zero", wr_set_ground \
     }
 #define WR_OPTION_SCALE                                                                            \
     {                                                                                              \
@@ -83,8 +82,7 @@ WrExportSet wr_set_directions, wr_set_reach, wr_set_toward, wr_set_steepest, wr_
 #define WR_OPTION_WORN                                                                             \
     {                                                                                              \
         "full", "CURVATURE or auto",                                                               \
-            "what wears off whole, 1 / scene unit; left out: what one texel in 50 is above",       \
-            wr_set_full                                                                            \
+            "curvature that wears off wholly; left out: exceeded by one texel in 50", wr_set_full  \
     }
 #define WR_OPTION_THRESHOLD                                                                        \
     {                                                                                              \
@@ -137,7 +135,7 @@ bool wr_export_parse_size(const char *value, double low, double high, int *a, in
 #define WR_OPTION_SIDECAR                                                                          \
     {                                                                                              \
         "sidecar", "on or off",                                                                    \
-            "FILE.json beside it, with all that its label tells; left out: off, but on of .raw, "  \
+            "FILE.json beside it, with the content of its label; left out: off, but on for .raw, " \
             ".r16, .r32",                                                                          \
             wr_export_set_sidecar                                                                  \
     }
@@ -148,10 +146,10 @@ bool wr_export_parse_size(const char *value, double low, double high, int *a, in
       "two cells side by side, the second rolled by half; two rows, likewise; hex: the cell's "    \
       "sides stand at 60 degrees, as a rectangle; left out: plain",                                \
       wr_export_set_lay },                                                                         \
-        { "repeat", "MxN", "the cell, or what is laid, so often; left out: 1x1",                   \
+        { "repeat", "MxN", "repeats of the cell, or of the arrangement; left out: 1x1",            \
           wr_export_set_repeat },                                                                  \
         { "resize", "WIDTHxHEIGHT or pot",                                                         \
-          "texels of what leaves; pot: the nearest powers of two; left out: as many as there are", \
+          "texels of the file; pot: the nearest powers of two; left out: the table's",             \
           wr_export_set_resize },                                                                  \
         { "filter", "box, linear, catmull or lanczos3", "of resize; left out: lanczos3",           \
           wr_export_set_filter },                                                                  \
@@ -159,7 +157,7 @@ bool wr_export_parse_size(const char *value, double low, double high, int *a, in
           wr_export_set_atlas },                                                                   \
     {                                                                                              \
         "margin", "TEXELS",                                                                        \
-            "around each cell of an atlas, of what lies beyond its edges; left "                   \
+            "border around each cell of an atlas, with the heights beyond its edges; left "        \
             "out: 4",                                                                              \
             wr_export_set_margin                                                                   \
     }

@@ -294,8 +294,7 @@ static bool lay_lattice(WrSolid *solid, int face, int64_t *samples, WrError *err
     *samples += (int64_t)l->count_u * l->count_v;
     if (fits && *samples <= WR_SOLID_SAMPLES) return true;
     return wr_fail(
-        err,
-        "the surface wears more than %lld texels: fewer repeats (replicate), or a smaller table",
+        err, "the surface has more than %lld texels: fewer repeats (replicate), or a smaller table",
         (long long)WR_SOLID_SAMPLES);
 }
 
@@ -643,7 +642,7 @@ bool wr_solid_refine(WrSolid *solid, WrError *err)
     }
     if (halved == 0) return settle(solid, err);
     return wr_fail(err,
-                   "error=%.6g mm takes more than %d triangles: a larger error, or a smaller size",
+                   "error=%.6g mm needs more than %d triangles: a larger error, or a smaller size",
                    solid->error, WR_SOLID_MOST);
 }
 

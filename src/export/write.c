@@ -435,7 +435,7 @@ static bool level_seen(void *ctx, int y, int rows, const float *values, bool exa
     (void)exact;
     for (size_t k = 0; k < (size_t)rows * row; k++)
         if (values[k] != (above->job->options.half ? wr_round_half(want[k]) : want[k]))
-            return wr_fail(err, "row %d of the level of %dx%d is not what was written",
+            return wr_fail(err, "row %d of the level of %dx%d differs from the one written",
                            y + (int)(k / row), above->level->width, above->level->height);
     return true;
 }

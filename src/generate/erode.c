@@ -31,13 +31,13 @@ static bool erode_begin(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
 
 const WrParam wr_params_hydraulic[] = {
     WR_P_NUMBER("rain", "Rain", 1, 0, 100, 4, "", "drops for each texel"),
-    WR_P_PART("strength", "Strength", 0.4, "how fast water takes up ground"),
+    WR_P_PART("strength", "Strength", 0.4, "rate at which water erodes the ground"),
     WR_P_NUMBER("capacity", "Capacity", 4, 0, 100, 16, "", "how much ground water carries"),
     WR_P_PART("deposition", "Deposition", 0.3, "how fast it lays it down where it slows"),
     WR_P_PART("inertia", "Inertia", 0.02, "how hard it is to turn it"),
     WR_P_PART("evaporation", "Evaporation", 0.01, "of a drop, each texel"),
     WR_P_WHOLE("radius", "Radius", 2, 1, RADIUS_MOST, 8,
-               "of the ground that a drop takes from, texels"),
+               "radius of the ground that a drop erodes, texels"),
     WR_P_WHOLE("life", "Life", 128, 1, 4096, 512, "how far water runs, texels"),
     WR_P_SEED,
     WR_P_END
@@ -418,7 +418,10 @@ const WrParam wr_params_thermal[] = {
     WR_P_ABOVE("width", "Width", 8, 0, WR_PARAM_HEIGHT, 20, "table units",
                "of the whole table, by which angles are measured"),
     WR_P_WHOLE("rounds", "Rounds", 60, 0, 100000, 500, "how long it weathers"),
-    WR_P_PART("rate", "Rate", 0.7, "how much of what is too steep slides at once"), WR_P_END
+    WR_P_PART("rate", "Rate", 0.7,
+              "fraction of the material above the angle of rest that slides in "
+              "one step"),
+    WR_P_END
 };
 
 static const int step_i[8] = { -1, 1, 0, 0, -1, 1, -1, 1 };

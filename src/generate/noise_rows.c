@@ -55,7 +55,7 @@ static const char *const sources[] = { SOURCES(WR_WORD) NULL };
         WR_P_NUMBER("amplitude", "Height", 0.5, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1,              \
                     "table units", "of the first octave: level + amplitude times noise"),          \
         WR_P_NUMBER("level", "Level", 0.5, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",    \
-                    "what noise 0 becomes"),                                                       \
+                    "height of noise 0"),                                                          \
         WR_P_ORIGIN
 
 #define SLICE                                                                                      \

@@ -40,13 +40,13 @@ const WrParam wr_params_normals[] = {
                 "whether the map meets itself; auto: as the table does"),
     WR_P_CHOICE("slopes", "Slopes", SLOPES_AUTO, ways,
                 "of a smooth surface, or central differences between texels, as many tools write "
-                "them; auto: what fits the map better"),
+                "them; auto: the one that fits the map better"),
     WR_P_CHOICE(
         "codes", "Codes", WR_NORMALS_AUTO, codes,
         "slopes, bump-slopes: no normals, but these; unsigned, signed: old names of coding="),
     WR_P_CHOICE("coding", "Coding", WR_CODING_AUTO, wr_codings,
                 "of floats: unit, 0..1 stands for -1..1; signed, the vectors' own numbers; auto: "
-                "what is nearer to vectors of length 1"),
+                "the one that is nearer to vectors of length 1"),
     { .name = "cell",
       .label = "Cell",
       .help = "size of the map in scene units, as in export",
@@ -83,7 +83,8 @@ static void settle_green(const WrParams *p, WrNormals *normals, const WrGenerate
                          "to %.0f%% either way): taken as up; y=down if bumps come out wrong",
                          100.0 * fabs(r));
     else if (down ? r > SURE : r < -SURE)
-        wr_generate_note(job, "green is taken as %s as told, but its curl says the opposite", name);
+        wr_generate_note(
+            job, "green is read as %s as requested, but the curl suggests the opposite", name);
 }
 
 static void say(const WrNormals *n, const WrIntegral *how, const WrGenerateJob *job)
@@ -207,8 +208,8 @@ static bool decode(const WrParams *p, const WrImage *image, const WrGenerateJob 
     if (good && !slopes && image->type == WR_PIXEL_F32)
         wr_generate_note(job, "floats taken as %s",
                          out->coding == WR_CODING_UNIT
-                             ? "coded, 0..1 for -1..1; coding=signed takes them as they are"
-                             : "the vectors' own numbers; coding=unit takes 0..1 for -1..1");
+                             ? "coded, 0..1 for -1..1; coding=signed reads them unchanged"
+                             : "the vectors' own numbers; coding=unit reads 0..1 as -1..1");
     if (!good) wr_error_prefix(err, "%s: ", wr_param_value(p, "file")->text);
     return good;
 }

@@ -181,7 +181,7 @@ const WrGenerator wr_patterns[] = {
     ROW(tiles, "Tiles", "square tiles, diamonds, or octagons with dots between", "replace"),
     ROW(hexagons, "Hexagons",
         "a honeycomb; it closes for an even number of rows and is stretched to do so", "replace"),
-    ROW(planks, "Planks", "boards with wood grain, each row cut where it likes", "replace"),
+    ROW(planks, "Planks", "boards with wood grain, each row cut at random places", "replace"),
     ROW(shingles, "Shingles", "a roof of wooden shingles", "replace"),
     ROW(scales, "Scales", "round scales, row over row", "replace"),
     ROW(weave, "Weave", "woven cloth: plain, twill, basket or satin", "replace"),
@@ -195,7 +195,7 @@ const WrGenerator wr_patterns[] = {
     ROW(dots, "Dots", "domes, cones or discs, in rows or scattered", "replace"),
     ROW(voronoi, "Voronoi cells", "distances to scattered points (Worley)", "replace"),
     ROW(cracks, "Cracks", "cells between cracks: dry earth, cobbles, crocodile skin", "replace"),
-    ROW(scratches, "Scratches", "straight or bent scratches at random, that lower what is there",
+    ROW(scratches, "Scratches", "straight or bent scratches at random that lower the heights",
         "add"),
     { .family = NULL },
 };

@@ -24,7 +24,7 @@ enum { MIRRORS(WR_WORD_ID) };
 static const char *const mirrors[] = { MIRRORS(WR_WORD) NULL };
 
 const WrParam wr_params_paste[] = {
-    WR_P_FILE("of the picture, or of what `copy` wrote"),
+    WR_P_FILE("of the picture, or of a file that `copy` wrote"),
     { .name = "at",
       .label = "At",
       .help = "where its middle lies",
@@ -42,7 +42,7 @@ const WrParam wr_params_paste[] = {
     WR_P_CHOICE("mirror", "Mirror", MIRROR_NONE, mirrors, "u: left for right; v: top for bottom"),
     WR_P_CHOICE("filter", "Filter", WR_PLACE_CATMULL, wr_place_filters,
                 "how it is read between its pixels, unless they fall on texels"),
-    WR_P_SWITCH("transparent", "Transparent", 1, "its alpha says how much of it shows"),
+    WR_P_SWITCH("transparent", "Transparent", 1, "its alpha is its opacity"),
     WR_P_LABELS,
     WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
                 "of white, or of 1 in floats"),
@@ -416,17 +416,19 @@ static const char *const lights[] = { LIGHTS(WR_WORD) NULL };
 const WrParam wr_params_photo[] = {
     WR_P_FILE("of the picture"),
     WR_P_CHANNELS("layer", NULL),
-    WR_P_CHOICE("channel", "Channel", LUMINANCE, channels, "what counts as height"),
+    WR_P_CHOICE("channel", "Channel", LUMINANCE, channels, "channel that is read as height"),
     WR_P_CHOICE("light", "Light", LINEAR, lights,
                 "linear: codes of 8 and 16 bits are sRGB; code: they are numbers"),
     WR_P_SEAMLESS(WR_SEAMLESS_BLEND),
     WR_P_NUMBER("highpass", "High pass", 0, 0, 1000, 200, "texels",
-                "take away what is wider: shadows, uneven light; 0: nothing"),
+                "remove wider features: shadows, uneven light; 0: nothing"),
     WR_P_SWITCH("stretch", "Stretch", 0, "bring the darkest to 0 and the lightest to 1 first"),
-    WR_P_NUMBER("low", "Low", 0, -1e6, 1e6, 1, "", "what is as dark is lowest"),
-    WR_P_NUMBER("high", "High", 1, -1e6, 1e6, 1, "", "what is as light is highest"),
+    WR_P_NUMBER("low", "Low", 0, -1e6, 1e6, 1, "", "this darkness and below is the lowest height"),
+    WR_P_NUMBER("high", "High", 1, -1e6, 1e6, 1, "",
+                "this brightness and above is the highest "
+                "height"),
     WR_P_NUMBER("gamma", "Gamma", 1, 0.01, 100, 5, "",
-                "what is between, to the power 1/gamma: above 1 lifts it"),
+                "heights between, to the power 1/gamma: above 1 raises them"),
     WR_P_SWITCH("invert", "Invert", 0, "dark is high"),
     WR_P_LABELS,
     WR_P_HEIGHT,
@@ -484,11 +486,12 @@ static bool is_light(const WrParams *p, const WrImage *image, const WrGenerateJo
     bool linear = wr_param_whole(p, "light") == LINEAR;
     const WrImageLabel *label = wr_picture_label(p, image, job);
     if (!label || !linear || image->type == WR_PIXEL_F32) return linear;
-    wr_generate_note(job,
-                     "%s: its label tells that it holds %s: its codes are taken as numbers, not as "
-                     "light (labels=ignore takes them as light)",
-                     wr_param_value(p, "file")->text,
-                     label->kind >= WR_LABEL_NORMAL_UP ? "normals or slopes" : "heights");
+    wr_generate_note(
+        job,
+        "%s: according to its label it holds %s: its codes are read as numbers, not as "
+        "light (labels=ignore reads them as light)",
+        wr_param_value(p, "file")->text,
+        label->kind >= WR_LABEL_NORMAL_UP ? "normals or slopes" : "heights");
     return false;
 }
 
@@ -559,12 +562,12 @@ static void note_flat(const char *path, double least, double most, size_t cut, s
     if (!(lightest > darkest)) return;
     if (2 * cut > count && (darkest < 0.0 || lightest > 1.0))
         wr_generate_note(job,
-                         "%s: %zu of %zu values lie outside low and high and are cut (they go "
-                         "from %g to %g): stretch=on takes their range",
+                         "%s: %zu of %zu values lie outside low and high and are cut (they go from "
+                         "%g to %g): stretch=on uses their range",
                          path, cut, count, darkest, lightest);
     else if (most - least < FLAT)
         wr_generate_note(job,
-                         "%s: its values go from %g to %g, which is nearly flat: stretch=on takes "
+                         "%s: its values go from %g to %g, which is nearly flat: stretch=on uses "
                          "their range",
                          path, darkest, lightest);
 }
@@ -638,7 +641,7 @@ const WrGenerator wr_picture_rows[] = {
     { "picture", "normals", "Normal map",
       "the heights whose normals are nearest to those of a normal map", "replace",
       wr_params_normals, wr_picture_normals },
-    { "picture", "paste", "Picture", "a picture as it is, at a place: what was copied, say",
+    { "picture", "paste", "Picture", "a picture as it is, at a place: a copied part, for example",
       "replace", wr_params_paste, wr_picture_paste },
     { .family = NULL },
 };

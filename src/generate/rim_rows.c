@@ -30,7 +30,7 @@ static const WrParam params[] = {
                 "bevel: a slope, then level; round: a quarter circle, then level; ridge: up to the "
                 "middle; outline: a cord along the edge; emboss: a soft step across it"),
     WR_P_CHOICE("of", "Of", OF_AUTO, sources,
-                "what has the edge; auto: the selection, or without one the heights"),
+                "shape whose edge is used; auto: the selection, or without one the heights"),
     WR_P_ABOVE("width", "Width", 12, 0, 4096, 64, "texels",
                "of the slope, of the cord, of half the step; of a ridge the way up to the height"),
     WR_P_HEIGHT,
@@ -227,7 +227,7 @@ static bool make_rim(const WrParamValue *values, const WrGenerateJob *job, WrRel
 const WrGenerator wr_rim_rows[] = {
     { .family = "rim",
       .label = "Edge",
-      .help = "bevels, cords and steps along the edge of what is selected",
+      .help = "bevels, cords and steps along the edge of the selection",
       .blend = "add",
       .params = params,
       .make = make_rim },

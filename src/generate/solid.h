@@ -31,7 +31,7 @@
     WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units", h)
 #define WR_S_PLACE                                                                                 \
     WR_P_NUMBER("sink", "Sink", 0, -16384, 16384, 64, "texels",                                    \
-                "how far it is let into the ground, which hides what is below"),                   \
+                "depth of its part below the ground, which is hidden"),                            \
         WR_P_TEXELS("soft", "Soft", 0, 16, "height over the ground up to which its edge fades"),   \
         WR_P_WHOLE("across", "Across", 1, 1, WR_SOLID_MOST, 32, "how many side by side"),          \
         WR_P_WHOLE("rows", "Rows", 1, 1, WR_SOLID_MOST, 32, "how many above one another"),         \

@@ -18,7 +18,9 @@
 
 const WrParam wr_params_terraces[] = {
     WR_P_WHOLE("steps", "Steps", 8, 1, 4096, 32, "from the lowest to the highest place"),
-    WR_P_PART("sharpness", "Sharpness", 0.8, "how flat the terraces are: 0 leaves what lies there"),
+    WR_P_PART("sharpness", "Sharpness", 0.8,
+              "how flat the terraces are: 0 leaves the heights "
+              "unchanged"),
     WR_P_NUMBER("riser", "Riser", 0.3, 0.01, 1, 1, "",
                 "the part of a step's height over which it rises"),
     WR_P_PART("jitter", "Jitter", 0.3, "how unevenly they run, in steps"),
@@ -160,7 +162,7 @@ const WrParam wr_params_fractal[] = {
                 "how far places are moved by a noise of their own; slow"),
     WR_P_ABOVE("curve", "Curve", 1, 0, 16, 4, "",
                "heights, as parts of the whole, to this power: above 1, wider valleys"),
-    WR_P_PART("sea", "Sea", 0, "what is lower is flat, as a part of the height"),
+    WR_P_PART("sea", "Sea", 0, "lower ground is flat, as a fraction of the height"),
     WR_P_SEED,
     WR_P_HEIGHT,
     WR_P_NUMBER("level", "Level", 0, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
@@ -563,13 +565,13 @@ const WrGenerator wr_terrains[] = {
       "real heights from a picture of 16 bits or floats, or from bare numbers", "replace",
       wr_params_elevation, wr_terrain_elevation },
     { "terrain", "hydraulic", "Rain",
-      "rain runs over what lies there, cuts valleys and fills hollows; no ground is lost. It falls "
-      "in places of the table: a rolled table weathers otherwise",
+      "rain runs over the heights, cuts valleys and fills hollows; no ground is lost. It falls at "
+      "fixed places of the table: a rolled table erodes differently",
       "replace", wr_params_hydraulic, wr_terrain_hydraulic },
     { "terrain", "thermal", "Scree",
-      "what lies there slides where it is steeper than the angle of rest; no ground is lost",
-      "replace", wr_params_thermal, wr_terrain_thermal },
-    { "terrain", "terraces", "Terraces", "what lies there, cut into steps", "replace",
+      "ground slides where it is steeper than the angle of rest; no ground is lost", "replace",
+      wr_params_thermal, wr_terrain_thermal },
+    { "terrain", "terraces", "Terraces", "the heights, cut into steps", "replace",
       wr_params_terraces, wr_terrain_terraces },
     { .family = NULL },
 };

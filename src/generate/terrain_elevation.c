@@ -32,13 +32,13 @@ const WrParam wr_params_elevation[] = {
       .kind = WR_PARAM_TEXT,
       .fallback_text = "" },
     WR_P_CHOICE("sample", "Numbers", SAMPLE_AUTO, samples,
-                "what bare numbers are; auto: u16, or f32 in a file .r32"),
+                "type of raw numbers; auto: u16, or f32 in a file .r32"),
     WR_P_CHOICE("order", "Byte order", LITTLE, orders, "of bare numbers"),
     WR_P_CHOICE(
         "values", "Values", AUTO, meanings,
-        "what goes from low to high: all codes of the kind, or the range that is there; "
-        "real: heights are scale times the values; auto: real for floats, signed integers and "
-        "TIFF files that are georeferenced or have a no-data value, else code"),
+        "range that is mapped to low..high: all codes of the type, or the smallest and largest "
+        "value; real: heights are scale times the values; auto: real for floats, signed integers "
+        "and TIFF files that are georeferenced or have a no-data value, else code"),
     WR_P_NUMBER("low", "Low", 0, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
                 "values=code, range: of the lowest"),
     WR_P_NUMBER("high", "High", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
@@ -46,9 +46,9 @@ const WrParam wr_params_elevation[] = {
     WR_P_NUMBER("scale", "Scale", 1, -1e12, 1e12, 10, "table units",
                 "values=real: of one unit of the file"),
     WR_P_SWITCH("holes", "Fill holes", 1,
-                "fill what says that nothing is known: NaN, infinity, -9999, -32768, beyond 1e30"),
+                "fill values without data: NaN, infinity, -9999, -32768, beyond 1e30"),
     WR_P_NUMBER("nodata", "No data", -9999, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 9999, "",
-                "another value that says so"),
+                "another value without data"),
     WR_P_LABELS,
     WR_P_SEAMLESS(WR_SEAMLESS_OFF),
     WR_P_END
@@ -93,11 +93,11 @@ static bool apply_label(const WrParams *p, WrImage *image, const WrGenerateJob *
     const WrImageLabel *label = wr_picture_label(p, image, job);
     if (!label || wr_param_whole(p, "values") != AUTO) return false;
     if (label->kind >= WR_LABEL_NORMAL_UP)
-        wr_generate_note(job, "%s: its label tells that it is a normal map: see picture normals",
+        wr_generate_note(job, "%s: according to its label it is a normal map: see picture normals",
                          path);
     if (!wr_image_apply_range(image)) return false;
     wr_generate_note(job,
-                     "%s: its label tells which heights its codes are: so they are read "
+                     "%s: its label states the heights of its codes, and they are used "
                      "(labels=ignore reads codes)",
                      path);
     return true;
@@ -186,10 +186,11 @@ bool wr_terrain_elevation(const WrParamValue *values, const WrGenerateJob *job, 
     if (raw && !(size && *size) && wr_param_whole(&p, "sample") == 0 && wr_sidecar_is_there(path))
         raw = false;
     if (!raw && size && *size)
-        return wr_fail(err,
-                       "size=%s: a picture tells its own size; bare numbers end in .raw, .r16 "
-                       "or .r32",
-                       size);
+        return wr_fail(
+            err,
+            "size=%s: a picture has its own size; files of raw numbers end in .raw, .r16 "
+            "or .r32",
+            size);
     bool good = raw ? read_raw(&p, path, ending, wrap, &e, err)
                     : read_picture(&p, path, wrap, job, &e, err);
     good = good && fill_holes(&p, &e, path, job, err);

@@ -51,8 +51,10 @@ typedef struct WrTextRequest {
       .fallback_text = "" },                                                                       \
         WR_P_WHOLE("face", "Face", 0, 0, 65535, 15, "which of a collection of fonts in one file")
 #define WR_P_MISSING(n, words)                                                                     \
-    WR_P_CHOICE(n, "Missing letters", WR_TEXT_BORROW, words,                                       \
-                "what the font lacks: from other installed fonts, or drawn as its sign for that")
+    WR_P_CHOICE(                                                                                   \
+        n, "Missing letters", WR_TEXT_BORROW, words,                                               \
+        "characters that the font lacks: from other installed fonts, or drawn as its sign "        \
+        "for missing ones")
 #define WR_P_FALLBACK(n, l, h)                                                                     \
     {                                                                                              \
         .name = (n), .label = (l), .help = (h), .unit = "", .kind = WR_PARAM_FILE,                 \

@@ -62,12 +62,12 @@ static void note_missing(const Fonts *fonts, const WrFontText *text, const char 
     int found =
         wr_font_lenders(text->missing, text->missing_count, kind, fonts->ask.language, 1, &lender);
     if (found > 0 && !fonts->ask.others[0])
-        wr_text_addf(&line, "; %s has them: fallback= takes it, missing=borrow finds it", lender);
+        wr_text_addf(&line, "; %s has them: fallback= uses it, missing=borrow finds it", lender);
     else if (found > 0) wr_text_addf(&line, "; %s has them: name it as well", lender);
     else
         wr_text_add(&line, "; no installed font has them (Debian's fonts-noto-core has most "
                            "scripts, fonts-noto-cjk those of China, Japan and Korea)");
-    wr_generate_note(fonts->job, "drawn as the font's sign for what it lacks:%s",
+    wr_generate_note(fonts->job, "drawn as the font's sign for missing characters:%s",
                      wr_text_get(&line));
     if (found > 0) wr_free(lender);
     wr_text_fini(&line);
@@ -195,8 +195,10 @@ static const WrParam params[] = {
       .fallback_text = "" },
     WR_P_MISSING("missing", missing_words),
     WR_P_FALLBACK("fallback", "Other font", "a font file for letters that the font lacks"),
-    WR_P_FALLBACK("fallback2", "Second other font", "for what that one lacks too"),
-    WR_P_FALLBACK("fallback3", "Third other font", "and for what both lack"),
+    WR_P_FALLBACK("fallback2", "Second other font",
+                  "for characters that the first fallback lacks "
+                  "too"),
+    WR_P_FALLBACK("fallback3", "Third other font", "and for characters that both lack"),
     WR_P_ABOVE("size", "Size", 64, 0, WR_FONT_SIZE_MAX, 512, "texels",
                "of the font's em; of a bitmap font its dots' height"),
     { .name = "at",
@@ -214,7 +216,7 @@ static const WrParam params[] = {
     WR_P_CHOICE("align", "Alignment", WR_FONT_CENTRE, align_words,
                 "of the lines with one another and to the anchor"),
     WR_P_CHOICE("anchor", "Anchor", WR_TEXT_MIDDLE, anchor_words,
-                "what of the text's height stands there"),
+                "part of the text that stands at this height"),
     WR_P_NUMBER("letters", "Letter spacing", 0, -16384, 16384, 32, "texels",
                 "added between letters"),
     WR_P_NUMBER("lines", "Line spacing", 1, 0, 100, 3, "", "times the font's own"),
@@ -253,7 +255,7 @@ static const WrParam params[] = {
     WR_P_WHOLE("repeats", "Repeats", 0, 0, 4096, 16,
                "around: how many times; 0: as many as fit best"),
     WR_P_CHOICE("edge", "Edges", WRAPPED, edge_words,
-                "what passes a periodic edge comes back on the other side, or is cut off"),
+                "parts beyond a periodic edge come back on the other side, or are cut off"),
     WR_P_CHOICE("profile", "Profile", WR_TEXT_FLAT, profile_words,
                 "how it rises from its rim; a ridge has bevel as its run for one height"),
     WR_P_TEXELS("bevel", "Bevel", 4, 64, "how far inside of the rim the height is reached"),

@@ -351,7 +351,7 @@ static const WrHardCase rows[] = {
               "0.667,0.667,0.329;1,0.667,0.534;0,1,0.37;0.333,1,0.411;0.667,1,0.534;1,1,0.74\n"
               "bump height=0.02"),
     ROW(157, WR_HARD_TABLE, "a table of one row or column, as a picture",
-        "that of the table which says the same in eight rows or columns", "violations", 0, 0,
+        "that of the table with the same content in eight rows or columns", "violations", 0, 0,
         "table 1x24\ndab 0.5,0.5 radius=3 strength=1\nsurface sphere\nbump height=0.3"),
     ROW(158, WR_HARD_RENDER, "an eye at the very middle of a body, and a hair under its skin",
         "the inside as the reference has it, in float, fast and double", "of pixels", 0.02, 0.02,
@@ -369,7 +369,7 @@ static const WrHardCase rows[] = {
         "perturbed normals are unit and no picture holds a NaN", "violations", 0, 0,
         WAVES "surface cylinder R=0.8 H=1e-30\nbump height=0.1"),
     ROW(162, WR_HARD_PAINT, "layers that all but cancel",
-        "what is left is the exact difference of the stored heights", "violations", 0, NAN,
+        "the rest is the exact difference of the stored heights", "violations", 0, NAN,
         "table 32x32\nfill 1e6\nlayer add less\nfill 999999.9\nlayer set less blend=subtract\n"
         "surface plane"),
     ROW(163, WR_HARD_RENDER, "a million repeats, whole and broken, under the moments of slopes",
@@ -384,8 +384,8 @@ static const WrHardCase rows[] = {
         "every operation leaves numbers: too large ones are clamped", "violations", 0, NAN,
         "table 33x20\nfill 3.4e38\nadjust multiply factor=2\nadjust blur sigma=3\nsurface plane"),
     ROW(166, WR_HARD_RENDER, "light from all but behind the surface, down to 1e-9 of opposite",
-        "the highlight is within 0..1, and as right as the half vector's own digits",
-        "of what they leave", 0.1, 1,
+        "the highlight is within 0..1, and as right as the half vector's own digits", "of the rest",
+        0.1, 1,
         WAVES "surface plane\nbump height=0.02\nmaterial specular=1 gate=off\n"
               "light directional to=1e-5,0,-1"),
     ROW(167, WR_HARD_RENDER, "a window of a millionth upon the cone's tip",
@@ -424,15 +424,14 @@ static const WrHardCase rows[] = {
         "no picture holds a NaN", "violations", 0, 0,
         WAVES "adjust multiply factor=1e30\nsurface torus\nbump mode=exact height=1e30"),
     ROW(176, WR_HARD_TABLE, "a cube's face beside cells of one table that are higher",
-        "what lies in other cells does not show, to the bit, by look-ups and by filters",
-        "violations", 0, 0,
+        "other cells have no effect, to the bit, by look-ups and by filters", "violations", 0, 0,
         "table 192x128\nnoise perlin cells=8\nsurface cube faces=6\nbump height=0.05"),
     ROW(177, WR_HARD_GEOMETRY, "ground of layers: level, rising, of one texel, as high as a float",
         "level ground is level, rising ground rises as evenly; heights stay numbers",
         "of the height", NAN, 1e-6,
         "table 33x20\nlayer add form\nfill 0.4\nsurface terrain layer=form"),
     ROW(178, WR_HARD_TABLE, "colours by height: two stops at one height, a step of slope, cliffs",
-        "a step where told, straight between, even beyond; no NaN; the seam does not show",
+        "a step at the given place, straight between, even beyond; no NaN; no visible seam",
         "violations", 0, 0, "table 64x64\nnoise perlin cells=8\nsurface plane\ncolouring ramp"),
     ROW(179, WR_HARD_RENDER, "ground without end: from below, along it, upon it, from far away",
         "numbers, and the coverage and light that the reference has", "of pixels", 0.01, 0.01,
@@ -518,7 +517,7 @@ static void add_value(WrText *text, double value)
 void wr_hardcases_print(const WrHardReport *report, WrText *text)
 {
     wr_text_addf(text, "%-5s %9s %9s %9s %9s  %-22s %-10s %s\n", "id", "float", "at most", "double",
-                 "at most", "unit", "", "what must hold");
+                 "at most", "unit", "", "required");
     int subject = -1;
     for (int i = 0; i < WR_HARDCASES; i++) {
         const WrHardResult *r = &report->results[i];
@@ -539,11 +538,10 @@ void wr_hardcases_print(const WrHardReport *report, WrText *text)
         if (r->note[0]) wr_text_addf(text, "; %s", r->note);
         wr_text_add(text, "\n");
     }
-    wr_text_addf(text,
-                 "\n%d pass, %d fail, %d wait for what is still to come, %d could not be"
-                 " measured here; %.1f s\n",
-                 report->count[WR_HARD_PASS], report->count[WR_HARD_FAIL],
-                 report->count[WR_HARD_WAITS], report->count[WR_HARD_UNMEASURED], report->seconds);
+    wr_text_addf(
+        text, "\n%d pass, %d fail, %d are not built yet, %d could not be measured here; %.1f s\n",
+        report->count[WR_HARD_PASS], report->count[WR_HARD_FAIL], report->count[WR_HARD_WAITS],
+        report->count[WR_HARD_UNMEASURED], report->seconds);
 }
 
 static void add_member(WrText *text, const char *name, const char *value)

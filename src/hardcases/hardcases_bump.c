@@ -439,7 +439,7 @@ static const WrHardCase rows_pyramid[] = {
       .subject = WR_HARD_TABLE,
       .what = "pyramids of tables that are not square, odd, or one row",
       .holds = "every level keeps the mean to 1e-6, the last is one texel, no level is shifted",
-      .unit = "of what is allowed",
+      .unit = "of the bound",
       .bound = { 1, NAN },
       .measure = hc55,
       .scene = "table 64x16\nnoise perlin cells=8\nsurface plane\nreplicate 8,8\nbump "
@@ -678,15 +678,15 @@ static bool hc142(WrHardGauge *g, WrError *err)
     }
 static const WrHardCase rows_maps[] = {
     MAP(137, "a normal map whose flat texels are 128,128",
-        "that code is 0, which is told, and the picture is the one without; float numbers are "
+        "that code is 0, which is reported, and the picture is the one without; float numbers are "
         "exact",
         0),
     MAP(138, "two channels with x^2 + y^2 above 1", "on the rim, finite, counted", 0),
     MAP(139, "texels 0,0,0: vectors that look away",
         "slopes keep their signs and stay finite; counted", 0),
-    MAP(140, "green down, of f(u) + g(v)", "undecided, which is told; of f(u + v) it is found",
+    MAP(140, "green down, of f(u) + g(v)", "undecided, which is reported; of f(u + v) it is found",
         NAN),
-    MAP(141, "a normal map that went through a colour conversion", "it is told", NAN),
+    MAP(141, "a normal map that went through a colour conversion", "it is reported", NAN),
     MAP(142, "slopes of a thousand, times a hundred, laid a billion times",
         "means and moments are finite", 0),
 };

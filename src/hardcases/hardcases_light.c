@@ -226,8 +226,8 @@ static bool hc123(WrHardGauge *g, WrError *err)
     }
 static const WrHardCase rows_horizon[] = {
     ROW(122, "horizons of 1 and 2 texels, of level ground, of a ramp over the seam",
-        "0 where nothing is higher; else what looking at every texel finds", "slope", 1e-7, 1e-12,
-        NULL),
+        "0 where nothing is higher; else the result of a search of every texel", "slope", 1e-7,
+        1e-12, NULL),
     ROW(123, "a lamp at an elevation of 0, below 0, and of 90 degrees",
         "level ground is lit, dark, lit; any ground dark, dark, lit", "violations", NAN, 0, NULL),
 };
@@ -552,7 +552,7 @@ static const WrHardCase rows_reflect[] = {
                 "model=torrance-sparrow"),
     ROW_REFLECT(105, "n' turned past the viewer, step by step of 1e-4", "no jump", "intensity",
                 2e-2, 2e-2, "model=ggx\nbump height=0.2"),
-    ROW_REFLECT(107, "lamp or eye along n'", "a number, within what is reflected", "violations", 0,
+    ROW_REFLECT(107, "lamp or eye along n'", "finite, at most the reflected light", "violations", 0,
                 0, "model=oren-nayar roughness=1"),
     ROW_REFLECT(108, "Oren and Nayar's facets of roughness 0", "Lambert's law", "intensity", 1e-6,
                 1e-7, "model=oren-nayar roughness=0"),
@@ -856,7 +856,9 @@ static bool hc116(WrHardGauge *g, WrError *err)
     }
 static const WrHardCase rows_surround[] = {
     ROW_SURROUND(
-        101, "facets of width 1, and all but: what their lobe keeps of a linear sky, their albedo",
+        101,
+        "facets of width 1, and almost 1: the fraction of a linear sky that their lobe keeps, "
+        "their albedo",
         "that of a matt lobe; 1 - mu ln(1 + 1/mu)", "of the light", 2.5e-3, 1e-6,
         "model=ggx roughness=1 specular=1\nenvironment sky"),
     ROW_SURROUND(111, "surroundings straight up and down, and where longitudes jump",
@@ -1268,7 +1270,7 @@ static const WrHardCase rows_light[] = {
     ROW_LIGHT(
         92, "the mean of k x k equal samples",
         "that sample to the bit where k is a power of two, else k^2 - 1 last places off",
-        "of what is allowed", 1, 1,
+        "of the bound", 1, 1,
         "table 8x8\nsurface plane\ncamera orthographic eye=0,0,3 target=0,0,0 up=0,1,0 size=0.5\n"
         "dials aa=supersample samples=3"),
     { .id = "HC93",

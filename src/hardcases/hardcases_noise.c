@@ -149,7 +149,7 @@ static const WrHardCase sums[] = {
     ROW(63, "a cell of noise for each texel", "Perlin noise adds nothing there", "height", 1e-6, 0,
         NULL),
     ROW(64, "no octaves, a million octaves, sums that do not converge",
-        "refused with a message; what is taken is finite", "violations", NAN, 0, NULL),
+        "refused with a message; accepted input is finite", "violations", NAN, 0, NULL),
     ROW(65, "turbulence where the noise is 0", "its slope counts as 0 there and is finite",
         "violations", NAN, 0,
         "table 128x128\nnoise perlin cells=4 mode=turbulence\nsurface plane\nbump height=0.1"),
@@ -535,9 +535,9 @@ WR_HARD_LIST(noise, single);
 
 static const WrHardCase hashed[] = {
     ROW(66, "the hash behind all noise",
-        "whole numbers alone, its formula to the bit; what it gives is exact in float",
-        "violations", 0, 0, "table 64x64\nnoise value cells=32 octaves=1\nsurface plane"),
-    ROW(67, "places on the face between two simplices", "either choice gives the same height",
+        "whole numbers alone, its formula to the bit; results are exact in float", "violations", 0,
+        0, "table 64x64\nnoise value cells=32 octaves=1\nsurface plane"),
+    ROW(67, "places on the face between two simplices", "both choices have the same height",
         "height", NAN, 1e-12,
         "table 128x128\nnoise sheared cells=8 octaves=1\nsurface plane\nbump height=0.05"),
 };

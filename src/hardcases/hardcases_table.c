@@ -350,7 +350,7 @@ static const WrHardCase rows_limits[] = {
         "n / 510", 1.001, 1 + 1e-6,
         "table 256x256\nformula fourier terms=1,0,0.5\nsurface plane\nbump height=0.2\n"
         "dials heights=8bit"),
-    ROW(52, "heights of 16 bits", "heights to half a code, slopes by what that can do",
+    ROW(52, "heights of 16 bits", "heights to half a code, slopes within the effect of that",
         "n / 131070", 1.1, 1.01,
         "table 256x256\nformula fourier terms=1,0,0.5\nsurface plane\nbump height=0.2\n"
         "dials heights=16bit"),
@@ -1178,8 +1178,8 @@ static bool hc45(WrHardGauge *g, WrError *err)
 static const WrHardCase rows_table[] = {
     ROW(35, "u at 0, at 1, beside them, and -0", "indices stay in the table; 1 is 0 to the bit",
         "violations", 0, 0, "table 64x64\nnoise perlin cells=8\nsurface cylinder"),
-    ROW(36, "u just below 0, down to what 1 - u cannot show", "F there is F(0) to slope times u",
-        "height", 1e-6, 1e-7, NULL),
+    ROW(36, "u just below 0, down to values that 1 - u cannot represent",
+        "F there is F(0) to slope times u", "height", 1e-6, 1e-7, NULL),
     ROW(37, "u infinite or NaN", "it counts as 0, to the bit", "violations", 0, 0, NULL),
     ROW(38, "half a texel below 0", "equals half a texel below 1, to the bit", "violations", 0, 0,
         NULL),

@@ -139,8 +139,9 @@ static const WrHardCase rows_focal[] = {
     { .id = "HC12",
       .subject = WR_HARD_GEOMETRY,
       .what = "exact normals where F carries the surface to its focal point",
-      .holds = "n, though float meets that point to rounding alone; with a slope what the tangent "
-               "that is left makes of it; pictures as without heights",
+      .holds =
+          "n, though float reaches that point to rounding only; with a slope the result of the "
+          "remaining tangent; pictures as without heights",
       .unit = "violations",
       .bound = { 0, 0 },
       .measure = hc12,
@@ -542,8 +543,8 @@ static bool hc88(WrHardGauge *g, WrError *err)
 #define WAVES "table 64x64\nformula fourier terms=3,0,0.5;0,5,0.25,90,0\n"
 static const WrHardCase seen[] = {
     ROW(82, "surfaces that reach behind the eye",
-        "the mesh gives what the closed form gives, and pictures what the reference gives",
-        "of pixels", 0.02, 0.02,
+        "the mesh agrees with the closed form, and pictures with the reference", "of pixels", 0.02,
+        0.02,
         WAVES "surface bent c=0,0,0\nrotate 0,0,0\nbump height=0.02\n"
               "camera perspective eye=0,0,0.05 target=0,1,0 up=0,0,1 fov=90"),
     ROW(83, "an eye on every surface and in its plane",
@@ -556,7 +557,7 @@ static const WrHardCase seen[] = {
         WAVES "surface sphere\nrotate 0,0,0\nbump height=0.1\nlight point at=0.2,-0.4,0.3\n"
               "camera perspective eye=0,0,0.1 target=0.2,1,0.15 up=0,0,1 fov=80"),
     ROW(85, "edges that triangles share, on every surface",
-        "no background shows through, and any number of threads gives the same pixels",
+        "no background shows through, and pixels are the same for any number of threads",
         "violations", 0, 0,
         WAVES "surface bent c=0,0,0.3\nrotate 0,0,0\nbump height=0.02\n"
               "camera perspective eye=0,0,1.2 target=0,0,0 up=0,1,0 fov=20"),

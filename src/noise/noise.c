@@ -144,7 +144,7 @@ bool wr_noise_check(const WrNoise *noise, WrError *err)
         return wr_fail(err, "lattice source %d: must be 0..%d", (int)source,
                        WR_LATTICE_SOURCE_COUNT - 1);
     if (source != WR_LATTICE_HASH && !info->cells)
-        return wr_fail(err, "%s noise takes its slopes from the integer hash only", info->name);
+        return wr_fail(err, "%s noise computes slopes from the integer hash only", info->name);
     if (source == WR_LATTICE_LECTURE && noise->dim > 2)
         return wr_fail(err,
                        "the lecture's hash in 3D: it is made of two coordinates; use 1D or 2D");

@@ -28,7 +28,7 @@
                   .ior = index }
 
 const WrMaterialPreset wr_material_presets[WR_MATERIAL_PRESETS] = {
-    { "usual", "Usual", "What a new document has: matt light and a white highlight",
+    { "usual", "Usual", "Default of a new document: matt light and a white highlight",
       .material = { .ambient = 0.08,
                     .diffuse = 0.72,
                     .specular = 0.35,

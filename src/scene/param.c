@@ -62,13 +62,13 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                            .high = 1e6, .fallback = { 40 }, .label = "Shininess",
                                            .help = "s: the highlight's exponent; higher is smaller",
                                            SLIDER(1, 500, -1), .logarithmic = true },
-    [WR_ROW(
-        WR_SCENE_PARAM_MATERIAL_COLOUR)] = { "material", NULL, "colour", IN_SCENE(material.colour),
-                                             .components = 3, .high = 1e6,
-                                             .fallback = { 0.8, 0.8, 0.8 }, .planned = true,
-                                             .shape = "r,g,b", .label = "Colour",
-                                             .help =
-                                                 "C, linear; `tint` gives it to the highlight" },
+    [WR_ROW(WR_SCENE_PARAM_MATERIAL_COLOUR)] = { "material", NULL, "colour",
+                                                 IN_SCENE(material.colour), .components = 3,
+                                                 .high = 1e6, .fallback = { 0.8, 0.8, 0.8 },
+                                                 .planned = true, .shape = "r,g,b",
+                                                 .label = "Colour",
+                                                 .help = "C, linear; `tint` colours the highlight "
+                                                         "with it" },
     [WR_ROW(WR_SCENE_PARAM_GATE)] = { "material", NULL, "gate", IN_SCENE(material.gate),
                                       .fallback = { 1 },
                                       .help =
@@ -226,9 +226,11 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                      .unit = "scene units", .help = "where the camera stands" },
     [WR_ROW(WR_SCENE_PARAM_TARGET)] = { "camera", NULL, "target", IN_SCENE(camera.target),
                                         PLACE_RANGE, .unit = "scene units",
-                                        .help = "what it looks at" },
+                                        .help = "point at the centre of the view" },
     [WR_ROW(WR_SCENE_PARAM_UP)] = { "camera", NULL, "up", IN_SCENE(camera.up), PLACE_RANGE,
-                                    .fallback = { 0, 1, 0 }, .help = "what is up in the picture" },
+                                    .fallback = { 0, 1, 0 },
+                                    .help = "direction that is up in the "
+                                            "picture" },
     [WR_ROW(WR_SCENE_PARAM_FIT)] = { "camera", NULL, "fit", IN_SCENE(camera.fit), .fallback = { 1 },
                                      .planned = true,
                                      .help =
@@ -237,9 +239,10 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(
         WR_SCENE_PARAM_FRAME)] = { "camera", NULL, "frame", IN_SCENE(camera.frame), .components = 1,
                                    .sparse = true, .high = 1e4, .fallback = { 0 },
-                                   .help = "width by height of what must be seen: a narrower "
-                                           "picture sees as much across, and more from bottom to "
-                                           "top; 0: nothing must; without fit=on" },
+                                   .help =
+                                       "width by height of the part that must be visible: a "
+                                       "narrower picture shows the same width, and more height; "
+                                       "0: none; without fit=on" },
     [WR_ROW(WR_SCENE_PARAM_FOV)] = { "camera", "perspective", "fov", IN_SCENE(camera.fov_deg),
                                      .components = 1, .low = 0.01, .high = 179, .fallback = { 35 },
                                      .unit = "degrees", .label = "Angle",

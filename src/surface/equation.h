@@ -55,17 +55,17 @@ static const char *formula_domain(const WrOp *op, const Dual_d *a)
         a->u[0] == 0 && a->v[0] == 0 && a->uu[0] == 0 && a->uv[0] == 0 && a->vv[0] == 0;
     switch (op->code) {
     case WR_OP_SQRT:
-        return x < 0              ? "the root of what is below 0"
+        return x < 0              ? "the root of a number below 0"
                : x == 0 && !still ? "the root has no slope at 0"
                                   : NULL;
-    case WR_OP_LOG: return x > 0 ? NULL : "the logarithm of what is not above 0";
+    case WR_OP_LOG: return x > 0 ? NULL : "the logarithm of a number that is not above 0";
     case WR_OP_DIV: return y == 0 ? "division by 0" : NULL;
     case WR_OP_WHOLE: return x == 0 && k < 0 ? "division by 0" : NULL;
     case WR_OP_POWER:
-        return x < 0                                     ? "a power of what is below 0"
+        return x < 0                                     ? "a power of a number below 0"
                : x == 0 && !(k > 2) && !(still && k > 0) ? "this power has no slope or bend at 0"
                                                          : NULL;
-    case WR_OP_POW: return x > 0 ? NULL : "a power of what is not above 0";
+    case WR_OP_POW: return x > 0 ? NULL : "a power of a number that is not above 0";
     case WR_OP_ATAN2: return x == 0 && y == 0 ? "atan2(0,0) is no angle" : NULL;
     default: return NULL;
     }

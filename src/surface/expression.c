@@ -139,7 +139,7 @@ static bool read_arguments(Reader *r, int wanted)
     if (!take(r, '(')) return wrong(r, r->at, "must be ( after a function's name");
     for (int i = 0; i < wanted; i++) {
         if (i > 0 && !take(r, ','))
-            return wrong(r, r->at, "must be a comma: the function takes two values");
+            return wrong(r, r->at, "must be a comma: the function has two arguments");
         if (!read_sum(r)) return false;
     }
     return take(r, ')') || wrong(r, r->at, "must be ) or an operation");

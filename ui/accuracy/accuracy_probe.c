@@ -140,7 +140,7 @@ int wr_accuracy_probe_rows(const WrProbe *p, bool seen, WrProbeRow rows[WR_PROBE
     rows[n++] = one("F", p->f, "", "Height in scene units: bump height times the table's value");
     rows[n++] = one("Fu", p->fu, "", "dF/du, replication included");
     rows[n++] = one("Fv", p->fv, "", "dF/dv, replication included");
-    rows[n++] = vector("D", p->d, "Fu (n x Pv) - Fv (n x Pu), n = N/|N|: what is added to N");
+    rows[n++] = vector("D", p->d, "Fu (n x Pv) - Fv (n x Pu), n = N/|N|: the vector added to N");
     rows[n++] = vector("A", p->a, "Fv Pu - Fu Pv: the axis that the normal is turned about");
     rows[n++] = vector("n'", p->perturbed, "The turned normal, unit, by the scene's formula");
     rows[n++] = one("tilt", p->tilt_deg, "\xc2\xb0", "Angle between N and n'");
@@ -148,7 +148,7 @@ int wr_accuracy_probe_rows(const WrProbe *p, bool seen, WrProbeRow rows[WR_PROBE
                     "|D| / |N|, the tangent of the paper's angle");
     rows[n++] =
         one("dropped", p->dropped_deg, "\xc2\xb0",
-            "Between the paper's n' and the exact one: what leaving out the terms in F does");
+            "Between the paper's n' and the exact one: the effect of leaving out the terms in F");
     if (!seen) return n;
     rows[n++] = (WrProbeRow){ "dx, dy/dX",
                               "tx",

@@ -35,7 +35,7 @@ const char *const wr_patch_look_names[WR_PATCH_LOOKS] = {
     [WR_ROW(WR_PATCH_DROPPED)] = "Dropped term", [WR_ROW(WR_PATCH_TILT)] = "Slope of the bump",
     [WR_ROW(WR_PATCH_LEVEL)] = "Mip level",      [WR_ROW(WR_PATCH_HEIGHT)] = "Heights",
     [WR_ROW(WR_PATCH_NORMAL)] = "Normals",       [WR_ROW(WR_PATCH_LACKS)] = "Beside displacement",
-    [WR_ROW(WR_PATCH_RAN)] = "What ran",
+    [WR_ROW(WR_PATCH_RAN)] = "Effects that ran",
 };
 WR_ROWS_END(wr_patch_look_names, WR_PATCH_LOOKS);
 

@@ -27,13 +27,12 @@ static void show(WrApp *app)
     if (wr_gui_choice("look", 0, wr_patch_look_names, WR_PATCH_LOOKS, &look))
         wr_accuracy_show(app, (WrPatchLook)look);
     wr_gui_tip(
-        "A is the scene as its dials stand, B has dials of its own. Split has a line to drag. Maps "
-        "lie "
-        "over the patch: its distance from the reference, what the small-F approximation of the "
-        "paper "
-        "leaves out, how far the normal turns, how many texels fall into a pixel. The patch stands "
-        "still for all of them. What ran has the colours of the plan's effects, and is as "
-        "live as the picture.");
+        "A is the scene with its own dials, B has dials of its own. Split has a line to drag. Maps "
+        "lie over the patch: its distance from the reference, the error of the small-F "
+        "approximation of the paper, the angle by which the normal turns, the number of texels in "
+        "a "
+        "pixel. The patch stands still for all of them. Effects that ran have the colours of the "
+        "plan, and are as live as the picture.");
 }
 
 /* ---- numbers in two columns ---- */
@@ -108,7 +107,7 @@ static void caption(const WrWork *error)
              wr_plot_number(error->change, number));
     wr_gui_space(-6);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
-    wr_gui_tip("What the last doubling of its samples changed, rms: smaller errors may be its own");
+    wr_gui_tip("Change by the last doubling of its samples, rms: smaller errors may be its own");
 }
 
 static void error(WrApp *app)
@@ -164,7 +163,7 @@ static void stages(WrApp *app)
 {
     static const char *const tips[] = {
         "Copies of the table, slopes, meshes: only where something changed",
-        "Which u, v each sample sees",
+        "u, v of each sample",
         "P, Pu, Pv and N there",
         "F, its slopes and the turned normal",
         "Light and material",
@@ -211,8 +210,8 @@ void wr_panel_accuracy(WrApp *app)
     wr_gui_space(8);
     wr_gui_heading("HARD CASES");
     if (wr_gui_button("Hard cases...", false)) wr_action_run(app, WR_ACT(hard_cases));
-    wr_gui_tip(
-        "120 inputs at which a naive program fails: what must hold, and how far off this one is");
+    wr_gui_tip("120 inputs at which a naive program fails: the required result, and the error of "
+               "this one");
     if (a->inspector.shown && app->layout->lower.w <= 0) {
         wr_gui_space(8);
         wr_gui_heading("INSPECTOR");

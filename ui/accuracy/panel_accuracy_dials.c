@@ -85,9 +85,8 @@ static void chosen(WrApp *app)
     wr_gui_disable(!c->any);
     if (wr_gui_button("Keep these dials", false)) wr_accuracy_keep(app);
     wr_gui_enable();
-    wr_gui_tip("The finest of what was chosen becomes the scene's own setting, for the whole "
-               "picture, and the "
-               "tolerance is switched off");
+    wr_gui_tip("The finest of the chosen dials become the scene's own setting, for the whole "
+               "picture, and the tolerance is switched off");
 }
 
 void wr_panel_accuracy_tolerance(WrApp *app)
@@ -184,7 +183,7 @@ static void which_side(WrApp *app)
     static const char *const sides[] = { "A: the scene", "B: to compare" };
     WrAccuracy *a = app->accuracy;
     wr_gui_segments("side", sides, NULL, 2, &a->chooses);
-    wr_gui_tip("What the rows below, and a click in the plot, set");
+    wr_gui_tip("The setting that the rows below, and a click in the plot, change");
     if (a->chooses == 0) return;
     if (wr_gui_chip(NULL, "Take A's")) wr_action_run(app, WR_ACT(compare_take));
     wr_gui_tip("B gets the dials that the scene has now");

@@ -90,7 +90,7 @@ static void head(void)
         const char *text;
         double at;
         bool ends;
-    } columns[] = { { "case, and what must hold", 0.012, false },
+    } columns[] = { { "case, and required result", 0.012, false },
                     { "worst in float", END_FLOAT, true },
                     { "in double", END_DOUBLE, true },
                     { "unit", END_UNIT, false },

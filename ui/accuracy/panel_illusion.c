@@ -36,8 +36,7 @@ static void results(const WrWork *work, bool old)
     line("shading", it->shading, "",
          "Root mean square of displaced without shadow less bumped, where both cover the pixel");
     line("at the same u, v", it->shading_at, "",
-         "The same of each place of the surface, wherever it is seen: what the normal alone "
-         "changes");
+         "The same for each place of the surface, from any view: the effect of the normal alone");
     line("shadow", it->shadow, "", "Root mean square of displaced with its shadows less without");
     line("places moved", it->way_mean, " px",
          "Between where a place is seen and where bump shows it");
@@ -74,7 +73,7 @@ void wr_panel_illusion(WrApp *app)
         wr_gui_next_id("map");
         if (wr_gui_button(shown ? "Picture" : "Map on the patch", false))
             wr_accuracy_show(app, shown ? WR_PATCH_PLAIN : WR_PATCH_LACKS);
-        wr_gui_tip("Lay what bump lacks over the patch: its outline red, shading green, shadow "
-                   "blue");
+        wr_gui_tip("Lay the differences from bump over the patch: its outline red, shading green, "
+                   "shadow blue");
     }
 }

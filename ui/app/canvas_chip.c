@@ -112,7 +112,7 @@ static void range_popup(WrApp *app)
     if (wr_gui_segments("way", ways, NULL, 3, &way)) choose_way(app, way);
     ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
     ramp_tip(app);
-    wr_gui_check("Mark what lies beyond", &look->marks);
+    wr_gui_check("Mark heights beyond", &look->marks);
     wr_gui_tip("Warm above the range, cool below it");
     double field = 120 * wr_gui_scale();
     WrNumber low = { .low = -1,
@@ -192,7 +192,7 @@ void wr_canvas_chip(WrApp *app)
     wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
     wr_gui_next_id("range"); /* the numbers change under the pointer */
     if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
-    wr_gui_tip("What is shown, and which numbers are black and white");
+    wr_gui_tip("The values shown, and which of them are black and white");
     /* Beside the range button, if there is room for the square at the right end. */
     bool ranged = !app->map_shown || !wr_canvas_maps[look->shown].two;
     if (ranged && room->w > wr_gui_text_width(WR_FONT_TEXT, text) + wr_gui_px(180)) {

@@ -233,7 +233,7 @@ static void foot(WrApp *app)
         wr_gui_tip("Escape: nothing was changed");
     } else {
         if (wr_gui_button("Show", false)) wr_generate_open(app, hand->generator);
-        wr_gui_tip("Show what it would make");
+        wr_gui_tip("Show a preview of it");
     }
     if (!busy) return;
     wr_gui_same_line(10);

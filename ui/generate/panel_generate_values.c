@@ -307,7 +307,7 @@ void wr_panel_generate_values(WrApp *app)
     bool changed = parameters(app);
     changed |= joining(hand);
     if (wr_app_document(app)->selection)
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, "Only what is selected changes.");
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, "Only the selection changes.");
     if (!changed) return;
     hand->preset = -2;
     wr_generate_changed(app);

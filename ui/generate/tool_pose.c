@@ -331,7 +331,7 @@ static void options(WrApp *app)
     WrGenerateState *hand = app->generate;
     wr_gui_same_line(14);
     if (!hand->generator) {
-        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Choose what to make in the Generate tab");
+        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Choose a generator in the Generate tab");
         return;
     }
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_TEXT, hand->generator->label);
@@ -363,8 +363,8 @@ static void options(WrApp *app)
 const WrTool wr_tool_generate = {
     .action = WR_ACT(generate),
     .icon = WR_ICON_WAND,
-    .help = "Patterns, noise, text and more from the Generate tab: drag what it makes, Enter puts "
-            "it on the table, Escape gives up.",
+    .help = "Patterns, noise, text and more from the Generate tab: drag the preview, Enter puts it "
+            "on the table, Escape cancels.",
     .press = press,
     .drag = drag,
     .release = release,

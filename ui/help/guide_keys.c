@@ -47,8 +47,8 @@ static const Row brushes[] = { { WR_ACT(brushes),
 static const Row tools[] = {
     { WR_ACT(smooth), "smooth" },
     { WR_ACT(smear), "smear, as with a finger" },
-    { WR_ACT(clone), "paint with heights from elsewhere; Ctrl, click says from where" },
-    { WR_ACT(flood), "fill what is connected" },
+    { WR_ACT(clone), "paint with heights from elsewhere; Ctrl, click sets the source" },
+    { WR_ACT(flood), "fill connected texels" },
     { WR_ACT(ramp), "drag a slope from low to high" },
     { WR_ACT(shape_rect), "rectangle; Shift a square, Ctrl from its middle" },
     { WR_ACT(shape_ellipse), "ellipse" },
@@ -56,12 +56,12 @@ static const Row tools[] = {
     { WR_ACT(shape_path), "Bezier path: drag its arms, then Enter" },
     { WR_ACT(stamp), "stamp: press, drag for turn and size; the wheel sizes it" },
     { WR_ACT(generate_text), "text: type it, drag it, Ctrl+Enter puts it there" },
-    { WR_ACT(generate), "patterns, noise, solids: Enter puts them there, Escape gives up" },
+    { WR_ACT(generate), "patterns, noise, solids: Enter puts them there, Escape cancels" },
     { WR_ACT(symmetry), "mirrors, turns, a lattice; drag their centre" },
     { NULL, NULL }
 };
 static const Row tablet[] = {
-    { "*Pen*", "paint; harder for more, or wider: *Pressure* in the row above says which" },
+    { "*Pen*", "paint; harder for more, or wider: set by *Pressure* in the row above" },
     { "*Its other end*", "erases with the same brush" },
     { "*Lower button*", "pick a height; the upper one moves the table" },
     { WR_ACT(tablet), "tablet tester, and the pen's pressure curve" },
@@ -72,7 +72,7 @@ static const Row looking[] = {
     { "*Space, drag*", "move the table; so does the middle button" },
     { WR_ACT(zoom_100), "100 %" },
     { WR_ACT(fit), "the whole cell" },
-    { WR_ACT(mirror_view), "the table as a mirror shows it: what leans stands out" },
+    { WR_ACT(mirror_view), "the table as in a mirror: slanted shapes stand out" },
     { "*Shift, wheel*", "turn the table at the pointer; so does Shift, Space and dragging" },
     { WR_ACT(turn_left), "turn it left" },
     { WR_ACT(turn_right), "right" },
@@ -81,7 +81,7 @@ static const Row looking[] = {
     { WR_ACT(look_occlusion), "a live map of it: occlusion" },
     { WR_ACT(look_curvature), "curvature" },
     { WR_ACT(panels), "hide and show the panels" },
-    { WR_ACT(accuracy), "error and time of the picture, and what other dials would cost" },
+    { WR_ACT(accuracy), "error and time of the picture, and the cost of other dials" },
     { WR_ACT(look_split), "two settings of the dials side by side" },
     { WR_ACT(compare_hold), "held: the other setting" },
     { WR_ACT(look_error), "where the picture is off" },
@@ -111,13 +111,13 @@ static const Row patch[] = { { "*Drag*", "turn it" },
                              { NULL, NULL } };
 
 static const Row keyboard[] = {
-    { WR_ACT(part_next), "to the next part of the window: bars, panels, what lies on the views" },
+    { WR_ACT(part_next), "to the next part of the window: bars, panels, widgets on the views" },
     { WR_ACT(part_back), "to the part before" },
     { WR_ACT(menus), "to the menus; so does a tap on Alt" },
-    { "*Tab, Shift+Tab*", "then: along what can be pressed, a ring shows where" },
+    { "*Tab, Shift+Tab*", "then: along the widgets, a ring shows the place" },
     { "*Arrows*", "change a number, a list, a row of choices; Shift by less; Delete resets" },
     { "*Space, Enter*", "press it, or type into it" },
-    { "*Menu key*", "what the right button does" },
+    { "*Menu key*", "action of the right button" },
     { "*Escape*", "the keys are the canvas's again" },
     { NULL, NULL }
 };

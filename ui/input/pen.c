@@ -375,9 +375,9 @@ static void diagnose(const WrPenUnit *unit, WrText *words)
     } else if (!d->has_place) {
         wr_text_add(
             words,
-            wr_words("It moves like a mouse, by steps, so that nobody knows where it is on the "
-                     "tablet: it paints as a mouse does, without pressure. Set its mode to "
-                     "absolute in the tablet's settings."));
+            wr_words("It moves like a mouse, by steps, without a position on the tablet: it paints "
+                     "as a mouse does, without pressure. Set its mode to absolute in the tablet's "
+                     "settings."));
     } else if (d->events == 0) {
         wr_text_add(words, wr_words("Nothing has come from it yet. Move it over the tablet."));
     } else if (!d->has_pressure) {

@@ -47,7 +47,7 @@ bool wr_curves_pad(WrApp *app)
     wr_points_draw(&pad, &adjust->points, value, at, &curve);
     wr_gui_pad_end();
     if (!pad.held && !adjust->points.chosen)
-        wr_gui_tip("What each height, from left to right, becomes, from bottom to top. Drag the "
-                   "points; click for one more; drag one out, or press Delete, to take it away");
+        wr_gui_tip("Old heights from left to right, new heights from bottom to top. Drag the "
+                   "points; click to add one; drag one out, or press Delete, to remove it");
     return changed;
 }

@@ -109,8 +109,8 @@ bool wr_levels_pad(WrApp *app)
     }
     wr_gui_pad_end();
     if (!pad.held)
-        wr_gui_tip("How often each height is there. Drag the blue line to what becomes low, the "
-                   "white one to what becomes high");
+        wr_gui_tip("Histogram of the heights. Drag the blue line to the height that becomes low, "
+                   "the white one to the height that becomes high");
     if (pad.pressed) {
         bool nearer_high = fabs(pad.pointer_x - wr_height_x(&pad, span, *high)) <
                            fabs(pad.pointer_x - wr_height_x(&pad, span, *low));

@@ -297,9 +297,9 @@ void wr_dialog_adjust(WrApp *app)
     changed |= which_layers(app);
     if (wr_app_document(app)->selection && !(filters && app->adjust->layer >= 0))
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                            filters        ? "What is selected becomes the layer's mask."
+                            filters        ? "The selection becomes the layer's mask."
                             : op->reshapes ? "The whole table changes, selected or not."
-                                           : "Only what is selected changes.");
+                                           : "Only the selection changes.");
     if (changed) ask(app);
     if (wr_edit_preview_error(app->trial, &err)) wr_app_fail(app, &err);
     int answer = wr_dialog_buttons(app, "Apply", true);

@@ -93,7 +93,7 @@ static void dabs(WrApp *app)
                          .hard_high = 10,
                          .reset = own.spacing,
                          .decimals = 2,
-                         .tip = "Of the radius, between dabs; 0: what suits the mode" };
+                         .tip = "Of the radius, between dabs; 0: the mode's default" };
     WrNumber angle = { .low = -180,
                        .high = 180,
                        .hard_low = -360,
@@ -200,7 +200,7 @@ static void setting(WrApp *app, int index)
     char tip[512];
     snprintf(tip, sizeof tip, "%.300s\n%.60s%s%s", wr_words(info->meaning), info->name,
              curve ? wr_words("; the pen or the motion turns it too") : "",
-             changed ? wr_words(". Changed: a double click gives the preset's own back") : "");
+             changed ? wr_words(". Changed: a double click restores the preset's value") : "");
     WrNumber spec = { .low = info->low,
                       .high = info->high > info->low ? info->high : info->low + 1,
                       .reset = own,
@@ -215,7 +215,7 @@ static void setting(WrApp *app, int index)
     wr_gui_same_line(6);
     if (wr_gui_icon_button("curve", WR_ICON_CURVE, CURVE_UNITS, curve))
         wr_dialog_dynamics_open(app, index);
-    wr_gui_tip("What pen and motion add to it, as curves");
+    wr_gui_tip("Effect of pen and motion, as curves");
     wr_gui_pop_id();
     if (edit != WR_EDIT_NONE)
         wr_preset_browser_tune(app, info->name,

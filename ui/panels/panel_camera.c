@@ -186,7 +186,7 @@ static void tone(WrApp *app)
     }
     wr_gui_tip("Clip: light beyond 1 is white. Soft: from one half on it bends over and keeps its "
                "form. Here and in 8-bit pictures; EXR and TIFF keep light as it is.");
-    wr_gui_check("Mark what is clipped", &app->patch->look.marked);
+    wr_gui_check("Mark clipped parts", &app->patch->look.marked);
     wr_gui_tip("Stripes where a colour is full, so that more light would not show");
     wr_text_addf(&line, wr_words("%.1f %% of the picture is clipped"), 100 * app->patch->clipped);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&line));

@@ -51,7 +51,7 @@ static WrEdit rows(WrCellSize *cell)
         edit = WR_EDIT_DONE;
     }
     wr_gui_tip(
-        "Of exports, solids and labels: in scene units the relief is as high as Height says");
+        "For exports, solids and labels: in scene units the relief has the height of Height");
     if (!cell->mm) return edit;
     const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_CELL_HEIGHT];
     const WrNumber spec = wr_param_slider(param);

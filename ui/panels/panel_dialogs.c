@@ -88,8 +88,8 @@ void wr_dialog_table(WrApp *app)
     WrForms *f = app->forms;
     if (!wr_gui_dialog_begin("New table", 400)) return;
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                        "A table of this size at height 0 takes the place of the present one. The "
-                        "scene stays.");
+                        "A table of this size at height 0 replaces the present one. The scene "
+                        "stays.");
     number("Width", 16, 4096, 1, 16384, 512, 0, "texels", &f->width);
     number("Height", 16, 4096, 1, 16384, 512, 0, "texels", &f->height);
     wr_gui_label("Edges");
@@ -134,7 +134,7 @@ void wr_dialog_grid(WrApp *app)
 
 void wr_dialog_import(WrApp *app)
 {
-    static const char *const fits[] = { "The table takes its size", "It is fitted to the table" };
+    static const char *const fits[] = { "The table gets its size", "It is fitted to the table" };
     int fit = app->forms->fit;
     if (!wr_gui_dialog_begin("Import heights", 420)) return;
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
@@ -223,8 +223,8 @@ void wr_dialog_export(WrApp *app)
     wr_gui_hint_field("##more", "repeat=2x2 resize=pot border=on", 0, f->export_more,
                       sizeof f->export_more);
     wr_gui_tip(
-        "Options as the command `export` takes them; F1 lists them.\nExport maps (Ctrl+Alt+M) "
-        "writes whole sets, with a picture of each map.");
+        "Options of the command `export`; F1 lists them.\nExport maps (Ctrl+Alt+M) writes whole "
+        "sets, with a picture of each map.");
     WrText line = { 0 };
     add_export_line(app, "x.png", &line);
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
@@ -249,10 +249,10 @@ void wr_dialog_render(WrApp *app)
     WrForms *f = app->forms;
     WrText line = { 0 };
     if (!wr_gui_dialog_begin("Render a picture", 440)) return;
-    wr_gui_text_wrapped(
-        WR_FONT_TEXT, WR_COLOUR_LABEL,
-        "Of the scene as it is, turned as the view is now. A large one takes no more "
-        "memory than a band of it.");
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                        "A picture of the scene, turned as the view is now. A large one needs no "
+                        "more memory than a "
+                        "band of it.");
     number("Width", 16, 4096, 1, 16384, 2048, 0, "pixels", &f->picture_width);
     number("Height", 16, 4096, 1, 16384, 2048, 0, "pixels", &f->picture_height);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,

@@ -215,9 +215,9 @@ static void curve(WrApp *app)
     wr_points_draw(&pad, &d->hand, d->value, at, d->value);
     wr_gui_pad_end();
     if (!pad.held && !d->hand.chosen)
-        wr_gui_tip("What the input, from left to right, adds to the setting, up, or takes from it. "
-                   "Drag the points; click for one more; drag one out, or press Delete, to take it "
-                   "away");
+        wr_gui_tip("The input from left to right; the amount added to the setting, up, or "
+                   "subtracted, down. Drag the points; click to add one; drag one out, or press "
+                   "Delete, to remove it");
 }
 
 /* ---- choice of setting and input ---- */
@@ -287,7 +287,7 @@ static void height_of_pad(WrDynamics *d)
                       .reset = now.high,
                       .decimals = 2,
                       .logarithmic = true,
-                      .tip = "How much the upper edge adds and the lower one takes away" };
+                      .tip = "Amount that the upper edge adds and the lower one subtracts" };
     double reach = now.high;
     wr_gui_label("Up to");
     if (wr_gui_number("reach", 0, &spec, &reach) != WR_EDIT_NONE) d->reach = reach;

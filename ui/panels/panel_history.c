@@ -108,7 +108,7 @@ void wr_panel_history(WrApp *app)
     static const char *const ways[] = { "In words", "As commands" };
     int way = app->settings->history_lines;
     if (wr_gui_segments("ways", ways, NULL, 2, &way)) app->settings->history_lines = way == 1;
-    wr_gui_tip("What was done, or the lines of text that do it, as a script has them");
+    wr_gui_tip("The steps, or the lines of text that run them, as in a script");
     wr_gui_space(2);
     if (count == 0) {
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,

@@ -203,7 +203,7 @@ static void normal_rows(WrApp *app)
                                        .tip = "Its slopes times this" };
     const WrNormalMap map = wr_app_scene(app)->normals;
     word_row(app, "Space", "space", spaces, space_words, 2, map.object,
-             "What its three numbers run along: u, v and up, or the object's own axes");
+             "Axes of its three numbers: u, v and up, or the object's own axes");
     word_row(app, "Green", "green", greens, green_words, 2, map.green_down,
              "Which way its second number runs: up the picture (OpenGL, +Y) or down (DirectX, -Y)");
     if (!map.object)

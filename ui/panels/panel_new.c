@@ -66,7 +66,7 @@ static void surface_row(WrNewForm *form)
     }
     wr_gui_label("Patch");
     if (wr_gui_choice("patch", 0, labels, count, &now)) form->surface = kinds[now];
-    wr_gui_tip("The surface that wears the table");
+    wr_gui_tip("The surface with the table's relief");
 }
 
 void wr_dialog_new(WrApp *app)
@@ -93,7 +93,7 @@ void wr_dialog_new(WrApp *app)
         wr_gui_dialog_end();
         return;
     }
-    wr_gui_tip("Its greys become heights, and the table takes its size and shape");
+    wr_gui_tip("Its greys become heights, and the table gets its size and shape");
     if (wr_dialog_buttons(app, "Make it", true) > 0) {
         WrText lines = { 0 };
         wr_new_lines(form, wr_document_wrap_name(form->wrap), &lines);

@@ -246,8 +246,8 @@ static void table(WrApp *app)
         else wr_app_run_linef(app, "object set layer=all");
     }
     wr_gui_tip(
-        "The heights that it wears: all layers as they are joined, one layer alone, or those "
-        "of a document or picture, which becomes a layer that only this object shows");
+        "Its heights: the composite of all layers, one layer alone, or those of a document or "
+        "picture, which becomes a layer that only this object shows");
 }
 
 void wr_object_table_take(WrApp *app, const char *path)

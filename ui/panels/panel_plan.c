@@ -24,7 +24,7 @@ static void eye(WrApp *app, int effect, bool runs)
     }
     wr_gui_pop_id();
     wr_gui_tip(forced ? "As the plan has it again"
-               : runs ? "The picture without it, to compare; a click again brings it back"
+               : runs ? "The picture without it, to compare; another click switches it on again"
                       : "The picture with it, to compare");
     wr_gui_same_line(6);
 }

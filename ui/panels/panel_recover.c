@@ -186,7 +186,7 @@ static void tell(const WrRecovery *recovery)
     if (recovery->told) {
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, recovery->told);
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                            "What is left of it stays until it is discarded.");
+                            "The rest of it stays until it is discarded.");
         return;
     }
     rows((WrRecovery *)recovery);
@@ -195,7 +195,7 @@ static void tell(const WrRecovery *recovery)
         snprintf(text, sizeof text, wr_words("It cannot be read; a newer program may be able to."));
     else if (r->headless)
         snprintf(text, sizeof text,
-                 wr_words("Its beginning is damaged: what it began with is a guess."));
+                 wr_words("Its beginning is damaged: the first document is a guess."));
     else if (r->beyond > 0)
         snprintf(text, sizeof text,
                  r->beyond == 1
@@ -223,8 +223,8 @@ static void recover_buttons(WrApp *app, bool key)
         wr_gui_same_line(8);
     }
     if (!r->error && (recovery->told ? recovery->more : parts)) {
-        beyond = wr_gui_button("With what follows", r->headless && !recovery->told);
-        wr_gui_tip("Steps that need what is missing are left out");
+        beyond = wr_gui_button("With the lines that follow", r->headless && !recovery->told);
+        wr_gui_tip("Steps that need missing parts are left out");
         wr_gui_same_line(8);
     }
     if (!now && !beyond) return;

@@ -56,9 +56,8 @@ static void choose_what(WrSheetState *sheet)
     label("For");
     if (wr_gui_choice("as", 0, labels, count, &chosen))
         snprintf(sheet->ask.as, sizeof sheet->ask.as, "%s", words[chosen]);
-    wr_gui_tip("A program, for all maps that it wants, named as it wants them; or one map alone. "
-               "Sets of your own "
-               "are files NAME.set in the folder sets of your settings");
+    wr_gui_tip("A program, for all maps that it needs, with its names; or one map alone. Sets of "
+               "your own are files NAME.set in the folder sets of your settings");
     const WrSheetLook *look = sheet->shown;
     const WrExportKind *kind = wr_export_find(sheet->ask.as);
     const char *about = kind                                    ? kind->help
@@ -94,7 +93,7 @@ static void choose_how(const WrApp *app, WrSheetState *sheet)
     label("As");
     const double third = (wr_gui_available() - wr_gui_px(16)) / 3;
     wr_gui_choice("size", third, sizes, WR_SHEET_SIZES, &sheet->ask.size);
-    wr_gui_tip("Texels of each file. Smaller ones are means of what they cover");
+    wr_gui_tip("Texels of each file. In smaller files a texel is the mean of those it covers");
     wr_gui_same_line(8);
     wr_gui_choice("depth", third, depths, WR_SHEET_DEPTHS, &sheet->ask.depth);
     wr_gui_tip("Bits of each number; floats go into EXR files, codes into PNG");

@@ -33,9 +33,11 @@ static void relief(WrApp *app)
     wr_gui_heading("RELIEF");
     flag(app, WR_SCENE_PARAM_SHADOW, "Throws shadows on itself",
          "By how high the relief stands about each texel, seen from there; lamps only");
-    flag(app, WR_SCENE_PARAM_OCCLUSION, "Keeps the sky from its hollows",
-         "Ambient occlusion: ambient light and that of surroundings, as much as each texel sees");
-    flag(app, WR_SCENE_PARAM_PARALLAX, "Hides what stands behind it",
+    flag(
+        app, WR_SCENE_PARAM_OCCLUSION, "Keeps the sky from its hollows",
+        "Ambient occlusion: ambient light and that of surroundings, by the visible part of the sky "
+        "at each texel");
+    flag(app, WR_SCENE_PARAM_PARALLAX, "Hides objects behind it",
          "Parallax: rays go on from the base to the relief, a rung between bump mapping and true "
          "displacement. Outlines are true on planes, spheres and cylinders, on other bases they "
          "stay the base's");
@@ -96,8 +98,8 @@ static void solid(WrApp *app)
     wr_gui_label("Drives");
     choose(app, "drives", drives, WR_SOLID_TEXTURE_DRIVES - 1, grain->drives - 1,
            "grain drives=", wr_solid_texture_drives + 1);
-    wr_gui_tip("What the pattern changes: the colour, the roughness of facets, and heights that "
-               "turn the normal");
+    wr_gui_tip("Effect of the pattern: the colour, the roughness of facets, and heights that turn "
+               "the normal");
     if (info->ringed && info->noisy) {
         wr_gui_label("Axis");
         choose(app, "axis", axes, WR_SOLID_TEXTURE_AXES, (int)grain->axis,

@@ -146,7 +146,7 @@ static void curve_row(WrApp *app, double side)
     by[0] = number("Minimum: lighter touches count as none", 0, 1, false, 0,
                    "Raise it when the pen draws before it touches", &c.minimum);
     by[1] = number("Maximum: harder ones as full", 0, 1, false, 1,
-                   "Lower it when full pressure takes too much force", &c.maximum);
+                   "Lower it when full pressure needs too much force", &c.maximum);
     by[2] = number("Gain", 0.1, 10, true, 1, "Times the curve, at most 1", &c.gain);
     wr_gui_space(2);
     if (wr_gui_button("Straight line", false)) {

@@ -53,7 +53,7 @@ static void drop_button(WrApp *app)
     char waits[600];
     wr_waits_words(app, "\n", waits, sizeof waits);
     wr_gui_same_line(12);
-    const bool drops = wr_gui_chip(NULL, "Drop what waits");
+    const bool drops = wr_gui_chip(NULL, "Drop waiting actions");
     wr_gui_as_it_is(true);
     wr_gui_tip(waits);
     wr_gui_as_it_is(false);

@@ -81,7 +81,7 @@ void wr_waits_drop(WrApp *app, WrDropped why)
         fini(&first);
     }
     if (why == WR_DROPPED_CANCELLED)
-        wr_app_say(app, "Cancelled, and what waited for it: %s", words);
+        wr_app_say(app, "Cancelled, with the actions that waited for it: %s", words);
     if (why == WR_DROPPED_LAYERS)
         wr_app_say(app, "Not done, since the layers are others now: %s", words);
     if (why == WR_DROPPED_WISH) wr_app_say(app, "Not done any more: %s", words);

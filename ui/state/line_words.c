@@ -120,7 +120,7 @@ static const struct {
     { "grid", "Grid" },
     { "image", "Heights of a picture" },
     { "shape", "Shape" },
-    { "flood", "Fill what is connected" },
+    { "flood", "Fill connected texels" },
     { "ramp", "Ramp" },
     { "rim", "Edge" },
     { "open", "Opened" },

@@ -94,7 +94,7 @@ void wr_dialog_replace(WrApp *app)
     snprintf(text, sizeof text,
              changed
                  ? wr_words("Another program has changed %.200s since it was opened or saved here. "
-                            "Saving would lose what that program wrote.")
+                            "Saving would lose the changes of that program.")
                  : wr_words("There is already a file %.200s."),
              name_of(replace->path));
     describe(replace, facts, sizeof facts);

@@ -42,9 +42,10 @@ const char *wr_display_word(const WrDisplayEnv *env, const char *opened)
     if (!native)
         return said(env->driver)
                    ? NULL
-                   : "The session is Wayland, where pens would act as mice: the window goes "
-                     "through XWayland, which tells all that they send. SDL_VIDEODRIVER=wayland "
-                     "opens it on Wayland itself.";
+                   : "The session is Wayland, where pens would act as mice: the window runs on "
+                     "XWayland, which passes on all pen values. SDL_VIDEODRIVER=wayland opens it "
+                     "on "
+                     "Wayland itself.";
     if (said(env->driver))
         return "SDL_VIDEODRIVER opens the window on Wayland itself, where pens act as mice. "
                "Without it the window goes through XWayland, where there is one.";

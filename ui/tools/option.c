@@ -160,7 +160,7 @@ void wr_option_pressure(WrApp *app, double width)
     int index = (int)app->settings->brush.pressure;
     if (wr_gui_choice("pressure", width, names, WR_PRESSURE_COUNT, &index))
         app->settings->brush.pressure = (WrBrushPressure)index;
-    wr_gui_tip("What pressing harder turns");
+    wr_gui_tip("Effect of higher pressure");
 }
 
 static void steady(WrApp *app, double width)

@@ -54,7 +54,7 @@ static void press(WrApp *app, const WrPointer *at)
         return;
     }
     if (!draw->source) {
-        wr_app_say(app, "Ctrl and a click first says where the heights come from");
+        wr_app_say(app, "Ctrl and a click first sets the source of the heights");
         return;
     }
     if (!draw->anchored) {
@@ -98,7 +98,7 @@ static void marks(WrApp *app)
 const WrTool wr_tool_clone = {
     .action = WR_ACT(clone),
     .icon = WR_ICON_CLONE,
-    .help = "Paint with heights from elsewhere: Ctrl and a click says from where.",
+    .help = "Paint with heights from elsewhere: Ctrl and a click sets the source.",
     .press = press,
     .drag = drag,
     .release = wr_brush_release,

@@ -87,10 +87,8 @@ static void options(WrApp *app)
 
 /* ---- the row ---- */
 
-const WrTool wr_tool_flood = {
-    .action = WR_ACT(flood),
-    .icon = WR_ICON_BUCKET,
-    .help = "Click to fill what is connected and as high as what is clicked.",
-    .press = press,
-    .options = options
-};
+const WrTool wr_tool_flood = { .action = WR_ACT(flood),
+                               .icon = WR_ICON_BUCKET,
+                               .help = "Click to fill the connected texels of the same height.",
+                               .press = press,
+                               .options = options };

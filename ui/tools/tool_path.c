@@ -280,7 +280,7 @@ static void marks(WrApp *app)
 const WrTool wr_tool_shape_polygon = {
     .action = WR_ACT(shape_polygon),
     .icon = WR_ICON_POLYGON,
-    .help = "Click the corners; Enter or a double click paints it, Backspace takes one back.",
+    .help = "Click the corners; Enter or a double click paints it, Backspace removes the last.",
     .press = press,
     .drag = drag,
     .release = release,

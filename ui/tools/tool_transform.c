@@ -453,7 +453,7 @@ static void switches(WrApp *app, double width)
     (void)width;
     bool leave = hand->leave, all = hand->all;
     wr_gui_check("copy", &hand->leave);
-    wr_gui_tip("What is selected stays where it is too");
+    wr_gui_tip("The selected heights also stay where they are");
     wr_gui_same_line(10);
     wr_gui_check("all layers", &hand->all);
     if (all != hand->all) { /* another frame with the same values */
@@ -493,8 +493,8 @@ static void options(WrApp *app)
 const WrTool wr_tool_transform = {
     .action = WR_ACT(transform),
     .icon = WR_ICON_TRANSFORM,
-    .help = "Drag what is selected to move it, its handles to scale it, outside of it to turn it; "
-            "Enter applies, Escape gives up.",
+    .help = "Drag the selection to move it, its handles to scale it, outside of it to turn it; "
+            "Enter applies, Escape cancels.",
     .press = press,
     .drag = drag,
     .release = release,

@@ -63,9 +63,9 @@ void wr_relight_fini(WrRelight *steady)
 const char *wr_relight_hinders(const WrScene *scene, const WrPlan *plan)
 {
     if (wr_plan_runs(plan, WR_EFFECT_DISPLACED)) return "the surface is displaced";
-    if (wr_plan_runs(plan, WR_EFFECT_PARALLAX)) return "parallax moves what is seen";
+    if (wr_plan_runs(plan, WR_EFFECT_PARALLAX)) return "parallax moves the visible points";
     if (plan->sampling == WR_SAMPLING_ADAPTIVE)
-        return "which samples `adaptive` takes goes by their light";
+        return "the samples that `adaptive` uses depend on their light";
     if (plan->shading_double) return "they are in double precision";
     if (wr_shape_endless(&scene->shape)) return "a plane without end fades by samples";
     return NULL;

@@ -26,7 +26,7 @@ static const char *no_bump(const WrPlan *plan, const WrPlanRequest *ask)
     if (wr_plan_normal(plan, ask) == WR_BUMP_EXACT && !surface_of(ask)->flat) return NULL;
     if (still(scene)) return "replication is 0,0: F is constant";
     if (table && facts->flat) return "every texel of the table is equal";
-    if (table && facts->slope_free) return "the scheme sees no slope anywhere in the table";
+    if (table && facts->slope_free) return "the scheme has no slope anywhere in the table";
     return NULL;
 }
 
@@ -54,7 +54,7 @@ static WrVerdict decide_gradient(const WrPlan *plan, const WrPlanRequest *ask, c
     const WrScheme scheme = ask->scene->scheme;
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
     if (scheme != WR_SCHEME_CENTRAL && scheme != WR_SCHEME_NEAREST)
-        return say(WR_VERDICT_NONE, why, "this scheme takes its slopes from the heights");
+        return say(WR_VERDICT_NONE, why, "this scheme computes slopes from the heights");
     return say(WR_VERDICT_RUN, why,
                "one look-up of central differences equals the paper's four of F");
 }
@@ -118,7 +118,7 @@ static WrVerdict decide_rounded(const WrPlan *plan, const WrPlanRequest *ask, co
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
     if (heights == WR_HEIGHTS_DOUBLE || heights == WR_HEIGHTS_FLOAT)
         return say(WR_VERDICT_NONE, why, "the dial keeps heights as they are");
-    return say(WR_VERDICT_RUN, why, "the dial asks for heights of fewer bits");
+    return say(WR_VERDICT_RUN, why, "the dial is set to heights of fewer bits");
 }
 
 static void settle_rounded(WrPlan *plan, const WrPlanRequest *ask)
@@ -129,13 +129,13 @@ static void settle_rounded(WrPlan *plan, const WrPlanRequest *ask)
 static WrVerdict decide_double(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (ask->dials->shading == WR_SHADING_DOUBLE)
-        return say(WR_VERDICT_RUN, why, "the dial asks for shading in double precision");
+        return say(WR_VERDICT_RUN, why, "the dial is set to shading in double precision");
     if (wr_scene_is_thin(ask->scene))
         return say(WR_VERDICT_RUN, why,
                    "the object is so flat that single precision would not find its place");
     if (plan->source == WR_SOURCE_TABLE && ask->dials->heights == WR_HEIGHTS_DOUBLE)
-        return say(WR_VERDICT_RUN, why, "the dial asks for look-ups in double precision");
-    return say(WR_VERDICT_NONE, why, "single precision was asked for");
+        return say(WR_VERDICT_RUN, why, "the dial is set to look-ups in double precision");
+    return say(WR_VERDICT_NONE, why, "the dial is set to single precision");
 }
 
 static void settle_double(WrPlan *plan, const WrPlanRequest *ask)
@@ -153,7 +153,7 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanRequest *ask, const
     (void)plan;
     if (ask->dials->shading != WR_SHADING_HALF)
         return say(WR_VERDICT_NONE, why, "the dial does not ask for it");
-    return say(WR_VERDICT_RUN, why, "the dial asks for normals and light in half precision");
+    return say(WR_VERDICT_RUN, why, "the dial is set to normals and light in half precision");
 }
 
 /* ---- the table ---- */
@@ -200,7 +200,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                "reflection model has no highlight, or its facets' index is 1",
                                STAGE(MIRROR), .decide = wr_decide_mirror },
     [WR_ROW(WR_EFFECT_BLUR)] = { "E43", "blurred surroundings", WR_PROOF_BOUNDED,
-                                 "what lies within a thousandth of a radian",
+                                 "lookups within a thousandth of a radian",
                                  "none are seen in the surface, they are of one colour, or the "
                                  "lobe is a thousandth wide, where the surface mirrors",
                                  0, .decide = wr_decide_blur, .settle = wr_settle_blur },
@@ -257,25 +257,25 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                       "suffices",
                                       0, .finer = true, .decide = wr_decide_displaced,
                                       .settle = wr_settle_displaced },
-    [WR_ROW(WR_EFFECT_PARALLAX)] = { "E85", "parallax", WR_PROOF_BOUNDED,
-                                     "half a pixel, of where a point of the surface is seen",
-                                     "it is not asked for, the surface is displaced, or F moves no "
-                                     "point of it by half a pixel: bump suffices; meshes, bodies "
-                                     "of several faces and planes without end have none",
-                                     STAGE(PARALLAX), .finer = true, .decide = wr_decide_parallax,
-                                     .settle = wr_settle_parallax },
+    [WR_ROW(
+        WR_EFFECT_PARALLAX)] = { "E85", "parallax", WR_PROOF_BOUNDED,
+                                 "half a pixel, of where a point of the surface is seen",
+                                 "the dial is off, the surface is displaced, or F moves no "
+                                 "point of it by half a pixel: bump suffices; meshes, bodies of "
+                                 "several faces and infinite planes have none",
+                                 STAGE(PARALLAX), .finer = true, .decide = wr_decide_parallax,
+                                 .settle = wr_settle_parallax },
     [WR_ROW(WR_EFFECT_BUMP)] = { "E6", "bump", WR_PROOF_IDENTICAL, NULL,
                                  "the mode is none; height or replication is 0; all texels are "
-                                 "equal; the "
-                                 "scheme sees no slope anywhere; no light depends on the normal",
+                                 "equal; the scheme has no slope anywhere; no light depends on the "
+                                 "normal",
                                  STAGE(LOOK) | STAGE(BUMP), .spared = WR_RUN_LEVEL | WR_RUN_DARK,
                                  .decide = decide_bump, .settle = settle_bump },
     [WR_ROW(
         WR_EFFECT_GRADIENT)] = { "E9", "gradient table", WR_PROOF_BOUNDED, "rounding of the slopes",
-                                 "the scheme takes its slopes from the heights. For central and "
+                                 "the scheme computes slopes from the heights. For central and "
                                  "nearest one look-up of central differences equals the paper's "
-                                 "four "
-                                 "of F",
+                                 "four of F",
                                  STAGE(LOOK), .only_way = true,
                                  .spared = WR_RUN_LEVEL | WR_RUN_DARK, .decide = decide_gradient },
     [WR_ROW(WR_EFFECT_WIDE)] = { "E10", "replication in double", WR_PROOF_BOUNDED,
@@ -321,7 +321,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                       .decide = wr_decide_occlusion,
                                       .settle = wr_settle_occlusion },
     [WR_ROW(WR_EFFECT_SAMPLES)] = { "E15", "supersampling", WR_PROOF_POLICY, NULL,
-                                    "one sample a pixel was asked for", STAGE(RESOLVE),
+                                    "the dial is set to one sample a pixel", STAGE(RESOLVE),
                                     .decide = wr_decide_samples, .settle = wr_settle_samples },
     [WR_ROW(
         WR_EFFECT_BOUND)] = { "E16", "refinement by bound", WR_PROOF_BOUNDED, "`contrast`",
@@ -342,8 +342,8 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "a closed body seen from outside hides its own back", 0,
                                  .decide = wr_decide_back },
     [WR_ROW(WR_EFFECT_DEPTH)] = { "E26", "depth buffer", WR_PROOF_IDENTICAL, NULL,
-                                  "the nearest root of the ray is enough; the view rests, and what "
-                                  "its samples look at is known",
+                                  "the nearest root of the ray is enough; the view is still, and "
+                                  "the visible points of its samples are stored",
                                   STAGE(VISIBILITY), .only_way = true, .manner = true,
                                   .decide = wr_decide_depth, .settle = wr_settle_depth },
     [WR_ROW(WR_EFFECT_NEWTON)] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED,
@@ -395,8 +395,8 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                     "the dial keeps heights as they are", 0,
                                     .decide = decide_rounded, .settle = settle_rounded },
     [WR_ROW(WR_EFFECT_DOUBLE)] = { "E33", "double precision", WR_PROOF_POLICY, NULL,
-                                   "single precision was asked for", 0, .decide = decide_double,
-                                   .settle = settle_double },
+                                   "the dial is set to single precision", 0,
+                                   .decide = decide_double, .settle = settle_double },
     [WR_ROW(WR_EFFECT_HALF)] = { "E34", "half precision", WR_PROOF_POLICY, NULL,
                                  "the dial does not ask for normals and light in half precision",
                                  STAGE(HALF), .decide = decide_half },

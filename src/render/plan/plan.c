@@ -61,7 +61,9 @@ WrVerdict wr_decide_ground(const WrPlan *plan, const WrPlanRequest *ask, const c
 static const char *no_cone(const WrPlan *plan)
 {
     if (runs(plan, WR_EFFECT_DISPLACED)) return "facets of a displaced surface face anywhere";
-    if (runs(plan, WR_EFFECT_PARALLAX)) return "what parallax shows may stand on either side";
+    if (runs(plan, WR_EFFECT_PARALLAX))
+        return "the points that parallax shows may be on either "
+               "side";
     if (runs(plan, WR_EFFECT_EMBOSSED)) return "no bound is known of a solid texture's slopes";
     if (plan->bump == WR_BUMP_NONE) return NULL;
     if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
@@ -84,7 +86,7 @@ static const char *no_dark(const WrPlan *plan, const WrPlanRequest *ask)
         return "surroundings shine there too";
     if (shines && !ask->scene->material.gate) return "a highlight without gate shows there too";
     if (runs(plan, WR_EFFECT_BOUND)) return "a bound of the light's change is wanted everywhere";
-    if (runs(plan, WR_EFFECT_HALF)) return "the dial asks for light in half precision";
+    if (runs(plan, WR_EFFECT_HALF)) return "the dial is set to light in half precision";
     return no_cone(plan);
 }
 
@@ -125,17 +127,20 @@ WrVerdict wr_decide_samples(const WrPlan *plan, const WrPlanRequest *ask, const 
     const WrDials *dials = ask->dials;
     (void)plan;
     if (!takes_grid(dials))
-        return say(WR_VERDICT_NONE, why, "the dial says one sample at the pixel's centre");
-    if (dials->samples == 1) return say(WR_VERDICT_NONE, why, "one sample a pixel was asked for");
+        return say(WR_VERDICT_NONE, why, "the dial is set to one sample at the pixel's centre");
+    if (dials->samples == 1)
+        return say(WR_VERDICT_NONE, why,
+                   "the dial is set to one sample a "
+                   "pixel");
     if (dials->aa == WR_AA_ADAPTIVE && unbounded(ask))
         return say(WR_VERDICT_RUN, why,
-                   "up to K x K were asked for: no bound is known of several objects");
+                   "up to K x K are allowed: no bound is known for several objects");
     if (dials->aa == WR_AA_ADAPTIVE && ask->facts.lively)
         return say(WR_VERDICT_RUN, why,
-                   "up to K x K were asked for: here fewer would cost more, so all are taken");
+                   "up to K x K are allowed: here fewer would cost more, so all are used");
     return say(WR_VERDICT_RUN, why,
                dials->aa == WR_AA_SUPERSAMPLE
-                   ? "the dial asks for the mean of K x K intensities"
+                   ? "the dial is set to the mean of K x K intensities"
                    : "up to K x K where one is not enough for `contrast`; a smooth view may be as "
                      "near with fewer");
 }
@@ -271,7 +276,7 @@ WrVerdict wr_decide_exact(const WrPlan *plan, const WrPlanRequest *ask, const ch
     if (!runs(plan, WR_EFFECT_BUMP)) return say(WR_VERDICT_NONE, why, "bump does not run");
     if (surface_of(ask)->held)
         return say(WR_VERDICT_NONE, why,
-                   is_cut(ask) ? "on sets of patches blinn takes the exact normal's place"
+                   is_cut(ask) ? "on sets of patches the blinn normal replaces the exact one"
                                : "triangles are flat: blinn is exact on them for any F");
     if (surface_of(ask)->flat)
         return say(WR_VERDICT_SPARED, why, "the base is flat: blinn is exact there for any F");
@@ -389,7 +394,7 @@ const char *const wr_cost_reasons[WR_COST_COUNT] = {
     [WR_ROW(WR_COST_LIGHT)] = "diffuse light and highlight of the one light, in one pass",
     [WR_ROW(WR_COST_STORE)] = "colours are put together and stored",
     [WR_ROW(WR_COST_CLEAR)] = "tiles are emptied; those that hold nothing are left out",
-    [WR_ROW(WR_COST_REST)] = "what lies between the stages: loops, the clock",
+    [WR_ROW(WR_COST_REST)] = "overhead between the stages: loops, the clock",
     [WR_ROW(WR_COST_WAIT)] = "threads that found no tile to do",
     [WR_ROW(WR_COST_CHOOSE)] = "estimates of the tolerance, blocks compared and put together",
 };

@@ -20,7 +20,7 @@ WrVerdict wr_decide_kept(const WrPlan *plan, const WrPlanRequest *ask, const cha
     if (!runs(plan, WR_EFFECT_MODEL)) return say(WR_VERDICT_NONE, why, "no light is worked out");
     if (!runs(plan, WR_EFFECT_DIFFUSE))
         return say(WR_VERDICT_SPARED, why, "there is no diffuse light beside the highlight");
-    return say(WR_VERDICT_RUN, why, "diffuse light is what the highlight leaves of what came");
+    return say(WR_VERDICT_RUN, why, "diffuse light is the incoming light without the highlight's");
 }
 
 void wr_settle_kept(WrPlan *plan, const WrPlanRequest *ask)
@@ -54,7 +54,7 @@ WrVerdict wr_decide_faced(const WrPlan *plan, const WrPlanRequest *ask, const ch
     (void)ask;
     if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (runs(plan, WR_EFFECT_VARIED))
-        return say(WR_VERDICT_RUN, why, "where roughness goes by place it is not asked");
+        return say(WR_VERDICT_RUN, why, "not decided where roughness varies over the surface");
     return say(WR_VERDICT_SPARED, why,
                "runs of samples whose normals all face the viewer have none to bend");
 }
@@ -113,7 +113,7 @@ WrVerdict wr_decide_harmonics(const WrPlan *plan, const WrPlanRequest *ask, cons
         return say(WR_VERDICT_SPARED, why,
                    "the surroundings are of one colour: one coefficient is all of them");
     if (ask->dials->harmonics == 0)
-        return say(WR_VERDICT_NONE, why, "harmonics=0: the mean of them is all that is asked for");
+        return say(WR_VERDICT_NONE, why, "harmonics=0: only their mean is used");
     return say(WR_VERDICT_RUN, why,
                ask->dials->harmonics == 1
                    ? "diffuse light of them turns with the normal: by 4 coefficients"
@@ -158,8 +158,8 @@ WrVerdict wr_decide_blur(const WrPlan *plan, const WrPlanRequest *ask, const cha
                    "so smooth a surface mirrors: its lobe is a thousandth wide");
     if (widened)
         return say(WR_VERDICT_RUN, why,
-                   "what is reflected is blurred as widely as each sample calls for");
-    return say(WR_VERDICT_RUN, why, "what is reflected is blurred by the material's lobe, once");
+                   "reflections are blurred by the width of each sample's lobe");
+    return say(WR_VERDICT_RUN, why, "reflections are blurred by the material's lobe, once");
 }
 
 bool wr_plan_surround_turns(const WrPlan *plan, const WrScene *scene)
@@ -317,7 +317,7 @@ static bool rays_tell(const WrPlan *plan, const WrPlanRequest *ask)
 WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!ask->scene->material.shadow)
-        return say(WR_VERDICT_NONE, why, "the material asks for no shadows");
+        return say(WR_VERDICT_NONE, why, "shadows are off in the material");
     const char *reason = no_horizon(plan, ask);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
@@ -331,8 +331,7 @@ WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanRequest *ask, const c
 
 WrVerdict wr_decide_cast(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
-    if (!wr_shadow_rays_asked(ask->scene))
-        return say(WR_VERDICT_NONE, why, "no light asks for them");
+    if (!wr_shadow_rays_asked(ask->scene)) return say(WR_VERDICT_NONE, why, "no light has them on");
     if (ask->dials->rays == 0)
         return say(WR_VERDICT_NONE, why, "the dial lets no ray go to a lamp");
     if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
@@ -360,7 +359,7 @@ static bool has_sky(const WrPlan *plan, const WrMaterial *m)
 WrVerdict wr_decide_occlusion(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
 {
     if (!ask->scene->material.occlusion)
-        return say(WR_VERDICT_NONE, why, "the material asks for no occlusion");
+        return say(WR_VERDICT_NONE, why, "occlusion is off in the material");
     const char *reason = no_horizon(plan, ask);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
     if (ask->scene->height == 0 || still(ask->scene) || ask->facts.flat || ask->facts.zero)

@@ -36,7 +36,7 @@ WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanRequest *ask, const ch
     if (surface_of(ask)->inversion != WR_INVERT_MESH && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
     if (ask->facts.sighted || ask->facts.steady)
-        return say(WR_VERDICT_SPARED, why, "the view rests: what it looks at is known");
+        return say(WR_VERDICT_SPARED, why, "the view is still: its visible points are stored");
     return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
 }
 
@@ -124,7 +124,7 @@ WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanRequest *ask, const
 {
     if (runs(plan, WR_EFFECT_DISPLACED) || runs(plan, WR_EFFECT_PARALLAX) ||
         (!is_round(ask) && !is_held(ask)))
-        return say(WR_VERDICT_NONE, why, "the surface's formula gives them with the point");
+        return say(WR_VERDICT_NONE, why, "the surface's formula returns them with the point");
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
     if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))
         return say(WR_VERDICT_RUN, why, "slopes turn the normal along them");
@@ -143,7 +143,8 @@ WrVerdict wr_decide_hidden(const WrPlan *plan, const WrPlanRequest *ask, const c
     (void)plan;
     if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
     return say(WR_VERDICT_SPARED, why,
-               "objects are drawn from the front; where one fills a tile, what lies behind is not");
+               "objects are drawn from the front; where one fills a tile, objects behind it are "
+               "skipped");
 }
 
 WrVerdict wr_decide_between(const WrPlan *plan, const WrPlanRequest *ask, const char **why)
@@ -157,7 +158,7 @@ WrVerdict wr_decide_horizon(const WrPlan *plan, const WrPlanRequest *ask, const 
 {
     (void)plan;
     if (!wr_shape_endless(&ask->scene->shape))
-        return say(WR_VERDICT_NONE, why, "the surface ends, and so does what a pixel holds of it");
+        return say(WR_VERDICT_NONE, why, "the surface ends within the pixel");
     if (ask->scene->camera.orthographic)
         return say(WR_VERDICT_NONE, why, "parallel rays: every pixel holds as much of the plane");
     return say(WR_VERDICT_RUN, why, "the plane goes on to the horizon, where it fades");

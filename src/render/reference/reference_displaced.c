@@ -409,8 +409,8 @@ static bool cut_sheets(WrReferenceRaised *raised, const double cells[2], WrError
     }
     if (all <= WR_RAISED_MOST) return true;
     return wr_fail(err,
-                   "the reference takes a displaced surface of at most %d texels, repeats counted: "
-                   "this one has %.0f",
+                   "the reference renders a displaced surface of at most %d texels, repeats "
+                   "counted: this one has %.0f",
                    WR_RAISED_MOST, all);
 }
 
