@@ -44,20 +44,20 @@ function(wr_fuzz name)
     set_tests_properties(fuzz_${name} PROPERTIES LABELS fuzz)
 endfunction()
 
-wr_fuzz(journal document/journal_folder.c document/journal_line.c document/recover.c base/error.c
+wr_fuzz(journal document/journal_folder.c document/journal_line.c document/recover.c base/error.c base/message.c
         base/file.c base/hash.c base/memory.c base/progress.c base/text.c)
 
-set(tip_sources brush/tip.c base/error.c base/exactmath.c
+set(tip_sources brush/tip.c base/error.c base/message.c base/exactmath.c
     base/memory.c base/text.c)
 wr_fuzz(gbr ${tip_sources} LIBRARIES -lsleef)
 wr_fuzz(gih ${tip_sources} LIBRARIES -lsleef)
 
 set(font_reading image/font_free.c image/font_gzip.c image/font_lines.c image/font_make.c image/font_pack.c
     image/font_parts.c image/font_psf.c)
-wr_fuzz(font ${font_reading} image/font_outline.c base/error.c base/memory.c base/text.c
+wr_fuzz(font ${font_reading} image/font_outline.c base/error.c base/message.c base/memory.c base/text.c
         LIBRARIES ${SHAPING_CFLAGS} -lfreetype -lharfbuzz -lfribidi -lz)
 
-wr_fuzz(raw generate/terrain_raw.c base/error.c base/memory.c base/progress.c base/text.c)
+wr_fuzz(raw generate/terrain_raw.c base/error.c base/message.c base/memory.c base/progress.c base/text.c)
 
 # Under sanitizers of gcc the rooms cannot be linked with clang's.
 if(NOT WR_SANITIZE)

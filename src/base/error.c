@@ -1,43 +1,54 @@
 #include "base/error.h"
 
+#include "base/message.h"
+
 #include <stdarg.h>
 #include <string.h>
 
-/* Removes an incomplete UTF-8 sequence from the end: vsnprintf may have cut inside it. */
-static void trim_utf8(char *text, size_t capacity)
+_Static_assert(sizeof(WrError) == WR_ERROR_TEXT + WR_ERROR_MESSAGE, "the text and its message");
+
+/* The message is behind the NUL of the text, so that it is copied with it and WrError stays one string. */
+static void store(WrError *err, const char *text, const char *message)
 {
-    size_t length = strlen(text);
-    if (length + 1 < capacity) return;
-    size_t start = length;
-    while (start > 0 && ((unsigned char)text[start - 1] & 0xC0) == 0x80) start--;
-    if (start == 0) return;
-    unsigned char lead = (unsigned char)text[start - 1];
-    size_t need = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC0 ? 2 : 1;
-    if (length - (start - 1) < need) text[start - 1] = '\0';
+    const size_t length = strlen(text);
+    memcpy(err->text, text, length + 1);
+    memcpy(err->text + length + 1, message, strlen(message) + 1);
 }
 
 bool wr_fail(WrError *err, const char *format, ...)
 {
     if (!err) return false;
+    char text[WR_ERROR_TEXT], message[WR_ERROR_MESSAGE];
     va_list args;
     va_start(args, format);
-    vsnprintf(err->text, sizeof err->text, format, args);
+    wr_message_format(text, sizeof text, message, sizeof message, format, args);
     va_end(args);
-    trim_utf8(err->text, sizeof err->text);
+    store(err, text, message);
     return false;
 }
 
 void wr_error_prefix(WrError *err, const char *format, ...)
 {
     if (!err) return;
-    char old[sizeof err->text];
-    memcpy(old, err->text, sizeof old);
+    char text[WR_ERROR_TEXT], message[WR_ERROR_MESSAGE];
+    const char *old = wr_error_message(err);
     va_list args;
     va_start(args, format);
-    int n = vsnprintf(err->text, sizeof err->text, format, args);
+    wr_message_format(text, sizeof text, message, sizeof message, format, args);
     va_end(args);
-    if (n < 0) n = 0;
-    if ((size_t)n < sizeof err->text)
-        snprintf(err->text + n, sizeof err->text - (size_t)n, "%s", old);
-    trim_utf8(err->text, sizeof err->text);
+    char joined[WR_ERROR_TEXT + 2 * WR_ERROR_MESSAGE];
+    snprintf(joined, sizeof joined, "%s%s", message[0] ? message : text, old);
+    wr_message_print(joined, NULL, text, sizeof text);
+    store(err, text, message[0] && strlen(joined) < sizeof message ? joined : "");
+}
+
+const char *wr_error_message(const WrError *err)
+{
+    const size_t length = strlen(err->text), rest = sizeof err->text - 1 - length;
+    const char *message = err->text + length + 1;
+    char text[WR_ERROR_TEXT];
+    /* A text that was written or changed by others has no message. */
+    if (rest == 0 || !message[0] || !memchr(message, '\0', rest)) return err->text;
+    return strcmp(wr_message_print(message, NULL, text, sizeof text), err->text) == 0 ? message
+                                                                                      : err->text;
 }

@@ -726,7 +726,8 @@ static void put_all_back(WrFileGroup *group, WrError *err)
     }
     if (new.length && err) {
         const WrError first = *err;
-        wr_fail(err, "%s; these could not be put back and are new: %s", first.text, new.data);
+        wr_fail(err, "%s; these could not be put back and are new: %s", wr_error_message(&first),
+                new.data);
     }
     wr_text_fini(&new);
 }

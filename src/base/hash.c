@@ -137,7 +137,7 @@ bool wr_sha256_end(WrSha256Work *work, char hex[65], WrError *err)
     if (work->threaded) wr_thread_join(work->thread);
     const bool good = work->good;
     if (good) memcpy(hex, work->hex, sizeof work->hex);
-    else wr_fail(err, "%s", work->err.text);
+    else wr_fail(err, "%s", wr_error_message(&work->err));
     wr_free(work->path);
     wr_free(work);
     return good;

@@ -82,7 +82,7 @@ bool wr_once_async_wait(WrOnceAsync *aside, WrError *err)
     while (aside->busy && !(stopped = wr_progress_stopped()))
         wr_cond_wait_ms(&changed, &lock, LOOK_MS);
     bool done = aside->done;
-    if (!done) wr_fail(err, "%s", stopped ? "cancelled" : aside->why.text);
+    if (!done) wr_fail(err, "%s", stopped ? "cancelled" : wr_error_message(&aside->why));
     wr_mutex_unlock(&lock);
     return done;
 }

@@ -33,6 +33,7 @@ int wr_cli_paint(const WrCli *cli)
     WrSessionOptions options = { .pool = cli->pool,
                                  .note = keep_note,
                                  .note_ctx = &notes,
+                                 .note_messages = true,
                                  .outputs = true,
                                  .isa = cli->isa,
                                  .composites = true,

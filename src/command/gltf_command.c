@@ -68,7 +68,7 @@ static bool take_picture(WrSession *session, const char *file, int image, const 
     wr_text_fini(&line);
     wr_text_fini(&name);
     if (!good && wr_progress_stopped()) return wr_fail(err, "cancelled");
-    if (!good && image < 0) return wr_fail(err, "%s", why.text);
+    if (!good && image < 0) return wr_fail(err, "%s", wr_error_message(&why));
     if (good && image >= 0) list(&told->taken, what);
     if (!good) {
         WrText both = { 0 };

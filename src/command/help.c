@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/enum_rows.h"
 #include "base/suggest.h"
+#include "base/message.h"
 #include "base/text.h"
 #include "command/command_line.h"
 #include "command/parse_fail.h"
@@ -137,7 +138,11 @@ void wr_help_argument(const WrCommand *command, int form, const WrArgSpec *spec,
     if ((spec->type < WR_ARG_PATH || spec->type == WR_ARG_LAYER) && !spec->parts &&
         !spec->explain) {
         wr_text_add(text, "; ");
-        wr_arg_expectation(spec, text);
+        char plain[1024];
+        WrText right = { 0 };
+        wr_arg_expectation(spec, &right);
+        wr_text_add(text, wr_message_print(wr_text_get(&right), NULL, plain, sizeof plain));
+        wr_text_fini(&right);
     }
     wr_arg_fallback_print(spec, &value);
     if (value.length && value.length < 60) {

@@ -224,7 +224,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
                               &why)) { /* the checksum is compared first */
         wr_triangles_free(mesh);
         mesh = NULL;
-        wr_fail(err, "%s", why.text);
+        wr_fail(err, "%s", wr_error_message(&why));
     }
     if (mesh) note_held(session, shape->kind, path, mesh);
     wr_free(path);

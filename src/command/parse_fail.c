@@ -445,9 +445,8 @@ void wr_call_add_hint(const WrCall *call, WrError *err)
         WrText near = { 0 };
         if (!wr_path_info(call->args[i].text, &info) &&
             wr_suggest(call->args[i].text, wr_word_of_array, spec->words, &near)) {
-            const size_t length = strlen(err->text);
-            snprintf(err->text + length, sizeof err->text - length, ": did you mean %s?",
-                     wr_text_get(&near));
+            const WrError whole = *err;
+            wr_fail(err, "%s: did you mean %s?", wr_error_message(&whole), wr_text_get(&near));
         }
         wr_text_fini(&near);
     }

@@ -57,7 +57,7 @@ bool wr_scene_take_turn(const char *text, WrScene *scene, WrError *err)
                              .high = 1e9,
                              .shape = "x,y,z" };
     if (!wr_arg_parse(&spec, "turn", text, &numbers, &why))
-        return wr_fail(err, "%s, or " WR_OWN_TURN, why.text);
+        return wr_fail(err, "%s, or " WR_OWN_TURN, wr_error_message(&why));
     scene->rotate_deg = (WrVec3){ numbers.numbers[0], numbers.numbers[1], numbers.numbers[2] };
     wr_arg_fini(&numbers);
     return true;

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/message.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "command/commands.h"
@@ -80,12 +81,13 @@ void wr_session_set_outputs(WrSession *session, bool outputs)
 void wr_session_note(WrSession *session, const char *format, ...)
 {
     if (!session->options.note) return;
-    char text[512];
+    char text[WR_ERROR_TEXT], message[WR_ERROR_MESSAGE];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    wr_message_format(text, sizeof text, message, sizeof message, format, args);
     va_end(args);
-    session->options.note(session->options.note_ctx, text);
+    const bool whole = session->options.note_messages && message[0];
+    session->options.note(session->options.note_ctx, whole ? message : text);
 }
 
 /* ---- running ---- */
@@ -322,7 +324,7 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
         wr_fail(err, "cancelled"); /* the half-done state was restored
                                                                       above */
     if (!good) wr_call_add_hint(call, err);
-    if (!good) name_command(err, call->command->name);
+    if (!good && !session->nameless) name_command(err, call->command->name);
     wr_call_free(call);
     return good;
 }

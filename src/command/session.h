@@ -33,7 +33,8 @@ typedef struct WrSessionOptions {
     WrPool *pool;    /* borrowed; NULL: one thread */
     WrNoteSink note; /* may be NULL */
     void *note_ctx;
-    bool foretell; /* note the required memory before a command that needs much */
+    bool note_messages; /* notes are messages (base/message.h), to be translated; else plain text */
+    bool foretell;      /* note the required memory before a command that needs much */
     /* perform output commands (only `wrinkle run` and the window do); otherwise they are skipped
        with a note */
     bool outputs;

@@ -135,7 +135,7 @@ static bool run_scene_lines(WrSession *session, const char *text, bool lenient, 
         wr_call_free(call);
         wr_free(line);
         if (!good && !lenient) return false;
-        if (!good) wr_session_note(session, "left out: %s", err ? err->text : "a line");
+        if (!good) wr_session_note(session, "left out: %s", err ? wr_error_message(err) : "a line");
         p += length + (p[length] == '\n');
     }
     return true;
@@ -249,10 +249,9 @@ static bool open_picture(WrSession *session, const char *path, WrError *err)
     WrText line = { 0 };
     wr_text_add(&line, "image ");
     wr_text_add_word(&line, path);
+    session->nameless = true; /* the user gave no command */
     bool good = wr_session_run(session, wr_text_get(&line), err);
-    static const char prefix[] = "image: ";
-    if (!good && err && strncmp(err->text, prefix, sizeof prefix - 1) == 0)
-        memmove(err->text, err->text + sizeof prefix - 1, strlen(err->text) - sizeof prefix + 2);
+    session->nameless = false;
     wr_text_fini(&line);
     return good;
 }

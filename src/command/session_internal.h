@@ -62,6 +62,7 @@ struct WrSession {
     char *folder;           /* folder of the running script; borrowed; NULL: the current folder */
     bool skip_outputs;      /* a script is opened rather than run */
     bool loading;           /* the scene lines of a document are running */
+    bool nameless;          /* errors do not begin with the command's name */
     bool opening; /* a script, a picture or a recovery is being opened: nothing is journaled */
     WrJournal *journal; /* of the document, from its first command; owned; NULL: none yet */
     /* history positions that a replay of the journal can reach */

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/message.h"
 #include "base/enum_rows.h"
 #include "base/suggest.h"
 #include "base/text.h"
@@ -76,9 +77,9 @@ static void add_range(WrText *text, double low, double high, bool above)
         return;
     }
     if (above) {
-        wr_text_add(text, "above ");
+        wr_message_addf(text, "above ");
         add_limit(text, low);
-        wr_text_add(text, ", up to ");
+        wr_message_addf(text, ", up to ");
     } else {
         add_limit(text, low);
         wr_text_add(text, "..");
@@ -96,36 +97,46 @@ static void add_choices(WrText *text, const WrArgSpec *spec)
 void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
 {
     switch (spec->type) {
-    case WR_ARG_NUMBER: wr_text_add(text, spec->whole ? "a whole number, " : "a number, "); break;
+    case WR_ARG_NUMBER:
+        wr_message_addf(text, spec->whole ? "a whole number, " : "a number, ");
+        break;
     case WR_ARG_SIZE:
-        wr_text_addf(text, "%s, two whole numbers, each ", spec->shape ? spec->shape : "WxH");
+        wr_message_addf(text, "%s, two whole numbers, each ", spec->shape ? spec->shape : "WxH");
         break;
     case WR_ARG_TUPLE:
-        wr_text_addf(text, "%d %snumbers separated by commas", spec->components,
-                     spec->whole ? "whole " : "");
-        if (!spec->parts) wr_text_add(text, ", each ");
+        wr_message_addf(text,
+                        spec->whole ? "%d whole numbers separated by commas"
+                                    : "%d numbers separated by commas",
+                        spec->components);
+        if (!spec->parts) wr_message_addf(text, ", each ");
         break;
     case WR_ARG_LIST:
         if (spec->rows_low == spec->rows_high)
-            wr_text_addf(text, "%d tuples separated by semicolons", spec->rows_low);
-        else wr_text_add(text, "tuples separated by semicolons");
-        if (!spec->parts) wr_text_addf(text, ", each of %d numbers ", spec->components);
+            wr_message_addf(text, "%d tuples separated by semicolons", spec->rows_low);
+        else wr_message_addf(text, "tuples separated by semicolons");
+        if (!spec->parts) wr_message_addf(text, ", each of %d numbers ", spec->components);
         break;
     case WR_ARG_CHOICE:
-        wr_text_add(text, "one of ");
+        wr_message_addf(text, "one of ");
         add_choices(text, spec);
         return;
-    case WR_ARG_PATH: wr_text_add(text, "a file name"); return;
-    case WR_ARG_TEXT: wr_text_add(text, spec->shape ? spec->shape : "a text"); return;
-    case WR_ARG_SHA256: wr_text_add(text, "64 hexadecimal digits"); return;
-    case WR_ARG_NAME: wr_text_addf(text, "a name of up to %d bytes", WR_LAYER_NAME_MAX); return;
-    case WR_ARG_LAYER: wr_text_add(text, "a layer's number, from 1 at the bottom, or name"); return;
-    case WR_ARG_PRESET: wr_text_add(text, "a preset's name, or a file that ends in .myb"); return;
+    case WR_ARG_PATH: wr_message_addf(text, "a file name"); return;
+    case WR_ARG_TEXT:
+        wr_message_addf(text, "%s", spec->shape ? spec->shape : WR_MESSAGE("a text"));
+        return;
+    case WR_ARG_SHA256: wr_message_addf(text, "64 hexadecimal digits"); return;
+    case WR_ARG_NAME: wr_message_addf(text, "a name of up to %d bytes", WR_LAYER_NAME_MAX); return;
+    case WR_ARG_LAYER:
+        wr_message_addf(text, "a layer's number, from 1 at the bottom, or name");
+        return;
+    case WR_ARG_PRESET:
+        wr_message_addf(text, "a preset's name, or a file that ends in .myb");
+        return;
     case WR_ARG_TYPES: break;
     }
     if (!spec->parts) add_range(text, spec->low, spec->high, spec->above);
-    if (spec->unit) wr_text_addf(text, " %s", spec->unit);
-    if (spec->share) wr_text_add(text, ", or a share of the side between -1 and 1");
+    if (spec->unit) wr_message_addf(text, " %s", spec->unit);
+    if (spec->share) wr_message_addf(text, ", or a share of the side between -1 and 1");
 }
 
 void wr_arg_fallback_print(const WrArgSpec *spec, WrText *text)
@@ -182,8 +193,9 @@ static bool parse_part(const WrArgSpec *spec, const char *where, const char *val
     WrText range = { 0 };
     char excerpt[WR_EXCERPT_SIZE], *word = wr_strndup(text, length);
     add_range(&range, c->low, c->high, false);
-    wr_fail(err, "%s: %s is \"%s\": must be a %snumber, %s", where, c->name,
-            wr_excerpt(word, excerpt), c->whole ? "whole " : "", wr_text_get(&range));
+    wr_fail(err, "%s: %s is \"%s\": must be %s%s", where, c->name, wr_excerpt(word, excerpt),
+            c->whole ? WR_MESSAGE("a whole number, ") : WR_MESSAGE("a number, "),
+            wr_text_get(&range));
     wr_free(word);
     wr_text_fini(&range);
     return false;
@@ -289,7 +301,8 @@ static bool parse_text(const WrArgSpec *spec, const char *where, const char *val
     if (spec->check && !spec->check(spec->check_ctx, spec->name, value, &why)) {
         /* the message contains the argument's name itself */
         const char *colon = strrchr(where, ':');
-        return wr_fail(err, "%.*s: %s", colon ? (int)(colon - where) : 0, where, why.text);
+        return wr_fail(err, "%.*s: %s", colon ? (int)(colon - where) : 0, where,
+                       wr_error_message(&why));
     }
     arg->text = wr_strdup(value);
     arg->rows = 1;

@@ -31,7 +31,7 @@ static void work(void *ctx, void *answer)
 static WrProbeEnd judge(const Verdict *verdict, WrError *err)
 {
     if (verdict->result) return WR_PROBE_TRUE;
-    wr_fail(err, "%.500s", verdict->err.text);
+    wr_fail(err, "%s", wr_error_message(&verdict->err));
     return WR_PROBE_FALSE;
 }
 

@@ -300,7 +300,8 @@ static bool read_filter(Loading *in, int part, WrFilter *out, WrError *err)
     if (!text) return true;
     if (wr_filter_parse(text, &filter, &why)) *out = filter;
     else if (!in->newer)
-        return wr_fail(err, "%s: damaged: filter '%.40s' of a layer: %s", in->path, text, why.text);
+        return wr_fail(err, "%s: damaged: filter '%.40s' of a layer: %s", in->path, text,
+                       wr_error_message(&why));
     return true;
 }
 

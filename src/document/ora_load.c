@@ -218,7 +218,7 @@ static bool read_filter(Loading *in, const WrOraLayer *from, WrLayer *layer, WrE
     else if (in->newer) note(in, layer->name, "its filter is not known here: it does nothing");
     else
         return wr_fail(err, "%s: damaged: filter '%.40s' of layer '%.80s': %s", in->path,
-                       from->filter, layer->name, why.text);
+                       from->filter, layer->name, wr_error_message(&why));
     return true;
 }
 

@@ -431,7 +431,7 @@ static bool write_archive(Saving *to, WrFileTarget *target, WrError *err)
     bool good = fill_archive(to, err);
     if (good && zip_close(to->archive) != 0)
         good = wr_fail(err, "%s",
-                       to->err.text[0]  ? to->err.text
+                       to->err.text[0]  ? wr_error_message(&to->err)
                        : to->sink.error ? wr_file_why(to->sink.error, why)
                                         : zip_strerror(to->archive));
     else if (good) to->archive = NULL;

@@ -300,7 +300,7 @@ bool wr_ora_stack_read(const char *xml, size_t length, WrOraStack *stack, WrErro
     XML_SetElementHandler(reading->parser, on_start, on_end);
     XML_SetStartDoctypeDeclHandler(reading->parser, on_doctype);
     bool good = XML_Parse(reading->parser, xml, (int)length, 1) == XML_STATUS_OK;
-    if (reading->err.text[0]) good = wr_fail(err, "%s", reading->err.text);
+    if (reading->err.text[0]) good = wr_fail(err, "%s", wr_error_message(&reading->err));
     else if (!good)
         wr_fail(err, "damaged: its list of layers, line %lu: %s",
                 (unsigned long)XML_GetCurrentLineNumber(reading->parser),

@@ -332,7 +332,7 @@ static bool read_header(Reader *reader, const char *path, WrJournalRead *read, W
     Next next = next_line(reader, &line, &length, why);
     if (next == NEXT_END) return wr_fail(err, "%s: empty: no journal", path);
     if (next == NEXT_BAD && reader->end - reader->start < HEADER_MAX)
-        return wr_fail(err, "%s: the journal's first line is %s", path, why->text);
+        return wr_fail(err, "%s: the journal's first line is %s", path, wr_error_message(why));
     if (next == NEXT_BAD) return wr_fail(err, "%s: not a journal of this program", path);
     char *own = wr_strndup(line, length < HEADER_MAX ? length : HEADER_MAX);
     why->text[0] = '\0';
@@ -435,7 +435,7 @@ bool wr_journal_read_fd(int fd, const char *path, WrJournalRead *out, WrError *e
     if (ok && read.headless) note_damage(&collector, &read, 1, why.text);
     if (ok) {
         int64_t whole = read_records(&reader, &collector, seal, &read, &good);
-        if (read.headless && whole == 0) ok = wr_fail(err, "%s: %s", path, why.text);
+        if (read.headless && whole == 0) ok = wr_fail(err, "%s: %s", path, wr_error_message(&why));
         if (wr_fd_info(fd, &info) && info.bytes > good) read.dropped_bytes = info.bytes - good;
         ok = ok && hand_over(&collector, &read, err);
     }

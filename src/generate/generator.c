@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/message.h"
 #include "base/text.h"
 #include "field/field.h"
 
@@ -116,14 +117,17 @@ static bool fail_number(const WrGenerator *g, const WrParam *p, const WrParamPar
     if (part) wr_text_addf(&text, ": %s", part->name);
     wr_text_add(&text, "=");
     wr_text_add_number(&text, value);
-    bool whole = part ? part->whole : p->kind == WR_PARAM_WHOLE;
-    wr_text_addf(&text, ": must be %s number, ", whole ? "a whole" : "a");
-    if (!part && p->above) wr_text_add(&text, "above ");
-    wr_text_add_number(&text, part ? part->low : p->low);
-    wr_text_add(&text, !part && p->above ? ", up to " : "..");
-    wr_text_add_number(&text, part ? part->high : p->high);
-    if (p->unit && *p->unit) wr_text_addf(&text, " %s", p->unit);
-    wr_fail(err, "%s", wr_text_get(&text));
+    bool whole = part ? part->whole : p->kind == WR_PARAM_WHOLE, above = !part && p->above;
+    WrText range = { 0 };
+    wr_message_addf(&range, whole ? "a whole number, " : "a number, ");
+    if (above) wr_message_addf(&range, "above ");
+    wr_text_add_number(&range, part ? part->low : p->low);
+    if (above) wr_message_addf(&range, ", up to ");
+    else wr_text_add(&range, "..");
+    wr_text_add_number(&range, part ? part->high : p->high);
+    if (p->unit && *p->unit) wr_message_addf(&range, " %s", p->unit);
+    wr_fail(err, "%s: must be %s", wr_text_get(&text), wr_text_get(&range));
+    wr_text_fini(&range);
     wr_text_fini(&text);
     return false;
 }

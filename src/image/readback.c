@@ -145,5 +145,5 @@ bool wr_image_verify(const char *name, int fd, const WrImageFormat *format, cons
     size_t length = strlen(name);
     bool named = strncmp(inner.text, name, length) == 0 && inner.text[length] == ':';
     return wr_fail(err, "it does not read back as it was written: %s",
-                   inner.text + (named ? length + 2 : 0));
+                   named ? inner.text + length + 2 : wr_error_message(&inner));
 }

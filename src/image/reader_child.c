@@ -44,7 +44,8 @@ static void answer(WrWireKind kind, const void *bytes, size_t length)
 
 static void answer_failure(bool memory, const WrError *err)
 {
-    answer(memory ? WR_WIRE_MEMORY : WR_WIRE_FAILED, err->text, strlen(err->text));
+    const char *message = wr_error_message(err);
+    answer(memory ? WR_WIRE_MEMORY : WR_WIRE_FAILED, message, strlen(message));
 }
 
 /* Sends the parts: four int32 (width, height, channels, type), then names of the part and of its

@@ -3,6 +3,7 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/message.h"
 #include "base/text.h"
 #include "image/reader_process.h"
 #include "system/channel.h"
@@ -87,16 +88,16 @@ static bool die_of_nonsense(WrReader *reader)
 
 static bool die_of_time(WrReader *reader)
 {
-    char why[128];
-    snprintf(why, sizeof why, "gave nothing to read within %u s; the file is damaged or hostile",
-             reader->seconds);
-    return die(reader, why);
+    WrError why;
+    wr_fail(&why, "gave nothing to read within %u s; the file is damaged or hostile",
+            reader->seconds);
+    return die(reader, wr_error_message(&why));
 }
 
 static bool die_of_status(WrReader *reader, const Answer *answer)
 {
     WrWireDied told;
-    char why[160];
+    WrError why;
     if (answer->head.length != sizeof told) return die_of_nonsense(reader);
     memcpy(&told, answer->bytes, sizeof told);
     const WrChildEnd end = { (WrChildWhy)told.why, told.number };
@@ -105,18 +106,20 @@ static bool die_of_status(WrReader *reader, const Answer *answer)
         return die(reader, "the reader was killed while it read this file (by hand, or for want of "
                            "memory)");
     const char *name = end.why == WR_CHILD_CRASHED ? wr_child_crash(end.number) : NULL;
-    snprintf(why, sizeof why, "the reader crashed on this file%s%s%s; it is damaged or hostile",
-             name ? " (" : "", name ? name : "", name ? ")" : "");
-    return die(reader, why);
+    wr_fail(&why, "the reader crashed on this file%s%s%s; it is damaged or hostile",
+            name ? " (" : "", name ? name : "", name ? ")" : "");
+    return die(reader, wr_error_message(&why));
 }
 
-/* Fails with the reader's error message, reduced to one line. */
+/* Fails with the message of the reader's error, reduced to one line. */
 static bool fail_sentence(const WrReader *reader, Answer *answer, WrError *err)
 {
     for (uint32_t i = 0; i < answer->head.length; i++)
-        if ((unsigned char)answer->bytes[i] < ' ' || answer->bytes[i] == 127)
+        if (((unsigned char)answer->bytes[i] < ' ' &&
+             !memchr(WR_MESSAGE_MARKS, answer->bytes[i], 3)) ||
+            answer->bytes[i] == 127)
             answer->bytes[i] = ' ';
-    return wr_fail(err, "%s: %.400s", reader->name, answer->bytes ? answer->bytes : "");
+    return wr_fail(err, "%s: %s", reader->name, answer->bytes ? answer->bytes : "");
 }
 
 static bool fail_memory(const WrReader *reader, WrError *err)
@@ -140,7 +143,7 @@ static bool receive_whole(WrReader *reader, double deadline, Answer *answer)
     if (got == WR_WIRE_GOT && answer->head.length > 0) {
         WrError err;
         answer->bytes = wr_try_alloc((size_t)answer->head.length + 1, 1, "an answer", &err);
-        if (!answer->bytes) return die(reader, err.text);
+        if (!answer->bytes) return die(reader, wr_error_message(&err));
         got = wr_wire_receive(reader->channel, answer->bytes, answer->head.length, deadline, NULL);
     }
     if (got == WR_WIRE_LATE) return die_of_time(reader);
@@ -159,7 +162,7 @@ static bool receive_by(WrReader *reader, double deadline, WrWireKind kind, Answe
     else if (good && answer->head.kind == WR_WIRE_MEMORY) fail_memory(reader, err);
     else {
         if (good) die_of_nonsense(reader);
-        wr_fail(err, "%s", reader->end.text);
+        wr_fail(err, "%s", wr_error_message(&reader->end));
     }
     wr_free(answer->bytes);
     answer->bytes = NULL;
@@ -253,7 +256,7 @@ static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, double
     if (!receive_by(reader, deadline, WR_WIRE_OPENED, &answer, err)) return false;
     if (take_parts(reader, &answer, order->most)) return true;
     die_of_nonsense(reader);
-    return wr_fail(err, "%s", reader->end.text);
+    return wr_fail(err, "%s", wr_error_message(&reader->end));
 }
 
 static WrReader *new_reader(const char *name, int fd, WrWireTask task, int most, WrWireOrder *order)
@@ -391,7 +394,7 @@ static bool ask(WrReader *reader, const Rows *rows, int chunk, WrError *err)
 bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, float *out,
                     WrError *err)
 {
-    if (reader->dead) return wr_fail(err, "%s", reader->end.text);
+    if (reader->dead) return wr_fail(err, "%s", wr_error_message(&reader->end));
     Rows all = { .part = part, .y = y, .rows = rows, .channels = channels };
     all.row = (size_t)reader->parts[part].width * (size_t)channels * sizeof(float);
     all.step = CHUNK / all.row >= WR_IMAGE_STRIP ? WR_IMAGE_STRIP
@@ -427,13 +430,13 @@ bool wr_reader_digest(WrReader *reader, int part, int y, int rows, int channels,
 {
     WrWireDigest want = { part, y, rows, channels, *digest };
     Answer answer;
-    if (reader->dead) return wr_fail(err, "%s", reader->end.text);
+    if (reader->dead) return wr_fail(err, "%s", wr_error_message(&reader->end));
     wr_wire_send(reader->channel, WR_WIRE_DIGEST, &want, sizeof want, -1);
     if (!receive(reader, WR_WIRE_DIGEST, &answer, err)) return false;
     bool good = answer.head.length == sizeof *digest;
     if (good) memcpy(digest, answer.bytes, sizeof *digest);
     wr_free(answer.bytes);
-    return good || die_of_nonsense(reader) || wr_fail(err, "%s", reader->end.text);
+    return good || die_of_nonsense(reader) || wr_fail(err, "%s", wr_error_message(&reader->end));
 }
 
 /* ---- other files ---- */

@@ -196,7 +196,7 @@ static bool write_target(WrFileTarget *target, const char *path, const WrImageFo
                            digests, err);
     wr_progress_set(whole);
     return good && (wr_image_verify(path, target->fd, format, parts, count, digests, &inner) ||
-                    fail_write(err, path, target->fd, inner.text));
+                    fail_write(err, path, target->fd, wr_error_message(&inner)));
 }
 
 bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrError *err)
@@ -248,7 +248,7 @@ static bool verify_bytes(const char *name, const Bytes *all, const WrImageFormat
     if (fd < 0) return false;
     const bool good = wr_image_verify(name, fd, format, part, 1, digest, &inner);
     wr_fd_close(fd);
-    return good || fail_write(err, name, -1, inner.text);
+    return good || fail_write(err, name, -1, wr_error_message(&inner));
 }
 
 bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes, size_t *length,

@@ -11,6 +11,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 #include "ui/preview/preview.h"
+#include "base/error.h"
 #include "base/enum_rows.h"
 
 #include <math.h>
@@ -76,7 +77,9 @@ static void error_state(const WrApp *app)
     const WrAccuracy *a = app->accuracy;
     const bool failed = a->error_of == a->state && a->error_why.text[0];
     const bool old = a->error && a->error->of != a->state;
-    const char *text = failed                   ? a->error_why.text
+    char why[WR_WORDS_MESSAGE];
+    if (failed) wr_words_message(wr_error_message(&a->error_why), why, sizeof why);
+    const char *text = failed                   ? why
                        : old                    ? "Of the view before; measured anew when it rests."
                        : app->settings->turning ? "Measured while the patch rests."
                        : !a->error              ? "Measuring ..."

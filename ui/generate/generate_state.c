@@ -35,7 +35,6 @@ void wr_generate_new(WrApp *app)
     app->generate = wr_alloc(1, sizeof *app->generate);
     app->generate->preset = -2;
     app->generate->point = app->generate->blamed = -1;
-    app->generate->blame = "";
 }
 
 void wr_generate_free(WrApp *app)
@@ -64,9 +63,10 @@ void wr_generate_blame(WrGenerateState *hand)
     const char *said = hand->err.text, *colon = strstr(said, ": ");
     size_t family = hand->generator ? strlen(hand->generator->family) : 0;
     hand->blamed = -1;
-    hand->blame = said;
+    hand->blame = 0;
     if (!colon || strncmp(said, hand->generator->family, family) != 0) return;
-    hand->blame = said = colon + 2;
+    said = colon + 2;
+    hand->blame = (size_t)(said - hand->err.text);
     for (int i = 0; hand->generator->params[i].name; i++) {
         const WrParam *p = &hand->generator->params[i];
         const char *file = p->kind == WR_PARAM_FILE ? hand->value[i].text : "";

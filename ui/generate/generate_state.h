@@ -62,10 +62,10 @@ typedef struct WrGenerateState {
     WrError err;                 /* reason for a missing preview; "": there is one */
     /* index of the parameter that err is about (wr_generate_blame); -1: no single one */
     int blamed;
-    const char *blame; /* part of err about the parameter */
-    int opened;        /* count of openings: each scrolls to the first value */
-    int focus_text;    /* remaining frames in which focusing the text field is tried */
-    int asking_file;   /* index of the parameter whose file is being chosen */
+    size_t blame;    /* bytes of err.text before the part about the parameter */
+    int opened;      /* count of openings: each scrolls to the first value */
+    int focus_text;  /* remaining frames in which focusing the text field is tried */
+    int asking_file; /* index of the parameter whose file is being chosen */
 
     WR_ARRAY(WrGeneratePreset) presets;
     bool presets_known;

@@ -6,9 +6,11 @@
 #include "ui/generate/generate_state.h"
 #include "ui/toolkit/gui.h"
 #include "ui/toolkit/theme.h"
+#include "ui/toolkit/words.h"
 #include "ui/jobs/edit_preview.h"
 
 #include "base/array.h"
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "generate/generator.h"
@@ -147,12 +149,21 @@ static bool lacks_file(const WrGenerateState *hand)
            !hand->value[hand->blamed].text[0];
 }
 
+/* The error without the generator's name, in the user's language. */
+static const char *error_of(const WrGenerateState *hand, char said[WR_WORDS_MESSAGE])
+{
+    wr_words_message(wr_error_message(&hand->err), said, WR_WORDS_MESSAGE);
+    const bool named =
+        strncmp(said, hand->err.text, hand->blame) == 0; /* no word, not translated */
+    return said + (named ? hand->blame : 0);
+}
+
 /* The error, or the notes of the preview; "" if there are none. */
-static const char *notes(const WrApp *app)
+static const char *notes(const WrApp *app, char said[WR_WORDS_MESSAGE])
 {
     const WrGenerateState *hand = app->generate;
     if (lacks_file(hand)) return "Choose a file to begin.";
-    if (hand->err.text[0]) return hand->blame;
+    if (hand->err.text[0]) return error_of(hand, said);
     return hand->active && app->trying ? wr_edit_preview_notes(app->trial) : "";
 }
 
@@ -207,7 +218,8 @@ static void expectation(const WrApp *app)
    move when a note appears or disappears. */
 static void said(const WrApp *app, SDL_Rect *room)
 {
-    const char *text = notes(app);
+    char said[WR_WORDS_MESSAGE];
+    const char *text = notes(app, said);
     wr_gui_area_begin("##generate_notes", WR_AREA_PANEL, cut(room, wr_gui_px(42), false),
                       WR_COLOUR_BAR);
     if (*text) tell(app, text);

@@ -275,7 +275,7 @@ static bool read_all(Reader *reader, const char *bytes, size_t length, const cha
         const char *stop = memchr(at, '\n', (size_t)(end - at));
         if (!stop) stop = end;
         if (!read_line(reader, number, at, stop, &inner))
-            return wr_fail(err, "%s:%d: %s", path, number, inner.text);
+            return wr_fail(err, "%s:%d: %s", path, number, wr_error_message(&inner));
         at = stop < end ? stop + 1 : end;
     }
     if (reader->events.count == 0) return wr_fail(err, "%s: it holds no event", path);

@@ -9,6 +9,7 @@
 #include "ui/jobs/thread.h"
 
 #include "base/array.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/enum_rows.h"
@@ -57,7 +58,7 @@ struct WrFiles {
     int hidden; /* entries that cannot be read for the purpose */
     bool all;   /* show them too */
     bool focus;
-    char trouble[512];
+    WrError trouble;                    /* text is "" if there is none */
     WrFilePlace places[WR_FILE_PLACES]; /* owned; as at the opening */
     int place_count;                    /* -1: not yet looked up */
 };
@@ -244,12 +245,11 @@ static bool is_folder(const char *path)
 static void list_folder(WrFiles *files)
 {
     free_entries(files);
-    files->trouble[0] = '\0';
+    files->trouble = (WrError){ "" };
     files->hidden = 0;
     WrFolder *dir = wr_folder_open(files->folder);
     if (!dir) {
-        snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", files->folder,
-                 strerror(errno));
+        wr_fail(&files->trouble, "%s: %s", files->folder, strerror(errno));
         return;
     }
     for (const char *e; (e = wr_folder_next(dir)) && files->entries.count < ENTRIES_MAX;) {
@@ -294,7 +294,7 @@ static bool accept(WrFiles *files)
         go_to(files, path);
         files->field[0] = '\0';
     } else if (!wr_files_writes(files->purpose) && !wr_path_can_read(path)) {
-        snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", path, strerror(errno));
+        wr_fail(&files->trouble, "%s: %s", path, strerror(errno));
     } else {
         char *full = with_ending(files, path);
         snprintf(files->answer, sizeof files->answer, "%s", full);
@@ -472,7 +472,8 @@ int wr_files_panel(WrFiles *files, const char *note, char *const recent[])
     bool entered = wr_gui_text_field("##name", 0, files->field, sizeof files->field, files->focus);
     files->focus = false;
     warn_overwrite(files);
-    if (files->trouble[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, files->trouble);
+    if (files->trouble.text[0])
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, wr_error_message(&files->trouble));
     wr_gui_space(4);
     if (wr_gui_button(purposes[files->purpose].done, true)) done = true;
     wr_gui_same_line(8);

@@ -116,7 +116,7 @@ static void tell(WrPreferences *p, const WrError *err, const char *format, const
                  const char *what, const char *other)
 {
     p->bad = err != NULL;
-    if (err) snprintf(p->told, sizeof p->told, "%.190s", err->text);
+    if (err) wr_words_message(wr_error_message(err), p->told, sizeof p->told);
     else snprintf(p->told, sizeof p->told, format, key, what, other);
 }
 

@@ -8,6 +8,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/words.h"
 
+#include "base/error.h"
 #include "base/enum_rows.h"
 #include "field/field.h"
 
@@ -195,7 +196,8 @@ static void show_maps(const WrApp *app, const WrSheetState *sheet)
         fmax(wr_gui_px(PICTURE_UNITS + 16), fmin(wr_gui_px(3.3 * PICTURE_UNITS), room));
     const WrSheetLook *look = sheet->shown;
     wr_gui_list_begin("maps", high);
-    if (look && !look->set) wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_BAD, look->err.text);
+    if (look && !look->set)
+        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_BAD, wr_error_message(&look->err));
     for (int i = 0; look && look->set && i < look->set->maps.count; i++) {
         wr_gui_push_id(i);
         map_row(sheet, i);

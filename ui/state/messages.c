@@ -2,7 +2,6 @@
 #include "ui/state/messages.h"
 #include "ui/state/app_options.h"
 #include "ui/state/app_state.h"
-#include "ui/toolkit/sentences.h"
 #include "ui/toolkit/words.h"
 
 #include "base/array.h"
@@ -52,14 +51,14 @@ void wr_app_say_lines(WrApp *app, const char *text)
 
 void wr_app_say_why(WrApp *app, const WrError *err)
 {
-    char said[WR_SENTENCE];
-    add(app, wr_sentence(err->text, said, sizeof said), false);
+    char said[WR_WORDS_MESSAGE];
+    add(app, wr_words_message(wr_error_message(err), said, sizeof said), false);
 }
 
 void wr_app_fail(WrApp *app, const WrError *err)
 {
-    char said[WR_SENTENCE];
-    add(app, wr_sentence(err->text, said, sizeof said), true);
+    char said[WR_WORDS_MESSAGE];
+    add(app, wr_words_message(wr_error_message(err), said, sizeof said), true);
 }
 
 void wr_app_take_notes(WrApp *app)
@@ -72,8 +71,8 @@ void wr_app_take_notes(WrApp *app)
         size_t length = strcspn(at, "\n");
         bool more = at[length] == '\n';
         at[length] = '\0';
-        char said[WR_SENTENCE];
-        if (length > 0) add(app, wr_sentence(at, said, sizeof said), false);
+        char said[WR_WORDS_MESSAGE];
+        if (length > 0) add(app, wr_words_message(at, said, sizeof said), false);
         at += length + more;
     }
     wr_text_clear(notes);

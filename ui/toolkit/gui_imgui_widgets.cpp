@@ -1,6 +1,6 @@
 /* Areas, text, menus and widgets. */
 #include "ui/toolkit/gui_imgui.h"
-#include "ui/toolkit/sentences.h"
+#include "ui/toolkit/words.h"
 
 extern "C" {
 #include "system/clock.h"
@@ -173,10 +173,9 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_text_wrapped(WrFont font, WrColour colour, const char *text)
 try {
-    /* Error messages are composed by modules without translations. */
-    char said[WR_SENTENCE];
+    char said[WR_WORDS_MESSAGE];
     const bool wrong = colour == WR_COLOUR_BAD && !wr_gui_current()->as_it_is;
-    text_in(font, colour, wrong ? wr_sentence(text, said, sizeof said) : text, true);
+    text_in(font, colour, wrong ? wr_words_message(text, said, sizeof said) : text, true);
 }
 WR_CAUGHT()
 

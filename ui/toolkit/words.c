@@ -5,10 +5,12 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/message.h"
 #include "base/enum_rows.h"
 #include "base/text.h"
 
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -175,11 +177,39 @@ const char *wr_words_language(void)
     return spoken.now ? wr_languages[spoken.now].code : "en";
 }
 
+/* NULL: no translation */
+static const char *find(const char *english)
+{
+    return spoken.now ? wr_catalogue_find(spoken.read[spoken.now], english) : NULL;
+}
+
+static const char *say_format(const char *english)
+{
+    const char *found = find(english);
+    return found ? found : english;
+}
+
+/* In gettext's files, a context and the byte 4 are before the text. */
+static const char *say_value(const char *english)
+{
+    char key[WR_WORDS_MESSAGE];
+    snprintf(key, sizeof key, "value\4%s", english);
+    const char *found = find(key);
+    return found ? found : english;
+}
+
+const char *wr_words_message(const char *message, char *out, size_t size)
+{
+    static const WrMessageWords words = { say_format, say_value };
+    const char *whole = find(message); /* a text that no format wrote */
+    return wr_message_print(whole ? whole : message, &words, out, size);
+}
+
 const char *wr_words(const char *english)
 {
     if (wr_words_requested && english) wr_words_requested(english);
     if (!spoken.now || !english) return english;
-    const char *found = wr_catalogue_find(spoken.read[spoken.now], english);
+    const char *found = find(english);
     if (!found && wr_words_missed) wr_words_missed(english);
     return found ? found : english;
 }

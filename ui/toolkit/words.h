@@ -28,6 +28,10 @@ extern const int wr_language_count;
    LC_MESSAGES, LANG, in gettext's order). A language with a missing or damaged file is English. Earlier results stay
    valid. */
 void wr_words_choose(int language);
+/* An error, note or other message (base/message.h), of which each format is looked up, and each value under the context
+   "value"; the rest stays English. out: size bytes, at least 1; longer texts are cut at a character. Returns out. */
+const char *wr_words_message(const char *message, char *out, size_t size);
+#define WR_WORDS_MESSAGE 1200 /* bytes: enough for the longest error */
 /* The present language: "en" or the code of a translation. */
 const char *wr_words_language(void);
 /* The first code requested by the environment that is in wr_languages; "en" if none is requested. Each may be

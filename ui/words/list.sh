@@ -2,30 +2,40 @@
 # list.sh FILE: the window's texts as gettext's template: those that its source gives to widgets, messages and wr_words. The
 # tables' are besides what a walk through the window asks for (tests/test_ui_words.c prints those that a language lacks).
 # What a language lacks of them: msgcmp ui/words/de.po FILE
+# list.sh FILE errors: the formats of errors and notes of src/ and ui/ (wr_fail and others); those of commands that run
+# without a window, and of the hard cases, are left out.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 out=$(realpath -m "$1")
+what=${2:-texts}
 cd "$root"
+if [[ $what == errors ]]; then
+    folders=(src ui)
+    functions='wr_fail|wr_error_prefix|wr_session_note|wr_message_addf'
+    keys=(-kwr_fail:2 -kwr_error_prefix:2 -kwr_session_note:2 -kwr_message_addf:2 -kWR_MESSAGE:1)
+else
+    folders=(ui)
+    functions='wr_words|wr_app_say|wr_gui_(?:text|text_wrapped|text_cut|heading|label|tip|button|chip|fold|hold|menu_item|dialog_begin)'
+    keys=(-kwr_words -kwr_app_say:2 -kwr_gui_text:3 -kwr_gui_text_wrapped:3 -kwr_gui_text_cut:3 -kwr_gui_heading:1
+        -kwr_gui_label:1 -kwr_gui_tip:1 -kwr_gui_button:1 -kwr_gui_chip:2 -kwr_gui_hint_field:2 -kwr_gui_fold:1
+        -kwr_gui_menu_begin:1 -kwr_gui_menu_item:1 -kwr_gui_dialog_begin:1 -kwr_gui_draw_text:6 -kROW:2 -kEDIT:2)
+fi
 # Lists of X11's names have bytes that are no UTF-8.
-mapfile -t files < <(git ls-files 'ui/*.c' 'ui/*.cpp' 2>/dev/null || find ui -name '*.c' -o -name '*.cpp')
-kept=()
-for file in "${files[@]}"; do
-    [[ $file == ui/input/clip_x11.c ]] || kept+=("$file")
-done
+mapfile -t files < <(find "${folders[@]}" \( -name '*.c' -o -name '*.cpp' -o -name '*.h' \) ! -name clip_x11.c \
+    ! -path 'src/cli/*' ! -path 'src/hardcases/*' | LC_ALL=C sort)
 # xgettext takes one text of an argument: `shown ? "Hide" : "Show"` has two. They get a call of their own.
 choices=$(mktemp --suffix=.c)
 trap 'rm -f "$choices"' EXIT
-perl -0777 -ne '
-    while (/\b(?:wr_words|wr_app_say|wr_gui_(?:text|text_wrapped|text_cut|heading|label|tip|button|chip|fold|hold|menu_item|dialog_begin))
+FUNCTIONS=$functions perl -0777 -ne '
+    while (/\b(?:$ENV{FUNCTIONS})
             (\((?:[^()"]++|"(?:[^"\\]|\\.)*"|(?1))*\))/gx) {
         my $arguments = $1;
+        # Of a format, only the choice that stands in its place: the other arguments are values.
+        $arguments =~ s/^(\([^,]*,(?:[^,"]|"(?:[^"\\]|\\.)*"\s*)*),.*/$1/s if $ENV{FUNCTIONS} =~ /wr_fail/;
         while ($arguments =~ /[?:]\s*((?:"(?:[^"\\]|\\.)*"\s*)+)/g) {
             my $text = $1;
-            print "wr_words($text);\n" if $text =~ /[a-z]{3}/;
+            print "wr_choice($text);\n" if $text =~ /[a-z]{3}/;
         }
-    }' "${kept[@]}" >"$choices"
-xgettext --language=C --from-code=UTF-8 --no-location --no-wrap -o "$out" \
-    -k -kwr_words -kwr_app_say:2 -kwr_gui_text:3 -kwr_gui_text_wrapped:3 -kwr_gui_text_cut:3 -kwr_gui_heading:1 \
-    -kwr_gui_label:1 -kwr_gui_tip:1 -kwr_gui_button:1 -kwr_gui_chip:2 -kwr_gui_hint_field:2 -kwr_gui_fold:1 \
-    -kwr_gui_menu_begin:1 -kwr_gui_menu_item:1 -kwr_gui_dialog_begin:1 -kwr_gui_draw_text:6 -kROW:2 -kEDIT:2 -kFORM:1 \
-    "${kept[@]}" "$choices" 2>/dev/null # it warns of every text with a letter beyond ASCII
+    }' "${files[@]}" >"$choices"
+xgettext --language=C --from-code=UTF-8 --no-location --no-wrap -o "$out" -k -kwr_choice "${keys[@]}" \
+    "${files[@]}" "$choices" 2>/dev/null # it warns of every text with a letter beyond ASCII

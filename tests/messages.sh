@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Formats of errors and notes (base/message.h) that German lacks: they are counted, and the number only goes down. German texts of
+# formats that the source no longer has are named.  messages.sh SOURCE-FOLDER [list]: prints those that are lacking
+LACKING=18 # recordings of pens, for developers, and prefixes without a word to translate
+set -euo pipefail
+source=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+for tool in xgettext msgcomm msggrep perl; do
+    command -v "$tool" >/dev/null || { echo "$tool is missing: apt-get install gettext perl"; exit 1; }
+done
+bash "$source/ui/words/list.sh" "$folder/errors.pot" errors
+bash "$source/ui/words/list.sh" "$folder/texts.pot"
+for name in errors texts; do
+    sed -i 's/charset=CHARSET/charset=UTF-8/' "$folder/$name.pot"
+    msgattrib --no-wrap --force-po "$folder/$name.pot" -o "$folder/$name.po"
+done
+msgattrib --no-wrap "$source/ui/words/de.po" -o "$folder/de.po"
+perl -e '
+use strict;
+my ($folder, $limit, $list) = @ARGV;
+# The keys of a file whose lines are not wrapped; those with a context are left out.
+sub keys_of {
+    my ($name) = @_;
+    local $/ = "";
+    open my $from, "<", "$folder/$name.po" or die "$name: $!\n";
+    my @keys;
+    while (my $entry = <$from>) { push @keys, $1 if $entry !~ /^msgctxt/m && $entry =~ /^msgid "(.+)"$/m; }
+    return @keys;
+}
+my %german = map { $_ => 1 } keys_of("de");
+my %errors = map { $_ => 1 } keys_of("errors");
+die "the source was not read\n" unless keys %errors > 700 && keys %german > 1500;
+# xgettext ends a text at a macro: the German one has it whole.
+sub begins {
+    my ($start, @all) = @_;
+    return grep { $_ eq $start || ($start =~ /[ "]$/ && index($_, $start) == 0) } @all;
+}
+my @lacking = sort grep { !begins($_, keys %german) && s/%[-+ #0-9.*]*(?:hh|ll|[hlzjt])?[a-zA-Z]//gr =~ /[a-z]{3}/ } keys %errors;
+print map { "no German: $_\n" } @lacking if $list;
+printf "%d formats of errors and notes, %d without German, at most %d\n", scalar keys %errors, scalar @lacking, $limit;
+my %texts = map { $_ => 1 } keys_of("texts");
+open my $from, "<", "$folder/de.po" or die;
+my $all = join "", <$from>;
+$all =~ s/.*# Formats of errors and notes[^\n]*\n//s or die "de.po has no part for errors\n";
+my @old = grep { my $key = $_; !$texts{$key} && !grep { begins($_, $key) } keys %errors }
+    map { /^msgid "(.+)"$/m && !/^msgctxt/m ? $1 : () } split /\n\n/, $all;
+print map { "no error or note of the source has the format \"$_\" of ui/words/de.po\n" } @old;
+exit(@lacking > $limit || @old > 0);
+' "$folder" "$LACKING" "${2:-}"
