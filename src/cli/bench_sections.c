@@ -339,6 +339,7 @@ static bool draw(const WrBenchSections *all, WrBenchPicture *p, Lane *lane, int 
                                      .keep = rests,
                                      .force = p->force,
                                      .full = p->full,
+                                     .staged = p->staged,
                                      .codes = { .wanted = p->out == WR_BENCH_CODES } };
     WrFrame frame;
     if (p->view == WR_BENCH_PAINTS) paint(lane->field, p->table, round);
@@ -550,6 +551,12 @@ static void moments(WrScene *scene)
     scene->dials.aa = WR_AA_MOMENTS;
 }
 
+static void near_lamp(WrScene *scene)
+{
+    scene->lights[0].kind = WR_LIGHT_POINT;
+    scene->lights[0].where = (WrVec3){ -2, 2.5, 3 };
+}
+
 static void occluded(WrScene *scene)
 {
     scene->material.occlusion = true;
@@ -738,6 +745,39 @@ static bool fill_isa(WrBenchSections *all, WrError *err)
     return true;
 }
 
+/* Scenes that take the loops of src/render/simd/, each beside the same without them. */
+static bool fill_simd(WrBenchSections *all, WrError *err)
+{
+    static const struct {
+        const char *name, *surface;
+        WrBenchMode mode;
+        Change change;
+    } rows[] = { { "sphere smooth", "sphere", WR_BENCH_PHONG, same },
+                 { "sphere colour", "sphere", WR_BENCH_TEXTURE, same },
+                 { "sphere bump", "sphere", WR_BENCH_BUMP, same },
+                 { "sphere bump and colour", "sphere", WR_BENCH_BUMP_TEXTURE, same },
+                 { "sphere bump, filter", "sphere", WR_BENCH_BUMP, filtered },
+                 { "sphere bump, moments", "sphere", WR_BENCH_BUMP, moments },
+                 { "sphere bump, near lamp", "sphere", WR_BENCH_BUMP, near_lamp },
+                 { "sphere bump, 4 x 4 samples", "sphere", WR_BENCH_BUMP, supersampled },
+                 { "patch smooth", "bezier", WR_BENCH_PHONG, same },
+                 { "patch bump", "bezier", WR_BENCH_BUMP, same },
+                 { "torus smooth", "torus", WR_BENCH_PHONG, same },
+                 { "torus bump", "torus", WR_BENCH_BUMP, same },
+                 { "cylinder bump", "cylinder", WR_BENCH_BUMP, same },
+                 { "plane bump", "plane", WR_BENCH_BUMP, same } };
+    for (int i = 0; i < 2 * WR_LENGTH(rows); i++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s%s", rows[i / 2].name, i % 2 ? ", by hand" : "");
+        WrBenchPicture *p =
+            add(all, name, all->count - i % 2, rows[i / 2].surface, rows[i / 2].mode, err);
+        if (!p) return false;
+        rows[i / 2].change(p->scene);
+        p->staged = i % 2 == 0;
+    }
+    return true;
+}
+
 static bool fill_plan(WrBenchSections *all, WrError *err)
 {
     static const WrBenchMode modes[] = { WR_BENCH_PHONG, WR_BENCH_BUMP };
@@ -837,6 +877,7 @@ const WrBenchSection wr_bench_sections[] = {
     { "aliasing", "what is done against aliasing, beside one sample", fill_aliasing },
     { "effects", "each effect, beside the picture without it", fill_effects },
     { "isa", "the set of instructions, beside the plain text", fill_isa },
+    { "simd", "loops written by hand, beside the stages that they replace", fill_simd },
     { "plan", "only what the picture needs, beside all that it could leave out", fill_plan },
     { "still", "a view at rest, beside one that turns", fill_still },
     { "first", "a new renderer's first frame, beside the next", fill_first },

@@ -35,8 +35,9 @@ typedef struct WrBenchPicture {
     const char *isa; /* NULL: that of the command line */
     WrBenchView view;
     WrBenchOut out;
-    bool full;  /* no stages are skipped */
-    int effect; /* effect that the row measures; -1: none */
+    bool full;   /* no stages are skipped */
+    bool staged; /* without hand-written SIMD loops */
+    int effect;  /* effect that the row measures; -1: none */
     WrForce force[WR_EFFECT_COUNT];
     /* Results: */
     double ms;       /* median */

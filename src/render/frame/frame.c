@@ -526,8 +526,8 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     job.cast_count =
         wr_plan_calls(&renderer->plan, WR_EFFECT_CAST) ? renderer->cast.count : renderer->cast.all;
     job.cast_unit = 1 / renderer->view.scale;
-    job.wide = wr_wide_of(job.kernels);
-    job.wide_codes = wr_wide_codes_of(job.kernels);
+    job.wide = renderer->wide;
+    job.wide_codes = request->staged ? NULL : wr_wide_codes_of(job.kernels);
     job.balls = renderer->balls;
     wr_pipe_wide(&job);
     wr_frame_bind_sparse_hits(renderer, &job);
@@ -537,7 +537,7 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
 static bool same_view(const WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrFrameRequest *last = &renderer->last;
-    return renderer->seen && renderer->scene == request->scene &&
+    return renderer->seen && renderer->scene == request->scene && last->staged == request->staged &&
            last->turn_deg == request->turn_deg && last->width == request->width &&
            last->height == request->height;
 }
@@ -680,6 +680,7 @@ bool wr_frame_decide(WrRenderer *renderer, const WrFrameRequest *request, WrErro
     ask.facts.rests = false;
     const WrKernels *last = renderer->kernels;
     renderer->kernels = kernels;
+    renderer->wide = request->staged ? NULL : wr_wide_of(kernels);
     if (stands) look_for_life(renderer, request, &ask);
     ask.facts.rests = rests(renderer, request, &before, last);
     wr_plan_again(&renderer->plan, &ask);

@@ -87,6 +87,7 @@ struct WrRenderer {
     WrPlanRequest ask;   /* inputs of this frame's plan */
     WrFrameRequest last; /* of the last whole or refreshed picture; only its numbers are valid */
     const WrKernels *kernels; /* of this frame once prepared; before, of the last one */
+    const WrWide *wide;       /* fused SIMD kernels of this frame; or NULL */
     int64_t covered;
     WrGroup *group; /* of several objects; NULL: none yet. Owned */
     int among;      /* for a part of a group: number of shown objects; else 0 */

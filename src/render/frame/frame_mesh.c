@@ -67,7 +67,7 @@ bool wr_frame_ties(const WrRenderer *renderer)
                       (plan->sampling == WR_SAMPLING_ALL && plan->spread != WR_SPREAD_JITTERED);
     /* A body that shows its back has two sheets everywhere. */
     const bool single = view->cull || wr_surfaces[view->shape_d.kind]->open;
-    return renderer->mesh && wr_wide_of(renderer->kernels) && even && single && plan->newton < 0 &&
+    return renderer->mesh && renderer->wide && even && single && plan->newton < 0 &&
            !plan->shading_double && !view->endless &&
            (int64_t)view->grid_w * view->grid_h <= TIED_MOST;
 }

@@ -124,7 +124,7 @@ static void choose_steady(WrRenderer *renderer, const WrFrameRequest *request,
                                     .field = wr_field_key(own.field),
                                     .object = group->parts[i].object };
     }
-    if (group->count > 0) renderer->kernels = owners[0]->kernels;
+    if (group->count > 0) renderer->kernels = owners[0]->kernels, renderer->wide = owners[0]->wide;
     wr_frame_choose_steady(renderer, request, parts, owners, group->count);
 }
 
