@@ -21,7 +21,7 @@ says 'the head' '.width == 48 and .height == 32 and .threads == 2 and .rounds > 
 says 'the peaks' '(.peaks.sums | length >= 1 and .[0].isa == "v1" and all(.gflops > 0)) and
     ([.peaks.copies[].level] == ["L1", "L2", "DRAM"]) and (.peaks.copies | all(.bytes > 0 and .gbytes > 0))'
 says 'the parts' '[.sections[].name] == ["surfaces", "schemes", "normals", "aliasing", "effects", "isa", "plan",
-    "still", "first", "output"]'
+    "still", "first", "output", "simd"]'
 says 'each row is measured' '[.sections[].rows[] | .ms > 0 and .ratio > 0 and .table > 0] | all and length > 80'
 says 'a base is a row of its part, and beside itself 1' '.sections | all(. as $s | .rows | all(. as $r |
     ($s.rows | map(select(.name == $r.base)) | length) == 1 and (.name != .base or .ratio == 1)))'

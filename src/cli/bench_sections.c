@@ -877,11 +877,11 @@ const WrBenchSection wr_bench_sections[] = {
     { "aliasing", "what is done against aliasing, beside one sample", fill_aliasing },
     { "effects", "each effect, beside the picture without it", fill_effects },
     { "isa", "the set of instructions, beside the plain text", fill_isa },
-    { "simd", "loops written by hand, beside the stages that they replace", fill_simd },
     { "plan", "only what the picture needs, beside all that it could leave out", fill_plan },
     { "still", "a view at rest, beside one that turns", fill_still },
     { "first", "a new renderer's first frame, beside the next", fill_first },
     { "output", "floats, beside 8-bit codes", fill_output },
+    { "simd", "loops written by hand, beside the stages that they replace", fill_simd },
     { .name = NULL },
 };
 

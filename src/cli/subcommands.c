@@ -99,8 +99,8 @@ const WrSubcommand wr_subcommands[] = {
       "with window alone how soon a motion of the pen is seen. A PART alone:\n"
       "pictures that differ in one thing, beside the machine's peaks of the same run: surfaces, "
       "schemes,\n"
-      "normals, aliasing, effects, isa, simd, plan, still, first, output; all: each of them, half a "
-      "minute.\n"
+      "normals, aliasing, effects, isa, plan, still, first, output, simd;\n"
+      "all: each of them, half a minute.\n"
       "--quick: fewer and smaller; --exact: exact arithmetic in place of fast; --lines: one line "
       "a\n"
       "measurement, for programs; --json: all parts and these lines, or what is named.",

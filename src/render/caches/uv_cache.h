@@ -17,7 +17,6 @@ typedef struct WrUvCacheKey {
     int mu, mv;        /* mesh cells along u and v */
     int width, height; /* pixels */
     bool cull, exact;  /* exact: Newton's last step is evaluated too */
-    bool tied;         /* sparse hits (sparse_hits.h) are used, if there is memory */
     const WrKernels *kernels;
     /* hash of the other objects, which may hide this one: hidden samples are not stored. 0: there are none */
     WrHash beside;
@@ -29,8 +28,7 @@ typedef struct WrUvCache {
     /* [height][width], the last evaluation point of Newton's method; `resume` repeats the last step from there,
        with the same bits. u 2: background; below 0 or -0: the absolute value is final and no step is left. */
     float *u, *v;
-    bool whole;  /* every sample is stored ... */
-    bool partly; /* ... except those that are interpolated from sparse hits */
+    bool whole; /* every sample is stored */
 } WrUvCache;
 
 #define WR_UV_CACHE_NONE 2.0f

@@ -393,7 +393,6 @@ void wr_renderer_forget(WrRenderer *renderer)
     wr_triangles_free(renderer->square);
     renderer->square = NULL;
     wr_uv_cache_fini(&renderer->sight);
-    wr_sparse_hits_fini(&renderer->knots);
     wr_shadow_rays_body_fini(&renderer->body);
     wr_relight_fini(&renderer->own_steady);
 }
@@ -530,7 +529,6 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     job.wide_codes = request->staged ? NULL : wr_wide_codes_of(job.kernels);
     job.balls = renderer->balls;
     wr_pipe_wide(&job);
-    wr_frame_bind_sparse_hits(renderer, &job);
     return job;
 }
 

@@ -8,7 +8,6 @@
 #include "render/shadows/shadow_rays.h"
 #include "render/frame/frame.h"
 #include "render/caches/dirty_regions.h"
-#include "render/visibility/sparse_hits.h"
 #include "render/environment/env_setup.h"
 #include "render/textures/slope_pyramid.h"
 #include "render/textures/normal_mips.h"
@@ -58,7 +57,6 @@ struct WrRenderer {
     WrShadowRaysBody body; /* the object as a shadow caster */
     WrShadowRays cast;     /* objects that can hide lamps from it */
     WrFrames frames;
-    WrSparseHits knots;            /* of `mesh`, if computed */
     WrUvCache sight;               /* of the last static view */
     WrRelight own_steady, *steady; /* relight cache of a static view: its own, or its group's */
     WrTileScratch **scratch;       /* [threads], allocated on first use */
@@ -169,11 +167,6 @@ void wr_frame_start_counts(WrRenderer *renderer);
 void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame);
 /* Frees all view meshes except one, which may be NULL. */
 void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but);
-/* True if the frame's tiles use sparse hits (sparse_hits.h), if there is memory. */
-bool wr_frame_ties(const WrRenderer *renderer);
-/* Updates the sparse hits and binds them to the job. Without them the job uses the uv cache only if that is
-   complete. */
-void wr_frame_bind_sparse_hits(WrRenderer *renderer, WrTileJob *job);
 /* The triangles that the scene shows, owned by the renderer or by the scene. */
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene);
 /* Finds the occluders of each of a picture's `count` objects, each with its renderer. Errors: as

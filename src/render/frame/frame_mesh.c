@@ -57,40 +57,6 @@ static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
                              renderer->pool);
 }
 
-#define TIED_MOST (1 << 26) /* samples */
-
-bool wr_frame_ties(const WrRenderer *renderer)
-{
-    const WrPlan *plan = &renderer->plan;
-    const WrView *view = &renderer->view;
-    const bool even = plan->sampling == WR_SAMPLING_ONE ||
-                      (plan->sampling == WR_SAMPLING_ALL && plan->spread != WR_SPREAD_JITTERED);
-    /* A body that shows its back has two sheets everywhere. */
-    const bool single = view->cull || wr_surfaces[view->shape_d.kind]->open;
-    return renderer->mesh && renderer->wide && even && single && plan->newton < 0 &&
-           !plan->shading_double && !view->endless &&
-           (int64_t)view->grid_w * view->grid_h <= TIED_MOST;
-}
-
-void wr_frame_bind_sparse_hits(WrRenderer *renderer, WrTileJob *job)
-{
-    const int k = renderer->view.samples;
-    if (job->steady || !wr_frame_ties(renderer)) return;
-    if (job->seen_before && !renderer->sight.partly) return; /* every sample is in the uv cache */
-    const WrSparseHitsRequest ask = { .kernels = job->kernels,
-                                      .wide = job->wide,
-                                      .sheet = job->wide_newton ? &job->sheet : NULL,
-                                      .newton = wr_pipe_newton(job),
-                                      .first = renderer->top * k,
-                                      .rows = renderer->rows * k };
-    const bool tied =
-        wr_sparse_hits_update(&renderer->knots, job->mesh, &renderer->view, &ask, renderer->pool);
-    if (tied) job->knots = &renderer->knots;
-    if (job->sight && !job->seen_before) renderer->sight.partly = tied;
-    /* the uv cache is incomplete */
-    if (!tied && job->seen_before) job->seen_before = false, job->sight = NULL;
-}
-
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene)
 {
     if (renderer->dice.triangles) return renderer->dice.triangles;

@@ -78,7 +78,6 @@ static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrH
     const WrTileJob job = { .plan = plan, .scene = renderer->scene };
     wr_uv_cache_key(&key, renderer->mesh, &renderer->view, wr_tile_exact(&job), renderer->kernels);
     key.beside = beside;
-    key.tied = wr_frame_ties(renderer);
     if (wr_uv_cache_update(&renderer->sight, &key)) return true;
     renderer->sighting = renderer->sight.u != NULL && anew;
     return false;

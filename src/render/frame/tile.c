@@ -4,7 +4,6 @@
 #include "render/frame/frame.h"
 #include "render/frame/tile_internal.h"
 #include "render/pipeline/pipeline.h"
-#include "render/visibility/sparse_hits.h"
 #include "scene/objects.h"
 #include "system/clock.h"
 
@@ -242,12 +241,9 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
                          .k = k,
                          .kernels = job->kernels };
     if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) tile_jitter(&tile, k, scratch->shift);
-    if (job->knots && k == job->view->samples && !tile.shift)
-        wr_sparse_hits_report(job->knots, &tile);
     if (job->mesh && !job->seen_before && !job->steady) {
         double start = wr_clock_seconds();
-        if (!tile.knots || tile.untold) wr_view_mesh_raster(job->mesh, job->view, &tile);
-        if (tile.untold) wr_sparse_hits_fill(tile.knots, job->wide, &tile);
+        wr_view_mesh_raster(job->mesh, job->view, &tile);
         wr_did(scratch, WR_EFFECT_DEPTH);
         scratch->whole[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
     }

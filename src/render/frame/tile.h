@@ -61,20 +61,17 @@ typedef struct WrTileJob {
     const WrHorizon *horizon;           /* of the table, for shadows and ambient occlusion */
     const WrOcclusionMapTable *opening; /* ambient occlusion map of the relief */
     double relief_height;               /* height of one table unit, kernel units, above 0 */
-    const WrShadowRays *cast;  /* possible occluders of lamps; read if the plan runs shadow rays */
-    int cast_count;            /* length of cast->to */
-    const WrWide *wide;        /* fused SIMD kernels of several stages; or NULL */
-    WrWideCodes wide_codes;    /* parameters of fused kernels that write codes; or NULL */
-    WrSphereRows *balls;       /* for each grid of the view; filled if rows use sphere rows */
-    bool wide_sphere;          /* rows use sphere rows */
-    bool wide_met;             /* they also compute the ray-sphere hits */
-    bool wide_newton;          /* fused kernels compute the (u,v) of a mesh's samples */
-    WrWideSheet sheet;         /* the surface for that */
-    const WrSparseHits *knots; /* sparse hits of the mesh; or NULL */
-    bool grey;                 /* red, green and blue are equal in all samples */
-    double cast_unit;          /* kernel units -> those of the occluders' object space */
-    WrParallax parallax;       /* read if the plan runs parallax */
-    WrLevel level;             /* slope bounds of the table; only for one of the next two */
+    const WrShadowRays *cast; /* possible occluders of lamps; read if the plan runs shadow rays */
+    int cast_count;           /* length of cast->to */
+    const WrWide *wide;       /* fused SIMD kernels of several stages; or NULL */
+    WrWideCodes wide_codes;   /* parameters of fused kernels that write codes; or NULL */
+    WrSphereRows *balls;      /* for each grid of the view; filled if rows use sphere rows */
+    bool wide_sphere;         /* rows use sphere rows */
+    bool wide_met;            /* they also compute the ray-sphere hits */
+    bool grey;                /* red, green and blue are equal in all samples */
+    double cast_unit;         /* kernel units -> those of the occluders' object space */
+    WrParallax parallax;      /* read if the plan runs parallax */
+    WrLevel level;            /* slope bounds of the table; only for one of the next two */
     /* runs of samples are tested: is the table flat there? are all lights behind the surface? */
     bool ground, dark;
     WrMatter matter; /* parameters of the plan's light model; kd and ks of the terms that run */

@@ -7,7 +7,6 @@
 #include "field/scheme_list.h"
 #include "render/shadows/shadow_rays.h"
 #include "render/simd/simd_kernels.h"
-#include "render/visibility/sparse_hits.h"
 #include "render/textures/slope_pyramid.h"
 #include "render/textures/normal_mips.h"
 #include "render/frame/tile_internal.h"

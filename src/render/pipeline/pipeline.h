@@ -21,13 +21,11 @@ struct WrPipe {
 
 extern const WrPipe wr_pipe, wr_pipe_double;
 
-/* Chooses the work that the fused SIMD kernels (simd_kernels.h) do for the job: fills wide_newton, sheet,
-   wide_sphere, wide_met, balls, grey. */
+/* Chooses the work that the fused SIMD kernels (simd_kernels.h) do for the job: fills wide_sphere,
+   wide_met, balls, grey. */
 void wr_pipe_wide(WrTileJob *job);
 /* True if the fused kernels draw all of a sphere under one lamp, which depends on its highlight. */
 bool wr_pipe_at_once(const WrPlan *plan);
-/* Parameters of Newton's method for the job's mesh. */
-WrNewton wr_pipe_newton(const WrTileJob *job);
 
 /* Adaptive sampling of a tile by the rule of dials.h: a first sample at each centre, then k x k where needed. */
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch);

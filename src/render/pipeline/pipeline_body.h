@@ -86,7 +86,6 @@ static bool lit(const WrSink *sink)
 #include "render/pipeline/stage_depth_body.h"
 #include "render/pipeline/stage_parallax_body.h"
 #include "render/pipeline/stage_displaced_body.h"
-#include "render/pipeline/stage_frame_body.h"
 
 /* Size of each pixel on the surface, and the change of the normal across it. */
 static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
@@ -141,7 +140,8 @@ static void surface_strip(const WrTileJob *job, int face, bool level, const WrSi
         did(watch, WR_EFFECT_TANGENTS);
     }
     if (round) round->normals(&VIEWED(job->view, shape), strip);
-    else if (job->mesh && job->newton) frame_strip(job, strip);
+    else if (job->mesh && job->newton)
+        KERNELS_OF(job)->frame[job->view->shape_d.kind](&VIEWED(job->view, shape), strip);
     else KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
@@ -162,7 +162,9 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
     if (bump != WR_BUMP_NONE && bends_at_once(job, sink)) {
         k->bend[job->plan->inversion](rays, &VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
-    } else if (!bent_wide(job, bump, rays, strip)) k->bump[bump](rays, strip);
+    } else {
+        k->bump[bump](rays, strip);
+    }
     if (job->dice) face_viewer(job, rays, strip);
     if (runs(job, WR_EFFECT_PARALLAX)) face_ray(rays, side, strip);
     scratch->ran |= normal_effects[bump] &
@@ -348,8 +350,6 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
         return;
     }
     if (job->mesh) {
-        if (tied_places(job, tile, places, strip, &watch))
-            finish_strip(job, rays, -1, sink, scratch, &watch);
         if (job->seen_before) recall_mesh(job, rays, tile, places, strip, &watch);
         else locate_mesh(job, rays, tile, places, strip, &watch);
         finish_strip(job, rays, -1, sink, scratch, &watch);
@@ -428,8 +428,6 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
         return;
     }
     if (job->mesh) {
-        if (tied_row(job, tile, y, strip, &watch))
-            finish_strip(job, rays, -1, sink, scratch, &watch);
         if (job->seen_before) recall_row(job, rays, tile, y, strip, &watch);
         else locate_row(job, rays, tile, y, strip, &watch);
         finish_strip(job, rays, -1, sink, scratch, &watch);

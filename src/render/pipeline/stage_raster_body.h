@@ -16,37 +16,13 @@ static WR_T(WrNewton) newton_of(const WrTileJob *job)
     return how;
 }
 
-#ifdef HAS_WIDE
-WrNewton wr_pipe_newton(const WrTileJob *job)
-{
-    return newton_of(job);
-}
-
-/* Solves with hand-written SIMD. False: the stages do the work. */
-static bool solved_wide(const WrTileJob *job, const Rays *rays, const WrNewton *how, bool resumes,
-                        Strip *strip)
-{
-    if (job->wide_newton) job->wide->newton(&job->sheet, rays, how, resumes, strip);
-    return job->wide_newton;
-}
-#else
-static bool solved_wide(const WrTileJob *job, const Rays *rays, const WR_T(WrNewton) * how,
-                        bool resumes, const Strip *strip)
-{
-    (void)job, (void)rays, (void)how, (void)resumes, (void)strip;
-    return false;
-}
-#endif
-
 /* Refines the parameters of covered samples by Newton's method. */
 static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
     watch_lap(watch, WR_STAGE_VISIBILITY);
     if (strip->count == 0 || !job->newton) return;
     const WR_T(WrNewton) how = newton_of(job);
-    if (!solved_wide(job, rays, &how, false, strip))
-        KERNELS_OF(job)->polish[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how,
-                                                         strip);
+    KERNELS_OF(job)->polish[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how, strip);
     did(watch, WR_EFFECT_NEWTON);
     watch_lap(watch, WR_STAGE_NEWTON);
 }
@@ -57,80 +33,9 @@ static void resume(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *
     watch_lap(watch, WR_STAGE_VISIBILITY);
     if (strip->count == 0) return;
     const WR_T(WrNewton) how = newton_of(job);
-    if (!solved_wide(job, rays, &how, true, strip))
-        KERNELS_OF(job)->resume[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how,
-                                                         strip);
+    KERNELS_OF(job)->resume[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how, strip);
     watch_lap(watch, WR_STAGE_NEWTON);
 }
-
-#ifdef HAS_WIDE
-/* Appends samples that are interpolated from sparse hits: a run of a row, from (x, y) of the grid on. */
-static void add_tied(const WrTileJob *job, const WrDepthTile *tile, int x, int y, int count,
-                     int index, Strip *strip)
-{
-    int *restrict to = strip->index + strip->count;
-    wr_sparse_hits_row(tile->knots, job->wide, x, y, count, strip->count, strip);
-#pragma omp simd
-    for (int i = 0; i < count; i++) to[i] = index + i;
-    strip->count += count;
-}
-
-static bool met_tied(Strip *strip, Watch *watch)
-{
-    if (strip->count > 0) did(watch, WR_EFFECT_NEWTON); /* of sparse hits */
-    watch_lap(watch, WR_STAGE_VISIBILITY);
-    return strip->count > 0;
-}
-
-/* Interpolated samples of row y of the tile; false: there are none. */
-static bool tied_row(const WrTileJob *job, const WrDepthTile *tile, int y, Strip *strip,
-                     Watch *watch)
-{
-    const int gy = tile->y + y, end = tile->x + tile->w;
-    strip->count = 0;
-    for (int x = tile->x, to; x < end && tile->knots; x = to) {
-        const bool sheet = wr_sparse_hits_at(tile->knots, x, gy) == WR_SPARSE_HITS_SHEET;
-        for (to = x - x % WR_KNOT + WR_KNOT; to < end; to += WR_KNOT)
-            if ((wr_sparse_hits_at(tile->knots, to, gy) == WR_SPARSE_HITS_SHEET) != sheet) break;
-        to = to < end ? to : end;
-        if (sheet) add_tied(job, tile, x, gy, to - x, x - tile->x, strip);
-    }
-    return met_tied(strip, watch);
-}
-
-/* Interpolated samples of the scatter; false: there are none. */
-static bool tied_places(const WrTileJob *job, const WrDepthTile *tile, const WrScatter *places,
-                        Strip *strip, Watch *watch)
-{
-    strip->count = 0;
-    for (int i = 0, to; i < places->count && tile->knots; i = to) {
-        const int cell = places->cell[i], x = tile->x + cell % tile->w;
-        const int gy = tile->y + cell / tile->w, left = tile->w - cell % tile->w;
-        const bool sheet = wr_sparse_hits_at(tile->knots, x, gy) == WR_SPARSE_HITS_SHEET;
-        for (to = i + 1; to < places->count && to < i + left; to++) {
-            const int on = x + to - i;
-            if (places->cell[to] != cell + to - i) break;
-            if ((wr_sparse_hits_at(tile->knots, on, gy) == WR_SPARSE_HITS_SHEET) != sheet) break;
-        }
-        if (sheet) add_tied(job, tile, x, gy, to - i, i, strip);
-    }
-    return met_tied(strip, watch);
-}
-#else
-static bool tied_row(const WrTileJob *job, const WrDepthTile *tile, int y, const Strip *strip,
-                     const Watch *watch)
-{
-    (void)job, (void)tile, (void)y, (void)strip, (void)watch;
-    return false;
-}
-
-static bool tied_places(const WrTileJob *job, const WrDepthTile *tile, const WrScatter *places,
-                        const Strip *strip, const Watch *watch)
-{
-    (void)job, (void)tile, (void)places, (void)strip, (void)watch;
-    return false;
-}
-#endif
 
 /* Index of a tile's cell in the uv cache. */
 static size_t note_at(const WrTileJob *job, const WrDepthTile *tile, int cell)
@@ -145,12 +50,6 @@ static void note(const WrTileJob *job, size_t at, const Strip *strip, int i)
     job->sight->v[at] = (float)strip->ry[i];
 }
 
-/* True if sparse hits cover the whole tile. */
-static bool is_told(const WrDepthTile *tile)
-{
-    return tile->knots && !tile->untold;
-}
-
 /* The samples of the scatter that the mesh covers. */
 static void locate_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile,
                         const WrScatter *places, Strip *strip, Watch *watch)
@@ -159,7 +58,7 @@ static void locate_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTil
     for (int i = 0; i < places->count; i++) {
         int cell = places->cell[i];
         if (job->sight) job->sight->u[note_at(job, tile, cell)] = WR_UV_CACHE_NONE;
-        if (is_told(tile) || tile->close[cell] == -FLT_MAX) continue;
+        if (tile->close[cell] == -FLT_MAX) continue;
         strip->index[count] = i;
         strip->x[count] = (REAL)places->x[i];
         strip->y[count] = (REAL)places->y[i];
@@ -199,9 +98,8 @@ static void locate_row(const WrTileJob *job, const Rays *rays, const WrDepthTile
     const size_t at = (size_t)y * (size_t)tile->w;
     const size_t noted = job->sight ? wr_tile_place(job, tile->x, tile->y + y) : 0;
     strip->count = 0;
-    if (!is_told(tile))
-        KERNELS_OF(job)->covered(tile->close + at, tile->u + at, tile->v + at, (REAL)tile->x,
-                                 (REAL)(tile->y + y), tile->w, strip);
+    KERNELS_OF(job)->covered(tile->close + at, tile->u + at, tile->v + at, (REAL)tile->x,
+                             (REAL)(tile->y + y), tile->w, strip);
     polish(job, rays, strip, watch);
     if (!job->sight) return;
     for (int x = 0; x < tile->w; x++) job->sight->u[noted + (size_t)x] = WR_UV_CACHE_NONE;

@@ -219,8 +219,6 @@ void wr_pipe_wide(WrTileJob *job)
     const WrBumpMode bump = job->plan->bump;
     const WrKernLight *lamp = job->view->lights;
     job->wide_sphere = job->wide_met = job->grey = false;
-    job->wide_newton = job->wide && job->mesh &&
-                       wr_wide_sheet(job->view->shape_d.kind, &job->view->shape, &job->sheet);
     if (!job->wide) { /* exact: all channels are computed alike */
         job->grey = job->view->light_count == 1 && is_grey(job) && !runs(job, WR_EFFECT_COLOUR) &&
                     runs_only(job->plan, at_once | geometry);

@@ -16,39 +16,8 @@
    Returns the number of non-finite values. */
 typedef int (*WrWideCodes)(const uint32_t *bins, const WrStrip *strip, bool grey, uint32_t *out);
 
-/* A surface that rays intersect by way of a mesh, prepared for vectors. */
-typedef struct WrWideSheet {
-    WrSurfaceKind kind; /* WR_SURFACE_bezier or WR_SURFACE_torus */
-    float patch[3][16]; /* of a patch; x, y, z: of (u - 1/2)^i (v - 1/2)^j at 4 j + i */
-    float noise;        /* |Pu x Pv| up to this is rounding error; 0 for a torus */
-    float ring, tube;   /* radii of a torus, world units */
-} WrWideSheet;
-
-/* Prepares the sheet; keeps no reference to the shape. False: the surface has no SIMD kernels, and the sheet is
-   invalid. */
-bool wr_wide_sheet(WrSurfaceKind kind, const WrShapef *shape, WrWideSheet *sheet);
-
 /* Output of the light: red, which also stands for green and blue; all channels; u, v and the inputs of `paint`. */
 typedef enum WrWidePaint { WR_WIDE_RED, WR_WIDE_ALL, WR_WIDE_LATER } WrWidePaint;
-
-/* Position of a block of 8 x 8 samples among 4 x 4 sparse hits, which have `across` per row: the block begins at
-   hit `column`, `row`, 0 .. 2. pitch: samples from row to row of the output. */
-typedef struct WrWideKnots {
-    int across, column, row, pitch;
-} WrWideKnots;
-
-/* Numbers per sparse hit: u, v, P, Pu, Pv. */
-#define WR_KNOT_NUMBERS 11
-
-/* A row of samples between sparse hits. numbers: starts at the hit above and left of the first sample's block;
-   `plane` floats from one number to the next, `across` per row. down, skip: offset of the first sample in the
-   block, 0 .. 7. x, y: its grid position. */
-typedef struct WrWideRow {
-    const float *numbers;
-    size_t plane;
-    int across, down, skip;
-    float x, y;
-} WrWideRow;
 
 typedef struct WrWide {
     /* True if these kernels support the light's highlight. */
@@ -91,17 +60,6 @@ typedef struct WrWide {
     /* C of a colour picture, as WrKernels.colour; false: not supported, and nothing is changed. */
     bool (*colour)(const WrColourLook *look, WrStrip *strip);
     WrWideCodes codes;
-    /* WrKernels.polish, or with `resumes` WrKernels.resume; for a torus without n. */
-    void (*newton)(const WrWideSheet *sheet, const WrRays *rays, const WrNewton *how, bool resumes,
-                   WrStrip *strip);
-    /* n and |N| of Pu x Pv; false: at some sample |N| is not clearly larger than noise. */
-    bool (*cross)(float noise, WrStrip *strip);
-    /* As WrKernels.bump[WR_BUMP_BLINN]; false: a slope is too steep. */
-    bool (*blinn)(const WrRays *rays, WrStrip *strip);
-    /* A parameter at the samples of a block (sparse_hits.h), from the first of its hits; closed: it is periodic. */
-    void (*between)(const float *knot, const WrWideKnots *how, bool closed, float *out);
-    /* All numbers of `count` samples of a row, to position `at` of the strip. */
-    void (*sheet_row)(const WrWideRow *row, int count, int at, WrStrip *strip);
 } WrWide;
 
 extern const WrWide wr_wide_v3, wr_wide_v4; /* empty on other processors */

@@ -17,15 +17,11 @@
 #include "render/simd/simd_fetch_body.h"
 #include "render/simd/simd_filter_body.h"
 #include "render/simd/simd_encode_body.h"
-#include "render/simd/simd_newton_body.h"
-#include "render/simd/simd_bump_body.h"
-#include "render/simd/simd_sparse_hits_body.h"
 
 const WrWide WR_WIDE_TABLE = { narrow,       wide_shade,     wide_smooth,       wide_paint,
                                wide_sphere,  wide_points,    wide_sphere_light, wide_central,
                                wide_filters, wide_footprint, wide_filtered,     wide_colour,
-                               wide_codes,   wide_newton,    wide_cross,        wide_blinn,
-                               wide_between, wide_sheet_row };
+                               wide_codes };
 #else
 const WrWide WR_WIDE_TABLE = { 0 };
 #endif

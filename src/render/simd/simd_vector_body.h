@@ -349,12 +349,6 @@ ALWAYS Wide w_fma(Wide a, Wide b, Wide c)
 }
 #endif
 
-ALWAYS Wide w_floor(Wide a)
-{
-    const Wide near = w_nearest(a);
-    return w_pick(w_less(a, near), near - w_all(1.0f), near);
-}
-
 /* The bits of the first `count` lanes, at most of all. */
 ALWAYS unsigned w_first_bits(int count)
 {
@@ -380,10 +374,6 @@ ALWAYS WideVec w_sub(WideVec a, WideVec b)
 ALWAYS WideVec w_scale(WideVec a, Wide s)
 {
     return (WideVec){ a.x * s, a.y * s, a.z * s };
-}
-ALWAYS WideVec w_cross(WideVec a, WideVec b)
-{
-    return (WideVec){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
 ALWAYS WideVec w_pick3(WideMask mask, WideVec a, WideVec b)
 {

@@ -2,7 +2,6 @@
 
 #include "base/memory.h"
 #include "base/pool.h"
-#include "render/visibility/sparse_hits.h"
 #include "render/visibility/raster.h"
 #include "base/vec.h"
 
@@ -274,8 +273,7 @@ static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int
 typedef struct Block {
     const WrViewMesh *mesh;
     const WrView *view;
-    const WrSparseHits *knots; /* or NULL */
-    WrRasterBounds bounds;     /* of the tile */
+    WrRasterBounds bounds; /* of the tile */
     bool culls; /* back faces are detected before vertices are converted to the tile's grid */
     bool mirrored;
     float u[WR_MESH_BLOCK + 1]; /* of the vertices */
@@ -340,20 +338,6 @@ static void raster_cell(const Block *block, size_t at, int i, int j, WrDepthTile
     raster_clipped(block->mesh, block->view, two, tile);
 }
 
-/* True if sparse hits cover the cell between four vertices. */
-static bool is_tied(const Block *block, size_t at)
-{
-    if (!block->knots) return false;
-    const int32_t *x = block->mesh->sx + at, *y = block->mesh->sy + at;
-    const size_t low = (size_t)block->mesh->mu + 1, of[4] = { 0, 1, low, low + 1 };
-    int32_t x0 = x[0], y0 = y[0], x1 = x[0], y1 = y[0];
-    for (int k = 1; k < 4; k++) {
-        x0 = x[of[k]] < x0 ? x[of[k]] : x0, x1 = x[of[k]] > x1 ? x[of[k]] : x1;
-        y0 = y[of[k]] < y0 ? y[of[k]] : y0, y1 = y[of[k]] > y1 ? y[of[k]] : y1;
-    }
-    return !wr_sparse_hits_deep(block->knots, x0, y0, x1, y1);
-}
-
 /* Draws the cells of block b that may overlap the tile: those whose corners are not all outside the same side. */
 static void raster_block(Block *block, int b, WrDepthTile *tile)
 {
@@ -368,32 +352,20 @@ static void raster_block(Block *block, int b, WrDepthTile *tile)
         const unsigned char *here = sides[j % 2], *over = sides[(j + 1) % 2];
         find_sides(block, at, sides[j % 2]);
         for (int i = 0; i < WR_MESH_BLOCK && j > 0; i++)
-            if (!(over[i] & over[i + 1] & here[i] & here[i + 1]) &&
-                !is_tied(block, at - pitch + (size_t)i))
+            if (!(over[i] & over[i + 1] & here[i] & here[i + 1]))
                 raster_cell(block, at - pitch + (size_t)i, i0 + i, j0 + j - 1, tile);
     }
 }
 
-/* True if a block of cells overlaps samples that sparse hits do not cover. */
-static bool is_deep(const WrSparseHits *knots, int index, const WrViewMeshBlock *b)
-{
-    return !knots ||
-           (knots->shown[index] && wr_sparse_hits_deep(knots, b->x0, b->y0, b->x1, b->y1));
-}
-
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile)
 {
-    const WrSparseHits *knots = tile->knots;
     const bool own_grid = tile->k <= 0 || tile->k == view->samples;
     Block block = { .mesh = mesh,
                     .view = view,
-                    .knots = knots,
                     .bounds = wr_raster_bounds(tile, view->samples),
                     .culls = view->cull && own_grid,
                     .mirrored = view->stretch[0] * view->stretch[1] * view->stretch[2] < 0 };
     for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
-    if (knots && !tile->deep) return;
     for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++)
-        if (wr_raster_meets(&mesh->blocks[b], &block.bounds) && is_deep(knots, b, &mesh->blocks[b]))
-            raster_block(&block, b, tile);
+        if (wr_raster_meets(&mesh->blocks[b], &block.bounds)) raster_block(&block, b, tile);
 }

@@ -7,7 +7,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef struct WrSparseHits WrSparseHits;
 typedef struct WrPool WrPool;
 
 #define WR_MESH_BLOCK 8   /* cells along a block's side */
@@ -62,10 +61,6 @@ typedef struct WrDepthTile {
     int k;
     const signed char *shift; /* [h][w][2], x and y in 1/256 samples; NULL: no offsets */
     const WrKernels *kernels; /* kernels that cover it */
-    /* sparse hits that provide some of its samples (sparse_hits.h); or NULL */
-    const WrSparseHits *knots;
-    /* untold: they do not provide all; deep: some of the others need the depth buffer */
-    bool untold, deep;
 } WrDepthTile;
 
 /* Mesh settings of a scene. */
@@ -83,7 +78,7 @@ void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *
                           const WrMeshRequest *ask, const WrKernels *kernels, WrPool *pool);
 void wr_view_mesh_fini(WrViewMesh *mesh);
 /* Rasterises the mesh on the tile. Watertight: neighbouring cells share edges in whole numbers with a top-left
-   rule (HC85); at equal depths the first cell stays. Skips samples that the tile's sparse hits provide. */
+   rule (HC85); at equal depths the first cell stays. */
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile);
 /* Box of grid samples, x0, y0, x1, y1, that contains everything of the mesh on the tile; false if there is
    nothing. */
