@@ -268,7 +268,7 @@ static void what_waits_is_dropped_with_what_is_given_up(void **state)
     assert_int_equal(app->brush->jobs.count, 0);
     const WrMessage *said = wr_messages_shown(app->messages, 0.0);
     assert_non_null(said);
-    assert_non_null(strstr(said->text, "what waited"));
+    assert_non_null(strstr(said->text, "actions that waited"));
     assert_non_null(strstr(said->text, "Stroke"));
     finish(&bench);
 }
