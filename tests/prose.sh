@@ -81,9 +81,8 @@ while read -r name what_max mind_max; do
 done <<<"$limits"
 
 # "/* name.h - noun phrase"
-clauses=$(sources src ui | grep '\.h$' | while read -r file; do
-    head -1 "$file" | grep -iE "^/\* [a-z0-9_.]+ - ($clause) " | sed "s|^|$file: |"
-done)
+clauses=$(sources src ui | grep '\.h$' | xargs awk -v clause="^/[*] [a-z0-9_.]+ - ($clause) " '
+    FNR == 1 { if (tolower($0) ~ clause) print FILENAME ": " $0; nextfile }')
 count=$(grep -c . <<<"$clauses")
 printf '%d headers begin with a clause\n' "$count"
 [[ $count -le $clauses_max ]] || complain "$count headers begin with a clause, at most $clauses_max:"$'\n'"$clauses"

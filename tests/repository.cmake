@@ -8,7 +8,7 @@ endfunction()
 
 wr_check(rooms rooms.sh ${PROJECT_SOURCE_DIR})
 wr_check(system system.sh ${PROJECT_SOURCE_DIR} ${CMAKE_BINARY_DIR})
-wr_check(headers headers.sh ${PROJECT_SOURCE_DIR})
+wr_check(headers headers.sh ${PROJECT_SOURCE_DIR} ${CMAKE_BINARY_DIR})
 wr_check(format format.sh ${PROJECT_SOURCE_DIR})
 wr_check(arguments arguments.sh ${PROJECT_SOURCE_DIR})
 wr_check(shape shape.sh ${PROJECT_SOURCE_DIR})
