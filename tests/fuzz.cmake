@@ -63,7 +63,7 @@ wr_fuzz(raw generate/terrain_raw.c base/error.c base/message.c base/memory.c bas
 if(NOT WR_SANITIZE)
     # Through the reader process, whose library may crash where the program must not.
     wr_fuzz(mesh ROOMS image base LIBRARIES -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -ljson-c -lz -lsleef -ldl -lpthread)
-    wr_fuzz(commands command/parse.c command/value.c command/scene_text.c
+    wr_fuzz(commands command/parse.c command/value.c command/scene_args.c
             ROOMS command export accuracy render document generate brush scene shade surface noise image field
                   base
             LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lzip -lexpat -ldl -lpthread)

@@ -1,7 +1,11 @@
 /* args.h - macros and shared choices for argument rows of the command table. Choices, surfaces and export kinds come
    from the tables of their modules. Private to src/command. */
 #pragma once
+#include "base/vec.h"
+#include "command/command_line.h"
 #include "command/session_internal.h"
+#include "field/wrap.h"
+#include "surface/surface.h"
 
 #include <stdbool.h>
 
@@ -63,3 +67,84 @@
 #define TUPLE_OF(n) (1u << (n))
 
 extern const char *const wr_off_on[]; /* "off", "on" */
+
+/* ---- argument rows shared by all painting commands ---- */
+
+const char *wr_brush_mode_name(int i); /* word i of mode=, NULL past the last */
+/* includes the names of the arguments that the mode uses */
+void wr_brush_mode_explain(int i, WrText *text);
+extern const WrArgSpec wr_args_brush[]; /* the last row has name NULL */
+
+/* ---- the brush ---- */
+
+/* Arguments of commands that paint, with a brush or without. */
+#define PAINT_ARGS                                                                                 \
+    { .name = "strength",                                                                          \
+      .type = WR_ARG_NUMBER,                                                                       \
+      .low = -WR_BIG_HEIGHT,                                                                       \
+      .high = WR_BIG_HEIGHT,                                                                       \
+      .fallback = NUMBERS(0.1),                                                                    \
+      .help = "how much the centre changes" },                                                     \
+        { .name = "mode",                                                                          \
+          .type = WR_ARG_CHOICE,                                                                   \
+          .choice = wr_brush_mode_name,                                                            \
+          .explain = wr_brush_mode_explain,                                                        \
+          .fallback_text = "raise",                                                                \
+          .help = "what it does" },                                                                \
+        { .name = "to",                                                                            \
+          .type = WR_ARG_NUMBER,                                                                   \
+          .low = -WR_BIG_HEIGHT,                                                                   \
+          .high = WR_BIG_HEIGHT,                                                                   \
+          .fallback = NUMBERS(0),                                                                  \
+          .help = "a height, for the modes that go by one" },                                      \
+        { .name = "opacity",                                                                       \
+          .type = WR_ARG_NUMBER,                                                                   \
+          .low = 0,                                                                                \
+          .high = 1,                                                                               \
+          .fallback = NUMBERS(1),                                                                  \
+          .help = "how much of the whole counts" },                                                \
+        { .name = "reach",                                                                         \
+          .type = WR_ARG_NUMBER,                                                                   \
+          .low = 0,                                                                                \
+          .high = WR_FIELD_MAX,                                                                    \
+          .fallback = NUMBERS(0),                                                                  \
+          .unit = "texels",                                                                        \
+          .help = "how far the modes that look around see; 0: an eighth of the radius, at least "  \
+                  "1" },                                                                           \
+    {                                                                                              \
+        .name = "source", .type = WR_ARG_TUPLE, .components = 2, .shape = "du,dv", .low = -1e6,    \
+        .high = 1e6, .help = "clone: the heights come from u + du, v + dv"                         \
+    }
+
+/* A point of a shape or a ramp. */
+#define POINT(name_, help_)                                                                        \
+    {                                                                                              \
+        .name = name_, .type = WR_ARG_TUPLE, .required = true, .components = 2, .shape = "u,v",    \
+        .low = -WR_SELECT_REACH, .high = WR_SELECT_REACH, .help = help_                            \
+    }
+
+/* ---- numbers, colours and switches of a scene as command arguments, by the rows of scene/param.h ---- */
+
+/* `form` is the command's form, NULL without forms. */
+
+typedef struct WrSceneParam WrSceneParam;
+typedef struct WrError WrError;
+typedef struct WrScene WrScene;
+typedef struct WrSession WrSession;
+typedef struct WrText WrText;
+
+/* Write their arguments in the table's order; returns their number. */
+int wr_scene_args(const char *command, const char *form, WrArgSpec *out);
+/* Store the line's values in `owner` (the scene, or the light); parameters without a value get their default if their
+   row says so. */
+void wr_scene_take(const WrCall *call, const char *form, void *owner);
+/* Print " name=value" for each parameter that is written with its name. */
+void wr_scene_print_params(const char *command, const char *form, const void *owner, WrText *text);
+/* Rotation of the object as "x,y,z" or as the word for the surface's default pose. */
+#define WR_OWN_TURN "own"
+bool wr_scene_take_turn(const char *text, WrScene *scene, WrError *err);
+void wr_scene_print_vec(WrVec3 v, WrText *text); /* "x,y,z" */
+/* Print " name=word"; nothing if word is NULL. */
+void wr_print_word(const char *name, const char *word, WrText *text);
+/* Print the value of one parameter as "x,y,z". */
+void wr_scene_print_value(const WrSceneParam *param, const void *owner, WrText *text);

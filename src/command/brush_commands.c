@@ -1,11 +1,21 @@
-/* The brush as commands: dab, stroke. */
+/* Commands that paint: dab, stroke, shape, flood, ramp. */
+#include "base/enum_rows.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/progress.h"
+#include "brush/preset.h"
 #include "command/args.h"
-#include "command/brush_args.h"
 #include "command/commands.h"
+#include "document/blend.h"
+#include "document/document.h"
+#include "field/field.h"
 #include "field/ramp.h"
 #include "field/select.h"
+#include "field/shape_outline.h"
+
+#include <math.h>
+
+/* ---- The brush as commands: dab, stroke ---- */
 
 static bool run_dab(WrSession *session, WrCall *call, WrError *err)
 {
@@ -90,3 +100,542 @@ const WrCommand wr_command_stroke = {
         "stroke again: mirrors, turns, and a lattice over the cell.",
     .example = "stroke points=0.1,0.5;0.9,0.5,0.4 radius=12 mode=lower"
 };
+
+/* ---- Shapes drawn with the brush: rectangles, ellipses, polygons, paths ---- */
+
+#define OUTLINE_TOLERANCE 0.0625 /* texels between a curve and its chords, for outlines */
+
+#define FILL_TOLERANCE (1.0 / 1024.0) /* the same limit for filled shapes, whose area is exact */
+
+static WrSelectPoint point(const WrCall *call, const char *name)
+{
+    const double *numbers = wr_call_arg(call, name)->numbers;
+    return (WrSelectPoint){ numbers[0], numbers[1] };
+}
+
+/* ---- the four shapes: outlines from a call ---- */
+
+typedef bool Maker(const WrField *like, const WrCall *call, double tolerance, WrShapeOutline *out,
+                   WrError *err);
+
+static bool rectangle(const WrField *like, const WrCall *call, double tolerance,
+                      WrShapeOutline *out, WrError *err)
+{
+    return wr_shape_outline_rectangle(like, point(call, "a"), point(call, "b"),
+                                      wr_call_number(call, "corner"), wr_call_number(call, "turn"),
+                                      tolerance, out, err);
+}
+
+static bool ellipse(const WrField *like, const WrCall *call, double tolerance, WrShapeOutline *out,
+                    WrError *err)
+{
+    return wr_shape_outline_ellipse(like, point(call, "at"), point(call, "radii"),
+                                    wr_call_number(call, "turn"), tolerance, out, err);
+}
+
+static WrSelectPoint *points_of(const WrArg *list)
+{
+    WrSelectPoint *points = wr_alloc((size_t)list->rows, sizeof *points);
+    for (int i = 0; i < list->rows; i++)
+        points[i] = (WrSelectPoint){ list->numbers[2 * i], list->numbers[2 * i + 1] };
+    return points;
+}
+
+static bool polygon(const WrField *like, const WrCall *call, double tolerance, WrShapeOutline *out,
+                    WrError *err)
+{
+    (void)like;
+    (void)tolerance;
+    const WrArg *list = wr_call_arg(call, "points");
+    WrSelectPoint *points = points_of(list);
+    bool good = wr_shape_outline_polygon(points, list->rows, out, err);
+    wr_free(points);
+    return good;
+}
+
+static bool path(const WrField *like, const WrCall *call, double tolerance, WrShapeOutline *out,
+                 WrError *err)
+{
+    const WrArg *list = wr_call_arg(call, "points");
+    WrSelectPoint *points = points_of(list);
+    bool closed = wr_call_choice(call, "closed") == 1;
+    bool good = wr_shape_outline_path(like, points, list->rows, closed, tolerance, out, err);
+    wr_free(points);
+    return good;
+}
+
+enum { SHAPE_RECTANGLE, SHAPE_ELLIPSE, SHAPE_POLYGON, SHAPE_PATH, SHAPE_FORMS };
+
+WR_ROWS(makers);
+static Maker *const makers[] = {
+    [WR_ROW(SHAPE_RECTANGLE)] = rectangle,
+    [WR_ROW(SHAPE_ELLIPSE)] = ellipse,
+    [WR_ROW(SHAPE_POLYGON)] = polygon,
+    [WR_ROW(SHAPE_PATH)] = path,
+};
+WR_ROWS_END(makers, SHAPE_FORMS);
+
+/* ---- strokes along outlines ---- */
+
+/* An outline as the samples of a stroke. */
+typedef struct Trace {
+    WR_ARRAY(WrSelectPoint) points;
+    double width, height;
+    double length; /* texels */
+} Trace;
+
+static double distance(const Trace *trace, WrSelectPoint a, WrSelectPoint b)
+{
+    double x = trace->width * (b.u - a.u), y = trace->height * (b.v - a.v);
+    return sqrt(x * x + y * y);
+}
+
+/* Strokes join samples along the shorter way round a periodic table, so each step must be shorter than half of it. */
+static void go(Trace *trace, WrSelectPoint to)
+{
+    WrSelectPoint from = trace->points.data[trace->points.count - 1];
+    double u = fabs(to.u - from.u), v = fabs(to.v - from.v);
+    int steps = (int)ceil(4.0 * (u > v ? u : v));
+    trace->length += distance(trace, from, to);
+    for (int i = 1; i < steps; i++) {
+        double t = (double)i / steps;
+        WrSelectPoint p = { from.u + t * (to.u - from.u), from.v + t * (to.v - from.v) };
+        wr_array_push(&trace->points, p);
+    }
+    wr_array_push(&trace->points, to);
+}
+
+/* Remove up to `by` texels from the end; the outline never vanishes. */
+static void shorten(Trace *trace, double by)
+{
+    while (trace->points.count >= 2) {
+        WrSelectPoint *end = &trace->points.data[trace->points.count - 1];
+        double step = distance(trace, end[-1], end[0]);
+        if (step > by) {
+            double t = by / step;
+            end->u += t * (end[-1].u - end->u);
+            end->v += t * (end[-1].v - end->v);
+            return;
+        }
+        if (trace->points.count == 2) return;
+        trace->points.count--;
+        by -= step;
+    }
+}
+
+/* Texels between the dabs of a preset. */
+static double preset_step(const WrBrush *brush)
+{
+    static const char *const names[] = { "dabs_per_actual_radius", "dabs_per_basic_radius" };
+    double dabs = 0.0;
+    for (int i = 0; i < 2; i++) {
+        int index = wr_preset_setting_find(names[i]);
+        if (index >= 0) dabs += wr_preset_value(brush->preset, index);
+    }
+    return dabs > 0.0 ? brush->radius / dabs : 0.0;
+}
+
+static bool goes_by_dabs(const WrBrush *b)
+{
+    return b->tip || b->buildup || b->flow < 1.0 || b->aspect > 1.0 || b->jitter_place > 0.0 ||
+           b->jitter_size > 0.0 || b->jitter_angle_deg > 0.0 || wr_brush_modes[b->mode].moves;
+}
+
+/* Spread the dabs of a closed outline evenly over its length and stop before the one that would coincide with the
+   first, so that the start is not painted twice. */
+static void close_evenly(Trace *trace, WrBrush *brush)
+{
+    if (brush->preset) {
+        double step = preset_step(brush);
+        shorten(trace, 0.5 * (step < trace->length ? step : trace->length));
+        return;
+    }
+    if (!goes_by_dabs(brush) || !(brush->radius > 0.0) || !(trace->length > 0.0)) return;
+    double spacing = brush->spacing > 0.0 ? brush->spacing : wr_brush_modes[brush->mode].spacing;
+    if (spacing < 0.01) spacing = 0.01;
+    double dabs = floor(trace->length / (spacing * brush->radius));
+    if (dabs < 1.0) dabs = 1.0;
+    double step = trace->length / dabs;
+    brush->spacing = step / brush->radius;
+    shorten(trace, 1e-3 * step);
+}
+
+static WrSample sample_at(const void *ctx, int i)
+{
+    const Trace *trace = ctx;
+    return (
+        WrSample){ .u = trace->points.data[i].u, .v = trace->points.data[i].v, .pressure = 1.0 };
+}
+
+static bool draw_outline(WrPainting *painting, const WrShapeOutline *figure, WrError *err)
+{
+    const WrField *field = painting->ground.field;
+    Trace trace = { .width = wr_field_width(field), .height = wr_field_height(field) };
+    bool good = true;
+    wr_array_push(&trace.points, figure->points[0]);
+    for (int i = 1; i < figure->count + figure->closed && good; i++) {
+        go(&trace, figure->points[i % figure->count]);
+        if (trace.points.count > WR_POINTS_MAX)
+            good = wr_fail(err, "an outline of more than %d samples", WR_POINTS_MAX);
+    }
+    if (good && figure->closed) close_evenly(&trace, &painting->held.brush);
+    good = good && wr_session_draw(painting, sample_at, &trace, trace.points.count, err);
+    wr_array_free(&trace.points);
+    return good;
+}
+
+/* ---- filled shapes ---- */
+
+/* Points of one symmetry copy, shifted close to the table on periodic axes. */
+static void move_points(const WrField *field, const WrShapeOutline *figure, const WrCopy *copy,
+                        WrSelectPoint *out)
+{
+    double width = wr_field_width(field), height = wr_field_height(field), du = 0.0, dv = 0.0;
+    for (int i = 0; i < figure->count; i++) {
+        double x = width * figure->points[i].u - 0.5,
+               y = height * (1.0 - figure->points[i].v) - 0.5;
+        double u = (copy->a * x + copy->b * y + copy->dx + 0.5) / width;
+        double v = 1.0 - (copy->c * x + copy->d * y + copy->dy + 0.5) / height;
+        if (i == 0 && wr_field_wrap_u(field) == WR_WRAP_PERIODIC) du = floor(u);
+        if (i == 0 && wr_field_wrap_v(field) == WR_WRAP_PERIODIC) dv = floor(v);
+        out[i] = (WrSelectPoint){ u - du, v - dv };
+    }
+}
+
+/* The union of all copies; NULL and an error when cancelled or out of range. */
+static WrField *cover_copies(WrSession *session, const WrField *field, const WrShapeOutline *figure,
+                             const WrCopy *copies, int count, WrError *err)
+{
+    WrSelectPoint *points = wr_alloc((size_t)figure->count, sizeof *points);
+    WrField *cover = NULL;
+    for (int i = 0; i < count; i++) {
+        move_points(field, figure, &copies[i], points);
+        WrField *one = wr_select_lasso(field, points, figure->count, session->options.pool, err);
+        WrField *both =
+            one ? wr_select_combine(cover, one, cover ? WR_SELECT_ADD : WR_SELECT_REPLACE, err)
+                : NULL;
+        wr_field_free(one);
+        wr_field_free(cover);
+        cover = both;
+        if (cover && !wr_progress_report((double)i / count)) {
+            wr_fail(err, "cancelled");
+            wr_field_free(cover);
+            cover = NULL;
+        }
+        if (!cover) break;
+    }
+    wr_free(points);
+    return cover;
+}
+
+/* Coverage without rotation or mirror copies: rectangles and ellipses have exact formulas, better than polygons. */
+static WrField *cover_plain(WrSession *session, const WrField *field, const WrCall *call,
+                            const WrShapeOutline *figure, WrError *err)
+{
+    WrPool *pool = session->options.pool;
+    Maker *maker = makers[call->form];
+    bool straight =
+        maker == rectangle || maker == ellipse ? wr_call_number(call, "turn") == 0.0 : false;
+    if (straight && maker == ellipse) {
+        WrSelectPoint m = point(call, "at"), r = point(call, "radii");
+        WrSelectPoint a = { m.u - r.u, m.v - r.v }, b = { m.u + r.u, m.v + r.v };
+        if (fabs(m.u) + r.u <= WR_SELECT_REACH && fabs(m.v) + r.v <= WR_SELECT_REACH)
+            return wr_select_ellipse(field, a, b, pool, err);
+    }
+    if (straight && maker == rectangle && wr_call_number(call, "corner") == 0.0)
+        return wr_select_rectangle(field, point(call, "a"), point(call, "b"), pool, err);
+    return wr_select_lasso(field, figure->points, figure->count, pool, err);
+}
+
+static bool fill_inside(WrSession *session, const WrPainting *painting, const WrCall *call,
+                        const WrShapeOutline *figure, WrError *err)
+{
+    const WrField *field = painting->ground.field;
+    const WrBrush *brush = &painting->held.brush;
+    WrCopy *copies = wr_alloc(WR_COPIES_MAX, sizeof *copies);
+    int count = wr_symmetry_copies(&brush->symmetry, field, copies);
+    WrField *cover = count > 1 ? cover_copies(session, field, figure, copies, count, err)
+                               : cover_plain(session, field, call, figure, err);
+    WrBrushGround ground = painting->ground;
+    ground.progress = wr_progress_here();
+    bool good = cover &&
+                wr_brush_fill(&ground, brush, cover, figure->points[0].u, figure->points[0].v, err);
+    wr_field_free(cover);
+    wr_free(copies);
+    return good;
+}
+
+/* ---- the command ---- */
+
+/* Build the outline; the number of points depends on the required precision, and is limited for polygons. */
+static bool make_figure(const WrField *like, const WrCall *call, bool fill, WrShapeOutline *figure,
+                        WrError *err)
+{
+    double tolerance = fill ? FILL_TOLERANCE : OUTLINE_TOLERANCE;
+    if (!makers[call->form](like, call, tolerance, figure, err)) return false;
+    while (fill && figure->count > WR_SELECT_POINTS && tolerance < 0.1) {
+        tolerance *= 4.0;
+        wr_shape_outline_fini(figure);
+        if (!makers[call->form](like, call, tolerance, figure, err)) return false;
+    }
+    return true;
+}
+
+static bool run_shape(WrSession *session, WrCall *call, WrError *err)
+{
+    WrPainting painting;
+    WrShapeOutline figure = { 0 };
+    bool fill = wr_call_choice(call, "paint") == 1;
+    if (!wr_painting_begin(session, call, &painting, err)) return false;
+    bool good = make_figure(painting.ground.field, call, fill, &figure, err);
+    if (good)
+        good = fill ? fill_inside(session, &painting, call, &figure, err)
+                    : draw_outline(&painting, &figure, err);
+    wr_shape_outline_fini(&figure);
+    wr_painting_end(session, &painting);
+    return good;
+}
+
+static const char *const paints[] = { "outline", "fill", NULL };
+
+#define POINTS(low_, high_, help_)                                                                 \
+    {                                                                                              \
+        .name = "points", .type = WR_ARG_LIST, .required = true, .components = 2,                  \
+        .shape = "u,v;...", .rows_low = low_, .rows_high = high_, .low = -WR_SELECT_REACH,         \
+        .high = WR_SELECT_REACH, .help = help_                                                     \
+    }
+
+#define TURN                                                                                       \
+    {                                                                                              \
+        .name = "turn", .type = WR_ARG_NUMBER, .low = -360, .high = 360, .fallback = NUMBERS(0),   \
+        .unit = "degrees", .help = "turns the shape anticlockwise about its middle"                \
+    }
+
+#define PAINT                                                                                      \
+    {                                                                                              \
+        .name = "paint", .type = WR_ARG_CHOICE, .words = paints, .fallback_text = "outline",       \
+        .help = "draw its outline with the brush, or cover its inside with what the mode does"     \
+    }
+
+WR_ROWS(shape_forms);
+static const WrForm shape_forms[] = {
+    [WR_ROW(SHAPE_RECTANGLE)] = { .name = "rectangle",
+                                  .help = "between two corners",
+                                  .args = { POINT("a", "a corner"),
+                                            POINT("b", "the corner across"),
+                                            { .name = "corner",
+                                              .type = WR_ARG_NUMBER,
+                                              .low = 0,
+                                              .high = 1e9,
+                                              .fallback = NUMBERS(0),
+                                              .unit = "texels",
+                                              .help = "radius of its corners, at most half the "
+                                                      "shorter side" },
+                                            TURN,
+                                            PAINT } },
+    [WR_ROW(SHAPE_ELLIPSE)] = { .name = "ellipse",
+                                .help = "about a point",
+                                .args = { { WR_ARG_MIDDLE, .also = "middle" },
+                                          WR_ARG_RADII,
+                                          TURN,
+                                          PAINT } },
+    [WR_ROW(SHAPE_POLYGON)] = { .name = "polygon",
+                                .help = "through points, closed; inside is where a ray meets it an "
+                                        "odd number of times",
+                                .args = { POINTS(3, WR_SELECT_POINTS, "its corners in order"),
+                                          PAINT } },
+    [WR_ROW(
+        SHAPE_PATH)] = { .name = "path",
+                         .help = "cubic Bezier curves, each from the end of the one before",
+                         .args = { POINTS(4, 3 * 4096 + 1,
+                                          "the start, then for each curve two handles and its end"),
+                                   { .name = "closed",
+                                     .type = WR_ARG_CHOICE,
+                                     .words = wr_off_on,
+                                     .fallback_text = "off",
+                                     .help = "on: the outline goes straight back from the end to "
+                                             "the start; a fill "
+                                             "always does" },
+                                   PAINT } },
+};
+WR_ROWS_END(shape_forms, SHAPE_FORMS);
+
+WR_FORMS(form_shape, shape_forms)
+
+/* ---- the row ---- */
+
+const WrCommand wr_command_shape = {
+    .name = "shape",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "KIND",
+    .form = form_shape,
+    .more = wr_args_brush,
+    .run = run_shape,
+    .help = "draw or fill a rectangle, an ellipse, a polygon or a path",
+    .details =
+        "An outline is drawn as a stroke with the brush at full pressure; a closed one meets "
+        "itself without doubling. A fill covers the inside, smooth at its edge, with what the "
+        "mode does to texels that a stroke covers wholly; the brush's radius does not matter, "
+        "and "
+        "modes that move heights cannot fill. Shapes wrap round periodic edges and keep their "
+        "form "
+        "in a cell that is not square.",
+    .example = "shape ellipse at=0.5,0.5 radii=0.3,0.2 paint=fill strength=0.5"
+};
+
+/* ---- Flood fills and ramps ---- */
+
+static bool run_flood(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    const double *at = wr_call_arg(call, "u,v")->numbers;
+    WrPainting painting;
+    if (!wr_painting_begin(session, call, &painting, err)) return false;
+    const WrProgress *progress = wr_progress_here();
+    painting.ground.progress = progress;
+    WrField *cover =
+        wr_select_flood(wr_document_composite(document, session->options.pool), at[0], at[1],
+                        wr_call_number(call, "tolerance"), wr_call_choice(call, "diagonal") == 1,
+                        session->options.pool, progress, err);
+    bool good =
+        cover && wr_brush_fill(&painting.ground, &painting.held.brush, cover, at[0], at[1], err);
+    wr_field_free(cover);
+    wr_painting_end(session, &painting);
+    return good;
+}
+
+/* ---- ramp ---- */
+
+/* Blend the ramp into the heights. */
+static bool join(WrField *heights, const WrField *ramp, WrBlend blend, const WrProgress *progress,
+                 WrError *err)
+{
+    for (int ty = 0; ty < wr_field_tiles_v(heights); ty++) {
+        if (wr_progress_cancelled(progress)) return wr_fail(err, "cancelled");
+        for (int tx = 0; tx < wr_field_tiles_u(heights); tx++) {
+            WrBlendTile tile = { .heights = wr_field_tile(ramp, tx, ty),
+                                 .level = wr_field_level(ramp),
+                                 .cover_level = 1.0f,
+                                 .mask_level = 1.0f };
+            float *below = wr_field_tile_write(heights, tx, ty);
+            int columns = wr_field_width(heights) - tx * WR_TILE;
+            int rows = wr_field_height(heights) - ty * WR_TILE;
+            if (columns > WR_TILE) columns = WR_TILE;
+            for (int y = 0; y < rows && y < WR_TILE; y++) {
+                wr_blend_tile(blend, 1.0f, 0.0f, &tile, (size_t)columns, below + y * WR_TILE);
+                if (tile.heights) tile.heights += WR_TILE;
+            }
+        }
+    }
+    return true;
+}
+
+static bool run_ramp(WrSession *session, WrCall *call, WrError *err)
+{
+    WrLayer *layer = wr_session_layer(session, err);
+    if (!layer) return false;
+    const double *from = wr_call_arg(call, "from")->numbers, *to = wr_call_arg(call, "to")->numbers;
+    WrRamp ramp = { .kind = (WrRampKind)call->form,
+                    .from_u = from[0],
+                    .from_v = from[1],
+                    .to_u = to[0],
+                    .to_v = to[1],
+                    .low = wr_call_number(call, "low"),
+                    .high = wr_call_number(call, "high"),
+                    .fold = wr_call_choice(call, "fold") == 1 };
+    const WrProgress *progress = wr_progress_here();
+    WrField *made = wr_ramp_make(layer->heights, &ramp, session->options.pool, progress, err);
+    if (!made) return false;
+    WrBlend blend = wr_ramp_blends[wr_call_choice(call, "blend")];
+    if (blend != WR_BLEND_REPLACE) {
+        WrField *joined = wr_field_share(layer->heights);
+        bool good = join(joined, made, blend, progress, err);
+        wr_field_free(made);
+        if (!good) {
+            wr_field_free(joined);
+            return false;
+        }
+        made = joined;
+    }
+    wr_session_put_heights(session, layer, made);
+    return true;
+}
+
+static const char *ramp_blend(int i)
+{
+    return i >= 0 && i < WR_RAMP_BLENDS ? wr_blends[wr_ramp_blends[i]].name : NULL;
+}
+
+/* ---- flood, ramp ---- */
+
+static const WrArgSpec args_flood[] = { WR_ARGS_FLOOD("the composite's heights"),
+                                        PAINT_ARGS,
+                                        { 0 } };
+
+#define HEIGHT(name_, default_, help_)                                                             \
+    {                                                                                              \
+        .name = name_, .type = WR_ARG_NUMBER, .low = -WR_BIG_HEIGHT, .high = WR_BIG_HEIGHT,        \
+        .fallback = NUMBERS(default_), .help = help_                                               \
+    }
+
+#define RAMP_ARGS                                                                                  \
+    POINT("from", "where the height is low"), POINT("to", "where it is high"),                     \
+        HEIGHT("low", 0, "the height at from"), HEIGHT("high", 1, "the height at to"),             \
+        { .name = "fold",                                                                          \
+          .type = WR_ARG_CHOICE,                                                                   \
+          .words = wr_off_on,                                                                      \
+          .fallback_text = "off",                                                                  \
+          .help = "on: it leads back down again, so that nothing jumps" },                         \
+    {                                                                                              \
+        .name = "blend", .type = WR_ARG_CHOICE, .choice = ramp_blend, .fallback_text = "replace",  \
+        .help = "how it joins the heights that are there"                                          \
+    }
+
+/* In the order of WrRampKind. */
+static const WrForm ramp_forms[] = {
+    { .name = "linear",
+      .help = "along the way; low before from, high after to. On periodic axes it jumps half a "
+              "table away from the middle of the way; fold=on leads from to on round the table "
+              "back to from instead, along u and v each",
+      .args = { RAMP_ARGS } },
+    { .name = "radial",
+      .help = "by the distance from from, round all edges; high beyond to, or with fold=on a ring "
+              "that is low again at twice the distance. Nothing jumps",
+      .args = { RAMP_ARGS } },
+    { .name = "cone",
+      .help =
+          "by the angle about from, anticlockwise from the direction of to, where it jumps, as "
+          "it does half a table away; fold=on rises for half a turn and falls for the other, and "
+          "beyond a quarter of the table mirrors itself, so that nothing jumps",
+      .args = { RAMP_ARGS } },
+};
+_Static_assert(sizeof ramp_forms / sizeof *ramp_forms == WR_RAMP_KINDS, "one a kind");
+
+static bool form_ramp(int i, WrForm *out)
+{
+    if (i >= WR_RAMP_KINDS) return false;
+    *out = ramp_forms[i];
+    return true;
+}
+
+/* ---- the rows ---- */
+
+const WrCommand wr_command_flood = {
+    .name = "flood",
+    .kind = WR_CLASS_EDIT,
+    .args = args_flood,
+    .run = run_flood,
+    .help = "fill a connected part of about one height",
+    .details = "The part is found in the composite, goes on across periodic edges, and has no "
+               "soft edge; "
+               "`select flood` selects it instead, to be feathered or grown.",
+    .example = "flood 0.5,0.5 tolerance=0.05 mode=to to=1 strength=10"
+};
+
+const WrCommand wr_command_ramp = { .name = "ramp",
+                                    .kind = WR_CLASS_EDIT,
+                                    .form_word = "KIND",
+                                    .form = form_ramp,
+                                    .run = run_ramp,
+                                    .help = "heights that lead from one place to another",
+                                    .example = "ramp linear from=0.1,0.5 to=0.6,0.5 fold=on" };

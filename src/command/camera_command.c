@@ -4,7 +4,6 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-#include "command/scene_args.h"
 #include "document/document.h"
 #include "scene/camera_control.h"
 #include "scene/named_view.h"

@@ -9,6 +9,8 @@
 
 #include <stdbool.h>
 
+typedef struct WrSceneParam WrSceneParam;
+
 typedef struct WrArg {
     bool given; /* false: the values are the default, or none */
     int choice; /* choices: index, -1 without value */
@@ -50,8 +52,6 @@ bool wr_call_given(const WrCall *call, const char *name);
 double wr_call_number(const WrCall *call, const char *name);
 /* Index of a choice, given or default. */
 int wr_call_choice(const WrCall *call, const char *name);
-/* Three numbers of a tuple, given or default. */
-/* Store the argument's value in *out if the line contains one; else *out is unchanged. */
 /* Name of the argument that holds the SHA-256 of the file named by argument `index`: NAME_sha256, or sha256. NULL if
  * that argument names no file, or one that is not read. */
 const char *wr_call_hash_name(const WrCall *call, int index);
@@ -77,3 +77,13 @@ void wr_text_add_word(WrText *text, const char *word);
 /* At most 48 bytes of user text for a message: whole UTF-8 characters, no control characters. */
 #define WR_EXCERPT_SIZE 56
 const char *wr_excerpt(const char *bytes, char buffer[WR_EXCERPT_SIZE]);
+
+/* Text form of a scene parameter's value in lines and in the window's rows: "off" or "on" for a switch, else the
+   numbers separated by commas. values: [3], as wr_scene_param_get fills them. */
+void wr_param_text(const WrSceneParam *param, const double *values, WrText *text);
+
+/* Write the error for a verb that no command has. Suggests a command, or the form of one: "did you mean surface
+   sphere?" Returns false. */
+bool wr_fail_verb(const char *verb, WrError *err);
+/* Append a hint to the message of a failed call: the choice word nearest to a file name that does not exist. */
+void wr_call_add_hint(const WrCall *call, WrError *err);

@@ -135,7 +135,7 @@ typedef struct WrCommand {
     bool of_views; /* a history command that changes which view is shown, and nothing else */
     int steps; /* direction of argument N in the history of edits: -1 back, 1 forward, 0: no such argument */
     bool
-        print_end; /* the chosen dials are appended to its line in a saved document (session_chosen.c) */
+        print_end; /* the chosen dials are appended to its line in a saved document (session_picture.c) */
     /* Print the line to run instead if the scene has several objects; returns false if the call is to run as it is;
        or NULL. */
     bool (*of_several)(const WrCall *call, WrText *text);

@@ -32,16 +32,5 @@ void wr_help_markdown_cell(WrText *text, const char *words);
  * unchanged, and "default" is the value in a new document. Members that do not apply are left out. */
 void wr_help_json(WrText *text);
 
-/* Usage line: "dab u,v [radius=] ...". */
-void wr_help_usage(const WrCommand *command, int form, WrText *text);
 /* Value in a new document's scene of an argument whose row has no default: "blinn", "0.1"; "" if there is none. */
 void wr_help_initial(const WrCommand *command, int form, const char *name, WrText *text);
-
-/* ---- parts ---- */
-
-/* Meaning, allowed values and default of an argument: "of the brush; a number, 0..9 (default 1)". */
-void wr_help_argument(const WrCommand *command, int form, const WrArgSpec *spec, WrText *text);
-/* Argument name as in usage lines: "radius=", "at=u,v", "FILE". */
-void wr_help_argument_name(const WrArgSpec *spec, WrText *text);
-/* Number of a form's `count` arguments that are its own or its command's, not shared with other commands. */
-int wr_help_own(const WrCommand *command, int count);

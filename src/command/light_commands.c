@@ -1,13 +1,19 @@
-/* The command light. */
+/* Commands for light in the scene: light, environment, background, tone. */
+#include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-#include "command/scene_args.h"
 #include "document/document.h"
+#include "document/document_file.h"
+#include "image/image.h"
 #include "scene/param.h"
 #include "scene/scene.h"
+
+#include <string.h>
+
+/* ---- The command light ---- */
 
 static void print_light(const WrScene *scene, WrText *text)
 {
@@ -98,4 +104,292 @@ const WrCommand wr_command_light = {
     .help = "add, replace or remove lights",
     .details = "The first light takes the place of the one that a new document has.",
     .example = "light directional to=-1,1,2 strength=0.9"
+};
+
+/* ---- The command environment: image-based lighting ---- */
+
+#define WORD(KIND, word, label, light) word,
+#define LISTED(KIND, word, label, light) word ", "
+static const char *const set_words[] = { "off", WR_ENVIRONMENT_SETS(WORD) NULL };
+
+static void print_environment_line(const WrScene *scene, bool named, WrText *text)
+{
+    const WrEnvironment *own = &scene->environment;
+    if (own->kind == WR_ENVIRONMENT_MAP_OFF) return;
+    wr_text_add(text, "environment");
+    if (own->kind != WR_ENVIRONMENT_MAP_FILE)
+        wr_text_addf(text, " %s", wr_environment_map_names[own->kind]);
+    else if (named) wr_text_add(text, " "), wr_text_add_word(text, own->path);
+    wr_print_word("channel", own->channel, text);
+    wr_print_word("part", own->part, text);
+    if (*own->sha256) wr_text_addf(text, " sha256=%s", own->sha256);
+    wr_scene_print_params("environment", NULL, scene, text);
+    wr_text_add(text, "\n");
+}
+
+static void print_environment(const WrScene *scene, WrText *text)
+{
+    print_environment_line(scene, true, text);
+}
+
+static void print_environment_content(const WrScene *scene, WrText *text)
+{
+    print_environment_line(scene, !*scene->environment.sha256, text);
+}
+
+static void note_told(WrSession *session, const char *name, const WrEnvironmentMapTold *told)
+{
+    if (told->lost)
+        wr_session_note(session, "%s: %lld numbers that are none became 0", name,
+                        (long long)told->lost);
+    if (told->below)
+        wr_session_note(session, "%s: %lld numbers below 0 became 0", name, (long long)told->below);
+    if (told->above)
+        wr_session_note(session, "%s: %lld numbers beyond 1e9 became 1e9", name,
+                        (long long)told->above);
+    if (told->reduced > 1)
+        wr_session_note(session, "%s: more than %d texels wide: each is the mean of %d x %d", name,
+                        WR_ENVIRONMENT_MAP_WIDTH, told->reduced, told->reduced);
+}
+
+/* While a document loads, its embedded picture, else the file's. The caller frees it. */
+static WrImage *find_picture(WrSession *session, WrCall *call, const char *name, WrError *err)
+{
+    if (session->loading) {
+        const WrImage *held = session->embedded ? session->embedded[0][WR_OBJECT_SURROUND] : NULL;
+        if (held) return wr_image_share(held);
+        wr_fail(err, "the document names the picture %s but does not hold it", name);
+        return NULL;
+    }
+    char *path = wr_session_input_path(session, name);
+    WrImageRequest wish = wr_call_request(call);
+    wish.keep_lost = true;
+    WrImage *image = NULL;
+    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
+    if (image) wr_session_note_read(session, path, image);
+    wr_free(path);
+    return image;
+}
+
+static WrEnvironmentMap *read_file(WrSession *session, WrCall *call, const char *name, WrError *err)
+{
+    WrEnvironmentMapTold told;
+    WrImage *image = find_picture(session, call, name, err);
+    if (!image) return NULL;
+    WrEnvironmentMap *light = wr_environment_map_new(image, &told, err);
+    wr_image_free(image);
+    if (light) note_told(session, name, &told);
+    return light;
+}
+
+static WrEnvironmentMapKind kind_of(const char *name)
+{
+    for (int i = 0; set_words[i]; i++)
+        if (strcmp(name, set_words[i]) == 0) return (WrEnvironmentMapKind)i;
+    return WR_ENVIRONMENT_MAP_FILE;
+}
+
+static bool take_light(WrSession *session, WrCall *call, const char *name, WrEnvironment *to,
+                       WrError *err)
+{
+    const WrEnvironmentMapKind kind = kind_of(name);
+    const bool file = kind == WR_ENVIRONMENT_MAP_FILE;
+    WrEnvironmentMap *light = NULL;
+    if (file) light = read_file(session, call, name, err);
+    else if (kind != WR_ENVIRONMENT_MAP_OFF) light = wr_environment_map_built(kind, err);
+    if (!light && kind != WR_ENVIRONMENT_MAP_OFF) return false;
+    wr_environment_set(to, kind, light, file ? name : NULL,
+                       file ? wr_call_arg(call, "sha256")->text : NULL);
+    const WrImageRequest wish = wr_call_request(call);
+    if (file) to->channel = wr_strdup(wish.channel), to->part = wr_strdup(wish.part);
+    return true;
+}
+
+/* File arguments require a file name; `off` accepts no other arguments. */
+static bool check_line(const WrCall *call, const WrScene *now, const char *name, WrError *err)
+{
+    static const char *const of_file[] = { "layer", "part", "sha256" };
+    static const char *const of_light[] = { "turn", "strength" };
+    const WrEnvironmentMapKind kind = name ? kind_of(name) : WR_ENVIRONMENT_MAP_OFF;
+    if (!name && now->environment.kind == WR_ENVIRONMENT_MAP_OFF)
+        return wr_fail(err, "there are no surroundings: name some");
+    for (int i = 0; i < 3; i++)
+        if (kind != WR_ENVIRONMENT_MAP_FILE && wr_call_given(call, of_file[i]))
+            return wr_fail(err, "only a line that names a file takes %s=", of_file[i]);
+    for (int i = 0; i < 2; i++)
+        if (name && kind == WR_ENVIRONMENT_MAP_OFF && wr_call_given(call, of_light[i]))
+            return wr_fail(err, "off takes no %s=", of_light[i]);
+    return true;
+}
+
+static bool run_environment(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrScene *now = session->state.document->scene;
+    const WrArg *file = wr_call_arg(call, "FILE|SET|off");
+    const char *name = file->given ? file->text : NULL;
+    if (!check_line(call, now, name, err)) return false;
+    WrScene *scene = wr_scene_clone(now);
+    if (name && !take_light(session, call, name, &scene->environment, err)) {
+        wr_scene_free(scene);
+        return false;
+    }
+    wr_scene_take(call, NULL, scene);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static const WrArgSpec args_file[] = { WR_ARGS_OF_FILE,
+                                       { .name = "sha256",
+                                         .type = WR_ARG_SHA256,
+                                         .help = "of the file: another content is then an error" },
+                                       { 0 } };
+
+static bool row_environment(WrForm *out)
+{
+    *out = (WrForm){ .args = { { .name = "FILE|SET|off",
+                                 .type = WR_ARG_PATH,
+                                 .positional = true,
+                                 .words = set_words,
+                                 .help =
+                                     "a picture by longitude and latitude, or " WR_ENVIRONMENT_SETS(
+                                         LISTED) "or off (a file of that name is ./sky). Left out: "
+                                                 "those that are there" } } };
+    return wr_scene_args("environment", NULL, out->args + 1) > 0;
+}
+
+const WrCommand wr_command_environment = {
+    .name = "environment",
+    .kind = WR_CLASS_SCENE,
+    .row = row_environment,
+    .more = args_file,
+    .run = run_environment,
+    .print = print_environment,
+    .print_content = print_environment_content,
+    .help = "surroundings that light the objects from all sides",
+    .details =
+        "Beside the lights; `light clear` leaves them alone. A picture is twice as wide as high, "
+        "its middle is -z, its upper border straight up; float ones (EXR, HDR) are taken as "
+        "linear, 8-bit and 16-bit ones decoded from sRGB. Diffuse light of them is by spherical "
+        "harmonics of order 2. The picture is saved inside the document. Only what is given "
+        "changes.",
+    .example = "environment sky turn=30 strength=0.8"
+};
+
+/* ---- The command background: the backdrop of the scene ---- */
+
+static void print_kind(WrBackgroundKind kind, const WrScene *scene, WrText *text)
+{
+    const char *form = wr_background_names[kind];
+    wr_text_addf(text, "background %s", form);
+    wr_scene_print_params("background", form, scene, text);
+    wr_text_add(text, "\n");
+}
+
+/* Hidden colours are saved too, by an extra line before; a new document's colours need none. */
+static void print_background(const WrScene *scene, WrText *text)
+{
+    const WrBackground *own = &scene->background;
+    const double *usual = wr_scene_params[WR_SCENE_PARAM_BACKGROUND].fallback;
+    const bool top = memcmp(own->top, usual, sizeof own->top) != 0,
+               bottom = memcmp(own->bottom, usual, sizeof own->bottom) != 0;
+    if (bottom || own->kind == WR_BACKGROUND_GRADIENT)
+        print_kind(WR_BACKGROUND_GRADIENT, scene, text);
+    const bool colourless =
+        own->kind == WR_BACKGROUND_NONE || own->kind == WR_BACKGROUND_SURROUNDINGS;
+    if (own->kind == WR_BACKGROUND_PLAIN ? top || bottom : top && !bottom && colourless)
+        print_kind(WR_BACKGROUND_PLAIN, scene, text);
+    if (colourless) print_kind(own->kind, scene, text);
+}
+
+static bool run_background(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    scene->background.kind = (WrBackgroundKind)call->form;
+    wr_scene_take(call, wr_background_names[call->form], scene);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool form_background(int i, WrForm *out)
+{
+    WR_ROWS(help);
+    static const char *const help[WR_BACKGROUND_KINDS] = {
+        [WR_ROW(WR_BACKGROUND_PLAIN)] = "one colour",
+        [WR_ROW(WR_BACKGROUND_GRADIENT)] = "one colour goes over into another, from top to bottom",
+        [WR_ROW(WR_BACKGROUND_NONE)] = "none: files that hold alpha have it, such as PNG",
+        [WR_ROW(WR_BACKGROUND_SURROUNDINGS)] =
+            "the surroundings (`environment`), as the camera sees them",
+    };
+    WR_ROWS_END(help, WR_BACKGROUND_KINDS);
+    if (i >= WR_BACKGROUND_KINDS) return false;
+    *out = (WrForm){ .name = wr_background_names[i], .help = help[i] };
+    wr_scene_args("background", out->name, out->args);
+    return true;
+}
+
+const WrCommand wr_command_background = {
+    .name = "background",
+    .kind = WR_CLASS_SCENE,
+    .form_word = "KIND",
+    .form = form_background,
+    .run = run_background,
+    .print = print_background,
+    .help = "what stands behind the objects",
+    .details = "Of 8-bit pictures, and in the window. Only what is given changes. EXR and TIFF "
+               "hold coverage in its place. Files without alpha, such as JPEG, have the plain "
+               "colour where there is none, and so has a scene without surroundings. An "
+               "orthographic camera sees one direction of them.",
+    .example = "background gradient top=0.12,0.16,0.24 bottom=0.5,0.47,0.42"
+};
+
+/* ---- The command tone: mapping from light to pixel values ---- */
+
+static void print_tone(const WrScene *scene, WrText *text)
+{
+    if (wr_tone_curve(&scene->tone).plain) return;
+    wr_text_addf(text, "tone %s", wr_tone_names[scene->tone.kind]);
+    wr_scene_print_params("tone", NULL, scene, text);
+    wr_text_add(text, "\n");
+}
+
+static const char *tone_word(int i)
+{
+    return i < WR_TONE_KINDS ? wr_tone_names[i] : NULL;
+}
+
+static bool run_tone(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    const WrArg *kind = wr_call_arg(call, "clip|soft");
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    if (kind->given) scene->tone.kind = (WrToneKind)kind->choice;
+    wr_scene_take(call, NULL, scene);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool row_tone(WrForm *out)
+{
+    *out =
+        (WrForm){ .args = { { .name = "clip|soft",
+                              .type = WR_ARG_CHOICE,
+                              .positional = true,
+                              .choice = tone_word,
+                              .help = "light beyond 1 is white, or from 1/2 on it bends over and "
+                                      "never quite becomes white, so that highlights keep their "
+                                      "form" } } };
+    return wr_scene_args("tone", NULL, out->args + 1) > 0;
+}
+
+const WrCommand wr_command_tone = {
+    .name = "tone",
+    .kind = WR_CLASS_SCENE,
+    .row = row_tone,
+    .run = run_tone,
+    .print = print_tone,
+    .help = "exposure, and what becomes of light too bright for a picture",
+    .details = "Of 8-bit pictures, and in the window; EXR and TIFF keep light as it is. The "
+               "background is developed with the rest. Only what is given changes.",
+    .example = "tone soft exposure=-0.5"
 };

@@ -6,7 +6,6 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-#include "command/scene_args.h"
 #include "document/document.h"
 #include "document/document_file.h"
 #include "scene/material_preset.h"

@@ -1,9 +1,10 @@
-/* Output commands: save, export, render. */
+/* Output commands: save, export, render, maps, and the settings of the export sheet. */
+#include "base/array.h"
+#include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/enum_rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
@@ -11,9 +12,14 @@
 #include "document/document_file.h"
 #include "document/ora.h"
 #include "export/export.h"
+#include "export/map_sets.h"
+#include "scene/scene.h"
 #include "system/path.h"
 
+#include <stdio.h>
 #include <string.h>
+
+/* ---- Output commands: save, export, render ---- */
 
 /* ---- pictures ---- */
 
@@ -222,3 +228,214 @@ const WrCommand wr_command_render = { .name = "render",
                                       .run = run_render,
                                       .help = "write a picture of the scene, or a turntable",
                                       .example = "render bricks.png size=640x480" };
+
+/* ---- The command maps: a set of map files for another program ---- */
+
+/* Words passed on to the maps: all arguments except the names. */
+typedef struct Words {
+    char *words[WR_SET_WORDS + 1]; /* owned */
+    int count;
+} Words;
+
+static void take_words(const WrCall *call, Words *out)
+{
+    for (int i = 0; i < call->count && out->count <= WR_SET_WORDS; i++) {
+        if (!call->args[i].given || call->specs[i].positional ||
+            strcmp(call->specs[i].name, "name") == 0)
+            continue;
+        WrText word = { 0 };
+        wr_text_addf(&word, "%s=%s", call->specs[i].name, call->args[i].text);
+        out->words[out->count++] = word.data;
+    }
+}
+
+static bool run_set(WrSession *session, const WrCall *call, const WrSet *set, WrError *err)
+{
+    Words words = { 0 };
+    WrText name = { 0 }, told = { 0 };
+    if (wr_call_given(call, "name")) wr_text_add(&name, wr_call_arg(call, "name")->text);
+    else wr_set_cell_name(session->state.path, &name);
+    take_words(call, &words);
+    const WrSetOrder order = { .set = set,
+                               .folder = wr_call_arg(call, "FOLDER")->text,
+                               .name = wr_text_get(&name),
+                               .words = (const char *const *)words.words,
+                               .word_count = words.count };
+    bool good = wr_export_set(&order, session->state.document, session->options.pool, &told, err);
+    for (const char *at = wr_text_get(&told); good && *at;) {
+        const size_t length = strcspn(at, "\n");
+        wr_session_note(session, "%.*s", (int)length, at);
+        at += length + (at[length] == '\n');
+    }
+    for (int i = 0; i < words.count; i++) wr_free(words.words[i]);
+    wr_text_fini(&name);
+    wr_text_fini(&told);
+    return good;
+}
+
+static bool run_maps(WrSession *session, WrCall *call, WrError *err)
+{
+    WrSet *set = wr_set_find(wr_call_arg(call, "SET")->text, err);
+    if (!set) return false;
+    bool good = wr_document_whole(session->state.document, session->options.pool, err) &&
+                (!wr_progress_stopped() || wr_fail(err, "cancelled")) &&
+                run_set(session, call, set, err);
+    wr_set_free(set);
+    return good;
+}
+
+/* Accept a value that any kind of map accepts; the kinds of the set are checked when they are written. */
+static bool check_word(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    (void)ctx;
+    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
+        for (const WrExportOptionInfo *o = wr_export_kinds[i].options; o->name; o++) {
+            WrExportOptions options = wr_export_default();
+            if (strcmp(o->name, name) == 0 && o->set(&options, value, err)) return true;
+        }
+    return false;
+}
+
+/* All options of all kinds, each once. */
+static bool row_maps(WrForm *out)
+{
+    int count = 0;
+    *out = (WrForm){ 0 };
+    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
+        for (const WrExportOptionInfo *o = wr_export_kinds[i].options; o->name; o++) {
+            bool there = false;
+            for (int k = 0; k < count; k++) there |= strcmp(out->args[k].name, o->name) == 0;
+            if (there || count == WR_ARGS_MAX - 1) continue;
+            out->args[count++] = (WrArgSpec){ .name = o->name,
+                                              .type = o->named ? WR_ARG_NAME : WR_ARG_TEXT,
+                                              .shape = o->values,
+                                              .check = check_word,
+                                              .help = "of those maps that have it" };
+        }
+    return true;
+}
+
+static const WrArgSpec args_maps[] = {
+    { PLACE("SET"), .type = WR_ARG_NAME, .help = "blender, unreal and so on, or one of your own" },
+    { PLACE("FOLDER"), .type = WR_ARG_PATH, .help = "that is there; all files or none" },
+    { .name = "contact",
+      .type = WR_ARG_NAME,
+      .help = "a picture beside them that shows all, each with its name: contact.png" },
+    { .name = "name",
+      .type = WR_ARG_NAME,
+      .help = "of the cell, in the files' names; left out: the document's" },
+    { 0 }
+};
+
+const WrCommand wr_command_maps = {
+    .name = "maps",
+    .kind = WR_CLASS_OUTPUT,
+    .row = row_maps,
+    .args = args_maps,
+    .run = run_maps,
+    .help = "write the set of maps that another program wants",
+    .details =
+        "Sets: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "
+        "those "
+        "of your own, files NAME.set in the folder sets of your settings. Each file is read back; "
+        "then all take their places, or none.",
+    .example = "maps unreal . name=bricks"
+};
+
+/* ---- The command sheet: stored settings of the export sheet ---- */
+
+WR_ROWS(depths);
+static const char *const depths[WR_SHEET_DEPTHS + 1] = { [WR_ROW(WR_SHEET_AS_SET)] = "set",
+                                                         [WR_ROW(WR_SHEET_8)] = "8",
+                                                         [WR_ROW(WR_SHEET_16)] = "16",
+                                                         [WR_ROW(WR_SHEET_FLOAT)] = "32" };
+static const char *const sizes[WR_SHEET_SIZES + 1] = { "table", "half", "quarter", "power" };
+static const char *const ranges[WR_SHEET_RANGES + 1] = { "set", "auto", "unit", "signed" };
+
+/* Limits the length of a text; ctx holds the limit in bytes. */
+static bool check_length(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    const size_t most = *(const size_t *)ctx;
+    if (strlen(value) < most) return true;
+    return wr_fail(err, "%s: %zu bytes: at most %zu", name, strlen(value), most - 1);
+}
+
+static void print_sheet(const WrScene *scene, WrText *text)
+{
+    const WrSheetRequest *sheet = &scene->sheet;
+    if (!*sheet->as) return;
+    wr_text_add(text, "sheet ");
+    wr_text_add_word(text, sheet->as);
+    if (*sheet->folder) wr_text_add(text, " folder="), wr_text_add_word(text, sheet->folder);
+    if (*sheet->name) wr_text_add(text, " name="), wr_text_add_word(text, sheet->name);
+    wr_text_addf(text, " depth=%s size=%s range=%s\n", depths[sheet->depth], sizes[sheet->size],
+                 ranges[sheet->range]);
+}
+
+static void take(const WrCall *call, const char *name, char *to, size_t size)
+{
+    const WrArg *arg = wr_call_arg(call, name);
+    snprintf(to, size, "%s", arg->given ? arg->text : "");
+}
+
+static bool run_sheet(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    WrSheetRequest *sheet = &scene->sheet;
+    take(call, "SET", sheet->as, sizeof sheet->as);
+    take(call, "folder", sheet->folder, sizeof sheet->folder);
+    take(call, "name", sheet->name, sizeof sheet->name);
+    sheet->depth = wr_call_choice(call, "depth");
+    sheet->size = wr_call_choice(call, "size");
+    sheet->range = wr_call_choice(call, "range");
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static const size_t most_word = WR_SHEET_WORD, most_folder = WR_SHEET_FOLDER,
+                    most_name = WR_SHEET_NAME;
+
+static const WrArgSpec args_sheet[] = {
+    { PLACE("SET"), .type = WR_ARG_NAME, .shape = "SET or KIND", .check = check_length,
+      .check_ctx = &most_word, .help = "of `maps`, or a kind of `export`" },
+    { .name = "folder",
+      .type = WR_ARG_PATH,
+      .shape = "FOLDER",
+      .check = check_length,
+      .check_ctx = &most_folder,
+      .help = "left out: the document's" },
+    { .name = "name",
+      .type = WR_ARG_NAME,
+      .shape = "NAME",
+      .check = check_length,
+      .check_ctx = &most_name,
+      .help = "of the cell in the files' names; left out: the document's" },
+    { .name = "depth",
+      .type = WR_ARG_CHOICE,
+      .words = depths,
+      .fallback_text = "set",
+      .help = "bits of a number, or as the set has it" },
+    { .name = "size",
+      .type = WR_ARG_CHOICE,
+      .words = sizes,
+      .fallback_text = "table",
+      .help = "texels: the table's, half or a quarter of that, the nearest powers of two" },
+    { .name = "range",
+      .type = WR_ARG_CHOICE,
+      .words = ranges,
+      .fallback_text = "set",
+      .help = "of heights in codes: as the set has it, the table's, 0 to 1, 0 in the middle" },
+    { 0 }
+};
+
+const WrCommand wr_command_sheet = {
+    .name = "sheet",
+    .kind = WR_CLASS_SCENE,
+    .args = args_sheet,
+    .run = run_sheet,
+    .print = print_sheet,
+    .help = "what the export sheet of the window was told last",
+    .details = "The document keeps it; nothing is written by it: `maps` does that.",
+    .example = "sheet unreal folder=out name=bricks depth=16"
+};

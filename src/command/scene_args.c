@@ -1,13 +1,28 @@
-#include "command/scene_args.h"
-
+/* Scene parameters as arguments of commands, and the scene as command lines. */
 #include "base/error.h"
 #include "base/text.h"
 #include "command/args.h"
-#include "command/param_text.h"
+#include "command/commands.h"
+#include "command/command_line.h"
+#include "command/session_internal.h"
+#include "scene/objects.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 
 #include <string.h>
+
+/* ---- text of a value ---- */
+
+void wr_param_text(const WrSceneParam *param, const double *values, WrText *text)
+{
+    if (param->components == 0) wr_text_add(text, wr_off_on[values[0] != 0]);
+    for (int i = 0; i < param->components; i++) {
+        if (i > 0) wr_text_add(text, ",");
+        wr_text_add_number(text, values[i]);
+    }
+}
+
+/* ---- arguments ---- */
 
 int wr_scene_args(const char *command, const char *form, WrArgSpec *out)
 {
@@ -96,4 +111,58 @@ void wr_scene_print_params(const char *command, const char *form, const void *ow
         wr_text_addf(text, " %s=", p->name);
         wr_scene_print_value(p, owner, text);
     }
+}
+
+/* ---- the scene as lines ---- */
+
+/* The scene as the canonical lines that restore it from a new document. Every setting is printed, defaults too, so
+   that a document keeps its meaning if a later version has other defaults. Only the default light, the surface's
+   default pose and a missing picture have no line. */
+
+typedef void Printer(const WrCommand *command, const WrScene *scene, WrText *text);
+
+static void print_named(const WrCommand *command, const WrScene *scene, WrText *text)
+{
+    command->print(scene, text);
+}
+
+static void print_content(const WrCommand *command, const WrScene *scene, WrText *text)
+{
+    (command->print_content ? command->print_content : command->print)(scene, text);
+}
+
+/* Lines of one object; its rotation is printed with its position. */
+static void print_own(const WrScene *scene, int object, Printer *printer, WrText *text)
+{
+    wr_print_object(scene, object, text);
+    for (int i = 0; i < wr_command_count; i++) {
+        const WrCommand *command = wr_commands[i];
+        if (command->of_object && !command->in_object)
+            printer(command, wr_scene_object(scene, object), text);
+    }
+}
+
+static void print_scene(const WrScene *scene, Printer *printer, WrScenePart *after, void *ctx,
+                        WrText *text)
+{
+    const bool several = wr_scene_object_count(scene) > 1;
+    for (int i = 0; several && i < wr_scene_object_count(scene); i++)
+        print_own(scene, i, printer, text);
+    for (int i = 0; i < wr_command_count; i++) {
+        const WrCommand *command = wr_commands[i];
+        if (!command->print || (several && command->of_object)) continue;
+        printer(command, scene, text);
+        if (after) after(ctx, command, text);
+    }
+    wr_print_chosen(scene, text);
+}
+
+void wr_print_scene(const WrScene *scene, WrScenePart *after, void *ctx, WrText *text)
+{
+    print_scene(scene, print_named, after, ctx, text);
+}
+
+void wr_print_identity(const WrScene *scene, WrText *text)
+{
+    print_scene(scene, print_content, NULL, NULL, text);
 }

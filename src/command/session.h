@@ -205,10 +205,6 @@ bool wr_session_savings(WrSession *session, int width, int height, double turn_d
    show nothing. */
 bool wr_session_map(WrSession *session, int width, int height, double turn_deg, uint8_t *map,
                     WrError *err);
-/* With a tolerance: choose dials once for all pictures of a turn; later pictures of that size use them. A note
-   reports the choice. */
-bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,
-                     WrError *err);
 /* Dials chosen for the last picture under the scene's tolerance; count is 0 if it had none. */
 const WrChoice *wr_session_choice(const WrSession *session);
 /* Stored dials of the document for its tolerance (wr_choice_write), or NULL. Valid until they change. */
@@ -228,10 +224,6 @@ void wr_chosen_write(const WrChoice *choice, const WrFrameRequest *request, WrTe
    options.outputs is. */
 bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
                        WrError *err);
-/* Render to memory: 8-bit sRGB over the background, or with `alpha` over a transparent one, [height][width][3 or
-   4]. */
-bool wr_session_pixels(WrSession *session, int width, int height, double turn_deg, bool alpha,
-                       uint8_t *out, WrError *err);
 
 /* Frames of a turntable. A path with #### for the frame number makes one file for each frame; any other path makes
    one film, of a format in export/film.h. */

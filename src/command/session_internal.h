@@ -98,7 +98,6 @@ void wr_session_note(WrSession *session, const char *format, ...)
 char *wr_session_input_path(WrSession *session, const char *path);
 /* Record a file that is about to be read, or was read, for wr_session_input. */
 void wr_session_note_input(WrSession *session, const char *path);
-void wr_session_forget_inputs(WrSession *session);
 /* Error "a stroke is being drawn"; a snapshot refuses all commands. */
 bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err);
 
@@ -122,18 +121,13 @@ WrSessionState wr_session_begin_state(WrSession *session, WrDocument *document);
 void wr_session_keep_state(WrSession *session, WrSessionState *old);
 void wr_session_restore_state(WrSession *session, WrSessionState *old);
 
-/* ---- stored dials: session_chosen.c ---- */
+/* ---- stored dials: session_picture.c ---- */
 
-/* If no dials are chosen for that picture yet, use the stored dials of the document if they fit. If they do not, a
-   note says so once. */
-void wr_session_recall_chosen(WrSession *session, const WrFrameRequest *request);
 /* The scene's canonical lines for a file, including the dials chosen for its tolerance. */
 void wr_session_kept_text(WrSession *session, WrText *text);
 
-/* ---- views: session_views.c ---- */
+/* ---- views: session.c ---- */
 
-/* Record a view if the view of the document has changed. */
-void wr_session_note_view(WrSession *session);
 /* The lines that lead from the start of the session's history to the current document: the steps in force, and views
    where needed, oldest first. folder: as in wr_history_folder. */
 typedef void WrLineSink(void *ctx, const char *line, const char *folder);
@@ -141,7 +135,7 @@ void wr_session_lines(const WrSession *session, WrLineSink *sink, void *ctx);
 /* The scene with all view settings as at the start of the history. The caller owns it. */
 WrScene *wr_session_scene_at_start(const WrSession *session);
 
-/* ---- the journal: session_journal.c ---- */
+/* ---- the journal: session_file.c ---- */
 
 /* Called around an outermost command that changes the document. Views alone do not start a journal, since only the
    view would be lost. */
@@ -165,12 +159,6 @@ bool wr_session_reads_back(WrSession *session, const char *path, WrError *err);
 
 /* ---- changes by commands ---- */
 
-/* Read the triangles of `surface terrain file=` and write notes about them; apply its layer= argument. */
-WrTriangles *wr_terrain_read(WrSession *session, const char *path, const WrShape *shape,
-                             WrError *err);
-void wr_terrain_note(WrSession *session, const char *path, const WrTriangles *mesh);
-bool wr_terrain_names_layer(const WrCall *call);
-bool wr_terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene, WrError *err);
 /* True if the height colormap of an object is out of date; and its newly computed picture. */
 bool wr_height_colormap_lags(const WrSession *session, const WrScene *object);
 bool wr_height_colormap_make(const WrSession *session, WrScene *object, WrError *err);
@@ -178,8 +166,6 @@ bool wr_height_colormap_make(const WrSession *session, WrScene *object, WrError 
 bool wr_session_follow(WrSession *session, WrError *err);
 /* The layer that edits change, or the stand-in for its mask. NULL and an error if it is locked or hidden. */
 WrLayer *wr_session_layer(WrSession *session, WrError *err);
-/* Fails if that layer is a filter, which has no heights, unless edits go to its mask. */
-bool wr_session_check_heights(const WrSession *session, int index, WrError *err);
 /* Name of a layer in messages: "layer 2 \"moss\"". */
 const char *wr_session_layer_name(const WrSession *session, int index, WrText *buffer);
 /* Replace *field by `made` (ownership passes; same size) inside the selection. */
@@ -209,8 +195,6 @@ void wr_session_note_read(WrSession *session, const char *path, const WrImage *i
 /* Convert a picture to heights in a table like `like`, using its labels (labels false: ignore them). */
 WrField *wr_session_heights_of(WrSession *session, WrImageRows *rows, const char *path, bool labels,
                                const WrField *like, WrError *err);
-/* `object set table=`: load the file as a hidden layer, and make it the table of the scene's active object. */
-bool wr_object_take_table(WrSession *session, WrCall *call, WrScene *scene, WrError *err);
 /* Replace the session's document by the content of a document file, scene included. */
 bool wr_session_load(WrSession *session, const char *path, WrError *err);
 
@@ -230,7 +214,7 @@ bool wr_session_draw(const WrPainting *painting, WrSampleAt *sample, const void 
 /* True if the line contains that brush argument. False if the form has none of that name. */
 bool wr_call_gives(const WrCall *call, const char *name);
 
-/* ---- presets and tips: session_brushes.c ---- */
+/* ---- presets and tips: session_paint.c ---- */
 
 /* A file that brushes are loaded from. Borrowed until the next call. */
 typedef struct WrBrushFile {
@@ -248,9 +232,6 @@ bool wr_session_tip_file(WrSession *session, const char *word, const char *folde
                          WrBrushFile *file, WrError *err);
 void wr_brush_files_free(WrBrushFiles *files); /* NULL is allowed */
 
-/* Validation of set=. */
-bool wr_check_settings(const void *ctx, const char *name, const char *value, WrError *err);
-
 /* Print the scene's canonical lines: each command's row prints its own. */
 typedef void WrScenePrinter(const WrScene *scene, WrText *text);
 WrScenePrinter wr_print_rotate, wr_print_camera;
@@ -264,7 +245,3 @@ typedef void WrScenePart(void *ctx, const WrCommand *command, WrText *text);
 void wr_print_scene(const WrScene *scene, WrScenePart *after, void *ctx, WrText *text);
 /* Print all scene lines with checksums instead of file paths. */
 void wr_print_identity(const WrScene *scene, WrText *text);
-
-/* Choice words; NULL for an index past the last. */
-
-/* ---- scene_text.c: parts of lines ---- */

@@ -1,16 +1,391 @@
-/* Set-up of painting: brush and target layer of a line. */
-#include "command/brush_args.h"
-
+/* Painting in a session: the brush's arguments, its presets, its target, and the stroke in progress. */
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/text.h"
+#include "brush/library.h"
 #include "brush/preset.h"
 #include "brush/tip.h"
+#include "command/args.h"
+#include "command/session_internal.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "field/field.h"
+#include "field/ramp.h"
+#include "field/select.h"
+#include "system/path.h"
 
+#include <math.h>
 #include <string.h>
+
+/* Validation of set=. */
+static bool check_settings(const void *ctx, const char *name, const char *value, WrError *err);
+
+/* ---- Arguments of the brush, shared by all painting commands ---- */
+
+const char *wr_brush_mode_name(int i)
+{
+    return i < WR_BRUSH_MODE_COUNT ? wr_brush_modes[i].name : NULL;
+}
+
+static const char *pressure_name(int i)
+{
+    return i < WR_PRESSURE_COUNT ? wr_brush_pressures[i] : NULL;
+}
+
+/* "adds strength to the height (strength)": description and the names of the arguments that the mode uses. */
+void wr_brush_mode_explain(int i, WrText *text)
+{
+    static const struct {
+        unsigned bit;
+        const char *name;
+    } uses[] = { { WR_USES_STRENGTH, "strength=" },
+                 { WR_USES_TO, "to=" },
+                 { WR_USES_REACH, "reach=" },
+                 { WR_USES_SOURCE, "source=" } };
+    const WrBrushModeInfo *mode = &wr_brush_modes[i];
+    wr_text_add(text, mode->help);
+    const char *before = " (";
+    for (size_t k = 0; k < sizeof uses / sizeof *uses; k++)
+        if (mode->uses & uses[k].bit) {
+            wr_text_addf(text, "%s%s", before, uses[k].name);
+            before = " ";
+        }
+    if (*before == ' ' && before[1] == '\0') wr_text_add(text, ")");
+}
+
+static const WrComponent jitter_parts[] = { { "place", 0, 100, false },
+                                            { "angle", 0, 180, false },
+                                            { "size", 0, 1, false } };
+
+const WrArgSpec wr_args_brush[] = {
+    { .name = "radius",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .high = 1e9,
+      .fallback = NUMBERS(16),
+      .unit = "texels",
+      .help = "from the centre to where nothing changes" },
+    { .name = "hardness",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .high = 1,
+      .fallback = NUMBERS(0.5),
+      .help = "part of the radius that is fully covered" },
+    PAINT_ARGS,
+    { .name = "flow",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .high = 1,
+      .fallback = NUMBERS(1),
+      .help = "how much each dab covers: below 1 the stroke builds up to its opacity" },
+    { .name = "buildup",
+      .type = WR_ARG_CHOICE,
+      .words = wr_off_on,
+      .fallback_text = "off",
+      .help = "on: it builds up without end, also where it crosses itself" },
+    { .name = "spacing",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .high = 10,
+      .fallback = NUMBERS(0),
+      .unit = "radii",
+      .help = "between dabs, at least 0.01; 0: the mode's or the tip's own" },
+    { .name = "pressure",
+      .type = WR_ARG_CHOICE,
+      .choice = pressure_name,
+      .fallback_text = "strength",
+      .help = "what the pen's pressure turns; presets have their own curves" },
+    { .name = "preset",
+      .type = WR_ARG_PRESET,
+      .help = "a brush preset by its name (`wrinkle brushes` lists them), or a .myb file; what is "
+              "given besides takes the place of the preset's own" },
+    { .name = "preset_sha256",
+      .type = WR_ARG_SHA256,
+      .help = "of the preset's file: another content is then an error" },
+    { .name = "set",
+      .type = WR_ARG_TEXT,
+      .check = check_settings,
+      .shape = "name=value;name:input=x,y|x,y|...;...",
+      .help = "other values of the preset's settings, as MyPaint calls them, and other curves of "
+              "what an input adds to one" },
+    { .name = "seed",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .high = 0x1p53,
+      .whole = true,
+      .fallback = NUMBERS(0),
+      .help = "of all that is random in it" },
+    { .name = "tip",
+      .type = WR_ARG_PATH,
+      .help = "a picture, .gbr or .gih file in place of the round dab" },
+    { .name = "tip_sha256",
+      .type = WR_ARG_SHA256,
+      .help = "of the tip's file: another content is then an error" },
+    { .name = "angle",
+      .type = WR_ARG_NUMBER,
+      .low = -360,
+      .high = 360,
+      .fallback = NUMBERS(0),
+      .unit = "degrees",
+      .help = "turns a tip or an ellipse anticlockwise" },
+    { .name = "aspect",
+      .type = WR_ARG_NUMBER,
+      .low = 1,
+      .high = 100,
+      .fallback = NUMBERS(1),
+      .help = "length over breadth" },
+    { .name = "follow",
+      .type = WR_ARG_CHOICE,
+      .words = wr_off_on,
+      .fallback_text = "off",
+      .help = "on: the angle counts from the path's direction" },
+    { .name = "jitter",
+      .type = WR_ARG_TUPLE,
+      .components = 3,
+      .parts = jitter_parts,
+      .shape = "place,angle,size",
+      .fallback = NUMBERS(0, 0, 0),
+      .help = "chance of each dab: place in radii, angle in degrees either way, size 0..1 down" },
+    { .name = "mirror",
+      .type = WR_ARG_CHOICE,
+      .words = wr_mirror_names,
+      .fallback_text = "none",
+      .help = "drawn again as in a mirror that stands across u, v or both" },
+    { .name = "radial",
+      .type = WR_ARG_NUMBER,
+      .low = 1,
+      .high = 360,
+      .whole = true,
+      .fallback = NUMBERS(1),
+      .help = "drawn so many times about the centre" },
+    { .name = "centre",
+      .type = WR_ARG_TUPLE,
+      .components = 2,
+      .shape = "u,v",
+      .low = -1e6,
+      .high = 1e6,
+      .fallback = NUMBERS(0.5, 0.5),
+      .help = "of the mirrors and turns" },
+    { .name = "repeat",
+      .type = WR_ARG_SIZE,
+      .shape = "MxN",
+      .low = 1,
+      .high = 64,
+      .fallback = NUMBERS(1, 1),
+      .help = "drawn so many times across and down the cell" },
+    { .name = "stagger",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .high = 1,
+      .fallback = NUMBERS(0),
+      .help = "by this part of a row each column is moved up; M stagger must be whole" },
+    { 0 }
+};
+
+/* ---- cached presets and tips ---- */
+
+/* Cache of presets and tips named by commands. Each is read again only if its files change. Starting a stroke then
+   needs no disk access except a check of the file's date. */
+
+#define FILES_MAX 48 /* entries kept in memory */
+
+typedef struct Entry {
+    bool is_tip;
+    char *key;  /* a bare name, or a file's path; owned */
+    char *path; /* owned */
+    WrFileInfo stamp;
+    char sha256[65];
+    WrPreset *preset; /* owned; NULL if the entry is a tip: */
+    WrTip *tip;       /* owned */
+    char *tip_path;   /* owned; the preset's tip file; NULL: none */
+    uint64_t used;
+} Entry;
+
+struct WrBrushFiles {
+    Entry entries[FILES_MAX];
+    int count;
+    uint64_t clock;
+};
+
+static void entry_fini(Entry *entry)
+{
+    wr_free(entry->key);
+    wr_free(entry->path);
+    wr_free(entry->tip_path);
+    wr_preset_free(entry->preset);
+    wr_tip_free(entry->tip);
+    *entry = (Entry){ 0 };
+}
+
+void wr_brush_files_free(WrBrushFiles *files)
+{
+    for (int i = 0; files && i < files->count; i++) entry_fini(&files->entries[i]);
+    wr_free(files);
+}
+
+void wr_session_forget_brushes(WrSession *session)
+{
+    wr_brush_files_free(session->brush_files);
+    session->brush_files = NULL;
+}
+
+/* ---- files ---- */
+
+/* True if none of the entry's files has changed. */
+static bool is_fresh(const Entry *entry)
+{
+    WrFileInfo now;
+    const WrFileInfo *then = &entry->stamp;
+    return wr_path_info(entry->path, &now) && now.device == then->device &&
+           now.inode == then->inode && now.bytes == then->bytes && now.seconds == then->seconds &&
+           now.nanoseconds == then->nanoseconds && now.changed_seconds == then->changed_seconds &&
+           now.changed_nanoseconds == then->changed_nanoseconds;
+}
+
+/* The string after the next `"tip" :`, or NULL; *p advances. The caller frees it. A name with escapes is skipped. */
+static char *next_tip_name(const char **p)
+{
+    static const char key[] = "\"tip\"", blanks[] = " \t\r\n";
+    while ((*p = strstr(*p, key))) {
+        const char *s = *p += sizeof key - 1;
+        s += strspn(s, blanks);
+        if (*s++ != ':') continue;
+        s += strspn(s, blanks);
+        if (*s++ != '"') continue;
+        size_t length = strcspn(s, "\"\\/");
+        if (length == 0 || s[length] != '"') continue;
+        return wr_strndup(s, length);
+    }
+    return NULL;
+}
+
+/* The tip file in a preset's folder. The text was already read as a preset. A false match of the key "tip" therefore
+   yields at worst a file name that is never used. */
+static char *tip_beside(const char *text, const char *folder)
+{
+    char *name, *found = NULL;
+    while (!found && (name = next_tip_name(&text))) {
+        WrFileInfo info;
+        char *path = wr_path_join(folder, name);
+        if (wr_path_info(path, &info) && info.kind == WR_KIND_FILE) found = path;
+        else wr_free(path);
+        wr_free(name);
+    }
+    return found;
+}
+
+/* "x/soft.myb" -> "soft"; a bare name stays. */
+static char *short_name(const char *word)
+{
+    if (!wr_names_preset_file(word)) return wr_strdup(word);
+    const char *slash = strrchr(word, '/');
+    const char *base = slash ? slash + 1 : word;
+    return wr_strndup(base, (size_t)(strrchr(base, '.') - base));
+}
+
+static bool read_preset(Entry *entry, const char *word, WrError *err)
+{
+    char *bytes;
+    size_t length;
+    if (!wr_file_read(entry->path, WR_PRESET_BYTES, &bytes, &length, err)) return false;
+    char *folder = wr_path_folder(entry->path), *name = short_name(word);
+    wr_sha256_bytes(bytes, length, entry->sha256);
+    entry->preset = wr_preset_parse(bytes, length, name, folder, err);
+    if (entry->preset && wr_preset_tip(entry->preset)) entry->tip_path = tip_beside(bytes, folder);
+    if (!entry->preset && err && !strstr(err->text, entry->path))
+        wr_error_prefix(err, "%s: ", entry->path);
+    wr_free(folder);
+    wr_free(name);
+    wr_free(bytes);
+    return entry->preset != NULL;
+}
+
+static bool read_tip(Entry *entry, WrError *err)
+{
+    if (!wr_sha256_file(entry->path, entry->sha256, err)) return false;
+    entry->tip = wr_tip_read(entry->path, err);
+    return entry->tip != NULL;
+}
+
+/* ---- cache ---- */
+
+static Entry *find(WrBrushFiles *files, bool is_tip, const char *key)
+{
+    for (int i = 0; i < files->count; i++)
+        if (files->entries[i].is_tip == is_tip && strcmp(files->entries[i].key, key) == 0)
+            return &files->entries[i];
+    return NULL;
+}
+
+/* Slot for a new entry: that of `old`, a free one, or the least recently used one. */
+static Entry *place_for(WrBrushFiles *files, Entry *old)
+{
+    Entry *place = old;
+    if (!place && files->count < FILES_MAX) return &files->entries[files->count++];
+    for (int i = 0; !old && i < files->count; i++)
+        if (!place || files->entries[i].used < place->used) place = &files->entries[i];
+    entry_fini(place);
+    return place;
+}
+
+/* The path (ownership passes), absolute and without links if it can be resolved. */
+static char *absolute(char *path)
+{
+    char *real = path ? wr_path_real(path) : NULL;
+    if (!real) return path;
+    wr_free(path);
+    path = wr_strdup(real);
+    free(real);
+    return path;
+}
+
+static bool take(WrSession *session, bool is_tip, const char *key, WrBrushFile *file, WrError *err)
+{
+    if (!session->brush_files) session->brush_files = wr_alloc(1, sizeof *session->brush_files);
+    WrBrushFiles *files = session->brush_files;
+    Entry *entry = find(files, is_tip, key);
+    if (!entry || !is_fresh(entry)) {
+        bool bare = !is_tip && !wr_names_preset_file(key);
+        Entry made = { .is_tip = is_tip,
+                       .path = bare ? absolute(wr_library_find(key, err)) : wr_strdup(key) };
+        /* Take the file identity before reading: a file that changes during the read is then read again. */
+        bool good = made.path != NULL;
+        if (good && !wr_path_info(made.path, &made.stamp)) made.stamp = (WrFileInfo){ .bytes = -1 };
+        good = good && (is_tip ? read_tip(&made, err) : read_preset(&made, key, err));
+        if (!good) {
+            entry_fini(&made);
+            return false;
+        }
+        made.key = wr_strdup(key);
+        entry = place_for(files, entry);
+        *entry = made;
+    }
+    entry->used = ++files->clock;
+    *file = (WrBrushFile){ entry->path, entry->sha256, entry->preset, entry->tip, entry->tip_path };
+    return true;
+}
+
+bool wr_session_preset_file(WrSession *session, const char *word, const char *folder,
+                            WrBrushFile *file, WrError *err)
+{
+    char *key = wr_names_preset_file(word) ? absolute(wr_path_join(folder, word)) : wr_strdup(word);
+    bool good = take(session, false, key, file, err);
+    wr_free(key);
+    return good;
+}
+
+bool wr_session_tip_file(WrSession *session, const char *word, const char *folder,
+                         WrBrushFile *file, WrError *err)
+{
+    char *key = absolute(wr_path_join(folder, word));
+    bool good = take(session, true, key, file, err);
+    wr_free(key);
+    return good;
+}
+
+/* ---- Set-up of painting: brush and target layer of a line ---- */
 
 bool wr_call_gives(const WrCall *call, const char *name)
 {
@@ -19,7 +394,7 @@ bool wr_call_gives(const WrCall *call, const char *name)
     return false;
 }
 
-/* ---- the brush ---- */
+/* ---- the brush of a line ---- */
 
 static void take_number(const WrCall *call, const char *name, double *value)
 {
@@ -152,7 +527,7 @@ static bool hold_brush(WrSession *session, WrCall *call, WrHeldBrush *out, WrErr
     return good;
 }
 
-bool wr_check_settings(const void *ctx, const char *name, const char *value, WrError *err)
+static bool check_settings(const void *ctx, const char *name, const char *value, WrError *err)
 {
     (void)ctx;
     if (wr_preset_settings_check(value, err)) return true;
@@ -244,4 +619,152 @@ void wr_painting_end(WrSession *session, WrPainting *painting)
     wr_field_free(painting->below);
     held_fini(&painting->held);
     *painting = (WrPainting){ 0 };
+}
+
+/* ---- Cancellable drawing of a whole stroke ---- */
+
+#define SLICE 0.05 /* seconds between two checks for cancellation */
+
+bool wr_session_draw(const WrPainting *painting, WrSampleAt *sample, const void *ctx, int count,
+                     WrError *err)
+{
+    WrStroke *stroke = wr_stroke_new_on(&painting->ground, &painting->held.brush);
+    bool more = true;
+    for (int i = 0; i < count; i++) {
+        wr_stroke_push(stroke, sample(ctx, i));
+        do {
+            if (!wr_progress_report((double)i / count)) {
+                wr_stroke_abandon(stroke);
+                return wr_fail(err, "cancelled");
+            }
+            more = wr_stroke_work(stroke, SLICE);
+        } while (more);
+    }
+    wr_stroke_free(stroke);
+    return true;
+}
+
+/* ---- A stroke in progress: an open command ---- */
+
+bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
+{
+    WrCall *call;
+    if (!wr_session_refuse_in_stroke(session, err)) return false;
+    if (!wr_call_parse(head, true, &call, err)) return false;
+    if (!call->command || !call->command->streams || wr_call_given(call, "points")) {
+        wr_call_free(call);
+        return wr_fail(err, "a stroke begins with a stroke command without points");
+    }
+    WrPainting painting;
+    if (!wr_painting_begin(session, call, &painting, err)) {
+        wr_document_edit_end(session->state.document, &session->stand_in);
+        wr_call_free(call);
+        wr_error_prefix(err, "stroke: ");
+        return false;
+    }
+    wr_session_journal_stroke_begin(session, call);
+    session->stroke_call = call;
+    session->painting = painting;
+    session->stroke = wr_stroke_new_on(&session->painting.ground, &session->painting.held.brush);
+    return true;
+}
+
+/* The double that the text of `value` with n decimals reads back as. k / 10^n is correctly rounded because both are
+   integers below 2^53. */
+static double round_decimals(double value, double ten_to_n)
+{
+    double k = rint(value * ten_to_n);
+    return fabs(k) < 0x1p53 ? k / ten_to_n + 0.0 : value;
+}
+
+static double clamp_finite(double value, double low, double high)
+{
+    if (!(value >= low)) return isnan(value) ? 0 : low;
+    return value > high ? high : value;
+}
+
+static WrSample round_sample(WrSample s)
+{
+    return (WrSample){ .u = round_decimals(s.u, 1e7),
+                       .v = round_decimals(s.v, 1e7),
+                       .pressure = round_decimals(clamp_finite(s.pressure, 0, 1), 1e4),
+                       .tilt_x = round_decimals(clamp_finite(s.tilt_x, -1, 1), 1e4),
+                       .tilt_y = round_decimals(clamp_finite(s.tilt_y, -1, 1), 1e4),
+                       .seconds = round_decimals(clamp_finite(s.seconds, 0, 1e9), 1e4) };
+}
+
+bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int count, WrError *err)
+{
+    if (!session->stroke) return wr_fail(err, "no stroke is being drawn");
+    for (int i = 0; i < count; i++)
+        if (!(fabs(samples[i].u) <= 1e9) || !(fabs(samples[i].v) <= 1e9))
+            return wr_fail(err, "stroke: sample %d is at %g,%g: must be within 1e9 of 0", i + 1,
+                           samples[i].u, samples[i].v);
+    if (count > WR_POINTS_MAX - wr_call_arg(session->stroke_call, "points")->rows)
+        return wr_fail(err, "stroke: more than %d samples", WR_POINTS_MAX);
+    for (int i = 0; i < count; i++) {
+        WrSample s = round_sample(samples[i]);
+        double row[1][6] = { { s.u, s.v, s.pressure, s.tilt_x, s.tilt_y, s.seconds } };
+        int n = s.seconds != 0 ? 6 : s.tilt_x != 0 || s.tilt_y != 0 ? 5 : s.pressure != 1 ? 3 : 2;
+        wr_session_journal_stroke_add(session, (const double(*)[6])row, &n, 1);
+        wr_call_add_row(session->stroke_call, "points", row[0], n);
+        wr_stroke_push(session->stroke, s);
+    }
+    return true;
+}
+
+bool wr_session_stroke_work(WrSession *session, double seconds)
+{
+    return session->stroke && wr_stroke_work(session->stroke, seconds);
+}
+
+bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int count, WrError *err)
+{
+    if (!wr_session_stroke_push(session, samples, count, err)) return false;
+    while (wr_session_stroke_work(session, 1.0)) {
+    }
+    return true;
+}
+
+/* End the open stroke and return its line. */
+static WrCall *take_call(WrSession *session)
+{
+    WrCall *call = session->stroke_call;
+    session->stroke = NULL;
+    session->stroke_call = NULL;
+    return call;
+}
+
+/* Queued and delayed samples are drawn when the stroke is freed. */
+bool wr_session_stroke_end(WrSession *session, WrError *err)
+{
+    if (!session->stroke) return wr_fail(err, "no stroke is being drawn");
+    wr_stroke_free(session->stroke);
+    wr_painting_end(session, &session->painting);
+    wr_document_edit_end(session->state.document, &session->stand_in);
+    WrCall *call = take_call(session);
+    bool drawn = wr_call_given(call, "points");
+    const bool good = !drawn || wr_session_follow(session, err);
+    drawn = drawn && good;
+    if (drawn) wr_session_remember(session, call);
+    else wr_session_restore(session);
+    wr_session_journal_stroke_end(session, drawn);
+    wr_call_free(call);
+    return good;
+}
+
+void wr_session_stroke_cancel(WrSession *session)
+{
+    if (!session->stroke) return;
+    wr_stroke_abandon(session->stroke);
+    wr_painting_end(session, &session->painting);
+    wr_document_edit_end(session->state.document, &session->stand_in);
+    wr_call_free(take_call(session));
+    wr_session_journal_stroke_end(session, false);
+    wr_session_restore(session);
+}
+
+bool wr_session_in_stroke(const WrSession *session)
+{
+    return session->stroke != NULL;
 }

@@ -1,16 +1,125 @@
-/* Pictures of the document, in memory or written to files in bands of rows, so that a large one needs only one band
-   of memory. */
+/* Pictures and films of a session's document. */
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "command/session_internal.h"
 #include "document/document.h"
+#include "document/object_tables.h"
+#include "export/film.h"
 #include "render/frame/frame.h"
 #include "scene/scene.h"
 #include "system/path.h"
 
+#include <math.h>
 #include <string.h>
+
+/* ---- stored dials that a tolerance chose ---- */
+
+void wr_session_keep_chosen(WrSession *session, const char *text)
+{
+    wr_free(session->state.chosen);
+    session->state.chosen = text ? wr_strdup(text) : NULL;
+    session->state.chosen_told = false;
+}
+
+const char *wr_session_chosen(const WrSession *session)
+{
+    return session->state.chosen;
+}
+
+static WrChoiceOrigin origin_of(const WrFrameRequest *request)
+{
+    WrText text = { 0 };
+    wr_print_identity(request->scene, &text);
+    const char *lines = wr_text_get(&text);
+    const WrChoiceOrigin origin = { .table = wr_choice_tables_hash(request),
+                                    .scene =
+                                        wr_hash_bytes(lines, strlen(lines), (WrHash){ 0, 0 }) };
+    wr_text_fini(&text);
+    return origin;
+}
+
+const char *wr_chosen_recall(const char *kept, const WrFrameRequest *request, WrChoice *choice)
+{
+    if (!kept || wr_choice_fits(choice, request)) return NULL;
+    const WrChoiceOrigin origin = origin_of(request);
+    const char *misfit = wr_choice_misfit(kept, &origin, request);
+    if (!misfit) wr_choice_read(kept, request, choice);
+    return misfit;
+}
+
+void wr_chosen_write(const WrChoice *choice, const WrFrameRequest *request, WrText *text)
+{
+    const WrChoiceOrigin origin = origin_of(request);
+    wr_choice_write(choice, &origin, text);
+}
+
+/* If no dials are chosen for that picture yet, use the stored dials of the document if they fit. If they do not, a
+   note says so once. */
+static void session_recall_chosen(WrSession *session, const WrFrameRequest *request)
+{
+    WrSessionState *state = &session->state;
+    const char *misfit = wr_chosen_recall(state->chosen, request, &session->choice);
+    if (misfit && !state->chosen_told) {
+        wr_session_note(session,
+                        "the document keeps dials that were chosen for another %s: chosen anew",
+                        misfit);
+        state->chosen_told = true;
+    }
+}
+
+/* Dials of the last picture, if they still fit the document; else the stored ones. */
+static void add_of(WrSession *session, const WrFrameRequest *request, WrText *text)
+{
+    const WrChoice *choice = &session->choice;
+    const bool fresh = choice->count > 0 && choice->scene == request->scene &&
+                       choice->tables_key == wr_choice_tables_key(request);
+    if (!fresh && !session->state.chosen) return;
+    const WrChoiceOrigin origin = origin_of(request);
+    WrText chosen = { 0 };
+    if (fresh) wr_choice_write(choice, &origin, &chosen);
+    else if (wr_choice_is_for(session->state.chosen, &origin))
+        wr_text_add(&chosen, session->state.chosen);
+    if (chosen.length > 0) {
+        wr_text_add(text, " chosen=");
+        wr_text_add_word(text, wr_text_get(&chosen));
+    }
+    wr_text_fini(&chosen);
+}
+
+static void add_chosen(WrSession *session, WrText *text)
+{
+    const WrDocument *document = session->state.document;
+    WrPool *pool = session->options.pool;
+    if (document->scene->tolerance.kind == WR_TOLERANCE_NONE) return;
+    WrTables *tables = wr_document_tables(document, document->scene, &session->table_cache, pool);
+    const WrFrameRequest request = { .field = wr_document_composite(document, pool),
+                                     .fields = wr_tables_fields(tables),
+                                     .scene = document->scene };
+    add_of(session, &request, text);
+    wr_tables_free(tables);
+}
+
+/* Append the dials to the line of a tolerance. */
+static void go_on(void *ctx, const WrCommand *command, WrText *text)
+{
+    if (!command->print_end) return;
+    text->data[--text->length] = '\0';
+    add_chosen(ctx, text);
+    wr_text_add(text, "\n");
+}
+
+void wr_session_kept_text(WrSession *session, WrText *text)
+{
+    wr_print_scene(session->state.document->scene, go_on, (void *)session, text);
+}
+
+/* ---- pictures in memory and in files ---- */
+
+/* Pictures of the document, in memory or written to files in bands of rows, so that a large one needs only one band
+   of memory. */
 
 #define DRAWN 0.8 /* share of a picture's work for drawing; the rest is the file */
 
@@ -44,7 +153,7 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
     if (!make_request(session, width, height, turn_deg, &request, err)) return false;
     if (request.scene->tolerance.kind == WR_TOLERANCE_NONE)
         return wr_renderer_frame(session->renderer, &request, frame, err);
-    wr_session_recall_chosen(session, &request);
+    session_recall_chosen(session, &request);
     return wr_tolerance_frame(session->renderer, &request, &session->choice, frame, err);
 }
 
@@ -88,8 +197,10 @@ bool wr_session_map(WrSession *session, int width, int height, double turn_deg, 
                   : wr_renderer_frame(session->renderer, &request, &frame, err);
 }
 
-bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,
-                     WrError *err)
+/* With a tolerance: choose dials once for all pictures of a turn; later pictures of that size use them. A note
+   reports the choice. */
+static bool session_turn(WrSession *session, int width, int height, const double *turn_deg,
+                         int count, WrError *err)
 {
     WrFrameRequest request;
     if (!make_request(session, width, height, turn_deg[0], &request, err)) return false;
@@ -302,8 +413,10 @@ bool wr_session_has_rendered(const WrSession *session, const char *path, int wid
     return whole;
 }
 
-bool wr_session_pixels(WrSession *session, int width, int height, double turn_deg, bool alpha,
-                       uint8_t *out, WrError *err)
+/* Render to memory: 8-bit sRGB over the background, or with `alpha` over a transparent one, [height][width][3 or
+   4]. */
+static bool session_pixels(WrSession *session, int width, int height, double turn_deg, bool alpha,
+                           uint8_t *out, WrError *err)
 {
     Picture picture = { .session = session, .alpha = alpha, .step = height };
     if (!make_request(session, width, height, turn_deg, &picture.request, err)) return false;
@@ -347,4 +460,193 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
     good = write_picture(&picture, path, err);
     wr_progress_set(whole);
     return good;
+}
+
+/* ---- Turntables as picture files or as one film ---- */
+
+#define FPS 25.0 /* default frame rate of films */
+
+WrTurntable wr_turntable_default(void)
+{
+    return (WrTurntable){ .width = 512, .height = 512, .first = 1, .last = 120, .loop = -1 };
+}
+
+static bool is_film(const char *path)
+{
+    return !strchr(path, '#') && wr_film_kind(path);
+}
+
+bool wr_turntable_check(const WrTurntable *turntable, const char *path, WrError *err)
+{
+    const bool film = is_film(path);
+    if (!film && !strchr(path, '#'))
+        return wr_fail(err,
+                       "%s: the name of several frames must hold #### for the frame's number, or "
+                       "end as a film's does: gif, apng, webp or mp4",
+                       path);
+    if (film && turntable->missing)
+        return wr_fail(err, "%s: what is missing can be told of files with ####, not of a film",
+                       path);
+    if (!film && (turntable->fps > 0 || turntable->loop >= 0))
+        return wr_fail(err, "%s: frames a second and loops are of films: gif, apng, webp, mp4",
+                       path);
+    return true;
+}
+
+/* `out` with its last run of # replaced by the number, zero-padded to the length of the run. */
+static void frame_name(const char *out, int number, WrText *name)
+{
+    const char *end = strrchr(out, '#') + 1, *start = end;
+    while (start > out && start[-1] == '#') start--;
+    wr_text_clear(name);
+    wr_text_add_n(name, out, (size_t)(start - out));
+    wr_text_addf(name, "%0*d%s", (int)(end - start), number, end);
+}
+
+/* A turntable in progress. */
+typedef struct Turning {
+    WrSession *session;
+    const WrTurntable *order;
+    const char *path;
+    int total;       /* frames of the whole turn */
+    double step_deg; /* per frame */
+    bool chosen;     /* dials were chosen for all frames */
+    int there;       /* skipped existing frames */
+    int written;     /* written files */
+    WrFilm *film;    /* NULL: separate files */
+    uint8_t *pixels; /* one film frame; owned */
+    bool alpha;
+} Turning;
+
+/* Each frame's angle is computed from its number alone: fmod is exact, so no error accumulates (HC87). */
+static double angle_of(const Turning *turning, int frame)
+{
+    return fmod(turning->order->turn_deg, 360) + fmod(frame * turning->step_deg, 360);
+}
+
+/* Under a tolerance, dials are chosen once for the whole turn, not only for the requested frames. */
+static bool choose_for_all(Turning *turning, WrError *err)
+{
+    const WrTurntable *order = turning->order;
+    const int first = order->stepped && !order->of ? order->first : 1;
+    double *angles = wr_alloc((size_t)turning->total, sizeof *angles);
+    for (int i = 0; i < turning->total; i++) angles[i] = angle_of(turning, first + i);
+    turning->chosen =
+        session_turn(turning->session, order->width, order->height, angles, turning->total, err);
+    wr_free(angles);
+    return turning->chosen;
+}
+
+static bool add_frame(Turning *turning, int frame, WrError *err)
+{
+    const WrTurntable *order = turning->order;
+    return (turning->chosen || choose_for_all(turning, err)) &&
+           session_pixels(turning->session, order->width, order->height, angle_of(turning, frame),
+                          turning->alpha, turning->pixels, err) &&
+           wr_film_add(turning->film, turning->pixels, err);
+}
+
+static bool write_frame(Turning *turning, int frame, WrError *err)
+{
+    const WrTurntable *order = turning->order;
+    WrText name = { 0 };
+    bool good = true;
+    frame_name(turning->path, frame, &name);
+    const char *path = wr_text_get(&name);
+    if (order->missing &&
+        wr_session_has_rendered(turning->session, path, order->width, order->height))
+        turning->there++;
+    else
+        good = (turning->chosen || choose_for_all(turning, err)) &&
+               wr_session_render(turning->session, path, order->width, order->height,
+                                 angle_of(turning, frame), err) &&
+               ++turning->written;
+    wr_text_fini(&name);
+    return good;
+}
+
+#define FILM_DRAWN 0.95 /* share of a film's work for drawing; the rest is the read-back */
+
+static bool all_frames(Turning *turning, double share, WrError *err)
+{
+    const int first = turning->order->first, count = turning->order->last - first + 1;
+    bool good = true;
+    for (int i = 0; good && i < count; i++) {
+        WrProgressPart part;
+        const WrProgress *whole =
+            wr_progress_enter(&part, share * i / count, share * (i + 1) / count);
+        good = (turning->film ? add_frame : write_frame)(turning, first + i, err);
+        wr_progress_set(whole);
+        if (good && wr_progress_stopped()) good = wr_fail(err, "cancelled");
+    }
+    return good;
+}
+
+static bool begin_film(Turning *turning, WrError *err)
+{
+    const WrTurntable *order = turning->order;
+    const bool bare =
+        turning->session->state.document->scene->background.kind == WR_BACKGROUND_NONE;
+    turning->alpha = bare && wr_film_kind(turning->path)->alpha;
+    const WrFilmOptions options = { .width = order->width,
+                                    .height = order->height,
+                                    .fps = order->fps > 0 ? order->fps : FPS,
+                                    .loop = order->loop > 0 ? order->loop : 0,
+                                    .alpha = turning->alpha };
+    if (order->last - order->first >= WR_FILM_FRAMES)
+        return wr_fail(err, "%s: %d frames: a film has at most %d", turning->path,
+                       order->last - order->first + 1, WR_FILM_FRAMES);
+    turning->film = wr_film_begin(turning->path, &options, err);
+    if (!turning->film) return false;
+    turning->pixels = wr_try_alloc((size_t)order->width * (size_t)order->height,
+                                   turning->alpha ? 4 : 3, "a frame", err);
+    return turning->pixels != NULL;
+}
+
+static bool make_film(Turning *turning, WrError *err)
+{
+    WrFilmReport report;
+    bool good = begin_film(turning, err) && all_frames(turning, FILM_DRAWN, err);
+    if (good) {
+        good = wr_film_end(turning->film, &report, err);
+        turning->film = NULL;
+    }
+    wr_film_drop(turning->film);
+    wr_free(turning->pixels);
+    if (!good) return false;
+    WrText text = { 0 };
+    wr_film_report_text(&report, &text);
+    wr_session_note(turning->session, "%s: %s", turning->path, wr_text_get(&text));
+    wr_text_fini(&text);
+    return true;
+}
+
+static bool make_files(Turning *turning, WrError *err)
+{
+    const bool good = all_frames(turning, 1.0, err);
+    if (turning->there > 0)
+        wr_session_note(turning->session, "%d of %d frames were there", turning->there,
+                        turning->order->last - turning->order->first + 1);
+    /* Finished frames are useful and may have taken long, so they stay. */
+    if (!good && turning->written > 0)
+        wr_session_note(turning->session,
+                        "%s: %d of %d frames are new, the others as they were; `wrinkle render "
+                        "--missing` draws "
+                        "what is missing",
+                        turning->path, turning->written,
+                        turning->order->last - turning->order->first + 1);
+    return good;
+}
+
+bool wr_session_turntable(WrSession *session, const char *path, const WrTurntable *turntable,
+                          WrError *err)
+{
+    if (!wr_turntable_check(turntable, path, err)) return false;
+    Turning turning = { .session = session,
+                        .order = turntable,
+                        .path = path,
+                        .total = turntable->of ? turntable->of
+                                               : turntable->last - turntable->first + 1 };
+    turning.step_deg = turntable->stepped ? turntable->step_deg : 360.0 / turning.total;
+    return (is_film(path) ? make_film : make_files)(&turning, err);
 }

@@ -5,7 +5,7 @@
 #include "ui/state/session_view.h"
 
 #include "base/text.h"
-#include "command/param_text.h"
+#include "command/command_line.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 

@@ -1,17 +1,210 @@
-/* The command layer: layers and their masks. */
+/* The command layer: layers, their masks, and pictures pasted as layers. */
+#include "base/enum_rows.h"
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/enum_rows.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-#include "command/layer_mask.h"
-#include "command/layer_paste.h"
+#include "command/session_internal.h"
+#include "document/blend.h"
 #include "document/document.h"
 #include "field/field.h"
+#include "field/select.h"
+#include "generate/generator.h"
 #include "scene/objects.h"
+#include "scene/scene.h"
 
+#include <math.h>
 #include <string.h>
+
+extern const char *const wr_mask_sources[];
+
+#define WR_MASK_ARGS                                                                               \
+    { .name = "from",                                                                              \
+      .type = WR_ARG_CHOICE,                                                                       \
+      .required = true,                                                                            \
+      .words = wr_mask_sources,                                                                    \
+      .help =                                                                                      \
+          "what is selected, no mask, a mask that shows all or nothing, where the composite's "    \
+          "height or slope lies in a range, or the present mask turned over" },                    \
+        { .name = "low",                                                                           \
+          .type = WR_ARG_NUMBER,                                                                   \
+          .low = -WR_BIG_HEIGHT,                                                                   \
+          .high = WR_BIG_HEIGHT,                                                                   \
+          .help = "of height and slope: lower end, a height or degrees" },                         \
+        { .name = "high",                                                                          \
+          .type = WR_ARG_NUMBER,                                                                   \
+          .low = -WR_BIG_HEIGHT,                                                                   \
+          .high = WR_BIG_HEIGHT,                                                                   \
+          .help = "upper end" },                                                                   \
+    {                                                                                              \
+        .name = "soft", .type = WR_ARG_NUMBER, .low = 0, .high = WR_BIG_HEIGHT,                    \
+        .help = "over how much it fades beyond the ends; left out, not at all"                     \
+    }
+
+#define WR_PASTE_ARGS                                                                              \
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "what `copy` wrote, or any picture" },           \
+        { .name = "at",                                                                            \
+          .type = WR_ARG_TUPLE,                                                                    \
+          .components = 2,                                                                         \
+          .low = -1e6,                                                                             \
+          .high = 1e6,                                                                             \
+          .shape = "u,v",                                                                          \
+          .help = "where its middle lies; left out, in the middle of the table" },                 \
+        { .name = "size",                                                                          \
+          .type = WR_ARG_NUMBER,                                                                   \
+          .low = 0,                                                                                \
+          .high = WR_FIELD_MAX,                                                                    \
+          .unit = "texels",                                                                        \
+          .help = "how wide it becomes; left out, a texel for a pixel" },                          \
+    {                                                                                              \
+        .name = "sha256", .type = WR_ARG_SHA256,                                                   \
+        .help = "of the file: another content is then an error"                                    \
+    }
+
+/* ---- Masks of layers: from the selection, heights or slopes; filled; inverted ---- */
+
+#define SOURCES(X)                                                                                 \
+    X(FROM_SELECTION, "selection")                                                                 \
+    X(FROM_NONE, "none")                                                                           \
+    X(FROM_WHITE, "white")                                                                         \
+    X(FROM_BLACK, "black")                                                                         \
+    X(FROM_HEIGHT, "height")                                                                       \
+    X(FROM_SLOPE, "slope")                                                                         \
+    X(FROM_INVERSE, "inverse")
+enum { SOURCES(WR_WORD_ID) };
+const char *const wr_mask_sources[] = { SOURCES(WR_WORD) NULL };
+
+static double number(const WrCall *call, const char *name, double otherwise)
+{
+    return wr_call_given(call, name) ? wr_call_number(call, name) : otherwise;
+}
+
+static WrField *flat(const WrField *like, float level)
+{
+    return wr_field_new(wr_field_width(like), wr_field_height(like), wr_field_wrap_u(like),
+                        wr_field_wrap_v(like), level, NULL);
+}
+
+static WrField *of_height(WrSession *session, const WrCall *call, WrError *err)
+{
+    if (!wr_call_given(call, "low") && !wr_call_given(call, "high")) {
+        wr_fail(err, "from=height needs low= or high=, the ends of a range of heights");
+        return NULL;
+    }
+    const WrField *f = wr_document_composite(session->state.document, session->options.pool);
+    return wr_select_height(f, number(call, "low", -WR_BIG_HEIGHT),
+                            number(call, "high", WR_BIG_HEIGHT), number(call, "soft", 0.0),
+                            session->options.pool, err);
+}
+
+/* Mask by slope, with the scene's height scale unless the line sets one, as in `select slope`. */
+static WrField *of_slope(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    const WrField *f = wr_document_composite(document, session->options.pool);
+    return wr_select_slope(f, fabs(document->scene->height) * wr_field_width(f),
+                           number(call, "low", 0.0), number(call, "high", 90.0),
+                           number(call, "soft", 0.0), session->options.pool, err);
+}
+
+static WrField *inverse(const WrLayer *layer, int index, WrError *err)
+{
+    if (layer->mask) return wr_select_invert(layer->mask);
+    wr_fail(err, "from=inverse: layer %d has no mask that could be turned over", index + 1);
+    return NULL;
+}
+
+static bool check_range(const WrCall *call, int from, WrError *err)
+{
+    static const char *const names[] = { "low", "high", "soft" };
+    for (int i = 0; i < 3 && from != FROM_HEIGHT && from != FROM_SLOPE; i++)
+        if (wr_call_given(call, names[i]))
+            return wr_fail(err, "%s= belongs to from=height and from=slope, not to from=%s",
+                           names[i], wr_mask_sources[from]);
+    return true;
+}
+
+/* Set or remove the mask of layer `index`, as the line states. */
+static bool layer_mask_make(WrSession *session, const WrCall *call, int index, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    WrLayer *layer = &document->layers[index];
+    WrField *mask = NULL;
+    const int from = wr_call_choice(call, "from");
+    if (!check_range(call, from, err)) return false;
+    if (from == FROM_SELECTION && !document->selection)
+        return wr_fail(err, "from=selection: nothing is selected");
+    if (from == FROM_SELECTION) mask = wr_field_share(document->selection);
+    if (from == FROM_WHITE || from == FROM_BLACK)
+        mask = flat(layer->heights, from == FROM_WHITE ? 1.0f : 0.0f);
+    if (from == FROM_HEIGHT) mask = of_height(session, call, err);
+    if (from == FROM_SLOPE) mask = of_slope(session, call, err);
+    if (from == FROM_INVERSE) mask = inverse(layer, index, err);
+    if (!mask && from != FROM_NONE) return false;
+    wr_field_free(layer->mask);
+    layer->mask = mask;
+    layer->on_mask = layer->on_mask && mask;
+    return true;
+}
+
+/* ---- pasted pictures ---- */
+
+static void note(void *ctx, const char *text)
+{
+    wr_session_note(ctx, "%s", text);
+}
+
+/* Run the picture generator with the line's values. */
+static bool make(WrSession *session, const WrCall *call, const char *path, WrRelief *out,
+                 WrError *err)
+{
+    const WrGenerator *generator = wr_generator_find("picture", "paste");
+    WrParamValue values[WR_GENERATOR_PARAMS];
+    wr_generator_defaults(generator, values);
+    values[wr_generator_param_find(generator, "file")].text = path;
+    if (wr_call_given(call, "at"))
+        memcpy(values[wr_generator_param_find(generator, "at")].number,
+               wr_call_arg(call, "at")->numbers, 2 * sizeof(double));
+    if (wr_call_given(call, "size"))
+        values[wr_generator_param_find(generator, "size")].number[0] = wr_call_number(call, "size");
+    const WrGenerateJob job = { .like = session->state.document->layers[0].heights,
+                                .pool = session->options.pool,
+                                .progress = wr_progress_here(),
+                                .note = note,
+                                .note_ctx = session };
+    return wr_generator_make(generator, values, &job, out, err);
+}
+
+/* Insert a layer above the active one. It holds the picture of the line's FILE; its coverage is the picture's alpha.
+   Makes it the active layer and clears the selection. On failure the document is unchanged. layer: a new layer
+   without texels; ownership passes to the function. */
+static bool wr_layer_paste(WrSession *session, WrCall *call, WrLayer layer, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    WrRelief relief = { NULL, NULL };
+    char *path = wr_session_input_path(session, wr_call_arg(call, "FILE")->text);
+    const bool good =
+        wr_session_check_sha256(call, path, err) && make(session, call, path, &relief, err);
+    wr_free(path);
+    if (!good) {
+        wr_layer_fini(&layer);
+        return false;
+    }
+    wr_field_free(layer.heights);
+    wr_field_free(layer.cover);
+    layer.heights = relief.heights;
+    layer.cover = relief.cover;
+    layer.blend = WR_BLEND_REPLACE;
+    wr_document_insert(document, document->active + 1, layer);
+    document->active++;
+    wr_field_free(document->selection);
+    document->selection = NULL;
+    return true;
+}
+
+/* ---- The command layer: layers and their masks ---- */
 
 typedef bool LayerHandler(WrSession *session, WrCall *call, WrError *err);
 
@@ -251,8 +444,7 @@ static bool layer_paste(WrSession *session, WrCall *call, WrError *err)
 static bool layer_mask(WrSession *session, WrCall *call, WrError *err)
 {
     int index;
-    return find_unlocked(session, call, &index, err) &&
-           wr_layer_mask_make(session, call, index, err);
+    return find_unlocked(session, call, &index, err) && layer_mask_make(session, call, index, err);
 }
 
 enum {

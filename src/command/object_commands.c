@@ -1,17 +1,144 @@
-/* The command object: adding, choosing, placing and removing objects of a scene. */
-#include "base/error.h"
-#include "base/memory.h"
+/* Commands for the objects of a scene: object, ground. */
 #include "base/enum_rows.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-#include "command/scene_args.h"
+#include "command/session.h"
+#include "command/session_internal.h"
 #include "document/document.h"
+#include "document/document_file.h"
+#include "document/ora.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/camera_control.h"
 #include "scene/objects.h"
 #include "scene/param.h"
+#include "scene/scene.h"
+#include "surface/surface.h"
 
 #include <math.h>
 #include <string.h>
+
+/* ---- a table of an object ---- */
+
+/* `object set table=FILE`: a table of the object's own, stored as a hidden layer. It can therefore be painted,
+   masked, undone and saved like any layer, and a document stays one file with one table size. */
+
+static void note_size(WrSession *session, const char *path, int width, int height,
+                      const WrField *like)
+{
+    if (width == wr_field_width(like) && height == wr_field_height(like)) return;
+    wr_session_note(session, "%s is %dx%d: resampled to the table's %dx%d", path, width, height,
+                    wr_field_width(like), wr_field_height(like));
+}
+
+/* The heights as a one-channel picture. */
+static WrImage *image_of(const WrField *field, WrError *err)
+{
+    const int width = wr_field_width(field), height = wr_field_height(field);
+    WrImage *image = wr_image_new(width, height, 1, err);
+    if (!image) return NULL;
+    image->type = WR_PIXEL_F32;
+    wr_field_read(field, 0, 0, width, height, image->data, (size_t)width);
+    return image;
+}
+
+/* The composite of an OpenRaster document, whose pictures are for display only. */
+static WrField *heights_of_ora(WrSession *session, const char *path, const WrField *like,
+                               WrError *err)
+{
+    const WrSessionOptions options = { .pool = session->options.pool,
+                                       .note = session->options.note,
+                                       .note_ctx = session->options.note_ctx };
+    WrSession *other = wr_session_new(&options);
+    WrImage *image = NULL;
+    WrField *made = NULL;
+    if (wr_session_load(other, path, err))
+        image = image_of(wr_document_composite(other->state.document, session->options.pool), err);
+    if (image) {
+        note_size(session, path, image->width, image->height, like);
+        made = wr_import_heights(image, wr_field_width(like), wr_field_height(like),
+                                 wr_field_wrap_u(like), wr_field_wrap_v(like), err);
+    }
+    wr_image_free(image);
+    wr_session_free(other);
+    return made;
+}
+
+/* In a document that is an EXR file, the first part is the composite, as in any picture. */
+static WrField *heights_of_picture(WrSession *session, const char *path, const WrField *like,
+                                   WrError *err)
+{
+    const WrImageRequest wish = { 0 };
+    WrImageRows *rows = wr_image_rows_open(path, &wish, err);
+    if (!rows) return NULL;
+    const WrImage *head = wr_image_rows_head(rows);
+    const int width = head->width, height = head->height;
+    WrField *made = wr_session_heights_of(session, rows, path, true, like, err);
+    if (made) note_size(session, path, width, height, like);
+    wr_image_rows_close(rows);
+    return made;
+}
+
+/* "shell" of "pictures/shell.exr"; "shell 2" if there is a layer of that name. The caller frees it. */
+static char *layer_name(const WrDocument *document, const char *path)
+{
+    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
+    const char *dot = strrchr(base, '.');
+    size_t length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
+    if (length > WR_LAYER_NAME_MAX - 8) length = WR_LAYER_NAME_MAX - 8;
+    while (length > 0 && ((unsigned char)base[length] & 0xC0) == 0x80) length--;
+    WrText text = { 0 };
+    for (int number = 1;; number++) {
+        int same = 0;
+        wr_text_clear(&text);
+        wr_text_add_n(&text, base, length);
+        if (number > 1) wr_text_addf(&text, " %d", number);
+        for (int i = 0; i < document->layer_count; i++)
+            same += strcmp(document->layers[i].name, wr_text_get(&text)) == 0;
+        if (same == 0) return text.data;
+    }
+}
+
+/* `object set table=`: load the file as a hidden layer, and make it the table of the scene's active object. */
+static bool object_take_table(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
+{
+    const char *name = wr_call_arg(call, "table")->text;
+    WrDocument *document = session->state.document;
+    if (!wr_call_given(call, "table")) {
+        if (!wr_call_given(call, "sha256")) return true;
+        return wr_fail(err, "sha256= belongs to a table=");
+    }
+    if (wr_call_given(call, "layer"))
+        return wr_fail(err, "table= and layer= do not go together: the file becomes the layer");
+    if (document->layer_count == WR_LAYERS_MAX)
+        return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
+    const WrField *like = document->layers[0].heights;
+    char *path = wr_session_input_path(session, name);
+    WrField *heights = NULL;
+    if (wr_session_check_sha256(call, path, err))
+        heights = wr_ora_recognise(path) ? heights_of_ora(session, path, like, err)
+                                         : heights_of_picture(session, path, like, err);
+    wr_free(path);
+    if (!heights) return false;
+    char *own = layer_name(document, name);
+    WrLayer layer = wr_layer_new(own, like);
+    wr_field_free(layer.heights);
+    wr_field_free(layer.cover);
+    layer.heights = heights;
+    layer.cover = NULL;
+    layer.visible = false;
+    wr_document_insert(document, document->layer_count, layer);
+    document->active = document->layer_count - 1;
+    wr_free(scene->layer);
+    scene->layer = own;
+    return true;
+}
+
+/* ---- The command object: adding, choosing, placing and removing objects of a scene ---- */
 
 enum {
     FORM_ADD,
@@ -166,8 +293,8 @@ static bool put(WrSession *session, WrCall *call, const char *name, WrScene *sce
         wr_scene_free(scene);
         return wr_fail(err, "turn= is for one of several objects; `rotate` turns the only one");
     }
-    if (!take_layer(session, call, scene, err) ||
-        !wr_object_take_table(session, call, scene, err) || !take_turn(call, scene, err)) {
+    if (!take_layer(session, call, scene, err) || !object_take_table(session, call, scene, err) ||
+        !take_turn(call, scene, err)) {
         wr_scene_free(scene);
         return false;
     }
@@ -341,4 +468,150 @@ const WrCommand wr_command_object = {
                "one, and `camera` looks from elsewhere; the turntable turns all about the "
                "world's y axis.",
     .example = "object add bricks at=1.2,0,0 size=0.8"
+};
+
+/* ---- The command ground ---- */
+
+/* The command ground: a floor below the objects; an ordinary object of the scene that does not turn with the
+   others. */
+
+#define GROUND "ground"
+#define WIDE 12.0 /* times the radius of the objects on it */
+#define ENDLESS 2 /* index of a plane parameter */
+
+enum { FORM_ON, FORM_OFF, GROUND_FORMS };
+
+/* A flat, matt plane with its normal up. It has no table, so that painting on other objects does not show on it. */
+static WrScene *new_ground(const WrScene *scene)
+{
+    WrScene *made = wr_scene_add_object(scene, false);
+    wr_free(made->name);
+    made->name = wr_strdup(GROUND);
+    made->still = true;
+    made->posed = true;
+    made->rotate_deg = (WrVec3){ -90, 0, 0 };
+    made->bump = WR_BUMP_NONE;
+    made->material.specular = 0;
+    made->shape.value[ENDLESS] = 1;
+    made->material.colour = (WrVec3){ 0.4, 0.4, 0.4 };
+    made->size = WIDE * wr_scene_ball(scene, false);
+    return made;
+}
+
+/* Prints nothing: the object's own lines hold the result. */
+static void print_nothing(const WrScene *scene, WrText *text)
+{
+    (void)scene;
+    (void)text;
+}
+
+/* Set whether the floor reaches the horizon. A new floor with a size ends there. */
+static bool set_end(const WrCall *call, bool fresh, WrScene *made, WrError *err)
+{
+    double *endless = &made->shape.value[ENDLESS];
+    if (!wr_call_given(call, "endless")) {
+        if (fresh && wr_call_given(call, "size")) *endless = 0;
+        return true;
+    }
+    if (made->shape.kind != WR_SURFACE_plane)
+        return wr_fail(err, "endless=: the ground is a %s by now; only a plane has a horizon",
+                       wr_surfaces[made->shape.kind]->name);
+    *endless = wr_call_choice(call, "endless");
+    return true;
+}
+
+static bool run_on(const WrCall *call, const WrScene *scene, int index, WrScene **out, WrError *err)
+{
+    double height;
+    if (wr_call_given(call, "height")) height = wr_call_number(call, "height");
+    else if (!wr_camera_control_lowest(scene, &height, err)) return false;
+    WrScene *made = index < 0 ? new_ground(scene) : wr_scene_choose(scene, index);
+    made->at.y = height;
+    made->hidden = false;
+    if (wr_call_given(call, "size")) made->size = wr_call_number(call, "size");
+    if (!set_end(call, index < 0, made, err)) {
+        wr_scene_free(made);
+        return false;
+    }
+    if (wr_call_given(call, "colour")) {
+        const double *rgb = wr_call_arg(call, "colour")->numbers;
+        made->material.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
+    }
+    *out = wr_scene_choose(made, scene->chosen);
+    wr_scene_free(made);
+    return true;
+}
+
+static bool run_ground(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrScene *scene = session->state.document->scene;
+    const int index = wr_scene_object_find(scene, GROUND);
+    WrScene *made;
+    if (index >= 0 && !wr_scene_object(scene, index)->still)
+        return wr_fail(err, "an object is called \"" GROUND "\" and turns with the others: `object "
+                            "choose " GROUND "`, then `object set name=` gives it another name");
+    if (call->form == FORM_ON) {
+        if (index < 0 && wr_scene_object_count(scene) == WR_OBJECTS_MAX)
+            return wr_fail(err, "a scene holds at most %d objects", WR_OBJECTS_MAX);
+        if (!run_on(call, scene, index, &made, err)) return false;
+    } else {
+        if (index < 0) return wr_fail(err, "there is no ground: `ground on` lays one");
+        if (wr_scene_object_count(scene) == 1)
+            return wr_fail(err, "the last object stays: a scene has at least one");
+        made = wr_scene_remove_object(scene, index);
+    }
+    wr_session_replace_scene(session, made);
+    return true;
+}
+
+WR_ROWS(ground_forms);
+static const WrForm ground_forms[] = {
+    [WR_ROW(FORM_ON)] = { .name = "on",
+                          .help = "lay it, or lay it anew",
+                          .args = { { .name = "height",
+                                      .type = WR_ARG_NUMBER,
+                                      .low = -1e9,
+                                      .high = 1e9,
+                                      .unit = "scene units",
+                                      .help = "its y; left out: where the lowest of the objects "
+                                              "that are shown stands now" },
+                                    { .name = "size",
+                                      .type = WR_ARG_NUMBER,
+                                      .low = 1e-9,
+                                      .high = 1e9,
+                                      .unit = "scene units",
+                                      .help = "of its sides; left out: as it is, at first 12 times "
+                                              "what stands on it" },
+                                    { .name = "colour",
+                                      .type = WR_ARG_TUPLE,
+                                      .components = 3,
+                                      .shape = "r,g,b",
+                                      .high = 1e6,
+                                      .help = "linear; left out: as it is" },
+                                    { .name = "endless",
+                                      .type = WR_ARG_CHOICE,
+                                      .words = wr_off_on,
+                                      .help = "it goes on to the horizon, where it fades; left "
+                                              "out: as it is, at first on "
+                                              "unless size= is given" } } },
+    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "take it away" },
+};
+WR_ROWS_END(ground_forms, GROUND_FORMS);
+
+WR_FORMS(form_ground, ground_forms)
+
+const WrCommand wr_command_ground = {
+    .name = "ground",
+    .kind = WR_CLASS_SCENE,
+    .form_word = "WHAT",
+    .form = form_ground,
+    .run = run_ground,
+    .print = print_nothing,
+    .help = "a floor under the objects",
+    .details = "It is an object of the name " GROUND
+               ": a plane that looks up, goes on to the horizon and stands still "
+               "(`object set still=on`) while the turntable turns the others. The chosen object "
+               "stays the chosen one; choose the ground to give it a surface or bumps of its own. "
+               "Seen from below a plane that stands still is left out of the picture.",
+    .example = "ground on colour=0.3,0.25,0.2"
 };
